@@ -1,0 +1,78 @@
+//! Andoyer variables of a motion (theory §1): λ, μ, ν and their momenta Λ, M, N.
+//!
+//! R = Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν), with axis 3 the axis of greatest inertia and axes 1, 2 so that A ≤ B. The inclinations are taken by the
+//! arctangent of sine and cosine, never by an arccosine. Where a node is not defined its angle is 0 by convention: λ = 0 at I = 0 or π, ν = 0
+//! at J = 0 or π; μ then carries the sum.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::error::Error;
+use crate::motion::{Motion, length};
+use crate::polhode::Frame;
+
+impl Motion {
+    /// [λ, μ, ν, Λ, M, N] at a time: angles in (−π, π] [rad], momenta in the unit of moment × rate; zeros for a body at rest.
+    ///
+    /// # Errors
+    /// As [`Motion::at`].
+    pub fn andoyer(&self, time: f64) -> Result<[f64; 6], Error> {
+        let elapsed = self.elapsed(0, time)?;
+        Ok(self.andoyer_after(elapsed))
+    }
+
+    /// [λ, μ, ν, Λ, M, N] at many times, without an allocation.
+    ///
+    /// # Errors
+    /// As [`Motion::attitudes_into`].
+    pub fn andoyer_into(&self, times: &[f64], out: &mut [[f64; 6]]) -> Result<(), Error> {
+        length("out", out.len(), times.len())?;
+        for ((index, &time), slot) in times.iter().enumerate().zip(out) {
+            *slot = self.andoyer_after(self.elapsed(index, time)?);
+        }
+        Ok(())
+    }
+
+    fn andoyer_after(&self, elapsed: (f64, f64)) -> [f64; 6] {
+        let total = self.angular_momentum;
+        let momentum = total.norm();
+        if momentum == 0.0 {
+            return [0.0; 6];
+        }
+        let (attitude, rates) = self.evaluate(elapsed);
+        let moments = self.scene().body().moments();
+        // A momentum that is not turned over: axis 3 keeps its sense.
+        let frame = Frame::new(moments, [0.0; 3]);
+        let [g1, g2, g3] = frame.sorted(std::array::from_fn(|i| moments[i] * rates[i]));
+        let node = node_angle(total.x, -total.y);
+        let spin = node_angle(g1, g2);
+        let inclination = total.x.hypot(total.y).atan2(total.z);
+        let tilt = g1.hypot(g2).atan2(g3);
+        let z = Vector3::z_axis();
+        let x = Vector3::x_axis();
+        let about = UnitQuaternion::from_axis_angle;
+        // Rz(μ) is what is left of R between the two inclined nodes.
+        let left = (about(&z, node) * about(&x, inclination)).inverse();
+        let right = (about(&x, tilt) * about(&z, spin)).inverse();
+        let sorted = UnitQuaternion::new_unchecked(attitude) * frame.quaternion.inverse();
+        let middle = left * sorted * right;
+        let angle = 2.0 * middle.k.atan2(middle.w);
+        [node, wrapped(angle), spin, total.z, momentum, g3]
+    }
+}
+
+/// The angle of (sine, cosine), 0 where both vanish whatever their signs.
+fn node_angle(sine: f64, cosine: f64) -> f64 {
+    if sine == 0.0 && cosine == 0.0 { 0.0 } else { sine.atan2(cosine) }
+}
+
+/// An angle in (−2π, 2π] brought to (−π, π].
+fn wrapped(angle: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    if angle > PI {
+        angle - TAU
+    } else if angle <= -PI {
+        angle + TAU
+    } else {
+        angle
+    }
+}

@@ -1,0 +1,139 @@
+//! What can be wrong with an input, and what the series can't serve: each with its argument, its value and the bound.
+
+/// The error of this crate: what was given, and what would have been accepted.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A moment of inertia that is zero, negative, NaN or infinite.
+    #[error("moments[{axis}] = {value}: a moment of inertia must be positive and finite")]
+    Moment {
+        /// Index of the body axis, 0 to 2.
+        axis: usize,
+        /// The moment as given.
+        value: f64,
+    },
+    /// Moments that no body has: the largest exceeds the sum of the others.
+    #[error(
+        "moments = {moments:?}: the largest must not exceed the sum of the other two (it is {ratio} times that sum)"
+    )]
+    MomentsTriangle {
+        /// The moments as given.
+        moments: [f64; 3],
+        /// Largest moment over the sum of the other two.
+        ratio: f64,
+    },
+    /// An attitude quaternion that is zero, not finite, or too far from unit norm.
+    #[error(
+        "attitude = {value:?}: a quaternion [x, y, z, w] must be finite with a norm within 1e-6 of 1 (it is {norm})"
+    )]
+    Attitude {
+        /// The quaternion as given, [x, y, z, w].
+        value: [f64; 4],
+        /// Its norm.
+        norm: f64,
+    },
+    /// A body rate that is not finite.
+    #[error("angular_velocity[{axis}] = {value}: a rate must be finite")]
+    AngularVelocity {
+        /// Index of the body axis, 0 to 2.
+        axis: usize,
+        /// The rate as given.
+        value: f64,
+    },
+    /// An epoch that is not finite.
+    #[error("epoch = {value}: it must be finite")]
+    Epoch {
+        /// The epoch as given.
+        value: f64,
+    },
+    /// A tolerance that is not positive and finite.
+    #[error("tolerance = {value}: it must be positive and finite [rad]")]
+    Tolerance {
+        /// The tolerance as given.
+        value: f64,
+    },
+    /// A span that is not finite or runs backwards.
+    #[error("span = [{start}, {stop}]: it must be finite with start ≤ stop")]
+    Span {
+        /// Its first time.
+        start: f64,
+        /// Its last time.
+        stop: f64,
+    },
+    /// An order that is not served.
+    #[error("order = {value}: it must be at most {}", crate::MAX_ORDER)]
+    Order {
+        /// The order as given.
+        value: usize,
+    },
+    /// A method that is unknown or not yet there.
+    #[error("method = {value:?}: it must be \"auto\" or \"series\"")]
+    Method {
+        /// The method as given.
+        value: String,
+    },
+    /// A time that is not finite, or so far from the epoch that it has no phase.
+    #[error("times[{index}] = {value}: a time must be finite and within {bound:e} of the epoch")]
+    Time {
+        /// Its index among the times given.
+        index: usize,
+        /// The time as given.
+        value: f64,
+        /// Largest distance from the epoch that is accepted.
+        bound: f64,
+    },
+    /// A slice whose length doesn't fit.
+    #[error("{argument} has {found} entries: it must have {expected}")]
+    Length {
+        /// The argument.
+        argument: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length that fits.
+        expected: usize,
+    },
+    /// Rotation about the axis of least inertia, which the short-axis series don't reach.
+    #[error(
+        "long-axis mode: the energy is {energy_ratio} times that of the separatrix [(2CH/M² − 1)/(C/B − 1)], \
+         and the short-axis series hold below 1 only"
+    )]
+    LongAxisMode {
+        /// (2CH/M² − 1)/(C/B − 1): below 1 in short-axis mode, infinite for B = C.
+        energy_ratio: f64,
+    },
+    /// Too near the separatrix for the tolerance.
+    #[error(
+        "too near the separatrix for the series: σ/σ_sep = {ratio} needs order {needed} for a tolerance of {tolerance} rad, \
+         and order {} is the highest; at that order the tolerance must be at least {attainable:.1e} rad",
+        crate::MAX_ORDER
+    )]
+    NearSeparatrix {
+        /// σ/σ_sep.
+        ratio: f64,
+        /// The order that the tolerance needs; infinite on the separatrix.
+        needed: f64,
+        /// The tolerance asked for [rad].
+        tolerance: f64,
+        /// The tolerance that the highest order meets [rad].
+        attainable: f64,
+    },
+    /// A body that the catalogue doesn't have.
+    #[error("body {name:?} is not in the catalogue: it has {}", crate::Body::catalogue().join(", "))]
+    UnknownBody {
+        /// The name as given.
+        name: String,
+    },
+    /// What the series crate has to say; no input that passed the checks of this crate is known to raise it.
+    #[error(transparent)]
+    Series(#[from] andoyer_series::Error),
+    /// A scene file that can't be read or says something wrong.
+    #[error("{file}: {key}: {problem}")]
+    SceneFile {
+        /// The file.
+        file: String,
+        /// The key, dotted, or the line.
+        key: String,
+        /// What is wrong, with the bound.
+        problem: String,
+    },
+}

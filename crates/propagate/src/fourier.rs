@@ -1,0 +1,146 @@
+//! The quaternion of theory §8 as two real-coefficient Fourier series in ℓ′, and their evaluation.
+//!
+//! a e^(−iy′/2) = √(1−z/2) e^(iδ/2) and b e^(−iy′/2) = (ζ/2) e^(iδ/2), with ζ = (X + ix)/√M, z = |ζ|²/2 and δ = y − y′.
+//! Time reversal (ℓ′ → −ℓ′ conjugates both) makes every coefficient real, and ℓ′ → ℓ′ + π leaves a and turns b over: a has the even harmonics, b
+//! the odd ones. So a quarter period of samples gives all coefficients by the trapezoidal rule.
+
+use crate::series::Expansion;
+
+/// Grid points in a period for each order: the products of theory §8 reach past the 2N+1 harmonics of ζ, and what folds back from beyond eight times
+/// the order is smaller than the truncation squared.
+const GRID_PER_ORDER: usize = 8;
+
+/// ζ = direct·w + conjugate·w̄: the ellipse that (x, X) runs through at first order.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ellipse {
+    /// (ω + 1)/√2ω, the part of w in ζ.
+    pub(crate) direct: f64,
+    /// (ω − 1)/√2ω, the part of w̄ in ζ.
+    pub(crate) conjugate: f64,
+}
+
+impl Ellipse {
+    /// From a = C/A − 1, b = C/B − 1 and a − b, ω = √(a/b), without the difference ω − 1 (theory §1).
+    pub(crate) fn new(first: f64, second: f64, difference: f64) -> Self {
+        let omega = (first / second).sqrt();
+        let root = (2.0 * omega).sqrt();
+        Self { direct: (omega + 1.0) / root, conjugate: difference / second / (omega + 1.0) / root }
+    }
+
+    /// w/√M of ζ.
+    pub(crate) fn anomaly(&self, zeta: [f64; 2]) -> [f64; 2] {
+        // direct ± conjugate = √2ω and √(2/ω), the scales of X and x.
+        [zeta[0] / (self.direct + self.conjugate), zeta[1] / (self.direct - self.conjugate)]
+    }
+}
+
+/// w/√M and y − y′ at an angle ℓ′, `trigonometry(h)` being (sin hℓ′, cos hℓ′).
+pub(crate) fn anomaly_and_longitude(
+    expansion: &Expansion,
+    trigonometry: impl Fn(usize) -> (f64, f64),
+) -> ([f64; 2], f64) {
+    let order = expansion.longitude.len();
+    let (mut real, mut imaginary) = (0.0, 0.0);
+    for m in 0..=order {
+        let (sine, cosine) = trigonometry(2 * m + 1);
+        let (plus, minus) = (expansion.anomaly[order + 1 + m], expansion.anomaly[order - m]);
+        real += (plus + minus) * cosine;
+        imaginary += (plus - minus) * sine;
+    }
+    let terms = expansion.longitude.iter().enumerate();
+    let longitude = terms.map(|(index, &c)| c * trigonometry(2 * index + 2).0).sum();
+    ([real, imaginary], longitude)
+}
+
+/// Cosine and sine coefficient of one harmonic.
+type Pair = [f64; 2];
+
+/// a e^(−iy′/2) = Σ c_k cos 2kℓ′ + i d_k sin 2kℓ′, and b e^(−iy′/2) with the harmonics 2k + 1.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct QuaternionSeries {
+    /// (c_k, d_k) of a and of b.
+    terms: Vec<(Pair, Pair)>,
+}
+
+impl QuaternionSeries {
+    /// The composition of theory §8, sampled over a quarter period and analysed.
+    pub(crate) fn new(expansion: &Expansion, ellipse: Ellipse) -> Self {
+        let order = expansion.longitude.len();
+        let period = (GRID_PER_ORDER * (order + 1)).next_power_of_two();
+        let quarter = period / 4;
+        let circle: Vec<(f64, f64)> =
+            (0..period).map(|g| (std::f64::consts::TAU * g as f64 / period as f64).sin_cos()).collect();
+        let mut terms = vec![([0.0; 2], [0.0; 2]); 2 * order + 2];
+        for g in 0..=quarter {
+            let trigonometry = |harmonic: usize| circle[(harmonic * g) & (period - 1)];
+            let (a, b) = composed(expansion, ellipse, trigonometry);
+            // A period holds an end point twice and an inner one four times; a pair of harmonics ±h takes twice the mean.
+            let weight = if g == 0 || g == quarter { 4.0 } else { 8.0 } / period as f64;
+            for (k, (even, odd)) in terms.iter_mut().enumerate() {
+                let (sine, cosine) = trigonometry(2 * k);
+                even[0] += weight * a[0] * cosine;
+                even[1] += weight * a[1] * sine;
+                let (sine, cosine) = trigonometry(2 * k + 1);
+                odd[0] += weight * b[0] * cosine;
+                odd[1] += weight * b[1] * sine;
+            }
+        }
+        terms[0].0[0] *= 0.5; // the mean is no pair
+        Self { terms }
+    }
+
+    /// Without the highest harmonics, as many as turn the attitude by less than `budget` [rad] together; and by how much they do.
+    ///
+    /// The fundamental always stays: of a small wobble it is all there is.
+    pub(crate) fn truncated(mut self, budget: f64) -> (Self, f64) {
+        let mut dropped = 0.0;
+        while let [_, .., (even, odd)] = self.terms[..] {
+            let size = even[0].abs().max(even[1].abs()) + odd[0].abs().max(odd[1].abs());
+            // An error of a or b turns the attitude by twice its size.
+            if dropped + 2.0 * size > budget {
+                break;
+            }
+            dropped += 2.0 * size;
+            self.terms.pop();
+        }
+        (self, dropped)
+    }
+
+    /// The highest multiple of ℓ′ that is evaluated.
+    pub(crate) fn harmonics(&self) -> usize {
+        2 * self.terms.len() - 1
+    }
+
+    /// a e^(−iy′/2) and b e^(−iy′/2) at ℓ′, real and imaginary parts.
+    pub(crate) fn evaluate(&self, angle: f64) -> ([f64; 2], [f64; 2]) {
+        let (sine, cosine) = angle.sin_cos();
+        let (step_cosine, step_sine) = (cosine * cosine - sine * sine, 2.0 * sine * cosine);
+        let turned = |[c, s]: [f64; 2]| [c * step_cosine - s * step_sine, s * step_cosine + c * step_sine];
+        let (mut even, mut odd) = ([1.0, 0.0], [cosine, sine]);
+        let (mut a, mut b) = ([0.0; 2], [0.0; 2]);
+        for (upper, lower) in &self.terms {
+            a = [a[0] + upper[0] * even[0], a[1] + upper[1] * even[1]];
+            b = [b[0] + lower[0] * odd[0], b[1] + lower[1] * odd[1]];
+            (even, odd) = (turned(even), turned(odd));
+        }
+        (a, b)
+    }
+}
+
+/// a e^(−iy′/2) and b e^(−iy′/2) by theory §8.
+fn composed(
+    expansion: &Expansion,
+    ellipse: Ellipse,
+    trigonometry: impl Fn(usize) -> (f64, f64),
+) -> ([f64; 2], [f64; 2]) {
+    let (w, longitude) = anomaly_and_longitude(expansion, trigonometry);
+    let zeta = [(ellipse.direct + ellipse.conjugate) * w[0], (ellipse.direct - ellipse.conjugate) * w[1]];
+    let half_z = 0.25 * (zeta[0] * zeta[0] + zeta[1] * zeta[1]);
+    let (sine, cosine) = (0.5 * longitude).sin_cos();
+    // A low order asked for by hand can pass z = 2; there the truncated motion has no attitude and the error bound says so.
+    let upper = (1.0 - half_z).max(0.0).sqrt();
+    (
+        [upper * cosine, upper * sine],
+        [0.5 * (zeta[0] * cosine - zeta[1] * sine), 0.5 * (zeta[0] * sine + zeta[1] * cosine)],
+    )
+}

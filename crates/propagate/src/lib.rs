@@ -1,0 +1,29 @@
+//! Rotation of a free rigid body from perturbation series: a plan built once for a trajectory, attitude and rates at any epoch.
+//!
+//! A [`Scene`] (a [`Body`], its [`State`], a tolerance) is solved into a [`Motion`], which is immutable and shared between threads.
+//! Units: none is built in; time, moments and angular velocity in any consistent set, angles in radians. An attitude is the rotation of body
+//! components into inertial ones. The theory is M. Lara, "Short-axis-mode rotation in complex variables" (2017).
+
+mod andoyer;
+mod body;
+mod catalogue;
+mod double_double;
+mod error;
+mod fourier;
+mod motion;
+mod phase;
+mod plan;
+mod polhode;
+mod scene;
+mod scene_file;
+mod secular;
+mod series;
+mod solution;
+mod state;
+
+pub use body::Body;
+pub use error::Error;
+pub use motion::{Frequencies, Motion, Periods, Sample};
+pub use plan::{MAX_ORDER, Mode, Plan};
+pub use scene::{Method, Scene};
+pub use state::State;

@@ -1,0 +1,213 @@
+//! A solved motion: immutable, shared between threads, evaluated at any time.
+//!
+//! Evaluation is two sines and cosines (of ℓ′ and y′/2), the sums of theory §8, a normalization and two quaternion products. The rates come from
+//! the same a and b: g = (−2 Im b ā, 2 Re b ā, |a|² − |b|²).
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+use crate::error::Error;
+use crate::fourier::QuaternionSeries;
+use crate::phase::{Phase, elapsed};
+use crate::plan::Plan;
+use crate::polhode::Frame;
+use crate::scene::Scene;
+
+/// Phases, in turns, stay below this, and times since the epoch below this over the fastest frequency.
+const LARGEST_PHASE: f64 = 1e300;
+
+/// Attitude and angular velocity at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// The time.
+    pub time: f64,
+    /// Rotation of body components into inertial ones.
+    pub attitude: UnitQuaternion<f64>,
+    /// Angular velocity, body components [rad per unit of time].
+    pub angular_velocity: Vector3<f64>,
+}
+
+/// Mean frequencies of a motion [rad per unit of time].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frequencies {
+    /// dℓ′/dt: the polhode, in the body.
+    pub anomaly: f64,
+    /// dy′/dt: the rotation, y = μ + ν.
+    pub longitude: f64,
+}
+
+/// A pair of mean periods: of the precession about the angular momentum and of the rotation or oscillation about the body's axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Periods {
+    /// P_φ, of the precession of the axis.
+    pub precession: f64,
+    /// P_ψ, about the axis.
+    pub rotation: f64,
+}
+
+/// How a motion goes on from its epoch.
+#[derive(Clone, Debug)]
+pub(crate) enum Course {
+    /// Rotation about an axis fixed in the body, whose half angle grows.
+    Steady { axis: Vector3<f64>, half_angle: Phase },
+    /// A polhode: `inertial` and `frame` lead from the series' quaternion to that of the body.
+    Polhode(Box<Wobble>),
+}
+
+/// What a wobbling motion is evaluated from.
+#[derive(Clone, Debug)]
+pub(crate) struct Wobble {
+    pub(crate) anomaly: Phase,
+    pub(crate) half_longitude: Phase,
+    pub(crate) series: QuaternionSeries,
+    pub(crate) inertial: UnitQuaternion<f64>,
+    pub(crate) frame: Frame,
+    /// M over each moment, on the sorted axes.
+    pub(crate) rates: Vector3<f64>,
+}
+
+/// A solved motion.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    pub(crate) scene: Scene,
+    pub(crate) plan: Plan,
+    pub(crate) course: Course,
+    pub(crate) frequencies: Frequencies,
+    /// Inertial components.
+    pub(crate) angular_momentum: Vector3<f64>,
+}
+
+impl Motion {
+    /// The scene that was solved.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// What is evaluated, and why.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The mean frequencies; 0 where the motion has none.
+    pub fn frequencies(&self) -> Frequencies {
+        self.frequencies
+    }
+
+    /// Mean periods in the long-axis convention, that of light curves: P_φ = 2π/|dy′/dt|, P_ψ = 2π/(dℓ′/dt), in which the long axis
+    /// oscillates (Kaasalainen 2001); infinite where there is none.
+    pub fn long_axis_periods(&self) -> Periods {
+        let Frequencies { anomaly, longitude } = self.frequencies;
+        Periods { precession: std::f64::consts::TAU / longitude, rotation: std::f64::consts::TAU / anomaly }
+    }
+
+    /// Mean periods in the short-axis convention, that of Andoyer variables: μ turns with dy′/dt + dℓ′/dt, ν with −dℓ′/dt (retrograde).
+    pub fn short_axis_periods(&self) -> Periods {
+        let Frequencies { anomaly, longitude } = self.frequencies;
+        Periods { precession: std::f64::consts::TAU / (longitude + anomaly), rotation: std::f64::consts::TAU / anomaly }
+    }
+
+    /// The angular momentum, inertial components: a constant.
+    pub fn angular_momentum(&self) -> Vector3<f64> {
+        self.angular_momentum
+    }
+
+    /// Attitude and rates at a time.
+    ///
+    /// # Errors
+    /// - [`Error::Time`]: NaN, infinite, or more than 1e300 rotations from the epoch.
+    pub fn at(&self, time: f64) -> Result<Sample, Error> {
+        let elapsed = self.elapsed(0, time)?;
+        let (attitude, angular_velocity) = self.evaluate(elapsed);
+        Ok(Sample { time, attitude: UnitQuaternion::new_unchecked(attitude), angular_velocity })
+    }
+
+    /// Attitudes [x, y, z, w] at many times, without an allocation.
+    ///
+    /// # Errors
+    /// - [`Error::Length`]: `out` shorter or longer than `times`.
+    /// - [`Error::Time`]: as [`Motion::at`], with the index.
+    pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<(), Error> {
+        length("out", out.len(), times.len())?;
+        for ((index, &time), slot) in times.iter().enumerate().zip(out) {
+            *slot = self.evaluate(self.elapsed(index, time)?).0.coords.into();
+        }
+        Ok(())
+    }
+
+    /// Angular velocities, body components, at many times, without an allocation.
+    ///
+    /// # Errors
+    /// As [`Motion::attitudes_into`].
+    pub fn angular_velocities_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
+        length("out", out.len(), times.len())?;
+        for ((index, &time), slot) in times.iter().enumerate().zip(out) {
+            *slot = self.evaluate(self.elapsed(index, time)?).1.into();
+        }
+        Ok(())
+    }
+
+    /// Attitudes and angular velocities at many times, without an allocation.
+    ///
+    /// # Errors
+    /// As [`Motion::attitudes_into`].
+    pub fn samples_into(&self, times: &[f64], attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
+        length("attitudes", attitudes.len(), times.len())?;
+        length("rates", rates.len(), times.len())?;
+        for (index, &time) in times.iter().enumerate() {
+            let (attitude, rate) = self.evaluate(self.elapsed(index, time)?);
+            attitudes[index] = attitude.coords.into();
+            rates[index] = rate.into();
+        }
+        Ok(())
+    }
+
+    pub(crate) fn elapsed(&self, index: usize, time: f64) -> Result<(f64, f64), Error> {
+        let fastest = self.frequencies.longitude.abs().max(1.0);
+        let bound = LARGEST_PHASE / fastest;
+        // Written so that NaN fails it.
+        if (time - self.scene.state().epoch).abs() <= bound {
+            Ok(elapsed(time, self.scene.state().epoch))
+        } else {
+            Err(Error::Time { index, value: time, bound })
+        }
+    }
+
+    pub(crate) fn evaluate(&self, elapsed: (f64, f64)) -> (Quaternion<f64>, Vector3<f64>) {
+        match &self.course {
+            Course::Steady { axis, half_angle } => {
+                let (sine, cosine) = half_angle.angle(elapsed).sin_cos();
+                let turn = Quaternion::from_parts(cosine, axis * sine);
+                let state = self.scene.state();
+                (state.attitude.into_inner() * turn, state.angular_velocity)
+            }
+            Course::Polhode(wobble) => wobble.evaluate(elapsed),
+        }
+    }
+}
+
+impl Wobble {
+    fn evaluate(&self, elapsed: (f64, f64)) -> (Quaternion<f64>, Vector3<f64>) {
+        let (a, b) = self.series.evaluate(self.anomaly.angle(elapsed));
+        let scale = 1.0 / (a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1]).sqrt();
+        let (a, b) = (a.map(|c| c * scale), b.map(|c| c * scale));
+        // g is free of y: it cancels in b ā.
+        let direction = [
+            2.0 * (b[0] * a[1] - b[1] * a[0]),
+            2.0 * (b[0] * a[0] + b[1] * a[1]),
+            a[0] * a[0] + a[1] * a[1] - b[0] * b[0] - b[1] * b[1],
+        ];
+        let rates = self.frame.user(std::array::from_fn(|i| self.rates[i] * direction[i]));
+        let (sine, cosine) = self.half_longitude.angle(elapsed).sin_cos();
+        let relative = Quaternion::new(
+            a[0] * cosine - a[1] * sine,
+            b[0] * cosine - b[1] * sine,
+            b[0] * sine + b[1] * cosine,
+            a[0] * sine + a[1] * cosine,
+        );
+        let attitude = self.inertial.into_inner() * relative * self.frame.quaternion.into_inner();
+        (attitude, Vector3::from(rates))
+    }
+}
+
+pub(crate) fn length(argument: &'static str, found: usize, expected: usize) -> Result<(), Error> {
+    if found == expected { Ok(()) } else { Err(Error::Length { argument, found, expected }) }
+}

@@ -1,0 +1,100 @@
+//! What will be evaluated for a motion, and why: order, harmonics, error bound, and what was not needed.
+
+use std::fmt;
+
+/// The highest order of the series; reached at σ/σ_sep = 0.64 for a tolerance of 1e-12.
+pub const MAX_ORDER: usize = 60;
+
+/// The kind of motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Mode {
+    /// Triaxial body near rotation about its axis of greatest inertia.
+    ShortAxis,
+    /// A = B < C: regular precession.
+    Axisymmetric,
+    /// A = B = C.
+    Spherical,
+    /// Rotation about the axis of greatest inertia itself, J = 0.
+    PrincipalAxis,
+    /// Zero angular velocity.
+    AtRest,
+}
+
+impl fmt::Display for Mode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::ShortAxis => "short-axis",
+            Self::Axisymmetric => "axisymmetric",
+            Self::Spherical => "spherical",
+            Self::PrincipalAxis => "principal-axis",
+            Self::AtRest => "at-rest",
+        })
+    }
+}
+
+/// The evaluation plan of a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    pub(crate) mode: Mode,
+    pub(crate) order: usize,
+    pub(crate) harmonics: usize,
+    pub(crate) error_bound: f64,
+    pub(crate) separatrix_ratio: f64,
+    pub(crate) skipped: Vec<String>,
+}
+
+impl Plan {
+    /// The kind of motion.
+    pub fn mode(&self) -> Mode {
+        self.mode
+    }
+
+    /// How it is evaluated: "series", or "closed" where a formula without a series is exact.
+    pub fn method(&self) -> &'static str {
+        match self.mode {
+            Mode::ShortAxis => "series",
+            _ => "closed",
+        }
+    }
+
+    /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance.
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// The highest multiple of ℓ′ that is evaluated; 0 where none is.
+    pub fn harmonics(&self) -> usize {
+        self.harmonics
+    }
+
+    /// Estimate from above of the attitude error over the span [rad]: truncation, dropped harmonics, rounding.
+    pub fn error_bound(&self) -> f64 {
+        self.error_bound
+    }
+
+    /// σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5).
+    pub fn separatrix_ratio(&self) -> f64 {
+        self.separatrix_ratio
+    }
+
+    /// What this scene did not need, and why.
+    pub fn skipped(&self) -> &[String] {
+        &self.skipped
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "mode          {}", self.mode)?;
+        writeln!(f, "method        {}", self.method())?;
+        writeln!(f, "sigma ratio   {:.6} of the separatrix", self.separatrix_ratio)?;
+        writeln!(f, "order         {}", self.order)?;
+        writeln!(f, "harmonics     {}", self.harmonics)?;
+        write!(f, "error bound   {:.1e} rad", self.error_bound)?;
+        for reason in &self.skipped {
+            write!(f, "\nskipped       {reason}")?;
+        }
+        Ok(())
+    }
+}

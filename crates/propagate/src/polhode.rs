@@ -1,0 +1,182 @@
+//! The polhode of a state: its place among the motions of the body, formed without cancellation.
+//!
+//! The state is turned into the theory's frame (axes sorted, N ≥ 0) and scaled by powers of two, so that any unit gives the same bits.
+//! With g = G/M the unit angular momentum in the body, a = C/A − 1, b = C/B − 1 and ℓ the angle of theory §1,
+//!
+//! ```text
+//! cos²J = Q(ℓ) = Q1 cos²ℓ + Q2 sin²ℓ,   Q1 = g3² − g1² (a−b)/b,   Q2 = g3² + g2² (a−b)/a
+//! γE = a g1² + b g2²,                  κE = α (g1²/b + g2²/a)
+//! ```
+//!
+//! Q1 > 0 is the short-axis mode, Q1 = 0 the separatrix: no difference of energies is formed (theory §5, §7).
+
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+
+use crate::body::Body;
+use crate::double_double::DoubleDouble;
+use crate::state::State;
+
+/// The body axes in the theory's order, the third turned so that N ≥ 0.
+#[derive(Clone, Debug)]
+pub(crate) struct Frame {
+    /// User axis of each sorted axis.
+    pub(crate) axes: [usize; 3],
+    /// Sense of each sorted axis along the user's.
+    pub(crate) signs: [f64; 3],
+    /// Rotation of user body components into sorted ones.
+    pub(crate) quaternion: UnitQuaternion<f64>,
+}
+
+impl Frame {
+    /// The frame of moments and a body vector whose component on axis 3 shall not be negative.
+    pub(crate) fn new(moments: [f64; 3], momentum: [f64; 3]) -> Self {
+        let mut axes = [0, 1, 2];
+        axes.sort_by(|&i, &j| moments[i].total_cmp(&moments[j]));
+        let even = (axes[0] + 1) % 3 == axes[1];
+        let mut signs = if even { [1.0; 3] } else { [-1.0; 3] };
+        if momentum[axes[2]] * signs[2] < 0.0 {
+            signs = [signs[0], -signs[1], -signs[2]];
+        }
+        let mut matrix = Matrix3::zeros();
+        for i in 0..3 {
+            matrix[(i, axes[i])] = signs[i];
+        }
+        let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix));
+        Self { axes, signs, quaternion }
+    }
+
+    /// Components on the sorted axes.
+    pub(crate) fn sorted(&self, vector: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|i| self.signs[i] * vector[self.axes[i]])
+    }
+
+    /// Components on the user's axes.
+    pub(crate) fn user(&self, sorted: [f64; 3]) -> [f64; 3] {
+        let mut vector = [0.0; 3];
+        for i in 0..3 {
+            vector[self.axes[i]] = self.signs[i] * sorted[i];
+        }
+        vector
+    }
+}
+
+/// A state reduced to the quantities of theory §1, §5 and §7.
+#[derive(Clone, Debug)]
+pub(crate) struct Polhode {
+    pub(crate) frame: Frame,
+    /// A, B, C over a power of two.
+    pub(crate) moments: [f64; 3],
+    /// M in scaled units.
+    pub(crate) momentum: DoubleDouble,
+    /// Binary exponents taken out of the moments and of the rates.
+    pub(crate) scales: (i32, i32),
+    /// g on the sorted axes.
+    pub(crate) direction: [f64; 3],
+    squares: [DoubleDouble; 3],
+    /// a = C/A − 1 and b = C/B − 1.
+    pub(crate) excesses: [DoubleDouble; 2],
+    /// a − b = (C/B)(B/A − 1).
+    pub(crate) difference: DoubleDouble,
+}
+
+impl Polhode {
+    /// The polhode of a valid state; `None` for a body at rest.
+    pub(crate) fn new(body: &Body, state: &State) -> Option<Self> {
+        let rates: [f64; 3] = state.angular_velocity.into();
+        let largest = rates.iter().fold(0.0_f64, |m, w| m.max(w.abs()));
+        if largest == 0.0 {
+            return None;
+        }
+        let scales = (exponent(body.sorted()[2]), exponent(largest));
+        let frame = Frame::new(body.moments(), rates);
+        let moments = body.sorted().map(|m| scaled(m, -scales.0));
+        let rates = frame.sorted(rates).map(|w| scaled(w, -scales.1));
+        let parts: [_; 3] = std::array::from_fn(|i| DoubleDouble::product(moments[i], rates[i]));
+        let total = parts[0] * parts[0] + parts[1] * parts[1] + parts[2] * parts[2];
+        let momentum = total.sqrt();
+        let [a, b, c] = moments;
+        Some(Self {
+            frame,
+            moments,
+            momentum,
+            scales,
+            direction: parts.map(|g| (g / momentum).to_f64()),
+            squares: parts.map(|g| g * g / total),
+            excesses: [DoubleDouble::sum(c, -a) / a.into(), DoubleDouble::sum(c, -b) / b.into()],
+            difference: DoubleDouble::from(c) * DoubleDouble::sum(b, -a) / DoubleDouble::product(a, b),
+        })
+    }
+
+    /// Q1 and Q2 for B < C.
+    pub(crate) fn cosine_squares(&self) -> [DoubleDouble; 2] {
+        let [g1, g2, g3] = self.squares;
+        let [a, b] = self.excesses;
+        [g3 - g1 * self.difference / b, g3 + g2 * self.difference / a]
+    }
+
+    /// γE of theory §5.
+    pub(crate) fn gamma_energy(&self) -> DoubleDouble {
+        self.squares[0] * self.excesses[0] + self.squares[1] * self.excesses[1]
+    }
+
+    /// κE of theory §5, for B < C.
+    pub(crate) fn kappa_energy(&self) -> DoubleDouble {
+        self.alpha() * (self.squares[0] / self.excesses[1] + self.squares[1] / self.excesses[0])
+    }
+
+    /// α of theory §1.
+    pub(crate) fn alpha(&self) -> DoubleDouble {
+        (self.excesses[0] + self.excesses[1]) * DoubleDouble::from(0.5)
+    }
+
+    /// γ of theory §1.
+    pub(crate) fn gamma(&self) -> DoubleDouble {
+        (self.excesses[0] * self.excesses[1]).sqrt()
+    }
+
+    /// κ = α/γ of theory §1, for B < C.
+    pub(crate) fn kappa(&self) -> f64 {
+        (self.alpha() / self.gamma()).to_f64()
+    }
+
+    /// (2CH/M² − 1)/(C/B − 1): the energy over that of the separatrix.
+    pub(crate) fn energy_ratio(&self) -> f64 {
+        (self.gamma_energy() / self.excesses[1]).to_f64()
+    }
+
+    /// M/C in scaled units of rate.
+    pub(crate) fn mean_rate(&self) -> DoubleDouble {
+        self.momentum / self.moments[2].into()
+    }
+
+    /// ζ = (X + ix)/√M of theory §8: (g2 − i g1)/cos(J/2), real and imaginary part.
+    pub(crate) fn zeta(&self) -> [f64; 2] {
+        let [g1, g2, g3] = self.direction;
+        let half_cosine = (0.5 * (1.0 + g3)).sqrt();
+        [g2 / half_cosine, -g1 / half_cosine]
+    }
+
+    /// M in the user's units.
+    pub(crate) fn user_momentum(&self) -> f64 {
+        scaled(self.momentum.to_f64(), self.scales.0 + self.scales.1)
+    }
+
+    /// M/A, M/B, M/C in the user's units: the rates are these times g.
+    pub(crate) fn user_rates(&self) -> Vector3<f64> {
+        let rates = self.moments.map(|m| scaled((self.momentum / m.into()).to_f64(), self.scales.1));
+        Vector3::from(rates)
+    }
+}
+
+/// The binary exponent of a positive finite number, that of the smallest normal one for less.
+pub(crate) fn exponent(value: f64) -> i32 {
+    // Eleven exponent bits: the shift leaves a value that fits.
+    let biased = ((value.to_bits() >> 52) & 0x7ff) as i32;
+    biased.max(1) - 1023
+}
+
+/// value·2^power, in two steps so that no factor overflows by itself.
+pub(crate) fn scaled(value: f64, power: i32) -> f64 {
+    let half = power / 2;
+    value * 2.0_f64.powi(half) * 2.0_f64.powi(power - half)
+}

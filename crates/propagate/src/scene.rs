@@ -1,0 +1,188 @@
+//! A scene: a body, its state and the accuracy asked for; `solve` turns it into a motion.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::body::Body;
+use crate::error::Error;
+use crate::motion::Motion;
+use crate::plan::MAX_ORDER;
+use crate::state::State;
+
+/// Which formulas evaluate a motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Method {
+    /// Whatever meets the tolerance at the lowest cost.
+    #[default]
+    Auto,
+    /// The perturbation series.
+    Series,
+}
+
+impl FromStr for Method {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        match text {
+            "auto" => Ok(Self::Auto),
+            "series" => Ok(Self::Series),
+            _ => Err(Error::Method { value: text.to_owned() }),
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Auto => "auto",
+            Self::Series => "series",
+        })
+    }
+}
+
+/// A body, its state at an epoch, and what is asked of the solution.
+///
+/// ```
+/// use andoyer_propagate::{Body, Scene, State};
+/// let body = Body::new([1.0, 1.5, 2.0])?;
+/// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?;
+/// let motion = Scene::new(body, state).tolerance(1e-12).solve()?;
+/// let sample = motion.at(100.0)?;
+/// assert!((sample.attitude.norm() - 1.0).abs() < 1e-15);
+/// # Ok::<(), andoyer_propagate::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    body: Body,
+    state: State,
+    tolerance: f64,
+    method: Method,
+    order: Option<usize>,
+    span: Option<(f64, f64)>,
+    name: Option<String>,
+    source: Option<String>,
+}
+
+impl Scene {
+    /// A scene with a tolerance of 1e-12 rad and everything else left to the plan.
+    pub fn new(body: Body, state: State) -> Self {
+        Self { body, state, tolerance: 1e-12, method: Method::Auto, order: None, span: None, name: None, source: None }
+    }
+
+    /// The attitude error asked for over the span [rad]; less than double precision holds means the best there is.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: f64) -> Self {
+        self.tolerance = tolerance;
+        self
+    }
+
+    /// The method; [`Method::Auto`] if this is not called.
+    #[must_use]
+    pub fn method(mut self, method: Method) -> Self {
+        self.method = method;
+        self
+    }
+
+    /// A fixed order of the series, of the secular part too (theory §7), instead of the one that the tolerance needs.
+    #[must_use]
+    pub fn order(mut self, order: usize) -> Self {
+        self.order = Some(order);
+        self
+    }
+
+    /// The times over which the tolerance is asked for; any within 1e9 rotations if this is not called.
+    #[must_use]
+    pub fn span(mut self, start: f64, stop: f64) -> Self {
+        self.span = Some((start, stop));
+        self
+    }
+
+    /// A name, which is printed and nothing else.
+    #[must_use]
+    pub fn name(mut self, name: &str) -> Self {
+        self.name = Some(name.to_owned());
+        self
+    }
+
+    /// Where the figures come from, which is written and nothing else.
+    #[must_use]
+    pub fn source(mut self, source: &str) -> Self {
+        self.source = Some(source.to_owned());
+        self
+    }
+
+    /// The body.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// The state.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The tolerance [rad].
+    pub fn asked_tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// The method.
+    pub fn asked_method(&self) -> Method {
+        self.method
+    }
+
+    /// The order, if one was fixed.
+    pub fn asked_order(&self) -> Option<usize> {
+        self.order
+    }
+
+    /// The span, if one was given.
+    pub fn asked_span(&self) -> Option<(f64, f64)> {
+        self.span
+    }
+
+    /// The name, if it has one.
+    pub fn asked_name(&self) -> Option<&str> {
+        self.name.as_deref()
+    }
+
+    /// Where the figures come from, if it is said.
+    pub fn asked_source(&self) -> Option<&str> {
+        self.source.as_deref()
+    }
+
+    /// Whether every number of the scene is one that a motion can start from.
+    ///
+    /// # Errors
+    /// - [`Error::Tolerance`]: 0, −1, NaN or infinite.
+    /// - [`Error::Order`]: 61.
+    /// - [`Error::Span`]: (1, 0), or not finite.
+    /// - [`Error::Epoch`], [`Error::Attitude`], [`Error::AngularVelocity`]: a state with numbers that are no state.
+    pub fn validate(&self) -> Result<(), Error> {
+        self.state.validated()?;
+        if !(self.tolerance.is_finite() && self.tolerance > 0.0) {
+            return Err(Error::Tolerance { value: self.tolerance });
+        }
+        if let Some(value) = self.order.filter(|&order| order > MAX_ORDER) {
+            return Err(Error::Order { value });
+        }
+        if let Some((start, stop)) = self.span
+            && !(start.is_finite() && stop.is_finite() && start <= stop)
+        {
+            return Err(Error::Span { start, stop });
+        }
+        Ok(())
+    }
+
+    /// The motion: everything that does not depend on time is done here, once.
+    ///
+    /// # Errors
+    /// - Those of [`Scene::validate`].
+    /// - [`Error::LongAxisMode`]: rotation about the axis of least inertia.
+    /// - [`Error::NearSeparatrix`]: the tolerance needs an order above [`MAX_ORDER`].
+    pub fn solve(&self) -> Result<Motion, Error> {
+        self.validate()?;
+        Motion::new(self)
+    }
+}

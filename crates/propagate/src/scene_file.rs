@@ -1,0 +1,219 @@
+//! Scenes in TOML files.
+//!
+//! ```toml
+//! name = "…"                       # optional, as are source, epoch (0), span, tolerance (1e-12), method ("auto") and order
+//! source = "where the figures come from"
+//! epoch = 0.0                      # time of the state
+//! span = [0.0, 1.0e6]              # times over which the tolerance is asked for
+//! tolerance = 1e-12                # [rad]
+//! [body]
+//! moments = [0.5, 0.75, 1.0]       # about body axes 1, 2, 3; or named = "ceres"
+//! [state]
+//! attitude = [0.0, 0.0, 0.0, 1.0]  # [x, y, z, w], body components → inertial ones
+//! angular_velocity = [0.0, 0.1, 1.0]   # body components
+//! ```
+//!
+//! Any other key is an error. Numbers are written so that they are read back to the same bits.
+
+use std::path::Path;
+
+use toml::{Table, Value};
+
+use crate::body::Body;
+use crate::error::Error;
+use crate::plan::MAX_ORDER;
+use crate::scene::Scene;
+use crate::state::State;
+
+const SCENE_KEYS: &[&str] = &["name", "source", "epoch", "span", "tolerance", "method", "order", "body", "state"];
+const BODY_KEYS: &[&str] = &["moments", "named", "name"];
+const STATE_KEYS: &[&str] = &["attitude", "angular_velocity"];
+
+impl Scene {
+    /// The scene of a TOML file.
+    ///
+    /// # Errors
+    /// - [`Error::SceneFile`]: no such file, no TOML, an unknown or missing key, a value that no scene has: with file, key and bound.
+    pub fn from_toml(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let file = path.as_ref().display().to_string();
+        let text = std::fs::read_to_string(path.as_ref()).map_err(|error| Error::SceneFile {
+            file: file.clone(),
+            key: "file".to_owned(),
+            problem: error.to_string(),
+        })?;
+        Self::parse_toml(&text, &file)
+    }
+
+    /// The scene of a TOML text, `file` being what errors call it.
+    ///
+    /// # Errors
+    /// As [`Scene::from_toml`].
+    ///
+    /// ```
+    /// use andoyer_propagate::Scene;
+    /// let text = "[body]\nmoments = [1.0, 2.0, 3.5]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0, 1]";
+    /// let error = Scene::parse_toml(text, "flat.toml").unwrap_err();
+    /// assert!(error.to_string().starts_with("flat.toml: body: moments = [1.0, 2.0, 3.5]: the largest must not exceed"));
+    /// ```
+    pub fn parse_toml(text: &str, file: &str) -> Result<Self, Error> {
+        let at = |key: &str, problem: String| Error::SceneFile { file: file.to_owned(), key: key.to_owned(), problem };
+        let table: Table = text.parse().map_err(|error: toml::de::Error| {
+            let line = error.span().map_or(1, |span| 1 + text[..span.start].matches('\n').count());
+            at(&format!("line {line}"), error.message().to_owned())
+        })?;
+        let keys = Keys { file, table: &table, path: "", known: SCENE_KEYS };
+        keys.check()?;
+        let body_keys = keys.table("body", BODY_KEYS)?;
+        let state_keys = keys.table("state", STATE_KEYS)?;
+        let epoch = keys.number("epoch")?.unwrap_or(0.0);
+        let attitude = state_keys.numbers("attitude")?;
+        let state = State::new(
+            epoch,
+            attitude.ok_or_else(|| state_keys.missing("attitude"))?,
+            state_keys.numbers("angular_velocity")?.ok_or_else(|| state_keys.missing("angular_velocity"))?,
+        )
+        .map_err(|error| at("state", error.to_string()))?;
+        let mut scene = Self::new(body_keys.body()?, state);
+        if let Some(tolerance) = keys.number("tolerance")? {
+            scene = scene.tolerance(tolerance);
+        }
+        if let Some([start, stop]) = keys.numbers("span")? {
+            scene = scene.span(start, stop);
+        }
+        if let Some(method) = keys.text("method")? {
+            scene = scene.method(method.parse().map_err(|error: Error| at("method", error.to_string()))?);
+        }
+        if let Some(order) = keys.order()? {
+            scene = scene.order(order);
+        }
+        if let Some(name) = keys.text("name")? {
+            scene = scene.name(name);
+        }
+        if let Some(source) = keys.text("source")? {
+            scene = scene.source(source);
+        }
+        scene.validate().map_err(|error| at("scene", error.to_string()))?;
+        Ok(scene)
+    }
+
+    /// The scene as TOML, which [`Scene::parse_toml`] reads back to the same scene.
+    pub fn to_toml(&self) -> String {
+        let mut table = Table::new();
+        let texts = [("name", self.asked_name()), ("source", self.asked_source())];
+        for (key, text) in texts.into_iter().filter_map(|(key, text)| Some((key, text?))) {
+            table.insert(key.to_owned(), Value::from(text));
+        }
+        table.insert("epoch".to_owned(), Value::from(self.state().epoch));
+        if let Some((start, stop)) = self.asked_span() {
+            table.insert("span".to_owned(), Value::from(vec![start, stop]));
+        }
+        table.insert("tolerance".to_owned(), Value::from(self.asked_tolerance()));
+        table.insert("method".to_owned(), Value::from(self.asked_method().to_string()));
+        if let Some(order) = self.asked_order() {
+            // At most 60.
+            table.insert("order".to_owned(), Value::from(order as i64));
+        }
+        let mut body = Table::new();
+        body.insert("moments".to_owned(), Value::from(self.body().moments().to_vec()));
+        if let Some(name) = self.body().name() {
+            body.insert("name".to_owned(), Value::from(name));
+        }
+        let mut state = Table::new();
+        let attitude = self.state().attitude.coords;
+        state.insert("attitude".to_owned(), Value::from(attitude.as_slice().to_vec()));
+        let rates = self.state().angular_velocity;
+        state.insert("angular_velocity".to_owned(), Value::from(rates.as_slice().to_vec()));
+        table.insert("body".to_owned(), Value::Table(body));
+        table.insert("state".to_owned(), Value::Table(state));
+        table.to_string()
+    }
+}
+
+/// A table of the file, with what is needed to say where something is wrong.
+struct Keys<'a> {
+    file: &'a str,
+    table: &'a Table,
+    path: &'a str,
+    known: &'a [&'a str],
+}
+
+impl<'a> Keys<'a> {
+    fn error(&self, key: &str, problem: impl Into<String>) -> Error {
+        let key = if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) };
+        Error::SceneFile { file: self.file.to_owned(), key, problem: problem.into() }
+    }
+
+    fn missing(&self, key: &str) -> Error {
+        self.error(key, "is missing, and a scene must have it")
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        match self.table.keys().find(|key| !self.known.contains(&key.as_str())) {
+            Some(key) => Err(self.error(key, format!("is no key of a scene; known here: {}", self.known.join(", ")))),
+            None => Ok(()),
+        }
+    }
+
+    fn table(&self, key: &'a str, known: &'a [&'a str]) -> Result<Self, Error> {
+        let value = self.table.get(key).ok_or_else(|| self.missing(key))?;
+        let table = value.as_table().ok_or_else(|| self.wrong(key, value, "a table"))?;
+        let keys = Keys { file: self.file, table, path: key, known };
+        keys.check()?;
+        Ok(keys)
+    }
+
+    fn wrong(&self, key: &str, value: &Value, expected: &str) -> Error {
+        self.error(key, format!("is {value}: it must be {expected}"))
+    }
+
+    fn number(&self, key: &str) -> Result<Option<f64>, Error> {
+        let parse = |value| as_number(value).ok_or_else(|| self.wrong(key, value, "a number"));
+        self.table.get(key).map(parse).transpose()
+    }
+
+    fn numbers<const N: usize>(&self, key: &str) -> Result<Option<[f64; N]>, Error> {
+        let parse = |value: &Value| {
+            let list: Option<Vec<f64>> = value.as_array()?.iter().map(as_number).collect();
+            list?.try_into().ok()
+        };
+        let Some(value) = self.table.get(key) else { return Ok(None) };
+        parse(value).map(Some).ok_or_else(|| self.wrong(key, value, &format!("a list of {N} numbers")))
+    }
+
+    fn text(&self, key: &str) -> Result<Option<&str>, Error> {
+        let parse = |value: &'a Value| value.as_str().ok_or_else(|| self.wrong(key, value, "a text"));
+        self.table.get(key).map(parse).transpose()
+    }
+
+    fn order(&self) -> Result<Option<usize>, Error> {
+        let expected = format!("a whole number from 0 to {MAX_ORDER}");
+        let parse = |value: &Value| {
+            let order = value.as_integer().and_then(|order| usize::try_from(order).ok());
+            order.filter(|&order| order <= MAX_ORDER).ok_or_else(|| self.wrong("order", value, &expected))
+        };
+        self.table.get("order").map(parse).transpose()
+    }
+
+    fn body(&self) -> Result<Body, Error> {
+        let body = match (self.numbers("moments")?, self.text("named")?) {
+            (Some(moments), None) => Body::new(moments),
+            (None, Some(name)) => Body::named(name),
+            (Some(_), Some(_)) => return Err(self.error("named", "stands beside moments: a body has one or the other")),
+            (None, None) => return Err(self.missing("moments")),
+        };
+        let body = body.map_err(|error| Error::SceneFile {
+            file: self.file.to_owned(),
+            key: self.path.to_owned(),
+            problem: error.to_string(),
+        })?;
+        Ok(match self.text("name")? {
+            Some(name) => body.with_name(name),
+            None => body,
+        })
+    }
+}
+
+/// A float or a whole number.
+fn as_number(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}

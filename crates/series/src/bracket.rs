@@ -1,0 +1,103 @@
+//! The Poisson bracket.
+//!
+//! Convention: {f; g} = Σ ∂f/∂q ∂g/∂p − ∂f/∂p ∂g/∂q over the pairs (q, p), so that {q; p} = 1 (theory §1).
+//! A *canonical* pair is a pair of variable slots (q, p). A *reciprocal* pair (q, r) stands for the canonical pair (q, P) where the
+//! momentum P occurs only as r = 1/P: ∂/∂P = −r² ∂/∂r, hence {q; r} = −r². That is how a momentum in denominators enters polynomials.
+//!
+//! Fused: for terms with exponents (j₁, k₁) and (j₂, k₂) of a pair, one product of coefficients with the integer weight
+//! j₁ k₂ − k₁ j₂; no derivative is ever formed. Cost: one coefficient product for each pair of terms with a weight that is not 0.
+
+use crate::lifted::{Accumulator, Rule};
+use crate::monomial::{check_slot, unit};
+use crate::{Coefficient, Error, Polynomial};
+
+/// A Poisson structure on the variable slots.
+///
+/// ```
+/// use andoyer_series::{Poisson, Polynomial};
+/// let poisson = Poisson::new(&[(0, 1)])?;
+/// let [q, p] = ["q", "p"].map(|name| Polynomial::<f64>::parse(name, &["q", "p"]));
+/// assert_eq!(poisson.bracket(&q?, &p?)?, Polynomial::constant(1.0));
+/// # Ok::<(), andoyer_series::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Poisson {
+    rules: Vec<Rule>,
+}
+
+impl Poisson {
+    /// The structure with the canonical pairs (q, p).
+    ///
+    /// # Errors
+    /// - (0, 8): [`Error::SlotOutOfRange`];
+    /// - (0, 1) and (1, 2): [`Error::SlotRepeated`].
+    pub fn new(pairs: &[(usize, usize)]) -> Result<Self, Error> {
+        let mut poisson = Poisson { rules: Vec::new() };
+        for &(q, p) in pairs {
+            check_slot(q).and(check_slot(p))?;
+            poisson.push(Rule { first: q, second: p, sign: 1, raised: 0, lowered: unit(q) + unit(p) })?;
+        }
+        Ok(poisson)
+    }
+
+    /// This structure with one reciprocal pair (q, r) more, r = 1/P with P conjugate to q: {q; r} = −r².
+    ///
+    /// ```
+    /// use andoyer_series::{Poisson, Polynomial};
+    /// let poisson = Poisson::new(&[])?.with_reciprocal(0, 1)?;
+    /// let parse = |text| Polynomial::<f64>::parse(text, &["q", "r"]);
+    /// assert_eq!(poisson.bracket(&parse("q")?, &parse("r")?)?, parse("-r^2")?);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - (0, 8): [`Error::SlotOutOfRange`];
+    /// - a slot that is in another pair already: [`Error::SlotRepeated`].
+    pub fn with_reciprocal(mut self, q: usize, r: usize) -> Result<Self, Error> {
+        check_slot(q).and(check_slot(r))?;
+        self.push(Rule { first: q, second: r, sign: -1, raised: unit(r), lowered: unit(q) })?;
+        Ok(self)
+    }
+
+    fn push(&mut self, rule: Rule) -> Result<(), Error> {
+        let taken = |slot| self.rules.iter().any(|held| held.first == slot || held.second == slot);
+        let repeated = [rule.first, rule.second].into_iter().find(|&slot| taken(slot));
+        if let Some(slot) = repeated.or((rule.first == rule.second).then_some(rule.first)) {
+            return Err(Error::SlotRepeated { slot });
+        }
+        self.rules.push(rule);
+        Ok(())
+    }
+
+    /// The bracket {f; g}.
+    ///
+    /// # Errors
+    /// - {q^20000 p; q^20000 p^2}: [`Error::ExponentOverflow`].
+    pub fn bracket<C: Coefficient>(&self, f: &Polynomial<C>, g: &Polynomial<C>) -> Result<Polynomial<C>, Error> {
+        let mut sum = Accumulator::new(&[f], &[g]);
+        self.accumulate(&mut sum, 0, 0)?;
+        Ok(sum.finish())
+    }
+
+    /// The Lie derivative of `f` along the flow of `hamiltonian`: L_h f = {f; h}, so that df/dt = L_h f (theory §3).
+    ///
+    /// # Errors
+    /// - as [`bracket`](Self::bracket).
+    pub fn lie_derivative<C: Coefficient>(
+        &self,
+        hamiltonian: &Polynomial<C>,
+        f: &Polynomial<C>,
+    ) -> Result<Polynomial<C>, Error> {
+        self.bracket(f, hamiltonian)
+    }
+
+    /// Adds the bracket of a left with a right polynomial of `sum`, both named by position.
+    pub(crate) fn accumulate<C: Coefficient>(
+        &self,
+        sum: &mut Accumulator<C>,
+        left: usize,
+        right: usize,
+    ) -> Result<(), Error> {
+        sum.add_bracket((left, right), &self.rules)
+    }
+}

@@ -1,0 +1,220 @@
+//! The one error type of the crate.
+//!
+//! Every variant names the argument, its value and the bound that it breaks, in fields. Nothing here is raised by valid input:
+//! an exponent that does not fit its field, a name nobody knows, a text that is not a polynomial, a file that is not a normal form.
+
+use thiserror::Error;
+
+/// What can go wrong, with the offending value and its bound.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// An exponent does not fit its field of the packed monomial.
+    #[error("exponent {exponent} of variable slot {slot} exceeds the bound {bound}")]
+    ExponentOverflow {
+        /// Slot of the variable.
+        slot: usize,
+        /// The exponent asked for.
+        exponent: u64,
+        /// The largest exponent that a field holds.
+        bound: u32,
+    },
+    /// A variable slot beyond the last one.
+    #[error("variable slot {slot} does not exist: there are {count}")]
+    SlotOutOfRange {
+        /// The slot asked for.
+        slot: usize,
+        /// Number of slots.
+        count: usize,
+    },
+    /// A variable slot appears in two pairs, or twice in one.
+    #[error("variable slot {slot} appears more than once")]
+    SlotRepeated {
+        /// The slot.
+        slot: usize,
+    },
+    /// A division by zero, or by an element without an inverse.
+    #[error("division by zero in a coefficient")]
+    DivisionByZero,
+    /// Evaluation lacks the value of a variable that occurs.
+    #[error("no value for variable slot {slot}: {given} values given")]
+    ValueMissing {
+        /// The slot that occurs.
+        slot: usize,
+        /// How many values were given.
+        given: usize,
+    },
+    /// A term in the kernel of the unperturbed motion was handed to the homological equation.
+    #[error("the homological equation has no solution: exponents {exponents:?} lie in the kernel")]
+    Resonant {
+        /// Exponents of the offending term, one for each slot.
+        exponents: [u32; 8],
+    },
+    /// The Hamiltonian of order zero is not the diagonal quadratic form of the homological equation.
+    #[error("the Hamiltonian of order 0 ({terms} terms) is not the sum of eigenvalue * q * p")]
+    UnperturbedMismatch {
+        /// Number of terms in what was given.
+        terms: usize,
+    },
+    /// The progress callback asked to stop.
+    #[error("interrupted after order {done} of {of}")]
+    Interrupted {
+        /// Orders complete.
+        done: usize,
+        /// Orders asked for.
+        of: usize,
+    },
+    /// An order that the packed exponents cannot hold.
+    #[error("order {order} exceeds the bound {bound}")]
+    OrderTooLarge {
+        /// The order asked for.
+        order: usize,
+        /// The largest order.
+        bound: usize,
+    },
+    /// An order outside what was computed.
+    #[error("order {order} of the {what} is outside {minimum}..={maximum}")]
+    OrderOutOfRange {
+        /// What was asked for.
+        what: &'static str,
+        /// The order asked for.
+        order: usize,
+        /// The smallest order there is.
+        minimum: usize,
+        /// The largest order there is.
+        maximum: usize,
+    },
+    /// A name that is none of the known ones.
+    #[error("{what} {name:?} is none of {known}")]
+    NameUnknown {
+        /// What the name stands for.
+        what: &'static str,
+        /// The name given.
+        name: String,
+        /// The known names.
+        known: &'static str,
+    },
+    /// A number outside its interval (NaN is outside every interval).
+    #[error("{argument} = {value} is outside [{lower}, {upper}]")]
+    OutsideInterval {
+        /// Name of the argument.
+        argument: &'static str,
+        /// Its value.
+        value: f64,
+        /// Smallest admissible value.
+        lower: f64,
+        /// Largest admissible value.
+        upper: f64,
+    },
+    /// A text that is not a polynomial.
+    #[error("at byte {position}: {problem}")]
+    Parse {
+        /// Offset of the offending byte.
+        position: usize,
+        /// What is wrong there.
+        problem: ParseProblem,
+    },
+    /// A text that is not JSON, or JSON of another shape.
+    #[error("not the JSON of a normal form: {0}")]
+    Json(#[from] serde_json::Error),
+    /// A JSON document of another format or version.
+    #[error("format {format:?} version {version} is unknown: {known_format:?} version {known_version} is read")]
+    FormatUnknown {
+        /// Name of the format found.
+        format: String,
+        /// Version found.
+        version: u64,
+        /// The format that is read.
+        known_format: &'static str,
+        /// The version that is read.
+        known_version: u64,
+    },
+    /// A rational number that is not in canonical form: `p` or `p/q`, reduced, q > 1.
+    #[error("{text:?} is not a reduced rational \"p/q\"")]
+    RationalMalformed {
+        /// The text found.
+        text: String,
+    },
+    /// A JSON document whose lists do not have the length that its order asks for.
+    #[error("{found} entries under {what:?}, {expected} expected")]
+    CountMismatch {
+        /// Name of the list.
+        what: &'static str,
+        /// Entries found.
+        found: usize,
+        /// Entries expected.
+        expected: usize,
+    },
+    /// A term that no normal form of the rigid body contains.
+    #[error("term {exponents:?} of the {what} of order {order}: {problem}")]
+    TermInconsistent {
+        /// The series that holds it.
+        what: &'static str,
+        /// Order in the small parameter.
+        order: usize,
+        /// Exponents (u, U, β), or (β) alone.
+        exponents: Vec<u32>,
+        /// What is wrong with it.
+        problem: TermProblem,
+    },
+}
+
+/// What is wrong with a text that should be a polynomial.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ParseProblem {
+    /// The text ends where an operand is due.
+    #[error("the text ends where an operand or a bracket is due")]
+    UnexpectedEnd,
+    /// A character that cannot stand there.
+    #[error("unexpected character {0:?}")]
+    UnexpectedCharacter(char),
+    /// A name that is no variable.
+    #[error("unknown name {0:?}")]
+    UnknownName(String),
+    /// The list of names is longer than the number of slots, or holds a name twice or one that is no identifier.
+    #[error("the list of variable names cannot hold {0:?}")]
+    UnusableName(String),
+    /// A divisor that contains a variable.
+    #[error("the divisor is not a constant")]
+    DivisorNotConstant,
+    /// A divisor that is zero.
+    #[error("the divisor is zero")]
+    DivisorZero,
+    /// An exponent above the bound.
+    #[error("the exponent exceeds {bound}")]
+    ExponentTooLarge {
+        /// The largest exponent that is read.
+        bound: u32,
+    },
+    /// Brackets or signs nested too deeply.
+    #[error("nested deeper than {bound}")]
+    TooDeep {
+        /// The deepest nesting that is read.
+        bound: u32,
+    },
+    /// The polynomial that the text stands for takes too much work to expand.
+    #[error("expanding the text takes too much work")]
+    TooLarge,
+}
+
+/// What is wrong with a term read from a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum TermProblem {
+    /// The degree is not the one of that order.
+    #[error("its degree is not the one of this order")]
+    Degree,
+    /// The term lies in the kernel of the unperturbed motion.
+    #[error("it lies in the kernel of the unperturbed motion")]
+    Kernel,
+    /// The coefficient makes the function complex on real motions.
+    #[error("the function would not be real on real motions")]
+    NotReal,
+    /// The same exponents appear twice.
+    #[error("it appears twice")]
+    Repeated,
+    /// The coefficient is zero.
+    #[error("its coefficient is zero")]
+    Zero,
+}

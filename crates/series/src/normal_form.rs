@@ -1,0 +1,205 @@
+//! The normal form of the free rigid body, exact and symbolic in β, to any order.
+//!
+//! What is scaled how: orders are those of τ = α/(√γ V), every form is given without its power of τ, and the public coefficients are
+//! those of u^j U^k β^l (Gaussian rationals). The transformations of u, U and y are computed when they are first asked for.
+//! Cost in release, one core: order 10 in milliseconds, order 20 in well under a second (tests and benches hold the figures).
+//! Source: theory §4 and §6; Lara (2017).
+
+use crate::rigid_body::{self, MAXIMUM_ORDER, PublicForm, Variable};
+use crate::triangle::Progress;
+use crate::{Error, LieTransform, Polynomial, normalize};
+use num_complex::Complex;
+use num_rational::BigRational;
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::sync::OnceLock;
+
+type Series = Vec<Polynomial<BigRational>>;
+
+/// The normal form of the free rigid body to an order in τ.
+///
+/// ```
+/// use andoyer_series::NormalForm;
+/// let normal_form = NormalForm::new(3)?;
+/// let p3 = normal_form.triaxiality_polynomial(3)?;
+/// assert_eq!(p3[&2].to_string(), "-5/8"); // P_3 = -5/8 β²
+/// # Ok::<(), andoyer_series::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct NormalForm {
+    triaxiality: Vec<BTreeMap<u32, BigRational>>,
+    transform: LieTransform<BigRational>,
+    /// Direct and inverse series of w̄ and of ŷ, in the order [direct w̄, direct ŷ, inverse w̄, inverse ŷ].
+    series: [OnceLock<Series>; 4],
+}
+
+impl NormalForm {
+    /// The normal form to `order` ≥ 0.
+    ///
+    /// # Errors
+    /// - order 16382: [`Error::OrderTooLarge`], refused before any work.
+    pub fn new(order: usize) -> Result<Self, Error> {
+        Self::with_progress(order, |_, _| ControlFlow::Continue(()))
+    }
+
+    /// The normal form to `order`, with a callback that is told (orders done, `order`) and may stop the computation.
+    ///
+    /// It is called before every cell of the triangle, so that the same number comes more than once, and with (`order`, `order`) last.
+    ///
+    /// # Errors
+    /// - order 16382: [`Error::OrderTooLarge`], refused before any work;
+    /// - a callback that returns `Break`: [`Error::Interrupted`].
+    pub fn with_progress(
+        order: usize,
+        mut progress: impl FnMut(usize, usize) -> ControlFlow<()>,
+    ) -> Result<Self, Error> {
+        check_order(order)?;
+        let progress: &mut Progress<'_> = &mut progress;
+        let (homological, poisson) = (rigid_body::homological()?, rigid_body::poisson()?);
+        let normalization = normalize(&rigid_body::hamiltonian()?, &homological, &poisson, order, progress)?;
+        let triaxiality = normalization.hamiltonian.iter().map(rigid_body::triaxiality).collect();
+        Ok(Self::from_parts(triaxiality, normalization.transform))
+    }
+
+    pub(crate) fn from_parts(
+        triaxiality: Vec<BTreeMap<u32, BigRational>>,
+        transform: LieTransform<BigRational>,
+    ) -> Self {
+        NormalForm { triaxiality, transform, series: Default::default() }
+    }
+
+    /// The order.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.transform.order()
+    }
+
+    /// The triaxiality polynomial P_n as {power of β: coefficient}, real form: K = M²/(2C) [1 + γ Σ P_n κⁿ σ^{n+1}] (theory §4).
+    ///
+    /// # Errors
+    /// - `n` above the order: [`Error::OrderOutOfRange`].
+    pub fn triaxiality_polynomial(&self, n: usize) -> Result<&BTreeMap<u32, BigRational>, Error> {
+        self.triaxiality.get(n).ok_or_else(|| self.out_of_range("triaxiality polynomial", n, 0))
+    }
+
+    /// The paper's form p_n = (−i)^{n+1} P_n as {power of β: coefficient} (theory §4, and §11 for the misprint).
+    ///
+    /// ```
+    /// let p2 = andoyer_series::NormalForm::new(2)?.paper_polynomial(2)?;
+    /// assert_eq!(p2[&2].to_string(), "0-1/2i"); // P_2 = -β²/2 = i³ p_2
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - `n` above the order: [`Error::OrderOutOfRange`].
+    pub fn paper_polynomial(&self, n: usize) -> Result<BTreeMap<u32, Complex<BigRational>>, Error> {
+        Ok(rigid_body::paper(n, self.triaxiality_polynomial(n)?))
+    }
+
+    /// The generating function S_m · (√γ V/α)^m = Σ c u^j U^k β^l as {(j, k, l): c}, the factor (m−1)! included.
+    ///
+    /// ```
+    /// let s1 = andoyer_series::NormalForm::new(1)?.generator(1)?; // β (u² + U²) uU/8
+    /// assert_eq!(s1.keys().collect::<Vec<_>>(), [&(1, 3, 1), &(3, 1, 1)]);
+    /// assert_eq!(s1[&(3, 1, 1)].to_string(), "1/8+0i");
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - `m` = 0, or above the order: [`Error::OrderOutOfRange`].
+    pub fn generator(&self, m: usize) -> Result<PublicForm, Error> {
+        let generator = self.transform.generator(m).ok_or_else(|| self.out_of_range("generating function", m, 1))?;
+        Ok(rigid_body::public_face(&generator))
+    }
+
+    /// Order `n` of the transformation of a variable to the new ones, as {(j, k, l): c}, 1/n! included.
+    ///
+    /// For u and U: u = u′ + Σ τⁿ Σ c u′^j U′^k β^l. For y: y = y′ + (1/M) Σ τⁿ Σ c u′^j U′^k β^l, that is M · (order n of y) · (√γ V/α)ⁿ,
+    /// since ∂S_m/∂M = −(m/M) S_m (theory §6).
+    ///
+    /// ```
+    /// use andoyer_series::{NormalForm, Variable};
+    /// let y = NormalForm::new(1)?.direct(Variable::Angle, 1)?; // {y; S_1} = −S_1/M
+    /// assert_eq!(y[&(3, 1, 1)].to_string(), "-1/8+0i");
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - `n` = 0, or above the order: [`Error::OrderOutOfRange`].
+    pub fn direct(&self, variable: Variable, n: usize) -> Result<PublicForm, Error> {
+        self.transformation(variable, n, 0, "direct transformation")
+    }
+
+    /// Order `n` of the transformation of a new variable to the old ones, scaled as [`direct`](Self::direct).
+    ///
+    /// ```
+    /// use andoyer_series::{NormalForm, Variable};
+    /// let normal_form = NormalForm::new(1)?;
+    /// let [direct, inverse] = [normal_form.direct(Variable::Momentum, 1)?, normal_form.inverse(Variable::Momentum, 1)?];
+    /// assert!(direct.iter().all(|(exponents, c)| inverse[exponents] == -c)); // to first order
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - `n` = 0, or above the order: [`Error::OrderOutOfRange`].
+    pub fn inverse(&self, variable: Variable, n: usize) -> Result<PublicForm, Error> {
+        self.transformation(variable, n, 2, "inverse transformation")
+    }
+
+    /// The transformation in the rational variables of [`hamiltonian`](crate::hamiltonian), S = i s.
+    #[must_use]
+    pub fn transform(&self) -> &LieTransform<BigRational> {
+        &self.transform
+    }
+
+    fn transformation(
+        &self,
+        variable: Variable,
+        n: usize,
+        direction: usize,
+        what: &'static str,
+    ) -> Result<PublicForm, Error> {
+        if n == 0 || n > self.order() {
+            return Err(self.out_of_range(what, n, 1));
+        }
+        let cell = &self.series[direction + usize::from(variable == Variable::Angle)];
+        let series = match cell.get() {
+            Some(series) => series,
+            None => {
+                let seed = rigid_body::seed(variable);
+                let series = if direction == 0 { self.transform.direct(&seed) } else { self.transform.inverse(&seed) }?;
+                cell.get_or_init(|| series)
+            }
+        };
+        if variable == Variable::Momentum {
+            rigid_body::public_momentum(&series[n])
+        } else {
+            Ok(rigid_body::public_face(&series[n]))
+        }
+    }
+
+    fn out_of_range(&self, what: &'static str, order: usize, minimum: usize) -> Error {
+        Error::OrderOutOfRange { what, order, minimum, maximum: self.order() }
+    }
+}
+
+/// Refuses an order whose exponents do not fit.
+pub(crate) fn check_order(order: usize) -> Result<(), Error> {
+    if order > MAXIMUM_ORDER { Err(Error::OrderTooLarge { order, bound: MAXIMUM_ORDER }) } else { Ok(()) }
+}
+
+impl PartialEq for NormalForm {
+    /// Compares what defines the normal form; which transformations have been computed already does not matter.
+    fn eq(&self, other: &Self) -> bool {
+        self.triaxiality == other.triaxiality && self.transform == other.transform
+    }
+}
+
+impl Eq for NormalForm {}
+
+impl std::hash::Hash for NormalForm {
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        self.triaxiality.hash(state);
+        self.transform.hash(state);
+    }
+}

@@ -1,0 +1,253 @@
+//! Reading polynomials: recursive descent.
+//!
+//! ```text
+//! sum     = product { ("+" | "-") product }
+//! product = signed { ("*" | "/") signed }
+//! signed  = { "+" | "-" } power
+//! power   = atom [ "^" integer ]
+//! atom    = integer | name | "i" | "(" sum ")"
+//! ```
+//!
+//! A divisor is a constant. `i` is the imaginary unit where the coefficients have one and no variable is called so. Hostile text cannot
+//! hang it or overflow the stack: nesting, exponents and coefficients are bounded, and every operation on coefficients is charged, before
+//! it is done, by their sizes. Products are therefore the schoolbook's, reduced term by term: a common denominator could be huge.
+
+use crate::{Coefficient, Error, Monomial, ParseProblem, Polynomial, SLOTS};
+
+const DEEPEST: u32 = 100;
+const LARGEST_EXPONENT: u32 = 1000;
+/// Bits of a coefficient; 10,000 decimal digits each in numerator and denominator.
+const LARGEST_COEFFICIENT: u64 = 1 << 16;
+/// Units of work, each an operation on small fractions or a sixteenth of the square of the words of large ones; about a second.
+const BUDGET: u64 = 1 << 18;
+
+struct Parser<'a> {
+    text: &'a str,
+    position: usize,
+    names: &'a [&'a str],
+    depth: u32,
+    budget: u64,
+}
+
+impl<C: Coefficient> Polynomial<C> {
+    /// Reads a polynomial in the variables `names`, `names[slot]` being the variable of `slot`.
+    ///
+    /// ```
+    /// use andoyer_series::Polynomial;
+    /// use num_complex::Complex;
+    /// use num_rational::BigRational;
+    /// let p = Polynomial::<Complex<BigRational>>::parse("(x + i*y)*(x - i*y)/2", &["x", "y"])?;
+    /// assert_eq!(p.display(&["x", "y"]).to_string(), "1/2*x^2 + 1/2*y^2");
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// All are [`Error::Parse`] with the byte position:
+    /// - `"x +"`, `"x y"`, `"2z"`: an operand missing, a character too many, an unknown name;
+    /// - `"1/x"`, `"1/(2-2)"`: a divisor that is not constant, or zero;
+    /// - `"x^1001"`, a hundred and one brackets, `"(a+b+c+d+e+f+g+h)^1000"`: too large, too deep, too much work;
+    /// - `names` with nine entries, or one twice, or one that is no identifier.
+    pub fn parse(text: &str, names: &[&str]) -> Result<Self, Error> {
+        check_names(names)?;
+        let mut parser = Parser { text, position: 0, names, depth: 0, budget: BUDGET };
+        let value: Self = parser.sum()?;
+        match parser.peek() {
+            None if value.terms().all(|(_, c)| c.is_finite()) => Ok(value),
+            None => Err(parser.fail(ParseProblem::TooLarge)),
+            Some(other) => Err(parser.fail(ParseProblem::UnexpectedCharacter(other))),
+        }
+    }
+}
+
+fn check_names(names: &[&str]) -> Result<(), Error> {
+    let usable = |name: &str| {
+        let mut letters = name.chars();
+        letters.next().is_some_and(is_name_start) && letters.all(is_name_part)
+    };
+    let unusable =
+        names.iter().enumerate().find(|&(slot, name)| slot >= SLOTS || names[..slot].contains(name) || !usable(name));
+    unusable.map_or(Ok(()), |(_, name)| {
+        Err(Error::Parse { position: 0, problem: ParseProblem::UnusableName((*name).to_owned()) })
+    })
+}
+
+fn is_name_start(letter: char) -> bool {
+    letter.is_alphabetic() || letter == '_'
+}
+
+fn is_name_part(letter: char) -> bool {
+    letter.is_alphanumeric() || letter == '_'
+}
+
+impl Parser<'_> {
+    fn rest(&self) -> &str {
+        &self.text[self.position..]
+    }
+
+    /// The next character that is not white space, without taking it.
+    fn peek(&mut self) -> Option<char> {
+        self.position += self.rest().len() - self.rest().trim_start().len();
+        self.rest().chars().next()
+    }
+
+    fn take(&mut self, letter: char) {
+        self.position += letter.len_utf8();
+    }
+
+    fn take_while(&mut self, keep: impl Fn(char) -> bool) -> &str {
+        let start = self.position;
+        let length = self.rest().find(|letter| !keep(letter)).unwrap_or(self.rest().len());
+        self.position += length;
+        &self.text[start..self.position]
+    }
+
+    fn fail(&self, problem: ParseProblem) -> Error {
+        Error::Parse { position: self.position, problem }
+    }
+
+    /// Takes the price of an operation on coefficients of so many bits together; refuses those that are too large.
+    fn charge(&mut self, bits: u64) -> Result<(), Error> {
+        let words = bits / 64;
+        let left = if bits > LARGEST_COEFFICIENT { None } else { self.budget.checked_sub(1 + words * words / 16) };
+        self.budget = left.ok_or_else(|| self.fail(ParseProblem::TooLarge))?;
+        Ok(())
+    }
+
+    fn add<C: Coefficient>(&mut self, sum: &mut Polynomial<C>, monomial: Monomial, c: &C) -> Result<(), Error> {
+        self.charge(c.bits() + sum.coefficient(&monomial).map_or(0, C::bits))?;
+        sum.add_term(monomial, c);
+        Ok(())
+    }
+
+    fn sum<C: Coefficient>(&mut self) -> Result<Polynomial<C>, Error> {
+        let mut sum = self.product::<C>()?;
+        while let Some(sign @ ('+' | '-')) = self.peek() {
+            self.take(sign);
+            let term = self.product::<C>()?;
+            for (monomial, c) in term.terms() {
+                if sign == '+' {
+                    self.add(&mut sum, monomial, c)?;
+                } else {
+                    self.add(&mut sum, monomial, &-c.clone())?;
+                }
+            }
+        }
+        Ok(sum)
+    }
+
+    fn product<C: Coefficient>(&mut self) -> Result<Polynomial<C>, Error> {
+        let mut product = self.signed::<C>()?;
+        while let Some(operator @ ('*' | '/')) = self.peek() {
+            self.take(operator);
+            let position = self.position;
+            let mut factor = self.signed::<C>()?;
+            if operator == '/' {
+                let failure = |problem| Error::Parse { position, problem };
+                let divisor = factor.as_constant().ok_or(failure(ParseProblem::DivisorNotConstant))?;
+                self.charge(2 * divisor.bits())?; // the inverse of a complex number has its squared modulus for denominator
+                factor = Polynomial::constant(divisor.invert().ok_or(failure(ParseProblem::DivisorZero))?);
+            }
+            product = self.multiply(&product, &factor)?;
+        }
+        Ok(product)
+    }
+
+    fn signed<C: Coefficient>(&mut self) -> Result<Polynomial<C>, Error> {
+        let mut negative = false;
+        while let Some(sign @ ('+' | '-')) = self.peek() {
+            self.take(sign);
+            negative ^= sign == '-';
+        }
+        let mut value = self.power::<C>()?;
+        if negative {
+            value = -&value;
+        }
+        Ok(value)
+    }
+
+    fn power<C: Coefficient>(&mut self) -> Result<Polynomial<C>, Error> {
+        let base = self.atom::<C>()?;
+        if self.peek() != Some('^') {
+            return Ok(base);
+        }
+        self.take('^');
+        match self.peek() {
+            Some('0'..='9') => {}
+            Some(other) => return Err(self.fail(ParseProblem::UnexpectedCharacter(other))),
+            None => return Err(self.fail(ParseProblem::UnexpectedEnd)),
+        }
+        let position = self.position;
+        let too_large = Error::Parse { position, problem: ParseProblem::ExponentTooLarge { bound: LARGEST_EXPONENT } };
+        let exponent = self.take_while(|letter| letter.is_ascii_digit()).parse::<u32>().ok();
+        let Some(exponent) = exponent.filter(|&exponent| exponent <= LARGEST_EXPONENT) else { return Err(too_large) };
+        let mut power = Polynomial::constant(C::one());
+        for bit in (0..u32::BITS - exponent.leading_zeros()).rev() {
+            power = self.multiply(&power, &power)?;
+            if exponent >> bit & 1 == 1 {
+                power = self.multiply(&power, &base)?;
+            }
+        }
+        Ok(power)
+    }
+
+    fn atom<C: Coefficient>(&mut self) -> Result<Polynomial<C>, Error> {
+        match self.peek() {
+            None => Err(self.fail(ParseProblem::UnexpectedEnd)),
+            Some('0'..='9') => self.integer(),
+            Some('(') => {
+                self.depth += 1;
+                if self.depth > DEEPEST {
+                    return Err(self.fail(ParseProblem::TooDeep { bound: DEEPEST }));
+                }
+                self.take('(');
+                let value = self.sum()?;
+                match self.peek() {
+                    Some(')') => self.take(')'),
+                    Some(other) => return Err(self.fail(ParseProblem::UnexpectedCharacter(other))),
+                    None => return Err(self.fail(ParseProblem::UnexpectedEnd)),
+                }
+                self.depth -= 1;
+                Ok(value)
+            }
+            Some(letter) if is_name_start(letter) => {
+                let names = self.names;
+                let position = self.position;
+                let name = self.take_while(is_name_part);
+                let polynomial = match (names.iter().position(|known| *known == name), C::imaginary_unit()) {
+                    (Some(slot), _) => Polynomial::variable(slot)?,
+                    (None, Some(unit)) if name == "i" => Polynomial::constant(unit),
+                    _ => return Err(Error::Parse { position, problem: ParseProblem::UnknownName(name.to_owned()) }),
+                };
+                Ok(polynomial)
+            }
+            Some(other) => Err(self.fail(ParseProblem::UnexpectedCharacter(other))),
+        }
+    }
+
+    /// A literal, built in chunks of 18 digits with the ring operations alone.
+    fn integer<C: Coefficient>(&mut self) -> Result<Polynomial<C>, Error> {
+        let digits = self.take_while(|letter| letter.is_ascii_digit()).to_owned();
+        self.charge(digits.len() as u64 * 10 / 3)?;
+        let mut value = C::zero();
+        for chunk in digits.as_bytes().chunks(18) {
+            let (part, base) =
+                chunk.iter().fold((0, 1), |(part, base), &digit| (10 * part + i64::from(digit - b'0'), 10 * base));
+            value = value.times(base);
+            value += &C::integer(part);
+        }
+        Ok(Polynomial::constant(value))
+    }
+
+    fn multiply<C: Coefficient>(&mut self, left: &Polynomial<C>, right: &Polynomial<C>) -> Result<Polynomial<C>, Error> {
+        let mut sum = Polynomial::zero();
+        for (m, a) in left.terms() {
+            for (n, b) in right.terms() {
+                self.charge(a.bits() + b.bits())?;
+                let mut product = a.clone();
+                product *= b;
+                self.add(&mut sum, m.checked_mul(n)?, &product)?;
+            }
+        }
+        Ok(sum)
+    }
+}

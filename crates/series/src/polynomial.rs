@@ -1,0 +1,215 @@
+//! Sparse polynomials in up to eight variables: storage, constructors, parts.
+//!
+//! A hash map from [`Monomial`] to coefficient; a zero coefficient is never stored. The order of the map is never seen: iteration,
+//! printing and summation follow the canonical order of the monomials, so that floats come out with the same bits in every run.
+//! Looking up a term is O(1), iterating in order O(n log n).
+
+use crate::monomial::check_slot;
+use crate::{Coefficient, Error, Monomial};
+use rustc_hash::FxBuildHasher;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::hash::{Hash, Hasher};
+
+pub(crate) type Terms<C> = HashMap<Monomial, C, FxBuildHasher>;
+
+/// A polynomial with coefficients `C`.
+///
+/// ```
+/// use andoyer_series::Polynomial;
+/// use num_rational::BigRational;
+/// let p = Polynomial::<BigRational>::parse("(x + y)^2 - 2*x*y", &["x", "y"])?;
+/// assert_eq!(p.display(&["x", "y"]).to_string(), "x^2 + y^2");
+/// # Ok::<(), andoyer_series::Error>(())
+/// ```
+#[derive(Clone, PartialEq)]
+pub struct Polynomial<C> {
+    pub(crate) terms: Terms<C>,
+}
+
+impl<C: Coefficient> Polynomial<C> {
+    /// The polynomial 0.
+    #[must_use]
+    pub fn zero() -> Self {
+        Polynomial { terms: Terms::default() }
+    }
+
+    /// A constant.
+    #[must_use]
+    pub fn constant(value: C) -> Self {
+        Self::from_terms([(Monomial::ONE, value)])
+    }
+
+    /// The variable in `slot`.
+    ///
+    /// # Errors
+    /// - slot 8: [`Error::SlotOutOfRange`].
+    pub fn variable(slot: usize) -> Result<Self, Error> {
+        Ok(Self::from_terms([(Monomial::ONE.with(slot, 1)?, C::one())]))
+    }
+
+    /// The sum of the given terms; equal monomials are added in the order given.
+    #[must_use]
+    pub fn from_terms(terms: impl IntoIterator<Item = (Monomial, C)>) -> Self {
+        let mut sum = Self::zero();
+        for (monomial, coefficient) in terms {
+            sum.add_term(monomial, &coefficient);
+        }
+        sum
+    }
+
+    /// Adds one term in place.
+    pub fn add_term(&mut self, monomial: Monomial, coefficient: &C) {
+        match self.terms.entry(monomial) {
+            Entry::Occupied(mut held) => {
+                *held.get_mut() += coefficient;
+                if held.get().is_zero() {
+                    held.remove();
+                }
+            }
+            Entry::Vacant(free) => {
+                if !coefficient.is_zero() {
+                    free.insert(coefficient.clone());
+                }
+            }
+        }
+    }
+
+    /// The terms in canonical order.
+    pub fn terms(&self) -> impl ExactSizeIterator<Item = (Monomial, &C)> {
+        self.sorted().into_iter()
+    }
+
+    pub(crate) fn sorted(&self) -> Vec<(Monomial, &C)> {
+        let mut terms: Vec<_> = self.terms.iter().map(|(&m, c)| (m.rank(), m, c)).collect();
+        terms.sort_unstable_by_key(|&(rank, ..)| rank);
+        terms.into_iter().map(|(_, m, c)| (m, c)).collect()
+    }
+
+    /// The coefficient of `monomial`, `None` where it does not occur.
+    #[must_use]
+    pub fn coefficient(&self, monomial: &Monomial) -> Option<&C> {
+        self.terms.get(monomial)
+    }
+
+    /// Number of terms.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.terms.len()
+    }
+
+    /// Whether this is the polynomial 0, which has no terms.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.terms.is_empty()
+    }
+
+    /// Whether this is the polynomial 0.
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.terms.is_empty()
+    }
+
+    /// The value of a constant polynomial (0 for the polynomial 0), `None` where a variable occurs.
+    #[must_use]
+    pub fn as_constant(&self) -> Option<C> {
+        match self.len() {
+            0 => Some(C::zero()),
+            1 => self.coefficient(&Monomial::ONE).cloned(),
+            _ => None,
+        }
+    }
+
+    /// The polynomial with every coefficient mapped, to another type for instance.
+    #[must_use]
+    pub fn map<D: Coefficient>(&self, mut function: impl FnMut(&C) -> D) -> Polynomial<D> {
+        Polynomial::from_terms(self.terms().map(|(monomial, c)| (monomial, function(c))))
+    }
+
+    /// The terms for which `keep` holds.
+    #[must_use]
+    pub fn filter(&self, mut keep: impl FnMut(Monomial, &C) -> bool) -> Self {
+        let kept = self.terms.iter().filter(|&(&monomial, c)| keep(monomial, c));
+        Polynomial { terms: kept.map(|(&monomial, c)| (monomial, c.clone())).collect() }
+    }
+
+    /// The terms that `truncation` keeps.
+    #[must_use]
+    pub fn truncate(&self, truncation: &Truncation) -> Self {
+        self.filter(|monomial, _| truncation.keeps(monomial))
+    }
+
+    /// The terms of total degree `degree`.
+    #[must_use]
+    pub fn homogeneous_part(&self, degree: u32) -> Self {
+        self.filter(|monomial, _| monomial.total_degree() == degree)
+    }
+
+    /// The terms of degree `degree` in the variable of `slot`.
+    ///
+    /// # Errors
+    /// - slot 8: [`Error::SlotOutOfRange`].
+    pub fn part(&self, slot: usize, degree: u32) -> Result<Self, Error> {
+        check_slot(slot)?;
+        Ok(self.filter(|monomial, _| monomial.exponent(slot) == degree))
+    }
+
+    /// Largest total degree of a term, `None` for the polynomial 0.
+    #[must_use]
+    pub fn degree(&self) -> Option<u32> {
+        self.terms.keys().map(|monomial| monomial.total_degree()).max()
+    }
+}
+
+impl<C: Coefficient> Default for Polynomial<C> {
+    fn default() -> Self {
+        Self::zero()
+    }
+}
+
+impl<C: Coefficient + Eq> Eq for Polynomial<C> {}
+
+impl<C: Coefficient + Hash> Hash for Polynomial<C> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let terms = self.sorted();
+        state.write_usize(terms.len());
+        terms.hash(state);
+    }
+}
+
+/// Which terms of a product are kept: those up to a total degree, or up to a degree in some of the variables.
+///
+/// ```
+/// use andoyer_series::{Polynomial, Truncation};
+/// let p = Polynomial::<f64>::parse("x^2*y + x*y^2", &["x", "y"])?;
+/// assert_eq!(p.truncate(&Truncation::partial(&[0], 1)?).display(&["x", "y"]).to_string(), "x*y^2");
+/// # Ok::<(), andoyer_series::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Truncation {
+    slots: Vec<usize>,
+    degree: u32,
+}
+
+impl Truncation {
+    /// Keeps what is of total degree `degree` at most.
+    #[must_use]
+    pub fn total(degree: u32) -> Self {
+        Truncation { slots: (0..crate::SLOTS).collect(), degree }
+    }
+
+    /// Keeps what is of degree `degree` at most in the variables of `slots` together.
+    ///
+    /// # Errors
+    /// - slot 8: [`Error::SlotOutOfRange`].
+    pub fn partial(slots: &[usize], degree: u32) -> Result<Self, Error> {
+        slots.iter().try_for_each(|&slot| check_slot(slot))?;
+        Ok(Truncation { slots: slots.to_vec(), degree })
+    }
+
+    /// Whether a monomial is kept.
+    #[must_use]
+    pub fn keeps(&self, monomial: Monomial) -> bool {
+        monomial.degree_in(&self.slots) <= self.degree
+    }
+}

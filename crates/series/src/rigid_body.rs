@@ -1,0 +1,204 @@
+//! The free rigid body: the one file that knows it.
+//!
+//! Convention, with w = √L e^{iℓ}, u = i w̄, U = w, S = i s, τ = α/(√γ V) and the time unit C/(√γ V) (theory §1, §2):
+//!
+//! ```text
+//! H = w w̄ − (τ/4) [ 2 w² w̄² + β (w³ w̄ + w w̄³) ]        (the constant part in V² is dropped; it returns in K)
+//! ```
+//!
+//! [f; s] := {f; i s} is canonical for the pair (q, p) = (w̄, w), [f; s] = ∂f/∂w̄ ∂s/∂w − ∂f/∂w ∂s/∂w̄, and with y = i ŷ, M in units of
+//! κ = α/γ (τ = 1/M), [ŷ; s] = ∂s/∂M is the reciprocal pair (ŷ, τ). So all coefficients are rational; the Gaussian rationals of the
+//! paper's u, U are the public face: w̄^j w^k = (−i)^j u^j U^k. Then K = Σ k_n τⁿ (w w̄)^{n+1}, P_n = 2 k_n and p_n = (−i)^{n+1} P_n (theory §4).
+//! Source: Lara (2017) with the errata of theory §11. Cost of `NormalForm::new`: see there.
+
+use crate::{Coefficient, Error, Homological, Monomial, Poisson, Polynomial, TermProblem};
+use num_complex::Complex;
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
+use std::str::FromStr;
+
+/// Slot of w̄ = −i u, the coordinate of the rational pair.
+pub const W_BAR: usize = 0;
+/// Slot of w = U, the momentum of the rational pair.
+pub const W: usize = 1;
+/// Slot of τ = α/(√γ V) = κ/M, the small parameter.
+pub const TAU: usize = 2;
+/// Slot of the triaxiality β.
+pub const BETA: usize = 3;
+/// Slot of ŷ = −i y.
+pub const Y_HAT: usize = 4;
+
+/// Largest order whose exponents fit the packed monomials: a product of two parts of orders a + b = N has degree 2N + 4 at most.
+pub const MAXIMUM_ORDER: usize = (crate::MAXIMUM_EXPONENT as usize - 4) / 2;
+
+/// Coefficients of a form by its exponents (j, k, l): Σ c u^j U^k β^l.
+pub type PublicForm = BTreeMap<(u32, u32, u32), Complex<BigRational>>;
+
+/// A variable of the paper whose transformation is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Variable {
+    /// The coordinate u.
+    Coordinate,
+    /// The momentum U.
+    Momentum,
+    /// The angle y.
+    Angle,
+}
+
+impl FromStr for Variable {
+    type Err = Error;
+
+    /// Reads "u", "U" or "y".
+    fn from_str(name: &str) -> Result<Self, Error> {
+        match name {
+            "u" => Ok(Variable::Coordinate),
+            "U" => Ok(Variable::Momentum),
+            "y" => Ok(Variable::Angle),
+            _ => Err(Error::NameUnknown { what: "variable", name: name.to_owned(), known: "\"u\", \"U\", \"y\"" }),
+        }
+    }
+}
+
+impl Variable {
+    /// The name, as `from_str` reads it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Variable::Coordinate => "u",
+            Variable::Momentum => "U",
+            Variable::Angle => "y",
+        }
+    }
+}
+
+/// The scaled Hamiltonian of theory §2, its parts of order 0 and 1 in τ, in the slots [`W_BAR`], [`W`], [`TAU`], [`BETA`].
+///
+/// ```
+/// let [main, perturbation] = andoyer_series::hamiltonian::<f64>()?;
+/// assert_eq!(main.display(&["v", "w"]).to_string(), "v*w");
+/// assert_eq!(perturbation.evaluate(&[1.0, 1.0, 1.0, 0.5])?, -0.75);
+/// # Ok::<(), andoyer_series::Error>(())
+/// ```
+///
+/// # Errors
+/// - coefficients of characteristic 2, where 4 has no inverse: [`Error::DivisionByZero`].
+pub fn hamiltonian<C: Coefficient>() -> Result<[Polynomial<C>; 2], Error> {
+    let term = |w_bar, w, tau, beta| Monomial::small([w_bar, w, tau, beta, 0, 0, 0, 0]);
+    let ratio = |numerator| C::ratio(numerator, 4).ok_or(Error::DivisionByZero);
+    let perturbation = [(term(2, 2, 1, 0), ratio(-2)?), (term(1, 3, 1, 1), ratio(-1)?), (term(3, 1, 1, 1), ratio(-1)?)];
+    let main = [(term(1, 1, 0, 0), C::one())];
+    Ok([Polynomial::from_terms(main), Polynomial::from_terms(perturbation)])
+}
+
+/// The bracket [f; s] = {f; i s} of the rational variables: the pair (w̄, w) and the reciprocal pair (ŷ, τ).
+///
+/// # Errors
+/// - none: the slots differ.
+pub fn poisson() -> Result<Poisson, Error> {
+    Poisson::new(&[(W_BAR, W)])?.with_reciprocal(Y_HAT, TAU)
+}
+
+/// The homological equation of the main part w w̄.
+///
+/// # Errors
+/// - none: the slots differ.
+pub fn homological<C: Coefficient>() -> Result<Homological<C>, Error> {
+    Homological::new(&[(W_BAR, W, C::one())])
+}
+
+/// The action σ_sep of the separatrix, in units of M: the radius of convergence of the series in σ = L/M.
+///
+/// σ_sep = (2/π) atan2(√(1−β), √(2β)): the integral of theory §5 at Eγ/α = 1 − β, where the integrand is √(2β) |sin ν| / √(1−β+2β sin²ν)
+/// and the primitive an arcsine of cos ν. It falls from 1 at `beta` = 0 to 0 at `beta` = 1.
+///
+/// ```
+/// let action = andoyer_series::separatrix_action(0.5)?;
+/// assert!((action - 0.39183).abs() < 5e-6); // table of theory §5
+/// # Ok::<(), andoyer_series::Error>(())
+/// ```
+///
+/// # Errors
+/// - `beta` = −0.1, 1.1 or NaN: [`Error::OutsideInterval`].
+pub fn separatrix_action(beta: f64) -> Result<f64, Error> {
+    if (0.0..=1.0).contains(&beta) {
+        Ok((1.0 - beta).sqrt().atan2((2.0 * beta).sqrt()) / FRAC_PI_2)
+    } else {
+        Err(Error::OutsideInterval { argument: "beta", value: beta, lower: 0.0, upper: 1.0 })
+    }
+}
+
+/// P_n from the coefficient of τⁿ of the normal form: P_n = 2 k_n.
+pub(crate) fn triaxiality(normal: &Polynomial<BigRational>) -> BTreeMap<u32, BigRational> {
+    normal.terms().map(|(monomial, c)| (monomial.exponent(BETA), c.times(2))).collect()
+}
+
+/// p_n = (−i)^{n+1} P_n.
+pub(crate) fn paper(n: usize, real: &BTreeMap<u32, BigRational>) -> BTreeMap<u32, Complex<BigRational>> {
+    real.iter().map(|(&power, c)| (power, turned(c, 3 * (n + 1)))).collect()
+}
+
+/// The public face i · f of a form f in w̄, w (a generating function, ŷ, or w̄ itself).
+pub(crate) fn public_face(form: &Polynomial<BigRational>) -> PublicForm {
+    faces(form, 1)
+}
+
+/// The public face of U, from the transformation of w̄: that of w is its image under the exchange of w̄ and w, since s is odd under it.
+pub(crate) fn public_momentum(form: &Polynomial<BigRational>) -> Result<PublicForm, Error> {
+    Ok(faces(&form.exchange(W_BAR, W)?, 0))
+}
+
+fn faces(form: &Polynomial<BigRational>, turns: usize) -> PublicForm {
+    let face = |(monomial, c): (Monomial, &BigRational)| {
+        let (j, k, l) = (monomial.exponent(W_BAR), monomial.exponent(W), monomial.exponent(BETA));
+        ((j, k, l), turned(c, turns + 3 * j as usize))
+    };
+    form.terms().map(face).collect()
+}
+
+/// The form s in w̄, w, τ of order m whose public face is i s.
+///
+/// S is real on real motions where s has real coefficients and changes its sign under the exchange of w̄ and w.
+pub(crate) fn private_form(m: u32, face: &PublicForm) -> Result<Polynomial<BigRational>, Error> {
+    let complex = |j, k, l| Error::TermInconsistent {
+        what: "generating function",
+        order: m as usize,
+        exponents: vec![j, k, l],
+        problem: TermProblem::NotReal,
+    };
+    let mut form = Polynomial::zero();
+    for (&(j, k, l), c) in face {
+        let c = turned_complex(c, j as usize + 3);
+        if !c.im.is_zero() {
+            return Err(complex(j, k, l));
+        }
+        form.add_term(Monomial::new(&[j, k, m, l])?, &c.re);
+    }
+    let defect = &form + &form.exchange(W_BAR, W)?;
+    match defect.terms().next() {
+        None => Ok(form),
+        Some((at, _)) => Err(complex(at.exponent(W_BAR), at.exponent(W), at.exponent(BETA))),
+    }
+}
+
+/// iⁿ c.
+fn turned(c: &BigRational, n: usize) -> Complex<BigRational> {
+    turned_complex(&Complex::new(c.clone(), BigRational::zero()), n)
+}
+
+fn turned_complex(c: &Complex<BigRational>, n: usize) -> Complex<BigRational> {
+    match n % 4 {
+        0 => c.clone(),
+        1 => Complex::new(-c.im.clone(), c.re.clone()),
+        2 => -c.clone(),
+        _ => Complex::new(c.im.clone(), -c.re.clone()),
+    }
+}
+
+/// The variable of the rational pair whose transformation yields that of `variable`.
+pub(crate) fn seed(variable: Variable) -> Polynomial<BigRational> {
+    let mut exponents = [0; crate::SLOTS];
+    exponents[if variable == Variable::Angle { Y_HAT } else { W_BAR }] = 1;
+    Polynomial::from_terms([(Monomial::small(exponents), BigRational::one())])
+}

@@ -1,0 +1,229 @@
+//! Deprit's triangle: normalization, direct and inverse transformation, to any order.
+//!
+//! Convention (theory §4): f_{n,q} = f_{n+1,q−1} + Σ_{0≤m≤n} C(n,m) {f_{n−m,q−1}; S_{m+1}}. Here it runs without binomials, on
+//! g_{n,q} = f_{n,q}/n! and T_m = S_m/(m−1)!:
+//!
+//! ```text
+//! g_{n,q} = (n+1) g_{n+1,q−1} + Σ_{0≤m≤n} {g_{n−m,q−1}; T_{m+1}}
+//! ```
+//!
+//! Series are lists of the coefficients of ε⁰, ε¹, …: the Hamiltonian H_{n,0}/n!, the normal form H_{0,n}/n!, a transformed function
+//! f_{0,n}/n!. Order N costs N(N+1)(N+2)/6 brackets; each inner sum is accumulated unreduced. The inverse transformation obeys
+//! (n+1) G_{n+1} = −Σ {G_{n−m}; T_{m+1}}, G_0 = f, and costs N(N+1)/2 brackets.
+
+use crate::lifted::Accumulator;
+use crate::{Coefficient, Error, Homological, Poisson, Polynomial};
+use std::ops::ControlFlow;
+
+/// What a progress callback receives: orders done, orders asked for. Returning `Break` stops the computation.
+pub type Progress<'a> = dyn FnMut(usize, usize) -> ControlFlow<()> + 'a;
+
+/// A canonical transformation given by its generating function S = Σ εᵐ T_{m+1}, T_m = S_m/(m−1)!.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct LieTransform<C: Coefficient> {
+    poisson: Poisson,
+    scaled: Vec<Polynomial<C>>,
+}
+
+/// A normalized Hamiltonian and the transformation that normalizes it.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Normalization<C: Coefficient> {
+    /// The coefficients K_n/n! of ε⁰, ε¹, … of the normal form.
+    pub hamiltonian: Vec<Polynomial<C>>,
+    /// The transformation.
+    pub transform: LieTransform<C>,
+}
+
+/// Normalizes H = Σ εⁿ `hamiltonian[n]` to order `order` (missing coefficients are 0).
+///
+/// `hamiltonian[0]` is the quadratic part of `homological`. `progress` is called before every cell of the triangle with the number of
+/// orders done (so a number comes more than once) and with (order, order) at the end.
+///
+/// ```
+/// use andoyer_series::{Homological, Poisson, Polynomial, normalize};
+/// use num_rational::BigRational;
+/// use std::ops::ControlFlow;
+/// let parse = |text| Polynomial::<BigRational>::parse(text, &["q", "p"]);
+/// let homological = Homological::new(&[(0, 1, BigRational::from_integer(1.into()))])?;
+/// let series = [parse("q*p")?, parse("q^3 + p^3")?];
+/// let normalization = normalize(&series, &homological, &Poisson::new(&[(0, 1)])?, 2, &mut |_, _| ControlFlow::Continue(()))?;
+/// assert_eq!(normalization.hamiltonian[2], parse("-3*q^2*p^2")?);
+/// # Ok::<(), andoyer_series::Error>(())
+/// ```
+///
+/// # Errors
+/// - `hamiltonian[0]` = q²: [`Error::UnperturbedMismatch`];
+/// - a callback that returns `Break`: [`Error::Interrupted`];
+/// - degrees that outgrow the packed exponents: [`Error::ExponentOverflow`].
+pub fn normalize<C: Coefficient>(
+    hamiltonian: &[Polynomial<C>],
+    homological: &Homological<C>,
+    poisson: &Poisson,
+    order: usize,
+    progress: &mut Progress<'_>,
+) -> Result<Normalization<C>, Error> {
+    let unperturbed = homological.unperturbed()?;
+    if hamiltonian.first() != Some(&unperturbed) {
+        return Err(Error::UnperturbedMismatch { terms: hamiltonian.first().map_or(0, Polynomial::len) });
+    }
+    let mut transform = LieTransform { poisson: poisson.clone(), scaled: Vec::new() };
+    let mut triangle = Triangle::new(unperturbed.clone());
+    let mut normal = vec![unperturbed];
+    let mut factorial = C::one(); // (n−1)!
+    for n in 1..=order {
+        let source = hamiltonian.get(n).cloned().unwrap_or_default();
+        triangle.extend(source, &transform, &mut |_| stop(progress(n - 1, order), n - 1, order))?;
+        let (_, image) = homological.split(triangle.corner());
+        let solution = homological.solve(&image)?; // S_n
+        let inverse = factorial.invert().ok_or(Error::DivisionByZero)?;
+        transform.scaled.push(solution.scale(&inverse));
+        triangle.subtract(&image)?;
+        factorial = factorial.times(n as i64);
+        let inverse = factorial.invert().ok_or(Error::DivisionByZero)?;
+        normal.push(triangle.corner().scale(&inverse));
+    }
+    stop(progress(order, order), order, order)?;
+    Ok(Normalization { hamiltonian: normal, transform })
+}
+
+fn stop(flow: ControlFlow<()>, done: usize, of: usize) -> Result<(), Error> {
+    if flow.is_break() { Err(Error::Interrupted { done, of }) } else { Ok(()) }
+}
+
+impl<C: Coefficient> LieTransform<C> {
+    /// The transformation with the generating functions T_1, T_2, … (T_m = S_m/(m−1)!).
+    #[must_use]
+    pub fn new(poisson: Poisson, scaled: Vec<Polynomial<C>>) -> Self {
+        LieTransform { poisson, scaled }
+    }
+
+    /// The order to which the transformation is known.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.scaled.len()
+    }
+
+    /// T_m = S_m/(m−1)!, `None` beyond the order.
+    #[must_use]
+    pub fn scaled_generator(&self, m: usize) -> Option<&Polynomial<C>> {
+        self.scaled.get(m.checked_sub(1)?)
+    }
+
+    /// S_m, `None` beyond the order.
+    #[must_use]
+    pub fn generator(&self, m: usize) -> Option<Polynomial<C>> {
+        let factorial = (1..m as i64).fold(C::one(), |product, factor| product.times(factor));
+        self.scaled_generator(m).map(|scaled| scaled.scale(&factorial))
+    }
+
+    /// The coefficients f_{0,n}/n! of ε⁰, ε¹, … of f expressed in the new variables.
+    ///
+    /// # Errors
+    /// - degrees that outgrow the packed exponents: [`Error::ExponentOverflow`].
+    pub fn direct(&self, f: &Polynomial<C>) -> Result<Vec<Polynomial<C>>, Error> {
+        let mut triangle = Triangle::new(f.clone());
+        let mut series = vec![f.clone()];
+        let mut factorial = C::one();
+        for n in 1..=self.order() {
+            triangle.extend(Polynomial::zero(), self, &mut |_| Ok(()))?;
+            factorial = factorial.times(n as i64);
+            let inverse = factorial.invert().ok_or(Error::DivisionByZero)?;
+            series.push(triangle.corner().scale(&inverse));
+        }
+        Ok(series)
+    }
+
+    /// The coefficients of ε⁰, ε¹, … of f, a function of the new variables, expressed in the old ones.
+    ///
+    /// # Errors
+    /// - degrees that outgrow the packed exponents: [`Error::ExponentOverflow`].
+    pub fn inverse(&self, f: &Polynomial<C>) -> Result<Vec<Polynomial<C>>, Error> {
+        let mut series = vec![f.clone()];
+        for n in 0..self.order() {
+            let left: Vec<_> = series.iter().rev().collect();
+            let right: Vec<_> = self.scaled[..=n].iter().collect();
+            let mut sum = Accumulator::new(&left, &right);
+            for m in 0..=n {
+                self.poisson.accumulate(&mut sum, m, m)?;
+            }
+            series.push(sum.finish().over(-(n as i64) - 1)?);
+        }
+        Ok(series)
+    }
+}
+
+/// The triangle, column by column: `columns[q][n]` = g_{n,q}.
+struct Triangle<C> {
+    columns: Vec<Vec<Polynomial<C>>>,
+}
+
+impl<C: Coefficient> Triangle<C> {
+    /// The triangle of order 0.
+    fn new(apex: Polynomial<C>) -> Self {
+        Triangle { columns: vec![vec![apex]] }
+    }
+
+    /// Adds the next anti-diagonal n + q = N, from the coefficient `source` of ε^N. A generator T_N that is not known counts as 0.
+    fn extend(
+        &mut self,
+        source: Polynomial<C>,
+        transform: &LieTransform<C>,
+        before_cell: &mut dyn FnMut(usize) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let order = self.columns.len();
+        self.columns[0].push(source);
+        self.columns.push(Vec::new());
+        for q in 1..=order {
+            before_cell(q)?;
+            let cell = self.cell(order - q, q - 1, transform)?;
+            self.columns[q].push(cell);
+        }
+        Ok(())
+    }
+
+    /// g_{n,q+1} = (n+1) g_{n+1,q} + Σ {g_{n−m,q}; T_{m+1}}, one unreduced sum.
+    fn cell(&self, n: usize, q: usize, transform: &LieTransform<C>) -> Result<Polynomial<C>, Error> {
+        let column = &self.columns[q];
+        let one = Polynomial::constant(C::one());
+        let known = (n + 1).min(transform.order());
+        let pairs: Vec<_> = (0..known)
+            .map(|m| (&column[n - m], &transform.scaled[m]))
+            .filter(|(f, g)| !f.is_zero() && !g.is_zero())
+            .collect();
+        let mut left: Vec<_> = pairs.iter().map(|&(f, _)| f).collect();
+        let mut right: Vec<_> = pairs.iter().map(|&(_, g)| g).collect();
+        left.push(&column[n + 1]);
+        right.push(&one);
+        let mut sum = Accumulator::new(&left, &right);
+        for pair in 0..pairs.len() {
+            transform.poisson.accumulate(&mut sum, pair, pair)?;
+        }
+        sum.add_product((pairs.len(), pairs.len()), n as i64 + 1, None)?;
+        Ok(sum.finish())
+    }
+
+    /// The last cell computed: g_{0,N} = f_{0,N}.
+    fn corner(&self) -> &Polynomial<C> {
+        // Columns are never empty: `new` fills the first, `extend` every one that it adds.
+        &self.columns[self.columns.len() - 1][0]
+    }
+
+    /// Completes the last anti-diagonal once T_N is known: {h₀; T_N} = −image/(N−1)! enters g_{N−1,1} and, by the recursion, g_{n,q}
+    /// as −image/n!. No bracket is computed for it.
+    fn subtract(&mut self, image: &Polynomial<C>) -> Result<(), Error> {
+        let order = self.columns.len() - 1;
+        let one = Polynomial::constant(C::one());
+        let mut share = one.clone(); // 1/n!
+        for n in 0..order {
+            if n > 1 {
+                share = share.over(n as i64)?;
+            }
+            let cell = &mut self.columns[order - n][n];
+            let mut sum = Accumulator::new(&[cell, image], &[&one, &share]);
+            sum.add_product((0, 0), 1, None)?;
+            sum.add_product((1, 1), -1, None)?;
+            *cell = sum.finish();
+        }
+        Ok(())
+    }
+}

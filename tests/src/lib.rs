@@ -1,0 +1,62 @@
+//! What the whole-project tests share: reference solutions and the distance between attitudes.
+
+use serde_json::Value;
+
+/// A reference solution: a body, its state at t = 0, and what multiple precision says of later times.
+#[derive(Debug)]
+pub struct Case {
+    /// Its name in the file.
+    pub name: String,
+    /// Moments about body axes 1, 2, 3.
+    pub moments: [f64; 3],
+    /// Attitude at t = 0, [x, y, z, w].
+    pub attitude: [f64; 4],
+    /// Angular velocity at t = 0, body components.
+    pub angular_velocity: [f64; 3],
+    /// Time, attitude and angular velocity, rounded to double.
+    pub states: Vec<(f64, [f64; 4], [f64; 3])>,
+}
+
+/// The cases of a reference file's text.
+///
+/// # Panics
+/// When the file is not what it should be: a test can't go on without it.
+pub fn cases(text: &str) -> Vec<Case> {
+    let file: Value = serde_json::from_str(text).expect("the reference file is JSON");
+    file.as_array().expect("a list of cases").iter().map(case).collect()
+}
+
+fn case(value: &Value) -> Case {
+    let states = value["states"].as_array().expect("states").iter();
+    Case {
+        name: value["name"].as_str().expect("a name").to_owned(),
+        moments: numbers(&value["moments"]),
+        attitude: numbers(&value["attitude0_xyzw"]),
+        angular_velocity: numbers(&value["angular_velocity0"]),
+        states: states
+            .map(|s| (s["t"].as_f64().expect("t"), numbers(&s["attitude_xyzw"]), numbers(&s["angular_velocity"])))
+            .collect(),
+    }
+}
+
+fn numbers<const N: usize>(value: &Value) -> [f64; N] {
+    let number = |v: &Value| match v {
+        Value::String(text) => text.parse().expect("a decimal"),
+        other => other.as_f64().expect("a number"),
+    };
+    let list: Vec<f64> = value.as_array().expect("a list").iter().map(number).collect();
+    list.try_into().expect("the right length")
+}
+
+/// Angle of the rotation from one attitude to another [rad], without cancellation.
+pub fn attitude_error(q: [f64; 4], reference: [f64; 4]) -> f64 {
+    let dot: f64 = q.iter().zip(reference).map(|(a, b)| a * b).sum();
+    let sign = dot.signum();
+    let square: f64 = q.iter().zip(reference).map(|(a, b)| (a - sign * b).powi(2)).sum();
+    4.0 * (0.5 * square.sqrt()).min(1.0).asin()
+}
+
+/// Largest difference of two vectors' components.
+pub fn difference(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
