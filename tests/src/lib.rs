@@ -60,3 +60,28 @@ pub fn attitude_error(q: [f64; 4], reference: [f64; 4]) -> f64 {
 pub fn difference(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
+
+/// The equations of a document: the lines `name = expression` of its fenced blocks marked `equation`.
+pub fn equations(document: &str) -> Vec<(String, String)> {
+    let mut inside = false;
+    let mut found = Vec::new();
+    for line in document.lines() {
+        if line.starts_with("```") {
+            inside = line == "```equation";
+        } else if inside && let Some((name, expression)) = line.split_once(" = ") {
+            found.push((name.to_owned(), expression.to_owned()));
+        }
+    }
+    found
+}
+
+/// The one equation of that name.
+///
+/// # Panics
+/// When the document has none, or two.
+pub fn equation(document: &str, name: &str) -> String {
+    let mut found = equations(document).into_iter().filter(|(candidate, _)| candidate == name);
+    let (_, expression) = found.next().unwrap_or_else(|| panic!("no equation {name}"));
+    assert!(found.next().is_none(), "two equations {name}");
+    expression
+}

@@ -145,6 +145,19 @@ impl Motion {
         Ok(())
     }
 
+    /// Angular momenta, inertial components, at many times, without an allocation.
+    ///
+    /// # Errors
+    /// As [`Motion::attitudes_into`].
+    pub fn angular_momenta_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
+        length("out", out.len(), times.len())?;
+        for ((index, &time), slot) in times.iter().enumerate().zip(out) {
+            self.elapsed(index, time)?;
+            *slot = self.angular_momentum.into();
+        }
+        Ok(())
+    }
+
     /// Attitudes and angular velocities at many times, without an allocation.
     ///
     /// # Errors

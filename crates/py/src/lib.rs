@@ -1,1 +1,47 @@
-//! Stub.
+//! Python's face of andoyer: the extension module `andoyer._core`.
+//!
+//! One file for each class of the Python package, each a thin frozen wrapper round the Rust type of the same name; arguments are
+//! converted in `array` and `order`, errors in `error`. No mathematics here: what Python can do, Rust can.
+//! Arrays are float64 in C order: times (n,), attitudes (n, 4) as [x, y, z, w], vectors (n, 3). The interpreter lock is released round
+//! everything that computes. Doc comments of `#[pyclass]` and `#[pymethods]` items are Python's docstrings, in NumPy's style; the stub is
+//! `python/andoyer/_core.pyi`, and a test holds the two together.
+
+// Docstrings speak of Python's names and of arrays like [x, y, z, w].
+#![allow(rustdoc::broken_intra_doc_links)]
+
+mod array;
+mod body;
+mod error;
+mod motion;
+mod normal_form;
+mod order;
+mod plan;
+mod samples;
+mod scene;
+
+/// Compiled core of the package `andoyer`, which re-exports all of it.
+#[pyo3::pymodule]
+mod _core {
+    #[pymodule_export]
+    use super::body::Body;
+    #[pymodule_export]
+    use super::error::{
+        AngularVelocityError, AttitudeError, EpochError, Error, FormatError, IntervalError, MethodError, ModeError,
+        MomentsError, OrderError, SceneFileError, SeparatrixError, SeriesError, ShapeError, SpanError, TimesError,
+        ToleranceError, UnknownBodyError, UnknownNameError,
+    };
+    #[pymodule_export]
+    use super::motion::Motion;
+    #[pymodule_export]
+    use super::normal_form::{NormalForm, separatrix_action};
+    #[pymodule_export]
+    use super::plan::Plan;
+    #[pymodule_export]
+    use super::samples::Samples;
+    #[pymodule_export]
+    use super::scene::Scene;
+
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "Python's name for it")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

@@ -1,11 +1,13 @@
 //! The Poisson bracket.
 //!
-//! Convention: {f; g} = Σ ∂f/∂q ∂g/∂p − ∂f/∂p ∂g/∂q over the pairs (q, p), so that {q; p} = 1 (theory §1).
-//! A *canonical* pair is a pair of variable slots (q, p). A *reciprocal* pair (q, r) stands for the canonical pair (q, P) where the
-//! momentum P occurs only as r = 1/P: ∂/∂P = −r² ∂/∂r, hence {q; r} = −r². That is how a momentum in denominators enters polynomials.
+//! Convention: {f; g} = Σ ∂f/∂q ∂g/∂p − ∂f/∂p ∂g/∂q over the pairs (q, p), so that {q; p} = 1 (theory §1). A
+//! *canonical* pair is a pair of variable slots (q, p). A *reciprocal* pair (q, r) stands for the canonical pair (q, P)
+//! where the momentum P occurs only as r = 1/P: ∂/∂P = −r² ∂/∂r, hence {q; r} = −r². That is how a momentum in
+//! denominators enters polynomials.
 //!
 //! Fused: for terms with exponents (j₁, k₁) and (j₂, k₂) of a pair, one product of coefficients with the integer weight
-//! j₁ k₂ − k₁ j₂; no derivative is ever formed. Cost: one coefficient product for each pair of terms with a weight that is not 0.
+//! j₁ k₂ − k₁ j₂; no derivative is ever formed. Cost: one coefficient product for each pair of terms with a weight that
+//! is not 0.
 
 use crate::lifted::{Accumulator, Rule};
 use crate::monomial::{check_slot, unit};

@@ -155,7 +155,8 @@ impl<'a, C: Coefficient> Powers<'a, C> {
         Powers { base, truncation, known }
     }
 
-    /// The power `exponent`, from the largest one known below it (exponents come in ascending order for the first variable).
+    /// The power `exponent`, from the largest one known below it (exponents come in ascending order for the first
+    /// variable).
     fn get(&mut self, exponent: u32) -> Result<&Polynomial<C>, Error> {
         if !self.known.contains_key(&exponent) {
             let (start, mut power) = match self.known.range(..exponent).next_back() {

@@ -1,10 +1,11 @@
 //! What a polynomial's coefficients must be able to do.
 //!
-//! The ring operations are the standard operators and `num_traits::{Zero, One}`; this trait adds integers, the inverse, a literal for
-//! printing, and *long sums of products*. A reduced rational pays one gcd for each operation (6.6 µs for a multiply-add); in a product
-//! of polynomials, or a bracket, thousands of pairs of terms fall on one resulting term. So both factors are lifted to [`Raw`] values
-//! over one common denominator ([`Scale`]), the pairs are summed there without a gcd, and each resulting term is lowered once.
-//! Types without denominators lift and lower as they are (floats here; a prime field or a double-double alike).
+//! The ring operations are the standard operators and `num_traits::{Zero, One}`; this trait adds integers, the inverse,
+//! a literal for printing, and *long sums of products*. A reduced rational pays one gcd for each operation (6.6 µs for
+//! a multiply-add); in a product of polynomials, or a bracket, thousands of pairs of terms fall on one resulting term.
+//! So both factors are lifted to [`Raw`] values over one common denominator ([`Scale`]), the pairs are summed there
+//! without a gcd, and each resulting term is lowered once. Types without denominators lift and lower as they are
+//! (floats here; a prime field or a double-double alike).
 //!
 //! [`Raw`]: Coefficient::Raw
 //! [`Scale`]: Coefficient::Scale
@@ -53,7 +54,8 @@ pub trait Coefficient:
         None
     }
 
-    /// Sign and magnitude for printing; the magnitude is a factor of the grammar of [`Polynomial::parse`](crate::Polynomial::parse).
+    /// Sign and magnitude for printing; the magnitude is a factor of the grammar of
+    /// [`Polynomial::parse`](crate::Polynomial::parse).
     fn literal(&self) -> (bool, String);
 
     /// Lifts values to one common denominator.

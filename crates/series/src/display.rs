@@ -1,8 +1,8 @@
 //! Canonical printing.
 //!
-//! Terms in canonical order, `coefficient*variable^exponent*…`, exact coefficients as `p/q`, complex ones as `(p/q + r/s*i)`.
-//! What is printed with names is read back by [`Polynomial::parse`] with the same names, coefficient for coefficient, where the
-//! coefficients are exact. Floats print their shortest decimal, which the parser does not read.
+//! Terms in canonical order, `coefficient*variable^exponent*…`, exact coefficients as `p/q`, complex ones as
+//! `(p/q + r/s*i)`. What is printed with names is read back by [`Polynomial::parse`] with the same names, coefficient for
+//! coefficient, where the coefficients are exact. Floats print their shortest decimal, which the parser does not read.
 
 use crate::{Coefficient, Polynomial, SLOTS};
 use std::fmt::{self, Display, Formatter};

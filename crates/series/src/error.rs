@@ -1,7 +1,8 @@
 //! The one error type of the crate.
 //!
-//! Every variant names the argument, its value and the bound that it breaks, in fields. Nothing here is raised by valid input:
-//! an exponent that does not fit its field, a name nobody knows, a text that is not a polynomial, a file that is not a normal form.
+//! Every variant names the argument, its value and the bound that it breaks, in fields. Nothing here is raised by valid
+//! input: an exponent that does not fit its field, a name nobody knows, a text that is not a polynomial, a file that is
+//! not a normal form.
 
 use thiserror::Error;
 

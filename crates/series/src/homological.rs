@@ -1,10 +1,10 @@
 //! The homological equation of a diagonal quadratic part.
 //!
-//! Convention: h₀ = Σ λᵢ qᵢ pᵢ with the bracket of [`Poisson`](crate::Poisson), {q; p} = 1. Then S = q^j p^k is an eigenvector of
-//! S → {h₀; S} with the eigenvalue Σ λᵢ (kᵢ − jᵢ). The kernel holds the terms with eigenvalue zero (tested exactly: with floating-point
-//! λ a resonance must be exact to be seen), the image all others. [`solve`](Homological::solve) returns S with {h₀; S} = −image:
-//! what Deprit's triangle asks for, K_n = H̃_n + {h₀; S_n} = kernel of H̃_n, or L_h₀(S_n) = {S_n; h₀} = H̃_n − K_n (theory §3, §4).
-//! Cost: one division a term.
+//! Convention: h₀ = Σ λᵢ qᵢ pᵢ with the bracket of [`Poisson`](crate::Poisson), {q; p} = 1. Then S = q^j p^k is an
+//! eigenvector of S → {h₀; S} with the eigenvalue Σ λᵢ (kᵢ − jᵢ). The kernel holds the terms with eigenvalue zero
+//! (tested exactly: with floating-point λ a resonance must be exact to be seen), the image all others.
+//! [`solve`](Homological::solve) returns S with {h₀; S} = −image: what Deprit's triangle asks for, K_n = H̃_n + {h₀;
+//! S_n} = kernel of H̃_n, or L_h₀(S_n) = {S_n; h₀} = H̃_n − K_n (theory §3, §4). Cost: one division a term.
 
 use crate::monomial::check_slot;
 use crate::{Coefficient, Error, Monomial, Polynomial};

@@ -6,9 +6,10 @@
 //!   "generators":  [ [[j, k, l, "re", "im"], …], … ] }              S_1 … S_N, as `NormalForm::generator` gives them
 //! ```
 //!
-//! Rationals are reduced, `p` or `p/q`. Reading verifies format, version, the bound of the order before anything is built, the number of
-//! series, the degrees, that no exponents repeat, that S has no kernel part, and that K and S are real on real motions. It does *not*
-//! verify that the coefficients are those of the rigid body: that would be computing them again.
+//! Rationals are reduced, `p` or `p/q`. Reading verifies format, version, the bound of the order before anything is
+//! built, the number of series, the degrees, that no exponents repeat, that S has no kernel part, and that K and S are
+//! real on real motions. It does *not* verify that the coefficients are those of the rigid body: that would be
+//! computing them again.
 
 use crate::normal_form::check_order;
 use crate::rigid_body::{self, PublicForm};
@@ -70,8 +71,8 @@ impl NormalForm {
 
     /// Reads what [`to_json`](Self::to_json) wrote.
     ///
-    /// Verified: format, version, order, number of series, degrees, no exponents twice, no zero, no kernel part in S, K and S real on
-    /// real motions. *Not* verified: that the coefficients are those of the rigid body.
+    /// Verified: format, version, order, number of series, degrees, no exponents twice, no zero, no kernel part in S, K
+    /// and S real on real motions. *Not* verified: that the coefficients are those of the rigid body.
     ///
     /// ```
     /// use andoyer_series::NormalForm;

@@ -1,7 +1,8 @@
 //! The normal form as LaTeX.
 //!
-//! A fragment for a document with `\usepackage{amsmath}`: a display that says what is expanded, then one `align*` for each series, in the
-//! canonical order, a line broken after every six terms. Order 20 makes pages; the exchange format is JSON.
+//! A fragment for a document with `\usepackage{amsmath}`: a display that says what is expanded, then one `align*` for
+//! each series, in the canonical order, a line broken after every six terms. Order 20 makes pages; the exchange format
+//! is JSON.
 
 use crate::rigid_body::{PublicForm, Variable};
 use crate::{Error, Monomial, NormalForm, Polynomial};

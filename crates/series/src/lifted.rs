@@ -1,8 +1,8 @@
 //! Sums of products and of brackets, accumulated unreduced.
 //!
-//! Left factors are lifted together to one scale and so are right factors; then every product of a left with a right has the same
-//! denominator, and a whole sum (the inner sum of Deprit's triangle, for one) costs one gcd for each resulting term.
-//! Terms are taken in canonical order, so a floating-point sum has the same bits in every run.
+//! Left factors are lifted together to one scale and so are right factors; then every product of a left with a right
+//! has the same denominator, and a whole sum (the inner sum of Deprit's triangle, for one) costs one gcd for each
+//! resulting term. Terms are taken in canonical order, so a floating-point sum has the same bits in every run.
 
 use crate::polynomial::Terms;
 use crate::{Coefficient, Error, Monomial, Polynomial, Truncation};

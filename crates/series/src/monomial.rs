@@ -1,11 +1,11 @@
 //! Monomials in eight variables, exponents packed in one integer.
 //!
-//! Eight fields of 16 bits, slot 0 in the most significant one. The top bit of each field is a guard: exponents go to 32767, so a
-//! product is one addition of integers that never carries into the neighbouring field, followed by one test of the guard bits.
-//! Overflow is an error, never a wrap.
+//! Eight fields of 16 bits, slot 0 in the most significant one. The top bit of each field is a guard: exponents go to
+//! 32767, so a product is one addition of integers that never carries into the neighbouring field, followed by one test
+//! of the guard bits. Overflow is an error, never a wrap.
 //!
-//! Canonical order: graded, by ascending total degree; within a degree lexicographic, the larger exponent of the lower slot first
-//! (1, x, y, x², xy, y², …). Every iteration, sum and print of the crate follows it.
+//! Canonical order: graded, by ascending total degree; within a degree lexicographic, the larger exponent of the lower
+//! slot first (1, x, y, x², xy, y², …). Every iteration, sum and print of the crate follows it.
 
 use crate::Error;
 use std::cmp::Ordering;
@@ -119,7 +119,8 @@ impl Monomial {
         Self::guarded(self.0 + other.0)
     }
 
-    /// The product times `raised`, divided by `lowered` (both given as keys of [`unit`]): what a bracket makes of a pair of terms.
+    /// The product times `raised`, divided by `lowered` (both given as keys of [`unit`]): what a bracket makes of a
+    /// pair of terms.
     ///
     /// The caller knows that the product contains `lowered`; the intermediate sums fit in 16 bits (2 * 32767 + 1).
     pub(crate) fn bracket_mul(self, other: Self, raised: u128, lowered: u128) -> Result<Self, Error> {
@@ -166,8 +167,8 @@ impl Ord for Monomial {
 }
 
 impl Hash for Monomial {
-    /// Folds the 128 bits so that every field reaches the low bits: the Fx hash alone leaves the top field of a word out of the
-    /// bucket index of small tables, and all powers of one variable would collide.
+    /// Folds the 128 bits so that every field reaches the low bits: the Fx hash alone leaves the top field of a word
+    /// out of the bucket index of small tables, and all powers of one variable would collide.
     fn hash<H: Hasher>(&self, state: &mut H) {
         let (high, low) = ((self.0 >> 64) as u64, self.0 as u64);
         let mixed = high.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(low.wrapping_mul(0xc2b2_ae3d_27d4_eb4f));

@@ -8,9 +8,10 @@
 //! atom    = integer | name | "i" | "(" sum ")"
 //! ```
 //!
-//! A divisor is a constant. `i` is the imaginary unit where the coefficients have one and no variable is called so. Hostile text cannot
-//! hang it or overflow the stack: nesting, exponents and coefficients are bounded, and every operation on coefficients is charged, before
-//! it is done, by their sizes. Products are therefore the schoolbook's, reduced term by term: a common denominator could be huge.
+//! A divisor is a constant. `i` is the imaginary unit where the coefficients have one and no variable is called so.
+//! Hostile text cannot hang it or overflow the stack: nesting, exponents and coefficients are bounded, and every
+//! operation on coefficients is charged, before it is done, by their sizes. Products are therefore the schoolbook's,
+//! reduced term by term: a common denominator could be huge.
 
 use crate::{Coefficient, Error, Monomial, ParseProblem, Polynomial, SLOTS};
 
@@ -18,7 +19,8 @@ const DEEPEST: u32 = 100;
 const LARGEST_EXPONENT: u32 = 1000;
 /// Bits of a coefficient; 10,000 decimal digits each in numerator and denominator.
 const LARGEST_COEFFICIENT: u64 = 1 << 16;
-/// Units of work, each an operation on small fractions or a sixteenth of the square of the words of large ones; about a second.
+/// Units of work, each an operation on small fractions or a sixteenth of the square of the words of large ones; about a
+/// second.
 const BUDGET: u64 = 1 << 18;
 
 struct Parser<'a> {
@@ -42,7 +44,7 @@ impl<C: Coefficient> Polynomial<C> {
     /// ```
     ///
     /// # Errors
-    /// All are [`Error::Parse`] with the byte position:
+    /// [`Error::ExponentOverflow`] for `"(x^1000)^100"`; all others are [`Error::Parse`] with the byte position:
     /// - `"x +"`, `"x y"`, `"2z"`: an operand missing, a character too many, an unknown name;
     /// - `"1/x"`, `"1/(2-2)"`: a divisor that is not constant, or zero;
     /// - `"x^1001"`, a hundred and one brackets, `"(a+b+c+d+e+f+g+h)^1000"`: too large, too deep, too much work;
@@ -238,7 +240,11 @@ impl Parser<'_> {
         Ok(Polynomial::constant(value))
     }
 
-    fn multiply<C: Coefficient>(&mut self, left: &Polynomial<C>, right: &Polynomial<C>) -> Result<Polynomial<C>, Error> {
+    fn multiply<C: Coefficient>(
+        &mut self,
+        left: &Polynomial<C>,
+        right: &Polynomial<C>,
+    ) -> Result<Polynomial<C>, Error> {
         let mut sum = Polynomial::zero();
         for (m, a) in left.terms() {
             for (n, b) in right.terms() {

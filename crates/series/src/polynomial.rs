@@ -1,8 +1,8 @@
 //! Sparse polynomials in up to eight variables: storage, constructors, parts.
 //!
-//! A hash map from [`Monomial`] to coefficient; a zero coefficient is never stored. The order of the map is never seen: iteration,
-//! printing and summation follow the canonical order of the monomials, so that floats come out with the same bits in every run.
-//! Looking up a term is O(1), iterating in order O(n log n).
+//! A hash map from [`Monomial`] to coefficient; a zero coefficient is never stored. The order of the map is never seen:
+//! iteration, printing and summation follow the canonical order of the monomials, so that floats come out with the same
+//! bits in every run. Looking up a term is O(1), iterating in order O(n log n).
 
 use crate::monomial::check_slot;
 use crate::{Coefficient, Error, Monomial};

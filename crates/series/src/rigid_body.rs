@@ -6,10 +6,11 @@
 //! H = w w̄ − (τ/4) [ 2 w² w̄² + β (w³ w̄ + w w̄³) ]        (the constant part in V² is dropped; it returns in K)
 //! ```
 //!
-//! [f; s] := {f; i s} is canonical for the pair (q, p) = (w̄, w), [f; s] = ∂f/∂w̄ ∂s/∂w − ∂f/∂w ∂s/∂w̄, and with y = i ŷ, M in units of
-//! κ = α/γ (τ = 1/M), [ŷ; s] = ∂s/∂M is the reciprocal pair (ŷ, τ). So all coefficients are rational; the Gaussian rationals of the
-//! paper's u, U are the public face: w̄^j w^k = (−i)^j u^j U^k. Then K = Σ k_n τⁿ (w w̄)^{n+1}, P_n = 2 k_n and p_n = (−i)^{n+1} P_n (theory §4).
-//! Source: Lara (2017) with the errata of theory §11. Cost of `NormalForm::new`: see there.
+//! [f; s] := {f; i s} is canonical for the pair (q, p) = (w̄, w), [f; s] = ∂f/∂w̄ ∂s/∂w − ∂f/∂w ∂s/∂w̄, and with
+//! y = i ŷ, M in units of κ = α/γ (τ = 1/M), [ŷ; s] = ∂s/∂M is the reciprocal pair (ŷ, τ). So all coefficients are
+//! rational; the Gaussian rationals of the paper's u, U are the public face: w̄^j w^k = (−i)^j u^j U^k. Then
+//! K = Σ k_n τⁿ (w w̄)^{n+1}, P_n = 2 k_n and p_n = (−i)^{n+1} P_n (theory §4).
+//! Source: Lara (2017) with the errata of theory §11. Cost: that of [`NormalForm::new`](crate::NormalForm::new).
 
 use crate::{Coefficient, Error, Homological, Monomial, Poisson, Polynomial, TermProblem};
 use num_complex::Complex;
@@ -30,7 +31,8 @@ pub const BETA: usize = 3;
 /// Slot of ŷ = −i y.
 pub const Y_HAT: usize = 4;
 
-/// Largest order whose exponents fit the packed monomials: a product of two parts of orders a + b = N has degree 2N + 4 at most.
+/// Largest order whose exponents fit the packed monomials: a product of two parts of orders a + b = N has degree 2N + 4
+/// at most.
 pub const MAXIMUM_ORDER: usize = (crate::MAXIMUM_EXPONENT as usize - 4) / 2;
 
 /// Coefficients of a form by its exponents (j, k, l): Σ c u^j U^k β^l.
@@ -73,7 +75,8 @@ impl Variable {
     }
 }
 
-/// The scaled Hamiltonian of theory §2, its parts of order 0 and 1 in τ, in the slots [`W_BAR`], [`W`], [`TAU`], [`BETA`].
+/// The scaled Hamiltonian of theory §2, its parts of order 0 and 1 in τ, in the slots [`W_BAR`], [`W`], [`TAU`],
+/// [`BETA`].
 ///
 /// ```
 /// let [main, perturbation] = andoyer_series::hamiltonian::<f64>()?;
@@ -110,8 +113,8 @@ pub fn homological<C: Coefficient>() -> Result<Homological<C>, Error> {
 
 /// The action σ_sep of the separatrix, in units of M: the radius of convergence of the series in σ = L/M.
 ///
-/// σ_sep = (2/π) atan2(√(1−β), √(2β)): the integral of theory §5 at Eγ/α = 1 − β, where the integrand is √(2β) |sin ν| / √(1−β+2β sin²ν)
-/// and the primitive an arcsine of cos ν. It falls from 1 at `beta` = 0 to 0 at `beta` = 1.
+/// σ_sep = (2/π) atan2(√(1−β), √(2β)): the integral of theory §5 at Eγ/α = 1 − β, where the integrand is √(2β) |sin ν|
+/// / √(1−β+2β sin²ν) and the primitive an arcsine of cos ν. It falls from 1 at `beta` = 0 to 0 at `beta` = 1.
 ///
 /// ```
 /// let action = andoyer_series::separatrix_action(0.5)?;
@@ -144,7 +147,8 @@ pub(crate) fn public_face(form: &Polynomial<BigRational>) -> PublicForm {
     faces(form, 1)
 }
 
-/// The public face of U, from the transformation of w̄: that of w is its image under the exchange of w̄ and w, since s is odd under it.
+/// The public face of U, from the transformation of w̄: that of w is its image under the exchange of w̄ and w, since s
+/// is odd under it.
 pub(crate) fn public_momentum(form: &Polynomial<BigRational>) -> Result<PublicForm, Error> {
     Ok(faces(&form.exchange(W_BAR, W)?, 0))
 }

@@ -1,7 +1,8 @@
 //! The ring operations.
 //!
-//! `&a + &b`, `&a - &b`, `-&a` and `+=`, `-=` as operators; products are methods, since a product may overflow an exponent and that
-//! is an error. Sums cost O(n), products one multiplication for each pair of terms and one reduction for each resulting term.
+//! `&a + &b`, `&a - &b`, `-&a` and `+=`, `-=` as operators; products are methods, since a product may overflow an
+//! exponent and that is an error. Sums cost O(n), products one multiplication for each pair of terms and one reduction
+//! for each resulting term.
 
 use crate::lifted::Accumulator;
 use crate::{Coefficient, Error, Polynomial, Truncation};

@@ -1,15 +1,15 @@
 //! Deprit's triangle: normalization, direct and inverse transformation, to any order.
 //!
-//! Convention (theory §4): f_{n,q} = f_{n+1,q−1} + Σ_{0≤m≤n} C(n,m) {f_{n−m,q−1}; S_{m+1}}. Here it runs without binomials, on
-//! g_{n,q} = f_{n,q}/n! and T_m = S_m/(m−1)!:
+//! Convention (theory §4): f_{n,q} = f_{n+1,q−1} + Σ_{0≤m≤n} C(n,m) {f_{n−m,q−1}; S_{m+1}}. Here it runs without
+//! binomials, on g_{n,q} = f_{n,q}/n! and T_m = S_m/(m−1)!:
 //!
 //! ```text
 //! g_{n,q} = (n+1) g_{n+1,q−1} + Σ_{0≤m≤n} {g_{n−m,q−1}; T_{m+1}}
 //! ```
 //!
-//! Series are lists of the coefficients of ε⁰, ε¹, …: the Hamiltonian H_{n,0}/n!, the normal form H_{0,n}/n!, a transformed function
-//! f_{0,n}/n!. Order N costs N(N+1)(N+2)/6 brackets; each inner sum is accumulated unreduced. The inverse transformation obeys
-//! (n+1) G_{n+1} = −Σ {G_{n−m}; T_{m+1}}, G_0 = f, and costs N(N+1)/2 brackets.
+//! Series are lists of the coefficients of ε⁰, ε¹, …: the Hamiltonian H_{n,0}/n!, the normal form H_{0,n}/n!, a
+//! transformed function f_{0,n}/n!. Order N costs N(N+1)(N+2)/6 brackets; each inner sum is accumulated unreduced. The
+//! inverse transformation obeys (n+1) G_{n+1} = −Σ {G_{n−m}; T_{m+1}}, G_0 = f, and costs N(N+1)/2 brackets.
 
 use crate::lifted::Accumulator;
 use crate::{Coefficient, Error, Homological, Poisson, Polynomial};
@@ -36,8 +36,8 @@ pub struct Normalization<C: Coefficient> {
 
 /// Normalizes H = Σ εⁿ `hamiltonian[n]` to order `order` (missing coefficients are 0).
 ///
-/// `hamiltonian[0]` is the quadratic part of `homological`. `progress` is called before every cell of the triangle with the number of
-/// orders done (so a number comes more than once) and with (order, order) at the end.
+/// `hamiltonian[0]` is the quadratic part of `homological`. `progress` is called before every cell of the triangle with
+/// the number of orders done (so a number comes more than once) and with (order, order) at the end.
 ///
 /// ```
 /// use andoyer_series::{Homological, Poisson, Polynomial, normalize};
@@ -163,7 +163,8 @@ impl<C: Coefficient> Triangle<C> {
         Triangle { columns: vec![vec![apex]] }
     }
 
-    /// Adds the next anti-diagonal n + q = N, from the coefficient `source` of ε^N. A generator T_N that is not known counts as 0.
+    /// Adds the next anti-diagonal n + q = N, from the coefficient `source` of ε^N. A generator T_N that is not known
+    /// counts as 0.
     fn extend(
         &mut self,
         source: Polynomial<C>,
@@ -208,8 +209,8 @@ impl<C: Coefficient> Triangle<C> {
         &self.columns[self.columns.len() - 1][0]
     }
 
-    /// Completes the last anti-diagonal once T_N is known: {h₀; T_N} = −image/(N−1)! enters g_{N−1,1} and, by the recursion, g_{n,q}
-    /// as −image/n!. No bracket is computed for it.
+    /// Completes the last anti-diagonal once T_N is known: {h₀; T_N} = −image/(N−1)! enters g_{N−1,1} and, by the
+    /// recursion, g_{n,q} as −image/n!. No bracket is computed for it.
     fn subtract(&mut self, image: &Polynomial<C>) -> Result<(), Error> {
         let order = self.columns.len() - 1;
         let one = Polynomial::constant(C::one());

@@ -22,7 +22,8 @@ fn laws<C: Coefficient>(
     prop_assert_eq!(at(&(a + b))?, at(a)? + at(b)?);
     prop_assert_eq!(at(&a.multiply(b)?)?, at(a)? * at(b)?);
 
-    // Substituting b for variable 0 and evaluating is evaluating with b's value for variable 0; so for two variables at once.
+    // Substituting b for variable 0 and evaluating is evaluating with b's value for variable 0; so for two variables at
+    // once.
     let [_, y, z, w] = values.clone();
     prop_assert_eq!(at(&a.substitute(0, b)?)?, a.evaluate(&[at(b)?, y.clone(), z, w])?);
     let [_, _, z, w] = values.clone();

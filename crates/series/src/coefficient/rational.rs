@@ -7,7 +7,8 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-/// Least common multiple of denominators. Most of them divide the multiple found so far, and a remainder is cheaper than a gcd.
+/// Least common multiple of denominators. Most of them divide the multiple found so far, and a remainder is cheaper
+/// than a gcd.
 fn common_denominator<'a>(values: impl Iterator<Item = &'a BigRational>) -> BigInt {
     let mut common = BigInt::one();
     for value in values {

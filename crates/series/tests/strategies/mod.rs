@@ -1,4 +1,5 @@
-//! Random exact polynomials: few terms, small exponents and small fractions, so that like terms and cancellations are common.
+//! Random exact polynomials: few terms, small exponents and small fractions, so that like terms and cancellations are
+//! common.
 
 use andoyer_series::{Monomial, Polynomial};
 use num_complex::Complex;

@@ -1,0 +1,77 @@
+"""Rotation of rigid bodies by perturbation series in complex variables.
+
+The exact side is `NormalForm`: the normal form of the free rigid body to any order. The numerical side is `Scene`, a `Body` with its state,
+which is solved into a `Motion` and evaluated at any time. No unit is built in; angles are in rad. Attitudes are unit quaternions
+[x, y, z, w] that rotate body components into inertial ones.
+
+>>> import andoyer
+>>> scene = andoyer.Scene(andoyer.Body([1.0, 1.5, 2.0]), [0, 0, 0, 1], [0.1, 0.2, 1.0])
+>>> motion = scene.solve()
+>>> motion.plan.mode
+'short-axis'
+>>> motion.attitude([0.0, 10.0]).shape
+(2, 4)
+"""
+
+from andoyer._core import (
+    AngularVelocityError,
+    AttitudeError,
+    Body,
+    EpochError,
+    Error,
+    FormatError,
+    IntervalError,
+    MethodError,
+    ModeError,
+    MomentsError,
+    Motion,
+    NormalForm,
+    OrderError,
+    Plan,
+    Samples,
+    Scene,
+    SceneFileError,
+    SeparatrixError,
+    SeriesError,
+    ShapeError,
+    SpanError,
+    TimesError,
+    ToleranceError,
+    UnknownBodyError,
+    UnknownNameError,
+    __version__,
+    separatrix_action,
+)
+from andoyer.mean import Frequencies, Periods
+
+__all__ = [
+    "AngularVelocityError",
+    "AttitudeError",
+    "Body",
+    "EpochError",
+    "Error",
+    "FormatError",
+    "Frequencies",
+    "IntervalError",
+    "MethodError",
+    "ModeError",
+    "MomentsError",
+    "Motion",
+    "NormalForm",
+    "OrderError",
+    "Periods",
+    "Plan",
+    "Samples",
+    "Scene",
+    "SceneFileError",
+    "SeparatrixError",
+    "SeriesError",
+    "ShapeError",
+    "SpanError",
+    "TimesError",
+    "ToleranceError",
+    "UnknownBodyError",
+    "UnknownNameError",
+    "__version__",
+    "separatrix_action",
+]

@@ -1,0 +1,198 @@
+"""The command line: `andoyer propagate`, `plan`, `bodies`, `series`.
+
+Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion that is not served.
+"""
+
+import argparse
+import math
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import andoyer
+
+ROTATIONS = 10
+"""Rotations from the epoch that are propagated if neither the scene nor the command line has a span."""
+
+MOST_SAMPLES = 10**9
+"""More would not fit a file that anyone reads."""
+
+COLUMNS = "t,qx,qy,qz,qw,wx,wy,wz"
+CONVENTION = (
+    "t in the scene's unit of time; attitude [qx, qy, qz, qw]: unit quaternion, Hamilton product, scalar last, "
+    "body components to inertial ones; angular velocity [wx, wy, wz]: body components, rad per unit of time"
+)
+
+
+class InputError(Exception):
+    """What the command line was given cannot be done."""
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that reports an error in one line."""
+
+    def error(self, message):
+        raise InputError(message)
+
+
+def main(argv=None):
+    """Run the command line `argv`, by default that of the process; return the exit status."""
+    for stream in (sys.stdout, sys.stderr):
+        # A name that the terminal cannot show is shown escaped.
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        arguments = parser().parse_args(argv)
+        arguments.run(arguments)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # The reader of a pipe has seen enough; nothing may be flushed into it at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except (InputError, andoyer.Error, OSError, MemoryError) as error:
+        print("andoyer: error:", " ".join(str(error).split()) or type(error).__name__, file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("andoyer: interrupted", file=sys.stderr)
+        return 130
+    return 0
+
+
+def parser():
+    """The parser of the command line."""
+    top = Parser(prog="andoyer", description="Rotation of rigid bodies by perturbation series in complex variables.")
+    top.add_argument("--version", action="version", version=f"andoyer {andoyer.__version__}")
+    commands = top.add_subparsers(title="commands", metavar="COMMAND", required=True)
+
+    command = commands.add_parser("propagate", help="write attitude and angular velocity at equal steps of time")
+    command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
+    command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .csv or .npz by its ending")
+    command.add_argument("--start", type=number, metavar="T", help="first time (default: the scene's span, else its epoch)")
+    command.add_argument("--stop", type=number, metavar="T", help=f"last time (default: the scene's span, else {ROTATIONS} rotations on)")
+    command.add_argument("--samples", type=count, default=1000, metavar="N", help="number of times (default: %(default)s)")
+    command.set_defaults(run=propagate)
+
+    command = commands.add_parser("plan", help="print what would be evaluated, and why")
+    command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
+    command.set_defaults(run=plan)
+
+    command = commands.add_parser("bodies", help="print the catalogue of bodies, each with its source")
+    command.set_defaults(run=bodies)
+
+    command = commands.add_parser("series", help="print the triaxiality polynomials P_0 ... P_N")
+    command.add_argument("--order", type=int, required=True, metavar="N", help="order of the normal form")
+    command.set_defaults(run=series)
+    return top
+
+
+def number(text):
+    """A finite number."""
+    value = float(text)
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text} is not finite")
+    return value
+
+
+def count(text):
+    """A number of samples."""
+    value = int(text)
+    if not 1 <= value <= MOST_SAMPLES:
+        raise argparse.ArgumentTypeError(f"{text} is not within 1 and {MOST_SAMPLES}")
+    return value
+
+
+def propagate(arguments):
+    """Write a motion at equal steps of time."""
+    output = Path(arguments.output)
+    write = {".csv": write_csv, ".npz": write_npz}.get(output.suffix.lower())
+    if write is None:
+        raise InputError(f"argument -o/--output: {arguments.output}: the name must end in .csv or .npz")
+    scene = andoyer.Scene.from_toml(arguments.scene)
+    motion = scene.solve()
+    start, stop = interval(motion, arguments.start, arguments.stop)
+    with np.errstate(over="ignore", invalid="ignore"):
+        times = np.linspace(start, stop, arguments.samples)
+    write(output, motion.at(times))
+
+
+def interval(motion, start, stop):
+    """First and last time: as asked, else the scene's span, else ten rotations from the epoch."""
+    scene = motion.scene
+    if scene.span is not None:
+        start, stop = scene.span[0] if start is None else start, scene.span[1] if stop is None else stop
+    start = scene.epoch if start is None else start
+    if stop is None:
+        rotation = motion.periods["long-axis"].precession
+        if math.isinf(rotation):
+            raise InputError("argument --stop: the body is at rest and has no rotation to count, so a last time must be given")
+        stop = start + ROTATIONS * rotation
+    if not start <= stop:
+        raise InputError(f"argument --stop: {stop!r} is before the first time, {start!r}")
+    return start, stop
+
+
+def write_csv(path, samples):
+    """Samples as CSV: a comment with the convention, the names of the columns, one line a time with all 17 digits."""
+    table = np.column_stack([samples.times, samples.attitude, samples.angular_velocity])
+    with path.open("w", encoding="utf-8", newline="\n") as file:
+        file.write(f"# andoyer {andoyer.__version__}: {CONVENTION}\n{COLUMNS}\n")
+        np.savetxt(file, table, fmt="%.17g", delimiter=",")
+
+
+def write_npz(path, samples):
+    """Samples as NPZ: arrays times, attitude, angular_velocity, and the convention."""
+    with path.open("wb") as file:
+        np.savez(
+            file,
+            times=samples.times,
+            attitude=samples.attitude,
+            angular_velocity=samples.angular_velocity,
+            convention=np.array(CONVENTION),
+        )
+
+
+def plan(arguments):
+    """Print the plan of a scene, and the periods of its motion."""
+    motion = andoyer.Scene.from_toml(arguments.scene).solve()
+    scene = motion.scene
+    print(f"scene         {scene.name or arguments.scene}")
+    print(f"body          {scene.body!r}")
+    print(motion.plan)
+    for convention, (precession, rotation) in motion.periods.items():
+        print(f"periods       {convention}: P_phi {precession:.10g}, P_psi {rotation:.10g}")
+
+
+def bodies(_arguments):
+    """Print the catalogue."""
+    print(f"{'name':10} {'A/C':>10} {'B/C':>10} {'beta':>10}  source")
+    for name in andoyer.Body.catalogue():
+        body = andoyer.Body.named(name)
+        a, b, c = np.sort(body.moments)
+        print(f"{name:10} {a / c:10.8f} {b / c:10.8f} {body.beta:10.8f}  {andoyer.Body.source(name)}")
+
+
+def series(arguments):
+    """Print the triaxiality polynomials."""
+    visible = sys.stderr.isatty()
+    progress = (lambda done, of: print(f"\rorder {done} of {of}", end="", file=sys.stderr, flush=True)) if visible else None
+    normal_form = andoyer.NormalForm(arguments.order, progress=progress)
+    if visible:
+        print("\r\x1b[K", end="", file=sys.stderr)
+    for n in range(arguments.order + 1):
+        print(f"P_{n} = {polynomial(normal_form.triaxiality_polynomial(n))}")
+
+
+def polynomial(coefficients):
+    """A polynomial in beta as text that Python and SymPy read."""
+    text = ""
+    for power, coefficient in coefficients.items():
+        sign = "-" if coefficient < 0 else "+"
+        joint = f" {sign} " if text else sign.strip("+")
+        text += joint + str(abs(coefficient)) + (f"*beta**{power}" if power else "")
+    return text or "0"
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,23 @@
+"""Mean frequencies and periods of a motion, as named tuples."""
+
+from typing import NamedTuple
+
+
+class Frequencies(NamedTuple):
+    """Mean frequencies of a motion, in rad per unit of time; 0 where there is none (theory §7)."""
+
+    anomaly: float
+    """dℓ′/dt: the polhode, in the body."""
+
+    longitude: float
+    """dy′/dt: the rotation, y = μ + ν."""
+
+
+class Periods(NamedTuple):
+    """A pair of mean periods, in units of time; infinite where there is none."""
+
+    precession: float
+    """P_φ, of the precession of the axis about the angular momentum."""
+
+    rotation: float
+    """P_ψ, of the rotation or oscillation about the axis."""

@@ -1,0 +1,152 @@
+//! Arrays in and out: array-likes of numbers to float64 slices, results straight into NumPy's memory.
+//!
+//! Numbers are what NumPy calls integers and floats, and objects with `__float__`; strings, booleans and complex numbers are a
+//! `TypeError`. A scalar time gives results without the leading axis. Nothing is copied that is float64, aligned and in C order already.
+
+use andoyer_propagate::Error as Propagation;
+use numpy::{
+    Element, IntoPyArray, PyArray1, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
+    PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods, dtype, get_array_module,
+};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::error::{self, Error, ShapeError};
+
+/// `value` as a float64 array, aligned and in C order.
+fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let py = value.py();
+    let numpy = get_array_module(py)?;
+    let array = numpy.call_method1("asarray", (value,)).map_err(|problem| {
+        // NumPy says so of nested lists of unequal length.
+        let ragged = problem.is_instance_of::<PyValueError>(py);
+        if ragged { ShapeError::new_err(format!("{argument}: {}", problem.value(py))) } else { problem }
+    })?;
+    let kind = array.cast::<PyUntypedArray>()?.dtype();
+    if !b"iufO".contains(&kind.kind()) {
+        return Err(PyTypeError::new_err(format!("{argument} must hold real numbers, not {kind}")));
+    }
+    let array = numpy
+        .call_method1("require", (array, dtype::<f64>(py), ["C", "A"]))
+        .map_err(|problem| PyTypeError::new_err(format!("{argument} must hold real numbers: {}", problem.value(py))))?;
+    Ok(array.cast_into()?)
+}
+
+fn in_use(argument: &str) -> PyErr {
+    Error::new_err(format!("{argument} shares memory with an array that is in use"))
+}
+
+fn read<'py>(argument: &str, array: &Bound<'py, PyArrayDyn<f64>>) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
+    array.try_readonly().map_err(|_| in_use(argument))
+}
+
+/// `value` as N numbers.
+pub(crate) fn fixed<const N: usize>(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
+    let array = numbers(argument, value)?;
+    let wrong =
+        || ShapeError::new_err(format!("{argument} has shape {}: it must be ({N},)", shape_text(array.shape())));
+    if array.shape() != [N] {
+        return Err(wrong());
+    }
+    read(argument, &array)?.as_slice()?.try_into().map_err(|_| wrong())
+}
+
+/// N numbers as a read-only array.
+pub(crate) fn constant<'py>(py: Python<'py>, values: &[f64]) -> Bound<'py, PyArray1<f64>> {
+    let array = values.to_vec().into_pyarray(py);
+    array.readwrite().make_nonwriteable();
+    array
+}
+
+/// A shape as Python prints it.
+fn shape_text(shape: &[usize]) -> String {
+    match shape {
+        [n] => format!("({n},)"),
+        _ => format!("({})", shape.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
+    }
+}
+
+/// Times: a scalar, or one axis of them.
+pub(crate) struct Times<'py> {
+    array: PyReadonlyArrayDyn<'py, f64>,
+}
+
+impl<'py> Times<'py> {
+    pub(crate) fn new(value: &Bound<'py, PyAny>) -> PyResult<Self> {
+        let array = numbers("times", value)?;
+        if array.ndim() > 1 {
+            let shape = shape_text(array.shape());
+            return Err(ShapeError::new_err(format!("times has shape {shape}: it must be () or (n,)")));
+        }
+        Ok(Self { array: read("times", &array)? })
+    }
+
+    pub(crate) fn values(&self) -> PyResult<&[f64]> {
+        Ok(self.array.as_slice()?)
+    }
+
+    /// The times in an array of their own.
+    pub(crate) fn copied(&self) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let copy = PyArrayDyn::zeros(self.array.py(), self.array.shape(), false);
+        copy.readwrite().as_slice_mut()?.copy_from_slice(self.values()?);
+        Ok(copy)
+    }
+
+    /// An array of zeros with N numbers for each time.
+    pub(crate) fn rows(&self, n: usize) -> Bound<'py, PyArrayDyn<f64>> {
+        PyArrayDyn::zeros(self.array.py(), self.shape(n), false)
+    }
+
+    fn shape(&self, n: usize) -> Vec<usize> {
+        let mut shape = self.array.shape().to_vec();
+        shape.push(n);
+        shape
+    }
+
+    /// N numbers for each time, computed by `evaluate` without the interpreter lock, into `out` or a new array.
+    pub(crate) fn evaluate<const N: usize>(
+        &self,
+        out: Option<&Bound<'py, PyAny>>,
+        evaluate: impl FnOnce(&[f64], &mut [[f64; N]]) -> Result<(), Propagation> + Send,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let result = match out {
+            Some(out) => output(out, &self.shape(N))?,
+            None => self.rows(N),
+        };
+        let mut rows = write(&result)?;
+        let (times, rows) = (self.values()?, chunks(&mut rows)?);
+        self.array.py().detach(|| evaluate(times, rows)).map_err(error::propagation)?;
+        Ok(result)
+    }
+}
+
+/// `out`, if it is an array that results of this shape can be written into.
+fn output<'py>(out: &Bound<'py, PyAny>, shape: &[usize]) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let Ok(array) = out.cast::<PyUntypedArray>() else {
+        return Err(PyTypeError::new_err(format!("out must be a NumPy array, not {}", out.get_type().name()?)));
+    };
+    if !array.dtype().is_equiv_to(&f64::get_dtype(out.py())) {
+        return Err(PyTypeError::new_err(format!("out has dtype {}: it must be float64", array.dtype())));
+    }
+    let expected = shape_text(shape);
+    if array.shape() != shape {
+        return Err(ShapeError::new_err(format!("out has shape {}: it must be {expected}", shape_text(array.shape()))));
+    }
+    if !array.is_c_contiguous() {
+        return Err(ShapeError::new_err("out is strided: it must be C-contiguous"));
+    }
+    Ok(out.cast::<PyArrayDyn<f64>>()?.clone())
+}
+
+/// Borrows an array for writing.
+pub(crate) fn write<'py>(array: &Bound<'py, PyArrayDyn<f64>>) -> PyResult<PyReadwriteArrayDyn<'py, f64>> {
+    array.try_readwrite().map_err(|problem| match problem {
+        numpy::BorrowError::NotWriteable => PyTypeError::new_err("out is read-only: it must be writeable"),
+        _ => in_use("out"),
+    })
+}
+
+/// Rows of N numbers.
+pub(crate) fn chunks<'a, const N: usize>(array: &'a mut PyReadwriteArrayDyn<'_, f64>) -> PyResult<&'a mut [[f64; N]]> {
+    Ok(array.as_slice_mut()?.as_chunks_mut().0)
+}

@@ -1,0 +1,146 @@
+//! `andoyer.Body`.
+
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use crate::{array, error};
+
+/// Principal moments of inertia of a rigid body.
+///
+/// Parameters
+/// ----------
+/// moments : array_like, shape (3,)
+///     Positive moments about body axes 1, 2, 3, in any order and any unit; the largest at most the sum of the others.
+/// name : str, optional
+///     Printed, and nothing else.
+///
+/// Raises
+/// ------
+/// MomentsError
+///     ``[0, 1, 1]``, ``[1, -1, 1]``, ``[1, nan, 1]``, or ``[1, 1, 2.1]``, which no body has.
+/// ShapeError
+///     ``[1, 2]``.
+///
+/// Examples
+/// --------
+/// >>> body = Body([1.0, 1.5, 2.0])
+/// >>> body.beta
+/// 0.5
+/// >>> Body.named("eros").moments
+/// array([0.22942677, 0.96375352, 1.        ])
+#[pyclass(frozen, eq, module = "andoyer")]
+#[derive(PartialEq)]
+pub(crate) struct Body(pub(crate) andoyer_propagate::Body);
+
+#[pymethods]
+impl Body {
+    #[new]
+    #[pyo3(signature = (moments, *, name=None))]
+    fn new(moments: &Bound<'_, PyAny>, name: Option<&str>) -> PyResult<Self> {
+        let body = andoyer_propagate::Body::new(array::fixed("moments", moments)?).map_err(error::propagation)?;
+        Ok(Self(match name {
+            Some(name) => body.with_name(name),
+            None => body,
+        }))
+    }
+
+    /// A body of the catalogue, by its name in any case.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     One of `Body.catalogue()`.
+    ///
+    /// Raises
+    /// ------
+    /// UnknownBodyError
+    ///     ``"vulcan"``.
+    #[staticmethod]
+    fn named(name: &str) -> PyResult<Self> {
+        andoyer_propagate::Body::named(name).map(Self).map_err(error::propagation)
+    }
+
+    /// The names that `Body.named` knows.
+    #[staticmethod]
+    fn catalogue() -> Vec<&'static str> {
+        andoyer_propagate::Body::catalogue()
+    }
+
+    /// Where the figures of a catalogue body come from.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     One of `Body.catalogue()`.
+    ///
+    /// Returns
+    /// -------
+    /// str or None
+    ///     None for a name that the catalogue does not have.
+    #[staticmethod]
+    fn source(name: &str) -> Option<&'static str> {
+        andoyer_propagate::Body::source(name)
+    }
+
+    /// The moments about body axes 1, 2, 3 as given: a read-only array, shape (3,).
+    #[getter]
+    fn moments<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
+        array::constant(py, &self.0.moments()).into_any()
+    }
+
+    /// Oblateness α = [(C/A − 1) + (C/B − 1)]/2 of the sorted moments A ≤ B ≤ C (theory §1); 0 for a sphere.
+    #[getter]
+    fn alpha(&self) -> f64 {
+        self.0.alpha()
+    }
+
+    /// Triaxiality β, 0 ≤ β ≤ 1 (theory §1); 0 for A = B and for a sphere, 1 for B = C.
+    #[getter]
+    fn beta(&self) -> f64 {
+        self.0.beta()
+    }
+
+    /// γ = √((C/A − 1)(C/B − 1)) (theory §1).
+    #[getter]
+    fn gamma(&self) -> f64 {
+        self.0.gamma()
+    }
+
+    /// ω = √((1 + β)/(1 − β)) (theory §1); 1 for a sphere, infinite for B = C.
+    #[getter]
+    fn omega(&self) -> f64 {
+        self.0.omega()
+    }
+
+    /// The name, or None.
+    #[getter]
+    fn name(&self) -> Option<&str> {
+        self.0.name()
+    }
+
+    pub(crate) fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let name = match self.0.name() {
+            Some(name) => format!(", name={}", name.into_pyobject(py)?.repr()?),
+            None => String::new(),
+        };
+        Ok(format!("Body({:?}{name})", self.0.moments()))
+    }
+
+    pub(crate) fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
+        (self.0.moments(), self.0.name()).into_pyobject(py)?.hash()
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let keywords = pyo3::types::PyDict::new(py);
+        keywords.set_item("name", self.0.name())?;
+        ((self.0.moments(),), keywords).into_pyobject(py)
+    }
+}

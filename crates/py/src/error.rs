@@ -1,0 +1,77 @@
+//! The exceptions, and which error of the Rust crates becomes which.
+//!
+//! `Error` is a `ValueError`; every kind of bad input has one subclass of it. The message is that of the Rust error. What is not an
+//! array-like of numbers, or no string where one is due, stays Python's own `TypeError`.
+
+use andoyer_propagate::Error as Propagation;
+use andoyer_series::Error as Algebra;
+use pyo3::exceptions::PyValueError;
+use pyo3::{PyErr, create_exception};
+
+create_exception!(
+    andoyer,
+    Error,
+    PyValueError,
+    "Bad input, or a motion that is not served; the base of every error of this package."
+);
+create_exception!(andoyer, MomentsError, Error, "Moments of inertia that no body has.");
+create_exception!(andoyer, AttitudeError, Error, "An attitude that is no unit quaternion.");
+create_exception!(andoyer, AngularVelocityError, Error, "An angular velocity that is not finite.");
+create_exception!(andoyer, EpochError, Error, "An epoch that is not finite.");
+create_exception!(andoyer, ToleranceError, Error, "A tolerance that is not positive and finite.");
+create_exception!(andoyer, SpanError, Error, "A span that is not finite or runs backwards.");
+create_exception!(andoyer, OrderError, Error, "An order that is no whole number within its bounds.");
+create_exception!(andoyer, MethodError, Error, "A method that is unknown or not there yet.");
+create_exception!(andoyer, TimesError, Error, "A time that is not finite, or too far from the epoch to have a phase.");
+create_exception!(andoyer, ShapeError, Error, "An array of the wrong shape or memory layout.");
+create_exception!(andoyer, ModeError, Error, "A mode of rotation that the series do not reach: long-axis rotation.");
+create_exception!(andoyer, SeparatrixError, Error, "A motion too near the separatrix for its tolerance.");
+create_exception!(andoyer, UnknownBodyError, Error, "A name that the catalogue of bodies does not have.");
+create_exception!(andoyer, SceneFileError, Error, "A scene file that cannot be read or says something wrong.");
+create_exception!(
+    andoyer,
+    UnknownNameError,
+    Error,
+    "A name that is none of the known ones: of a variable, or of a part of the normal form."
+);
+create_exception!(andoyer, IntervalError, Error, "A number outside its interval.");
+create_exception!(andoyer, FormatError, Error, "A text that is not the JSON of a normal form.");
+create_exception!(andoyer, SeriesError, Error, "Any other error of the exact algebra.");
+
+/// The exception of an error in propagation.
+pub(crate) fn propagation(error: Propagation) -> PyErr {
+    let message = error.to_string();
+    match error {
+        Propagation::Moment { .. } | Propagation::MomentsTriangle { .. } => MomentsError::new_err(message),
+        Propagation::Attitude { .. } => AttitudeError::new_err(message),
+        Propagation::AngularVelocity { .. } => AngularVelocityError::new_err(message),
+        Propagation::Epoch { .. } => EpochError::new_err(message),
+        Propagation::Tolerance { .. } => ToleranceError::new_err(message),
+        Propagation::Span { .. } => SpanError::new_err(message),
+        Propagation::Order { .. } => OrderError::new_err(message),
+        Propagation::Method { .. } => MethodError::new_err(message),
+        Propagation::Time { .. } => TimesError::new_err(message),
+        Propagation::Length { .. } => ShapeError::new_err(message),
+        Propagation::LongAxisMode { .. } => ModeError::new_err(message),
+        Propagation::NearSeparatrix { .. } => SeparatrixError::new_err(message),
+        Propagation::UnknownBody { .. } => UnknownBodyError::new_err(message),
+        Propagation::SceneFile { .. } => SceneFileError::new_err(message),
+        _ => Error::new_err(message),
+    }
+}
+
+/// The exception of an error in the exact algebra.
+pub(crate) fn algebra(error: Algebra) -> PyErr {
+    let message = error.to_string();
+    match error {
+        Algebra::OrderTooLarge { .. } | Algebra::OrderOutOfRange { .. } => OrderError::new_err(message),
+        Algebra::NameUnknown { .. } => UnknownNameError::new_err(message),
+        Algebra::OutsideInterval { .. } => IntervalError::new_err(message),
+        Algebra::Json(_)
+        | Algebra::FormatUnknown { .. }
+        | Algebra::RationalMalformed { .. }
+        | Algebra::CountMismatch { .. }
+        | Algebra::TermInconsistent { .. } => FormatError::new_err(message),
+        _ => SeriesError::new_err(message),
+    }
+}

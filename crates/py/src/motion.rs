@@ -1,0 +1,214 @@
+//! `andoyer.Motion`.
+
+use numpy::PyArrayDyn;
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::PyType;
+
+use crate::array::{Times, chunks, write};
+use crate::error;
+use crate::plan::Plan;
+use crate::samples::Samples;
+use crate::scene::Scene;
+
+type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
+
+/// A solved motion, from `Scene.solve`: immutable, and shared between threads, which run in parallel while they evaluate it.
+///
+/// Every method that takes `times` takes a scalar or an array_like of shape (n,), of floats or integers; a scalar gives results without
+/// the leading axis.
+///
+/// Raises
+/// ------
+/// TimesError
+///     A time that is NaN, infinite or more than 1e300 rotations from the epoch; the message has its index.
+/// ShapeError
+///     Times with two axes.
+///
+/// Examples
+/// --------
+/// >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+/// >>> motion.attitude(0.0).round(12)
+/// array([0., 0., 0., 1.])
+/// >>> motion.angular_velocity([0, 1, 2]).shape
+/// (3, 3)
+#[pyclass(frozen, module = "andoyer")]
+pub(crate) struct Motion(pub(crate) andoyer_propagate::Motion);
+
+#[pymethods]
+impl Motion {
+    /// Attitudes and angular velocities, in one pass.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,)
+    fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Samples> {
+        let times = Times::new(times)?;
+        let (attitude, rates) = (times.rows(4), times.rows(3));
+        {
+            let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
+            let (values, attitude, rates) = (times.values()?, chunks(&mut attitude)?, chunks(&mut rates)?);
+            py.detach(|| self.0.samples_into(values, attitude, rates)).map_err(error::propagation)?;
+        }
+        Ok(Samples::new(times.copied()?.unbind(), attitude.unbind(), rates.unbind()))
+    }
+
+    /// Unit quaternions [x, y, z, w] that rotate body components into inertial ones (theory §8).
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,)
+    /// out : ndarray, float64, C-contiguous, shape (n, 4), optional
+    ///     Where the result is written. After an error it holds what had been computed.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (n, 4)
+    ///     `out`, if given.
+    ///
+    /// Raises
+    /// ------
+    /// ShapeError
+    ///     An `out` of another shape, or strided.
+    /// TypeError
+    ///     An `out` that is no float64 array, or read-only.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import numpy as np
+    /// >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    /// >>> out = np.empty((2, 4))
+    /// >>> motion.attitude([0, 1], out=out) is out
+    /// True
+    #[pyo3(signature = (times, out=None))]
+    fn attitude<'py>(&self, times: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>) -> PyResult<Array<'py>> {
+        Times::new(times)?.evaluate(out, |times, rows| self.0.attitudes_into(times, rows))
+    }
+
+    /// Angular velocities in body components, in rad per unit of time.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,)
+    /// out : ndarray, float64, C-contiguous, shape (n, 3), optional
+    ///     As in `attitude`.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (n, 3)
+    #[pyo3(signature = (times, out=None))]
+    fn angular_velocity<'py>(
+        &self,
+        times: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array<'py>> {
+        Times::new(times)?.evaluate(out, |times, rows| self.0.angular_velocities_into(times, rows))
+    }
+
+    /// Angular momenta in inertial components, in the unit of moment × rate: of a free body, the same at all times.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,)
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (n, 3)
+    fn angular_momentum<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
+        Times::new(times)?.evaluate(None, |times, rows| self.0.angular_momenta_into(times, rows))
+    }
+
+    /// Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1).
+    ///
+    /// Attitude = Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν) with cos I = Λ/M, cos J = N/M, for body axes sorted so that A ≤ B ≤ C. Angles are in
+    /// (−π, π]; where a node is not defined (I or J = 0 or π) its angle is 0 and μ carries the sum. Zeros for a body at rest.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,)
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (n, 6)
+    ///     Angles in rad, momenta in the unit of moment × rate.
+    fn andoyer<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
+        Times::new(times)?.evaluate(None, |times, rows| self.0.andoyer_into(times, rows))
+    }
+
+    /// Attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,)
+    ///
+    /// Returns
+    /// -------
+    /// scipy.spatial.transform.Rotation
+    ///     A single one for a scalar time.
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     SciPy is not installed: the extra ``andoyer[scipy]`` brings it.
+    fn rotation<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let rotation = times.py().import("scipy.spatial.transform")?.getattr("Rotation")?;
+        rotation.call_method1("from_quat", (self.attitude(times, None)?,))
+    }
+
+    /// What is evaluated, and why.
+    #[getter]
+    fn plan(&self) -> Plan {
+        Plan(self.0.plan().clone())
+    }
+
+    /// The scene that was solved.
+    #[getter]
+    fn scene(&self) -> Scene {
+        Scene(self.0.scene().clone())
+    }
+
+    /// Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time; 0 where there is none.
+    #[getter]
+    fn frequencies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        static FREQUENCIES: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+        let frequencies = self.0.frequencies();
+        FREQUENCIES.import(py, "andoyer.mean", "Frequencies")?.call1((frequencies.anomaly, frequencies.longitude))
+    }
+
+    /// Mean periods (P_φ, P_ψ) in both conventions: ``{"long-axis": (precession, rotation), "short-axis": (precession, rotation)}``.
+    ///
+    /// Long-axis is the convention of light curves: P_φ = 2π/(dy′/dt), P_ψ = 2π/(dℓ′/dt), in which the long axis oscillates
+    /// (Kaasalainen 2001). Short-axis is that of the Andoyer variables: μ turns with dy′/dt + dℓ′/dt, ν with −dℓ′/dt (retrograde).
+    /// In units of time, named tuples; infinite where there is none.
+    #[getter]
+    fn periods<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, pyo3::types::PyDict>> {
+        static PERIODS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+        let class = PERIODS.import(py, "andoyer.mean", "Periods")?;
+        let periods = pyo3::types::PyDict::new(py);
+        for (convention, pair) in
+            [("long-axis", self.0.long_axis_periods()), ("short-axis", self.0.short_axis_periods())]
+        {
+            periods.set_item(convention, class.call1((pair.precession, pair.rotation))?)?;
+        }
+        Ok(periods)
+    }
+
+    fn __repr__(&self) -> String {
+        let plan = self.0.plan();
+        let name = self.0.scene().asked_name().map_or_else(String::new, |name| format!(" of {name:?}"));
+        format!("<Motion{name}: {}, {}, order {}>", plan.mode(), plan.method(), plan.order())
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    /// A motion is pickled as its scene, and solved again.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Scene,))> {
+        Ok((py.get_type::<Scene>().getattr("solve")?, (self.scene(),)))
+    }
+}

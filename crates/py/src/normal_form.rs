@@ -1,0 +1,299 @@
+//! `andoyer.NormalForm` and `andoyer.separatrix_action`.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use andoyer_series::{MAXIMUM_ORDER, PublicForm};
+use num_complex::Complex;
+use num_rational::BigRational;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyType};
+
+use crate::error;
+use crate::order::order;
+
+/// The normal form of the free rigid body, exact, symbolic in the triaxiality β, to any order (theory §4, §6).
+///
+/// Exact numbers are `fractions.Fraction`, Gaussian rationals pairs (re, im) of them.
+///
+/// Parameters
+/// ----------
+/// order : int
+///     Order in α/(√γ V), ≥ 0.
+/// progress : callable, optional
+///     Called as ``progress(done, order)`` with the number of orders done, 0 to `order`. An exception in it stops the work and is raised
+///     here.
+///
+/// Raises
+/// ------
+/// OrderError
+///     ``-1``, ``2.5``, ``16382`` (exponents that would not fit).
+/// KeyboardInterrupt
+///     Ctrl-C is noticed while it works.
+///
+/// Examples
+/// --------
+/// >>> normal_form = NormalForm(4)
+/// >>> normal_form.triaxiality_polynomial(4)
+/// {2: Fraction(-3, 4), 4: Fraction(-9, 32)}
+/// >>> normal_form.generator(1)
+/// {(1, 3, 1): (Fraction(1, 8), Fraction(0, 1)), (3, 1, 1): (Fraction(1, 8), Fraction(0, 1))}
+#[pyclass(frozen, eq, hash, module = "andoyer")]
+#[derive(PartialEq, Eq, Hash)]
+pub(crate) struct NormalForm(andoyer_series::NormalForm);
+
+#[pymethods]
+impl NormalForm {
+    #[new]
+    #[pyo3(signature = (order, *, progress=None))]
+    fn new(py: Python<'_>, order: &Bound<'_, PyAny>, progress: Option<Py<PyAny>>) -> PyResult<Self> {
+        let order = self::order("order", order, 0, MAXIMUM_ORDER)?;
+        let mut told = None;
+        let mut failure = None;
+        // Asked before every cell of the triangle; Python hears of it once an order.
+        let mut tell = |done: usize, of: usize| {
+            let result = Python::attach(|py| {
+                py.check_signals()?;
+                match &progress {
+                    Some(progress) if told != Some(done) => progress.call1(py, (done, of)).map(drop),
+                    _ => Ok(()),
+                }
+            });
+            told = Some(done);
+            match result {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(problem) => {
+                    failure = Some(problem);
+                    ControlFlow::Break(())
+                }
+            }
+        };
+        let result = py.detach(|| andoyer_series::NormalForm::with_progress(order, &mut tell));
+        match failure {
+            Some(problem) => Err(problem),
+            None => result.map(Self).map_err(error::algebra),
+        }
+    }
+
+    /// The order.
+    #[getter]
+    fn order(&self) -> usize {
+        self.0.order()
+    }
+
+    /// Triaxiality polynomial P_n, real form: K = M²/(2C) [1 + γ Σ P_n κⁿ σⁿ⁺¹] (theory §4).
+    ///
+    /// Parameters
+    /// ----------
+    /// n : int
+    ///     0 to `order`.
+    ///
+    /// Returns
+    /// -------
+    /// dict of {int: Fraction}
+    ///     Coefficient by power of β.
+    ///
+    /// Raises
+    /// ------
+    /// OrderError
+    ///     ``-1``, or above the order.
+    ///
+    /// Examples
+    /// --------
+    /// >>> NormalForm(3).triaxiality_polynomial(3)
+    /// {2: Fraction(-5, 8)}
+    fn triaxiality_polynomial<'py>(&self, py: Python<'py>, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
+        let polynomial = self.0.triaxiality_polynomial(order("n", n, 0, self.0.order())?).map_err(error::algebra)?;
+        polynomial.into_pyobject(py)
+    }
+
+    /// Triaxiality polynomial p_n = (−i)ⁿ⁺¹ P_n in the paper's form (theory §4, and §11 for the misprint).
+    ///
+    /// Parameters
+    /// ----------
+    /// n : int
+    ///     0 to `order`.
+    ///
+    /// Returns
+    /// -------
+    /// dict of {int: (Fraction, Fraction)}
+    ///     Real and imaginary part by power of β.
+    ///
+    /// Raises
+    /// ------
+    /// OrderError
+    ///     ``-1``, or above the order.
+    fn paper_polynomial<'py>(&self, py: Python<'py>, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
+        let polynomial = self.0.paper_polynomial(order("n", n, 0, self.0.order())?).map_err(error::algebra)?;
+        gaussian(py, polynomial)
+    }
+
+    /// Generating function S_m · (√γ V/α)ᵐ = Σ c uʲ Uᵏ βˡ, the factor (m−1)! included (theory §4).
+    ///
+    /// Parameters
+    /// ----------
+    /// m : int
+    ///     1 to `order`.
+    ///
+    /// Returns
+    /// -------
+    /// dict of {(int, int, int): (Fraction, Fraction)}
+    ///     Real and imaginary part of c by exponents (j, k, l).
+    ///
+    /// Raises
+    /// ------
+    /// OrderError
+    ///     ``0``, or above the order.
+    fn generator<'py>(&self, py: Python<'py>, m: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
+        let m = order("m", m, 1, self.0.order())?;
+        self.face(py, || self.0.generator(m))
+    }
+
+    /// Order n of the transformation of a variable to the new ones, 1/n! included (theory §6).
+    ///
+    /// u = u′ + Σ τⁿ Σ c u′ʲ U′ᵏ βˡ with τ = α/(√γ V), and the same for U; y = y′ + (1/M) Σ τⁿ Σ c u′ʲ U′ᵏ βˡ.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : {"u", "U", "y"}
+    /// n : int
+    ///     1 to `order`.
+    ///
+    /// Returns
+    /// -------
+    /// dict of {(int, int, int): (Fraction, Fraction)}
+    ///     Real and imaginary part of c by exponents (j, k, l).
+    ///
+    /// Raises
+    /// ------
+    /// UnknownNameError
+    ///     ``"x"``.
+    /// OrderError
+    ///     ``0``, or above the order.
+    fn direct<'py>(&self, py: Python<'py>, name: &str, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
+        let variable = name.parse().map_err(error::algebra)?;
+        let n = order("n", n, 1, self.0.order())?;
+        self.face(py, || self.0.direct(variable, n))
+    }
+
+    /// Order n of the transformation of a new variable to the old ones, scaled as `direct`.
+    ///
+    /// Parameters
+    /// ----------
+    /// name : {"u", "U", "y"}
+    /// n : int
+    ///     1 to `order`.
+    ///
+    /// Returns
+    /// -------
+    /// dict of {(int, int, int): (Fraction, Fraction)}
+    ///     Real and imaginary part of c by exponents (j, k, l).
+    ///
+    /// Raises
+    /// ------
+    /// UnknownNameError
+    ///     ``"x"``.
+    /// OrderError
+    ///     ``0``, or above the order.
+    fn inverse<'py>(&self, py: Python<'py>, name: &str, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
+        let variable = name.parse().map_err(error::algebra)?;
+        let n = order("n", n, 1, self.0.order())?;
+        self.face(py, || self.0.inverse(variable, n))
+    }
+
+    /// This normal form as JSON text: exact, "p/q" strings, with a format version.
+    fn to_json(&self, py: Python<'_>) -> PyResult<String> {
+        py.detach(|| self.0.to_json()).map_err(error::algebra)
+    }
+
+    /// Reads what `to_json` wrote.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///
+    /// Raises
+    /// ------
+    /// FormatError
+    ///     Not JSON, another format or version, a term that no normal form has. The coefficients themselves are not computed again.
+    #[classmethod]
+    fn from_json(class: &Bound<'_, PyType>, text: &str) -> PyResult<Self> {
+        class.py().detach(|| andoyer_series::NormalForm::from_json(text)).map(Self).map_err(error::algebra)
+    }
+
+    /// A part of this normal form as LaTeX, for a document that uses amsmath.
+    ///
+    /// Parameters
+    /// ----------
+    /// what : {"hamiltonian", "generator", "direct", "inverse"}, optional
+    ///
+    /// Raises
+    /// ------
+    /// UnknownNameError
+    ///     ``"lagrangian"``.
+    #[pyo3(signature = (what="hamiltonian"))]
+    fn to_latex(&self, py: Python<'_>, what: &str) -> PyResult<String> {
+        let part = what.parse().map_err(error::algebra)?;
+        py.detach(|| self.0.to_latex(part)).map_err(error::algebra)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("NormalForm(order={})", self.0.order())
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    /// Pickled as its JSON text.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        Ok((slf.get_type().getattr("from_json")?, (slf.get().to_json(slf.py())?,)))
+    }
+}
+
+impl NormalForm {
+    fn face<'py>(
+        &self,
+        py: Python<'py>,
+        compute: impl FnOnce() -> Result<PublicForm, andoyer_series::Error> + Send,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        gaussian(py, py.detach(compute).map_err(error::algebra)?)
+    }
+}
+
+/// A dictionary of pairs (re, im), in the canonical order of the keys.
+fn gaussian<'py, K: IntoPyObject<'py>>(
+    py: Python<'py>,
+    form: BTreeMap<K, Complex<BigRational>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let result = PyDict::new(py);
+    for (key, c) in form {
+        result.set_item(key, (c.re, c.im))?;
+    }
+    Ok(result)
+}
+
+/// Action σ_sep(β) = (2/π) atan √((1−β)/2β) of the separatrix, in units of M: the radius of convergence of the series (theory §5).
+///
+/// Parameters
+/// ----------
+/// beta : float
+///     Triaxiality, 0 to 1.
+///
+/// Raises
+/// ------
+/// IntervalError
+///     ``-0.1``, ``1.1``, NaN.
+///
+/// Examples
+/// --------
+/// >>> round(separatrix_action(0.5), 5)
+/// 0.39183
+#[pyfunction]
+pub(crate) fn separatrix_action(beta: f64) -> PyResult<f64> {
+    andoyer_series::separatrix_action(beta).map_err(error::algebra)
+}

@@ -1,0 +1,14 @@
+//! Orders from Python: anything with `__index__`, of any size and sign.
+
+use pyo3::prelude::*;
+
+use crate::error::OrderError;
+
+/// `value` as an order. Whether it is within `minimum..=maximum` the Rust side says; here only what no `usize` can hold is refused.
+pub(crate) fn order(argument: &str, value: &Bound<'_, PyAny>, minimum: usize, maximum: usize) -> PyResult<usize> {
+    value.extract().map_err(|_| {
+        // Python refuses to print integers of thousands of digits.
+        let shown = value.repr().map_or_else(|_| "(too long to print)".to_owned(), |text| text.to_string());
+        OrderError::new_err(format!("{argument} = {shown}: it must be a whole number from {minimum} to {maximum}"))
+    })
+}

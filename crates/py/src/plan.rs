@@ -1,0 +1,79 @@
+//! `andoyer.Plan`.
+
+use pyo3::prelude::*;
+
+/// What is evaluated for a motion, and why: see `Motion.plan`; ``str(plan)`` is a table of it.
+///
+/// Examples
+/// --------
+/// >>> scene = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0])
+/// >>> plan = scene.solve().plan
+/// >>> plan.mode, plan.method
+/// ('short-axis', 'series')
+/// >>> plan.error_bound < 1e-12
+/// True
+#[pyclass(frozen, eq, module = "andoyer")]
+#[derive(PartialEq)]
+pub(crate) struct Plan(pub(crate) andoyer_propagate::Plan);
+
+#[pymethods]
+impl Plan {
+    /// The kind of motion: "short-axis", "axisymmetric", "spherical", "principal-axis" or "at-rest".
+    #[getter]
+    fn mode(&self) -> String {
+        self.0.mode().to_string()
+    }
+
+    /// "series", or "closed" where a formula without a series is exact.
+    #[getter]
+    fn method(&self) -> &'static str {
+        self.0.method()
+    }
+
+    /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance.
+    #[getter]
+    fn order(&self) -> usize {
+        self.0.order()
+    }
+
+    /// The highest multiple of the anomaly ℓ′ that is evaluated; 0 where none is.
+    #[getter]
+    fn harmonics(&self) -> usize {
+        self.0.harmonics()
+    }
+
+    /// Estimate from above of the attitude error over the span, in rad: truncation, dropped harmonics, rounding.
+    #[getter]
+    fn error_bound(&self) -> f64 {
+        self.0.error_bound()
+    }
+
+    /// σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5).
+    #[getter]
+    fn separatrix_ratio(&self) -> f64 {
+        self.0.separatrix_ratio()
+    }
+
+    /// What this scene did not need, and why: a list of str.
+    #[getter]
+    fn skipped(&self) -> Vec<String> {
+        self.0.skipped().to_vec()
+    }
+
+    fn __str__(&self) -> String {
+        self.0.to_string()
+    }
+
+    fn __repr__(&self) -> String {
+        let plan = &self.0;
+        format!(
+            "Plan(mode='{}', method='{}', order={}, harmonics={}, error_bound={:?}, separatrix_ratio={:?})",
+            plan.mode(),
+            plan.method(),
+            plan.order(),
+            plan.harmonics(),
+            plan.error_bound(),
+            plan.separatrix_ratio()
+        )
+    }
+}

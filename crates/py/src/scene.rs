@@ -1,0 +1,244 @@
+//! `andoyer.Scene`.
+
+use std::path::PathBuf;
+
+use andoyer_propagate::{MAX_ORDER, State};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple, PyType};
+
+use crate::body::Body;
+use crate::motion::Motion;
+use crate::{array, error};
+
+/// A body, its state at an epoch, and the accuracy asked of the solution.
+///
+/// No unit is built in: time, moments and angular velocity in any consistent set, angles in rad.
+///
+/// Parameters
+/// ----------
+/// body : Body
+/// attitude : array_like, shape (4,)
+///     Unit quaternion [x, y, z, w] that rotates body components into inertial ones; a norm within 1e-6 of 1 is normalized.
+/// angular_velocity : array_like, shape (3,)
+///     Body components, in rad per unit of time; zero is a body at rest.
+/// epoch : float, optional
+///     Time of the state.
+/// tolerance : float, optional
+///     Attitude error asked for over the span, in rad; less than double precision holds means the best there is
+///     (`Plan.error_bound` says what that is).
+/// method : {"auto", "series"}, optional
+/// order : int, optional
+///     Fixed order of the series, of the secular part too (theory §7), 0 to 60; by default the one that the tolerance needs (theory §5).
+/// span : (float, float), optional
+///     Times over which the tolerance is asked for; by default any within 1e9 rotations.
+/// name, source : str, optional
+///     What the scene is and where its figures come from: kept, printed, and nothing else.
+///
+/// Raises
+/// ------
+/// AttitudeError
+///     ``[0, 0, 0, 0]``, ``[0, 0, 0, 1.1]``, or not finite.
+/// AngularVelocityError, EpochError
+///     Not finite.
+/// ToleranceError
+///     ``0``, ``-1``, not finite.
+/// MethodError
+///     ``"closed"``: not there yet.
+/// OrderError
+///     ``-1``, ``61``, ``2.5``.
+/// SpanError
+///     ``(1, 0)``, or not finite.
+/// ShapeError
+///     An attitude of 3 numbers, an angular velocity of 4.
+///
+/// Examples
+/// --------
+/// >>> import numpy as np
+/// >>> scene = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0])
+/// >>> motion = scene.solve()
+/// >>> np.linalg.norm(motion.attitude(100.0)).round(14)
+/// np.float64(1.0)
+#[pyclass(frozen, eq, module = "andoyer")]
+#[derive(PartialEq)]
+pub(crate) struct Scene(pub(crate) andoyer_propagate::Scene);
+
+#[pymethods]
+impl Scene {
+    #[new]
+    #[pyo3(signature = (
+        body, attitude, angular_velocity, *, epoch=0.0, tolerance=1e-12, method="auto", order=None, span=None, name=None, source=None
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
+    fn new(
+        body: &Body,
+        attitude: &Bound<'_, PyAny>,
+        angular_velocity: &Bound<'_, PyAny>,
+        epoch: f64,
+        tolerance: f64,
+        method: &str,
+        order: Option<&Bound<'_, PyAny>>,
+        span: Option<&Bound<'_, PyAny>>,
+        name: Option<&str>,
+        source: Option<&str>,
+    ) -> PyResult<Self> {
+        let attitude = array::fixed("attitude", attitude)?;
+        let angular_velocity = array::fixed("angular_velocity", angular_velocity)?;
+        let state = State::new(epoch, attitude, angular_velocity).map_err(error::propagation)?;
+        let method = method.parse().map_err(error::propagation)?;
+        let mut scene = andoyer_propagate::Scene::new(body.0.clone(), state).tolerance(tolerance).method(method);
+        if let Some(value) = order {
+            scene = scene.order(crate::order::order("order", value, 0, MAX_ORDER)?);
+        }
+        if let Some(value) = span {
+            let [start, stop] = array::fixed("span", value)?;
+            scene = scene.span(start, stop);
+        }
+        if let Some(name) = name {
+            scene = scene.name(name);
+        }
+        if let Some(source) = source {
+            scene = scene.source(source);
+        }
+        scene.validate().map_err(error::propagation)?;
+        Ok(Self(scene))
+    }
+
+    /// The scene of a TOML file.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or os.PathLike
+    ///
+    /// Raises
+    /// ------
+    /// SceneFileError
+    ///     No such file, no TOML, an unknown or missing key, a value that no scene has; the message names file, key and bound.
+    #[classmethod]
+    fn from_toml(_class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
+        andoyer_propagate::Scene::from_toml(path).map(Self).map_err(error::propagation)
+    }
+
+    /// The scene as TOML text, which `from_toml` reads back from a file to an equal scene.
+    fn to_toml(&self) -> String {
+        self.0.to_toml()
+    }
+
+    /// The motion: everything that does not depend on time is done here, once.
+    ///
+    /// Raises
+    /// ------
+    /// ModeError
+    ///     Rotation about the axis of least inertia.
+    /// SeparatrixError
+    ///     The tolerance needs an order above 60, so near is the separatrix.
+    fn solve(&self, py: Python<'_>) -> PyResult<Motion> {
+        py.detach(|| self.0.solve()).map(Motion).map_err(error::propagation)
+    }
+
+    /// The body.
+    #[getter]
+    fn body(&self) -> Body {
+        Body(self.0.body().clone())
+    }
+
+    /// The attitude at the epoch: unit quaternion [x, y, z, w], normalized, a read-only array of shape (4,).
+    #[getter]
+    fn attitude<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
+        array::constant(py, self.0.state().attitude.coords.as_slice()).into_any()
+    }
+
+    /// The angular velocity at the epoch, in body components, in rad per unit of time: a read-only array of shape (3,).
+    #[getter]
+    fn angular_velocity<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
+        array::constant(py, self.0.state().angular_velocity.as_slice()).into_any()
+    }
+
+    /// The time of the state.
+    #[getter]
+    fn epoch(&self) -> f64 {
+        self.0.state().epoch
+    }
+
+    /// The attitude error asked for, in rad.
+    #[getter]
+    fn tolerance(&self) -> f64 {
+        self.0.asked_tolerance()
+    }
+
+    /// The method: "auto" or "series".
+    #[getter]
+    fn method(&self) -> String {
+        self.0.asked_method().to_string()
+    }
+
+    /// The fixed order of the series, or None.
+    #[getter]
+    fn order(&self) -> Option<usize> {
+        self.0.asked_order()
+    }
+
+    /// The times over which the tolerance is asked for: (start, stop), or None.
+    #[getter]
+    fn span(&self) -> Option<(f64, f64)> {
+        self.0.asked_span()
+    }
+
+    /// The name, or None.
+    #[getter]
+    fn name(&self) -> Option<&str> {
+        self.0.asked_name()
+    }
+
+    /// Where the figures come from, or None.
+    #[getter]
+    fn source(&self) -> Option<&str> {
+        self.0.asked_source()
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let mut keywords = String::new();
+        for (key, value) in self.keywords(py)?.iter() {
+            keywords += &format!(", {key}={}", value.repr()?);
+        }
+        let state = self.0.state();
+        let [attitude, rates] = [state.attitude.coords.as_slice(), state.angular_velocity.as_slice()];
+        Ok(format!("Scene({}, {attitude:?}, {rates:?}{keywords})", self.body().__repr__(py)?))
+    }
+
+    fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
+        let state = self.0.state();
+        let numbers: ([f64; 4], [f64; 3]) = (state.attitude.coords.into(), state.angular_velocity.into());
+        let keywords = PyTuple::new(py, self.keywords(py)?.values())?;
+        let [attitude, rates] = [PyTuple::new(py, numbers.0)?, PyTuple::new(py, numbers.1)?];
+        (self.body().__hash__(py)?, attitude, rates, keywords).into_pyobject(py)?.hash()
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let state = self.0.state();
+        let [attitude, rates] = [state.attitude.coords.as_slice(), state.angular_velocity.as_slice()];
+        ((self.body(), attitude, rates), self.keywords(py)?).into_pyobject(py)
+    }
+}
+
+impl Scene {
+    /// The keyword arguments that make this scene.
+    fn keywords<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let keywords = PyDict::new(py);
+        keywords.set_item("epoch", self.epoch())?;
+        keywords.set_item("tolerance", self.tolerance())?;
+        keywords.set_item("method", self.method())?;
+        keywords.set_item("order", self.order())?;
+        keywords.set_item("span", self.span())?;
+        keywords.set_item("name", self.name())?;
+        keywords.set_item("source", self.source())?;
+        Ok(keywords)
+    }
+}

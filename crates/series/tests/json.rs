@@ -1,0 +1,112 @@
+//! JSON: what is written is read back, and what is malformed is refused with its reason.
+
+use andoyer_series::{Error, NormalForm, TermProblem, Variable};
+
+#[test]
+fn what_is_written_is_read_back_to_the_last_digit() -> Result<(), Error> {
+    for order in [0, 1, 7] {
+        let normal_form = NormalForm::new(order)?;
+        let read = NormalForm::from_json(&normal_form.to_json()?)?;
+        assert_eq!(read, normal_form);
+        assert_eq!(read.to_json()?, normal_form.to_json()?);
+        if order > 0 {
+            assert_eq!(read.direct(Variable::Coordinate, order)?, normal_form.direct(Variable::Coordinate, order)?);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_format_of_version_1_does_not_change() -> Result<(), Error> {
+    let expected = concat!(
+        r#"{"format":"andoyer-normal-form","version":1,"order":1,"triaxiality":[[[0,"2"]],[[0,"-1"]]],"#,
+        r#""generators":[[[1,3,1,"1/8","0"],[3,1,1,"1/8","0"]]]}"#
+    );
+    assert_eq!(NormalForm::new(1)?.to_json()?, expected);
+    Ok(())
+}
+
+fn document(order: &str, triaxiality: &str, generators: &str) -> Result<NormalForm, Error> {
+    NormalForm::from_json(&format!(
+        r#"{{"format":"andoyer-normal-form","version":1,"order":{order},"triaxiality":{triaxiality},"generators":{generators}}}"#
+    ))
+}
+
+const P: &str = r#"[[[0,"2"]],[[0,"-1"]]]"#;
+const S: &str = r#"[[[1,3,1,"1/8","0"],[3,1,1,"1/8","0"]]]"#;
+
+#[test]
+fn what_is_not_json_or_has_another_shape_is_refused() {
+    assert!(document("1", P, S).is_ok());
+    for text in [
+        "",
+        "[]",
+        "{",
+        "null",
+        r#"{"format":"andoyer-normal-form"}"#,
+        r#"{"format":"andoyer-normal-form","version":1}"#,
+    ] {
+        assert!(matches!(NormalForm::from_json(text), Err(Error::Json(_))), "{text}");
+    }
+    assert!(matches!(document("-1", P, S), Err(Error::Json(_))));
+    assert!(matches!(document("1", "{}", S), Err(Error::Json(_))));
+    assert!(matches!(document("1", r#"[[[0,2]],[]]"#, S), Err(Error::Json(_))));
+    assert!(matches!(document("1", P, r#"[[[1,3,"1/8","0"]]]"#), Err(Error::Json(_))));
+    assert!(matches!(document("1,\"extra\":0", P, S), Err(Error::Json(_))));
+    let nested = "[".repeat(100_000);
+    assert!(matches!(NormalForm::from_json(&nested), Err(Error::Json(_))));
+}
+
+#[test]
+fn other_formats_and_versions_are_refused() {
+    for (format, version) in [("andoyer-normal-form", 2), ("andoyer-normal-form", 0), ("something-else", 1)] {
+        let text = format!(r#"{{"format":"{format}","version":{version}}}"#);
+        let refused = NormalForm::from_json(&text);
+        assert!(matches!(refused, Err(Error::FormatUnknown { version: found, .. }) if found == version), "{text}");
+    }
+}
+
+#[test]
+fn orders_that_do_not_fit_or_do_not_match_are_refused() {
+    assert!(matches!(document("18446744073709551615", P, S), Err(Error::OrderTooLarge { .. })));
+    assert!(matches!(document("16382", P, S), Err(Error::OrderTooLarge { order: 16382, bound: 16381 })));
+    let refused = document("2", P, S);
+    assert!(matches!(refused, Err(Error::CountMismatch { what: "triaxiality", found: 2, expected: 3 })));
+    let refused = document("1", P, "[]");
+    assert!(matches!(refused, Err(Error::CountMismatch { what: "generators", found: 0, expected: 1 })));
+}
+
+#[test]
+fn rationals_that_are_not_reduced_are_refused() {
+    let long = "9".repeat(70_000);
+    for bad in ["", "2/1", "-2/4", "1/0", "1/-2", "0.5", "+1", " 1", "1/", "x", "1e3", "01", &long] {
+        let refused = document("1", &format!(r#"[[[0,"{bad}"]],[[0,"-1"]]]"#), S);
+        assert!(matches!(refused, Err(Error::RationalMalformed { ref text }) if text == bad), "{bad:.20}: {refused:?}");
+    }
+}
+
+#[track_caller]
+fn assert_inconsistent(triaxiality: &str, generators: &str, exponents: &[u32], problem: TermProblem) {
+    match document("1", triaxiality, generators) {
+        Err(Error::TermInconsistent { exponents: at, problem: found, .. }) => {
+            assert_eq!((&at[..], found), (exponents, problem))
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn terms_that_no_normal_form_contains_are_refused() {
+    assert_inconsistent(r#"[[[0,"2"]],[[2,"1"]]]"#, S, &[2], TermProblem::Degree);
+    assert_inconsistent(r#"[[[0,"2"]],[[1,"1"]]]"#, S, &[1], TermProblem::Degree); // odd in β
+    assert_inconsistent(r#"[[[0,"0"]],[]]"#, S, &[0], TermProblem::Zero);
+    assert_inconsistent(r#"[[[0,"1"],[0,"1"]],[]]"#, S, &[0], TermProblem::Repeated);
+    assert_inconsistent(P, r#"[[[1,2,1,"1","0"]]]"#, &[1, 2, 1], TermProblem::Degree);
+    assert_inconsistent(P, r#"[[[4294967295,4294967295,1,"1","0"]]]"#, &[u32::MAX, u32::MAX, 1], TermProblem::Degree);
+    assert_inconsistent(P, r#"[[[1,3,2,"1","0"]]]"#, &[1, 3, 2], TermProblem::Degree);
+    assert_inconsistent(P, r#"[[[2,2,1,"1","0"]]]"#, &[2, 2, 1], TermProblem::Kernel);
+    assert_inconsistent(P, r#"[[[1,3,1,"0","0"]]]"#, &[1, 3, 1], TermProblem::Zero);
+    assert_inconsistent(P, r#"[[[1,3,1,"1","0"],[1,3,1,"1","0"]]]"#, &[1, 3, 1], TermProblem::Repeated);
+    assert_inconsistent(P, r#"[[[1,3,1,"0","1"]]]"#, &[1, 3, 1], TermProblem::NotReal);
+    assert_inconsistent(P, r#"[[[1,3,1,"1/8","0"],[3,1,1,"-1/8","0"]]]"#, &[3, 1, 1], TermProblem::NotReal);
+}

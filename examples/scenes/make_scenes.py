@@ -1,0 +1,270 @@
+"""Computes and writes the scene files of this folder: state from moments, spin period, amplitude and orientation.
+
+    python make_scenes.py            writes them
+    python make_scenes.py --check    writes nothing, exit status 1 if a file differs from what would be written
+
+The state is given in Andoyer's angles: attitude R = Rz(lambda) Rx(I) Rz(mu) Rx(J) Rz(nu), angular momentum M (sinJ sin nu, sinJ cos nu, cosJ)
+in the body (theory §1). M follows from the spin period, P_spin = 2 pi / (mean rate of mu + nu), the mean rates from Jacobi's closed form in
+40 digits (tests/reference/torque_free.py). Apophis has two measured periods instead, from which M and J are solved.
+Needs mpmath.
+"""
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from textwrap import fill
+
+from mpmath import asin, cos, cospi, degrees, findroot, mp, mpf, pi, quad, radians, sin, sinpi, sqrt
+
+FOLDER = Path(__file__).resolve().parent
+sys.path.insert(0, str(FOLDER.parents[1] / "tests" / "reference"))
+
+from torque_free import TorqueFree  # noqa: E402
+
+mp.dps = 40
+HOUR, DAY, YEAR = 3600, 86400, 31557600
+
+
+@dataclass
+class Recipe:
+    """One scene: what is chosen. Angles are in degrees as decimal strings, times in seconds; `source` has fields in braces."""
+
+    file: str
+    name: str
+    moments: tuple
+    nu: str
+    node: str
+    inclination: str
+    source: str
+    span: float
+    tolerance: float = 1e-12
+    nutation: mpf = None  # J [rad] at nu, with the period
+    spin: mpf = None  # of the spin
+    tumbling: tuple = None  # or instead of both (P_phi, P_psi), long-axis convention
+
+
+UNMARKED = "Figures marked neither read nor recalled are attributed to the source named beside them and were not checked against it."
+
+RECIPES = [
+    Recipe(
+        file="earth.toml",
+        name="Earth, free wobble of 0.2 arcsec",
+        moments=("0.99671523", "0.99673718", "1.0"),
+        nu="30",
+        node="0",
+        inclination="23.4393",
+        spin=mpf("0.99726957") * DAY,
+        nutation=radians(mpf("0.2") / 3600),
+        span=608 * DAY,
+        source=f"""
+Moments {{moments}} in units of C, of a rigid Earth: recalled, from H = (C - (A+B)/2)/C = 3.273795e-3 and from J22 of the harmonics
+C22 = 1.5744e-6, S22 = -0.9038e-6 (IERS Conventions 2010). Spin period 0.99726957 d (mean rate of mu + nu). Frame: ecliptic, x along the
+node of the plane of the angular momentum; I = obliquity 23.4393 deg. The amplitude is chosen, of the size of polar motion:
+J = 0.2 arcsec = {{J_urad}} microradian. Computed: Euler period {{wobble_d}} d. The Earth's pole takes about 433 d (recalled: Chandler), since
+the real Earth yields and has a fluid core and oceans; this scene is Euler's rigid one. Span: 608 d, two Euler periods and a little.
+{UNMARKED}
+""",
+    ),
+    Recipe(
+        file="ceres.toml",
+        name="Ceres, hypothetical wobble of 0.1 mrad",
+        moments=("0.92553653", "0.93014538", "1.0"),
+        nu="30",
+        node="0",
+        inclination="4",
+        spin=mpf("9.07417") * HOUR,
+        nutation=mpf("1e-4"),
+        span=YEAR,
+        source=f"""
+Moments {{moments}} in units of C, computed for a homogeneous ellipsoid of semi-axes 482.79, 480.57, 445.57 km (Park et al. 2016).
+Spin period 9.07417 h (mean rate of mu + nu). Frame: orbit plane, x along the node of the plane of the angular momentum;
+I = obliquity 4 deg. Ceres has no known wobble: the amplitude J = 1e-4 rad is hypothetical. Computed: wobble period {{wobble_h}} h.
+Span: one Julian year.
+{UNMARKED}
+""",
+    ),
+    Recipe(
+        file="vesta.toml",
+        name="Vesta, hypothetical wobble of 0.1 mrad",
+        moments=("0.79854423", "0.82580063", "1.0"),
+        nu="30",
+        node="0",
+        inclination="27.5",
+        spin=mpf("5.3421276") * HOUR,
+        nutation=mpf("1e-4"),
+        span=YEAR,
+        source=f"""
+Moments {{moments}} in units of C, computed for a homogeneous ellipsoid of semi-axes 286.3, 278.6, 223.2 km (Russell et al. 2012).
+Spin period 5.3421276 h (mean rate of mu + nu). Frame: orbit plane, x along the node of the plane of the angular momentum;
+I = obliquity 27.5 deg. Vesta has no known wobble: the amplitude J = 1e-4 rad is hypothetical. Computed: wobble period {{wobble_h}} h.
+Span: one Julian year.
+{UNMARKED}
+""",
+    ),
+    Recipe(
+        file="eros.toml",
+        name="Eros, 2 degrees off its short axis",
+        moments=("0.22942677", "0.96375352", "1.0"),
+        nu="90",
+        node="0",
+        inclination="89.0",
+        spin=mpf("5.27025547") * HOUR,
+        nutation=radians(mpf(2)),
+        span=YEAR,
+        source=f"""
+Moments {{moments}} in units of C: recalled, from 17.09, 71.79, 74.49 km^2 (Miller et al. 2002). Spin period 5.27025547 h (mean rate of
+mu + nu). Frame: orbit plane, x along the node of the plane of the angular momentum; I = obliquity 89.0 deg (read: Souchay
+and Kinoshita 2003).
+Eros turns about its short axis with no measured wobble (read: Yeomans et al. 2000): J = 2 deg is hypothetical, taken at nu = 90 deg, towards the
+long axis, where the separatrix stands at {{J_separatrix}} deg. Computed: J swings between {{J_low}} and {{J_high}} deg, wobble period {{wobble_h}} h,
+sigma/sigma_sep = {{ratio}}. Span: one Julian year.
+{UNMARKED}
+""",
+    ),
+    Recipe(
+        file="apophis.toml",
+        name="Apophis, tumbling",
+        moments=("0.61", "0.965", "1.0"),
+        nu="90",
+        node="340",
+        inclination="165",
+        tumbling=(mpf("27.38") * HOUR, 263 * HOUR),
+        span=YEAR,
+        tolerance=1e-8,
+        source=f"""
+Moments {{moments}} in units of C and the periods P_phi = 27.38 h, P_psi = 263 h (long-axis convention: mean precession of the long axis,
+its roll) of Pravec et al. 2014, Icarus 233, 48. The state solves these two periods. Computed: J swings between {{J_low}} and {{J_high}} deg,
+E/E0 = {{energy}} (read: Pravec et al., 1.024 +- 0.013), k^2 = {{modulus}}, sigma/sigma_sep = {{ratio}}, short-axis precession {{precession_h}} h, and
+1/P_phi - 1/P_psi = 1/{{light_curve_h}} h, the strongest line of the light curve (recalled). Frame: ecliptic; the angular momentum points to
+longitude 250 deg, latitude -75 deg (recalled, same paper), so lambda = 250 + 90 deg, I = 90 + 75 deg. The phases mu and nu are chosen.
+Tolerance 1e-8: so near the separatrix the series to order 60 give little more. Span: one Julian year.
+{UNMARKED}
+""",
+    ),
+]
+
+
+def momentum_direction(nutation, nu):
+    """Unit angular momentum in the body, theory §1, exactly zero where nu says so."""
+    return [sin(nutation) * sinpi(nu / pi), sin(nutation) * cospi(nu / pi), cos(nutation)]
+
+
+def mean_rates(moments, nutation, nu):
+    """Mean rates of mu and nu for M = 1, and the parameter k^2 of the elliptic functions."""
+    rates = [g / mpf(moment) for g, moment in zip(momentum_direction(nutation, nu), moments)]
+    motion = TorqueFree(moments, [0, 0, 0, 1], rates)
+    precession, roll = motion.mean_rates()
+    return mpf(precession), mpf(roll), mpf(motion.parameter)
+
+
+def solve_tumbling(recipe, nu):
+    """J at nu and M of a short-axis tumbler from P_phi, P_psi: the long axis precesses at mean(mu') + mean(nu') and rolls at -mean(nu')."""
+
+    def ratio(nutation):
+        precession, roll, _ = mean_rates(recipe.moments, nutation, nu)
+        return -(precession + roll) / roll
+
+    phi, psi = recipe.tumbling
+    nutation = findroot(lambda j: ratio(j) - mpf(psi) / phi, (radians(10), radians(13)), solver="anderson")  # below J_sep = 13.8 deg
+    precession, roll, _ = mean_rates(recipe.moments, nutation, nu)
+    return nutation, 2 * pi / phi / (precession + roll)
+
+
+def action(moments, energy):
+    """sigma of the energy integral E gamma / alpha, quadrature of theory §5."""
+    a, b, c = (mpf(x) for x in moments)
+    alpha = (c / a + c / b) / 2 - 1
+    beta = (c / a - c / b) / 2 / alpha
+    # 1 - sqrt(1 - x) = x / (1 + sqrt(1 - x)): nothing lost at small J. The separatrix, energy = 1 - beta, makes a corner at nu = 0.
+    tilt = lambda nu: (lambda x: x / (1 + sqrt(abs(1 - x))))(energy / (1 - beta * cos(2 * nu)))
+    return quad(tilt, [0, pi / 4, pi / 2]) * 2 / pi
+
+
+def describe(recipe, nutation, nu, momentum):
+    """The computed figures that a scene's source text quotes, formatted."""
+    a, b, c = (mpf(x) for x in recipe.moments)
+    precession, roll, parameter = mean_rates(recipe.moments, nutation, nu)
+    g = momentum_direction(nutation, nu)
+    excess = (c / a - 1) * g[0] ** 2 + (c / b - 1) * g[1] ** 2  # 2T C / M^2 - 1
+    alpha, beta = (c / a + c / b) / 2 - 1, (c / a - c / b) / (c / a + c / b - 2)
+    spin, wobble = 2 * pi / (momentum * (precession + roll)), 2 * pi / (-roll * momentum)
+    swing = [asin(sqrt(excess / (c / moment - 1))) for moment in (a, b)]
+    figure = lambda x, digits: mp.nstr(x, digits, strip_zeros=False)
+    return {
+        "moments": " : ".join(recipe.moments),
+        "wobble_d": figure(wobble / DAY, 5),
+        "wobble_h": figure(wobble / HOUR, 5),
+        "spin_h": figure(spin / HOUR, 8),
+        "precession_h": figure(2 * pi / (momentum * precession) / HOUR, 5),
+        "light_curve_h": figure(2 * pi / (momentum * (precession + 2 * roll)) / HOUR, 4),
+        "J": figure(degrees(nutation), 6),
+        "J_urad": figure(nutation * 10**6, 6),
+        "J_low": figure(degrees(swing[0]), 4),
+        "J_high": figure(degrees(swing[1]), 4),
+        "J_separatrix": figure(degrees(asin(sqrt((c / b - 1) / (c / a - 1)))), 3),
+        "energy": figure(1 + excess, 5),
+        "modulus": figure(parameter, 3),
+        "ratio": figure(action(recipe.moments, excess / alpha) / action(recipe.moments, 1 - beta), 3),
+    }
+
+
+def quaternion(recipe, nutation, nu, mu):
+    """[x, y, z, w] of Rz(lambda) Rx(I) Rz(mu) Rx(J) Rz(nu)."""
+    q = [mpf(0), mpf(0), mpf(0), mpf(1)]
+    turns = [(2, radians(mpf(recipe.node))), (0, radians(mpf(recipe.inclination))), (2, mu), (0, nutation), (2, nu)]
+    for axis, angle in turns:
+        s, c = sin(angle / 2), cos(angle / 2)
+        i, j, k = axis, (axis + 1) % 3, (axis + 2) % 3
+        r = [mpf(0)] * 4
+        r[i], r[3] = q[i] * c + q[3] * s, q[3] * c - q[i] * s
+        r[j], r[k] = q[j] * c + q[k] * s, q[k] * c - q[j] * s
+        q = r
+    return q
+
+
+def scene(recipe):
+    """The text of a scene file."""
+    nu = radians(mpf(recipe.nu))
+    if recipe.tumbling:
+        nutation, momentum = solve_tumbling(recipe, nu)
+    else:
+        nutation = recipe.nutation
+        precession, roll, _ = mean_rates(recipe.moments, nutation, nu)
+        momentum = 2 * pi / recipe.spin / (precession + roll)
+    attitude = quaternion(recipe, nutation, nu, -nu)
+    rates = [momentum * g / mpf(moment) for g, moment in zip(momentum_direction(nutation, nu), recipe.moments)]
+    row = lambda values: "[" + ", ".join(repr(float(x)) for x in values) + "]"
+    angles = f"lambda = {recipe.node} deg, I = {recipe.inclination} deg, mu = -{recipe.nu} deg, nu = {recipe.nu} deg"
+    source = recipe.source.format(**describe(recipe, nutation, nu, momentum)) + f"The state: {angles}. Computed by make_scenes.py."
+    return f'''name = "{recipe.name}"
+source = """
+{fill(source.strip(), 120)}
+"""
+epoch = 0.0
+span = {row([0, recipe.span])}
+tolerance = {recipe.tolerance!r}
+
+[body]
+moments = [{", ".join(recipe.moments)}]
+
+[state]
+attitude = {row(attitude)}
+angular_velocity = {row(rates)}
+'''
+
+
+def main(check):
+    stale = []
+    for recipe in RECIPES:
+        path, text = FOLDER / recipe.file, scene(recipe)
+        if check:
+            if not path.exists() or path.read_text(encoding="utf-8") != text:
+                stale.append(recipe.file)
+        else:
+            path.write_text(text, encoding="utf-8")
+    if stale:
+        sys.exit(f"differ from what make_scenes.py computes: {' '.join(stale)}")
+
+
+if __name__ == "__main__":
+    main("--check" in sys.argv[1:])

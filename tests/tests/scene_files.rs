@@ -1,0 +1,95 @@
+//! Scene files: what is read back, and what is refused with file, key and bound.
+
+use andoyer_propagate::{Error, Scene};
+
+const GOOD: &str = "name = \"A body\"
+source = \"made up\"
+epoch = 5
+span = [0, 1e3]
+tolerance = 1e-10
+method = \"series\"
+order = 12
+[body]
+moments = [0.5, 0.75, 1.0]
+[state]
+attitude = [0.0, 0.6, 0.0, 0.8]
+angular_velocity = [0.1, 0.2, 1.0]
+";
+
+fn refused(text: &str) -> (String, String) {
+    match Scene::parse_toml(text, "scene.toml").expect_err("no scene") {
+        Error::SceneFile { file, key, problem } => {
+            assert_eq!(file, "scene.toml");
+            (key, problem)
+        }
+        error => panic!("{error}"),
+    }
+}
+
+#[test]
+fn a_scene_written_and_read_back_is_the_same_scene() {
+    let scene = Scene::parse_toml(GOOD, "scene.toml").expect("a scene");
+    assert_eq!((scene.asked_order(), scene.asked_span(), scene.state().epoch), (Some(12), Some((0.0, 1e3)), 5.0));
+    let again = Scene::parse_toml(&scene.to_toml(), "again.toml").expect("a scene");
+    assert_eq!(scene, again);
+}
+
+#[test]
+fn every_example_scene_solves() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/scenes");
+    let files = std::fs::read_dir(folder).expect("the folder").map(|entry| entry.expect("an entry").path());
+    let files: Vec<_> = files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")).collect();
+    assert!(files.len() >= 5);
+    for file in files {
+        let scene = Scene::from_toml(&file).unwrap_or_else(|error| panic!("{error}"));
+        assert!(scene.asked_source().is_some(), "{}: figures without a source", file.display());
+        scene.solve().unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+    }
+}
+
+#[test]
+fn unknown_and_missing_keys_are_named() {
+    let (key, problem) = refused(&GOOD.replace("tolerance", "tolerence"));
+    assert_eq!(key, "tolerence");
+    assert!(problem.contains("known here: name, source, epoch"), "{problem}");
+    assert_eq!(refused(&GOOD.replace("moments", "moment")).0, "body.moment");
+    assert_eq!(refused(&GOOD.replace("attitude", "quaternion")).0, "state.quaternion");
+    assert_eq!(refused(&GOOD.replace("attitude = [0.0, 0.6, 0.0, 0.8]", "")).0, "state.attitude");
+    assert_eq!(refused("[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0, 1]").0, "body");
+}
+
+#[test]
+fn bad_values_are_named_with_their_bound() {
+    let cases = [
+        ("tolerance = 1e-10", "tolerance = 0", "scene", "must be positive"),
+        ("tolerance = 1e-10", "tolerance = \"fine\"", "tolerance", "must be a number"),
+        ("order = 12", "order = 61", "order", "from 0 to 60"),
+        ("order = 12", "order = -1", "order", "from 0 to 60"),
+        ("order = 12", "order = 1.5", "order", "from 0 to 60"),
+        ("\"series\"", "\"magic\"", "method", "must be \"auto\" or \"series\""),
+        ("span = [0, 1e3]", "span = [1, 0]", "scene", "start ≤ stop"),
+        ("span = [0, 1e3]", "span = [1]", "span", "a list of 2 numbers"),
+        ("epoch = 5", "epoch = nan", "state", "must be finite"),
+        ("[0.5, 0.75, 1.0]", "[0.5, 0.75]", "body.moments", "a list of 3 numbers"),
+        ("[0.5, 0.75, 1.0]", "[0.5, 0.75, -1.0]", "body", "must be positive"),
+        ("[0.5, 0.75, 1.0]", "[0.5, 0.75, 9.0]", "body", "must not exceed"),
+        ("0.8]", "0.9]", "state", "within 1e-6 of 1"),
+        ("[0.1, 0.2, 1.0]", "[0.1, nan, 1.0]", "state", "must be finite"),
+        ("name = \"A body\"", "name = 3", "name", "must be a text"),
+        ("[body]\n", "[body]\nnamed = \"ceres\"\n", "body.named", "one or the other"),
+        ("moments = [0.5, 0.75, 1.0]", "named = \"vulcan\"", "body", "not in the catalogue"),
+    ];
+    for (good, bad, key, bound) in cases {
+        assert!(GOOD.contains(good), "{good}");
+        let (found, problem) = refused(&GOOD.replacen(good, bad, 1));
+        assert_eq!(found, key, "{bad}: {problem}");
+        assert!(problem.contains(bound), "{bad}: {problem}");
+    }
+}
+
+#[test]
+fn what_is_no_toml_is_named_by_its_line_and_a_missing_file_by_its_path() {
+    assert_eq!(refused("epoch = 0\nspan = [").0, "line 2");
+    let error = Scene::from_toml("no/such/scene.toml").expect_err("no file");
+    assert!(error.to_string().starts_with("no/such/scene.toml: file: "), "{error}");
+}
