@@ -110,18 +110,20 @@ def _plane(axes, moments, nu, cosine):
     """The (nu, N/M) plane: level curves of the energy, the separatrix, the motion."""
     a, b, c = moments
     alpha = (c / a + c / b) / 2 - 1
-    beta = (c / a - c / b) / 2 / alpha
-    side = np.sign(cosine[0])
-    angle, height = np.meshgrid(np.linspace(-np.pi, np.pi, 361), np.linspace(0, 1, 201))
+    beta = (c / a - c / b) / 2 / alpha if alpha else 0
+    low, high = -1 if cosine.min() < 0 else 0, 1 if cosine.max() > 0 else 0
+    angle, height = np.meshgrid(np.linspace(-np.pi, np.pi, 361), np.linspace(low, high, 201 * (high - low)))
     energy = (1 - height**2) * (1 - beta * np.cos(2 * angle))
-    levels = (1 - beta) * np.array([0.1, 0.3, 0.6]), (1 - beta) + 2 * beta * np.array([0.1, 0.3, 0.6])
-    axes.contour(np.degrees(angle), side * height, energy, np.concatenate(levels), colors=GREY, linewidths=0.6)
-    axes.contour(np.degrees(angle), side * height, energy, [1 - beta], colors=VERMILION, linewidths=1.3, linestyles=[(0, (5, 2))])
+    shares = np.array([0.1, 0.3, 0.6])
+    levels = np.unique([*(1 - beta) * shares, *(1 - beta) + 2 * beta * shares])
+    axes.contour(np.degrees(angle), height, energy, levels, colors=GREY, linewidths=0.6)
+    if 0 < beta < 1:
+        axes.contour(np.degrees(angle), height, energy, [1 - beta], colors=VERMILION, linewidths=1.3, linestyles=[(0, (5, 2))])
     wrapped = np.degrees(np.angle(np.exp(1j * nu)))
     gap = np.abs(np.diff(wrapped, append=wrapped[-1])) > 180
     axes.plot(np.where(gap, np.nan, wrapped), cosine, color=BLUE, linewidth=2.4)
     axes.plot(wrapped[0], cosine[0], "o", color=BLUE, markersize=6)
-    axes.set(xlim=(-180, 180), ylim=sorted((0, 1.02 * side)), xticks=range(-180, 181, 90))
+    axes.set(xlim=(-180, 180), ylim=(1.02 * low, 1.02 * high), xticks=range(-180, 181, 90))
     axes.set(xlabel="ν [deg]", ylabel="N/M = cos J", title="Andoyer's plane (ν, N/M)")
 
 
@@ -172,7 +174,8 @@ def _angles(figure, grid, times, andoyer, nutation):
     mu, mu_rate, _ = _without_mean(andoyer[:, 1], times)
     nu, nu_rate, nu_all = _without_mean(andoyer[:, 2], times)
     panels[1].plot(elapsed, np.degrees(nu_all), color=BLUE)
-    panels[1].yaxis.set_major_locator(plt.MultipleLocator(360))
+    if np.ptp(nu_all) > 2 * np.pi:
+        panels[1].yaxis.set_major_locator(plt.MultipleLocator(360))
     panels[1].set(ylabel="ν [deg]", title=f"ν: period {_period(nu_rate, times)}, μ: period {_period(mu_rate, times)}")
     panels[2].plot(elapsed, np.degrees(mu), color=VERMILION, linestyle="--", label="μ")
     panels[2].plot(elapsed, np.degrees(nu), color=BLUE, label="ν")

@@ -175,8 +175,12 @@ def action(moments, energy):
     a, b, c = (mpf(x) for x in moments)
     alpha = (c / a + c / b) / 2 - 1
     beta = (c / a - c / b) / 2 / alpha
-    # 1 - sqrt(1 - x) = x / (1 + sqrt(1 - x)): nothing lost at small J. The separatrix, energy = 1 - beta, makes a corner at nu = 0.
-    tilt = lambda nu: (lambda x: x / (1 + sqrt(abs(1 - x))))(energy / (1 - beta * cos(2 * nu)))
+
+    def tilt(nu):
+        # 1 - sqrt(1 - x) in the form that loses nothing at small J; on the separatrix 1 - x may round below 0 at nu = 0.
+        x = energy / (1 - beta * cos(2 * nu))
+        return x / (1 + sqrt(max(1 - x, 0)))
+
     return quad(tilt, [0, pi / 4, pi / 2]) * 2 / pi
 
 

@@ -20,8 +20,8 @@ impl Body {
     /// A body from its principal moments about body axes 1, 2, 3, in any order and any unit.
     ///
     /// # Errors
-    /// - [`Error::Moment`]: `[0.0, 1.0, 1.0]`, `[-1.0, 1.0, 1.0]`, `[f64::NAN, 1.0, 1.0]`, `[f64::INFINITY, 1.0, 1.0]`.
-    /// - [`Error::MomentsTriangle`]: `[1.0, 1.0, 2.1]`.
+    /// - [`Error::Moment`] for `[0.0, 1.0, 1.0]`, `[-1.0, 1.0, 1.0]`, `[f64::NAN, 1.0, 1.0]`, `[f64::INFINITY, 1.0, 1.0]`.
+    /// - [`Error::MomentsTriangle`] for `[1.0, 1.0, 2.1]`.
     ///
     /// ```
     /// let body = andoyer_propagate::Body::new([1.0, 1.5, 2.0])?;
@@ -47,7 +47,7 @@ impl Body {
     /// A body of the catalogue by its name, in any case: "earth", "ceres", … (the list: [`Body::catalogue`]).
     ///
     /// # Errors
-    /// - [`Error::UnknownBody`]: `"vulcan"`.
+    /// - [`Error::UnknownBody`] for `"vulcan"`.
     pub fn named(name: &str) -> Result<Self, Error> {
         let entry = catalogue::find(name).ok_or_else(|| Error::UnknownBody { name: name.to_owned() })?;
         Ok(Self::new(entry.moments)?.with_name(entry.name))

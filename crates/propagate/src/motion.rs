@@ -113,7 +113,7 @@ impl Motion {
     /// Attitude and rates at a time.
     ///
     /// # Errors
-    /// - [`Error::Time`]: NaN, infinite, or more than 1e300 rotations from the epoch.
+    /// - [`Error::Time`] for NaN, infinite, or more than 1e300 rotations from the epoch.
     pub fn at(&self, time: f64) -> Result<Sample, Error> {
         let elapsed = self.elapsed(0, time)?;
         let (attitude, angular_velocity) = self.evaluate(elapsed);
@@ -123,8 +123,8 @@ impl Motion {
     /// Attitudes [x, y, z, w] at many times, without an allocation.
     ///
     /// # Errors
-    /// - [`Error::Length`]: `out` shorter or longer than `times`.
-    /// - [`Error::Time`]: as [`Motion::at`], with the index.
+    /// - [`Error::Length`] for `out` shorter or longer than `times`.
+    /// - [`Error::Time`] as for [`Motion::at`], with the index.
     pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
         for ((index, &time), slot) in times.iter().enumerate().zip(out) {

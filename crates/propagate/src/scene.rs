@@ -155,10 +155,10 @@ impl Scene {
     /// Whether every number of the scene is one that a motion can start from.
     ///
     /// # Errors
-    /// - [`Error::Tolerance`]: 0, −1, NaN or infinite.
-    /// - [`Error::Order`]: 61.
-    /// - [`Error::Span`]: (1, 0), or not finite.
-    /// - [`Error::Epoch`], [`Error::Attitude`], [`Error::AngularVelocity`]: a state with numbers that are no state.
+    /// - [`Error::Tolerance`] for 0, −1, NaN or infinite.
+    /// - [`Error::Order`] for 61.
+    /// - [`Error::Span`] for (1, 0), or not finite.
+    /// - [`Error::Epoch`], [`Error::Attitude`], [`Error::AngularVelocity`] for a state with numbers that are no state.
     pub fn validate(&self) -> Result<(), Error> {
         self.state.validated()?;
         if !(self.tolerance.is_finite() && self.tolerance > 0.0) {
@@ -179,8 +179,8 @@ impl Scene {
     ///
     /// # Errors
     /// - Those of [`Scene::validate`].
-    /// - [`Error::LongAxisMode`]: rotation about the axis of least inertia.
-    /// - [`Error::NearSeparatrix`]: the tolerance needs an order above [`MAX_ORDER`].
+    /// - [`Error::LongAxisMode`] for rotation about the axis of least inertia.
+    /// - [`Error::NearSeparatrix`] where the tolerance needs an order above [`MAX_ORDER`].
     pub fn solve(&self) -> Result<Motion, Error> {
         self.validate()?;
         Motion::new(self)

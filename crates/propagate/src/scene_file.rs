@@ -33,7 +33,7 @@ impl Scene {
     /// The scene of a TOML file.
     ///
     /// # Errors
-    /// - [`Error::SceneFile`]: no such file, no TOML, an unknown or missing key, a value that no scene has: with file, key and bound.
+    /// - [`Error::SceneFile`] for no such file, no TOML, an unknown or missing key, a value that no scene has: with file, key and bound.
     pub fn from_toml(path: impl AsRef<Path>) -> Result<Self, Error> {
         let file = path.as_ref().display().to_string();
         let text = std::fs::read_to_string(path.as_ref()).map_err(|error| Error::SceneFile {

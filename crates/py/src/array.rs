@@ -6,9 +6,10 @@
 use andoyer_propagate::Error as Propagation;
 use numpy::{
     Element, IntoPyArray, PyArray1, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
-    PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods, dtype, get_array_module,
+    PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods, dtype,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::intern;
 use pyo3::prelude::*;
 
 use crate::error::{self, Error, ShapeError};
@@ -16,8 +17,8 @@ use crate::error::{self, Error, ShapeError};
 /// `value` as a float64 array, aligned and in C order.
 fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let py = value.py();
-    let numpy = get_array_module(py)?;
-    let array = numpy.call_method1("asarray", (value,)).map_err(|problem| {
+    let numpy = py.import(intern!(py, "numpy"))?;
+    let array = numpy.getattr(intern!(py, "asarray"))?.call1((value,)).map_err(|problem| {
         // NumPy says so of nested lists of unequal length.
         let ragged = problem.is_instance_of::<PyValueError>(py);
         if ragged { ShapeError::new_err(format!("{argument}: {}", problem.value(py))) } else { problem }
@@ -26,8 +27,9 @@ fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py
     if !b"iufO".contains(&kind.kind()) {
         return Err(PyTypeError::new_err(format!("{argument} must hold real numbers, not {kind}")));
     }
-    let array = numpy
-        .call_method1("require", (array, dtype::<f64>(py), ["C", "A"]))
+    let require = numpy.getattr(intern!(py, "require"))?;
+    let array = require
+        .call1((array, dtype::<f64>(py), ["C", "A"]))
         .map_err(|problem| PyTypeError::new_err(format!("{argument} must hold real numbers: {}", problem.value(py))))?;
     Ok(array.cast_into()?)
 }

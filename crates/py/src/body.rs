@@ -127,7 +127,7 @@ impl Body {
     }
 
     pub(crate) fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
-        (self.0.moments(), self.0.name()).into_pyobject(py)?.hash()
+        (PyTuple::new(py, self.0.moments())?, self.0.name()).into_pyobject(py)?.hash()
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {

@@ -24,7 +24,7 @@ impl Plan {
         self.0.mode().to_string()
     }
 
-    /// "series", or "closed" where a formula without a series is exact.
+    /// How it is evaluated: "series", or "closed" where a formula without a series is exact.
     #[getter]
     fn method(&self) -> &'static str {
         self.0.method()

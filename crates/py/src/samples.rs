@@ -59,9 +59,10 @@ impl Samples {
         Self::new(times, attitude, angular_velocity)
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, [Array; 3])> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Array, Array, Array))> {
         let (py, samples) = (slf.py(), slf.get());
-        let arrays = [&samples.times, &samples.attitude, &samples.angular_velocity];
-        Ok((slf.get_type().getattr("_restored")?, arrays.map(|array| array.clone_ref(py))))
+        let [times, attitude, rates] =
+            [&samples.times, &samples.attitude, &samples.angular_velocity].map(|array| array.clone_ref(py));
+        Ok((slf.get_type().getattr("_restored")?, (times, attitude, rates)))
     }
 }

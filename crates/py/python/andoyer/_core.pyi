@@ -1,0 +1,278 @@
+# Types of the compiled core. Docstrings here are the first lines of those at run time, which say the rest; a test holds the two together.
+import os
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any, Literal, TypeAlias, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial.transform import Rotation
+
+from andoyer.mean import Frequencies, Periods
+
+_Array: TypeAlias = NDArray[np.float64]
+_Gaussian: TypeAlias = tuple[Fraction, Fraction]
+_Form: TypeAlias = dict[tuple[int, int, int], _Gaussian]
+
+__version__: str
+
+class Error(ValueError):
+    """Bad input, or a motion that is not served; the base of every error of this package."""
+
+class AngularVelocityError(Error):
+    """An angular velocity that is not finite."""
+
+class AttitudeError(Error):
+    """An attitude that is no unit quaternion."""
+
+class EpochError(Error):
+    """An epoch that is not finite."""
+
+class FormatError(Error):
+    """A text that is not the JSON of a normal form."""
+
+class IntervalError(Error):
+    """A number outside its interval."""
+
+class MethodError(Error):
+    """A method that is unknown or not there yet."""
+
+class ModeError(Error):
+    """A mode of rotation that the series do not reach: long-axis rotation."""
+
+class MomentsError(Error):
+    """Moments of inertia that no body has."""
+
+class OrderError(Error):
+    """An order that is no whole number within its bounds."""
+
+class SceneFileError(Error):
+    """A scene file that cannot be read or says something wrong."""
+
+class SeparatrixError(Error):
+    """A motion too near the separatrix for its tolerance."""
+
+class SeriesError(Error):
+    """Any other error of the exact algebra."""
+
+class ShapeError(Error):
+    """An array of the wrong shape or memory layout."""
+
+class SpanError(Error):
+    """A span that is not finite or runs backwards."""
+
+class TimesError(Error):
+    """A time that is not finite, or too far from the epoch to have a phase."""
+
+class ToleranceError(Error):
+    """A tolerance that is not positive and finite."""
+
+class UnknownBodyError(Error):
+    """A name that the catalogue of bodies does not have."""
+
+class UnknownNameError(Error):
+    """A name that is none of the known ones: of a variable, or of a part of the normal form."""
+
+@final
+class Body:
+    """Principal moments of inertia of a rigid body."""
+
+    def __new__(cls, moments: ArrayLike, *, name: str | None = None) -> Body: ...
+    @staticmethod
+    def named(name: str) -> Body:
+        """A body of the catalogue, by its name in any case."""
+    @staticmethod
+    def catalogue() -> list[str]:
+        """The names that `Body.named` knows."""
+    @staticmethod
+    def source(name: str) -> str | None:
+        """Where the figures of a catalogue body come from."""
+    @property
+    def moments(self) -> _Array:
+        """The moments about body axes 1, 2, 3 as given: a read-only array, shape (3,)."""
+    @property
+    def alpha(self) -> float:
+        """Oblateness α = [(C/A − 1) + (C/B − 1)]/2 of the sorted moments A ≤ B ≤ C (theory §1); 0 for a sphere."""
+    @property
+    def beta(self) -> float:
+        """Triaxiality β, 0 ≤ β ≤ 1 (theory §1); 0 for A = B and for a sphere, 1 for B = C."""
+    @property
+    def gamma(self) -> float:
+        """γ = √((C/A − 1)(C/B − 1)) (theory §1)."""
+    @property
+    def omega(self) -> float:
+        """ω = √((1 + β)/(1 − β)) (theory §1); 1 for a sphere, infinite for B = C."""
+    @property
+    def name(self) -> str | None:
+        """The name, or None."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> Body: ...
+    def __deepcopy__(self, _memo: Any) -> Body: ...
+
+@final
+class Scene:
+    """A body, its state at an epoch, and the accuracy asked of the solution."""
+
+    def __new__(
+        cls,
+        body: Body,
+        attitude: ArrayLike,
+        angular_velocity: ArrayLike,
+        *,
+        epoch: float = 0.0,
+        tolerance: float = 1e-12,
+        method: Literal["auto", "series"] = "auto",
+        order: int | None = None,
+        span: ArrayLike | None = None,
+        name: str | None = None,
+        source: str | None = None,
+    ) -> Scene: ...
+    @classmethod
+    def from_toml(cls, path: str | os.PathLike[str]) -> Scene:
+        """The scene of a TOML file."""
+    def to_toml(self) -> str:
+        """The scene as TOML text, which `from_toml` reads back from a file to an equal scene."""
+    def solve(self) -> Motion:
+        """The motion: everything that does not depend on time is done here, once."""
+    @property
+    def body(self) -> Body:
+        """The body."""
+    @property
+    def attitude(self) -> _Array:
+        """The attitude at the epoch: unit quaternion [x, y, z, w], normalized, a read-only array of shape (4,)."""
+    @property
+    def angular_velocity(self) -> _Array:
+        """The angular velocity at the epoch, in body components, in rad per unit of time: a read-only array of shape (3,)."""
+    @property
+    def epoch(self) -> float:
+        """The time of the state."""
+    @property
+    def tolerance(self) -> float:
+        """The attitude error asked for, in rad."""
+    @property
+    def method(self) -> str:
+        """The method: "auto" or "series"."""
+    @property
+    def order(self) -> int | None:
+        """The fixed order of the series, or None."""
+    @property
+    def span(self) -> tuple[float, float] | None:
+        """The times over which the tolerance is asked for: (start, stop), or None."""
+    @property
+    def name(self) -> str | None:
+        """The name, or None."""
+    @property
+    def source(self) -> str | None:
+        """Where the figures come from, or None."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> Scene: ...
+    def __deepcopy__(self, _memo: Any) -> Scene: ...
+
+@final
+class Motion:
+    """A solved motion, from `Scene.solve`: immutable, and shared between threads, which run in parallel while they evaluate it."""
+
+    def at(self, times: ArrayLike) -> Samples:
+        """Attitudes and angular velocities, in one pass."""
+    def attitude(self, times: ArrayLike, out: _Array | None = None) -> _Array:
+        """Unit quaternions [x, y, z, w] that rotate body components into inertial ones (theory §8)."""
+    def angular_velocity(self, times: ArrayLike, out: _Array | None = None) -> _Array:
+        """Angular velocities in body components, in rad per unit of time."""
+    def angular_momentum(self, times: ArrayLike) -> _Array:
+        """Angular momenta in inertial components, in the unit of moment × rate: of a free body, the same at all times."""
+    def andoyer(self, times: ArrayLike) -> _Array:
+        """Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1)."""
+    def rotation(self, times: ArrayLike) -> Rotation:
+        """Attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else."""
+    @property
+    def plan(self) -> Plan:
+        """What is evaluated, and why."""
+    @property
+    def scene(self) -> Scene:
+        """The scene that was solved."""
+    @property
+    def frequencies(self) -> Frequencies:
+        """Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time; 0 where there is none."""
+    @property
+    def periods(self) -> dict[Literal["long-axis", "short-axis"], Periods]:
+        """Mean periods (P_φ, P_ψ) in both conventions: ``{"long-axis": (precession, rotation), "short-axis": (precession, rotation)}``."""
+    def __copy__(self) -> Motion: ...
+    def __deepcopy__(self, _memo: Any) -> Motion: ...
+
+@final
+class Plan:
+    """What is evaluated for a motion, and why: see `Motion.plan`; ``str(plan)`` is a table of it."""
+
+    @property
+    def mode(self) -> Literal["short-axis", "axisymmetric", "spherical", "principal-axis", "at-rest"]:
+        """The kind of motion: "short-axis", "axisymmetric", "spherical", "principal-axis" or "at-rest"."""
+    @property
+    def method(self) -> Literal["series", "closed"]:
+        """How it is evaluated: "series", or "closed" where a formula without a series is exact."""
+    @property
+    def order(self) -> int:
+        """Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance."""
+    @property
+    def harmonics(self) -> int:
+        """The highest multiple of the anomaly ℓ′ that is evaluated; 0 where none is."""
+    @property
+    def error_bound(self) -> float:
+        """Estimate from above of the attitude error over the span, in rad: truncation, dropped harmonics, rounding."""
+    @property
+    def separatrix_ratio(self) -> float:
+        """σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5)."""
+    @property
+    def skipped(self) -> list[str]:
+        """What this scene did not need, and why: a list of str."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: None  # type: ignore[assignment]
+
+@final
+class Samples:
+    """Attitudes and angular velocities of a motion at some times: what `Motion.at` returns."""
+
+    @property
+    def times(self) -> _Array:
+        """The times, float64, shape (n,)."""
+    @property
+    def attitude(self) -> _Array:
+        """Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4)."""
+    @property
+    def angular_velocity(self) -> _Array:
+        """Angular velocities in body components, in rad per unit of time, shape (n, 3)."""
+    def __len__(self) -> int: ...
+
+@final
+class NormalForm:
+    """The normal form of the free rigid body, exact, symbolic in the triaxiality β, to any order (theory §4, §6)."""
+
+    def __new__(cls, order: int, *, progress: Callable[[int, int], object] | None = None) -> NormalForm: ...
+    @property
+    def order(self) -> int:
+        """The order."""
+    def triaxiality_polynomial(self, n: int) -> dict[int, Fraction]:
+        """Triaxiality polynomial P_n, real form: K = M²/(2C) [1 + γ Σ P_n κⁿ σⁿ⁺¹] (theory §4)."""
+    def paper_polynomial(self, n: int) -> dict[int, _Gaussian]:
+        """Triaxiality polynomial p_n = (−i)ⁿ⁺¹ P_n in the paper's form (theory §4, and §11 for the misprint)."""
+    def generator(self, m: int) -> _Form:
+        """Generating function S_m · (√γ V/α)ᵐ = Σ c uʲ Uᵏ βˡ, the factor (m−1)! included (theory §4)."""
+    def direct(self, name: Literal["u", "U", "y"], n: int) -> _Form:
+        """Order n of the transformation of a variable to the new ones, 1/n! included (theory §6)."""
+    def inverse(self, name: Literal["u", "U", "y"], n: int) -> _Form:
+        """Order n of the transformation of a new variable to the old ones, scaled as `direct`."""
+    def to_json(self) -> str:
+        """This normal form as JSON text: exact, "p/q" strings, with a format version."""
+    @classmethod
+    def from_json(cls, text: str) -> NormalForm:
+        """Reads what `to_json` wrote."""
+    def to_latex(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> str:
+        """A part of this normal form as LaTeX, for a document that uses amsmath."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> NormalForm: ...
+    def __deepcopy__(self, _memo: Any) -> NormalForm: ...
+
+def separatrix_action(beta: float) -> float:
+    """Action σ_sep(β) = (2/π) atan √((1−β)/2β) of the separatrix, in units of M: the radius of convergence of the series (theory §5)."""
