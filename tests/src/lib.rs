@@ -48,7 +48,7 @@ fn numbers<const N: usize>(value: &Value) -> [f64; N] {
     list.try_into().expect("the right length")
 }
 
-/// Angle of the rotation from one attitude to another [rad], without cancellation.
+/// Angle of the rotation from one attitude to another, in rad, without cancellation.
 pub fn attitude_error(q: [f64; 4], reference: [f64; 4]) -> f64 {
     let dot: f64 = q.iter().zip(reference).map(|(a, b)| a * b).sum();
     let sign = dot.signum();

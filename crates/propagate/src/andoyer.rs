@@ -11,7 +11,7 @@ use crate::motion::{Motion, length};
 use crate::polhode::Frame;
 
 impl Motion {
-    /// [λ, μ, ν, Λ, M, N] at a time: angles in (−π, π] [rad], momenta in the unit of moment × rate; zeros for a body at rest.
+    /// [λ, μ, ν, Λ, M, N] at a time: angles in (−π, π] \[rad\], momenta in the unit of moment × rate; zeros for a body at rest.
     ///
     /// # Errors
     /// As [`Motion::at`].

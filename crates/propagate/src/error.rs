@@ -112,9 +112,9 @@ pub enum Error {
         ratio: f64,
         /// The order that the tolerance needs; infinite on the separatrix.
         needed: f64,
-        /// The tolerance asked for [rad].
+        /// The tolerance asked for \[rad\].
         tolerance: f64,
-        /// The tolerance that the highest order meets [rad].
+        /// The tolerance that the highest order meets \[rad\].
         attainable: f64,
     },
     /// A body that the catalogue doesn't have.

@@ -89,7 +89,7 @@ impl QuaternionSeries {
         Self { terms }
     }
 
-    /// Without the highest harmonics, as many as turn the attitude by less than `budget` [rad] together; and by how much they do.
+    /// Without the highest harmonics, as many as turn the attitude by less than `budget` \[rad\] together; and by how much they do.
     ///
     /// The fundamental always stays: of a small wobble it is all there is.
     pub(crate) fn truncated(mut self, budget: f64) -> (Self, f64) {

@@ -15,13 +15,13 @@ pub(crate) struct Phase {
 }
 
 impl Phase {
-    /// From a rate [rad per unit of time] and the angle at the epoch [rad].
+    /// From a rate [rad per unit of time] and the angle at the epoch \[rad\].
     pub(crate) fn new(rate: DoubleDouble, start: f64) -> Self {
         let turn = DoubleDouble::PI * DoubleDouble::from(2.0);
         Self { frequency: rate / turn, start: start / std::f64::consts::TAU }
     }
 
-    /// The angle, reduced to about half a turn either way [rad], a time `(high, low)` after the epoch.
+    /// The angle, reduced to about half a turn either way \[rad\], a time `(high, low)` after the epoch.
     pub(crate) fn angle(&self, elapsed: (f64, f64)) -> f64 {
         let (turns, error) = two_product(self.frequency.high, elapsed.0);
         let low = error + (self.frequency.high * elapsed.1 + self.frequency.low * elapsed.0);

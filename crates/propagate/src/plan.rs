@@ -68,7 +68,7 @@ impl Plan {
         self.harmonics
     }
 
-    /// Estimate from above of the attitude error over the span [rad]: truncation, dropped harmonics, rounding.
+    /// Estimate from above of the attitude error over the span \[rad\]: truncation, dropped harmonics, rounding.
     pub fn error_bound(&self) -> f64 {
         self.error_bound
     }

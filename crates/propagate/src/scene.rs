@@ -70,7 +70,7 @@ impl Scene {
         Self { body, state, tolerance: 1e-12, method: Method::Auto, order: None, span: None, name: None, source: None }
     }
 
-    /// The attitude error asked for over the span [rad]; less than double precision holds means the best there is.
+    /// The attitude error asked for over the span \[rad\]; less than double precision holds means the best there is.
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
@@ -122,7 +122,7 @@ impl Scene {
         &self.state
     }
 
-    /// The tolerance [rad].
+    /// The tolerance \[rad\].
     pub fn asked_tolerance(&self) -> f64 {
         self.tolerance
     }

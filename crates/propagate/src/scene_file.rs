@@ -5,7 +5,7 @@
 //! source = "where the figures come from"
 //! epoch = 0.0                      # time of the state
 //! span = [0.0, 1.0e6]              # times over which the tolerance is asked for
-//! tolerance = 1e-12                # [rad]
+//! tolerance = 1e-12                # \[rad\]
 //! [body]
 //! moments = [0.5, 0.75, 1.0]       # about body axes 1, 2, 3; or named = "ceres"
 //! [state]

@@ -119,7 +119,7 @@ impl Monomial {
         Self::guarded(self.0 + other.0)
     }
 
-    /// The product times `raised`, divided by `lowered` (both given as keys of [`unit`]): what a bracket makes of a
+    /// The product times `raised`, divided by `lowered` (both given as keys of `unit`): what a bracket makes of a
     /// pair of terms.
     ///
     /// The caller knows that the product contains `lowered`; the intermediate sums fit in 16 bits (2 * 32767 + 1).
