@@ -85,3 +85,8 @@ pub fn equation(document: &str, name: &str) -> String {
     assert!(found.next().is_none(), "two equations {name}");
     expression
 }
+
+/// The Rust example of the project's README, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub struct Readme;
