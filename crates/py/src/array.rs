@@ -23,15 +23,29 @@ fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py
         let ragged = problem.is_instance_of::<PyValueError>(py);
         if ragged { ShapeError::new_err(format!("{argument}: {}", problem.value(py))) } else { problem }
     })?;
-    let kind = array.cast::<PyUntypedArray>()?.dtype();
-    if !b"iufO".contains(&kind.kind()) {
-        return Err(PyTypeError::new_err(format!("{argument} must hold real numbers, not {kind}")));
+    let array = array.cast_into::<PyUntypedArray>()?;
+    let kind = array.dtype();
+    match kind.kind() {
+        b'O' => objects(argument, &array),
+        b'i' | b'u' | b'f' => {
+            let require = numpy.getattr(intern!(py, "require"))?;
+            Ok(require.call1((array, dtype::<f64>(py), ["C", "A"]))?.cast_into()?)
+        }
+        _ => Err(PyTypeError::new_err(format!("{argument} must hold real numbers, not {kind}"))),
     }
-    let require = numpy.getattr(intern!(py, "require"))?;
-    let array = require
-        .call1((array, dtype::<f64>(py), ["C", "A"]))
-        .map_err(|problem| PyTypeError::new_err(format!("{argument} must hold real numbers: {}", problem.value(py))))?;
-    Ok(array.cast_into()?)
+}
+
+/// An array of Python objects as numbers, one by one: NumPy would read None as NaN, and texts as what they spell.
+fn objects<'py>(argument: &str, array: &Bound<'py, PyUntypedArray>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let refused = |problem: PyErr| {
+        let problem = problem.into_value(array.py());
+        PyTypeError::new_err(format!("{argument} must hold real numbers: {problem}"))
+    };
+    let mut values = Vec::with_capacity(array.len());
+    for item in array.getattr("flat")?.try_iter()? {
+        values.push(item?.extract::<f64>().map_err(refused)?);
+    }
+    values.into_pyarray(array.py()).reshape(array.shape())
 }
 
 fn in_use(argument: &str) -> PyErr {

@@ -28,7 +28,7 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// Examples
 /// --------
 /// >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
-/// >>> motion.attitude(0.0).round(12)
+/// >>> motion.attitude(0.0).round(12) + 0.0
 /// array([0., 0., 0., 1.])
 /// >>> motion.angular_velocity([0, 1, 2]).shape
 /// (3, 3)

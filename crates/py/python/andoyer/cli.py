@@ -7,7 +7,9 @@ import argparse
 import math
 import os
 import sys
+from fractions import Fraction
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 
@@ -33,11 +35,11 @@ class InputError(Exception):
 class Parser(argparse.ArgumentParser):
     """A parser that reports an error in one line."""
 
-    def error(self, message):
+    def error(self, message: str) -> NoReturn:
         raise InputError(message)
 
 
-def main(argv=None):
+def main(argv: list[str] | None = None) -> int:
     """Run the command line `argv`, by default that of the process; return the exit status."""
     for stream in (sys.stdout, sys.stderr):
         # A name that the terminal cannot show is shown escaped.
@@ -60,7 +62,7 @@ def main(argv=None):
     return 0
 
 
-def parser():
+def parser() -> Parser:
     """The parser of the command line."""
     top = Parser(prog="andoyer", description="Rotation of rigid bodies by perturbation series in complex variables.")
     top.add_argument("--version", action="version", version=f"andoyer {andoyer.__version__}")
@@ -87,7 +89,7 @@ def parser():
     return top
 
 
-def number(text):
+def number(text: str) -> float:
     """A finite number."""
     value = float(text)
     if not math.isfinite(value):
@@ -95,7 +97,7 @@ def number(text):
     return value
 
 
-def count(text):
+def count(text: str) -> int:
     """A number of samples."""
     value = int(text)
     if not 1 <= value <= MOST_SAMPLES:
@@ -103,7 +105,7 @@ def count(text):
     return value
 
 
-def propagate(arguments):
+def propagate(arguments: argparse.Namespace) -> None:
     """Write a motion at equal steps of time."""
     output = Path(arguments.output)
     write = {".csv": write_csv, ".npz": write_npz}.get(output.suffix.lower())
@@ -117,7 +119,7 @@ def propagate(arguments):
     write(output, motion.at(times))
 
 
-def interval(motion, start, stop):
+def interval(motion: andoyer.Motion, start: float | None, stop: float | None) -> tuple[float, float]:
     """First and last time: as asked, else the scene's span, else ten rotations from the epoch."""
     scene = motion.scene
     if scene.span is not None:
@@ -133,7 +135,7 @@ def interval(motion, start, stop):
     return start, stop
 
 
-def write_csv(path, samples):
+def write_csv(path: Path, samples: andoyer.Samples) -> None:
     """Samples as CSV: a comment with the convention, the names of the columns, one line a time with all 17 digits."""
     table = np.column_stack([samples.times, samples.attitude, samples.angular_velocity])
     with path.open("w", encoding="utf-8", newline="\n") as file:
@@ -141,7 +143,7 @@ def write_csv(path, samples):
         np.savetxt(file, table, fmt="%.17g", delimiter=",")
 
 
-def write_npz(path, samples):
+def write_npz(path: Path, samples: andoyer.Samples) -> None:
     """Samples as NPZ: arrays times, attitude, angular_velocity, and the convention."""
     with path.open("wb") as file:
         np.savez(
@@ -153,7 +155,7 @@ def write_npz(path, samples):
         )
 
 
-def plan(arguments):
+def plan(arguments: argparse.Namespace) -> None:
     """Print the plan of a scene, and the periods of its motion."""
     motion = andoyer.Scene.from_toml(arguments.scene).solve()
     scene = motion.scene
@@ -164,7 +166,7 @@ def plan(arguments):
         print(f"periods       {convention}: P_phi {precession:.10g}, P_psi {rotation:.10g}")
 
 
-def bodies(_arguments):
+def bodies(_arguments: argparse.Namespace) -> None:
     """Print the catalogue."""
     print(f"{'name':10} {'A/C':>10} {'B/C':>10} {'beta':>10}  source")
     for name in andoyer.Body.catalogue():
@@ -173,7 +175,7 @@ def bodies(_arguments):
         print(f"{name:10} {a / c:10.8f} {b / c:10.8f} {body.beta:10.8f}  {andoyer.Body.source(name)}")
 
 
-def series(arguments):
+def series(arguments: argparse.Namespace) -> None:
     """Print the triaxiality polynomials."""
     visible = sys.stderr.isatty()
     progress = (lambda done, of: print(f"\rorder {done} of {of}", end="", file=sys.stderr, flush=True)) if visible else None
@@ -184,7 +186,7 @@ def series(arguments):
         print(f"P_{n} = {polynomial(normal_form.triaxiality_polynomial(n))}")
 
 
-def polynomial(coefficients):
+def polynomial(coefficients: dict[int, Fraction]) -> str:
     """A polynomial in beta as text that Python and SymPy read."""
     text = ""
     for power, coefficient in coefficients.items():

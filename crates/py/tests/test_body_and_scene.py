@@ -1,0 +1,175 @@
+"""Bodies and scenes: what they hold, what they refuse, and that they can be written and read back."""
+
+import math
+import os
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import andoyer
+from andoyer import Body, Scene
+
+ATTITUDE, RATES = [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0]
+NAN, INF = math.nan, math.inf
+
+
+def test_constants_of_the_body_are_those_of_the_sorted_moments():
+    body = Body((2, 1, 1.5))  # C/A − 1 = 1, C/B − 1 = 1/3
+    assert body.moments.tolist() == [2.0, 1.0, 1.5]
+    constants = [body.alpha, body.beta, body.gamma, body.omega]
+    assert constants == pytest.approx([2 / 3, 1 / 2, 1 / math.sqrt(3), math.sqrt(3)], rel=4e-16)
+
+
+def test_catalogue_knows_its_bodies_in_any_case():
+    assert "Ceres" in Body.catalogue()
+    assert Body.named("ceres") == Body.named("CERES")
+    assert Body.named("ceres").name == "Ceres"
+    assert all(Body.source(name) for name in Body.catalogue())
+    assert Body.source("vulcan") is None
+    with pytest.raises(andoyer.UnknownBodyError, match="vulcan"):
+        Body.named("vulcan")
+
+
+def test_repr_can_be_pasted_back(scene):
+    names = vars(andoyer)
+    for body in [Body([0.1, 0.2, 0.25]), Body([1e-300, 2e-300, 2e-300], name="it's \"é\"")]:
+        assert eval(repr(body), dict(names)) == body
+    assert eval(repr(scene), dict(names)) == scene
+    other = Scene(scene.body, scene.attitude, RATES, order=3, span=[0, 5], method="series", source="a 'book'")
+    assert eval(repr(other), dict(names)) == other != scene
+
+
+def test_equal_things_have_equal_hashes(scene):
+    assert Body([1, 2, 2]) == Body(np.array([1.0, 2.0, 2.0])) and hash(Body([1, 2, 2])) == hash(Body((1.0, 2, 2)))
+    assert Body([1, 2, 2]) != Body([2, 1, 2]) != "Body"
+    same = Scene(scene.body, scene.attitude, scene.angular_velocity, epoch=2.0, name="wobble")
+    assert same == scene and hash(same) == hash(scene)
+    assert Scene(scene.body, scene.attitude, RATES) != scene
+
+
+def test_scene_holds_what_it_was_given(body):
+    scene = Scene(body, ATTITUDE, RATES)
+    assert (scene.epoch, scene.tolerance, scene.method, scene.order, scene.span, scene.name) == (0, 1e-12, "auto", None, None, None)
+    scene = Scene(body, ATTITUDE, RATES, epoch=3, tolerance=1e-9, method="series", order=np.int64(4), span=(0, 9), name="n", source="s")
+    assert (scene.epoch, scene.tolerance, scene.method, scene.order, scene.span) == (3.0, 1e-9, "series", 4, (0.0, 9.0))
+    assert (scene.body, scene.name, scene.source) == (body, "n", "s")
+    assert scene.solve().scene == scene and scene.solve().plan.order == 4
+
+
+@pytest.mark.parametrize("kind", [list, tuple, np.array, lambda x: np.array(x, dtype=">f4"), lambda x: np.repeat(x, 2)[::2]])
+def test_anything_like_an_array_is_an_attitude(body, kind):
+    assert Scene(body, kind([0, 0, 1, 0]), kind([0, 0, 1])).attitude.tolist() == [0, 0, 1, 0]
+
+
+def test_fractions_and_other_numbers_are_numbers(body):
+    assert Scene(body, ATTITUDE, [Fraction(1, 4), 0, 1]).angular_velocity.tolist() == [0.25, 0, 1]
+
+
+def test_attitude_near_unit_norm_is_normalized_and_read_only(body):
+    attitude = Scene(body, [0, 0, 0.6000001, 0.8], RATES).attitude
+    assert np.linalg.norm(attitude) == pytest.approx(1, abs=3e-16)
+    with pytest.raises(ValueError, match="read-only"):
+        attitude[0] = 1.0
+
+
+@pytest.mark.parametrize("moments", [[0, 1, 1], [1, -1, 1], [1, NAN, 1], [1, 1, INF], [1, 1, 2.1]])
+def test_moments_that_no_body_has_are_refused(moments):
+    with pytest.raises(andoyer.MomentsError, match="moments"):
+        Body(moments)
+
+
+BAD_SCENES = {
+    "zero attitude": (andoyer.AttitudeError, {"attitude": [0, 0, 0, 0]}),
+    "NaN attitude": (andoyer.AttitudeError, {"attitude": [NAN, 0, 0, 1]}),
+    "infinite attitude": (andoyer.AttitudeError, {"attitude": [INF, 0, 0, 1]}),
+    "long attitude": (andoyer.AttitudeError, {"attitude": [0, 0, 0, 1.1]}),
+    "NaN rate": (andoyer.AngularVelocityError, {"angular_velocity": [0, NAN, 1]}),
+    "infinite rate": (andoyer.AngularVelocityError, {"angular_velocity": [0, 0, -INF]}),
+    "NaN epoch": (andoyer.EpochError, {"epoch": NAN}),
+    "zero tolerance": (andoyer.ToleranceError, {"tolerance": 0}),
+    "negative tolerance": (andoyer.ToleranceError, {"tolerance": -1e-9}),
+    "NaN tolerance": (andoyer.ToleranceError, {"tolerance": NAN}),
+    "infinite tolerance": (andoyer.ToleranceError, {"tolerance": INF}),
+    "unknown method": (andoyer.MethodError, {"method": "magic"}),
+    "negative order": (andoyer.OrderError, {"order": -1}),
+    "high order": (andoyer.OrderError, {"order": 61}),
+    "huge order": (andoyer.OrderError, {"order": 10**30}),
+    "half an order": (andoyer.OrderError, {"order": 2.5}),
+    "backward span": (andoyer.SpanError, {"span": (1, 0)}),
+    "infinite span": (andoyer.SpanError, {"span": (0, INF)}),
+    "span of three": (andoyer.ShapeError, {"span": (0, 1, 2)}),
+    "attitude of three": (andoyer.ShapeError, {"attitude": [0, 0, 1]}),
+    "matrix of attitudes": (andoyer.ShapeError, {"attitude": [[0, 0, 0, 1]]}),
+    "ragged attitude": (andoyer.ShapeError, {"attitude": [[0, 0], 0, 1, 0]}),
+    "scalar rate": (andoyer.ShapeError, {"angular_velocity": 1.0}),
+    "empty rates": (andoyer.ShapeError, {"angular_velocity": []}),
+    "text attitude": (TypeError, {"attitude": "up"}),
+    "texts in attitude": (TypeError, {"attitude": ["0", "0", "0", "1"]}),
+    "no attitude": (TypeError, {"attitude": None}),
+    "complex rate": (TypeError, {"angular_velocity": [1j, 0, 1]}),
+    "objects as rates": (TypeError, {"angular_velocity": [object(), 0, 1]}),
+    "tuple for body": (TypeError, {"body": (1, 2, 2)}),
+    "text tolerance": (TypeError, {"tolerance": "small"}),
+    "number as method": (TypeError, {"method": 1}),
+    "number as name": (TypeError, {"name": 1}),
+}
+
+
+@pytest.mark.parametrize("error, arguments", BAD_SCENES.values(), ids=BAD_SCENES)
+def test_bad_scene_is_refused_and_the_argument_named(body, error, arguments):
+    good = {"body": body, "attitude": ATTITUDE, "angular_velocity": RATES}
+    with pytest.raises(error, match=next(iter(arguments))):
+        Scene(**good | arguments)
+
+
+def test_shape_error_has_both_shapes(body):
+    with pytest.raises(andoyer.ShapeError, match=r"attitude has shape \(2, 4\): it must be \(4,\)"):
+        Scene(body, np.zeros((2, 4)), RATES)
+
+
+def test_closed_method_is_refused_for_now(body):
+    with pytest.raises(andoyer.MethodError, match='"closed"'):
+        Scene(body, ATTITUDE, RATES, method="closed")
+
+
+def test_scene_survives_a_file(scene, tmp_path):
+    path = tmp_path / "scene.toml"
+    generator = np.random.default_rng(7)
+    for _ in range(200):
+        attitude = generator.normal(size=4)
+        given = Scene(
+            Body(1 + generator.random(3), name="b"),
+            attitude / np.linalg.norm(attitude),
+            generator.normal(size=3) * 10.0 ** generator.integers(-12, 12),
+            epoch=generator.normal(),
+            span=(-1 / 3, 1e9 / 7),
+            name="é",
+        )
+        path.write_text(given.to_toml(), encoding="utf-8")
+        assert Scene.from_toml(path) == given
+    assert Scene.from_toml(str(path)) == Scene.from_toml(os.fspath(path)) == given
+
+
+BAD_FILES = {
+    "unknown key": ("colour = 1", "colour"),
+    "bad tolerance": ("tolerance = 0", "tolerance"),
+    "bad order": ("order = 61", "order.*60"),
+    "no TOML": ("tolerance = = 1", "line 1"),
+}
+
+
+@pytest.mark.parametrize("line, message", BAD_FILES.values(), ids=BAD_FILES)
+def test_bad_scene_file_is_named_with_key_and_bound(scene, tmp_path, line, message):
+    path = tmp_path / "bad.toml"
+    lines = [old for old in scene.to_toml().splitlines() if old.split(" ")[0] != line.split(" ")[0]]
+    path.write_text("\n".join([line, *lines]), encoding="utf-8")
+    with pytest.raises(andoyer.SceneFileError, match=rf"bad\.toml.*{message}"):
+        Scene.from_toml(path)
+
+
+def test_missing_scene_file_is_a_scene_file_error(tmp_path):
+    with pytest.raises(andoyer.SceneFileError, match="absent.toml"):
+        Scene.from_toml(tmp_path / "absent.toml")
+    with pytest.raises(TypeError):
+        Scene.from_toml(3)

@@ -1,0 +1,184 @@
+"""The command line, run as its users run it."""
+
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import andoyer
+from andoyer.cli import main
+
+COLUMNS = "t,qx,qy,qz,qw,wx,wy,wz"
+
+
+def run(*arguments, **environment):
+    command = [sys.executable, "-m", "andoyer", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, encoding="utf-8", env=os.environ | environment)
+
+
+@pytest.fixture
+def scene_file(scene, tmp_path):
+    path = tmp_path / "wobble.toml"
+    path.write_text(scene.to_toml(), encoding="utf-8")
+    return path
+
+
+def read(path):
+    first, second, *_ = path.read_text(encoding="utf-8").splitlines()
+    return first, second, np.loadtxt(path, delimiter=",", skiprows=2, ndmin=2)
+
+
+def test_csv_holds_the_motion_to_the_last_bit(scene_file, motion, tmp_path):
+    output = tmp_path / "out.csv"
+    done = run("propagate", scene_file, "-o", output, "--start", "-3", "--stop", "7.5", "--samples", "37")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    comment, columns, table = read(output)
+    assert comment.startswith("# ") and "rad" in comment and "body components" in comment
+    assert columns == COLUMNS
+    samples = motion.at(np.linspace(-3, 7.5, 37))
+    assert np.array_equal(table, np.column_stack([samples.times, samples.attitude, samples.angular_velocity]))
+
+
+def test_npz_holds_the_motion(scene_file, motion, tmp_path):
+    output = tmp_path / "out.NPZ"
+    assert run("propagate", scene_file, "-o", output, "--samples", "5").returncode == 0
+    with np.load(output) as file:
+        assert sorted(file) == ["angular_velocity", "attitude", "convention", "times"]
+        assert np.array_equal(file["attitude"], motion.attitude(file["times"]))
+        assert np.array_equal(file["angular_velocity"], motion.angular_velocity(file["times"]))
+
+
+def test_default_is_a_thousand_samples_of_ten_rotations_from_the_epoch(scene_file, motion, tmp_path):
+    output = tmp_path / "out.csv"
+    assert main(["propagate", str(scene_file), "-o", str(output)]) == 0
+    times = read(output)[2][:, 0]
+    assert len(times) == 1000 and times[0] == 2.0
+    assert times[-1] == 2.0 + 10 * motion.periods["long-axis"].precession
+
+
+def test_span_of_the_scene_is_the_default_if_there_is_one(scene, tmp_path):
+    given = andoyer.Scene(scene.body, scene.attitude, scene.angular_velocity, span=(1, 4))
+    path, output = tmp_path / "span.toml", tmp_path / "out.csv"
+    path.write_text(given.to_toml(), encoding="utf-8")
+    assert main(["propagate", str(path), "-o", str(output), "--samples", "4"]) == 0
+    assert read(output)[2][:, 0].tolist() == [1, 2, 3, 4]
+    assert main(["propagate", str(path), "-o", str(output), "--samples", "1", "--start", "3"]) == 0
+    assert read(output)[2][:, 0].tolist() == [3]
+
+
+def test_plan_prints_name_plan_and_periods(scene_file, motion):
+    done = run("plan", scene_file)
+    assert done.returncode == 0 and done.stderr == ""
+    assert "wobble" in done.stdout and str(motion.plan) in done.stdout
+    for convention in ["long-axis", "short-axis"]:
+        assert re.search(rf"periods +{convention}: P_phi [\d.]+, P_psi [\d.]+", done.stdout)
+
+
+def test_bodies_prints_the_catalogue_with_its_sources():
+    done = run("bodies")
+    assert done.returncode == 0
+    for name in andoyer.Body.catalogue():
+        assert re.search(rf"^{name} .*{re.escape(andoyer.Body.source(name))}$", done.stdout, re.MULTILINE)
+
+
+def test_series_prints_polynomials_that_python_reads():
+    done = run("series", "--order", "8")
+    assert done.returncode == 0 and done.stderr == ""
+    lines = done.stdout.splitlines()
+    assert len(lines) == 9 and lines[4] == "P_4 = -3/4*beta**2 - 9/32*beta**4"
+    normal_form = andoyer.NormalForm(8)
+    for n, line in enumerate(lines):
+        value = eval(line.removeprefix(f"P_{n} = "), {"beta": 0.5})
+        assert value == float(sum(c * 2**-l if l else c for l, c in normal_form.triaxiality_polynomial(n).items()))
+
+
+def test_console_script_is_installed():
+    script = os.path.join(os.path.dirname(sys.executable), "andoyer")
+    done = subprocess.run([script, "--version"], capture_output=True, text=True)
+    assert done.stdout == f"andoyer {andoyer.__version__}\n"
+
+
+BAD_LINES = {
+    "no command": ([], "required"),
+    "unknown command": (["dance"], "dance"),
+    "missing scene": (["plan", "absent.toml"], "absent.toml"),
+    "missing output": (["propagate", "SCENE"], "--output"),
+    "unknown ending": (["propagate", "SCENE", "-o", "out.txt"], r"out\.txt.*\.csv or \.npz"),
+    "no ending": (["propagate", "SCENE", "-o", "out"], r"\.csv or \.npz"),
+    "no directory": (["propagate", "SCENE", "-o", "absent/out.csv"], "absent"),
+    "NaN start": (["propagate", "SCENE", "-o", "out.csv", "--start", "nan"], "--start.*finite"),
+    "text stop": (["propagate", "SCENE", "-o", "out.csv", "--stop", "later"], "--stop.*later"),
+    "stop before start": (["propagate", "SCENE", "-o", "out.csv", "--start", "5", "--stop", "4"], "--stop.*4.0.*5.0"),
+    "no samples": (["propagate", "SCENE", "-o", "out.csv", "--samples", "0"], "--samples"),
+    "too many samples": (["propagate", "SCENE", "-o", "out.csv", "--samples", "1" + "0" * 30], "--samples"),
+    "half a sample": (["propagate", "SCENE", "-o", "out.csv", "--samples", "1.5"], "--samples.*1.5"),
+    "time without a phase": (["propagate", "SCENE", "-o", "out.csv", "--stop", "1e308"], r"times\[\d+\]"),
+    "negative order": (["series", "--order", "-1"], "order"),
+    "huge order": (["series", "--order", "100000"], "order.*16381"),
+    "text order": (["series", "--order", "ten"], "order"),
+}
+
+
+@pytest.mark.parametrize("arguments, message", BAD_LINES.values(), ids=BAD_LINES)
+def test_bad_line_is_refused_in_one_line_with_status_2(arguments, message, scene_file, monkeypatch, capfd):
+    monkeypatch.chdir(scene_file.parent)
+    assert main([str(scene_file) if argument == "SCENE" else argument for argument in arguments]) == 2
+    output, errors = capfd.readouterr()
+    assert output == "" and errors.count("\n") == 1
+    assert errors.startswith("andoyer: error: ") and re.search(message, errors)
+
+
+BAD_SCENES = {
+    "unknown key": ("colour = 1\n", "colour"),
+    "bad tolerance": ("tolerance = -1\n", "tolerance.*-1"),
+    "text for number": ("epoch = 'now'\n", "epoch"),
+    "no TOML": ("epoch = =\n", "line 1"),
+    "high order": ("order = 61\n", "order.*60"),
+    "moments": ("[body]\nmoments = [1, 1, 3]\n", r"moments.*\[1.0, 1.0, 3.0\].*sum"),
+}
+
+
+@pytest.mark.parametrize("text, message", BAD_SCENES.values(), ids=BAD_SCENES)
+def test_bad_scene_is_refused_with_file_key_and_bound(text, message, tmp_path):
+    path = tmp_path / "bad.toml"
+    body = "" if "[body]" in text else "[body]\nmoments = [1, 1.5, 2]\n"
+    path.write_text(f"{text}{body}[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0, 1]\n", encoding="utf-8")
+    done = run("propagate", path, "-o", tmp_path / "out.csv")
+    assert done.returncode == 2 and done.stdout == "" and done.stderr.count("\n") == 1
+    assert re.search(rf"bad\.toml: .*{message}", done.stderr)
+    assert not (tmp_path / "out.csv").exists()
+
+
+def test_motion_that_is_not_served_is_refused(tmp_path):
+    path = tmp_path / "long-axis.toml"
+    path.write_text("[body]\nmoments = [1, 1.5, 2]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [1, 0.1, 0.1]\n")
+    done = run("plan", path)
+    assert done.returncode == 2 and "long-axis" in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_body_at_rest_needs_a_last_time(tmp_path, capfd):
+    path, output = tmp_path / "rest.toml", tmp_path / "out.csv"
+    path.write_text("[body]\nmoments = [1, 1.5, 2]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0, 0]\n")
+    assert main(["propagate", str(path), "-o", str(output)]) == 2
+    assert "--stop" in capfd.readouterr().err
+    assert main(["propagate", str(path), "-o", str(output), "--stop", "5", "--samples", "2"]) == 0
+    assert read(output)[2][:, 4].tolist() == [1, 1]
+
+
+def test_name_that_the_terminal_cannot_show_is_escaped(scene, tmp_path):
+    path = tmp_path / "named.toml"
+    path.write_text(andoyer.Scene(scene.body, scene.attitude, [0, 0, 1], name="Δ").to_toml(), encoding="utf-8")
+    done = run("plan", path, PYTHONIOENCODING="ascii")
+    assert done.returncode == 0 and "\\u0394" in done.stdout
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes close otherwise there")
+def test_reader_that_has_seen_enough_is_no_error():
+    command = [sys.executable, "-m", "andoyer", "series", "--order", "20"]
+    child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    child.stdout.close()
+    assert child.stderr.read() == "" and child.wait() == 0
+    child.stderr.close()

@@ -1,0 +1,33 @@
+"""The examples in the docstrings are run."""
+
+import doctest
+import inspect
+
+import pytest
+
+import andoyer
+
+
+def documented():
+    yield "andoyer", andoyer
+    for name in andoyer.__all__:
+        value = getattr(andoyer, name)
+        yield name, value
+        if inspect.isclass(value):
+            yield from ((f"{name}.{member}", getattr(value, member)) for member in vars(value) if not member.startswith("_"))
+
+
+EXAMPLES = {name: value for name, value in documented() if ">>>" in (inspect.getdoc(value) or "")}
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_example_of_the_docstring_holds(name):
+    text = inspect.getdoc(EXAMPLES[name])
+    test = doctest.DocTestParser().get_doctest(text, vars(andoyer).copy(), name, None, None)
+    results = doctest.DocTestRunner().run(test)
+    assert results.attempted > 0 and results.failed == 0
+
+
+def test_every_class_has_an_example_and_everything_public_a_docstring():
+    assert set(EXAMPLES) >= {"andoyer", "Body", "Scene", "Motion", "Plan", "Samples", "NormalForm", "separatrix_action"}
+    assert not [name for name, value in documented() if name != "__version__" and not inspect.getdoc(value)]

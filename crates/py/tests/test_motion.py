@@ -1,0 +1,219 @@
+"""Motions: shapes of times and results, `out`, what they conserve, plans, periods, and the reference solutions."""
+
+import math
+
+import numpy as np
+import pytest
+
+import andoyer
+from andoyer import Body, Scene
+from conftest import REFERENCE
+
+METHODS = {"attitude": 4, "angular_velocity": 3, "angular_momentum": 3, "andoyer": 6}
+LAST = 62831.9
+
+
+@pytest.mark.parametrize("method, columns", METHODS.items())
+def test_results_have_the_shape_of_the_times_and_one_more_axis(motion, method, columns):
+    evaluate = getattr(motion, method)
+    for times, shape in [([0.0, 1.0, 2.0], (3,)), ([5], (1,)), ([], (0,)), (np.empty(0), (0,)), (1.5, ()), (2, ()), (np.array(2), ())]:
+        result = evaluate(times)
+        assert result.shape == (*shape, columns)
+        assert result.dtype == np.float64 and result.flags.c_contiguous and result.flags.writeable
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_all_kinds_of_times_give_the_same_bits(motion, method):
+    evaluate = getattr(motion, method)
+    times = np.arange(12.0)
+    expected = evaluate(times)
+    readonly = times.copy()
+    readonly.flags.writeable = False
+    unaligned = np.frombuffer(b"\0" + times.tobytes(), dtype=np.uint8)[1:].view(np.float64)
+    kinds = [range(12), times.tolist(), times.astype(int), times.astype(np.float32), times.astype(">f8"), np.repeat(times, 3)[::3]]
+    for kind in [*kinds, times[::-1].copy()[::-1], readonly, unaligned]:
+        assert np.array_equal(evaluate(kind), expected)
+    assert np.array_equal([evaluate(t) for t in times], expected)
+
+
+def test_samples_are_those_of_the_two_methods(motion):
+    times = np.linspace(-50, 50, 101)
+    samples = motion.at(times)
+    assert len(samples) == 101
+    assert np.array_equal(samples.attitude, motion.attitude(times))
+    assert np.array_equal(samples.angular_velocity, motion.angular_velocity(times))
+    assert np.array_equal(samples.times, times) and samples.times is not times
+    assert repr(samples) == "<Samples at 101 times>"
+
+
+def test_samples_at_a_scalar_time_lack_the_leading_axis(motion):
+    samples = motion.at(3)
+    assert samples.times.shape == () and samples.attitude.shape == (4,) and samples.angular_velocity.shape == (3,)
+    with pytest.raises(TypeError, match="len"):
+        len(samples)
+
+
+def test_motion_starts_from_its_scene(motion, scene):
+    samples = motion.at(scene.epoch)
+    assert np.abs(samples.attitude - scene.attitude).max() < 2e-15  # the plan's rounding
+    assert np.abs(samples.angular_velocity - scene.angular_velocity).max() < 4e-15
+
+
+BAD_TIMES = {
+    "NaN": ([0.0, math.nan, 1.0], andoyer.TimesError, r"times\[1\] = NaN"),
+    "infinite": ([0.0, 0.0, math.inf], andoyer.TimesError, r"times\[2\] = inf"),
+    "scalar NaN": (math.nan, andoyer.TimesError, r"times\[0\]"),
+    "two axes": ([[0.0, 1.0]], andoyer.ShapeError, r"times has shape \(1, 2\)"),
+    "ragged": ([[0.0], [1.0, 2.0]], andoyer.ShapeError, "times"),
+    "text": ("now", TypeError, "times"),
+    "none": (None, TypeError, "times"),
+    "complex": ([1j], TypeError, "times"),
+    "boolean": ([True], TypeError, "times"),
+    "date": (np.array(["2026-01-01"], dtype="datetime64[s]"), TypeError, "times"),
+}
+
+
+@pytest.mark.parametrize("method", [*METHODS, "at", "rotation"])
+@pytest.mark.parametrize("times, error, message", BAD_TIMES.values(), ids=BAD_TIMES)
+def test_bad_times_are_refused(motion, method, times, error, message):
+    with pytest.raises(error, match=message):
+        getattr(motion, method)(times)
+
+
+@pytest.mark.parametrize("method, columns", [("attitude", 4), ("angular_velocity", 3)])
+def test_out_receives_the_result_itself(motion, method, columns):
+    evaluate = getattr(motion, method)
+    for times in [[0.0, 1.0], 1.0, []]:
+        out = np.full((*np.shape(times), columns), np.nan)
+        assert evaluate(times, out=out) is out
+        assert np.array_equal(out, evaluate(times))
+    rows = np.zeros((5, columns))
+    evaluate([1.0, 2.0], rows[1:3])
+    assert np.array_equal(rows[1:3], evaluate([1.0, 2.0])) and not rows[[0, 3, 4]].any()
+
+
+def read_only():
+    array = np.empty((2, 4))
+    array.flags.writeable = False
+    return array
+
+
+BAD_OUTS = {
+    "other length": (np.empty((3, 4)), andoyer.ShapeError, r"\(3, 4\): it must be \(2, 4\)"),
+    "other width": (np.empty((2, 3)), andoyer.ShapeError, r"\(2, 3\)"),
+    "flat": (np.empty(8), andoyer.ShapeError, r"\(8,\)"),
+    "Fortran order": (np.empty((2, 4), order="F"), andoyer.ShapeError, "C-contiguous"),
+    "strided": (np.empty((4, 4))[::2], andoyer.ShapeError, "C-contiguous"),
+    "single precision": (np.empty((2, 4), np.float32), TypeError, "float64"),
+    "other byte order": (np.empty((2, 4), ">f8"), TypeError, "float64"),
+    "list": ([[0.0] * 4] * 2, TypeError, "list"),
+    "read-only": (read_only(), TypeError, "read-only"),
+    "unaligned": (np.empty(65, np.uint8)[1:].view(np.float64).reshape(2, 4), (TypeError, andoyer.ShapeError), "aligned"),
+}
+
+
+@pytest.mark.parametrize("out, error, message", BAD_OUTS.values(), ids=BAD_OUTS)
+def test_bad_out_is_refused(motion, out, error, message):
+    with pytest.raises(error, match=message):
+        motion.attitude([0.0, 1.0], out=out)
+
+
+def test_out_that_shares_memory_with_the_times_is_refused(motion):
+    memory = np.zeros((3, 4))
+    with pytest.raises(andoyer.Error, match="out shares memory"):
+        motion.attitude(memory.reshape(-1)[:3], out=memory)
+
+
+def test_angular_momentum_and_energy_are_constant(motion, body):
+    times = np.linspace(0, 1e4, 500)
+    samples = motion.at(times)
+    momentum = body.moments * samples.angular_velocity
+    inertial = motion.rotation(times).apply(momentum)
+    # Rounding of the rates and of the attitude, a few 1e-15 each, times |G| = 2.
+    assert np.abs(inertial - motion.angular_momentum(times)).max() < 4e-14
+    energy = (momentum * samples.angular_velocity).sum(axis=1)
+    assert np.ptp(energy) < 4e-14
+
+
+def test_rotation_is_scipys(motion):
+    assert motion.rotation([0.0, 1.0, 2.0]).as_quat().shape == (3, 4)
+    assert motion.rotation(1.0).single
+
+
+def test_andoyer_variables_give_the_attitude_back(motion):
+    from scipy.spatial.transform import Rotation
+
+    times = np.linspace(0, 30, 40)
+    node, mu, nu, vertical, total, axial = motion.andoyer(times).T
+    angles = np.column_stack([node, np.arccos(vertical / total), mu, np.arccos(axial / total), nu])
+    rebuilt = Rotation.identity(len(times))
+    for axis, angle in zip("zxzxz", angles.T, strict=True):
+        rebuilt = rebuilt * Rotation.from_euler(axis, angle[:, None])
+    # The arccosine of cos J ≈ 0.99 loses a digit.
+    assert (rebuilt.inv() * motion.rotation(times)).magnitude().max() < 1e-13
+
+
+def test_plan_says_what_is_evaluated(motion):
+    plan = motion.plan
+    assert (plan.mode, plan.method) == ("short-axis", "series")
+    assert plan.order > 0 and plan.harmonics > 0 and 0 < plan.error_bound < 1e-12 and 0 < plan.separatrix_ratio < 0.1
+    assert all(isinstance(reason, str) for reason in plan.skipped)
+    assert "short-axis" in str(plan) and "order" in str(plan)
+    assert repr(plan).startswith("Plan(mode='short-axis', method='series', order=")
+    assert motion.scene.solve().plan == plan
+
+
+MODES = {
+    "axisymmetric": ([1, 1, 1.5], [0.1, 0, 1]),
+    "spherical": ([1, 1, 1], [0.1, 0, 1]),
+    "principal-axis": ([1, 1.5, 2], [0, 0, 1]),
+    "at-rest": ([1, 1.5, 2], [0, 0, 0]),
+    "short-axis": ([1, 1.5, 2], [0.1, 0, 1]),
+}
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_mode_is_that_of_the_motion(mode):
+    moments, rates = MODES[mode]
+    assert Scene(Body(moments), [0, 0, 0, 1], rates).solve().plan.mode == mode
+
+
+def test_periods_follow_from_the_frequencies(motion):
+    anomaly, longitude = motion.frequencies
+    assert motion.frequencies.anomaly == anomaly > 0 and motion.frequencies.longitude == longitude > 0
+    assert list(motion.periods) == ["long-axis", "short-axis"]
+    long_axis, short_axis = motion.periods.values()
+    assert long_axis == pytest.approx((math.tau / longitude, math.tau / anomaly), rel=1e-15)
+    assert short_axis == pytest.approx((math.tau / (longitude + anomaly), math.tau / anomaly), rel=1e-15)
+    assert short_axis.precession == short_axis[0] and short_axis.rotation == short_axis[1]
+
+
+def angle(attitude, reference):
+    """Angle between two attitudes without cancellation, in rad."""
+    difference = min(np.linalg.norm(attitude - reference), np.linalg.norm(attitude + reference))
+    return 4 * math.asin(min(difference / 2, 1))
+
+
+def refusal(case):
+    """The error that a reference case is to give, None where the series serve it."""
+    if case["mode"] == "LAM":
+        return andoyer.ModeError
+    return andoyer.SeparatrixError if case["name"].startswith(("near-separatrix", "axis-2")) else None
+
+
+@pytest.mark.parametrize("case", [case for case in REFERENCE if not refusal(case)], ids=lambda case: case["name"])
+def test_reference_solution_is_met(case):
+    scene = Scene(Body(case["moments"]), case["attitude0_xyzw"], case["angular_velocity0"], tolerance=1e-12)
+    states = [state for state in case["states"] if state["t"] <= LAST]
+    assert len(states) >= 4
+    samples = scene.solve().at([state["t"] for state in states])
+    for state, attitude, rates in zip(states, samples.attitude, samples.angular_velocity, strict=True):
+        bound = 1e-11 + 1e-15 * state["t"]
+        assert angle(attitude, np.array(state["attitude_xyzw"], dtype=float)) < bound
+        assert np.abs(rates - np.array(state["angular_velocity"], dtype=float)).max() < bound
+
+
+@pytest.mark.parametrize("case", [case for case in REFERENCE if refusal(case)], ids=lambda case: case["name"])
+def test_reference_case_that_the_series_do_not_reach_is_refused(case):
+    with pytest.raises(refusal(case)):
+        Scene(Body(case["moments"]), case["attitude0_xyzw"], case["angular_velocity0"], tolerance=1e-12).solve()

@@ -1,0 +1,120 @@
+"""The names that users rely on, what importing costs, and the stub held against the run time."""
+
+import ast
+import inspect
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import andoyer
+import andoyer._core as core
+
+NAMES = {
+    "": "NormalForm separatrix_action Body Scene Motion Plan Samples Error",
+    "NormalForm": "order triaxiality_polynomial paper_polynomial generator direct inverse to_json from_json to_latex",
+    "Body": "moments alpha beta gamma omega name named",
+    "Scene": "body attitude angular_velocity epoch tolerance method order span name from_toml to_toml solve",
+    "Motion": "at attitude angular_velocity angular_momentum andoyer rotation plan frequencies periods scene",
+    "Plan": "mode method order harmonics error_bound separatrix_ratio skipped",
+    "Samples": "times attitude angular_velocity",
+}
+STUB = ast.parse(Path(core.__file__).with_name("_core.pyi").read_text(encoding="utf-8"))
+CLASSES = {node.name: node for node in STUB.body if isinstance(node, ast.ClassDef)}
+FUNCTIONS = {node.name: node for node in STUB.body if isinstance(node, ast.FunctionDef)}
+
+
+def public(names):
+    return {name for name in names if not name.startswith("_")}
+
+
+@pytest.mark.parametrize("owner", NAMES)
+def test_names_users_rely_on_are_there(owner):
+    holder = getattr(andoyer, owner) if owner else andoyer
+    assert not [name for name in NAMES[owner].split() if not hasattr(holder, name)]
+
+
+def test_all_lists_everything_public_and_nothing_else():
+    modules = {"cli", "mean"}
+    assert public(andoyer.__all__) == public(vars(andoyer)) - modules
+    assert andoyer.__all__ == sorted(andoyer.__all__)
+
+
+def test_every_exception_is_an_error_and_a_value_error():
+    exceptions = [value for value in vars(core).values() if isinstance(value, type) and issubclass(value, BaseException)]
+    assert len(exceptions) == 19
+    assert all(issubclass(exception, andoyer.Error) and exception.__module__ == "andoyer" for exception in exceptions)
+    assert issubclass(andoyer.Error, ValueError)
+
+
+def test_import_prints_nothing_and_loads_numpy_alone():
+    code = "import sys, andoyer; sys.exit(bool({'scipy', 'matplotlib', 'mpmath', 'sympy'} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+@pytest.mark.parametrize("name", ["Body", "Scene", "Motion", "Plan", "NormalForm"])
+def test_objects_are_frozen(name, body, scene, motion):
+    objects = {"Body": body, "Scene": scene, "Motion": motion, "Plan": motion.plan, "NormalForm": andoyer.NormalForm(1)}
+    for attribute in ["order", "plan", "name", "other"]:
+        with pytest.raises((AttributeError, TypeError)):
+            setattr(objects[name], attribute, 1)
+
+
+def test_stub_has_the_names_of_the_module():
+    assignments = {node.target.id for node in STUB.body if isinstance(node, ast.AnnAssign)}
+    assert public(set(CLASSES) | set(FUNCTIONS)) == public(vars(core))
+    assert "__version__" in assignments and core.__version__ == andoyer.__version__
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_stub_has_the_members_of_the_class(name):
+    members = {node.name for node in CLASSES[name].body if isinstance(node, ast.FunctionDef)}
+    cls = getattr(core, name)
+    assert public(members) == public(vars(cls))
+    assert all(hasattr(cls, member) for member in members)
+    assert [ast.unparse(base) for base in CLASSES[name].bases] == [b.__name__ for b in cls.__bases__ if b is not object]
+
+
+def callables():
+    for name, node in FUNCTIONS.items():
+        yield pytest.param(node, getattr(core, name), id=name)
+    for name, cls in CLASSES.items():
+        for node in cls.body:
+            decorators = [ast.unparse(d) for d in getattr(node, "decorator_list", [])]
+            if isinstance(node, ast.FunctionDef) and "property" not in decorators:
+                if node.name == "__new__":
+                    yield pytest.param(node, getattr(core, name), id=name)
+                elif not node.name.startswith("_") and hasattr(getattr(core, name), node.name):
+                    yield pytest.param(node, getattr(getattr(core, name), node.name), id=f"{name}.{node.name}")
+
+
+@pytest.mark.parametrize("node, function", list(callables()))
+def test_stub_has_the_parameters_of_the_function(node, function):
+    runtime = [
+        (p.name, p.kind is p.KEYWORD_ONLY, None if p.default is p.empty else p.default)
+        for p in inspect.signature(function).parameters.values()
+    ]
+    positional, keyword = node.args.args, node.args.kwonlyargs
+    defaults = [None] * (len(positional) - len(node.args.defaults)) + node.args.defaults + node.args.kw_defaults
+    stub = [
+        (argument.arg, argument in keyword, None if default is None else ast.literal_eval(default))
+        for argument, default in zip(positional + keyword, defaults, strict=True)
+    ]
+    bound = {"self", "cls"}
+    assert [p for p in stub if p[0] not in bound] == [p for p in runtime if p[0] not in bound]
+
+
+def documented():
+    for name, node in (FUNCTIONS | CLASSES).items():
+        yield pytest.param(node, getattr(core, name), id=name)
+        for member in getattr(node, "body", []):
+            known = isinstance(member, ast.FunctionDef) and hasattr(getattr(core, name), member.name)
+            if known and not member.name.startswith("_"):
+                yield pytest.param(member, getattr(getattr(core, name), member.name), id=f"{name}.{member.name}")
+
+
+@pytest.mark.parametrize("node, value", list(documented()))
+def test_stub_says_the_first_line_of_the_docstring(node, value):
+    assert ast.get_docstring(node) == inspect.getdoc(value).splitlines()[0]
