@@ -61,23 +61,23 @@ fn unknown_and_missing_keys_are_named() {
 #[test]
 fn bad_values_are_named_with_their_bound() {
     let cases = [
-        ("tolerance = 1e-10", "tolerance = 0", "scene", "must be positive"),
+        ("tolerance = 1e-10", "tolerance = 0", "tolerance", "must be positive"),
         ("tolerance = 1e-10", "tolerance = \"fine\"", "tolerance", "must be a number"),
         ("order = 12", "order = 61", "order", "from 0 to 60"),
         ("order = 12", "order = -1", "order", "from 0 to 60"),
         ("order = 12", "order = 1.5", "order", "from 0 to 60"),
         ("\"series\"", "\"magic\"", "method", "must be \"auto\" or \"series\""),
-        ("span = [0, 1e3]", "span = [1, 0]", "scene", "start ≤ stop"),
+        ("span = [0, 1e3]", "span = [1, 0]", "span", "start ≤ stop"),
         ("span = [0, 1e3]", "span = [1]", "span", "a list of 2 numbers"),
-        ("epoch = 5", "epoch = nan", "state", "must be finite"),
+        ("epoch = 5", "epoch = nan", "epoch", "must be finite"),
         ("[0.5, 0.75, 1.0]", "[0.5, 0.75]", "body.moments", "a list of 3 numbers"),
-        ("[0.5, 0.75, 1.0]", "[0.5, 0.75, -1.0]", "body", "must be positive"),
-        ("[0.5, 0.75, 1.0]", "[0.5, 0.75, 9.0]", "body", "must not exceed"),
-        ("0.8]", "0.9]", "state", "within 1e-6 of 1"),
-        ("[0.1, 0.2, 1.0]", "[0.1, nan, 1.0]", "state", "must be finite"),
+        ("[0.5, 0.75, 1.0]", "[0.5, 0.75, -1.0]", "body.moments", "must be positive"),
+        ("[0.5, 0.75, 1.0]", "[0.5, 0.75, 9.0]", "body.moments", "must not exceed"),
+        ("0.8]", "0.9]", "state.attitude", "within 1e-6 of 1"),
+        ("[0.1, 0.2, 1.0]", "[0.1, nan, 1.0]", "state.angular_velocity", "must be finite"),
         ("name = \"A body\"", "name = 3", "name", "must be a text"),
         ("[body]\n", "[body]\nnamed = \"ceres\"\n", "body.named", "one or the other"),
-        ("moments = [0.5, 0.75, 1.0]", "named = \"vulcan\"", "body", "not in the catalogue"),
+        ("moments = [0.5, 0.75, 1.0]", "named = \"vulcan\"", "body.named", "not in the catalogue"),
     ];
     for (good, bad, key, bound) in cases {
         assert!(GOOD.contains(good), "{good}");

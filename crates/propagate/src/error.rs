@@ -103,7 +103,7 @@ pub enum Error {
     },
     /// Too near the separatrix for the tolerance.
     #[error(
-        "too near the separatrix for the series: σ/σ_sep = {ratio:.6} needs order {needed} for a tolerance of {tolerance:e} rad, \
+        "too near the separatrix for the series: σ/σ_sep = {ratio} needs order {needed} for a tolerance of {tolerance:e} rad, \
          and order {} is the highest; at that order the tolerance must be at least {attainable:.1e} rad",
         crate::MAX_ORDER
     )]

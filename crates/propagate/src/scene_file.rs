@@ -53,7 +53,7 @@ impl Scene {
     /// use andoyer_propagate::Scene;
     /// let text = "[body]\nmoments = [1.0, 2.0, 3.5]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0, 1]";
     /// let error = Scene::parse_toml(text, "flat.toml").unwrap_err();
-    /// assert!(error.to_string().starts_with("flat.toml: body: moments = [1.0, 2.0, 3.5]: the largest must not exceed"));
+    /// assert!(error.to_string().starts_with("flat.toml: body.moments: moments = [1.0, 2.0, 3.5]: the largest must not exceed"));
     /// ```
     pub fn parse_toml(text: &str, file: &str) -> Result<Self, Error> {
         let at = |key: &str, problem: String| Error::SceneFile { file: file.to_owned(), key: key.to_owned(), problem };
@@ -72,7 +72,7 @@ impl Scene {
             attitude.ok_or_else(|| state_keys.missing("attitude"))?,
             state_keys.numbers("angular_velocity")?.ok_or_else(|| state_keys.missing("angular_velocity"))?,
         )
-        .map_err(|error| at("state", error.to_string()))?;
+        .map_err(|error| keys.refused(error))?;
         let mut scene = Self::new(body_keys.body()?, state);
         if let Some(tolerance) = keys.number("tolerance")? {
             scene = scene.tolerance(tolerance);
@@ -81,7 +81,7 @@ impl Scene {
             scene = scene.span(start, stop);
         }
         if let Some(method) = keys.text("method")? {
-            scene = scene.method(method.parse().map_err(|error: Error| at("method", error.to_string()))?);
+            scene = scene.method(method.parse().map_err(|error: Error| keys.refused(error))?);
         }
         if let Some(order) = keys.order()? {
             scene = scene.order(order);
@@ -92,7 +92,7 @@ impl Scene {
         if let Some(source) = keys.text("source")? {
             scene = scene.source(source);
         }
-        scene.validate().map_err(|error| at("scene", error.to_string()))?;
+        scene.validate().map_err(|error| keys.refused(error))?;
         Ok(scene)
     }
 
@@ -141,6 +141,23 @@ impl<'a> Keys<'a> {
     fn error(&self, key: &str, problem: impl Into<String>) -> Error {
         let key = if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) };
         Error::SceneFile { file: self.file.to_owned(), key, problem: problem.into() }
+    }
+
+    /// What a constructor has against a value, under the key that the value came from.
+    fn refused(&self, error: Error) -> Error {
+        let key = match error {
+            Error::Moment { .. } | Error::MomentsTriangle { .. } => "body.moments",
+            Error::UnknownBody { .. } => "body.named",
+            Error::Attitude { .. } => "state.attitude",
+            Error::AngularVelocity { .. } => "state.angular_velocity",
+            Error::Epoch { .. } => "epoch",
+            Error::Tolerance { .. } => "tolerance",
+            Error::Span { .. } => "span",
+            Error::Order { .. } => "order",
+            Error::Method { .. } => "method",
+            _ => "scene",
+        };
+        Error::SceneFile { file: self.file.to_owned(), key: key.to_owned(), problem: error.to_string() }
     }
 
     fn missing(&self, key: &str) -> Error {
@@ -201,11 +218,7 @@ impl<'a> Keys<'a> {
             (Some(_), Some(_)) => return Err(self.error("named", "stands beside moments: a body has one or the other")),
             (None, None) => return Err(self.missing("moments")),
         };
-        let body = body.map_err(|error| Error::SceneFile {
-            file: self.file.to_owned(),
-            key: self.path.to_owned(),
-            problem: error.to_string(),
-        })?;
+        let body = body.map_err(|error| self.refused(error))?;
         Ok(match self.text("name")? {
             Some(name) => body.with_name(name),
             None => body,

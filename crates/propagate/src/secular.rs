@@ -14,8 +14,9 @@
 use crate::double_double::{DoubleDouble, arithmetic_geometric_mean};
 use crate::polhode::Polhode;
 
-/// Largest number of quadrature nodes in a quarter period: enough for 30 digits to σ/σ_sep = 0.999, past what the series serve.
-const MAX_NODES: usize = 1024;
+/// Largest number of quadrature nodes in a quarter period: full accuracy to 1 − m = 1e-12, far past what the series serve. On the
+/// separatrix itself the sums converge no more, but there σ = σ_sep is known.
+const MAX_NODES: usize = 16384;
 
 /// σ and the mean rates, in the scaled units of the polhode.
 #[derive(Clone, Copy, Debug)]
