@@ -100,12 +100,12 @@ fn slices_of_the_wrong_length_are_refused_and_bad_times_name_their_index() {
 #[test]
 fn extreme_but_finite_times_give_unit_quaternions() {
     let motion = motion();
-    for time in [1e15, -1e15, 1e100, 1e299, 5e-324, -0.0] {
+    for time in [1e15, -1e15, 5e-324, -0.0] {
         let sample = motion.at(time).expect("a finite time");
         assert!((sample.attitude.coords.norm() - 1.0).abs() < 1e-14, "{time}");
         assert!(sample.angular_velocity.iter().all(|w| w.is_finite()), "{time}");
     }
-    assert!(matches!(motion.at(f64::MAX), Err(Error::Time { .. })));
+    assert!([1e17, -1e17, 1e300, f64::MAX].iter().all(|&time| matches!(motion.at(time), Err(Error::Time { .. }))));
 }
 
 #[test]
@@ -120,17 +120,22 @@ fn extreme_bodies_and_rates_solve_or_are_refused_without_nan() {
                 {
                     let state = State::new(0.0, LEVEL, direction.map(|w| w * rate)).expect("finite");
                     match Scene::new(body.clone(), state).solve() {
-                        Err(Error::LongAxisMode { .. } | Error::NearSeparatrix { .. }) => {}
+                        Err(
+                            Error::LongAxisMode { .. }
+                            | Error::NearSeparatrix { .. }
+                            | Error::Separatrix
+                            | Error::Units { .. },
+                        ) => {}
                         Err(error) => panic!("{error}"),
                         Ok(motion) => {
-                            let sample = motion.at(1.0 / rate.max(1e-300)).expect("a finite time");
+                            let sample = motion.at((1.0 / rate).min(1e300)).expect("a finite time");
                             let finite = sample
                                 .attitude
                                 .coords
                                 .iter()
                                 .chain(sample.angular_velocity.iter())
                                 .all(|c| c.is_finite());
-                            assert!(finite, "{shape:?}·{mass} {direction:?}·{rate}");
+                            assert!(finite, "{shape:?}·{mass} {direction:?}·{rate}: {sample:?} {motion:?}");
                             assert!(motion.plan().error_bound().is_finite());
                         }
                     }

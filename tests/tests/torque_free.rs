@@ -57,7 +57,8 @@ fn error_bound_covers_the_error_of_every_reference_state() {
                 let error = attitude_error(motion.at(time).expect("finite").attitude.coords.into(), attitude);
                 let bound = motion.plan().error_bound();
                 assert!(error <= bound, "{} to {tolerance} at {time}: {error} above the bound {bound}", case.name);
-                assert!(bound <= tolerance + 1e-14, "{} to {tolerance}: bound {bound}", case.name);
+                // Rounding: 2.5e-15 and an eighth of it for each harmonic, which are 33 at most here.
+                assert!(bound <= tolerance + 1.3e-14, "{} to {tolerance}: bound {bound}", case.name);
             }
         }
     }
@@ -70,10 +71,14 @@ fn what_the_series_do_not_serve_is_a_typed_error_with_its_numbers() {
         let case = all.iter().find(|case| case.name == name).expect("in the file");
         solve(case).expect_err(name)
     };
-    for name in ["near-separatrix-1e-2", "near-separatrix-1e-6", "near-separatrix-1e-10", "axis-2"] {
-        let Error::NearSeparatrix { ratio, needed, tolerance, .. } = error(name) else { panic!("{name}") };
-        assert!((0.98..=1.0).contains(&ratio) && needed > 60.0 && tolerance == 1e-12, "{name}: {ratio} {needed}");
+    for name in ["near-separatrix-1e-2", "near-separatrix-1e-6", "near-separatrix-1e-10"] {
+        let Error::NearSeparatrix { ratio, tolerance, attainable } = error(name) else { panic!("{name}") };
+        assert!(
+            (0.98..1.0).contains(&ratio) && tolerance == 1e-12 && attainable > 1e-2,
+            "{name}: {ratio} {attainable}"
+        );
     }
+    assert!(matches!(error("axis-2"), Error::Separatrix));
     for (name, expected) in [("long-axis", 2.0741), ("prolate", f64::INFINITY)] {
         let Error::LongAxisMode { energy_ratio } = error(name) else { panic!("{name}") };
         assert!(energy_ratio == expected || (energy_ratio - expected).abs() < 1e-4, "{name}: {energy_ratio}");

@@ -1,6 +1,7 @@
 //! Andoyer variables of a motion (theory §1): λ, μ, ν and their momenta Λ, M, N.
 //!
-//! R = Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν), with axis 3 the axis of greatest inertia and axes 1, 2 so that A ≤ B. The inclinations are taken by the
+//! R = Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν), with axis 3 the user's axis of greatest inertia, axis 2 that of B, and axis 1 that of A, reversed where the user's
+//! order A, B, C is left-handed. N < 0 is a body turned over: there μ − ν grows with the mean rate and not μ + ν. The inclinations are taken by the
 //! arctangent of sine and cosine, never by an arccosine. Where a node is not defined its angle is 0 by convention: λ = 0 at I = 0 or π, ν = 0
 //! at J = 0 or π; μ then carries the sum.
 
@@ -34,7 +35,8 @@ impl Motion {
 
     fn andoyer_after(&self, elapsed: (f64, f64)) -> [f64; 6] {
         let total = self.angular_momentum;
-        let momentum = total.norm();
+        // No squares: they overflow long before the momentum does.
+        let momentum = total.x.hypot(total.y).hypot(total.z);
         if momentum == 0.0 {
             return [0.0; 6];
         }

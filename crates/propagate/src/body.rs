@@ -8,6 +8,8 @@ use crate::error::Error;
 
 /// Slack of the triangle inequality: a flat body given in rounded decimals is still a body.
 const TRIANGLE_SLACK: f64 = 8.0 * f64::EPSILON;
+/// Largest ratio of moments: past it C/A − 1 and its squares near the limits of a double. No body is a needle of 1e50 : 1.
+pub(crate) const LARGEST_RATIO: f64 = 1e100;
 
 /// Principal moments of inertia about body axes 1, 2, 3 [any unit].
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +24,7 @@ impl Body {
     /// # Errors
     /// - [`Error::Moment`] for `[0.0, 1.0, 1.0]`, `[-1.0, 1.0, 1.0]`, `[f64::NAN, 1.0, 1.0]`, `[f64::INFINITY, 1.0, 1.0]`.
     /// - [`Error::MomentsTriangle`] for `[1.0, 1.0, 2.1]`.
+    /// - [`Error::MomentsRatio`] for `[1e-101, 1.0, 1.0]`.
     ///
     /// ```
     /// let body = andoyer_propagate::Body::new([1.0, 1.5, 2.0])?;
@@ -40,6 +43,9 @@ impl Body {
         let sum = a / c + b / c;
         if sum < 1.0 - TRIANGLE_SLACK {
             return Err(Error::MomentsTriangle { moments, ratio: 1.0 / sum });
+        }
+        if a < c / LARGEST_RATIO {
+            return Err(Error::MomentsRatio { moments, ratio: c / a });
         }
         Ok(body)
     }
@@ -99,7 +105,7 @@ impl Body {
         (c / b) * ((b - a) / a)
     }
 
-    /// α = [(C/A − 1) + (C/B − 1)]/2, the oblateness (theory §1); 0 for a sphere.
+    /// α = [(C/A − 1) + (C/B − 1)]/2 (theory §1); 0 for a sphere.
     pub fn alpha(&self) -> f64 {
         let (first, second) = self.excesses();
         0.5 * (first + second)

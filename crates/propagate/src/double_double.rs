@@ -129,7 +129,7 @@ impl Div for DoubleDouble {
 /// The arithmetic-geometric mean of two positive numbers: (1/2π) ∮ dφ/√(a² cos²φ + b² sin²φ) = 1/agm(a, b) (Gauss).
 pub(crate) fn arithmetic_geometric_mean(mut a: DoubleDouble, mut b: DoubleDouble) -> DoubleDouble {
     let half = DoubleDouble::from(0.5);
-    // Quadratic convergence: 12 steps take b/a = 1e-300 to equality, one more than is ever needed.
+    // Each step halves the logarithm of b/a, then doubles the digits: 1e-300 takes 15 steps.
     for _ in 0..24 {
         if (a.high - b.high).abs() <= 1e-17 * a.high {
             break;

@@ -22,6 +22,25 @@ pub enum Error {
         /// Largest moment over the sum of the other two.
         ratio: f64,
     },
+    /// Moments so far apart that their differences have no double.
+    #[error(
+        "moments = {moments:?}: the largest must not exceed {:e} times the smallest (it is {ratio:e} times it)",
+        crate::body::LARGEST_RATIO
+    )]
+    MomentsRatio {
+        /// The moments as given.
+        moments: [f64; 3],
+        /// Largest moment over the smallest.
+        ratio: f64,
+    },
+    /// An angular momentum that has no double.
+    #[error(
+        "moments and angular_velocity: the angular momentum, 2^{exponent}, is no normal double; choose other units"
+    )]
+    Units {
+        /// Its binary exponent, which must be from −1021 to 1023.
+        exponent: i32,
+    },
     /// An attitude quaternion that is zero, not finite, or too far from unit norm.
     #[error(
         "attitude = {value:?}: a quaternion [x, y, z, w] must be finite with a norm within 1e-6 of 1 (it is {norm})"
@@ -73,7 +92,7 @@ pub enum Error {
         value: String,
     },
     /// A time that is not finite, or so far from the epoch that it has no phase.
-    #[error("times[{index}] = {value}: a time must be finite and within {bound:e} of the epoch")]
+    #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch (1e15 rotations)")]
     Time {
         /// Its index among the times given.
         index: usize,
@@ -94,29 +113,32 @@ pub enum Error {
     },
     /// Rotation about the axis of least inertia, which the short-axis series don't reach.
     #[error(
-        "long-axis mode: the energy is {energy_ratio} times that of the separatrix [(2CH/M² − 1)/(C/B − 1)], \
-         and the short-axis series hold below 1 only"
+        "long-axis mode: the energy above that of rotation about axis C, 2CT/M² − 1, is {energy_ratio:.6} times its value on the separatrix \
+         (C/B − 1), and only short-axis mode (below 1) is served; do the moments belong to these body axes?"
     )]
     LongAxisMode {
-        /// (2CH/M² − 1)/(C/B − 1): below 1 in short-axis mode, infinite for B = C.
+        /// (2CT/M² − 1)/(C/B − 1): below 1 in short-axis mode, infinite for B = C.
         energy_ratio: f64,
     },
     /// Too near the separatrix for the tolerance.
     #[error(
-        "too near the separatrix for the series: σ/σ_sep = {ratio} needs order {needed} for a tolerance of {tolerance:e} rad, \
-         and order {} is the highest; at that order the tolerance must be at least {attainable:.1e} rad",
-        crate::MAX_ORDER
+        "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {}, is good to {}, and the tolerance is {tolerance:e} rad",
+        crate::MAX_ORDER,
+        rounded_up(*attainable)
     )]
     NearSeparatrix {
         /// σ/σ_sep.
         ratio: f64,
-        /// The order that the tolerance needs; infinite on the separatrix.
-        needed: f64,
         /// The tolerance asked for \[rad\].
         tolerance: f64,
-        /// The tolerance that the highest order meets \[rad\].
+        /// The smallest tolerance that the highest order meets \[rad\].
         attainable: f64,
     },
+    /// On the separatrix, the rotation about the axis of middle inertia included.
+    #[error(
+        "on the separatrix (rotation about the axis of middle inertia, or falling towards it): no order of the series serves"
+    )]
+    Separatrix,
     /// A body that the catalogue doesn't have.
     #[error("body {name:?} is not in the catalogue: it has {}", crate::Body::catalogue().join(", "))]
     UnknownBody {
@@ -136,4 +158,9 @@ pub enum Error {
         /// What is wrong, with the bound.
         problem: String,
     },
+}
+
+/// A tolerance that can be asked for: two digits, not rounded down.
+fn rounded_up(tolerance: f64) -> String {
+    if tolerance < 1.0 { format!("{:.1e} rad", tolerance * 1.05) } else { "no tolerance below 1 rad".to_owned() }
 }

@@ -10,32 +10,35 @@ use crate::series::Expansion;
 /// the order is smaller than the truncation squared.
 const GRID_PER_ORDER: usize = 8;
 
-/// ζ = direct·w + conjugate·w̄: the ellipse that (x, X) runs through at first order.
+/// A harmonic that turns the attitude by less than this is what rounding of the samples left of a smaller one \[rad\].
+const NOISE: f64 = 6e-16;
+
+/// The ellipse that (x, X) runs through at first order: ζ = long·Re w + i short·Im w, w in units of √M.
+///
+/// Both axes are kept as they are: as sum and difference of the parts of w and w̄ in ζ the short one would lose half its digits at β → 1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ellipse {
-    /// (ω + 1)/√2ω, the part of w in ζ.
-    pub(crate) direct: f64,
-    /// (ω − 1)/√2ω, the part of w̄ in ζ.
-    pub(crate) conjugate: f64,
+    /// √2ω, of X.
+    pub(crate) long: f64,
+    /// √(2/ω), of x.
+    pub(crate) short: f64,
 }
 
 impl Ellipse {
-    /// From a = C/A − 1, b = C/B − 1 and a − b, ω = √(a/b), without the difference ω − 1 (theory §1).
-    pub(crate) fn new(first: f64, second: f64, difference: f64) -> Self {
-        let omega = (first / second).sqrt();
-        let root = (2.0 * omega).sqrt();
-        Self { direct: (omega + 1.0) / root, conjugate: difference / second / (omega + 1.0) / root }
+    /// From ω² = (C/A − 1)/(C/B − 1) ≥ 1 (theory §1).
+    pub(crate) fn new(omega_square: f64) -> Self {
+        let omega = omega_square.sqrt();
+        Self { long: (2.0 * omega).sqrt(), short: (2.0 / omega).sqrt() }
     }
 
     /// w/√M of ζ.
-    pub(crate) fn anomaly(&self, zeta: [f64; 2]) -> [f64; 2] {
-        // direct ± conjugate = √2ω and √(2/ω), the scales of X and x.
-        [zeta[0] / (self.direct + self.conjugate), zeta[1] / (self.direct - self.conjugate)]
+    pub(crate) fn oscillator(&self, zeta: [f64; 2]) -> [f64; 2] {
+        [zeta[0] / self.long, zeta[1] / self.short]
     }
 }
 
 /// w/√M and y − y′ at an angle ℓ′, `trigonometry(h)` being (sin hℓ′, cos hℓ′).
-pub(crate) fn anomaly_and_longitude(
+pub(crate) fn oscillator_and_longitude(
     expansion: &Expansion,
     trigonometry: impl Fn(usize) -> (f64, f64),
 ) -> ([f64; 2], f64) {
@@ -43,7 +46,7 @@ pub(crate) fn anomaly_and_longitude(
     let (mut real, mut imaginary) = (0.0, 0.0);
     for m in 0..=order {
         let (sine, cosine) = trigonometry(2 * m + 1);
-        let (plus, minus) = (expansion.anomaly[order + 1 + m], expansion.anomaly[order - m]);
+        let (plus, minus) = (expansion.oscillator[order + 1 + m], expansion.oscillator[order - m]);
         real += (plus + minus) * cosine;
         imaginary += (plus - minus) * sine;
     }
@@ -95,12 +98,15 @@ impl QuaternionSeries {
     pub(crate) fn truncated(mut self, budget: f64) -> (Self, f64) {
         let mut dropped = 0.0;
         while let [_, .., (even, odd)] = self.terms[..] {
-            let size = even[0].abs().max(even[1].abs()) + odd[0].abs().max(odd[1].abs());
             // An error of a or b turns the attitude by twice its size.
-            if dropped + 2.0 * size > budget {
+            let size = 2.0 * (even[0].abs().max(even[1].abs()) + odd[0].abs().max(odd[1].abs()));
+            if size <= NOISE {
+                dropped = NOISE; // not their sum: all that is true of them is the tail of one smaller than this
+            } else if dropped + size <= budget {
+                dropped += size;
+            } else {
                 break;
             }
-            dropped += 2.0 * size;
             self.terms.pop();
         }
         (self, dropped)
@@ -133,8 +139,8 @@ fn composed(
     ellipse: Ellipse,
     trigonometry: impl Fn(usize) -> (f64, f64),
 ) -> ([f64; 2], [f64; 2]) {
-    let (w, longitude) = anomaly_and_longitude(expansion, trigonometry);
-    let zeta = [(ellipse.direct + ellipse.conjugate) * w[0], (ellipse.direct - ellipse.conjugate) * w[1]];
+    let (w, longitude) = oscillator_and_longitude(expansion, trigonometry);
+    let zeta = [ellipse.long * w[0], ellipse.short * w[1]];
     let half_z = 0.25 * (zeta[0] * zeta[0] + zeta[1] * zeta[1]);
     let (sine, cosine) = (0.5 * longitude).sin_cos();
     // A low order asked for by hand can pass z = 2; there the truncated motion has no attitude and the error bound says so.

@@ -27,3 +27,6 @@ pub use motion::{Frequencies, Motion, Periods, Sample};
 pub use plan::{MAX_ORDER, Mode, Plan};
 pub use scene::{Method, Scene};
 pub use state::State;
+
+/// The types of attitudes and vectors.
+pub use nalgebra;

@@ -12,8 +12,8 @@ use crate::plan::Plan;
 use crate::polhode::Frame;
 use crate::scene::Scene;
 
-/// Phases, in turns, stay below this, and times since the epoch below this over the fastest frequency.
-const LARGEST_PHASE: f64 = 1e300;
+/// Rotations from the epoch within which phases are good to 1e-14 rad; not far beyond, a double no longer tells one turn from the next.
+const MOST_ROTATIONS: f64 = 1e15;
 
 /// Attitude and angular velocity at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ pub struct Sample {
 pub struct Frequencies {
     /// dℓ′/dt: the polhode, in the body.
     pub anomaly: f64,
-    /// dy′/dt: the rotation, y = μ + ν.
+    /// dy′/dt: the rotation, y = μ + ν (y = μ − ν for N < 0, where the theory's axis 3 is the body's turned over).
     pub longitude: f64,
 }
 
@@ -99,7 +99,7 @@ impl Motion {
         Periods { precession: std::f64::consts::TAU / longitude, rotation: std::f64::consts::TAU / anomaly }
     }
 
-    /// Mean periods in the short-axis convention, that of Andoyer variables: μ turns with dy′/dt + dℓ′/dt, ν with −dℓ′/dt (retrograde).
+    /// Mean periods in the short-axis convention, that of Andoyer variables: μ turns with dy′/dt + dℓ′/dt, ν with −dℓ′/dt (retrograde; for N < 0 with +dℓ′/dt).
     pub fn short_axis_periods(&self) -> Periods {
         let Frequencies { anomaly, longitude } = self.frequencies;
         Periods { precession: std::f64::consts::TAU / (longitude + anomaly), rotation: std::f64::consts::TAU / anomaly }
@@ -113,7 +113,7 @@ impl Motion {
     /// Attitude and rates at a time.
     ///
     /// # Errors
-    /// - [`Error::Time`] for NaN, infinite, or more than 1e300 rotations from the epoch.
+    /// - [`Error::Time`] for NaN, infinite, or more than 1e15 rotations from the epoch.
     pub fn at(&self, time: f64) -> Result<Sample, Error> {
         let elapsed = self.elapsed(0, time)?;
         let (attitude, angular_velocity) = self.evaluate(elapsed);
@@ -174,8 +174,8 @@ impl Motion {
     }
 
     pub(crate) fn elapsed(&self, index: usize, time: f64) -> Result<(f64, f64), Error> {
-        let fastest = self.frequencies.longitude.abs().max(1.0);
-        let bound = LARGEST_PHASE / fastest;
+        // A body at rest, or one that turns once in 1e285 units, is still bounded: no sum of two times overflows.
+        let bound = (MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude).min(1e300);
         // Written so that NaN fails it.
         if (time - self.scene.state().epoch).abs() <= bound {
             Ok(elapsed(time, self.scene.state().epoch))

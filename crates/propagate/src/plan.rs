@@ -5,6 +5,9 @@ use std::fmt;
 /// The highest order of the series; reached at σ/σ_sep = 0.64 for a tolerance of 1e-12.
 pub const MAX_ORDER: usize = 60;
 
+/// A tolerance below this is met as well as rounding allows \[rad\].
+const ROUNDED_TOLERANCE: f64 = 2e-14;
+
 /// The kind of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -40,6 +43,7 @@ pub struct Plan {
     pub(crate) order: usize,
     pub(crate) harmonics: usize,
     pub(crate) error_bound: f64,
+    pub(crate) tolerance: f64,
     pub(crate) separatrix_ratio: f64,
     pub(crate) skipped: Vec<String>,
 }
@@ -88,10 +92,13 @@ impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "mode          {}", self.mode)?;
         writeln!(f, "method        {}", self.method())?;
-        writeln!(f, "sigma ratio   {:.6} of the separatrix", self.separatrix_ratio)?;
+        writeln!(f, "σ/σ_sep       {:.3e}", self.separatrix_ratio)?;
         writeln!(f, "order         {}", self.order)?;
         writeln!(f, "harmonics     {}", self.harmonics)?;
         write!(f, "error bound   {:.1e} rad", self.error_bound)?;
+        if self.error_bound > self.tolerance.max(ROUNDED_TOLERANCE) {
+            write!(f, "\ntolerance     {:e} rad is not met over the span", self.tolerance)?;
+        }
         for reason in &self.skipped {
             write!(f, "\nskipped       {reason}")?;
         }

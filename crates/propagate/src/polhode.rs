@@ -16,7 +16,7 @@ use crate::body::Body;
 use crate::double_double::DoubleDouble;
 use crate::state::State;
 
-/// The body axes in the theory's order, the third turned so that N ≥ 0.
+/// The body axes in the theory's order, C along the user's axis or, for N < 0, against it; A is reversed where that makes them right-handed.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
     /// User axis of each sorted axis.
@@ -33,10 +33,9 @@ impl Frame {
         let mut axes = [0, 1, 2];
         axes.sort_by(|&i, &j| moments[i].total_cmp(&moments[j]));
         let even = (axes[0] + 1) % 3 == axes[1];
-        let mut signs = if even { [1.0; 3] } else { [-1.0; 3] };
-        if momentum[axes[2]] * signs[2] < 0.0 {
-            signs = [signs[0], -signs[1], -signs[2]];
-        }
+        let first = if even { 1.0 } else { -1.0 };
+        let upright = if momentum[axes[2]] < 0.0 { -1.0 } else { 1.0 };
+        let signs = [first, upright, upright];
         let mut matrix = Matrix3::zeros();
         for i in 0..3 {
             matrix[(i, axes[i])] = signs[i];

@@ -160,7 +160,12 @@ impl Scene {
     /// - [`Error::Span`] for (1, 0), or not finite.
     /// - [`Error::Epoch`], [`Error::Attitude`], [`Error::AngularVelocity`] for a state with numbers that are no state.
     pub fn validate(&self) -> Result<(), Error> {
-        self.state.validated()?;
+        self.validated().map(|_| ())
+    }
+
+    /// The scene with a unit quaternion, if it is one.
+    fn validated(&self) -> Result<Self, Error> {
+        let state = self.state.validated()?;
         if !(self.tolerance.is_finite() && self.tolerance > 0.0) {
             return Err(Error::Tolerance { value: self.tolerance });
         }
@@ -172,17 +177,17 @@ impl Scene {
         {
             return Err(Error::Span { start, stop });
         }
-        Ok(())
+        Ok(Self { state, ..self.clone() })
     }
 
     /// The motion: everything that does not depend on time is done here, once.
     ///
     /// # Errors
     /// - Those of [`Scene::validate`].
+    /// - [`Error::Units`] where the angular momentum over- or underflows.
     /// - [`Error::LongAxisMode`] for rotation about the axis of least inertia.
     /// - [`Error::NearSeparatrix`] where the tolerance needs an order above [`MAX_ORDER`].
     pub fn solve(&self) -> Result<Motion, Error> {
-        self.validate()?;
-        Motion::new(self)
+        Motion::new(self.validated()?)
     }
 }

@@ -146,7 +146,7 @@ impl<'a> Keys<'a> {
     /// What a constructor has against a value, under the key that the value came from.
     fn refused(&self, error: Error) -> Error {
         let key = match error {
-            Error::Moment { .. } | Error::MomentsTriangle { .. } => "body.moments",
+            Error::Moment { .. } | Error::MomentsTriangle { .. } | Error::MomentsRatio { .. } => "body.moments",
             Error::UnknownBody { .. } => "body.named",
             Error::Attitude { .. } => "state.attitude",
             Error::AngularVelocity { .. } => "state.angular_velocity",
@@ -216,7 +216,12 @@ impl<'a> Keys<'a> {
             (Some(moments), None) => Body::new(moments),
             (None, Some(name)) => Body::named(name),
             (Some(_), Some(_)) => return Err(self.error("named", "stands beside moments: a body has one or the other")),
-            (None, None) => return Err(self.missing("moments")),
+            (None, None) => {
+                return Err(self.error(
+                    "moments",
+                    "is missing: moments = [A, B, C], or named = \"ceres\" for a body of the catalogue",
+                ));
+            }
         };
         let body = body.map_err(|error| self.refused(error))?;
         Ok(match self.text("name")? {

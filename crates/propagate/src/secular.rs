@@ -14,9 +14,10 @@
 use crate::double_double::{DoubleDouble, arithmetic_geometric_mean};
 use crate::polhode::Polhode;
 
-/// Largest number of quadrature nodes in a quarter period: full accuracy to 1 − m = 1e-12, far past what the series serve. On the
-/// separatrix itself the sums converge no more, but there σ = σ_sep is known.
-const MAX_NODES: usize = 16384;
+/// Nodes in a quarter period from which on the logarithmic sum is shorter.
+const MOST_NODES: usize = 1000;
+/// Step of the logarithmic sum: its error is e^(−π²/step), 1e-33.
+const LOGARITHMIC_STEP: f64 = 0.125;
 
 /// σ and the mean rates, in the scaled units of the polhode.
 #[derive(Clone, Copy, Debug)]
@@ -90,16 +91,28 @@ fn invert_energy(polynomials: &[f64], kappa_energy: f64) -> f64 {
     s
 }
 
-/// ⟨1/(1+√Q)⟩_ℓ, ⟨1/(1+√Q)⟩_t and agm(√Q1, √Q2).
-///
-/// Trapezoidal sums in φ with tan ℓ = c tan φ, c² = √(Q1/Q2) = ρ: the integrands are analytic in |Im φ| < atanh √ρ, and n nodes in
-/// half a turn leave an error of e^(−2n atanh √ρ). Unstretched (c = 1) the strip is atanh ρ: ten times the nodes at σ/σ_sep = 0.98.
+/// ⟨1/(1+√Q)⟩_ℓ, ⟨1/(1+√Q)⟩_t and agm(√Q1, √Q2), for 0 < Q1 ≤ Q2.
 fn means(q1: DoubleDouble, q2: DoubleDouble) -> (DoubleDouble, DoubleDouble, DoubleDouble) {
     let (root1, root2) = (q1.sqrt(), q2.sqrt());
+    let agm = arithmetic_geometric_mean(root1, root2);
     let stretch = root1 / root2;
-    let strip = stretch.to_f64().sqrt().atanh();
-    // e^(−2n·strip) = 1e-33 for n nodes in half a turn, of which symmetry leaves one half.
-    let quarter = ((76.0 / (4.0 * strip)).ceil() as usize).clamp(2, MAX_NODES);
+    // Infinite for a circle, where two nodes are exact.
+    let nodes = (76.0 / (4.0 * stretch.to_f64().min(1.0).sqrt().atanh())).ceil().max(2.0);
+    let (by_anomaly, by_time) =
+        if nodes <= MOST_NODES as f64 { trapezoidal(q1, q2, stretch, nodes as usize) } else { logarithmic(q1, q2) };
+    (by_anomaly, by_time * agm, agm)
+}
+
+/// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(√Q(1+√Q))⟩_ℓ by the trapezoidal rule in φ, tan ℓ = c tan φ with c² = √(Q1/Q2) = `stretch`.
+///
+/// The integrands are analytic in |Im φ| < atanh c, and n nodes in half a turn leave an error of e^(−2n atanh c); `quarter` is n/2, and
+/// symmetry leaves that many to compute. Unstretched the strip is atanh c², and the nodes are many more.
+fn trapezoidal(
+    q1: DoubleDouble,
+    q2: DoubleDouble,
+    stretch: DoubleDouble,
+    quarter: usize,
+) -> (DoubleDouble, DoubleDouble) {
     let (sine, cosine) = (DoubleDouble::PI / DoubleDouble::from(4.0 * quarter as f64)).sin_cos();
     // Nodes at φ = (j + ½)π/2n, in 2φ: start at one step of π/2n, go on by two.
     let (mut c2, mut s2) = (cosine * cosine - sine * sine, DoubleDouble::from(2.0) * sine * cosine);
@@ -116,8 +129,40 @@ fn means(q1: DoubleDouble, q2: DoubleDouble) -> (DoubleDouble, DoubleDouble, Dou
     }
     // cos2 and sin2 are twice the squares, so weight carries ½ and the mean 2c/n.
     let factor = DoubleDouble::from(2.0) / DoubleDouble::from(quarter as f64) * stretch.sqrt();
-    let agm = arithmetic_geometric_mean(root1, root2);
-    (by_anomaly * factor, by_time * factor * agm, agm)
+    (by_anomaly * factor, by_time * factor)
+}
+
+/// The same two means next to the separatrix, by the trapezoidal rule in t = ln tan ℓ.
+///
+/// dℓ = dt/(2 cosh t), Q = (Q1 + Q2 e^2t)/(1 + e^2t): analytic in |Im t| < π/2 however small Q1 is, with tails of e^(−|t|) beyond 0 and ln √(Q1/Q2). The
+/// nodes are e^t = e^(first) e^(jh), a product: no exponential but two.
+fn logarithmic(q1: DoubleDouble, q2: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
+    let tail = 76.0;
+    let first = 0.5 * (q1.to_f64() / q2.to_f64()).ln() - tail;
+    let count = ((tail - first) / LOGARITHMIC_STEP).ceil() as usize;
+    let growth = exponential_of_the_step();
+    let mut tangent = DoubleDouble::from(first.exp());
+    let (mut by_anomaly, mut by_time) = (DoubleDouble::ZERO, DoubleDouble::ZERO);
+    for _ in 0..=count {
+        let square = tangent * tangent;
+        let weight = tangent / (DoubleDouble::ONE + square);
+        let root = ((q1 + q2 * square) / (DoubleDouble::ONE + square)).sqrt();
+        let term = weight / (DoubleDouble::ONE + root);
+        by_anomaly = by_anomaly + term;
+        by_time = by_time + term / root;
+        tangent = tangent * growth;
+    }
+    // (2/π) ∫ dt h w with w = dℓ/dt = tan ℓ/(1 + tan² ℓ).
+    let factor = DoubleDouble::from(2.0 * LOGARITHMIC_STEP) / DoubleDouble::PI;
+    (by_anomaly * factor, by_time * factor)
+}
+
+/// e^(1/8) by its Taylor series.
+fn exponential_of_the_step() -> DoubleDouble {
+    let step = DoubleDouble::from(LOGARITHMIC_STEP);
+    (1..=20_i32)
+        .rev()
+        .fold(DoubleDouble::ONE, |sum, k| DoubleDouble::ONE + sum * step / DoubleDouble::from(f64::from(k)))
 }
 
 #[cfg(test)]
@@ -131,6 +176,28 @@ mod tests {
             let (by_anomaly, by_time, agm) = means(q1.into(), q2.into());
             let whole = by_time + by_anomaly * agm;
             assert!((whole - DoubleDouble::ONE).to_f64().abs() < 1e-28, "{q1} {q2}: {whole:?}");
+        }
+    }
+
+    #[test]
+    fn both_sums_agree_to_twenty_eight_digits_where_both_converge() {
+        for (q1, q2) in [(0.9, 0.95), (0.3, 0.8), (1e-3, 0.7), (1e-6, 0.5)] {
+            let (q1, q2) = (DoubleDouble::from(q1), DoubleDouble::from(q2));
+            let stretch = q1.sqrt() / q2.sqrt();
+            let nodes = (76.0 / (4.0 * stretch.to_f64().sqrt().atanh())).ceil() as usize;
+            let (a, b) = (trapezoidal(q1, q2, stretch, nodes), logarithmic(q1, q2));
+            assert!((a.0 - b.0).to_f64().abs() < 1e-28 * a.0.high, "{q1:?}: {:?} {:?}", a.0, b.0);
+            assert!((a.1 - b.1).to_f64().abs() < 1e-28 * a.1.high, "{q1:?}: {:?} {:?}", a.1, b.1);
+        }
+    }
+
+    #[test]
+    fn the_sums_hold_down_to_the_separatrix() {
+        // ⟨1/√Q⟩ = 1/agm again, now for Q1 → 0 where only the logarithmic sum converges.
+        for q1 in [1e-8, 1e-16, 1e-100, 1e-280] {
+            let (by_anomaly, by_time, agm) = means(q1.into(), 0.5.into());
+            let whole = by_time + by_anomaly * agm;
+            assert!((whole - DoubleDouble::ONE).to_f64().abs() < 1e-28, "{q1}: {whole:?}");
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::error::Error;
 #[derive(Clone, Debug)]
 pub(crate) struct Tables {
     polynomials: Vec<f64>,
-    anomaly: Vec<Form>,
+    oscillator: Vec<Form>,
     longitude: Vec<Form>,
 }
 
@@ -19,7 +19,7 @@ pub(crate) struct Tables {
 #[derive(Clone, Debug)]
 pub(crate) struct Expansion {
     /// Coefficient of e^(ihℓ′) of w/√M, h = −(2N+1), −(2N−1), … 2N+1.
-    pub(crate) anomaly: Vec<f64>,
+    pub(crate) oscillator: Vec<f64>,
     /// Coefficient of sin 2kℓ′ of y − y′, k = 1 … N, at k − 1.
     pub(crate) longitude: Vec<f64>,
     /// Sum of the magnitudes that the highest order added, w/√M and y − y′ together.
@@ -32,7 +32,7 @@ impl Tables {
         let normal_form = NumericNormalForm::new(beta, order)?;
         Ok(Self {
             polynomials: normal_form.triaxiality_polynomials(),
-            anomaly: normal_form.direct(),
+            oscillator: normal_form.direct(),
             longitude: normal_form.direct_longitude(),
         })
     }
@@ -46,14 +46,14 @@ impl Tables {
     pub(crate) fn expand(&self, kappa_sigma: f64, kappa: f64) -> Expansion {
         let order = self.longitude.len();
         let root = (kappa_sigma / kappa).sqrt();
-        let mut anomaly = vec![0.0; 2 * order + 2];
+        let mut oscillator = vec![0.0; 2 * order + 2];
         let mut longitude = vec![0.0; order];
         let mut last_order = 0.0;
         let mut power = root;
-        for (n, form) in self.anomaly.iter().enumerate() {
+        for (n, form) in self.oscillator.iter().enumerate() {
             last_order = 0.0;
             for (j, &c) in form.coefficients().iter().enumerate() {
-                anomaly[order - n + j] += c * power;
+                oscillator[order - n + j] += c * power;
                 last_order += (c * power).abs();
             }
             power *= kappa_sigma;
@@ -69,6 +69,6 @@ impl Tables {
                 last_order += if n == order { c.abs() } else { 0.0 };
             }
         }
-        Expansion { anomaly, longitude, last_order }
+        Expansion { oscillator, longitude, last_order }
     }
 }

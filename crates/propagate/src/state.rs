@@ -32,21 +32,13 @@ impl State {
     pub fn new(epoch: f64, attitude: [f64; 4], angular_velocity: [f64; 3]) -> Result<Self, Error> {
         let [x, y, z, w] = attitude;
         let quaternion = Quaternion::new(w, x, y, z);
-        let norm = quaternion.norm();
-        if !is_unit(norm) {
-            return Err(Error::Attitude { value: attitude, norm });
-        }
-        let attitude = if (norm - 1.0).abs() <= ROUNDED_NORM {
-            UnitQuaternion::new_unchecked(quaternion)
-        } else {
-            UnitQuaternion::new_normalize(quaternion)
-        };
+        let attitude = UnitQuaternion::new_unchecked(quaternion);
         let state = Self { epoch, attitude, angular_velocity: Vector3::from(angular_velocity) };
         state.validated()
     }
 
-    /// The state itself, if every number in it is finite and its quaternion is one.
-    pub(crate) fn validated(self) -> Result<Self, Error> {
+    /// The state with a unit quaternion, if every number in it is finite and the quaternion is nearly one.
+    pub(crate) fn validated(mut self) -> Result<Self, Error> {
         if !self.epoch.is_finite() {
             return Err(Error::Epoch { value: self.epoch });
         }
@@ -59,6 +51,9 @@ impl State {
         let norm = coordinates.norm();
         if !is_unit(norm) {
             return Err(Error::Attitude { value: coordinates.into(), norm });
+        }
+        if (norm - 1.0).abs() > ROUNDED_NORM {
+            self.attitude = UnitQuaternion::new_normalize(self.attitude.into_inner());
         }
         Ok(self)
     }

@@ -53,7 +53,7 @@ pub(crate) fn propagation(error: Propagation) -> PyErr {
         Propagation::Time { .. } => TimesError::new_err(message),
         Propagation::Length { .. } => ShapeError::new_err(message),
         Propagation::LongAxisMode { .. } => ModeError::new_err(message),
-        Propagation::NearSeparatrix { .. } => SeparatrixError::new_err(message),
+        Propagation::NearSeparatrix { .. } | Propagation::Separatrix => SeparatrixError::new_err(message),
         Propagation::UnknownBody { .. } => UnknownBodyError::new_err(message),
         Propagation::SceneFile { .. } => SceneFileError::new_err(message),
         _ => Error::new_err(message),

@@ -1,0 +1,185 @@
+//! Where the formulas are weakest: inputs that were once wrong, each with what broke.
+
+use andoyer_propagate::{Body, Error, Mode, Motion, Scene, State};
+use andoyer_tests::{attitude_error, difference};
+
+const LEVEL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+
+fn scene(moments: [f64; 3], rates: [f64; 3]) -> Scene {
+    Scene::new(Body::new(moments).expect("a body"), State::new(0.0, LEVEL, rates).expect("a state"))
+}
+
+fn start(motion: &Motion) -> ([f64; 4], [f64; 3]) {
+    let epoch = motion.scene().state().epoch;
+    let sample = motion.at(epoch).expect("finite");
+    (sample.attitude.coords.into(), sample.angular_velocity.into())
+}
+
+#[test]
+fn the_flip_of_the_middle_axis_is_refused_however_small_its_start() {
+    // A quadrature with too few nodes gave σ/σ_sep = 6e-6 and an attitude off by 1.6 rad.
+    for exponent in [3, 6, 9, 12, 20, 50, 100, 160, 300] {
+        let tilt = 10.0_f64.powi(-exponent);
+        for tolerance in [1e-12, 1e-3] {
+            match scene([1.0, 2.0, 3.0], [0.0, 1.0, tilt]).tolerance(tolerance).solve() {
+                Err(Error::NearSeparatrix { ratio, .. }) => assert!((0.9..=1.0).contains(&ratio), "{tilt}: {ratio}"),
+                Err(Error::Separatrix) => assert!(tilt < 1e-140, "{tilt}"),
+                other => panic!("{tilt}: {other:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn sigma_next_to_the_separatrix_grows_to_that_of_the_separatrix() {
+    let ratio = |tilt: f64| match scene([1.0, 2.0, 3.0], [0.0, 1.0, tilt]).solve() {
+        Err(Error::NearSeparatrix { ratio, .. }) => 1.0 - ratio,
+        other => panic!("{tilt}: {other:?}"),
+    };
+    // 1 − σ/σ_sep goes as (1−m) ln(1/(1−m)): four orders for each two of the tilt, and a little less.
+    for tilt in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5] {
+        let fall = ratio(tilt) / ratio(0.1 * tilt);
+        assert!((50.0..100.0).contains(&fall), "{tilt}: {fall}");
+    }
+}
+
+#[test]
+fn a_wobble_whose_square_has_no_double_is_no_nan() {
+    for moments in [[0.5, 0.75, 1.0], [0.8, 0.8, 1.0]] {
+        for tilt in [1e-140, 1e-155, 1e-162, 1e-200, 1e-300, 5e-324] {
+            let motion = scene(moments, [tilt, 0.5 * tilt, 1.0]).solve().expect("short-axis");
+            let (attitude, rates) = start(&motion);
+            assert!(attitude_error(attitude, LEVEL) < 1e-15, "{tilt}: {attitude:?}");
+            assert!(difference(rates, [tilt, 0.5 * tilt, 1.0]) < 1e-15, "{tilt}: {rates:?}");
+        }
+    }
+}
+
+#[test]
+fn the_initial_state_is_kept_as_beta_approaches_one() {
+    // The short axis of the ellipse as a difference lost ε/√(1−β): 5e-10 at 1−β = 8e-16.
+    for gap in [1e-3, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 4e-16] {
+        for fraction in [0.01, 0.1, 0.3] {
+            // G1 a share of its value on the separatrix, (a − b) g1² = b g3².
+            let (first, second): (f64, f64) = (1.0, gap / (1.0 - gap));
+            let g1 = fraction * (second / (first - second)).sqrt();
+            let rates = [g1 / 0.5, 0.3 * g1, 1.0];
+            let motion = scene([0.5, 1.0 - gap, 1.0], rates).solve().expect("short-axis");
+            let (attitude, found) = start(&motion);
+            let bound = motion.plan().error_bound();
+            let error = attitude_error(attitude, LEVEL);
+            assert!(error <= bound && bound <= 1e-12 + 2e-14, "1−β ≈ {gap}: {error}, bound {bound}");
+            assert!(difference(found, rates) <= 2.0 * bound, "1−β ≈ {gap}: {found:?} for {rates:?}");
+        }
+    }
+}
+
+#[test]
+fn a_time_since_the_epoch_that_no_double_holds_is_carried_in_two() {
+    let body = Body::new([0.5, 0.75, 1.0]).expect("a body");
+    let epoch = 2_451_545.1_f64;
+    let (later, early) = (epoch + 1e9, epoch);
+    let motion = |epoch| {
+        let state = State::new(epoch, LEVEL, [0.1, 0.2, 1.0]).expect("a state");
+        Scene::new(body.clone(), state).solve().expect("short-axis")
+    };
+    // The exact difference of the two doubles, which the plain subtraction rounds by up to 6e-8.
+    let (whole, rest) = ((later - early).floor(), (later - (later - early).floor()) - early);
+    let direct = motion(early).at(later).expect("finite");
+    let first = motion(0.0).at(whole).expect("finite");
+    let state = State { epoch: 0.0, attitude: first.attitude, angular_velocity: first.angular_velocity };
+    let second = Scene::new(body, state).solve().expect("short-axis").at(rest).expect("finite");
+    let error = attitude_error(direct.attitude.coords.into(), second.attitude.coords.into());
+    assert!(error < 1e-12, "{error}");
+}
+
+#[test]
+fn a_fixed_order_is_as_good_as_its_bound_says_and_the_bound_knows_the_span() {
+    let fixed =
+        |stop: f64| scene([0.5, 0.75, 1.0], [0.2, 0.3, 1.0]).order(2).span(0.0, stop).solve().expect("short-axis");
+    let [near, far] = [fixed(1e2), fixed(1e4)].map(|motion| motion.plan().error_bound());
+    assert!(far > 10.0 * near, "{near} {far}");
+    let best = scene([0.5, 0.75, 1.0], [0.2, 0.3, 1.0]).solve().expect("short-axis");
+    let error = |time: f64| {
+        let [a, b] = [&fixed(1e2), &best].map(|motion| motion.at(time).expect("finite").attitude.coords.into());
+        attitude_error(a, b)
+    };
+    assert!(error(1e2) <= near && error(1e4) <= far);
+    assert!(fixed(1e2).plan().to_string().contains("is not met"));
+    assert!(!best.plan().to_string().contains("is not met"));
+}
+
+#[test]
+fn the_tolerance_that_a_refusal_quotes_is_accepted() {
+    for rates in [[0.9, 0.0, 0.75], [0.95, 0.0, 0.72], [0.4, 0.9, 0.75], [0.97, 0.1, 0.7]] {
+        let near = scene([0.5, 0.75, 1.0], rates);
+        if let Err(error) = near.clone().tolerance(1e-14).solve() {
+            let Error::NearSeparatrix { attainable, .. } = error else { panic!("{error}") };
+            let text = error.to_string();
+            let quoted = text.split("is good to ").nth(1).and_then(|rest| rest.split(" rad").next()).expect("a figure");
+            let quoted: f64 = quoted.parse().expect("a number");
+            assert!(quoted >= attainable);
+            let motion = near.tolerance(quoted).solve().unwrap_or_else(|error| panic!("{quoted}: {error}"));
+            assert!(motion.plan().error_bound() <= quoted, "{quoted}");
+        }
+    }
+}
+
+#[test]
+fn truncated_motions_still_have_unit_quaternions() {
+    for order in [0, 1, 2, 3] {
+        let motion = scene([0.5, 0.75, 1.0], [0.5, 0.6, 0.8]).tolerance(1e-2).order(order).solve().expect("short-axis");
+        for time in [0.0, 1.0, 2.5, 7.0] {
+            let norm = motion.at(time).expect("finite").attitude.coords.norm();
+            assert!((norm - 1.0).abs() < 1e-15, "order {order} at {time}: {norm}");
+        }
+    }
+    // A state put together by hand, off by as much as is accepted.
+    let mut state = *scene([0.5, 0.75, 1.0], [0.1, 0.2, 1.0]).state();
+    state.attitude = nalgebra::UnitQuaternion::new_unchecked(nalgebra::Quaternion::new(1.0 + 9e-7, 0.0, 0.0, 0.0));
+    let motion = Scene::new(Body::new([0.5, 0.75, 1.0]).expect("a body"), state).solve().expect("short-axis");
+    assert!((motion.at(3.0).expect("finite").attitude.coords.norm() - 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn quantities_that_have_no_double_are_an_error_and_large_ones_are_not_squared() {
+    assert!(matches!(scene([0.5e200, 0.75e200, 1e200], [0.0, 0.0, 1e119]).solve(), Err(Error::Units { .. })));
+    assert!(matches!(scene([0.5e-165, 0.75e-165, 1e-165], [0.0, 0.0, 1e-165]).solve(), Err(Error::Units { .. })));
+    let motion = scene([0.5e160, 0.75e160, 1e160], [0.1, 0.2, 1.0]).solve().expect("short-axis");
+    let [.., momentum, n] = motion.andoyer(0.0).expect("finite");
+    assert!((n / momentum - 1.0 / (0.05_f64.powi(2) + 0.15_f64.powi(2) + 1.0).sqrt()).abs() < 1e-15, "{momentum} {n}");
+    let small = scene([0.5e-165, 0.75e-165, 1e-165], [0.1, 0.2, 1.0]).solve().expect("short-axis");
+    assert!(small.andoyer(0.0).expect("finite")[4] > 0.0);
+    assert!(matches!(Body::new([1e-310, 1.0, 1.0]), Err(Error::MomentsRatio { .. })));
+}
+
+#[test]
+fn a_spin_about_equal_greatest_moments_is_steady() {
+    let motion = scene([0.5, 1.0, 1.0], [0.0, 0.3, 1.0]).solve().expect("steady");
+    assert_eq!(motion.plan().mode(), Mode::PrincipalAxis);
+    assert!(motion.plan().skipped()[0].contains("B = C"), "{:?}", motion.plan().skipped());
+    assert_eq!(start(&motion).1, [0.0, 0.3, 1.0]);
+    let tilted = scene([0.5, 0.75, 1.0], [0.0, 0.0, 1.0]).order(7).solve().expect("steady");
+    assert!(tilted.plan().skipped()[1].contains("order 7"), "{:?}", tilted.plan().skipped());
+    // The frequency of a wobble that is not there: γ M/C.
+    let gamma = tilted.scene().body().gamma();
+    assert!((tilted.frequencies().anomaly - gamma).abs() < 1e-15 && (gamma - (1.0_f64 / 3.0).sqrt()).abs() < 1e-15);
+    assert!((tilted.scene().body().omega() - 3.0_f64.sqrt()).abs() < 1e-15);
+}
+
+#[test]
+fn andoyer_variables_keep_the_short_axis_for_any_order_of_the_moments() {
+    let orders = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+    for axes in orders {
+        let (moments, spin) = ([0.23, 0.96, 1.0], [0.05, 0.04, 1.2]);
+        let mut placed = ([0.0; 3], [0.0; 3]);
+        for (i, &axis) in axes.iter().enumerate() {
+            placed.0[axis] = moments[i];
+            placed.1[axis] = spin[i];
+        }
+        let [.., n] = scene(placed.0, placed.1).solve().expect("short-axis").andoyer(0.0).expect("finite");
+        assert!((n - 1.2).abs() < 1e-14, "{axes:?}: N = {n}");
+        let [.., n] = scene(placed.0, placed.1.map(|w| -w)).solve().expect("short-axis").andoyer(0.0).expect("finite");
+        assert!((n + 1.2).abs() < 1e-14, "{axes:?}: N = {n}");
+    }
+}
