@@ -8,7 +8,7 @@ use num_traits::Zero;
 
 type Gaussian = Complex<BigRational>;
 const ERRATA: &str = include_str!("../../docs/errata.md");
-const THEORY: &str = include_str!("../../docs/normal-form.md");
+const THEORY: &str = include_str!("../../docs/theory.md");
 /// Slots of u, U, β, τ.
 const NAMES: [&str; 4] = ["u", "U", "beta", "tau"];
 const ORDER: u32 = 4;

@@ -6,7 +6,7 @@ use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
 const ORDER: usize = 16;
-/// Budget: the sums of order n have n terms of size σ_sep^(−n)/n, each rounded: n·2^−53/n. Measured to order 60: 2e-17.
+/// Budget: the sums of order n have n terms of size radius^(−n)/n, each rounded: n·2^−53/n, a third of it seen.
 const BUDGET: f64 = 5e-17;
 
 /// Coefficients of w^k w̄^(d−k) at β from a form in u = i w̄, U = w: each is i^j times that of u^j U^k.
@@ -53,4 +53,6 @@ fn a_beta_that_no_body_has_is_refused() {
     for beta in [-0.1, 1.1, f64::NAN, f64::INFINITY] {
         assert!(NumericNormalForm::new(beta, 2).is_err(), "{beta}");
     }
+    assert!(NumericNormalForm::new(0.5, 201).is_err());
+    assert!(NumericNormalForm::new(0.5, usize::MAX).is_err());
 }

@@ -1,4 +1,4 @@
-//! Every equation that docs/normal-form.md prints is what the triangle computes.
+//! Every equation that docs/theory.md prints is what the triangle computes.
 
 use andoyer_series::{BETA, Monomial, NormalForm, Polynomial, TAU, W, W_BAR, hamiltonian};
 use andoyer_tests::{equation, equations};
@@ -7,7 +7,7 @@ use num_rational::BigRational;
 use num_traits::Zero;
 
 type Gaussian = Complex<BigRational>;
-const DOCUMENT: &str = include_str!("../../docs/normal-form.md");
+const DOCUMENT: &str = include_str!("../../docs/theory.md");
 
 fn in_beta(text: &str) -> Polynomial<Gaussian> {
     Polynomial::parse(text, &["beta"]).expect("a polynomial in beta")

@@ -6,9 +6,9 @@
 //!
 //! Deprit's triangle writes the generator in the old variables. Written in the new ones, the transformed function
 //! obeys dF/dε = [F; T] with T taken where F is, so that order n costs n brackets and not n²/2. For one degree of freedom that
-//! is reversible (w ↔ w̄) both give the same transformation: it is odd in ℓ and has no secular part.
-//! Measured against exact arithmetic at β = 0.05, 0.5, 0.95: every coefficient of order n ≤ 60, times σ_sep^n, is within 2e-17.
-//! The triangle itself, run in `f64`, loses seven digits at order 60 for β = 0.5 and all of them for β = 0.95.
+//! is reversible (w ↔ w̄) both give the same transformation: it is odd in ℓ and has no secular part, which leaves no freedom.
+//! The sums are benign as well: a coefficient of order n, times the n-th power of the radius of convergence κσ_sep, is within 5e-17 of the exact
+//! one to order 16 for β from 0 to 15/16 (tests/tests/numeric.rs), where the triangle in `f64` subtracts large numbers.
 
 /// A form Σ c_j w^j w̄^(d−j) of one degree d in the complex variables of theory §1.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,42 +18,23 @@ pub struct Form {
 
 impl Form {
     /// The form with these coefficients, `coefficients[j]` being that of w^j w̄^(d−j), d = length − 1.
-    ///
-    /// An empty vector is the zero form of degree 0.
-    ///
-    /// ```
-    /// use andoyer_series::Form;
-    /// let action = Form::new(vec![0.0, 1.0, 0.0]); // w w̄
-    /// let w = Form::new(vec![0.0, 1.0]);
-    /// assert_eq!(action.bracket(&w).coefficients(), &[0.0, 1.0]); // [w w̄; w] = w
-    /// ```
-    pub fn new(coefficients: Vec<f64>) -> Self {
-        if coefficients.is_empty() {
-            return Self::zero(0);
-        }
+    pub(crate) fn new(coefficients: Vec<f64>) -> Self {
         Self { coefficients }
     }
 
     /// The zero form of degree `degree`.
-    pub fn zero(degree: usize) -> Self {
+    fn zero(degree: usize) -> Self {
         Self { coefficients: vec![0.0; degree + 1] }
     }
 
     /// The degree d in (w̄, w).
     pub fn degree(&self) -> usize {
-        self.coefficients.len() - 1
+        self.coefficients.len().saturating_sub(1)
     }
 
     /// The coefficients, that of w^j w̄^(d−j) at j.
     pub fn coefficients(&self) -> &[f64] {
         &self.coefficients
-    }
-
-    /// `[self; s] = ∂f/∂w̄ ∂s/∂w − ∂f/∂w ∂s/∂w̄`, of degree d_f + d_s − 2.
-    pub fn bracket(&self, s: &Self) -> Self {
-        let mut sum = Self::zero((self.degree() + s.degree()).saturating_sub(2));
-        sum.add_bracket(self, s);
-        sum
     }
 
     /// Adds `[f; s]`, whose degree must be that of `self`.
@@ -94,7 +75,7 @@ impl Form {
 
 /// Kernel and generator of `w w̄ + Σ τ^n h_n`, the generator in the new variables.
 #[derive(Clone, Debug)]
-pub struct FormNormalization {
+pub(crate) struct FormNormalization {
     /// k_n of K = Σ k_n τ^n (w w̄)^(n+1), n = 0 … order.
     kernel: Vec<f64>,
     /// T_n, n = 1 … order, at index n − 1.
@@ -102,11 +83,11 @@ pub struct FormNormalization {
 }
 
 impl FormNormalization {
-    /// Normalizes `w w̄ + τ h`, `h` of degree 4 and symmetric in w ↔ w̄, to `order`.
+    /// Normalizes `w w̄ + τ h` to `order`; `perturbation` is h, which must be of degree 4 and symmetric in w ↔ w̄.
     ///
     /// With A = (w w̄)∘Φ and B = h∘Φ: A_n + B_{n−1} = K_n, n A_n = Σ [A_{n−1−m}; T_{m+1}], and likewise B; the term of T_n
     /// is [w w̄; T_n] = (p − q) T_n for w^p w̄^q, which is solved for what is not in the kernel.
-    pub fn new(perturbation: &Form, order: usize) -> Self {
+    pub(crate) fn new(perturbation: &Form, order: usize) -> Self {
         let action = Form::new(vec![0.0, 1.0, 0.0]);
         let (mut kernel, mut generators) = (vec![1.0], Vec::with_capacity(order));
         let (mut actions, mut energies) = (vec![action], vec![perturbation.clone()]);
@@ -134,12 +115,12 @@ impl FormNormalization {
     }
 
     /// k_0 … k_order.
-    pub fn kernel(&self) -> &[f64] {
+    pub(crate) fn kernel(&self) -> &[f64] {
         &self.kernel
     }
 
     /// The transformed w, orders 0 … order: w = Σ τ^n W_n(w̄′, w′), W_n of degree 2n + 1.
-    pub fn direct(&self) -> Vec<Form> {
+    pub(crate) fn direct(&self) -> Vec<Form> {
         let mut parts = vec![Form::new(vec![0.0, 1.0])];
         for n in 1..=self.generators.len() {
             parts.push(transported(&parts, &self.generators, n));
@@ -150,7 +131,7 @@ impl FormNormalization {
     /// The transformed ŷ = y/i less ŷ′, orders 1 … order at index n − 1: forms of degree 2n + 2, times τ^(n+1) in units of κ.
     ///
     /// [ŷ; T_n τ^n] = −n T_n τ^(n+1) (theory §6) starts every order; what is then a form goes on as any other.
-    pub fn direct_longitude(&self) -> Vec<Form> {
+    pub(crate) fn direct_longitude(&self) -> Vec<Form> {
         let mut parts: Vec<Form> = Vec::with_capacity(self.generators.len());
         for n in 1..=self.generators.len() {
             let mut sum = Form::zero(2 * n + 2);
@@ -173,4 +154,16 @@ fn transported(parts: &[Form], generators: &[Form], n: usize) -> Form {
     }
     sum.scale(1.0 / n as f64);
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bracket_of_the_action_turns_w() {
+        let mut sum = Form::zero(1);
+        sum.add_bracket(&Form::new(vec![0.0, 1.0, 0.0]), &Form::new(vec![0.0, 1.0]));
+        assert_eq!(sum.coefficients(), &[0.0, 1.0]); // [w w̄; w] = w
+    }
 }

@@ -2,8 +2,7 @@
 //!
 //! The algebra: [`Polynomial`]s in up to eight variables over any [`Coefficient`], their [`Poisson`] bracket, the [`Homological`] equation
 //! of a diagonal quadratic part and Deprit's triangle ([`normalize`], [`LieTransform`]), to any order. The rigid body: [`NormalForm`],
-//! exact and symbolic in the triaxiality β. [`Form`] and [`FormNormalization`] do the same in floating point at a given β, for the
-//! propagation.
+//! exact and symbolic in the triaxiality β. [`NumericNormalForm`] is the same in floating point at a given β, for the propagation.
 //!
 //! Contract: what is exact stays exact; overflow of an exponent is an error; iteration, printing and summation follow the canonical
 //! order of the monomials, so that two runs give the same bits; no I/O, no global state, and every type is `Send + Sync`.
@@ -32,7 +31,7 @@ pub use bracket::Poisson;
 pub use coefficient::Coefficient;
 pub use display::Named;
 pub use error::{Error, ParseProblem, TermProblem};
-pub use forms::{Form, FormNormalization};
+pub use forms::Form;
 pub use homological::Homological;
 pub use latex::Part;
 pub use monomial::{MAXIMUM_EXPONENT, Monomial, SLOTS};

@@ -1,11 +1,13 @@
 //! The rigid-body normal form at a given β, in `f64`: what a propagator evaluates.
 //!
 //! The Hamiltonian is that of the exact normal form with a number for β; the engine is that of the binary forms.
-//! Cost about N⁴/2 multiply-adds at order N. Accuracy: every coefficient times σ_sep^n is within 2e-17 of the exact one to order 60
-//! (β = 0.05, 0.5, 0.95).
+//! Cost about N⁴/2 multiply-adds at order N; accuracy: see the forms.
 
 use crate::forms::{Form, FormNormalization};
 use crate::{BETA, Error, W, W_BAR, hamiltonian};
+
+/// Largest order: its coefficients, 3.2^N at most, and the work, some seconds, stay within reason.
+const MAXIMUM_NUMERIC_ORDER: usize = 200;
 
 /// Normal form and direct transformation at one β, orders 0 to N (theory §4, §6).
 #[derive(Clone, Debug)]
@@ -17,7 +19,8 @@ impl NumericNormalForm {
     /// The normal form at β, 0 ≤ β ≤ 1, to `order`.
     ///
     /// # Errors
-    /// - β = −0.1, 1.1 or NaN: [`Error::OutsideInterval`].
+    /// - β = −0.1, 1.1 or NaN: [`Error::OutsideInterval`];
+    /// - order 201: [`Error::OrderTooLarge`].
     ///
     /// ```
     /// use andoyer_series::NumericNormalForm;
@@ -28,6 +31,9 @@ impl NumericNormalForm {
     pub fn new(beta: f64, order: usize) -> Result<Self, Error> {
         if !(0.0..=1.0).contains(&beta) {
             return Err(Error::OutsideInterval { argument: "beta", value: beta, lower: 0.0, upper: 1.0 });
+        }
+        if order > MAXIMUM_NUMERIC_ORDER {
+            return Err(Error::OrderTooLarge { order, bound: MAXIMUM_NUMERIC_ORDER });
         }
         let [_, perturbation] = hamiltonian::<f64>()?;
         let at_beta = perturbation.evaluate_partial(BETA, &beta)?;
