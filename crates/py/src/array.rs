@@ -56,6 +56,21 @@ fn read<'py>(argument: &str, array: &Bound<'py, PyArrayDyn<f64>>) -> PyResult<Py
     array.try_readonly().map_err(|_| in_use(argument))
 }
 
+/// `value` as one number.
+pub(crate) fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let refused = |cause: Option<PyErr>| {
+        let shown = value.repr().map_or_else(|_| "what cannot be printed".to_owned(), |text| text.to_string());
+        let error = PyTypeError::new_err(format!("{argument} must be a real number: got {shown}"));
+        error.set_cause(value.py(), cause);
+        error
+    };
+    let array = numbers(argument, value).map_err(|problem| refused(Some(problem)))?;
+    match (array.ndim(), read(argument, &array)?.as_slice()?) {
+        (0, &[number]) => Ok(number),
+        _ => Err(refused(None)),
+    }
+}
+
 /// `value` as N numbers.
 pub(crate) fn fixed<const N: usize>(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
     let array = numbers(argument, value)?;

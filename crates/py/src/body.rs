@@ -17,7 +17,7 @@ use crate::{array, error};
 /// Raises
 /// ------
 /// MomentsError
-///     ``[0, 1, 1]``, ``[1, -1, 1]``, ``[1, nan, 1]``, or ``[1, 1, 2.1]``, which no body has.
+///     ``[0, 1, 1]``, ``[1, -1, 1]``, ``[1, nan, 1]``, ``[1, 1, 2.1]``, which no body has, or ``[1e-101, 1, 1]``.
 /// ShapeError
 ///     ``[1, 2]``.
 ///
@@ -73,13 +73,14 @@ impl Body {
     /// name : str
     ///     One of `Body.catalogue()`.
     ///
-    /// Returns
-    /// -------
-    /// str or None
-    ///     None for a name that the catalogue does not have.
+    /// Raises
+    /// ------
+    /// UnknownBodyError
+    ///     ``"vulcan"``.
     #[staticmethod]
-    fn source(name: &str) -> Option<&'static str> {
+    fn source(name: &str) -> PyResult<&'static str> {
         andoyer_propagate::Body::source(name)
+            .ok_or_else(|| error::propagation(andoyer_propagate::Error::UnknownBody { name: name.to_owned() }))
     }
 
     /// The moments about body axes 1, 2, 3 as given: a read-only array, shape (3,).

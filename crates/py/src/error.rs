@@ -1,7 +1,7 @@
 //! The exceptions, and which error of the Rust crates becomes which.
 //!
 //! `Error` is a `ValueError`; every kind of bad input has one subclass of it. The message is that of the Rust error. What is not an
-//! array-like of numbers, or no string where one is due, stays Python's own `TypeError`.
+//! array-like of numbers, no `Body` or no string where one is due, stays Python's own `TypeError`.
 
 use andoyer_propagate::Error as Propagation;
 use andoyer_series::Error as Algebra;
@@ -17,6 +17,7 @@ create_exception!(
 create_exception!(andoyer, MomentsError, Error, "Moments of inertia that no body has.");
 create_exception!(andoyer, AttitudeError, Error, "An attitude that is no unit quaternion.");
 create_exception!(andoyer, AngularVelocityError, Error, "An angular velocity that is not finite.");
+create_exception!(andoyer, UnitsError, Error, "Units in which the angular momentum over- or underflows.");
 create_exception!(andoyer, EpochError, Error, "An epoch that is not finite.");
 create_exception!(andoyer, ToleranceError, Error, "A tolerance that is not positive and finite.");
 create_exception!(andoyer, SpanError, Error, "A span that is not finite or runs backwards.");
@@ -25,7 +26,7 @@ create_exception!(andoyer, MethodError, Error, "A method that is unknown or not 
 create_exception!(andoyer, TimesError, Error, "A time that is not finite, or too far from the epoch to have a phase.");
 create_exception!(andoyer, ShapeError, Error, "An array of the wrong shape or memory layout.");
 create_exception!(andoyer, ModeError, Error, "A mode of rotation that the series do not reach: long-axis rotation.");
-create_exception!(andoyer, SeparatrixError, Error, "A motion too near the separatrix for its tolerance.");
+create_exception!(andoyer, SeparatrixError, Error, "A motion on the separatrix, or too near it for its tolerance.");
 create_exception!(andoyer, UnknownBodyError, Error, "A name that the catalogue of bodies does not have.");
 create_exception!(andoyer, SceneFileError, Error, "A scene file that cannot be read or says something wrong.");
 create_exception!(
@@ -42,7 +43,10 @@ create_exception!(andoyer, SeriesError, Error, "Any other error of the exact alg
 pub(crate) fn propagation(error: Propagation) -> PyErr {
     let message = error.to_string();
     match error {
-        Propagation::Moment { .. } | Propagation::MomentsTriangle { .. } => MomentsError::new_err(message),
+        Propagation::Moment { .. } | Propagation::MomentsTriangle { .. } | Propagation::MomentsRatio { .. } => {
+            MomentsError::new_err(message)
+        }
+        Propagation::Units { .. } => UnitsError::new_err(message),
         Propagation::Attitude { .. } => AttitudeError::new_err(message),
         Propagation::AngularVelocity { .. } => AngularVelocityError::new_err(message),
         Propagation::Epoch { .. } => EpochError::new_err(message),

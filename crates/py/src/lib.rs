@@ -28,7 +28,7 @@ mod _core {
     use super::error::{
         AngularVelocityError, AttitudeError, EpochError, Error, FormatError, IntervalError, MethodError, ModeError,
         MomentsError, OrderError, SceneFileError, SeparatrixError, SeriesError, ShapeError, SpanError, TimesError,
-        ToleranceError, UnknownBodyError, UnknownNameError,
+        ToleranceError, UnitsError, UnknownBodyError, UnknownNameError,
     };
     #[pymodule_export]
     use super::motion::Motion;

@@ -21,7 +21,7 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// Raises
 /// ------
 /// TimesError
-///     A time that is NaN, infinite or more than 1e300 rotations from the epoch; the message has its index.
+///     A time that is NaN, infinite or more than 1e15 rotations from the epoch; the message has its index.
 /// ShapeError
 ///     Times with two axes.
 ///
@@ -120,7 +120,10 @@ impl Motion {
 
     /// Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1).
     ///
-    /// Attitude = Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν) with cos I = Λ/M, cos J = N/M, for body axes sorted so that A ≤ B ≤ C. Angles are in
+    /// Attitude = Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν) with cos I = Λ/M, cos J = N/M. Axis 3 is the user's axis of greatest inertia with its
+    /// sense, axis 2 that of B, axis 1 that of A, reversed where the user's order A, B, C is left-handed. So N < 0 is a body that turns
+    /// backwards about its axis 3. For N > 0, y = μ + ν grows with `frequencies.longitude` and ν at −dℓ′/dt; for N < 0, y = μ − ν
+    /// grows with `frequencies.longitude` and ν at +dℓ′/dt; μ grows with the sum of both frequencies in either case. Angles are in
     /// (−π, π]; where a node is not defined (I or J = 0 or π) its angle is 0 and μ carries the sum. Zeros for a body at rest.
     ///
     /// Parameters
@@ -168,6 +171,8 @@ impl Motion {
     }
 
     /// Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time; 0 where there is none.
+    ///
+    /// Neither is ever negative. y = μ + ν; for N < 0, where axis 3 points away from the angular momentum, y = μ − ν (see `andoyer`).
     #[getter]
     fn frequencies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         static FREQUENCIES: PyOnceLock<Py<PyType>> = PyOnceLock::new();
@@ -178,8 +183,8 @@ impl Motion {
     /// Mean periods (P_φ, P_ψ) in both conventions: ``{"long-axis": (precession, rotation), "short-axis": (precession, rotation)}``.
     ///
     /// Long-axis is the convention of light curves: P_φ = 2π/(dy′/dt), P_ψ = 2π/(dℓ′/dt), in which the long axis oscillates
-    /// (Kaasalainen 2001). Short-axis is that of the Andoyer variables: μ turns with dy′/dt + dℓ′/dt, ν with −dℓ′/dt (retrograde).
-    /// In units of time, named tuples; infinite where there is none.
+    /// (Kaasalainen 2001). Short-axis is that of the Andoyer variables: P_φ = 2π/(dy′/dt + dℓ′/dt), with which μ turns, and
+    /// P_ψ = 2π/(dℓ′/dt), with which ν turns: backwards, for N < 0 forwards. In units of time, named tuples; infinite where there is none.
     #[getter]
     fn periods<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, pyo3::types::PyDict>> {
         static PERIODS: PyOnceLock<Py<PyType>> = PyOnceLock::new();

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use andoyer_propagate::{MAX_ORDER, State};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
@@ -18,19 +19,23 @@ use crate::{array, error};
 /// ----------
 /// body : Body
 /// attitude : array_like, shape (4,)
-///     Unit quaternion [x, y, z, w] that rotates body components into inertial ones; a norm within 1e-6 of 1 is normalized.
+///     Unit quaternion [x, y, z, w], scalar last (Hamilton product), that rotates body components into inertial ones; a norm within 1e-6
+///     of 1 is normalized.
 /// angular_velocity : array_like, shape (3,)
 ///     Body components, in rad per unit of time; zero is a body at rest.
 /// epoch : float, optional
 ///     Time of the state.
 /// tolerance : float, optional
-///     Attitude error asked for over the span, in rad; less than double precision holds means the best there is
+///     Attitude error asked for over the span, in rad. Below about 1e-14 it means the best that double precision holds
 ///     (`Plan.error_bound` says what that is).
 /// method : {"auto", "series"}, optional
 /// order : int, optional
 ///     Fixed order of the series, of the secular part too (theory §7), 0 to 60; by default the one that the tolerance needs (theory §5).
+///     A fixed order is not raised for the tolerance: where it is too low, `Plan.error_bound` exceeds the tolerance and ``str(plan)``
+///     says that it "is not met over the span".
 /// span : (float, float), optional
-///     Times over which the tolerance is asked for; by default any within 1e9 rotations.
+///     Times over which the tolerance is asked for; by default any within 1e9 rotations. A motion can be evaluated outside it, up to
+///     1e15 rotations from the epoch; farther away is a `TimesError` of the motion.
 /// name, source : str, optional
 ///     What the scene is and where its figures come from: kept, printed, and nothing else.
 ///
@@ -50,6 +55,8 @@ use crate::{array, error};
 ///     ``(1, 0)``, or not finite.
 /// ShapeError
 ///     An attitude of 3 numbers, an angular velocity of 4.
+/// TypeError
+///     A body that is a list, a tolerance or an epoch that is a text, an order that is a boolean.
 ///
 /// Examples
 /// --------
@@ -70,17 +77,18 @@ impl Scene {
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn new(
-        body: &Body,
+        body: &Bound<'_, PyAny>,
         attitude: &Bound<'_, PyAny>,
         angular_velocity: &Bound<'_, PyAny>,
-        epoch: f64,
-        tolerance: f64,
+        #[pyo3(from_py_with = epoch)] epoch: f64,
+        #[pyo3(from_py_with = tolerance)] tolerance: f64,
         method: &str,
         order: Option<&Bound<'_, PyAny>>,
         span: Option<&Bound<'_, PyAny>>,
         name: Option<&str>,
         source: Option<&str>,
     ) -> PyResult<Self> {
+        let body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get();
         let attitude = array::fixed("attitude", attitude)?;
         let angular_velocity = array::fixed("angular_velocity", angular_velocity)?;
         let state = State::new(epoch, attitude, angular_velocity).map_err(error::propagation)?;
@@ -130,7 +138,9 @@ impl Scene {
     /// ModeError
     ///     Rotation about the axis of least inertia.
     /// SeparatrixError
-    ///     The tolerance needs an order above 60, so near is the separatrix.
+    ///     The tolerance needs an order above 60, so near is the separatrix; rotation about the axis of middle inertia.
+    /// UnitsError
+    ///     The angular momentum, moment × rate, is no normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {
         py.detach(|| self.0.solve()).map(Motion).map_err(error::propagation)
     }
@@ -226,6 +236,21 @@ impl Scene {
         let [attitude, rates] = [state.attitude.coords.as_slice(), state.angular_velocity.as_slice()];
         ((self.body(), attitude, rates), self.keywords(py)?).into_pyobject(py)
     }
+}
+
+// PyO3 leaves the name of an argument out of the message of its own `TypeError`.
+fn epoch(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    array::number("epoch", value)
+}
+
+fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    array::number("tolerance", value)
+}
+
+/// What is said of a body that is none.
+fn not_a_body(value: &Bound<'_, PyAny>) -> PyErr {
+    let kind = value.get_type().name().map_or_else(|_| "something else".to_owned(), |name| name.to_string());
+    PyTypeError::new_err(format!("body must be an andoyer.Body: got {kind}; use Body([A, B, C])"))
 }
 
 impl Scene {

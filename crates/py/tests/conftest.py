@@ -1,6 +1,7 @@
-"""Fixtures: a wobbling body, the repository, the reference solutions."""
+"""Fixtures: a wobbling body, the repository, the reference solutions and what computes them."""
 
 import json
+import sys
 from pathlib import Path
 
 import pytest
@@ -8,6 +9,7 @@ import pytest
 import andoyer
 
 REPOSITORY = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(REPOSITORY / "tests" / "reference"))
 REFERENCE = json.loads((REPOSITORY / "tests/data/torque_free.json").read_text(encoding="utf-8"))
 
 

@@ -9,6 +9,7 @@ import pytest
 
 import andoyer
 from andoyer import Body, Scene
+from conftest import REPOSITORY
 
 ATTITUDE, RATES = [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0]
 NAN, INF = math.nan, math.inf
@@ -26,9 +27,15 @@ def test_catalogue_knows_its_bodies_in_any_case():
     assert Body.named("ceres") == Body.named("CERES")
     assert Body.named("ceres").name == "Ceres"
     assert all(Body.source(name) for name in Body.catalogue())
-    assert Body.source("vulcan") is None
-    with pytest.raises(andoyer.UnknownBodyError, match="vulcan"):
-        Body.named("vulcan")
+    for lookup in [Body.named, Body.source]:
+        with pytest.raises(andoyer.UnknownBodyError, match='"vulcan".*Ceres'):
+            lookup("vulcan")
+
+
+@pytest.mark.parametrize("name", ["earth", "ceres", "vesta", "eros", "apophis"])
+def test_catalogue_and_scene_of_a_body_have_the_same_moments(name):
+    scene = Scene.from_toml(REPOSITORY / f"examples/scenes/{name}.toml")
+    assert scene.body.moments.tolist() == Body.named(name).moments.tolist()
 
 
 def test_repr_can_be_pasted_back(scene):
@@ -73,7 +80,7 @@ def test_attitude_near_unit_norm_is_normalized_and_read_only(body):
         attitude[0] = 1.0
 
 
-@pytest.mark.parametrize("moments", [[0, 1, 1], [1, -1, 1], [1, NAN, 1], [1, 1, INF], [1, 1, 2.1]])
+@pytest.mark.parametrize("moments", [[0, 1, 1], [1, -1, 1], [1, NAN, 1], [1, 1, INF], [1, 1, 2.1], [1e-101, 1, 1]])
 def test_moments_that_no_body_has_are_refused(moments):
     with pytest.raises(andoyer.MomentsError, match="moments"):
         Body(moments)
@@ -110,7 +117,13 @@ BAD_SCENES = {
     "complex rate": (TypeError, {"angular_velocity": [1j, 0, 1]}),
     "objects as rates": (TypeError, {"angular_velocity": [object(), 0, 1]}),
     "tuple for body": (TypeError, {"body": (1, 2, 2)}),
-    "text tolerance": (TypeError, {"tolerance": "small"}),
+    "text tolerance": (TypeError, {"tolerance": "1e-9"}),
+    "boolean tolerance": (TypeError, {"tolerance": True}),
+    "no tolerance": (TypeError, {"tolerance": None}),
+    "list of tolerances": (TypeError, {"tolerance": [1e-9]}),
+    "text epoch": (TypeError, {"epoch": "now"}),
+    "date as epoch": (TypeError, {"epoch": np.datetime64("2026-01-01")}),
+    "boolean order": (TypeError, {"order": True}),
     "number as method": (TypeError, {"method": 1}),
     "number as name": (TypeError, {"name": 1}),
 }
@@ -121,6 +134,32 @@ def test_bad_scene_is_refused_and_the_argument_named(body, error, arguments):
     good = {"body": body, "attitude": ATTITUDE, "angular_velocity": RATES}
     with pytest.raises(error, match=next(iter(arguments))):
         Scene(**good | arguments)
+
+
+WRONG_KINDS = {
+    "list for body": ({"body": [1, 2, 3]}, "body must be an andoyer.Body: got list; use Body([A, B, C])"),
+    "text tolerance": ({"tolerance": "1e-9"}, "tolerance must be a real number: got '1e-9'"),
+    "text epoch": ({"epoch": "now"}, "epoch must be a real number: got 'now'"),
+    "boolean order": ({"order": True}, "order must be a whole number, not bool"),
+}
+
+
+@pytest.mark.parametrize("arguments, message", WRONG_KINDS.values(), ids=WRONG_KINDS)
+def test_message_itself_names_the_argument_of_the_wrong_kind(body, arguments, message):
+    with pytest.raises(TypeError) as caught:
+        Scene(**{"body": body, "attitude": ATTITUDE, "angular_velocity": RATES} | arguments)
+    assert str(caught.value) == message  # pytest's `match` would read PyO3's note as well
+
+
+def test_scalars_that_are_numbers_are_taken(body):
+    given = Scene(body, ATTITUDE, RATES, epoch=np.array(3), tolerance=Fraction(1, 1024))
+    assert (given.epoch, given.tolerance) == (3.0, 2.0**-10)
+
+
+def test_momentum_without_a_double_is_a_units_error():
+    scene = Scene(Body([1e-200, 1.5e-200, 2e-200]), ATTITUDE, [1e-200, 0, 1e-199])
+    with pytest.raises(andoyer.UnitsError, match="momentum.*units"):
+        scene.solve()
 
 
 def test_shape_error_has_both_shapes(body):

@@ -27,19 +27,51 @@ def scene_file(scene, tmp_path):
 
 
 def read(path):
-    first, second, *_ = path.read_text(encoding="utf-8").splitlines()
-    return first, second, np.loadtxt(path, delimiter=",", skiprows=2, ndmin=2)
+    table = np.genfromtxt(path, delimiter=",", names=True, ndmin=1)
+    assert ",".join(table.dtype.names) == COLUMNS
+    return np.column_stack([table[name] for name in table.dtype.names])
 
 
 def test_csv_holds_the_motion_to_the_last_bit(scene_file, motion, tmp_path):
     output = tmp_path / "out.csv"
     done = run("propagate", scene_file, "-o", output, "--start", "-3", "--stop", "7.5", "--samples", "37")
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
-    comment, columns, table = read(output)
-    assert comment.startswith("# ") and "rad" in comment and "body components" in comment
-    assert columns == COLUMNS
     samples = motion.at(np.linspace(-3, 7.5, 37))
-    assert np.array_equal(table, np.column_stack([samples.times, samples.attitude, samples.angular_velocity]))
+    assert np.array_equal(read(output), np.column_stack([samples.times, samples.attitude, samples.angular_velocity]))
+
+
+def test_dash_writes_the_same_csv_to_stdout(scene_file, tmp_path):
+    output = tmp_path / "out.csv"
+    span = ["--stop", "7.5", "--step", "0.25"]
+    assert run("propagate", scene_file, "-o", output, *span).returncode == 0
+    done = run("propagate", scene_file, "-o", "-", *span)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == output.read_text(encoding="utf-8") and done.stdout.startswith(f"{COLUMNS}\n")
+
+
+def test_help_says_what_the_columns_are():
+    done = run("propagate", "--help")
+    text = " ".join(done.stdout.split())
+    assert COLUMNS in text and "body components to inertial ones" in text and "rad per unit of time" in text
+
+
+@pytest.mark.parametrize("stop, step, times", [(0.3, 0.1, 4), (1, 0.3, 4), (1, 5, 1), (0, 1, 1), (7, 7, 2)])
+def test_steps_go_from_the_first_time_up_to_the_last(scene_file, tmp_path, stop, step, times):
+    output = tmp_path / "out.csv"
+    assert main(["propagate", str(scene_file), "-o", str(output), "--start", "0", "--stop", str(stop), "--step", str(step)]) == 0
+    assert read(output)[:, 0] == pytest.approx(step * np.arange(times), abs=1e-15)
+    assert read(output)[-1, 0] <= stop
+
+
+@pytest.mark.parametrize("spacing", [["--step", "100"], ["--samples", "11"]])
+def test_samples_more_than_half_a_rotation_apart_are_noted(scene_file, motion, tmp_path, spacing):
+    done = run("propagate", scene_file, "-o", tmp_path / "out.csv", "--start", "0", "--stop", "1000", *spacing)
+    apart = 100 / motion.periods["long-axis"].precession
+    assert done.returncode == 0 and done.stdout == "" and done.stderr.count("\n") == 1
+    found = re.match(r"andoyer: note: samples are (\S+) rotations apart; --step (\S+) ", done.stderr)
+    assert float(found[1]) == pytest.approx(apart, rel=5e-3)
+    assert run("propagate", scene_file, "-o", tmp_path / "out.csv", "--stop", "1000", "--step", found[2]).stderr == ""
+    assert len(read(tmp_path / "out.csv")) > 10_000
 
 
 def test_npz_holds_the_motion(scene_file, motion, tmp_path):
@@ -54,7 +86,7 @@ def test_npz_holds_the_motion(scene_file, motion, tmp_path):
 def test_default_is_a_thousand_samples_of_ten_rotations_from_the_epoch(scene_file, motion, tmp_path):
     output = tmp_path / "out.csv"
     assert main(["propagate", str(scene_file), "-o", str(output)]) == 0
-    times = read(output)[2][:, 0]
+    times = read(output)[:, 0]
     assert len(times) == 1000 and times[0] == 2.0
     assert times[-1] == 2.0 + 10 * motion.periods["long-axis"].precession
 
@@ -64,9 +96,9 @@ def test_span_of_the_scene_is_the_default_if_there_is_one(scene, tmp_path):
     path, output = tmp_path / "span.toml", tmp_path / "out.csv"
     path.write_text(given.to_toml(), encoding="utf-8")
     assert main(["propagate", str(path), "-o", str(output), "--samples", "4"]) == 0
-    assert read(output)[2][:, 0].tolist() == [1, 2, 3, 4]
+    assert read(output)[:, 0].tolist() == [1, 2, 3, 4]
     assert main(["propagate", str(path), "-o", str(output), "--samples", "1", "--start", "3"]) == 0
-    assert read(output)[2][:, 0].tolist() == [3]
+    assert read(output)[:, 0].tolist() == [3]
 
 
 def test_plan_prints_name_plan_and_periods(scene_file, motion):
@@ -109,16 +141,22 @@ BAD_LINES = {
     "unknown ending": (["propagate", "SCENE", "-o", "out.txt"], r"out\.txt.*\.csv or \.npz"),
     "no ending": (["propagate", "SCENE", "-o", "out"], r"\.csv or \.npz"),
     "no directory": (["propagate", "SCENE", "-o", "absent/out.csv"], "absent"),
-    "NaN start": (["propagate", "SCENE", "-o", "out.csv", "--start", "nan"], "--start.*finite"),
+    "NaN start": (["propagate", "SCENE", "-o", "out.csv", "--start", "nan"], "--start: must be a finite number: got 'nan'"),
+    "text start": (["propagate", "SCENE", "-o", "out.csv", "--start", "noon"], "argument --start: must be a finite number: got 'noon'"),
     "text stop": (["propagate", "SCENE", "-o", "out.csv", "--stop", "later"], "--stop.*later"),
     "stop before start": (["propagate", "SCENE", "-o", "out.csv", "--start", "5", "--stop", "4"], "--stop.*4.0.*5.0"),
     "no samples": (["propagate", "SCENE", "-o", "out.csv", "--samples", "0"], "--samples"),
     "too many samples": (["propagate", "SCENE", "-o", "out.csv", "--samples", "1" + "0" * 30], "--samples"),
     "half a sample": (["propagate", "SCENE", "-o", "out.csv", "--samples", "1.5"], "--samples.*1.5"),
+    "float of samples": (["propagate", "SCENE", "-o", "out.csv", "--samples", "1e3"], "--samples: must be a whole number from 1 .*: got '1e3'"),
+    "no step": (["propagate", "SCENE", "-o", "out.csv", "--step", "0"], "--step: must be a finite number above 0: got '0'"),
+    "NaN step": (["propagate", "SCENE", "-o", "out.csv", "--step", "nan"], "--step.*finite"),
+    "tiny step": (["propagate", "SCENE", "-o", "out.csv", "--step", "1e-300"], "--step.*at most 1000000000 samples"),
+    "samples and step": (["propagate", "SCENE", "-o", "out.csv", "--samples", "3", "--step", "1"], "--samples.*--step|--step.*--samples"),
     "time without a phase": (["propagate", "SCENE", "-o", "out.csv", "--stop", "1e308"], r"times\[\d+\]"),
     "negative order": (["series", "--order", "-1"], "order"),
     "huge order": (["series", "--order", "100000"], "order.*16381"),
-    "text order": (["series", "--order", "ten"], "order"),
+    "text order": (["series", "--order", "ten"], "argument --order: must be a whole number: got 'ten'"),
 }
 
 
@@ -152,11 +190,23 @@ def test_bad_scene_is_refused_with_file_key_and_bound(text, message, tmp_path):
     assert not (tmp_path / "out.csv").exists()
 
 
-def test_motion_that_is_not_served_is_refused(tmp_path):
-    path = tmp_path / "long-axis.toml"
-    path.write_text("[body]\nmoments = [1, 1.5, 2]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [1, 0.1, 0.1]\n")
-    done = run("plan", path)
-    assert done.returncode == 2 and "long-axis" in done.stderr and done.stderr.count("\n") == 1
+NOT_SERVED = {
+    "long-axis": ("[1, 0.1, 0.1]", "long-axis mode"),
+    "separatrix": ("[0, 1, 0]", "on the separatrix"),
+    "near separatrix": ("[0.0001, 1, 0.0001]", "too near the separatrix"),
+    "units": ("[0, 1e-310, 1e-310]", "units"),
+}
+
+
+@pytest.mark.parametrize("command", ["plan", "propagate"])
+@pytest.mark.parametrize("rates, message", NOT_SERVED.values(), ids=NOT_SERVED)
+def test_motion_that_is_not_served_is_refused_with_the_file(tmp_path, capfd, command, rates, message):
+    path = tmp_path / "unserved.toml"
+    path.write_text(f"[body]\nmoments = [1, 1.5, 2]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = {rates}\n")
+    output = ["-o", str(tmp_path / "out.csv")] if command == "propagate" else []
+    assert main([command, str(path), *output]) == 2
+    errors = capfd.readouterr().err
+    assert errors.startswith(f"andoyer: error: {path}: ") and message in errors and errors.count("\n") == 1
 
 
 def test_body_at_rest_needs_a_last_time(tmp_path, capfd):
@@ -165,7 +215,7 @@ def test_body_at_rest_needs_a_last_time(tmp_path, capfd):
     assert main(["propagate", str(path), "-o", str(output)]) == 2
     assert "--stop" in capfd.readouterr().err
     assert main(["propagate", str(path), "-o", str(output), "--stop", "5", "--samples", "2"]) == 0
-    assert read(output)[2][:, 4].tolist() == [1, 1]
+    assert read(output)[:, 4].tolist() == [1, 1]
 
 
 def test_name_that_the_terminal_cannot_show_is_escaped(scene, tmp_path):

@@ -4,6 +4,8 @@ The exact side is `NormalForm`: the normal form of the free rigid body to any or
 which is solved into a `Motion` and evaluated at any time. No unit is built in; angles are in rad. Attitudes are unit quaternions
 [x, y, z, w] that rotate body components into inertial ones.
 
+In every docstring "theory §n" is section n of docs/theory.md, and the scene file is described in docs/scene.md.
+
 >>> import andoyer
 >>> scene = andoyer.Scene(andoyer.Body([1.0, 1.5, 2.0]), [0, 0, 0, 1], [0.1, 0.2, 1.0])
 >>> motion = scene.solve()
@@ -37,6 +39,7 @@ from andoyer._core import (
     SpanError,
     TimesError,
     ToleranceError,
+    UnitsError,
     UnknownBodyError,
     UnknownNameError,
     __version__,
@@ -70,6 +73,7 @@ __all__ = [
     "SpanError",
     "TimesError",
     "ToleranceError",
+    "UnitsError",
     "UnknownBodyError",
     "UnknownNameError",
     "__version__",

@@ -50,7 +50,7 @@ class SceneFileError(Error):
     """A scene file that cannot be read or says something wrong."""
 
 class SeparatrixError(Error):
-    """A motion too near the separatrix for its tolerance."""
+    """A motion on the separatrix, or too near it for its tolerance."""
 
 class SeriesError(Error):
     """Any other error of the exact algebra."""
@@ -66,6 +66,9 @@ class TimesError(Error):
 
 class ToleranceError(Error):
     """A tolerance that is not positive and finite."""
+
+class UnitsError(Error):
+    """Units in which the angular momentum over- or underflows."""
 
 class UnknownBodyError(Error):
     """A name that the catalogue of bodies does not have."""
@@ -85,7 +88,7 @@ class Body:
     def catalogue() -> list[str]:
         """The names that `Body.named` knows."""
     @staticmethod
-    def source(name: str) -> str | None:
+    def source(name: str) -> str:
         """Where the figures of a catalogue body come from."""
     @property
     def moments(self) -> _Array:

@@ -7,16 +7,23 @@ import argparse
 import math
 import os
 import sys
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
-from typing import NoReturn
+from typing import NoReturn, TextIO, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 import andoyer
 
+Value = TypeVar("Value")
+
 ROTATIONS = 10
 """Rotations from the epoch that are propagated if neither the scene nor the command line has a span."""
+
+SAMPLES = 1000
+"""Samples if the command line gives neither their number nor a step."""
 
 MOST_SAMPLES = 10**9
 """More would not fit a file that anyone reads."""
@@ -68,12 +75,15 @@ def parser() -> Parser:
     top.add_argument("--version", action="version", version=f"andoyer {andoyer.__version__}")
     commands = top.add_subparsers(title="commands", metavar="COMMAND", required=True)
 
-    command = commands.add_parser("propagate", help="write attitude and angular velocity at equal steps of time")
+    writes = "write attitude and angular velocity at equal steps of time"
+    command = commands.add_parser("propagate", help=writes, description=f"{writes.capitalize()}.", epilog=f"Columns {COLUMNS}: {CONVENTION}.")
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
-    command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .csv or .npz by its ending")
+    command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .csv or .npz by its ending; - is CSV on stdout")
     command.add_argument("--start", type=number, metavar="T", help="first time (default: the scene's span, else its epoch)")
     command.add_argument("--stop", type=number, metavar="T", help=f"last time (default: the scene's span, else {ROTATIONS} rotations on)")
-    command.add_argument("--samples", type=count, default=1000, metavar="N", help="number of times (default: %(default)s)")
+    spacing = command.add_mutually_exclusive_group()
+    spacing.add_argument("--samples", type=count, metavar="N", help=f"number of times, the last one included (default: {SAMPLES})")
+    spacing.add_argument("--step", type=step, metavar="DT", help="time from one sample to the next, from the first time on")
     command.set_defaults(run=propagate)
 
     command = commands.add_parser("plan", help="print what would be evaluated, and why")
@@ -84,39 +94,89 @@ def parser() -> Parser:
     command.set_defaults(run=bodies)
 
     command = commands.add_parser("series", help="print the triaxiality polynomials P_0 ... P_N")
-    command.add_argument("--order", type=int, required=True, metavar="N", help="order of the normal form")
+    command.add_argument("--order", type=whole, required=True, metavar="N", help="order of the normal form")
     command.set_defaults(run=series)
     return top
 
 
 def number(text: str) -> float:
     """A finite number."""
-    value = float(text)
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"{text} is not finite")
-    return value
+    return checked(text, float, math.isfinite, "a finite number")
+
+
+def step(text: str) -> float:
+    """A step of time."""
+    return checked(text, float, lambda value: 0 < value < math.inf, "a finite number above 0")
+
+
+def whole(text: str) -> int:
+    """A whole number."""
+    return checked(text, int, lambda _: True, "a whole number")
 
 
 def count(text: str) -> int:
     """A number of samples."""
-    value = int(text)
-    if not 1 <= value <= MOST_SAMPLES:
-        raise argparse.ArgumentTypeError(f"{text} is not within 1 and {MOST_SAMPLES}")
+    return checked(text, int, lambda value: 1 <= value <= MOST_SAMPLES, f"a whole number from 1 to {MOST_SAMPLES}")
+
+
+def checked(text: str, read: Callable[[str], Value], accepts: Callable[[Value], bool], expected: str) -> Value:
+    """`text` as `read` reads it, if that is accepted; argparse puts the name of the argument before the message."""
+    refusal = argparse.ArgumentTypeError(f"must be {expected}: got {text!r}")
+    try:
+        value = read(text)
+    except ValueError:
+        raise refusal from None
+    if not accepts(value):
+        raise refusal
     return value
 
 
 def propagate(arguments: argparse.Namespace) -> None:
     """Write a motion at equal steps of time."""
     output = Path(arguments.output)
+    to_stdout = arguments.output == "-"
     write = {".csv": write_csv, ".npz": write_npz}.get(output.suffix.lower())
+    if write is None and not to_stdout:
+        raise InputError(f"argument -o/--output: {arguments.output}: the name must end in .csv or .npz, or be - for CSV on stdout")
+    motion = solved(arguments.scene)
+    samples = motion.at(instants(arguments, motion))
+    note_sparse(motion, samples.times)
     if write is None:
-        raise InputError(f"argument -o/--output: {arguments.output}: the name must end in .csv or .npz")
-    scene = andoyer.Scene.from_toml(arguments.scene)
-    motion = scene.solve()
+        write_table(sys.stdout, samples)
+    else:
+        write(output, samples)
+
+
+def solved(path: str) -> andoyer.Motion:
+    """The motion of a scene file; that it has none is an error of the file."""
+    scene = andoyer.Scene.from_toml(path)
+    try:
+        return scene.solve()
+    except andoyer.Error as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def instants(arguments: argparse.Namespace, motion: andoyer.Motion) -> NDArray[np.float64]:
+    """The times that are asked for: from the first to the last, or by steps from the first up to the last."""
     start, stop = interval(motion, arguments.start, arguments.stop)
     with np.errstate(over="ignore", invalid="ignore"):
-        times = np.linspace(start, stop, arguments.samples)
-    write(output, motion.at(times))
+        if arguments.step is None:
+            return np.linspace(start, stop, SAMPLES if arguments.samples is None else arguments.samples)
+        # Rounding of the quotient must not lose the last time.
+        steps = (stop - start) / arguments.step * (1 + 4 * sys.float_info.epsilon)
+        if steps >= MOST_SAMPLES:
+            raise InputError(f"argument --step: must give at most {MOST_SAMPLES} samples from {start!r} to {stop!r}: got {arguments.step!r}")
+        times: NDArray[np.float64] = np.minimum(start + arguments.step * np.arange(math.floor(steps) + 1), stop)
+        return times
+
+
+def note_sparse(motion: andoyer.Motion, times: NDArray[np.float64]) -> None:
+    """Say on stderr that samples are too far apart to show the rotation."""
+    rotation = motion.periods["long-axis"].precession
+    apart = (times[1] - times[0]) / rotation if len(times) > 1 else 0.0
+    if apart > 0.5:
+        advice = f"--step {rotation / 100:.3g} gives a hundred a rotation"
+        print(f"andoyer: note: samples are {apart:.3g} rotations apart; {advice}", file=sys.stderr)
 
 
 def interval(motion: andoyer.Motion, start: float | None, stop: float | None) -> tuple[float, float]:
@@ -136,11 +196,16 @@ def interval(motion: andoyer.Motion, start: float | None, stop: float | None) ->
 
 
 def write_csv(path: Path, samples: andoyer.Samples) -> None:
-    """Samples as CSV: a comment with the convention, the names of the columns, one line a time with all 17 digits."""
-    table = np.column_stack([samples.times, samples.attitude, samples.angular_velocity])
+    """Samples as a CSV file."""
     with path.open("w", encoding="utf-8", newline="\n") as file:
-        file.write(f"# andoyer {andoyer.__version__}: {CONVENTION}\n{COLUMNS}\n")
-        np.savetxt(file, table, fmt="%.17g", delimiter=",")
+        write_table(file, samples)
+
+
+def write_table(file: TextIO, samples: andoyer.Samples) -> None:
+    """Samples as CSV: the names of the columns, one line a time with all 17 digits."""
+    table = np.column_stack([samples.times, samples.attitude, samples.angular_velocity])
+    file.write(f"{COLUMNS}\n")
+    np.savetxt(file, table, fmt="%.17g", delimiter=",")
 
 
 def write_npz(path: Path, samples: andoyer.Samples) -> None:
@@ -157,7 +222,7 @@ def write_npz(path: Path, samples: andoyer.Samples) -> None:
 
 def plan(arguments: argparse.Namespace) -> None:
     """Print the plan of a scene, and the periods of its motion."""
-    motion = andoyer.Scene.from_toml(arguments.scene).solve()
+    motion = solved(arguments.scene)
     scene = motion.scene
     print(f"scene         {scene.name or arguments.scene}")
     print(f"body          {scene.body!r}")

@@ -10,7 +10,7 @@ class Frequencies(NamedTuple):
     """dℓ′/dt: the polhode, in the body."""
 
     longitude: float
-    """dy′/dt: the rotation, y = μ + ν."""
+    """dy′/dt: the rotation, y = μ + ν; y = μ − ν for N < 0."""
 
 
 class Periods(NamedTuple):
