@@ -8,7 +8,7 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 fn normalize(c: &mut Criterion) {
     let mut group = c.benchmark_group("normalize");
     group.sample_size(10);
-    for order in [5, 10, 15, 20] {
+    for order in [5, 10, 20, 30, 40, 50] {
         group.bench_function(BenchmarkId::new(format!("order-{order}"), "exact"), |b| {
             b.iter(|| {
                 let normal_form = NormalForm::new(black_box(order)).expect("within the bounds");

@@ -12,6 +12,7 @@ mod bracket;
 mod calculus;
 mod coefficient;
 mod display;
+mod energy;
 mod error;
 mod forms;
 mod homological;

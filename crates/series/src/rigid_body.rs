@@ -12,7 +12,9 @@
 //! K = Σ k_n τⁿ (w w̄)^{n+1}, P_n = 2 k_n and p_n = (−i)^{n+1} P_n (theory §4).
 //! Source: Lara (2017) with the errata of theory §11. Cost: that of [`NormalForm::new`](crate::NormalForm::new).
 
+use crate::energy::Generator;
 use crate::{Coefficient, Error, Homological, Monomial, Poisson, Polynomial, TermProblem};
+use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
@@ -132,9 +134,27 @@ pub fn separatrix_action(beta: f64) -> Result<f64, Error> {
     }
 }
 
-/// P_n from the coefficient of τⁿ of the normal form: P_n = 2 k_n.
-pub(crate) fn triaxiality(normal: &Polynomial<BigRational>) -> BTreeMap<u32, BigRational> {
-    normal.terms().map(|(monomial, c)| (monomial.exponent(BETA), c.times(2))).collect()
+/// P_n = 2 k_n from 4^n k_n, a polynomial in β².
+pub(crate) fn triaxiality(n: usize, row: &[BigInt]) -> BTreeMap<u32, BigRational> {
+    let divisor = BigInt::from(4).pow(n as u32); // n ≤ MAXIMUM_ORDER
+    let terms = (0u32..).zip(row).filter(|(_, c)| !c.is_zero());
+    terms.map(|(i, c)| (2 * i, BigRational::new(c * 2, divisor.clone()))).collect()
+}
+
+/// T_m in the slots of this file: z^j of the table is w^(m+1+j) w̄^(m+1−j).
+pub(crate) fn scaled_generator(m: usize, table: &Generator) -> Result<Polynomial<BigRational>, Error> {
+    let order = m as u32; // m ≤ MAXIMUM_ORDER
+    let divisor = (&table.divisor << 1u32) * BigInt::from(4).pow(order);
+    let mut form = Polynomial::zero();
+    for (j, row) in (1u32..).zip(&table.rows) {
+        for (i, c) in (0u32..).zip(row).filter(|(_, c)| !c.is_zero()) {
+            let value = BigRational::new(c.clone(), divisor.clone());
+            let (more, less, beta) = (order + 1 + j, order + 1 - j, j + 2 * i);
+            form.add_term(Monomial::new(&[less, more, order, beta])?, &value);
+            form.add_term(Monomial::new(&[more, less, order, beta])?, &-value);
+        }
+    }
+    Ok(form)
 }
 
 /// p_n = (−i)^{n+1} P_n.

@@ -131,7 +131,7 @@ const ORDER: usize = 5;
 /// The rigid body's transformation of w̄, w and ŷ, to `ORDER` in τ.
 fn rigid_body(direct: bool) -> Result<[Rational; 3], Error> {
     let normal_form = NormalForm::new(ORDER)?;
-    let transform = normal_form.transform();
+    let transform = normal_form.transform()?;
     let image = |slot| {
         let variable = Polynomial::variable(slot)?;
         let series = if direct { transform.direct(&variable) } else { transform.inverse(&variable) }?;
