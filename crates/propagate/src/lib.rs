@@ -7,7 +7,6 @@
 mod andoyer;
 mod body;
 mod catalogue;
-mod double_double;
 mod error;
 mod fourier;
 mod motion;

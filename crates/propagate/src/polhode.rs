@@ -13,8 +13,8 @@
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::body::Body;
-use crate::double_double::DoubleDouble;
 use crate::state::State;
+use andoyer_series::DoubleDouble;
 
 /// The body axes in the theory's order, C along the user's axis or, for N < 0, against it; A is reversed where that makes them right-handed.
 #[derive(Clone, Debug)]

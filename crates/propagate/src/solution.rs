@@ -2,7 +2,6 @@
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use crate::double_double::DoubleDouble;
 use crate::error::Error;
 use crate::fourier::{Ellipse, QuaternionSeries, oscillator_and_longitude};
 use crate::motion::{Course, Frequencies, Motion, Wobble};
@@ -12,6 +11,7 @@ use crate::polhode::{Polhode, scaled};
 use crate::scene::Scene;
 use crate::secular::Secular;
 use crate::series::{Expansion, Tables};
+use andoyer_series::DoubleDouble;
 
 /// What double precision leaves of an attitude: rounding of the frames, of two quaternion products, and, for eight harmonics each, of the sums \[rad\].
 const ROUNDING: f64 = 2.5e-15;
