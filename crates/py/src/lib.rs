@@ -26,9 +26,9 @@ mod _core {
     use super::body::Body;
     #[pymodule_export]
     use super::error::{
-        AngularVelocityError, AttitudeError, EpochError, Error, FormatError, IntervalError, MethodError, ModeError,
-        MomentsError, OrderError, SceneFileError, SeparatrixError, SeriesError, ShapeError, SpanError, TimesError,
-        ToleranceError, UnitsError, UnknownBodyError, UnknownNameError,
+        AngularVelocityError, AttitudeError, EpochError, Error, FormatError, IntervalError, MethodError, MomentsError,
+        OrderError, SceneFileError, SeparatrixError, SeriesError, ShapeError, SpanError, TimesError, ToleranceError,
+        UnitsError, UnknownBodyError, UnknownNameError,
     };
     #[pymodule_export]
     use super::motion::Motion;
