@@ -6,10 +6,10 @@
 //! w/√M = √σ Σ_m ϱ^m [ upper_m(s) e^(i(2m+1)ℓ′) + ϱ lower_m(s) e^(−i(2m+1)ℓ′) ]      y − y′ = σ Σ_k ϱ^k longitude_k(s) sin 2kℓ′
 //! ```
 //!
-//! At a given β the coefficients are those of [`NumericNormalForm`]; otherwise the exact polynomials in β², each number rounded once.
+//! At a given β the coefficients are those of [`NumericNormalForm`] in double-double, otherwise the exact polynomials in β²: each number is rounded once.
 
 use crate::rigid_body::Variable;
-use crate::{Error, NormalForm, NumericNormalForm};
+use crate::{DoubleDouble, Error, NormalForm, NumericNormalForm};
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;
@@ -36,23 +36,24 @@ pub(super) struct Coefficients {
 impl Coefficients {
     /// Those at one β, 0 ≤ β < 1.
     pub(super) fn at(beta: f64, order: usize) -> Result<Self, Error> {
-        let normal_form = NumericNormalForm::new(beta, order)?;
+        let normal_form = NumericNormalForm::<DoubleDouble>::new(beta.into(), order)?;
         let mut result = Self::empty(order);
         for (n, form) in normal_form.direct().iter().enumerate() {
-            for (j, &c) in form.coefficients().iter().enumerate().filter(|(_, c)| **c != 0.0) {
+            for (j, &c) in form.coefficients().iter().enumerate().filter(|(_, c)| **c != DoubleDouble::ZERO) {
                 if let Some(target) = result.oscillator(n, 2 * j as i64 - (2 * n as i64 + 1)) {
-                    *target = vec![c];
+                    *target = vec![c.to_f64()];
                 }
             }
         }
         for (n, form) in (1..).zip(normal_form.direct_longitude()) {
             for k in 1..=n {
-                result.longitude[k - 1][n - k] = vec![-2.0 * form.coefficients()[n + 1 + k]];
+                result.longitude[k - 1][n - k] = vec![-2.0 * form.coefficients()[n + 1 + k].to_f64()];
             }
         }
         let polynomials = normal_form.triaxiality_polynomials();
         let weighted = |weight: fn(f64) -> f64| {
-            polynomials.iter().enumerate().map(|(n, p)| vec![0.5 * weight(n as f64) * p]).collect()
+            let weighted = |(n, &p)| (DoubleDouble::from(0.5 * weight(n as f64)) * p).to_f64();
+            polynomials.iter().enumerate().map(|term| vec![weighted(term)]).collect()
         };
         result.anomaly_rate = weighted(|n| n + 1.0);
         result.longitude_rate = weighted(|n| 1.0 - n);

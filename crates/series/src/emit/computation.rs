@@ -11,6 +11,7 @@
 
 use super::coefficients::{Coefficients, Series};
 use super::program::{Expression, Function, Program, call, name};
+use crate::DoubleDouble;
 use std::ops::{Add, Sub};
 
 /// The names of the results, in their order.
@@ -59,12 +60,16 @@ fn scales(program: &mut Program, beta: Option<f64>) -> &'static str {
         return "radius";
     };
     program.comment("kappa sigma, and the axes of the ellipse of first order");
-    let kappa = 1.0 / ((1.0 - beta) * (1.0 + beta)).sqrt();
-    let omega = (1.0 + beta) * kappa;
+    let one = DoubleDouble::ONE;
+    let kappa = one / (one - DoubleDouble::product(beta, beta)).sqrt();
+    let omega = (one + beta.into()) * kappa;
+    let two = one + one;
+    let [axis, other] = [two * omega, two / omega].map(|square| Expression::from(square.sqrt().to_f64()));
+    let kappa = kappa.to_f64();
     program.assign("s", if kappa == 1.0 { name("sigma") } else { Expression::from(kappa) * name("sigma") });
     program.assign("root", root(name("sigma")));
-    program.assign("long_axis", Expression::from((2.0 * omega).sqrt()) * name("root"));
-    program.assign("short_axis", Expression::from((2.0 / omega).sqrt()) * name("root"));
+    program.assign("long_axis", axis * name("root"));
+    program.assign("short_axis", other * name("root"));
     "s"
 }
 
