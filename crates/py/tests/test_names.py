@@ -13,7 +13,7 @@ import andoyer._core as core
 
 NAMES = {
     "": "NormalForm separatrix_action Body Scene Motion Plan Samples Error",
-    "NormalForm": "order triaxiality_polynomial paper_polynomial generator direct inverse to_json from_json to_latex",
+    "NormalForm": "order triaxiality_polynomial paper_polynomial generator direct inverse to_json from_json to_latex to_sympy to_code",
     "Body": "moments alpha beta gamma omega name named",
     "Scene": "body attitude angular_velocity epoch tolerance method order span name from_toml to_toml solve",
     "Motion": "at attitude angular_velocity angular_momentum andoyer rotation plan frequencies periods scene",

@@ -271,6 +271,10 @@ class NormalForm:
         """Reads what `to_json` wrote."""
     def to_latex(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> str:
         """A part of this normal form as LaTeX, for a document that uses amsmath."""
+    def to_sympy(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> Any:
+        """A part of this normal form as exact SymPy expressions. SymPy is imported here and nowhere else."""
+    def to_code(self, language: Literal["c", "rust", "python"] = "c", beta: float | None = None) -> str:
+        """A function that evaluates the direct transformation and the frequencies to this order, as the text of a file of source."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __copy__(self) -> NormalForm: ...
