@@ -113,7 +113,7 @@ fn trapezoidal(
     stretch: DoubleDouble,
     quarter: usize,
 ) -> (DoubleDouble, DoubleDouble) {
-    let (sine, cosine) = (DoubleDouble::PI / DoubleDouble::from(4.0 * quarter as f64)).sin_cos();
+    let (sine, cosine) = (DoubleDouble::PI.over(4.0 * quarter as f64)).sin_cos();
     // Nodes at φ = (j + ½)π/2n, in 2φ: start at one step of π/2n, go on by two.
     let (mut c2, mut s2) = (cosine * cosine - sine * sine, DoubleDouble::from(2.0) * sine * cosine);
     let step = (c2 * c2 - s2 * s2, DoubleDouble::from(2.0) * s2 * c2);
@@ -128,7 +128,7 @@ fn trapezoidal(
         (c2, s2) = (c2 * step.0 - s2 * step.1, s2 * step.0 + c2 * step.1);
     }
     // cos2 and sin2 are twice the squares, so weight carries ½ and the mean 2c/n.
-    let factor = DoubleDouble::from(2.0) / DoubleDouble::from(quarter as f64) * stretch.sqrt();
+    let factor = stretch.sqrt().over(0.5 * quarter as f64);
     (by_anomaly * factor, by_time * factor)
 }
 

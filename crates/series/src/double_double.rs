@@ -25,6 +25,7 @@ pub struct DoubleDouble {
 
 /// a + b and its rounding error, for any a and b.
 #[must_use]
+#[inline]
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let b_virtual = sum - a;
@@ -33,6 +34,7 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 /// a·b and its rounding error.
 #[must_use]
+#[inline]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     (product, a.mul_add(b, -product))
@@ -48,6 +50,7 @@ impl DoubleDouble {
 
     /// a + b without a rounding error.
     #[must_use]
+    #[inline]
     pub fn sum(a: f64, b: f64) -> Self {
         let (high, low) = two_sum(a, b);
         Self { high, low }
@@ -55,11 +58,13 @@ impl DoubleDouble {
 
     /// a·b without a rounding error.
     #[must_use]
+    #[inline]
     pub fn product(a: f64, b: f64) -> Self {
         let (high, low) = two_product(a, b);
         Self { high, low }
     }
 
+    #[inline]
     fn renormalized(high: f64, low: f64) -> Self {
         let sum = high + low;
         Self { high: sum, low: low - (sum - high) }
@@ -76,6 +81,15 @@ impl DoubleDouble {
         Self::renormalized(root, residual.high / (2.0 * root))
     }
 
+    /// self/divisor for a double, at a third of the cost of a quotient of two double-doubles.
+    #[must_use]
+    #[inline]
+    pub fn over(self, divisor: f64) -> Self {
+        let first = self.high / divisor;
+        let (product, error) = two_product(first, divisor);
+        Self::renormalized(first, ((self.high - product) - error + self.low) / divisor)
+    }
+
     /// (sin, cos) by their Taylor series, for |self| ≤ π/4.
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
@@ -83,14 +97,15 @@ impl DoubleDouble {
         let (mut sine, mut cosine) = (Self::ZERO, Self::ZERO);
         for k in (1..=14_i32).rev() {
             let k = f64::from(k);
-            sine = -(square * (Self::ONE + sine)) / Self::from(2.0 * k * (2.0 * k + 1.0));
-            cosine = -(square * (Self::ONE + cosine)) / Self::from(2.0 * k * (2.0 * k - 1.0));
+            sine = -(square * (Self::ONE + sine)).over(2.0 * k * (2.0 * k + 1.0));
+            cosine = -(square * (Self::ONE + cosine)).over(2.0 * k * (2.0 * k - 1.0));
         }
         (self * (Self::ONE + sine), Self::ONE + cosine)
     }
 
     /// The nearest double.
     #[must_use]
+    #[inline]
     pub fn to_f64(self) -> f64 {
         self.high + self.low
     }
@@ -104,6 +119,7 @@ impl From<f64> for DoubleDouble {
 
 impl Neg for DoubleDouble {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         Self { high: -self.high, low: -self.low }
     }
@@ -111,6 +127,7 @@ impl Neg for DoubleDouble {
 
 impl Add for DoubleDouble {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         let (high, error) = two_sum(self.high, other.high);
         let (low, low_error) = two_sum(self.low, other.low);
@@ -121,6 +138,7 @@ impl Add for DoubleDouble {
 
 impl Sub for DoubleDouble {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self + (-other)
     }
@@ -128,6 +146,7 @@ impl Sub for DoubleDouble {
 
 impl Mul for DoubleDouble {
     type Output = Self;
+    #[inline]
     fn mul(self, other: Self) -> Self {
         let (high, error) = two_product(self.high, other.high);
         Self::renormalized(high, error + (self.high * other.low + self.low * other.high))
@@ -136,6 +155,7 @@ impl Mul for DoubleDouble {
 
 impl Div for DoubleDouble {
     type Output = Self;
+    #[inline]
     fn div(self, other: Self) -> Self {
         let first = self.high / other.high;
         let rest = self - other * Self::from(first);
