@@ -130,6 +130,24 @@ pub enum Error {
         "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it): no order of the series serves; the closed form does"
     )]
     Separatrix,
+    /// A member of an ensemble that is none, or could not be evaluated.
+    #[error("member {index}: {problem}{}", and_others(*others))]
+    Member {
+        /// Its index.
+        index: usize,
+        /// How many other members are bad, as far as they have been looked at.
+        others: usize,
+        /// What is wrong with it.
+        problem: Box<Error>,
+    },
+    /// A number of threads that the system does not give.
+    #[error("threads = {value}: {problem}")]
+    Threads {
+        /// The number as given.
+        value: usize,
+        /// What the system said.
+        problem: String,
+    },
     /// A body that the catalogue doesn't have.
     #[error("body {name:?} is not in the catalogue: it has {}", crate::Body::catalogue().join(", "))]
     UnknownBody {
@@ -149,6 +167,10 @@ pub enum Error {
         /// What is wrong, with the bound.
         problem: String,
     },
+}
+
+fn and_others(others: usize) -> String {
+    if others == 0 { String::new() } else { format!(" (and {others} more bad members)") }
 }
 
 /// A tolerance that can be asked for: two digits, not rounded down.

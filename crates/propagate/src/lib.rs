@@ -9,6 +9,7 @@ mod body;
 mod catalogue;
 mod closed;
 mod elliptic;
+mod ensemble;
 mod error;
 mod fourier;
 mod motion;
@@ -25,6 +26,7 @@ mod solution;
 mod state;
 
 pub use body::Body;
+pub use ensemble::Ensemble;
 pub use error::Error;
 pub use motion::{Frequencies, Motion, Periods, Sample};
 pub use plan::{MAX_ORDER, Mode, Plan};
