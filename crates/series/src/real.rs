@@ -82,7 +82,10 @@ impl Real for f64 {
     }
 
     fn geometric_mean(&self, other: &Self) -> Option<Self> {
-        (self.sign() * other.sign() >= 0).then(|| self.abs().sqrt() * other.abs().sqrt())
+        let product = self * other;
+        // The root of the product is rounded once and exact for squares; that of the factors cannot overflow.
+        let root = if product.is_normal() { product.sqrt() } else { self.abs().sqrt() * other.abs().sqrt() };
+        (self.sign() * other.sign() >= 0).then_some(root)
     }
 
     fn sign(&self) -> i8 {
