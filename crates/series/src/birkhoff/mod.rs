@@ -34,6 +34,16 @@ pub struct BirkhoffNormalForm<R: Real> {
     normalization: Normalization<R::Complex>,
 }
 
+/// The normal form as text: in the actions `I_q`, or with resonant terms in the complex variables `u_q`, `U_q`.
+impl<R: Real> std::fmt::Display for BirkhoffNormalForm<R> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(&match self.in_actions() {
+            Ok(actions) => PhaseSpace::text(&actions, &self.space.action_names()),
+            Err(_) => PhaseSpace::text(&self.in_complex(), &self.space.complex_names()),
+        })
+    }
+}
+
 /// The normal form of `hamiltonian` to `order`, of degree `order` + 2, without resonances.
 ///
 /// Terms of a higher degree do not matter. Parameters count as degree 0.
