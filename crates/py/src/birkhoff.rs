@@ -10,7 +10,7 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::{Rows, Times, fixed_length, number, write};
 use crate::error::{self, UnknownNameError};
-use crate::expression::Expression;
+use crate::expression::{Expression, complex, real};
 use crate::order::order;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
@@ -128,7 +128,10 @@ impl BirkhoffNormalForm {
 
     /// K in the complex variables: (re, im) by exponents of u₁, U₁, u₂, U₂, …, parameters.
     fn in_complex<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        either!(&self.form, form => complex(py, form, self.slots()))
+        match &self.form {
+            Form::Exact(form) => complex::<BigRational>(py, &py.detach(|| form.in_complex()), self.slots()),
+            Form::Float(form) => complex::<f64>(py, &py.detach(|| form.in_complex()), self.slots()),
+        }
     }
 
     /// K in the new real variables.
@@ -389,30 +392,4 @@ impl BirkhoffNormalForm {
         }
         values.iter().zip(names).map(|(value, name)| value.ok_or_else(|| unknown(name, "is missing"))).collect()
     }
-}
-
-/// {exponents: coefficient}, in canonical order.
-fn real<'py, R: Real + IntoPyObject<'py>>(
-    py: Python<'py>,
-    polynomial: &Polynomial<R>,
-    slots: usize,
-) -> PyResult<Bound<'py, PyDict>> {
-    let result = PyDict::new(py);
-    for (monomial, c) in polynomial.terms() {
-        result.set_item(PyTuple::new(py, &monomial.exponents()[..slots])?, c.clone())?;
-    }
-    Ok(result)
-}
-
-/// {exponents: (re, im)} of K in the complex variables, in canonical order.
-fn complex<'py, R: Real + IntoPyObject<'py>>(
-    py: Python<'py>,
-    form: &Inner<R>,
-    slots: usize,
-) -> PyResult<Bound<'py, PyDict>> {
-    let result = PyDict::new(py);
-    for (monomial, c) in py.detach(|| form.in_complex()).terms() {
-        result.set_item(PyTuple::new(py, &monomial.exponents()[..slots])?, R::parts(c))?;
-    }
-    Ok(result)
 }

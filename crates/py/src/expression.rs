@@ -1,9 +1,9 @@
-//! Polynomials from Python: texts, dictionaries of exponents, SymPy expressions.
+//! Polynomials from Python, as texts, dictionaries of exponents or SymPy expressions, and back to it as dictionaries.
 //!
 //! SymPy is never imported: an expression that the caller made is asked for its terms. Numbers are taken at their exact value;
 //! whether a float was among them is told beside.
 
-use andoyer_series::{Coefficient, Monomial, PhaseSpace, Polynomial};
+use andoyer_series::{Coefficient, Monomial, PhaseSpace, Polynomial, Real};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use pyo3::exceptions::PyTypeError;
@@ -115,4 +115,30 @@ fn number(value: &Bound<'_, PyAny>) -> PyResult<(BigRational, bool)> {
     let exact = BigRational::from_float(float);
     let not_finite = || HamiltonianError::new_err(format!("the coefficient {float} is not finite"));
     Ok((exact.ok_or_else(not_finite)?, true))
+}
+
+/// {exponents: coefficient}, in canonical order.
+pub(crate) fn real<'py, R: Real + IntoPyObject<'py>>(
+    py: Python<'py>,
+    polynomial: &Polynomial<R>,
+    slots: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let result = PyDict::new(py);
+    for (monomial, c) in polynomial.terms() {
+        result.set_item(PyTuple::new(py, &monomial.exponents()[..slots])?, c.clone())?;
+    }
+    Ok(result)
+}
+
+/// {exponents: (re, im)}, in canonical order.
+pub(crate) fn complex<'py, R: Real + IntoPyObject<'py>>(
+    py: Python<'py>,
+    polynomial: &Polynomial<R::Complex>,
+    slots: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let result = PyDict::new(py);
+    for (monomial, c) in polynomial.terms() {
+        result.set_item(PyTuple::new(py, &monomial.exponents()[..slots])?, R::parts(c))?;
+    }
+    Ok(result)
 }

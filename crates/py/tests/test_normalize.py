@@ -180,7 +180,7 @@ def test_complex_form_has_real_and_imaginary_parts():
         ("sin(x)", "at byte"),
         ({(2, 0): 1}, r"tuple of exponents of x, X, y, Y"),
         ({(2, 0, 0, -1): 1}, "tuple of exponents"),
-        ({(2, 0, 0, 0): math.nan}, "nan is not finite"),
+        ({(2, 0, 0, 0): math.nan}, "NaN is not finite"),
         (sympy.sin(sympy.Symbol("x")), "no polynomial"),
         (sympy.Integer(3), "no polynomial"),
     ],

@@ -57,6 +57,23 @@ fn henon_heiles_of_degree_four_is_gustavson_s() -> Result<(), Error> {
 }
 
 #[test]
+fn henon_heiles_in_its_invariant_plane_is_the_cubic_oscillator() -> Result<(), Error> {
+    // x = X = 0 leaves (y² + Y²)/2 − y³/3. The energy of (q² + p²)/2 + a q³ is, to all orders the same in classical
+    // perturbation theory and in the leading order of the quantum one, I − (15/4) a² I² − (705/16) a⁴ I³ − (115755/128) a⁶ I⁴.
+    let k = one_to_one(&henon_heiles()?, 6, &plane()?)?.in_complex();
+    let in_plane = k.filter(|monomial, _| monomial.degree_in(&[0, 1]) == 0);
+    assert_eq!(in_plane.len(), 4);
+    let i = Complex::new(ratio(0, 1), ratio(1, 1));
+    for (n, c) in (1..).zip([ratio(1, 1), ratio(-15, 4 * 9), ratio(-705, 16 * 81), ratio(-115_755, 128 * 729)]) {
+        // uU = iI.
+        let expected = Complex::new(c, ratio(0, 1)) * (-i.clone()).powi(n);
+        let n = n as u32;
+        assert_eq!(in_plane.coefficient(&Monomial::new(&[0, 0, n, n])?), Some(&expected), "I^{n}");
+    }
+    Ok(())
+}
+
+#[test]
 fn henon_heiles_pulls_its_quadratic_part_back_to_a_third_integral() -> Result<(), Error> {
     // Gustavson's integral: {inverse(H₂); H} starts at degree N + 3, and with the truncated H₂ at degree 3.
     let (space, h, order) = (plane()?, henon_heiles()?, 6);

@@ -6,6 +6,7 @@
 //!
 //! The default bound, 1e-6: a divisor δ multiplies a term, and with it the rounding of floats, by max|ω|/δ; at 1e-6 a term
 //! loses six of the sixteen digits, and exact resonances of rounded frequencies, some 1e-15, are recognized with certainty.
+//! In floats, terms that cancel may leave a residue of rounding, which counts as a term.
 //! Membership is decided on an echelon basis of the module by Euclid's algorithm, exactly.
 
 use crate::{Error, MAXIMUM_EXPONENT, Real};
