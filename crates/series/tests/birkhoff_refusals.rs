@@ -100,8 +100,14 @@ fn resonances_that_are_none_are_refused() -> Result<(), Error> {
 #[test]
 fn the_module_of_resonances_is_that_over_the_integers() -> Result<(), Error> {
     // (2, 4, 0) and (0, 6, 3): sums of integer multiples, in any order and sign, and no fractions of them.
-    for vectors in [[&[2, 4, 0][..], &[0, 6, 3]], [&[0, 6, 3], &[-2, 2, 3]]] {
-        let module = Resonances::new(&vectors)?;
+    let bases = [
+        &[&[2, 4, 0][..], &[0, 6, 3]][..],
+        &[&[0, 6, 3], &[-2, 2, 3]],
+        &[&[2, 4, 0], &[-2, 2, 3]],
+        &[&[4, 8, 0], &[-2, 2, 3], &[6, 12, 0]],
+    ];
+    for vectors in bases {
+        let module = Resonances::new(vectors)?;
         for (a, b) in (-3..=3).flat_map(|a| (-3..=3).map(move |b| (a, b))) {
             assert!(module.keeps(&[2 * a, 4 * a + 6 * b, 3 * b]));
             assert!(!module.keeps(&[2 * a + 1, 4 * a + 6 * b + 2, 3 * b]));

@@ -20,7 +20,7 @@ pub use phase_space::PhaseSpace;
 pub use resonances::Resonances;
 
 use crate::triangle::{Removal, normalize_by};
-use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, Progress, Real, Truncation};
+use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, Progress, Real};
 use elliptic::Mode;
 use resonances::{divisor, is_small};
 use std::ops::ControlFlow;
@@ -310,7 +310,7 @@ impl<R: Real> BirkhoffNormalForm<R> {
             }
             sum += &elliptic::to_real(&image, &self.modes)?;
         }
-        Ok(sum.truncate(&Truncation::partial(&phase, highest)?))
+        Ok(sum)
     }
 
     /// Floats that overflowed on the way are an error.
