@@ -30,7 +30,7 @@ docs:  ## the Rust documentation
 wheel: $(VENV)/installed
 
 # The wheel is rebuilt when any source of it is newer than the installation.
-SOURCES := Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name '*.py' -o -name '*.pyi' -o -name '*.toml' -o -name '*.md')
+SOURCES := Cargo.toml Cargo.lock README.md $(shell find crates -name '*.rs' -o -name '*.py' -o -name '*.pyi' -o -name '*.toml' -o -name '*.md')
 $(VENV)/installed: $(VENV)/ready $(SOURCES)
 	rm -rf $(WHEELS)
 	$(BIN)/maturin build --release --locked --quiet --manifest-path crates/py/Cargo.toml --interpreter $(BIN)/python --out $(WHEELS)

@@ -1,6 +1,6 @@
 //! The normal form in `f64` against the exact one: two recursions, two representations of a polynomial, two kinds of number.
 
-use andoyer_series::{NormalForm, NumericNormalForm, PublicForm, Variable, separatrix_action};
+use andoyer_series::{DoubleDouble, Form, NormalForm, NumericNormalForm, PublicForm, Variable, separatrix_action};
 use num_complex::Complex;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
@@ -55,4 +55,49 @@ fn a_beta_that_no_body_has_is_refused() {
     }
     assert!(NumericNormalForm::new(0.5, 201).is_err());
     assert!(NumericNormalForm::new(0.5, usize::MAX).is_err());
+}
+
+/// Largest error of the coefficients of one order, over the size radius^(−n) that the order has at the separatrix.
+fn error_of_order(found: &Form, exact: &Form<DoubleDouble>, weight: f64) -> f64 {
+    let pairs = found.coefficients().iter().zip(exact.coefficients());
+    pairs.map(|(&f, &e)| (DoubleDouble::from(f) - e).to_f64().abs() * weight).fold(0.0, f64::max)
+}
+
+#[test]
+fn polynomials_in_doubles_and_in_double_double_are_the_exact_ones_to_order_sixty() {
+    let exact = NormalForm::new(60).expect("within the bounds");
+    for (p, q) in [(1, 16), (1, 2), (15, 16), (1023, 1024)] {
+        let (beta, rational) = (f64::from(p) / f64::from(q), BigRational::new(p.into(), q.into()));
+        let doubles = NumericNormalForm::new(beta, 60).expect("0 ≤ β ≤ 1").triaxiality_polynomials();
+        let doubled = NumericNormalForm::new(DoubleDouble::from(beta), 60).expect("0 ≤ β ≤ 1");
+        let radius = separatrix_action(beta).expect("0 ≤ β ≤ 1") / (1.0 - beta * beta).sqrt();
+        for (n, (&single, double)) in doubles.iter().zip(doubled.triaxiality_polynomials()).enumerate() {
+            let polynomial = exact.triaxiality_polynomial(n).expect("n ≤ order");
+            let value: BigRational = polynomial.iter().map(|(&k, c)| c * rational.pow(k as i32)).sum();
+            let high = value.to_f64().expect("finite");
+            let low = (&value - BigRational::from_float(high).expect("finite")).to_f64().expect("finite");
+            let rest = (double - DoubleDouble::sum(high, low)).to_f64().abs();
+            // Budget: 2n roundings, of both factors of every product, each of two units at most; and in double-double of 2^−104 against a P_n of radius^(−n)/n².
+            let relative = (single - high).abs() / high.abs();
+            assert!(relative <= 5e-16 * (n + 1) as f64, "β = {beta}, P_{n}: {single} for {high}");
+            assert!(rest * radius.powi(n as i32) <= 5e-34, "β = {beta}, P_{n} in double-double: off by {rest:e}");
+        }
+    }
+}
+
+#[test]
+fn the_direct_transformation_in_doubles_loses_nothing_to_order_sixty() {
+    for beta in [0.0, 0.0625, 0.5, 0.9375, 0.9990234375] {
+        let doubles = NumericNormalForm::new(beta, 60).expect("0 ≤ β ≤ 1");
+        let exact = NumericNormalForm::new(DoubleDouble::from(beta), 60).expect("0 ≤ β ≤ 1");
+        let radius = separatrix_action(beta).expect("0 ≤ β ≤ 1") / (1.0 - beta * beta).sqrt();
+        for (n, (found, exact)) in doubles.direct().iter().zip(&exact.direct()).enumerate() {
+            let error = error_of_order(found, exact, radius.powi(n as i32));
+            assert!(error <= BUDGET, "w, β = {beta}, order {n}: {error:e}");
+        }
+        for (n, (found, exact)) in (1..).zip(doubles.direct_longitude().iter().zip(&exact.direct_longitude())) {
+            let error = error_of_order(found, exact, radius.powi(n));
+            assert!(error <= BUDGET, "y, β = {beta}, order {n}: {error:e}");
+        }
+    }
 }

@@ -43,7 +43,7 @@ impl Motion {
         let (attitude, rates) = self.evaluate(elapsed);
         let moments = self.scene().body().moments();
         // A momentum that is not turned over: axis 3 keeps its sense.
-        let frame = Frame::new(moments, [0.0; 3]);
+        let frame = Frame::new(moments, [0.0; 3], false);
         let [g1, g2, g3] = frame.sorted(std::array::from_fn(|i| moments[i] * rates[i]));
         let node = node_angle(total.x, -total.y);
         let spin = node_angle(g1, g2);

@@ -85,8 +85,8 @@ pub enum Error {
         /// The order as given.
         value: usize,
     },
-    /// A method that is unknown or not yet there.
-    #[error("method = {value:?}: it must be \"auto\" or \"series\"")]
+    /// A method that is unknown.
+    #[error("method = {value:?}: it must be \"auto\", \"series\" or \"closed\"")]
     Method {
         /// The method as given.
         value: String,
@@ -111,16 +111,7 @@ pub enum Error {
         /// The length that fits.
         expected: usize,
     },
-    /// Rotation about the axis of least inertia, which the short-axis series don't reach.
-    #[error(
-        "long-axis mode: the energy above that of rotation about axis C, 2CT/M² − 1, is {energy_ratio:.6} times its value on the separatrix \
-         (C/B − 1), and only short-axis mode (below 1) is served; do the moments belong to these body axes?"
-    )]
-    LongAxisMode {
-        /// (2CT/M² − 1)/(C/B − 1): below 1 in short-axis mode, infinite for B = C.
-        energy_ratio: f64,
-    },
-    /// Too near the separatrix for the tolerance.
+    /// The series asked for too near the separatrix for the tolerance.
     #[error(
         "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {}, is good to {}, and the tolerance is {tolerance:e} rad",
         crate::MAX_ORDER,
@@ -134,9 +125,9 @@ pub enum Error {
         /// The smallest tolerance that the highest order meets \[rad\].
         attainable: f64,
     },
-    /// On the separatrix, the rotation about the axis of middle inertia included.
+    /// The series asked for on the separatrix.
     #[error(
-        "on the separatrix (rotation about the axis of middle inertia, or falling towards it): no order of the series serves"
+        "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it): no order of the series serves; the closed form does"
     )]
     Separatrix,
     /// A body that the catalogue doesn't have.

@@ -92,6 +92,11 @@ impl QuaternionSeries {
         Self { terms }
     }
 
+    /// From the terms (c_k, d_k) of a and of b; what is evaluated is normalized, so their norm need not be 1.
+    pub(crate) fn from_terms(terms: Vec<(Pair, Pair)>) -> Self {
+        Self { terms }
+    }
+
     /// Without the highest harmonics, as many as turn the attitude by less than `budget` \[rad\] together; and by how much they do.
     ///
     /// The fundamental always stays: of a small wobble it is all there is.

@@ -11,6 +11,7 @@ use crate::phase::{Phase, elapsed};
 use crate::plan::Plan;
 use crate::polhode::Frame;
 use crate::scene::Scene;
+use crate::separatrix::Passage;
 
 /// Rotations from the epoch within which phases are good to 1e-14 rad; not far beyond, a double no longer tells one turn from the next.
 const MOST_ROTATIONS: f64 = 1e15;
@@ -29,7 +30,7 @@ pub struct Sample {
 /// Mean frequencies of a motion [rad per unit of time].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frequencies {
-    /// dℓ′/dt: the polhode, in the body.
+    /// dℓ′/dt: the polhode, in the body; negative in the long-axis mode, 0 on the separatrix.
     pub anomaly: f64,
     /// dy′/dt: the rotation, y = μ + ν (y = μ − ν for N < 0, where the theory's axis 3 is the body's turned over).
     pub longitude: f64,
@@ -53,12 +54,20 @@ pub(crate) enum Course {
     Polhode(Box<Wobble>),
 }
 
+/// a e^(−iy′/2) and b e^(−iy′/2) of theory §8, up to their norm, as functions of time.
+#[derive(Clone, Debug)]
+pub(crate) enum Pair {
+    /// ℓ′ and the harmonics of it.
+    Fourier(Phase, QuaternionSeries),
+    /// Near the separatrix and on it.
+    Passage(Passage),
+}
+
 /// What a wobbling motion is evaluated from.
 #[derive(Clone, Debug)]
 pub(crate) struct Wobble {
-    pub(crate) anomaly: Phase,
+    pub(crate) pair: Pair,
     pub(crate) half_longitude: Phase,
-    pub(crate) series: QuaternionSeries,
     pub(crate) inertial: UnitQuaternion<f64>,
     pub(crate) frame: Frame,
     /// M over each moment, on the sorted axes.
@@ -72,6 +81,8 @@ pub struct Motion {
     pub(crate) plan: Plan,
     pub(crate) course: Course,
     pub(crate) frequencies: Frequencies,
+    /// Whether the theory's axis 3 is that of least inertia.
+    pub(crate) long_axis: bool,
     /// Inertial components.
     pub(crate) angular_momentum: Vector3<f64>,
 }
@@ -92,17 +103,23 @@ impl Motion {
         self.frequencies
     }
 
-    /// Mean periods in the long-axis convention, that of light curves: P_φ = 2π/|dy′/dt|, P_ψ = 2π/(dℓ′/dt), in which the long axis
-    /// oscillates (Kaasalainen 2001); infinite where there is none.
+    /// Mean periods in the long-axis convention, that of light curves: P_φ of the precession of the long axis, P_ψ of the rotation about it or, in the
+    /// short-axis mode, of its oscillation (Kaasalainen 2001); infinite where there is none.
     pub fn long_axis_periods(&self) -> Periods {
-        let Frequencies { anomaly, longitude } = self.frequencies;
-        Periods { precession: std::f64::consts::TAU / longitude, rotation: std::f64::consts::TAU / anomaly }
+        self.periods(self.long_axis)
     }
 
-    /// Mean periods in the short-axis convention, that of Andoyer variables: μ turns with dy′/dt + dℓ′/dt, ν with −dℓ′/dt (retrograde; for N < 0 with +dℓ′/dt).
+    /// Mean periods in the short-axis convention, that of Andoyer variables: P_φ of the precession of the short axis, P_ψ of the rotation about it or, in the
+    /// long-axis mode, of its oscillation; in the short-axis mode μ turns with dy′/dt + dℓ′/dt and ν with −dℓ′/dt (for N < 0 with +dℓ′/dt).
     pub fn short_axis_periods(&self) -> Periods {
+        self.periods(!self.long_axis)
+    }
+
+    /// Periods of the theory's axis 3, or of its axis 1, which is carried around by y′.
+    fn periods(&self, own: bool) -> Periods {
         let Frequencies { anomaly, longitude } = self.frequencies;
-        Periods { precession: std::f64::consts::TAU / (longitude + anomaly), rotation: std::f64::consts::TAU / anomaly }
+        let precession = if own { longitude + anomaly } else { longitude };
+        Periods { precession: std::f64::consts::TAU / precession, rotation: std::f64::consts::TAU / anomaly.abs() }
     }
 
     /// The angular momentum, inertial components: a constant.
@@ -199,7 +216,13 @@ impl Motion {
 
 impl Wobble {
     fn evaluate(&self, elapsed: (f64, f64)) -> (Quaternion<f64>, Vector3<f64>) {
-        let (a, b) = self.series.evaluate(self.anomaly.angle(elapsed));
+        let (a, b, lead) = match &self.pair {
+            Pair::Fourier(anomaly, series) => {
+                let (a, b) = series.evaluate(anomaly.angle(elapsed));
+                (a, b, 0.0)
+            }
+            Pair::Passage(passage) => passage.evaluate(elapsed),
+        };
         let scale = 1.0 / (a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1]).sqrt();
         let (a, b) = (a.map(|c| c * scale), b.map(|c| c * scale));
         // g is free of y: it cancels in b ā.
@@ -209,7 +232,7 @@ impl Wobble {
             a[0] * a[0] + a[1] * a[1] - b[0] * b[0] - b[1] * b[1],
         ];
         let rates = self.frame.user(std::array::from_fn(|i| self.rates[i] * direction[i]));
-        let (sine, cosine) = self.half_longitude.angle(elapsed).sin_cos();
+        let (sine, cosine) = (self.half_longitude.angle(elapsed) + lead).sin_cos();
         let relative = Quaternion::new(
             a[0] * cosine - a[1] * sine,
             b[0] * cosine - b[1] * sine,

@@ -3,7 +3,7 @@
 //! In double precision alone n·t is wrong by 6e-7 rad after 1e9 rotations. Here frequency, time since the epoch and product carry
 //! 32 digits, and a phase in turns is reduced by subtracting an integer.
 
-use crate::double_double::{DoubleDouble, two_product, two_sum};
+use andoyer_series::{DoubleDouble, two_product, two_sum};
 
 /// An angle that grows with time, in turns.
 #[derive(Clone, Copy, Debug)]

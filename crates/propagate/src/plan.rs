@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::scene::Method;
+
 /// The highest order of the series; reached at σ/σ_sep = 0.64 for a tolerance of 1e-12.
 pub const MAX_ORDER: usize = 60;
 
@@ -14,11 +16,15 @@ const ROUNDED_TOLERANCE: f64 = 2e-14;
 pub enum Mode {
     /// Triaxial body near rotation about its axis of greatest inertia.
     ShortAxis,
-    /// A = B < C: regular precession.
+    /// Triaxial body about its axis of least inertia.
+    LongAxis,
+    /// Triaxial body between the two, turning over once (theory §5).
+    Separatrix,
+    /// A = B or B = C: regular precession.
     Axisymmetric,
     /// A = B = C.
     Spherical,
-    /// Rotation about the axis of greatest inertia itself, J = 0.
+    /// Rotation about a principal axis itself.
     PrincipalAxis,
     /// Zero angular velocity.
     AtRest,
@@ -28,6 +34,8 @@ impl fmt::Display for Mode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::ShortAxis => "short-axis",
+            Self::LongAxis => "long-axis",
+            Self::Separatrix => "separatrix",
             Self::Axisymmetric => "axisymmetric",
             Self::Spherical => "spherical",
             Self::PrincipalAxis => "principal-axis",
@@ -40,6 +48,7 @@ impl fmt::Display for Mode {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     pub(crate) mode: Mode,
+    pub(crate) method: Method,
     pub(crate) order: usize,
     pub(crate) harmonics: usize,
     pub(crate) error_bound: f64,
@@ -54,12 +63,9 @@ impl Plan {
         self.mode
     }
 
-    /// How it is evaluated: "series", or "closed" where a formula without a series is exact.
-    pub fn method(&self) -> &'static str {
-        match self.mode {
-            Mode::ShortAxis => "series",
-            _ => "closed",
-        }
+    /// How it is evaluated: by the series, or by the closed form, of which formulas without a sum are a part.
+    pub fn method(&self) -> Method {
+        self.method
     }
 
     /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance.

@@ -8,13 +8,14 @@
 //! γE = a g1² + b g2²,                  κE = α (g1²/b + g2²/a)
 //! ```
 //!
-//! Q1 > 0 is the short-axis mode, Q1 = 0 the separatrix: no difference of energies is formed (theory §5, §7).
+//! Q1 > 0 is the short-axis mode, Q1 = 0 the separatrix: no difference of energies is formed (theory §5, §7). The long-axis mode is the same with the axes in
+//! the opposite order: A ≥ B ≥ C, a and b negative, and γ taken negative with them, so that ℓ′ runs backwards (theory §10).
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::body::Body;
-use crate::double_double::DoubleDouble;
 use crate::state::State;
+use andoyer_series::DoubleDouble;
 
 /// The body axes in the theory's order, C along the user's axis or, for N < 0, against it; A is reversed where that makes them right-handed.
 #[derive(Clone, Debug)]
@@ -28,10 +29,13 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// The frame of moments and a body vector whose component on axis 3 shall not be negative.
-    pub(crate) fn new(moments: [f64; 3], momentum: [f64; 3]) -> Self {
+    /// The frame of moments and a body vector whose component on axis 3 shall not be negative; axis 3 is that of C, or of A for the long-axis mode.
+    pub(crate) fn new(moments: [f64; 3], momentum: [f64; 3], long_axis: bool) -> Self {
         let mut axes = [0, 1, 2];
         axes.sort_by(|&i, &j| moments[i].total_cmp(&moments[j]));
+        if long_axis {
+            axes.reverse();
+        }
         let even = (axes[0] + 1) % 3 == axes[1];
         let first = if even { 1.0 } else { -1.0 };
         let upright = if momentum[axes[2]] < 0.0 { -1.0 } else { 1.0 };
@@ -59,11 +63,16 @@ impl Frame {
     }
 }
 
+/// sin J below which the wobble is nothing: its square has no normal double.
+pub(crate) const SMALLEST_TILT: f64 = 1e-150;
+
 /// A state reduced to the quantities of theory §1, §5 and §7.
 #[derive(Clone, Debug)]
 pub(crate) struct Polhode {
     pub(crate) frame: Frame,
-    /// A, B, C over a power of two.
+    /// Whether the axes are in the opposite order.
+    pub(crate) long_axis: bool,
+    /// A, B, C over a power of two; C, B, A in the long-axis mode.
     pub(crate) moments: [f64; 3],
     /// M in scaled units.
     pub(crate) momentum: DoubleDouble,
@@ -71,6 +80,8 @@ pub(crate) struct Polhode {
     pub(crate) scales: (i32, i32),
     /// g on the sorted axes.
     pub(crate) direction: [f64; 3],
+    /// G in scaled units.
+    parts: [DoubleDouble; 3],
     squares: [DoubleDouble; 3],
     /// a = C/A − 1 and b = C/B − 1.
     pub(crate) excesses: [DoubleDouble; 2],
@@ -80,15 +91,29 @@ pub(crate) struct Polhode {
 
 impl Polhode {
     /// The polhode of a valid state; `None` for a body at rest.
+    ///
+    /// Long-axis mode where Q1 < 0, or B = C and the rotation is not about an axis across axis 1.
     pub(crate) fn new(body: &Body, state: &State) -> Option<Self> {
+        let short = Self::in_order(body, state, false)?;
+        let [first, second] = short.excesses;
+        let round = first == DoubleDouble::ZERO;
+        let beyond = if second == DoubleDouble::ZERO {
+            !round && short.direction[0].abs() >= SMALLEST_TILT
+        } else {
+            short.cosine_squares()[0].high < 0.0
+        };
+        if beyond { Self::in_order(body, state, true) } else { Some(short) }
+    }
+
+    fn in_order(body: &Body, state: &State, long_axis: bool) -> Option<Self> {
         let rates: [f64; 3] = state.angular_velocity.into();
         let largest = rates.iter().fold(0.0_f64, |m, w| m.max(w.abs()));
         if largest == 0.0 {
             return None;
         }
         let scales = (exponent(body.sorted()[2]), exponent(largest));
-        let frame = Frame::new(body.moments(), rates);
-        let moments = body.sorted().map(|m| scaled(m, -scales.0));
+        let frame = Frame::new(body.moments(), rates, long_axis);
+        let moments = frame.axes.map(|axis| scaled(body.moments()[axis], -scales.0));
         let rates = frame.sorted(rates).map(|w| scaled(w, -scales.1));
         let parts: [_; 3] = std::array::from_fn(|i| DoubleDouble::product(moments[i], rates[i]));
         let total = parts[0] * parts[0] + parts[1] * parts[1] + parts[2] * parts[2];
@@ -96,21 +121,48 @@ impl Polhode {
         let [a, b, c] = moments;
         Some(Self {
             frame,
+            long_axis,
             moments,
             momentum,
             scales,
             direction: parts.map(|g| (g / momentum).to_f64()),
+            parts,
             squares: parts.map(|g| g * g / total),
             excesses: [DoubleDouble::sum(c, -a) / a.into(), DoubleDouble::sum(c, -b) / b.into()],
             difference: DoubleDouble::from(c) * DoubleDouble::sum(b, -a) / DoubleDouble::product(a, b),
         })
     }
 
-    /// Q1 and Q2 for B < C.
+    /// Q1 and Q2 for B < C. The difference is formed before it is divided by M²: it is zero where that is exact.
     pub(crate) fn cosine_squares(&self) -> [DoubleDouble; 2] {
-        let [g1, g2, g3] = self.squares;
+        let [first, second, third] = self.parts.map(|part| part * part);
         let [a, b] = self.excesses;
-        [g3 - g1 * self.difference / b, g3 + g2 * self.difference / a]
+        let square = self.momentum * self.momentum;
+        [(third - first * (self.difference / b)) / square, (third + second * (self.difference / a)) / square]
+    }
+
+    /// How many times the terms of Q1 are larger than it: what its relative error is multiplied by. Infinite on the separatrix.
+    pub(crate) fn cancellation(&self) -> f64 {
+        let [g1, _, g3] = self.squares;
+        let terms = g3 + g1 * self.difference / self.excesses[1];
+        (terms / self.cosine_squares()[0]).to_f64().abs()
+    }
+
+    /// Q2 − Q1, a sum of two terms of one sign.
+    pub(crate) fn spread(&self) -> DoubleDouble {
+        self.difference * (self.squares[0] / self.excesses[1] + self.squares[1] / self.excesses[0])
+    }
+
+    /// 1 − Q1 and 1 − Q2: sin²J where it is greatest and where it is least.
+    pub(crate) fn sine_squares(&self) -> [DoubleDouble; 2] {
+        let [g1, g2, _] = self.squares;
+        let [a, b] = self.excesses;
+        [g1 * a / b + g2, g1 + g2 * b / a]
+    }
+
+    /// β of theory §1, of the axes in this order.
+    pub(crate) fn beta(&self) -> f64 {
+        (self.difference / (self.excesses[0] + self.excesses[1])).to_f64().min(1.0)
     }
 
     /// γE of theory §5.
@@ -128,9 +180,10 @@ impl Polhode {
         (self.excesses[0] + self.excesses[1]) * DoubleDouble::from(0.5)
     }
 
-    /// γ of theory §1.
+    /// γ of theory §1, with the sign of α.
     pub(crate) fn gamma(&self) -> DoubleDouble {
-        (self.excesses[0] * self.excesses[1]).sqrt()
+        let root = (self.excesses[0] * self.excesses[1]).sqrt();
+        if self.long_axis { -root } else { root }
     }
 
     /// κ = α/γ of theory §1, for B < C.
@@ -138,14 +191,14 @@ impl Polhode {
         (self.alpha() / self.gamma()).to_f64()
     }
 
-    /// (2CH/M² − 1)/(C/B − 1): the energy over that of the separatrix.
-    pub(crate) fn energy_ratio(&self) -> f64 {
-        (self.gamma_energy() / self.excesses[1]).to_f64()
-    }
-
     /// M/C in scaled units of rate.
     pub(crate) fn mean_rate(&self) -> DoubleDouble {
         self.momentum / self.moments[2].into()
+    }
+
+    /// M/B in scaled units of rate.
+    pub(crate) fn middle_rate(&self) -> DoubleDouble {
+        self.momentum / self.moments[1].into()
     }
 
     /// ζ = (X + ix)/√M of theory §8: (g2 − i g1)/cos(J/2), real and imaginary part.

@@ -18,6 +18,8 @@ pub enum Method {
     Auto,
     /// The perturbation series.
     Series,
+    /// The closed form: theta functions.
+    Closed,
 }
 
 impl FromStr for Method {
@@ -27,6 +29,7 @@ impl FromStr for Method {
         match text {
             "auto" => Ok(Self::Auto),
             "series" => Ok(Self::Series),
+            "closed" => Ok(Self::Closed),
             _ => Err(Error::Method { value: text.to_owned() }),
         }
     }
@@ -37,6 +40,7 @@ impl fmt::Display for Method {
         f.write_str(match self {
             Self::Auto => "auto",
             Self::Series => "series",
+            Self::Closed => "closed",
         })
     }
 }
@@ -185,8 +189,8 @@ impl Scene {
     /// # Errors
     /// - Those of [`Scene::validate`].
     /// - [`Error::Units`] where the angular momentum over- or underflows.
-    /// - [`Error::LongAxisMode`] for rotation about the axis of least inertia.
-    /// - [`Error::NearSeparatrix`] where the tolerance needs an order above [`MAX_ORDER`].
+    /// - [`Error::NearSeparatrix`] where the series is asked for and the tolerance needs an order above [`MAX_ORDER`].
+    /// - [`Error::Separatrix`] where the series is asked for on the separatrix itself.
     pub fn solve(&self) -> Result<Motion, Error> {
         Motion::new(self.validated()?)
     }

@@ -11,8 +11,8 @@
 //! dy/dt = ∂H/∂M = (M/C)[1 + α(1−cosJ)(1−β cos 2ν)] at fixed (x, X). Every term is positive, and all of it is in double-double.
 //! `truncated` is the series of theory §7 at a stated order, for who asks for that order.
 
-use crate::double_double::{DoubleDouble, arithmetic_geometric_mean};
 use crate::polhode::Polhode;
+use andoyer_series::{DoubleDouble, arithmetic_geometric_mean};
 
 /// Nodes in a quarter period from which on the logarithmic sum is shorter.
 const MOST_NODES: usize = 1000;

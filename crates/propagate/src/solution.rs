@@ -1,32 +1,32 @@
-//! From a scene to its motion: mode, order, secular part, series, initial phases (theory §5 to §8).
+//! From a scene to its motion: mode, method, secular part, series, initial phases (theory §5 to §8, §10).
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use crate::double_double::DoubleDouble;
+use andoyer_series::{DoubleDouble, separatrix_action};
+
+use crate::closed::{ClosedForm, NEAREST_COMPLEMENT, anomaly};
+use crate::elliptic::Theta;
 use crate::error::Error;
-use crate::fourier::{Ellipse, QuaternionSeries, oscillator_and_longitude};
-use crate::motion::{Course, Frequencies, Motion, Wobble};
+use crate::fourier::{QuaternionSeries, oscillator_and_longitude};
+use crate::motion::{Course, Frequencies, Motion, Pair, Wobble};
+use crate::order::{Expanded, expanded, first_order, initial_anomaly};
 use crate::phase::Phase;
-use crate::plan::{MAX_ORDER, Mode, Plan};
-use crate::polhode::{Polhode, scaled};
-use crate::scene::Scene;
+use crate::plan::{Mode, Plan};
+use crate::polhode::{Polhode, SMALLEST_TILT, scaled};
+use crate::scene::{Method, Scene};
 use crate::secular::Secular;
-use crate::series::{Expansion, Tables};
+use crate::separatrix::{Clock, Passage};
 
 /// What double precision leaves of an attitude: rounding of the frames, of two quaternion products, and, for eight harmonics each, of the sums \[rad\].
-const ROUNDING: f64 = 2.5e-15;
+const ROUNDING: f64 = 3e-15;
 /// Part of the tolerance that dropped harmonics may use.
 const HARMONICS_SHARE: f64 = 0.125;
-/// Part of the tolerance that truncation may use.
-const TRUNCATION_SHARE: f64 = 0.75;
-/// Truncation below this is lost in rounding \[rad\].
-const SMALLEST_TOLERANCE: f64 = 1e-15;
 /// Rotations over which the tolerance holds if no span is given.
 const DEFAULT_ROTATIONS: f64 = 1e9;
 /// Relative error of frequencies and phases in double-double: 2^−104, twenty operations deep.
 const PHASE_ROUNDING: f64 = 1e-30;
-/// sin J below which the wobble is nothing: its square has no normal double.
-const SMALLEST_TILT: f64 = 1e-150;
+/// Relative error of the terms of Q1 in double-double, with inputs taken as exact.
+const COSINE_ROUNDING: f64 = 1e-31;
 
 impl Motion {
     /// The motion of a valid scene.
@@ -39,37 +39,32 @@ impl Motion {
             let (moment, rate) = polhode.scales;
             return Err(Error::Units { exponent: moment + rate });
         }
-        match mode(&polhode)? {
-            mode @ (Mode::ShortAxis | Mode::Axisymmetric) => wobbling(scene, &polhode, mode),
-            mode => Ok(steadily_rotating(scene, &polhode, mode)),
+        match mode(&polhode) {
+            mode @ (Mode::Spherical | Mode::PrincipalAxis) => Ok(steadily_rotating(scene, &polhode, mode)),
+            Mode::Separatrix => passing(scene, &polhode),
+            mode => wobbling(scene, &polhode, mode),
         }
     }
 }
 
-fn mode(polhode: &Polhode) -> Result<Mode, Error> {
-    let [g1, g2, _] = polhode.direction;
+fn mode(polhode: &Polhode) -> Mode {
+    let [g1, g2, g3] = polhode.direction.map(|g| g.abs() < SMALLEST_TILT);
     let [first, second] = polhode.excesses;
     if first == DoubleDouble::ZERO {
-        return Ok(Mode::Spherical);
+        return Mode::Spherical;
     }
-    // With B = C every axis across axis 1 is one of greatest inertia.
-    if g1.abs() < SMALLEST_TILT && (g2.abs() < SMALLEST_TILT || second == DoubleDouble::ZERO) {
-        return Ok(Mode::PrincipalAxis);
+    // With B = C every axis across axis 1 is one of greatest inertia; in the middle between A and C rotation is steady too, as long as it is exact.
+    if g1 && (g2 || g3 || second == DoubleDouble::ZERO) {
+        return Mode::PrincipalAxis;
     }
     if polhode.difference == DoubleDouble::ZERO {
-        return Ok(Mode::Axisymmetric);
+        return Mode::Axisymmetric;
     }
-    if second == DoubleDouble::ZERO {
-        return Err(Error::LongAxisMode { energy_ratio: f64::INFINITY });
+    let lost = polhode.cancellation() * COSINE_ROUNDING;
+    if lost >= 1.0 || lost.is_nan() {
+        return Mode::Separatrix;
     }
-    let nearest = polhode.cosine_squares()[0].high;
-    if nearest < 0.0 {
-        return Err(Error::LongAxisMode { energy_ratio: polhode.energy_ratio() });
-    }
-    if nearest < SMALLEST_TILT * SMALLEST_TILT {
-        return Err(Error::Separatrix);
-    }
-    Ok(Mode::ShortAxis)
+    if polhode.long_axis { Mode::LongAxis } else { Mode::ShortAxis }
 }
 
 fn at_rest(scene: Scene) -> Motion {
@@ -79,6 +74,7 @@ fn at_rest(scene: Scene) -> Motion {
         course: Course::Steady { axis: Vector3::zeros(), half_angle },
         frequencies: Frequencies { anomaly: 0.0, longitude: 0.0 },
         angular_momentum: Vector3::zeros(),
+        long_axis: false,
         scene,
     }
 }
@@ -88,6 +84,7 @@ fn steady_plan(scene: &Scene, mode: Mode, reason: &str) -> Plan {
     skipped.extend(unused_order(scene));
     Plan {
         mode,
+        method: Method::Closed,
         order: 0,
         harmonics: 0,
         error_bound: ROUNDING,
@@ -102,24 +99,31 @@ fn unused_order(scene: &Scene) -> Option<String> {
 }
 
 fn steadily_rotating(scene: Scene, polhode: &Polhode, mode: Mode) -> Motion {
-    let [_, g2, _] = polhode.direction;
+    let [_, g2, g3] = polhode.direction;
+    let [_, second] = polhode.excesses;
+    let middle = mode == Mode::PrincipalAxis && second != DoubleDouble::ZERO && g3.abs() < SMALLEST_TILT;
     let reason = match mode {
         Mode::Spherical => "every axis of a sphere is a principal axis",
+        _ if middle => "the rotation is about the axis of middle inertia, its unstable equilibrium",
+        _ if g2.abs() < SMALLEST_TILT && polhode.long_axis => "the rotation is about the axis of least inertia",
         _ if g2.abs() < SMALLEST_TILT => "the rotation is about the axis of greatest inertia (J = 0)",
         _ => "B = C and the rotation is about one of their axes",
     };
-    // |ω| = M/C: the moment about the axis that turns is the greatest.
-    let rate = polhode.mean_rate();
+    let rate = if middle { polhode.middle_rate() } else { polhode.mean_rate() };
     let (_, exponent) = polhode.scales;
     let axis = polhode.frame.user(polhode.direction);
-    let anomaly = scaled((rate * polhode.gamma()).to_f64(), exponent);
+    let anomaly = if middle { 0.0 } else { scaled((rate * polhode.gamma()).to_f64(), exponent) };
     let mut plan = steady_plan(&scene, mode, reason);
     plan.error_bound += phase_rounding(&scene, rate, exponent);
+    if middle {
+        plan.separatrix_ratio = 1.0;
+    }
     Motion {
         plan,
         course: Course::Steady { axis: Vector3::from(axis), half_angle: half(user_rate(rate, exponent), 0.0) },
         frequencies: Frequencies { anomaly, longitude: scaled(rate.to_f64(), exponent) },
         angular_momentum: angular_momentum(&scene, polhode),
+        long_axis: polhode.long_axis,
         scene,
     }
 }
@@ -138,107 +142,180 @@ fn angular_momentum(scene: &Scene, polhode: &Polhode) -> Vector3<f64> {
     scene.state().attitude * direction * polhode.user_momentum()
 }
 
+/// The pair (a, b) as a function of time, and what the plan says of it.
+struct Solved {
+    pair: Pair,
+    /// y′ at the epoch, where y is 0.
+    longitude: f64,
+    rates: Secular,
+    plan: Plan,
+}
+
 fn wobbling(scene: Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
     let exact = Secular::exact(polhode);
-    let ratio = (exact.kappa_sigma / polhode.kappa() / scene.body().separatrix_action()).min(1.0);
-    let (order, series_of_order) = expanded(&scene, polhode, &exact, ratio, mode)?;
-    let Expanded { expansion, secular, ellipse, truncation } = series_of_order;
-    let (series, dropped) =
-        QuaternionSeries::new(&expansion, ellipse).truncated(HARMONICS_SHARE * scene.asked_tolerance());
-
-    let zeta = polhode.zeta();
-    let anomaly = initial_anomaly(&expansion, ellipse.oscillator(zeta));
-    let (_, longitude) = oscillator_and_longitude(&expansion, |h| (h as f64 * anomaly).sin_cos());
-    let exponent = polhode.scales.1;
-    let anomaly_rate = user_rate(secular.anomaly_rate, exponent);
-    let longitude_rate = user_rate(secular.longitude_rate, exponent);
-
-    let phases = drift(&scene, &exact, &secular, exponent) + phase_rounding(&scene, exact.longitude_rate, exponent);
-    let rounding = ROUNDING * (1.0 + series.harmonics() as f64 / 8.0);
-    let error_bound = (truncation + dropped + phases + rounding).min(std::f64::consts::PI);
+    let ratio = (exact.kappa_sigma / polhode.kappa() / separatrix_action(polhode.beta())?).min(1.0);
+    let by_series = match scene.asked_method() {
+        Method::Series => true,
+        Method::Closed => false,
+        // A fixed order is one of the series.
+        Method::Auto => scene.asked_order().is_some() && mode != Mode::Axisymmetric,
+    };
     let plan = Plan {
         mode,
-        order,
-        harmonics: series.harmonics(),
-        error_bound,
+        method: if by_series { Method::Series } else { Method::Closed },
+        order: 0,
+        harmonics: 0,
+        error_bound: 0.0,
         tolerance: scene.asked_tolerance(),
         separatrix_ratio: ratio,
-        skipped: skipped(&scene, mode, order, &series),
+        skipped: Vec::new(),
     };
-    Ok(Motion {
-        plan,
+    let mut solved = if by_series {
+        by_the_series(&scene, polhode, exact, plan)?
+    } else {
+        by_theta_functions(&scene, polhode, exact, plan)
+    };
+    let phases = phase_rounding(&scene, exact.longitude_rate, polhode.scales.1);
+    solved.plan.error_bound = (solved.plan.error_bound + phases).min(std::f64::consts::PI);
+    Ok(assembled(scene, polhode, solved))
+}
+
+fn assembled(scene: Scene, polhode: &Polhode, solved: Solved) -> Motion {
+    let exponent = polhode.scales.1;
+    let longitude_rate = user_rate(solved.rates.longitude_rate, exponent);
+    let anomaly = scaled(solved.rates.anomaly_rate.to_f64(), exponent);
+    Motion {
+        plan: solved.plan,
         course: Course::Polhode(Box::new(Wobble {
-            anomaly: Phase::new(anomaly_rate, anomaly),
-            half_longitude: half(longitude_rate, -longitude),
-            series,
-            inertial: invariable_frame(&scene, polhode, zeta),
+            pair: solved.pair,
+            half_longitude: half(longitude_rate, solved.longitude),
+            inertial: invariable_frame(&scene, polhode, polhode.zeta()),
             frame: polhode.frame.clone(),
             rates: polhode.user_rates(),
         })),
-        frequencies: Frequencies { anomaly: anomaly_rate.to_f64(), longitude: longitude_rate.to_f64() },
+        frequencies: Frequencies { anomaly, longitude: longitude_rate.to_f64() },
         angular_momentum: angular_momentum(&scene, polhode),
+        long_axis: polhode.long_axis,
         scene,
-    })
+    }
 }
 
-/// The series of one order, and what it leaves out.
-struct Expanded {
-    expansion: Expansion,
-    secular: Secular,
-    ellipse: Ellipse,
-    truncation: f64,
-}
-
-/// The series at the order asked for, or at the lowest whose truncation leaves the tolerance its share.
-///
-/// The first order tried is that at which (σ/σ_sep)^(N+1)/(N+1), theory §5 and a share that was measured, is below the tolerance.
-fn expanded(
-    scene: &Scene,
-    polhode: &Polhode,
-    exact: &Secular,
-    ratio: f64,
-    mode: Mode,
-) -> Result<(usize, Expanded), Error> {
-    let target = scene.asked_tolerance().max(SMALLEST_TOLERANCE);
-    let first = match (mode, scene.asked_order()) {
-        (Mode::Axisymmetric, _) => Some(0), // the series ends with the quadratic part
-        (_, Some(order)) if ratio < 1.0 => Some(order),
-        _ => (0..=MAX_ORDER).find(|&order| ratio.powi(order as i32 + 1) <= target * (order as f64 + 1.0)),
+fn by_the_series(scene: &Scene, polhode: &Polhode, exact: Secular, mut plan: Plan) -> Result<Solved, Error> {
+    let expanded = expanded(scene, polhode, &exact, plan.separatrix_ratio, plan.mode)?;
+    let Expanded { order, expansion, secular, ellipse, truncation } = expanded;
+    let (series, dropped) =
+        QuaternionSeries::new(&expansion, ellipse).truncated(HARMONICS_SHARE * scene.asked_tolerance());
+    let theta = Theta::new(polhode);
+    // The truncated series of a fixed order has its own ℓ′. Next to the separatrix that is ill-conditioned, and the elliptic integral is not.
+    let anomaly = match scene.asked_order() {
+        Some(_) => initial_anomaly(&expansion, ellipse.oscillator(polhode.zeta())),
+        None => anomaly(polhode, &theta),
     };
-    for order in first.unwrap_or(MAX_ORDER)..=MAX_ORDER {
-        let tables = Tables::new(scene.body().beta(), order)?;
-        let fixed = mode == Mode::ShortAxis && scene.asked_order().is_some();
-        let secular = if fixed { Secular::truncated(polhode, tables.polynomials()) } else { *exact };
-        let expansion = tables.expand(secular.kappa_sigma, polhode.kappa());
-        let [first, second] = polhode.excesses;
-        let ellipse = Ellipse::new((first / second).to_f64());
-        let truncation = truncation(&expansion, ellipse, ratio, mode);
-        if (fixed && ratio < 1.0) || truncation <= TRUNCATION_SHARE * target {
-            return Ok((order, Expanded { expansion, secular, ellipse, truncation }));
-        }
-        if order == MAX_ORDER {
-            let attainable = truncation / TRUNCATION_SHARE;
-            return Err(Error::NearSeparatrix { ratio, tolerance: scene.asked_tolerance(), attainable });
-        }
-    }
-    Err(Error::Order { value: scene.asked_order().unwrap_or(MAX_ORDER) })
+    let (_, longitude) = oscillator_and_longitude(&expansion, |h| (h as f64 * anomaly).sin_cos());
+    let exponent = polhode.scales.1;
+    plan.order = order;
+    plan.harmonics = series.harmonics();
+    plan.error_bound =
+        truncation + dropped + drift(scene, &exact, &secular, exponent, theta.quarter) + rounding(&series);
+    plan.skipped =
+        if plan.mode == Mode::Axisymmetric { round_body(scene) } else { dropped_harmonics(&series, 4 * order + 3) };
+    let anomaly = Phase::new(user_rate(secular.anomaly_rate, exponent), anomaly);
+    Ok(Solved { pair: Pair::Fourier(anomaly, series), longitude: -longitude, rates: secular, plan })
 }
 
-/// What the orders left out turn the attitude by \[rad\]: a geometric tail of the last one kept, at the time asked for and in both initial phases.
-///
-/// Hence the factor 3; with 2 some errors at orders 1 and 2 pass the bound by up to a fifth.
-fn truncation(expansion: &Expansion, ellipse: Ellipse, ratio: f64, mode: Mode) -> f64 {
-    match mode {
-        Mode::Axisymmetric => 0.0,
-        _ => 3.0 * ellipse.long * expansion.last_order * ratio / (1.0 - ratio),
+fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secular, mut plan: Plan) -> Solved {
+    let theta = Theta::new(polhode);
+    let exponent = polhode.scales.1;
+    let anomaly_rate = user_rate(rates.anomaly_rate, exponent);
+    let series_order = first_order(plan.separatrix_ratio, plan.tolerance);
+    if theta.complement < NEAREST_COMPLEMENT {
+        let (place, turned) = Passage::place(polhode, &theta);
+        let start = std::f64::consts::FRAC_PI_2 * place / theta.quarter;
+        let start = if turned { start - std::f64::consts::PI } else { start };
+        let scale = 0.5 * theta.quarter / theta.conjugate;
+        let passage = Passage::new(&theta, Clock::Repeating(Phase::new(anomaly_rate, start), scale));
+        plan.error_bound = 2.0 * ROUNDING + f64::EPSILON * theta.quarter + conditioning(scene, polhode, &rates);
+        plan.skipped.push("series: too near the separatrix".to_owned());
+        let longitude = -2.0 * passage.phase((0.0, 0.0));
+        return Solved { pair: Pair::Passage(passage), longitude, rates, plan };
     }
+    let closed = ClosedForm::new(polhode, &theta);
+    let all = closed.series.harmonics();
+    // What is dropped is missing at the epoch and at the time.
+    let (series, dropped) = closed.series.truncated(0.5 * HARMONICS_SHARE * plan.tolerance * closed.least_norm);
+    plan.harmonics = series.harmonics();
+    plan.error_bound =
+        (2.0 * dropped + rounding(&series)) / closed.least_norm.min(1.0) + conditioning(scene, polhode, &rates);
+    plan.skipped = if plan.mode == Mode::Axisymmetric {
+        round_body(scene)
+    } else {
+        let reason = match series_order {
+            Some(order) => {
+                format!("series: for this tolerance it has order {order}, and no fewer harmonics than the closed form")
+            }
+            None => "series: too near the separatrix for its highest order".to_owned(),
+        };
+        std::iter::once(reason).chain(dropped_harmonics(&series, all)).collect()
+    };
+    let (a, _) = series.evaluate(closed.anomaly);
+    let longitude = -2.0 * a[1].atan2(a[0]);
+    let pair = Pair::Fourier(Phase::new(anomaly_rate, closed.anomaly), series);
+    Solved { pair, longitude, rates, plan }
+}
+
+/// The motion on the separatrix: one passage, from and to rotation about the axis of middle inertia.
+fn passing(scene: Scene, polhode: &Polhode) -> Result<Motion, Error> {
+    if scene.asked_method() == Method::Series {
+        return Err(Error::Separatrix);
+    }
+    let theta = Theta::new(polhode);
+    let (place, turned) = Passage::place(polhode, &theta);
+    let rate = (polhode.mean_rate() * polhode.gamma()).to_f64() * theta.cosines[1];
+    let clock = Clock::Once(0.5 * place, 0.5 * scaled(rate, polhode.scales.1));
+    let passage = Passage::new(&theta, clock).turned(turned);
+    let rates = Secular { kappa_sigma: 0.0, anomaly_rate: DoubleDouble::ZERO, longitude_rate: polhode.middle_rate() };
+    // A distance from the separatrix that double-double does not see grows like e^u.
+    let growth = (rate.abs() * duration(&scene, rates.longitude_rate, polhode.scales.1)).exp();
+    let unseen = if polhode.cosine_squares()[0] == DoubleDouble::ZERO { 0.0 } else { COSINE_ROUNDING * growth };
+    let phases = phase_rounding(&scene, rates.longitude_rate, polhode.scales.1);
+    let mut skipped = vec!["series: on the separatrix".to_owned()];
+    skipped.extend(unused_order(&scene));
+    let plan = Plan {
+        mode: Mode::Separatrix,
+        method: Method::Closed,
+        order: 0,
+        harmonics: 0,
+        error_bound: (4.0 * ROUNDING + phases + unseen).min(std::f64::consts::PI),
+        tolerance: scene.asked_tolerance(),
+        separatrix_ratio: 1.0,
+        skipped,
+    };
+    let longitude = -2.0 * passage.phase((0.0, 0.0));
+    Ok(assembled(scene, polhode, Solved { pair: Pair::Passage(passage), longitude, rates, plan }))
+}
+
+fn rounding(series: &QuaternionSeries) -> f64 {
+    ROUNDING * (1.0 + series.harmonics() as f64 / 8.0)
+}
+
+/// What the error of Q1, with inputs taken as exact, makes of the phase over the span \[rad\]: K goes with −½ ln Q1, so that each half turn of ℓ′ is late by half the
+/// relative error of Q1, in u.
+fn conditioning(scene: &Scene, polhode: &Polhode, rates: &Secular) -> f64 {
+    let half_turns =
+        (rates.anomaly_rate / rates.longitude_rate).to_f64().abs() * rotations(scene, rates, polhode) * 2.0;
+    COSINE_ROUNDING * polhode.cancellation() * half_turns
+}
+
+fn rotations(scene: &Scene, rates: &Secular, polhode: &Polhode) -> f64 {
+    duration(scene, rates.longitude_rate, polhode.scales.1) * rates.longitude_rate.to_f64() / std::f64::consts::TAU
 }
 
 /// How far a fixed order lets the phases drift over the span \[rad\].
-fn drift(scene: &Scene, exact: &Secular, secular: &Secular, exponent: i32) -> f64 {
+fn drift(scene: &Scene, exact: &Secular, secular: &Secular, exponent: i32, quarter: f64) -> f64 {
     let anomaly = (exact.anomaly_rate - secular.anomaly_rate).to_f64().abs();
     let longitude = (exact.longitude_rate - secular.longitude_rate).to_f64().abs();
-    (anomaly + longitude) * duration(scene, exact.longitude_rate, exponent)
+    // Where it is fastest the polhode turns 2K/π times as fast as ℓ′.
+    (std::f64::consts::FRAC_2_PI * quarter * anomaly + longitude) * duration(scene, exact.longitude_rate, exponent)
 }
 
 /// What rounding of frequencies and phases adds over the span \[rad\].
@@ -255,16 +332,15 @@ fn duration(scene: &Scene, rate: DoubleDouble, exponent: i32) -> f64 {
     }
 }
 
-fn skipped(scene: &Scene, mode: Mode, order: usize, series: &QuaternionSeries) -> Vec<String> {
-    if mode == Mode::Axisymmetric {
-        let reason = "series: A = B, the wobble is a circle and the precession regular".to_owned();
-        return std::iter::once(reason).chain(unused_order(scene)).collect();
-    }
+fn round_body(scene: &Scene) -> Vec<String> {
+    let reason = "series: two moments are equal, the wobble is a circle and the precession regular".to_owned();
+    std::iter::once(reason).chain(unused_order(scene)).collect()
+}
+
+fn dropped_harmonics(series: &QuaternionSeries, all: usize) -> Vec<String> {
     let kept = series.harmonics();
-    if kept == 4 * order + 3 {
-        return Vec::new();
-    }
-    vec![format!("harmonics above {kept}: together below an eighth of the tolerance")]
+    let reason = (kept < all).then(|| format!("harmonics above {kept}: together below an eighth of the tolerance"));
+    reason.into_iter().collect()
 }
 
 /// The rotation that leads from the invariable plane, with a node at which y = 0 at the epoch, to the inertial frame.
@@ -273,45 +349,4 @@ fn invariable_frame(scene: &Scene, polhode: &Polhode, zeta: [f64; 2]) -> UnitQua
     let relative = Quaternion::new((1.0 - half_z).max(0.0).sqrt(), 0.5 * zeta[0], 0.5 * zeta[1], 0.0);
     let relative = UnitQuaternion::new_normalize(relative);
     scene.state().attitude * (relative * polhode.frame.quaternion).inverse()
-}
-
-/// ℓ′ whose transformed w has the direction of `target`.
-///
-/// ℓ = 0, π/2, … are fixed points by symmetry, so the root is in the quadrant of the target. Regula falsi on the cross product, which
-/// stays within its bracket; the end that stays twice has its value halved (the Illinois rule), so that both ends move.
-fn initial_anomaly(expansion: &Expansion, target: [f64; 2]) -> f64 {
-    let folded = [target[0].abs(), target[1].abs()];
-    let cross = |angle: f64| {
-        let (w, _) = oscillator_and_longitude(expansion, |h| (h as f64 * angle).sin_cos());
-        (w[1] * folded[0] - w[0] * folded[1]) / (w[0].hypot(w[1]) * folded[0].hypot(folded[1]))
-    };
-    let (mut low, mut high) = (0.0, std::f64::consts::FRAC_PI_2);
-    let (mut low_value, mut high_value) = (cross(low), cross(high));
-    let mut angle = folded[1].atan2(folded[0]);
-    let mut last = 0.0_f64;
-    // Superlinear; 200 steps are past any convergence.
-    for _ in 0..200 {
-        let value = cross(angle);
-        if value == 0.0 || high - low <= f64::EPSILON {
-            break;
-        }
-        let again = value * last > 0.0;
-        if value < 0.0 {
-            (low, low_value) = (angle, value);
-            high_value *= if again { 0.5 } else { 1.0 };
-        } else {
-            (high, high_value) = (angle, value);
-            low_value *= if again { 0.5 } else { 1.0 };
-        }
-        last = value;
-        let next = (low * high_value - high * low_value) / (high_value - low_value);
-        // A bracket that has closed on an axis of symmetry gives 0/0, which moves nothing.
-        let moves = (next - angle).abs() > 0.5 * f64::EPSILON;
-        if !moves {
-            break;
-        }
-        angle = next;
-    }
-    let upper = if target[0] < 0.0 { std::f64::consts::PI - angle } else { angle };
-    if target[1] < 0.0 { -upper } else { upper }
 }

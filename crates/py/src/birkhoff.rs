@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use andoyer_series::{BirkhoffMap, BirkhoffNormalForm as Inner, PhaseSpace, Polynomial, Real};
+use andoyer_series::{BirkhoffMap, BirkhoffNormalForm as Inner, PhaseSpace, Polynomial, RealField};
 use num_rational::BigRational;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
@@ -34,7 +34,7 @@ macro_rules! either {
 
 /// Exact coefficients as floats.
 pub(crate) fn rounded(polynomial: &Polynomial<BigRational>) -> Polynomial<f64> {
-    polynomial.map(Real::to_float)
+    polynomial.map(RealField::to_float)
 }
 
 /// The Birkhoff normal form of a Hamiltonian, from `normalize`: the new Hamiltonian K, and the transformation both ways.

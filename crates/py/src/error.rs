@@ -22,11 +22,15 @@ create_exception!(andoyer, EpochError, Error, "An epoch that is not finite.");
 create_exception!(andoyer, ToleranceError, Error, "A tolerance that is not positive and finite.");
 create_exception!(andoyer, SpanError, Error, "A span that is not finite or runs backwards.");
 create_exception!(andoyer, OrderError, Error, "An order that is no whole number within its bounds.");
-create_exception!(andoyer, MethodError, Error, "A method that is unknown or not there yet.");
+create_exception!(andoyer, MethodError, Error, "A method that is unknown.");
 create_exception!(andoyer, TimesError, Error, "A time that is not finite, or too far from the epoch to have a phase.");
 create_exception!(andoyer, ShapeError, Error, "An array of the wrong shape or memory layout.");
-create_exception!(andoyer, ModeError, Error, "A mode of rotation that the series do not reach: long-axis rotation.");
-create_exception!(andoyer, SeparatrixError, Error, "A motion on the separatrix, or too near it for its tolerance.");
+create_exception!(
+    andoyer,
+    SeparatrixError,
+    Error,
+    "The series asked for on the separatrix, or too near it for the tolerance."
+);
 create_exception!(andoyer, UnknownBodyError, Error, "A name that the catalogue of bodies does not have.");
 create_exception!(andoyer, SceneFileError, Error, "A scene file that cannot be read or says something wrong.");
 create_exception!(
@@ -68,7 +72,6 @@ pub(crate) fn propagation(error: Propagation) -> PyErr {
         Propagation::Method { .. } => MethodError::new_err(message),
         Propagation::Time { .. } => TimesError::new_err(message),
         Propagation::Length { .. } => ShapeError::new_err(message),
-        Propagation::LongAxisMode { .. } => ModeError::new_err(message),
         Propagation::NearSeparatrix { .. } | Propagation::Separatrix => SeparatrixError::new_err(message),
         Propagation::UnknownBody { .. } => UnknownBodyError::new_err(message),
         Propagation::SceneFile { .. } => SceneFileError::new_err(message),

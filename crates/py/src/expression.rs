@@ -3,7 +3,7 @@
 //! SymPy is never imported: an expression that the caller made is asked for its terms. Numbers are taken at their exact value;
 //! whether a float was among them is told beside.
 
-use andoyer_series::{Coefficient, Monomial, PhaseSpace, Polynomial, Real};
+use andoyer_series::{Coefficient, Monomial, PhaseSpace, Polynomial, RealField};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use pyo3::exceptions::PyTypeError;
@@ -118,7 +118,7 @@ fn number(value: &Bound<'_, PyAny>) -> PyResult<(BigRational, bool)> {
 }
 
 /// {exponents: coefficient}, in canonical order.
-pub(crate) fn real<'py, R: Real + IntoPyObject<'py>>(
+pub(crate) fn real<'py, R: RealField + IntoPyObject<'py>>(
     py: Python<'py>,
     polynomial: &Polynomial<R>,
     slots: usize,
@@ -131,7 +131,7 @@ pub(crate) fn real<'py, R: Real + IntoPyObject<'py>>(
 }
 
 /// {exponents: (re, im)}, in canonical order.
-pub(crate) fn complex<'py, R: Real + IntoPyObject<'py>>(
+pub(crate) fn complex<'py, R: RealField + IntoPyObject<'py>>(
     py: Python<'py>,
     polynomial: &Polynomial<R::Complex>,
     slots: usize,

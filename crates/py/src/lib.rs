@@ -33,7 +33,7 @@ mod _core {
     #[pymodule_export]
     use super::error::{
         AngularVelocityError, AttitudeError, EpochError, Error, FormatError, HamiltonianError, IntervalError,
-        MethodError, ModeError, MomentsError, OrderError, ResonanceError, SceneFileError, SeparatrixError, SeriesError,
+        MethodError, MomentsError, OrderError, ResonanceError, SceneFileError, SeparatrixError, SeriesError,
         ShapeError, SpanError, TimesError, ToleranceError, UnitsError, UnknownBodyError, UnknownNameError,
     };
     #[pymodule_export]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use andoyer_series::{MAXIMUM_ORDER, Progress, PublicForm};
+use andoyer_series::{MAXIMUM_ORDER, Part, Progress, PublicForm};
 use num_complex::Complex;
 use num_rational::BigRational;
 use pyo3::prelude::*;
@@ -212,6 +212,69 @@ impl NormalForm {
     fn to_latex(&self, py: Python<'_>, what: &str) -> PyResult<String> {
         let part = what.parse().map_err(error::algebra)?;
         py.detach(|| self.0.to_latex(part)).map_err(error::algebra)
+    }
+
+    /// A part of this normal form as exact SymPy expressions. SymPy is imported here and nowhere else.
+    ///
+    /// The symbols are ``u, U, V, y, M, C, sigma, alpha, beta, gamma``, without assumptions. In "direct" u, U and y stand for the new
+    /// variables, in "inverse" for the old ones.
+    ///
+    /// Parameters
+    /// ----------
+    /// what : {"hamiltonian", "generator", "direct", "inverse"}, optional
+    ///
+    /// Returns
+    /// -------
+    /// sympy.Expr, list of sympy.Expr or dict of {str: sympy.Expr}
+    ///     "hamiltonian": K in M, C, sigma = L/M, alpha, beta, gamma (theory §4). "generator": S_1 … S_N in u, U, V, the list starting with
+    ///     S_1. "direct" and "inverse": the old and the new "u", "U" and "y" (theory §6), sums of all orders.
+    ///
+    /// Raises
+    /// ------
+    /// UnknownNameError
+    ///     ``"lagrangian"``.
+    /// ImportError
+    ///     SymPy is not installed: the extra ``andoyer[sympy]`` brings it.
+    #[pyo3(signature = (what="hamiltonian"))]
+    fn to_sympy<'py>(slf: &Bound<'py, Self>, what: &str) -> PyResult<Bound<'py, PyAny>> {
+        let _: Part = what.parse().map_err(error::algebra)?;
+        slf.py().import("andoyer._symbolic")?.call_method1("expressions", (slf, what))
+    }
+
+    /// A function that evaluates the direct transformation and the frequencies to this order, as the text of a file of source.
+    ///
+    /// It needs nothing but its language.
+    /// ``short_axis_rotation(sigma, anomaly)``, or ``(beta, sigma, anomaly)`` where `beta` is None, returns ``zeta_real`` = X/√M and
+    /// ``zeta_imaginary`` = x/√M, ``longitude_shift`` = y − y′ in rad, ``anomaly_rate`` = dℓ′/dt in units of Mγ/C, and ``longitude_rate`` = g in
+    /// dy′/dt = (M/C)(1 + γg) (theory §1, §6, §7): a struct in C and Rust, a tuple in Python. The head of the file says it again, with the cost
+    /// and the truncation.
+    ///
+    /// Parameters
+    /// ----------
+    /// language : {"c", "rust", "python"}, optional
+    ///     C99 with math.h; Rust with its standard library; Python with math.
+    /// beta : float, optional
+    ///     Triaxiality, 0 ≤ beta < 1, to be a number in the file; an argument of the function if None.
+    ///
+    /// Raises
+    /// ------
+    /// UnknownNameError
+    ///     ``"fortran"``.
+    /// IntervalError
+    ///     ``-0.1``, ``1.0``, NaN.
+    /// OrderError
+    ///     An order above 200 with a number for `beta`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> namespace = {}
+    /// >>> exec(NormalForm(10).to_code("python", beta=0.3), namespace)
+    /// >>> round(namespace["short_axis_rotation"](0.1, 0.7)[3], 10)
+    /// 0.8942751474
+    #[pyo3(signature = (language="c", beta=None))]
+    fn to_code(&self, py: Python<'_>, language: &str, beta: Option<f64>) -> PyResult<String> {
+        let language = language.parse().map_err(error::algebra)?;
+        py.detach(|| self.0.to_code(language, beta)).map_err(error::algebra)
     }
 
     fn __repr__(&self) -> String {

@@ -1,6 +1,6 @@
 //! `andoyer.normalize`.
 
-use andoyer_series::{Error as Algebra, PhaseSpace, Progress, Real, Resonances, normalize_with};
+use andoyer_series::{Error as Algebra, PhaseSpace, Progress, RealField, Resonances, normalize_with};
 use num_rational::BigRational;
 use pyo3::prelude::*;
 
@@ -76,7 +76,7 @@ pub(crate) fn normalize(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<BirkhoffNormalForm> {
     let space = space(&variables, &parameters.unwrap_or_default())?;
-    let order = self::order("order", order, 0, <BigRational as Real>::MAXIMUM_ORDER)?;
+    let order = self::order("order", order, 0, <BigRational as RealField>::MAXIMUM_ORDER)?;
     let Expression { polynomial, float } = Expression::new("hamiltonian", hamiltonian, &space)?;
     let vectors = resonances.unwrap_or_default();
     let resonances = Resonances::new(&vectors.iter().map(Vec::as_slice).collect::<Vec<_>>());

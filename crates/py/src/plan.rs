@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 /// >>> scene = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0])
 /// >>> plan = scene.solve().plan
 /// >>> plan.mode, plan.method
-/// ('short-axis', 'series')
+/// ('short-axis', 'closed')
 /// >>> plan.error_bound < 1e-12
 /// True
 #[pyclass(frozen, eq, module = "andoyer")]
@@ -24,10 +24,10 @@ impl Plan {
         self.0.mode().to_string()
     }
 
-    /// How it is evaluated: "series", or "closed" where a formula without a series is exact.
+    /// How it is evaluated: "series", or "closed" for theta functions and the formulas that need no sum at all.
     #[getter]
-    fn method(&self) -> &'static str {
-        self.0.method()
+    fn method(&self) -> String {
+        self.0.method().to_string()
     }
 
     /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance.

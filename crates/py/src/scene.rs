@@ -28,7 +28,7 @@ use crate::{array, error};
 /// tolerance : float, optional
 ///     Attitude error asked for over the span, in rad. Below about 1e-14 it means the best that double precision holds
 ///     (`Plan.error_bound` says what that is).
-/// method : {"auto", "series"}, optional
+/// method : {"auto", "series", "closed"}, optional
 /// order : int, optional
 ///     Fixed order of the series, of the secular part too (theory §7), 0 to 60; by default the one that the tolerance needs (theory §5).
 ///     A fixed order is not raised for the tolerance: where it is too low, `Plan.error_bound` exceeds the tolerance and ``str(plan)``
@@ -48,7 +48,7 @@ use crate::{array, error};
 /// ToleranceError
 ///     ``0``, ``-1``, not finite.
 /// MethodError
-///     ``"closed"``: not there yet.
+///     ``"taylor"``.
 /// OrderError
 ///     ``-1``, ``61``, ``2.5``.
 /// SpanError
@@ -135,10 +135,8 @@ impl Scene {
     ///
     /// Raises
     /// ------
-    /// ModeError
-    ///     Rotation about the axis of least inertia.
     /// SeparatrixError
-    ///     The tolerance needs an order above 60, so near is the separatrix; rotation about the axis of middle inertia.
+    ///     ``method="series"`` where the tolerance needs an order above 60, so near is the separatrix, or on it.
     /// UnitsError
     ///     The angular momentum, moment × rate, is no normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {
@@ -175,7 +173,7 @@ impl Scene {
         self.0.asked_tolerance()
     }
 
-    /// The method: "auto" or "series".
+    /// The method: "auto", "series" or "closed".
     #[getter]
     fn method(&self) -> String {
         self.0.asked_method().to_string()

@@ -167,9 +167,10 @@ def test_shape_error_has_both_shapes(body):
         Scene(body, np.zeros((2, 4)), RATES)
 
 
-def test_closed_method_is_refused_for_now(body):
-    with pytest.raises(andoyer.MethodError, match='"closed"'):
-        Scene(body, ATTITUDE, RATES, method="closed")
+def test_unknown_method_is_refused(body):
+    with pytest.raises(andoyer.MethodError, match='"taylor"'):
+        Scene(body, ATTITUDE, RATES, method="taylor")
+    assert Scene(body, ATTITUDE, RATES, method="closed").method == "closed"
 
 
 def test_scene_survives_a_file(scene, tmp_path):

@@ -156,6 +156,10 @@ BAD_LINES = {
     "time without a phase": (["propagate", "SCENE", "-o", "out.csv", "--stop", "1e308"], r"times\[\d+\]"),
     "negative order": (["series", "--order", "-1"], "order"),
     "huge order": (["series", "--order", "100000"], "order.*16381"),
+    "part of code": (["series", "--order", "2", "--to", "c", "--part", "direct"], "--part.*latex.*not with --to c"),
+    "beta of text": (["series", "--order", "2", "--beta", "0.3"], "--beta.*c or rust or python.*not with --to text"),
+    "beta of no body": (["series", "--order", "2", "--to", "c", "--beta", "1"], r"beta = 1 is outside \[0, 0.99"),
+    "unknown form": (["series", "--order", "2", "--to", "fortran"], "--to.*fortran"),
     "text order": (["series", "--order", "ten"], "argument --order: must be a whole number: got 'ten'"),
 }
 
@@ -191,8 +195,6 @@ def test_bad_scene_is_refused_with_file_key_and_bound(text, message, tmp_path):
 
 
 NOT_SERVED = {
-    "long-axis": ("[1, 0.1, 0.1]", "long-axis mode"),
-    "separatrix": ("[0, 1, 0]", "on the separatrix"),
     "near separatrix": ("[0.0001, 1, 0.0001]", "too near the separatrix"),
     "units": ("[0, 1e-310, 1e-310]", "units"),
 }
@@ -202,7 +204,8 @@ NOT_SERVED = {
 @pytest.mark.parametrize("rates, message", NOT_SERVED.values(), ids=NOT_SERVED)
 def test_motion_that_is_not_served_is_refused_with_the_file(tmp_path, capfd, command, rates, message):
     path = tmp_path / "unserved.toml"
-    path.write_text(f"[body]\nmoments = [1, 1.5, 2]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = {rates}\n")
+    state = f"[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = {rates}\n"
+    path.write_text(f"method = 'series'\n[body]\nmoments = [1, 1.5, 2]\n{state}")
     output = ["-o", str(tmp_path / "out.csv")] if command == "propagate" else []
     assert main([command, str(path), *output]) == 2
     errors = capfd.readouterr().err
@@ -223,6 +226,23 @@ def test_name_that_the_terminal_cannot_show_is_escaped(scene, tmp_path):
     path.write_text(andoyer.Scene(scene.body, scene.attitude, [0, 0, 1], name="Δ").to_toml(), encoding="utf-8")
     done = run("plan", path, PYTHONIOENCODING="ascii")
     assert done.returncode == 0 and "\\u0394" in done.stdout
+
+
+FORMS = {
+    "text": ([], lambda n: "P_0 = 2\nP_1 = -1\nP_2 = -1/2*beta**2\nP_3 = -5/8*beta**2\n"),
+    "json": ([], lambda n: n.to_json() + "\n"),
+    "latex": (["--part", "direct"], lambda n: n.to_latex("direct")),
+    "c": (["--beta", "0.3"], lambda n: n.to_code("c", 0.3)),
+    "rust": ([], lambda n: n.to_code("rust")),
+    "python": (["--beta", "0"], lambda n: n.to_code("python", 0.0)),
+}
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_series_are_written_in_the_form_that_is_asked_for(form, capsys):
+    options, expected = FORMS[form]
+    assert main(["series", "--order", "3", "--to", form, *options]) == 0
+    assert capsys.readouterr().out == expected(andoyer.NormalForm(3))
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="pipes close otherwise there")

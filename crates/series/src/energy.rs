@@ -188,7 +188,7 @@ fn small_remainder(c: &BigInt, modulus: u64) -> u64 {
     (c.magnitude() % modulus).try_into().unwrap_or(0)
 }
 
-/// The powers of E = Σ k_i ε^i J^(i+1) that the recursion for k_n needs: 4^i [ε^i] (E/J)^(p+1) at [p][i], i + p ≤ order.
+/// The powers of E = Σ k_i ε^i J^(i+1) that the recursion for k_n needs: 4^i times coefficient i of (E/J)^(p+1), in row p at i, i + p ≤ order.
 struct Powers {
     rows: Vec<Vec<Row>>,
     order: usize,

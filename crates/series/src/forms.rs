@@ -1,4 +1,4 @@
-//! Binary forms in (w̄, w) over `f64`, and the normal form at a given β in O(N²) brackets.
+//! Binary forms in (w̄, w) over floating-point numbers, and the normal form at a given β in O(N²) brackets.
 //!
 //! A form of degree d is Σ c_j w^j w̄^(d−j): every part of one order of the rigid-body problem is one (theory §1, §4).
 //! The bracket is that of the exact algebra, `[f; s] = ∂f/∂w̄ ∂s/∂w − ∂f/∂w ∂s/∂w̄`, which on forms is one product for each
@@ -10,21 +10,56 @@
 //! The sums are benign as well: a coefficient of order n, times the n-th power of the radius of convergence κσ_sep, is within 5e-17 of the exact
 //! one to order 16 for β from 0 to 15/16 (tests/tests/numeric.rs), where the triangle in `f64` subtracts large numbers.
 
-/// A form Σ c_j w^j w̄^(d−j) of one degree d in the complex variables of theory §1.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Form {
-    coefficients: Vec<f64>,
+use crate::{Coefficient, DoubleDouble};
+use std::ops::{Add, Div, Mul, Sub};
+
+/// A real floating-point number that a form can have for coefficients: `f64` or [`DoubleDouble`].
+pub trait Real:
+    Coefficient + Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// The number of a count, which is below 2^53.
+    #[must_use]
+    fn small(count: usize) -> Self;
+
+    /// The nearest double.
+    fn to_f64(self) -> f64;
 }
 
-impl Form {
+impl Real for f64 {
+    fn small(count: usize) -> Self {
+        count as f64
+    }
+
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
+impl Real for DoubleDouble {
+    fn small(count: usize) -> Self {
+        (count as f64).into()
+    }
+
+    fn to_f64(self) -> f64 {
+        DoubleDouble::to_f64(self)
+    }
+}
+
+/// A form Σ c_j w^j w̄^(d−j) of one degree d in the complex variables of theory §1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Form<C = f64> {
+    coefficients: Vec<C>,
+}
+
+impl<C: Real> Form<C> {
     /// The form with these coefficients, `coefficients[j]` being that of w^j w̄^(d−j), d = length − 1.
-    pub(crate) fn new(coefficients: Vec<f64>) -> Self {
+    pub(crate) fn new(coefficients: Vec<C>) -> Self {
         Self { coefficients }
     }
 
     /// The zero form of degree `degree`.
     fn zero(degree: usize) -> Self {
-        Self { coefficients: vec![0.0; degree + 1] }
+        Self { coefficients: vec![C::zero(); degree + 1] }
     }
 
     /// The degree d in (w̄, w).
@@ -33,7 +68,7 @@ impl Form {
     }
 
     /// The coefficients, that of w^j w̄^(d−j) at j.
-    pub fn coefficients(&self) -> &[f64] {
+    pub fn coefficients(&self) -> &[C] {
         &self.coefficients
     }
 
@@ -41,13 +76,13 @@ impl Form {
     ///
     /// The weight of w^j w̄^k · w^p w̄^q is k p − j q = d_f p − d_s j; where w or w̄ is missing from the product it is zero.
     fn add_bracket(&mut self, f: &Self, s: &Self) {
-        let (f_degree, s_degree) = (f.degree() as f64, s.degree() as f64);
+        let (f_degree, s_degree) = (C::small(f.degree()), C::small(s.degree()));
         let last = self.coefficients.len();
         for (j, &c) in f.coefficients.iter().enumerate() {
-            if c == 0.0 {
+            if c.is_zero() {
                 continue;
             }
-            let (rise, fall) = (c * f_degree, c * s_degree * j as f64);
+            let (rise, fall) = (c * f_degree, c * s_degree * C::small(j));
             let first = usize::from(j == 0); // the product at index j + p − 1 needs j + p ≥ 1
             let start = j + first - 1;
             if start >= last {
@@ -55,41 +90,41 @@ impl Form {
             }
             let targets = self.coefficients[start..].iter_mut();
             for ((target, &d), p) in targets.zip(&s.coefficients[first..]).zip(first..) {
-                *target += (rise * p as f64 - fall) * d;
+                *target += &((rise * C::small(p) - fall) * d);
             }
         }
     }
 
-    fn add_scaled(&mut self, factor: f64, other: &Self) {
+    fn add_scaled(&mut self, factor: C, other: &Self) {
         for (target, &c) in self.coefficients.iter_mut().zip(&other.coefficients) {
-            *target += factor * c;
+            *target += &(factor * c);
         }
     }
 
-    fn scale(&mut self, factor: f64) {
+    fn scale(&mut self, factor: C) {
         for c in &mut self.coefficients {
-            *c *= factor;
+            *c *= &factor;
         }
     }
 }
 
 /// Kernel and generator of `w w̄ + Σ τ^n h_n`, the generator in the new variables.
 #[derive(Clone, Debug)]
-pub(crate) struct FormNormalization {
+pub(crate) struct FormNormalization<C> {
     /// k_n of K = Σ k_n τ^n (w w̄)^(n+1), n = 0 … order.
-    kernel: Vec<f64>,
+    kernel: Vec<C>,
     /// T_n, n = 1 … order, at index n − 1.
-    generators: Vec<Form>,
+    generators: Vec<Form<C>>,
 }
 
-impl FormNormalization {
+impl<C: Real> FormNormalization<C> {
     /// Normalizes `w w̄ + τ h` to `order`; `perturbation` is h, which must be of degree 4 and symmetric in w ↔ w̄.
     ///
     /// With A = (w w̄)∘Φ and B = h∘Φ: A_n + B_{n−1} = K_n, n A_n = Σ [A_{n−1−m}; T_{m+1}], and likewise B; the term of T_n
     /// is [w w̄; T_n] = (p − q) T_n for w^p w̄^q, which is solved for what is not in the kernel.
-    pub(crate) fn new(perturbation: &Form, order: usize) -> Self {
-        let action = Form::new(vec![0.0, 1.0, 0.0]);
-        let (mut kernel, mut generators) = (vec![1.0], Vec::with_capacity(order));
+    pub(crate) fn new(perturbation: &Form<C>, order: usize) -> Self {
+        let action = Form::new(vec![C::zero(), C::one(), C::zero()]);
+        let (mut kernel, mut generators) = (vec![C::one()], Vec::with_capacity(order));
         let (mut actions, mut energies) = (vec![action], vec![perturbation.clone()]);
         for n in 1..=order {
             let mut action_n = transported(&actions, &generators, n);
@@ -97,12 +132,14 @@ impl FormNormalization {
             let energy = &energies[n - 1];
             for p in 0..=2 * n + 2 {
                 let total = action_n.coefficients[p] + energy.coefficients[p];
-                let harmonic = 2.0 * p as f64 - (2 * n + 2) as f64;
-                if harmonic == 0.0 {
+                if p == n + 1 {
                     kernel.push(total);
                 } else {
-                    action_n.coefficients[p] -= total;
-                    generator.coefficients[p] = -total * n as f64 / harmonic;
+                    action_n.coefficients[p] -= &total;
+                    // The harmonic p − q = 2(p − n − 1).
+                    let weighted = total * C::small(n);
+                    let divisor = C::small(2 * p.abs_diff(n + 1));
+                    generator.coefficients[p] = if p > n { -(weighted / divisor) } else { weighted / divisor };
                 }
             }
             actions.push(action_n);
@@ -115,13 +152,13 @@ impl FormNormalization {
     }
 
     /// k_0 … k_order.
-    pub(crate) fn kernel(&self) -> &[f64] {
+    pub(crate) fn kernel(&self) -> &[C] {
         &self.kernel
     }
 
     /// The transformed w, orders 0 … order: w = Σ τ^n W_n(w̄′, w′), W_n of degree 2n + 1.
-    pub(crate) fn direct(&self) -> Vec<Form> {
-        let mut parts = vec![Form::new(vec![0.0, 1.0])];
+    pub(crate) fn direct(&self) -> Vec<Form<C>> {
+        let mut parts = vec![Form::new(vec![C::zero(), C::one()])];
         for n in 1..=self.generators.len() {
             parts.push(transported(&parts, &self.generators, n));
         }
@@ -131,15 +168,15 @@ impl FormNormalization {
     /// The transformed ŷ = y/i less ŷ′, orders 1 … order at index n − 1: forms of degree 2n + 2, times τ^(n+1) in units of κ.
     ///
     /// [ŷ; T_n τ^n] = −n T_n τ^(n+1) (theory §6) starts every order; what is then a form goes on as any other.
-    pub(crate) fn direct_longitude(&self) -> Vec<Form> {
-        let mut parts: Vec<Form> = Vec::with_capacity(self.generators.len());
+    pub(crate) fn direct_longitude(&self) -> Vec<Form<C>> {
+        let mut parts: Vec<Form<C>> = Vec::with_capacity(self.generators.len());
         for n in 1..=self.generators.len() {
             let mut sum = Form::zero(2 * n + 2);
-            sum.add_scaled(-(n as f64), &self.generators[n - 1]);
+            sum.add_scaled(-C::small(n), &self.generators[n - 1]);
             for m in 1..n {
                 sum.add_bracket(&parts[n - m - 1], &self.generators[m - 1]);
             }
-            sum.scale(1.0 / n as f64);
+            sum.scale(C::one() / C::small(n));
             parts.push(sum);
         }
         parts
@@ -147,12 +184,12 @@ impl FormNormalization {
 }
 
 /// Order n of a transported function from its lower orders: (1/n) Σ_{m=1…n} [F_{n−m}; T_m], over the T_m that exist.
-fn transported(parts: &[Form], generators: &[Form], n: usize) -> Form {
+fn transported<C: Real>(parts: &[Form<C>], generators: &[Form<C>], n: usize) -> Form<C> {
     let mut sum = Form::zero(parts[0].degree() + 2 * n);
     for m in 1..=n.min(generators.len()) {
         sum.add_bracket(&parts[n - m], &generators[m - 1]);
     }
-    sum.scale(1.0 / n as f64);
+    sum.scale(C::one() / C::small(n));
     sum
 }
 

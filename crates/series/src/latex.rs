@@ -1,8 +1,9 @@
 //! The normal form as LaTeX.
 //!
 //! A fragment for a document with `\usepackage{amsmath}`: a display that says what is expanded, then one `align*` for
-//! each series, in the canonical order, a line broken after every six terms. Order 20 makes pages; the exchange format
-//! is JSON.
+//! each series, in the canonical order. Lines are broken where the text width of the class article at 10 pt ends, by an
+//! estimate of what the letters take, and displays may break across pages. A single term longer than a line, which
+//! orders above 30 have, stands alone in its line. Order 20 makes pages; the exchange format is JSON.
 
 use crate::rigid_body::{PublicForm, Variable};
 use crate::{Error, Monomial, NormalForm, Polynomial};
@@ -11,7 +12,13 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 use std::str::FromStr;
 
-const TERMS_PER_LINE: usize = 6;
+/// Room for the terms of a line, in points at 10 pt: the 345 of the class article less the left side and the indent.
+const LINE: usize = 285;
+/// Widths in points, rounded up: of a digit, of one in an exponent, of a letter, of a sign with the space about it.
+const DIGIT: usize = 5;
+const SMALL_DIGIT: usize = 4;
+const LETTER: usize = 7;
+const SIGN: usize = 13;
 
 /// Which part of the normal form is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -58,12 +65,13 @@ impl NormalForm {
     /// # Errors
     /// - degrees of a transformation that outgrow the packed exponents: [`Error::ExponentOverflow`].
     pub fn to_latex(&self, what: Part) -> Result<String, Error> {
-        match what {
+        let text = match what {
             Part::Hamiltonian => self.hamiltonian_latex(),
             Part::Generator => self.generator_latex(),
             Part::Direct => self.transformation_latex(what, ["u", "U", "y"], ["u'", "U'", "y'"]),
             Part::Inverse => self.transformation_latex(what, ["u'", "U'", "y'"], ["u", "U", "y"]),
-        }
+        }?;
+        Ok(format!("\\begingroup\\allowdisplaybreaks\n{text}\\endgroup\n"))
     }
 
     fn hamiltonian_latex(&self) -> Result<String, Error> {
@@ -117,10 +125,14 @@ fn align(text: &mut String, name: &str, face: &PublicForm, [u, momentum]: [&str;
     let polynomial = Polynomial::from_terms(terms.collect::<Result<Vec<_>, Error>>()?);
     let names = [u, momentum, "\\beta"];
     *text += &format!("\\begin{{align*}}\n{name} &=");
+    let mut taken = 0;
     for (position, (monomial, c)) in polynomial.terms().enumerate() {
-        if position > 0 && position % TERMS_PER_LINE == 0 {
+        let width = width(monomial, c, &names);
+        if position > 0 && taken + width > LINE {
             text.push_str(" \\\\\n&\\quad {}");
+            taken = 0;
         }
+        taken += width;
         let (negative, magnitude) = coefficient(c);
         text.push_str(match (position, negative) {
             (0, false) => " ",
@@ -134,6 +146,19 @@ fn align(text: &mut String, name: &str, face: &PublicForm, [u, momentum]: [&str;
     }
     text.push_str(if polynomial.is_zero() { " 0\n\\end{align*}\n" } else { "\n\\end{align*}\n" });
     Ok(())
+}
+
+/// About how wide a term is set, its sign included, in points.
+fn width(monomial: Monomial, c: &Complex<BigRational>, names: &[&str; 3]) -> usize {
+    let digits = |value: &BigRational| {
+        let [above, below] = [value.numer(), value.denom()].map(|part| part.magnitude().to_string().len());
+        if value.is_zero() { 0 } else { above.max(below) * DIGIT }
+    };
+    let factors = names.iter().enumerate().map(|(slot, name)| match monomial.exponent(slot) {
+        0 => 0,
+        exponent => LETTER + SMALL_DIGIT * (usize::from(name.ends_with('\'')) + exponent.to_string().len()),
+    });
+    SIGN + digits(&c.re) + digits(&c.im) + LETTER + factors.sum::<usize>()
 }
 
 fn product(monomial: Monomial, names: &[&str; 3]) -> String {

@@ -14,6 +14,8 @@ mod bracket;
 mod calculus;
 mod coefficient;
 mod display;
+mod double_double;
+mod emit;
 mod energy;
 mod error;
 mod forms;
@@ -26,7 +28,7 @@ mod normal_form;
 mod numeric;
 mod parse;
 mod polynomial;
-mod real;
+mod real_field;
 mod rigid_body;
 mod ring;
 mod triangle;
@@ -35,15 +37,17 @@ pub use birkhoff::{BirkhoffMap, BirkhoffNormalForm, PhaseSpace, Resonances, norm
 pub use bracket::Poisson;
 pub use coefficient::Coefficient;
 pub use display::Named;
+pub use double_double::{DoubleDouble, arithmetic_geometric_mean, two_product, two_sum};
+pub use emit::Language;
 pub use error::{Error, ParseProblem, TermProblem};
-pub use forms::Form;
+pub use forms::{Form, Real};
 pub use homological::Homological;
 pub use latex::Part;
 pub use monomial::{MAXIMUM_EXPONENT, Monomial, SLOTS};
 pub use normal_form::NormalForm;
 pub use numeric::NumericNormalForm;
 pub use polynomial::{Polynomial, Truncation};
-pub use real::Real;
+pub use real_field::RealField;
 pub use rigid_body::{
     BETA, MAXIMUM_ORDER, PublicForm, TAU, Variable, W, W_BAR, Y_HAT, hamiltonian, homological, poisson,
     separatrix_action,

@@ -1,6 +1,9 @@
 //! LaTeX: the printed formulas, in canonical order, well formed.
 
 use andoyer_series::{Error, NormalForm, Part};
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::process::Command;
 
 const PARTS: [(&str, Part); 4] = [
     ("hamiltonian", Part::Hamiltonian),
@@ -71,4 +74,67 @@ fn an_empty_normal_form_is_written_too() -> Result<(), Error> {
 #[test]
 fn unknown_parts_are_refused() {
     assert!(matches!("Hamiltonian".parse::<Part>(), Err(Error::NameUnknown { what: "part", .. })));
+}
+
+/// The commands of a text, without their backslash; a control symbol such as `\,` is one letter.
+fn commands(text: &str) -> BTreeSet<String> {
+    let ends = |rest: &str| rest.find(|letter: char| !letter.is_ascii_alphabetic()).unwrap_or(rest.len());
+    text.split('\\').skip(1).map(|rest| rest[..ends(rest).max(1).min(rest.len())].to_owned()).collect()
+}
+
+#[test]
+fn commands_are_those_of_latex_and_amsmath_and_environments_are_align() -> Result<(), Error> {
+    let known = "begin end begingroup endgroup allowdisplaybreaks frac sum quad qquad sqrt mathrm Bigl Bigr alpha beta gamma kappa sigma \
+                 tau varepsilon [ ] , ";
+    let known: BTreeSet<String> = known.split_whitespace().map(str::to_owned).collect();
+    for order in [0, 1, 9] {
+        for (name, part) in PARTS {
+            let text = NormalForm::new(order)?.to_latex(part)?;
+            assert!(text.is_ascii(), "{name}");
+            // A line break is two backslashes: taken out first.
+            let found = commands(&text.replace("\\\\", ""));
+            assert!(found.is_subset(&known), "{name}: {:?}", found.difference(&known));
+            assert_eq!(text.matches(r"\begin{").count(), text.matches(r"\begin{align*}").count(), "{name}");
+            assert!(text.starts_with("\\begingroup\\allowdisplaybreaks\n") && text.ends_with("\\endgroup\n"), "{name}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn long_series_are_broken_and_short_ones_are_not() -> Result<(), Error> {
+    let text = NormalForm::new(10)?.to_latex(Part::Generator)?;
+    let block = |name: &str| text.split(r"\end{align*}").find(|block| block.contains(name)).unwrap_or_default();
+    assert_eq!(block(r"S_{2} &=").matches(r"\\").count(), 0);
+    assert!(block(r"S_{10} &=").matches(r"\\").count() > 10);
+    // Two terms of twelve digits and nine factors fill a line.
+    assert!(text.lines().all(|line| line.matches(r"\frac").count() <= 5));
+    Ok(())
+}
+
+/// Without a TeX engine this says so and leaves it at the structure, which the other tests always hold.
+#[test]
+fn an_article_with_it_compiles_without_an_overfull_line() -> Result<(), Error> {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("latex");
+    std::fs::create_dir_all(&directory).expect("a directory for the tests");
+    if Command::new("pdflatex").arg("--version").output().is_err() {
+        eprintln!("no pdflatex on this machine: LaTeX is checked by its structure alone");
+        return Ok(());
+    }
+    for order in [2, 10] {
+        let normal_form = NormalForm::new(order)?;
+        let parts = PARTS.map(|(_, part)| normal_form.to_latex(part));
+        let body = parts.into_iter().collect::<Result<String, Error>>()?;
+        let name = format!("order{order}");
+        let document = format!(
+            "\\documentclass{{article}}\n\\usepackage{{amsmath}}\n\\begin{{document}}\n{body}\\end{{document}}\n"
+        );
+        std::fs::write(directory.join(format!("{name}.tex")), document).expect("a file in the directory of the tests");
+        let options = ["-interaction=nonstopmode", "-halt-on-error", &name];
+        let output = Command::new("pdflatex").args(options).current_dir(&directory).output().expect("it starts");
+        let log = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success(), "order {order}: {log}");
+        assert!(!log.contains("Overfull") && !log.contains("Warning"), "order {order}: {log}");
+    }
+    Ok(())
 }

@@ -42,10 +42,7 @@ class IntervalError(Error):
     """A number outside its interval."""
 
 class MethodError(Error):
-    """A method that is unknown or not there yet."""
-
-class ModeError(Error):
-    """A mode of rotation that the series do not reach: long-axis rotation."""
+    """A method that is unknown."""
 
 class MomentsError(Error):
     """Moments of inertia that no body has."""
@@ -60,7 +57,7 @@ class SceneFileError(Error):
     """A scene file that cannot be read or says something wrong."""
 
 class SeparatrixError(Error):
-    """A motion on the separatrix, or too near it for its tolerance."""
+    """The series asked for on the separatrix, or too near it for the tolerance."""
 
 class SeriesError(Error):
     """Any other error of the exact algebra."""
@@ -136,7 +133,7 @@ class Scene:
         *,
         epoch: float = 0.0,
         tolerance: float = 1e-12,
-        method: Literal["auto", "series"] = "auto",
+        method: Literal["auto", "series", "closed"] = "auto",
         order: int | None = None,
         span: ArrayLike | None = None,
         name: str | None = None,
@@ -166,7 +163,7 @@ class Scene:
         """The attitude error asked for, in rad."""
     @property
     def method(self) -> str:
-        """The method: "auto" or "series"."""
+        """The method: "auto", "series" or "closed"."""
     @property
     def order(self) -> int | None:
         """The fixed order of the series, or None."""
@@ -225,7 +222,7 @@ class Plan:
         """The kind of motion: "short-axis", "axisymmetric", "spherical", "principal-axis" or "at-rest"."""
     @property
     def method(self) -> Literal["series", "closed"]:
-        """How it is evaluated: "series", or "closed" where a formula without a series is exact."""
+        """How it is evaluated: "series", or "closed" for theta functions and the formulas that need no sum at all."""
     @property
     def order(self) -> int:
         """Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance."""
@@ -284,6 +281,10 @@ class NormalForm:
         """Reads what `to_json` wrote."""
     def to_latex(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> str:
         """A part of this normal form as LaTeX, for a document that uses amsmath."""
+    def to_sympy(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> Any:
+        """A part of this normal form as exact SymPy expressions. SymPy is imported here and nowhere else."""
+    def to_code(self, language: Literal["c", "rust", "python"] = "c", beta: float | None = None) -> str:
+        """A function that evaluates the direct transformation and the frequencies to this order, as the text of a file of source."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __copy__(self) -> NormalForm: ...

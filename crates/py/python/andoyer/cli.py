@@ -28,6 +28,9 @@ SAMPLES = 1000
 MOST_SAMPLES = 10**9
 """More would not fit a file that anyone reads."""
 
+LANGUAGES = ["c", "rust", "python"]
+PARTS = ["hamiltonian", "generator", "direct", "inverse"]
+
 COLUMNS = "t,qx,qy,qz,qw,wx,wy,wz"
 CONVENTION = (
     "t in the scene's unit of time; attitude [qx, qy, qz, qw]: unit quaternion, Hamilton product, scalar last, "
@@ -93,8 +96,12 @@ def parser() -> Parser:
     command = commands.add_parser("bodies", help="print the catalogue of bodies, each with its source")
     command.set_defaults(run=bodies)
 
-    command = commands.add_parser("series", help="print the triaxiality polynomials P_0 ... P_N")
+    command = commands.add_parser("series", help="print the triaxiality polynomials P_0 ... P_N, or the normal form as JSON, LaTeX or source code")
     command.add_argument("--order", type=whole, required=True, metavar="N", help="order of the normal form")
+    forms = ["text", "json", "latex", *LANGUAGES]
+    command.add_argument("--to", choices=forms, default="text", metavar="FORM", help=f"what is printed: {', '.join(forms)} (default: text)")
+    command.add_argument("--part", choices=PARTS, metavar="PART", help=f"part of the normal form that latex prints: {', '.join(PARTS)} (default: the first)")
+    command.add_argument("--beta", type=number, metavar="BETA", help="triaxiality in source code (default: an argument of the function)")
     command.set_defaults(run=series)
     return top
 
@@ -241,14 +248,28 @@ def bodies(_arguments: argparse.Namespace) -> None:
 
 
 def series(arguments: argparse.Namespace) -> None:
-    """Print the triaxiality polynomials."""
+    """Print the normal form: its triaxiality polynomials, or all of it in another form."""
+    for option, value, served in [("--part", arguments.part, ["latex"]), ("--beta", arguments.beta, LANGUAGES)]:
+        if value is not None and arguments.to not in served:
+            raise InputError(f"argument {option}: goes with --to {' or '.join(served)} alone, not with --to {arguments.to}")
     visible = sys.stderr.isatty()
     progress = (lambda done, of: print(f"\rorder {done} of {of}", end="", file=sys.stderr, flush=True)) if visible else None
     normal_form = andoyer.NormalForm(arguments.order, progress=progress)
     if visible:
         print("\r\x1b[K", end="", file=sys.stderr)
-    for n in range(arguments.order + 1):
-        print(f"P_{n} = {polynomial(normal_form.triaxiality_polynomial(n))}")
+    sys.stdout.write(written(normal_form, arguments))
+
+
+def written(normal_form: andoyer.NormalForm, arguments: argparse.Namespace) -> str:
+    """The normal form as the text that is asked for."""
+    if arguments.to == "json":
+        return normal_form.to_json() + "\n"
+    if arguments.to == "latex":
+        return normal_form.to_latex(arguments.part or PARTS[0])
+    if arguments.to in LANGUAGES:
+        return normal_form.to_code(arguments.to, arguments.beta)
+    lines = [f"P_{n} = {polynomial(normal_form.triaxiality_polynomial(n))}\n" for n in range(normal_form.order + 1)]
+    return "".join(lines)
 
 
 def polynomial(coefficients: dict[int, Fraction]) -> str:

@@ -11,7 +11,7 @@
 //! Those of theory §1 are √(2r) u and U/√(2r): the unequal scales keep square roots out, so that all is rational where ω is.
 
 use super::PhaseSpace;
-use crate::{Coefficient, Error, Monomial, Polynomial, Real};
+use crate::{Coefficient, Error, Monomial, Polynomial, RealField};
 
 /// One mode of the quadratic part.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +23,7 @@ pub(crate) struct Mode<R> {
 }
 
 /// Reads the modes of `hamiltonian` and refuses what is no elliptic point with a diagonal quadratic part.
-pub(crate) fn modes<R: Real>(hamiltonian: &Polynomial<R>, space: &PhaseSpace) -> Result<Vec<Mode<R>>, Error> {
+pub(crate) fn modes<R: RealField>(hamiltonian: &Polynomial<R>, space: &PhaseSpace) -> Result<Vec<Mode<R>>, Error> {
     let phase = space.phase_slots();
     for (monomial, c) in hamiltonian.terms() {
         let shown = || (text(monomial, space), literal(c));
@@ -44,7 +44,7 @@ pub(crate) fn modes<R: Real>(hamiltonian: &Polynomial<R>, space: &PhaseSpace) ->
     (0..space.degrees_of_freedom()).map(|mode| self::mode(hamiltonian, space, mode)).collect()
 }
 
-fn mode<R: Real>(hamiltonian: &Polynomial<R>, space: &PhaseSpace, mode: usize) -> Result<Mode<R>, Error> {
+fn mode<R: RealField>(hamiltonian: &Polynomial<R>, space: &PhaseSpace, mode: usize) -> Result<Mode<R>, Error> {
     let square = |slot| Ok::<_, Error>(hamiltonian.coefficient(&Monomial::ONE.with(slot, 2)?).cloned());
     let (half_b, half_a) = (square(2 * mode)?.unwrap_or_else(R::zero), square(2 * mode + 1)?.unwrap_or_else(R::zero));
     let name = |slot: usize| space.names()[slot].to_owned();
@@ -73,13 +73,13 @@ fn text(monomial: Monomial, space: &PhaseSpace) -> String {
 }
 
 /// A coefficient with its sign.
-fn literal<R: Real>(c: &R) -> String {
+fn literal<R: RealField>(c: &R) -> String {
     let (negative, magnitude) = c.literal();
     format!("{}{magnitude}", if negative { "-" } else { "" })
 }
 
 /// A real function in the complex variables.
-pub(crate) fn to_complex<R: Real>(f: &Polynomial<R>, modes: &[Mode<R>]) -> Result<Polynomial<R::Complex>, Error> {
+pub(crate) fn to_complex<R: RealField>(f: &Polynomial<R>, modes: &[Mode<R>]) -> Result<Polynomial<R::Complex>, Error> {
     let half = R::ratio(1, 2).ok_or(Error::DivisionByZero)?;
     let pairs = modes.iter().enumerate().map(|(mode, Mode { ratio, .. })| {
         let inverse = half.divide(ratio).ok_or(Error::DivisionByZero)?;
@@ -92,7 +92,7 @@ pub(crate) fn to_complex<R: Real>(f: &Polynomial<R>, modes: &[Mode<R>]) -> Resul
 }
 
 /// A function in the complex variables that is real on real points, in the real ones.
-pub(crate) fn to_real<R: Real>(f: &Polynomial<R::Complex>, modes: &[Mode<R>]) -> Result<Polynomial<R>, Error> {
+pub(crate) fn to_real<R: RealField>(f: &Polynomial<R::Complex>, modes: &[Mode<R>]) -> Result<Polynomial<R>, Error> {
     let half = R::ratio(1, 2).ok_or(Error::DivisionByZero)?;
     let pairs = modes.iter().enumerate().map(|(mode, Mode { ratio, .. })| {
         let inverse = half.divide(ratio).ok_or(Error::DivisionByZero)?;
@@ -105,7 +105,7 @@ pub(crate) fn to_real<R: Real>(f: &Polynomial<R::Complex>, modes: &[Mode<R>]) ->
 }
 
 /// c₀ · (first variable) + c₁ · (second variable) of a mode, the coefficients as (re, im).
-fn linear<R: Real>(mode: usize, coefficients: [(R, R); 2]) -> Result<Polynomial<R::Complex>, Error> {
+fn linear<R: RealField>(mode: usize, coefficients: [(R, R); 2]) -> Result<Polynomial<R::Complex>, Error> {
     let terms = (2 * mode..).zip(coefficients);
     let terms = terms.map(|(slot, (re, im))| Ok((Monomial::ONE.with(slot, 1)?, R::complex(re, im))));
     Ok(Polynomial::from_terms(terms.collect::<Result<Vec<_>, Error>>()?))

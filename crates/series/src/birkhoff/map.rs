@@ -6,7 +6,7 @@
 //! amplitude ε is of the order ε^(N+2).
 
 use super::{BirkhoffNormalForm, turns};
-use crate::{Error, Monomial, Polynomial, Real, SLOTS};
+use crate::{Error, Monomial, Polynomial, RealField, SLOTS};
 use num_complex::Complex;
 
 /// A normal form ready for numbers: the transformation of states and the motion in the normal form.
@@ -44,7 +44,7 @@ impl BirkhoffMap {
     ///
     /// # Errors
     /// - one number for two parameters: [`Error::CountMismatch`]; a NaN, or floats that overflow: [`Error::NotFinite`].
-    pub fn new<R: Real>(normal_form: &BirkhoffNormalForm<R>, parameters: &[f64]) -> Result<Self, Error> {
+    pub fn new<R: RealField>(normal_form: &BirkhoffNormalForm<R>, parameters: &[f64]) -> Result<Self, Error> {
         let modes = normal_form.space().degrees_of_freedom();
         check("parameters", parameters, normal_form.space().parameters())?;
         let transform = normal_form.transform().map(|c| {
@@ -146,7 +146,7 @@ impl BirkhoffMap {
 }
 
 /// ∂K/∂Iᵢ at numbers for the parameters, or the first term that is no function of the actions.
-fn frequencies<R: Real>(
+fn frequencies<R: RealField>(
     normal_form: &BirkhoffNormalForm<R>,
     parameters: &[f64],
 ) -> Result<Result<Vec<Polynomial<f64>>, String>, Error> {

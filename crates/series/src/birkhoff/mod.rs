@@ -20,14 +20,14 @@ pub use phase_space::PhaseSpace;
 pub use resonances::Resonances;
 
 use crate::triangle::{Removal, normalize_by};
-use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, Progress, Real};
+use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, Progress, RealField};
 use elliptic::Mode;
 use resonances::{divisor, is_small};
 use std::ops::ControlFlow;
 
 /// The normal form of a Hamiltonian about an elliptic point, and the transformation to it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BirkhoffNormalForm<R: Real> {
+pub struct BirkhoffNormalForm<R: RealField> {
     space: PhaseSpace,
     modes: Vec<Mode<R>>,
     offset: Polynomial<R>,
@@ -35,7 +35,7 @@ pub struct BirkhoffNormalForm<R: Real> {
 }
 
 /// The normal form as text: in the actions `I_q`, or with resonant terms in the complex variables `u_q`, `U_q`.
-impl<R: Real> std::fmt::Display for BirkhoffNormalForm<R> {
+impl<R: RealField> std::fmt::Display for BirkhoffNormalForm<R> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.write_str(&match self.in_actions() {
             Ok(actions) => PhaseSpace::text(&actions, &self.space.action_names()),
@@ -64,7 +64,7 @@ impl<R: Real> std::fmt::Display for BirkhoffNormalForm<R> {
 /// - two modes of one frequency, coupled: [`Error::SmallDivisor`];
 /// - order 171 in `f64`, 32764 over the rationals: [`Error::OrderTooLarge`];
 /// - a variable beyond those of `space`: [`Error::ValueMissing`].
-pub fn normalize<R: Real>(
+pub fn normalize<R: RealField>(
     hamiltonian: &Polynomial<R>,
     order: usize,
     space: &PhaseSpace,
@@ -94,7 +94,7 @@ pub fn normalize<R: Real>(
 /// - as [`normalize`];
 /// - resonances of another number of modes: [`Error::ResonanceMalformed`]; (1, −1) for frequencies 1 and 2: [`Error::NotResonant`];
 /// - a callback that returns `Break`: [`Error::Interrupted`].
-pub fn normalize_with<R: Real>(
+pub fn normalize_with<R: RealField>(
     hamiltonian: &Polynomial<R>,
     order: usize,
     space: &PhaseSpace,
@@ -117,7 +117,7 @@ pub fn normalize_with<R: Real>(
 }
 
 /// The parts of degree 2, 3, …, `order` + 2 in the complex variables; that of degree 2 is −i Σ ω u U, to the bit.
-fn graded<R: Real>(
+fn graded<R: RealField>(
     hamiltonian: &Polynomial<R>,
     order: usize,
     space: &PhaseSpace,
@@ -146,7 +146,7 @@ fn turns(monomial: Monomial, modes: usize) -> Vec<i64> {
 }
 
 /// The image part of `known` and S with {h₀; S} = −image: {h₀; S} = −i (k·ω) S for a term S.
-fn remove<R: Real>(
+fn remove<R: RealField>(
     order: usize,
     known: &Polynomial<R::Complex>,
     frequencies: &[R],
@@ -173,7 +173,7 @@ fn remove<R: Real>(
     Ok(removal)
 }
 
-impl<R: Real> BirkhoffNormalForm<R> {
+impl<R: RealField> BirkhoffNormalForm<R> {
     /// The order N: terms of degree N + 2 at most are normalized.
     #[must_use]
     pub fn order(&self) -> usize {

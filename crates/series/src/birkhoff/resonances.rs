@@ -9,7 +9,7 @@
 //! In floats, terms that cancel may leave a residue of rounding, which counts as a term.
 //! Membership is decided on an echelon basis of the module by Euclid's algorithm, exactly.
 
-use crate::{Error, MAXIMUM_EXPONENT, Real};
+use crate::{Error, MAXIMUM_EXPONENT, RealField};
 
 /// The default of the smallest divisor, relative to the largest frequency.
 const SMALLEST_DIVISOR: f64 = 1e-6;
@@ -93,12 +93,12 @@ impl Resonances {
     }
 
     /// The bound on |k·ω| for these frequencies.
-    pub(crate) fn bound<R: Real>(&self, frequencies: &[R]) -> f64 {
+    pub(crate) fn bound<R: RealField>(&self, frequencies: &[R]) -> f64 {
         self.smallest_divisor * frequencies.iter().map(|frequency| frequency.to_float().abs()).fold(0.0, f64::max)
     }
 
     /// Refuses vectors of another length, and those that are no resonance of these frequencies.
-    pub(crate) fn check<R: Real>(&self, frequencies: &[R]) -> Result<(), Error> {
+    pub(crate) fn check<R: RealField>(&self, frequencies: &[R]) -> Result<(), Error> {
         let bound = self.bound(frequencies);
         for vector in &self.vectors {
             if vector.len() != frequencies.len() {
@@ -114,7 +114,7 @@ impl Resonances {
 }
 
 /// k·ω.
-pub(crate) fn divisor<R: Real>(k: &[i64], frequencies: &[R]) -> R {
+pub(crate) fn divisor<R: RealField>(k: &[i64], frequencies: &[R]) -> R {
     let mut sum = R::zero();
     for (&k, frequency) in k.iter().zip(frequencies) {
         sum += &frequency.times(k);
@@ -123,7 +123,7 @@ pub(crate) fn divisor<R: Real>(k: &[i64], frequencies: &[R]) -> R {
 }
 
 /// Whether a divisor is zero or below the bound.
-pub(crate) fn is_small<R: Real>(divisor: &R, bound: f64) -> bool {
+pub(crate) fn is_small<R: RealField>(divisor: &R, bound: f64) -> bool {
     divisor.is_zero() || divisor.to_float().abs() < bound
 }
 

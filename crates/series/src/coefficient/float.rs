@@ -1,6 +1,7 @@
 //! Floating-point coefficients: lifted values are the values themselves.
 
 use super::Coefficient;
+use crate::DoubleDouble;
 use num_complex::Complex;
 
 impl Coefficient for f64 {
@@ -45,6 +46,45 @@ impl Coefficient for f64 {
 
     fn ratio(numerator: i64, denominator: i64) -> Option<Self> {
         (denominator != 0).then(|| numerator as f64 / denominator as f64)
+    }
+}
+
+impl Coefficient for DoubleDouble {
+    type Raw = DoubleDouble;
+    type Scale = ();
+
+    fn integer(value: i64) -> Self {
+        // 2^63 in two parts of 32 bits each, both exact.
+        let high = (value >> 32) as f64 * 4_294_967_296.0;
+        DoubleDouble::sum(high, (value & 0xffff_ffff) as f64)
+    }
+
+    fn invert(&self) -> Option<Self> {
+        (self.high != 0.0).then(|| DoubleDouble::ONE / *self)
+    }
+
+    fn literal(&self) -> (bool, String) {
+        (self.high.is_sign_negative(), self.high.abs().to_string())
+    }
+
+    fn lift(values: &[&Self]) -> (Vec<DoubleDouble>, ()) {
+        (values.iter().map(|&&value| value).collect(), ())
+    }
+
+    fn lower(raw: DoubleDouble, (): &(), (): &()) -> Self {
+        raw
+    }
+
+    fn raw_product(first: &DoubleDouble, second: &DoubleDouble) -> DoubleDouble {
+        *first * *second
+    }
+
+    fn raw_accumulate(sum: &mut DoubleDouble, product: &DoubleDouble, weight: i64) {
+        *sum += &(*product * Self::integer(weight));
+    }
+
+    fn is_finite(&self) -> bool {
+        self.high.is_finite()
     }
 }
 

@@ -12,13 +12,13 @@ use num_traits::{Signed, ToPrimitive};
 /// A field of real numbers with its complex extension: `BigRational`, exact, or `f64`.
 ///
 /// ```
-/// use andoyer_series::{Coefficient, Real};
+/// use andoyer_series::{Coefficient, RealField};
 /// use num_rational::BigRational;
 /// let [two, eight] = [2, 8].map(BigRational::integer);
 /// assert_eq!(two.geometric_mean(&eight), Some(BigRational::integer(4)));
 /// assert_eq!(two.geometric_mean(&BigRational::integer(1)), None);
 /// ```
-pub trait Real: Coefficient + Send + Sync {
+pub trait RealField: Coefficient + Send + Sync {
     /// The complex numbers over this field.
     type Complex: Coefficient + Send + Sync;
     /// Largest order of a normal form in these numbers.
@@ -40,7 +40,7 @@ pub trait Real: Coefficient + Send + Sync {
     fn to_float(&self) -> f64;
 }
 
-impl Real for BigRational {
+impl RealField for BigRational {
     type Complex = Complex<BigRational>;
     /// A product of two parts of orders a + b = N has degree N + 4 before a pair of variables is taken out.
     const MAXIMUM_ORDER: usize = MAXIMUM_EXPONENT as usize - 4;
@@ -68,7 +68,7 @@ impl Real for BigRational {
     }
 }
 
-impl Real for f64 {
+impl RealField for f64 {
     type Complex = Complex<f64>;
     /// The triangle's cells of order N carry the factor N!, and 171! is no `f64`.
     const MAXIMUM_ORDER: usize = 170;

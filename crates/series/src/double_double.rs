@@ -1,45 +1,61 @@
 //! Double-double arithmetic: an unevaluated sum of two doubles, about 32 digits.
 //!
-//! Used where a phase is made: frequencies, and their product with a time of up to 1e9 rotations and more (theory §10).
+//! Used where a phase is made: frequencies, and their product with a time of up to 1e9 rotations and more (theory §10); and as a
+//! coefficient of the algebra.
 //! Error-free sums and products (Dekker 1971; Knuth, TAOCP 2, §4.2.2; products by fused multiply-add), with relative
 //! errors of a few 2^−104 for each operation. Values are finite; nothing here guards against overflow, the callers scale.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use num_traits::{One, Zero};
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// The unevaluated sum `high + low`, |low| ≤ ulp(high)/2.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct DoubleDouble {
-    pub(crate) high: f64,
-    pub(crate) low: f64,
+///
+/// ```
+/// use andoyer_series::DoubleDouble;
+/// let third = DoubleDouble::ONE / DoubleDouble::from(3.0);
+/// assert!((third * DoubleDouble::from(3.0) - DoubleDouble::ONE).to_f64().abs() < 1e-31);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DoubleDouble {
+    /// The nearest double.
+    pub high: f64,
+    /// What the nearest double leaves.
+    pub low: f64,
 }
 
 /// a + b and its rounding error, for any a and b.
-pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+#[must_use]
+pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let b_virtual = sum - a;
     (sum, (a - (sum - b_virtual)) + (b - b_virtual))
 }
 
 /// a·b and its rounding error.
-pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
+#[must_use]
+pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     (product, a.mul_add(b, -product))
 }
 
 impl DoubleDouble {
-    pub(crate) const ZERO: Self = Self { high: 0.0, low: 0.0 };
-    pub(crate) const ONE: Self = Self { high: 1.0, low: 0.0 };
+    /// 0.
+    pub const ZERO: Self = Self { high: 0.0, low: 0.0 };
+    /// 1.
+    pub const ONE: Self = Self { high: 1.0, low: 0.0 };
     /// π to 107 bits.
-    pub(crate) const PI: Self = Self { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
+    pub const PI: Self = Self { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
 
     /// a + b without a rounding error.
-    pub(crate) fn sum(a: f64, b: f64) -> Self {
+    #[must_use]
+    pub fn sum(a: f64, b: f64) -> Self {
         let (high, low) = two_sum(a, b);
         Self { high, low }
     }
 
     /// a·b without a rounding error.
-    pub(crate) fn product(a: f64, b: f64) -> Self {
+    #[must_use]
+    pub fn product(a: f64, b: f64) -> Self {
         let (high, low) = two_product(a, b);
         Self { high, low }
     }
@@ -49,8 +65,9 @@ impl DoubleDouble {
         Self { high: sum, low: low - (sum - high) }
     }
 
-    /// √self for self ≥ 0: one Newton step of the reciprocal root from the double one.
-    pub(crate) fn sqrt(self) -> Self {
+    /// √self for self ≥ 0, and 0 below: one Newton step of the reciprocal root from the double one.
+    #[must_use]
+    pub fn sqrt(self) -> Self {
         if self.high <= 0.0 {
             return Self::ZERO;
         }
@@ -60,7 +77,8 @@ impl DoubleDouble {
     }
 
     /// (sin, cos) by their Taylor series, for |self| ≤ π/4.
-    pub(crate) fn sin_cos(self) -> (Self, Self) {
+    #[must_use]
+    pub fn sin_cos(self) -> (Self, Self) {
         let square = self * self;
         let (mut sine, mut cosine) = (Self::ZERO, Self::ZERO);
         for k in (1..=14_i32).rev() {
@@ -72,7 +90,8 @@ impl DoubleDouble {
     }
 
     /// The nearest double.
-    pub(crate) fn to_f64(self) -> f64 {
+    #[must_use]
+    pub fn to_f64(self) -> f64 {
         self.high + self.low
     }
 }
@@ -127,7 +146,8 @@ impl Div for DoubleDouble {
 }
 
 /// The arithmetic-geometric mean of two positive numbers: (1/2π) ∮ dφ/√(a² cos²φ + b² sin²φ) = 1/agm(a, b) (Gauss).
-pub(crate) fn arithmetic_geometric_mean(mut a: DoubleDouble, mut b: DoubleDouble) -> DoubleDouble {
+#[must_use]
+pub fn arithmetic_geometric_mean(mut a: DoubleDouble, mut b: DoubleDouble) -> DoubleDouble {
     let half = DoubleDouble::from(0.5);
     // Each step halves the logarithm of b/a, then doubles the digits: 1e-300 takes 15 steps.
     for _ in 0..24 {
@@ -137,6 +157,39 @@ pub(crate) fn arithmetic_geometric_mean(mut a: DoubleDouble, mut b: DoubleDouble
         (a, b) = ((a + b) * half, (a * b).sqrt());
     }
     (a + b) * half
+}
+
+impl Zero for DoubleDouble {
+    fn zero() -> Self {
+        Self::ZERO
+    }
+    fn is_zero(&self) -> bool {
+        self.high == 0.0
+    }
+}
+
+impl One for DoubleDouble {
+    fn one() -> Self {
+        Self::ONE
+    }
+}
+
+impl<'a> AddAssign<&'a Self> for DoubleDouble {
+    fn add_assign(&mut self, other: &'a Self) {
+        *self = *self + *other;
+    }
+}
+
+impl<'a> SubAssign<&'a Self> for DoubleDouble {
+    fn sub_assign(&mut self, other: &'a Self) {
+        *self = *self - *other;
+    }
+}
+
+impl<'a> MulAssign<&'a Self> for DoubleDouble {
+    fn mul_assign(&mut self, other: &'a Self) {
+        *self = *self * *other;
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,63 @@
+"""The normal form as SymPy expressions: what `NormalForm.to_sympy` returns. SymPy is imported in `expressions` and nowhere else.
+
+All coefficients are exact, `Rational` and `I`. The symbols carry no assumptions, so that ``sympy.Symbol("beta")`` is the one in the expression.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from andoyer import NormalForm
+
+
+def expressions(normal_form: NormalForm, what: str) -> Any:
+    """A part of a normal form; `what` is one that `NormalForm.to_latex` knows."""
+    try:
+        import sympy
+    except ImportError as error:
+        raise ImportError("to_sympy needs SymPy, which is not installed: pip install sympy", name="sympy") from error
+    if what == "hamiltonian":
+        return _hamiltonian(sympy, normal_form)
+    if what == "generator":
+        return [_tau(sympy) ** m * _form(sympy, normal_form.generator(m)) for m in range(1, normal_form.order + 1)]
+    series = normal_form.direct if what == "direct" else normal_form.inverse
+    return {name: _transformation(sympy, series, name, normal_form.order) for name in ("u", "U", "y")}
+
+
+def _hamiltonian(sympy: Any, normal_form: NormalForm) -> Any:
+    """K = M²/(2C) [1 + γ Σ P_n κⁿ σⁿ⁺¹], κ = α/γ (theory §4)."""
+    M, C, sigma, alpha, beta, gamma = sympy.symbols("M C sigma alpha beta gamma")
+    terms = []
+    for n in range(normal_form.order + 1):
+        coefficients = normal_form.triaxiality_polynomial(n).items()
+        polynomial = sympy.Add(*(_rational(sympy, c) * beta**power for power, c in coefficients))
+        terms.append(polynomial * (alpha / gamma) ** n * sigma ** (n + 1))
+    return M**2 / (2 * C) * (1 + gamma * sympy.Add(*terms))
+
+
+def _transformation(sympy: Any, series: Any, name: str, order: int) -> Any:
+    """The variable of one side in those of the other; y moves in units of 1/M = √γ/V (theory §6)."""
+    gamma, V = sympy.symbols("gamma V")
+    factor = sympy.sqrt(gamma) / V if name == "y" else 1
+    terms = (factor * _tau(sympy) ** n * _form(sympy, series(name, n)) for n in range(1, order + 1))
+    return sympy.Add(sympy.Symbol(name), *terms)
+
+
+def _tau(sympy: Any) -> Any:
+    """τ = α/(√γ V), the small parameter."""
+    alpha, gamma, V = sympy.symbols("alpha gamma V")
+    return alpha / (sympy.sqrt(gamma) * V)
+
+
+def _form(sympy: Any, form: dict[tuple[int, int, int], tuple[Fraction, Fraction]]) -> Any:
+    """Σ c uʲ Uᵏ βˡ."""
+    u, U, beta = sympy.symbols("u U beta")
+    terms = ((_rational(sympy, re) + sympy.I * _rational(sympy, im)) * u**j * U**k * beta**l for (j, k, l), (re, im) in form.items())
+    return sympy.Add(*terms)
+
+
+def _rational(sympy: Any, number: Fraction) -> Any:
+    return sympy.Rational(number.numerator, number.denominator)

@@ -1,0 +1,158 @@
+//! The normal form as source text: one function in C, Rust or Python that needs nothing but the language.
+//!
+//! It evaluates the truncated direct transformation and the frequencies of a short-axis mode, for a β that is a number in the file or an argument.
+//! One description of the computation (`computation`, `program`), three printers (`c`, `rust`, `python`); the numbers are those of `coefficients`.
+//! The text is the same in every run and holds no date. Size and cost grow with N² where β is given, with N³ where it is an argument: order 10 makes 11 kB
+//! and 23 kB (470 and 970 operations), order 30 60 kB and 360 kB. β as an argument takes the exact transformation: order 30 in two seconds.
+//! Accuracy: a few roundings of the sums of magnitudes (tests/tests/emitted_code.rs). Source: theory §4, §6, §7, §8; Lara (2017).
+
+mod c;
+mod coefficients;
+mod computation;
+mod program;
+mod python;
+mod rust;
+mod text;
+
+use crate::{Error, NormalForm, separatrix_action};
+use coefficients::Coefficients;
+use program::{Cost, Program};
+use std::str::FromStr;
+
+/// A language that [`NormalForm::to_code`] writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Language {
+    /// C99 with `math.h`.
+    C,
+    /// Rust with its standard library alone.
+    Rust,
+    /// Python 3.9 or later with its module `math` alone.
+    Python,
+}
+
+impl FromStr for Language {
+    type Err = Error;
+
+    /// Reads "c", "rust" or "python".
+    fn from_str(name: &str) -> Result<Self, Error> {
+        match name {
+            "c" => Ok(Language::C),
+            "rust" => Ok(Language::Rust),
+            "python" => Ok(Language::Python),
+            _ => Err(Error::NameUnknown {
+                what: "language",
+                name: name.to_owned(),
+                known: "\"c\", \"rust\", \"python\"",
+            }),
+        }
+    }
+}
+
+/// What a printer prints.
+struct Source {
+    header: Vec<String>,
+    arguments: &'static [&'static str],
+    results: [&'static str; 5],
+    meanings: [&'static str; 5],
+    program: Program,
+}
+
+const MEANINGS: [&str; 5] = [
+    "X/sqrt(M) = sqrt(2 (1 - N/M)) cos(nu)",
+    "x/sqrt(M) = -sqrt(2 (1 - N/M)) sin(nu)",
+    "y - y' [rad], where y = mu + nu",
+    "dl'/dt in units of M gamma/C",
+    "g in dy'/dt = (M/C) (1 + gamma g)",
+];
+
+impl NormalForm {
+    /// A function in `language` that evaluates the direct transformation and the frequencies to this order, as the text of a file.
+    ///
+    /// The function `short_axis_rotation(sigma, anomaly)`, or `(beta, sigma, anomaly)` where `beta` is `None`, takes σ = L′/M and ℓ′ \[rad\] and returns
+    /// `zeta_real` = X/√M and `zeta_imaginary` = x/√M (theory §1, §8), `longitude_shift` = y − y′ \[rad\], `anomaly_rate` = dℓ′/dt in units of
+    /// Mγ/C and `longitude_rate` = g in dy′/dt = (M/C)(1 + γg) (theory §7): a struct of that name in C and Rust, a tuple in Python. The head of the
+    /// file says it again, with the cost and the truncation.
+    ///
+    /// ```
+    /// use andoyer_series::{Language, NormalForm};
+    /// let text = NormalForm::new(3)?.to_code(Language::C, Some(0.5))?;
+    /// assert!(text.contains("struct short_axis_rotation short_axis_rotation(double sigma, double anomaly)"));
+    /// assert!(text.contains("rate = (-0.3125 * s - 0.1875) * s - 1.0;")); // P_3 = -5β²/8, 3P_2/2 = -3β²/4
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - `beta` = `Some(-0.1)`, `Some(1.0)` or `Some(f64::NAN)`: [`Error::OutsideInterval`], at β = 1 there is no short-axis mode;
+    /// - order 201 with a number for `beta`: [`Error::OrderTooLarge`].
+    pub fn to_code(&self, language: Language, beta: Option<f64>) -> Result<String, Error> {
+        let beta = beta.map(checked).transpose()?;
+        let coefficients = match beta {
+            Some(beta) => Coefficients::at(beta, self.order())?,
+            None => Coefficients::symbolic(self)?,
+        };
+        let program = computation::computation(&coefficients, beta);
+        let source = Source {
+            header: header(self.order(), beta, program.cost())?,
+            arguments: if beta.is_some() { &["sigma", "anomaly"] } else { &["beta", "sigma", "anomaly"] },
+            results: computation::RESULTS,
+            meanings: MEANINGS,
+            program,
+        };
+        Ok(match language {
+            Language::C => c::print(&source),
+            Language::Rust => rust::print(&source),
+            Language::Python => python::print(&source),
+        })
+    }
+}
+
+fn checked(beta: f64) -> Result<f64, Error> {
+    if (0.0..1.0).contains(&beta) {
+        Ok(beta.abs()) // no −0
+    } else {
+        Err(Error::OutsideInterval { argument: "beta", value: beta, lower: 0.0, upper: 1.0_f64.next_down() })
+    }
+}
+
+/// What the head of the file says, line by line, in ASCII.
+fn header(order: usize, beta: Option<f64>, cost: Cost) -> Result<Vec<String>, Error> {
+    let (body, argument, separatrix) = match beta {
+        Some(beta) => {
+            let action = separatrix_action(beta)?;
+            (format!("beta = {beta:?}"), None, format!("sigma_sep = {action:?}"))
+        }
+        None => (
+            "any beta".to_owned(),
+            Some("  beta      triaxiality, 0 <= beta < 1"),
+            "sigma_sep = (2/pi) atan(sqrt((1 - beta)/(2 beta)))".to_owned(),
+        ),
+    };
+    let mut lines = vec![
+        format!(
+            "Torque-free rotation in a short-axis mode, order {order}, {body}: direct transformation and frequencies."
+        ),
+        String::new(),
+        format!("generated by andoyer {}, NormalForm.to_code", env!("CARGO_PKG_VERSION")),
+        "theory: M. Lara, Short-axis-mode rotation in complex variables (2017), with its errata;".to_owned(),
+        "        sections 1 and 6 to 8 of andoyer's docs/theory.md".to_owned(),
+        String::new(),
+        "Moments of inertia A <= B <= C, angular momentum M with components N on body axis 3:".to_owned(),
+        "gamma = sqrt((C/A - 1) (C/B - 1)), beta = (1/A - 1/B)/(1/A + 1/B - 2/C), 0 if A = B.".to_owned(),
+        "Angular momentum in the body: M (sin J sin nu, sin J cos nu, cos J), cos J = N/M.".to_owned(),
+        String::new(),
+        "Arguments (not checked)".to_owned(),
+    ];
+    lines.extend(argument.map(str::to_owned));
+    lines.push(format!("  sigma     action of the normal form L'/M, 0 <= sigma < {separatrix}"));
+    lines.push("  anomaly   its angle l' [rad]; l' and y' grow at the rates below".to_owned());
+    lines.push("Results, in units in which M = 1, angles in rad".to_owned());
+    let results = computation::RESULTS.iter().zip(MEANINGS);
+    lines.extend(results.map(|(name, meaning)| format!("  {name:<16} {meaning}")));
+    lines.push(format!("Truncation: about (sigma/sigma_sep)^{} of each result.", order + 1));
+    lines.push(format!(
+        "Cost: {} additions, {} multiplications, {} divisions, {} square roots, {} sine and cosine.",
+        cost.additions, cost.multiplications, cost.divisions, cost.square_roots, cost.trigonometric
+    ));
+    lines.push("No rights are claimed in this file: do with it what you like.".to_owned());
+    Ok(lines)
+}
