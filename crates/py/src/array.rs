@@ -71,6 +71,16 @@ pub(crate) fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> 
     }
 }
 
+/// `value` as `length` numbers.
+pub(crate) fn fixed_length(argument: &str, value: &Bound<'_, PyAny>, length: usize) -> PyResult<Vec<f64>> {
+    let array = numbers(argument, value)?;
+    if array.shape() != [length] {
+        let shape = shape_text(array.shape());
+        return Err(ShapeError::new_err(format!("{argument} has shape {shape}: it must be ({length},)")));
+    }
+    Ok(read(argument, &array)?.as_slice()?.to_vec())
+}
+
 /// `value` as N numbers.
 pub(crate) fn fixed<const N: usize>(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
     let array = numbers(argument, value)?;
@@ -80,6 +90,38 @@ pub(crate) fn fixed<const N: usize>(argument: &str, value: &Bound<'_, PyAny>) ->
         return Err(wrong());
     }
     read(argument, &array)?.as_slice()?.try_into().map_err(|_| wrong())
+}
+
+/// Rows of `columns` numbers: an array_like of shape (`columns`,) or (m, `columns`).
+pub(crate) struct Rows<'py> {
+    array: PyReadonlyArrayDyn<'py, f64>,
+    columns: usize,
+}
+
+impl<'py> Rows<'py> {
+    pub(crate) fn new(argument: &str, value: &Bound<'py, PyAny>, columns: usize) -> PyResult<Self> {
+        let array = numbers(argument, value)?;
+        let fits = matches!(array.shape(), [n] | [_, n] if *n == columns);
+        if !fits {
+            let shape = shape_text(array.shape());
+            let message = format!("{argument} has shape {shape}: it must be ({columns},) or (m, {columns})");
+            return Err(ShapeError::new_err(message));
+        }
+        Ok(Self { array: read(argument, &array)?, columns })
+    }
+
+    /// What `evaluate` makes of each row, `columns` numbers, computed without the interpreter lock.
+    pub(crate) fn map(
+        &self,
+        columns: usize,
+        evaluate: impl Fn(&[f64]) -> Result<Vec<f64>, andoyer_series::Error> + Send,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let (py, values, width) = (self.array.py(), self.array.as_slice()?, self.columns);
+        let rows = py.detach(|| values.chunks(width).map(evaluate).collect::<Result<Vec<_>, _>>());
+        let mut shape = self.array.shape().to_vec();
+        shape[self.array.ndim() - 1] = columns; // one axis at least
+        rows.map_err(error::algebra)?.concat().into_pyarray(py).reshape(shape)
+    }
 }
 
 /// N numbers as a read-only array.
