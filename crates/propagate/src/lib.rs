@@ -5,10 +5,12 @@
 //! components into inertial ones. The theory is M. Lara, "Short-axis-mode rotation in complex variables" (2017).
 
 mod andoyer;
+mod batch;
 mod body;
 mod catalogue;
 mod error;
 mod fourier;
+mod kernel;
 mod motion;
 mod phase;
 mod plan;
@@ -20,6 +22,7 @@ mod series;
 mod solution;
 mod state;
 
+pub use batch::Batch;
 pub use body::Body;
 pub use error::Error;
 pub use motion::{Frequencies, Motion, Periods, Sample};

@@ -76,7 +76,7 @@ fn at_rest(scene: Scene) -> Motion {
     let half_angle = Phase::new(DoubleDouble::ZERO, 0.0);
     Motion {
         plan: steady_plan(&scene, Mode::AtRest, "the body is at rest"),
-        course: Course::Steady { axis: Vector3::zeros(), half_angle },
+        course: Course::steady(scene.state(), Vector3::zeros(), half_angle),
         frequencies: Frequencies { anomaly: 0.0, longitude: 0.0 },
         angular_momentum: Vector3::zeros(),
         scene,
@@ -117,7 +117,7 @@ fn steadily_rotating(scene: Scene, polhode: &Polhode, mode: Mode) -> Motion {
     plan.error_bound += phase_rounding(&scene, rate, exponent);
     Motion {
         plan,
-        course: Course::Steady { axis: Vector3::from(axis), half_angle: half(user_rate(rate, exponent), 0.0) },
+        course: Course::steady(scene.state(), Vector3::from(axis), half(user_rate(rate, exponent), 0.0)),
         frequencies: Frequencies { anomaly, longitude: scaled(rate.to_f64(), exponent) },
         angular_momentum: angular_momentum(&scene, polhode),
         scene,
@@ -167,14 +167,14 @@ fn wobbling(scene: Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error
     };
     Ok(Motion {
         plan,
-        course: Course::Polhode(Box::new(Wobble {
+        course: Course::polhode(&Wobble {
             anomaly: Phase::new(anomaly_rate, anomaly),
             half_longitude: half(longitude_rate, -longitude),
             series,
             inertial: invariable_frame(&scene, polhode, zeta),
             frame: polhode.frame.clone(),
             rates: polhode.user_rates(),
-        })),
+        }),
         frequencies: Frequencies { anomaly: anomaly_rate.to_f64(), longitude: longitude_rate.to_f64() },
         angular_momentum: angular_momentum(&scene, polhode),
         scene,
