@@ -304,7 +304,7 @@ impl BirkhoffNormalForm {
         let (py, n) = (state.py(), 2 * self.space().degrees_of_freedom());
         let map = self.map(py, parameters)?;
         let (state, times) = (fixed_length("state", state, n)?, Times::new(times)?);
-        let (result, values) = (times.rows(n), times.values()?);
+        let (result, values) = (times.rows(n)?, times.values()?);
         let states = py.detach(|| map.trajectory(&state, values)).map_err(error::algebra)?;
         write(&result)?.as_slice_mut()?.copy_from_slice(&states.concat());
         Ok(result)
