@@ -17,7 +17,7 @@ use crate::phase::{Phase, elapsed};
 /// Times that share a factor. With 32 the first factors cost as much as is saved, with 128 the table and the rows written crowd the cache.
 pub(super) const BLOCK: usize = 64;
 /// Times whose blocks' first factors are computed together.
-pub(super) const GROUP: usize = 8 * BLOCK;
+pub(super) const GROUP: usize = 16 * BLOCK;
 /// Fewer times are not worth a table.
 const FEWEST: usize = 8 * BLOCK;
 /// Largest phase of a deviation \[rad\], whose square is not corrected.

@@ -79,9 +79,11 @@ impl Level for pulp::Scalar {
 
     #[inline(always)]
     fn turned(self, sine: f64, cosine: f64, quarters: u64) -> (f64, f64) {
-        let (s, c) = if quarters & 1 == 0 { (sine, cosine) } else { (cosine, sine) };
+        // No branch: that would be guessed wrong every other time.
+        let (s, c) = (sine.to_bits(), cosine.to_bits());
+        let exchange = (s ^ c) & (quarters & 1).wrapping_neg();
         let sign = |bits: u64| (bits << 62) & (1 << 63);
-        (f64::from_bits(s.to_bits() ^ sign(quarters)), f64::from_bits(c.to_bits() ^ sign(quarters + 1)))
+        (f64::from_bits(s ^ exchange ^ sign(quarters)), f64::from_bits(c ^ exchange ^ sign(quarters + 1)))
     }
 }
 

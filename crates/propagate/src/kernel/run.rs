@@ -1,15 +1,15 @@
 //! The loop over blocks of times, compiled for each instruction set and each set of outputs.
 
 use super::grid::{BLOCK, GROUP, Grid, Tabled, TabledCircles};
-use super::lanes::Lanes;
+use super::lanes::{Lanes, STRANDS};
 use super::level::{Level, Task};
 use super::{Evaluation, Outputs};
 use crate::motion::Course;
 use crate::phase::{Phase, elapsed};
 use andoyer_series::two_sum;
 
-/// The widest vector of any instruction set.
-const WIDEST: usize = 8;
+/// Most lanes of any instruction set.
+const WIDEST: usize = 8 * STRANDS;
 
 /// Sine and cosine.
 pub(crate) type Circle<S> = (Lanes<S>, Lanes<S>);
