@@ -130,6 +130,60 @@ pub enum Error {
         "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it): no order of the series serves; the closed form does"
     )]
     Separatrix,
+    /// An element of an orbit that is none.
+    #[error("orbit.{argument} = {value}: it must be {bound}")]
+    Orbit {
+        /// The element.
+        argument: &'static str,
+        /// The value as given.
+        value: f64,
+        /// What it must be.
+        bound: &'static str,
+    },
+    /// A level of the gravity-gradient theory that is unknown.
+    #[error("level = {value:?}: it must be \"paper\", \"moving\" or \"full\"")]
+    Level {
+        /// The level as given.
+        value: String,
+    },
+    /// An averaging that is unknown.
+    #[error("averaging = {value:?}: it must be \"auto\", \"orbit\" or \"spin\"")]
+    Averaging {
+        /// The averaging as given.
+        value: String,
+    },
+    /// A rotation so slow, or so near a resonance with its orbit, that no averaging holds.
+    #[error(
+        "spin resonance (k−j, m) = ({harmonic}, {multiple}): its frequency is {divisor:.3} times the orbital angular rate at pericentre, and averaging needs more than {bound}"
+    )]
+    Resonance {
+        /// k − j: the multiple of dℓ′/dt.
+        harmonic: i32,
+        /// m: that of dy′/dt.
+        multiple: i32,
+        /// The frequency over the orbital angular rate at pericentre.
+        divisor: f64,
+        /// The least that averaging needs.
+        bound: f64,
+    },
+    /// A torque too strong for an expansion in it.
+    #[error("the torque is {size:.3e} of M²/C at pericentre, and an expansion in it needs less than {bound}")]
+    TorqueTooStrong {
+        /// 3n²C²/2M² at the pericentre.
+        size: f64,
+        /// The bound.
+        bound: f64,
+    },
+    /// A mode of motion that the gravity gradient theory does not serve.
+    #[error("orbit: a {mode} motion has no averaged theory (the separatrix ratio is {ratio:.6}, the bound {bound})")]
+    Unaveraged {
+        /// The mode.
+        mode: String,
+        /// σ/σ_sep.
+        ratio: f64,
+        /// The largest that is served.
+        bound: f64,
+    },
     /// A member of an ensemble that is none, or could not be evaluated.
     #[error("member {index}: {problem}{}", and_others(*others))]
     Member {

@@ -4,6 +4,8 @@
 //! Time reversal (ℓ′ → −ℓ′ conjugates both) makes every coefficient real, and ℓ′ → ℓ′ + π leaves a and turns b over: a has the even harmonics, b
 //! the odd ones. So a quarter period of samples gives all coefficients by the trapezoidal rule.
 
+use num_complex::Complex;
+
 use crate::series::Expansion;
 
 /// Grid points in a period for each order: the products of theory §8 reach past the 2N+1 harmonics of ζ, and what folds back from beyond eight times
@@ -122,15 +124,17 @@ impl QuaternionSeries {
         &self.terms
     }
 
-    /// arg a at ℓ′.
-    pub(crate) fn argument(&self, angle: f64) -> f64 {
-        let (mut real, mut imaginary) = (0.0, 0.0);
-        for (k, ([cosine_part, sine_part], _)) in self.terms.iter().enumerate().rev() {
+    /// a and b e^(−iy′/2) at ℓ′, normalized.
+    pub(crate) fn pair(&self, angle: f64) -> [Complex<f64>; 2] {
+        let (mut a, mut b) = (Complex::new(0.0, 0.0), Complex::new(0.0, 0.0));
+        for (k, (even, odd)) in self.terms.iter().enumerate().rev() {
             let (sine, cosine) = (2.0 * k as f64 * angle).sin_cos();
-            real += cosine_part * cosine;
-            imaginary += sine_part * sine;
+            a += Complex::new(even[0] * cosine, even[1] * sine);
+            let (sine, cosine) = ((2.0 * k as f64 + 1.0) * angle).sin_cos();
+            b += Complex::new(odd[0] * cosine, odd[1] * sine);
         }
-        imaginary.atan2(real)
+        let scale = (a.norm_sqr() + b.norm_sqr()).sqrt().recip();
+        [a * scale, b * scale]
     }
 
     /// The highest multiple of ℓ′ that is evaluated.

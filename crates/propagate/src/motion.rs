@@ -2,11 +2,13 @@
 //!
 //! Evaluation is two sines and cosines (of ℓ′ and y′/2), the sums of theory §8, a normalization and a constant map: see [`crate::kernel`].
 
+use andoyer_series::two_sum;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::batch::Batch;
 use crate::error::Error;
 use crate::fourier::QuaternionSeries;
+use crate::gradient::Gradient;
 use crate::kernel::steady::Steady;
 use crate::kernel::wobble::Tables;
 use crate::phase::Phase;
@@ -57,6 +59,8 @@ pub(crate) enum Course {
     Polhode(Box<Tables>),
     /// A polhode next to the separatrix or on it.
     Flip(Box<Flip>),
+    /// Any of them under a gravity gradient.
+    Gradient(Box<Gradient>),
 }
 
 impl Course {
@@ -137,7 +141,7 @@ impl Motion {
         Periods { precession: std::f64::consts::TAU / precession, rotation: std::f64::consts::TAU / anomaly.abs() }
     }
 
-    /// The angular momentum, inertial components: a constant.
+    /// The angular momentum at the epoch, inertial components: a constant unless there is an orbit.
     pub fn angular_momentum(&self) -> Vector3<f64> {
         self.angular_momentum
     }
@@ -182,7 +186,14 @@ impl Motion {
     pub fn angular_momenta_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
         self.valid(times)?;
-        out.fill(self.angular_momentum.into());
+        if let Course::Gradient(gradient) = &self.course {
+            let epoch = self.scene.state().epoch;
+            for (slot, &time) in out.iter_mut().zip(times) {
+                *slot = gradient.at(two_sum(time, -epoch)).2;
+            }
+        } else {
+            out.fill(self.angular_momentum.into());
+        }
         Ok(())
     }
 
@@ -197,7 +208,11 @@ impl Motion {
     /// The largest distance from the epoch at which the motion has a phase.
     pub(crate) fn bound(&self) -> f64 {
         // A body at rest, or one that turns once in 1e285 units, is still bounded: no sum of two times overflows.
-        (MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude).min(1e300)
+        let phases = (MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude).min(1e300);
+        match &self.course {
+            Course::Gradient(gradient) => phases.min(gradient.bound()),
+            _ => phases,
+        }
     }
 
     fn valid(&self, times: &[f64]) -> Result<(), Error> {

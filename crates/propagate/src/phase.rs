@@ -39,10 +39,19 @@ impl Phase {
 
     /// The angle, reduced to half a turn either way \[rad\], a time `(high, low)` after the epoch: for what is evaluated one time after another.
     pub(crate) fn angle(&self, elapsed: (f64, f64)) -> f64 {
+        self.turns_and_angle(elapsed).1
+    }
+
+    /// Whole turns since the epoch's own, and the angle of [`Phase::angle`].
+    pub(crate) fn turns_and_angle(&self, elapsed: (f64, f64)) -> (f64, f64) {
         let (product, error) = two_product(self.frequency.high, elapsed.0);
         let rest = error + (self.frequency.high * elapsed.1 + self.frequency.low * elapsed.0) + self.start.low;
-        let (turns, lost) = two_sum(product - product.round(), self.start.high);
-        std::f64::consts::TAU * ((turns - turns.round()) + (lost + rest))
+        let whole = product.round();
+        let (turns, lost) = two_sum(product - whole, self.start.high);
+        let fraction = (turns - turns.round()) + (lost + rest);
+        // The rest may carry the angle over half a turn: that is then the next turn's.
+        let over = fraction.round();
+        (whole + turns.round() + over, std::f64::consts::TAU * (fraction - over))
     }
 
     /// (sin, cos) a time `(high, low)` after the epoch.

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::gradient::{Averaging, Level};
 use crate::scene::Method;
 
 /// The highest order of the series; reached at σ/σ_sep = 0.64 for a tolerance of 1e-12.
@@ -44,6 +45,17 @@ impl fmt::Display for Mode {
     }
 }
 
+/// What a plan says of a gravity gradient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct GradientPlan {
+    pub(crate) averaging: Averaging,
+    pub(crate) level: Level,
+    /// Terms of the short-period corrections.
+    pub(crate) terms: usize,
+    /// Sum of their sizes [rad].
+    pub(crate) size: f64,
+}
+
 /// The evaluation plan of a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -54,6 +66,7 @@ pub struct Plan {
     pub(crate) error_bound: f64,
     pub(crate) tolerance: f64,
     pub(crate) separatrix_ratio: f64,
+    pub(crate) gradient: Option<GradientPlan>,
     pub(crate) skipped: Vec<String>,
 }
 
@@ -88,6 +101,16 @@ impl Plan {
         self.separatrix_ratio
     }
 
+    /// How far the equations of a scene with an orbit are averaged; `None` without one.
+    pub fn averaging(&self) -> Option<Averaging> {
+        self.gradient.map(|gradient| gradient.averaging)
+    }
+
+    /// Sum of the short-period corrections by the gravity gradient, which is the size of the torque; 0 without an orbit \[rad\].
+    pub fn torque(&self) -> f64 {
+        self.gradient.map_or(0.0, |gradient| gradient.size)
+    }
+
     /// What this scene did not need, and why.
     pub fn skipped(&self) -> &[String] {
         &self.skipped
@@ -101,6 +124,12 @@ impl fmt::Display for Plan {
         writeln!(f, "σ/σ_sep       {:.3e}", self.separatrix_ratio)?;
         writeln!(f, "order         {}", self.order)?;
         writeln!(f, "harmonics     {}", self.harmonics)?;
+        if let Some(GradientPlan { averaging, level, terms, size }) = self.gradient {
+            writeln!(
+                f,
+                "gradient      {level}, averaged over the {averaging}; {terms} short-period terms, together {size:.1e} rad"
+            )?;
+        }
         write!(f, "error bound   {:.1e} rad", self.error_bound)?;
         if self.error_bound > self.tolerance.max(ROUNDED_TOLERANCE) {
             write!(f, "\ntolerance     {:e} rad is not met over the span", self.tolerance)?;

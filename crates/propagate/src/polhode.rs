@@ -133,6 +133,15 @@ impl Polhode {
         })
     }
 
+    /// The same body turning with sin²J = `square` at ℓ = 0, and M.
+    pub(crate) fn tilted(&self, square: f64, momentum: f64) -> Self {
+        let direction = [0.0, square.sqrt(), (1.0 - square).sqrt()];
+        let momentum = DoubleDouble::from(momentum);
+        let squares = [DoubleDouble::ZERO, square.into(), DoubleDouble::ONE - square.into()];
+        let parts = squares.map(|g| g.sqrt() * momentum);
+        Self { direction, squares, parts, momentum, ..self.clone() }
+    }
+
     /// Q1 and Q2 for B < C. The difference is formed before it is divided by M²: it is zero where that is exact.
     pub(crate) fn cosine_squares(&self) -> [DoubleDouble; 2] {
         let [first, second, third] = self.parts.map(|part| part * part);

@@ -5,7 +5,9 @@ use std::str::FromStr;
 
 use crate::body::Body;
 use crate::error::Error;
+use crate::gradient::{Averaging, Level};
 use crate::motion::Motion;
+use crate::orbit::Orbit;
 use crate::plan::MAX_ORDER;
 use crate::state::State;
 
@@ -63,6 +65,9 @@ pub struct Scene {
     tolerance: f64,
     method: Method,
     order: Option<usize>,
+    orbit: Option<Orbit>,
+    averaging: Averaging,
+    level: Level,
     span: Option<(f64, f64)>,
     name: Option<String>,
     source: Option<String>,
@@ -71,7 +76,19 @@ pub struct Scene {
 impl Scene {
     /// A scene with a tolerance of 1e-12 rad and everything else left to the plan.
     pub fn new(body: Body, state: State) -> Self {
-        Self { body, state, tolerance: 1e-12, method: Method::Auto, order: None, span: None, name: None, source: None }
+        Self {
+            body,
+            state,
+            tolerance: 1e-12,
+            method: Method::Auto,
+            order: None,
+            orbit: None,
+            averaging: Averaging::Auto,
+            level: Level::Full,
+            span: None,
+            name: None,
+            source: None,
+        }
     }
 
     /// The attitude error asked for over the span \[rad\]; less than double precision holds means the best there is.
@@ -92,6 +109,27 @@ impl Scene {
     #[must_use]
     pub fn order(mut self, order: usize) -> Self {
         self.order = Some(order);
+        self
+    }
+
+    /// The orbit of a body whose gravity gradient acts; none if this is not called.
+    #[must_use]
+    pub fn orbit(mut self, orbit: Orbit) -> Self {
+        self.orbit = Some(orbit);
+        self
+    }
+
+    /// How far the equations of a scene with an orbit are averaged; [`Averaging::Auto`] if this is not called.
+    #[must_use]
+    pub fn averaging(mut self, averaging: Averaging) -> Self {
+        self.averaging = averaging;
+        self
+    }
+
+    /// Which terms the corrections of a scene with an orbit have; [`Level::Full`] if this is not called.
+    #[must_use]
+    pub fn level(mut self, level: Level) -> Self {
+        self.level = level;
         self
     }
 
@@ -139,6 +177,21 @@ impl Scene {
     /// The order, if one was fixed.
     pub fn asked_order(&self) -> Option<usize> {
         self.order
+    }
+
+    /// The orbit, if there is one.
+    pub fn asked_orbit(&self) -> Option<&Orbit> {
+        self.orbit.as_ref()
+    }
+
+    /// How far a scene with an orbit is averaged.
+    pub fn asked_averaging(&self) -> Averaging {
+        self.averaging
+    }
+
+    /// Which terms the corrections have.
+    pub fn asked_level(&self) -> Level {
+        self.level
     }
 
     /// The span, if one was given.
@@ -191,6 +244,7 @@ impl Scene {
     /// - [`Error::Units`] where the angular momentum over- or underflows.
     /// - [`Error::NearSeparatrix`] where the series is asked for and the tolerance needs an order above [`MAX_ORDER`].
     /// - [`Error::Separatrix`] where the series is asked for on the separatrix itself.
+    /// - [`Error::Resonance`], [`Error::TorqueTooStrong`], [`Error::Unaveraged`] for an orbit whose gravity gradient cannot be averaged.
     pub fn solve(&self) -> Result<Motion, Error> {
         Motion::new(self.validated()?)
     }

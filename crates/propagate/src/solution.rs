@@ -8,7 +8,9 @@ use crate::closed::{ClosedForm, NEAREST_COMPLEMENT, anomaly};
 use crate::elliptic::Theta;
 use crate::error::Error;
 use crate::fourier::{QuaternionSeries, oscillator_and_longitude};
+use crate::gradient::{Gradient, Request};
 use crate::motion::{Course, Frequencies, Motion, Place, Wobble};
+use crate::orbit::Orbit;
 use crate::order::{Expanded, expanded, first_order, initial_anomaly};
 use crate::phase::Phase;
 use crate::plan::{Mode, Plan};
@@ -25,6 +27,8 @@ const HARMONICS_SHARE: f64 = 0.125;
 const DEFAULT_ROTATIONS: f64 = 1e9;
 /// Relative error of frequencies and phases in double-double: 2^−104, twenty operations deep.
 const PHASE_ROUNDING: f64 = 1e-30;
+/// σ/σ_sep up to which the tables for the gravity gradient have enough harmonics.
+const LARGEST_RATIO: f64 = 0.9;
 /// Relative error of the terms of Q1 in double-double, with inputs taken as exact.
 const COSINE_ROUNDING: f64 = 1e-31;
 
@@ -32,14 +36,23 @@ impl Motion {
     /// The motion of a valid scene.
     pub(crate) fn new(scene: Scene) -> Result<Self, Error> {
         let Some(polhode) = Polhode::new(scene.body(), scene.state()) else {
-            return Ok(at_rest(scene));
+            return match scene.asked_orbit() {
+                Some(_) => Err(Error::Unaveraged { mode: Mode::AtRest.to_string(), ratio: 0.0, bound: LARGEST_RATIO }),
+                None => Ok(at_rest(scene)),
+            };
         };
         let momentum = polhode.user_momentum();
         if !momentum.is_normal() {
             let (moment, rate) = polhode.scales;
             return Err(Error::Units { exponent: moment + rate });
         }
-        match mode(&polhode) {
+        let mode = mode(&polhode);
+        if let Some(&orbit) = scene.asked_orbit()
+            && mode != Mode::Spherical
+        {
+            return disturbed(scene, &polhode, mode, &orbit);
+        }
+        match mode {
             mode @ (Mode::Spherical | Mode::PrincipalAxis) => Ok(steadily_rotating(scene, &polhode, mode)),
             Mode::Separatrix => passing(scene, &polhode),
             mode => wobbling(scene, &polhode, mode),
@@ -90,6 +103,7 @@ fn steady_plan(scene: &Scene, mode: Mode, reason: &str) -> Plan {
         error_bound: ROUNDING,
         tolerance: scene.asked_tolerance(),
         separatrix_ratio: 0.0,
+        gradient: None,
         skipped,
     }
 }
@@ -176,6 +190,7 @@ fn wobbling(scene: Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error
         error_bound: 0.0,
         tolerance: scene.asked_tolerance(),
         separatrix_ratio: ratio,
+        gradient: None,
         skipped: Vec::new(),
     };
     let mut solved = if by_series {
@@ -269,7 +284,7 @@ fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secular, mut plan
         };
         std::iter::once(reason).chain(dropped_harmonics(&series, all)).collect()
     };
-    let longitude = -2.0 * series.argument(closed.anomaly);
+    let longitude = -2.0 * series.pair(closed.anomaly)[0].arg();
     let pair = Pair::Fourier(Phase::new(anomaly_rate, closed.anomaly), series);
     Solved { pair, longitude, rates, plan }
 }
@@ -299,10 +314,66 @@ fn passing(scene: Scene, polhode: &Polhode) -> Result<Motion, Error> {
         error_bound: (4.0 * ROUNDING + phases + unseen).min(std::f64::consts::PI),
         tolerance: scene.asked_tolerance(),
         separatrix_ratio: 1.0,
+        gradient: None,
         skipped,
     };
     let longitude = -2.0 * passage.phase((0.0, 0.0));
     Ok(assembled(scene, polhode, Solved { pair: Pair::Passage(passage), longitude, rates, plan }))
+}
+
+/// The motion under a gravity gradient.
+fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Result<Motion, Error> {
+    let [g1, g2, g3] = polhode.direction;
+    let [_, second] = polhode.excesses;
+    let principal = mode == Mode::PrincipalAxis && g3.abs() >= SMALLEST_TILT && g1.abs().max(g2.abs()) < SMALLEST_TILT;
+    let unaveraged = |ratio: f64| Error::Unaveraged { mode: mode.to_string(), ratio, bound: LARGEST_RATIO };
+    if second == DoubleDouble::ZERO || mode == Mode::Separatrix || (mode == Mode::PrincipalAxis && !principal) {
+        return Err(unaveraged(1.0));
+    }
+    let (mut ratio, mut osculating) = (0.0, (0.0, [0.0; 2]));
+    if !principal {
+        let exact = Secular::exact(polhode);
+        let sigma = exact.kappa_sigma / polhode.kappa();
+        ratio = (sigma / separatrix_action(polhode.beta())?).min(1.0);
+        if ratio > LARGEST_RATIO {
+            return Err(unaveraged(ratio));
+        }
+        let closed = ClosedForm::new(polhode, &Theta::new(polhode));
+        osculating = (sigma, [closed.anomaly, -2.0 * closed.series.pair(closed.anomaly)[0].arg()]);
+    }
+    let exponent = polhode.scales.1;
+    let rotation = polhode.mean_rate();
+    let request = Request {
+        orbit,
+        averaging: scene.asked_averaging(),
+        level: scene.asked_level(),
+        tolerance: scene.asked_tolerance(),
+        epoch: scene.state().epoch,
+        duration: scaled(duration(&scene, rotation, exponent), -exponent),
+    };
+    let gradient = Gradient::new(polhode, scene.state().attitude, osculating, &request)?;
+    let [anomaly, longitude] = gradient.frequencies();
+    let mut skipped: Vec<String> = unused_order(&scene).into_iter().collect();
+    skipped.extend(gradient.skipped());
+    let plan = Plan {
+        mode,
+        method: Method::Closed,
+        order: 0,
+        harmonics: 0,
+        error_bound: (gradient.error + 4.0 * ROUNDING).min(std::f64::consts::PI),
+        tolerance: scene.asked_tolerance(),
+        separatrix_ratio: ratio,
+        gradient: Some(gradient.plan()),
+        skipped,
+    };
+    Ok(Motion {
+        plan,
+        frequencies: Frequencies { anomaly, longitude },
+        angular_momentum: angular_momentum(&scene, polhode),
+        long_axis: polhode.long_axis,
+        course: Course::Gradient(Box::new(gradient)),
+        scene,
+    })
 }
 
 fn rounding(series: &QuaternionSeries) -> f64 {

@@ -46,7 +46,7 @@ impl Grid {
         match evaluation.course {
             Course::Steady(steady) => Self::of(evaluation.arch, steady.phases(), times),
             Course::Polhode(tables) => Self::of(evaluation.arch, tables.phases(), times),
-            Course::Flip(_) => None,
+            Course::Flip(_) | Course::Gradient(_) => None,
         }
     }
 

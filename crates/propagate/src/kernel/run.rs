@@ -60,6 +60,7 @@ impl Task for Run<'_> {
             Course::Steady(steady) => self.select(simd, steady.as_ref()),
             Course::Polhode(tables) => self.select(simd, tables.as_ref()),
             Course::Flip(flip) => self.one_by_one(|elapsed| flip.evaluate(elapsed)),
+            Course::Gradient(gradient) => self.one_by_one(|elapsed| gradient.attitude_and_rates(elapsed)),
         }
     }
 }

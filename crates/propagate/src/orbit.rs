@@ -1,0 +1,262 @@
+//! The relative orbit of a disturbing body: Kepler's, any ellipse, in any plane.
+//!
+//! Elements are those of the inertial frame of the scene. Kepler's equation is solved without a loop that could run out: Markley's starter (Celest. Mech. Dyn. Astron.
+//! 63 (1995) 101), good to 1e-4, then two steps of third order with a residual that is formed without cancellation, (1−e)E + e(E − sin E) − M.
+
+use std::f64::consts::{PI, TAU};
+
+use andoyer_series::DoubleDouble;
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::error::Error;
+use crate::phase::Phase;
+
+/// A Keplerian orbit of the disturbing body about the rotating one.
+///
+/// ```
+/// use andoyer_propagate::Orbit;
+/// let year = 2.0 * std::f64::consts::PI;
+/// let orbit = Orbit::new(year, 0.0167)?.plane(0.409, 0.0, 1.8)?.mass_fraction(1.0)?;
+/// assert!((orbit.true_anomaly(0.5)? - std::f64::consts::PI).abs() < 1e-15); // half a period from pericentre to apocentre
+/// # Ok::<(), andoyer_propagate::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Orbit {
+    mean_motion: f64,
+    eccentricity: f64,
+    time_of_pericentre: f64,
+    inclination: f64,
+    node: f64,
+    argument_of_pericentre: f64,
+    mass_fraction: f64,
+}
+
+impl Orbit {
+    /// An orbit from its mean motion n [rad per unit of time] and eccentricity e, in the inertial x, y plane, with its pericentre on the x axis at time 0.
+    ///
+    /// n²a³ is G times the sum of the two masses; the disturbing one is all of it until [`Orbit::mass_fraction`] says otherwise.
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for a mean motion of 0, −1, NaN, or an eccentricity of −0.1, 1, NaN.
+    pub fn new(mean_motion: f64, eccentricity: f64) -> Result<Self, Error> {
+        check("mean_motion", mean_motion, mean_motion > 0.0 && mean_motion.is_finite(), "positive and finite")?;
+        check("eccentricity", eccentricity, (0.0..1.0).contains(&eccentricity), "0 or more and less than 1")?;
+        Ok(Self {
+            mean_motion,
+            eccentricity,
+            time_of_pericentre: 0.0,
+            inclination: 0.0,
+            node: 0.0,
+            argument_of_pericentre: 0.0,
+            mass_fraction: 1.0,
+        })
+    }
+
+    /// A time of a passage of the pericentre.
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for NaN or infinite.
+    pub fn time_of_pericentre(self, time: f64) -> Result<Self, Error> {
+        finite("time_of_pericentre", time)?;
+        Ok(Self { time_of_pericentre: time, ..self })
+    }
+
+    /// Inclination, longitude of the node and argument of the pericentre \[rad\].
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for NaN or infinite.
+    pub fn plane(self, inclination: f64, node: f64, argument_of_pericentre: f64) -> Result<Self, Error> {
+        finite("inclination", inclination)?;
+        finite("node", node)?;
+        finite("argument_of_pericentre", argument_of_pericentre)?;
+        Ok(Self { inclination, node, argument_of_pericentre, ..self })
+    }
+
+    /// The disturbing mass over the sum of both: 1 for the Sun on an asteroid, 1/82.3 for the Moon on the Earth.
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for 0, −1, 1.1, NaN.
+    pub fn mass_fraction(self, fraction: f64) -> Result<Self, Error> {
+        check("mass_fraction", fraction, fraction > 0.0 && fraction <= 1.0, "greater than 0 and at most 1")?;
+        Ok(Self { mass_fraction: fraction, ..self })
+    }
+
+    /// Mean motion n, eccentricity, time of pericentre, inclination, node, argument of pericentre, mass fraction.
+    pub fn elements(&self) -> [f64; 7] {
+        [
+            self.mean_motion,
+            self.eccentricity,
+            self.time_of_pericentre,
+            self.inclination,
+            self.node,
+            self.argument_of_pericentre,
+            self.mass_fraction,
+        ]
+    }
+
+    pub(crate) fn eccentricity(&self) -> f64 {
+        self.eccentricity
+    }
+
+    pub(crate) fn mean_motion(&self) -> f64 {
+        self.mean_motion
+    }
+
+    pub(crate) fn disturbing_fraction(&self) -> f64 {
+        self.mass_fraction
+    }
+
+    /// Unit vectors to the pericentre, across it in the direction of motion, and along the orbital angular momentum; inertial components.
+    pub(crate) fn axes(&self) -> [Vector3<f64>; 3] {
+        let about = UnitQuaternion::from_axis_angle;
+        let turn = about(&Vector3::z_axis(), self.node)
+            * about(&Vector3::x_axis(), self.inclination)
+            * about(&Vector3::z_axis(), self.argument_of_pericentre);
+        [turn * Vector3::x(), turn * Vector3::y(), turn * Vector3::z()]
+    }
+
+    /// The mean anomaly as a phase from an epoch on.
+    pub(crate) fn mean_anomaly(&self, epoch: f64) -> Phase {
+        let since = DoubleDouble::sum(epoch, -self.time_of_pericentre);
+        let angle = since * DoubleDouble::from(self.mean_motion);
+        let turns = angle / (DoubleDouble::PI * DoubleDouble::from(2.0));
+        let rest = turns - DoubleDouble::from(turns.high.round());
+        Phase::new(self.mean_motion.into(), TAU * rest.to_f64())
+    }
+
+    /// The true anomaly at a time, in (−π, π] \[rad\].
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for a time that is NaN, infinite, or more than 1e15 periods from the epoch of the elements.
+    pub fn true_anomaly(&self, time: f64) -> Result<f64, Error> {
+        let bounded = (time - self.time_of_pericentre).abs() * self.mean_motion <= TAU * 1e15;
+        check("time", time, bounded, "finite and within 1e15 periods of the pericentre")?;
+        let anomaly = self.mean_anomaly(self.time_of_pericentre).angle((time - self.time_of_pericentre, 0.0));
+        Ok(Place::of(anomaly, self.eccentricity).angle)
+    }
+}
+
+fn check(argument: &'static str, value: f64, holds: bool, bound: &'static str) -> Result<(), Error> {
+    if holds { Ok(()) } else { Err(Error::Orbit { argument, value, bound }) }
+}
+
+fn finite(argument: &'static str, value: f64) -> Result<(), Error> {
+    check(argument, value, value.is_finite(), "finite")
+}
+
+/// Where on its ellipse the disturbing body is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    /// The true anomaly, in (−π, π] \[rad\].
+    pub(crate) angle: f64,
+    /// Its sine and cosine.
+    pub(crate) sine: f64,
+    pub(crate) cosine: f64,
+}
+
+impl Place {
+    /// From the mean anomaly, in [−π, π] or a rounding beyond.
+    pub(crate) fn of(mean_anomaly: f64, eccentricity: f64) -> Self {
+        if eccentricity == 0.0 {
+            let (sine, cosine) = mean_anomaly.sin_cos();
+            return Self { angle: mean_anomaly, sine, cosine };
+        }
+        let half = 0.5 * eccentric_anomaly(mean_anomaly, eccentricity);
+        let (sine, cosine) = half.sin_cos();
+        let (y, x) = ((1.0 + eccentricity).sqrt() * sine, (1.0 - eccentricity).sqrt() * cosine);
+        let square = x * x + y * y;
+        Self { angle: 2.0 * y.atan2(x), sine: 2.0 * x * y / square, cosine: (x - y) * (x + y) / square }
+    }
+}
+
+/// E from Kepler's equation E − e sin E = M, for M in [−π, π] and 0 ≤ e < 1.
+pub(crate) fn eccentric_anomaly(mean_anomaly: f64, eccentricity: f64) -> f64 {
+    let (m, e) = (mean_anomaly.abs().min(PI), eccentricity);
+    if m == 0.0 {
+        return mean_anomaly;
+    }
+    let mut anomaly = starter(m, e);
+    for _ in 0..2 {
+        let (sine, cosine) = anomaly.sin_cos();
+        let slope = (1.0 - e) + 2.0 * e * (0.5 * anomaly).sin().powi(2);
+        let residual = (1.0 - e) * anomaly + e * excess(anomaly, sine) - m;
+        // Third order (Halley), then fourth, from the second and third derivatives e sin E and e cos E.
+        let newton = residual / slope;
+        let halley = residual / (slope - 0.5 * newton * e * sine);
+        anomaly -= residual / (slope - 0.5 * halley * e * sine + halley * halley * e * cosine / 6.0);
+    }
+    anomaly.copysign(mean_anomaly)
+}
+
+/// E − sin E without cancellation.
+fn excess(anomaly: f64, sine: f64) -> f64 {
+    if anomaly > 1.0 {
+        return anomaly - sine;
+    }
+    // x³/3! − x⁵/5! + …: the term x^21/21! is 2e-20 of the sum at x = 1.
+    let square = anomaly * anomaly;
+    let mut sum = 0.0;
+    for k in (1..=9_i32).rev() {
+        sum = (1.0 - sum) * square / f64::from(2 * k * (2 * k + 1));
+    }
+    anomaly * sum
+}
+
+/// The root of the cubic that a Padé approximation of the sine makes of Kepler's equation.
+fn starter(m: f64, e: f64) -> f64 {
+    let alpha = (3.0 * PI * PI + 1.6 * PI * (PI - m) / (1.0 + e)) / (PI * PI - 6.0);
+    let d = 3.0 * (1.0 - e) + alpha * e;
+    let q = 2.0 * alpha * d * (1.0 - e) - m * m;
+    let r = 3.0 * alpha * d * (d - 1.0 + e) * m + m * m * m;
+    let w = (r.abs() + (q * q * q + r * r).max(0.0).sqrt()).cbrt().powi(2);
+    (2.0 * r * w / (w * w + w * q + q * q) + m) / d
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_eccentric_anomaly_solves_keplers_equation_to_the_last_bits_for_any_ellipse() {
+        // M from E in double-double, so that the root is known; what M rounds to moves E by its half unit over 1 − e cos E.
+        for e in [0.0, 1e-9, 0.1, 0.5, 0.9, 0.99, 0.999_999, 1.0 - 1e-12, 1.0 - f64::EPSILON] {
+            for k in 0..=2000 {
+                let anomaly =
+                    if k % 2 == 0 { PI * f64::from(k) / 2000.0 } else { 10.0_f64.powf(-f64::from(k) / 100.0) };
+                let exact = DoubleDouble::sum(1.0, -e) * anomaly.into() + DoubleDouble::from(e) * tail(anomaly);
+                let m = exact.to_f64();
+                let slope = (1.0 - e) + 2.0 * e * (0.5 * anomaly).sin().powi(2);
+                let found = eccentric_anomaly(m, e);
+                let error = (found - anomaly).abs();
+                let budget = 4.5e-16 * anomaly + 1.2e-16 * m / slope;
+                assert!(error <= budget, "e = {e}, E = {anomaly}: off by {error:e} of {budget:e}");
+                assert_eq!(eccentric_anomaly(-m, e), -found);
+            }
+        }
+    }
+
+    /// E − sin E in double-double.
+    fn tail(anomaly: f64) -> DoubleDouble {
+        let x = DoubleDouble::from(anomaly);
+        let square = x * x;
+        let sum = (1..=30_i32)
+            .rev()
+            .fold(DoubleDouble::ZERO, |sum, k| (DoubleDouble::ONE - sum) * square.over(f64::from(2 * k * (2 * k + 1))));
+        x * sum
+    }
+
+    #[test]
+    fn true_anomaly_is_that_of_the_geometry() {
+        for e in [0.0, 0.3, 0.97] {
+            for k in -50..=50 {
+                let mean = PI * f64::from(k) / 50.0;
+                let place = Place::of(mean, e);
+                let anomaly = eccentric_anomaly(mean, e);
+                let r = 1.0 - e * anomaly.cos();
+                assert!((place.cosine - (anomaly.cos() - e) / r).abs() < 1e-14 / (1.0 - e));
+                assert!((place.sine - (1.0 - e * e).sqrt() * anomaly.sin() / r).abs() < 1e-14 / (1.0 - e));
+                assert!((place.angle.sin() - place.sine).abs() < 1e-15);
+            }
+        }
+    }
+}
