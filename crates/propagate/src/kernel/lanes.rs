@@ -1,7 +1,7 @@
 //! Several doubles at a time, with the arithmetic that the kernels are written in.
 //!
 //! A value is as many vectors as [`STRANDS`]: a kernel is one long chain of dependent operations, and two of them side by side fill the time that each
-//! waits (AVX-512 3.9 ns a sample for 4.6 with one, AVX2 7.3 for 8.7, portable 34 for 44). No closure and no `array::map` stands around vectors: what is not inlined is compiled without the instructions of the set, and fifty times slower.
+//! waits (AVX-512 3.9 ns a sample for 4.6 with one, AVX2 7.3 for 8.7, portable 36 for 44). No closure and no `array::map` stands around vectors: what is not inlined is compiled without the instructions of the set, and fifty times slower.
 
 use std::ops::{Add, Mul, Sub};
 

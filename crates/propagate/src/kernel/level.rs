@@ -54,8 +54,6 @@ pub(crate) fn dispatch<T: Task>(arch: Arch, task: T) -> T::Output {
         Arch::V3(simd) => simd.vectorize(On(simd, task)),
         #[cfg(target_arch = "aarch64")]
         Arch::Neon(simd) => simd.vectorize(On(simd, task)),
-        #[cfg(target_arch = "aarch64")]
-        Arch::NeonFcma(simd) => simd.vectorize(On(*simd, task)),
         _ => task.run(pulp::Scalar),
     }
 }

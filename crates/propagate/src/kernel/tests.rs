@@ -214,6 +214,7 @@ fn every_level_holds_the_reference_at_any_number_of_terms() {
         (5, 0.25, 2e-15),
         (5, 0.8, 3e-15),
         (16, 0.3, 2e-15),
+        (16, 0.8, 4e-15),
         (40, 0.7, 6e-15),
     ] {
         let case = Case::new(&mut draw, terms, ratio);
@@ -285,12 +286,14 @@ fn uniform_times_agree_with_the_same_times_one_by_one() {
     let mut broken = even(0.0, 0.1);
     broken[1700] += 1e-3;
     broken[900] += 1e-9;
+    broken[2500] += 1e-6;
     let grids = [
         even(0.0, 0.1),
         even(-150.0, 0.1),
         even(1e9, 0.125),
         even(2.4e6, 1e-3),
         even(1e3, -7.3),
+        even(0.1, 7.3),
         even(0.0, 0.0),
         broken,
     ];
