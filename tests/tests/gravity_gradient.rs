@@ -50,21 +50,23 @@ fn the_full_level_explains_all_but_a_ten_thousandth_of_the_torques_effect() {
 }
 
 #[test]
-fn rates_and_angular_momentum_are_those_of_the_integration() {
+fn rates_are_those_of_the_integration_and_of_the_angular_momentum() {
     for (case, orbit) in cases(REFERENCE).iter().zip(orbits()) {
         let motion = free(case).orbit(orbit).solve().expect("solved");
         let free_motion = free(case).solve().expect("solved");
+        // A phase that is late by an angle changes rates of size 1 by as much.
+        let effect = worst(&free_motion, case);
+        let mut error = 0.0_f64;
         for &(time, _, rates) in &case.states {
             let sample = motion.at(time).expect("finite");
-            let error = difference(sample.angular_velocity.into(), rates);
-            let effect: [f64; 3] = free_motion.at(time).expect("finite").angular_velocity.into();
-            assert!(error <= 2e-4 * difference(effect, rates) + 2e-12, "{} at {time}: {error:e}", case.name);
+            error = error.max(difference(sample.angular_velocity.into(), rates));
             let mut momentum = [[0.0; 3]];
             motion.angular_momenta_into(&[time], &mut momentum).expect("finite");
             let body: [f64; 3] = std::array::from_fn(|i| case.moments[i] * sample.angular_velocity[i]);
             let turned: [f64; 3] = (sample.attitude * andoyer_propagate::nalgebra::Vector3::from(body)).into();
             assert!(difference(turned, momentum[0]) < 1e-14);
         }
+        assert!(error <= 1e-4 * effect, "{}: {error:e} of {effect:e}", case.name);
     }
 }
 
