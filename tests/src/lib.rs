@@ -1,5 +1,7 @@
 //! What the whole-project tests share: reference solutions and the distance between attitudes.
 
+pub mod integration;
+
 use serde_json::Value;
 
 /// A reference solution: a body, its state at t = 0, and what multiple precision says of later times.

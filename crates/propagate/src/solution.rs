@@ -321,8 +321,9 @@ fn passing(scene: Scene, polhode: &Polhode) -> Result<Motion, Error> {
     Ok(assembled(scene, polhode, Solved { pair: Pair::Passage(passage), longitude, rates, plan }))
 }
 
-/// The motion under a gravity gradient.
-fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Result<Motion, Error> {
+/// Where a state that can be averaged is: σ/σ_sep, and σ, ℓ′, y′ − y.
+pub(crate) fn osculating(polhode: &Polhode) -> Result<(f64, (f64, [f64; 2])), Error> {
+    let mode = mode(polhode);
     let [g1, g2, g3] = polhode.direction;
     let [_, second] = polhode.excesses;
     let principal = mode == Mode::PrincipalAxis && g3.abs() >= SMALLEST_TILT && g1.abs().max(g2.abs()) < SMALLEST_TILT;
@@ -330,17 +331,21 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
     if second == DoubleDouble::ZERO || mode == Mode::Separatrix || (mode == Mode::PrincipalAxis && !principal) {
         return Err(unaveraged(1.0));
     }
-    let (mut ratio, mut osculating) = (0.0, (0.0, [0.0; 2]));
-    if !principal {
-        let exact = Secular::exact(polhode);
-        let sigma = exact.kappa_sigma / polhode.kappa();
-        ratio = (sigma / separatrix_action(polhode.beta())?).min(1.0);
-        if ratio > LARGEST_RATIO {
-            return Err(unaveraged(ratio));
-        }
-        let closed = ClosedForm::new(polhode, &Theta::new(polhode));
-        osculating = (sigma, [closed.anomaly, -2.0 * closed.series.pair(closed.anomaly)[0].arg()]);
+    if principal {
+        return Ok((0.0, (0.0, [0.0; 2])));
     }
+    let sigma = Secular::exact(polhode).kappa_sigma / polhode.kappa();
+    let ratio = (sigma / separatrix_action(polhode.beta())?).min(1.0);
+    if ratio > LARGEST_RATIO {
+        return Err(unaveraged(ratio));
+    }
+    let closed = ClosedForm::new(polhode, &Theta::new(polhode));
+    Ok((ratio, (sigma, [closed.anomaly, -2.0 * closed.series.pair(closed.anomaly)[0].arg()])))
+}
+
+/// The motion under a gravity gradient.
+fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Result<Motion, Error> {
+    let (ratio, osculating) = osculating(polhode)?;
     let exponent = polhode.scales.1;
     let rotation = polhode.mean_rate();
     let request = Request {

@@ -1,8 +1,9 @@
 //! The inertia tensor in the invariable frame as Fourier series in ℓ′ and y′, to all orders in J (theory §9).
 //!
-//! T = Q diag(A, B, C) Qᵀ is sampled over ℓ′ on the closed form at y′ = 0: T33, t1 e^(−iy′), t2 e^(−2iy′), and with them a and b of theory §8. A harmonic h is σ^(|h|/2)
-//! times a function that is analytic in σ at 0; that function and its slope are tabulated, so that with p = √σ e^(iℓ′) everything is regular at J = 0. Slopes are
-//! differences of fourth order over 0.4 % of sin²J (relative error 1e-10, of a correction that is small itself).
+//! T = Q diag(A, B, C) Qᵀ is sampled over a quarter of a turn of ℓ′ on the closed form at y′ = 0: T33, i t1 e^(−iy′), t2 e^(−2iy′), and with them a and b of theory §8.
+//! Time reversal makes all coefficients real, and ℓ′ → ℓ′ + π leaves the odd or the even ones. A harmonic h is σ^(|h|/2) times a function that is analytic in σ at 0; that
+//! function and its slope are tabulated, so that with p = √σ e^(iℓ′) everything is regular at J = 0. Slopes are differences of fourth order over 0.4 % of sin²J (relative error
+//! 1e-10, of a correction that is small itself).
 
 use std::f64::consts::TAU;
 
@@ -20,6 +21,10 @@ type C64 = Complex<f64>;
 const SAMPLES: usize = 64;
 /// Highest harmonic.
 pub(crate) const HIGHEST: usize = 16;
+/// Harmonics from −[`HIGHEST`] on.
+const COUNT: usize = 2 * HIGHEST + 1;
+/// Whether T33, t1, t2, a, b have the odd harmonics.
+const ODD: [bool; 5] = [false, true, false, false, true];
 /// sin²J below which functions are taken from their tangent at this value.
 const SMALLEST_SQUARE: f64 = 1e-6;
 /// Step of the differences, over sin²J.
@@ -29,14 +34,14 @@ const STEP: f64 = 2e-3;
 #[derive(Clone, Debug)]
 pub(crate) struct Harmonics {
     /// f_h at h + [`HIGHEST`].
-    pub(crate) values: Vec<C64>,
+    pub(crate) values: Vec<f64>,
     /// df_h/dσ.
-    pub(crate) slopes: Vec<C64>,
+    pub(crate) slopes: Vec<f64>,
 }
 
 impl Harmonics {
     /// f_h and its slope.
-    pub(crate) fn at(&self, harmonic: i32) -> (C64, C64) {
+    pub(crate) fn at(&self, harmonic: i32) -> (f64, f64) {
         let index = (harmonic + HIGHEST as i32) as usize; // −HIGHEST ≤ h ≤ HIGHEST
         (self.values[index], self.slopes[index])
     }
@@ -51,7 +56,7 @@ pub(crate) struct Inertia {
     pub(crate) rates: [DoubleDouble; 2],
     /// Their derivatives with respect to σ, at fixed M.
     pub(crate) rate_slopes: [f64; 2],
-    /// T33, t1 e^(−iy′), t2 e^(−2iy′).
+    /// T33, i t1 e^(−iy′), t2 e^(−2iy′).
     pub(crate) tensor: [Harmonics; 3],
     /// a and b.
     pub(crate) pair: [Harmonics; 2],
@@ -63,7 +68,7 @@ pub(crate) struct Inertia {
 struct Member {
     sigma: f64,
     rates: [DoubleDouble; 2],
-    harmonics: Vec<C64>,
+    harmonics: Vec<f64>,
 }
 
 impl Inertia {
@@ -79,17 +84,15 @@ impl Inertia {
         };
         let sigma_slope = slope(&|m| m.sigma);
         let mut values = members[2].harmonics.clone();
-        let mut slopes = vec![C64::default(); values.len()];
+        let mut slopes = vec![0.0; values.len()];
         for (index, (value, tangent)) in values.iter_mut().zip(&mut slopes).enumerate() {
-            let real = slope(&|m| m.harmonics[index].re) / sigma_slope;
-            let imaginary = slope(&|m| m.harmonics[index].im) / sigma_slope;
-            *tangent = C64::new(real, imaginary);
+            *tangent = slope(&|m| m.harmonics[index]) / sigma_slope;
             *value += *tangent * (sigma - members[2].sigma);
         }
         let rate_slopes = [0, 1].map(|i| slope(&|m| (m.rates[i] - members[2].rates[i]).to_f64()) / sigma_slope);
         let exact = rates(&polhode.tilted(square, momentum));
         let part = |index: usize| {
-            let range = index * (2 * HIGHEST + 1)..(index + 1) * (2 * HIGHEST + 1);
+            let range = index * COUNT..(index + 1) * COUNT;
             Harmonics { values: values[range.clone()].to_vec(), slopes: slopes[range].to_vec() }
         };
         Self {
@@ -105,8 +108,7 @@ impl Inertia {
 
     /// T33 averaged over ℓ′, and its slope.
     pub(crate) fn mean_axial(&self) -> (f64, f64) {
-        let (value, slope) = self.tensor[0].at(0);
-        (value.re, slope.re)
+        self.tensor[0].at(0)
     }
 }
 
@@ -142,30 +144,35 @@ fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
     let tilted = polhode.tilted(square, momentum);
     let (sigma, rates) = rates(&tilted);
     let closed = ClosedForm::new(&tilted, &Theta::new(&tilted));
-    let mut sums = vec![C64::default(); 5 * (2 * HIGHEST + 1)];
-    let root = sigma.sqrt();
-    for k in 0..SAMPLES {
-        let angle = TAU * k as f64 / SAMPLES as f64;
-        let functions = sample(&closed, angle, tilted.moments);
-        for h in -(HIGHEST as i32)..=HIGHEST as i32 {
-            let turn = C64::from_polar(1.0 / SAMPLES as f64, -f64::from(h) * angle);
-            for (part, function) in functions.iter().enumerate() {
-                let index = part * (2 * HIGHEST + 1) + (h + HIGHEST as i32) as usize;
-                sums[index] += turn * function;
+    let circle: [(f64, f64); SAMPLES] = std::array::from_fn(|k| (TAU * k as f64 / SAMPLES as f64).sin_cos());
+    let mut sums = vec![0.0; 5 * COUNT];
+    for k in 0..=SAMPLES / 4 {
+        // A period holds an end point twice and an inner one four times.
+        let weight = if k == 0 || k == SAMPLES / 4 { 2.0 } else { 4.0 } / SAMPLES as f64;
+        let functions = sample(&closed, TAU * k as f64 / SAMPLES as f64, tilted.moments).map(|f| f * weight);
+        for ((function, series), odd) in functions.iter().zip(sums.chunks_exact_mut(COUNT)).zip(ODD) {
+            for h in (usize::from(odd)..=HIGHEST).step_by(2) {
+                let (sine, cosine) = circle[h * k % SAMPLES];
+                let (even, odd) = (function.re * cosine, function.im * sine);
+                series[HIGHEST + h] += even + odd;
+                if h > 0 {
+                    series[HIGHEST - h] += even - odd;
+                }
             }
         }
     }
     // Samples end at 1e-16 of the largest; a higher harmonic than that leaves to σ^(h/2) nothing is.
     let noise = 4.0 * f64::EPSILON;
+    let root = sigma.sqrt();
     for (index, sum) in sums.iter_mut().enumerate() {
-        let h = (index % (2 * HIGHEST + 1)) as i32 - HIGHEST as i32;
+        let h = (index % COUNT) as i32 - HIGHEST as i32; // small
         let power = root.powi(h.abs());
-        *sum = if power < noise { C64::default() } else { *sum / power };
+        *sum = if power < noise { 0.0 } else { *sum / power };
     }
     Member { sigma, rates, harmonics: sums }
 }
 
-/// T33, t1, t2, a, b at ℓ′ and y′ = 0.
+/// T33, i t1, t2, a, b at ℓ′ and y′ = 0.
 fn sample(closed: &ClosedForm, angle: f64, moments: [f64; 3]) -> [C64; 5] {
     let [a, b] = closed.series.pair(angle);
     // Rows of Q are the invariable axes in the body, from the quaternion (x, y, z, w) = (Re b, Im b, Im a, Re a).
@@ -176,7 +183,7 @@ fn sample(closed: &ClosedForm, angle: f64, moments: [f64; 3]) -> [C64; 5] {
         [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)],
     ];
     let entry = |i: usize, j: usize| (0..3).map(|k| rows[i][k] * moments[k] * rows[j][k]).sum::<f64>();
-    let t1 = C64::new(entry(0, 2), entry(1, 2));
+    let turned = C64::new(-entry(1, 2), entry(0, 2));
     let t2 = C64::new(entry(0, 0) - entry(1, 1), 2.0 * entry(0, 1)) / 4.0;
-    [entry(2, 2).into(), t1, t2, a, b]
+    [entry(2, 2).into(), turned, t2, a, b]
 }

@@ -3,12 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
-use num_complex::Complex;
-
 use super::inertia::Inertia;
 use crate::error::Error;
-
-type C64 = Complex<f64>;
 
 /// Which terms the corrections by the gravity gradient have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -24,14 +20,14 @@ pub enum Level {
 }
 
 impl Level {
-    /// f_h of a multiple of y′ and its slope, as far as the level has it.
-    pub(crate) fn tensor(self, inertia: &Inertia, multiple: i32, harmonic: i32) -> (C64, C64) {
+    /// f_h of a multiple of y′ and its slope, as far as the level has it; of i t1 for the first multiple.
+    pub(crate) fn tensor(self, inertia: &Inertia, multiple: i32, harmonic: i32) -> (f64, f64) {
         match self {
             Self::Full => inertia.tensor[multiple as usize].at(harmonic), // 0 ≤ m ≤ 2
             Self::Paper | Self::Moving if (multiple, harmonic) == (2, 0) => {
-                (inertia.untilted[1].into(), C64::default())
+                (inertia.untilted[1], 0.0)
             }
-            Self::Paper | Self::Moving => (C64::default(), C64::default()),
+            Self::Paper | Self::Moving => (0.0, 0.0),
         }
     }
 

@@ -5,9 +5,12 @@
 //! small is [`Error::Resonance`]. What is left is of second order in the torque, and grows with time.
 
 mod corrections;
+mod generator;
 mod inertia;
 mod level;
 mod slow;
+#[cfg(test)]
+mod tests;
 
 pub use level::Level;
 
@@ -24,14 +27,18 @@ use crate::orbit::{Orbit, Place};
 use crate::phase::Phase;
 use crate::plan::GradientPlan;
 use crate::polhode::{Frame, Polhode, scaled};
-use corrections::{Change, Corrections, Mean};
-use inertia::Inertia;
+use corrections::{Change, Corrections, Demand, Mean, SHARE, second_order};
+use inertia::{HIGHEST, Harmonics, Inertia};
 use slow::{Ellipse, MOST_QUARTERS, Precession, Slow, Spin, When};
 
 type C64 = Complex<f64>;
 
 /// Changes of the mean variables below which they are converged.
 const CONVERGED: f64 = 1e-15;
+/// Steps to the mean variables.
+const MOST_STEPS: usize = 12;
+/// A harmonic of a or b below this turns nothing \[rad\].
+const NEGLIGIBLE: f64 = 1e-18;
 /// Torque over M²/C above which an expansion in it has no first order.
 pub(crate) const STRONGEST: f64 = 0.02;
 
@@ -75,6 +82,7 @@ impl fmt::Display for Averaging {
 #[derive(Clone, Debug)]
 pub(crate) struct Gradient {
     inertia: Inertia,
+    pair: [Powers; 2],
     corrections: Corrections,
     slow: Slow,
     anomaly: Phase,
@@ -120,9 +128,14 @@ impl Gradient {
         let mean_motion = scaled(orbit.mean_motion(), -exponent);
         let momentum = polhode.momentum.to_f64();
         let [_, _, third] = polhode.moments;
+        let duration = scaled(request.duration, exponent);
+        let demand =
+            Demand { orbit, mean_motion, level: request.level, tolerance: request.tolerance, duration, share: SHARE };
         let size = 1.5 * (mean_motion / (momentum / third)).powi(2) * orbit.disturbing_fraction()
             / (1.0 - orbit.eccentricity()).powi(3);
         if size > STRONGEST {
+            // A resonance is the better reason, if it is one.
+            Corrections::new(&Inertia::new(polhode, osculating.0, momentum), &demand)?;
             return Err(Error::TorqueTooStrong { size, bound: STRONGEST });
         }
         let mean_anomaly = orbit.mean_anomaly(request.epoch);
@@ -134,22 +147,25 @@ impl Gradient {
             momentum,
             frame: invariable_frame(polhode, attitude),
         };
-        let (mean, inertia, corrections) = mean_motion_of(polhode, &state, &start, mean_motion, request)?;
+        let MeanMotion { mean, change, inertia, corrections } = mean_motion_of(polhode, &state, &start, &demand)?;
         let (axial, axial_slope) = request.level.axial(&inertia);
         let fraction = orbit.disturbing_fraction();
         let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) * fraction;
         let ellipse = Ellipse::new(orbit, mean_motion, delta / mean.momentum);
-        let [anomaly_rate, longitude_rate] = inertia.rates;
-        let spin_rate = longitude_rate.to_f64();
-        let duration = scaled(request.duration, exponent);
-        let budget =
-            Budget { corrections: corrections.size, strength: ellipse.strength(), spin_rate, mean_motion, duration };
+        // Rates are proportional to M, which as a double would leave 1e-16 of the phases.
+        let precise = (polhode.momentum - change.momentum.into()) / mean.momentum.into();
+        let [anomaly_rate, longitude_rate] = inertia.rates.map(|rate| rate * precise);
+        let budget = Budget {
+            spin: second_order(corrections.size, &inertia, duration),
+            strength: ellipse.strength(),
+            orbital: mean_motion * duration,
+        };
         let by_orbit = match request.averaging {
             Averaging::Orbit => true,
             Averaging::Spin => false,
             Averaging::Auto => budget.of_the_orbit() <= request.tolerance,
         };
-        let error = budget.of_the_spin()
+        let error = budget.spin
             + if by_orbit { budget.of_the_orbit() } else { 0.0 }
             + corrections.dropped
             + 2.0 * corrections.rest;
@@ -169,6 +185,7 @@ impl Gradient {
             eccentricity: orbit.eccentricity(),
             root: mean.p.norm(),
             drifts: [slope, -slope * inertia.sigma],
+            pair: inertia.pair.each_ref().map(|series| Powers::new(series, inertia.sigma.sqrt())),
             inertia,
             corrections,
             slow,
@@ -253,26 +270,46 @@ impl Gradient {
     /// The quaternion of theory §8 of a state near the mean one.
     fn relative(&self, state: &Mean) -> Quaternion<f64> {
         let beyond = state.p.norm_sqr() - self.inertia.sigma;
-        let powers = powers(state.p);
-        let [a, b] = self.inertia.pair.each_ref().map(|series| {
-            let terms = series.values.iter().zip(&series.slopes).zip(&powers);
-            terms.map(|((value, slope), power)| (value + slope * beyond) * power).sum::<C64>()
-        });
+        let square = state.p * state.p;
+        let [a, b] = self.pair.each_ref().map(|series| series.at(square, beyond));
+        let b = b[0] * state.p + b[1] * state.p.conj();
+        let a = a[0] + a[1] * square.conj();
         let turn = C64::from_polar(1.0, 0.5 * state.longitude);
         let (a, b) = (a * turn, b * turn);
         Quaternion::new(a.re, b.re, b.im, a.im).normalize()
     }
 }
 
-/// P_h for all h.
-fn powers(p: C64) -> Vec<C64> {
-    let highest = inertia::HIGHEST;
-    let mut powers = vec![C64::new(1.0, 0.0); 2 * highest + 1];
-    for h in 1..=highest {
-        powers[highest + h] = powers[highest + h - 1] * p;
-        powers[highest - h] = powers[highest + h].conj();
+/// The harmonics of a or b that are not nothing, with their slopes, as polynomials in p² and p̄²: the first with h ≥ 0, the second with h < 0.
+#[derive(Clone, Debug)]
+struct Powers([Vec<[f64; 2]>; 2]);
+
+impl Powers {
+    fn new(series: &Harmonics, root: f64) -> Self {
+        let odd = series.values[HIGHEST] == 0.0;
+        let side = |first: usize, sign: i32| {
+            let mut terms: Vec<(i32, [f64; 2])> = (first..=HIGHEST)
+                .step_by(2)
+                .map(|h| sign * h as i32)
+                .map(|h| (h.abs(), <[f64; 2]>::from(series.at(h))))
+                .collect();
+            while let Some((degree, [value, slope])) = terms.last()
+                && root.powi(*degree) * (value.abs() + slope.abs() * root * root) < NEGLIGIBLE
+            {
+                terms.pop();
+            }
+            terms.into_iter().map(|(_, pair)| pair).collect()
+        };
+        if odd { Self([side(1, 1), side(1, -1)]) } else { Self([side(0, 1), side(2, -1)]) }
     }
-    powers
+
+    /// Their sums, to be multiplied with what they lack of p and p̄.
+    fn at(&self, square: C64, beyond: f64) -> [C64; 2] {
+        let sum = |terms: &[[f64; 2]], by: C64| {
+            terms.iter().rev().fold(C64::default(), |sum, [value, slope]| sum * by + (value + slope * beyond))
+        };
+        [sum(&self.0[0], square), sum(&self.0[1], square.conj())]
+    }
 }
 
 /// Where the disturbing body is a time after the epoch.
@@ -289,49 +326,53 @@ fn invariable_frame(polhode: &Polhode, attitude: UnitQuaternion<f64>) -> UnitQua
     attitude * (UnitQuaternion::new_normalize(relative) * polhode.frame.quaternion).inverse()
 }
 
-/// The mean variables whose corrections lead to a state, by fixed-point iteration, with the tables of them.
+/// A mean state, the change that leads from it to the state, and the tables of it.
+struct MeanMotion {
+    mean: Mean,
+    change: Change,
+    inertia: Inertia,
+    corrections: Corrections,
+}
+
+/// The mean variables whose corrections lead to a state, by fixed-point iteration.
 fn mean_motion_of(
     polhode: &Polhode,
     state: &Mean,
     start: &When,
-    mean_motion: f64,
-    request: &Request<'_>,
-) -> Result<(Mean, Inertia, Corrections), Error> {
-    let mut mean = *state;
+    demand: &Demand<'_>,
+) -> Result<MeanMotion, Error> {
+    let (mut mean, mut change) = (*state, Change::default());
+    let mut step = 0;
     // Each step gains the relative size of the corrections, which is below a fiftieth.
-    for step in 0.. {
+    loop {
         let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
-        let corrections = Corrections::new(&inertia, request.orbit, mean_motion, request.level, request.tolerance)?;
-        let next = state.changed(&corrections.at(&mean, &start.place), -1.0);
+        let corrections = Corrections::new(&inertia, demand)?;
+        let next_change = corrections.at(&mean, &start.place);
+        let next = state.changed(&next_change, -1.0);
         let moved = (next.p - mean.p).norm()
             + (next.longitude - mean.longitude).abs()
             + (next.momentum / mean.momentum - 1.0).abs()
             + next.frame.angle_to(&mean.frame);
-        if moved <= CONVERGED || step == 12 {
-            return Ok((mean, inertia, corrections));
+        if moved <= CONVERGED || step == MOST_STEPS {
+            return Ok(MeanMotion { mean, change, inertia, corrections });
         }
-        mean = next;
+        (mean, change) = (next, next_change);
+        step += 1;
     }
-    Err(Error::TorqueTooStrong { size: f64::NAN, bound: STRONGEST }) // the loop has no end but its return
 }
 
 /// What second order leaves.
 struct Budget {
-    corrections: f64,
+    /// Of the average over the rotation.
+    spin: f64,
     strength: f64,
-    spin_rate: f64,
-    mean_motion: f64,
-    duration: f64,
+    /// Radians of the orbit.
+    orbital: f64,
 }
 
 impl Budget {
-    /// Of the average over the rotation.
-    fn of_the_spin(&self) -> f64 {
-        self.corrections.powi(2) * (1.0 + 0.1 * self.spin_rate * self.duration)
-    }
-
     /// Of the average over the orbit.
     fn of_the_orbit(&self) -> f64 {
-        self.strength.powi(2) * (1.0 + self.mean_motion * self.duration)
+        self.strength.powi(2) * (1.0 + self.orbital)
     }
 }

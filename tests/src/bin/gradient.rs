@@ -1,0 +1,176 @@
+//! Figures of the gravity-gradient theory against an integration of the full equations, as CSV on standard output.
+//!
+//! `levels`: the share of the torque's effect on the attitude that each level leaves, against J, n/spin, e and B − A, one of them varied at a time.
+//! `bounds N`: the error of N random scenes over the bound that the plan states, for both averagings.
+
+use std::io::{self, Write};
+
+use andoyer_propagate::{Averaging, Body, Error, Level, Motion, Orbit, Scene, State};
+use andoyer_tests::attitude_error;
+use andoyer_tests::integration::Problem;
+
+/// Samples of a run.
+const SAMPLES: usize = 61;
+
+/// A body, its tilt, and the orbit; the spin is 1.
+#[derive(Clone, Copy)]
+struct Setting {
+    moments: [f64; 3],
+    tilt: f64,
+    /// ν at the epoch.
+    azimuth: f64,
+    inclination: f64,
+    mean_motion: f64,
+    eccentricity: f64,
+    /// Orbits.
+    orbits: f64,
+}
+
+struct Run {
+    scene: Scene,
+    orbit: Orbit,
+    times: Vec<f64>,
+    truth: Vec<([f64; 4], [f64; 3])>,
+}
+
+impl Setting {
+    fn run(&self) -> Result<Run, Error> {
+        let (sine, cosine) = self.tilt.sin_cos();
+        let [a, b, c] = self.moments;
+        let rates = [c / a * sine * self.azimuth.sin(), c / b * sine * self.azimuth.cos(), cosine];
+        let (half_sine, half_cosine) = (0.5 * self.inclination).sin_cos();
+        let attitude = [half_sine, 0.0, 0.0, half_cosine];
+        let orbit = Orbit::new(self.mean_motion, self.eccentricity)?.plane(0.0, 0.0, 0.7)?;
+        let span = self.orbits * std::f64::consts::TAU / self.mean_motion;
+        let times: Vec<f64> = (0..SAMPLES).map(|k| span * k as f64 / (SAMPLES - 1) as f64).collect();
+        let truth = Problem { moments: self.moments, orbit: Some(orbit) }.integrate(0.0, attitude, rates, &times);
+        let scene = Scene::new(Body::new(self.moments)?, State::new(0.0, attitude, rates)?).span(0.0, span);
+        Ok(Run { scene, orbit, times, truth })
+    }
+}
+
+impl Run {
+    fn error(&self, motion: &Motion) -> Result<f64, Error> {
+        let mut worst = 0.0_f64;
+        for (&time, &(attitude, _)) in self.times.iter().zip(&self.truth) {
+            worst = worst.max(attitude_error(motion.at(time)?.attitude.coords.into(), attitude));
+        }
+        Ok(worst)
+    }
+}
+
+fn levels(out: &mut impl Write) -> Result<(), Box<dyn std::error::Error>> {
+    writeln!(out, "varied,value,paper,moving,full,effect_rad,full_error_rad,bound_rad")?;
+    let base = Setting {
+        moments: [1.0 / 1.05, 1.02 / 1.05, 1.0],
+        tilt: 0.02,
+        azimuth: 0.3,
+        inclination: 0.4,
+        mean_motion: 2e-3,
+        eccentricity: 0.1,
+        orbits: 3.0,
+    };
+    let logarithmic = |from: f64, to: f64, count: usize| -> Vec<f64> {
+        (0..count).map(|k| from * (to / from).powf(k as f64 / (count - 1) as f64)).collect()
+    };
+    let mut series: Vec<(&str, f64, Setting)> = Vec::new();
+    series.extend(logarithmic(1e-4, 0.5, 12).into_iter().map(|v| ("J", v, Setting { tilt: v, ..base })));
+    series.extend(logarithmic(1e-4, 3e-2, 11).into_iter().map(|v| ("n/spin", v, Setting { mean_motion: v, ..base })));
+    series.extend((0..=10).map(|k| 0.05 * f64::from(k)).map(|v| ("e", v, Setting { eccentricity: v, ..base })));
+    // A + B is kept.
+    series.extend(logarithmic(1e-5, 0.06, 11).into_iter().map(|v| {
+        let mean = 1.01 / 1.05;
+        ("(B-A)/C", v, Setting { moments: [mean - 0.5 * v, mean + 0.5 * v, 1.0], ..base })
+    }));
+    for (varied, value, setting) in series {
+        let run = setting.run()?;
+        let effect = run.error(&run.scene.solve()?)?;
+        let solve = |level| run.scene.clone().orbit(run.orbit).level(level).averaging(Averaging::Spin).solve();
+        write!(out, "{varied},{value:.6e}")?;
+        for level in [Level::Paper, Level::Moving, Level::Full] {
+            write!(out, ",{:.3e}", run.error(&solve(level)?)? / effect)?;
+        }
+        let full = solve(Level::Full)?;
+        writeln!(out, ",{effect:.3e},{:.3e},{:.3e}", run.error(&full)?, full.plan().error_bound())?;
+    }
+    Ok(())
+}
+
+/// Uniform numbers in [0, 1) from a linear congruential generator (Knuth's multiplier): the same on every machine.
+struct Uniform(u64);
+
+impl Uniform {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+}
+
+fn setting(random: &mut Uniform) -> Setting {
+    // A homogeneous ellipsoid, axes ordered.
+    let first = random.between(0.4, 1.0);
+    let second = random.between(first, 1.0);
+    let third = first * second.max(0.3);
+    let mut axes = [1.0, second, third];
+    axes.sort_by(f64::total_cmp);
+    let [short, middle, long] = axes.map(|axis| axis * axis);
+    let scale = middle + long;
+    Setting {
+        moments: [(short + middle) / scale, (short + long) / scale, 1.0],
+        tilt: random.between(0.0, 0.3),
+        azimuth: random.between(0.0, std::f64::consts::TAU),
+        inclination: random.between(0.0, std::f64::consts::PI),
+        mean_motion: 10.0_f64.powf(random.between(-3.5, -1.7)),
+        eccentricity: random.between(0.0, 0.5),
+        orbits: random.between(3.0, 10.0),
+    }
+}
+
+fn bounds(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn std::error::Error>> {
+    writeln!(out, "averaging,n,e,J,A,B,ratio,orbits,torque,kappa,error,bound")?;
+    let mut random = Uniform(seed);
+    for _ in 0..count {
+        let setting = setting(&mut random);
+        let run = setting.run()?;
+        for averaging in [Averaging::Spin, Averaging::Orbit] {
+            let motion = match run.scene.clone().orbit(run.orbit).averaging(averaging).solve() {
+                Ok(motion) => motion,
+                Err(error) => {
+                    writeln!(out, "# {error}")?;
+                    continue;
+                }
+            };
+            let plan = motion.plan();
+            let [a, b, _] = setting.moments;
+            let kappa = 3.0 * setting.mean_motion * (1.0 - 0.5 * (a + b)) / (1.0 - setting.eccentricity.powi(2)).powf(1.5);
+            writeln!(
+                out,
+                "{averaging},{:.3e},{:.3},{:.3},{a:.3},{b:.3},{:.3},{:.1},{:.3e},{kappa:.3e},{:.3e},{:.3e}",
+                setting.mean_motion,
+                setting.eccentricity,
+                setting.tilt,
+                plan.separatrix_ratio(),
+                setting.orbits,
+                plan.torque(),
+                run.error(&motion)?,
+                plan.error_bound(),
+            )?;
+        }
+    }
+    Ok(())
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words[..] {
+        ["levels"] => levels(&mut out),
+        ["bounds", count, seed] => bounds(&mut out, count.parse()?, seed.parse()?),
+        _ => Err("usage: gradient levels | gradient bounds COUNT SEED".into()),
+    }
+}
