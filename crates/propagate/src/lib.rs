@@ -26,7 +26,7 @@ mod solution;
 mod state;
 
 pub use body::Body;
-pub use ensemble::Ensemble;
+pub use ensemble::{Ensemble, MAX_THREADS};
 pub use error::Error;
 pub use motion::{Frequencies, Motion, Periods, Sample};
 pub use plan::{MAX_ORDER, Mode, Plan};
