@@ -1,7 +1,7 @@
 """Rotation of rigid bodies by perturbation series in complex variables.
 
 The exact side is `NormalForm`: the normal form of the free rigid body to any order. The numerical side is `Scene`, a `Body` with its state,
-which is solved into a `Motion` and evaluated at any time. No unit is built in; angles are in rad. Attitudes are unit quaternions
+which is solved into a `Motion` and evaluated at any time; an `Ensemble` is many of them. No unit is built in; angles are in rad. Attitudes are unit quaternions
 [x, y, z, w] that rotate body components into inertial ones.
 
 In every docstring "theory §n" is section n of docs/theory.md, and the scene file is described in docs/scene.md.
@@ -19,6 +19,7 @@ from andoyer._core import (
     AngularVelocityError,
     AttitudeError,
     Body,
+    Ensemble,
     EpochError,
     Error,
     FormatError,
@@ -36,6 +37,7 @@ from andoyer._core import (
     SeriesError,
     ShapeError,
     SpanError,
+    ThreadsError,
     TimesError,
     ToleranceError,
     UnitsError,
@@ -50,6 +52,7 @@ __all__ = [
     "AngularVelocityError",
     "AttitudeError",
     "Body",
+    "Ensemble",
     "EpochError",
     "Error",
     "FormatError",
@@ -69,6 +72,7 @@ __all__ = [
     "SeriesError",
     "ShapeError",
     "SpanError",
+    "ThreadsError",
     "TimesError",
     "ToleranceError",
     "UnitsError",
