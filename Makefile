@@ -3,8 +3,9 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 WHEELS := target/wheels
+RIVALS := target/rivals-venv
 
-.PHONY: demo test lint bench docs wheel clean
+.PHONY: demo test lint bench rivals docs wheel clean
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -23,6 +24,18 @@ lint:
 
 bench:  ## criterion groups by order
 	cargo bench --workspace
+
+rivals: $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine: a table of ratios, in out/ too
+	$(RIVALS)/bin/python benches/rivals/normal_form.py
+
+$(RIVALS)/installed: $(RIVALS)/ready $(VENV)/installed
+	$(RIVALS)/bin/python -m pip install --quiet --force-reinstall --no-deps $(WHEELS)/andoyer-*.whl
+	touch $@
+
+$(RIVALS)/ready: benches/rivals/requirements.txt
+	$(PYTHON) -m venv $(RIVALS)
+	$(RIVALS)/bin/python -m pip install --quiet --requirement benches/rivals/requirements.txt
+	touch $@
 
 docs:  ## the Rust documentation
 	RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps

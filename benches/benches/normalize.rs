@@ -1,15 +1,19 @@
-//! Normalization by order: exact and symbolic in β, and in `f64` at one β with the direct transformation.
+//! Normalization by order. Engines: `energy` is the exact normal form as `NormalForm::new` computes it, `triangle` the same through the
+//! generic algebra over rationals, `f64` the one at β = ½ with its direct transformation.
 
 use std::hint::black_box;
+use std::ops::ControlFlow;
 
-use andoyer_series::{NormalForm, NumericNormalForm};
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use andoyer_series::{
+    Monomial, NormalForm, Normalization, NumericNormalForm, deprit_triangle, hamiltonian, homological, poisson,
+};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};
+use num_rational::BigRational;
 
-fn normalize(c: &mut Criterion) {
-    let mut group = c.benchmark_group("normalize");
-    group.sample_size(10);
-    for order in [5, 10, 20, 30, 40, 50] {
-        group.bench_function(BenchmarkId::new(format!("order-{order}"), "exact"), |b| {
+fn energy(group: &mut BenchmarkGroup<'_, WallTime>) {
+    for order in [5, 10, 15, 20, 30, 40, 50] {
+        group.bench_function(BenchmarkId::new(format!("order-{order}"), "energy"), |b| {
             b.iter(|| {
                 let normal_form = NormalForm::new(black_box(order)).expect("within the bounds");
                 let third = &normal_form.triaxiality_polynomial(3).expect("order ≥ 5")[&2];
@@ -18,6 +22,31 @@ fn normalize(c: &mut Criterion) {
             });
         });
     }
+}
+
+fn exact_triangle(order: usize) -> Normalization<BigRational> {
+    let hamiltonian = hamiltonian().expect("characteristic 0");
+    let (homological, poisson) = (homological().expect("two slots"), poisson().expect("two slots"));
+    let mut quiet = |_, _| ControlFlow::Continue(());
+    deprit_triangle(&hamiltonian, &homological, &poisson, order, &mut quiet).expect("within the bounds")
+}
+
+fn triangle(group: &mut BenchmarkGroup<'_, WallTime>) {
+    // k_3 τ³ (w w̄)⁴ with k_3 = P_3/2.
+    let third = Monomial::new(&[4, 4, 3, 2]).expect("small exponents");
+    for order in [5, 10, 15, 20] {
+        group.bench_function(BenchmarkId::new(format!("order-{order}"), "triangle"), |b| {
+            b.iter(|| {
+                let normalization = exact_triangle(black_box(order));
+                let kernel: Vec<_> = normalization.hamiltonian[3].terms().collect();
+                assert_eq!(kernel, [(third, &BigRational::new((-5).into(), 16.into()))]);
+                normalization
+            });
+        });
+    }
+}
+
+fn float(group: &mut BenchmarkGroup<'_, WallTime>) {
     for order in [5, 10, 12, 20, 30, 40, 60] {
         group.bench_function(BenchmarkId::new(format!("order-{order}"), "f64"), |b| {
             b.iter(|| {
@@ -27,8 +56,16 @@ fn normalize(c: &mut Criterion) {
             });
         });
     }
+}
+
+fn by_order(c: &mut Criterion) {
+    let mut group = c.benchmark_group("normalize");
+    group.sample_size(10);
+    energy(&mut group);
+    triangle(&mut group);
+    float(&mut group);
     group.finish();
 }
 
-criterion_group!(benches, normalize);
+criterion_group!(benches, by_order);
 criterion_main!(benches);

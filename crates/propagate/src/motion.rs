@@ -1,17 +1,20 @@
 //! A solved motion: immutable, shared between threads, evaluated at any time.
 //!
-//! Evaluation is two sines and cosines (of ℓ′ and y′/2), the sums of theory §8, a normalization and two quaternion products. The rates come from
-//! the same a and b: g = (−2 Im b ā, 2 Re b ā, |a|² − |b|²).
+//! Evaluation is two sines and cosines (of ℓ′ and y′/2), the sums of theory §8, a normalization and a constant map: see [`crate::kernel`].
 
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::batch::Batch;
 use crate::error::Error;
 use crate::fourier::QuaternionSeries;
-use crate::phase::{Phase, elapsed};
+use crate::kernel::steady::Steady;
+use crate::kernel::wobble::Tables;
+use crate::phase::Phase;
 use crate::plan::Plan;
 use crate::polhode::Frame;
 use crate::scene::Scene;
-use crate::separatrix::Passage;
+use crate::separatrix::Flip;
+use crate::state::State;
 
 /// Rotations from the epoch within which phases are good to 1e-14 rad; not far beyond, a double no longer tells one turn from the next.
 const MOST_ROTATIONS: f64 = 1e15;
@@ -48,26 +51,38 @@ pub struct Periods {
 /// How a motion goes on from its epoch.
 #[derive(Clone, Debug)]
 pub(crate) enum Course {
-    /// Rotation about an axis fixed in the body, whose half angle grows.
-    Steady { axis: Vector3<f64>, half_angle: Phase },
-    /// A polhode: `inertial` and `frame` lead from the series' quaternion to that of the body.
-    Polhode(Box<Wobble>),
+    /// Rotation about an axis fixed in the body.
+    Steady(Box<Steady>),
+    /// A polhode.
+    Polhode(Box<Tables>),
+    /// A polhode next to the separatrix or on it.
+    Flip(Box<Flip>),
 }
 
-/// a e^(−iy′/2) and b e^(−iy′/2) of theory §8, up to their norm, as functions of time.
-#[derive(Clone, Debug)]
-pub(crate) enum Pair {
-    /// ℓ′ and the harmonics of it.
-    Fourier(Phase, QuaternionSeries),
-    /// Near the separatrix and on it.
-    Passage(Passage),
+impl Course {
+    /// Rotation about a unit axis of the body, or the zero vector for none, with the phase of half the angle.
+    pub(crate) fn steady(state: &State, axis: Vector3<f64>, half_angle: Phase) -> Self {
+        Self::Steady(Box::new(Steady::new(axis, half_angle, state.attitude, state.angular_velocity)))
+    }
+
+    /// A wobble, with what its evaluation takes from it.
+    pub(crate) fn polhode(wobble: &Wobble) -> Self {
+        Self::Polhode(Box::new(Tables::new(wobble)))
+    }
 }
 
-/// What a wobbling motion is evaluated from.
+/// A wobble.
 #[derive(Clone, Debug)]
 pub(crate) struct Wobble {
-    pub(crate) pair: Pair,
+    pub(crate) anomaly: Phase,
+    pub(crate) series: QuaternionSeries,
     pub(crate) half_longitude: Phase,
+    pub(crate) place: Place,
+}
+
+/// What leads from the pair (a, b) to the body: the attitude is inertial · (a, b) · frame.
+#[derive(Clone, Debug)]
+pub(crate) struct Place {
     pub(crate) inertial: UnitQuaternion<f64>,
     pub(crate) frame: Frame,
     /// M over each moment, on the sorted axes.
@@ -132,9 +147,15 @@ impl Motion {
     /// # Errors
     /// - [`Error::Time`] for NaN, infinite, or more than 1e15 rotations from the epoch.
     pub fn at(&self, time: f64) -> Result<Sample, Error> {
-        let elapsed = self.elapsed(0, time)?;
-        let (attitude, angular_velocity) = self.evaluate(elapsed);
-        Ok(Sample { time, attitude: UnitQuaternion::new_unchecked(attitude), angular_velocity })
+        let (mut attitude, mut rates) = ([[0.0; 4]], [[0.0; 3]]);
+        self.batch().samples_into(&[time], &mut attitude, &mut rates)?;
+        let attitude = UnitQuaternion::new_unchecked(attitude[0].into());
+        Ok(Sample { time, attitude, angular_velocity: rates[0].into() })
+    }
+
+    /// How many times at once are evaluated: on as many threads as pay, unless told otherwise.
+    pub fn batch(&self) -> Batch<'_> {
+        Batch::new(self)
     }
 
     /// Attitudes [x, y, z, w] at many times, without an allocation.
@@ -143,11 +164,7 @@ impl Motion {
     /// - [`Error::Length`] for `out` shorter or longer than `times`.
     /// - [`Error::Time`] as for [`Motion::at`], with the index.
     pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<(), Error> {
-        length("out", out.len(), times.len())?;
-        for ((index, &time), slot) in times.iter().enumerate().zip(out) {
-            *slot = self.evaluate(self.elapsed(index, time)?).0.coords.into();
-        }
-        Ok(())
+        self.batch().attitudes_into(times, out)
     }
 
     /// Angular velocities, body components, at many times, without an allocation.
@@ -155,11 +172,7 @@ impl Motion {
     /// # Errors
     /// As [`Motion::attitudes_into`].
     pub fn angular_velocities_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
-        length("out", out.len(), times.len())?;
-        for ((index, &time), slot) in times.iter().enumerate().zip(out) {
-            *slot = self.evaluate(self.elapsed(index, time)?).1.into();
-        }
-        Ok(())
+        self.batch().angular_velocities_into(times, out)
     }
 
     /// Angular momenta, inertial components, at many times, without an allocation.
@@ -168,10 +181,8 @@ impl Motion {
     /// As [`Motion::attitudes_into`].
     pub fn angular_momenta_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
-        for ((index, &time), slot) in times.iter().enumerate().zip(out) {
-            self.elapsed(index, time)?;
-            *slot = self.angular_momentum.into();
-        }
+        self.valid(times)?;
+        out.fill(self.angular_momentum.into());
         Ok(())
     }
 
@@ -180,67 +191,27 @@ impl Motion {
     /// # Errors
     /// As [`Motion::attitudes_into`].
     pub fn samples_into(&self, times: &[f64], attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
-        length("attitudes", attitudes.len(), times.len())?;
-        length("rates", rates.len(), times.len())?;
-        for (index, &time) in times.iter().enumerate() {
-            let (attitude, rate) = self.evaluate(self.elapsed(index, time)?);
-            attitudes[index] = attitude.coords.into();
-            rates[index] = rate.into();
-        }
-        Ok(())
+        self.batch().samples_into(times, attitudes, rates)
     }
 
-    pub(crate) fn elapsed(&self, index: usize, time: f64) -> Result<(f64, f64), Error> {
+    /// The largest distance from the epoch at which the motion has a phase.
+    pub(crate) fn bound(&self) -> f64 {
         // A body at rest, or one that turns once in 1e285 units, is still bounded: no sum of two times overflows.
-        let bound = (MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude).min(1e300);
+        (MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude).min(1e300)
+    }
+
+    fn valid(&self, times: &[f64]) -> Result<(), Error> {
+        let (epoch, bound) = (self.scene.state().epoch, self.bound());
         // Written so that NaN fails it.
-        if (time - self.scene.state().epoch).abs() <= bound {
-            Ok(elapsed(time, self.scene.state().epoch))
-        } else {
-            Err(Error::Time { index, value: time, bound })
+        let valid = |time: &f64| (time - epoch).abs() <= bound;
+        match times.iter().position(|time| !valid(time)) {
+            Some(index) => Err(self.no_phase(index, times)),
+            None => Ok(()),
         }
     }
 
-    pub(crate) fn evaluate(&self, elapsed: (f64, f64)) -> (Quaternion<f64>, Vector3<f64>) {
-        match &self.course {
-            Course::Steady { axis, half_angle } => {
-                let (sine, cosine) = half_angle.angle(elapsed).sin_cos();
-                let turn = Quaternion::from_parts(cosine, axis * sine);
-                let state = self.scene.state();
-                (state.attitude.into_inner() * turn, state.angular_velocity)
-            }
-            Course::Polhode(wobble) => wobble.evaluate(elapsed),
-        }
-    }
-}
-
-impl Wobble {
-    fn evaluate(&self, elapsed: (f64, f64)) -> (Quaternion<f64>, Vector3<f64>) {
-        let (a, b, lead) = match &self.pair {
-            Pair::Fourier(anomaly, series) => {
-                let (a, b) = series.evaluate(anomaly.angle(elapsed));
-                (a, b, 0.0)
-            }
-            Pair::Passage(passage) => passage.evaluate(elapsed),
-        };
-        let scale = 1.0 / (a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1]).sqrt();
-        let (a, b) = (a.map(|c| c * scale), b.map(|c| c * scale));
-        // g is free of y: it cancels in b ā.
-        let direction = [
-            2.0 * (b[0] * a[1] - b[1] * a[0]),
-            2.0 * (b[0] * a[0] + b[1] * a[1]),
-            a[0] * a[0] + a[1] * a[1] - b[0] * b[0] - b[1] * b[1],
-        ];
-        let rates = self.frame.user(std::array::from_fn(|i| self.rates[i] * direction[i]));
-        let (sine, cosine) = (self.half_longitude.angle(elapsed) + lead).sin_cos();
-        let relative = Quaternion::new(
-            a[0] * cosine - a[1] * sine,
-            b[0] * cosine - b[1] * sine,
-            b[0] * sine + b[1] * cosine,
-            a[0] * sine + a[1] * cosine,
-        );
-        let attitude = self.inertial.into_inner() * relative * self.frame.quaternion.into_inner();
-        (attitude, Vector3::from(rates))
+    pub(crate) fn no_phase(&self, index: usize, times: &[f64]) -> Error {
+        Error::Time { index, value: times[index], bound: self.bound() }
     }
 }
 

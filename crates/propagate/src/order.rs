@@ -25,7 +25,7 @@ pub(crate) struct Expanded {
     pub(crate) expansion: Expansion,
     pub(crate) secular: Secular,
     pub(crate) ellipse: Ellipse,
-    /// \[rad\].
+    /// \[rad\]
     pub(crate) truncation: f64,
 }
 

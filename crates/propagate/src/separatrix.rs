@@ -13,9 +13,46 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
+use nalgebra::Quaternion;
+
 use crate::elliptic::{Theta, quadrant};
+use crate::motion::Place;
 use crate::phase::Phase;
 use crate::polhode::Polhode;
+
+/// A motion by such a passage, one time after another.
+#[derive(Clone, Debug)]
+pub(crate) struct Flip {
+    pub(crate) passage: Passage,
+    pub(crate) half_longitude: Phase,
+    pub(crate) place: Place,
+}
+
+impl Flip {
+    /// Attitude and rates a time after the epoch.
+    pub(crate) fn evaluate(&self, elapsed: (f64, f64)) -> ([f64; 4], [f64; 3]) {
+        let (a, b, lead) = self.passage.evaluate(elapsed);
+        let scale = 1.0 / (a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1]).sqrt();
+        let (a, b) = (a.map(|c| c * scale), b.map(|c| c * scale));
+        // y cancels in b ā (theory §8).
+        let direction = [
+            2.0 * (b[0] * a[1] - b[1] * a[0]),
+            2.0 * (b[0] * a[0] + b[1] * a[1]),
+            a[0] * a[0] + a[1] * a[1] - b[0] * b[0] - b[1] * b[1],
+        ];
+        let Place { inertial, frame, rates } = &self.place;
+        let rates = frame.user(std::array::from_fn(|i| rates[i] * direction[i]));
+        let (sine, cosine) = (self.half_longitude.angle(elapsed) + lead).sin_cos();
+        let relative = Quaternion::new(
+            a[0] * cosine - a[1] * sine,
+            b[0] * cosine - b[1] * sine,
+            b[0] * sine + b[1] * cosine,
+            a[0] * sine + a[1] * cosine,
+        );
+        let attitude = inertial.into_inner() * relative * frame.quaternion.into_inner();
+        (attitude.coords.into(), rates)
+    }
+}
 
 /// p^9 is 4e-33 at k′ = 1e-3: terms n = 0, 1, 2.
 const TERMS: i32 = 3;

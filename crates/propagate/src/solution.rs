@@ -8,14 +8,14 @@ use crate::closed::{ClosedForm, NEAREST_COMPLEMENT, anomaly};
 use crate::elliptic::Theta;
 use crate::error::Error;
 use crate::fourier::{QuaternionSeries, oscillator_and_longitude};
-use crate::motion::{Course, Frequencies, Motion, Pair, Wobble};
+use crate::motion::{Course, Frequencies, Motion, Place, Wobble};
 use crate::order::{Expanded, expanded, first_order, initial_anomaly};
 use crate::phase::Phase;
 use crate::plan::{Mode, Plan};
 use crate::polhode::{Polhode, SMALLEST_TILT, scaled};
 use crate::scene::{Method, Scene};
 use crate::secular::Secular;
-use crate::separatrix::{Clock, Passage};
+use crate::separatrix::{Clock, Flip, Passage};
 
 /// What double precision leaves of an attitude: rounding of the frames, of two quaternion products, and, for eight harmonics each, of the sums \[rad\].
 const ROUNDING: f64 = 3e-15;
@@ -71,7 +71,7 @@ fn at_rest(scene: Scene) -> Motion {
     let half_angle = Phase::new(DoubleDouble::ZERO, 0.0);
     Motion {
         plan: steady_plan(&scene, Mode::AtRest, "the body is at rest"),
-        course: Course::Steady { axis: Vector3::zeros(), half_angle },
+        course: Course::steady(scene.state(), Vector3::zeros(), half_angle),
         frequencies: Frequencies { anomaly: 0.0, longitude: 0.0 },
         angular_momentum: Vector3::zeros(),
         long_axis: false,
@@ -120,7 +120,7 @@ fn steadily_rotating(scene: Scene, polhode: &Polhode, mode: Mode) -> Motion {
     }
     Motion {
         plan,
-        course: Course::Steady { axis: Vector3::from(axis), half_angle: half(user_rate(rate, exponent), 0.0) },
+        course: Course::steady(scene.state(), Vector3::from(axis), half(user_rate(rate, exponent), 0.0)),
         frequencies: Frequencies { anomaly, longitude: scaled(rate.to_f64(), exponent) },
         angular_momentum: angular_momentum(&scene, polhode),
         long_axis: polhode.long_axis,
@@ -140,6 +140,14 @@ fn half(rate: DoubleDouble, start: f64) -> Phase {
 fn angular_momentum(scene: &Scene, polhode: &Polhode) -> Vector3<f64> {
     let direction = Vector3::from(polhode.frame.user(polhode.direction));
     scene.state().attitude * direction * polhode.user_momentum()
+}
+
+/// a e^(−iy′/2) and b e^(−iy′/2) of theory §8, up to their norm, as functions of time.
+enum Pair {
+    /// ℓ′ and the harmonics of it.
+    Fourier(Phase, QuaternionSeries),
+    /// Near the separatrix and on it.
+    Passage(Passage),
 }
 
 /// The pair (a, b) as a function of time, and what the plan says of it.
@@ -184,15 +192,19 @@ fn assembled(scene: Scene, polhode: &Polhode, solved: Solved) -> Motion {
     let exponent = polhode.scales.1;
     let longitude_rate = user_rate(solved.rates.longitude_rate, exponent);
     let anomaly = scaled(solved.rates.anomaly_rate.to_f64(), exponent);
+    let half_longitude = half(longitude_rate, solved.longitude);
+    let place = Place {
+        inertial: invariable_frame(&scene, polhode, polhode.zeta()),
+        frame: polhode.frame.clone(),
+        rates: polhode.user_rates(),
+    };
+    let course = match solved.pair {
+        Pair::Fourier(anomaly, series) => Course::polhode(&Wobble { anomaly, series, half_longitude, place }),
+        Pair::Passage(passage) => Course::Flip(Box::new(Flip { passage, half_longitude, place })),
+    };
     Motion {
         plan: solved.plan,
-        course: Course::Polhode(Box::new(Wobble {
-            pair: solved.pair,
-            half_longitude: half(longitude_rate, solved.longitude),
-            inertial: invariable_frame(&scene, polhode, polhode.zeta()),
-            frame: polhode.frame.clone(),
-            rates: polhode.user_rates(),
-        })),
+        course,
         frequencies: Frequencies { anomaly, longitude: longitude_rate.to_f64() },
         angular_momentum: angular_momentum(&scene, polhode),
         long_axis: polhode.long_axis,
@@ -257,8 +269,7 @@ fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secular, mut plan
         };
         std::iter::once(reason).chain(dropped_harmonics(&series, all)).collect()
     };
-    let (a, _) = series.evaluate(closed.anomaly);
-    let longitude = -2.0 * a[1].atan2(a[0]);
+    let longitude = -2.0 * series.argument(closed.anomaly);
     let pair = Pair::Fourier(Phase::new(anomaly_rate, closed.anomaly), series);
     Solved { pair, longitude, rates, plan }
 }

@@ -6,7 +6,7 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::array::{Rows, Times, chunks, constant_rows, number, write};
+use crate::array::{MemberRows, Times, chunks, constant_rows, number, write};
 use crate::error::{self, ShapeError, ThreadsError};
 use crate::motion::Motion;
 use crate::order::whole_number;
@@ -74,9 +74,9 @@ impl Ensemble {
         #[pyo3(from_py_with = tolerance)] tolerance: f64,
         threads: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let moments = Rows::new("moments", moments)?;
-        let attitudes = Rows::new("attitudes", attitudes)?;
-        let rates = Rows::new("angular_velocities", angular_velocities)?;
+        let moments = MemberRows::new("moments", moments)?;
+        let attitudes = MemberRows::new("attitudes", attitudes)?;
+        let rates = MemberRows::new("angular_velocities", angular_velocities)?;
         let threads =
             threads.map(|value| whole_number::<ThreadsError>("threads", value, 1, MAX_THREADS)).transpose()?;
         let Some(members) = moments.members().or(attitudes.members()).or(rates.members()) else {
@@ -119,13 +119,13 @@ impl Ensemble {
     ///     Rows for another number of members.
     fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Samples> {
         let times = Times::of_members(times, self.0.len())?;
-        let (attitude, rates) = (times.rows(4), times.rows(3));
+        let [copy, attitude, rates] = times.samples()?;
         {
             let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
             let (values, attitude, rates) = (times.values()?, chunks(&mut attitude)?, chunks(&mut rates)?);
             py.detach(|| self.0.samples_into(values, attitude, rates)).map_err(error::propagation)?;
         }
-        Ok(Samples::new(times.copied()?.unbind(), attitude.unbind(), rates.unbind()))
+        Ok(Samples::new(copy.unbind(), attitude.unbind(), rates.unbind()))
     }
 
     /// Attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones.

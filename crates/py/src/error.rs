@@ -4,7 +4,7 @@
 //! array-like of numbers, no `Body` or no string where one is due, stays Python's own `TypeError`.
 
 use andoyer_propagate::Error as Propagation;
-use andoyer_series::Error as Algebra;
+use andoyer_series::{Error as Algebra, ParseProblem};
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -42,6 +42,18 @@ create_exception!(
     "A name that is none of the known ones: of a variable, or of a part of the normal form."
 );
 create_exception!(andoyer, IntervalError, Error, "A number outside its interval.");
+create_exception!(
+    andoyer,
+    HamiltonianError,
+    Error,
+    "A polynomial that cannot be read, or a Hamiltonian whose origin is no elliptic point with a diagonal quadratic part."
+);
+create_exception!(
+    andoyer,
+    ResonanceError,
+    Error,
+    "A resonance or small divisor not asked for, or one asked for that is none."
+);
 create_exception!(andoyer, FormatError, Error, "A text that is not the JSON of a normal form.");
 create_exception!(andoyer, SeriesError, Error, "Any other error of the exact algebra.");
 
@@ -85,8 +97,20 @@ pub(crate) fn algebra(error: Algebra) -> PyErr {
     let message = error.to_string();
     match error {
         Algebra::OrderTooLarge { .. } | Algebra::OrderOutOfRange { .. } => OrderError::new_err(message),
-        Algebra::NameUnknown { .. } => UnknownNameError::new_err(message),
-        Algebra::OutsideInterval { .. } => IntervalError::new_err(message),
+        Algebra::NameUnknown { .. } | Algebra::Parse { problem: ParseProblem::UnknownName(_), .. } => {
+            UnknownNameError::new_err(message)
+        }
+        Algebra::OutsideInterval { .. } | Algebra::NotFinite { .. } => IntervalError::new_err(message),
+        Algebra::Parse { .. }
+        | Algebra::PhaseSpaceSize { .. }
+        | Algebra::LinearTerm { .. }
+        | Algebra::QuadraticNotDiagonal { .. }
+        | Algebra::NotElliptic { .. }
+        | Algebra::FrequencyIrrational { .. } => HamiltonianError::new_err(message),
+        Algebra::SmallDivisor { .. }
+        | Algebra::NotResonant { .. }
+        | Algebra::ResonanceMalformed { .. }
+        | Algebra::ResonantTerm { .. } => ResonanceError::new_err(message),
         Algebra::Json(_)
         | Algebra::FormatUnknown { .. }
         | Algebra::RationalMalformed { .. }

@@ -1,7 +1,7 @@
 //! Python's face of andoyer: the extension module `andoyer._core`.
 //!
 //! One file for each class of the Python package, each a thin frozen wrapper round the Rust type of the same name; arguments are
-//! converted in `array` and `order`, errors in `error`. No mathematics here: what Python can do, Rust can.
+//! converted in `array`, `expression` and `order`, errors in `error`. No mathematics here: what Python can do, Rust can.
 //! Arrays are float64 in C order: times (n,), attitudes (n, 4) as [x, y, z, w], vectors (n, 3),
 //! ensembles (m, n, …). The interpreter lock is released round
 //! everything that computes. Doc comments of `#[pyclass]` and `#[pymethods]` items are Python's docstrings, in NumPy's style; the stub is
@@ -11,13 +11,17 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod array;
+mod birkhoff;
 mod body;
 mod ensemble;
 mod error;
+mod expression;
 mod motion;
 mod normal_form;
+mod normalize;
 mod order;
 mod plan;
+mod progress;
 mod samples;
 mod scene;
 
@@ -25,19 +29,24 @@ mod scene;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
+    use super::birkhoff::BirkhoffNormalForm;
+    #[pymodule_export]
     use super::body::Body;
     #[pymodule_export]
     use super::ensemble::Ensemble;
     #[pymodule_export]
     use super::error::{
-        AngularVelocityError, AttitudeError, EpochError, Error, FormatError, IntervalError, MethodError, MomentsError,
-        OrderError, SceneFileError, SeparatrixError, SeriesError, ShapeError, SpanError, ThreadsError, TimesError,
-        ToleranceError, UnitsError, UnknownBodyError, UnknownNameError,
+        AngularVelocityError, AttitudeError, EpochError, Error, FormatError, HamiltonianError, IntervalError,
+        MethodError, MomentsError, OrderError, ResonanceError, SceneFileError, SeparatrixError, SeriesError,
+        ShapeError, SpanError, ThreadsError, TimesError, ToleranceError, UnitsError, UnknownBodyError,
+        UnknownNameError,
     };
     #[pymodule_export]
     use super::motion::Motion;
     #[pymodule_export]
     use super::normal_form::{NormalForm, separatrix_action};
+    #[pymodule_export]
+    use super::normalize::normalize;
     #[pymodule_export]
     use super::plan::Plan;
     #[pymodule_export]

@@ -44,13 +44,13 @@ impl Motion {
     /// times : float or array_like, shape (n,)
     fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Samples> {
         let times = Times::new(times)?;
-        let (attitude, rates) = (times.rows(4), times.rows(3));
+        let [copy, attitude, rates] = times.samples()?;
         {
             let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
             let (values, attitude, rates) = (times.values()?, chunks(&mut attitude)?, chunks(&mut rates)?);
             py.detach(|| self.0.samples_into(values, attitude, rates)).map_err(error::propagation)?;
         }
-        Ok(Samples::new(times.copied()?.unbind(), attitude.unbind(), rates.unbind()))
+        Ok(Samples::new(copy.unbind(), attitude.unbind(), rates.unbind()))
     }
 
     /// Unit quaternions [x, y, z, w] that rotate body components into inertial ones (theory §8).

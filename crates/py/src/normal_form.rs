@@ -1,9 +1,8 @@
 //! `andoyer.NormalForm` and `andoyer.separatrix_action`.
 
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
-use andoyer_series::{MAXIMUM_ORDER, Part, PublicForm};
+use andoyer_series::{MAXIMUM_ORDER, Part, Progress, PublicForm};
 use num_complex::Complex;
 use num_rational::BigRational;
 use pyo3::prelude::*;
@@ -11,6 +10,7 @@ use pyo3::types::{PyDict, PyType};
 
 use crate::error;
 use crate::order::order;
+use crate::progress;
 
 /// The normal form of the free rigid body, exact, symbolic in the triaxiality β, to any order (theory §4, §6).
 ///
@@ -48,31 +48,8 @@ impl NormalForm {
     #[pyo3(signature = (order, *, progress=None))]
     fn new(py: Python<'_>, order: &Bound<'_, PyAny>, progress: Option<Py<PyAny>>) -> PyResult<Self> {
         let order = self::order("order", order, 0, MAXIMUM_ORDER)?;
-        let mut told = None;
-        let mut failure = None;
-        // Asked before every cell of the triangle; Python hears of it once an order.
-        let mut tell = |done: usize, of: usize| {
-            let result = Python::attach(|py| {
-                py.check_signals()?;
-                match &progress {
-                    Some(progress) if told != Some(done) => progress.call1(py, (done, of)).map(drop),
-                    _ => Ok(()),
-                }
-            });
-            told = Some(done);
-            match result {
-                Ok(()) => ControlFlow::Continue(()),
-                Err(problem) => {
-                    failure = Some(problem);
-                    ControlFlow::Break(())
-                }
-            }
-        };
-        let result = py.detach(|| andoyer_series::NormalForm::with_progress(order, &mut tell));
-        match failure {
-            Some(problem) => Err(problem),
-            None => result.map(Self).map_err(error::algebra),
-        }
+        let compute = |tell: &mut Progress<'_>| andoyer_series::NormalForm::with_progress(order, tell);
+        progress::reported(py, progress, compute).map(Self)
     }
 
     /// The order.

@@ -2,7 +2,7 @@
 //!
 //! Terms in canonical order, `coefficient*variable^exponent*…`, exact coefficients as `p/q`, complex ones as
 //! `(p/q + r/s*i)`. What is printed with names is read back by [`Polynomial::parse`] with the same names, coefficient for
-//! coefficient, where the coefficients are exact. Floats print their shortest decimal, which the parser does not read.
+//! coefficient, where the coefficients are exact. Floats print their shortest decimal, read back but for rounding.
 
 use crate::{Coefficient, Polynomial, SLOTS};
 use std::fmt::{self, Display, Formatter};

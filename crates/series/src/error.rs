@@ -57,6 +57,112 @@ pub enum Error {
         /// Number of terms in what was given.
         terms: usize,
     },
+    /// A phase space that the eight slots of a monomial cannot hold, or one without a pair.
+    #[error(
+        "{degrees_of_freedom} degrees of freedom and {parameters} parameters: one pair at least, and {slots} variables at most"
+    )]
+    PhaseSpaceSize {
+        /// Pairs (q, p) given.
+        degrees_of_freedom: usize,
+        /// Parameters given.
+        parameters: usize,
+        /// Number of variable slots.
+        slots: usize,
+    },
+    /// A Hamiltonian with a linear term: the origin is no equilibrium.
+    #[error("the origin is no equilibrium: the linear term {term} has the coefficient {coefficient}")]
+    LinearTerm {
+        /// The term.
+        term: String,
+        /// Its coefficient.
+        coefficient: String,
+    },
+    /// A quadratic part that is not Σ (a p² + b q²)/2 with numbers a, b.
+    #[error(
+        "the quadratic part is not diagonal: the term {term} has the coefficient {coefficient}; only squares with numbers for coefficients are read"
+    )]
+    QuadraticNotDiagonal {
+        /// The term.
+        term: String,
+        /// Its coefficient.
+        coefficient: String,
+    },
+    /// A mode (a p² + b q²)/2 that is hyperbolic or degenerate: a b ≤ 0.
+    #[error(
+        "the mode ({coordinate}, {momentum}) is not elliptic: {momentum}^2 and {coordinate}^2 have the coefficients {momentum_square} and {coordinate_square}, whose product must be positive"
+    )]
+    NotElliptic {
+        /// Name of q.
+        coordinate: String,
+        /// Name of p.
+        momentum: String,
+        /// Coefficient of q².
+        coordinate_square: String,
+        /// Coefficient of p².
+        momentum_square: String,
+    },
+    /// A frequency √(ab) that is no rational number where the coefficients are rational.
+    #[error(
+        "the frequency of the mode ({coordinate}, {momentum}) is the square root of {square}, which is not rational: use floats"
+    )]
+    FrequencyIrrational {
+        /// Name of q.
+        coordinate: String,
+        /// Name of p.
+        momentum: String,
+        /// The square of the frequency.
+        square: String,
+    },
+    /// A number that is infinite or NaN, or that became so.
+    #[error("the {what} contains a number that is not finite: {term}")]
+    NotFinite {
+        /// What contains it.
+        what: &'static str,
+        /// The term or the value.
+        term: String,
+    },
+    /// A term that is to be removed, but whose divisor is too small.
+    #[error(
+        "small divisor at order {order}: the term {term}, k = {k:?}, has |k·ω| = {divisor:e} below the bound {bound:e}; keep it as a resonance, or lower the bound"
+    )]
+    SmallDivisor {
+        /// Order of the term: its degree less 2.
+        order: usize,
+        /// The term in the complex variables u, U of the pairs.
+        term: String,
+        /// Exponents of U less those of u.
+        k: Vec<i64>,
+        /// |k·ω|.
+        divisor: f64,
+        /// The bound: the smallest divisor times the largest frequency.
+        bound: f64,
+    },
+    /// A resonance asked for that the frequencies do not have.
+    #[error("k = {vector:?} is no resonance: k·ω = {divisor:e} is not below the bound {bound:e}")]
+    NotResonant {
+        /// The vector given.
+        vector: Vec<i64>,
+        /// k·ω.
+        divisor: f64,
+        /// The bound: the smallest divisor times the largest frequency.
+        bound: f64,
+    },
+    /// A vector that no resonance can be.
+    #[error(
+        "k = {vector:?} is no resonance vector: one integer of at most {bound} for each degree of freedom, not all 0"
+    )]
+    ResonanceMalformed {
+        /// The vector given.
+        vector: Vec<i64>,
+        /// Largest entry.
+        bound: u32,
+    },
+    /// Something that only a normal form in the actions alone has was asked of a resonant one.
+    #[error("the normal form is no function of the actions alone: it contains {term}")]
+    ResonantTerm {
+        /// The term in the complex variables.
+        term: String,
+    },
     /// The progress callback asked to stop.
     #[error("interrupted after order {done} of {of}")]
     Interrupted {

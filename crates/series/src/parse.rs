@@ -4,11 +4,13 @@
 //! sum     = product { ("+" | "-") product }
 //! product = signed { ("*" | "/") signed }
 //! signed  = { "+" | "-" } power
-//! power   = atom [ "^" integer ]
-//! atom    = integer | name | "i" | "(" sum ")"
+//! power   = atom [ ( "^" | "**" ) integer ]
+//! atom    = number | name | "i" | "(" sum ")"
+//! number  = digits [ "." [ digits ] ] [ "e" [ "+" | "-" ] digits ]
 //! ```
 //!
-//! A divisor is a constant. `i` is the imaginary unit where the coefficients have one and no variable is called so.
+//! Decimals are exact where the coefficients are: `0.1` is 1/10. A divisor is a constant. `i` is the imaginary unit where
+//! the coefficients have one and no variable is called so.
 //! Hostile text cannot hang it or overflow the stack: nesting, exponents and coefficients are bounded, and every
 //! operation on coefficients is charged, before it is done, by their sizes. Products are therefore the schoolbook's,
 //! reduced term by term: a common denominator could be huge.
@@ -47,7 +49,7 @@ impl<C: Coefficient> Polynomial<C> {
     /// [`Error::ExponentOverflow`] for `"(x^1000)^100"`; all others are [`Error::Parse`] with the byte position:
     /// - `"x +"`, `"x y"`, `"2z"`: an operand missing, a character too many, an unknown name;
     /// - `"1/x"`, `"1/(2-2)"`: a divisor that is not constant, or zero;
-    /// - `"x^1001"`, a hundred and one brackets, `"(a+b+c+d+e+f+g+h)^1000"`: too large, too deep, too much work;
+    /// - `"x^1001"`, `"1e9999999"`, a hundred and one brackets, `"(a+b+c+d+e+f+g+h)^1000"`: too large, too deep, too much work;
     /// - `names` with nine entries, or one twice, or one that is no identifier.
     pub fn parse(text: &str, names: &[&str]) -> Result<Self, Error> {
         check_names(names)?;
@@ -61,7 +63,7 @@ impl<C: Coefficient> Polynomial<C> {
     }
 }
 
-fn check_names(names: &[&str]) -> Result<(), Error> {
+pub(crate) fn check_names(names: &[&str]) -> Result<(), Error> {
     let usable = |name: &str| {
         let mut letters = name.chars();
         letters.next().is_some_and(is_name_start) && letters.all(is_name_part)
@@ -169,10 +171,11 @@ impl Parser<'_> {
 
     fn power<C: Coefficient>(&mut self) -> Result<Polynomial<C>, Error> {
         let base = self.atom::<C>()?;
-        if self.peek() != Some('^') {
+        self.peek();
+        let Some(operator) = ["^", "**"].into_iter().find(|operator| self.rest().starts_with(operator)) else {
             return Ok(base);
-        }
-        self.take('^');
+        };
+        self.position += operator.len();
         match self.peek() {
             Some('0'..='9') => {}
             Some(other) => return Err(self.fail(ParseProblem::UnexpectedCharacter(other))),
@@ -195,7 +198,7 @@ impl Parser<'_> {
     fn atom<C: Coefficient>(&mut self) -> Result<Polynomial<C>, Error> {
         match self.peek() {
             None => Err(self.fail(ParseProblem::UnexpectedEnd)),
-            Some('0'..='9') => self.integer(),
+            Some('0'..='9') => self.number(),
             Some('(') => {
                 self.depth += 1;
                 if self.depth > DEEPEST {
@@ -226,10 +229,52 @@ impl Parser<'_> {
         }
     }
 
-    /// A literal, built in chunks of 18 digits with the ring operations alone.
-    fn integer<C: Coefficient>(&mut self) -> Result<Polynomial<C>, Error> {
-        let digits = self.take_while(|letter| letter.is_ascii_digit()).to_owned();
-        self.charge(digits.len() as u64 * 10 / 3)?;
+    /// A literal: its digits as one integer, times or divided by a power of ten.
+    fn number<C: Coefficient>(&mut self) -> Result<Polynomial<C>, Error> {
+        let mut digits = self.take_while(|letter| letter.is_ascii_digit()).to_owned();
+        let mut scale = 0_i64;
+        if self.rest().starts_with('.') {
+            self.take('.');
+            let decimals = self.take_while(|letter| letter.is_ascii_digit()).to_owned();
+            scale = -(decimals.len() as i64);
+            digits.push_str(&decimals);
+        }
+        if let Some(exponent) = self.exponent() {
+            // What is clamped here the bound on coefficients refuses.
+            let largest = i64::from(u32::MAX);
+            scale += exponent.parse::<i64>().map_or(largest, |power| power.clamp(-largest, largest));
+        }
+        let length = digits.len() as u64 + scale.unsigned_abs();
+        self.charge(length * 10 / 3)?;
+        let mut value = self.integer::<C>(&digits);
+        let mut ten = C::one();
+        for bit in (0..u64::BITS - scale.unsigned_abs().leading_zeros()).rev() {
+            ten *= &ten.clone();
+            if scale.unsigned_abs() >> bit & 1 == 1 {
+                ten = ten.times(10);
+            }
+        }
+        if scale > 0 {
+            value *= &ten;
+        } else {
+            value = value.divide(&ten).ok_or(Error::DivisionByZero)?;
+        }
+        Ok(Polynomial::constant(value))
+    }
+
+    /// The exponent of a decimal, taken where digits follow the "e".
+    fn exponent(&mut self) -> Option<String> {
+        let rest = self.rest().strip_prefix(['e', 'E'])?;
+        let digits = rest.strip_prefix(['+', '-']).unwrap_or(rest);
+        let count = digits.len() - digits.trim_start_matches(|letter: char| letter.is_ascii_digit()).len();
+        let length = rest.len() - digits.len() + count;
+        let exponent = (count > 0).then(|| rest[..length].to_owned())?;
+        self.position += 1 + length;
+        Some(exponent)
+    }
+
+    /// An integer, built in chunks of 18 digits with the ring operations alone.
+    fn integer<C: Coefficient>(&self, digits: &str) -> C {
         let mut value = C::zero();
         for chunk in digits.as_bytes().chunks(18) {
             let (part, base) =
@@ -237,7 +282,7 @@ impl Parser<'_> {
             value = value.times(base);
             value += &C::integer(part);
         }
-        Ok(Polynomial::constant(value))
+        value
     }
 
     fn multiply<C: Coefficient>(

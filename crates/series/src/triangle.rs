@@ -40,13 +40,14 @@ pub struct Normalization<C: Coefficient> {
 /// the number of orders done (so a number comes more than once) and with (order, order) at the end.
 ///
 /// ```
-/// use andoyer_series::{Homological, Poisson, Polynomial, normalize};
+/// use andoyer_series::{Homological, Poisson, Polynomial, deprit_triangle};
 /// use num_rational::BigRational;
 /// use std::ops::ControlFlow;
 /// let parse = |text| Polynomial::<BigRational>::parse(text, &["q", "p"]);
 /// let homological = Homological::new(&[(0, 1, BigRational::from_integer(1.into()))])?;
 /// let series = [parse("q*p")?, parse("q^3 + p^3")?];
-/// let normalization = normalize(&series, &homological, &Poisson::new(&[(0, 1)])?, 2, &mut |_, _| ControlFlow::Continue(()))?;
+/// let poisson = Poisson::new(&[(0, 1)])?;
+/// let normalization = deprit_triangle(&series, &homological, &poisson, 2, &mut |_, _| ControlFlow::Continue(()))?;
 /// assert_eq!(normalization.hamiltonian[2], parse("-3*q^2*p^2")?);
 /// # Ok::<(), andoyer_series::Error>(())
 /// ```
@@ -55,7 +56,7 @@ pub struct Normalization<C: Coefficient> {
 /// - `hamiltonian[0]` = q²: [`Error::UnperturbedMismatch`];
 /// - a callback that returns `Break`: [`Error::Interrupted`];
 /// - degrees that outgrow the packed exponents: [`Error::ExponentOverflow`].
-pub fn normalize<C: Coefficient>(
+pub fn deprit_triangle<C: Coefficient>(
     hamiltonian: &[Polynomial<C>],
     homological: &Homological<C>,
     poisson: &Poisson,
@@ -66,6 +67,32 @@ pub fn normalize<C: Coefficient>(
     if hamiltonian.first() != Some(&unperturbed) {
         return Err(Error::UnperturbedMismatch { terms: hamiltonian.first().map_or(0, Polynomial::len) });
     }
+    let solve = |_, known: &Polynomial<C>| {
+        let (_, image) = homological.split(known);
+        let solution = homological.solve(&image)?;
+        Ok(Removal { image, solution })
+    };
+    normalize_by(hamiltonian, poisson, order, &solve, progress)
+}
+
+/// What is removed from a coefficient of the Hamiltonian, and S with {h₀; S} = −image, which removes it.
+pub(crate) struct Removal<C> {
+    pub(crate) image: Polynomial<C>,
+    pub(crate) solution: Polynomial<C>,
+}
+
+/// Solves the homological equation of one order: order and what is known of it go in.
+pub(crate) type Solve<'a, C> = dyn Fn(usize, &Polynomial<C>) -> Result<Removal<C>, Error> + 'a;
+
+/// The triangle with any rule of what to remove; `hamiltonian[0]` is the h₀ that `solve` knows.
+pub(crate) fn normalize_by<C: Coefficient>(
+    hamiltonian: &[Polynomial<C>],
+    poisson: &Poisson,
+    order: usize,
+    solve: &Solve<'_, C>,
+    progress: &mut Progress<'_>,
+) -> Result<Normalization<C>, Error> {
+    let unperturbed = hamiltonian.first().cloned().unwrap_or_default();
     let mut transform = LieTransform { poisson: poisson.clone(), scaled: Vec::new() };
     let mut triangle = Triangle::new(unperturbed.clone());
     let mut normal = vec![unperturbed];
@@ -73,8 +100,7 @@ pub fn normalize<C: Coefficient>(
     for n in 1..=order {
         let source = hamiltonian.get(n).cloned().unwrap_or_default();
         triangle.extend(source, &transform, &mut |_| stop(progress(n - 1, order), n - 1, order))?;
-        let (_, image) = homological.split(triangle.corner());
-        let solution = homological.solve(&image)?; // S_n
+        let Removal { image, solution } = solve(n, triangle.corner())?; // S_n
         let inverse = factorial.invert().ok_or(Error::DivisionByZero)?;
         transform.scaled.push(solution.scale(&inverse));
         triangle.subtract(&image)?;
@@ -101,6 +127,19 @@ impl<C: Coefficient> LieTransform<C> {
     #[must_use]
     pub fn order(&self) -> usize {
         self.scaled.len()
+    }
+
+    /// This transformation to a lower order; itself where `order` is not lower.
+    #[must_use]
+    pub fn truncated(&self, order: usize) -> Self {
+        LieTransform { poisson: self.poisson.clone(), scaled: self.scaled.iter().take(order).cloned().collect() }
+    }
+
+    /// This transformation with every coefficient mapped, to floats for instance.
+    #[must_use]
+    pub fn map<D: Coefficient>(&self, mut function: impl FnMut(&C) -> D) -> LieTransform<D> {
+        let scaled = self.scaled.iter().map(|generator| generator.map(&mut function)).collect();
+        LieTransform { poisson: self.poisson.clone(), scaled }
     }
 
     /// T_m = S_m/(m−1)!, `None` beyond the order.

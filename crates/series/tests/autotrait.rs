@@ -1,8 +1,8 @@
 //! Every public type is `Send + Sync`, and errors read as one line with their figures.
 
 use andoyer_series::{
-    Error, Form, Homological, LieTransform, Monomial, NormalForm, Normalization, Poisson, Polynomial, Truncation,
-    separatrix_action,
+    BirkhoffMap, BirkhoffNormalForm, Error, Form, Homological, LieTransform, Monomial, NormalForm, Normalization,
+    PhaseSpace, Poisson, Polynomial, Resonances, Truncation, separatrix_action,
 };
 use num_rational::BigRational;
 
@@ -12,6 +12,8 @@ const fn assert_shareable<T: Send + Sync>() {}
 fn public_types_are_send_and_sync() {
     assert_shareable::<(Monomial, Poisson, Truncation, Error)>();
     assert_shareable::<(Polynomial<BigRational>, Homological<BigRational>, Polynomial<f64>)>();
+    assert_shareable::<(BirkhoffNormalForm<BigRational>, BirkhoffNormalForm<f64>, BirkhoffMap, PhaseSpace, Resonances)>(
+    );
     assert_shareable::<(LieTransform<BigRational>, Normalization<BigRational>, NormalForm, Form)>();
 }
 

@@ -47,10 +47,23 @@ fn precedence_is_that_of_arithmetic() -> Result<(), Error> {
         ("x/(2*i)", "-1/2*i*x"),
         ("x^0", "1"),
         ("0*x", "0"),
+        ("0.1 + 1.50*x - 2.*y", "1/10 + 3/2*x - 2*y"),
+        ("25e-1*x**2 + 1E+2 - 3e1*y", "100 - 30*y + 5/2*x^2"),
         ("123456789012345678901234567890/30", "4115226300411522630041152263"),
     ] {
         assert_eq!(canonical(text)?, expected, "{text}");
     }
+    Ok(())
+}
+
+#[test]
+fn decimals_of_floats_are_rounded_once() -> Result<(), Error> {
+    // Digits and powers of ten below 2⁵³ are exact, so one division rounds.
+    for (text, value) in [("0.1", 0.1), ("0.3", 0.3), ("6.02e23", 6.02e23), ("1.25e-3", 1.25e-3)] {
+        assert_eq!(Polynomial::<f64>::parse(text, &[])?, Polynomial::constant(value), "{text}");
+    }
+    let infinite = Polynomial::<f64>::parse("1e309", &[]);
+    assert!(matches!(infinite, Err(Error::Parse { problem: ParseProblem::TooLarge, .. })));
     Ok(())
 }
 
@@ -75,7 +88,13 @@ fn bad_text_is_refused_with_its_position() {
     assert_refused("x)", 1, &ParseProblem::UnexpectedCharacter(')'));
     assert_refused("x^-1", 2, &ParseProblem::UnexpectedCharacter('-'));
     assert_refused("x + é", 4, &ParseProblem::UnknownName("é".into()));
-    assert_refused("0.5", 1, &ParseProblem::UnexpectedCharacter('.'));
+    assert_refused(".5", 0, &ParseProblem::UnexpectedCharacter('.'));
+    assert_refused("1.2.3", 3, &ParseProblem::UnexpectedCharacter('.'));
+    assert_refused("2e+x", 1, &ParseProblem::UnexpectedCharacter('e'));
+    assert_refused("x**", 3, &ParseProblem::UnexpectedEnd);
+    assert_refused("x***2", 3, &ParseProblem::UnexpectedCharacter('*'));
+    assert_refused("1e9999999", 9, &ParseProblem::TooLarge);
+    assert_refused("1e-99999999999999999999", 23, &ParseProblem::TooLarge);
     assert_refused("2*z", 2, &ParseProblem::UnknownName("z".into()));
     assert_refused("2*i", 2, &ParseProblem::UnknownName("i".into())); // no imaginary unit among the rationals
     assert_refused("1/x", 2, &ParseProblem::DivisorNotConstant);

@@ -121,6 +121,29 @@ fn powers_of_a_sum_have_multinomial_coefficients() -> Result<(), Error> {
 }
 
 #[test]
+fn fateman_s_product_has_its_number_of_terms_and_its_coefficients() -> Result<(), Error> {
+    // R. Fateman, Comparing the speed of programs for sparse polynomial multiplication (2003): f (f + 1), f = (1+x+y+z+t)ⁿ,
+    // there with n = 20. Dense of degree 2n: C(2n+4, 4) terms; coefficients are multinomials of 2n, plus those of n.
+    let n = 10;
+    let power = Polynomial::<BigRational>::parse("1 + x + y + z + t", &["x", "y", "z", "t"])?.power(n)?;
+    let product = power.multiply(&(&power + &Polynomial::constant(BigRational::integer(1))))?;
+    assert_eq!((power.len(), product.len()), (1001, 10_626));
+    let factorial = |n: u32| (1..=n).fold(BigRational::integer(1), |product, factor| product.times(factor.into()));
+    let multinomial = |n: u32, exponents: [u32; 4]| {
+        let rest = n.checked_sub(exponents.iter().sum())?;
+        let divisor = exponents.iter().fold(factorial(rest), |product, &e| product * factorial(e));
+        factorial(n).divide(&divisor)
+    };
+    for exponents in [[2, 2, 2, 2], [4, 4, 4, 4], [5, 0, 3, 2], [0, 0, 0, 20], [0; 4]] {
+        let few = multinomial(n, exponents).unwrap_or_default();
+        let expected = multinomial(2 * n, exponents).map(|many| many + few);
+        assert_eq!(product.coefficient(&Monomial::new(&exponents)?), expected.as_ref(), "{exponents:?}");
+    }
+    assert_eq!(product.coefficient(&Monomial::new(&[4, 4, 4, 4])?), Some(&BigRational::integer(305_540_235_000)));
+    Ok(())
+}
+
+#[test]
 fn zero_coefficients_are_never_stored() -> Result<(), Error> {
     let p = Polynomial::<BigRational>::parse("x + y", &["x", "y"])?;
     assert_eq!((&p - &p).len(), 0);

@@ -3,7 +3,7 @@
 
 use andoyer_series::{
     Error, Homological, LieTransform, NormalForm, Normalization, Poisson, Polynomial, TAU, Truncation, W, W_BAR, Y_HAT,
-    normalize,
+    deprit_triangle,
 };
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -34,7 +34,7 @@ fn two_modes(order: usize) -> Result<(Vec<Rational>, Poisson, Normalization<BigR
         parse("q^2*P + 2*Q*p*P - p^3/3 + q*Q^2")?,
         parse("q^4/2 - q*p*Q*P + P^4 + 3*q^2*P^2")?,
     ];
-    let normalization = normalize(&series, &homological, &poisson, order, &mut |_, _| ControlFlow::Continue(()))?;
+    let normalization = deprit_triangle(&series, &homological, &poisson, order, &mut |_, _| ControlFlow::Continue(()))?;
     Ok((series, poisson, normalization))
 }
 
@@ -180,7 +180,7 @@ fn floats_follow_the_exact_triangle() -> Result<(), Error> {
     // A coefficient of order 6 sums fewer than 10² terms below 10² in size, each off by a few 2⁻⁵³: 10⁴ · 1e-16 =
     // 1e-12.
     let exact = NormalForm::new(6)?;
-    let float = normalize(
+    let float = deprit_triangle(
         &andoyer_series::hamiltonian::<f64>()?,
         &andoyer_series::homological()?,
         &andoyer_series::poisson()?,
@@ -199,10 +199,11 @@ fn floats_follow_the_exact_triangle() -> Result<(), Error> {
 }
 
 #[test]
-fn bad_input_to_normalize_is_refused() -> Result<(), Error> {
+fn bad_input_to_the_triangle_is_refused() -> Result<(), Error> {
     let homological = Homological::new(&[(0, 1, BigRational::from_integer(1.into()))])?;
     let poisson = Poisson::new(&[(0, 1)])?;
-    let run = |series: &[Rational]| normalize(series, &homological, &poisson, 1, &mut |_, _| ControlFlow::Continue(()));
+    let run =
+        |series: &[Rational]| deprit_triangle(series, &homological, &poisson, 1, &mut |_, _| ControlFlow::Continue(()));
     assert!(matches!(run(&[parse("q^2")?]), Err(Error::UnperturbedMismatch { terms: 1 })));
     assert!(matches!(run(&[]), Err(Error::UnperturbedMismatch { terms: 0 })));
     assert!(matches!(parse("q")?.over(0), Err(Error::DivisionByZero)));

@@ -1,6 +1,7 @@
 """Rotation of rigid bodies by perturbation series in complex variables.
 
-The exact side is `NormalForm`: the normal form of the free rigid body to any order. The numerical side is `Scene`, a `Body` with its state,
+The exact side is `NormalForm`: the normal form of the free rigid body to any order; `normalize` finds that of any other polynomial
+Hamiltonian about an elliptic point. The numerical side is `Scene`, a `Body` with its state,
 which is solved into a `Motion` and evaluated at any time; an `Ensemble` is many of them. No unit is built in; angles are in rad. Attitudes are unit quaternions
 [x, y, z, w] that rotate body components into inertial ones.
 
@@ -18,11 +19,13 @@ In every docstring "theory §n" is section n of docs/theory.md, and the scene fi
 from andoyer._core import (
     AngularVelocityError,
     AttitudeError,
+    BirkhoffNormalForm,
     Body,
     Ensemble,
     EpochError,
     Error,
     FormatError,
+    HamiltonianError,
     IntervalError,
     MethodError,
     MomentsError,
@@ -30,6 +33,7 @@ from andoyer._core import (
     NormalForm,
     OrderError,
     Plan,
+    ResonanceError,
     Samples,
     Scene,
     SceneFileError,
@@ -44,6 +48,7 @@ from andoyer._core import (
     UnknownBodyError,
     UnknownNameError,
     __version__,
+    normalize,
     separatrix_action,
 )
 from andoyer.mean import Frequencies, Periods
@@ -51,12 +56,14 @@ from andoyer.mean import Frequencies, Periods
 __all__ = [
     "AngularVelocityError",
     "AttitudeError",
+    "BirkhoffNormalForm",
     "Body",
     "Ensemble",
     "EpochError",
     "Error",
     "FormatError",
     "Frequencies",
+    "HamiltonianError",
     "IntervalError",
     "MethodError",
     "MomentsError",
@@ -65,6 +72,7 @@ __all__ = [
     "OrderError",
     "Periods",
     "Plan",
+    "ResonanceError",
     "Samples",
     "Scene",
     "SceneFileError",
@@ -79,5 +87,6 @@ __all__ = [
     "UnknownBodyError",
     "UnknownNameError",
     "__version__",
+    "normalize",
     "separatrix_action",
 ]

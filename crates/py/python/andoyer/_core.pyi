@@ -1,6 +1,6 @@
 # Types of the compiled core. Docstrings here are the first lines of those at run time, which say the rest; a test holds the two together.
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, Literal, TypeAlias, final
 
@@ -13,6 +13,10 @@ from andoyer.mean import Frequencies, Periods
 _Array: TypeAlias = NDArray[np.float64]
 _Gaussian: TypeAlias = tuple[Fraction, Fraction]
 _Form: TypeAlias = dict[tuple[int, int, int], _Gaussian]
+_Number: TypeAlias = Fraction | float
+_Polynomial: TypeAlias = dict[tuple[int, ...], Fraction] | dict[tuple[int, ...], float]
+# A text, a dictionary of coefficients by exponents, or a SymPy expression.
+_Expression: TypeAlias = str | dict[tuple[int, ...], Any] | Any
 
 __version__: str
 
@@ -33,6 +37,9 @@ class EpochError(Error):
 class FormatError(Error):
     """A text that is not the JSON of a normal form."""
 
+class HamiltonianError(Error):
+    """A polynomial that cannot be read, or a Hamiltonian whose origin is no elliptic point with a diagonal quadratic part."""
+
 class IntervalError(Error):
     """A number outside its interval."""
 
@@ -44,6 +51,9 @@ class MomentsError(Error):
 
 class OrderError(Error):
     """An order that is no whole number within its bounds."""
+
+class ResonanceError(Error):
+    """A resonance or small divisor not asked for, or one asked for that is none."""
 
 class SceneFileError(Error):
     """A scene file that cannot be read or says something wrong."""
@@ -330,3 +340,67 @@ class NormalForm:
 
 def separatrix_action(beta: float) -> float:
     """Action σ_sep(β) = (2/π) atan √((1−β)/2β) of the separatrix, in units of M: the radius of convergence of the series (theory §5)."""
+
+@final
+class BirkhoffNormalForm:
+    """The Birkhoff normal form of a Hamiltonian, from `normalize`: the new Hamiltonian K, and the transformation both ways."""
+
+    @property
+    def order(self) -> int:
+        """The order N."""
+    @property
+    def degree(self) -> int:
+        """The degree N + 2."""
+    @property
+    def exact(self) -> bool:
+        """Whether the coefficients are exact: `Fraction`, not float."""
+    @property
+    def variables(self) -> tuple[tuple[str, str], ...]:
+        """The pairs (q, p)."""
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """The parameters."""
+    @property
+    def frequencies(self) -> tuple[_Number, ...]:
+        """The frequencies ω = ±√(ab) at the origin, negative where a and b are."""
+    @property
+    def ratios(self) -> tuple[_Number, ...]:
+        """The ratios r = √(a/b)."""
+    def in_actions(self) -> _Polynomial:
+        """K in the actions: exponents of I₁, I₂, …, parameters. The constant term of H is in it."""
+    def in_complex(self) -> dict[tuple[int, ...], tuple[_Number, _Number]]:
+        """K in the complex variables: (re, im) by exponents of u₁, U₁, u₂, U₂, …, parameters."""
+    def in_real(self) -> _Polynomial:
+        """K in the new real variables."""
+    def generator(self, m: int) -> _Polynomial:
+        """Generating function S_m in the real variables, of degree m + 2."""
+    def direct(self, function: _Expression) -> _Polynomial:
+        """A function of the old variables in the new ones, complete to degree d + N, d its lowest positive degree."""
+    def inverse(self, function: _Expression) -> _Polynomial:
+        """A function of the new variables in the old ones, complete to degree d + N, d its lowest positive degree."""
+    def to_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+        """The new variables of states."""
+    def from_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+        """The states of new variables."""
+    def actions(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+        """The actions of states, which hardly change along a motion unless a resonance exchanges them."""
+    def frequency_map(self, actions: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+        """The frequencies Ω = ∂K/∂I at actions."""
+    def trajectory(self, state: ArrayLike, times: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+        """The states at times after that of `state`: the angles move uniformly with the frequencies at its actions."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __copy__(self) -> BirkhoffNormalForm: ...
+    def __deepcopy__(self, _memo: Any) -> BirkhoffNormalForm: ...
+
+def normalize(
+    hamiltonian: _Expression,
+    order: int,
+    variables: Sequence[tuple[Any, Any]],
+    *,
+    parameters: Sequence[Any] | None = None,
+    resonances: Sequence[Sequence[int]] | None = None,
+    smallest_divisor: float = 1e-6,
+    exact: bool | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> BirkhoffNormalForm:
+    """Birkhoff normal form of a polynomial Hamiltonian about an elliptic point at the origin."""

@@ -1,0 +1,144 @@
+//! Polynomials from Python, as texts, dictionaries of exponents or SymPy expressions, and back to it as dictionaries.
+//!
+//! SymPy is never imported: an expression that the caller made is asked for its terms. Numbers are taken at their exact value;
+//! whether a float was among them is told beside.
+
+use andoyer_series::{Coefficient, Monomial, PhaseSpace, Polynomial, RealField};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyString, PyTuple};
+
+use crate::error::{self, HamiltonianError, UnknownNameError};
+
+/// A polynomial with the exact values of its coefficients.
+pub(crate) struct Expression {
+    pub(crate) polynomial: Polynomial<BigRational>,
+    /// Whether a coefficient was given as a float.
+    pub(crate) float: bool,
+}
+
+impl Expression {
+    /// Reads a text, a dictionary {exponents: number} or a SymPy expression in the variables of `space`.
+    pub(crate) fn new(argument: &str, value: &Bound<'_, PyAny>, space: &PhaseSpace) -> PyResult<Self> {
+        if let Ok(text) = value.cast::<PyString>() {
+            let polynomial = space.parse(text.to_str()?).map_err(error::algebra)?;
+            Ok(Expression { polynomial, float: false })
+        } else if let Ok(terms) = value.cast::<PyDict>() {
+            Self::from_terms(argument, terms, space)
+        } else if value.hasattr("as_poly")? && value.hasattr("free_symbols")? {
+            Self::from_sympy(argument, value, space)
+        } else {
+            let kind = value.get_type().name()?;
+            Err(PyTypeError::new_err(format!("{argument} must be a text, a dict or a SymPy expression, not {kind}")))
+        }
+    }
+
+    fn zero() -> Self {
+        Expression { polynomial: Polynomial::zero(), float: false }
+    }
+
+    fn add(&mut self, exponents: &[u32], value: &Bound<'_, PyAny>) -> PyResult<()> {
+        let (coefficient, float) = number(value)?;
+        self.polynomial.add_term(Monomial::new(exponents).map_err(error::algebra)?, &coefficient);
+        self.float |= float;
+        Ok(())
+    }
+
+    fn from_terms(argument: &str, terms: &Bound<'_, PyDict>, space: &PhaseSpace) -> PyResult<Self> {
+        let mut expression = Self::zero();
+        let names = space.names();
+        for (key, value) in terms {
+            let exponents: Option<Vec<u32>> = key.cast::<PyTuple>().ok().and_then(|key| key.extract().ok());
+            let Some(exponents) = exponents.filter(|exponents| exponents.len() == names.len()) else {
+                let (key, names) = (key.repr()?, names.join(", "));
+                let message = format!("{argument} has the key {key}: it must be a tuple of exponents of {names}");
+                return Err(HamiltonianError::new_err(message));
+            };
+            expression.add(&exponents, &value)?;
+        }
+        Ok(expression)
+    }
+
+    fn from_sympy(argument: &str, value: &Bound<'_, PyAny>, space: &PhaseSpace) -> PyResult<Self> {
+        let names = space.names();
+        let mut present = Vec::new();
+        for symbol in value.getattr("free_symbols")?.try_iter()? {
+            let symbol = symbol?;
+            let name = symbol.str()?.to_string();
+            let Some(slot) = names.iter().position(|known| *known == name) else {
+                let message = format!("{argument} contains {name:?}, which is none of {}", names.join(", "));
+                return Err(UnknownNameError::new_err(message));
+            };
+            present.push((slot, symbol));
+        }
+        present.sort_by_key(|(slot, _)| *slot);
+        let symbols = PyTuple::new(value.py(), present.iter().map(|(_, symbol)| symbol))?;
+        let polynomial = if present.is_empty() { None } else { Some(value.call_method1("as_poly", symbols)?) };
+        let Some(polynomial) = polynomial.filter(|polynomial| !polynomial.is_none()) else {
+            return Err(HamiltonianError::new_err(format!("{argument} is no polynomial: {}", value.str()?)));
+        };
+        let mut expression = Self::zero();
+        for term in polynomial.call_method0("terms")?.try_iter()? {
+            let (powers, coefficient): (Vec<u32>, Bound<'_, PyAny>) = term?.extract()?;
+            let mut exponents = vec![0; names.len()];
+            for ((slot, _), power) in present.iter().zip(powers) {
+                exponents[*slot] = power;
+            }
+            expression.add(&exponents, &coefficient)?;
+        }
+        Ok(expression)
+    }
+}
+
+/// A number at its exact value, and whether it is a float: anything but integers, fractions and texts.
+fn number(value: &Bound<'_, PyAny>) -> PyResult<(BigRational, bool)> {
+    let refused = || -> PyResult<PyErr> {
+        Ok(PyTypeError::new_err(format!("a coefficient must be a real number or a text, not {}", value.repr()?)))
+    };
+    if value.is_instance_of::<PyBool>() {
+        return Err(refused()?);
+    }
+    if let Ok(text) = value.cast::<PyString>() {
+        let constant = Polynomial::<BigRational>::parse(text.to_str()?, &[]).map_err(error::algebra)?;
+        return Ok((constant.as_constant().unwrap_or_else(|| BigRational::integer(0)), false));
+    }
+    // Integers and fractions, SymPy's and NumPy's among them.
+    if let (Ok(numerator), Ok(denominator)) = (value.getattr("numerator"), value.getattr("denominator"))
+        && let (Ok(numerator), Ok(denominator)) = (numerator.extract::<BigInt>(), denominator.extract::<BigInt>())
+        && denominator != BigInt::ZERO
+    {
+        return Ok((BigRational::new(numerator, denominator), false));
+    }
+    let Ok(float) = value.extract::<f64>() else { return Err(refused()?) };
+    let exact = BigRational::from_float(float);
+    let not_finite = || HamiltonianError::new_err(format!("the coefficient {float} is not finite"));
+    Ok((exact.ok_or_else(not_finite)?, true))
+}
+
+/// {exponents: coefficient}, in canonical order.
+pub(crate) fn real<'py, R: RealField + IntoPyObject<'py>>(
+    py: Python<'py>,
+    polynomial: &Polynomial<R>,
+    slots: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let result = PyDict::new(py);
+    for (monomial, c) in polynomial.terms() {
+        result.set_item(PyTuple::new(py, &monomial.exponents()[..slots])?, c.clone())?;
+    }
+    Ok(result)
+}
+
+/// {exponents: (re, im)}, in canonical order.
+pub(crate) fn complex<'py, R: RealField + IntoPyObject<'py>>(
+    py: Python<'py>,
+    polynomial: &Polynomial<R::Complex>,
+    slots: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let result = PyDict::new(py);
+    for (monomial, c) in polynomial.terms() {
+        result.set_item(PyTuple::new(py, &monomial.exponents()[..slots])?, R::parts(c))?;
+    }
+    Ok(result)
+}

@@ -1,0 +1,109 @@
+//! `andoyer.normalize`.
+
+use andoyer_series::{Error as Algebra, PhaseSpace, Progress, RealField, Resonances, normalize_with};
+use num_rational::BigRational;
+use pyo3::prelude::*;
+
+use crate::birkhoff::{BirkhoffNormalForm, Form, rounded};
+use crate::error;
+use crate::expression::Expression;
+use crate::order::order;
+use crate::progress;
+
+/// Birkhoff normal form of a polynomial Hamiltonian about an elliptic point at the origin.
+///
+/// H = constant + Σ (a p² + b q²)/2 + terms of higher degree, ab > 0 for every pair (q, p). Order N normalizes the terms of degree
+/// N + 2 at most, by Lie transforms (Deprit's triangle).
+///
+/// Parameters
+/// ----------
+/// hamiltonian : str, dict or SymPy expression
+///     A text like ``"(x**2 + X**2)/2 + 0.1*x**3"`` (``^`` is read too, decimals are exact), a dictionary of coefficients by tuple of
+///     exponents in the order of `variables` and `parameters`, or what SymPy reads as a polynomial. Coefficients: int, Fraction, text
+///     or float.
+/// order : int
+///     Order N ≥ 0. Terms beyond degree N + 2 do not matter.
+/// variables : sequence of (str, str)
+///     The pairs (q, p), up to four: all lists of exponents and states run q₁, p₁, q₂, p₂, …
+/// parameters : sequence of str, optional
+///     Symbols in the coefficients beyond the quadratic part, of degree 0; eight variables and parameters together at most.
+/// resonances : sequence of sequences of int, optional
+///     Vectors k with k·ω = 0: terms that turn with e^{i k·φ} for their integer combinations are kept. ``[(1, -1)]`` for equal frequencies.
+/// smallest_divisor : float, optional
+///     Relative to the largest frequency, 0 to 1: a term with |k·ω| below it is an error unless it is kept, and the resonances given must
+///     lie below it. 1e-6 costs six digits at worst; a wider bound admits resonances that are not exact.
+/// exact : bool, optional
+///     True: rational numbers, which needs rational frequencies √(ab); floats count at their exact value. False: floats. By default
+///     exact where no coefficient is a float and the frequencies are rational.
+/// progress : callable, optional
+///     Called as ``progress(done, order)`` with the number of orders done, 0 to `order`. An exception in it stops the work and is raised
+///     here.
+///
+/// Raises
+/// ------
+/// HamiltonianError
+///     Linear terms, a quadratic part that is not diagonal or not elliptic, irrational frequencies with ``exact=True``, a text that is no
+///     polynomial, five pairs.
+/// ResonanceError
+///     A resonant term or small divisor that was not asked for, by its monomial; a resonance asked for that is none.
+/// UnknownNameError
+///     A name that is no variable.
+/// OrderError
+///     ``-1``, ``32764``; ``171`` in floats.
+/// IntervalError
+///     A smallest divisor outside 0 to 1, numbers that overflow.
+///
+/// Examples
+/// --------
+/// >>> pendulum = normalize("p**2/2 + q**2/2 - q**4/24 + q**6/720", 4, [("q", "p")])
+/// >>> pendulum.in_actions()
+/// {(1,): Fraction(1, 1), (2,): Fraction(-1, 16), (3,): Fraction(-1, 256)}
+/// >>> henon_heiles = "(x^2 + X^2 + y^2 + Y^2)/2 + x^2*y - y^3/3"
+/// >>> normalize(henon_heiles, 2, [("x", "X"), ("y", "Y")], resonances=[(1, -1)]).in_real()[4, 0, 0, 0]
+/// Fraction(-5, 48)
+#[pyfunction]
+#[pyo3(signature = (hamiltonian, order, variables, *, parameters=None, resonances=None, smallest_divisor=1e-6, exact=None, progress=None))]
+#[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
+pub(crate) fn normalize(
+    py: Python<'_>,
+    hamiltonian: &Bound<'_, PyAny>,
+    order: &Bound<'_, PyAny>,
+    variables: Vec<(Bound<'_, PyAny>, Bound<'_, PyAny>)>,
+    parameters: Option<Vec<Bound<'_, PyAny>>>,
+    resonances: Option<Vec<Vec<i64>>>,
+    smallest_divisor: f64,
+    exact: Option<bool>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<BirkhoffNormalForm> {
+    let space = space(&variables, &parameters.unwrap_or_default())?;
+    let order = self::order("order", order, 0, <BigRational as RealField>::MAXIMUM_ORDER)?;
+    let Expression { polynomial, float } = Expression::new("hamiltonian", hamiltonian, &space)?;
+    let vectors = resonances.unwrap_or_default();
+    let resonances = Resonances::new(&vectors.iter().map(Vec::as_slice).collect::<Vec<_>>());
+    let resonances =
+        resonances.and_then(|some| some.with_smallest_divisor(smallest_divisor)).map_err(error::algebra)?;
+    let compute = |tell: &mut Progress<'_>| {
+        let in_floats = |tell: &mut Progress<'_>| {
+            normalize_with(&rounded(&polynomial), order, &space, &resonances, tell).map(Form::Float)
+        };
+        if exact == Some(false) || (exact.is_none() && float) {
+            return in_floats(tell);
+        }
+        match normalize_with(&polynomial, order, &space, &resonances, tell) {
+            Err(Algebra::FrequencyIrrational { .. }) if exact.is_none() => in_floats(tell),
+            result => result.map(Form::Exact),
+        }
+    };
+    let form = progress::reported(py, progress, compute)?;
+    Ok(BirkhoffNormalForm::new(form))
+}
+
+/// The phase space of names, or of whatever prints as a name.
+fn space(variables: &[(Bound<'_, PyAny>, Bound<'_, PyAny>)], parameters: &[Bound<'_, PyAny>]) -> PyResult<PhaseSpace> {
+    let text = |name: &Bound<'_, PyAny>| name.str().map(|text| text.to_string());
+    let pairs = variables.iter().map(|(q, p)| Ok((text(q)?, text(p)?))).collect::<PyResult<Vec<_>>>()?;
+    let parameters = parameters.iter().map(text).collect::<PyResult<Vec<_>>>()?;
+    let pairs: Vec<_> = pairs.iter().map(|(q, p)| (q.as_str(), p.as_str())).collect();
+    let parameters: Vec<_> = parameters.iter().map(String::as_str).collect();
+    PhaseSpace::new(&pairs).and_then(|space| space.with_parameters(&parameters)).map_err(error::algebra)
+}

@@ -1,0 +1,41 @@
+//! Progress callbacks: Python hears of every order once, and Ctrl-C is noticed while the series are computed.
+
+use std::ops::ControlFlow;
+
+use andoyer_series::{Error as Algebra, Progress};
+use pyo3::prelude::*;
+
+use crate::error;
+
+/// What `compute` returns, without the interpreter lock. An exception in `progress` stops it and is raised here.
+pub(crate) fn reported<T: Send>(
+    py: Python<'_>,
+    progress: Option<Py<PyAny>>,
+    compute: impl FnOnce(&mut Progress<'_>) -> Result<T, Algebra> + Send,
+) -> PyResult<T> {
+    let mut told = None;
+    let mut failure = None;
+    // Asked before every cell of the triangle.
+    let mut tell = |done: usize, of: usize| {
+        let result = Python::attach(|py| {
+            py.check_signals()?;
+            match &progress {
+                Some(progress) if told != Some(done) => progress.call1(py, (done, of)).map(drop),
+                _ => Ok(()),
+            }
+        });
+        told = Some(done);
+        match result {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(problem) => {
+                failure = Some(problem);
+                ControlFlow::Break(())
+            }
+        }
+    };
+    let result = py.detach(|| compute(&mut tell));
+    match failure {
+        Some(problem) => Err(problem),
+        None => result.map_err(error::algebra),
+    }
+}

@@ -1,0 +1,328 @@
+//! The Birkhoff normal form of any polynomial Hamiltonian about an elliptic point.
+//!
+//! H(q₁, p₁, …, qₙ, pₙ) = constant + Σ (aᵢ pᵢ² + bᵢ qᵢ²)/2 + terms of higher degree, aᵢ bᵢ > 0, {q; p} = 1. Graded by degree:
+//! the terms of degree 2 + n are of order n. Order N removes by Deprit's triangle (theory §4), in the complex variables of
+//! [`elliptic`], every term of degree 2 + N at most that the angles turn, but those that [`Resonances`] keeps: the Gustavson
+//! form where there are any. Generators have no kernel part, which makes the normal form unique.
+//!
+//! Exact over the rationals where the frequencies √(aᵢ bᵢ) are rational, else in `f64`. The series diverge in general: at
+//! fixed amplitude there is a best order. Cost: the triangle's, N³/6 brackets of ever larger polynomials.
+//! Sources: G. D. Birkhoff, *Dynamical Systems* (1927), ch. III; F. G. Gustavson, Astron. J. 71 (1966) 670; A. Deprit,
+//! Celest. Mech. 1 (1969) 12.
+
+mod elliptic;
+mod map;
+mod phase_space;
+mod resonances;
+
+pub use map::BirkhoffMap;
+pub use phase_space::PhaseSpace;
+pub use resonances::Resonances;
+
+use crate::triangle::{Removal, normalize_by};
+use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, Progress, RealField};
+use elliptic::Mode;
+use resonances::{divisor, is_small};
+use std::ops::ControlFlow;
+
+/// The normal form of a Hamiltonian about an elliptic point, and the transformation to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BirkhoffNormalForm<R: RealField> {
+    space: PhaseSpace,
+    modes: Vec<Mode<R>>,
+    offset: Polynomial<R>,
+    normalization: Normalization<R::Complex>,
+}
+
+/// The normal form as text: in the actions `I_q`, or with resonant terms in the complex variables `u_q`, `U_q`.
+impl<R: RealField> std::fmt::Display for BirkhoffNormalForm<R> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(&match self.in_actions() {
+            Ok(actions) => PhaseSpace::text(&actions, &self.space.action_names()),
+            Err(_) => PhaseSpace::text(&self.in_complex(), &self.space.complex_names()),
+        })
+    }
+}
+
+/// The normal form of `hamiltonian` to `order`, of degree `order` + 2, without resonances.
+///
+/// Terms of a higher degree do not matter. Parameters count as degree 0.
+///
+/// ```
+/// use andoyer_series::{PhaseSpace, normalize};
+/// use num_rational::BigRational;
+/// let space = PhaseSpace::new(&[("q", "p")])?;
+/// let pendulum = space.parse::<BigRational>("p^2/2 - 1 + q^2/2 - q^4/24 + q^6/720")?; // p²/2 − cos q
+/// let normal_form = normalize(&pendulum, 4, &space)?;
+/// assert_eq!(normal_form.in_actions()?.display(&["I"]).to_string(), "-1 + I - 1/16*I^2 - 1/256*I^3");
+/// # Ok::<(), andoyer_series::Error>(())
+/// ```
+///
+/// # Errors
+/// - q + p²/2: [`Error::LinearTerm`]; p²/2 + q²/2 + q p: [`Error::QuadraticNotDiagonal`]; p² − q²: [`Error::NotElliptic`];
+/// - p²/2 + q² over the rationals: [`Error::FrequencyIrrational`]; a NaN: [`Error::NotFinite`];
+/// - two modes of one frequency, coupled: [`Error::SmallDivisor`];
+/// - order 171 in `f64`, 32764 over the rationals: [`Error::OrderTooLarge`];
+/// - a variable beyond those of `space`: [`Error::ValueMissing`].
+pub fn normalize<R: RealField>(
+    hamiltonian: &Polynomial<R>,
+    order: usize,
+    space: &PhaseSpace,
+) -> Result<BirkhoffNormalForm<R>, Error> {
+    normalize_with(hamiltonian, order, space, &Resonances::default(), &mut |_, _| ControlFlow::Continue(()))
+}
+
+/// The normal form of `hamiltonian` to `order` that keeps the terms of `resonances`.
+///
+/// `progress` is called before every cell of the triangle, with the number of orders done.
+///
+/// ```
+/// use andoyer_series::{PhaseSpace, Resonances, normalize_with};
+/// use num_rational::BigRational;
+/// use std::ops::ControlFlow;
+/// let space = PhaseSpace::new(&[("x", "X"), ("y", "Y")])?;
+/// let henon_heiles = space.parse::<BigRational>("(x^2 + X^2 + y^2 + Y^2)/2 + x^2*y - y^3/3")?;
+/// let one_to_one = Resonances::new(&[&[1, -1]])?;
+/// let normal_form = normalize_with(&henon_heiles, 2, &space, &one_to_one, &mut |_, _| ControlFlow::Continue(()))?;
+/// // With N = I_x + I_y and the angular momentum L: K = N − (5/12) N² + (7/12) L².
+/// let n = "(x^2 + X^2 + y^2 + Y^2)/2";
+/// assert_eq!(normal_form.in_real()?, space.parse(&format!("{n} - 5/12*({n})^2 + 7/12*(x*Y - y*X)^2"))?);
+/// # Ok::<(), andoyer_series::Error>(())
+/// ```
+///
+/// # Errors
+/// - as [`normalize`];
+/// - resonances of another number of modes: [`Error::ResonanceMalformed`]; (1, −1) for frequencies 1 and 2: [`Error::NotResonant`];
+/// - a callback that returns `Break`: [`Error::Interrupted`].
+pub fn normalize_with<R: RealField>(
+    hamiltonian: &Polynomial<R>,
+    order: usize,
+    space: &PhaseSpace,
+    resonances: &Resonances,
+    progress: &mut Progress<'_>,
+) -> Result<BirkhoffNormalForm<R>, Error> {
+    if order > R::MAXIMUM_ORDER {
+        return Err(Error::OrderTooLarge { order, bound: R::MAXIMUM_ORDER });
+    }
+    let modes = elliptic::modes(hamiltonian, space)?;
+    let frequencies: Vec<R> = modes.iter().map(|mode| mode.frequency.clone()).collect();
+    resonances.check(&frequencies)?;
+    let series = graded(hamiltonian, order, space, &modes)?;
+    let removal = |n, known: &Polynomial<_>| remove(n, known, &frequencies, resonances, space);
+    let normalization = normalize_by(&series, &space.poisson()?, order, &removal, progress)?;
+    let offset = hamiltonian.filter(|monomial, _| monomial.degree_in(&space.phase_slots()) == 0);
+    let normal_form = BirkhoffNormalForm { space: space.clone(), modes, offset, normalization };
+    normal_form.check_finite()?;
+    Ok(normal_form)
+}
+
+/// The parts of degree 2, 3, …, `order` + 2 in the complex variables; that of degree 2 is −i Σ ω u U, to the bit.
+fn graded<R: RealField>(
+    hamiltonian: &Polynomial<R>,
+    order: usize,
+    space: &PhaseSpace,
+    modes: &[Mode<R>],
+) -> Result<Vec<Polynomial<R::Complex>>, Error> {
+    let phase = space.phase_slots();
+    let mut parts = vec![Polynomial::zero(); order + 1];
+    for (monomial, c) in hamiltonian.terms() {
+        // Exponents are below 2¹⁵, and there are eight of them.
+        if let Some(n) = (monomial.degree_in(&phase) as usize).checked_sub(2).filter(|&n| n > 0 && n <= order) {
+            parts[n].add_term(monomial, c);
+        }
+    }
+    let mut series = parts.iter().map(|part| elliptic::to_complex(part, modes)).collect::<Result<Vec<_>, _>>()?;
+    for (mode, Mode { frequency, .. }) in modes.iter().enumerate() {
+        let action = Monomial::ONE.with(2 * mode, 1)?.with(2 * mode + 1, 1)?;
+        series[0].add_term(action, &R::complex(R::zero(), -frequency.clone()));
+    }
+    Ok(series)
+}
+
+/// k: the exponents of U less those of u.
+fn turns(monomial: Monomial, modes: usize) -> Vec<i64> {
+    let exponent = |slot| i64::from(monomial.exponent(slot));
+    (0..modes).map(|mode| exponent(2 * mode + 1) - exponent(2 * mode)).collect()
+}
+
+/// The image part of `known` and S with {h₀; S} = −image: {h₀; S} = −i (k·ω) S for a term S.
+fn remove<R: RealField>(
+    order: usize,
+    known: &Polynomial<R::Complex>,
+    frequencies: &[R],
+    resonances: &Resonances,
+    space: &PhaseSpace,
+) -> Result<Removal<R::Complex>, Error> {
+    let bound = resonances.bound(frequencies);
+    let mut removal = Removal { image: Polynomial::zero(), solution: Polynomial::zero() };
+    for (monomial, c) in known.terms() {
+        let k = turns(monomial, frequencies.len());
+        if resonances.keeps(&k) {
+            continue;
+        }
+        let divisor = divisor(&k, frequencies);
+        if is_small(&divisor, bound) {
+            let term = Polynomial::from_terms([(monomial, 1.0)]);
+            let term = PhaseSpace::text(&term, &space.complex_names());
+            return Err(Error::SmallDivisor { order, term, k, divisor: divisor.to_float().abs(), bound });
+        }
+        let solution = c.divide(&R::complex(R::zero(), divisor)).ok_or(Error::DivisionByZero)?;
+        removal.image.add_term(monomial, c);
+        removal.solution.add_term(monomial, &solution);
+    }
+    Ok(removal)
+}
+
+impl<R: RealField> BirkhoffNormalForm<R> {
+    /// The order N: terms of degree N + 2 at most are normalized.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.normalization.transform.order()
+    }
+
+    /// The variables.
+    #[must_use]
+    pub fn space(&self) -> &PhaseSpace {
+        &self.space
+    }
+
+    /// The frequencies ωᵢ at the elliptic point, negative for a mode whose energy is.
+    #[must_use]
+    pub fn frequencies(&self) -> Vec<R> {
+        self.modes.iter().map(|mode| mode.frequency.clone()).collect()
+    }
+
+    /// The ratios rᵢ = √(aᵢ/bᵢ): Iᵢ = (qᵢ²/rᵢ + rᵢ pᵢ²)/2, Uᵢ = rᵢ pᵢ + i qᵢ, uᵢ = (qᵢ + i rᵢ pᵢ)/(2 rᵢ).
+    #[must_use]
+    pub fn ratios(&self) -> Vec<R> {
+        self.modes.iter().map(|mode| mode.ratio.clone()).collect()
+    }
+
+    /// The energy of the elliptic point: the constant term, with parameters where they occur in it.
+    #[must_use]
+    pub fn offset(&self) -> &Polynomial<R> {
+        &self.offset
+    }
+
+    /// The transformation in the complex variables, the order n of its series being the degree less 2.
+    #[must_use]
+    pub fn transform(&self) -> &LieTransform<R::Complex> {
+        &self.normalization.transform
+    }
+
+    /// The normal form in the complex variables (u₁, U₁, u₂, U₂, …), offset included.
+    #[must_use]
+    pub fn in_complex(&self) -> Polynomial<R::Complex> {
+        let mut sum = self.offset.map(|c| R::complex(c.clone(), R::zero()));
+        for part in &self.normalization.hamiltonian {
+            sum += part;
+        }
+        sum
+    }
+
+    /// The normal form in the new real variables (q₁′, p₁′, q₂′, p₂′, …), offset included.
+    ///
+    /// # Errors
+    /// - none for a normal form that exists: degrees stay as they are.
+    pub fn in_real(&self) -> Result<Polynomial<R>, Error> {
+        elliptic::to_real(&self.in_complex(), &self.modes)
+    }
+
+    /// The normal form in the actions, offset included: Iᵢ in slot i, the parameters after them.
+    ///
+    /// # Errors
+    /// - resonant terms: [`Error::ResonantTerm`].
+    pub fn in_actions(&self) -> Result<Polynomial<R>, Error> {
+        let mut actions = Polynomial::zero();
+        let modes = self.modes.len();
+        for (monomial, c) in self.in_complex().terms() {
+            if turns(monomial, modes).iter().any(|&k| k != 0) {
+                let term = Polynomial::from_terms([(monomial, 1.0)]);
+                return Err(Error::ResonantTerm { term: PhaseSpace::text(&term, &self.space.complex_names()) });
+            }
+            let exponents: Vec<u32> = (0..modes).map(|mode| monomial.exponent(2 * mode)).collect();
+            let parameters = (0..self.space.parameters()).map(|j| monomial.exponent(2 * modes + j));
+            let target = Monomial::new(&exponents.iter().copied().chain(parameters).collect::<Vec<_>>())?;
+            // uU = iI, and K is real.
+            let (re, im) = R::parts(c);
+            let power = exponents.iter().sum::<u32>() % 4;
+            let real = [re.clone(), -im.clone(), -re, im];
+            actions.add_term(target, &real[power as usize]);
+        }
+        Ok(actions)
+    }
+
+    /// The generating function S_m in real variables, of degree m + 2; orders as theory §4 numbers them, 1 to N.
+    ///
+    /// # Errors
+    /// - 0, N + 1: [`Error::OrderOutOfRange`].
+    pub fn generator(&self, m: usize) -> Result<Polynomial<R>, Error> {
+        let range =
+            || Error::OrderOutOfRange { what: "generating function", order: m, minimum: 1, maximum: self.order() };
+        elliptic::to_real(&self.transform().generator(m).ok_or_else(range)?, &self.modes)
+    }
+
+    /// A function f of the old variables in the new ones, complete to degree d + N, d the lowest positive degree of f.
+    ///
+    /// ```
+    /// use andoyer_series::{PhaseSpace, normalize};
+    /// use num_rational::BigRational;
+    /// let space = PhaseSpace::new(&[("q", "p")])?;
+    /// let hamiltonian = space.parse::<BigRational>("(p^2 + q^2)/2 + q^3")?;
+    /// let normal_form = normalize(&hamiltonian, 1, &space)?;
+    /// assert_eq!(normal_form.direct(&space.parse("q")?)?, space.parse("q - q^2 - 2*p^2")?);
+    /// assert_eq!(normal_form.inverse(&space.parse("q")?)?, space.parse("q + q^2 + 2*p^2")?);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - degrees that outgrow the packed exponents: [`Error::ExponentOverflow`].
+    pub fn direct(&self, f: &Polynomial<R>) -> Result<Polynomial<R>, Error> {
+        self.transported(f, |transform, part| transform.direct(part))
+    }
+
+    /// A function f of the new variables in the old ones, complete to degree d + N, d the lowest positive degree of f.
+    ///
+    /// # Errors
+    /// - as [`direct`](Self::direct).
+    pub fn inverse(&self, f: &Polynomial<R>) -> Result<Polynomial<R>, Error> {
+        self.transported(f, |transform, part| transform.inverse(part))
+    }
+
+    /// The sum of the series of the homogeneous parts of f, each only as far as all of them are known.
+    fn transported(
+        &self,
+        f: &Polynomial<R>,
+        apply: impl Fn(&LieTransform<R::Complex>, &Polynomial<R::Complex>) -> Result<Vec<Polynomial<R::Complex>>, Error>,
+    ) -> Result<Polynomial<R>, Error> {
+        let phase = self.space.phase_slots();
+        let degrees = || f.terms().map(|(monomial, _)| monomial.degree_in(&phase)).filter(|&degree| degree > 0);
+        let mut sum = f.filter(|monomial, _| monomial.degree_in(&phase) == 0);
+        let Some(lowest) = degrees().min() else { return Ok(sum) };
+        // Degrees are below 8 · 2¹⁵, orders below 2¹⁵.
+        let highest = lowest + self.order() as u32;
+        for degree in lowest..=degrees().max().unwrap_or(lowest).min(highest) {
+            let part = f.filter(|monomial, _| monomial.degree_in(&phase) == degree);
+            let transform = self.transform().truncated((highest - degree) as usize);
+            let mut image = Polynomial::zero();
+            for term in apply(&transform, &elliptic::to_complex(&part, &self.modes)?)? {
+                image += &term;
+            }
+            sum += &elliptic::to_real(&image, &self.modes)?;
+        }
+        Ok(sum)
+    }
+
+    /// Floats that overflowed on the way are an error.
+    fn check_finite(&self) -> Result<(), Error> {
+        let generators = (1..=self.order()).filter_map(|m| self.transform().scaled_generator(m));
+        for polynomial in self.normalization.hamiltonian.iter().chain(generators) {
+            if let Some((monomial, c)) = polynomial.terms().find(|(_, c)| !c.is_finite()) {
+                let term =
+                    PhaseSpace::text(&Polynomial::from_terms([(monomial, c.clone())]), &self.space.complex_names());
+                return Err(Error::NotFinite { what: "normal form", term });
+            }
+        }
+        Ok(())
+    }
+}

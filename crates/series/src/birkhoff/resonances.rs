@@ -1,0 +1,159 @@
+//! Which terms a normal form keeps, and which divisors are too small to remove a term.
+//!
+//! A monomial of the complex variables turns with the angles as e^{i k·φ}, k_i = exponent of U_i − exponent of u_i, and
+//! is removed by dividing by k·ω. It is kept where k = 0, or where k lies in the module spanned over the integers by the
+//! resonances asked for. Any other term with |k·ω| < `smallest divisor` · max |ω| is an error that names it.
+//!
+//! The default bound, 1e-6: a divisor δ multiplies a term, and with it the rounding of floats, by max|ω|/δ; at 1e-6 a term
+//! loses six of the sixteen digits, and exact resonances of rounded frequencies, some 1e-15, are recognized with certainty.
+//! In floats, terms that cancel may leave a residue of rounding, which counts as a term.
+//! Membership is decided on an echelon basis of the module by Euclid's algorithm, exactly.
+
+use crate::{Error, MAXIMUM_EXPONENT, RealField};
+
+/// The default of the smallest divisor, relative to the largest frequency.
+const SMALLEST_DIVISOR: f64 = 1e-6;
+
+/// The resonances asked for, and the smallest divisor allowed.
+///
+/// ```
+/// use andoyer_series::Resonances;
+/// let one_to_one = Resonances::new(&[&[1, -1]])?;
+/// assert!(one_to_one.keeps(&[2, -2]) && !one_to_one.keeps(&[2, -1]));
+/// # Ok::<(), andoyer_series::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resonances {
+    vectors: Vec<Vec<i64>>,
+    /// Echelon form: each row starts with zeros, one more than the row before at least.
+    basis: Vec<Vec<i128>>,
+    smallest_divisor: f64,
+}
+
+impl Default for Resonances {
+    /// No resonance.
+    fn default() -> Self {
+        Resonances { vectors: Vec::new(), basis: Vec::new(), smallest_divisor: SMALLEST_DIVISOR }
+    }
+}
+
+impl Resonances {
+    /// The module spanned by integer vectors, each with one entry for each degree of freedom.
+    ///
+    /// # Errors
+    /// - (0, 0), (1, −1) beside (1, −1, 0), (40000, 1): [`Error::ResonanceMalformed`].
+    pub fn new(vectors: &[&[i64]]) -> Result<Self, Error> {
+        let mut resonances = Self::default();
+        for &vector in vectors {
+            let malformed = || Error::ResonanceMalformed { vector: vector.to_vec(), bound: MAXIMUM_EXPONENT };
+            let length = resonances.vectors.first().map_or(vector.len(), Vec::len);
+            let fits = vector.iter().all(|entry| entry.unsigned_abs() <= MAXIMUM_EXPONENT.into());
+            if vector.len() != length || !fits || vector.iter().all(|&entry| entry == 0) {
+                return Err(malformed());
+            }
+            let row = vector.iter().map(|&entry| entry.into()).collect();
+            insert(&mut resonances.basis, row).ok_or_else(malformed)?;
+            resonances.vectors.push(vector.to_vec());
+        }
+        Ok(resonances)
+    }
+
+    /// These resonances with another smallest divisor, relative to the largest frequency. A wider bound admits resonances
+    /// that are not exact.
+    ///
+    /// # Errors
+    /// - −1, 1.1, NaN: [`Error::OutsideInterval`].
+    pub fn with_smallest_divisor(mut self, smallest_divisor: f64) -> Result<Self, Error> {
+        if !(0.0..=1.0).contains(&smallest_divisor) {
+            let (argument, value) = ("smallest_divisor", smallest_divisor);
+            return Err(Error::OutsideInterval { argument, value, lower: 0.0, upper: 1.0 });
+        }
+        self.smallest_divisor = smallest_divisor;
+        Ok(self)
+    }
+
+    /// The vectors given.
+    #[must_use]
+    pub fn vectors(&self) -> &[Vec<i64>] {
+        &self.vectors
+    }
+
+    /// Whether terms that turn with e^{i k·φ} are kept: k is 0 or in the module.
+    #[must_use]
+    pub fn keeps(&self, k: &[i64]) -> bool {
+        let mut rest: Vec<i128> = k.iter().map(|&entry| entry.into()).collect();
+        for row in &self.basis {
+            let Some(pivot) = pivot(row).filter(|_| row.len() == rest.len()) else { return false };
+            let quotient = rest[pivot] / row[pivot];
+            // Entries that overflow are no exponents: such a k is not in the module for any monomial.
+            let Some(reduced) = combine(&rest, row, quotient) else { return false };
+            rest = reduced;
+        }
+        rest.iter().all(|&entry| entry == 0)
+    }
+
+    /// The bound on |k·ω| for these frequencies.
+    pub(crate) fn bound<R: RealField>(&self, frequencies: &[R]) -> f64 {
+        self.smallest_divisor * frequencies.iter().map(|frequency| frequency.to_float().abs()).fold(0.0, f64::max)
+    }
+
+    /// Refuses vectors of another length, and those that are no resonance of these frequencies.
+    pub(crate) fn check<R: RealField>(&self, frequencies: &[R]) -> Result<(), Error> {
+        let bound = self.bound(frequencies);
+        for vector in &self.vectors {
+            if vector.len() != frequencies.len() {
+                return Err(Error::ResonanceMalformed { vector: vector.clone(), bound: MAXIMUM_EXPONENT });
+            }
+            let divisor = divisor(vector, frequencies);
+            if !is_small(&divisor, bound) {
+                return Err(Error::NotResonant { vector: vector.clone(), divisor: divisor.to_float(), bound });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// k·ω.
+pub(crate) fn divisor<R: RealField>(k: &[i64], frequencies: &[R]) -> R {
+    let mut sum = R::zero();
+    for (&k, frequency) in k.iter().zip(frequencies) {
+        sum += &frequency.times(k);
+    }
+    sum
+}
+
+/// Whether a divisor is zero or below the bound.
+pub(crate) fn is_small<R: RealField>(divisor: &R, bound: f64) -> bool {
+    divisor.is_zero() || divisor.to_float().abs() < bound
+}
+
+fn pivot(row: &[i128]) -> Option<usize> {
+    row.iter().position(|&entry| entry != 0)
+}
+
+/// row − quotient · other, `None` on overflow.
+fn combine(row: &[i128], other: &[i128], quotient: i128) -> Option<Vec<i128>> {
+    row.iter().zip(other).map(|(a, b)| a.checked_sub(b.checked_mul(quotient)?)).collect()
+}
+
+/// Adds a vector to an echelon basis, by Euclid's algorithm on rows with the same pivot; `None` on overflow.
+fn insert(basis: &mut Vec<Vec<i128>>, mut row: Vec<i128>) -> Option<()> {
+    while let Some(column) = pivot(&row) {
+        match basis.iter().position(|held| pivot(held).is_some_and(|other| other >= column)) {
+            Some(at) if pivot(&basis[at]) == Some(column) => {
+                let quotient = basis[at][column] / row[column];
+                let rest = combine(&basis[at], &row, quotient)?;
+                basis[at] = std::mem::replace(&mut row, rest);
+            }
+            Some(at) => {
+                basis.insert(at, row);
+                return Some(());
+            }
+            None => {
+                basis.push(row);
+                return Some(());
+            }
+        }
+    }
+    Some(())
+}

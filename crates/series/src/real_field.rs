@@ -1,0 +1,98 @@
+//! Real coefficients and the complex ones over them.
+//!
+//! A Hamiltonian has real coefficients; its normalization runs over the complex numbers of the same kind: rationals in
+//! Gaussian rationals, `f64` in `Complex<f64>`. What is a square root is exact or is not there.
+
+use crate::{Coefficient, MAXIMUM_EXPONENT};
+use num_bigint::BigInt;
+use num_complex::Complex;
+use num_rational::BigRational;
+use num_traits::{Signed, ToPrimitive};
+
+/// A field of real numbers with its complex extension: `BigRational`, exact, or `f64`.
+///
+/// ```
+/// use andoyer_series::{Coefficient, RealField};
+/// use num_rational::BigRational;
+/// let [two, eight] = [2, 8].map(BigRational::integer);
+/// assert_eq!(two.geometric_mean(&eight), Some(BigRational::integer(4)));
+/// assert_eq!(two.geometric_mean(&BigRational::integer(1)), None);
+/// ```
+pub trait RealField: Coefficient + Send + Sync {
+    /// The complex numbers over this field.
+    type Complex: Coefficient + Send + Sync;
+    /// Largest order of a normal form in these numbers.
+    const MAXIMUM_ORDER: usize;
+
+    /// The complex number re + i im.
+    fn complex(re: Self, im: Self) -> Self::Complex;
+
+    /// Real and imaginary part.
+    fn parts(value: &Self::Complex) -> (Self, Self);
+
+    /// √(ab) ≥ 0, `None` where it is not in the field.
+    fn geometric_mean(&self, other: &Self) -> Option<Self>;
+
+    /// −1, 0 or 1.
+    fn sign(&self) -> i8;
+
+    /// The nearest `f64`, infinite where it overflows.
+    fn to_float(&self) -> f64;
+}
+
+impl RealField for BigRational {
+    type Complex = Complex<BigRational>;
+    /// A product of two parts of orders a + b = N has degree N + 4 before a pair of variables is taken out.
+    const MAXIMUM_ORDER: usize = MAXIMUM_EXPONENT as usize - 4;
+
+    fn complex(re: Self, im: Self) -> Self::Complex {
+        Complex::new(re, im)
+    }
+
+    fn parts(value: &Self::Complex) -> (Self, Self) {
+        (value.re.clone(), value.im.clone())
+    }
+
+    fn geometric_mean(&self, other: &Self) -> Option<Self> {
+        let product = self * other;
+        let root = |n: &BigInt| (!n.is_negative()).then(|| n.sqrt()).filter(|root| root * root == *n);
+        Some(BigRational::new(root(product.numer())?, root(product.denom())?))
+    }
+
+    fn sign(&self) -> i8 {
+        i8::from(self.is_positive()) - i8::from(self.is_negative())
+    }
+
+    fn to_float(&self) -> f64 {
+        ToPrimitive::to_f64(self).unwrap_or(if self.is_negative() { f64::NEG_INFINITY } else { f64::INFINITY })
+    }
+}
+
+impl RealField for f64 {
+    type Complex = Complex<f64>;
+    /// The triangle's cells of order N carry the factor N!, and 171! is no `f64`.
+    const MAXIMUM_ORDER: usize = 170;
+
+    fn complex(re: Self, im: Self) -> Self::Complex {
+        Complex::new(re, im)
+    }
+
+    fn parts(value: &Self::Complex) -> (Self, Self) {
+        (value.re, value.im)
+    }
+
+    fn geometric_mean(&self, other: &Self) -> Option<Self> {
+        let product = self * other;
+        // The root of the product is rounded once and exact for squares; that of the factors cannot overflow.
+        let root = if product.is_normal() { product.sqrt() } else { self.abs().sqrt() * other.abs().sqrt() };
+        (self.sign() * other.sign() >= 0).then_some(root)
+    }
+
+    fn sign(&self) -> i8 {
+        i8::from(*self > 0.0) - i8::from(*self < 0.0)
+    }
+
+    fn to_float(&self) -> f64 {
+        *self
+    }
+}
