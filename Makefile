@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 WHEELS := target/wheels
 RIVALS := target/rivals-venv
 
-.PHONY: demo test lint bench sweep rivals docs wheel clean
+.PHONY: demo test lint bench sweep bounds rivals docs wheel clean
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -27,6 +27,9 @@ bench:  ## criterion groups by order
 
 sweep: $(VENV)/installed  ## series against closed form by order, σ/σ_sep and β: docs/data/sweep.csv, picture and table of its page; a minute
 	$(BIN)/python examples/sweep.py
+
+bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes
+	$(BIN)/python examples/bounds.py
 
 rivals: $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine: a table of ratios, in out/ too
 	$(RIVALS)/bin/python benches/rivals/normal_form.py
