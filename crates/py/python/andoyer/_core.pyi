@@ -223,8 +223,8 @@ class Plan:
     """What is evaluated for a motion, and why: see `Motion.plan`; ``str(plan)`` is a table of it."""
 
     @property
-    def mode(self) -> Literal["short-axis", "axisymmetric", "spherical", "principal-axis", "at-rest"]:
-        """The kind of motion: "short-axis", "axisymmetric", "spherical", "principal-axis" or "at-rest"."""
+    def mode(self) -> Literal["short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis", "at-rest"]:
+        """The kind of motion: "short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis" or "at-rest"."""
     @property
     def method(self) -> Literal["series", "closed"]:
         """How it is evaluated: "series", or "closed" for theta functions and the formulas that need no sum at all."""
