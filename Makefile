@@ -14,6 +14,7 @@ test: lint $(VENV)/installed  ## everything that CI runs
 	cargo test --workspace --quiet
 	$(BIN)/python tests/reference/torque_free.py tests/data/torque_free.json
 	$(BIN)/python examples/scenes/make_scenes.py --check
+	$(BIN)/python examples/bounds.py --scenes 120
 	$(BIN)/python -m pytest -q crates/py/tests
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
 
