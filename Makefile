@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 WHEELS := target/wheels
 RIVALS := target/rivals-venv
 
-.PHONY: demo test lint bench rivals docs wheel clean
+.PHONY: demo test lint bench sweep bounds rivals docs wheel clean
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -14,6 +14,7 @@ test: lint $(VENV)/installed  ## everything that CI runs
 	cargo test --workspace --quiet
 	$(BIN)/python tests/reference/torque_free.py tests/data/torque_free.json
 	$(BIN)/python examples/scenes/make_scenes.py --check
+	$(BIN)/python examples/bounds.py --scenes 120
 	$(BIN)/python -m pytest -q crates/py/tests
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
 
@@ -24,6 +25,12 @@ lint:
 
 bench:  ## criterion groups by order
 	cargo bench --workspace
+
+sweep: $(VENV)/installed  ## series against closed form by order, σ/σ_sep and β: docs/data/sweep.csv, picture and table of its page; a minute
+	$(BIN)/python examples/sweep.py
+
+bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes
+	$(BIN)/python examples/bounds.py
 
 rivals: $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine: a table of ratios, in out/ too
 	$(RIVALS)/bin/python benches/rivals/normal_form.py

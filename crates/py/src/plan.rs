@@ -18,7 +18,7 @@ pub(crate) struct Plan(pub(crate) andoyer_propagate::Plan);
 
 #[pymethods]
 impl Plan {
-    /// The kind of motion: "short-axis", "axisymmetric", "spherical", "principal-axis" or "at-rest".
+    /// The kind of motion: "short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis" or "at-rest".
     #[getter]
     fn mode(&self) -> String {
         self.0.mode().to_string()

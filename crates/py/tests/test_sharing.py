@@ -66,6 +66,16 @@ def test_other_threads_run_while_a_motion_is_evaluated(motion):
     assert inside >= 5  # none if the lock were held: the call is one bytecode
 
 
+@pytest.mark.parametrize("method", ["at", "attitude"])
+def test_other_threads_run_while_an_ensemble_is_evaluated(body, method):
+    def make(size):
+        ensemble = andoyer.Ensemble(body.moments, [[0, 0, 0, 1]] * 4000 * size, [0.1, 0.2, 1.0], threads=1)
+        return lambda: getattr(ensemble, method)([0.0, 1.0])
+
+    inside, _ = stamps_inside(long_call(make))
+    assert inside >= 5
+
+
 def test_other_threads_run_while_a_normal_form_is_computed():
     inside, _ = stamps_inside(long_call(lambda size: lambda: andoyer.NormalForm(16 + 2 * size)))
     assert inside >= 5

@@ -2,7 +2,7 @@
 
 The exact side is `NormalForm`: the normal form of the free rigid body to any order; `normalize` finds that of any other polynomial
 Hamiltonian about an elliptic point. The numerical side is `Scene`, a `Body` with its state,
-which is solved into a `Motion` and evaluated at any time. No unit is built in; angles are in rad. Attitudes are unit quaternions
+which is solved into a `Motion` and evaluated at any time; an `Ensemble` is many of them. No unit is built in; angles are in rad. Attitudes are unit quaternions
 [x, y, z, w] that rotate body components into inertial ones.
 
 In every docstring "theory §n" is section n of docs/theory.md, and the scene file is described in docs/scene.md.
@@ -21,6 +21,7 @@ from andoyer._core import (
     AttitudeError,
     BirkhoffNormalForm,
     Body,
+    Ensemble,
     EpochError,
     Error,
     FormatError,
@@ -40,6 +41,7 @@ from andoyer._core import (
     SeriesError,
     ShapeError,
     SpanError,
+    ThreadsError,
     TimesError,
     ToleranceError,
     UnitsError,
@@ -56,6 +58,7 @@ __all__ = [
     "AttitudeError",
     "BirkhoffNormalForm",
     "Body",
+    "Ensemble",
     "EpochError",
     "Error",
     "FormatError",
@@ -77,6 +80,7 @@ __all__ = [
     "SeriesError",
     "ShapeError",
     "SpanError",
+    "ThreadsError",
     "TimesError",
     "ToleranceError",
     "UnitsError",
