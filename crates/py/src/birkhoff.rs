@@ -2,16 +2,17 @@
 
 use std::sync::{Arc, Mutex};
 
-use andoyer_series::{BirkhoffMap, BirkhoffNormalForm as Inner, PhaseSpace, Polynomial, RealField};
+use andoyer_series::{BirkhoffMap, BirkhoffNormalForm as Inner, PhaseSpace, Polynomial, Progress, RealField};
 use num_rational::BigRational;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::array::{Rows, Times, fixed_length, number, write};
+use crate::array::{Rows, Times, fixed_length, interruptible, number, write};
 use crate::error::{self, UnknownNameError};
 use crate::expression::{Expression, complex, real};
 use crate::order::order;
+use crate::progress;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
@@ -304,8 +305,8 @@ impl BirkhoffNormalForm {
         let (py, n) = (state.py(), 2 * self.space().degrees_of_freedom());
         let map = self.map(py, parameters)?;
         let (state, times) = (fixed_length("state", state, n)?, Times::new(times)?);
-        let (result, values) = (times.rows(n)?, times.values()?);
-        let states = py.detach(|| map.trajectory(&state, values)).map_err(error::algebra)?;
+        let result = times.rows(n)?;
+        let states = interruptible(py, times.values()?, 1, |times| map.trajectory(&state, times))?;
         write(&result)?.as_slice_mut()?.copy_from_slice(&states.concat());
         Ok(result)
     }
@@ -350,15 +351,8 @@ impl BirkhoffNormalForm {
     ) -> PyResult<Bound<'py, PyDict>> {
         let Expression { polynomial, .. } = Expression::new("function", function, self.space())?;
         match &self.form {
-            Form::Exact(form) => {
-                let image = py.detach(|| if direct { form.direct(&polynomial) } else { form.inverse(&polynomial) });
-                real(py, &image.map_err(error::algebra)?, self.slots())
-            }
-            Form::Float(form) => {
-                let f = rounded(&polynomial);
-                let image = py.detach(|| if direct { form.direct(&f) } else { form.inverse(&f) });
-                real(py, &image.map_err(error::algebra)?, self.slots())
-            }
+            Form::Exact(form) => real(py, &transformed(py, form, &polynomial, direct)?, self.slots()),
+            Form::Float(form) => real(py, &transformed(py, form, &rounded(&polynomial), direct)?, self.slots()),
         }
     }
 
@@ -369,8 +363,9 @@ impl BirkhoffNormalForm {
         if let Some((_, map)) = held().as_ref().filter(|(known, _)| *known == values) {
             return Ok(map.clone());
         }
-        let map = py.detach(|| either!(&self.form, form => BirkhoffMap::new(form, &values)));
-        let map = Arc::new(map.map_err(error::algebra)?);
+        let compute =
+            |tell: &mut Progress<'_>| either!(&self.form, form => BirkhoffMap::with_progress(form, &values, tell));
+        let map = Arc::new(progress::reported(py, None, compute)?);
         *held() = Some((values, map.clone()));
         Ok(map)
     }
@@ -392,4 +387,14 @@ impl BirkhoffNormalForm {
         }
         values.iter().zip(names).map(|(value, name)| value.ok_or_else(|| unknown(name, "is missing"))).collect()
     }
+}
+
+/// A function in the variables of the other side.
+fn transformed<R: RealField>(
+    py: Python<'_>,
+    form: &Inner<R>,
+    f: &Polynomial<R>,
+    direct: bool,
+) -> PyResult<Polynomial<R>> {
+    progress::reported(py, None, |tell| if direct { form.direct_with(f, tell) } else { form.inverse_with(f, tell) })
 }

@@ -3,7 +3,7 @@
 
 use andoyer_series::{
     BETA, Coefficient, Error, Monomial, NormalForm, Polynomial, W, W_BAR, deprit_triangle, hamiltonian, homological,
-    poisson,
+    poisson, quiet,
 };
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -161,7 +161,6 @@ fn the_normal_form_is_that_of_the_triangle_modulo_a_prime_to_order_sixty() -> Re
     let beta = Residue(0x1234_5678_9abc_def1);
     let parts: Vec<_> =
         hamiltonian::<Residue>()?.iter().map(|part| part.evaluate_partial(BETA, &beta)).collect::<Result<_, _>>()?;
-    let mut quiet = |_, _| std::ops::ControlFlow::Continue(());
     let triangle = deprit_triangle(&parts, &homological()?, &poisson()?, ORDER, &mut quiet)?;
     let normal_form = NormalForm::new(ORDER)?;
     for n in 0..=ORDER {
