@@ -19,7 +19,7 @@ use coefficients::Coefficients;
 use program::{Cost, Program};
 use std::str::FromStr;
 
-/// Largest order that [`NormalForm::to_code`] writes: half a second and 0.7 MB at a number for β, an hour and 13 MB without one.
+/// Largest order that [`NormalForm::to_code`] writes: half a second and 0.7 MB at a number for β, far more without one.
 pub const MAXIMUM_CODE_ORDER: usize = 100;
 
 /// A language that [`NormalForm::to_code`] writes.

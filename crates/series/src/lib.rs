@@ -54,6 +54,11 @@ pub use rigid_body::{
 };
 pub use triangle::{LieTransform, Normalization, Progress, deprit_triangle, quiet};
 
+/// Complex numbers over any of the coefficients, from the crate `num-complex`.
+pub use num_complex::Complex;
+/// Exact rational numbers, from the crate `num-rational`.
+pub use num_rational::BigRational;
+
 /// The README, whose examples are compiled and run as doctests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

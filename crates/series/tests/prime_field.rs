@@ -15,13 +15,13 @@ const ORDER: usize = 60;
 const P: u64 = (1 << 61) - 1;
 
 /// An integer modulo P, reduced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Residue(u64);
 
 impl Residue {
     fn power(self, exponent: u64) -> Self {
         let half = if exponent == 0 { return Residue(1) } else { self.power(exponent / 2) };
-        if exponent % 2 == 0 { half * half } else { half * half * self }
+        if exponent.is_multiple_of(2) { half * half } else { half * half * self }
     }
 
     fn of(value: &BigRational) -> Option<Self> {
@@ -89,12 +89,6 @@ impl Zero for Residue {
 impl One for Residue {
     fn one() -> Self {
         Residue(1)
-    }
-}
-
-impl Default for Residue {
-    fn default() -> Self {
-        Residue(0)
     }
 }
 
