@@ -14,6 +14,7 @@ mod birkhoff;
 mod body;
 mod error;
 mod expression;
+mod form;
 mod motion;
 mod normal_form;
 mod normalize;
