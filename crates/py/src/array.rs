@@ -156,14 +156,32 @@ impl<'py> Rows<'py> {
     pub(crate) fn map(
         &self,
         columns: usize,
-        evaluate: impl Fn(&[f64]) -> Result<Vec<f64>, andoyer_series::Error> + Send,
+        evaluate: impl Fn(&[f64]) -> Result<Vec<f64>, andoyer_series::Error> + Sync,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let (py, values, width) = (self.array.py(), self.array.as_slice()?, self.columns);
-        let rows = py.detach(|| values.chunks(width).map(evaluate).collect::<Result<Vec<_>, _>>());
+        let rows = interruptible(py, values, width, |values| values.chunks(width).map(&evaluate).collect())?;
         let mut shape = self.array.shape().to_vec();
         shape[self.array.ndim() - 1] = columns; // one axis at least
-        rows.map_err(error::algebra)?.concat().into_pyarray(py).reshape(shape)
+        rows.concat().into_pyarray(py).reshape(shape)
     }
+}
+
+/// Rows between two looks for Ctrl-C: long series take some milliseconds each.
+const ROWS_AT_ONCE: usize = 64;
+
+/// What `evaluate` makes of rows of `width` numbers, part by part, without the interpreter lock; Ctrl-C is noticed in between.
+pub(crate) fn interruptible(
+    py: Python<'_>,
+    values: &[f64],
+    width: usize,
+    evaluate: impl Fn(&[f64]) -> Result<Vec<Vec<f64>>, andoyer_series::Error> + Sync,
+) -> PyResult<Vec<Vec<f64>>> {
+    let mut rows = py.detach(|| evaluate(&[])).map_err(error::algebra)?;
+    for part in values.chunks(width * ROWS_AT_ONCE) {
+        py.check_signals()?;
+        rows.extend(py.detach(|| evaluate(part)).map_err(error::algebra)?);
+    }
+    Ok(rows)
 }
 
 /// N numbers as a read-only array.

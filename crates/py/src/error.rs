@@ -95,6 +95,16 @@ fn of_kind(error: &Propagation, message: String) -> PyErr {
 /// The exception of an error in the exact algebra.
 pub(crate) fn algebra(error: Algebra) -> PyErr {
     let message = error.to_string();
+    exception(error, message)
+}
+
+/// The same where the error is that of one argument and does not name it.
+pub(crate) fn algebra_of(argument: &str, error: Algebra) -> PyErr {
+    let message = format!("{argument}: {error}");
+    exception(error, message)
+}
+
+fn exception(error: Algebra, message: String) -> PyErr {
     match error {
         Algebra::OrderTooLarge { .. } | Algebra::OrderOutOfRange { .. } => OrderError::new_err(message),
         Algebra::NameUnknown { .. } | Algebra::Parse { problem: ParseProblem::UnknownName(_), .. } => {

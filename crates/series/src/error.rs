@@ -315,6 +315,9 @@ pub enum TermProblem {
     /// The term lies in the kernel of the unperturbed motion.
     #[error("it lies in the kernel of the unperturbed motion")]
     Kernel,
+    /// The power of β is none that the harmonic k − j has.
+    #[error("its power of beta is not |k - j|/2 plus an even number")]
+    Harmonic,
     /// The coefficient makes the function complex on real motions.
     #[error("the function would not be real on real motions")]
     NotReal,

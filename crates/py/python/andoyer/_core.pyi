@@ -381,13 +381,15 @@ class BirkhoffNormalForm:
     def to_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The new variables of states."""
     def from_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The states of new variables."""
+        """The states of new variables; errors are those of `to_normal`."""
     def actions(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The actions of states, which hardly change along a motion unless a resonance exchanges them."""
     def frequency_map(self, actions: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The frequencies Ω = ∂K/∂I at actions."""
     def trajectory(self, state: ArrayLike, times: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The states at times after that of `state`: the angles move uniformly with the frequencies at its actions."""
+    def to_sympy(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> Any:
+        """A part of this normal form as SymPy expressions. SymPy is imported here and nowhere else."""
     def __eq__(self, other: object, /) -> bool: ...
     def __copy__(self) -> BirkhoffNormalForm: ...
     def __deepcopy__(self, _memo: Any) -> BirkhoffNormalForm: ...
