@@ -137,7 +137,7 @@ mod tests {
         let (shared, beta) = (SharedTables::default(), 0.5);
         let ask = |tables: &SharedTables, order| tables.reaching(order, beta, false).expect("tables");
         let first = ask(&shared, 8);
-        assert!(Arc::ptr_eq(&first, &ask(&shared.clone(), 5)));
+        assert!([8, 5].iter().all(|&order| Arc::ptr_eq(&first, &ask(&shared.clone(), order))));
         let higher = ask(&shared, 9);
         assert!(!Arc::ptr_eq(&first, &higher) && higher.order() >= 9);
         assert!(Arc::ptr_eq(&higher, &ask(&shared, 8)));
