@@ -4,7 +4,7 @@
 use std::hint::black_box;
 
 use andoyer_series::{
-    Monomial, NormalForm, Normalization, NumericNormalForm, deprit_triangle, hamiltonian, homological, poisson,
+    Monomial, NormalForm, Normalization, NumericNormalForm, deprit_triangle, hamiltonian, homological, poisson, quiet,
 };
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};
