@@ -137,8 +137,12 @@ def findings(rows):
             yield f"{grid} times, fastest heyoka / andoyer, {what}: {listed}."
         rates = ", ".join(f"{row.scene} {row.samples_ratio:.3g}" for row in of if row.engine == RATES)
         yield f"{grid} times, rates alone / store-only loop: {rates}."
-    won = [f"{row.engine} on {row.scene}, {row.times} times ({row.wins})" for row in rows if row.wins]
-    yield f"Where a rival wins: {'; '.join(won)}." if won else "No rival is faster or more accurate in any row."
+    won = {}
+    for row in rows:
+        if row.wins:
+            won.setdefault(f"{row.wins} on {row.scene}", {})[row.engine] = None
+    listed = "; ".join(f"{what}: {', '.join(names)}" for what, names in won.items())
+    yield f"Where a rival wins: {listed}." if won else "No rival is faster or more accurate in any row."
 
 
 def preamble(options):
