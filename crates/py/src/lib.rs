@@ -17,6 +17,7 @@ mod expression;
 mod motion;
 mod normal_form;
 mod normalize;
+mod orbit;
 mod order;
 mod plan;
 mod progress;
@@ -32,9 +33,10 @@ mod _core {
     use super::body::Body;
     #[pymodule_export]
     use super::error::{
-        AngularVelocityError, AttitudeError, EpochError, Error, FormatError, HamiltonianError, IntervalError,
-        MethodError, MomentsError, OrderError, ResonanceError, SceneFileError, SeparatrixError, SeriesError,
-        ShapeError, SpanError, TimesError, ToleranceError, UnitsError, UnknownBodyError, UnknownNameError,
+        AngularVelocityError, AttitudeError, AveragingError, EpochError, Error, FormatError, HamiltonianError,
+        IntervalError, LevelError, MethodError, MomentsError, OrbitError, OrderError, ResonanceError, SceneFileError,
+        SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError, TimesError, ToleranceError,
+        TorqueError, UnitsError, UnknownBodyError, UnknownNameError,
     };
     #[pymodule_export]
     use super::motion::Motion;
@@ -42,6 +44,8 @@ mod _core {
     use super::normal_form::{NormalForm, separatrix_action};
     #[pymodule_export]
     use super::normalize::normalize;
+    #[pymodule_export]
+    use super::orbit::Orbit;
     #[pymodule_export]
     use super::plan::Plan;
     #[pymodule_export]

@@ -2,7 +2,7 @@
 
 The exact side is `NormalForm`: the normal form of the free rigid body to any order; `normalize` finds that of any other polynomial
 Hamiltonian about an elliptic point. The numerical side is `Scene`, a `Body` with its state,
-which is solved into a `Motion` and evaluated at any time. No unit is built in; angles are in rad. Attitudes are unit quaternions
+which is solved into a `Motion` and evaluated at any time; with an `Orbit`, under the gravity gradient of another body. No unit is built in; angles are in rad. Attitudes are unit quaternions
 [x, y, z, w] that rotate body components into inertial ones.
 
 In every docstring "theory §n" is section n of docs/theory.md, and the scene file is described in docs/scene.md.
@@ -19,6 +19,7 @@ In every docstring "theory §n" is section n of docs/theory.md, and the scene fi
 from andoyer._core import (
     AngularVelocityError,
     AttitudeError,
+    AveragingError,
     BirkhoffNormalForm,
     Body,
     EpochError,
@@ -26,10 +27,13 @@ from andoyer._core import (
     FormatError,
     HamiltonianError,
     IntervalError,
+    LevelError,
     MethodError,
     MomentsError,
     Motion,
     NormalForm,
+    Orbit,
+    OrbitError,
     OrderError,
     Plan,
     ResonanceError,
@@ -40,8 +44,10 @@ from andoyer._core import (
     SeriesError,
     ShapeError,
     SpanError,
+    SpinResonanceError,
     TimesError,
     ToleranceError,
+    TorqueError,
     UnitsError,
     UnknownBodyError,
     UnknownNameError,
@@ -54,6 +60,7 @@ from andoyer.mean import Frequencies, Periods
 __all__ = [
     "AngularVelocityError",
     "AttitudeError",
+    "AveragingError",
     "BirkhoffNormalForm",
     "Body",
     "EpochError",
@@ -62,10 +69,13 @@ __all__ = [
     "Frequencies",
     "HamiltonianError",
     "IntervalError",
+    "LevelError",
     "MethodError",
     "MomentsError",
     "Motion",
     "NormalForm",
+    "Orbit",
+    "OrbitError",
     "OrderError",
     "Periods",
     "Plan",
@@ -77,8 +87,10 @@ __all__ = [
     "SeriesError",
     "ShapeError",
     "SpanError",
+    "SpinResonanceError",
     "TimesError",
     "ToleranceError",
+    "TorqueError",
     "UnitsError",
     "UnknownBodyError",
     "UnknownNameError",
