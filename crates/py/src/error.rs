@@ -25,6 +25,21 @@ create_exception!(andoyer, SpanError, Error, "A span that is not finite or runs 
 create_exception!(andoyer, OrderError, Error, "An order that is no whole number within its bounds.");
 create_exception!(andoyer, MethodError, Error, "A method that is unknown.");
 create_exception!(andoyer, ThreadsError, Error, "A number of threads that is none, or that the system does not give.");
+create_exception!(andoyer, OrbitError, Error, "An element of an orbit that is none.");
+create_exception!(
+    andoyer,
+    AveragingError,
+    Error,
+    "An averaging that is unknown, or a motion that has no averaged theory."
+);
+create_exception!(andoyer, LevelError, Error, "A level of the theory of the gravity gradient that is unknown.");
+create_exception!(
+    andoyer,
+    SpinResonanceError,
+    Error,
+    "A rotation so slow, or so near a resonance with its orbit, that no averaging holds."
+);
+create_exception!(andoyer, TorqueError, Error, "A torque too strong for an expansion in it.");
 create_exception!(andoyer, TimesError, Error, "A time that is not finite, or too far from the epoch to have a phase.");
 create_exception!(andoyer, ShapeError, Error, "An array of the wrong shape or memory layout.");
 create_exception!(
@@ -82,6 +97,11 @@ fn of_kind(error: &Propagation, message: String) -> PyErr {
         Propagation::Span { .. } => SpanError::new_err(message),
         Propagation::Order { .. } => OrderError::new_err(message),
         Propagation::Method { .. } => MethodError::new_err(message),
+        Propagation::Orbit { .. } => OrbitError::new_err(message),
+        Propagation::Averaging { .. } | Propagation::Unaveraged { .. } => AveragingError::new_err(message),
+        Propagation::Level { .. } => LevelError::new_err(message),
+        Propagation::Resonance { .. } => SpinResonanceError::new_err(message),
+        Propagation::TorqueTooStrong { .. } => TorqueError::new_err(message),
         Propagation::Time { .. } => TimesError::new_err(message),
         Propagation::Threads { .. } => ThreadsError::new_err(message),
         Propagation::Length { .. } => ShapeError::new_err(message),

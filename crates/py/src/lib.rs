@@ -20,6 +20,7 @@ mod form;
 mod motion;
 mod normal_form;
 mod normalize;
+mod orbit;
 mod order;
 mod plan;
 mod progress;
@@ -37,10 +38,10 @@ mod _core {
     use super::ensemble::Ensemble;
     #[pymodule_export]
     use super::error::{
-        AngularVelocityError, AttitudeError, EpochError, Error, FormatError, HamiltonianError, IntervalError,
-        MethodError, MomentsError, OrderError, ResonanceError, SceneFileError, SeparatrixError, SeriesError,
-        ShapeError, SpanError, ThreadsError, TimesError, ToleranceError, UnitsError, UnknownBodyError,
-        UnknownNameError,
+        AngularVelocityError, AttitudeError, AveragingError, EpochError, Error, FormatError, HamiltonianError,
+        IntervalError, LevelError, MethodError, MomentsError, OrbitError, OrderError, ResonanceError, SceneFileError,
+        SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError, ThreadsError, TimesError, ToleranceError,
+        TorqueError, UnitsError, UnknownBodyError, UnknownNameError,
     };
     #[pymodule_export]
     use super::motion::Motion;
@@ -48,6 +49,8 @@ mod _core {
     use super::normal_form::{NormalForm, separatrix_action};
     #[pymodule_export]
     use super::normalize::normalize;
+    #[pymodule_export]
+    use super::orbit::Orbit;
     #[pymodule_export]
     use super::plan::Plan;
     #[pymodule_export]

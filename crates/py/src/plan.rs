@@ -54,6 +54,18 @@ impl Plan {
         self.0.separatrix_ratio()
     }
 
+    /// How far the equations of a scene with an orbit are averaged: "orbit", "spin", or None without an orbit (theory §9).
+    #[getter]
+    fn averaging(&self) -> Option<String> {
+        self.0.averaging().map(|averaging| averaging.to_string())
+    }
+
+    /// Size of the torque: the sum of the short-period corrections by the gravity gradient, in rad; 0 without an orbit.
+    #[getter]
+    fn torque(&self) -> f64 {
+        self.0.torque()
+    }
+
     /// What this scene did not need, and why: a list of str.
     #[getter]
     fn skipped(&self) -> Vec<String> {

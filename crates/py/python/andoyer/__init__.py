@@ -2,7 +2,8 @@
 
 The exact side is `NormalForm`: the normal form of the free rigid body to any order; `normalize` finds that of any other polynomial
 Hamiltonian about an elliptic point. The numerical side is `Scene`, a `Body` with its state,
-which is solved into a `Motion` and evaluated at any time; an `Ensemble` is many of them. No unit is built in; angles are in rad. Attitudes are unit quaternions
+which is solved into a `Motion` and evaluated at any time; with an `Orbit`, under the gravity gradient of another body; an `Ensemble` is many of
+them. No unit is built in; angles are in rad. Attitudes are unit quaternions
 [x, y, z, w] that rotate body components into inertial ones.
 
 In every docstring "theory §n" is section n of docs/theory.md, and the scene file is described in docs/scene.md.
@@ -19,6 +20,7 @@ In every docstring "theory §n" is section n of docs/theory.md, and the scene fi
 from andoyer._core import (
     AngularVelocityError,
     AttitudeError,
+    AveragingError,
     BirkhoffNormalForm,
     Body,
     Ensemble,
@@ -27,10 +29,13 @@ from andoyer._core import (
     FormatError,
     HamiltonianError,
     IntervalError,
+    LevelError,
     MethodError,
     MomentsError,
     Motion,
     NormalForm,
+    Orbit,
+    OrbitError,
     OrderError,
     Plan,
     ResonanceError,
@@ -41,9 +46,11 @@ from andoyer._core import (
     SeriesError,
     ShapeError,
     SpanError,
+    SpinResonanceError,
     ThreadsError,
     TimesError,
     ToleranceError,
+    TorqueError,
     UnitsError,
     UnknownBodyError,
     UnknownNameError,
@@ -56,6 +63,7 @@ from andoyer.mean import Frequencies, Periods
 __all__ = [
     "AngularVelocityError",
     "AttitudeError",
+    "AveragingError",
     "BirkhoffNormalForm",
     "Body",
     "Ensemble",
@@ -65,10 +73,13 @@ __all__ = [
     "Frequencies",
     "HamiltonianError",
     "IntervalError",
+    "LevelError",
     "MethodError",
     "MomentsError",
     "Motion",
     "NormalForm",
+    "Orbit",
+    "OrbitError",
     "OrderError",
     "Periods",
     "Plan",
@@ -80,9 +91,11 @@ __all__ = [
     "SeriesError",
     "ShapeError",
     "SpanError",
+    "SpinResonanceError",
     "ThreadsError",
     "TimesError",
     "ToleranceError",
+    "TorqueError",
     "UnitsError",
     "UnknownBodyError",
     "UnknownNameError",

@@ -31,6 +31,9 @@ class AngularVelocityError(Error):
 class AttitudeError(Error):
     """An attitude that is no unit quaternion."""
 
+class AveragingError(Error):
+    """An averaging that is unknown, or a motion that has no averaged theory."""
+
 class EpochError(Error):
     """An epoch that is not finite."""
 
@@ -43,11 +46,17 @@ class HamiltonianError(Error):
 class IntervalError(Error):
     """A number outside its interval."""
 
+class LevelError(Error):
+    """A level of the theory of the gravity gradient that is unknown."""
+
 class MethodError(Error):
     """A method that is unknown."""
 
 class MomentsError(Error):
     """Moments of inertia that no body has."""
+
+class OrbitError(Error):
+    """An element of an orbit that is none."""
 
 class OrderError(Error):
     """An order that is no whole number within its bounds."""
@@ -70,6 +79,9 @@ class ShapeError(Error):
 class SpanError(Error):
     """A span that is not finite or runs backwards."""
 
+class SpinResonanceError(Error):
+    """A rotation so slow, or so near a resonance with its orbit, that no averaging holds."""
+
 class ThreadsError(Error):
     """A number of threads that is none, or that the system does not give."""
 
@@ -78,6 +90,9 @@ class TimesError(Error):
 
 class ToleranceError(Error):
     """A tolerance that is not positive and finite."""
+
+class TorqueError(Error):
+    """A torque too strong for an expansion in it."""
 
 class UnitsError(Error):
     """Units in which the angular momentum over- or underflows."""
@@ -127,6 +142,48 @@ class Body:
     def __deepcopy__(self, _memo: Any) -> Body: ...
 
 @final
+class Orbit:
+    """Relative Keplerian orbit of a body whose gravity gradient acts on the rotating one (theory §9)."""
+
+    def __new__(
+        cls,
+        mean_motion: float,
+        eccentricity: float = 0.0,
+        *,
+        time_of_pericentre: float = 0.0,
+        inclination: float = 0.0,
+        node: float = 0.0,
+        argument_of_pericentre: float = 0.0,
+        mass_fraction: float = 1.0,
+    ) -> Orbit: ...
+    @property
+    def mean_motion(self) -> float:
+        """Mean motion n, in rad per unit of time."""
+    @property
+    def eccentricity(self) -> float:
+        """Eccentricity, 0 or more and less than 1."""
+    @property
+    def time_of_pericentre(self) -> float:
+        """A time at which the pericentre is passed."""
+    @property
+    def inclination(self) -> float:
+        """Inclination of the orbit plane, in rad."""
+    @property
+    def node(self) -> float:
+        """Longitude of the ascending node, in rad."""
+    @property
+    def argument_of_pericentre(self) -> float:
+        """Argument of the pericentre, from the node, in rad."""
+    @property
+    def mass_fraction(self) -> float:
+        """Disturbing mass over the sum of both."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
+    def __copy__(self) -> Orbit: ...
+    def __deepcopy__(self, _memo: Any) -> Orbit: ...
+
+@final
 class Scene:
     """A body, its state at an epoch, and the accuracy asked of the solution."""
 
@@ -137,10 +194,13 @@ class Scene:
         angular_velocity: ArrayLike,
         *,
         epoch: float = 0.0,
+        orbit: Orbit | None = None,
         tolerance: float = 1e-12,
         method: Literal["auto", "series", "closed"] = "auto",
         order: int | None = None,
         span: ArrayLike | None = None,
+        averaging: Literal["auto", "orbit", "spin"] = "auto",
+        level: Literal["full", "moving", "paper"] = "full",
         name: str | None = None,
         source: str | None = None,
     ) -> Scene: ...
@@ -176,6 +236,15 @@ class Scene:
     def span(self) -> tuple[float, float] | None:
         """The times over which the tolerance is asked for: (start, stop), or None."""
     @property
+    def orbit(self) -> Orbit | None:
+        """The orbit of the disturbing body, or None."""
+    @property
+    def averaging(self) -> str:
+        """The averaging: "auto", "orbit" or "spin"."""
+    @property
+    def level(self) -> str:
+        """The level: "full", "moving" or "paper"."""
+    @property
     def name(self) -> str | None:
         """The name, or None."""
     @property
@@ -198,7 +267,7 @@ class Motion:
     def angular_velocity(self, times: ArrayLike, out: _Array | None = None) -> _Array:
         """Angular velocities in body components, in rad per unit of time."""
     def angular_momentum(self, times: ArrayLike) -> _Array:
-        """Angular momenta in inertial components, in the unit of moment × rate: of a free body, the same at all times."""
+        """Angular momenta in inertial components, in the unit of moment × rate: the same at all times unless the scene has an orbit."""
     def andoyer(self, times: ArrayLike) -> _Array:
         """Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1)."""
     def rotation(self, times: ArrayLike) -> Rotation:
@@ -240,6 +309,12 @@ class Plan:
     @property
     def separatrix_ratio(self) -> float:
         """σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5)."""
+    @property
+    def averaging(self) -> Literal["orbit", "spin"] | None:
+        """How far the equations of a scene with an orbit are averaged: "orbit", "spin", or None without an orbit (theory §9)."""
+    @property
+    def torque(self) -> float:
+        """Size of the torque: the sum of the short-period corrections by the gravity gradient, in rad; 0 without an orbit."""
     @property
     def skipped(self) -> list[str]:
         """What this scene did not need, and why: a list of str."""
