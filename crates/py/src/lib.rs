@@ -40,8 +40,8 @@ mod _core {
     use super::error::{
         AngularVelocityError, AttitudeError, AveragingError, EpochError, Error, FormatError, HamiltonianError,
         IntervalError, LevelError, MethodError, MomentsError, OrbitError, OrderError, ResonanceError, SceneFileError,
-        SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError, ThreadsError, TimesError, ToleranceError,
-        TorqueError, UnitsError, UnknownBodyError, UnknownNameError,
+        SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError, ThreadsError, TimesError,
+        ToleranceError, TorqueError, UnitsError, UnknownBodyError, UnknownNameError,
     };
     #[pymodule_export]
     use super::motion::Motion;
