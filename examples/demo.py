@@ -14,7 +14,7 @@ from pathlib import Path
 
 import andoyer
 import numpy as np
-import plots
+from andoyer import plot
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "reference"))
@@ -87,8 +87,7 @@ def run(path, out):
     plan, error = motion.plan, largest_error(motion, reference)
     speed = nanoseconds_per_sample(motion, scene.span)
     times = picture_times(reference, scene.span)
-    rates = motion.at(times).angular_velocity
-    plots.draw(out / f"{path.stem}.png", scene.name, scene.body.moments, times, motion.andoyer(times), rates)
+    plot.summary(motion, times).savefig(out / f"{path.stem}.png", dpi=130)
     ratio = f"{plan.separatrix_ratio:.3g}"
     numbers = [ratio, str(plan.order), str(plan.harmonics), f"{error:.1e}", f"{plan.error_bound:.1e}", f"{speed:.0f}"]
     return [label(scene), plan.mode, *numbers], error <= plan.error_bound
