@@ -16,7 +16,7 @@ from pathlib import Path
 
 import andoyer
 import numpy as np
-import plots
+from andoyer import plot
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "reference"))
@@ -117,8 +117,7 @@ def rows(path, out):
     reference = TorqueFree(scene.body.moments, scene.attitude, scene.angular_velocity, epoch=scene.epoch)
     motion = scene.solve()
     times = picture_times(reference, scene.span)
-    rates = motion.at(times).angular_velocity
-    plots.draw(out / f"{path.stem}.png", scene.name, scene.body.moments, times, motion.andoyer(times), rates)
+    plot.summary(motion, times).savefig(out / f"{path.stem}.png", dpi=130)
     for method in METHODS:
         if scene.orbit is not None and method == "series":
             continue  # averaged theory, in closed form

@@ -54,7 +54,6 @@ impl Orbit {
     #[pyo3(signature = (
         mean_motion, eccentricity=0.0, *, time_of_pericentre=0.0, inclination=0.0, node=0.0, argument_of_pericentre=0.0, mass_fraction=1.0
     ))]
-    #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn new(
         #[pyo3(from_py_with = mean_motion)] mean_motion: f64,
         #[pyo3(from_py_with = eccentricity)] eccentricity: f64,
