@@ -2,10 +2,9 @@
 //! generic algebra over rationals, `f64` the one at β = ½ with its direct transformation.
 
 use std::hint::black_box;
-use std::ops::ControlFlow;
 
 use andoyer_series::{
-    Monomial, NormalForm, Normalization, NumericNormalForm, deprit_triangle, hamiltonian, homological, poisson,
+    Monomial, NormalForm, Normalization, NumericNormalForm, deprit_triangle, hamiltonian, homological, poisson, quiet,
 };
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};
@@ -27,7 +26,6 @@ fn energy(group: &mut BenchmarkGroup<'_, WallTime>) {
 fn exact_triangle(order: usize) -> Normalization<BigRational> {
     let hamiltonian = hamiltonian().expect("characteristic 0");
     let (homological, poisson) = (homological().expect("two slots"), poisson().expect("two slots"));
-    let mut quiet = |_, _| ControlFlow::Continue(());
     deprit_triangle(&hamiltonian, &homological, &poisson, order, &mut quiet).expect("within the bounds")
 }
 

@@ -32,8 +32,9 @@ use crate::{array, error};
 ///     Attitude error asked for over the span, in rad. Below about 1e-14 it means the best that double precision holds
 ///     (`Plan.error_bound` says what that is).
 /// method : {"auto", "series", "closed"}, optional
+///     Perturbation series or closed form; "auto" is the closed form, or the series if an order is fixed.
 /// order : int, optional
-///     Fixed order of the series, of the secular part too (theory §7), 0 to 60; by default the one that the tolerance needs (theory §5).
+///     Fixed order of the series, of the secular part too (theory §7), 0 to 60; by default, with ``method="series"``, the one that the tolerance needs (theory §5).
 ///     A fixed order is not raised for the tolerance: where it is too low, `Plan.error_bound` exceeds the tolerance and ``str(plan)``
 ///     says that it "is not met over the span".
 /// span : (float, float), optional

@@ -12,7 +12,7 @@ import andoyer
 import andoyer._core as core
 
 NAMES = {
-    "": "NormalForm normalize separatrix_action Body Orbit Scene Motion Plan Samples Error",
+    "": "NormalForm normalize separatrix_action Body Orbit Scene Motion Plan Samples Ensemble Error",
     "NormalForm": "order triaxiality_polynomial paper_polynomial generator direct inverse to_json from_json to_latex to_sympy to_code",
     "BirkhoffNormalForm": "order degree exact frequencies in_actions in_real in_complex generator direct inverse to_normal from_normal",
     "Body": "moments alpha beta gamma omega name named",
@@ -21,6 +21,7 @@ NAMES = {
     "Motion": "at attitude angular_velocity angular_momentum andoyer rotation plan frequencies periods scene",
     "Plan": "mode method order harmonics error_bound separatrix_ratio averaging torque skipped",
     "Samples": "times attitude angular_velocity",
+    "Ensemble": "at attitude plans moments attitudes angular_velocities tolerance threads",
 }
 STUB = ast.parse(Path(core.__file__).with_name("_core.pyi").read_text(encoding="utf-8"))
 CLASSES = {node.name: node for node in STUB.body if isinstance(node, ast.ClassDef)}
@@ -45,7 +46,7 @@ def test_all_lists_everything_public_and_nothing_else():
 
 def test_every_exception_is_an_error_and_a_value_error():
     exceptions = [value for value in vars(core).values() if isinstance(value, type) and issubclass(value, BaseException)]
-    assert len(exceptions) == 26
+    assert len(exceptions) == 27
     assert all(issubclass(exception, andoyer.Error) and exception.__module__ == "andoyer" for exception in exceptions)
     assert issubclass(andoyer.Error, ValueError)
 

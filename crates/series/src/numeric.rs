@@ -19,7 +19,7 @@
 use crate::forms::{Form, FormNormalization, Real};
 use crate::{BETA, Error, W, W_BAR, hamiltonian};
 
-/// Largest order: its coefficients, 3.2^N at most, and the work, some seconds, stay within reason.
+/// Largest order: its coefficients, 3.2^N at most, and the work, a second in `f64` and a quarter of a minute in double-double, stay within reason.
 const MAXIMUM_NUMERIC_ORDER: usize = 200;
 
 /// Normal form and direct transformation at one β, orders 0 to N (theory §4, §6).

@@ -6,7 +6,7 @@
 //! W = Σ e^(i(hℓ′+my′)) G(f),   G = g/(iΩ) − ġ/(iΩ)² + g̈/(iΩ)³ − …,   d/dt = n η^(−3) (1 + e cos f)² d/df
 //! ```
 //!
-//! solves dW/dt = D − <D> with the disturbing body on its way; the first term alone holds it fixed, as the paper does. G is a Fourier polynomial in f. The corrections are
+//! solves dW/dt = D − ⟨D⟩ with the disturbing body on its way; the first term alone holds it fixed, as the paper does. G is a Fourier polynomial in f. The corrections are
 //! brackets with W in variables that are regular at J = 0 and at any inclination: p = √σ e^(iℓ′), M, y′ and rotations of the invariable frame,
 //!
 //! ```text
@@ -70,7 +70,7 @@ impl Mean {
 struct Term {
     harmonic: i32,
     multiple: i32,
-    /// f_h G, d(f_h G)/dσ and M d(f_h G)/dM at fixed p, [g][k + K].
+    /// f_h G, d(f_h G)/dσ and M d(f_h G)/dM at fixed p; by g, part and k + K.
     parts: [[Vec<C64>; 3]; 3],
 }
 
@@ -262,7 +262,7 @@ fn circle(place: &Place, width: usize) -> Vec<C64> {
     turns
 }
 
-/// Fourier coefficients in f of the time derivatives of (a/r)³ times 1, cos 2f, sin 2f: [g][derivative][k + K].
+/// Fourier coefficients in f of the time derivatives of (a/r)³ times 1, cos 2f, sin 2f, by g, derivative and k + K.
 fn derivatives_in_time(eccentricity: f64, mean_motion: f64, derivatives: usize, width: usize) -> [Vec<Vec<C64>>; 3] {
     let eta = (1.0 - eccentricity * eccentricity).sqrt();
     // Times 1 + e cos f; what leaves the width is zero, which is what the width is for.

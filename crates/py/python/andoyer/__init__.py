@@ -2,7 +2,8 @@
 
 The exact side is `NormalForm`: the normal form of the free rigid body to any order; `normalize` finds that of any other polynomial
 Hamiltonian about an elliptic point. The numerical side is `Scene`, a `Body` with its state,
-which is solved into a `Motion` and evaluated at any time; with an `Orbit`, under the gravity gradient of another body. No unit is built in; angles are in rad. Attitudes are unit quaternions
+which is solved into a `Motion` and evaluated at any time; with an `Orbit`, under the gravity gradient of another body; an `Ensemble` is many of
+them. No unit is built in; angles are in rad. Attitudes are unit quaternions
 [x, y, z, w] that rotate body components into inertial ones.
 
 In every docstring "theory §n" is section n of docs/theory.md, and the scene file is described in docs/scene.md.
@@ -22,6 +23,7 @@ from andoyer._core import (
     AveragingError,
     BirkhoffNormalForm,
     Body,
+    Ensemble,
     EpochError,
     Error,
     FormatError,
@@ -45,6 +47,7 @@ from andoyer._core import (
     ShapeError,
     SpanError,
     SpinResonanceError,
+    ThreadsError,
     TimesError,
     ToleranceError,
     TorqueError,
@@ -63,6 +66,7 @@ __all__ = [
     "AveragingError",
     "BirkhoffNormalForm",
     "Body",
+    "Ensemble",
     "EpochError",
     "Error",
     "FormatError",
@@ -88,6 +92,7 @@ __all__ = [
     "ShapeError",
     "SpanError",
     "SpinResonanceError",
+    "ThreadsError",
     "TimesError",
     "ToleranceError",
     "TorqueError",

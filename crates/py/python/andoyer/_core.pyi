@@ -23,6 +23,8 @@ __version__: str
 class Error(ValueError):
     """Bad input, or a motion that is not served; the base of every error of this package."""
 
+    index: int  # only of a member of an ensemble: its place among the members
+
 class AngularVelocityError(Error):
     """An angular velocity that is not finite."""
 
@@ -79,6 +81,9 @@ class SpanError(Error):
 
 class SpinResonanceError(Error):
     """A rotation so slow, or so near a resonance with its orbit, that no averaging holds."""
+
+class ThreadsError(Error):
+    """A number of threads that is none, or that the system does not give."""
 
 class TimesError(Error):
     """A time that is not finite, or too far from the epoch to have a phase."""
@@ -318,18 +323,61 @@ class Plan:
 
 @final
 class Samples:
-    """Attitudes and angular velocities of a motion at some times: what `Motion.at` returns."""
+    """Attitudes and angular velocities at some times, of a motion or of the members of an ensemble: what `Motion.at` and `Ensemble.at` return."""
 
     @property
     def times(self) -> _Array:
-        """The times, float64, shape (n,)."""
+        """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n)."""
     @property
     def attitude(self) -> _Array:
-        """Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4)."""
+        """Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4) or (m, n, 4)."""
     @property
     def angular_velocity(self) -> _Array:
-        """Angular velocities in body components, in rad per unit of time, shape (n, 3)."""
+        """Angular velocities in body components, in rad per unit of time, shape (n, 3) or (m, n, 3)."""
     def __len__(self) -> int: ...
+
+@final
+class Ensemble:
+    """Many bodies with their states at time 0, solved and evaluated member by member on all cores, in memory proportional to the result."""
+
+    def __new__(
+        cls,
+        moments: ArrayLike,
+        attitudes: ArrayLike,
+        angular_velocities: ArrayLike,
+        *,
+        tolerance: float = 1e-12,
+        threads: int | None = None,
+    ) -> Ensemble: ...
+    def at(self, times: ArrayLike) -> Samples:
+        """Attitudes and angular velocities of all members, in one pass."""
+    def attitude(self, times: ArrayLike, out: _Array | None = None) -> _Array:
+        """Attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones."""
+    @property
+    def plans(self) -> list[Plan]:
+        """The plan of every member: a list of `Plan`."""
+    @property
+    def moments(self) -> _Array:
+        """The moments about body axes 1, 2, 3: a read-only array, shape (m, 3)."""
+    @property
+    def attitudes(self) -> _Array:
+        """The attitudes at time 0 as given: unit quaternions [x, y, z, w], a read-only array, shape (m, 4)."""
+    @property
+    def angular_velocities(self) -> _Array:
+        """The angular velocities at time 0, in body components, in rad per unit of time: a read-only array, shape (m, 3)."""
+    @property
+    def tolerance(self) -> float:
+        """The attitude error asked for, in rad."""
+    @property
+    def threads(self) -> int | None:
+        """The number of threads asked for, or None."""
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int, /) -> Motion: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: None  # type: ignore[assignment]
+    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
+    def __copy__(self) -> Ensemble: ...
+    def __deepcopy__(self, _memo: Any) -> Ensemble: ...
 
 @final
 class NormalForm:
@@ -408,13 +456,15 @@ class BirkhoffNormalForm:
     def to_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The new variables of states."""
     def from_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The states of new variables."""
+        """The states of new variables; errors are those of `to_normal`."""
     def actions(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The actions of states, which hardly change along a motion unless a resonance exchanges them."""
     def frequency_map(self, actions: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The frequencies Ω = ∂K/∂I at actions."""
     def trajectory(self, state: ArrayLike, times: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The states at times after that of `state`: the angles move uniformly with the frequencies at its actions."""
+    def to_sympy(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> Any:
+        """A part of this normal form as SymPy expressions. SymPy is imported here and nowhere else."""
     def __eq__(self, other: object, /) -> bool: ...
     def __copy__(self) -> BirkhoffNormalForm: ...
     def __deepcopy__(self, _memo: Any) -> BirkhoffNormalForm: ...
