@@ -191,7 +191,7 @@ def summary(motion: Motion, times: ArrayLike | None = None) -> "Figure":
     scene = motion.scene
     tiny = _nutation(_sorted(motion, times)[2]).max() < TINY
     with plt.rc_context(STYLE):
-        figure = plt.figure(figsize=(13, 9), layout="constrained")
+        figure: "Figure" = plt.figure(figsize=(13, 9), layout="constrained")
         figure.suptitle(scene.name or scene.body.name or "", fontsize=15, fontweight="bold")
         grid = figure.add_gridspec(4, 2, width_ratios=(1, 1.25))
         polhode(motion, figure.add_subplot(grid[:2, 0]))
@@ -318,7 +318,8 @@ def _surface(axes: "Axes", moments: _Array, pole: _Array, place: Any, names: lis
         tip = screen @ place(np.eye(3)[axis])
         ahead = 0.32 * screen[:, axis] / np.hypot(*screen[:, axis])
         axes.annotate("", tip + ahead, tip, arrowprops={"arrowstyle": "-|>", "color": BLACK, "linewidth": 1.2})
-        axes.text(*(tip + 1.5 * ahead), f"{names[axis]} ({letter})", ha="center", va="center", fontweight="bold")
+        x, y = tip + 1.5 * ahead
+        axes.text(x, y, f"{names[axis]} ({letter})", ha="center", va="center", fontweight="bold")
     axes.set(xlim=(-1.6, 1.6), ylim=(-1.3, 1.6), aspect="equal")
     axes.axis("off")
     axes.legend(loc="upper right", fontsize=9, frameon=False)
@@ -361,7 +362,7 @@ def _near_pole(axes: "Axes", pole: _Array, names: list[str]) -> None:
     axes.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal", xlabel=f"towards axis {names[0]} [μrad]", ylabel=f"towards axis {names[1]} [μrad]")
     axes.set_title(f"Path of the angular momentum near axis {names[2]}")
     scale = 1e-6 / ARCSECOND
-    second = axes.secondary_yaxis("right", functions=(lambda v: v * scale, lambda v: v / scale))
+    second = axes.secondary_yaxis("right", functions=(lambda v: np.multiply(v, scale), lambda v: np.divide(v, scale)))
     second.set_ylabel("[arcsec]")
 
 
