@@ -4,8 +4,9 @@ VENV := .venv
 BIN := $(VENV)/bin
 WHEELS := target/wheels
 RIVALS := target/rivals-venv
+COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test lint bench rivals docs wheel clean
+.PHONY: demo test lint bench sweep bounds rivals rivals-normal-form rivals-propagation docs wheel clean
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -14,6 +15,7 @@ test: lint $(VENV)/installed  ## everything that CI runs
 	cargo test --workspace --quiet
 	$(BIN)/python tests/reference/torque_free.py tests/data/torque_free.json
 	$(BIN)/python examples/scenes/make_scenes.py --check
+	$(BIN)/python examples/bounds.py --scenes 120
 	$(BIN)/python -m pytest -q crates/py/tests
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
 
@@ -25,16 +27,41 @@ lint:
 bench:  ## criterion groups by order
 	cargo bench --workspace
 
-rivals: $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine: a table of ratios, in out/ too
+sweep: $(VENV)/installed  ## series against closed form by order, σ/σ_sep and β: docs/data/sweep.csv, picture and table of its page; a minute
+	$(BIN)/python examples/sweep.py
+
+bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes
+	$(BIN)/python examples/bounds.py
+
+rivals: rivals-normal-form rivals-propagation  ## both tables of ratios, in out/ too
+
+rivals-normal-form: $(RIVALS)/normal-form $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine
 	$(RIVALS)/bin/python benches/rivals/normal_form.py
 
-$(RIVALS)/installed: $(RIVALS)/ready $(VENV)/installed
+rivals-propagation: $(RIVALS)/propagation $(RIVALS)/installed $(RIVALS)/orekit/ready  ## propagation against heyoka, SciPy, ode_solvers and, where there is Maven, Orekit
+	RUSTFLAGS='-C target-cpu=native' cargo build --release --locked --quiet --manifest-path benches/rivals/ode_solvers/Cargo.toml --target-dir $(RIVALS)/ode_solvers
+	$(RIVALS)/bin/python benches/rivals/propagation.py --ode-solvers $(RIVALS)/ode_solvers/release/ode-solvers-rival --orekit $(RIVALS)/orekit
+
+$(RIVALS)/installed: $(RIVALS)/made $(VENV)/installed
 	$(RIVALS)/bin/python -m pip install --quiet --force-reinstall --no-deps $(WHEELS)/andoyer-*.whl
 	touch $@
 
-$(RIVALS)/ready: benches/rivals/requirements.txt
+$(RIVALS)/made:
 	$(PYTHON) -m venv $(RIVALS)
-	$(RIVALS)/bin/python -m pip install --quiet --requirement benches/rivals/requirements.txt
+	touch $@
+
+$(RIVALS)/normal-form: benches/rivals/requirements.txt $(RIVALS)/made
+	$(RIVALS)/bin/python -m pip install --quiet --requirement $<
+	touch $@
+
+$(RIVALS)/propagation: benches/rivals/requirements-propagation.txt $(RIVALS)/made
+	$(RIVALS)/bin/python -m pip install --quiet --requirement $<
+	touch $@
+
+# Without Maven and Java the folder stays empty, and the table says so.
+$(RIVALS)/orekit/ready: benches/rivals/orekit/pom.xml $(RIVALS)/made
+	mkdir -p $(@D)
+	if command -v mvn && command -v java; then mvn --quiet --batch-mode --file $< $(COPY_DEPENDENCIES) -DoutputDirectory=$(abspath $(@D)); fi
 	touch $@
 
 docs:  ## the Rust documentation

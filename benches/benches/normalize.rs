@@ -1,11 +1,11 @@
 //! Normalization by order. Engines: `energy` is the exact normal form as `NormalForm::new` computes it, `triangle` the same through the
-//! generic algebra over rationals, `f64` the one at β = ½ with its direct transformation.
+//! generic algebra over rationals, `f64` and `double-double` the one at β = ½ with its direct transformation.
 
 use std::hint::black_box;
-use std::ops::ControlFlow;
 
 use andoyer_series::{
-    Monomial, NormalForm, Normalization, NumericNormalForm, deprit_triangle, hamiltonian, homological, poisson,
+    DoubleDouble, Monomial, NormalForm, Normalization, NumericNormalForm, Real, deprit_triangle, hamiltonian,
+    homological, poisson, quiet,
 };
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};
@@ -27,7 +27,6 @@ fn energy(group: &mut BenchmarkGroup<'_, WallTime>) {
 fn exact_triangle(order: usize) -> Normalization<BigRational> {
     let hamiltonian = hamiltonian().expect("characteristic 0");
     let (homological, poisson) = (homological().expect("two slots"), poisson().expect("two slots"));
-    let mut quiet = |_, _| ControlFlow::Continue(());
     deprit_triangle(&hamiltonian, &homological, &poisson, order, &mut quiet).expect("within the bounds")
 }
 
@@ -46,12 +45,12 @@ fn triangle(group: &mut BenchmarkGroup<'_, WallTime>) {
     }
 }
 
-fn float(group: &mut BenchmarkGroup<'_, WallTime>) {
-    for order in [5, 10, 12, 20, 30, 40, 60] {
-        group.bench_function(BenchmarkId::new(format!("order-{order}"), "f64"), |b| {
+fn numeric<C: Real + From<f64>>(group: &mut BenchmarkGroup<'_, WallTime>, engine: &str, orders: &[usize]) {
+    for &order in orders {
+        group.bench_function(BenchmarkId::new(format!("order-{order}"), engine), |b| {
             b.iter(|| {
-                let normal_form = NumericNormalForm::new(black_box(0.5), order).expect("0 ≤ β ≤ 1");
-                assert_eq!(normal_form.triaxiality_polynomials()[3], -0.15625);
+                let normal_form = NumericNormalForm::<C>::new(black_box(0.5).into(), order).expect("0 ≤ β ≤ 1");
+                assert_eq!(normal_form.triaxiality_polynomials()[3].to_f64(), -0.15625);
                 (normal_form.direct(), normal_form.direct_longitude())
             });
         });
@@ -63,7 +62,8 @@ fn by_order(c: &mut Criterion) {
     group.sample_size(10);
     energy(&mut group);
     triangle(&mut group);
-    float(&mut group);
+    numeric::<f64>(&mut group, "f64", &[5, 10, 12, 20, 30, 40, 60]);
+    numeric::<DoubleDouble>(&mut group, "double-double", &[12, 30, 60]);
     group.finish();
 }
 

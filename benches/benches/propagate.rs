@@ -2,7 +2,8 @@
 
 use std::hint::black_box;
 
-use andoyer_benches::triaxial;
+use andoyer_benches::{bodies, triaxial, wobbling};
+use andoyer_propagate::{Body, Method, Mode, Motion, Scene, State};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 const ORDERS: [usize; 9] = [1, 2, 4, 8, 12, 16, 20, 30, 40];
@@ -81,5 +82,107 @@ fn evaluate_one(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, solve, evaluate, evaluate_one);
+/// Solving for a body that has been solved for, and for one that has not.
+fn set_up(c: &mut Criterion) {
+    let mut group = c.benchmark_group("set-up");
+    let bodies = bodies();
+    let scenes = |method| -> Vec<_> { bodies.iter().map(|body| wobbling(body, 0.3).method(method)).collect() };
+    let ordered = |order: usize| -> Vec<_> { bodies.iter().map(|body| wobbling(body, 0.3).order(order)).collect() };
+    let mut kinds = vec![
+        ("tolerance-1e-12".to_owned(), "closed", scenes(Method::Closed)),
+        ("tolerance-1e-12".to_owned(), "series", scenes(Method::Series)),
+    ];
+    kinds.extend([8, 20, 40].map(|order| (format!("order-{order}"), "series", ordered(order))));
+    for (size, engine, scenes) in &kinds {
+        for scene in scenes {
+            solved(scene.clone());
+        }
+        let mut next = scenes.iter().cycle();
+        group.bench_function(BenchmarkId::new(format!("body-seen-{size}"), engine), |b| {
+            b.iter(|| solved(next.next().expect("a cycle").clone()));
+        });
+        let mut next = scenes.iter().cycle();
+        group.bench_function(BenchmarkId::new(format!("body-new-{size}"), engine), |b| {
+            b.iter(|| {
+                let scene = next.next().expect("a cycle");
+                // The same moments without what the body's scenes share.
+                let body = Body::new(black_box(scene.body().moments())).expect("a body");
+                let renewed = Scene::new(body, *scene.state()).method(scene.asked_method());
+                solved(scene.asked_order().map_or(renewed.clone(), |order| renewed.order(order)))
+            });
+        });
+    }
+    group.finish();
+}
+
+fn solved(scene: Scene) -> Motion {
+    let motion = black_box(scene).solve().expect("a wobble");
+    let plan = motion.plan();
+    assert!(plan.mode() == Mode::ShortAxis && (0.1..=0.3).contains(&plan.separatrix_ratio()));
+    motion
+}
+
+/// What each thing costs that a scene may not need.
+fn skip(c: &mut Criterion) {
+    let mut group = c.benchmark_group("skip");
+    group.throughput(Throughput::Elements(SAMPLES as u64)).sample_size(30);
+    let (mut attitudes, mut rates) = (vec![[0.0; 4]; SAMPLES], vec![[0.0; 3]; SAMPLES]);
+    let uneven: Vec<f64> = (0..SAMPLES).map(|k| 628.0 * (0.618_033_988_749_894_9 * k as f64).fract()).collect();
+    let uniform: Vec<f64> = (0..SAMPLES).map(|k| 0.00628 * k as f64).collect();
+    let whole = triaxial().solve().expect("a wobble");
+    let size = whole.angular_momentum();
+    group.bench_function("outputs-attitudes/closed", |b| {
+        b.iter(|| {
+            whole.batch().threads(1).attitudes_into(black_box(&uneven), &mut attitudes).expect("finite times");
+            assert!((norm(&attitudes[SAMPLES - 1]) - 1.0).abs() < 1e-14);
+        });
+    });
+    group.bench_function("outputs-rates/closed", |b| {
+        b.iter(|| {
+            whole.batch().threads(1).angular_velocities_into(black_box(&uneven), &mut rates).expect("finite times");
+            assert!(momentum(&whole, &rates[SAMPLES - 1]) < 1e-14);
+        });
+    });
+    group.bench_function("outputs-angular-momenta/closed", |b| {
+        b.iter(|| {
+            whole.angular_momenta_into(black_box(&uneven), &mut rates).expect("finite times");
+            assert_eq!(rates[SAMPLES - 1], <[f64; 3]>::from(size));
+        });
+    });
+    let state = || State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.4, 0.6, 0.9]).expect("a state");
+    let of = |moments| Scene::new(Body::new(moments).expect("a body"), state());
+    let kinds = [
+        ("outputs-attitudes-and-rates", triaxial(), &uneven),
+        ("times-uniform", triaxial(), &uniform),
+        ("tolerance-1e-6", triaxial().tolerance(1e-6), &uneven),
+        ("tolerance-1e-15", triaxial().tolerance(1e-15), &uneven),
+        ("body-oblate", of([0.75, 0.75, 1.0]), &uneven),
+        ("body-sphere", of([1.0, 1.0, 1.0]), &uneven),
+    ];
+    for (what, scene, times) in kinds {
+        let motion = scene.solve().expect("a motion");
+        group.bench_function(BenchmarkId::new(what, "closed"), |b| {
+            b.iter(|| {
+                let batch = motion.batch().threads(1);
+                batch.samples_into(black_box(times), &mut attitudes, &mut rates).expect("finite times");
+                assert!((norm(&attitudes[SAMPLES - 1]) - 1.0).abs() < 1e-14);
+                assert!(momentum(&motion, &rates[SAMPLES - 1]) < 1e-14);
+            });
+        });
+    }
+    group.finish();
+}
+
+fn norm<const N: usize>(row: &[f64; N]) -> f64 {
+    row.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// How far the angular momentum of these rates is from that of the motion, relative.
+fn momentum(motion: &Motion, rates: &[f64; 3]) -> f64 {
+    let moments = motion.scene().body().moments();
+    let whole = norm(&[0, 1, 2].map(|i| moments[i] * rates[i]));
+    (whole / motion.angular_momentum().norm() - 1.0).abs()
+}
+
+criterion_group!(benches, solve, evaluate, evaluate_one, set_up, skip);
 criterion_main!(benches);

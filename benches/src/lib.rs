@@ -23,3 +23,33 @@ pub fn disturbed(eccentricity: f64) -> Scene {
     let orbit = Orbit::new(2e-3, eccentricity).expect("an ellipse");
     Scene::new(body, state).orbit(orbit).span(0.0, 1000.0 * std::f64::consts::TAU)
 }
+
+/// Bodies of many shapes: 1/16 ≤ β ≤ 15/16, C/A up to 3.
+///
+/// # Panics
+/// Never: all of them satisfy the triangle inequality.
+pub fn bodies() -> Vec<Body> {
+    let shape = |k: usize| {
+        let (flat, middle) = ((k % 8) as f64 / 8.0, (1 + k / 8) as f64 / 9.0);
+        let least = 0.36 + 0.6 * flat;
+        let between = 1.0 - least;
+        // Between 1 − A, the triangle inequality, and C.
+        let lowest = between.max(least);
+        [least, lowest + (1.0 - lowest) * middle, 1.0]
+    };
+    (0..64).map(|k| Body::new(shape(k)).expect("a body")).collect()
+}
+
+/// A motion of a body with σ/σ_sep somewhat below `ratio`, at most 1.
+///
+/// # Panics
+/// Never: the numbers are those of a scene.
+pub fn wobbling(body: &Body, ratio: f64) -> Scene {
+    let [least, middle, greatest] = body.moments();
+    let (first, second) = ((greatest - least) / least, (greatest - middle) / middle);
+    // γE = (C/A−1) g1² + (C/B−1) g2² as a share of its value on the separatrix, C/B−1 (theory §5, §7). It is concave in σ, and so σ/σ_sep is below the share.
+    let (g1, g2) = ((0.5 * ratio * second / first).sqrt(), (0.5 * ratio).sqrt());
+    let rates = [g1 / least, g2 / middle, (1.0 - g1 * g1 - g2 * g2).sqrt() / greatest];
+    let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], rates).expect("a state");
+    Scene::new(body.clone(), state)
+}

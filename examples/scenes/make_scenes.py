@@ -23,6 +23,7 @@ from torque_free import TorqueFree  # noqa: E402
 
 mp.dps = 40
 HOUR, DAY, YEAR = 3600, 86400, 31557600
+GAUSS = mpf("0.01720209895")  # mean motion at 1 au [rad/d]: Gauss's constant
 
 
 @dataclass
@@ -41,6 +42,7 @@ class Recipe:
     nutation: mpf = None  # J [rad] at nu, with the period
     spin: mpf = None  # of the spin
     tumbling: tuple = None  # or instead of both (P_phi, P_psi), long-axis convention
+    orbit: tuple = None  # of the Sun: semi-major axis [au], eccentricity
 
 
 UNMARKED = "Figures marked neither read nor recalled are attributed to the source named beside them and were not checked against it."
@@ -122,6 +124,26 @@ sigma/sigma_sep = {{ratio}}. Span: one Julian year.
 """,
     ),
     Recipe(
+        file="eros-sun.toml",
+        name="Eros, 2 degrees off, under the Sun's torque",
+        moments=("0.22942677", "0.96375352", "1.0"),
+        nu="90",
+        node="0",
+        inclination="89.0",
+        spin=mpf("5.27025547") * HOUR,
+        nutation=radians(mpf(2)),
+        span=100 * DAY,
+        tolerance=1e-8,
+        orbit=("1.4583", "0.2227"),
+        source=f"""
+Body and state as in eros.toml: moments {{moments}} in units of C, recalled, from 17.09, 71.79, 74.49 km^2 (Miller et al. 2002); spin period 5.27025547 h
+(mean rate of mu + nu); I = obliquity 89.0 deg (read: Souchay and Kinoshita 2003); J = 2 deg is hypothetical. The Sun's orbit about Eros: a = 1.4583 au,
+e = 0.2227 (Souchay and Kinoshita 2003), mean motion k a^(-3/2) with Gauss's k = 0.01720209895 rad/d. Frame: orbit plane, x along the node of the plane of the angular
+momentum; the pericentre on x and its passage at the epoch are chosen. Computed: the averaged torque turns the pole at {{precession}} arcsec a year
+where J = 0. Span: 100 d. {UNMARKED}
+""",
+    ),
+    Recipe(
         file="apophis.toml",
         name="Apophis, tumbling",
         moments=("0.61", "0.965", "1.0"),
@@ -195,6 +217,7 @@ def describe(recipe, nutation, nu, momentum):
     swing = [asin(sqrt(excess / (c / moment - 1))) for moment in (a, b)]
     figure = lambda x, digits: mp.nstr(x, digits, strip_zeros=False)
     return {
+        "precession": figure(precession_of_pole(recipe, momentum), 4) if recipe.orbit else None,
         "moments": " : ".join(recipe.moments),
         "wobble_d": figure(wobble / DAY, 5),
         "wobble_h": figure(wobble / HOUR, 5),
@@ -210,6 +233,26 @@ def describe(recipe, nutation, nu, momentum):
         "modulus": figure(parameter, 3),
         "ratio": figure(action(recipe.moments, excess / alpha) / action(recipe.moments, 1 - beta), 3),
     }
+
+
+def mean_motion(recipe):
+    """Mean motion of the Sun [rad/s]."""
+    return GAUSS / DAY / mpf(recipe.orbit[0]) ** mpf("1.5")
+
+
+def precession_of_pole(recipe, momentum):
+    """d lambda/dt of theory section 9, averaged over rotation and orbit, at J = 0, in arcseconds a year; momentum in units of C."""
+    a, b, c = (mpf(x) for x in recipe.moments)
+    shape = (1 - mpf(recipe.orbit[1]) ** 2) ** mpf("-1.5")
+    rate = -1.5 * mean_motion(recipe) ** 2 / momentum * shape * (c - (a + b) / 2) * cos(radians(mpf(recipe.inclination)))
+    return degrees(rate) * 3600 * YEAR
+
+
+def orbit_table(recipe):
+    """The table of the orbit, in the plane and with its pericentre on the x axis at the epoch, if there is one."""
+    if not recipe.orbit:
+        return ""
+    return f"\n[orbit]\nmean_motion = {float(mean_motion(recipe))!r}\neccentricity = {recipe.orbit[1]}\n"
 
 
 def quaternion(recipe, nutation, nu, mu):
@@ -254,7 +297,7 @@ moments = [{", ".join(recipe.moments)}]
 [state]
 attitude = {row(attitude)}
 angular_velocity = {row(rates)}
-'''
+{orbit_table(recipe)}'''
 
 
 def main(check):

@@ -1,6 +1,6 @@
 //! Many bodies at once: the same bits as one by one, for any number of threads; bad members are named.
 
-use andoyer_propagate::{Body, Ensemble, Error, Scene, State};
+use andoyer_propagate::{Body, Ensemble, Error, MAX_THREADS, Scene, State};
 
 const MEMBERS: usize = 500;
 const LEVEL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
@@ -75,4 +75,17 @@ fn rows_that_fit_no_times_and_times_that_are_none_are_refused() {
     assert!(matches!(all_bad, Err(Error::Member { index: 0, .. })));
     let none = Ensemble::new(Vec::new(), Vec::new(), Vec::new()).expect("empty");
     assert!(none.is_empty() && none.attitudes_into(&[1.0], &mut []).is_ok());
+}
+
+#[test]
+fn a_tolerance_and_a_number_of_threads_are_no_fault_of_a_member() {
+    for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(ensemble().tolerance(value).validate(), Err(Error::Tolerance { .. })), "{value}");
+    }
+    for value in [0, MAX_THREADS + 1, usize::MAX] {
+        let ensemble = ensemble().threads(value);
+        assert!(matches!(ensemble.validate(), Err(Error::Threads { .. })));
+        assert!(matches!(ensemble.plans(), Err(Error::Threads { value: found, .. }) if found == value));
+    }
+    assert!(ensemble().threads(MAX_THREADS).validate().is_ok());
 }

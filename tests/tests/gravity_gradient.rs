@@ -43,9 +43,10 @@ fn the_full_level_explains_all_but_a_ten_thousandth_of_the_torques_effect() {
     for (case, orbit) in cases(REFERENCE).iter().zip(orbits()) {
         let [paper, moving, full] =
             [Level::Paper, Level::Moving, Level::Full].map(|level| share(case, &orbit, level, Averaging::Spin));
-        println!("{:18} paper {paper:.1e}  moving {moving:.1e}  full {full:.1e}", case.name);
+        let shares = format!("{}: paper {paper:.1e}, moving {moving:.1e}, full {full:.1e}", case.name);
         let bound = if case.name == "fast-orbit" { 1e-4 } else { 1e-6 };
-        assert!(full <= bound, "{}: {full:e}", case.name);
+        assert!(full <= bound, "{shares}");
+        assert!(moving <= 1.01 * paper && full <= 1.01 * moving, "{shares}");
     }
 }
 

@@ -1,6 +1,6 @@
 //! Scene files: what is read back, and what is refused with file, key and bound.
 
-use andoyer_propagate::{Error, Scene};
+use andoyer_propagate::{Averaging, Error, Level, Scene};
 
 const GOOD: &str = "name = \"A body\"
 source = \"made up\"
@@ -32,6 +32,58 @@ fn a_scene_written_and_read_back_is_the_same_scene() {
     assert_eq!((scene.asked_order(), scene.asked_span(), scene.state().epoch), (Some(12), Some((0.0, 1e3)), 5.0));
     let again = Scene::parse_toml(&scene.to_toml(), "again.toml").expect("a scene");
     assert_eq!(scene, again);
+}
+
+const ORBIT: &str = "[orbit]
+mean_motion = 2e-4
+eccentricity = 0.1
+time_of_pericentre = -3
+inclination = 0.4
+node = 0.5
+argument_of_pericentre = 0.6
+mass_fraction = 0.7
+";
+
+/// The scene with an orbit, and with every key.
+fn with_orbit() -> String {
+    format!("averaging = \"orbit\"\nlevel = \"moving\"\n{GOOD}{ORBIT}")
+}
+
+#[test]
+fn a_scene_with_an_orbit_survives_writing_and_every_element_has_its_key() {
+    let scene = Scene::parse_toml(&with_orbit(), "scene.toml").expect("a scene");
+    let elements = scene.asked_orbit().expect("an orbit").elements();
+    assert_eq!(elements, [2e-4, 0.1, -3.0, 0.4, 0.5, 0.6, 0.7]);
+    assert_eq!((scene.asked_averaging(), scene.asked_level()), (Averaging::Orbit, Level::Moving));
+    assert_eq!(Scene::parse_toml(&scene.to_toml(), "again.toml").expect("a scene"), scene);
+    // What is not the default is kept without an orbit too.
+    let free = Scene::parse_toml(&with_orbit().replace(ORBIT, ""), "scene.toml").expect("a scene");
+    assert_eq!(Scene::parse_toml(&free.to_toml(), "again.toml").expect("a scene"), free);
+    let least = Scene::parse_toml(&format!("{GOOD}[orbit]\nmean_motion = 1e-3"), "scene.toml").expect("a scene");
+    assert_eq!(least.asked_orbit().expect("an orbit").elements(), [1e-3, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn what_is_wrong_with_an_orbit_is_named_with_its_bound() {
+    let cases = [
+        ("mean_motion = 2e-4", "mean_motion = 0", "orbit.mean_motion", "positive"),
+        ("mean_motion = 2e-4\n", "", "orbit.mean_motion", "is missing"),
+        ("eccentricity = 0.1", "eccentricity = 1", "orbit.eccentricity", "less than 1"),
+        ("time_of_pericentre = -3", "time_of_pericentre = nan", "orbit.time_of_pericentre", "finite"),
+        ("inclination = 0.4", "inclination = \"tilted\"", "orbit.inclination", "must be a number"),
+        ("node = 0.5", "node = inf", "orbit.node", "finite"),
+        ("argument_of_pericentre = 0.6", "argument_of_pericentre = nan", "orbit.argument_of_pericentre", "finite"),
+        ("mass_fraction = 0.7", "mass_fraction = 1.1", "orbit.mass_fraction", "at most 1"),
+        ("mass_fraction", "mass", "orbit.mass", "known here: mean_motion, eccentricity"),
+        ("averaging = \"orbit\"", "averaging = \"moon\"", "averaging", "\"auto\", \"orbit\" or \"spin\""),
+        ("level = \"moving\"", "level = \"still\"", "level", "\"paper\", \"moving\" or \"full\""),
+    ];
+    for (old, new, key, bound) in cases {
+        let (found, problem) = refused(&with_orbit().replace(old, new));
+        assert_eq!(found, key, "{new}");
+        assert!(problem.contains(bound), "{new}: {problem}");
+    }
+    assert_eq!(refused(&format!("orbit = 3\n{GOOD}")).0, "orbit");
 }
 
 #[test]

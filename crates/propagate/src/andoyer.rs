@@ -31,19 +31,20 @@ impl Motion {
     /// As [`Motion::attitudes_into`].
     pub fn andoyer_into(&self, times: &[f64], out: &mut [[f64; 6]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
-        let (mut attitudes, mut rates) = ([[0.0; 4]; AT_ONCE], [[0.0; 3]; AT_ONCE]);
+        let (mut attitudes, mut rates, mut momenta) = ([[0.0; 4]; AT_ONCE], [[0.0; 3]; AT_ONCE], [[0.0; 3]; AT_ONCE]);
         for ((index, part), out) in times.chunks(AT_ONCE).enumerate().zip(out.chunks_mut(AT_ONCE)) {
             let (attitudes, rates) = (&mut attitudes[..part.len()], &mut rates[..part.len()]);
+            let momenta = &mut momenta[..part.len()];
             self.samples_into(part, attitudes, rates).map_err(|error| error.later(index * AT_ONCE))?;
-            for ((slot, attitude), rates) in out.iter_mut().zip(attitudes).zip(rates) {
-                *slot = self.andoyer_of(*attitude, *rates);
+            self.angular_momenta_into(part, momenta).map_err(|error| error.later(index * AT_ONCE))?;
+            for (((slot, attitude), rates), total) in out.iter_mut().zip(attitudes).zip(rates).zip(momenta) {
+                *slot = self.andoyer_of(*attitude, *rates, (*total).into());
             }
         }
         Ok(())
     }
 
-    fn andoyer_of(&self, attitude: [f64; 4], rates: [f64; 3]) -> [f64; 6] {
-        let total = self.angular_momentum;
+    fn andoyer_of(&self, attitude: [f64; 4], rates: [f64; 3], total: Vector3<f64>) -> [f64; 6] {
         // No squares: they overflow long before the momentum does.
         let momentum = total.x.hypot(total.y).hypot(total.z);
         if momentum == 0.0 {

@@ -17,6 +17,9 @@ use crate::state::State;
 /// Members that a thread takes at least: 64 of them are some 300 µs.
 const BLOCK: usize = 64;
 
+/// The largest number of threads that can be asked for.
+pub const MAX_THREADS: usize = 1024;
+
 /// Bodies with their states, all at the same epoch.
 ///
 /// ```
@@ -113,6 +116,26 @@ impl Ensemble {
         self.threads
     }
 
+    /// Whether what was asked for of all members can be done.
+    ///
+    /// # Errors
+    /// - [`Error::Tolerance`] for `0.0`.
+    /// - [`Error::Threads`] for `0` and above [`MAX_THREADS`].
+    pub fn validate(&self) -> Result<(), Error> {
+        self.validate_threads()?;
+        match self.tolerance {
+            value if value.is_finite() && value > 0.0 => Ok(()),
+            value => Err(Error::Tolerance { value }),
+        }
+    }
+
+    fn validate_threads(&self) -> Result<(), Error> {
+        match self.threads {
+            None | Some(1..=MAX_THREADS) => Ok(()),
+            Some(value) => Err(Error::Threads { value, problem: format!("it must be from 1 to {MAX_THREADS}") }),
+        }
+    }
+
     fn scene(&self, index: usize) -> Result<Scene, Error> {
         let state = State::new(0.0, self.attitudes[index], self.angular_velocities[index])?;
         let scene = Scene::new(Body::new(self.moments[index])?, state).tolerance(self.tolerance);
@@ -203,6 +226,7 @@ impl Ensemble {
     }
 
     fn pool(&self) -> Result<Pool, Error> {
+        self.validate_threads()?;
         match self.threads {
             None => Ok(Pool::Global),
             Some(threads) => {

@@ -31,7 +31,7 @@ mod state;
 
 pub use batch::Batch;
 pub use body::Body;
-pub use ensemble::Ensemble;
+pub use ensemble::{Ensemble, MAX_THREADS};
 pub use error::Error;
 pub use gradient::{Averaging, Level};
 pub use motion::{Frequencies, Motion, Periods, Sample};

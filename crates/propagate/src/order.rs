@@ -6,7 +6,7 @@ use crate::plan::{MAX_ORDER, Mode};
 use crate::polhode::Polhode;
 use crate::scene::Scene;
 use crate::secular::Secular;
-use crate::series::{Expansion, Tables};
+use crate::series::Expansion;
 
 /// Part of the tolerance that truncation may use.
 const TRUNCATION_SHARE: f64 = 0.75;
@@ -47,10 +47,10 @@ pub(crate) fn expanded(
         _ => first_order(ratio, target),
     };
     for order in first.unwrap_or(MAX_ORDER)..=MAX_ORDER {
-        let tables = Tables::new(polhode.beta(), order)?;
+        let tables = scene.body().tables().reaching(order, polhode.beta(), polhode.long_axis)?;
         let fixed = mode != Mode::Axisymmetric && scene.asked_order().is_some();
-        let secular = if fixed { Secular::truncated(polhode, tables.polynomials()) } else { *exact };
-        let expansion = tables.expand(secular.kappa_sigma, polhode.kappa());
+        let secular = if fixed { Secular::truncated(polhode, tables.polynomials(order)) } else { *exact };
+        let expansion = tables.expand(order, secular.kappa_sigma, polhode.kappa());
         let [first, second] = polhode.excesses;
         let ellipse = Ellipse::new((first / second).to_f64());
         let truncation = truncation(&expansion, ellipse, ratio, mode);

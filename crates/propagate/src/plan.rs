@@ -52,7 +52,7 @@ pub(crate) struct GradientPlan {
     pub(crate) level: Level,
     /// Terms of the short-period corrections.
     pub(crate) terms: usize,
-    /// Sum of their sizes [rad].
+    /// Sum of their sizes \[rad\].
     pub(crate) size: f64,
 }
 

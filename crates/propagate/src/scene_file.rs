@@ -1,7 +1,7 @@
 //! Scenes in TOML files.
 //!
 //! ```toml
-//! name = "…"                       # optional, as are source, epoch (0), span, tolerance (1e-12), method ("auto") and order
+//! name = "…"                       # optional, as are source, epoch (0), span, tolerance (1e-12), method ("auto"), order, averaging ("auto"), level ("full")
 //! source = "where the figures come from"
 //! epoch = 0.0                      # time of the state
 //! span = [0.0, 1.0e6]              # times over which the tolerance is asked for
@@ -11,23 +11,52 @@
 //! [state]
 //! attitude = [0.0, 0.0, 0.0, 1.0]  # [x, y, z, w], body components → inertial ones
 //! angular_velocity = [0.0, 0.1, 1.0]   # body components
+//! [orbit]                          # optional: of the disturbing body, for the gravity gradient
+//! mean_motion = 1e-3               # the only element without a default
+//! eccentricity = 0.1               # 0, as time_of_pericentre, inclination, node, argument_of_pericentre; mass_fraction is 1
 //! ```
 //!
 //! Any other key is an error. Numbers are written so that they are read back to the same bits.
 
 use std::path::Path;
+use std::str::FromStr;
 
 use toml::{Table, Value};
 
 use crate::body::Body;
 use crate::error::Error;
+use crate::gradient::{Averaging, Level};
+use crate::orbit::Orbit;
 use crate::plan::MAX_ORDER;
 use crate::scene::Scene;
 use crate::state::State;
 
-const SCENE_KEYS: &[&str] = &["name", "source", "epoch", "span", "tolerance", "method", "order", "body", "state"];
+const SCENE_KEYS: &[&str] = &[
+    "name",
+    "source",
+    "epoch",
+    "span",
+    "tolerance",
+    "method",
+    "order",
+    "averaging",
+    "level",
+    "body",
+    "state",
+    "orbit",
+];
 const BODY_KEYS: &[&str] = &["moments", "named", "name"];
 const STATE_KEYS: &[&str] = &["attitude", "angular_velocity"];
+/// In the order of [`Orbit::elements`].
+const ORBIT_KEYS: &[&str; 7] = &[
+    "mean_motion",
+    "eccentricity",
+    "time_of_pericentre",
+    "inclination",
+    "node",
+    "argument_of_pericentre",
+    "mass_fraction",
+];
 
 impl Scene {
     /// The scene of a TOML file.
@@ -73,25 +102,7 @@ impl Scene {
             state_keys.numbers("angular_velocity")?.ok_or_else(|| state_keys.missing("angular_velocity"))?,
         )
         .map_err(|error| keys.refused(error))?;
-        let mut scene = Self::new(body_keys.body()?, state);
-        if let Some(tolerance) = keys.number("tolerance")? {
-            scene = scene.tolerance(tolerance);
-        }
-        if let Some([start, stop]) = keys.numbers("span")? {
-            scene = scene.span(start, stop);
-        }
-        if let Some(method) = keys.text("method")? {
-            scene = scene.method(method.parse().map_err(|error: Error| keys.refused(error))?);
-        }
-        if let Some(order) = keys.order()? {
-            scene = scene.order(order);
-        }
-        if let Some(name) = keys.text("name")? {
-            scene = scene.name(name);
-        }
-        if let Some(source) = keys.text("source")? {
-            scene = scene.source(source);
-        }
+        let scene = keys.asked_of(Self::new(body_keys.body()?, state))?;
         scene.validate().map_err(|error| keys.refused(error))?;
         Ok(scene)
     }
@@ -113,19 +124,40 @@ impl Scene {
             // At most 60.
             table.insert("order".to_owned(), Value::from(order as i64));
         }
+        // What only a scene with an orbit needs is left out of the others.
+        let averaging = (self.asked_averaging(), Averaging::default());
+        if self.asked_orbit().is_some() || averaging.0 != averaging.1 {
+            table.insert("averaging".to_owned(), Value::from(averaging.0.to_string()));
+        }
+        if self.asked_orbit().is_some() || self.asked_level() != Level::default() {
+            table.insert("level".to_owned(), Value::from(self.asked_level().to_string()));
+        }
+        table.insert("body".to_owned(), Value::Table(self.body_table()));
+        table.insert("state".to_owned(), Value::Table(self.state_table()));
+        if let Some(orbit) = self.asked_orbit() {
+            let elements = ORBIT_KEYS.iter().zip(orbit.elements());
+            let orbit: Table = elements.map(|(key, element)| ((*key).to_owned(), Value::from(element))).collect();
+            table.insert("orbit".to_owned(), Value::Table(orbit));
+        }
+        table.to_string()
+    }
+
+    fn body_table(&self) -> Table {
         let mut body = Table::new();
         body.insert("moments".to_owned(), Value::from(self.body().moments().to_vec()));
         if let Some(name) = self.body().name() {
             body.insert("name".to_owned(), Value::from(name));
         }
+        body
+    }
+
+    fn state_table(&self) -> Table {
         let mut state = Table::new();
         let attitude = self.state().attitude.coords;
         state.insert("attitude".to_owned(), Value::from(attitude.as_slice().to_vec()));
         let rates = self.state().angular_velocity;
         state.insert("angular_velocity".to_owned(), Value::from(rates.as_slice().to_vec()));
-        table.insert("body".to_owned(), Value::Table(body));
-        table.insert("state".to_owned(), Value::Table(state));
-        table.to_string()
+        state
     }
 }
 
@@ -146,6 +178,9 @@ impl<'a> Keys<'a> {
     /// What a constructor has against a value, under the key that the value came from.
     fn refused(&self, error: Error) -> Error {
         let key = match error {
+            Error::Orbit { argument, .. } => &format!("orbit.{argument}"),
+            Error::Averaging { .. } => "averaging",
+            Error::Level { .. } => "level",
             Error::Moment { .. } | Error::MomentsTriangle { .. } | Error::MomentsRatio { .. } => "body.moments",
             Error::UnknownBody { .. } => "body.named",
             Error::Attitude { .. } => "state.attitude",
@@ -209,6 +244,55 @@ impl<'a> Keys<'a> {
             order.filter(|&order| order <= MAX_ORDER).ok_or_else(|| self.wrong("order", value, &expected))
         };
         self.table.get("order").map(parse).transpose()
+    }
+
+    /// A scene with what the top of the file and its orbit ask of it.
+    fn asked_of(&self, mut scene: Scene) -> Result<Scene, Error> {
+        if let Some(tolerance) = self.number("tolerance")? {
+            scene = scene.tolerance(tolerance);
+        }
+        if let Some([start, stop]) = self.numbers("span")? {
+            scene = scene.span(start, stop);
+        }
+        if let Some(method) = self.choice("method")? {
+            scene = scene.method(method);
+        }
+        if let Some(order) = self.order()? {
+            scene = scene.order(order);
+        }
+        if let Some(averaging) = self.choice("averaging")? {
+            scene = scene.averaging(averaging);
+        }
+        if let Some(level) = self.choice("level")? {
+            scene = scene.level(level);
+        }
+        if self.table.contains_key("orbit") {
+            scene = scene.orbit(self.table("orbit", ORBIT_KEYS)?.orbit()?);
+        }
+        if let Some(name) = self.text("name")? {
+            scene = scene.name(name);
+        }
+        if let Some(source) = self.text("source")? {
+            scene = scene.source(source);
+        }
+        Ok(scene)
+    }
+
+    /// One of the names that a choice has.
+    fn choice<T: FromStr<Err = Error>>(&self, key: &str) -> Result<Option<T>, Error> {
+        self.text(key)?.map(|text| text.parse().map_err(|error| self.refused(error))).transpose()
+    }
+
+    fn orbit(&self) -> Result<Orbit, Error> {
+        let or = |key, default| Ok::<f64, Error>(self.number(key)?.unwrap_or(default));
+        let mean_motion = self.number("mean_motion")?.ok_or_else(|| self.missing("mean_motion"))?;
+        let (time, fraction) = (or("time_of_pericentre", 0.0)?, or("mass_fraction", 1.0)?);
+        let plane = [or("inclination", 0.0)?, or("node", 0.0)?, or("argument_of_pericentre", 0.0)?];
+        Orbit::new(mean_motion, or("eccentricity", 0.0)?)
+            .and_then(|orbit| orbit.time_of_pericentre(time))
+            .and_then(|orbit| orbit.plane(plane[0], plane[1], plane[2]))
+            .and_then(|orbit| orbit.mass_fraction(fraction))
+            .map_err(|error| self.refused(error))
     }
 
     fn body(&self) -> Result<Body, Error> {

@@ -2,6 +2,12 @@
 //!
 //! With s = κσ (theory §6, §7) order n of w/√M is √σ s^n times a form of degree 2n + 1, and order n of y − y′ is s^(n+1)/κ times one of
 //! degree 2n + 2. A form becomes harmonics by w^j w̄^k → e^(i(j−k)ℓ′). Sums run from the lowest order to the highest.
+//!
+//! An order is computed from lower ones alone, so that tables cut off at an order have the bits of tables that end there: what was computed for one scene
+//! of a body serves the next ([`SharedTables`]).
+
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use andoyer_series::{Form, NumericNormalForm};
 
@@ -37,20 +43,24 @@ impl Tables {
         })
     }
 
-    /// P_0 … P_N at this β (theory §4).
-    pub(crate) fn polynomials(&self) -> &[f64] {
-        &self.polynomials
+    /// The highest order that they reach.
+    fn order(&self) -> usize {
+        self.longitude.len()
     }
 
-    /// The Fourier coefficients at s = κσ.
-    pub(crate) fn expand(&self, kappa_sigma: f64, kappa: f64) -> Expansion {
-        let order = self.longitude.len();
+    /// P_0 … P_N at this β (theory §4), N = `order`, which the tables reach.
+    pub(crate) fn polynomials(&self, order: usize) -> &[f64] {
+        &self.polynomials[..=order]
+    }
+
+    /// The Fourier coefficients of orders 0 to `order`, which the tables reach, at s = κσ.
+    pub(crate) fn expand(&self, order: usize, kappa_sigma: f64, kappa: f64) -> Expansion {
         let root = (kappa_sigma / kappa).sqrt();
         let mut oscillator = vec![0.0; 2 * order + 2];
         let mut longitude = vec![0.0; order];
         let mut last_order = 0.0;
         let mut power = root;
-        for (n, form) in self.oscillator.iter().enumerate() {
+        for (n, form) in self.oscillator[..=order].iter().enumerate() {
             last_order = 0.0;
             for (j, &c) in form.coefficients().iter().enumerate() {
                 oscillator[order - n + j] += c * power;
@@ -59,7 +69,7 @@ impl Tables {
             power *= kappa_sigma;
         }
         let mut power = kappa_sigma / kappa;
-        for (index, form) in self.longitude.iter().enumerate() {
+        for (index, form) in self.longitude[..order].iter().enumerate() {
             let n = index + 1;
             power *= kappa_sigma;
             // The forms are odd in w ↔ w̄: iŷ = Σ 2i·i c sin hℓ′ over the upper half, h = 2(j − n − 1).
@@ -70,5 +80,75 @@ impl Tables {
             }
         }
         Expansion { oscillator, longitude, last_order }
+    }
+}
+
+/// The tables that scenes of one body have computed, shared by its clones: of the short-axis mode and of the long-axis mode, which has a β of its own.
+///
+/// Nothing but time depends on what is there: it is equal to any other, and prints nothing of it.
+#[derive(Clone, Default)]
+pub(crate) struct SharedTables(Arc<[Mutex<Option<Arc<Tables>>>; 2]>);
+
+impl SharedTables {
+    /// Tables of `beta`, that of the body in this mode, which reach `order`. Who asks while they are computed waits for them.
+    pub(crate) fn reaching(&self, order: usize, beta: f64, long_axis: bool) -> Result<Arc<Tables>, Error> {
+        // A panic elsewhere leaves what was there before.
+        let mut slot = self.0[usize::from(long_axis)].lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(tables) = slot.as_ref().filter(|tables| tables.order() >= order) {
+            return Ok(Arc::clone(tables));
+        }
+        let tables = Arc::new(Tables::new(beta, order)?);
+        *slot = Some(Arc::clone(&tables));
+        Ok(tables)
+    }
+}
+
+impl PartialEq for SharedTables {
+    fn eq(&self, _other: &Self) -> bool {
+        true
+    }
+}
+
+impl fmt::Debug for SharedTables {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("SharedTables")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_cut_off_have_the_bits_of_tables_that_end_there() {
+        for beta in [0.0, 0.01, 0.5, 0.99] {
+            let long = Tables::new(beta, 40).expect("tables");
+            for order in [0, 1, 2, 8, 20, 39] {
+                let short = Tables::new(beta, order).expect("tables");
+                assert_eq!(short.polynomials, long.polynomials[..=order], "β = {beta}, order {order}");
+                assert_eq!(short.oscillator, long.oscillator[..=order], "β = {beta}, order {order}");
+                assert_eq!(short.longitude, long.longitude[..order], "β = {beta}, order {order}");
+            }
+        }
+    }
+
+    #[test]
+    fn tables_are_computed_once_for_a_body_and_again_only_for_a_higher_order() {
+        let (shared, beta) = (SharedTables::default(), 0.5);
+        let ask = |tables: &SharedTables, order| tables.reaching(order, beta, false).expect("tables");
+        let first = ask(&shared, 8);
+        assert!([8, 5].iter().all(|&order| Arc::ptr_eq(&first, &ask(&shared.clone(), order))));
+        let higher = ask(&shared, 9);
+        assert!(!Arc::ptr_eq(&first, &higher) && higher.order() >= 9);
+        assert!(Arc::ptr_eq(&higher, &ask(&shared, 8)));
+    }
+
+    #[test]
+    fn each_mode_has_tables_of_its_own() {
+        let shared = SharedTables::default();
+        let short = shared.reaching(4, 0.25, false).expect("tables");
+        let long = shared.reaching(4, 0.75, true).expect("tables");
+        assert_ne!(short.polynomials, long.polynomials);
+        assert!(Arc::ptr_eq(&short, &shared.reaching(4, 0.25, false).expect("tables")));
     }
 }

@@ -76,6 +76,43 @@ pub(crate) fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> 
     }
 }
 
+/// N numbers for each member of an ensemble: an array_like of shape (m, N), or (N,) for all of them.
+pub(crate) enum MemberRows<const N: usize> {
+    One([f64; N]),
+    Many(Vec<[f64; N]>),
+}
+
+impl<const N: usize> MemberRows<N> {
+    pub(crate) fn new(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let array = numbers(argument, value)?;
+        let values = read(argument, &array)?;
+        match (array.shape(), values.as_slice()?.as_chunks().0) {
+            (&[n], &[row]) if n == N => Ok(Self::One(row)),
+            (&[_, n], rows) if n == N => Ok(Self::Many(rows.to_vec())),
+            (shape, _) => {
+                let shape = shape_text(shape);
+                Err(ShapeError::new_err(format!("{argument} has shape {shape}: it must be (m, {N}) or ({N},)")))
+            }
+        }
+    }
+
+    /// The number of rows, unless one row stands for any number of them.
+    pub(crate) fn members(&self) -> Option<usize> {
+        match self {
+            Self::One(_) => None,
+            Self::Many(rows) => Some(rows.len()),
+        }
+    }
+
+    /// As many rows as there are, or `members` times the one.
+    pub(crate) fn repeated(self, members: usize) -> Vec<[f64; N]> {
+        match self {
+            Self::One(row) => vec![row; members],
+            Self::Many(rows) => rows,
+        }
+    }
+}
+
 /// `value` as `length` numbers.
 pub(crate) fn fixed_length(argument: &str, value: &Bound<'_, PyAny>, length: usize) -> PyResult<Vec<f64>> {
     let array = numbers(argument, value)?;
@@ -119,14 +156,32 @@ impl<'py> Rows<'py> {
     pub(crate) fn map(
         &self,
         columns: usize,
-        evaluate: impl Fn(&[f64]) -> Result<Vec<f64>, andoyer_series::Error> + Send,
+        evaluate: impl Fn(&[f64]) -> Result<Vec<f64>, andoyer_series::Error> + Sync,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let (py, values, width) = (self.array.py(), self.array.as_slice()?, self.columns);
-        let rows = py.detach(|| values.chunks(width).map(evaluate).collect::<Result<Vec<_>, _>>());
+        let rows = interruptible(py, values, width, |values| values.chunks(width).map(&evaluate).collect())?;
         let mut shape = self.array.shape().to_vec();
         shape[self.array.ndim() - 1] = columns; // one axis at least
-        rows.map_err(error::algebra)?.concat().into_pyarray(py).reshape(shape)
+        rows.concat().into_pyarray(py).reshape(shape)
     }
+}
+
+/// Rows between two looks for Ctrl-C: long series take some milliseconds each.
+const ROWS_AT_ONCE: usize = 64;
+
+/// What `evaluate` makes of rows of `width` numbers, part by part, without the interpreter lock; Ctrl-C is noticed in between.
+pub(crate) fn interruptible(
+    py: Python<'_>,
+    values: &[f64],
+    width: usize,
+    evaluate: impl Fn(&[f64]) -> Result<Vec<Vec<f64>>, andoyer_series::Error> + Sync,
+) -> PyResult<Vec<Vec<f64>>> {
+    let mut rows = py.detach(|| evaluate(&[])).map_err(error::algebra)?;
+    for part in values.chunks(width * ROWS_AT_ONCE) {
+        py.check_signals()?;
+        rows.extend(py.detach(|| evaluate(part)).map_err(error::algebra)?);
+    }
+    Ok(rows)
 }
 
 /// N numbers as a read-only array.
@@ -134,6 +189,16 @@ pub(crate) fn constant<'py>(py: Python<'py>, values: &[f64]) -> Bound<'py, PyArr
     let array = values.to_vec().into_pyarray(py);
     array.readwrite().make_nonwriteable();
     array
+}
+
+/// Rows of N numbers as a read-only array.
+pub(crate) fn constant_rows<'py, const N: usize>(
+    py: Python<'py>,
+    rows: &[[f64; N]],
+) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    let array = rows.as_flattened().to_vec().into_pyarray(py).reshape(vec![rows.len(), N])?;
+    array.readwrite().make_nonwriteable();
+    Ok(array)
 }
 
 /// A shape as Python prints it.
@@ -144,19 +209,32 @@ fn shape_text(shape: &[usize]) -> String {
     }
 }
 
-/// Times: a scalar, or one axis of them.
+/// Times: a scalar, or one axis of them; for the members of an ensemble also an axis of each.
 pub(crate) struct Times<'py> {
     array: PyReadonlyArrayDyn<'py, f64>,
+    members: Option<usize>,
 }
 
 impl<'py> Times<'py> {
+    /// Times of a motion.
     pub(crate) fn new(value: &Bound<'py, PyAny>) -> PyResult<Self> {
         let array = numbers("times", value)?;
         if array.ndim() > 1 {
             let shape = shape_text(array.shape());
             return Err(ShapeError::new_err(format!("times has shape {shape}: it must be () or (n,)")));
         }
-        Ok(Self { array: read("times", &array)? })
+        Ok(Self { array: read("times", &array)?, members: None })
+    }
+
+    /// Times of an ensemble.
+    pub(crate) fn of_members(value: &Bound<'py, PyAny>, members: usize) -> PyResult<Self> {
+        let array = numbers("times", value)?;
+        if !matches!(array.shape(), [] | [_]) && !matches!(array.shape(), [m, _] if *m == members) {
+            let shape = shape_text(array.shape());
+            let text = format!("times has shape {shape}: it must be (), (n,) or ({members}, n)");
+            return Err(ShapeError::new_err(text));
+        }
+        Ok(Self { array: read("times", &array)?, members: Some(members) })
     }
 
     pub(crate) fn values(&self) -> PyResult<&[f64]> {
@@ -204,9 +282,9 @@ impl<'py> Times<'py> {
     }
 
     fn shape(&self, n: usize) -> Vec<usize> {
-        let mut shape = self.array.shape().to_vec();
-        shape.push(n);
-        shape
+        let times = self.array.shape();
+        let members = self.members.filter(|_| times.len() < 2);
+        members.into_iter().chain(times.iter().copied()).chain([n]).collect()
     }
 
     /// N numbers for each time, computed by `evaluate` without the interpreter lock, into `out` or a new array.

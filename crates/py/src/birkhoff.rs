@@ -2,40 +2,20 @@
 
 use std::sync::{Arc, Mutex};
 
-use andoyer_series::{BirkhoffMap, BirkhoffNormalForm as Inner, PhaseSpace, Polynomial, RealField};
+use andoyer_series::{BirkhoffMap, Part, PhaseSpace, Progress};
 use num_rational::BigRational;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::array::{Rows, Times, fixed_length, number, write};
+use crate::array::{Rows, Times, fixed_length, interruptible, number, write};
 use crate::error::{self, UnknownNameError};
 use crate::expression::{Expression, complex, real};
+use crate::form::{Form, either, rounded, transformed};
 use crate::order::order;
+use crate::progress;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
-
-/// A normal form in one kind of numbers or the other.
-#[derive(PartialEq)]
-pub(crate) enum Form {
-    Exact(Inner<BigRational>),
-    Float(Inner<f64>),
-}
-
-/// One expression for both kinds of numbers.
-macro_rules! either {
-    ($form:expr, $inner:ident => $result:expr) => {
-        match $form {
-            Form::Exact($inner) => $result,
-            Form::Float($inner) => $result,
-        }
-    };
-}
-
-/// Exact coefficients as floats.
-pub(crate) fn rounded(polynomial: &Polynomial<BigRational>) -> Polynomial<f64> {
-    polynomial.map(RealField::to_float)
-}
 
 /// The Birkhoff normal form of a Hamiltonian, from `normalize`: the new Hamiltonian K, and the transformation both ways.
 ///
@@ -198,19 +178,12 @@ impl BirkhoffNormalForm {
         Rows::new("states", states, n)?.map(n, |state| map.to_normal(state))
     }
 
-    /// The states of new variables.
+    /// The states of new variables; errors are those of `to_normal`.
     ///
     /// Parameters
     /// ----------
     /// states : array_like, shape (2n,) or (m, 2n)
     /// parameters : dict of {str: float}, optional
-    ///
-    /// Raises
-    /// ------
-    /// ShapeError
-    ///     Another length.
-    /// IntervalError
-    ///     A NaN, or a result that overflows.
     #[pyo3(signature = (states, parameters=None))]
     #[expect(clippy::wrong_self_convention, reason = "the pair of to_normal")]
     fn from_normal<'py>(
@@ -304,10 +277,42 @@ impl BirkhoffNormalForm {
         let (py, n) = (state.py(), 2 * self.space().degrees_of_freedom());
         let map = self.map(py, parameters)?;
         let (state, times) = (fixed_length("state", state, n)?, Times::new(times)?);
-        let (result, values) = (times.rows(n)?, times.values()?);
-        let states = py.detach(|| map.trajectory(&state, values)).map_err(error::algebra)?;
+        let result = times.rows(n)?;
+        let states = interruptible(py, times.values()?, 1, |times| map.trajectory(&state, times))?;
         write(&result)?.as_slice_mut()?.copy_from_slice(&states.concat());
         Ok(result)
+    }
+
+    /// A part of this normal form as SymPy expressions. SymPy is imported here and nowhere else.
+    ///
+    /// Symbols are the names of variables and parameters and ``I_q`` for the action of (q, p), without assumptions: new variables in "direct",
+    /// old ones in "inverse". `sympy.latex`, `ccode` and `lambdify` lead on from there.
+    ///
+    /// Parameters
+    /// ----------
+    /// what : {"hamiltonian", "generator", "direct", "inverse"}, optional
+    ///
+    /// Returns
+    /// -------
+    /// sympy.Expr, list of sympy.Expr or dict of {str: sympy.Expr}
+    ///     "hamiltonian": K in the actions, or with resonant terms in the new variables. "generator": S_1 … S_N. "direct", "inverse": every
+    ///     old variable in the new ones, every new one in the old ones.
+    ///
+    /// Raises
+    /// ------
+    /// UnknownNameError
+    ///     ``"lagrangian"``.
+    /// ImportError
+    ///     SymPy is not installed: the extra ``andoyer[sympy]`` brings it.
+    ///
+    /// Examples
+    /// --------
+    /// >>> normalize("(x**2 + X**2)/2 + x**3", 2, [("x", "X")]).to_sympy()
+    /// -15*I_x**2/4 + I_x
+    #[pyo3(signature = (what="hamiltonian"))]
+    fn to_sympy<'py>(slf: &Bound<'py, Self>, what: &str) -> PyResult<Bound<'py, PyAny>> {
+        let _: Part = what.parse().map_err(error::algebra)?;
+        slf.py().import("andoyer._symbolic")?.call_method1("birkhoff", (slf, what))
     }
 
     fn __repr__(&self) -> String {
@@ -350,15 +355,8 @@ impl BirkhoffNormalForm {
     ) -> PyResult<Bound<'py, PyDict>> {
         let Expression { polynomial, .. } = Expression::new("function", function, self.space())?;
         match &self.form {
-            Form::Exact(form) => {
-                let image = py.detach(|| if direct { form.direct(&polynomial) } else { form.inverse(&polynomial) });
-                real(py, &image.map_err(error::algebra)?, self.slots())
-            }
-            Form::Float(form) => {
-                let f = rounded(&polynomial);
-                let image = py.detach(|| if direct { form.direct(&f) } else { form.inverse(&f) });
-                real(py, &image.map_err(error::algebra)?, self.slots())
-            }
+            Form::Exact(form) => real(py, &transformed(py, form, &polynomial, direct)?, self.slots()),
+            Form::Float(form) => real(py, &transformed(py, form, &rounded(&polynomial), direct)?, self.slots()),
         }
     }
 
@@ -369,8 +367,9 @@ impl BirkhoffNormalForm {
         if let Some((_, map)) = held().as_ref().filter(|(known, _)| *known == values) {
             return Ok(map.clone());
         }
-        let map = py.detach(|| either!(&self.form, form => BirkhoffMap::new(form, &values)));
-        let map = Arc::new(map.map_err(error::algebra)?);
+        let compute =
+            |tell: &mut Progress<'_>| either!(&self.form, form => BirkhoffMap::with_progress(form, &values, tell));
+        let map = Arc::new(progress::reported(py, None, compute)?);
         *held() = Some((values, map.clone()));
         Ok(map)
     }

@@ -5,8 +5,9 @@
 
 use andoyer_propagate::Error as Propagation;
 use andoyer_series::{Error as Algebra, ParseProblem};
+use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
-use pyo3::{PyErr, create_exception};
+use pyo3::prelude::*;
 
 create_exception!(
     andoyer,
@@ -23,6 +24,22 @@ create_exception!(andoyer, ToleranceError, Error, "A tolerance that is not posit
 create_exception!(andoyer, SpanError, Error, "A span that is not finite or runs backwards.");
 create_exception!(andoyer, OrderError, Error, "An order that is no whole number within its bounds.");
 create_exception!(andoyer, MethodError, Error, "A method that is unknown.");
+create_exception!(andoyer, ThreadsError, Error, "A number of threads that is none, or that the system does not give.");
+create_exception!(andoyer, OrbitError, Error, "An element of an orbit that is none.");
+create_exception!(
+    andoyer,
+    AveragingError,
+    Error,
+    "An averaging that is unknown, or a motion that has no averaged theory."
+);
+create_exception!(andoyer, LevelError, Error, "A level of the theory of the gravity gradient that is unknown.");
+create_exception!(
+    andoyer,
+    SpinResonanceError,
+    Error,
+    "A rotation so slow, or so near a resonance with its orbit, that no averaging holds."
+);
+create_exception!(andoyer, TorqueError, Error, "A torque too strong for an expansion in it.");
 create_exception!(andoyer, TimesError, Error, "A time that is not finite, or too far from the epoch to have a phase.");
 create_exception!(andoyer, ShapeError, Error, "An array of the wrong shape or memory layout.");
 create_exception!(
@@ -55,9 +72,19 @@ create_exception!(
 create_exception!(andoyer, FormatError, Error, "A text that is not the JSON of a normal form.");
 create_exception!(andoyer, SeriesError, Error, "Any other error of the exact algebra.");
 
-/// The exception of an error in propagation.
+/// The exception of an error in propagation: of a member of an ensemble that of a single body, with the attribute `index`.
 pub(crate) fn propagation(error: Propagation) -> PyErr {
     let message = error.to_string();
+    match error {
+        Propagation::Member { index, problem, .. } => Python::attach(|py| {
+            let exception = of_kind(&problem, message);
+            exception.value(py).setattr("index", index).map_or_else(|failure| failure, |()| exception)
+        }),
+        _ => of_kind(&error, message),
+    }
+}
+
+fn of_kind(error: &Propagation, message: String) -> PyErr {
     match error {
         Propagation::Moment { .. } | Propagation::MomentsTriangle { .. } | Propagation::MomentsRatio { .. } => {
             MomentsError::new_err(message)
@@ -70,7 +97,13 @@ pub(crate) fn propagation(error: Propagation) -> PyErr {
         Propagation::Span { .. } => SpanError::new_err(message),
         Propagation::Order { .. } => OrderError::new_err(message),
         Propagation::Method { .. } => MethodError::new_err(message),
+        Propagation::Orbit { .. } => OrbitError::new_err(message),
+        Propagation::Averaging { .. } | Propagation::Unaveraged { .. } => AveragingError::new_err(message),
+        Propagation::Level { .. } => LevelError::new_err(message),
+        Propagation::Resonance { .. } => SpinResonanceError::new_err(message),
+        Propagation::TorqueTooStrong { .. } => TorqueError::new_err(message),
         Propagation::Time { .. } => TimesError::new_err(message),
+        Propagation::Threads { .. } => ThreadsError::new_err(message),
         Propagation::Length { .. } => ShapeError::new_err(message),
         Propagation::NearSeparatrix { .. } | Propagation::Separatrix => SeparatrixError::new_err(message),
         Propagation::UnknownBody { .. } => UnknownBodyError::new_err(message),
@@ -82,6 +115,16 @@ pub(crate) fn propagation(error: Propagation) -> PyErr {
 /// The exception of an error in the exact algebra.
 pub(crate) fn algebra(error: Algebra) -> PyErr {
     let message = error.to_string();
+    exception(error, message)
+}
+
+/// The same where the error is that of one argument and does not name it.
+pub(crate) fn algebra_of(argument: &str, error: Algebra) -> PyErr {
+    let message = format!("{argument}: {error}");
+    exception(error, message)
+}
+
+fn exception(error: Algebra, message: String) -> PyErr {
     match error {
         Algebra::OrderTooLarge { .. } | Algebra::OrderOutOfRange { .. } => OrderError::new_err(message),
         Algebra::NameUnknown { .. } | Algebra::Parse { problem: ParseProblem::UnknownName(_), .. } => {

@@ -23,7 +23,8 @@ impl Expression {
     /// Reads a text, a dictionary {exponents: number} or a SymPy expression in the variables of `space`.
     pub(crate) fn new(argument: &str, value: &Bound<'_, PyAny>, space: &PhaseSpace) -> PyResult<Self> {
         if let Ok(text) = value.cast::<PyString>() {
-            let polynomial = space.parse(text.to_str()?).map_err(error::algebra)?;
+            let read = space.parse(text.to_str()?);
+            let polynomial = read.map_err(|problem| error::algebra_of(argument, problem))?;
             Ok(Expression { polynomial, float: false })
         } else if let Ok(terms) = value.cast::<PyDict>() {
             Self::from_terms(argument, terms, space)
@@ -39,9 +40,10 @@ impl Expression {
         Expression { polynomial: Polynomial::zero(), float: false }
     }
 
-    fn add(&mut self, exponents: &[u32], value: &Bound<'_, PyAny>) -> PyResult<()> {
-        let (coefficient, float) = number(value)?;
-        self.polynomial.add_term(Monomial::new(exponents).map_err(error::algebra)?, &coefficient);
+    fn add(&mut self, argument: &str, exponents: &[u32], value: &Bound<'_, PyAny>) -> PyResult<()> {
+        let (coefficient, float) = number(argument, value)?;
+        let monomial = Monomial::new(exponents).map_err(|problem| error::algebra_of(argument, problem))?;
+        self.polynomial.add_term(monomial, &coefficient);
         self.float |= float;
         Ok(())
     }
@@ -56,7 +58,7 @@ impl Expression {
                 let message = format!("{argument} has the key {key}: it must be a tuple of exponents of {names}");
                 return Err(HamiltonianError::new_err(message));
             };
-            expression.add(&exponents, &value)?;
+            expression.add(argument, &exponents, &value)?;
         }
         Ok(expression)
     }
@@ -86,22 +88,26 @@ impl Expression {
             for ((slot, _), power) in present.iter().zip(powers) {
                 exponents[*slot] = power;
             }
-            expression.add(&exponents, &coefficient)?;
+            expression.add(argument, &exponents, &coefficient)?;
         }
         Ok(expression)
     }
 }
 
 /// A number at its exact value, and whether it is a float: anything but integers, fractions and texts.
-fn number(value: &Bound<'_, PyAny>) -> PyResult<(BigRational, bool)> {
+fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<(BigRational, bool)> {
     let refused = || -> PyResult<PyErr> {
-        Ok(PyTypeError::new_err(format!("a coefficient must be a real number or a text, not {}", value.repr()?)))
+        Ok(PyTypeError::new_err(format!(
+            "{argument}: a coefficient must be a real number or a text, not {}",
+            value.repr()?
+        )))
     };
     if value.is_instance_of::<PyBool>() {
         return Err(refused()?);
     }
     if let Ok(text) = value.cast::<PyString>() {
-        let constant = Polynomial::<BigRational>::parse(text.to_str()?, &[]).map_err(error::algebra)?;
+        let constant = Polynomial::<BigRational>::parse(text.to_str()?, &[]);
+        let constant = constant.map_err(|problem| error::algebra_of(argument, problem))?;
         return Ok((constant.as_constant().unwrap_or_else(|| BigRational::integer(0)), false));
     }
     // Integers and fractions, SymPy's and NumPy's among them.
@@ -113,7 +119,7 @@ fn number(value: &Bound<'_, PyAny>) -> PyResult<(BigRational, bool)> {
     }
     let Ok(float) = value.extract::<f64>() else { return Err(refused()?) };
     let exact = BigRational::from_float(float);
-    let not_finite = || HamiltonianError::new_err(format!("the coefficient {float} is not finite"));
+    let not_finite = || HamiltonianError::new_err(format!("{argument}: the coefficient {float} is not finite"));
     Ok((exact.ok_or_else(not_finite)?, true))
 }
 

@@ -2,7 +2,8 @@
 //!
 //! One file for each class of the Python package, each a thin frozen wrapper round the Rust type of the same name; arguments are
 //! converted in `array`, `expression` and `order`, errors in `error`. No mathematics here: what Python can do, Rust can.
-//! Arrays are float64 in C order: times (n,), attitudes (n, 4) as [x, y, z, w], vectors (n, 3). The interpreter lock is released round
+//! Arrays are float64 in C order: times (n,), attitudes (n, 4) as [x, y, z, w], vectors (n, 3),
+//! ensembles (m, n, …). The interpreter lock is released round
 //! everything that computes. Doc comments of `#[pyclass]` and `#[pymethods]` items are Python's docstrings, in NumPy's style; the stub is
 //! `python/andoyer/_core.pyi`, and a test holds the two together.
 
@@ -12,11 +13,14 @@
 mod array;
 mod birkhoff;
 mod body;
+mod ensemble;
 mod error;
 mod expression;
+mod form;
 mod motion;
 mod normal_form;
 mod normalize;
+mod orbit;
 mod order;
 mod plan;
 mod progress;
@@ -31,10 +35,13 @@ mod _core {
     #[pymodule_export]
     use super::body::Body;
     #[pymodule_export]
+    use super::ensemble::Ensemble;
+    #[pymodule_export]
     use super::error::{
-        AngularVelocityError, AttitudeError, EpochError, Error, FormatError, HamiltonianError, IntervalError,
-        MethodError, MomentsError, OrderError, ResonanceError, SceneFileError, SeparatrixError, SeriesError,
-        ShapeError, SpanError, TimesError, ToleranceError, UnitsError, UnknownBodyError, UnknownNameError,
+        AngularVelocityError, AttitudeError, AveragingError, EpochError, Error, FormatError, HamiltonianError,
+        IntervalError, LevelError, MethodError, MomentsError, OrbitError, OrderError, ResonanceError, SceneFileError,
+        SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError, ThreadsError, TimesError,
+        ToleranceError, TorqueError, UnitsError, UnknownBodyError, UnknownNameError,
     };
     #[pymodule_export]
     use super::motion::Motion;
@@ -42,6 +49,8 @@ mod _core {
     use super::normal_form::{NormalForm, separatrix_action};
     #[pymodule_export]
     use super::normalize::normalize;
+    #[pymodule_export]
+    use super::orbit::Orbit;
     #[pymodule_export]
     use super::plan::Plan;
     #[pymodule_export]

@@ -105,7 +105,7 @@ impl Motion {
         Times::new(times)?.evaluate(out, |times, rows| self.0.angular_velocities_into(times, rows))
     }
 
-    /// Angular momenta in inertial components, in the unit of moment × rate: of a free body, the same at all times.
+    /// Angular momenta in inertial components, in the unit of moment × rate: the same at all times unless the scene has an orbit.
     ///
     /// Parameters
     /// ----------

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use andoyer_series::{MAXIMUM_ORDER, Part, Progress, PublicForm};
+use andoyer_series::{MAXIMUM_CODE_ORDER, MAXIMUM_ORDER, Part, Progress, PublicForm, Variable};
 use num_complex::Complex;
 use num_rational::BigRational;
 use pyo3::prelude::*;
@@ -123,7 +123,7 @@ impl NormalForm {
     ///     ``0``, or above the order.
     fn generator<'py>(&self, py: Python<'py>, m: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let m = order("m", m, 1, self.0.order())?;
-        self.face(py, || self.0.generator(m))
+        self.face(py, |_| self.0.generator(m))
     }
 
     /// Order n of the transformation of a variable to the new ones, 1/n! included (theory §6).
@@ -150,7 +150,7 @@ impl NormalForm {
     fn direct<'py>(&self, py: Python<'py>, name: &str, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let variable = name.parse().map_err(error::algebra)?;
         let n = order("n", n, 1, self.0.order())?;
-        self.face(py, || self.0.direct(variable, n))
+        self.face(py, |tell| self.0.direct_with(variable, n, tell))
     }
 
     /// Order n of the transformation of a new variable to the old ones, scaled as `direct`.
@@ -175,7 +175,7 @@ impl NormalForm {
     fn inverse<'py>(&self, py: Python<'py>, name: &str, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let variable = name.parse().map_err(error::algebra)?;
         let n = order("n", n, 1, self.0.order())?;
-        self.face(py, || self.0.inverse(variable, n))
+        self.face(py, |tell| self.0.inverse_with(variable, n, tell))
     }
 
     /// This normal form as JSON text: exact, "p/q" strings, with a format version.
@@ -211,6 +211,7 @@ impl NormalForm {
     #[pyo3(signature = (what="hamiltonian"))]
     fn to_latex(&self, py: Python<'_>, what: &str) -> PyResult<String> {
         let part = what.parse().map_err(error::algebra)?;
+        self.prepare(py, part)?;
         py.detach(|| self.0.to_latex(part)).map_err(error::algebra)
     }
 
@@ -263,7 +264,7 @@ impl NormalForm {
     /// IntervalError
     ///     ``-0.1``, ``1.0``, NaN.
     /// OrderError
-    ///     An order above 200 with a number for `beta`.
+    ///     An order above 100.
     ///
     /// Examples
     /// --------
@@ -274,6 +275,9 @@ impl NormalForm {
     #[pyo3(signature = (language="c", beta=None))]
     fn to_code(&self, py: Python<'_>, language: &str, beta: Option<f64>) -> PyResult<String> {
         let language = language.parse().map_err(error::algebra)?;
+        if beta.is_none() && self.0.order() <= MAXIMUM_CODE_ORDER {
+            self.prepare(py, Part::Direct)?;
+        }
         py.detach(|| self.0.to_code(language, beta)).map_err(error::algebra)
     }
 
@@ -299,9 +303,22 @@ impl NormalForm {
     fn face<'py>(
         &self,
         py: Python<'py>,
-        compute: impl FnOnce() -> Result<PublicForm, andoyer_series::Error> + Send,
+        compute: impl FnOnce(&mut Progress<'_>) -> Result<PublicForm, andoyer_series::Error> + Send,
     ) -> PyResult<Bound<'py, PyDict>> {
-        gaussian(py, py.detach(compute).map_err(error::algebra)?)
+        gaussian(py, progress::reported(py, None, compute)?)
+    }
+
+    /// Computes the series that `part` is written from, which are kept; Ctrl-C is noticed meanwhile.
+    fn prepare(&self, py: Python<'_>, part: Part) -> PyResult<()> {
+        let (form, order) = (&self.0, self.0.order());
+        for variable in [Variable::Coordinate, Variable::Angle].into_iter().filter(|_| order > 0) {
+            progress::reported(py, None, |tell| match part {
+                Part::Direct => form.direct_with(variable, order, tell).map(drop),
+                Part::Inverse => form.inverse_with(variable, order, tell).map(drop),
+                _ => Ok(()),
+            })?;
+        }
+        Ok(())
     }
 }
 

@@ -2,11 +2,14 @@
 
 use andoyer_series::{Error as Algebra, PhaseSpace, Progress, RealField, Resonances, normalize_with};
 use num_rational::BigRational;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::types::PyString;
 
-use crate::birkhoff::{BirkhoffNormalForm, Form, rounded};
+use crate::birkhoff::BirkhoffNormalForm;
 use crate::error;
 use crate::expression::Expression;
+use crate::form::{Form, rounded};
 use crate::order::order;
 use crate::progress;
 
@@ -68,17 +71,17 @@ pub(crate) fn normalize(
     py: Python<'_>,
     hamiltonian: &Bound<'_, PyAny>,
     order: &Bound<'_, PyAny>,
-    variables: Vec<(Bound<'_, PyAny>, Bound<'_, PyAny>)>,
-    parameters: Option<Vec<Bound<'_, PyAny>>>,
-    resonances: Option<Vec<Vec<i64>>>,
+    variables: &Bound<'_, PyAny>,
+    parameters: Option<&Bound<'_, PyAny>>,
+    resonances: Option<&Bound<'_, PyAny>>,
     smallest_divisor: f64,
     exact: Option<bool>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<BirkhoffNormalForm> {
-    let space = space(&variables, &parameters.unwrap_or_default())?;
+    let space = space(variables, parameters)?;
     let order = self::order("order", order, 0, <BigRational as RealField>::MAXIMUM_ORDER)?;
     let Expression { polynomial, float } = Expression::new("hamiltonian", hamiltonian, &space)?;
-    let vectors = resonances.unwrap_or_default();
+    let vectors = resonances.map_or(Ok(Vec::new()), vectors)?;
     let resonances = Resonances::new(&vectors.iter().map(Vec::as_slice).collect::<Vec<_>>());
     let resonances =
         resonances.and_then(|some| some.with_smallest_divisor(smallest_divisor)).map_err(error::algebra)?;
@@ -99,11 +102,45 @@ pub(crate) fn normalize(
 }
 
 /// The phase space of names, or of whatever prints as a name.
-fn space(variables: &[(Bound<'_, PyAny>, Bound<'_, PyAny>)], parameters: &[Bound<'_, PyAny>]) -> PyResult<PhaseSpace> {
-    let text = |name: &Bound<'_, PyAny>| name.str().map(|text| text.to_string());
-    let pairs = variables.iter().map(|(q, p)| Ok((text(q)?, text(p)?))).collect::<PyResult<Vec<_>>>()?;
-    let parameters = parameters.iter().map(text).collect::<PyResult<Vec<_>>>()?;
+fn space(variables: &Bound<'_, PyAny>, parameters: Option<&Bound<'_, PyAny>>) -> PyResult<PhaseSpace> {
+    let wanted = "pairs (q, p), such as [(\"x\", \"p\")]";
+    let refused = || refused("variables", wanted, variables);
+    let mut pairs = Vec::new();
+    for pair in items(variables).ok_or_else(refused)? {
+        let pair = items(&pair).filter(|pair| pair.len() == 2).ok_or_else(refused)?;
+        pairs.push((pair[0].str()?.to_string(), pair[1].str()?.to_string()));
+    }
+    let mut names = Vec::new();
+    if let Some(list) = parameters {
+        for name in items(list).ok_or_else(|| self::refused("parameters", "names, such as [\"a\"]", list))? {
+            names.push(name.str()?.to_string());
+        }
+    }
     let pairs: Vec<_> = pairs.iter().map(|(q, p)| (q.as_str(), p.as_str())).collect();
-    let parameters: Vec<_> = parameters.iter().map(String::as_str).collect();
-    PhaseSpace::new(&pairs).and_then(|space| space.with_parameters(&parameters)).map_err(error::algebra)
+    let names: Vec<_> = names.iter().map(String::as_str).collect();
+    let space = PhaseSpace::new(&pairs).map_err(|problem| error::algebra_of("variables", problem))?;
+    space.with_parameters(&names).map_err(|problem| error::algebra_of("parameters", problem))
+}
+
+/// The vectors of integers.
+fn vectors(resonances: &Bound<'_, PyAny>) -> PyResult<Vec<Vec<i64>>> {
+    let refused = || refused("resonances", "vectors of integers, such as [(1, -1)]", resonances);
+    let vector = |vector: &Bound<'_, PyAny>| {
+        let entries = items(vector).ok_or_else(refused)?;
+        entries.iter().map(|entry| entry.extract().map_err(|_| refused())).collect()
+    };
+    items(resonances).ok_or_else(refused)?.iter().map(vector).collect()
+}
+
+/// What a sequence holds; a text is none.
+fn items<'py>(sequence: &Bound<'py, PyAny>) -> Option<Vec<Bound<'py, PyAny>>> {
+    if sequence.is_instance_of::<PyString>() {
+        return None;
+    }
+    sequence.try_iter().ok()?.collect::<PyResult<_>>().ok()
+}
+
+fn refused(argument: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyErr {
+    let shown = value.repr().map_or_else(|_| "(cannot be printed)".to_owned(), |text| text.to_string());
+    PyTypeError::new_err(format!("{argument} must be a sequence of {wanted}, not {shown}"))
 }

@@ -18,7 +18,7 @@ pub(crate) struct Plan(pub(crate) andoyer_propagate::Plan);
 
 #[pymethods]
 impl Plan {
-    /// The kind of motion: "short-axis", "axisymmetric", "spherical", "principal-axis" or "at-rest".
+    /// The kind of motion: "short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis" or "at-rest".
     #[getter]
     fn mode(&self) -> String {
         self.0.mode().to_string()
@@ -52,6 +52,18 @@ impl Plan {
     #[getter]
     fn separatrix_ratio(&self) -> f64 {
         self.0.separatrix_ratio()
+    }
+
+    /// How far the equations of a scene with an orbit are averaged: "orbit", "spin", or None without an orbit (theory §9).
+    #[getter]
+    fn averaging(&self) -> Option<String> {
+        self.0.averaging().map(|averaging| averaging.to_string())
+    }
+
+    /// Size of the torque: the sum of the short-period corrections by the gravity gradient, in rad; 0 without an orbit.
+    #[getter]
+    fn torque(&self) -> f64 {
+        self.0.torque()
     }
 
     /// What this scene did not need, and why: a list of str.

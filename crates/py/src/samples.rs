@@ -7,9 +7,10 @@ use pyo3::types::PyType;
 
 type Array = Py<PyArrayDyn<f64>>;
 
-/// Attitudes and angular velocities of a motion at some times: what `Motion.at` returns.
+/// Attitudes and angular velocities at some times, of a motion or of the members of an ensemble: what `Motion.at` and `Ensemble.at` return.
 ///
-/// The arrays belong to the samples alone. For a scalar time they lack the leading axis, and there is no `len`.
+/// The arrays belong to the samples alone. Of an ensemble they have a leading axis of members, which `len` counts; of a motion `len` counts
+/// the times. For a scalar time the axis of times is missing, and a motion's samples have no `len`.
 ///
 /// Examples
 /// --------
@@ -17,15 +18,18 @@ type Array = Py<PyArrayDyn<f64>>;
 /// >>> samples = motion.at([0.0, 10.0, 20.0])
 /// >>> len(samples), samples.attitude.shape, samples.angular_velocity.shape
 /// (3, (3, 4), (3, 3))
+/// >>> samples = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [0.1, 0.2, 1.0]).at([0.0, 10.0, 20.0])
+/// >>> len(samples), samples.times.shape, samples.attitude.shape, samples.angular_velocity.shape
+/// (2, (3,), (2, 3, 4), (2, 3, 3))
 #[pyclass(frozen, module = "andoyer")]
 pub(crate) struct Samples {
-    /// The times, float64, shape (n,).
+    /// The times, float64, shape (n,); of an ensemble whose members have their own times (m, n).
     #[pyo3(get)]
     times: Array,
-    /// Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4).
+    /// Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4) or (m, n, 4).
     #[pyo3(get)]
     attitude: Array,
-    /// Angular velocities in body components, in rad per unit of time, shape (n, 3).
+    /// Angular velocities in body components, in rad per unit of time, shape (n, 3) or (m, n, 3).
     #[pyo3(get)]
     angular_velocity: Array,
 }
@@ -39,17 +43,24 @@ impl Samples {
 #[pymethods]
 impl Samples {
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
-        match self.times.bind(py).shape() {
-            [n] => Ok(*n),
-            _ => Err(PyTypeError::new_err("samples at a scalar time have no len()")),
+        match self.attitude.bind(py).shape() {
+            [first, _, ..] => Ok(*first),
+            _ => Err(PyTypeError::new_err("samples of one motion at a scalar time have no len()")),
         }
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {
-        match self.times.bind(py).shape() {
-            [1] => "<Samples at 1 time>".to_owned(),
-            [n] => format!("<Samples at {n} times>"),
-            _ => "<Samples at a scalar time>".to_owned(),
+        let (times, rows) = (self.times.bind(py).shape(), self.attitude.bind(py).shape());
+        let at = match times {
+            [] => "a scalar time".to_owned(),
+            [n] => counted(*n, "time"),
+            [_, n, ..] => format!("{} each", counted(*n, "time")),
+        };
+        match rows {
+            [members, ..] if rows.len() > times.len() + 1 || times.len() > 1 => {
+                format!("<Samples of {} at {at}>", counted(*members, "member"))
+            }
+            _ => format!("<Samples at {at}>"),
         }
     }
 
@@ -65,4 +76,8 @@ impl Samples {
             [&samples.times, &samples.attitude, &samples.angular_velocity].map(|array| array.clone_ref(py));
         Ok((slf.get_type().getattr("_restored")?, (times, attitude, rates)))
     }
+}
+
+fn counted(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }

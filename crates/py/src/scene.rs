@@ -9,6 +9,7 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::body::Body;
 use crate::motion::Motion;
+use crate::orbit::Orbit;
 use crate::{array, error};
 
 /// A body, its state at an epoch, and the accuracy asked of the solution.
@@ -25,17 +26,25 @@ use crate::{array, error};
 ///     Body components, in rad per unit of time; zero is a body at rest.
 /// epoch : float, optional
 ///     Time of the state.
+/// orbit : Orbit, optional
+///     Relative orbit of a body whose gravity gradient acts (theory §9); by default none, and the motion is free.
 /// tolerance : float, optional
 ///     Attitude error asked for over the span, in rad. Below about 1e-14 it means the best that double precision holds
 ///     (`Plan.error_bound` says what that is).
 /// method : {"auto", "series", "closed"}, optional
+///     Perturbation series or closed form; "auto" is the closed form, or the series if an order is fixed.
 /// order : int, optional
-///     Fixed order of the series, of the secular part too (theory §7), 0 to 60; by default the one that the tolerance needs (theory §5).
+///     Fixed order of the series, of the secular part too (theory §7), 0 to 60; by default, with ``method="series"``, the one that the tolerance needs (theory §5).
 ///     A fixed order is not raised for the tolerance: where it is too low, `Plan.error_bound` exceeds the tolerance and ``str(plan)``
 ///     says that it "is not met over the span".
 /// span : (float, float), optional
 ///     Times over which the tolerance is asked for; by default any within 1e9 rotations. A motion can be evaluated outside it, up to
 ///     1e15 rotations from the epoch; farther away is a `TimesError` of the motion.
+/// averaging : {"auto", "orbit", "spin"}, optional
+///     How far the equations of a scene with an orbit are averaged: over rotation and orbit, which leaves formulas; over the rotation alone; by
+///     default the first where it meets the tolerance.
+/// level : {"full", "moving", "paper"}, optional
+///     Terms of the short-period corrections: to all orders in J; at J = 0 alone; those with the disturbing body held fixed, as in the paper.
 /// name, source : str, optional
 ///     What the scene is and where its figures come from: kept, printed, and nothing else.
 ///
@@ -53,10 +62,12 @@ use crate::{array, error};
 ///     ``-1``, ``61``, ``2.5``.
 /// SpanError
 ///     ``(1, 0)``, or not finite.
+/// AveragingError, LevelError
+///     ``"moon"``.
 /// ShapeError
 ///     An attitude of 3 numbers, an angular velocity of 4.
 /// TypeError
-///     A body that is a list, a tolerance or an epoch that is a text, an order that is a boolean.
+///     A body that is a list, an orbit that is a number, a tolerance or an epoch that is a text, an order that is a boolean.
 ///
 /// Examples
 /// --------
@@ -73,7 +84,8 @@ pub(crate) struct Scene(pub(crate) andoyer_propagate::Scene);
 impl Scene {
     #[new]
     #[pyo3(signature = (
-        body, attitude, angular_velocity, *, epoch=0.0, tolerance=1e-12, method="auto", order=None, span=None, name=None, source=None
+        body, attitude, angular_velocity, *, epoch=0.0, orbit=None, tolerance=1e-12, method="auto", order=None, span=None,
+        averaging="auto", level="full", name=None, source=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn new(
@@ -81,10 +93,13 @@ impl Scene {
         attitude: &Bound<'_, PyAny>,
         angular_velocity: &Bound<'_, PyAny>,
         #[pyo3(from_py_with = epoch)] epoch: f64,
+        orbit: Option<&Bound<'_, PyAny>>,
         #[pyo3(from_py_with = tolerance)] tolerance: f64,
         method: &str,
         order: Option<&Bound<'_, PyAny>>,
         span: Option<&Bound<'_, PyAny>>,
+        averaging: &str,
+        level: &str,
         name: Option<&str>,
         source: Option<&str>,
     ) -> PyResult<Self> {
@@ -93,7 +108,14 @@ impl Scene {
         let angular_velocity = array::fixed("angular_velocity", angular_velocity)?;
         let state = State::new(epoch, attitude, angular_velocity).map_err(error::propagation)?;
         let method = method.parse().map_err(error::propagation)?;
-        let mut scene = andoyer_propagate::Scene::new(body.0.clone(), state).tolerance(tolerance).method(method);
+        let mut scene = andoyer_propagate::Scene::new(body.0.clone(), state)
+            .tolerance(tolerance)
+            .method(method)
+            .averaging(averaging.parse().map_err(error::propagation)?)
+            .level(level.parse().map_err(error::propagation)?);
+        if let Some(orbit) = orbit {
+            scene = scene.orbit(orbit.cast::<Orbit>().map_err(|_| not_an_orbit(orbit))?.get().0);
+        }
         if let Some(value) = order {
             scene = scene.order(crate::order::order("order", value, 0, MAX_ORDER)?);
         }
@@ -137,6 +159,12 @@ impl Scene {
     /// ------
     /// SeparatrixError
     ///     ``method="series"`` where the tolerance needs an order above 60, so near is the separatrix, or on it.
+    /// SpinResonanceError
+    ///     An orbit that is in resonance with the rotation, or not much slower: the Moon, Dimorphos. The message names the pair (k−j, m).
+    /// TorqueError
+    ///     An orbit whose torque is too strong for an expansion in it.
+    /// AveragingError
+    ///     An orbit, and a motion too near the separatrix, a body at rest, or one with B = C.
     /// UnitsError
     ///     The angular momentum, moment × rate, is no normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {
@@ -189,6 +217,24 @@ impl Scene {
     #[getter]
     fn span(&self) -> Option<(f64, f64)> {
         self.0.asked_span()
+    }
+
+    /// The orbit of the disturbing body, or None.
+    #[getter]
+    fn orbit(&self) -> Option<Orbit> {
+        self.0.asked_orbit().copied().map(Orbit)
+    }
+
+    /// The averaging: "auto", "orbit" or "spin".
+    #[getter]
+    fn averaging(&self) -> String {
+        self.0.asked_averaging().to_string()
+    }
+
+    /// The level: "full", "moving" or "paper".
+    #[getter]
+    fn level(&self) -> String {
+        self.0.asked_level().to_string()
     }
 
     /// The name, or None.
@@ -247,8 +293,17 @@ fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
 
 /// What is said of a body that is none.
 fn not_a_body(value: &Bound<'_, PyAny>) -> PyErr {
-    let kind = value.get_type().name().map_or_else(|_| "something else".to_owned(), |name| name.to_string());
-    PyTypeError::new_err(format!("body must be an andoyer.Body: got {kind}; use Body([A, B, C])"))
+    PyTypeError::new_err(format!("body must be an andoyer.Body: got {}; use Body([A, B, C])", kind(value)))
+}
+
+/// What is said of an orbit that is none.
+fn not_an_orbit(value: &Bound<'_, PyAny>) -> PyErr {
+    PyTypeError::new_err(format!("orbit must be an andoyer.Orbit or None: got {}; use Orbit(mean_motion)", kind(value)))
+}
+
+/// The name of the type of a value.
+fn kind(value: &Bound<'_, PyAny>) -> String {
+    value.get_type().name().map_or_else(|_| "something else".to_owned(), |name| name.to_string())
 }
 
 impl Scene {
@@ -256,10 +311,13 @@ impl Scene {
     fn keywords<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let keywords = PyDict::new(py);
         keywords.set_item("epoch", self.epoch())?;
+        keywords.set_item("orbit", self.orbit())?;
         keywords.set_item("tolerance", self.tolerance())?;
         keywords.set_item("method", self.method())?;
         keywords.set_item("order", self.order())?;
         keywords.set_item("span", self.span())?;
+        keywords.set_item("averaging", self.averaging())?;
+        keywords.set_item("level", self.level())?;
         keywords.set_item("name", self.name())?;
         keywords.set_item("source", self.source())?;
         Ok(keywords)

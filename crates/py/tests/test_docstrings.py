@@ -29,5 +29,5 @@ def test_example_of_the_docstring_holds(name):
 
 
 def test_every_class_has_an_example_and_everything_public_a_docstring():
-    assert set(EXAMPLES) >= {"andoyer", "Body", "Scene", "Motion", "Plan", "Samples", "NormalForm", "BirkhoffNormalForm", "normalize", "separatrix_action"}
+    assert set(EXAMPLES) >= {"andoyer", "Body", "Orbit", "Scene", "Motion", "Plan", "Samples", "Ensemble", "NormalForm", "BirkhoffNormalForm", "normalize", "separatrix_action"}
     assert not [name for name, value in documented() if name != "__version__" and not inspect.getdoc(value)]

@@ -11,6 +11,7 @@ from conftest import REPOSITORY
 
 TEXT = (REPOSITORY / "docs/scene.md").read_text(encoding="utf-8")
 EXAMPLE = re.search(r"```toml\n(.*?)```", TEXT, re.DOTALL)[1]
+UNCOMMENTED = re.sub(r"^# (?=[a-z_]+ +=|\[)", "", EXAMPLE, flags=re.MULTILINE).replace("named =", "# named =")
 
 
 @pytest.fixture
@@ -28,23 +29,24 @@ def test_example_is_a_scene_that_is_solved(example):
 
 
 def test_lines_that_the_example_comments_out_are_keys_too(example):
-    text = EXAMPLE.replace("named =", "# named =").replace("# order", "order").replace("# moments", "moments").replace("# name ", "name ")
-    example.write_text(text, encoding="utf-8")
+    example.write_text(UNCOMMENTED, encoding="utf-8")
     scene = andoyer.Scene.from_toml(example)
     assert scene.order == 8 and scene.body == andoyer.Body.named("ceres")
+    assert scene.orbit == andoyer.Orbit(4.323e-8, 0.0785, argument_of_pericentre=1.0)
+    assert scene.solve().plan.averaging == "spin"
 
 
 def known(path, line):
     """The keys that the error for an unknown one lists, in the table of `line`."""
-    path.write_text(EXAMPLE.replace(line, f"{line}\ncolour = 1") if line else f"colour = 1\n{EXAMPLE}", encoding="utf-8")
+    path.write_text(UNCOMMENTED.replace(line, f"{line}\ncolour = 1") if line else f"colour = 1\n{EXAMPLE}", encoding="utf-8")
     with pytest.raises(andoyer.SceneFileError, match="colour") as caught:
         andoyer.Scene.from_toml(path)
     return str(caught.value).partition("known here: ")[2].split(", ")
 
 
 def test_table_has_every_key_and_no_other(example):
-    expected = [key for key in known(example, "") if key not in {"body", "state"}]
-    expected += [f"{table}.{key}" for table in ["body", "state"] for key in known(example, f"[{table}]")]
+    expected = [key for key in known(example, "") if key not in {"body", "state", "orbit"}]
+    expected += [f"{table}.{key}" for table in ["body", "state", "orbit"] for key in known(example, f"[{table}]")]
     assert set(re.findall(r"^\| `([a-z_.]+)` \|(?: .*)? \|.*\|.*\|$", TEXT.partition("## ")[0], re.MULTILINE)) == set(expected)
 
 
@@ -53,7 +55,7 @@ def test_catalogue_is_listed():
 
 
 def test_columns_and_keys_of_what_is_written_are_listed(example):
-    csv, npz = (re.findall(r"^\| (`.*?`) \|", part, re.MULTILINE) for part in TEXT.partition("## ")[2].split("NPZ:"))
+    csv, npz = (re.findall(r"^\| (`.*?`) \|", part, re.MULTILINE) for part in TEXT.partition("## ")[2].partition("Parquet (")[0].split("NPZ:"))
     assert ",".join(re.findall(r"\w+", " ".join(csv))) == COLUMNS
     output = example.with_suffix(".npz")
     assert main(["propagate", str(example), "-o", str(output), "--stop", "3600", "--step", "60"]) == 0

@@ -112,3 +112,31 @@ def test_missing_sympy_is_an_import_error_that_says_what_to_install(normal_form,
         normal_form.to_sympy()
     with pytest.raises(andoyer.UnknownNameError, match="lagrangian"):
         normal_form.to_sympy("lagrangian")
+
+
+def test_any_normal_form_is_expressions_in_its_own_names():
+    x, p, c, action = sympy.symbols("x p c I_x")
+    duffing = andoyer.normalize("(p^2 + x^2)/2 + c*x^4/4", 2, [("x", "p")], parameters=["c"])
+    assert duffing.to_sympy() == action + sympy.Rational(3, 8) * c * action**2
+    direct, inverse = duffing.to_sympy("direct"), duffing.to_sympy("inverse")
+    assert list(direct) == list(inverse) == ["x", "p"]
+    (first, second), change = duffing.to_sympy("generator"), sympy.Poly(direct["x"] - x, x, p)
+    # S_1 = 0 and x = x' + {x'; S_2}/2.
+    assert first == 0 and sympy.expand(second.diff(p) / 2 - change.as_expr()) == 0 and change.total_degree() == 3
+    back = sympy.Poly(sympy.expand(direct["x"].subs({x: inverse["x"], p: inverse["p"]}, simultaneous=True)), x, p)
+    assert sum(co * x**j * p**k for (j, k), co in back.terms() if j + k < 5) == x
+    assert not duffing.to_sympy("direct")["p"].atoms(sympy.Float)
+
+
+def test_resonant_normal_form_is_an_expression_in_the_variables():
+    n, angular = sympy.sympify("(x**2 + X**2 + y**2 + Y**2)/2"), sympy.sympify("x*Y - y*X")
+    h = sympy.sympify("x**2*y - y**3/3") + n
+    resonant = andoyer.normalize(h, 2, [("x", "X"), ("y", "Y")], resonances=[(1, -1)]).to_sympy()
+    assert sympy.expand(resonant - (n - sympy.Rational(5, 12) * n**2 + sympy.Rational(7, 12) * angular**2)) == 0
+
+
+def test_floats_stay_floats_and_unknown_parts_are_refused():
+    floats = andoyer.normalize({(2, 0): 0.5, (0, 2): 0.5, (4, 0): 0.1}, 2, [("x", "p")])
+    assert floats.to_sympy().coeff(sympy.Symbol("I_x"), 2) == sympy.Float(floats.in_actions()[2,])
+    with pytest.raises(andoyer.UnknownNameError, match="lagrangian"):
+        floats.to_sympy("lagrangian")

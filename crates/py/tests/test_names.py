@@ -12,14 +12,16 @@ import andoyer
 import andoyer._core as core
 
 NAMES = {
-    "": "NormalForm normalize separatrix_action Body Scene Motion Plan Samples Error",
+    "": "NormalForm normalize separatrix_action Body Orbit Scene Motion Plan Samples Ensemble Error",
     "NormalForm": "order triaxiality_polynomial paper_polynomial generator direct inverse to_json from_json to_latex to_sympy to_code",
     "BirkhoffNormalForm": "order degree exact frequencies in_actions in_real in_complex generator direct inverse to_normal from_normal",
     "Body": "moments alpha beta gamma omega name named",
-    "Scene": "body attitude angular_velocity epoch tolerance method order span name from_toml to_toml solve",
+    "Orbit": "mean_motion eccentricity time_of_pericentre inclination node argument_of_pericentre mass_fraction",
+    "Scene": "body attitude angular_velocity epoch orbit tolerance method order span averaging level name from_toml to_toml solve",
     "Motion": "at attitude angular_velocity angular_momentum andoyer rotation plan frequencies periods scene",
-    "Plan": "mode method order harmonics error_bound separatrix_ratio skipped",
+    "Plan": "mode method order harmonics error_bound separatrix_ratio averaging torque skipped",
     "Samples": "times attitude angular_velocity",
+    "Ensemble": "at attitude plans moments attitudes angular_velocities tolerance threads",
 }
 STUB = ast.parse(Path(core.__file__).with_name("_core.pyi").read_text(encoding="utf-8"))
 CLASSES = {node.name: node for node in STUB.body if isinstance(node, ast.ClassDef)}
@@ -37,28 +39,28 @@ def test_names_users_rely_on_are_there(owner):
 
 
 def test_all_lists_everything_public_and_nothing_else():
-    modules = {"cli", "mean"}
+    modules = {"cli", "mean", "output", "plot"}
     assert public(andoyer.__all__) == public(vars(andoyer)) - modules
     assert andoyer.__all__ == sorted(andoyer.__all__)
 
 
 def test_every_exception_is_an_error_and_a_value_error():
     exceptions = [value for value in vars(core).values() if isinstance(value, type) and issubclass(value, BaseException)]
-    assert len(exceptions) == 21
+    assert len(exceptions) == 27
     assert all(issubclass(exception, andoyer.Error) and exception.__module__ == "andoyer" for exception in exceptions)
     assert issubclass(andoyer.Error, ValueError)
 
 
 def test_import_prints_nothing_and_loads_numpy_alone():
-    code = "import sys, andoyer; sys.exit(bool({'scipy', 'matplotlib', 'mpmath', 'sympy'} & set(sys.modules)))"
+    code = "import sys, andoyer; sys.exit(bool({'scipy', 'matplotlib', 'mpmath', 'sympy', 'pyarrow'} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
-@pytest.mark.parametrize("name", ["Body", "Scene", "Motion", "Plan", "NormalForm"])
+@pytest.mark.parametrize("name", ["Body", "Orbit", "Scene", "Motion", "Plan", "NormalForm"])
 def test_objects_are_frozen(name, body, scene, motion):
-    objects = {"Body": body, "Scene": scene, "Motion": motion, "Plan": motion.plan, "NormalForm": andoyer.NormalForm(1)}
-    for attribute in ["order", "plan", "name", "other"]:
+    objects = {"Body": body, "Scene": scene, "Motion": motion, "Plan": motion.plan, "NormalForm": andoyer.NormalForm(1), "Orbit": andoyer.Orbit(1.0)}
+    for attribute in ["order", "plan", "name", "eccentricity", "other"]:
         with pytest.raises((AttributeError, TypeError)):
             setattr(objects[name], attribute, 1)
 

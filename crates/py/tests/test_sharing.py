@@ -66,6 +66,16 @@ def test_other_threads_run_while_a_motion_is_evaluated(motion):
     assert inside >= 5  # none if the lock were held: the call is one bytecode
 
 
+@pytest.mark.parametrize("method", ["at", "attitude"])
+def test_other_threads_run_while_an_ensemble_is_evaluated(body, method):
+    def make(size):
+        ensemble = andoyer.Ensemble(body.moments, [[0, 0, 0, 1]] * 4000 * size, [0.1, 0.2, 1.0], threads=1)
+        return lambda: getattr(ensemble, method)([0.0, 1.0])
+
+    inside, _ = stamps_inside(long_call(make))
+    assert inside >= 5
+
+
 def test_other_threads_run_while_a_normal_form_is_computed():
     inside, _ = stamps_inside(long_call(lambda size: lambda: andoyer.NormalForm(16 + 2 * size)))
     assert inside >= 5
@@ -115,7 +125,7 @@ def test_copies_of_what_is_frozen_are_itself(body, scene, motion):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to a child there")
 def test_ctrl_c_stops_a_normal_form():
-    # Order 300 would take hours.
+    # Order 300 would take minutes.
     code = "import andoyer; print('started', flush=True); andoyer.NormalForm(300)"
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
@@ -126,3 +136,35 @@ def test_ctrl_c_stops_a_normal_form():
     finally:
         child.kill()
     assert child.returncode != 0 and "KeyboardInterrupt" in errors
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timer that interrupts")
+@pytest.mark.parametrize("what", ["form", "normalize", "direct", "latex", "code", "map"])
+def test_ctrl_c_ends_long_series_within_a_second(what):
+    four = [(name, name.upper()) for name in "wxyz"]
+    squares = "(w^2 + W^2)/2 + (2*x^2 + X^2)/2 + (7*y^2 + Y^2)/2 + (11*z^2 + Z^2)/2"
+    h = f"{squares} + 0.3*w^2*x + 0.2*w*x*y - 0.25*y^3 + 0.1*x^2*W*Y + z*w*x + z^3"
+    resonant = andoyer.normalize("(x^2 + X^2 + y^2 + Y^2)/2 + x^2*y - y^3/3", 12, [("x", "X"), ("y", "Y")], resonances=[(1, -1)]) if what == "map" else None
+    form = andoyer.NormalForm(50)
+    work = {
+        "form": lambda: andoyer.NormalForm(400),
+        "normalize": lambda: andoyer.normalize(h, 14, four),
+        "direct": lambda: form.direct("u", 1),
+        "latex": lambda: form.to_latex("direct"),
+        "code": lambda: form.to_code("c"),
+        "map": lambda: resonant.actions(np.full((10**6, 4), 0.1)),
+    }[what]
+
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGALRM, interrupt)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.5)
+        start = time.monotonic()
+        with pytest.raises(KeyboardInterrupt):
+            work()
+        assert time.monotonic() - start < 1.5
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)

@@ -9,7 +9,7 @@
 //! j₁ k₂ − k₁ j₂; no derivative is ever formed. Cost: one coefficient product for each pair of terms with a weight that
 //! is not 0.
 
-use crate::lifted::{Accumulator, Rule};
+use crate::lifted::{Accumulator, Pause, Rule};
 use crate::monomial::{check_slot, unit};
 use crate::{Coefficient, Error, Polynomial};
 
@@ -77,7 +77,7 @@ impl Poisson {
     /// - {q^20000 p; q^20000 p^2}: [`Error::ExponentOverflow`].
     pub fn bracket<C: Coefficient>(&self, f: &Polynomial<C>, g: &Polynomial<C>) -> Result<Polynomial<C>, Error> {
         let mut sum = Accumulator::new(&[f], &[g]);
-        self.accumulate(&mut sum, 0, 0)?;
+        self.accumulate(&mut sum, (0, 0), &mut || Ok(()))?;
         Ok(sum.finish())
     }
 
@@ -93,13 +93,13 @@ impl Poisson {
         self.bracket(f, hamiltonian)
     }
 
-    /// Adds the bracket of a left with a right polynomial of `sum`, both named by position.
+    /// Adds the bracket of a left with a right polynomial of `sum`, both named by position; `pause` is called now and then.
     pub(crate) fn accumulate<C: Coefficient>(
         &self,
         sum: &mut Accumulator<C>,
-        left: usize,
-        right: usize,
+        pair: (usize, usize),
+        pause: &mut Pause<'_>,
     ) -> Result<(), Error> {
-        sum.add_bracket((left, right), &self.rules)
+        sum.add_bracket(pair, &self.rules, pause)
     }
 }

@@ -90,6 +90,14 @@ impl DoubleDouble {
         Self::renormalized(first, ((self.high - product) - error + self.low) / divisor)
     }
 
+    /// self·factor for a double, at half the cost of a product of two double-doubles.
+    #[must_use]
+    #[inline]
+    pub fn times_double(self, factor: f64) -> Self {
+        let (high, error) = two_product(self.high, factor);
+        Self::renormalized(high, error + self.low * factor)
+    }
+
     /// (sin, cos) by their Taylor series, for |self| ≤ π/4.
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
@@ -225,6 +233,9 @@ mod tests {
         let a = DoubleDouble::from(1.0) / DoubleDouble::from(3.0);
         let b = DoubleDouble::PI;
         assert!(close(a * b / b, a));
+        assert!(
+            close(a.times_double(3.0), DoubleDouble::ONE) && close(b.times_double(0.7), b * DoubleDouble::from(0.7))
+        );
         assert!(close((b * b).sqrt(), b));
         assert!(close((a + b) - b, a) || ((a + b) - b - a).to_f64().abs() < 1e-30);
     }

@@ -19,6 +19,9 @@ use coefficients::Coefficients;
 use program::{Cost, Program};
 use std::str::FromStr;
 
+/// Largest order that [`NormalForm::to_code`] writes: half a second and 0.7 MB at a number for β, far more without one.
+pub const MAXIMUM_CODE_ORDER: usize = 100;
+
 /// A language that [`NormalForm::to_code`] writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Language {
@@ -71,7 +74,8 @@ impl NormalForm {
     /// The function `short_axis_rotation(sigma, anomaly)`, or `(beta, sigma, anomaly)` where `beta` is `None`, takes σ = L′/M and ℓ′ \[rad\] and returns
     /// `zeta_real` = X/√M and `zeta_imaginary` = x/√M (theory §1, §8), `longitude_shift` = y − y′ \[rad\], `anomaly_rate` = dℓ′/dt in units of
     /// Mγ/C and `longitude_rate` = g in dy′/dt = (M/C)(1 + γg) (theory §7): a struct of that name in C and Rust, a tuple in Python. The head of the
-    /// file says it again, with the cost and the truncation.
+    /// file says it again, with the cost and the truncation. At a number for `beta` the coefficients are computed in double-double at that β; of this
+    /// normal form only the order is used.
     ///
     /// ```
     /// use andoyer_series::{Language, NormalForm};
@@ -83,16 +87,20 @@ impl NormalForm {
     ///
     /// # Errors
     /// - `beta` = `Some(-0.1)`, `Some(1.0)` or `Some(f64::NAN)`: [`Error::OutsideInterval`], at β = 1 there is no short-axis mode;
-    /// - order 201 with a number for `beta`: [`Error::OrderTooLarge`].
+    /// - order 101: [`Error::OrderTooLarge`].
     pub fn to_code(&self, language: Language, beta: Option<f64>) -> Result<String, Error> {
         let beta = beta.map(checked).transpose()?;
+        let (order, bound) = (self.order(), MAXIMUM_CODE_ORDER);
+        if order > bound {
+            return Err(Error::OrderTooLarge { order, bound });
+        }
         let coefficients = match beta {
-            Some(beta) => Coefficients::at(beta, self.order())?,
+            Some(beta) => Coefficients::at(beta, order)?,
             None => Coefficients::symbolic(self)?,
         };
         let program = computation::computation(&coefficients, beta);
         let source = Source {
-            header: header(self.order(), beta, program.cost())?,
+            header: header(order, beta, program.cost())?,
             arguments: if beta.is_some() { &["sigma", "anomaly"] } else { &["beta", "sigma", "anomaly"] },
             results: computation::RESULTS,
             meanings: MEANINGS,

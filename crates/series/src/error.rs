@@ -123,7 +123,7 @@ pub enum Error {
     },
     /// A term that is to be removed, but whose divisor is too small.
     #[error(
-        "small divisor at order {order}: the term {term}, k = {k:?}, has |k·ω| = {divisor:e} below the bound {bound:e}; keep it as a resonance, or lower the bound"
+        "small divisor at order {order}: the term {term}, k = {k:?}, has |k·ω| = {divisor:?} below the bound {bound:?}; keep it as a resonance, or lower the bound"
     )]
     SmallDivisor {
         /// Order of the term: its degree less 2.
@@ -138,7 +138,7 @@ pub enum Error {
         bound: f64,
     },
     /// A resonance asked for that the frequencies do not have.
-    #[error("k = {vector:?} is no resonance: k·ω = {divisor:e} is not below the bound {bound:e}")]
+    #[error("k = {vector:?} is no resonance: k·ω = {divisor:?} is not below the bound {bound:?}")]
     NotResonant {
         /// The vector given.
         vector: Vec<i64>,
@@ -315,6 +315,9 @@ pub enum TermProblem {
     /// The term lies in the kernel of the unperturbed motion.
     #[error("it lies in the kernel of the unperturbed motion")]
     Kernel,
+    /// The power of β is none that the harmonic k − j has.
+    #[error("its power of beta is not |k - j|/2 plus an even number")]
+    Harmonic,
     /// The coefficient makes the function complex on real motions.
     #[error("the function would not be real on real motions")]
     NotReal,

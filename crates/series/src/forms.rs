@@ -23,6 +23,10 @@ pub trait Real:
 
     /// The nearest double.
     fn to_f64(self) -> f64;
+
+    /// The product with a whole number below 2^53.
+    #[must_use]
+    fn weighted(self, weight: f64) -> Self;
 }
 
 impl Real for f64 {
@@ -33,6 +37,11 @@ impl Real for f64 {
     fn to_f64(self) -> f64 {
         self
     }
+
+    #[inline]
+    fn weighted(self, weight: f64) -> Self {
+        self * weight
+    }
 }
 
 impl Real for DoubleDouble {
@@ -42,6 +51,11 @@ impl Real for DoubleDouble {
 
     fn to_f64(self) -> f64 {
         DoubleDouble::to_f64(self)
+    }
+
+    #[inline]
+    fn weighted(self, weight: f64) -> Self {
+        self.times_double(weight)
     }
 }
 
@@ -76,13 +90,13 @@ impl<C: Real> Form<C> {
     ///
     /// The weight of w^j w̄^k · w^p w̄^q is k p − j q = d_f p − d_s j; where w or w̄ is missing from the product it is zero.
     fn add_bracket(&mut self, f: &Self, s: &Self) {
-        let (f_degree, s_degree) = (C::small(f.degree()), C::small(s.degree()));
+        let (f_degree, s_degree) = (f.degree() as f64, s.degree() as f64);
         let last = self.coefficients.len();
         for (j, &c) in f.coefficients.iter().enumerate() {
             if c.is_zero() {
                 continue;
             }
-            let (rise, fall) = (c * f_degree, c * s_degree * C::small(j));
+            let fall = s_degree * j as f64;
             let first = usize::from(j == 0); // the product at index j + p − 1 needs j + p ≥ 1
             let start = j + first - 1;
             if start >= last {
@@ -90,7 +104,7 @@ impl<C: Real> Form<C> {
             }
             let targets = self.coefficients[start..].iter_mut();
             for ((target, &d), p) in targets.zip(&s.coefficients[first..]).zip(first..) {
-                *target += &((rise * C::small(p) - fall) * d);
+                *target += &(c * d).weighted(f_degree * p as f64 - fall);
             }
         }
     }

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! Rationals are reduced, `p` or `p/q`. Reading verifies format, version, the bound of the order before anything is
-//! built, the number of series, the degrees, that no exponents repeat, that S has no kernel part, and that K and S are
-//! real on real motions. It does *not* verify that the coefficients are those of the rigid body: that would be
+//! built, the number of series, the degrees, that no exponents repeat, that S has no kernel part and each harmonic its powers
+//! of β, and that K and S are real on real motions. It does *not* verify that the coefficients are those of the rigid body: that would be
 //! computing them again.
 
 use crate::normal_form::check_order;
@@ -71,8 +71,8 @@ impl NormalForm {
 
     /// Reads what [`to_json`](Self::to_json) wrote.
     ///
-    /// Verified: format, version, order, number of series, degrees, no exponents twice, no zero, no kernel part in S, K
-    /// and S real on real motions. *Not* verified: that the coefficients are those of the rigid body.
+    /// Verified: format, version, order, number of series, degrees, no exponents twice, no zero, no kernel part in S, the powers
+    /// of β that a harmonic can have, K and S real on real motions. *Not* verified: that the coefficients are those of the rigid body.
     ///
     /// ```
     /// use andoyer_series::NormalForm;
@@ -160,6 +160,11 @@ fn generator(m: usize, entries: &[GeneratorEntry]) -> Result<Polynomial<BigRatio
         }
         if j == k {
             return Err(fail(exponents, TermProblem::Kernel));
+        }
+        // β → −β turns ℓ by a quarter: the harmonic k − j has β^|(k−j)/2| times a polynomial in β².
+        let half = j.abs_diff(*k) / 2;
+        if *l < half || (l - half) % 2 == 1 {
+            return Err(fail(exponents, TermProblem::Harmonic));
         }
         let c = Complex::new(rational(re)?, rational(im)?);
         if c.is_zero() {

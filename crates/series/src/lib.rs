@@ -38,7 +38,7 @@ pub use bracket::Poisson;
 pub use coefficient::Coefficient;
 pub use display::Named;
 pub use double_double::{DoubleDouble, arithmetic_geometric_mean, two_product, two_sum};
-pub use emit::Language;
+pub use emit::{Language, MAXIMUM_CODE_ORDER};
 pub use error::{Error, ParseProblem, TermProblem};
 pub use forms::{Form, Real};
 pub use homological::Homological;
@@ -52,7 +52,12 @@ pub use rigid_body::{
     BETA, MAXIMUM_ORDER, PublicForm, TAU, Variable, W, W_BAR, Y_HAT, hamiltonian, homological, poisson,
     separatrix_action,
 };
-pub use triangle::{LieTransform, Normalization, Progress, deprit_triangle};
+pub use triangle::{LieTransform, Normalization, Progress, deprit_triangle, quiet};
+
+/// Complex numbers over any of the coefficients, from the crate `num-complex`.
+pub use num_complex::Complex;
+/// Exact rational numbers, from the crate `num-rational`.
+pub use num_rational::BigRational;
 
 /// The README, whose examples are compiled and run as doctests.
 #[cfg(doctest)]

@@ -7,6 +7,12 @@
 use crate::polynomial::Terms;
 use crate::{Coefficient, Error, Monomial, Polynomial, Truncation};
 
+/// Products from one call of `pause` to the next: some tens of milliseconds of large rationals.
+const PRODUCTS_PER_PAUSE: usize = 1 << 14;
+
+/// What a long sum calls now and then; an error ends it.
+pub(crate) type Pause<'a> = dyn FnMut() -> Result<(), Error> + 'a;
+
 type LiftedTerms<C> = Vec<(Monomial, <C as Coefficient>::Raw)>;
 
 /// A weighted sum of products of some left polynomials with some right ones.
@@ -15,6 +21,8 @@ pub(crate) struct Accumulator<C: Coefficient> {
     right: Vec<LiftedTerms<C>>,
     scales: (C::Scale, C::Scale),
     sums: Terms<C::Raw>,
+    /// Products since the last pause.
+    products: usize,
 }
 
 fn lift_together<C: Coefficient>(polynomials: &[&Polynomial<C>]) -> (Vec<LiftedTerms<C>>, C::Scale) {
@@ -30,7 +38,7 @@ impl<C: Coefficient> Accumulator<C> {
     /// Lifts the factors; they are named by their position from here on.
     pub(crate) fn new(left: &[&Polynomial<C>], right: &[&Polynomial<C>]) -> Self {
         let ((left, first), (right, second)) = (lift_together(left), lift_together(right));
-        Accumulator { left, right, scales: (first, second), sums: Terms::default() }
+        Accumulator { left, right, scales: (first, second), sums: Terms::default(), products: 0 }
     }
 
     /// Adds `weight` · left · right, leaving out what `truncation` drops.
@@ -52,8 +60,18 @@ impl<C: Coefficient> Accumulator<C> {
     }
 
     /// Adds one term for each pair of terms and each of its weights: `weigh(left, right)` for every rule.
-    pub(crate) fn add_bracket(&mut self, (left, right): (usize, usize), rules: &[Rule]) -> Result<(), Error> {
+    pub(crate) fn add_bracket(
+        &mut self,
+        (left, right): (usize, usize),
+        rules: &[Rule],
+        pause: &mut Pause<'_>,
+    ) -> Result<(), Error> {
         for (m, a) in &self.left[left] {
+            self.products += self.right[right].len();
+            if self.products >= PRODUCTS_PER_PAUSE {
+                self.products = 0;
+                pause()?;
+            }
             for (n, b) in &self.right[right] {
                 let mut product = None;
                 for rule in rules {

@@ -2,14 +2,14 @@
 //!
 //! What is scaled how: orders are those of τ = α/(√γ V), every form is given without its power of τ, and the public
 //! coefficients are those of u^j U^k β^l (Gaussian rationals). The transformations of u, U and y are computed when they
-//! are first asked for, by the triangle of the generic algebra. Cost in release, one core: order 10 in 0.1 ms, 20 in 0.5 ms, 30 in 3 ms, 50 in
-//! 40 ms, 100 in 0.9 s (2 MB); the direct transformation of order 20 in 80 ms, 30 in 1.1 s, an inverse one a fifth or less.
+//! are first asked for, by the triangle of the generic algebra. Cost in release, one core: order 10 in 0.06 ms, 20 in 0.5 ms, 30 in 3 ms, 50 in
+//! 30 ms and 2 MiB, 100 in 0.9 s and 13 MiB (in rationals the triangle takes 53 ms at 20, 0.66 s at 30 and 4.3 s at 40); the direct
+//! transformation of u or y of order 20 in 80 ms, 30 in 1.1 s, an inverse one a tenth of it.
 //! Source: theory §4 and §6; Lara (2017).
 
 use crate::energy::{EnergyNormalization, Generator};
 use crate::rigid_body::{self, MAXIMUM_ORDER, PublicForm, Variable};
-use crate::triangle::Progress;
-use crate::{Error, LieTransform, Polynomial};
+use crate::{Error, LieTransform, Polynomial, Progress, quiet};
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;
@@ -18,6 +18,22 @@ use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
 type Series = Vec<Polynomial<BigRational>>;
+
+/// Which way a transformation goes; its position among the series.
+#[derive(Clone, Copy)]
+enum Direction {
+    Direct = 0,
+    Inverse = 2,
+}
+
+impl Direction {
+    fn name(self) -> &'static str {
+        match self {
+            Direction::Direct => "direct transformation",
+            Direction::Inverse => "inverse transformation",
+        }
+    }
+}
 
 /// The normal form of the free rigid body to an order in τ.
 ///
@@ -44,7 +60,7 @@ impl NormalForm {
     /// # Errors
     /// - order 16382: [`Error::OrderTooLarge`], refused before any work.
     pub fn new(order: usize) -> Result<Self, Error> {
-        Self::with_progress(order, |_, _| ControlFlow::Continue(()))
+        Self::with_progress(order, quiet)
     }
 
     /// The normal form to `order`, with a callback that is told (orders done, `order`) and may stop the computation.
@@ -137,7 +153,16 @@ impl NormalForm {
     /// # Errors
     /// - `n` = 0, or above the order: [`Error::OrderOutOfRange`].
     pub fn direct(&self, variable: Variable, n: usize) -> Result<PublicForm, Error> {
-        self.transformation(variable, n, 0, "direct transformation")
+        self.direct_with(variable, n, &mut quiet)
+    }
+
+    /// As [`direct`](Self::direct), with a callback that is told (orders done, order) while the series of that variable is computed,
+    /// which is once for all n, and may stop it.
+    ///
+    /// # Errors
+    /// - as [`direct`](Self::direct); a callback that returns `Break`: [`Error::Interrupted`].
+    pub fn direct_with(&self, variable: Variable, n: usize, progress: &mut Progress<'_>) -> Result<PublicForm, Error> {
+        self.transformation(variable, n, Direction::Direct, progress)
     }
 
     /// Order `n` of the transformation of a new variable to the old ones, scaled as [`direct`](Self::direct).
@@ -153,7 +178,15 @@ impl NormalForm {
     /// # Errors
     /// - `n` = 0, or above the order: [`Error::OrderOutOfRange`].
     pub fn inverse(&self, variable: Variable, n: usize) -> Result<PublicForm, Error> {
-        self.transformation(variable, n, 2, "inverse transformation")
+        self.inverse_with(variable, n, &mut quiet)
+    }
+
+    /// As [`inverse`](Self::inverse), with a callback as that of [`direct_with`](Self::direct_with).
+    ///
+    /// # Errors
+    /// - as [`inverse`](Self::inverse); a callback that returns `Break`: [`Error::Interrupted`].
+    pub fn inverse_with(&self, variable: Variable, n: usize, progress: &mut Progress<'_>) -> Result<PublicForm, Error> {
+        self.transformation(variable, n, Direction::Inverse, progress)
     }
 
     /// The transformation in the rational variables of [`hamiltonian`](crate::hamiltonian), S = i s.
@@ -174,19 +207,21 @@ impl NormalForm {
         &self,
         variable: Variable,
         n: usize,
-        direction: usize,
-        what: &'static str,
+        direction: Direction,
+        progress: &mut Progress<'_>,
     ) -> Result<PublicForm, Error> {
         if n == 0 || n > self.order() {
-            return Err(self.out_of_range(what, n, 1));
+            return Err(self.out_of_range(direction.name(), n, 1));
         }
-        let cell = &self.series[direction + usize::from(variable == Variable::Angle)];
+        let cell = &self.series[direction as usize + usize::from(variable == Variable::Angle)];
         let series = match cell.get() {
             Some(series) => series,
             None => {
-                let seed = rigid_body::seed(variable);
-                let transform = self.transform()?;
-                let series = if direction == 0 { transform.direct(&seed) } else { transform.inverse(&seed) }?;
+                let (seed, transform) = (rigid_body::seed(variable), self.transform()?);
+                let series = match direction {
+                    Direction::Direct => transform.direct_with(&seed, progress),
+                    Direction::Inverse => transform.inverse_with(&seed, progress),
+                }?;
                 cell.get_or_init(|| series)
             }
         };

@@ -211,7 +211,8 @@ fn turned(c: &BigRational, n: usize) -> Complex<BigRational> {
     turned_complex(&Complex::new(c.clone(), BigRational::zero()), n)
 }
 
-fn turned_complex(c: &Complex<BigRational>, n: usize) -> Complex<BigRational> {
+/// iⁿ c: with n = j what a coefficient of u^j is as one of w̄^j.
+pub(crate) fn turned_complex(c: &Complex<BigRational>, n: usize) -> Complex<BigRational> {
     match n % 4 {
         0 => c.clone(),
         1 => Complex::new(-c.im.clone(), c.re.clone()),

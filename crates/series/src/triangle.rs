@@ -11,12 +11,26 @@
 //! transformed function f_{0,n}/n!. Order N costs N(N+1)(N+2)/6 brackets; each inner sum is accumulated unreduced. The
 //! inverse transformation obeys (n+1) G_{n+1} = −Σ {G_{n−m}; T_{m+1}}, G_0 = f, and costs N(N+1)/2 brackets.
 
-use crate::lifted::Accumulator;
+use crate::lifted::{Accumulator, Pause};
 use crate::{Coefficient, Error, Homological, Poisson, Polynomial};
 use std::ops::ControlFlow;
 
 /// What a progress callback receives: orders done, orders asked for. Returning `Break` stops the computation.
 pub type Progress<'a> = dyn FnMut(usize, usize) -> ControlFlow<()> + 'a;
+
+/// A progress callback that tells nobody and never stops.
+///
+/// ```
+/// use andoyer_series::{PhaseSpace, Resonances, normalize_with, quiet};
+/// let space = PhaseSpace::new(&[("q", "p")])?;
+/// let h = space.parse::<f64>("(p^2 + q^2)/2 + q^4/4")?;
+/// let normal_form = normalize_with(&h, 2, &space, &Resonances::default(), &mut quiet)?;
+/// assert_eq!(normal_form.to_string(), "I_q + 0.375*I_q^2");
+/// # Ok::<(), andoyer_series::Error>(())
+/// ```
+pub fn quiet(_done: usize, _of: usize) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
 
 /// A canonical transformation given by its generating function S = Σ εᵐ T_{m+1}, T_m = S_m/(m−1)!.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -36,18 +50,17 @@ pub struct Normalization<C: Coefficient> {
 
 /// Normalizes H = Σ εⁿ `hamiltonian[n]` to order `order` (missing coefficients are 0).
 ///
-/// `hamiltonian[0]` is the quadratic part of `homological`. `progress` is called before every cell of the triangle with
-/// the number of orders done (so a number comes more than once) and with (order, order) at the end.
+/// `hamiltonian[0]` is the quadratic part of `homological`. `progress` is called before every cell of the triangle, and
+/// within long ones, with the number of orders done (so a number comes more than once), and with (order, order) at the end.
 ///
 /// ```
-/// use andoyer_series::{Homological, Poisson, Polynomial, deprit_triangle};
+/// use andoyer_series::{Homological, Poisson, Polynomial, deprit_triangle, quiet};
 /// use num_rational::BigRational;
-/// use std::ops::ControlFlow;
 /// let parse = |text| Polynomial::<BigRational>::parse(text, &["q", "p"]);
 /// let homological = Homological::new(&[(0, 1, BigRational::from_integer(1.into()))])?;
 /// let series = [parse("q*p")?, parse("q^3 + p^3")?];
 /// let poisson = Poisson::new(&[(0, 1)])?;
-/// let normalization = deprit_triangle(&series, &homological, &poisson, 2, &mut |_, _| ControlFlow::Continue(()))?;
+/// let normalization = deprit_triangle(&series, &homological, &poisson, 2, &mut quiet)?;
 /// assert_eq!(normalization.hamiltonian[2], parse("-3*q^2*p^2")?);
 /// # Ok::<(), andoyer_series::Error>(())
 /// ```
@@ -99,7 +112,7 @@ pub(crate) fn normalize_by<C: Coefficient>(
     let mut factorial = C::one(); // (n−1)!
     for n in 1..=order {
         let source = hamiltonian.get(n).cloned().unwrap_or_default();
-        triangle.extend(source, &transform, &mut |_| stop(progress(n - 1, order), n - 1, order))?;
+        triangle.extend(source, &transform, &mut || stop(progress(n - 1, order), n - 1, order))?;
         let Removal { image, solution } = solve(n, triangle.corner())?; // S_n
         let inverse = factorial.invert().ok_or(Error::DivisionByZero)?;
         transform.scaled.push(solution.scale(&inverse));
@@ -160,15 +173,26 @@ impl<C: Coefficient> LieTransform<C> {
     /// # Errors
     /// - degrees that outgrow the packed exponents: [`Error::ExponentOverflow`].
     pub fn direct(&self, f: &Polynomial<C>) -> Result<Vec<Polynomial<C>>, Error> {
+        self.direct_with(f, &mut quiet)
+    }
+
+    /// As [`direct`](Self::direct), with a callback that is called as that of [`deprit_triangle`].
+    ///
+    /// # Errors
+    /// - as [`direct`](Self::direct); a callback that returns `Break`: [`Error::Interrupted`].
+    pub fn direct_with(&self, f: &Polynomial<C>, progress: &mut Progress<'_>) -> Result<Vec<Polynomial<C>>, Error> {
+        let order = self.order();
         let mut triangle = Triangle::new(f.clone());
         let mut series = vec![f.clone()];
         let mut factorial = C::one();
-        for n in 1..=self.order() {
-            triangle.extend(Polynomial::zero(), self, &mut |_| Ok(()))?;
+        for n in 1..=order {
+            let pause = &mut || stop(progress(n - 1, order), n - 1, order);
+            triangle.extend(Polynomial::zero(), self, pause)?;
             factorial = factorial.times(n as i64);
             let inverse = factorial.invert().ok_or(Error::DivisionByZero)?;
             series.push(triangle.corner().scale(&inverse));
         }
+        stop(progress(order, order), order, order)?;
         Ok(series)
     }
 
@@ -177,16 +201,28 @@ impl<C: Coefficient> LieTransform<C> {
     /// # Errors
     /// - degrees that outgrow the packed exponents: [`Error::ExponentOverflow`].
     pub fn inverse(&self, f: &Polynomial<C>) -> Result<Vec<Polynomial<C>>, Error> {
+        self.inverse_with(f, &mut quiet)
+    }
+
+    /// As [`inverse`](Self::inverse), with a callback that is called before every order, within long ones, and with (order, order) last.
+    ///
+    /// # Errors
+    /// - as [`inverse`](Self::inverse); a callback that returns `Break`: [`Error::Interrupted`].
+    pub fn inverse_with(&self, f: &Polynomial<C>, progress: &mut Progress<'_>) -> Result<Vec<Polynomial<C>>, Error> {
+        let order = self.order();
         let mut series = vec![f.clone()];
-        for n in 0..self.order() {
+        for n in 0..order {
+            let pause = &mut || stop(progress(n, order), n, order);
+            pause()?;
             let left: Vec<_> = series.iter().rev().collect();
             let right: Vec<_> = self.scaled[..=n].iter().collect();
             let mut sum = Accumulator::new(&left, &right);
             for m in 0..=n {
-                self.poisson.accumulate(&mut sum, m, m)?;
+                self.poisson.accumulate(&mut sum, (m, m), pause)?;
             }
             series.push(sum.finish().over(-(n as i64) - 1)?);
         }
+        stop(progress(order, order), order, order)?;
         Ok(series)
     }
 }
@@ -208,21 +244,27 @@ impl<C: Coefficient> Triangle<C> {
         &mut self,
         source: Polynomial<C>,
         transform: &LieTransform<C>,
-        before_cell: &mut dyn FnMut(usize) -> Result<(), Error>,
+        pause: &mut Pause<'_>,
     ) -> Result<(), Error> {
         let order = self.columns.len();
         self.columns[0].push(source);
         self.columns.push(Vec::new());
         for q in 1..=order {
-            before_cell(q)?;
-            let cell = self.cell(order - q, q - 1, transform)?;
+            pause()?;
+            let cell = self.cell(order - q, q - 1, transform, pause)?;
             self.columns[q].push(cell);
         }
         Ok(())
     }
 
     /// g_{n,q+1} = (n+1) g_{n+1,q} + Σ {g_{n−m,q}; T_{m+1}}, one unreduced sum.
-    fn cell(&self, n: usize, q: usize, transform: &LieTransform<C>) -> Result<Polynomial<C>, Error> {
+    fn cell(
+        &self,
+        n: usize,
+        q: usize,
+        transform: &LieTransform<C>,
+        pause: &mut Pause<'_>,
+    ) -> Result<Polynomial<C>, Error> {
         let column = &self.columns[q];
         let one = Polynomial::constant(C::one());
         let known = (n + 1).min(transform.order());
@@ -236,7 +278,7 @@ impl<C: Coefficient> Triangle<C> {
         right.push(&one);
         let mut sum = Accumulator::new(&left, &right);
         for pair in 0..pairs.len() {
-            transform.poisson.accumulate(&mut sum, pair, pair)?;
+            transform.poisson.accumulate(&mut sum, (pair, pair), pause)?;
         }
         sum.add_product((pairs.len(), pairs.len()), n as i64 + 1, None)?;
         Ok(sum.finish())

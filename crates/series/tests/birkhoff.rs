@@ -2,12 +2,11 @@
 
 use andoyer_series::{
     BirkhoffNormalForm, Coefficient, Error, Monomial, NormalForm, PhaseSpace, Polynomial, Resonances, Truncation,
-    normalize, normalize_with,
+    normalize, normalize_with, quiet,
 };
 use num_complex::Complex;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
-use std::ops::ControlFlow;
 
 type Rational = Polynomial<BigRational>;
 
@@ -21,7 +20,7 @@ fn plane() -> Result<PhaseSpace, Error> {
 
 /// The 1:1 resonant normal form.
 fn one_to_one(h: &Rational, order: usize, space: &PhaseSpace) -> Result<BirkhoffNormalForm<BigRational>, Error> {
-    normalize_with(h, order, space, &Resonances::new(&[&[1, -1]])?, &mut |_, _| ControlFlow::Continue(()))
+    normalize_with(h, order, space, &Resonances::new(&[&[1, -1]])?, &mut quiet)
 }
 
 fn henon_heiles() -> Result<Rational, Error> {
@@ -43,33 +42,60 @@ fn pendulum(degree: u32) -> Result<Rational, Error> {
 }
 
 #[test]
-fn henon_heiles_of_degree_four_is_gustavson_s() -> Result<(), Error> {
-    // F. G. Gustavson, Astron. J. 71 (1966) 670, the terms of degree 4 of his normal form of this Hamiltonian; in the
-    // invariants N = I_x + I_y and L = x Y − y X: −(5/12) N² + (7/12) L².
+fn henon_heiles_of_degree_four_follows_from_the_published_toda_lattice() -> Result<(), Error> {
+    // Gustavson's Hamiltonian and normal form (Astron. J. 71 (1966) 670, whose own table was not at hand). The Toda lattice below has the
+    // same cubic terms, and its published terms of degree 4 are (N² + L²)/3 in the invariants N = I_x + I_y and L = x Y − y X. Its quartic
+    // terms (x² + y²)²/2 add their mean, (3 N² − L²)/4; what is left are the cubic terms: −(5/12) N² + (7/12) L².
     let space = plane()?;
-    let normal_form = one_to_one(&henon_heiles()?, 2, &space)?;
     let [n, l]: [Rational; 2] = [space.parse("(x^2 + X^2 + y^2 + Y^2)/2")?, space.parse("x*Y - y*X")?];
-    let expected = &n.power(2)?.scale(&ratio(-5, 12)) + &l.power(2)?.scale(&ratio(7, 12));
-    let k = normal_form.in_real()?;
-    assert_eq!((k.homogeneous_part(2), k.homogeneous_part(3)), (n, Polynomial::zero()));
-    assert_eq!(k.homogeneous_part(4), expected);
+    let invariants = |a, b| Ok::<_, Error>(&n.power(2)?.scale(&a) + &l.power(2)?.scale(&b));
+    let degree_four = |h: &Rational| Ok::<_, Error>(one_to_one(h, 2, &space)?.in_real()?.homogeneous_part(4));
+    let (h, lattice) = (henon_heiles()?, toda(4)?);
+    assert_eq!((lattice.homogeneous_part(3), h.degree()), (h.homogeneous_part(3), Some(3)));
+    let quartic = &h.homogeneous_part(2) + &lattice.homogeneous_part(4);
+    assert_eq!(quartic.homogeneous_part(4), space.parse("(x^2 + y^2)^2/2")?);
+    let published = invariants(ratio(1, 3), ratio(1, 3))?;
+    assert_eq!(
+        (degree_four(&lattice)?, degree_four(&quartic)?),
+        (published.clone(), invariants(ratio(3, 4), ratio(-1, 4))?)
+    );
+    let expected = invariants(ratio(-5, 12), ratio(7, 12))?;
+    assert_eq!(&published - &invariants(ratio(3, 4), ratio(-1, 4))?, expected);
+    let k = one_to_one(&h, 2, &space)?.in_real()?;
+    assert_eq!(
+        (k.homogeneous_part(2), k.homogeneous_part(3), k.homogeneous_part(4)),
+        (n.clone(), Polynomial::zero(), expected)
+    );
     Ok(())
 }
 
 #[test]
-fn henon_heiles_in_its_invariant_plane_is_the_cubic_oscillator() -> Result<(), Error> {
-    // x = X = 0 leaves (y² + Y²)/2 − y³/3. The energy of (q² + p²)/2 + a q³ is, to all orders the same in classical
-    // perturbation theory and in the leading order of the quantum one, I − (15/4) a² I² − (705/16) a⁴ I³ − (115755/128) a⁶ I⁴.
-    let k = one_to_one(&henon_heiles()?, 6, &plane()?)?.in_complex();
+fn henon_heiles_in_its_invariant_plane_has_the_action_of_the_cubic_oscillator() -> Result<(), Error> {
+    // x = X = 0 leaves (y² + Y²)/2 + a y³, a = −1/3. Its action (1/2π) ∮ √(2K − y² − 2ay³) dy, expanded in a, is a sum of beta functions,
+    // I = Σ (6k)!/(8^k (3k)! (2k)! (k+1)!) a^2k K^(k+1): so I(K(I)) = I.
+    let order = 10;
+    let k = one_to_one(&henon_heiles()?, order, &plane()?)?.in_complex();
     let in_plane = k.filter(|monomial, _| monomial.degree_in(&[0, 1]) == 0);
-    assert_eq!(in_plane.len(), 4);
     let i = Complex::new(ratio(0, 1), ratio(1, 1));
-    for (n, c) in (1..).zip([ratio(1, 1), ratio(-15, 4 * 9), ratio(-705, 16 * 81), ratio(-115_755, 128 * 729)]) {
-        // uU = iI.
-        let expected = Complex::new(c, ratio(0, 1)) * (-i.clone()).powi(n);
-        let n = n as u32;
-        assert_eq!(in_plane.coefficient(&Monomial::new(&[0, 0, n, n])?), Some(&expected), "I^{n}");
+    let energy = in_plane.terms().map(|(monomial, c)| {
+        let n = monomial.exponent(2);
+        assert_eq!(monomial.exponent(3), n);
+        let real = c * i.powi(n as i32); // uU = iI
+        assert_eq!(real.im, ratio(0, 1));
+        Ok((Monomial::new(&[n])?, real.re))
+    });
+    let energy = Polynomial::from_terms(energy.collect::<Result<Vec<_>, Error>>()?);
+    assert_eq!(energy.len(), order / 2 + 1);
+    let factorial = |n: u32| (1..=n).fold(BigRational::integer(1), |product, factor| product.times(factor.into()));
+    let kept = Truncation::total(order as u32 / 2 + 1);
+    let (mut action, mut power) = (Rational::zero(), energy.clone());
+    for k in 0..=order as u32 / 2 {
+        let divisor =
+            BigRational::integer(8 * 9).pow(k as i32) * factorial(3 * k) * factorial(2 * k) * factorial(k + 1);
+        action += &power.scale(&(factorial(6 * k) / divisor));
+        power = power.multiply_truncated(&energy, &kept)?;
     }
+    assert_eq!(action, Polynomial::parse("I", &["I"])?);
     Ok(())
 }
 
@@ -109,7 +135,7 @@ fn toda(degree: u32) -> Result<Rational, Error> {
 
 #[test]
 fn the_toda_lattice_s_normal_form_is_the_published_one_to_degree_eight() -> Result<(), Error> {
-    // A. Nikolaev, arXiv:1612.05207, supplement (AndreySNikolaev/demo-kato-nonlinear-classic, symbolic/Toda2d_Deprit3.log):
+    // A. Nikolaev, arXiv:1612.05207, supplement (AndreySNikolaev/demo-kato-nonlinear-classic, symbolic/Toda2d_Deprit3.log at 1ff4f47, lines 1167 to 1181):
     // with his ζ = −i U/√2 and η = −i √2 u a term of degree 2m is (−1)^m times that in u, U. Here E = η, Z = ζ.
     let published = [
         "-1/3*Z2^2*E2^2 + 1/3*E1^2*Z2^2 - 4/3*Z1*E1*Z2*E2 + 1/3*Z1^2*E2^2 - 1/3*Z1^2*E1^2",
@@ -132,7 +158,7 @@ fn the_toda_lattice_s_normal_form_is_the_published_one_to_degree_eight() -> Resu
 
 #[test]
 fn the_pendulum_s_normal_form_is_the_published_one_to_degree_22() -> Result<(), Error> {
-    // The same supplement, symbolic/pendulum_explicit.log: the coefficients of (q² + p²)ⁿ = (2I)ⁿ, n = 2 … 11.
+    // The same supplement, symbolic/pendulum_explicit.log, lines 268 to 328: the coefficients of (q² + p²)ⁿ = (2I)ⁿ, n = 2 … 11.
     let published: [(i64, i64); 10] = [
         (1, 64),
         (1, 2_048),
@@ -202,7 +228,7 @@ fn mixed() -> Result<(PhaseSpace, Rational), Error> {
 fn the_transformation_takes_the_hamiltonian_to_its_normal_form_and_back() -> Result<(), Error> {
     let (order, (space, h)) = (4, mixed()?);
     let resonances = Resonances::new(&[&[1, 3]])?;
-    let normal_form = normalize_with(&h, order, &space, &resonances, &mut |_, _| ControlFlow::Continue(()))?;
+    let normal_form = normalize_with(&h, order, &space, &resonances, &mut quiet)?;
     assert_eq!(normal_form.frequencies(), [ratio(3, 1), ratio(-1, 1)]);
     assert_eq!(normal_form.ratios(), [ratio(3, 2), ratio(1, 4)]);
     assert_eq!(normal_form.offset(), &space.parse("7 - c")?);
@@ -224,7 +250,7 @@ fn the_transformation_takes_the_hamiltonian_to_its_normal_form_and_back() -> Res
 fn the_transformation_is_canonical_and_inverse_undoes_direct() -> Result<(), Error> {
     let (order, (space, h)) = (3, mixed()?);
     let resonances = Resonances::new(&[&[1, 3]])?;
-    let normal_form = normalize_with(&h, order, &space, &resonances, &mut |_, _| ControlFlow::Continue(()))?;
+    let normal_form = normalize_with(&h, order, &space, &resonances, &mut quiet)?;
     let poisson = space.poisson()?;
     let phase = [0, 1, 2, 3];
     let images = |direct: bool| {
@@ -259,7 +285,7 @@ fn the_transformation_is_canonical_and_inverse_undoes_direct() -> Result<(), Err
 fn a_parameter_is_a_number_put_in_later() -> Result<(), Error> {
     let (space, h) = mixed()?;
     let resonances = Resonances::new(&[&[1, 3]])?;
-    let run = |h: &Rational| normalize_with(h, 4, &space, &resonances, &mut |_, _| ControlFlow::Continue(()));
+    let run = |h: &Rational| normalize_with(h, 4, &space, &resonances, &mut quiet);
     let value = ratio(-2, 3);
     let (symbolic, numeric) = (run(&h)?.in_real()?, run(&h.evaluate_partial(4, &value)?)?.in_real()?);
     assert!(symbolic.terms().any(|(monomial, _)| monomial.exponent(4) == 4));
@@ -285,7 +311,7 @@ fn floats_agree_with_the_exact_normal_form() -> Result<(), Error> {
     let exact = one_to_one(&h, 8, &space)?.in_complex();
     let resonances = Resonances::new(&[&[1, -1]])?;
     let float = h.map(|c| c.to_f64().unwrap_or(f64::NAN));
-    let float = normalize_with(&float, 8, &space, &resonances, &mut |_, _| ControlFlow::Continue(()))?.in_complex();
+    let float = normalize_with(&float, 8, &space, &resonances, &mut quiet)?.in_complex();
     for (monomial, c) in exact.terms() {
         let found = float.coefficient(&monomial).copied().unwrap_or_default();
         let expected = Complex::new(c.re.to_f64().unwrap_or(f64::NAN), c.im.to_f64().unwrap_or(f64::NAN));
@@ -300,9 +326,8 @@ fn a_wide_bound_keeps_a_resonance_that_is_not_exact() -> Result<(), Error> {
     // Frequencies 1 and 2.02, as 1:2 within 1 %: the term is kept, and the divisor 0.02 divides nothing.
     let space = plane()?;
     let h = space.parse::<BigRational>("(x^2 + X^2)/2 + 1.01*(y^2 + Y^2) + x^2*y")?;
-    let quiet = &mut |_: usize, _: usize| ControlFlow::Continue(());
     let wide = Resonances::new(&[&[2, -1]])?.with_smallest_divisor(0.05)?;
-    let kept = normalize_with(&h, 1, &space, &wide, quiet)?.in_complex().homogeneous_part(3);
+    let kept = normalize_with(&h, 1, &space, &wide, &mut quiet)?.in_complex().homogeneous_part(3);
     assert!(kept.len() == 2 && kept.coefficient(&Monomial::new(&[0, 2, 1])?).is_some());
     let removed = normalize(&h, 2, &space)?.in_actions()?;
     // Perturbation theory by hand: x²y couples with 1/(2ω₁ − ω₂) = −1/0.02 in the term I_x².

@@ -106,6 +106,8 @@ fn terms_that_no_normal_form_contains_are_refused() {
     assert_inconsistent(P, r#"[[[1,3,2,"1","0"]]]"#, &[1, 3, 2], TermProblem::Degree);
     assert_inconsistent(P, r#"[[[2,2,1,"1","0"]]]"#, &[2, 2, 1], TermProblem::Kernel);
     assert_inconsistent(P, r#"[[[1,3,1,"0","0"]]]"#, &[1, 3, 1], TermProblem::Zero);
+    assert_inconsistent(P, r#"[[[1,3,0,"1","0"]]]"#, &[1, 3, 0], TermProblem::Harmonic);
+    assert_inconsistent(P, r#"[[[0,4,1,"1","0"]]]"#, &[0, 4, 1], TermProblem::Harmonic);
     assert_inconsistent(P, r#"[[[1,3,1,"1","0"],[1,3,1,"1","0"]]]"#, &[1, 3, 1], TermProblem::Repeated);
     assert_inconsistent(P, r#"[[[1,3,1,"0","1"]]]"#, &[1, 3, 1], TermProblem::NotReal);
     assert_inconsistent(P, r#"[[[1,3,1,"1/8","0"],[3,1,1,"-1/8","0"]]]"#, &[3, 1, 1], TermProblem::NotReal);

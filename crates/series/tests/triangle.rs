@@ -2,8 +2,8 @@
 //! normal form.
 
 use andoyer_series::{
-    Error, Homological, LieTransform, NormalForm, Normalization, Poisson, Polynomial, TAU, Truncation, W, W_BAR, Y_HAT,
-    deprit_triangle,
+    Error, Homological, LieTransform, NormalForm, Normalization, Poisson, Polynomial, TAU, Truncation, Variable, W,
+    W_BAR, Y_HAT, deprit_triangle, quiet,
 };
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -34,7 +34,7 @@ fn two_modes(order: usize) -> Result<(Vec<Rational>, Poisson, Normalization<BigR
         parse("q^2*P + 2*Q*p*P - p^3/3 + q*Q^2")?,
         parse("q^4/2 - q*p*Q*P + P^4 + 3*q^2*P^2")?,
     ];
-    let normalization = deprit_triangle(&series, &homological, &poisson, order, &mut |_, _| ControlFlow::Continue(()))?;
+    let normalization = deprit_triangle(&series, &homological, &poisson, order, &mut quiet)?;
     Ok((series, poisson, normalization))
 }
 
@@ -185,7 +185,7 @@ fn floats_follow_the_exact_triangle() -> Result<(), Error> {
         &andoyer_series::homological()?,
         &andoyer_series::poisson()?,
         6,
-        &mut |_, _| ControlFlow::Continue(()),
+        &mut quiet,
     )?;
     for n in 0..=6 {
         for (power, coefficient) in exact.triaxiality_polynomial(n)? {
@@ -202,10 +202,54 @@ fn floats_follow_the_exact_triangle() -> Result<(), Error> {
 fn bad_input_to_the_triangle_is_refused() -> Result<(), Error> {
     let homological = Homological::new(&[(0, 1, BigRational::from_integer(1.into()))])?;
     let poisson = Poisson::new(&[(0, 1)])?;
-    let run =
-        |series: &[Rational]| deprit_triangle(series, &homological, &poisson, 1, &mut |_, _| ControlFlow::Continue(()));
+    let run = |series: &[Rational]| deprit_triangle(series, &homological, &poisson, 1, &mut quiet);
     assert!(matches!(run(&[parse("q^2")?]), Err(Error::UnperturbedMismatch { terms: 1 })));
     assert!(matches!(run(&[]), Err(Error::UnperturbedMismatch { terms: 0 })));
     assert!(matches!(parse("q")?.over(0), Err(Error::DivisionByZero)));
+    Ok(())
+}
+
+#[test]
+fn a_callback_hears_of_every_order_of_a_transformation_and_can_stop_it() -> Result<(), Error> {
+    let normal_form = NormalForm::new(4)?;
+    let stop = &mut |done, _| if done == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    for stopped in
+        [normal_form.direct_with(Variable::Angle, 1, stop), normal_form.inverse_with(Variable::Angle, 1, stop)]
+    {
+        assert!(matches!(stopped, Err(Error::Interrupted { done: 2, of: 4 })));
+    }
+    let mut told = Vec::new();
+    let mut listen = |done, of| {
+        told.push((done, of));
+        ControlFlow::Continue(())
+    };
+    // What was stopped is computed anew, and what was computed is kept.
+    assert_eq!(normal_form.direct_with(Variable::Angle, 1, &mut listen)?, normal_form.direct(Variable::Angle, 1)?);
+    normal_form.direct_with(Variable::Angle, 2, &mut listen)?;
+    told.dedup();
+    assert_eq!(told, [(0, 4), (1, 4), (2, 4), (3, 4), (4, 4)]);
+    Ok(())
+}
+
+#[test]
+fn a_callback_is_asked_within_a_long_bracket() -> Result<(), Error> {
+    // 231 · 231 products in the one bracket of order 1.
+    let dense = Polynomial::<f64>::parse("(q + p + Q + 1)^20", &["q", "p", "Q"])?
+        .filter(|monomial, _| monomial.exponent(2) == 0);
+    assert_eq!(dense.len(), 231);
+    let transform = LieTransform::new(Poisson::new(&[(0, 1)])?, vec![dense.clone()]);
+    for direct in [true, false] {
+        let mut asked = 0;
+        let mut listen = |done, _| {
+            asked += usize::from(done == 0);
+            if asked == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let stopped = if direct {
+            transform.direct_with(&dense, &mut listen)
+        } else {
+            transform.inverse_with(&dense, &mut listen)
+        };
+        assert!(matches!(stopped, Err(Error::Interrupted { done: 0, of: 1 })), "{asked}");
+    }
     Ok(())
 }

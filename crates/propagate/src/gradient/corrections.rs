@@ -6,7 +6,7 @@
 //! W = Σ e^(i(hℓ′+my′)) G(f),   G = g/(iΩ) − ġ/(iΩ)² + g̈/(iΩ)³ − …,   d/dt = n η^(−3) (1 + e cos f)² d/df
 //! ```
 //!
-//! solves dW/dt = D − <D> with the disturbing body on its way; the first term alone holds it fixed, as the paper does. G is a Fourier polynomial in f. The corrections are
+//! solves dW/dt = D − ⟨D⟩ with the disturbing body on its way; the first term alone holds it fixed, as the paper does. G is a Fourier polynomial in f. The corrections are
 //! brackets with W in variables that are regular at J = 0 and at any inclination: p = √σ e^(iℓ′), M, y′ and rotations of the invariable frame,
 //!
 //! ```text

@@ -174,7 +174,7 @@ impl Gradient {
         } else {
             Slow::Spin(Box::new(Spin::new(ellipse, mean.frame, &start)))
         };
-        // <D> = −½ (dJ/dt) Δ: its derivatives with respect to L and M at fixed L.
+        // ⟨D⟩ = −½ (dJ/dt) Δ: its derivatives with respect to L and M at fixed L.
         let slope = -0.5 * 1.5 * axial_slope * fraction / mean.momentum;
         let user =
             |rate: DoubleDouble| DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) };

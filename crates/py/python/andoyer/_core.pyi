@@ -23,11 +23,16 @@ __version__: str
 class Error(ValueError):
     """Bad input, or a motion that is not served; the base of every error of this package."""
 
+    index: int  # only of a member of an ensemble: its place among the members
+
 class AngularVelocityError(Error):
     """An angular velocity that is not finite."""
 
 class AttitudeError(Error):
     """An attitude that is no unit quaternion."""
+
+class AveragingError(Error):
+    """An averaging that is unknown, or a motion that has no averaged theory."""
 
 class EpochError(Error):
     """An epoch that is not finite."""
@@ -41,11 +46,17 @@ class HamiltonianError(Error):
 class IntervalError(Error):
     """A number outside its interval."""
 
+class LevelError(Error):
+    """A level of the theory of the gravity gradient that is unknown."""
+
 class MethodError(Error):
     """A method that is unknown."""
 
 class MomentsError(Error):
     """Moments of inertia that no body has."""
+
+class OrbitError(Error):
+    """An element of an orbit that is none."""
 
 class OrderError(Error):
     """An order that is no whole number within its bounds."""
@@ -68,11 +79,20 @@ class ShapeError(Error):
 class SpanError(Error):
     """A span that is not finite or runs backwards."""
 
+class SpinResonanceError(Error):
+    """A rotation so slow, or so near a resonance with its orbit, that no averaging holds."""
+
+class ThreadsError(Error):
+    """A number of threads that is none, or that the system does not give."""
+
 class TimesError(Error):
     """A time that is not finite, or too far from the epoch to have a phase."""
 
 class ToleranceError(Error):
     """A tolerance that is not positive and finite."""
+
+class TorqueError(Error):
+    """A torque too strong for an expansion in it."""
 
 class UnitsError(Error):
     """Units in which the angular momentum over- or underflows."""
@@ -122,6 +142,48 @@ class Body:
     def __deepcopy__(self, _memo: Any) -> Body: ...
 
 @final
+class Orbit:
+    """Relative Keplerian orbit of a body whose gravity gradient acts on the rotating one (theory §9)."""
+
+    def __new__(
+        cls,
+        mean_motion: float,
+        eccentricity: float = 0.0,
+        *,
+        time_of_pericentre: float = 0.0,
+        inclination: float = 0.0,
+        node: float = 0.0,
+        argument_of_pericentre: float = 0.0,
+        mass_fraction: float = 1.0,
+    ) -> Orbit: ...
+    @property
+    def mean_motion(self) -> float:
+        """Mean motion n, in rad per unit of time."""
+    @property
+    def eccentricity(self) -> float:
+        """Eccentricity, 0 or more and less than 1."""
+    @property
+    def time_of_pericentre(self) -> float:
+        """A time at which the pericentre is passed."""
+    @property
+    def inclination(self) -> float:
+        """Inclination of the orbit plane, in rad."""
+    @property
+    def node(self) -> float:
+        """Longitude of the ascending node, in rad."""
+    @property
+    def argument_of_pericentre(self) -> float:
+        """Argument of the pericentre, from the node, in rad."""
+    @property
+    def mass_fraction(self) -> float:
+        """Disturbing mass over the sum of both."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
+    def __copy__(self) -> Orbit: ...
+    def __deepcopy__(self, _memo: Any) -> Orbit: ...
+
+@final
 class Scene:
     """A body, its state at an epoch, and the accuracy asked of the solution."""
 
@@ -132,10 +194,13 @@ class Scene:
         angular_velocity: ArrayLike,
         *,
         epoch: float = 0.0,
+        orbit: Orbit | None = None,
         tolerance: float = 1e-12,
         method: Literal["auto", "series", "closed"] = "auto",
         order: int | None = None,
         span: ArrayLike | None = None,
+        averaging: Literal["auto", "orbit", "spin"] = "auto",
+        level: Literal["full", "moving", "paper"] = "full",
         name: str | None = None,
         source: str | None = None,
     ) -> Scene: ...
@@ -171,6 +236,15 @@ class Scene:
     def span(self) -> tuple[float, float] | None:
         """The times over which the tolerance is asked for: (start, stop), or None."""
     @property
+    def orbit(self) -> Orbit | None:
+        """The orbit of the disturbing body, or None."""
+    @property
+    def averaging(self) -> str:
+        """The averaging: "auto", "orbit" or "spin"."""
+    @property
+    def level(self) -> str:
+        """The level: "full", "moving" or "paper"."""
+    @property
     def name(self) -> str | None:
         """The name, or None."""
     @property
@@ -193,7 +267,7 @@ class Motion:
     def angular_velocity(self, times: ArrayLike, out: _Array | None = None) -> _Array:
         """Angular velocities in body components, in rad per unit of time."""
     def angular_momentum(self, times: ArrayLike) -> _Array:
-        """Angular momenta in inertial components, in the unit of moment × rate: of a free body, the same at all times."""
+        """Angular momenta in inertial components, in the unit of moment × rate: the same at all times unless the scene has an orbit."""
     def andoyer(self, times: ArrayLike) -> _Array:
         """Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1)."""
     def rotation(self, times: ArrayLike) -> Rotation:
@@ -218,8 +292,8 @@ class Plan:
     """What is evaluated for a motion, and why: see `Motion.plan`; ``str(plan)`` is a table of it."""
 
     @property
-    def mode(self) -> Literal["short-axis", "axisymmetric", "spherical", "principal-axis", "at-rest"]:
-        """The kind of motion: "short-axis", "axisymmetric", "spherical", "principal-axis" or "at-rest"."""
+    def mode(self) -> Literal["short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis", "at-rest"]:
+        """The kind of motion: "short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis" or "at-rest"."""
     @property
     def method(self) -> Literal["series", "closed"]:
         """How it is evaluated: "series", or "closed" for theta functions and the formulas that need no sum at all."""
@@ -236,6 +310,12 @@ class Plan:
     def separatrix_ratio(self) -> float:
         """σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5)."""
     @property
+    def averaging(self) -> Literal["orbit", "spin"] | None:
+        """How far the equations of a scene with an orbit are averaged: "orbit", "spin", or None without an orbit (theory §9)."""
+    @property
+    def torque(self) -> float:
+        """Size of the torque: the sum of the short-period corrections by the gravity gradient, in rad; 0 without an orbit."""
+    @property
     def skipped(self) -> list[str]:
         """What this scene did not need, and why: a list of str."""
     def __eq__(self, other: object, /) -> bool: ...
@@ -243,18 +323,61 @@ class Plan:
 
 @final
 class Samples:
-    """Attitudes and angular velocities of a motion at some times: what `Motion.at` returns."""
+    """Attitudes and angular velocities at some times, of a motion or of the members of an ensemble: what `Motion.at` and `Ensemble.at` return."""
 
     @property
     def times(self) -> _Array:
-        """The times, float64, shape (n,)."""
+        """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n)."""
     @property
     def attitude(self) -> _Array:
-        """Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4)."""
+        """Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4) or (m, n, 4)."""
     @property
     def angular_velocity(self) -> _Array:
-        """Angular velocities in body components, in rad per unit of time, shape (n, 3)."""
+        """Angular velocities in body components, in rad per unit of time, shape (n, 3) or (m, n, 3)."""
     def __len__(self) -> int: ...
+
+@final
+class Ensemble:
+    """Many bodies with their states at time 0, solved and evaluated member by member on all cores, in memory proportional to the result."""
+
+    def __new__(
+        cls,
+        moments: ArrayLike,
+        attitudes: ArrayLike,
+        angular_velocities: ArrayLike,
+        *,
+        tolerance: float = 1e-12,
+        threads: int | None = None,
+    ) -> Ensemble: ...
+    def at(self, times: ArrayLike) -> Samples:
+        """Attitudes and angular velocities of all members, in one pass."""
+    def attitude(self, times: ArrayLike, out: _Array | None = None) -> _Array:
+        """Attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones."""
+    @property
+    def plans(self) -> list[Plan]:
+        """The plan of every member: a list of `Plan`."""
+    @property
+    def moments(self) -> _Array:
+        """The moments about body axes 1, 2, 3: a read-only array, shape (m, 3)."""
+    @property
+    def attitudes(self) -> _Array:
+        """The attitudes at time 0 as given: unit quaternions [x, y, z, w], a read-only array, shape (m, 4)."""
+    @property
+    def angular_velocities(self) -> _Array:
+        """The angular velocities at time 0, in body components, in rad per unit of time: a read-only array, shape (m, 3)."""
+    @property
+    def tolerance(self) -> float:
+        """The attitude error asked for, in rad."""
+    @property
+    def threads(self) -> int | None:
+        """The number of threads asked for, or None."""
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int, /) -> Motion: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: None  # type: ignore[assignment]
+    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
+    def __copy__(self) -> Ensemble: ...
+    def __deepcopy__(self, _memo: Any) -> Ensemble: ...
 
 @final
 class NormalForm:
@@ -333,13 +456,15 @@ class BirkhoffNormalForm:
     def to_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The new variables of states."""
     def from_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The states of new variables."""
+        """The states of new variables; errors are those of `to_normal`."""
     def actions(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The actions of states, which hardly change along a motion unless a resonance exchanges them."""
     def frequency_map(self, actions: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The frequencies Ω = ∂K/∂I at actions."""
     def trajectory(self, state: ArrayLike, times: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The states at times after that of `state`: the angles move uniformly with the frequencies at its actions."""
+    def to_sympy(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> Any:
+        """A part of this normal form as SymPy expressions. SymPy is imported here and nowhere else."""
     def __eq__(self, other: object, /) -> bool: ...
     def __copy__(self) -> BirkhoffNormalForm: ...
     def __deepcopy__(self, _memo: Any) -> BirkhoffNormalForm: ...

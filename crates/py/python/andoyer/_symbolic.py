@@ -1,4 +1,4 @@
-"""The normal form as SymPy expressions: what `NormalForm.to_sympy` returns. SymPy is imported in `expressions` and nowhere else.
+"""Normal forms as SymPy expressions: what the methods `to_sympy` return. SymPy is imported in `_sympy` and nowhere else.
 
 All coefficients are exact, `Rational` and `I`. The symbols carry no assumptions, so that ``sympy.Symbol("beta")`` is the one in the expression.
 """
@@ -7,24 +7,59 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from andoyer._core import ResonanceError
+
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
     from fractions import Fraction
 
-    from andoyer import NormalForm
+    from andoyer import BirkhoffNormalForm, NormalForm
 
 
 def expressions(normal_form: NormalForm, what: str) -> Any:
     """A part of a normal form; `what` is one that `NormalForm.to_latex` knows."""
-    try:
-        import sympy
-    except ImportError as error:
-        raise ImportError("to_sympy needs SymPy, which is not installed: pip install sympy", name="sympy") from error
+    sympy = _sympy()
     if what == "hamiltonian":
         return _hamiltonian(sympy, normal_form)
     if what == "generator":
         return [_tau(sympy) ** m * _form(sympy, normal_form.generator(m)) for m in range(1, normal_form.order + 1)]
     series = normal_form.direct if what == "direct" else normal_form.inverse
     return {name: _transformation(sympy, series, name, normal_form.order) for name in ("u", "U", "y")}
+
+
+def birkhoff(normal_form: BirkhoffNormalForm, what: str) -> Any:
+    """A part of a Birkhoff normal form; `what` as in `expressions`."""
+    sympy = _sympy()
+    variables = [name for pair in normal_form.variables for name in pair]
+    names = [*variables, *normal_form.parameters]
+    if what == "hamiltonian":
+        try:
+            return _polynomial(sympy, normal_form.in_actions(), [f"I_{q}" for q, _ in normal_form.variables] + names[len(variables) :])
+        except ResonanceError:
+            return _polynomial(sympy, normal_form.in_real(), names)
+    if what == "generator":
+        return [_polynomial(sympy, normal_form.generator(m), names) for m in range(1, normal_form.order + 1)]
+    series = normal_form.direct if what == "direct" else normal_form.inverse
+    return {name: _polynomial(sympy, series(name), names) for name in variables}
+
+
+def _sympy() -> Any:
+    try:
+        import sympy
+    except ImportError as error:
+        raise ImportError("to_sympy needs SymPy, which is not installed: pip install sympy", name="sympy") from error
+    return sympy
+
+
+def _polynomial(sympy: Any, terms: Mapping[tuple[int, ...], Fraction | float], names: Sequence[str]) -> Any:
+    """Σ c x₁^e₁ x₂^e₂ …, floats as SymPy's of 53 bits."""
+    symbols = [sympy.Symbol(name) for name in names]
+
+    def term(exponents: tuple[int, ...], c: Fraction | float) -> Any:
+        number = sympy.Float(c) if isinstance(c, float) else _rational(sympy, c)
+        return sympy.Mul(number, *(symbol**e for symbol, e in zip(symbols, exponents, strict=True)))
+
+    return sympy.Add(*(term(exponents, c) for exponents, c in terms.items()))
 
 
 def _hamiltonian(sympy: Any, normal_form: NormalForm) -> Any:

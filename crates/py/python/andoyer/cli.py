@@ -1,4 +1,4 @@
-"""The command line: `andoyer propagate`, `plan`, `bodies`, `series`.
+"""The command line: `andoyer propagate`, `plan`, `plot`, `bodies`, `series`.
 
 Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion that is not served.
 """
@@ -8,14 +8,18 @@ import math
 import os
 import sys
 from collections.abc import Callable
+from datetime import datetime
 from fractions import Fraction
 from pathlib import Path
-from typing import NoReturn, TextIO, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 import andoyer
+from andoyer import output
+from andoyer._extra import extra
+from andoyer.output import COLUMNS, CONVENTION, TIME_SYSTEMS, Heading
 
 Value = TypeVar("Value")
 
@@ -28,14 +32,10 @@ SAMPLES = 1000
 MOST_SAMPLES = 10**9
 """More would not fit a file that anyone reads."""
 
+ENDINGS = ".csv, .npz, .parquet or .aem"
+PICTURES = [".png", ".svg", ".pdf"]
 LANGUAGES = ["c", "rust", "python"]
 PARTS = ["hamiltonian", "generator", "direct", "inverse"]
-
-COLUMNS = "t,qx,qy,qz,qw,wx,wy,wz"
-CONVENTION = (
-    "t in the scene's unit of time; attitude [qx, qy, qz, qw]: unit quaternion, Hamilton product, scalar last, "
-    "body components to inertial ones; angular velocity [wx, wy, wz]: body components, rad per unit of time"
-)
 
 
 class InputError(Exception):
@@ -63,7 +63,7 @@ def main(argv: list[str] | None = None) -> int:
         # The reader of a pipe has seen enough; nothing may be flushed into it at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
-    except (InputError, andoyer.Error, OSError, MemoryError) as error:
+    except (InputError, andoyer.Error, ImportError, OSError, MemoryError) as error:
         print("andoyer: error:", " ".join(str(error).split()) or type(error).__name__, file=sys.stderr)
         return 2
     except KeyboardInterrupt:
@@ -81,13 +81,24 @@ def parser() -> Parser:
     writes = "write attitude and angular velocity at equal steps of time"
     command = commands.add_parser("propagate", help=writes, description=f"{writes.capitalize()}.", epilog=f"Columns {COLUMNS}: {CONVENTION}.")
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
-    command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .csv or .npz by its ending; - is CSV on stdout")
+    command.add_argument("-o", "--output", metavar="FILE", required=True, help=f"what is written, {ENDINGS} by its ending; - is CSV on stdout")
     command.add_argument("--start", type=number, metavar="T", help="first time (default: the scene's span, else its epoch)")
     command.add_argument("--stop", type=number, metavar="T", help=f"last time (default: the scene's span, else {ROTATIONS} rotations on)")
     spacing = command.add_mutually_exclusive_group()
     spacing.add_argument("--samples", type=count, metavar="N", help=f"number of times, the last one included (default: {SAMPLES})")
     spacing.add_argument("--step", type=step, metavar="DT", help="time from one sample to the next, from the first time on")
+    message = command.add_argument_group("the message of a .aem (CCSDS AEM version 2, times in seconds)")
+    default = Heading()
+    message.add_argument("--date", type=date, metavar="DATE", help=f"calendar date of time 0 (default: {default.date.isoformat()})")
+    message.add_argument("--time-system", choices=TIME_SYSTEMS, metavar="SYSTEM", help=f"of that date: {', '.join(TIME_SYSTEMS)} (default: {default.time_system})")
+    message.add_argument("--frame", type=word, metavar="NAME", help=f"name of the inertial frame (default: {default.frame})")
     command.set_defaults(run=propagate)
+
+    pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole"
+    command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib: andoyer[plot].")
+    command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
+    command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .png, .svg or .pdf by its ending")
+    command.set_defaults(run=plot)
 
     command = commands.add_parser("plan", help="print what would be evaluated, and why")
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
@@ -126,6 +137,16 @@ def count(text: str) -> int:
     return checked(text, int, lambda value: 1 <= value <= MOST_SAMPLES, f"a whole number from 1 to {MOST_SAMPLES}")
 
 
+def date(text: str) -> datetime:
+    """A calendar date without a zone."""
+    return checked(text, datetime.fromisoformat, lambda value: value.tzinfo is None, "a date like 2000-01-01T12:00:00, without a zone")
+
+
+def word(text: str) -> str:
+    """A word of printable ASCII characters."""
+    return checked(text, str, lambda value: value.isascii() and value.isprintable() and value.split() == [value], "one word in ASCII")
+
+
 def checked(text: str, read: Callable[[str], Value], accepts: Callable[[Value], bool], expected: str) -> Value:
     """`text` as `read` reads it, if that is accepted; argparse puts the name of the argument before the message."""
     refusal = argparse.ArgumentTypeError(f"must be {expected}: got {text!r}")
@@ -140,18 +161,48 @@ def checked(text: str, read: Callable[[str], Value], accepts: Callable[[Value], 
 
 def propagate(arguments: argparse.Namespace) -> None:
     """Write a motion at equal steps of time."""
-    output = Path(arguments.output)
+    path = Path(arguments.output)
     to_stdout = arguments.output == "-"
-    write = {".csv": write_csv, ".npz": write_npz}.get(output.suffix.lower())
-    if write is None and not to_stdout:
-        raise InputError(f"argument -o/--output: {arguments.output}: the name must end in .csv or .npz, or be - for CSV on stdout")
+    ending = path.suffix.lower()
+    writers = {".csv": output.write_csv, ".npz": output.write_npz, ".parquet": output.write_parquet}
+    if not (to_stdout or ending in writers or ending == ".aem"):
+        raise InputError(f"argument -o/--output: {arguments.output}: the name must end in {ENDINGS}, or be - for CSV on stdout")
+    given = {key: getattr(arguments, key) for key in ("date", "time_system", "frame") if getattr(arguments, key) is not None}
+    if given and ending != ".aem":
+        raise InputError(f"argument --{next(iter(given)).replace('_', '-')}: goes with a .aem alone, not with {arguments.output}")
     motion = solved(arguments.scene)
     samples = motion.at(instants(arguments, motion))
-    note_sparse(motion, samples.times)
-    if write is None:
-        write_table(sys.stdout, samples)
+    if to_stdout:
+        output.write_table(sys.stdout, samples)
+    elif ending == ".aem":
+        write_message(path, motion, samples, given)
     else:
-        write(output, samples)
+        writers[ending](path, samples)
+    note_sparse(motion, samples.times)
+
+
+def write_message(path: Path, motion: andoyer.Motion, samples: andoyer.Samples, given: dict[str, Any]) -> None:
+    """Write an AEM; what was not given of its heading is said on stderr."""
+    name = motion.scene.name or motion.scene.body.name or Heading.name
+    heading = Heading(name=name, **given)
+    try:
+        output.write_aem(path, samples, heading)
+    except ValueError as error:
+        raise InputError(f"argument -o/--output: {path}: {error}") from error
+    if "date" not in given or "frame" not in given:
+        said = f"time 0 is {heading.date.isoformat()} {heading.time_system}, the inertial frame {heading.frame}"
+        print(f"andoyer: note: {said}; --date and --frame name others", file=sys.stderr)
+
+
+def plot(arguments: argparse.Namespace) -> None:
+    """Draw the pictures of a motion."""
+    path = Path(arguments.output)
+    if path.suffix.lower() not in PICTURES:
+        raise InputError(f"argument -o/--output: {arguments.output}: the name must end in {', '.join(PICTURES)}")
+    extra("matplotlib", "plot", "drawing").use("Agg")
+    from andoyer import plot as pictures
+
+    pictures.summary(solved(arguments.scene)).savefig(path, dpi=130)
 
 
 def solved(path: str) -> andoyer.Motion:
@@ -200,31 +251,6 @@ def interval(motion: andoyer.Motion, start: float | None, stop: float | None) ->
     if not start <= stop:
         raise InputError(f"argument --stop: {stop!r} is before the first time, {start!r}")
     return start, stop
-
-
-def write_csv(path: Path, samples: andoyer.Samples) -> None:
-    """Samples as a CSV file."""
-    with path.open("w", encoding="utf-8", newline="\n") as file:
-        write_table(file, samples)
-
-
-def write_table(file: TextIO, samples: andoyer.Samples) -> None:
-    """Samples as CSV: the names of the columns, one line a time with all 17 digits."""
-    table = np.column_stack([samples.times, samples.attitude, samples.angular_velocity])
-    file.write(f"{COLUMNS}\n")
-    np.savetxt(file, table, fmt="%.17g", delimiter=",")
-
-
-def write_npz(path: Path, samples: andoyer.Samples) -> None:
-    """Samples as NPZ: arrays times, attitude, angular_velocity, and the convention."""
-    with path.open("wb") as file:
-        np.savez(
-            file,
-            times=samples.times,
-            attitude=samples.attitude,
-            angular_velocity=samples.angular_velocity,
-            convention=np.array(CONVENTION),
-        )
 
 
 def plan(arguments: argparse.Namespace) -> None:

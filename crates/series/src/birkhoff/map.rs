@@ -6,7 +6,7 @@
 //! amplitude ε is of the order ε^(N+2).
 
 use super::{BirkhoffNormalForm, turns};
-use crate::{Error, Monomial, Polynomial, RealField, SLOTS};
+use crate::{Error, Monomial, Polynomial, Progress, RealField, SLOTS, quiet};
 use num_complex::Complex;
 
 /// A normal form ready for numbers: the transformation of states and the motion in the normal form.
@@ -45,6 +45,18 @@ impl BirkhoffMap {
     /// # Errors
     /// - one number for two parameters: [`Error::CountMismatch`]; a NaN, or floats that overflow: [`Error::NotFinite`].
     pub fn new<R: RealField>(normal_form: &BirkhoffNormalForm<R>, parameters: &[f64]) -> Result<Self, Error> {
+        Self::with_progress(normal_form, parameters, &mut quiet)
+    }
+
+    /// As [`new`](Self::new), with a callback as that of [`normalize_with`](crate::normalize_with), for every series anew.
+    ///
+    /// # Errors
+    /// - as [`new`](Self::new); a callback that returns `Break`: [`Error::Interrupted`].
+    pub fn with_progress<R: RealField>(
+        normal_form: &BirkhoffNormalForm<R>,
+        parameters: &[f64],
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Error> {
         let modes = normal_form.space().degrees_of_freedom();
         check("parameters", parameters, normal_form.space().parameters())?;
         let transform = normal_form.transform().map(|c| {
@@ -61,8 +73,8 @@ impl BirkhoffMap {
         let (mut direct, mut inverse) = (Vec::new(), Vec::new());
         for mode in 0..modes {
             let variable = Polynomial::variable(2 * mode + 1)?;
-            direct.push(series(transform.direct(&variable)?)?);
-            inverse.push(series(transform.inverse(&variable)?)?);
+            direct.push(series(transform.direct_with(&variable, progress)?)?);
+            inverse.push(series(transform.inverse_with(&variable, progress)?)?);
         }
         let ratios = normal_form.ratios().iter().map(R::to_float).collect();
         Ok(BirkhoffMap { ratios, direct, inverse, frequencies: frequencies(normal_form, parameters)? })
@@ -185,6 +197,9 @@ impl Series {
             let mut product = c;
             for (slot, table) in powers.iter_mut().enumerate().take(SLOTS) {
                 let exponent = monomial.exponent(slot) as usize;
+                if exponent == 0 {
+                    continue;
+                }
                 while table.len() <= exponent {
                     table.push(table[table.len() - 1] * table[1]);
                 }

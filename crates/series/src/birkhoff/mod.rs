@@ -20,10 +20,9 @@ pub use phase_space::PhaseSpace;
 pub use resonances::Resonances;
 
 use crate::triangle::{Removal, normalize_by};
-use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, Progress, RealField};
+use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, Progress, RealField, quiet};
 use elliptic::Mode;
 use resonances::{divisor, is_small};
-use std::ops::ControlFlow;
 
 /// The normal form of a Hamiltonian about an elliptic point, and the transformation to it.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,21 +68,20 @@ pub fn normalize<R: RealField>(
     order: usize,
     space: &PhaseSpace,
 ) -> Result<BirkhoffNormalForm<R>, Error> {
-    normalize_with(hamiltonian, order, space, &Resonances::default(), &mut |_, _| ControlFlow::Continue(()))
+    normalize_with(hamiltonian, order, space, &Resonances::default(), &mut quiet)
 }
 
 /// The normal form of `hamiltonian` to `order` that keeps the terms of `resonances`.
 ///
-/// `progress` is called before every cell of the triangle, with the number of orders done.
+/// `progress` is called before every cell of the triangle, and within long ones, with (orders done, `order`).
 ///
 /// ```
-/// use andoyer_series::{PhaseSpace, Resonances, normalize_with};
+/// use andoyer_series::{PhaseSpace, Resonances, normalize_with, quiet};
 /// use num_rational::BigRational;
-/// use std::ops::ControlFlow;
 /// let space = PhaseSpace::new(&[("x", "X"), ("y", "Y")])?;
 /// let henon_heiles = space.parse::<BigRational>("(x^2 + X^2 + y^2 + Y^2)/2 + x^2*y - y^3/3")?;
 /// let one_to_one = Resonances::new(&[&[1, -1]])?;
-/// let normal_form = normalize_with(&henon_heiles, 2, &space, &one_to_one, &mut |_, _| ControlFlow::Continue(()))?;
+/// let normal_form = normalize_with(&henon_heiles, 2, &space, &one_to_one, &mut quiet)?;
 /// // With N = I_x + I_y and the angular momentum L: K = N − (5/12) N² + (7/12) L².
 /// let n = "(x^2 + X^2 + y^2 + Y^2)/2";
 /// assert_eq!(normal_form.in_real()?, space.parse(&format!("{n} - 5/12*({n})^2 + 7/12*(x*Y - y*X)^2"))?);
@@ -278,7 +276,15 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// # Errors
     /// - degrees that outgrow the packed exponents: [`Error::ExponentOverflow`].
     pub fn direct(&self, f: &Polynomial<R>) -> Result<Polynomial<R>, Error> {
-        self.transported(f, |transform, part| transform.direct(part))
+        self.direct_with(f, &mut quiet)
+    }
+
+    /// As [`direct`](Self::direct), with a callback as that of [`normalize_with`], for every homogeneous part of f anew.
+    ///
+    /// # Errors
+    /// - as [`direct`](Self::direct); a callback that returns `Break`: [`Error::Interrupted`].
+    pub fn direct_with(&self, f: &Polynomial<R>, progress: &mut Progress<'_>) -> Result<Polynomial<R>, Error> {
+        self.transported(f, |transform, part| transform.direct_with(part, progress))
     }
 
     /// A function f of the new variables in the old ones, complete to degree d + N, d the lowest positive degree of f.
@@ -286,14 +292,25 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// # Errors
     /// - as [`direct`](Self::direct).
     pub fn inverse(&self, f: &Polynomial<R>) -> Result<Polynomial<R>, Error> {
-        self.transported(f, |transform, part| transform.inverse(part))
+        self.inverse_with(f, &mut quiet)
+    }
+
+    /// As [`inverse`](Self::inverse), with a callback as that of [`normalize_with`], for every homogeneous part of f anew.
+    ///
+    /// # Errors
+    /// - as [`direct_with`](Self::direct_with).
+    pub fn inverse_with(&self, f: &Polynomial<R>, progress: &mut Progress<'_>) -> Result<Polynomial<R>, Error> {
+        self.transported(f, |transform, part| transform.inverse_with(part, progress))
     }
 
     /// The sum of the series of the homogeneous parts of f, each only as far as all of them are known.
     fn transported(
         &self,
         f: &Polynomial<R>,
-        apply: impl Fn(&LieTransform<R::Complex>, &Polynomial<R::Complex>) -> Result<Vec<Polynomial<R::Complex>>, Error>,
+        mut apply: impl FnMut(
+            &LieTransform<R::Complex>,
+            &Polynomial<R::Complex>,
+        ) -> Result<Vec<Polynomial<R::Complex>>, Error>,
     ) -> Result<Polynomial<R>, Error> {
         let phase = self.space.phase_slots();
         let degrees = || f.terms().map(|(monomial, _)| monomial.degree_in(&phase)).filter(|&degree| degree > 0);

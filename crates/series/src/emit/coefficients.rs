@@ -8,10 +8,9 @@
 //!
 //! At a given β the coefficients are those of [`NumericNormalForm`] in double-double, otherwise the exact polynomials in β²: each number is rounded once.
 
-use crate::rigid_body::Variable;
+use crate::rigid_body::{Variable, turned_complex as turned};
 use crate::{DoubleDouble, Error, NormalForm, NumericNormalForm};
 use num_bigint::BigInt;
-use num_complex::Complex;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
@@ -60,7 +59,7 @@ impl Coefficients {
         Ok(result.trimmed())
     }
 
-    /// Those of every β, as polynomials in β².
+    /// Those of every β, as polynomials in β²; the harmonics have the powers of β that theory §2 gives them, those from a file too.
     pub(super) fn symbolic(normal_form: &NormalForm) -> Result<Self, Error> {
         let order = normal_form.order();
         let mut result = Self::empty(order);
@@ -69,13 +68,13 @@ impl Coefficients {
             for ((j, k, l), c) in normal_form.direct(Variable::Momentum, n)? {
                 let harmonic = i64::from(k) - i64::from(j);
                 if let Some(target) = result.oscillator(n, harmonic) {
-                    put(target, (l - harmonic.abs_diff(1) as u32 / 2) / 2, &turned(c, j).re)?;
+                    put(target, (l - harmonic.abs_diff(1) as u32 / 2) / 2, &turned(&c, j as usize).re)?;
                 }
             }
             for ((j, k, l), c) in normal_form.direct(Variable::Angle, n)?.into_iter().filter(|((j, k, _), _)| k > j) {
                 let half = (k - j) / 2;
                 let target = &mut result.longitude[half as usize - 1][n - half as usize];
-                put(target, (l - half) / 2, &(turned(c, j).im * BigRational::from_integer((-2).into())))?;
+                put(target, (l - half) / 2, &(turned(&c, j as usize).im * BigRational::from_integer((-2).into())))?;
             }
         }
         for n in 0..=order {
@@ -142,14 +141,4 @@ fn put(target: &mut Vec<f64>, index: u32, value: &BigRational) -> Result<(), Err
     }
     target[index] = value.to_f64().ok_or(Error::DivisionByZero)?; // none but for 0/0
     Ok(())
-}
-
-/// iⁿ c: a coefficient of u^j becomes that of w̄^j (theory §1).
-fn turned(c: Complex<BigRational>, n: u32) -> Complex<BigRational> {
-    match n % 4 {
-        0 => c,
-        1 => Complex::new(-c.im, c.re),
-        2 => -c,
-        _ => Complex::new(c.im, -c.re),
-    }
 }

@@ -1,0 +1,40 @@
+//! A Birkhoff normal form in one kind of numbers or the other, exact or floats.
+
+use andoyer_series::{BirkhoffNormalForm as Inner, Polynomial, RealField};
+use num_rational::BigRational;
+use pyo3::prelude::*;
+
+use crate::progress;
+
+/// A normal form in one kind of numbers or the other.
+#[derive(PartialEq)]
+pub(crate) enum Form {
+    Exact(Inner<BigRational>),
+    Float(Inner<f64>),
+}
+
+/// One expression for both kinds of numbers.
+macro_rules! either {
+    ($form:expr, $inner:ident => $result:expr) => {
+        match $form {
+            Form::Exact($inner) => $result,
+            Form::Float($inner) => $result,
+        }
+    };
+}
+pub(crate) use either;
+
+/// Exact coefficients as floats.
+pub(crate) fn rounded(polynomial: &Polynomial<BigRational>) -> Polynomial<f64> {
+    polynomial.map(RealField::to_float)
+}
+
+/// A function in the variables of the other side.
+pub(crate) fn transformed<R: RealField>(
+    py: Python<'_>,
+    form: &Inner<R>,
+    f: &Polynomial<R>,
+    direct: bool,
+) -> PyResult<Polynomial<R>> {
+    progress::reported(py, None, |tell| if direct { form.direct_with(f, tell) } else { form.inverse_with(f, tell) })
+}

@@ -1,0 +1,153 @@
+//! `andoyer.Orbit`.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::{array, error};
+
+/// The names of the elements after the mean motion and the eccentricity, in the order of the core's.
+const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argument_of_pericentre", "mass_fraction"];
+
+/// Relative Keplerian orbit of a body whose gravity gradient acts on the rotating one (theory §9).
+///
+/// Elements are those of the inertial frame that attitudes lead to. With none but the mean motion: a circle in the x, y plane, the disturbing body on
+/// the x axis at time 0.
+///
+/// Parameters
+/// ----------
+/// mean_motion : float
+///     n, in rad per unit of time; n²a³ is G times the sum of both masses.
+/// eccentricity : float, optional
+///     0 or more and less than 1.
+/// time_of_pericentre : float, optional
+///     A time at which the pericentre is passed.
+/// inclination, node, argument_of_pericentre : float, optional
+///     Of the orbit plane and in it, in rad.
+/// mass_fraction : float, optional
+///     Disturbing mass over the sum of both: 1 for the Sun on an asteroid, 1/82.3 for the Moon on the Earth.
+///
+/// Raises
+/// ------
+/// OrbitError
+///     A mean motion of 0 or -1, an eccentricity of 1 or -0.1, a mass fraction of 0 or 1.1, or what is not finite.
+/// TypeError
+///     A text.
+///
+/// Examples
+/// --------
+/// >>> import numpy as np
+/// >>> sun = Orbit(2e-3, 0.1, inclination=0.4)
+/// >>> scene = Scene(Body([1, 1.02, 1.05]), [0, 0, 0, 1], [0, 0, 1], orbit=sun)
+/// >>> motion = scene.solve()
+/// >>> motion.plan.averaging, motion.plan.torque < 1e-5
+/// ('spin', True)
+/// >>> pole = motion.angular_momentum([0, 1e6])
+/// >>> bool(np.abs(pole[1] - pole[0]).max() > 0.01)  # the pole precesses
+/// True
+#[pyclass(frozen, eq, module = "andoyer")]
+#[derive(PartialEq)]
+pub(crate) struct Orbit(pub(crate) andoyer_propagate::Orbit);
+
+#[pymethods]
+impl Orbit {
+    #[new]
+    #[pyo3(signature = (
+        mean_motion, eccentricity=0.0, *, time_of_pericentre=0.0, inclination=0.0, node=0.0, argument_of_pericentre=0.0, mass_fraction=1.0
+    ))]
+    fn new(
+        #[pyo3(from_py_with = mean_motion)] mean_motion: f64,
+        #[pyo3(from_py_with = eccentricity)] eccentricity: f64,
+        #[pyo3(from_py_with = time_of_pericentre)] time_of_pericentre: f64,
+        #[pyo3(from_py_with = inclination)] inclination: f64,
+        #[pyo3(from_py_with = node)] node: f64,
+        #[pyo3(from_py_with = argument_of_pericentre)] argument_of_pericentre: f64,
+        #[pyo3(from_py_with = mass_fraction)] mass_fraction: f64,
+    ) -> PyResult<Self> {
+        andoyer_propagate::Orbit::new(mean_motion, eccentricity)
+            .and_then(|orbit| orbit.time_of_pericentre(time_of_pericentre))
+            .and_then(|orbit| orbit.plane(inclination, node, argument_of_pericentre))
+            .and_then(|orbit| orbit.mass_fraction(mass_fraction))
+            .map(Self)
+            .map_err(error::propagation)
+    }
+
+    /// Mean motion n, in rad per unit of time.
+    #[getter]
+    fn mean_motion(&self) -> f64 {
+        self.0.elements()[0]
+    }
+
+    /// Eccentricity, 0 or more and less than 1.
+    #[getter]
+    fn eccentricity(&self) -> f64 {
+        self.0.elements()[1]
+    }
+
+    /// A time at which the pericentre is passed.
+    #[getter]
+    fn time_of_pericentre(&self) -> f64 {
+        self.0.elements()[2]
+    }
+
+    /// Inclination of the orbit plane, in rad.
+    #[getter]
+    fn inclination(&self) -> f64 {
+        self.0.elements()[3]
+    }
+
+    /// Longitude of the ascending node, in rad.
+    #[getter]
+    fn node(&self) -> f64 {
+        self.0.elements()[4]
+    }
+
+    /// Argument of the pericentre, from the node, in rad.
+    #[getter]
+    fn argument_of_pericentre(&self) -> f64 {
+        self.0.elements()[5]
+    }
+
+    /// Disturbing mass over the sum of both.
+    #[getter]
+    fn mass_fraction(&self) -> f64 {
+        self.0.elements()[6]
+    }
+
+    pub(crate) fn __repr__(&self) -> String {
+        let [mean_motion, eccentricity, rest @ ..] = self.0.elements();
+        let keywords: Vec<_> = KEYWORDS.iter().zip(rest).map(|(key, value)| format!(", {key}={value:?}")).collect();
+        format!("Orbit({mean_motion:?}, {eccentricity:?}{})", keywords.concat())
+    }
+
+    pub(crate) fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
+        PyTuple::new(py, self.0.elements())?.hash()
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let [mean_motion, eccentricity, rest @ ..] = self.0.elements();
+        let keywords = PyDict::new(py);
+        for (key, value) in KEYWORDS.iter().zip(rest) {
+            keywords.set_item(key, value)?;
+        }
+        ((mean_motion, eccentricity), keywords).into_pyobject(py)
+    }
+}
+
+// PyO3 leaves the name of an argument out of the message of its own `TypeError`.
+macro_rules! number {
+    ($($argument:ident),*) => {
+        $(fn $argument(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+            array::number(stringify!($argument), value)
+        })*
+    };
+}
+
+number!(mean_motion, eccentricity, time_of_pericentre, inclination, node, argument_of_pericentre, mass_fraction);

@@ -1,0 +1,278 @@
+"""Ensembles: the bits of single motions for any number of threads, shapes, what is refused and of which member, copies."""
+
+import copy
+import itertools
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import andoyer
+from andoyer import Body, Ensemble, Scene
+
+MEMBERS = 200  # of all modes, in blocks for several threads
+LEVEL = [0.0, 0.0, 0.0, 1.0]
+
+
+def random_members():
+    generator = np.random.default_rng(20170101)
+    moments = np.sort(generator.uniform(0.5, 1.0, (MEMBERS, 3)))
+    attitudes = generator.normal(size=(MEMBERS, 4))
+    attitudes /= np.linalg.norm(attitudes, axis=1, keepdims=True)
+    return moments, attitudes, generator.normal(size=(MEMBERS, 3))
+
+
+@pytest.fixture(scope="module")
+def members():
+    return random_members()
+
+
+@pytest.fixture(scope="module")
+def ensemble(members):
+    return Ensemble(*members)
+
+
+def single(members, k, **keywords):
+    moments, attitudes, rates = members
+    return Scene(Body(moments[k]), attitudes[k], rates[k], **keywords).solve()
+
+
+@pytest.mark.parametrize("threads", [None, 1, 2, 7])
+def test_members_have_the_bits_of_single_motions_for_any_number_of_threads(members, threads):
+    times = [-10.0, 0.0, 3.5, 1e6]
+    ensemble = Ensemble(*members, threads=threads)
+    samples = ensemble.at(times)
+    assert samples.attitude.shape == (MEMBERS, 4, 4) and samples.angular_velocity.shape == (MEMBERS, 4, 3)
+    assert np.array_equal(ensemble.attitude(times), samples.attitude)
+    for k in range(MEMBERS):
+        alone = single(members, k).at(times)
+        assert np.array_equal(samples.attitude[k], alone.attitude)
+        assert np.array_equal(samples.angular_velocity[k], alone.angular_velocity)
+
+
+def test_members_may_have_their_own_times(ensemble, members):
+    times = np.linspace(-100, 100, 3 * MEMBERS).reshape(MEMBERS, 3)
+    samples = ensemble.at(times)
+    assert np.array_equal(samples.times, times) and samples.times is not times
+    for k in range(MEMBERS):
+        assert np.array_equal(samples.attitude[k], single(members, k).attitude(times[k]))
+        assert np.array_equal(samples.angular_velocity[k], single(members, k).angular_velocity(times[k]))
+    same = np.broadcast_to(times[0], (MEMBERS, 3))  # not contiguous: strides of 0
+    assert np.array_equal(ensemble.attitude(same), ensemble.attitude(times[0]))
+
+
+@pytest.mark.parametrize("shape", [(), (0,), (1,), (4,), (MEMBERS, 0), (MEMBERS, 1), (MEMBERS, 4)])
+def test_results_have_an_axis_of_members_the_axis_of_times_and_one_more(ensemble, shape):
+    samples = ensemble.at(np.zeros(shape))
+    each = shape[-1:]
+    assert samples.times.shape == shape
+    assert samples.attitude.shape == ensemble.attitude(np.zeros(shape)).shape == (MEMBERS, *each, 4)
+    assert samples.angular_velocity.shape == (MEMBERS, *each, 3)
+    assert len(samples) == MEMBERS
+    for array in [samples.attitude, samples.angular_velocity]:
+        assert array.dtype == np.float64 and array.flags.c_contiguous and array.flags.writeable
+
+
+def test_samples_say_of_what_they_are(ensemble):
+    shown = {0.0: "a scalar time", (1.0,): "1 time", (1.0, 2.0): "2 times"}
+    for times, text in shown.items():
+        assert repr(ensemble.at(times)) == f"<Samples of {MEMBERS} members at {text}>"
+    assert repr(ensemble.at(np.zeros((MEMBERS, 2)))) == f"<Samples of {MEMBERS} members at 2 times each>"
+    assert repr(Ensemble([[1, 1, 1]], LEVEL, [0, 0, 1]).at([[1, 2]])) == "<Samples of 1 member at 2 times each>"
+
+
+def test_all_kinds_of_arrays_give_the_same_bits(members):
+    moments, attitudes, rates = members
+    expected = Ensemble(moments, attitudes, rates).attitude([1.0, 2.0])
+    fortran = [np.asfortranarray(array) for array in members]
+    strided = [np.repeat(array, 2, axis=0)[::2] for array in members]
+    backwards = [array[::-1].copy()[::-1] for array in members]
+    swapped = [array.astype(">f8") for array in members]
+    for kind in [fortran, strided, backwards, swapped, [array.tolist() for array in members]]:
+        assert np.array_equal(Ensemble(*kind).attitude(np.array([1, 2])), expected)
+    whole = Ensemble(np.array([[2, 3, 4]] * 2), np.array([[0, 0, 0, 1]] * 2), np.array([[0, 1, 5], [5, 1, 0]], dtype=np.int32))
+    assert np.array_equal(whole.attitude(7)[1], Scene(Body([2.0, 3.0, 4.0]), LEVEL, [5.0, 1.0, 0.0]).solve().attitude(7.0))
+
+
+def test_one_row_stands_for_every_member():
+    rows = {"moments": [1.0, 1.5, 2.0], "attitudes": [0.6, 0.0, 0.0, 0.8], "angular_velocities": [0.1, 0.2, 1.0]}
+    expected = Ensemble(*([row] * 3 for row in rows.values()))
+    for many in itertools.chain.from_iterable(itertools.combinations(rows, size) for size in (1, 2)):
+        assert Ensemble(**{name: [row] * 3 if name in many else row for name, row in rows.items()}) == expected
+    with pytest.raises(andoyer.ShapeError, match="one row each"):
+        Ensemble(**rows)
+
+
+def test_members_are_motions(ensemble, members):
+    times = [0.0, 5.0]
+    for k in [0, 17, MEMBERS - 1]:
+        motion = ensemble[k]
+        assert motion.scene == single(members, k).scene
+        assert np.array_equal(motion.attitude(times), ensemble.attitude(times)[k])
+    assert np.array_equal(ensemble[-1].attitude(times), ensemble[MEMBERS - 1].attitude(times))
+    assert len(ensemble) == len(list(ensemble)) == MEMBERS
+    for index in [MEMBERS, -MEMBERS - 1, 2**62]:
+        with pytest.raises(IndexError, match=f"member {index} of an ensemble of {MEMBERS}"):
+            ensemble[index]
+
+
+def test_plans_are_those_of_single_motions(ensemble, members):
+    plans = ensemble.plans
+    assert plans == [single(members, k).plan for k in range(MEMBERS)]
+    assert {plan.mode for plan in plans} == {"short-axis", "long-axis"}
+
+
+def test_tolerance_is_that_of_every_member(members):
+    loose = Ensemble(*members, tolerance=1e-4)
+    assert loose.plans == [single(members, k, tolerance=1e-4).plan for k in range(MEMBERS)]
+    assert np.array_equal(loose.attitude(3.0)[5], single(members, 5, tolerance=1e-4).attitude(3.0))
+
+
+def test_what_was_given_can_be_read_and_not_written(ensemble, members):
+    for name, given in zip(["moments", "attitudes", "angular_velocities"], members, strict=True):
+        array = getattr(ensemble, name)
+        assert np.array_equal(array, given) and not array.flags.writeable
+    assert (ensemble.tolerance, ensemble.threads) == (1e-12, None)
+    with pytest.raises(AttributeError):
+        ensemble.tolerance = 1.0
+
+
+def test_equality_and_text(ensemble, members):
+    moments, attitudes, rates = members
+    assert ensemble == Ensemble(*members)
+    for other in [
+        Ensemble(moments[::-1], attitudes, rates),
+        Ensemble(moments, attitudes[::-1], rates),
+        Ensemble(moments, attitudes, rates[::-1]),
+        Ensemble(*members, tolerance=1e-9),
+        Ensemble(*members, threads=1),
+        Ensemble(*(array[1:] for array in members)),
+        None,
+    ]:
+        assert ensemble != other
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(ensemble)
+    assert repr(ensemble) == f"<Ensemble of {MEMBERS} bodies, tolerance=1e-12>"
+    assert repr(Ensemble([1, 1, 1], [LEVEL], [0, 0, 1], threads=2)) == "<Ensemble of 1 body, tolerance=1e-12, threads=2>"
+
+
+@pytest.mark.parametrize("protocol", range(2, pickle.HIGHEST_PROTOCOL + 1))
+def test_ensembles_and_their_samples_are_pickled(members, protocol):
+    ensemble = Ensemble(*members, tolerance=1e-9, threads=2)
+    again = pickle.loads(pickle.dumps(ensemble, protocol))
+    assert again == ensemble and (again.tolerance, again.threads) == (1e-9, 2)
+    samples = ensemble.at([1.0, 2.0])
+    restored = pickle.loads(pickle.dumps(samples, protocol))
+    assert np.array_equal(restored.attitude, samples.attitude) and repr(restored) == repr(samples)
+
+
+def test_copies_are_itself(ensemble):
+    assert copy.copy(ensemble) is ensemble and copy.deepcopy(ensemble) is ensemble
+
+
+BAD_MEMBERS = {
+    "moments": ("moments", [1.0, 1.0, 2.5], andoyer.MomentsError, r"moments = \[1.0, 1.0, 2.5\]"),
+    "moment": ("moments", [1.0, math.nan, 1.0], andoyer.MomentsError, r"moments\[1\] = NaN"),
+    "attitude": ("attitudes", [0.0] * 4, andoyer.AttitudeError, "attitude = "),
+    "rates": ("angular_velocities", [0.0, 0.0, math.inf], andoyer.AngularVelocityError, r"angular_velocity\[2\] = inf"),
+}
+
+
+@pytest.mark.parametrize("name, row, error, message", BAD_MEMBERS.values(), ids=BAD_MEMBERS)
+@pytest.mark.parametrize("bad", [[17], [17, 18, 199]])
+def test_bad_members_are_named_and_counted(members, name, row, error, message, bad):
+    arrays = dict(zip(["moments", "attitudes", "angular_velocities"], (array.copy() for array in members), strict=True))
+    arrays[name][bad] = row
+    with pytest.raises(error, match=f"^member 17: {message}") as caught:
+        Ensemble(**arrays)
+    assert caught.value.index == 17
+    assert str(caught.value).endswith("(and 2 more bad members)") == (len(bad) == 3)
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert (type(again), str(again), again.index) == (error, str(caught.value), 17)
+
+
+def test_a_single_body_has_an_error_without_index():
+    with pytest.raises(andoyer.MomentsError) as caught:
+        Body([1.0, 1.0, 2.5])
+    assert not hasattr(caught.value, "index")
+
+
+@pytest.mark.parametrize("call", [lambda e: e.at(0.0), lambda e: e.attitude([0.0]), lambda e: e.plans, lambda e: e[9]])
+def test_members_without_a_solution_are_named(members, call):
+    moments, attitudes, rates = (array[:12].copy() for array in members)
+    moments[9], rates[9] = 1e-200, 1e-200
+    ensemble = Ensemble(moments, attitudes, rates)
+    with pytest.raises(andoyer.UnitsError, match="^member 9: moments and angular_velocity") as caught:
+        call(ensemble)
+    assert caught.value.index == 9
+
+
+@pytest.mark.parametrize("method", ["at", "attitude"])
+def test_bad_times_are_refused(ensemble, method):
+    evaluate = getattr(ensemble, method)
+    with pytest.raises(andoyer.TimesError, match=r"^member 0: times\[1\] = NaN") as caught:
+        evaluate([0.0, math.nan])
+    assert caught.value.index == 0
+    own = np.zeros((MEMBERS, 2))
+    own[130, 1] = math.inf
+    with pytest.raises(andoyer.TimesError, match=r"^member 130: times\[1\] = inf") as caught:
+        evaluate(own)
+    assert caught.value.index == 130
+    for shape in [(MEMBERS + 1, 2), (2, MEMBERS), (1, 2), (MEMBERS, 2, 1)]:
+        with pytest.raises(andoyer.ShapeError, match=rf"times has shape .*: it must be \(\), \(n,\) or \({MEMBERS}, n\)"):
+            evaluate(np.zeros(shape))
+    for times in ["now", None, [1j], [True]]:
+        with pytest.raises(TypeError, match="times"):
+            evaluate(times)
+
+
+def test_out_receives_the_result_itself(ensemble):
+    for times in [2.0, [0.0, 1.0], [], np.ones((MEMBERS, 3))]:
+        out = np.full((MEMBERS, *np.shape(times)[-1:], 4), np.nan)
+        assert ensemble.attitude(times, out=out) is out
+        assert np.array_equal(out, ensemble.attitude(times))
+    for bad in [np.empty((2, MEMBERS, 4)), np.empty((2 * MEMBERS, 4)), np.empty((MEMBERS, 2, 4), order="F")]:
+        with pytest.raises(andoyer.ShapeError, match="out"):
+            ensemble.attitude([0.0, 1.0], out=bad)
+    with pytest.raises(TypeError, match="float64"):
+        ensemble.attitude([0.0, 1.0], out=np.empty((MEMBERS, 2, 4), np.float32))
+    shared = np.zeros(MEMBERS * 8)
+    with pytest.raises(andoyer.Error, match="in use"):
+        ensemble.attitude(shared[: 2 * MEMBERS].reshape(MEMBERS, 2), out=shared.reshape(MEMBERS, 2, 4))
+
+
+BAD_ARGUMENTS = {
+    "two bodies": (([[1, 1, 1]] * 2, [LEVEL] * 3, [[0, 0, 1]] * 3), {}, andoyer.ShapeError, "attitudes has 3 entries: it must have 2"),
+    "two rates": (([1, 1, 1], [LEVEL] * 3, [[0, 0, 1]] * 2), {}, andoyer.ShapeError, "angular_velocities has 2"),
+    "flat": ((np.ones(6), LEVEL, [[0, 0, 1]]), {}, andoyer.ShapeError, r"moments has shape \(6,\): it must be \(m, 3\) or \(3,\)"),
+    "wide": (([1, 1, 1], [[0, 0, 1]], [0, 0, 1]), {}, andoyer.ShapeError, r"attitudes has shape \(1, 3\)"),
+    "deep": (([1, 1, 1], LEVEL, np.ones((1, 1, 3))), {}, andoyer.ShapeError, r"angular_velocities has shape \(1, 1, 3\)"),
+    "text": (("eros", [LEVEL], [0, 0, 1]), {}, TypeError, "moments"),
+    "zero tolerance": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"tolerance": 0}, andoyer.ToleranceError, "^tolerance = 0"),
+    "tolerance of none": ((np.empty((0, 3)), LEVEL, [0, 0, 1]), {"tolerance": math.nan}, andoyer.ToleranceError, "NaN"),
+    "text for a tolerance": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"tolerance": "small"}, TypeError, "tolerance"),
+    "no threads": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": 0}, andoyer.ThreadsError, "threads = 0: it must be from 1 to 1024"),
+    "many threads": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": 1025}, andoyer.ThreadsError, "threads = 1025"),
+    "negative threads": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": -1}, andoyer.ThreadsError, "threads = -1"),
+    "half a thread": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": 0.5}, andoyer.ThreadsError, "threads = 0.5"),
+    "boolean threads": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": True}, TypeError, "threads"),
+    "orbits": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"orbits": None}, TypeError, "orbits"),
+}
+
+
+@pytest.mark.parametrize("arguments, keywords, error, message", BAD_ARGUMENTS.values(), ids=BAD_ARGUMENTS)
+def test_bad_arguments_are_refused(arguments, keywords, error, message):
+    with pytest.raises(error, match=message) as caught:
+        Ensemble(*arguments, **keywords)
+    assert not hasattr(caught.value, "index")
+
+
+def test_no_members_give_empty_results():
+    ensemble = Ensemble(np.empty((0, 3)), np.empty((0, 4)), np.empty((0, 3)))
+    assert ensemble == Ensemble(np.empty((0, 3)), LEVEL, [0, 0, 1])
+    for times, shape in [(0.0, (0,)), ([0.0, 1.0], (0, 2)), (np.empty((0, 2)), (0, 2)), ([], (0, 0))]:
+        samples = ensemble.at(times)
+        assert samples.attitude.shape == (*shape, 4) and samples.angular_velocity.shape == (*shape, 3)
+        assert len(samples) == 0
+    assert len(ensemble) == 0 and ensemble.plans == [] and list(ensemble) == []

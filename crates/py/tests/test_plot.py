@@ -1,0 +1,138 @@
+"""Pictures: each is rendered, labelled with units, inside its figure, and shows the motion that it is given."""
+
+import numpy as np
+import pytest
+
+matplotlib = pytest.importorskip("matplotlib")
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
+
+import andoyer  # noqa: E402
+from andoyer import plot  # noqa: E402
+from andoyer.cli import main  # noqa: E402
+from conftest import REPOSITORY  # noqa: E402
+
+BODY = andoyer.Body([1.0, 1.5, 2.0])
+ORBIT = andoyer.Orbit(1e-3, 0.1, inclination=0.5)
+
+
+def solved(rates, body=BODY, **options):
+    return andoyer.Scene(body, [0, 0, 0, 1], rates, **options).solve()
+
+
+MOTIONS = {
+    "short-axis": solved([0.1, 0.2, 1.0]),
+    "long-axis": solved([1.0, 0.1, 0.2]),
+    "tiny": solved([1e-5, 0, 1.0]),
+    "turned over": solved([0.1, 0.2, -1.0]),
+    "left-handed": solved([0.3, 1.0, 0.1], andoyer.Body([1.0, 2.0, 1.5])),
+    "oblate": solved([0.1, 0.2, 1.0], andoyer.Body([1, 1, 2])),
+    "prolate": solved([0.1, 0.2, 1.0], andoyer.Body([1, 2, 2])),
+    "spherical": solved([0.1, 0.2, 1.0], andoyer.Body([1, 1, 1])),
+    "principal-axis": solved([0, 0, 1.0]),
+    "at rest": solved([0, 0, 0]),
+    "torque": solved([0.01, 0.02, 1.0], orbit=ORBIT, tolerance=1e-6),
+}
+DRAWN = {
+    "polhode": plot.polhode,
+    "ellipsoid": lambda motion: plot.polhode(motion, surface="ellipsoid"),
+    "portrait": plot.phase_portrait,
+    "near the pole": plot.polhode_near_pole,
+    "path of the pole": plot.pole_path,
+    "nutation": plot.nutation,
+    "angles": plot.angles,
+    "nu": lambda motion: plot.angles(motion, residual=False),
+    "rates": plot.rates,
+}
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    yield
+    plt.close("all")
+
+
+def outside(figure):
+    """By how much what is drawn sticks out of the figure, in inches: left, bottom, right, top."""
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    drawn, frame = figure.get_tightbbox(canvas.get_renderer()), figure.bbox_inches
+    return max(frame.x0 - drawn.x0, frame.y0 - drawn.y0, drawn.x1 - frame.x1, drawn.y1 - frame.y1)
+
+
+def test_what_is_cut_off_would_be_seen():
+    figure, axes = plt.subplots()
+    axes.set_position([0, 0, 1, 1])
+    axes.set_ylabel("cut off")
+    assert outside(figure) > 0.1
+
+
+@pytest.mark.parametrize("picture", DRAWN)
+@pytest.mark.parametrize("name", MOTIONS)
+def test_picture_of_any_motion_is_drawn_without_a_warning(name, picture, recwarn):
+    axes = DRAWN[picture](MOTIONS[name])
+    axes.figure.canvas.draw()
+    assert not [str(warning.message) for warning in recwarn]
+
+
+@pytest.mark.parametrize("picture", [picture for picture in DRAWN if picture not in ("polhode", "ellipsoid")])
+def test_labels_have_units_and_nothing_is_cut_off(picture):
+    axes = DRAWN[picture](MOTIONS["torque"])
+    labels = axes.get_xlabel(), axes.get_ylabel()
+    assert (axes.get_title() or axes.get_title("left")) and all("[" in label or "N/M" in label for label in labels)
+    assert outside(axes.figure) < 0.01
+
+
+def test_picture_is_drawn_into_the_axes_that_are_given(motion):
+    figure, axes = plt.subplots()
+    for picture in [plot.phase_portrait, plot.pole_path, plot.nutation, plot.angles, plot.rates, plot.polhode_near_pole]:
+        assert picture(motion, axes=axes) is axes
+    assert plot.polhode(motion, axes) is axes and figure.axes[0] is axes
+
+
+def test_portrait_shows_the_place_of_the_body(motion):
+    axes = plot.phase_portrait(motion)
+    variables = motion.andoyer(plot.whole_turns(motion))
+    curve, start = axes.lines
+    assert start.get_xydata()[0] == pytest.approx([np.degrees(variables[0, 2]), variables[0, 5] / variables[0, 4]], abs=1e-9)
+    assert np.nanmax(np.abs(curve.get_ydata() - variables[:, 5] / variables[:, 4])) < 1e-12
+
+
+def test_portrait_of_a_left_handed_body_has_the_angle_of_andoyer():
+    motion = MOTIONS["left-handed"]
+    start = plot.phase_portrait(motion).lines[1].get_xydata()[0]
+    assert start[0] == pytest.approx(np.degrees(motion.andoyer(motion.scene.epoch)[2]), abs=1e-9)
+    assert "−1 (A)" in [text.get_text() for text in plot.polhode(motion).texts]
+
+
+def test_path_of_the_pole_is_that_of_the_angular_momentum():
+    motion = MOTIONS["torque"]
+    line = plot.pole_path(motion, [0.0, 1000.0, 5000.0]).lines[0]
+    momentum = motion.angular_momentum([0.0, 1000.0, 5000.0])
+    directions = momentum / np.linalg.norm(momentum, axis=1, keepdims=True)
+    moved = np.linalg.norm(directions - directions[0], axis=1) * 648000 / np.pi
+    # The projection loses the second order of the angle.
+    assert np.hypot(*line.get_xydata().T) == pytest.approx(moved, rel=1e-3, abs=1e-9) and moved[2] > 1
+    assert np.abs(plot.pole_path(MOTIONS["short-axis"]).lines[0].get_xydata()).max() < 1e-9
+
+
+def test_unknown_surface_is_refused(motion):
+    with pytest.raises(ValueError, match='"cube".*"sphere" or "ellipsoid"|cube.*sphere'):
+        plot.polhode(motion, surface="cube")
+
+
+@pytest.mark.parametrize("scene", ["eros", "eros-sun", "ceres"])
+def test_summary_has_all_its_panels_and_nothing_cut_off(scene):
+    motion = andoyer.Scene.from_toml(REPOSITORY / f"examples/scenes/{scene}.toml").solve()
+    figure = plot.summary(motion)
+    assert len(figure.axes) == 6 and figure.get_suptitle() == motion.scene.name
+    assert outside(figure) < 0.01
+
+
+@pytest.mark.parametrize("ending, magic", [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")])
+def test_command_writes_the_picture(tmp_path, ending, magic):
+    output = tmp_path / f"eros.{ending}"
+    assert main(["plot", str(REPOSITORY / "examples/scenes/eros.toml"), "-o", str(output)]) == 0
+    assert output.read_bytes().startswith(magic)

@@ -1,0 +1,43 @@
+"""Attitude errors against tests/reference/torque_free.py, for many evaluations of the same motion at the same times.
+
+A reference attitude is kept as a sum of two doubles, so that differences from it are good to 1e-32; the angle comes from the relative quaternion, good for
+small angles and for large ones.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests" / "reference"))
+
+from torque_free import TorqueFree  # noqa: E402
+
+# Separatrix and long phases cost digits of the guard, not of these: 20 are beyond every double.
+DIGITS = 20
+
+
+class Reference:
+    """The attitudes of a body, from `attitude` and `angular_velocity` at time 0, at `times`: some 6 ms each."""
+
+    def __init__(self, moments, attitude, angular_velocity, times):
+        motion = TorqueFree(moments, attitude, angular_velocity, digits=DIGITS)
+        states = [motion.state(t)[0] for t in times]
+        self.times = np.asarray(times, dtype=float)
+        self.high = np.array([[float(x) for x in q] for q in states])
+        self.low = np.array([[float(x - float(x)) for x in q] for q in states])
+
+    def errors(self, attitudes):
+        """The angle [rad] between each of `attitudes` (n, 4), at the times of the reference, and the true one."""
+        sign = np.sign(np.sum(attitudes * self.high, axis=1, keepdims=True))
+        difference = (sign * attitudes - self.high) - self.low
+        # The relative quaternion is 1 + conj(reference) difference: its vector part holds no 1 that hides a small one.
+        scalar = np.sum(self.high * difference, axis=1)
+        v, w = self.high[:, :3], self.high[:, 3:]
+        vector = w * difference[:, :3] - v * difference[:, 3:] - np.cross(v, difference[:, :3])
+        return 2 * np.arctan2(np.linalg.norm(vector, axis=1), 1 + scalar)
+
+    def largest_error(self, motion):
+        """The largest attitude error [rad] of `motion`."""
+        return float(self.errors(motion.attitude(self.times)).max())

@@ -1,0 +1,76 @@
+"""Attitude under the gravity gradient of a Keplerian body by numerical integration: an independent check of the averaged theory.
+
+Euler's equations with the torque 3 n^2 f (a/r)^3 r x (I r), r the unit vector to the disturbing body in the body's axes and f its share of the mass, and the
+kinematics of the quaternion, by SciPy's DOP853 with relative tolerance 1e-13: good to about 1e-11 rad over 100 rotations. Shares nothing with the
+library: no averaging, no angles. Needs numpy and scipy.
+"""
+
+import math
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+
+class GravityGradient:
+    """The motion of a body with `moments` from a state at `epoch`; `orbit` has the attributes of andoyer.Orbit."""
+
+    def __init__(self, moments, attitude, angular_velocity, orbit, epoch=0.0):
+        self.moments = [float(moment) for moment in moments]
+        self.start = [*map(float, attitude), *map(float, angular_velocity)]
+        self.orbit, self.epoch = orbit, float(epoch)
+        self.axes = _plane(orbit.inclination, orbit.node, orbit.argument_of_pericentre)
+
+    def states(self, times):
+        """Attitudes (n, 4) and body rates (n, 3) at ascending `times`, the first of them not before the epoch."""
+        ends = (self.epoch, max(float(times[-1]), self.epoch))
+        if ends[0] == ends[1]:
+            return np.array([self.start[:4]]), np.array([self.start[4:]])
+        solution = solve_ivp(self._slope, ends, self.start, "DOP853", t_eval=times, rtol=1e-13, atol=1e-18)
+        attitude = solution.y[:4].T
+        return attitude / np.linalg.norm(attitude, axis=1, keepdims=True), solution.y[4:].T
+
+    def direction(self, time):
+        """Unit vector to the disturbing body, inertial components, and a/r."""
+        e = self.orbit.eccentricity
+        mean = math.remainder(self.orbit.mean_motion * (time - self.orbit.time_of_pericentre), 2 * math.pi)
+        anomaly = mean + e * math.sin(mean)
+        for _ in range(50):
+            step = (anomaly - e * math.sin(anomaly) - mean) / (1 - e * math.cos(anomaly))
+            anomaly -= step
+            if abs(step) < 1e-15:
+                break
+        else:
+            raise ArithmeticError(f"Kepler's equation: no convergence at e = {e}, M = {mean}")
+        distance = 1 - e * math.cos(anomaly)
+        along, across = (math.cos(anomaly) - e) / distance, math.sqrt(1 - e * e) * math.sin(anomaly) / distance
+        return [along * p + across * q for p, q in zip(*self.axes)], 1 / distance
+
+    def _slope(self, time, state):
+        x, y, z, w, p, q, r = state
+        a, b, c = self.moments
+        (i, j, k), near = self.direction(time)
+        # The vector in the body's axes: the conjugate rotation, v + 2 u x (u x v) - 2 w u x v.
+        s, t, u = y * k - z * j, z * i - x * k, x * j - y * i
+        i, j, k = (
+            i + 2 * (y * u - z * t) - 2 * w * s,
+            j + 2 * (z * s - x * u) - 2 * w * t,
+            k + 2 * (x * t - y * s) - 2 * w * u,
+        )
+        force = 3 * self.orbit.mean_motion**2 * self.orbit.mass_fraction * near**3
+        return [
+            0.5 * (w * p + y * r - z * q),
+            0.5 * (w * q + z * p - x * r),
+            0.5 * (w * r + x * q - y * p),
+            -0.5 * (x * p + y * q + z * r),
+            (c - b) * (force * j * k - q * r) / a,
+            (a - c) * (force * k * i - r * p) / b,
+            (b - a) * (force * i * j - p * q) / c,
+        ]
+
+
+def _plane(inclination, node, argument):
+    """Unit vectors to the pericentre and across it, in the direction of motion."""
+    (ci, si), (cn, sn), (cw, sw) = ((math.cos(x), math.sin(x)) for x in (inclination, node, argument))
+    pericentre = [cn * cw - sn * sw * ci, sn * cw + cn * sw * ci, sw * si]
+    across = [-cn * sw - sn * cw * ci, -sn * sw + cn * cw * ci, cw * si]
+    return pericentre, across
