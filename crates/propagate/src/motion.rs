@@ -2,7 +2,6 @@
 //!
 //! Evaluation is two sines and cosines (of ℓ′ and y′/2), the sums of theory §8, a normalization and a constant map: see [`crate::kernel`].
 
-use andoyer_series::two_sum;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::batch::Batch;
@@ -187,10 +186,7 @@ impl Motion {
         length("out", out.len(), times.len())?;
         self.valid(times)?;
         if let Course::Gradient(gradient) = &self.course {
-            let epoch = self.scene.state().epoch;
-            for (slot, &time) in out.iter_mut().zip(times) {
-                *slot = gradient.at(two_sum(time, -epoch)).2;
-            }
+            gradient.angular_momenta(times, self.scene.state().epoch, out);
         } else {
             out.fill(self.angular_momentum.into());
         }

@@ -9,6 +9,9 @@ use andoyer_series::DoubleDouble;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::Error;
+use crate::kernel::lanes::Lanes;
+use crate::kernel::level::Level;
+use crate::kernel::sincos::{sin_cos_of_turns, twice_arc};
 use crate::phase::Phase;
 
 /// A Keplerian orbit of the disturbing body about the rotating one.
@@ -132,7 +135,7 @@ impl Orbit {
         let bounded = (time - self.time_of_pericentre).abs() * self.mean_motion <= TAU * 1e15;
         check("time", time, bounded, "finite and within 1e15 periods of the pericentre")?;
         let anomaly = self.mean_anomaly(self.time_of_pericentre).angle((time - self.time_of_pericentre, 0.0));
-        Ok(Place::of(anomaly, self.eccentricity).angle)
+        Ok(Place::of(Lanes::splat(pulp::Scalar, anomaly), self.eccentricity).angle.values()[0])
     }
 }
 
@@ -144,77 +147,107 @@ fn finite(argument: &'static str, value: f64) -> Result<(), Error> {
     check(argument, value, value.is_finite(), "finite")
 }
 
-/// Where on its ellipse the disturbing body is.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
-    /// The true anomaly, in (−π, π] \[rad\].
-    pub(crate) angle: f64,
-    /// Its sine and cosine.
-    pub(crate) sine: f64,
-    pub(crate) cosine: f64,
+/// Where on its ellipse the disturbing body is, at some times.
+#[derive(Clone, Copy)]
+pub(crate) struct Place<S: Level> {
+    /// The true anomaly, in [−π, π] \[rad\].
+    pub(crate) angle: Lanes<S>,
+    /// The true anomaly less the mean one, by no difference of them.
+    pub(crate) centre: Lanes<S>,
+    /// Sine and cosine of the true anomaly.
+    pub(crate) sine: Lanes<S>,
+    pub(crate) cosine: Lanes<S>,
 }
 
-impl Place {
+impl<S: Level> Place<S> {
     /// From the mean anomaly, in [−π, π] or a rounding beyond.
-    pub(crate) fn of(mean_anomaly: f64, eccentricity: f64) -> Self {
+    #[inline(always)]
+    pub(crate) fn of(mean_anomaly: Lanes<S>, eccentricity: f64) -> Self {
+        let all = |value: f64| mean_anomaly.all(value);
         if eccentricity == 0.0 {
-            let (sine, cosine) = mean_anomaly.sin_cos();
-            return Self { angle: mean_anomaly, sine, cosine };
+            let (sine, cosine) = sin_cos_of_turns(mean_anomaly * all(1.0 / TAU));
+            return Self { angle: mean_anomaly, centre: all(0.0), sine, cosine };
         }
-        let half = 0.5 * eccentric_anomaly(mean_anomaly, eccentricity);
-        let (sine, cosine) = half.sin_cos();
-        let (y, x) = ((1.0 + eccentricity).sqrt() * sine, (1.0 - eccentricity).sqrt() * cosine);
-        let square = x * x + y * y;
-        Self { angle: 2.0 * y.atan2(x), sine: 2.0 * x * y / square, cosine: (x - y) * (x + y) / square }
+        let anomaly = eccentric_anomaly(mean_anomaly, eccentricity);
+        let (sine, cosine) = sin_cos_of_turns(anomaly * all(0.5 / TAU));
+        let (y, x) = (sine * all((1.0 + eccentricity).sqrt()), cosine * all((1.0 - eccentricity).sqrt()));
+        let scale = y.mul_add(y, x * x).reciprocal();
+        // tan (f − E)/2 = β sin E/(1 − β cos E), e = 2β/(1 + β²), and E − M = e sin E.
+        let beta = eccentricity / (1.0 + ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt());
+        let product = sine * cosine;
+        let across = product * all(2.0 * beta);
+        let along = (sine * sine).mul_add(all(2.0 * beta), all(1.0 - beta));
+        let ahead = twice_arc(across, along);
+        let centre = product.mul_add(all(2.0 * eccentricity), ahead);
+        Self {
+            angle: anomaly + ahead,
+            centre,
+            sine: (x * y) * (scale + scale),
+            cosine: ((x - y) * (x + y)) * scale,
+        }
     }
 }
 
 /// E from Kepler's equation E − e sin E = M, for M in [−π, π] and 0 ≤ e < 1.
-pub(crate) fn eccentric_anomaly(mean_anomaly: f64, eccentricity: f64) -> f64 {
-    let (m, e) = (mean_anomaly.abs().min(PI), eccentricity);
-    if m == 0.0 {
-        return mean_anomaly;
-    }
+#[inline(always)]
+pub(crate) fn eccentric_anomaly<S: Level>(m: Lanes<S>, e: f64) -> Lanes<S> {
+    let all = |value: f64| m.all(value);
     let mut anomaly = starter(m, e);
     for _ in 0..2 {
-        let (sine, cosine) = anomaly.sin_cos();
-        let slope = (1.0 - e) + 2.0 * e * (0.5 * anomaly).sin().powi(2);
-        let residual = (1.0 - e) * anomaly + e * excess(anomaly, sine) - m;
+        let (half_sine, half_cosine) = sin_cos_of_turns(anomaly * all(0.5 / TAU));
+        let sine = (half_sine + half_sine) * half_cosine;
+        let versed = (half_sine + half_sine) * half_sine;
+        let slope = versed.mul_add(all(e), all(1.0 - e));
+        let residual = anomaly.mul_add(all(1.0 - e), excess(anomaly, sine).mul_add(all(e), -m));
         // Third order (Halley), then fourth, from the second and third derivatives e sin E and e cos E.
+        let (second, third) = (sine * all(0.5 * e), versed.negate_mul_add(all(e / 6.0), all(e / 6.0)));
         let newton = residual / slope;
-        let halley = residual / (slope - 0.5 * newton * e * sine);
-        anomaly -= residual / (slope - 0.5 * halley * e * sine + halley * halley * e * cosine / 6.0);
+        let halley = residual / newton.negate_mul_add(second, slope);
+        anomaly = anomaly - residual / (halley * halley).mul_add(third, halley.negate_mul_add(second, slope));
     }
-    anomaly.copysign(mean_anomaly)
+    anomaly
 }
 
 /// E − sin E without cancellation.
-fn excess(anomaly: f64, sine: f64) -> f64 {
-    if anomaly > 1.0 {
-        return anomaly - sine;
-    }
+#[inline(always)]
+fn excess<S: Level>(anomaly: Lanes<S>, sine: Lanes<S>) -> Lanes<S> {
     // x³/3! − x⁵/5! + …: the term x^21/21! is 2e-20 of the sum at x = 1.
     let square = anomaly * anomaly;
-    let mut sum = 0.0;
+    let mut sum = anomaly.all(0.0);
     for k in (1..=9_i32).rev() {
-        sum = (1.0 - sum) * square / f64::from(2 * k * (2 * k + 1));
+        sum = (anomaly.all(1.0) - sum) * square * anomaly.all(1.0 / f64::from(2 * k * (2 * k + 1)));
     }
-    anomaly * sum
+    anomaly.magnitude().up_to(1.0, anomaly * sum, anomaly - sine)
 }
 
 /// The root of the cubic that a Padé approximation of the sine makes of Kepler's equation.
-fn starter(m: f64, e: f64) -> f64 {
-    let alpha = (3.0 * PI * PI + 1.6 * PI * (PI - m) / (1.0 + e)) / (PI * PI - 6.0);
-    let d = 3.0 * (1.0 - e) + alpha * e;
-    let q = 2.0 * alpha * d * (1.0 - e) - m * m;
-    let r = 3.0 * alpha * d * (d - 1.0 + e) * m + m * m * m;
-    let w = (r.abs() + (q * q * q + r * r).max(0.0).sqrt()).cbrt().powi(2);
-    (2.0 * r * w / (w * w + w * q + q * q) + m) / d
+#[inline(always)]
+fn starter<S: Level>(m: Lanes<S>, e: f64) -> Lanes<S> {
+    let all = |value: f64| m.all(value);
+    let scale = 1.6 * PI / (1.0 + e) / (PI * PI - 6.0);
+    let alpha = (all(PI) - m.magnitude()).mul_add(all(scale), all(3.0 * PI * PI / (PI * PI - 6.0)));
+    let d = alpha.mul_add(all(e), all(3.0 * (1.0 - e)));
+    let (square, product) = (m * m, alpha * d);
+    let q = product.mul_add(all(2.0 * (1.0 - e)), -square);
+    let r = m * (product * all(3.0)).mul_add(d - all(1.0 - e), square);
+    let radicand = (q * q).mul_add(q, r * r);
+    let radicand = radicand.up_to(0.0, all(0.0), radicand);
+    let root = (r.magnitude() + radicand.root()).each(f64::cbrt);
+    let w = root * root;
+    ((r + r) * w / q.mul_add(q, w * (w + q)) + m) / d
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn one(value: f64) -> Lanes<pulp::Scalar> {
+        Lanes::splat(pulp::Scalar, value)
+    }
+
+    fn solved(m: f64, e: f64) -> f64 {
+        eccentric_anomaly(one(m), e).values()[0]
+    }
 
     #[test]
     fn the_eccentric_anomaly_solves_keplers_equation_to_the_last_bits_for_any_ellipse() {
@@ -226,11 +259,11 @@ mod tests {
                 let exact = DoubleDouble::sum(1.0, -e) * anomaly.into() + DoubleDouble::from(e) * tail(anomaly);
                 let m = exact.to_f64();
                 let slope = (1.0 - e) + 2.0 * e * (0.5 * anomaly).sin().powi(2);
-                let found = eccentric_anomaly(m, e);
+                let found = solved(m, e);
                 let error = (found - anomaly).abs();
                 let budget = 4.5e-16 * anomaly + 1.2e-16 * m / slope;
                 assert!(error <= budget, "e = {e}, E = {anomaly}: off by {error:e} of {budget:e}");
-                assert_eq!(eccentric_anomaly(-m, e), -found);
+                assert_eq!(solved(-m, e), -found);
             }
         }
     }
@@ -250,12 +283,14 @@ mod tests {
         for e in [0.0, 0.3, 0.97] {
             for k in -50..=50 {
                 let mean = PI * f64::from(k) / 50.0;
-                let place = Place::of(mean, e);
-                let anomaly = eccentric_anomaly(mean, e);
+                let place = Place::of(one(mean), e);
+                let anomaly = solved(mean, e);
+                let [sine, cosine, angle, centre] = [place.sine, place.cosine, place.angle, place.centre].map(|l| l.values()[0]);
                 let r = 1.0 - e * anomaly.cos();
-                assert!((place.cosine - (anomaly.cos() - e) / r).abs() < 1e-14 / (1.0 - e));
-                assert!((place.sine - (1.0 - e * e).sqrt() * anomaly.sin() / r).abs() < 1e-14 / (1.0 - e));
-                assert!((place.angle.sin() - place.sine).abs() < 1e-15);
+                assert!((cosine - (anomaly.cos() - e) / r).abs() < 1e-14 / (1.0 - e));
+                assert!((sine - (1.0 - e * e).sqrt() * anomaly.sin() / r).abs() < 1e-14 / (1.0 - e));
+                assert!((angle.sin() - sine).abs() < 1e-15);
+                assert!((centre - (angle - mean)).abs() < 1e-15);
             }
         }
     }

@@ -16,13 +16,15 @@
 //! with y′ counted from an axis that turns with k and not about it. Terms, and derivatives of g, that are smaller than what second order leaves or the tolerance allows are
 //! dropped here. So is a term in resonance, whose effect over the span is no larger; any other is an error.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, UnitQuaternion};
 use num_complex::Complex;
 
-use super::generator::{Generator, ORDERS, Orbital, Term};
+use super::generator::{self, Generator, Harmonic, ORDERS, Orbital};
 use super::inertia::{HIGHEST, Inertia};
 use super::level::Level;
 use crate::error::Error;
+use crate::kernel::lanes::Lanes;
+use crate::kernel::plane::{Plane, Turns};
 use crate::orbit::{Orbit, Place};
 
 type C64 = Complex<f64>;
@@ -57,12 +59,12 @@ pub(crate) struct Change {
 impl Mean {
     /// This with a change added, or taken away for a factor of −1.
     pub(crate) fn changed(&self, change: &Change, factor: f64) -> Self {
-        let [x, y] = change.rotation.map(|angle| factor * angle);
+        let [x, y] = change.rotation.map(|angle| 0.5 * factor * angle);
         Self {
             p: self.p + change.p * factor,
             longitude: self.longitude + factor * change.longitude,
             momentum: self.momentum + factor * change.momentum,
-            frame: self.frame * UnitQuaternion::new(Vector3::new(x, y, 0.0)),
+            frame: self.frame * UnitQuaternion::new_normalize(Quaternion::new(1.0, x, y, 0.0)),
         }
     }
 }
@@ -85,13 +87,15 @@ pub(crate) struct Demand<'a> {
 /// The generating function of one mean motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Corrections {
-    generator: Generator,
+    pub(crate) generator: Generator,
     /// Sum of what was dropped, over the span \[rad\].
     pub(crate) dropped: f64,
     /// What the sums for G leave \[rad\].
     pub(crate) rest: f64,
     /// Sum of all terms \[rad\].
     pub(crate) size: f64,
+    /// Number of terms that are kept.
+    pub(crate) count: usize,
 }
 
 /// One (h, m) before it is known whether it is kept.
@@ -131,7 +135,8 @@ impl Corrections {
         }
         let mut dropped = effect;
         let nothing = demand.share * demand.tolerance.max(size * size);
-        let (mut rest, mut terms) = (0.0, [const { Vec::new() }; 3]);
+        let (mut rest, mut count, mut most_orders) = (0.0, 0, 0);
+        let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
         for candidate in regular {
             if candidate.size() <= nothing {
                 dropped += candidate.size();
@@ -143,28 +148,38 @@ impl Corrections {
             let enough = (1..most).find(|&orders| left(orders) <= nothing);
             let orders = enough.unwrap_or(most);
             rest += left(orders);
-            terms[candidate.multiple as usize].push(candidate.term(inertia, orders)); // 0 ≤ m ≤ 2
+            count += 1;
+            most_orders = most_orders.max(orders);
+            candidate.join(&mut harmonics[candidate.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2
         }
-        let orders = terms.iter().flatten().map(|term| term.orders).max().unwrap_or_default();
         let [first, second, _] = orbit.axes();
         let generator = Generator {
-            terms,
-            orbital: Orbital::new(eccentricity, mean_motion, orders),
+            harmonics,
+            orbital: Orbital::new(eccentricity, mean_motion, most_orders),
             axes: [first, second],
             strength,
             root: inertia.sigma.sqrt(),
+            momentum: inertia.momentum,
         };
-        Ok(Self { generator, dropped, rest, size })
-    }
-
-    /// The number of terms.
-    pub(crate) fn count(&self) -> usize {
-        self.generator.count()
+        Ok(Self { generator, dropped, rest, size, count })
     }
 
     /// The changes from mean to osculating variables, for |p| = √σ.
-    pub(crate) fn at(&self, mean: &Mean, place: &Place) -> Change {
-        self.generator.at(mean, place)
+    pub(crate) fn at(&self, mean: &Mean, place: &Place<pulp::Scalar>) -> Change {
+        let one = |value: f64| Lanes::splat(pulp::Scalar, value);
+        let turn = if mean.p == C64::default() { C64::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
+        let spin = C64::from_polar(1.0, mean.longitude);
+        let point = |c: C64| Plane { re: one(c.re), im: one(c.im) };
+        let frame = Turns::all(one(0.0), &mean.frame);
+        let change =
+            self.generator.at(&generator::Mean { turn: point(turn), spin: point(spin), frame }, place);
+        let value = |lanes: Lanes<pulp::Scalar>| lanes.values()[0];
+        Change {
+            p: turn * C64::new(value(change.p.re), value(change.p.im)),
+            longitude: value(change.longitude),
+            momentum: value(change.momentum),
+            rotation: change.rotation.map(value),
+        }
     }
 }
 
@@ -231,8 +246,8 @@ impl Candidate {
         }
     }
 
-    /// The term with as many derivatives of g as `orders`.
-    fn term(&self, inertia: &Inertia, orders: usize) -> Term {
+    /// Joins the others of its |h|, with as many derivatives of g as `orders`.
+    fn join(&self, harmonics: &mut Vec<Harmonic>, inertia: &Inertia, orders: usize) {
         let Self { harmonic, multiple, value, slope, frequency, .. } = *self;
         let [anomaly, longitude] = inertia.rate_slopes;
         let by_sigma = f64::from(harmonic) * anomaly + f64::from(multiple) * longitude;
@@ -241,21 +256,24 @@ impl Candidate {
         let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value };
         let further = root.powi(degree + 1);
         let [by_p, by_p_bar] = if harmonic > 0 { [falling, 0.0] } else { [0.0, falling] };
-        let mut weights = [[0.0; 2]; ORDERS];
-        for (j, slot) in weights.iter_mut().enumerate().take(orders) {
-            let sign = if j / 2 % 2 == 0 { 1.0 } else { -1.0 };
-            let weight = sign * inverse.powi(j as i32); // below ORDERS
-            *slot = [weight, (j as f64 + 1.0) * weight];
-        }
-        Term {
-            harmonic,
-            weights,
-            orders,
-            value: inverse * root.powi(degree) * value,
-            by_p: inverse * (by_p + further * slope),
-            by_p_bar: inverse * (by_p_bar + further * slope),
-            by_frequency: -inverse * inverse * further * value * by_sigma,
-        }
+        let by_frequency = -inverse * inverse * further * value * by_sigma;
+        let whole = inverse * root.powi(degree) * value;
+        let [by_p, by_p_bar] = [by_p, by_p_bar].map(|part| inverse * (part + further * slope));
+        let factors: Vec<_> = (0..orders)
+            .map(|j| {
+                // (iε)^j without i for odd j, and the same times j + 1.
+                let weight = if j / 2 % 2 == 0 { 1.0 } else { -1.0 } * inverse.powi(j as i32); // j < ORDERS
+                let slope = (j as f64 + 1.0) * weight;
+                let common = by_frequency * slope;
+                [whole * weight, whole * slope, by_p * weight + common, by_p_bar * weight + common]
+            })
+            .collect();
+        let degree = harmonic.unsigned_abs() as usize;
+        let place = harmonics.iter().position(|other| other.degree == degree).unwrap_or_else(|| {
+            harmonics.push(Harmonic { degree, factors: Vec::new() });
+            harmonics.len() - 1
+        });
+        harmonics[place].add(harmonic < 0, &factors);
     }
 }
 

@@ -4,52 +4,86 @@
 //! share. Contracted with r̂r̂ for one m, each term takes real multiples of them, since T33, i t1 e^(−iy′) and t2 e^(−2iy′) have real coefficients (time reversal).
 //! |p| = √σ is a constant of the mean motion and is part of the coefficients; derivatives by p and p̄ are kept as ∂/∂p e^(iℓ′) and ∂/∂p̄ e^(−iℓ′), which is regular at p = 0.
 
-use nalgebra::{Rotation3, Vector3};
-use num_complex::Complex;
+use nalgebra::Vector3;
 
-use super::corrections::{Change, Mean};
 use super::inertia::HIGHEST;
+use crate::kernel::lanes::Lanes;
+use crate::kernel::level::Level;
+use crate::kernel::plane::{Plane, Turns};
 use crate::orbit::Place;
-
-type C64 = Complex<f64>;
 
 /// g and the time derivatives of it that G may have.
 pub(crate) const ORDERS: usize = 7;
 /// Highest multiple of f in the last of them.
 pub(crate) const WIDTH: usize = 5 + 2 * (ORDERS - 1);
 
-/// One (h, m).
+/// What is summed over the terms: W, M ∂W/∂M, ∂W/∂p and ∂W/∂p̄.
+const SUMS: usize = 4;
+
+/// All terms of one |h|: the factors of cos hℓ′ and i sin hℓ′, by j and sum.
 #[derive(Clone, Debug)]
-pub(crate) struct Term {
-    pub(crate) harmonic: i32,
-    /// (iε)^j, without i for odd j, and the same times j + 1, by j.
-    pub(crate) weights: [[f64; 2]; ORDERS],
-    /// How many of them are not nothing.
-    pub(crate) orders: usize,
-    /// ε f_h √σ^|h|, and the factors of H0 and H1 in ∂/∂p and in ∂/∂p̄: the latter of the two H1 are equal.
-    pub(crate) value: f64,
-    pub(crate) by_p: f64,
-    pub(crate) by_p_bar: f64,
-    pub(crate) by_frequency: f64,
+pub(crate) struct Harmonic {
+    pub(crate) degree: usize,
+    pub(crate) factors: Vec<[[f64; 2]; SUMS]>,
+}
+
+impl Harmonic {
+    /// Adds a term e^(ihℓ′) with these factors of what is summed.
+    pub(crate) fn add(&mut self, negative: bool, factors: &[[f64; SUMS]]) {
+        if self.factors.len() < factors.len() {
+            self.factors.resize(factors.len(), [[0.0; 2]; SUMS]);
+        }
+        let sign = if negative { -1.0 } else { 1.0 };
+        for (slots, factors) in self.factors.iter_mut().zip(factors) {
+            for ([even, odd], factor) in slots.iter_mut().zip(factors) {
+                *even += factor;
+                *odd += sign * factor;
+            }
+        }
+    }
 }
 
 /// Terms by m, the Fourier polynomials, and the plane of the orbit.
 #[derive(Clone, Debug)]
 pub(crate) struct Generator {
-    pub(crate) terms: [Vec<Term>; 3],
+    pub(crate) harmonics: [Vec<Harmonic>; 3],
     pub(crate) orbital: Orbital,
     /// To the pericentre and across it, inertial.
     pub(crate) axes: [Vector3<f64>; 2],
     /// 3n²/2 times the disturbing mass fraction.
     pub(crate) strength: f64,
     pub(crate) root: f64,
+    pub(crate) momentum: f64,
 }
 
-/// Time derivatives of (a/r)³ times 1, cos 2f, sin 2f: [j][g] with the coefficients of cos kf, for even j of 1 and cos 2f and odd j of sin 2f, or else of sin kf.
+/// Mean motion at some times: the circles of ℓ′ and y′ (cosine and sine), and the invariable frame.
+#[derive(Clone, Copy)]
+pub(crate) struct Mean<S: Level> {
+    pub(crate) turn: Plane<S>,
+    pub(crate) spin: Plane<S>,
+    pub(crate) frame: Turns<S>,
+}
+
+/// First-order changes of it; of p the change times e^(−iℓ′); `rotation` is about axes 1 and 2 of the frame.
+#[derive(Clone, Copy)]
+pub(crate) struct Change<S: Level> {
+    pub(crate) p: Plane<S>,
+    pub(crate) longitude: Lanes<S>,
+    pub(crate) momentum: Lanes<S>,
+    pub(crate) rotation: [Lanes<S>; 2],
+}
+
+/// Time derivatives of (a/r)³ times 1, cos 2f, sin 2f, by j and g, in cos kf for even j of 1 and cos 2f and for odd j of sin 2f, and in sin kf else.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Orbital {
-    pub(crate) series: Vec<[Vec<f64>; 3]>,
+    series: Vec<[Fourier; 3]>,
+    /// Highest k.
+    highest: usize,
 }
+
+/// The first k, and coefficients from there on.
+#[derive(Clone, Debug)]
+struct Fourier(usize, Vec<f64>);
 
 impl Orbital {
     /// As many derivatives as `orders` by a body of mean motion n; n η^(−3) w² d/df, w = 1 + e cos f.
@@ -71,7 +105,8 @@ impl Orbital {
                 (weighted, !odd)
             });
         }
-        Self { series }
+        let highest = series.iter().flatten().map(|Fourier(first, rest)| first + rest.len()).max().unwrap_or(1) - 1;
+        Self { series, highest }
     }
 }
 
@@ -88,145 +123,199 @@ fn times_w(series: &[f64], eccentricity: f64, odd: bool) -> Vec<f64> {
     product
 }
 
-/// Without the highest coefficients that are nothing beside the largest.
-fn trimmed(series: &[f64]) -> Vec<f64> {
+/// Without the lowest and highest coefficients that are nothing beside the largest.
+fn trimmed(series: &[f64]) -> Fourier {
     let largest = series.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
-    let kept = series.iter().rposition(|c| c.abs() > 1e-18 * largest).map_or(0, |last| last + 1);
-    series[..kept].to_vec()
-}
-
-/// cos kf and sin kf.
-struct Circle([[f64; 2]; WIDTH + 1]);
-
-impl Circle {
-    fn new(place: &Place, width: usize) -> Self {
-        let mut circle = [[1.0, 0.0]; WIDTH + 1];
-        for k in 1..width {
-            let [cosine, sine] = circle[k - 1];
-            circle[k] = [cosine * place.cosine - sine * place.sine, sine * place.cosine + cosine * place.sine];
-        }
-        Self(circle)
-    }
-
-    fn sum(&self, series: &[f64], part: usize) -> f64 {
-        series.iter().zip(&self.0).map(|(c, turn)| c * turn[part]).sum()
-    }
+    let something = |c: &f64| c.abs() > 1e-18 * largest;
+    let first = series.iter().position(something).unwrap_or(0);
+    let last = series.iter().rposition(something).map_or(first, |last| last + 1);
+    Fourier(first, series[first..last].to_vec())
 }
 
 /// What r̂r̂ gives to a multiple of y′, r₃² − ⅓, r̄₊ r₃, r̄₊², and its derivatives when the frame turns about its axes 1 and 2; times i for odd j.
-type Contracted = [[C64; 3]; ORDERS];
+type Contracted<S> = [Plane<S>; 3];
 
 impl Generator {
     /// The changes from mean to osculating variables, for |p| = √σ.
-    pub(crate) fn at(&self, mean: &Mean, place: &Place) -> Change {
-        let rotation: Rotation3<f64> = mean.frame.to_rotation_matrix();
-        let [first, second] = self.axes.map(|axis| rotation.inverse_transform_vector(&axis));
+    #[inline(always)]
+    pub(crate) fn at<S: Level>(&self, mean: &Mean<S>, place: &Place<S>) -> Change<S> {
+        let none = place.sine.all(0.0);
+        let zero = Plane { re: none, im: none };
+        let tensors = self.tensors(mean.frame, place);
+        let turns = circle(mean.turn);
         let orders = self.orbital.series.len();
-        let width = self.orbital.series.iter().flatten().map(Vec::len).max().unwrap_or_default();
-        let circle = Circle::new(place, width);
-        let mut tensors = [[0.0; 6]; ORDERS];
-        for (j, (tensor, [one, cosine, sine])) in tensors.iter_mut().zip(&self.orbital.series).enumerate() {
-            let (even, odd) = (j % 2, 1 - j % 2);
-            let (one, cosine, sine) =
-                (circle.sum(one, even), circle.sum(cosine, even), circle.sum(sine, odd));
-            // r̂r̂ = (PP + QQ)/2 + (PP − QQ)/2 cos 2f + (PQ + QP)/2 sin 2f.
-            let (pp, qq, pq) = (0.5 * (one + cosine), 0.5 * (one - cosine), 0.5 * sine);
-            for (slot, (a, b)) in tensor.iter_mut().zip([(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)]) {
-                *slot = pp * first[a] * first[b]
-                    + qq * second[a] * second[b]
-                    + pq * (first[a] * second[b] + first[b] * second[a]);
-            }
-        }
-        let modulus = mean.p.norm();
-        let turn = if modulus == 0.0 { C64::new(1.0, 0.0) } else { mean.p / modulus };
-        let mut sums = Sums::default();
-        for (multiple, terms) in self.terms.iter().enumerate() {
-            if terms.is_empty() {
-                continue;
-            }
-            let mut contracted = [[C64::default(); 3]; ORDERS];
-            for (j, (slot, tensor)) in contracted.iter_mut().zip(&tensors).take(orders).enumerate() {
-                *slot = contractions(tensor, multiple);
-                if j % 2 == 1 {
-                    *slot = slot.map(|c| C64::new(-c.im, c.re));
+        let mut sums = Sums { by_p: [zero; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
+        let mut spin = Plane { re: none.all(1.0), im: none };
+        for (multiple, harmonics) in self.harmonics.iter().enumerate() {
+            if !harmonics.is_empty() {
+                let mut totals = [zero; SUMS + 2];
+                for (j, tensor) in tensors.iter().enumerate().take(orders) {
+                    let factors = summed(harmonics, &turns, j, zero);
+                    let contracted = contractions(tensor, multiple, j % 2 == 1);
+                    for (total, factor) in totals.iter_mut().zip(factors) {
+                        *total = total.plus(factor, contracted[0]);
+                    }
+                    totals[SUMS] = totals[SUMS].plus(factors[0], contracted[1]);
+                    totals[SUMS + 1] = totals[SUMS + 1].plus(factors[0], contracted[2]);
                 }
+                sums.add(&totals, multiple, spin);
             }
-            sums.add(terms, multiple, &contracted, turn, mean.longitude);
+            spin = spin * mean.spin;
         }
-        sums.change(mean, turn, self.root, self.strength)
+        self.change(&sums)
     }
 
-    /// The number of terms.
-    pub(crate) fn count(&self) -> usize {
-        self.terms.iter().map(Vec::len).sum()
+    /// r̂r̂ (a/r)³ and its time derivatives in the frame: components 11, 22, 33, 12, 13, 23.
+    #[inline(always)]
+    fn tensors<S: Level>(&self, frame: Turns<S>, place: &Place<S>) -> [[Lanes<S>; 6]; ORDERS] {
+        let none = place.sine.all(0.0);
+        let rows = frame.rows();
+        let mut axes = [[none; 3]; 2];
+        for (components, axis) in axes.iter_mut().zip(&self.axes) {
+            for (c, component) in components.iter_mut().enumerate() {
+                let part = rows[0][c].mul_add(none.all(axis.x), rows[1][c] * none.all(axis.y));
+                *component = rows[2][c].mul_add(none.all(axis.z), part);
+            }
+        }
+        let [first, second] = axes;
+        let mut products = [[none; 3]; 6];
+        for (product, (a, b)) in products.iter_mut().zip(COMPONENTS) {
+            *product =
+                [first[a] * first[b], second[a] * second[b], first[a].mul_add(second[b], first[b] * second[a])];
+        }
+        let circle = self.orbital.circle(place);
+        let half = none.all(0.5);
+        let mut tensors = [[none; 6]; ORDERS];
+        for (j, (tensor, [one, cosine, sine])) in tensors.iter_mut().zip(&self.orbital.series).enumerate() {
+            let (even, odd) = (j % 2, 1 - j % 2);
+            let (one, cosine, sine) = (sum(&circle, one, even), sum(&circle, cosine, even), sum(&circle, sine, odd));
+            // r̂r̂ = (PP + QQ)/2 + (PP − QQ)/2 cos 2f + (PQ + QP)/2 sin 2f.
+            let (pp, qq, pq) = (half * (one + cosine), half * (one - cosine), half * sine);
+            for (slot, [first, second, mixed]) in tensor.iter_mut().zip(products) {
+                *slot = pp.mul_add(first, qq.mul_add(second, pq * mixed));
+            }
+        }
+        tensors
+    }
+
+    #[inline(always)]
+    fn change<S: Level>(&self, sums: &Sums<S>) -> Change<S> {
+        let all = |value: f64| sums.by_longitude.all(value);
+        let momentum = sums.by_longitude * all(-self.strength);
+        // The real part of X counts: ∂/∂p̄ of it is (∂X/∂p̄ + conj ∂X/∂p)/2.
+        let by_p_bar = sums.by_p[1] + sums.by_p[0].conjugate();
+        let relative = all(self.strength / self.momentum);
+        let half = all(0.5) * relative;
+        let real = momentum.negate_mul_add(all(0.5 * self.root / self.momentum), -(by_p_bar.im * half));
+        let circling = by_p_bar.re.negate_mul_add(all(0.5 * self.root), sums.by_momentum);
+        let [x, y] = sums.by_rotation;
+        Change {
+            p: Plane { re: real, im: by_p_bar.re * half },
+            longitude: relative * circling,
+            momentum,
+            // k × δ(Mk)/M turns k, and the frame with it.
+            rotation: [relative * y, -(relative * x)],
+        }
     }
 }
 
-fn contractions(tensor: &[f64; 6], multiple: usize) -> [C64; 3] {
-    let c = C64::new;
-    let [xx, yy, zz, xy, xz, yz] = *tensor;
-    match multiple {
-        0 => [c(zz - 0.5 * (xx + yy), 0.0), c(-3.0 * yz, 0.0), c(3.0 * xz, 0.0)],
-        1 => [c(xz, -yz), c(-xy, yy - zz), c(xx - zz, -xy)],
-        _ => [c(xx - yy, -2.0 * xy), c(-2.0 * yz, -2.0 * xz), c(-2.0 * xz, 2.0 * yz)],
+/// Pairs of axes of a symmetric tensor.
+const COMPONENTS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+
+impl Orbital {
+    /// cos kf and sin kf.
+    #[inline(always)]
+    fn circle<S: Level>(&self, place: &Place<S>) -> [[Lanes<S>; 2]; WIDTH + 1] {
+        let mut circle = [[place.sine.all(1.0), place.sine.all(0.0)]; WIDTH + 1];
+        let step = Plane { re: place.cosine, im: place.sine };
+        let mut turn = step;
+        for slot in circle.iter_mut().take(self.highest + 1).skip(1) {
+            *slot = [turn.re, turn.im];
+            turn = turn * step;
+        }
+        circle
     }
+}
+
+/// A series in cosines (part 0) or sines.
+#[inline(always)]
+fn sum<S: Level>(circle: &[[Lanes<S>; 2]], series: &Fourier, part: usize) -> Lanes<S> {
+    let mut sum = circle[0][1];
+    for (turn, coefficient) in circle[series.0..].iter().zip(&series.1) {
+        sum = turn[part].mul_add(sum.all(*coefficient), sum);
+    }
+    sum
+}
+
+/// e^(ihℓ′).
+#[inline(always)]
+fn circle<S: Level>(turn: Plane<S>) -> [Plane<S>; HIGHEST + 1] {
+    let mut turns = [Plane { re: turn.re.all(1.0), im: turn.re.all(0.0) }; HIGHEST + 1];
+    for h in 1..=HIGHEST {
+        turns[h] = turns[h - 1] * turn;
+    }
+    turns
+}
+
+/// The sums over the terms of an m for one j.
+#[inline(always)]
+fn summed<S: Level>(
+    harmonics: &[Harmonic],
+    turns: &[Plane<S>; HIGHEST + 1],
+    j: usize,
+    zero: Plane<S>,
+) -> [Plane<S>; SUMS] {
+    let mut sums = [zero; SUMS];
+    for harmonic in harmonics {
+        let turn = turns[harmonic.degree];
+        if let Some(factors) = harmonic.factors.get(j) {
+            for (sum, [even, odd]) in sums.iter_mut().zip(factors) {
+                sum.re = turn.re.mul_add(zero.re.all(*even), sum.re);
+                sum.im = turn.im.mul_add(zero.re.all(*odd), sum.im);
+            }
+        }
+    }
+    sums
+}
+
+#[inline(always)]
+fn contractions<S: Level>(tensor: &[Lanes<S>; 6], multiple: usize, odd: bool) -> Contracted<S> {
+    let [xx, yy, zz, xy, xz, yz] = *tensor;
+    let none = xx.all(0.0);
+    let (three, two) = (xx.all(3.0), xx.all(2.0));
+    let c = |re, im| Plane { re, im };
+    let contracted = match multiple {
+        0 => [c(zz - (xx + yy) * xx.all(0.5), none), c(-(three * yz), none), c(three * xz, none)],
+        1 => [c(xz, -yz), c(-xy, yy - zz), c(xx - zz, -xy)],
+        _ => [c(xx - yy, -(two * xy)), c(-(two * yz), -(two * xz)), c(-(two * xz), two * yz)],
+    };
+    if odd { [contracted[0].quarter_turned(), contracted[1].quarter_turned(), contracted[2].quarter_turned()] } else { contracted }
 }
 
 /// Derivatives of W over the strength.
-#[derive(Default)]
-struct Sums {
-    by_p: C64,
-    by_p_bar: C64,
-    by_longitude: f64,
-    by_momentum: f64,
-    by_rotation: [f64; 2],
+struct Sums<S: Level> {
+    /// By p and p̄.
+    by_p: [Plane<S>; 2],
+    by_longitude: Lanes<S>,
+    by_momentum: Lanes<S>,
+    by_rotation: [Lanes<S>; 2],
 }
 
-impl Sums {
-    fn add(&mut self, terms: &[Term], multiple: usize, contracted: &Contracted, turn: C64, longitude: f64) {
+impl<S: Level> Sums<S> {
+    #[inline(always)]
+    fn add(&mut self, totals: &[Plane<S>; SUMS + 2], multiple: usize, spin: Plane<S>) {
         // −i of 1/(iΩ), and −i of t1: their coefficients are real without it.
-        let phase = if multiple == 1 { C64::new(-2.0, 0.0) } else { C64::new(0.0, -2.0) };
-        let spin = phase * C64::from_polar(1.0, multiple as f64 * longitude);
-        let mut turns = [C64::new(1.0, 0.0); HIGHEST + 1];
-        let widest = terms.iter().map(|term| term.harmonic.unsigned_abs()).max().unwrap_or_default();
-        for h in 1..=widest as usize {
-            turns[h] = turns[h - 1] * turn;
+        let factor = spin.re.all(-2.0);
+        let phase = Plane { re: spin.re * factor, im: spin.im * factor };
+        let phase = if multiple == 1 { phase } else { phase.quarter_turned() };
+        let mut turned = *totals;
+        for total in &mut turned {
+            *total = *total * phase;
         }
-        let mut by_longitude = 0.0;
-        for term in terms {
-            let power = turns[term.harmonic.unsigned_abs() as usize];
-            let factor = spin * if term.harmonic < 0 { power.conj() } else { power };
-            let mut series = [C64::default(); 4];
-            for (weights, [whole, first, second]) in term.weights.iter().zip(contracted).take(term.orders) {
-                series[0] += whole * weights[0];
-                series[1] += whole * weights[1];
-                series[2] += first * weights[0];
-                series[3] += second * weights[0];
-            }
-            let [whole, slope, first, second] = series.map(|sum| sum * factor);
-            by_longitude += term.value * whole.im;
-            self.by_momentum -= term.value * slope.re;
-            self.by_rotation[0] += term.value * first.re;
-            self.by_rotation[1] += term.value * second.re;
-            let common = slope * term.by_frequency;
-            self.by_p += whole * term.by_p + common;
-            self.by_p_bar += whole * term.by_p_bar + common;
-        }
-        self.by_longitude -= multiple as f64 * by_longitude;
-    }
-
-    fn change(&self, mean: &Mean, turn: C64, root: f64, strength: f64) -> Change {
-        let momentum = -strength * self.by_longitude;
-        // The real part of X counts: ∂/∂p̄ of it is (∂X/∂p̄ + conj ∂X/∂p)/2.
-        let by_p_bar = (self.by_p_bar + self.by_p.conj()) * 0.5;
-        let circling = 2.0 * root * by_p_bar.re;
-        let [x, y] = self.by_rotation.map(|part| -strength * part / mean.momentum);
-        Change {
-            p: turn * (C64::i() * by_p_bar * (strength / mean.momentum)) - mean.p * (0.5 * momentum / mean.momentum),
-            longitude: strength * (self.by_momentum - 0.5 * circling) / mean.momentum,
-            momentum,
-            // k × δ(Mk)/M turns k, and the frame with it.
-            rotation: [-y, x],
-        }
+        let [whole, slope, by_p, by_p_bar, first, second] = turned;
+        self.by_longitude = whole.im.negate_mul_add(spin.re.all(multiple as f64), self.by_longitude);
+        self.by_momentum = self.by_momentum - slope.re;
+        self.by_rotation = [self.by_rotation[0] + first.re, self.by_rotation[1] + second.re];
+        self.by_p = [self.by_p[0] + by_p, self.by_p[1] + by_p_bar];
     }
 }

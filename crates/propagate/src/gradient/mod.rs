@@ -19,12 +19,15 @@ use std::fmt;
 use std::str::FromStr;
 
 use andoyer_series::DoubleDouble;
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, UnitQuaternion};
 use num_complex::Complex;
 
 use crate::error::Error;
+use crate::kernel::lanes::Lanes;
+use crate::kernel::level::{Level as Instructions, Task, dispatch};
+use crate::kernel::plane::{Plane, Turns};
 use crate::orbit::{Orbit, Place};
-use crate::phase::Phase;
+use crate::phase::{Phase, elapsed};
 use crate::plan::GradientPlan;
 use crate::polhode::{Frame, Polhode, scaled};
 use corrections::{Change, Corrections, Demand, Mean, SHARE, second_order};
@@ -86,7 +89,7 @@ pub(crate) struct Gradient {
     corrections: Corrections,
     slow: Slow,
     anomaly: Phase,
-    longitude: Phase,
+    half_longitude: Phase,
     mean_anomaly: Phase,
     eccentricity: f64,
     root: f64,
@@ -95,13 +98,22 @@ pub(crate) struct Gradient {
     frame: Frame,
     moments: [f64; 3],
     level: Level,
-    /// Units of the motion: time, rate and angular momentum over the user's.
-    units: [f64; 3],
+    /// Units of the motion: of rate and angular momentum over the user's.
+    units: [f64; 2],
     pub(crate) error: f64,
 }
 
-/// Attitude, body rates and inertial angular momentum.
-pub(crate) type Instant = ([f64; 4], [f64; 3], [f64; 3]);
+/// Time since the epoch, with its rounding error.
+type Elapsed<S> = (Lanes<S>, Lanes<S>);
+
+/// Osculating variables at some times: p, the circle of y′/2, M, and the invariable frame, but for its norm.
+#[derive(Clone, Copy)]
+struct State<S: Instructions> {
+    p: Plane<S>,
+    half: Plane<S>,
+    momentum: Lanes<S>,
+    frame: Turns<S>,
+}
 
 /// What is asked of the perturbed motion.
 #[derive(Clone, Copy, Debug)]
@@ -139,7 +151,8 @@ impl Gradient {
             return Err(Error::TorqueTooStrong { size, bound: STRONGEST });
         }
         let mean_anomaly = orbit.mean_anomaly(request.epoch);
-        let start = when(&mean_anomaly, (0.0, 0.0), orbit.eccentricity());
+        let none = Lanes::splat(pulp::Scalar, 0.0);
+        let start = when(&mean_anomaly, (none, none), orbit.eccentricity());
         let (sigma, [anomaly, longitude]) = osculating;
         let state = Mean {
             p: C64::from_polar(sigma.sqrt(), anomaly),
@@ -170,7 +183,7 @@ impl Gradient {
             + corrections.dropped
             + 2.0 * corrections.rest;
         let slow = if by_orbit {
-            Slow::Orbit(Precession::new(ellipse, mean.frame, &start))
+            Slow::Orbit(Precession::new(ellipse, mean.frame, &start.place, scaled(1.0, exponent)))
         } else {
             Slow::Spin(Box::new(Spin::new(ellipse, mean.frame, &start)))
         };
@@ -180,7 +193,7 @@ impl Gradient {
             |rate: DoubleDouble| DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) };
         Ok(Self {
             anomaly: Phase::new(user(anomaly_rate), mean.p.arg()),
-            longitude: Phase::new(user(longitude_rate), mean.longitude),
+            half_longitude: Phase::new(user(longitude_rate) * 0.5.into(), 0.5 * mean.longitude),
             mean_anomaly,
             eccentricity: orbit.eccentricity(),
             root: mean.p.norm(),
@@ -192,14 +205,14 @@ impl Gradient {
             frame: polhode.frame.clone(),
             moments: polhode.moments,
             level: request.level,
-            units: [scaled(1.0, exponent), scaled(1.0, exponent), polhode.user_momentum() / momentum],
+            units: [scaled(1.0, exponent), polhode.user_momentum() / momentum],
             error,
         })
     }
 
     /// Mean rates of ℓ′ and y′ in the user's unit.
     pub(crate) fn frequencies(&self) -> [f64; 2] {
-        [self.anomaly.frequency() * TAU, self.longitude.frequency() * TAU]
+        [self.anomaly.frequency() * TAU, 2.0 * self.half_longitude.frequency() * TAU]
     }
 
     /// The longest time from the epoch that quarters are kept for, in the user's unit.
@@ -218,7 +231,7 @@ impl Gradient {
                 Slow::Orbit(_) => Averaging::Orbit,
             },
             level: self.level,
-            terms: self.corrections.count(),
+            terms: self.corrections.count,
             size: self.corrections.size,
         }
     }
@@ -236,47 +249,106 @@ impl Gradient {
         skipped
     }
 
-    /// The mean variables and the changes that lead from them to the motion.
-    fn variables(&self, elapsed: (f64, f64)) -> (Mean, Change) {
+    /// The motion at times after the epoch, in osculating variables.
+    #[inline(always)]
+    fn state<S: Instructions>(&self, elapsed: Elapsed<S>) -> State<S> {
+        let all = |value: f64| elapsed.0.all(value);
         let when = when(&self.mean_anomaly, elapsed, self.eccentricity);
-        let (frame, phase) = self.slow.at(&when);
-        let anomaly = self.anomaly.angle(elapsed) + self.drifts[0] * phase;
-        let longitude = self.longitude.angle(elapsed) + self.drifts[1] * phase;
-        let mean = Mean { p: C64::from_polar(self.root, anomaly), longitude, momentum: self.inertia.momentum, frame };
-        (mean, self.corrections.at(&mean, &when.place))
+        let (frame, phase) = self.slow.at(&when, elapsed);
+        let plane = |(im, re): (Lanes<S>, Lanes<S>)| Plane { re, im };
+        let turn = plane(self.anomaly.sin_cos_beyond(elapsed, phase * all(self.drifts[0] / TAU)));
+        let half = plane(self.half_longitude.sin_cos_beyond(elapsed, phase * all(0.5 * self.drifts[1] / TAU)));
+        let change = self.corrections.generator.at(&generator::Mean { turn, spin: half * half, frame }, &when.place);
+        let relative = Plane { re: change.p.re + all(self.root), im: change.p.im };
+        let [x, y] = change.rotation;
+        let zero = all(0.0);
+        State {
+            p: turn * relative,
+            half: half * small_turn(all(0.5) * change.longitude),
+            momentum: change.momentum + all(self.inertia.momentum),
+            frame: frame * Turns([all(0.5) * x, all(0.5) * y, zero, all(1.0)]),
+        }
     }
 
-    /// Attitude and rates a time after the epoch.
-    pub(crate) fn attitude_and_rates(&self, elapsed: (f64, f64)) -> ([f64; 4], [f64; 3]) {
-        let (attitude, rates, _) = self.at(elapsed);
+    /// Attitude and rates at times after the epoch, as far as they are asked for.
+    #[inline(always)]
+    pub(crate) fn evaluate<S: Instructions, const ATTITUDE: bool, const RATES: bool>(
+        &self,
+        elapsed: Elapsed<S>,
+    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
+        let state = self.state(elapsed);
+        let relative = self.relative(&state);
+        let zero = elapsed.0.all(0.0);
+        let mut rates = [zero; 3];
+        if RATES {
+            let body = relative.rows()[2];
+            for i in 0..3 {
+                let factor = self.frame.signs[i] * self.units[0] / self.moments[i];
+                rates[self.frame.axes[i]] = state.momentum * body[i] * zero.all(factor);
+            }
+        }
+        let mut attitude = [zero; 4];
+        if ATTITUDE {
+            let turned = state.frame * relative * Turns::all(zero, &self.frame.quaternion);
+            attitude = turned.normalized().0;
+        }
         (attitude, rates)
     }
 
-    /// The motion at a time after the epoch.
-    pub(crate) fn at(&self, elapsed: (f64, f64)) -> Instant {
-        let (mean, change) = self.variables(elapsed);
-        let state = mean.changed(&change, 1.0);
-        let relative = self.relative(&state);
-        let sorted = state.frame.into_inner() * relative;
-        let attitude = sorted * self.frame.quaternion.into_inner();
-        let direction = state.frame * Vector3::z();
-        let body = UnitQuaternion::new_normalize(sorted).inverse() * direction;
-        let rate = self.units[1] * state.momentum;
-        let rates = self.frame.user(std::array::from_fn(|i| rate * body[i] / self.moments[i]));
-        let attitude = attitude.coords / attitude.coords.norm();
-        (attitude.into(), rates, (direction * (state.momentum * self.units[2])).into())
+    /// The angular momenta, inertial components, at times from an epoch.
+    pub(crate) fn angular_momenta(&self, times: &[f64], epoch: f64, out: &mut [[f64; 3]]) {
+        dispatch(pulp::Arch::new(), Momenta { gradient: self, times, epoch, out });
     }
 
     /// The quaternion of theory §8 of a state near the mean one.
-    fn relative(&self, state: &Mean) -> Quaternion<f64> {
-        let beyond = state.p.norm_sqr() - self.inertia.sigma;
-        let square = state.p * state.p;
-        let [a, b] = self.pair.each_ref().map(|series| series.at(square, beyond));
-        let b = b[0] * state.p + b[1] * state.p.conj();
-        let a = a[0] + a[1] * square.conj();
-        let turn = C64::from_polar(1.0, 0.5 * state.longitude);
-        let (a, b) = (a * turn, b * turn);
-        Quaternion::new(a.re, b.re, b.im, a.im).normalize()
+    #[inline(always)]
+    fn relative<S: Instructions>(&self, state: &State<S>) -> Turns<S> {
+        let State { p, half, .. } = *state;
+        let beyond = p.re.mul_add(p.re, p.im.mul_add(p.im, p.re.all(-self.inertia.sigma)));
+        let square = p * p;
+        let [[a, a_bar], [b, b_bar]] = [self.pair[0].at(square, beyond), self.pair[1].at(square, beyond)];
+        let a = a.plus(a_bar, square.conjugate()) * half;
+        let b = (b * p).plus(b_bar, p.conjugate()) * half;
+        Turns([b.re, b.im, a.im, a.re]).normalized()
+    }
+}
+
+/// e^(ix) for |x| ≤ 0.05, to 2e-17.
+#[inline(always)]
+fn small_turn<S: Instructions>(x: Lanes<S>) -> Plane<S> {
+    let square = x * x;
+    let series = |coefficients: &[f64]| square.polynomial(coefficients);
+    Plane {
+        re: series(&[1.0, -1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40320.0]),
+        im: x * series(&[1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0]),
+    }
+}
+
+/// Angular momenta at many times.
+struct Momenta<'a> {
+    gradient: &'a Gradient,
+    times: &'a [f64],
+    epoch: f64,
+    out: &'a mut [[f64; 3]],
+}
+
+impl Task for Momenta<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Instructions>(self, simd: S) {
+        let epoch = Lanes::splat(simd, self.epoch);
+        let width = Lanes::<S>::WIDTH;
+        for (times, rows) in self.times.chunks(width).zip(self.out.chunks_mut(width)) {
+            let state = self.gradient.state(elapsed(Lanes::load(simd, times), epoch));
+            let matrix = state.frame.normalized().rows();
+            let size = state.momentum * epoch.all(self.gradient.units[1]);
+            for c in 0..3 {
+                for (row, value) in rows.iter_mut().zip((matrix[c][2] * size).values()) {
+                    row[c] = *value;
+                }
+            }
+        }
     }
 }
 
@@ -304,18 +376,25 @@ impl Powers {
     }
 
     /// Their sums, to be multiplied with what they lack of p and p̄.
-    fn at(&self, square: C64, beyond: f64) -> [C64; 2] {
-        let sum = |terms: &[[f64; 2]], by: C64| {
-            terms.iter().rev().fold(C64::default(), |sum, [value, slope]| sum * by + (value + slope * beyond))
-        };
-        [sum(&self.0[0], square), sum(&self.0[1], square.conj())]
+    #[inline(always)]
+    fn at<S: Instructions>(&self, square: Plane<S>, beyond: Lanes<S>) -> [Plane<S>; 2] {
+        let zero = beyond.all(0.0);
+        let mut sums = [Plane { re: zero, im: zero }; 2];
+        for ((sum, terms), by) in sums.iter_mut().zip(&self.0).zip([square, square.conjugate()]) {
+            for [value, slope] in terms.iter().rev() {
+                let factor = Plane { re: beyond.mul_add(zero.all(*slope), zero.all(*value)), im: zero };
+                *sum = factor.plus(*sum, by);
+            }
+        }
+        sums
     }
 }
 
-/// Where the disturbing body is a time after the epoch.
-fn when(mean_anomaly: &Phase, elapsed: (f64, f64), eccentricity: f64) -> When {
+/// Where the disturbing body is at times after the epoch.
+#[inline(always)]
+fn when<S: Instructions>(mean_anomaly: &Phase, elapsed: Elapsed<S>, eccentricity: f64) -> When<S> {
     let (turns, angle) = mean_anomaly.turns_and_angle(elapsed);
-    When { turns, place: Place::of(angle, eccentricity), mean_anomaly: angle }
+    When { turns, place: Place::of(angle, eccentricity) }
 }
 
 /// The frame of theory §8 at a state: axis 3 along the angular momentum, y = 0.
@@ -338,7 +417,7 @@ struct MeanMotion {
 fn mean_motion_of(
     polhode: &Polhode,
     state: &Mean,
-    start: &When,
+    start: &When<pulp::Scalar>,
     demand: &Demand<'_>,
 ) -> Result<MeanMotion, Error> {
     let (mut mean, mut change) = (*state, Change::default());

@@ -13,9 +13,14 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use std::sync::{Arc, RwLock};
 
-use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use andoyer_series::DoubleDouble;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
+use crate::kernel::lanes::{Lanes, WIDEST};
+use crate::kernel::level::Level;
+use crate::kernel::plane::{Plane, Turns};
 use crate::orbit::{Orbit, Place};
+use crate::phase::Phase;
 
 /// Chebyshev points of a quarter: what a degree of 17 leaves of cos 3f is 1e-15 of κ.
 const POINTS: usize = 18;
@@ -23,6 +28,9 @@ const POINTS: usize = 18;
 const MOST_ITERATIONS: usize = 40;
 /// Quarters that are kept on each side of the epoch; 0.7 kB each.
 pub(crate) const MOST_QUARTERS: usize = 1 << 18;
+
+/// Coefficients that change nothing.
+const NEGLIGIBLE: f64 = 1e-17;
 
 /// Frame (quaternion x, y, z, w) and J.
 type Column = [f64; 5];
@@ -39,12 +47,11 @@ pub(crate) struct Ellipse {
     strength: f64,
 }
 
-/// Where the disturbing body is: whole turns since the epoch's pericentre, place and mean anomaly, in (−π, π].
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct When {
-    pub(crate) turns: f64,
-    pub(crate) place: Place,
-    pub(crate) mean_anomaly: f64,
+/// Where the disturbing body is at some times: whole turns since the epoch's pericentre, and its place.
+#[derive(Clone, Copy)]
+pub(crate) struct When<S: Level> {
+    pub(crate) turns: Lanes<S>,
+    pub(crate) place: Place<S>,
 }
 
 /// The averaged motion.
@@ -57,11 +64,12 @@ pub(crate) enum Slow {
 }
 
 impl Slow {
-    /// The frame and J at a place of the orbit.
-    pub(crate) fn at(&self, when: &When) -> (UnitQuaternion<f64>, f64) {
+    /// The frame and J at times after the epoch.
+    #[inline(always)]
+    pub(crate) fn at<S: Level>(&self, when: &When<S>, elapsed: (Lanes<S>, Lanes<S>)) -> (Turns<S>, Lanes<S>) {
         match self {
             Self::Spin(spin) => spin.at(when),
-            Self::Orbit(precession) => precession.at(when),
+            Self::Orbit(precession) => precession.at(&when.place, elapsed),
         }
     }
 }
@@ -109,53 +117,84 @@ pub(crate) struct Spin {
 #[derive(Clone, Debug)]
 struct Quarter {
     coefficients: [Column; POINTS],
+    terms: usize,
 }
 
 impl Spin {
     /// From the frame at a place of the orbit, where J is 0.
-    pub(crate) fn new(ellipse: Ellipse, frame: UnitQuaternion<f64>, when: &When) -> Self {
-        let (first, inside) = quarter(when);
+    pub(crate) fn new(ellipse: Ellipse, frame: UnitQuaternion<f64>, when: &When<pulp::Scalar>) -> Self {
+        let (first, inside) = quarter(when.turns.values()[0], when.place.angle.values()[0]);
         let start: Column = [frame.i, frame.j, frame.k, frame.w, 0.0];
         let epoch = Quarter::solved(&ellipse, first, inside, &start);
         Self { ellipse, first, epoch, kept: Arc::default() }
     }
 
-    fn at(&self, when: &When) -> (UnitQuaternion<f64>, f64) {
-        let (index, inside) = quarter(when);
-        let column = match index - self.first {
-            0 => self.epoch.at(inside),
-            later if later > 0 => self.far(0, later as usize - 1, inside),
-            earlier => self.far(1, earlier.unsigned_abs() as usize - 1, inside),
-        };
-        let [x, y, z, w, phase] = column;
-        (UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)), phase)
+    /// Neighbours in one quarter are computed together.
+    #[inline(always)]
+    fn at<S: Level>(&self, when: &When<S>) -> (Turns<S>, Lanes<S>) {
+        let (turns, angles) = (when.turns.values(), when.place.angle.values());
+        let (mut quarters, mut insides) = ([0_i64; WIDEST], [0.0; WIDEST]);
+        for (lane, (turns, angle)) in turns.iter().zip(angles).enumerate() {
+            (quarters[lane], insides[lane]) = quarter(*turns, *angle);
+        }
+        let inside = when.turns.like(&insides);
+        let mut rows = [[0.0; WIDEST]; 5];
+        let mut lane = 0;
+        while lane < turns.len() {
+            let next = lane + quarters[lane..turns.len()].iter().take_while(|other| **other == quarters[lane]).count();
+            let columns = self.with(quarters[lane] - self.first, |quarter| quarter.sums(inside));
+            if next - lane == turns.len() {
+                let [x, y, z, w, phase] = columns;
+                return (Turns([x, y, z, w]), phase);
+            }
+            for (row, column) in rows.iter_mut().zip(&columns) {
+                row[lane..next].copy_from_slice(&column.values()[lane..next]);
+            }
+            lane = next;
+        }
+        let mut columns = [inside; 5];
+        for (column, row) in columns.iter_mut().zip(&rows) {
+            *column = inside.like(row);
+        }
+        let [x, y, z, w, phase] = columns;
+        (Turns([x, y, z, w]), phase)
     }
 
-    /// A quarter on one side, which is solved with all before it if it was not needed yet.
-    fn far(&self, side: usize, index: usize, inside: f64) -> Column {
-        let kept = &self.kept[side];
+    /// A quarter so many after the epoch's, which is solved with all between if it was not needed yet.
+    #[inline(always)]
+    fn with<T>(&self, distance: i64, evaluate: impl Fn(&Quarter) -> T) -> T {
+        let (side, index) = match distance {
+            0 => return evaluate(&self.epoch),
+            later if later > 0 => (0, later as usize - 1),
+            earlier => (1, earlier.unsigned_abs() as usize - 1),
+        };
         // A thread that panicked while it held the lock left whole quarters behind.
-        if let Some(quarter) = kept.read().unwrap_or_else(|poisoned| poisoned.into_inner()).get(index) {
-            return quarter.at(inside);
+        if let Some(quarter) = self.kept[side].read().unwrap_or_else(|poisoned| poisoned.into_inner()).get(index) {
+            return evaluate(quarter);
         }
-        let mut quarters = kept.write().unwrap_or_else(|poisoned| poisoned.into_inner());
+        evaluate(&self.solved(side, index))
+    }
+
+    fn solved(&self, side: usize, index: usize) -> Quarter {
+        let mut quarters = self.kept[side].write().unwrap_or_else(|poisoned| poisoned.into_inner());
         let (step, end) = if side == 0 { (1, 1.0) } else { (-1, -1.0) };
         while quarters.len() <= index {
             let start = quarters.last().unwrap_or(&self.epoch).at(end);
             let number = self.first + step * (quarters.len() as i64 + 1);
             quarters.push(Quarter::solved(&self.ellipse, number, -end, &start));
         }
-        quarters[index].at(inside)
+        quarters[index].clone()
     }
 }
 
 /// The quarter, counted from the epoch's pericentre, and the place in it from −1 to 1.
-fn quarter(when: &When) -> (i64, f64) {
-    let quarters = when.place.angle / FRAC_PI_2;
+#[inline(always)]
+fn quarter(turns: f64, angle: f64) -> (i64, f64) {
+    let quarters = angle / FRAC_PI_2;
     let part = quarters.floor().clamp(-2.0, 1.0);
     let inside = (2.0 * (quarters - part) - 1.0).clamp(-1.0, 1.0);
     // Within MOST_QUARTERS, by the motion's bound.
-    (4 * when.turns as i64 + part as i64, inside)
+    (4 * turns as i64 + part as i64, inside)
 }
 
 impl Quarter {
@@ -165,7 +204,7 @@ impl Quarter {
         let nodes: [f64; POINTS] = std::array::from_fn(|i| (PI * (i as f64 + 0.5) / POINTS as f64).cos());
         let circles = nodes.map(|x| (middle + FRAC_PI_4 * x).sin_cos());
         let mut values = [*start; POINTS];
-        let mut quarter = Self { coefficients: [[0.0; 5]; POINTS] };
+        let mut quarter = Self { coefficients: [[0.0; 5]; POINTS], terms: POINTS };
         for _ in 0..MOST_ITERATIONS {
             let slopes: [Column; POINTS] = std::array::from_fn(|i| {
                 let [x, y, z, w, _] = values[i];
@@ -186,7 +225,7 @@ impl Quarter {
                 break;
             }
         }
-        quarter
+        quarter.trimmed()
     }
 
     /// The primitive of what has these values at the points, up to a constant.
@@ -209,18 +248,34 @@ impl Quarter {
                 coefficients[k][c] = (lower * series[k - 1][c] - series[k + 1][c]) / (2.0 * k as f64);
             }
         }
-        Self { coefficients }
+        Self { coefficients, terms: POINTS }
     }
 
-    /// Clenshaw's sum.
-    fn at(&self, x: f64) -> Column {
-        let (mut next, mut after) = ([0.0; 5], [0.0; 5]);
-        for coefficient in self.coefficients[1..].iter().rev() {
+    /// Clenshaw's sums.
+    #[inline(always)]
+    fn sums<S: Level>(&self, x: Lanes<S>) -> [Lanes<S>; 5] {
+        let twice = x + x;
+        let (mut next, mut after) = ([x.all(0.0); 5], [x.all(0.0); 5]);
+        for coefficient in self.coefficients[1..self.terms].iter().rev() {
             for c in 0..5 {
-                (next[c], after[c]) = (coefficient[c] + 2.0 * x * next[c] - after[c], next[c]);
+                (next[c], after[c]) = (twice.mul_add(next[c], x.all(coefficient[c]) - after[c]), next[c]);
             }
         }
-        std::array::from_fn(|c| self.coefficients[0][c] + x * next[c] - after[c])
+        for c in 0..5 {
+            next[c] = x.mul_add(next[c], x.all(self.coefficients[0][c]) - after[c]);
+        }
+        next
+    }
+
+    fn at(&self, x: f64) -> Column {
+        self.sums(Lanes::splat(pulp::Scalar, x)).map(|lanes| lanes.values()[0])
+    }
+
+    /// Without the last terms that are nothing.
+    fn trimmed(mut self) -> Self {
+        let something = |column: &Column| column.iter().any(|c| c.abs() > NEGLIGIBLE);
+        self.terms = self.coefficients.iter().rposition(something).map_or(1, |last| last + 1);
+        self
     }
 }
 
@@ -230,60 +285,84 @@ pub(crate) struct Precession {
     ellipse: Ellipse,
     /// The mean frame at the epoch.
     frame: UnitQuaternion<f64>,
-    start: When,
+    /// Half the angle about the orbit's normal, and half that about the angular momentum which keeps the frame from turning about it.
+    half: Phase,
+    half_back: Phase,
+    /// dJ/dt of the average.
+    secular: f64,
     /// J of the periodic part at the epoch.
     phase: f64,
 }
 
 impl Precession {
-    /// From the frame at a place of the orbit, where J is 0.
-    pub(crate) fn new(ellipse: Ellipse, frame: UnitQuaternion<f64>, when: &When) -> Self {
-        let mut precession = Self { ellipse, frame, start: *when, phase: 0.0 };
+    /// From the frame at a place of the orbit, where J is 0; `unit` is the user's unit of time in the motion's.
+    pub(crate) fn new(ellipse: Ellipse, frame: UnitQuaternion<f64>, place: &Place<pulp::Scalar>, unit: f64) -> Self {
+        let still = Phase::new(DoubleDouble::ZERO, 0.0);
+        let mut precession = Self { ellipse, frame, half: still, half_back: still, secular: 0.0, phase: 0.0 };
+        let one = Lanes::splat(pulp::Scalar, 1.0);
         // The mean axis to first order, then once more with the periodic part at itself.
+        let mut phase = one;
         for _ in 0..3 {
-            let (rotation, _) = precession.periodic(&precession.frame, when);
-            precession.frame = UnitQuaternion::from_scaled_axis(-rotation) * frame;
+            let (rotation, next) = precession.periodic(Turns::all(one, &precession.frame), place);
+            let [x, y, z] = rotation.map(|lanes| -0.5 * lanes.values()[0]);
+            precession.frame = UnitQuaternion::new_normalize(Quaternion::new(1.0, x, y, z)) * frame;
+            phase = next;
         }
-        precession.phase = precession.periodic(&precession.frame, when).1;
+        let normal = precession.ellipse.axes[2];
+        let axis = precession.frame * Vector3::z();
+        let cosine = axis.dot(&normal);
+        // 1 − (3/2) sin² I without cancellation at I = 0.
+        let sine_square = axis.cross(&normal).norm_squared();
+        let rate = precession.ellipse.mean_motion * unit;
+        // dλ/dt = −(3/2) n² Δ cos I/(M η³): κ is 3 n Δ/(M η³).
+        let precessing = -0.5 * precession.ellipse.strength * cosine * rate;
+        precession.half = Phase::new((0.5 * precessing).into(), 0.0);
+        precession.half_back = Phase::new((-0.5 * cosine * precessing).into(), 0.0);
+        precession.secular = precession.ellipse.mean_motion * (1.0 - 1.5 * sine_square) * rate / precession.ellipse.eta_cubed;
+        precession.phase = phase.values()[0];
         precession
     }
 
-    fn at(&self, when: &When) -> (UnitQuaternion<f64>, f64) {
-        let normal = self.ellipse.axes[2];
-        let axis = self.frame * Vector3::z();
-        let cosine = axis.dot(&normal);
-        // (3/2) sin² I − 1 without cancellation at I = 0.
-        let sine_square = axis.cross(&normal).norm_squared();
-        let elapsed =
-            std::f64::consts::TAU * (when.turns - self.start.turns) + (when.mean_anomaly - self.start.mean_anomaly);
-        // dλ/dt = −(3/2) n² Δ cos I/(M η³): κ is 3 n Δ/(M η³).
-        let angle = -0.5 * self.ellipse.strength * cosine * elapsed;
-        let turn = UnitQuaternion::from_scaled_axis(normal * angle);
-        let back = UnitQuaternion::from_scaled_axis(Vector3::z() * (-cosine * angle));
-        let mean = turn * self.frame * back;
-        let (rotation, phase) = self.periodic(&mean, when);
-        let secular = (1.0 - 1.5 * sine_square) * elapsed / self.ellipse.eta_cubed;
-        (UnitQuaternion::from_scaled_axis(rotation) * mean, self.ellipse.mean_motion * secular + phase - self.phase)
+    #[inline(always)]
+    fn at<S: Level>(&self, place: &Place<S>, elapsed: (Lanes<S>, Lanes<S>)) -> (Turns<S>, Lanes<S>) {
+        let turn = Turns::about(&self.ellipse.axes[2], self.half.sin_cos(elapsed));
+        let back = Turns::about(&Vector3::z(), self.half_back.sin_cos(elapsed));
+        let mean = turn * Turns::all(elapsed.0, &self.frame) * back;
+        let ([x, y, z], phase) = self.periodic(mean, place);
+        let (half, one) = (x.all(0.5), x.all(1.0));
+        let frame = Turns([half * x, half * y, half * z, one]) * mean;
+        (frame.normalized(), elapsed.0.mul_add(x.all(self.secular), phase - x.all(self.phase)))
     }
 
     /// What the orbit average leaves out: a rotation (inertial) and J, by the integrals of theory §9.
-    fn periodic(&self, frame: &UnitQuaternion<f64>, when: &When) -> (Vector3<f64>, f64) {
-        let Ellipse { eccentricity: e, eta_cubed, mean_motion, axes, strength } = &self.ellipse;
-        let Place { angle, sine, cosine } = when.place;
-        let (double_sine, double_cosine) = (2.0 * sine * cosine, (cosine - sine) * (cosine + sine));
-        let (triple_sine, triple_cosine) =
-            (double_sine * cosine + double_cosine * sine, double_cosine * cosine - double_sine * sine);
-        let constant = angle - when.mean_anomaly + e * sine;
-        let by_cosine = 0.5 * double_sine + 0.5 * e * sine + e * triple_sine / 6.0;
-        let by_sine = -(0.5 * double_cosine + 0.5 * e * cosine + e * triple_cosine / 6.0);
-        let outer = |u: &Vector3<f64>, v: &Vector3<f64>| u * v.transpose();
-        let tensor: Matrix3<f64> = ((outer(&axes[0], &axes[0]) + outer(&axes[1], &axes[1])) * constant
-            + (outer(&axes[0], &axes[0]) - outer(&axes[1], &axes[1])) * by_cosine
-            + (outer(&axes[0], &axes[1]) + outer(&axes[1], &axes[0])) * by_sine)
-            * 0.5;
-        let axis = frame * Vector3::z();
-        let turned = tensor * axis;
-        let along = axis.dot(&turned);
-        ((turned - axis * along) * *strength, mean_motion / eta_cubed * (constant - 3.0 * along))
+    #[inline(always)]
+    fn periodic<S: Level>(&self, frame: Turns<S>, place: &Place<S>) -> ([Lanes<S>; 3], Lanes<S>) {
+        let Ellipse { eccentricity, eta_cubed, mean_motion, axes, strength } = &self.ellipse;
+        let Place { centre, sine, cosine, .. } = *place;
+        let all = |value: f64| sine.all(value);
+        let double = Plane { re: cosine, im: sine } * Plane { re: cosine, im: sine };
+        let triple = double * Plane { re: cosine, im: sine };
+        let (half, first, third) = (all(0.5), all(0.5 * eccentricity), all(eccentricity / 6.0));
+        let constant = sine.mul_add(all(*eccentricity), centre);
+        let by_cosine = triple.im.mul_add(third, sine.mul_add(first, half * double.im));
+        let by_sine = -triple.re.mul_add(third, cosine.mul_add(first, half * double.re));
+        // The tensor ½ [(PP + QQ) constant + (PP − QQ) by_cosine + (PQ + QP) by_sine] times the axis.
+        let rows = frame.rows();
+        let axis = [rows[0][2], rows[1][2], rows[2][2]];
+        let along = |direction: &Vector3<f64>| {
+            let part = axis[0].mul_add(all(direction.x), axis[1] * all(direction.y));
+            axis[2].mul_add(all(direction.z), part)
+        };
+        let (p, q) = (along(&axes[0]), along(&axes[1]));
+        let to_p = half * p.mul_add(constant + by_cosine, q * by_sine);
+        let to_q = half * q.mul_add(constant - by_cosine, p * by_sine);
+        let sum = p.mul_add(to_p, q * to_q);
+        let scale = all(*strength);
+        let mut turned = [sum; 3];
+        for (c, component) in turned.iter_mut().enumerate() {
+            let inside = to_p.mul_add(all(axes[0][c]), to_q * all(axes[1][c]));
+            *component = scale * axis[c].negate_mul_add(sum, inside);
+        }
+        (turned, all(mean_motion / eta_cubed) * sum.negate_mul_add(all(3.0), constant))
     }
 }

@@ -95,7 +95,7 @@ struct Stand {
     polhode: Polhode,
     orbit: Orbit,
     mean: Mean,
-    place: Place,
+    place: Place<pulp::Scalar>,
 }
 
 impl Stand {
@@ -110,7 +110,7 @@ impl Stand {
             momentum: polhode.momentum.to_f64(),
             frame: invariable_frame(&polhode, state.attitude),
         };
-        Self { polhode, orbit, mean, place: Place::of(0.8, orbit.eccentricity()) }
+        Self { polhode, orbit, mean, place: Place::of(Lanes::splat(pulp::Scalar, 0.8), orbit.eccentricity()) }
     }
 
     fn change(&self, mean: &Mean) -> Change {

@@ -3,14 +3,18 @@
 //! A value is as many vectors as [`STRANDS`]: a kernel is one long chain of dependent operations, and two of them side by side fill the time that each
 //! waits (AVX-512 3.9 ns a sample for 4.6 with one, AVX2 7.3 for 8.7, portable 36 for 44). No closure and no `array::map` stands around vectors: what is not inlined is compiled without the instructions of the set, and fifty times slower.
 
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use pulp::bytemuck;
 
 use super::level::Level;
+use super::sincos::INTEGERS;
 
 /// Vectors worked on side by side.
 pub(crate) const STRANDS: usize = 2;
+
+/// Most lanes of any instruction set.
+pub(crate) const WIDEST: usize = 8 * STRANDS;
 
 /// Vectors of doubles. With a fused multiply-add `mul_add` rounds once, without one twice; everything else has the same bits everywhere.
 #[derive(Clone, Copy)]
@@ -53,6 +57,22 @@ impl<S: Level> Mul for Lanes<S> {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         strands!(self, i => self.simd.mul_f64s(self.strands[i], other.strands[i]))
+    }
+}
+
+impl<S: Level> Div for Lanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        strands!(self, i => self.simd.div_f64s(self.strands[i], other.strands[i]))
+    }
+}
+
+impl<S: Level> Neg for Lanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        strands!(self, i => self.simd.neg_f64s(self.strands[i]))
     }
 }
 
@@ -128,6 +148,49 @@ impl<S: Level> Lanes<S> {
     #[inline(always)]
     pub(crate) fn negate_mul_add(self, factor: Self, term: Self) -> Self {
         strands!(self, i => self.simd.negate_mul_add_e_f64s(self.strands[i], factor.strands[i], term.strands[i]))
+    }
+
+    /// |self|.
+    #[inline(always)]
+    pub(crate) fn magnitude(self) -> Self {
+        strands!(self, i => self.simd.abs_f64s(self.strands[i]))
+    }
+
+    /// The nearest integer, for less than 2^51.
+    #[inline(always)]
+    pub(crate) fn rounded(self) -> Self {
+        let integers = self.all(INTEGERS);
+        (self + integers) - integers
+    }
+
+    /// In each lane `near` where self is at most `bound`, and `far` elsewhere.
+    #[inline(always)]
+    pub(crate) fn up_to(self, bound: f64, near: Self, far: Self) -> Self {
+        let bound = self.all(bound);
+        strands!(self, i => {
+            let within = self.simd.less_than_or_equal_f64s(self.strands[i], bound.strands[i]);
+            self.simd.select_f64s(within, near.strands[i], far.strands[i])
+        })
+    }
+
+    /// A function of each value: for what has no vector form.
+    #[inline(always)]
+    pub(crate) fn each(self, function: impl Fn(f64) -> f64) -> Self {
+        let mut lanes = self;
+        for value in bytemuck::cast_slice_mut(&mut lanes.strands) {
+            *value = function(*value);
+        }
+        lanes
+    }
+
+    /// A polynomial with these coefficients, of self.
+    #[inline(always)]
+    pub(crate) fn polynomial(self, coefficients: &[f64]) -> Self {
+        let mut sum = self.all(0.0);
+        for coefficient in coefficients.iter().rev() {
+            sum = sum.mul_add(self, self.all(*coefficient));
+        }
+        sum
     }
 
     /// 1/self.

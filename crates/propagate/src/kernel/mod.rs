@@ -11,6 +11,7 @@
 pub(crate) mod grid;
 pub(crate) mod lanes;
 pub(crate) mod level;
+pub(crate) mod plane;
 pub(crate) mod run;
 pub(crate) mod sincos;
 pub(crate) mod steady;

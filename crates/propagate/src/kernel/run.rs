@@ -1,15 +1,13 @@
 //! The loop over blocks of times, compiled for each instruction set and each set of outputs.
 
-use super::grid::{BLOCK, GROUP, Grid, Tabled, TabledCircles};
-use super::lanes::{Lanes, STRANDS};
+use super::grid::{BLOCK, GROUP, Grid, Tabled};
+use super::lanes::{Lanes, WIDEST};
 use super::level::{Level, Task};
 use super::{Evaluation, Outputs};
+use crate::gradient::Gradient;
 use crate::motion::Course;
 use crate::phase::{Phase, elapsed};
 use andoyer_series::two_sum;
-
-/// Most lanes of any instruction set.
-const WIDEST: usize = 8 * STRANDS;
 
 /// Sine and cosine.
 pub(crate) type Circle<S> = (Lanes<S>, Lanes<S>);
@@ -22,12 +20,14 @@ pub(crate) trait Circles<S: Level>: Copy {
     fn half_longitude(self) -> Circle<S>;
 }
 
-/// Where the circles at times come from.
+/// What gives attitude and rates at some times, as far as they are asked for.
 trait Source<S: Level> {
-    type Circles: Circles<S>;
-
-    /// The circles at the times from a place on.
-    fn circles(&self, place: usize, times: Lanes<S>) -> Self::Circles;
+    /// At the times from a place on.
+    fn at<const ATTITUDE: bool, const RATES: bool>(
+        &self,
+        place: usize,
+        times: Lanes<S>,
+    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]);
 }
 
 /// How attitude and rates come from the circles.
@@ -60,7 +60,7 @@ impl Task for Run<'_> {
             Course::Steady(steady) => self.select(simd, steady.as_ref()),
             Course::Polhode(tables) => self.select(simd, tables.as_ref()),
             Course::Flip(flip) => self.one_by_one(|elapsed| flip.evaluate(elapsed)),
-            Course::Gradient(gradient) => self.one_by_one(|elapsed| gradient.attitude_and_rates(elapsed)),
+            Course::Gradient(gradient) => self.disturbed(simd, gradient),
         }
     }
 }
@@ -74,11 +74,8 @@ impl Run<'_> {
             Outputs::Rates(rates) => (None, Some(rates)),
             Outputs::Both(attitudes, rates) => (Some(attitudes), Some(rates)),
         };
+        all_within(times, epoch, bound)?;
         for (index, &time) in times.iter().enumerate() {
-            let distance = (time - epoch).abs();
-            if distance > bound || distance.is_nan() {
-                return Err(index);
-            }
             let (attitude, rate) = evaluate(two_sum(time, -epoch));
             if let Some(attitudes) = &mut attitudes {
                 attitudes[index] = attitude;
@@ -86,6 +83,20 @@ impl Run<'_> {
             if let Some(rates) = &mut rates {
                 rates[index] = rate;
             }
+        }
+        Ok(())
+    }
+
+    /// Under a gravity gradient.
+    #[inline(always)]
+    fn disturbed<S: Level>(self, simd: S, gradient: &Gradient) -> Result<(), usize> {
+        let Self { evaluation: &Evaluation { epoch, bound, .. }, times, outputs, .. } = self;
+        all_within(times, epoch, bound)?;
+        let source = Disturbed { gradient, epoch: Lanes::splat(simd, epoch) };
+        match outputs {
+            Outputs::Attitudes(attitudes) => each::<S, true, false>(simd, times, (attitudes, &mut []), source),
+            Outputs::Rates(rates) => each::<S, false, true>(simd, times, (&mut [], rates), source),
+            Outputs::Both(attitudes, rates) => each::<S, true, true>(simd, times, (attitudes, rates), source),
         }
         Ok(())
     }
@@ -117,13 +128,9 @@ impl<S: Level, C: Evaluate> Stretch<'_, S, C> {
     /// Group by group, each after its times are found to be valid.
     #[inline(always)]
     fn fill<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], mut rows: Rows<'_>) -> Result<(), usize> {
-        // Written so that NaN fails it.
-        let valid = |time: &f64| (time - self.epoch).abs() <= self.bound;
         for (index, group) in times.chunks(GROUP).enumerate() {
             let start = index * GROUP;
-            if !group.iter().fold(true, |all, time| all & valid(time)) {
-                return Err(start + group.iter().position(|time| !valid(time)).unwrap_or(0));
-            }
+            all_within(group, self.epoch, self.bound).map_err(|place| start + place)?;
             let rows = part::<ATTITUDE, RATES>(&mut rows, start, group.len());
             match self.grid {
                 Some(grid) => self.uniform::<ATTITUDE, RATES>(grid, group, rows),
@@ -140,7 +147,8 @@ impl<S: Level, C: Evaluate> Stretch<'_, S, C> {
         for (index, block) in times.chunks(BLOCK).enumerate() {
             let rows = part::<ATTITUDE, RATES>(&mut rows, index * BLOCK, block.len());
             if grid.holds(self.simd, block) {
-                self.each::<ATTITUDE, RATES>(block, rows, grid.tabled(self.simd, block[0], &seeds[index]));
+                let tabled = grid.tabled(self.simd, block[0], &seeds[index]);
+                each::<S, ATTITUDE, RATES>(self.simd, block, rows, Blocks { course: self.course, simd: self.simd, tabled });
             } else {
                 self.direct::<ATTITUDE, RATES>(block, rows);
             }
@@ -150,40 +158,53 @@ impl<S: Level, C: Evaluate> Stretch<'_, S, C> {
     /// Each time by its own phases.
     #[inline(always)]
     fn direct<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], rows: Rows<'_>) {
-        let source = Direct { phases: self.course.phases(), epoch: Lanes::splat(self.simd, self.epoch) };
-        self.each::<ATTITUDE, RATES>(times, rows, source);
+        let source = Direct { course: self.course, simd: self.simd, epoch: Lanes::splat(self.simd, self.epoch) };
+        each::<S, ATTITUDE, RATES>(self.simd, times, rows, source);
     }
+}
 
-    #[inline(always)]
-    fn each<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], rows: Rows<'_>, source: impl Source<S>) {
-        let width = Lanes::<S>::WIDTH;
-        let (attitudes, rates) = rows;
-        let whole = times.len() / width * width;
-        for place in (0..whole).step_by(width) {
-            let circles = source.circles(place, Lanes::load(self.simd, &times[place..]));
-            let (attitude, rate) = self.course.evaluate::<S, ATTITUDE, RATES>(self.simd, circles);
-            if ATTITUDE {
-                Lanes::store_fours(attitude, &mut attitudes[place..place + width]);
-            }
-            if RATES {
-                Lanes::store_threes(rate, &mut rates[place..place + width]);
-            }
+/// Whether all times are within the bound, or the first that is not. NaN is not.
+#[inline(always)]
+fn all_within(times: &[f64], epoch: f64, bound: f64) -> Result<(), usize> {
+    let valid = |time: &f64| (time - epoch).abs() <= bound;
+    if times.iter().fold(true, |all, time| all & valid(time)) {
+        return Ok(());
+    }
+    Err(times.iter().position(|time| !valid(time)).unwrap_or(0))
+}
+
+/// All lanes at once, and the last times with lanes that lack filled up.
+#[inline(always)]
+fn each<S: Level, const ATTITUDE: bool, const RATES: bool>(
+    simd: S,
+    times: &[f64],
+    (attitudes, rates): Rows<'_>,
+    source: impl Source<S>,
+) {
+    let width = Lanes::<S>::WIDTH;
+    let whole = times.len() / width * width;
+    for place in (0..whole).step_by(width) {
+        let (attitude, rate) = source.at::<ATTITUDE, RATES>(place, Lanes::load(simd, &times[place..]));
+        if ATTITUDE {
+            Lanes::store_fours(attitude, &mut attitudes[place..place + width]);
         }
-        if whole < times.len() {
-            let rest = times.len() - whole;
-            let mut last = [times[whole]; WIDEST];
-            last[..rest].copy_from_slice(&times[whole..]);
-            let circles = source.circles(whole, Lanes::load(self.simd, &last));
-            let (attitude, rate) = self.course.evaluate::<S, ATTITUDE, RATES>(self.simd, circles);
-            let (mut last_attitudes, mut last_rates) = ([[0.0; 4]; WIDEST], [[0.0; 3]; WIDEST]);
-            Lanes::store_fours(attitude, &mut last_attitudes[..width]);
-            Lanes::store_threes(rate, &mut last_rates[..width]);
-            if ATTITUDE {
-                attitudes[whole..].copy_from_slice(&last_attitudes[..rest]);
-            }
-            if RATES {
-                rates[whole..].copy_from_slice(&last_rates[..rest]);
-            }
+        if RATES {
+            Lanes::store_threes(rate, &mut rates[place..place + width]);
+        }
+    }
+    if whole < times.len() {
+        let rest = times.len() - whole;
+        let mut last = [times[whole]; WIDEST];
+        last[..rest].copy_from_slice(&times[whole..]);
+        let (attitude, rate) = source.at::<ATTITUDE, RATES>(whole, Lanes::load(simd, &last));
+        let (mut last_attitudes, mut last_rates) = ([[0.0; 4]; WIDEST], [[0.0; 3]; WIDEST]);
+        Lanes::store_fours(attitude, &mut last_attitudes[..width]);
+        Lanes::store_threes(rate, &mut last_rates[..width]);
+        if ATTITUDE {
+            attitudes[whole..].copy_from_slice(&last_attitudes[..rest]);
+        }
+        if RATES {
+            rates[whole..].copy_from_slice(&last_rates[..rest]);
         }
     }
 }
@@ -197,9 +218,10 @@ fn part<'a, const ATTITUDE: bool, const RATES: bool>(rows: &'a mut Rows<'_>, sta
     )
 }
 
-/// Circles by the phases of each time.
-struct Direct<'a, S: Level> {
-    phases: [&'a Phase; 2],
+/// By the phases of each time.
+struct Direct<'a, S: Level, C> {
+    course: &'a C,
+    simd: S,
     epoch: Lanes<S>,
 }
 
@@ -209,12 +231,15 @@ struct DirectCircles<'a, S: Level> {
     elapsed: (Lanes<S>, Lanes<S>),
 }
 
-impl<'a, S: Level> Source<S> for Direct<'a, S> {
-    type Circles = DirectCircles<'a, S>;
-
+impl<S: Level, C: Evaluate> Source<S> for Direct<'_, S, C> {
     #[inline(always)]
-    fn circles(&self, _place: usize, times: Lanes<S>) -> Self::Circles {
-        DirectCircles { phases: self.phases, elapsed: elapsed(times, self.epoch) }
+    fn at<const ATTITUDE: bool, const RATES: bool>(
+        &self,
+        _place: usize,
+        times: Lanes<S>,
+    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
+        let circles = DirectCircles { phases: self.course.phases(), elapsed: elapsed(times, self.epoch) };
+        self.course.evaluate::<S, ATTITUDE, RATES>(self.simd, circles)
     }
 }
 
@@ -230,11 +255,37 @@ impl<S: Level> Circles<S> for DirectCircles<'_, S> {
     }
 }
 
-impl<'a, S: Level> Source<S> for Tabled<'a, S> {
-    type Circles = TabledCircles<'a, S>;
+/// By the table of a grid.
+struct Blocks<'a, S: Level, C> {
+    course: &'a C,
+    simd: S,
+    tabled: Tabled<'a, S>,
+}
 
+impl<S: Level, C: Evaluate> Source<S> for Blocks<'_, S, C> {
     #[inline(always)]
-    fn circles(&self, place: usize, times: Lanes<S>) -> Self::Circles {
-        self.at(place, times)
+    fn at<const ATTITUDE: bool, const RATES: bool>(
+        &self,
+        place: usize,
+        times: Lanes<S>,
+    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
+        self.course.evaluate::<S, ATTITUDE, RATES>(self.simd, self.tabled.at(place, times))
+    }
+}
+
+/// Under a gravity gradient.
+struct Disturbed<'a, S: Level> {
+    gradient: &'a Gradient,
+    epoch: Lanes<S>,
+}
+
+impl<S: Level> Source<S> for Disturbed<'_, S> {
+    #[inline(always)]
+    fn at<const ATTITUDE: bool, const RATES: bool>(
+        &self,
+        _place: usize,
+        times: Lanes<S>,
+    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
+        self.gradient.evaluate::<S, ATTITUDE, RATES>(elapsed(times, self.epoch))
     }
 }

@@ -45,3 +45,37 @@ pub(crate) fn sin_cos<S: Level>(x: Lanes<S>, quarters: Lanes<S>) -> (Lanes<S>, L
     }
     sine.turned(cosine.mul_add(square, x.all(1.0)), quarters)
 }
+
+/// (sin, cos) of x turns.
+#[inline(always)]
+pub(crate) fn sin_cos_of_turns<S: Level>(x: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+    let quarters = x.mul_add(x.all(4.0), x.all(INTEGERS));
+    sin_cos((quarters - x.all(INTEGERS)).negate_mul_add(x.all(0.25), x), quarters)
+}
+
+/// (arctan x − x)/x³ as a polynomial in x² up to x = tan π/8: interpolated at Chebyshev's points in 50 digits, to 7e-18 of the arctangent.
+const ARC: [f64; 11] = [
+    -0.333_333_333_333_333_3,
+    0.199_999_999_999_955_2,
+    -0.142_857_142_846_665_42,
+    0.111_111_110_152_563_61,
+    -0.090_909_045_781_239_03,
+    0.076_921_831_908_260_87,
+    -0.066_645_114_473_819_48,
+    0.058_581_489_128_022_1,
+    -0.050_854_497_379_402_6,
+    0.039_231_658_295_587_19,
+    -0.019_176_887_119_062_21,
+];
+
+/// Twice the arctangent of y/x, for x ≥ 0.
+#[inline(always)]
+pub(crate) fn twice_arc<S: Level>(y: Lanes<S>, x: Lanes<S>) -> Lanes<S> {
+    // Halved twice: tan φ/2 = y/(x + |(x, y)|), and so on.
+    let quarter = y / (x + x.mul_add(x, y * y).root());
+    let one = x.all(1.0);
+    let eighth = quarter / (one + quarter.mul_add(quarter, one).root());
+    let square = eighth * eighth;
+    let arc = (eighth * square).mul_add(square.polynomial(&ARC), eighth);
+    arc * x.all(8.0)
+}
