@@ -31,8 +31,8 @@ type C64 = Complex<f64>;
 
 /// Ω over the fastest angular rate of twice the true anomaly below which the sum for G does not converge; above it what the sum leaves is part of the error.
 const SMALLEST_RATIO: f64 = 1.5;
-/// [`Demand::share`] of a motion: the terms are 41, most of them much smaller than the next.
-pub(crate) const SHARE: f64 = 0.01;
+/// [`Demand::share`] of a motion: what second order leaves is 0.003 of its bound in the median, and a few tens of terms may be dropped.
+pub(crate) const SHARE: f64 = 1e-5;
 /// Orbital harmonics that a resonance is named after: the nearest of them, from −3 to 3.
 const ORBITAL_HARMONICS: i32 = 3;
 
@@ -134,12 +134,14 @@ impl Corrections {
             return Err(candidate.error(fastest));
         }
         let mut dropped = effect;
-        let nothing = demand.share * demand.tolerance.max(size * size);
+        // A change of the mean M makes the phases drift.
+        let growth = 1.0 + inertia.rates[1].to_f64() * duration;
+        let nothing = (0.01 * demand.tolerance / growth).max(demand.share * size * size);
         let (mut rest, mut count, mut most_orders) = (0.0, 0, 0);
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
         for candidate in regular {
             if candidate.size() <= nothing {
-                dropped += candidate.size();
+                dropped += growth * candidate.size();
                 continue;
             }
             let most = if level == Level::Paper { 1 } else { ORDERS };
@@ -147,7 +149,7 @@ impl Corrections {
             let left = |orders: usize| candidate.size() * ratio.powi(orders as i32);
             let enough = (1..most).find(|&orders| left(orders) <= nothing);
             let orders = enough.unwrap_or(most);
-            rest += left(orders);
+            rest += growth * left(orders);
             count += 1;
             most_orders = most_orders.max(orders);
             candidate.join(&mut harmonics[candidate.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2

@@ -21,6 +21,7 @@ use std::str::FromStr;
 use andoyer_series::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion};
 use num_complex::Complex;
+use pulp::NullaryFnOnce;
 
 use crate::error::Error;
 use crate::kernel::lanes::Lanes;
@@ -249,9 +250,14 @@ impl Gradient {
         skipped
     }
 
-    /// The motion at times after the epoch, in osculating variables.
+    /// The motion at times after the epoch, in osculating variables: compiled by itself, once for each instruction set.
     #[inline(always)]
     fn state<S: Instructions>(&self, elapsed: Elapsed<S>) -> State<S> {
+        elapsed.0.simd().vectorize(At { gradient: self, elapsed })
+    }
+
+    #[inline(always)]
+    fn osculating<S: Instructions>(&self, elapsed: Elapsed<S>) -> State<S> {
         let all = |value: f64| elapsed.0.all(value);
         let when = when(&self.mean_anomaly, elapsed, self.eccentricity);
         let (frame, phase) = self.slow.at(&when, elapsed);
@@ -310,6 +316,21 @@ impl Gradient {
         let a = a.plus(a_bar, square.conjugate()) * half;
         let b = (b * p).plus(b_bar, p.conjugate()) * half;
         Turns([b.re, b.im, a.im, a.re]).normalized()
+    }
+}
+
+/// [`Gradient::state`] as a function of its own.
+struct At<'a, S: Instructions> {
+    gradient: &'a Gradient,
+    elapsed: Elapsed<S>,
+}
+
+impl<S: Instructions> NullaryFnOnce for At<'_, S> {
+    type Output = State<S>;
+
+    #[inline(always)]
+    fn call(self) -> State<S> {
+        self.gradient.osculating(self.elapsed)
     }
 }
 

@@ -114,7 +114,7 @@ pub(crate) struct Spin {
 }
 
 /// Chebyshev coefficients over a quarter.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 struct Quarter {
     coefficients: [Column; POINTS],
     terms: usize,
@@ -142,7 +142,7 @@ impl Spin {
         let mut lane = 0;
         while lane < turns.len() {
             let next = lane + quarters[lane..turns.len()].iter().take_while(|other| **other == quarters[lane]).count();
-            let columns = self.with(quarters[lane] - self.first, |quarter| quarter.sums(inside));
+            let columns = self.quarter(quarters[lane] - self.first).sums(inside);
             if next - lane == turns.len() {
                 let [x, y, z, w, phase] = columns;
                 return (Turns([x, y, z, w]), phase);
@@ -160,19 +160,16 @@ impl Spin {
         (Turns([x, y, z, w]), phase)
     }
 
-    /// A quarter so many after the epoch's, which is solved with all between if it was not needed yet.
-    #[inline(always)]
-    fn with<T>(&self, distance: i64, evaluate: impl Fn(&Quarter) -> T) -> T {
+    /// The quarter so many after the epoch's: solved, with all between, if it was not needed yet.
+    fn quarter(&self, distance: i64) -> Quarter {
         let (side, index) = match distance {
-            0 => return evaluate(&self.epoch),
+            0 => return self.epoch,
             later if later > 0 => (0, later as usize - 1),
             earlier => (1, earlier.unsigned_abs() as usize - 1),
         };
         // A thread that panicked while it held the lock left whole quarters behind.
-        if let Some(quarter) = self.kept[side].read().unwrap_or_else(|poisoned| poisoned.into_inner()).get(index) {
-            return evaluate(quarter);
-        }
-        evaluate(&self.solved(side, index))
+        let known = self.kept[side].read().unwrap_or_else(|poisoned| poisoned.into_inner()).get(index).copied();
+        known.unwrap_or_else(|| self.solved(side, index))
     }
 
     fn solved(&self, side: usize, index: usize) -> Quarter {
@@ -183,7 +180,7 @@ impl Spin {
             let number = self.first + step * (quarters.len() as i64 + 1);
             quarters.push(Quarter::solved(&self.ellipse, number, -end, &start));
         }
-        quarters[index].clone()
+        quarters[index]
     }
 }
 

@@ -110,6 +110,12 @@ impl<S: Level> Lanes<S> {
         }
     }
 
+    /// The instructions.
+    #[inline(always)]
+    pub(crate) fn simd(self) -> S {
+        self.simd
+    }
+
     /// `value` in each lane, of the kind of self.
     #[inline(always)]
     pub(crate) fn all(self, value: f64) -> Self {
