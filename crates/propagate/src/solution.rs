@@ -25,6 +25,7 @@ use crate::steady::{at_rest, steadily_rotating};
 const HARMONICS_SHARE: f64 = 0.125;
 /// σ/σ_sep up to which the tables for the gravity gradient have enough harmonics.
 const LARGEST_RATIO: f64 = 0.9;
+
 impl Motion {
     /// The motion of a valid scene.
     pub(crate) fn new(scene: Scene) -> Result<Self, Error> {
@@ -40,7 +41,8 @@ impl Motion {
             return Err(Error::Units { quantity: "the angular momentum", exponent: moment + rate });
         }
         // No rate or frequency of the motion is more than twice M over the smallest moment.
-        let fastest = polhode.momentum.to_f64() / scene.body().sorted()[0] * scaled(1.0, polhode.scales.0);
+        let smallest = polhode.moments.iter().copied().fold(f64::INFINITY, f64::min);
+        let fastest = polhode.momentum.to_f64() / smallest;
         if !scaled(4.0 * fastest, polhode.scales.1).is_finite() {
             let exponent = exponent(fastest) + polhode.scales.1;
             return Err(Error::Units { quantity: "the rate that belongs to the smallest moment", exponent });
@@ -66,7 +68,8 @@ fn mode(polhode: &Polhode) -> Mode {
     if first == DoubleDouble::ZERO {
         return Mode::Spherical;
     }
-    // With B = C every axis across axis 1 is one of greatest inertia, with A = B every axis across axis 3 one of least; in the middle between A and C rotation is steady too, as long as it is exact.
+    // With B = C every axis across axis 1 is one of greatest inertia, with A = B every axis across axis 3 one of least; in the middle between A and C
+    // rotation is steady too, as long as it is exact.
     if g1 && (g2 || g3 || second == DoubleDouble::ZERO) || g3 && polhode.difference == DoubleDouble::ZERO {
         return Mode::PrincipalAxis;
     }
