@@ -134,7 +134,6 @@ def test_console_script_is_installed():
 
 
 BAD_LINES = {
-    "no command": ([], "required"),
     "unknown command": (["dance"], "dance"),
     "missing scene": (["plan", "absent.toml"], "absent.toml"),
     "missing output": (["propagate", "SCENE"], "--output"),
