@@ -67,9 +67,8 @@ impl Problem {
         loop {
             let mut change = 0.0_f64;
             for i in 0..STAGES {
-                let stage = std::array::from_fn(|c| {
-                    state[c] + (step * weighted(&tableau.inner[i], &slopes, c) - lost[c])
-                });
+                let stage =
+                    std::array::from_fn(|c| state[c] + (step * weighted(&tableau.inner[i], &slopes, c) - lost[c]));
                 let slope = self.slope(&stage, &places[i]);
                 change = (0..UNKNOWNS).fold(change, |most, c| most.max((slope[c] - slopes[i][c]).abs()));
                 slopes[i] = slope;

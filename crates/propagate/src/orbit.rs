@@ -179,12 +179,7 @@ impl<S: Level> Place<S> {
         let along = (sine * sine).mul_add(all(2.0 * beta), all(1.0 - beta));
         let ahead = twice_arc(across, along);
         let centre = product.mul_add(all(2.0 * eccentricity), ahead);
-        Self {
-            angle: anomaly + ahead,
-            centre,
-            sine: (x * y) * (scale + scale),
-            cosine: ((x - y) * (x + y)) * scale,
-        }
+        Self { angle: anomaly + ahead, centre, sine: (x * y) * (scale + scale), cosine: ((x - y) * (x + y)) * scale }
     }
 }
 
@@ -285,7 +280,8 @@ mod tests {
                 let mean = PI * f64::from(k) / 50.0;
                 let place = Place::of(one(mean), e);
                 let anomaly = solved(mean, e);
-                let [sine, cosine, angle, centre] = [place.sine, place.cosine, place.angle, place.centre].map(|l| l.values()[0]);
+                let [sine, cosine, angle, centre] =
+                    [place.sine, place.cosine, place.angle, place.centre].map(|l| l.values()[0]);
                 let r = 1.0 - e * anomaly.cos();
                 assert!((cosine - (anomaly.cos() - e) / r).abs() < 1e-14 / (1.0 - e));
                 assert!((sine - (1.0 - e * e).sqrt() * anomaly.sin() / r).abs() < 1e-14 / (1.0 - e));

@@ -146,7 +146,8 @@ fn bounds(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn s
             };
             let plan = motion.plan();
             let [a, b, _] = setting.moments;
-            let kappa = 3.0 * setting.mean_motion * (1.0 - 0.5 * (a + b)) / (1.0 - setting.eccentricity.powi(2)).powf(1.5);
+            let kappa =
+                3.0 * setting.mean_motion * (1.0 - 0.5 * (a + b)) / (1.0 - setting.eccentricity.powi(2)).powf(1.5);
             writeln!(
                 out,
                 "{averaging},{:.3e},{:.3},{:.3},{a:.3},{b:.3},{:.3},{:.1},{:.3e},{kappa:.3e},{:.3e},{:.3e}",

@@ -130,7 +130,9 @@ impl Corrections {
         let allowed = demand.tolerance.max(second_order(size, inertia, duration));
         let nearest = |a: &&Candidate, b: &&Candidate| a.distance(mean_motion).total_cmp(&b.distance(mean_motion));
         let (effect, large) = resonances(&resonant, inertia, duration, allowed);
-        if effect > allowed && let Some(candidate) = large.into_iter().min_by(nearest) {
+        if effect > allowed
+            && let Some(candidate) = large.into_iter().min_by(nearest)
+        {
             return Err(candidate.error(fastest));
         }
         let mut dropped = effect;
@@ -173,8 +175,7 @@ impl Corrections {
         let spin = C64::from_polar(1.0, mean.longitude);
         let point = |c: C64| Plane { re: one(c.re), im: one(c.im) };
         let frame = Turns::all(one(0.0), &mean.frame);
-        let change =
-            self.generator.at(&generator::Mean { turn: point(turn), spin: point(spin), frame }, place);
+        let change = self.generator.at(&generator::Mean { turn: point(turn), spin: point(spin), frame }, place);
         let value = |lanes: Lanes<pulp::Scalar>| lanes.values()[0];
         Change {
             p: turn * C64::new(value(change.p.re), value(change.p.im)),
@@ -201,8 +202,7 @@ fn candidates(inertia: &Inertia, level: Level, pericentre: f64) -> Vec<Candidate
         for harmonic in (lowest..=highest).filter(|h| (h + multiple) % 2 == 0) {
             let (value, slope) = level.tensor(inertia, multiple, harmonic);
             let weight = inertia.sigma.sqrt().powi(harmonic.abs() - 1).min(1.0) * (1.0 + f64::from(harmonic.abs()));
-            let rate =
-                4.0 * pericentre * (value.abs() + slope.abs() * inertia.sigma) * weight / inertia.momentum;
+            let rate = 4.0 * pericentre * (value.abs() + slope.abs() * inertia.sigma) * weight / inertia.momentum;
             if rate > 0.0 {
                 let frequency = frequency(inertia, harmonic, multiple);
                 candidates.push(Candidate { harmonic, multiple, value, slope, frequency, rate });

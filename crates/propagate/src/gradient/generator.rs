@@ -180,8 +180,7 @@ impl Generator {
         let [first, second] = axes;
         let mut products = [[none; 3]; 6];
         for (product, (a, b)) in products.iter_mut().zip(COMPONENTS) {
-            *product =
-                [first[a] * first[b], second[a] * second[b], first[a].mul_add(second[b], first[b] * second[a])];
+            *product = [first[a] * first[b], second[a] * second[b], first[a].mul_add(second[b], first[b] * second[a])];
         }
         let circle = self.orbital.circle(place);
         let half = none.all(0.5);
@@ -289,7 +288,11 @@ fn contractions<S: Level>(tensor: &[Lanes<S>; 6], multiple: usize, odd: bool) ->
         1 => [c(xz, -yz), c(-xy, yy - zz), c(xx - zz, -xy)],
         _ => [c(xx - yy, -(two * xy)), c(-(two * yz), -(two * xz)), c(-(two * xz), two * yz)],
     };
-    if odd { [contracted[0].quarter_turned(), contracted[1].quarter_turned(), contracted[2].quarter_turned()] } else { contracted }
+    if odd {
+        [contracted[0].quarter_turned(), contracted[1].quarter_turned(), contracted[2].quarter_turned()]
+    } else {
+        contracted
+    }
 }
 
 /// Derivatives of W over the strength.

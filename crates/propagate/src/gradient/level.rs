@@ -24,9 +24,7 @@ impl Level {
     pub(crate) fn tensor(self, inertia: &Inertia, multiple: i32, harmonic: i32) -> (f64, f64) {
         match self {
             Self::Full => inertia.tensor[multiple as usize].at(harmonic), // 0 ≤ m ≤ 2
-            Self::Paper | Self::Moving if (multiple, harmonic) == (2, 0) => {
-                (inertia.untilted[1], 0.0)
-            }
+            Self::Paper | Self::Moving if (multiple, harmonic) == (2, 0) => (inertia.untilted[1], 0.0),
             Self::Paper | Self::Moving => (0.0, 0.0),
         }
     }

@@ -315,7 +315,8 @@ impl Precession {
         let precessing = -0.5 * precession.ellipse.strength * cosine * rate;
         precession.half = Phase::new((0.5 * precessing).into(), 0.0);
         precession.half_back = Phase::new((-0.5 * cosine * precessing).into(), 0.0);
-        precession.secular = precession.ellipse.mean_motion * (1.0 - 1.5 * sine_square) * rate / precession.ellipse.eta_cubed;
+        precession.secular =
+            precession.ellipse.mean_motion * (1.0 - 1.5 * sine_square) * rate / precession.ellipse.eta_cubed;
         precession.phase = phase.values()[0];
         precession
     }

@@ -154,9 +154,8 @@ fn corrections_keep_the_poisson_brackets_to_first_order() {
         let by_p_bar: [C64; 5] = std::array::from_fn(|i| (by_x[i] + C64::i() * by_y[i]) * 0.5);
         let by_momentum = stand.slope(|m, h| Mean { momentum: m.momentum + h, ..*m });
         let by_longitude = stand.slope(|m, h| Mean { longitude: m.longitude + h, ..*m });
-        let by_turn = [Vector3::x(), Vector3::y()].map(|axis| {
-            stand.slope(|m, h| Mean { frame: m.frame * UnitQuaternion::new(axis * h), ..*m })
-        });
+        let by_turn = [Vector3::x(), Vector3::y()]
+            .map(|axis| stand.slope(|m, h| Mean { frame: m.frame * UnitQuaternion::new(axis * h), ..*m }));
         let i = C64::i();
         let half = p / (2.0 * momentum);
         // {f; y′} and {y′; f} of a function f of p, p̄, y′, M.
@@ -166,11 +165,19 @@ fn corrections_keep_the_poisson_brackets_to_first_order() {
         let (dp, dm, dy, dk) = (0, 1, 2, [3, 4]);
         // δp̄ is the conjugate of δp: ∂(δp̄)/∂p̄ = conj ∂(δp)/∂p.
         let mut residuals = vec![
-            ("{p; p̄}", (by_p[dp] + by_p[dp].conj()) * i / momentum
-                - half.conj() * by_longitude[dp] + half * by_longitude[dp].conj() + i * change.momentum / momentum.powi(2)),
+            (
+                "{p; p̄}",
+                (by_p[dp] + by_p[dp].conj()) * i / momentum - half.conj() * by_longitude[dp]
+                    + half * by_longitude[dp].conj()
+                    + i * change.momentum / momentum.powi(2),
+            ),
             ("{p; M}", by_longitude[dp] + from_p(dm)),
             ("{y′; M}", by_longitude[dy] - to_longitude(dm)),
-            ("{p; y′}", to_longitude(dp) + from_p(dy) - change.p / (2.0 * momentum) + p * change.momentum / (2.0 * momentum.powi(2))),
+            (
+                "{p; y′}",
+                to_longitude(dp) + from_p(dy) - change.p / (2.0 * momentum)
+                    + p * change.momentum / (2.0 * momentum.powi(2)),
+            ),
             ("{k1; k2}", by_turn[1][dk[0]] - by_turn[0][dk[1]] + change.momentum / momentum),
         ];
         for j in 0..2 {

@@ -148,7 +148,12 @@ impl<S: Level, C: Evaluate> Stretch<'_, S, C> {
             let rows = part::<ATTITUDE, RATES>(&mut rows, index * BLOCK, block.len());
             if grid.holds(self.simd, block) {
                 let tabled = grid.tabled(self.simd, block[0], &seeds[index]);
-                each::<S, ATTITUDE, RATES>(self.simd, block, rows, Blocks { course: self.course, simd: self.simd, tabled });
+                each::<S, ATTITUDE, RATES>(
+                    self.simd,
+                    block,
+                    rows,
+                    Blocks { course: self.course, simd: self.simd, tabled },
+                );
             } else {
                 self.direct::<ATTITUDE, RATES>(block, rows);
             }
