@@ -82,8 +82,9 @@ fn mean_momentum_swings_as_little_as_theory_9_says_of_each_level() {
         let [paper, moving] = [Level::Paper, Level::Moving].map(|level| case.ratio(&dense, level));
         let full = case.ratio(&case.states, Level::Full);
         println!("{name:8} paper {paper:.1}, moving {moving:.1}, full {full:.1e}");
-        assert!((paper / ratio).ln().abs() <= 0.1_f64 || true, "{name}: {paper}");
-        assert!(full >= 1e5, "{name}: {full}");
+        // Over 20 rotations; over another stretch the largest swing of M, and so the ratio, is another by a third.
+        assert!((paper / ratio).ln().abs() <= 0.35, "{name}: {paper}");
+        assert!(moving >= 0.99 * paper && full >= 1e6, "{name}: {moving}, {full}");
     }
 }
 
