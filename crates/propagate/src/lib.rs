@@ -10,6 +10,7 @@ mod body;
 mod catalogue;
 mod closed;
 mod elliptic;
+mod energy;
 mod ensemble;
 mod error;
 mod fourier;
