@@ -6,17 +6,18 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test lint bench sweep bounds rivals rivals-normal-form rivals-propagation docs wheel clean
+.PHONY: demo test lint bench sweep bounds rivals rivals-normal-form rivals-propagation docs docs-test wheel clean
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
 
-test: lint $(VENV)/installed  ## everything that CI runs
+test: lint $(VENV)/installed $(VENV)/tested docs-test  ## everything that CI runs
 	cargo test --workspace --quiet
 	$(BIN)/python tests/reference/torque_free.py tests/data/torque_free.json
 	$(BIN)/python examples/scenes/make_scenes.py --check
 	$(BIN)/python examples/bounds.py --scenes 120
 	$(BIN)/python -m pytest -q crates/py/tests
+	mkdir -p out
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
 
 lint:
@@ -64,8 +65,23 @@ $(RIVALS)/orekit/ready: benches/rivals/orekit/pom.xml $(RIVALS)/made
 	if command -v mvn && command -v java; then mvn --quiet --batch-mode --file $< $(COPY_DEPENDENCIES) -DoutputDirectory=$(abspath $(@D)); fi
 	touch $@
 
-docs:  ## the Rust documentation
-	RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps
+docs: $(VENV)/documented  ## the site in target/site, the Rust documentation in it; warnings are errors, and the network is not used
+	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --quiet -p andoyer-series -p andoyer-propagate --target-dir target/site-rust
+	rm -rf target/site docs/gallery
+	$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet --builder html docs target/site
+	cp -r target/site-rust/doc target/site/rust
+
+docs-test: docs  ## opens every page in a headless Chromium, which root installs on Debian where there is none
+	command -v chromedriver > /dev/null || { test "$$(id -u)" = 0 && apt-get update -qq && apt-get install -qq -y --no-install-recommends chromium chromium-driver > /dev/null; } || echo "no Chromium: the site is not opened"
+	$(BIN)/python -m pytest -q tests/site
+
+$(VENV)/documented: docs/requirements.txt $(VENV)/installed
+	$(BIN)/python -m pip install --quiet --requirement $<
+	touch $@
+
+$(VENV)/tested: crates/py/requirements-test.txt $(VENV)/ready
+	$(BIN)/python -m pip install --quiet --requirement $<
+	touch $@
 
 wheel: $(VENV)/installed
 

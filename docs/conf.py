@@ -25,11 +25,12 @@ html_theme = "furo"
 html_title = "andoyer"
 html_math_renderer = "mathml"
 html_static_path = ["_static"]
+html_favicon = "_static/favicon.svg"
 html_css_files = ["site.css"]
 html_show_sourcelink = False
 html_copy_source = False
 
-autodoc_member_order = "bysource"
+autodoc_member_order = "groupwise"
 autodoc_typehints = "none"
 napoleon_google_docstring = False
 napoleon_use_rtype = False
@@ -37,6 +38,7 @@ napoleon_use_rtype = False
 sphinx_gallery_conf = {
     "examples_dirs": "../examples/gallery",
     "gallery_dirs": "gallery",
+    "within_subsection_order": "FileNameSortKey",
     "filename_pattern": "/plot_",
     "image_scrapers": ("matplotlib",),
     "abort_on_example_error": True,
@@ -48,3 +50,19 @@ sphinx_gallery_conf = {
     "matplotlib_animations": False,
     "default_thumb_file": None,
 }
+
+
+def setup(app):
+    """Keep the docstrings of attributes as they are: napoleon takes what stands before a colon in them for a type."""
+    kept = {}
+
+    def keep(_app, what, name, _obj, _options, lines):
+        if what in ("attribute", "property"):
+            kept[name] = list(lines)
+
+    def restore(_app, _what, name, _obj, _options, lines):
+        if name in kept:
+            lines[:] = kept.pop(name)
+
+    app.connect("autodoc-process-docstring", keep, priority=400)
+    app.connect("autodoc-process-docstring", restore, priority=600)

@@ -35,9 +35,10 @@ for degrees in [0.1, 1.0, 3.0, 5.0, 6.0]:
     try:
         order = str(tilted(degrees, "series").plan.order)
     except andoyer.SeparatrixError as error:
-        order = f"none: {error}"
+        order = f"none, {error}"
     plan = closed.plan
-    print(f"{degrees} degrees: {plan.mode}, σ/σ_sep {plan.separatrix_ratio:.3f}, error bound {plan.error_bound:.0e} rad; order of the series {order}")
+    print(f"{degrees} degrees: {plan.mode}, σ/σ_sep {plan.separatrix_ratio:.3f}, bound {plan.error_bound:.0e} rad")
+    print(f"    order of the series: {order}")
 
 # %%
 # Just inside and just outside: the same body, two kinds of motion.

@@ -20,7 +20,8 @@ a, b, c = 1.0, 1.2, 0.6
 box = andoyer.Body([(b * b + c * c) / 12, (a * a + c * c) / 12, (a * a + b * b) / 12], name="box")
 orbit = andoyer.Orbit(2 * math.pi / 5760.0, inclination=math.radians(30))
 spin = 2 * math.pi / 60
-scene = andoyer.Scene(box, [0, 0, 0, 1], [0.01 * spin, 0, spin], orbit=orbit, tolerance=1e-3, span=(0, 20 * 5760.0), name="box satellite")
+rates = [0.01 * spin, 0, spin]
+scene = andoyer.Scene(box, [0, 0, 0, 1], rates, orbit=orbit, tolerance=1e-3, span=(0, 20 * 5760.0))
 motion = scene.solve()
 print(motion.plan)
 
@@ -38,7 +39,9 @@ start, end = motion.angular_momentum([0.0, 20 * 5760.0])
 across = [vector - normal * (vector @ normal) for vector in (start, end)]
 turned = math.atan2(normal @ np.cross(*across), across[0] @ across[1])
 least, middle, greatest = np.sort(box.moments)
-expected = -1.5 * orbit.mean_motion**2 / spin * (greatest - (least + middle) / 2) / greatest * math.cos(math.radians(30)) * 20 * 5760
+share = (greatest - (least + middle) / 2) / greatest
+rate = -1.5 * orbit.mean_motion**2 / spin * share * math.cos(math.radians(30))
+expected = rate * 20 * 5760
 print(f"turned by {math.degrees(turned):.3f} degrees; the formula gives {math.degrees(expected):.3f}")
 assert abs(turned / expected - 1) < 0.02
 

@@ -37,7 +37,8 @@ figure, axes = plt.subplots(figsize=(8, 5), layout="constrained")
 days = times / 86400
 axes.fill_between(days, *np.percentile(apart, [5, 95], axis=0), color="#0072B2", alpha=0.2, label="5 to 95 percent")
 axes.plot(days, np.median(apart, axis=0), color="#0072B2", label="median")
-axes.set(xlabel="time [d]", ylabel="angle from the published body [deg]", title="Apophis with moments known to one percent", xlim=(0, 30), ylim=(0, 180))
+axes.set(xlabel="time [d]", ylabel="angle from the published body [deg]", xlim=(0, 30), ylim=(0, 180))
+axes.set_title("Apophis with moments known to one percent")
 axes.legend(frameon=False, loc="upper left")
 plt.show()
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from datetime import datetime
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, NoReturn, TypeVar
+from typing import Any, Literal, NoReturn, TypeVar, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,7 +35,8 @@ MOST_SAMPLES = 10**9
 ENDINGS = ".csv, .npz, .parquet or .aem"
 PICTURES = [".png", ".svg", ".pdf"]
 LANGUAGES = ["c", "rust", "python"]
-PARTS = ["hamiltonian", "generator", "direct", "inverse"]
+Part = Literal["hamiltonian", "generator", "direct", "inverse"]
+PARTS: tuple[Part, ...] = get_args(Part)
 
 
 class InputError(Exception):
@@ -291,7 +292,8 @@ def written(normal_form: andoyer.NormalForm, arguments: argparse.Namespace) -> s
     if arguments.to == "json":
         return normal_form.to_json() + "\n"
     if arguments.to == "latex":
-        return normal_form.to_latex(arguments.part or PARTS[0])
+        part: Part = arguments.part or PARTS[0]
+        return normal_form.to_latex(part)
     if arguments.to in LANGUAGES:
         return normal_form.to_code(arguments.to, arguments.beta)
     lines = [f"P_{n} = {polynomial(normal_form.triaxiality_polynomial(n))}\n" for n in range(normal_form.order + 1)]

@@ -65,7 +65,7 @@ def torque() -> bool:
     year = 2 * math.pi / 1e-4
     start, end = motion.angular_momentum([0.0, 10 * year])
     expected = 1.5e-8 * (2 - 1.25) / 2 * math.cos(0.5) * math.sin(0.5) * 10 * year
-    return abs(math.hypot(*(end - start)) / np.linalg.norm(start) / expected - 1) < 0.01
+    return bool(abs(math.hypot(*(end - start)) / np.linalg.norm(start) / expected - 1) < 0.01)
 
 
 def shared() -> bool:
