@@ -34,7 +34,7 @@ def error_by_order(scene: Scene, orders: Iterable[int] = range(0, 31, 2), axes: 
     Raises
     ------
     SeparatrixError
-        A long-axis mode or the separatrix: there are no series.
+        A scene on the separatrix: there are no series.
     """
     axes = axes_or_new(axes)
     chosen = list(orders)
@@ -45,12 +45,15 @@ def error_by_order(scene: Scene, orders: Iterable[int] = range(0, 31, 2), axes: 
     axes.semilogy(chosen, [ratio ** (order + 1) for order in chosen], ":", color=VERMILION, label="(σ/σ_sep)$^{N+1}$")
     axes.axhline(closed.plan.error_bound, color=GREY, linestyle="--", label="bound of the closed form")
     axes.set(xlabel="order N", ylabel="largest attitude error [rad]", title=f"Error of the series by order, σ/σ_sep = {ratio:.3g}")
+    axes.set_ylim(bottom=closed.plan.error_bound / 100)
     axes.legend(frameon=False)
     return axes
 
 
 def work_precision(scene: Scene, orders: Iterable[int] = range(0, 21, 2), axes: "Axes | None" = None) -> "Axes":
     """Time of solving against the error reached: the series by order, the closed form by tolerance. Accuracy grows to the right.
+
+    Errors below the bound of the closed form are drawn on it: they are not told apart.
 
     Parameters
     ----------
@@ -60,7 +63,7 @@ def work_precision(scene: Scene, orders: Iterable[int] = range(0, 21, 2), axes: 
     axes : matplotlib.axes.Axes, optional
     """
     axes = axes_or_new(axes)
-    _, times, truth = _truth(scene)
+    best, times, truth = _truth(scene)
     series = [_variant(scene, method="series", order=order) for order in orders]
     closed = [_variant(scene, method="closed", tolerance=tolerance) for tolerance in (1e-3, 1e-6, 1e-9, 1e-12, 1e-15)]
     for label, variants, style in (("series, by order", series, ("o-", BLUE)), ("closed form, by tolerance", closed, ("*--", VERMILION))):
@@ -70,7 +73,8 @@ def work_precision(scene: Scene, orders: Iterable[int] = range(0, 21, 2), axes: 
                 seconds, motion = _timed(variant)
             except SeparatrixError:
                 continue
-            points.append((max(_largest_angle(truth, motion.attitude(times)), 1e-17), 1e6 * seconds))
+            error = max(_largest_angle(truth, motion.attitude(times)), best.plan.error_bound)
+            points.append((error, 1e6 * seconds))
         if points:
             axes.loglog(*zip(*points), style[0], color=style[1], markersize=5, label=label)
     axes.set(xlabel="largest attitude error [rad]", ylabel="time of solving [μs]", title="What accuracy costs")
