@@ -6,7 +6,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test lint bench sweep bounds rivals rivals-normal-form rivals-propagation docs docs-test wheel clean
+.PHONY: demo test lint bench sweep bounds rivals rivals-normal-form rivals-propagation docs docs-test package wheel clean
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -82,6 +82,18 @@ $(VENV)/documented: docs/requirements.txt $(VENV)/installed
 $(VENV)/tested: crates/py/requirements-test.txt $(VENV)/ready
 	$(BIN)/python -m pip install --quiet --requirement $<
 	touch $@
+
+# The sdist must build where there is no network: its crates' sources are vendored from its own lock file, and Cargo is told to stay offline.
+package: $(VENV)/installed  ## the sdist and a wheel from it without network, the two crates as they would be published
+	rm -rf target/package-check && mkdir -p target/package-check
+	$(BIN)/maturin sdist --manifest-path crates/py/Cargo.toml --out target/package-check
+	tar -xzf target/package-check/andoyer-*.tar.gz -C target/package-check && rm target/package-check/andoyer-*.tar.gz
+	cd target/package-check/andoyer-* && mkdir .cargo && cargo vendor --quiet --locked > .cargo/config.toml
+	cd target/package-check/andoyer-* && CARGO_NET_OFFLINE=true $(abspath $(BIN))/maturin build --quiet --release --locked --offline --interpreter $(abspath $(BIN))/python --out ..
+	$(PYTHON) -m venv target/package-check/venv
+	target/package-check/venv/bin/python -m pip install --quiet target/package-check/andoyer-*.whl
+	target/package-check/venv/bin/python -m andoyer.selftest
+	cargo package --quiet -p andoyer-series -p andoyer-propagate --target-dir target/package-check/crates
 
 wheel: $(VENV)/installed
 

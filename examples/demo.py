@@ -7,7 +7,11 @@ attitude error at 25 epochs over the span against tests/reference/torque_free.py
 against a numerical integration, tests/reference/gravity_gradient.py),
 the error bound that the plan promised, and the time of one sample in calls with 100,000 even times. Exit status 1 if a scene fails or its
 error exceeds its bound.
+
+With --record the figures are also written to docs/data/scenes.csv and, with those of a measured `Ensemble`, docs/data/ensemble.csv, which the pages of the documentation are made from.
 """
+
+import csv
 
 import statistics
 import sys
@@ -30,6 +34,7 @@ TIMED_SAMPLES = 100_000
 TIMED_CALLS = 7
 PLOTTED_SAMPLES = 6000
 PLOTTED_PERIODS = 3
+ENSEMBLE = (100_000, 10)
 
 METHODS = ("closed", "series")
 
@@ -129,6 +134,35 @@ def rows(path, out):
             yield row(motion, reference)
 
 
+def ensemble_seconds(threads):
+    """Least of three times of solving and evaluating ENSEMBLE bodies at their epochs, in seconds."""
+    bodies, epochs = ENSEMBLE
+    generator = np.random.default_rng(1)
+    axes = np.sort(generator.uniform(0.4, 1, (bodies, 3)), axis=1) ** 2
+    moments = np.column_stack([axes[:, 0] + axes[:, 1], axes[:, 0] + axes[:, 2], axes[:, 1] + axes[:, 2]])
+    ensemble = andoyer.Ensemble(moments, [0, 0, 0, 1], generator.standard_normal((bodies, 3)), threads=threads)
+    times = np.linspace(0, 100, epochs)
+    durations = []
+    for _ in range(3):
+        start = time.perf_counter()
+        ensemble.at(times)
+        durations.append(time.perf_counter() - start)
+    return min(durations)
+
+
+def record(table):
+    """The figures of the pages of accuracy and speed."""
+    data = ROOT / "docs" / "data"
+    with (data / "scenes.csv").open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["scene", "mode", "method", "separatrix_ratio", "order", "harmonics", "error", "bound", "sample_ns"])
+        writer.writerows([cell.replace("–", "") for cell in line] for line in table)
+    with (data / "ensemble.csv").open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["bodies", "epochs", "threads", "seconds"])
+        writer.writerows([*ENSEMBLE, threads, f"{ensemble_seconds(threads):.2f}"] for threads in (1, 2))
+
+
 def main():
     out = ROOT / "out"
     out.mkdir(exist_ok=True)
@@ -146,6 +180,8 @@ def main():
     (out / "table.md").write_text(markdown(table), encoding="utf-8")
     print(f"\nerror: largest attitude error at {EPOCHS} epochs over the span, against the closed form in 40 digits (with an orbit, a numerical integration)")
     print(f"ns/sample: attitude and rates, median of {TIMED_CALLS} calls with {TIMED_SAMPLES:,} even times    pictures: {out.name}/*.png    table: {out.name}/table.md")
+    if "--record" in sys.argv[1:]:
+        record(table)
     if failed:
         sys.exit("\n".join(failed))
 
