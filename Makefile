@@ -88,7 +88,7 @@ package: $(VENV)/installed  ## the sdist and a wheel from it without network, th
 	rm -rf target/package-check && mkdir -p target/package-check
 	$(BIN)/maturin sdist --manifest-path crates/py/Cargo.toml --out target/package-check
 	tar -xzf target/package-check/andoyer-*.tar.gz -C target/package-check && rm target/package-check/andoyer-*.tar.gz
-	cd target/package-check/andoyer-* && mkdir .cargo && cargo vendor --quiet --locked > .cargo/config.toml
+	cd target/package-check/andoyer-* && mkdir .cargo && cargo vendor --quiet > .cargo/config.toml
 	cd target/package-check/andoyer-* && CARGO_NET_OFFLINE=true $(abspath $(BIN))/maturin build --quiet --release --locked --offline --interpreter $(abspath $(BIN))/python --out ..
 	$(PYTHON) -m venv target/package-check/venv
 	target/package-check/venv/bin/python -m pip install --quiet target/package-check/andoyer-*.whl

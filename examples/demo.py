@@ -16,11 +16,14 @@ import csv
 import statistics
 import sys
 import time
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any, Literal
 
 import andoyer
 import numpy as np
 from andoyer import plot
+from numpy.typing import NDArray
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "reference"))
@@ -36,16 +39,23 @@ PLOTTED_SAMPLES = 6000
 PLOTTED_PERIODS = 3
 ENSEMBLE = (100_000, 10)
 
-METHODS = ("closed", "series")
+METHODS: tuple[Literal["closed", "series"], ...] = ("closed", "series")
 
 HEADER = ("scene", "mode", "method", "σ/σ_sep", "order", "harmonics", "error [rad]", "bound [rad]", "ns/sample")
 ROW = "{:<40} {:<14} {:<7} {:>8} {:>6} {:>10} {:>12} {:>12} {:>10}"
 
 
-def largest_error(motion, reference):
+def span_of(scene: andoyer.Scene) -> tuple[float, float]:
+    """The span of a scene, which those of examples/scenes have."""
+    if scene.span is None:
+        raise ValueError(f"{scene.name} has no span")
+    return scene.span
+
+
+def largest_error(motion: andoyer.Motion, reference: Any) -> float:
     """Largest attitude error [rad] of `motion` at EPOCHS times over its span, against the torque-free `reference` or, with an orbit, an integration."""
     scene = motion.scene
-    times = np.linspace(*scene.span, EPOCHS)
+    times = np.linspace(*span_of(scene), EPOCHS)
     if scene.orbit is None:
         expected = [reference.state(t)[0] for t in times]
     else:
@@ -54,9 +64,9 @@ def largest_error(motion, reference):
     return max(float(attitude_error(q, r)) for q, r in zip(motion.attitude(times), expected))
 
 
-def nanoseconds_per_sample(motion, span):
+def nanoseconds_per_sample(motion: andoyer.Motion, span: tuple[float, float]) -> float:
     """Median over TIMED_CALLS calls of the time of one sample of `motion.at`."""
-    times = np.linspace(*span, TIMED_SAMPLES)
+    times = np.linspace(span[0], span[1], TIMED_SAMPLES)
     durations = []
     for _ in range(TIMED_CALLS):
         start = time.perf_counter()
@@ -65,7 +75,7 @@ def nanoseconds_per_sample(motion, span):
     return statistics.median(durations) / TIMED_SAMPLES * 1e9
 
 
-def picture_times(reference, span):
+def picture_times(reference: Any, span: tuple[float, float]) -> NDArray[np.float64]:
     """PLOTTED_SAMPLES times over whole turns of the momentum about its body axis: PLOTTED_PERIODS or as many as fit; the span if none does."""
     start, end = span
     if not reference.steady:
@@ -75,20 +85,20 @@ def picture_times(reference, span):
     return np.linspace(start, end, PLOTTED_SAMPLES)
 
 
-def label(scene):
+def label(scene: andoyer.Scene) -> str:
     """The name of a scene, with its tolerance where that is not the usual one."""
     if scene.tolerance == USUAL_TOLERANCE:
-        return scene.name
+        return scene.name or ""
     return f"{scene.name} (tolerance {scene.tolerance:.0e})".replace("e-0", "e-")
 
 
-def markdown(table):
+def markdown(table: Sequence[Sequence[str]]) -> str:
     """The table as Markdown."""
-    lines = [HEADER, ["---"] * len(HEADER), *table]
+    lines: list[Sequence[str]] = [HEADER, ["---"] * len(HEADER), *table]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
-def with_method(scene, method):
+def with_method(scene: andoyer.Scene, method: Literal["closed", "series"]) -> andoyer.Scene:
     """The scene with another method."""
     return andoyer.Scene(
         scene.body,
@@ -106,22 +116,22 @@ def with_method(scene, method):
     )
 
 
-def row(motion, reference):
+def row(motion: andoyer.Motion, reference: Any) -> tuple[list[str], bool]:
     """The row of the table for one motion, and whether its error is within its bound."""
     scene, plan = motion.scene, motion.plan
     error = largest_error(motion, reference)
-    speed = nanoseconds_per_sample(motion, scene.span)
+    speed = nanoseconds_per_sample(motion, span_of(scene))
     ratio, order = f"{plan.separatrix_ratio:.3g}", str(plan.order) if plan.method == "series" else "–"
     numbers = [ratio, order, str(plan.harmonics), f"{error:.1e}", f"{plan.error_bound:.1e}", f"{speed:.1f}"]
     return [label(scene), plan.mode, plan.method, *numbers], error <= plan.error_bound
 
 
-def rows(path, out):
+def rows(path: Path, out: Path) -> Iterator[tuple[list[str], bool]]:
     """One scene: draws it into `out`; for each method that serves it the row of the table, and whether its error is within its bound."""
     scene = andoyer.Scene.from_toml(str(path))
     reference = TorqueFree(scene.body.moments, scene.attitude, scene.angular_velocity, epoch=scene.epoch)
     motion = scene.solve()
-    times = picture_times(reference, scene.span)
+    times = picture_times(reference, span_of(scene))
     plot.summary(motion, times).savefig(out / f"{path.stem}.png", dpi=130)
     for method in METHODS:
         if scene.orbit is not None and method == "series":
@@ -134,7 +144,7 @@ def rows(path, out):
             yield row(motion, reference)
 
 
-def ensemble_seconds(threads):
+def ensemble_seconds(threads: int) -> float:
     """Least of three times of solving and evaluating ENSEMBLE bodies at their epochs, in seconds."""
     bodies, epochs = ENSEMBLE
     generator = np.random.default_rng(1)
@@ -150,7 +160,7 @@ def ensemble_seconds(threads):
     return min(durations)
 
 
-def record(table):
+def record(table: Sequence[Sequence[str]]) -> None:
     """The figures of the pages of accuracy and speed."""
     data = ROOT / "docs" / "data"
     with (data / "scenes.csv").open("w", encoding="utf-8", newline="") as file:
@@ -163,11 +173,12 @@ def record(table):
         writer.writerows([*ENSEMBLE, threads, f"{ensemble_seconds(threads):.2f}"] for threads in (1, 2))
 
 
-def main():
+def main() -> None:
     out = ROOT / "out"
     out.mkdir(exist_ok=True)
     print(ROW.format(*HEADER))
-    table, failed = [], []
+    table: list[list[str]] = []
+    failed: list[str] = []
     for path in sorted((ROOT / "examples" / "scenes").glob("*.toml")):
         try:
             for line, within in rows(path, out):

@@ -4,7 +4,7 @@ use andoyer_propagate::MAX_THREADS;
 use numpy::PyArrayDyn;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyDict, PySlice, PyTuple};
 
 use crate::array::{MemberRows, Times, chunks, constant_rows, number, write};
 use crate::error::{self, ShapeError, ThreadsError};
@@ -19,7 +19,7 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// Many bodies with their states at time 0, solved and evaluated member by member on all cores, in memory proportional to the result.
 ///
 /// Each member gives the bits that `Scene` and `Motion` give for it alone, whatever the number of threads. ``ensemble[i]`` is the motion
-/// of member i.
+/// of member i, ``ensemble[i:j]`` the ensemble of some members.
 ///
 /// Parameters
 /// ----------
@@ -207,11 +207,18 @@ impl Ensemble {
         self.0.len()
     }
 
-    fn __getitem__(&self, py: Python<'_>, index: isize) -> PyResult<Motion> {
+    fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        if let Ok(slice) = index.cast::<PySlice>() {
+            return Ok(Bound::new(py, self.part(slice)?)?.into_any());
+        }
+        let index: isize = index.extract()?;
         let members = self.0.len();
         let counted = if index < 0 { index.checked_add_unsigned(members) } else { Some(index) };
         match counted.and_then(|index| usize::try_from(index).ok()).filter(|&index| index < members) {
-            Some(index) => py.detach(|| self.0.motion(index)).map(Motion).map_err(error::propagation),
+            Some(index) => {
+                let motion = py.detach(|| self.0.motion(index)).map_err(error::propagation)?;
+                Ok(Bound::new(py, Motion(motion))?.into_any())
+            }
             None => Err(PyIndexError::new_err(format!("member {index} of an ensemble of {members}"))),
         }
     }
@@ -236,6 +243,25 @@ impl Ensemble {
         keywords.set_item("tolerance", self.tolerance())?;
         keywords.set_item("threads", self.threads())?;
         (arrays, keywords).into_pyobject(py)
+    }
+}
+
+impl Ensemble {
+    /// The members of a slice.
+    fn part(&self, slice: &Bound<'_, PySlice>) -> PyResult<Self> {
+        let range = slice.indices(self.0.len() as isize)?;
+        let chosen: Vec<usize> =
+            (0..range.slicelength as isize).map(|k| (range.start + k * range.step) as usize).collect();
+        let moments = chosen.iter().map(|&member| self.0.moments()[member]).collect();
+        let attitudes = chosen.iter().map(|&member| self.0.attitudes()[member]).collect();
+        let rates = chosen.iter().map(|&member| self.0.angular_velocities()[member]).collect();
+        let part = andoyer_propagate::Ensemble::new(moments, attitudes, rates)
+            .map_err(error::propagation)?
+            .tolerance(self.0.asked_tolerance());
+        Ok(Self(match self.0.asked_threads() {
+            Some(threads) => part.threads(threads),
+            None => part,
+        }))
     }
 }
 

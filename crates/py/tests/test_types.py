@@ -15,12 +15,12 @@ from conftest import REPOSITORY  # noqa: E402
 SETTINGS = """
 [mypy]
 strict = true
-[mypy-pyarrow.*,scipy.*,matplotlib.*,pandas.*,sympy.*,xarray.*]
+[mypy-pyarrow.*,scipy.*,matplotlib.*,mpmath.*,pandas.*,sympy.*,xarray.*,gravity_gradient,torque_free]
 ignore_missing_imports = true
 [mypy-cluster]
 disallow_untyped_calls = false
 """
-EXAMPLES = [*sorted((REPOSITORY / "examples/gallery").glob("*.py")), REPOSITORY / "examples/cluster.py"]
+EXAMPLES = sorted(path for folder in ("examples", "examples/gallery") for path in (REPOSITORY / folder).glob("*.py"))
 
 
 def run(folder, *arguments):

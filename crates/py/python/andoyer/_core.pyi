@@ -2,7 +2,7 @@
 import os
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import Any, Literal, TypeAlias, final
+from typing import Any, Literal, TypeAlias, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -230,7 +230,7 @@ class Scene:
     def tolerance(self) -> float:
         """The attitude error asked for, in rad."""
     @property
-    def method(self) -> str:
+    def method(self) -> Literal["auto", "series", "closed"]:
         """The method: "auto", "series" or "closed"."""
     @property
     def order(self) -> int | None:
@@ -242,10 +242,10 @@ class Scene:
     def orbit(self) -> Orbit | None:
         """The orbit of the disturbing body, or None."""
     @property
-    def averaging(self) -> str:
+    def averaging(self) -> Literal["auto", "orbit", "spin"]:
         """The averaging: "auto", "orbit" or "spin"."""
     @property
-    def level(self) -> str:
+    def level(self) -> Literal["full", "moving", "paper"]:
         """The level: "full", "moving" or "paper"."""
     @property
     def name(self) -> str | None:
@@ -389,7 +389,10 @@ class Ensemble:
     def threads(self) -> int | None:
         """The number of threads asked for, or None."""
     def __len__(self) -> int: ...
+    @overload
     def __getitem__(self, index: int, /) -> Motion: ...
+    @overload
+    def __getitem__(self, index: slice, /) -> Ensemble: ...
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: None  # type: ignore[assignment]
     def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
