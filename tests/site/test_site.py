@@ -82,6 +82,15 @@ def test_equations_are_drawn(browser, address, page):
     assert len(fractions) > 5 and all(fractions)
 
 
+@pytest.mark.parametrize("crate, count", [("andoyer_series", 1), ("andoyer_propagate", 4)])
+def test_front_pages_of_the_crates_have_their_equations(browser, address, crate, count):
+    assert [entry["message"] for entry in browser.open(f"{address}rust/{crate}/index.html")] == []
+    equations = browser.run(EQUATIONS)
+    assert len(equations) == count
+    for width, height, errors, text in equations:
+        assert width > 50 and height > 5 and errors == 0 and not set("\\&") & set(text), text
+
+
 def test_every_link_within_the_site_leads_somewhere():
     for page in PAGES:
         text = (SITE / page).read_text(encoding="utf-8")
