@@ -32,7 +32,7 @@ def formulas(crate: str) -> str:
     for said, start in CHOSEN[crate]:
         (block,) = (block for block in blocks if block.replace("\\begin{aligned}\n", "").startswith(start))
         mathml = convert(block.replace("{aligned}", "{align*}"), display="block").replace("\n", " ")
-        parts.append(f"{said}\n\n" * bool(said) + f'<div style="overflow-x: auto">{mathml}</div>\n')
+        parts.append(f"{said}\n\n" * bool(said) + f'<div style="overflow-x: auto; overflow-y: hidden; padding: 0.3em 0">{mathml}</div>\n')
     return "\n".join(parts)
 
 

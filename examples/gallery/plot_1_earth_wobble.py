@@ -21,7 +21,8 @@ ARCSECOND = math.pi / 648000
 SIDEREAL_DAY = 86164.0905
 earth = andoyer.Body.named("earth")
 spin = 2 * math.pi / SIDEREAL_DAY
-scene = andoyer.Scene(earth, attitude=[0, 0, 0, 1], angular_velocity=[0.2 * ARCSECOND * spin, 0, spin], name="Earth, free wobble")
+rates = [0.2 * ARCSECOND * spin, 0, spin]
+scene = andoyer.Scene(earth, attitude=[0, 0, 0, 1], angular_velocity=rates, name="Earth, free wobble")
 motion = scene.solve()
 print(motion.plan)
 

@@ -14,17 +14,17 @@ import matplotlib.pyplot as plt
 from andoyer import plot
 
 # %%
-# States with the momentum tilted from the short axis towards the intermediate axis: the shortest way to the separatrix.
+# States with the momentum tilted from the short axis towards the long one: the shortest way to the separatrix.
 
 eros = andoyer.Body.named("eros")
 moments = eros.moments
 
 
 def tilted(degrees: float, method: Literal["auto", "series"] = "auto") -> andoyer.Motion:
-    """Eros with its angular momentum so far from axis 3 towards axis 1, along which the polhodes are widest."""
+    """Eros with its angular momentum so far from axis 3 towards axis 1."""
     angle = math.radians(degrees)
     rates = [math.sin(angle) / moments[0], 0.0, math.cos(angle) / moments[2]]
-    return andoyer.Scene(eros, [0, 0, 0, 1], rates, method=method, name=f"Eros, {degrees} degrees off").solve()
+    return andoyer.Scene(eros, [0, 0, 0, 1], rates, method=method, name=f"{degrees} degrees off").solve()
 
 
 # %%
@@ -37,7 +37,8 @@ for degrees in [0.1, 1.0, 3.0, 5.0, 6.0]:
     except andoyer.SeparatrixError as error:
         order = f"none, {error}"
     plan = closed.plan
-    print(f"{degrees} degrees: {plan.mode}, σ/σ_sep {plan.separatrix_ratio:.3f}, bound {plan.error_bound:.0e} rad")
+    ratio, bound = plan.separatrix_ratio, plan.error_bound
+    print(f"{degrees} degrees: {plan.mode}, σ/σ_sep {ratio:.3f}, bound {bound:.0e} rad")
     print(f"    order of the series: {order}")
 
 # %%

@@ -2,8 +2,7 @@
 Your own normal form
 ====================
 
-The algebra behind the rigid body serves any Hamiltonian near an elliptic point. Here the pendulum: its frequency against the amplitude, order by order, and where
-that series ends.
+The algebra behind the rigid body serves any Hamiltonian near an elliptic point. Here the pendulum: its frequency against the amplitude, order by order.
 """
 
 import math
@@ -26,7 +25,7 @@ print(form)
 
 
 def true_frequency(amplitude: float) -> float:
-    """Of a pendulum that swings to `amplitude` [rad]: 2π over four quarter periods, by the mean of 1 and cos(amplitude/2)."""
+    """Of a pendulum that swings to `amplitude` [rad]: the mean of 1 and cos(amplitude/2)."""
     x, y = 1.0, math.cos(amplitude / 2)
     for _ in range(6):
         x, y = (x + y) / 2, math.sqrt(x * y)
@@ -39,8 +38,10 @@ figure, axes = plt.subplots(figsize=(8, 5), layout="constrained")
 for order, style in zip([2, 4, 8, 12], [":", "-.", "--", "-"]):
     form = andoyer.normalize(pendulum, order, variables=[("q", "p")])
     found = form.frequency_map(form.actions([[amplitude, 0.0] for amplitude in amplitudes]))[:, 0]
-    axes.semilogy(amplitudes, np.abs(found / true - 1), style, label=f"order {order}")
-axes.set(xlabel="amplitude [rad]", ylabel="relative error of the frequency", title="The pendulum's normal form, by order")
+    error = np.maximum(np.abs(found / true - 1), 1e-16)
+    axes.semilogy(amplitudes, error, style, label=f"order {order}")
+axes.set(xlabel="amplitude [rad]", ylabel="relative error of the frequency")
+axes.set_title("The pendulum's normal form, by order")
 axes.legend(frameon=False)
 plt.show()
 

@@ -35,7 +35,8 @@ apart = np.degrees(2 * np.arccos(np.minimum(cosine, 1)))
 
 figure, axes = plt.subplots(figsize=(8, 5), layout="constrained")
 days = times / 86400
-axes.fill_between(days, *np.percentile(apart, [5, 95], axis=0), color="#0072B2", alpha=0.2, label="5 to 95 percent")
+low, high = np.percentile(apart, [5, 95], axis=0)
+axes.fill_between(days, low, high, color="#0072B2", alpha=0.2, label="5 to 95 percent")
 axes.plot(days, np.median(apart, axis=0), color="#0072B2", label="median")
 axes.set(xlabel="time [d]", ylabel="angle from the published body [deg]", xlim=(0, 30), ylim=(0, 180))
 axes.set_title("Apophis with moments known to one percent")
