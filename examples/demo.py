@@ -8,7 +8,8 @@ against a numerical integration, tests/reference/gravity_gradient.py),
 the error bound that the plan promised, and the time of one sample in calls with 100,000 even times. Exit status 1 if a scene fails or its
 error exceeds its bound.
 
-With --record the figures are also written to docs/data/scenes.csv and, with those of a measured `Ensemble`, docs/data/ensemble.csv, which the pages of the documentation are made from.
+With --record the figures are also written to the table of README.md, to docs/data/scenes.csv and, those of a measured `Ensemble`, to docs/data/ensemble.csv, which the pages of the
+documentation are made from.
 """
 
 import csv
@@ -94,8 +95,8 @@ def label(scene: andoyer.Scene) -> str:
 
 def markdown(table: Sequence[Sequence[str]]) -> str:
     """The table as Markdown."""
-    lines: list[Sequence[str]] = [HEADER, ["---"] * len(HEADER), *table]
-    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+    head, *lines = (f"| {' | '.join(line)} |\n" for line in [HEADER, *table])
+    return "".join([head, "|" + "---|" * len(HEADER) + "\n", *lines])
 
 
 def with_method(scene: andoyer.Scene, method: Literal["closed", "series"]) -> andoyer.Scene:
@@ -160,9 +161,12 @@ def ensemble_seconds(threads: int) -> float:
     return min(durations)
 
 
-def record(table: Sequence[Sequence[str]]) -> None:
-    """The figures of the pages of accuracy and speed."""
-    data = ROOT / "docs" / "data"
+def record(table: Sequence[Sequence[str]], root: Path = ROOT) -> None:
+    """The table of the README, and the figures of the pages of accuracy and speed."""
+    data, readme = root / "docs" / "data", root / "README.md"
+    text = readme.read_text(encoding="utf-8")
+    start = text.index(f"| {' | '.join(HEADER)} |")
+    readme.write_text(text[:start] + markdown(table) + text[text.index("\n\n", start) + 1 :], encoding="utf-8")
     with (data / "scenes.csv").open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["scene", "mode", "method", "separatrix_ratio", "order", "harmonics", "error", "bound", "sample_ns"])
