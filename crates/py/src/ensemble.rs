@@ -132,8 +132,12 @@ impl Ensemble {
         {
             let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
             let (values, attitude, rates) = (times.values()?, chunks(&mut attitude)?, chunks(&mut rates)?);
-            py.detach(|| self.0.samples_into(values, attitude, rates)).map_err(error::propagation)?;
-            foreign::scalar_first(attitude, scalar_first);
+            let evaluate = || {
+                self.0.samples_into(values, attitude, rates)?;
+                foreign::scalar_first(attitude, scalar_first);
+                Ok(())
+            };
+            py.detach(evaluate).map_err(error::propagation)?;
         }
         Ok(Samples::new(copy.unbind(), attitude.unbind(), rates.unbind(), scalar_first))
     }
