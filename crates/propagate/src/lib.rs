@@ -9,6 +9,7 @@
 mod andoyer;
 mod batch;
 mod body;
+mod bound;
 mod catalogue;
 mod closed;
 mod elliptic;
@@ -31,6 +32,7 @@ mod separatrix;
 mod series;
 mod solution;
 mod state;
+mod steady;
 
 pub use batch::Batch;
 pub use body::Body;
