@@ -6,17 +6,18 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test lint bench sweep bounds rivals rivals-normal-form rivals-propagation docs wheel clean
+.PHONY: demo test lint bench sweep bounds rivals rivals-normal-form rivals-propagation docs docs-test package wheel clean
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
 
-test: lint $(VENV)/installed  ## everything that CI runs
+test: lint $(VENV)/installed $(VENV)/tested docs-test  ## everything that CI runs
 	cargo test --workspace --quiet
 	$(BIN)/python tests/reference/torque_free.py tests/data/torque_free.json
 	$(BIN)/python examples/scenes/make_scenes.py --check
 	$(BIN)/python examples/bounds.py --scenes 120
 	$(BIN)/python -m pytest -q crates/py/tests
+	mkdir -p out
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
 
 lint:
@@ -64,8 +65,36 @@ $(RIVALS)/orekit/ready: benches/rivals/orekit/pom.xml $(RIVALS)/made
 	if command -v mvn && command -v java; then mvn --quiet --batch-mode --file $< $(COPY_DEPENDENCIES) -DoutputDirectory=$(abspath $(@D)); fi
 	touch $@
 
-docs:  ## the Rust documentation
-	RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps
+docs: $(VENV)/documented  ## the site in target/site, the Rust documentation in it; warnings are errors, and the network is not used
+	$(BIN)/python docs/_ext/rustdoc.py --check
+	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --quiet -p andoyer-series -p andoyer-propagate --target-dir target/site-rust
+	rm -rf target/site docs/gallery
+	$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet --builder html docs target/site
+	cp -r target/site-rust/doc target/site/rust
+
+docs-test: docs  ## opens every page in a headless Chromium, which root installs on Debian where there is none
+	command -v chromedriver > /dev/null || { test "$$(id -u)" = 0 && apt-get update -qq && apt-get install -qq -y --no-install-recommends chromium chromium-driver > /dev/null; } || echo "no Chromium: the site is not opened"
+	$(BIN)/python -m pytest -q tests/site
+
+$(VENV)/documented: docs/requirements.txt $(VENV)/installed
+	$(BIN)/python -m pip install --quiet --requirement $<
+	touch $@
+
+$(VENV)/tested: crates/py/requirements-test.txt $(VENV)/ready
+	$(BIN)/python -m pip install --quiet --requirement $<
+	touch $@
+
+# The sdist must build where there is no network: its crates' sources are vendored from its own lock file, and Cargo is told to stay offline.
+package: $(VENV)/installed  ## the sdist and a wheel from it without network, the two crates as they would be published
+	rm -rf target/package-check && mkdir -p target/package-check
+	$(BIN)/maturin sdist --manifest-path crates/py/Cargo.toml --out target/package-check
+	tar -xzf target/package-check/andoyer-*.tar.gz -C target/package-check && rm target/package-check/andoyer-*.tar.gz
+	cd target/package-check/andoyer-* && mkdir .cargo && cargo vendor --quiet > .cargo/config.toml
+	cd target/package-check/andoyer-* && CARGO_NET_OFFLINE=true $(abspath $(BIN))/maturin build --quiet --release --locked --offline --interpreter $(abspath $(BIN))/python --out ..
+	$(PYTHON) -m venv target/package-check/venv
+	target/package-check/venv/bin/python -m pip install --quiet target/package-check/andoyer-*.whl
+	target/package-check/venv/bin/python -m andoyer.selftest
+	cargo package --quiet -p andoyer-series -p andoyer-propagate --target-dir target/package-check/crates
 
 wheel: $(VENV)/installed
 

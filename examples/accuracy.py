@@ -7,7 +7,9 @@ small angles and for large ones.
 import sys
 from pathlib import Path
 
+import andoyer
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "reference"))
@@ -21,14 +23,14 @@ DIGITS = 20
 class Reference:
     """The attitudes of a body, from `attitude` and `angular_velocity` at time 0, at `times`: some 6 ms each."""
 
-    def __init__(self, moments, attitude, angular_velocity, times):
+    def __init__(self, moments: ArrayLike, attitude: ArrayLike, angular_velocity: ArrayLike, times: ArrayLike) -> None:
         motion = TorqueFree(moments, attitude, angular_velocity, digits=DIGITS)
-        states = [motion.state(t)[0] for t in times]
         self.times = np.asarray(times, dtype=float)
+        states = [motion.state(t)[0] for t in self.times]
         self.high = np.array([[float(x) for x in q] for q in states])
         self.low = np.array([[float(x - float(x)) for x in q] for q in states])
 
-    def errors(self, attitudes):
+    def errors(self, attitudes: NDArray[np.float64]) -> NDArray[np.float64]:
         """The angle [rad] between each of `attitudes` (n, 4), at the times of the reference, and the true one."""
         sign = np.sign(np.sum(attitudes * self.high, axis=1, keepdims=True))
         difference = (sign * attitudes - self.high) - self.low
@@ -36,8 +38,9 @@ class Reference:
         scalar = np.sum(self.high * difference, axis=1)
         v, w = self.high[:, :3], self.high[:, 3:]
         vector = w * difference[:, :3] - v * difference[:, 3:] - np.cross(v, difference[:, :3])
-        return 2 * np.arctan2(np.linalg.norm(vector, axis=1), 1 + scalar)
+        angles: NDArray[np.float64] = 2 * np.arctan2(np.linalg.norm(vector, axis=1), 1 + scalar)
+        return angles
 
-    def largest_error(self, motion):
+    def largest_error(self, motion: andoyer.Motion) -> float:
         """The largest attitude error [rad] of `motion`."""
         return float(self.errors(motion.attitude(self.times)).max())

@@ -17,12 +17,16 @@ os.environ["RAYON_NUM_THREADS"] = "1"  # the two processes are the threads
 import argparse  # noqa: E402
 import sys  # noqa: E402
 import time  # noqa: E402
+from collections.abc import Callable, Iterable, Sequence  # noqa: E402
 from concurrent.futures import ProcessPoolExecutor  # noqa: E402
 from dataclasses import dataclass  # noqa: E402
+from typing import Any  # noqa: E402
 
 import andoyer  # noqa: E402
 import numpy as np  # noqa: E402
 from accuracy import Reference  # noqa: E402
+from numpy.random import Generator  # noqa: E402
+from numpy.typing import NDArray  # noqa: E402
 
 EPOCHS = 6
 PROCESSES = 2
@@ -39,9 +43,9 @@ class Scene:
 
     kind: str
     motion: str
-    moments: list
-    attitude: list
-    rates: list
+    moments: list[float]
+    attitude: list[float]
+    rates: list[float]
     rotations: float
     tolerance: float
     order: int
@@ -59,13 +63,13 @@ class Outcome:
     bound: float
 
 
-def decades(random, least, most):
+def decades(random: Generator, least: float, most: float) -> float:
     """10^-x with x uniform."""
-    return 10.0 ** -random.uniform(least, most)
+    return float(10.0 ** -random.uniform(least, most))
 
 
 # Moments A ≤ B ≤ C ≤ A + B of each kind.
-KINDS = {
+KINDS: dict[str, Callable[[Generator], list[float]]] = {
     "generic": lambda r: _sorted(r.uniform(0.5, 1, 3)),
     "nearly spherical": lambda r: _sorted(1 - decades(r, 2, 12) * r.uniform(0, 1, 3)),
     "needle": lambda r: (lambda a: [a, 1 - a * r.uniform(0, 1), 1.0])(decades(r, 1, 4)),
@@ -74,7 +78,7 @@ KINDS = {
     "β → 1": lambda r: [r.uniform(0.1, 0.95), 1 - 0.05 * decades(r, 0, 12), 1.0],
 }
 # The part of the separatrix's energy excess, counted from rotation about the axis that the momentum circles; whether that is the long axis.
-MOTIONS = {
+MOTIONS: dict[str, tuple[Callable[[Generator], float], bool]] = {
     "small wobble": (lambda r: decades(r, 1, 24), False),
     "short-axis": (lambda r: r.uniform(0, 0.95), False),
     "nearly separatrix, short": (lambda r: 1 - decades(r, 1, 12), False),
@@ -83,11 +87,11 @@ MOTIONS = {
 }
 
 
-def _sorted(moments):
+def _sorted(moments: Iterable[float]) -> list[float]:
     return sorted(float(x) for x in moments)
 
 
-def momentum(random, moments, part, long_axis):
+def momentum(random: Generator, moments: Sequence[float], part: float, long_axis: bool) -> NDArray[np.float64]:
     """A direction of the angular momentum with this part of the separatrix's excess of energy."""
     inverse = 1 / np.array(moments)
     circled, other = (0, 2) if long_axis else (2, 0)
@@ -100,7 +104,7 @@ def momentum(random, moments, part, long_axis):
     return direction
 
 
-def scene(seed, number):
+def scene(seed: int, number: int) -> Scene:
     """The scene of this number: the same in every process."""
     random = np.random.default_rng([seed, number])
     kind, motion = list(KINDS)[number % len(KINDS)], list(MOTIONS)[number // len(KINDS) % len(MOTIONS)]
@@ -112,11 +116,11 @@ def scene(seed, number):
     attitude = random.normal(size=4)
     tolerance = FINEST if random.uniform() < 0.25 else float(decades(random, 3, 13))
     numbers = [[float(array[axis]) for axis in axes] for array in (moments, rates)]
-    attitude = [float(x) for x in attitude / np.linalg.norm(attitude)]
-    return Scene(kind, motion, numbers[0], attitude, numbers[1], float(decades(random, -6, 0)), tolerance, int(random.integers(0, 25)))
+    unit = [float(x) for x in attitude / np.linalg.norm(attitude)]
+    return Scene(kind, motion, numbers[0], unit, numbers[1], float(decades(random, -6, 0)), tolerance, int(random.integers(0, 25)))
 
 
-def outcomes(seed, number):
+def outcomes(seed: int, number: int) -> list[Outcome]:
     """What the methods make of one scene."""
     case = scene(seed, number)
     body = andoyer.Body(case.moments)
@@ -126,7 +130,7 @@ def outcomes(seed, number):
     truth = Reference(case.moments, case.attitude, case.rates, [*random.uniform(0, end, EPOCHS - 1), end])
     found = []
     for method in METHODS:
-        asked = {"method": "closed"} if method == "closed" else {"method": "series", "order": case.order if method == "fixed order" else None}
+        asked: dict[str, Any] = {"method": "closed"} if method == "closed" else {"method": "series", "order": case.order if method == "fixed order" else None}
         try:
             motion = andoyer.Scene(body, case.attitude, case.rates, span=(0, end), tolerance=case.tolerance, **asked).solve()
         except andoyer.SeparatrixError:
@@ -137,22 +141,22 @@ def outcomes(seed, number):
     return found
 
 
-def block(arguments):
+def block(arguments: tuple[int, range]) -> list[Outcome]:
     seed, numbers = arguments
     return [outcome for number in numbers for outcome in outcomes(seed, number)]
 
 
-def line(name, found):
+def line(name: str, found: Sequence[Outcome]) -> tuple[float, float, str]:
     """A line of the table: how many, the share within the bound, bound/error in the median, the largest error/bound, quantiles of errors."""
-    errors, bounds, tolerances = (np.array([f(o) for o in found]) for f in (lambda o: o.error, lambda o: o.bound, lambda o: o.scene.tolerance))
-    share, tightness = np.mean(errors <= bounds), np.median(bounds / np.maximum(errors, EXACT))
+    errors, bounds, tolerances = (np.array(numbers) for numbers in zip(*((o.error, o.bound, o.scene.tolerance) for o in found)))
+    share, tightness = float(np.mean(errors <= bounds)), float(np.median(bounds / np.maximum(errors, EXACT)))
     met = errors[tolerances == FINEST]
-    samples = () if found[0].method == "fixed order" else (errors / tolerances, met) if met.size else (errors / tolerances,)
+    samples: tuple[NDArray[np.float64], ...] = () if found[0].method == "fixed order" else (errors / tolerances, met) if met.size else (errors / tolerances,)
     cells = "".join(f"{np.quantile(sample, q):>9.1e}" for sample in samples for q in QUANTILES.values())
     return share, tightness, f"{name:<26}{len(found):>7}{100 * share:>9.2f}{tightness:>9.1f}{np.max(errors / bounds):>9.2f}  {cells}"
 
 
-def report(found, scenes):
+def report(found: Sequence[Outcome], scenes: int) -> bool:
     """Prints the tables; whether what is promised is kept."""
     heads = "".join(f"{name:>9}" for name in [*QUANTILES, *QUANTILES])
     kept = True
@@ -178,14 +182,14 @@ def report(found, scenes):
     return kept
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description="Errors of random scenes against their bounds.")
     parser.add_argument("--scenes", type=int, default=3000)
     parser.add_argument("--seed", type=int, default=2017)
     arguments = parser.parse_args()
     start, size = time.perf_counter(), 20
     blocks = [(arguments.seed, range(k, min(k + size, arguments.scenes))) for k in range(0, arguments.scenes, size)]
-    found = []
+    found: list[Outcome] = []
     with ProcessPoolExecutor(PROCESSES) as pool:
         for number, part in enumerate(pool.map(block, blocks)):
             found += part

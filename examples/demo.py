@@ -7,16 +7,24 @@ attitude error at 25 epochs over the span against tests/reference/torque_free.py
 against a numerical integration, tests/reference/gravity_gradient.py),
 the error bound that the plan promised, and the time of one sample in calls with 100,000 even times. Exit status 1 if a scene fails or its
 error exceeds its bound.
+
+With --record the figures are also written to the table of README.md, to docs/data/scenes.csv and, those of a measured `Ensemble`, to docs/data/ensemble.csv, which the pages of the
+documentation are made from.
 """
+
+import csv
 
 import statistics
 import sys
 import time
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any, Literal
 
 import andoyer
 import numpy as np
 from andoyer import plot
+from numpy.typing import NDArray
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "reference"))
@@ -30,17 +38,25 @@ TIMED_SAMPLES = 100_000
 TIMED_CALLS = 7
 PLOTTED_SAMPLES = 6000
 PLOTTED_PERIODS = 3
+ENSEMBLE = (100_000, 10)
 
-METHODS = ("closed", "series")
+METHODS: tuple[Literal["closed", "series"], ...] = ("closed", "series")
 
 HEADER = ("scene", "mode", "method", "σ/σ_sep", "order", "harmonics", "error [rad]", "bound [rad]", "ns/sample")
 ROW = "{:<40} {:<14} {:<7} {:>8} {:>6} {:>10} {:>12} {:>12} {:>10}"
 
 
-def largest_error(motion, reference):
+def span_of(scene: andoyer.Scene) -> tuple[float, float]:
+    """The span of a scene, which those of examples/scenes have."""
+    if scene.span is None:
+        raise ValueError(f"{scene.name} has no span")
+    return scene.span
+
+
+def largest_error(motion: andoyer.Motion, reference: Any) -> float:
     """Largest attitude error [rad] of `motion` at EPOCHS times over its span, against the torque-free `reference` or, with an orbit, an integration."""
     scene = motion.scene
-    times = np.linspace(*scene.span, EPOCHS)
+    times = np.linspace(*span_of(scene), EPOCHS)
     if scene.orbit is None:
         expected = [reference.state(t)[0] for t in times]
     else:
@@ -49,9 +65,9 @@ def largest_error(motion, reference):
     return max(float(attitude_error(q, r)) for q, r in zip(motion.attitude(times), expected))
 
 
-def nanoseconds_per_sample(motion, span):
+def nanoseconds_per_sample(motion: andoyer.Motion, span: tuple[float, float]) -> float:
     """Median over TIMED_CALLS calls of the time of one sample of `motion.at`."""
-    times = np.linspace(*span, TIMED_SAMPLES)
+    times = np.linspace(span[0], span[1], TIMED_SAMPLES)
     durations = []
     for _ in range(TIMED_CALLS):
         start = time.perf_counter()
@@ -60,7 +76,7 @@ def nanoseconds_per_sample(motion, span):
     return statistics.median(durations) / TIMED_SAMPLES * 1e9
 
 
-def picture_times(reference, span):
+def picture_times(reference: Any, span: tuple[float, float]) -> NDArray[np.float64]:
     """PLOTTED_SAMPLES times over whole turns of the momentum about its body axis: PLOTTED_PERIODS or as many as fit; the span if none does."""
     start, end = span
     if not reference.steady:
@@ -70,20 +86,20 @@ def picture_times(reference, span):
     return np.linspace(start, end, PLOTTED_SAMPLES)
 
 
-def label(scene):
+def label(scene: andoyer.Scene) -> str:
     """The name of a scene, with its tolerance where that is not the usual one."""
     if scene.tolerance == USUAL_TOLERANCE:
-        return scene.name
+        return scene.name or ""
     return f"{scene.name} (tolerance {scene.tolerance:.0e})".replace("e-0", "e-")
 
 
-def markdown(table):
+def markdown(table: Sequence[Sequence[str]]) -> str:
     """The table as Markdown."""
-    lines = [HEADER, ["---"] * len(HEADER), *table]
-    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+    head, *lines = (f"| {' | '.join(line)} |\n" for line in [HEADER, *table])
+    return "".join([head, "|" + "---|" * len(HEADER) + "\n", *lines])
 
 
-def with_method(scene, method):
+def with_method(scene: andoyer.Scene, method: Literal["closed", "series"]) -> andoyer.Scene:
     """The scene with another method."""
     return andoyer.Scene(
         scene.body,
@@ -101,22 +117,22 @@ def with_method(scene, method):
     )
 
 
-def row(motion, reference):
+def row(motion: andoyer.Motion, reference: Any) -> tuple[list[str], bool]:
     """The row of the table for one motion, and whether its error is within its bound."""
     scene, plan = motion.scene, motion.plan
     error = largest_error(motion, reference)
-    speed = nanoseconds_per_sample(motion, scene.span)
+    speed = nanoseconds_per_sample(motion, span_of(scene))
     ratio, order = f"{plan.separatrix_ratio:.3g}", str(plan.order) if plan.method == "series" else "–"
     numbers = [ratio, order, str(plan.harmonics), f"{error:.1e}", f"{plan.error_bound:.1e}", f"{speed:.1f}"]
     return [label(scene), plan.mode, plan.method, *numbers], error <= plan.error_bound
 
 
-def rows(path, out):
+def rows(path: Path, out: Path) -> Iterator[tuple[list[str], bool]]:
     """One scene: draws it into `out`; for each method that serves it the row of the table, and whether its error is within its bound."""
     scene = andoyer.Scene.from_toml(str(path))
     reference = TorqueFree(scene.body.moments, scene.attitude, scene.angular_velocity, epoch=scene.epoch)
     motion = scene.solve()
-    times = picture_times(reference, scene.span)
+    times = picture_times(reference, span_of(scene))
     plot.summary(motion, times).savefig(out / f"{path.stem}.png", dpi=130)
     for method in METHODS:
         if scene.orbit is not None and method == "series":
@@ -129,11 +145,44 @@ def rows(path, out):
             yield row(motion, reference)
 
 
-def main():
+def ensemble_seconds(threads: int) -> float:
+    """Least of three times of solving and evaluating ENSEMBLE bodies at their epochs, in seconds."""
+    bodies, epochs = ENSEMBLE
+    generator = np.random.default_rng(1)
+    axes = np.sort(generator.uniform(0.4, 1, (bodies, 3)), axis=1) ** 2
+    moments = np.column_stack([axes[:, 0] + axes[:, 1], axes[:, 0] + axes[:, 2], axes[:, 1] + axes[:, 2]])
+    ensemble = andoyer.Ensemble(moments, [0, 0, 0, 1], generator.standard_normal((bodies, 3)), threads=threads)
+    times = np.linspace(0, 100, epochs)
+    durations = []
+    for _ in range(3):
+        start = time.perf_counter()
+        ensemble.at(times)
+        durations.append(time.perf_counter() - start)
+    return min(durations)
+
+
+def record(table: Sequence[Sequence[str]], root: Path = ROOT) -> None:
+    """The table of the README, and the figures of the pages of accuracy and speed."""
+    data, readme = root / "docs" / "data", root / "README.md"
+    text = readme.read_text(encoding="utf-8")
+    start = text.index(f"| {' | '.join(HEADER)} |")
+    readme.write_text(text[:start] + markdown(table) + text[text.index("\n\n", start) + 1 :], encoding="utf-8")
+    with (data / "scenes.csv").open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["scene", "mode", "method", "separatrix_ratio", "order", "harmonics", "error", "bound", "sample_ns"])
+        writer.writerows([cell.replace("–", "") for cell in line] for line in table)
+    with (data / "ensemble.csv").open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["bodies", "epochs", "threads", "seconds"])
+        writer.writerows([*ENSEMBLE, threads, f"{ensemble_seconds(threads):.2f}"] for threads in (1, 2))
+
+
+def main() -> None:
     out = ROOT / "out"
     out.mkdir(exist_ok=True)
     print(ROW.format(*HEADER))
-    table, failed = [], []
+    table: list[list[str]] = []
+    failed: list[str] = []
     for path in sorted((ROOT / "examples" / "scenes").glob("*.toml")):
         try:
             for line, within in rows(path, out):
@@ -146,6 +195,8 @@ def main():
     (out / "table.md").write_text(markdown(table), encoding="utf-8")
     print(f"\nerror: largest attitude error at {EPOCHS} epochs over the span, against the closed form in 40 digits (with an orbit, a numerical integration)")
     print(f"ns/sample: attitude and rates, median of {TIMED_CALLS} calls with {TIMED_SAMPLES:,} even times    pictures: {out.name}/*.png    table: {out.name}/table.md")
+    if "--record" in sys.argv[1:]:
+        record(table)
     if failed:
         sys.exit("\n".join(failed))
 

@@ -16,14 +16,17 @@ import csv  # noqa: E402
 import statistics  # noqa: E402
 import sys  # noqa: E402
 import time  # noqa: E402
+from collections.abc import Callable, Iterator  # noqa: E402
 from concurrent.futures import ProcessPoolExecutor  # noqa: E402
 from dataclasses import astuple, dataclass, fields  # noqa: E402
 from itertools import product  # noqa: E402
+from typing import Any  # noqa: E402
 
 import andoyer  # noqa: E402
 import numpy as np  # noqa: E402
 import work_precision  # noqa: E402
 from accuracy import ROOT, Reference  # noqa: E402
+from numpy.typing import NDArray  # noqa: E402
 
 ORDERS = range(1, 41)
 RATIOS = (0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95)
@@ -55,12 +58,12 @@ class Row:
     sample_ns: float
 
 
-def moments(beta):
+def moments(beta: float) -> list[float]:
     """Moments A < B < C = 1 of a body with this β and α = ALPHA (theory §1)."""
     return [1 / (1 + ALPHA * (1 + beta)), 1 / (1 + ALPHA * (1 - beta)), 1.0]
 
 
-def state(beta, tilt):
+def state(beta: float, tilt: float) -> tuple[list[float], NDArray[np.float64]]:
     """Attitude and body rates with J = `tilt`, M = 1, ν = NU, μ = MU, I = 0."""
     g = [np.sin(tilt) * np.sin(NU), np.sin(tilt) * np.cos(NU), np.cos(tilt)]
     s, c = np.sin(tilt / 2), np.cos(tilt / 2)
@@ -69,7 +72,7 @@ def state(beta, tilt):
     return attitude, np.divide(g, moments(beta))
 
 
-def scene(beta, ratio):
+def scene(beta: float, ratio: float) -> tuple[andoyer.Body, list[float], NDArray[np.float64], tuple[float, float]]:
     """Body, attitude, rates and span of the motion at σ/σ_sep = `ratio`."""
     body = andoyer.Body(moments(beta))
     # Short-axis mode ends where sin²J (1 − β cos 2ν) = 1 − β (theory §5).
@@ -83,20 +86,22 @@ def scene(beta, ratio):
     return body, attitude, rates, (0.0, ROTATIONS * period)
 
 
-def uneven(span, count):
+def uneven(span: tuple[float, float], count: int) -> NDArray[np.float64]:
     """`count` times over the span, in order, at no rational part of it but its end."""
-    return span[1] * np.sort([*(GOLDEN * k % 1.0 for k in range(1, count)), 1.0])
+    times: NDArray[np.float64] = span[1] * np.sort([*(GOLDEN * k % 1.0 for k in range(1, count)), 1.0])
+    return times
 
 
-def reference(case):
+def reference(case: tuple[float, float]) -> Reference:
     """The true attitudes of one motion."""
     body, attitude, rates, span = scene(*case)
     return Reference(body.moments, attitude, rates, uneven(span, EPOCHS))
 
 
-def processor_time(call):
+def processor_time(call: Callable[[], object]) -> float:
     """Median of the processor time [s] of a call, each repeated until there is something to measure."""
-    repeats, durations = 1, []
+    repeats = 1
+    durations: list[float] = []
     while len(durations) < TIMED_CALLS:
         start = time.process_time_ns()
         for _ in range(repeats):
@@ -110,21 +115,21 @@ def processor_time(call):
     return statistics.median(durations)
 
 
-def measured(case, motion, truth, fixed):
+def measured(case: tuple[float, float], motion: andoyer.Motion, truth: Reference, fixed: str) -> Row:
     """The row of one motion."""
-    times = uneven(motion.scene.span, TIMED_SAMPLES)
+    times = uneven(motion.scene.span or (0.0, 1.0), TIMED_SAMPLES)
     plan, tolerance = motion.plan, motion.scene.tolerance
     setup = round(1e6 * processor_time(motion.scene.solve), 2)
     sample = round(1e9 / TIMED_SAMPLES * processor_time(lambda: motion.at(times)), 2)
     numbers = [float(f"{x:.3g}") for x in (tolerance, truth.largest_error(motion), plan.error_bound)]
-    return Row(*case, plan.method, fixed, numbers[0], plan.order, plan.harmonics, *numbers[1:], setup, sample)
+    return Row(*case, plan.method, fixed, numbers[0], plan.order, plan.harmonics, numbers[1], numbers[2], setup, sample)
 
 
-def rows(case, truth):
+def rows(case: tuple[float, float], truth: Reference) -> Iterator[Row]:
     """All rows of one β and σ/σ_sep."""
     body, attitude, rates, span = scene(*case)
 
-    def solved(**keywords):
+    def solved(**keywords: Any) -> andoyer.Motion:
         return andoyer.Scene(body, attitude, rates, span=span, **keywords).solve()
 
     for order in ORDERS:
@@ -138,11 +143,11 @@ def rows(case, truth):
             pass  # the series do not reach this tolerance
 
 
-def main():
+def main() -> None:
     cases = list(product(BETAS, RATIOS))
     with ProcessPoolExecutor(2) as pool:
         truths = list(pool.map(reference, cases))
-    table = []
+    table: list[Row] = []
     for case, truth in zip(cases, truths, strict=True):
         table += rows(case, truth)
         print(f"β = {case[0]:<5} σ/σ_sep = {case[1]:<5} {len(table):>5} rows", file=sys.stderr, flush=True)

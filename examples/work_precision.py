@@ -3,6 +3,10 @@
 Colours are those of Okabe and Ito, safe for colour-blind readers; σ/σ_sep has a marker as well, and the closed form has dashes.
 """
 
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -13,16 +17,16 @@ from matplotlib.lines import Line2D  # noqa: E402
 # σ/σ_sep drawn: its colour and marker.
 DRAWN = {0.05: ("#0072B2", "o"), 0.3: ("#009E73", "s"), 0.6: ("#E69F00", "^"), 0.9: ("#CC79A7", "D")}
 COSTS = {"sample_ns": "evaluation [ns/sample]", "setup_us": "set-up [μs]"}
-STYLE = {"font.size": 10, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False}
+STYLE: dict[Any, Any] = {"font.size": 10, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False}
 MARKS = ("<!-- measured -->\n", "<!-- end -->\n")
 
 
-def select(rows, **wanted):
+def select(rows: Sequence[Any], **wanted: object) -> list[Any]:
     """The rows whose fields have these values."""
     return [row for row in rows if all(getattr(row, name) == value for name, value in wanted.items())]
 
 
-def draw(rows, path):
+def draw(rows: Sequence[Any], path: Path) -> None:
     """Writes the picture: a column for each β, evaluation above set-up."""
     betas = sorted({row.beta for row in rows})
     with plt.rc_context(STYLE):
@@ -46,7 +50,7 @@ def draw(rows, path):
         plt.close(figure)
 
 
-def _curves(axes, rows, cost):
+def _curves(axes: Any, rows: Sequence[Any], cost: str) -> None:
     """Cost against error for the orders of the series and the tolerances of the closed form, at each σ/σ_sep drawn."""
     for ratio, (color, marker) in DRAWN.items():
         here = select(rows, separatrix_ratio=ratio)
@@ -58,13 +62,13 @@ def _curves(axes, rows, cost):
     axes.grid(True, which="major", color="#DDDDDD", linewidth=0.6)
 
 
-def _cell(row):
+def _cell(row: Any) -> str:
     """Order, harmonics, error and costs of one row in a cell of the table."""
     order = f"{row.order} / " if row.method == "series" else ""
     return f"{order}{row.harmonics} | {row.error:.1e} | {row.setup_us:.0f} | {row.sample_ns:.1f}"
 
 
-def table(rows):
+def table(rows: Sequence[Any]) -> str:
     """Both methods at each tolerance and σ/σ_sep, as Markdown: at β = 0.5, the middle one."""
     lines = [
         "| σ/σ_sep | tolerance | series: order / harmonics | error [rad] | set-up [μs] | ns/sample | closed form: harmonics | error [rad] | set-up [μs] | ns/sample |",
@@ -79,7 +83,7 @@ def table(rows):
     return "\n".join(lines) + "\n"
 
 
-def write_table(rows, path):
+def write_table(rows: Sequence[Any], path: Path) -> None:
     """Puts the table between the marks of the page."""
     page = path.read_text(encoding="utf-8")
     (before, rest), mark, end = page.split(MARKS[0]), *MARKS

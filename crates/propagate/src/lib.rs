@@ -3,6 +3,8 @@
 //! A [`Scene`] (a [`Body`], its [`State`], a tolerance) is solved into a [`Motion`], which is immutable and shared between threads.
 //! Units: none is built in; time, moments and angular velocity in any consistent set, angles in radians. An attitude is the rotation of body
 //! components into inertial ones. The theory is M. Lara, "Short-axis-mode rotation in complex variables" (2017).
+//!
+#![doc = include_str!("../doc/formulas.html")]
 
 mod andoyer;
 mod batch;
@@ -11,6 +13,7 @@ mod bound;
 mod catalogue;
 mod closed;
 mod elliptic;
+mod energy;
 mod ensemble;
 mod error;
 mod fourier;

@@ -15,6 +15,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PySlice, PyTuple};
 
 use crate::error::{self, Error, ShapeError};
+use crate::foreign;
 
 /// Times whose samples fill 128 KiB, from where on glibc asks the system for memory.
 const FEWEST_SHARED: usize = 2048;
@@ -22,6 +23,7 @@ const FEWEST_SHARED: usize = 2048;
 /// `value` as a float64 array, aligned and in C order.
 fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let py = value.py();
+    let value = foreign::plain(argument, value)?;
     let numpy = py.import(intern!(py, "numpy"))?;
     let array = numpy.getattr(intern!(py, "asarray"))?.call1((value,)).map_err(|problem| {
         // NumPy says so of nested lists of unequal length.
@@ -69,6 +71,7 @@ pub(crate) fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> 
         error.set_cause(value.py(), cause);
         error
     };
+    let value = &foreign::plain(argument, value)?;
     let array = numbers(argument, value).map_err(|problem| refused(Some(problem)))?;
     match (array.ndim(), read(argument, &array)?.as_slice()?) {
         (0, &[number]) => Ok(number),
@@ -106,6 +109,16 @@ impl<const N: usize> MemberRows<N> {
             Self::One(_) => None,
             Self::Many(rows) => Some(rows.len()),
         }
+    }
+
+    /// Changes every row.
+    pub(crate) fn each(&mut self, change: impl FnMut(&mut [f64; N])) {
+        match self {
+            Self::One(row) => std::slice::from_mut(row),
+            Self::Many(rows) => rows.as_mut_slice(),
+        }
+        .iter_mut()
+        .for_each(change);
     }
 
     /// As many rows as there are, or `members` times the one.

@@ -4,10 +4,11 @@ use andoyer_propagate::MAX_THREADS;
 use numpy::PyArrayDyn;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyDict, PySlice, PyTuple};
 
 use crate::array::{MemberRows, Times, chunks, constant_rows, number, write};
 use crate::error::{self, ShapeError, ThreadsError};
+use crate::foreign;
 use crate::motion::Motion;
 use crate::order::whole_number;
 use crate::plan::Plan;
@@ -18,14 +19,14 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// Many bodies with their states at time 0, solved and evaluated member by member on all cores, in memory proportional to the result.
 ///
 /// Each member gives the bits that `Scene` and `Motion` give for it alone, whatever the number of threads. ``ensemble[i]`` is the motion
-/// of member i.
+/// of member i, ``ensemble[i:j]`` the ensemble of some members.
 ///
 /// Parameters
 /// ----------
 /// moments : array_like, shape (m, 3) or (3,)
 ///     Moments about body axes 1, 2, 3, as `Body` takes them. Of this and the next two, one row stands for m equal ones; one at least
 ///     has m rows.
-/// attitudes : array_like, shape (m, 4) or (4,)
+/// attitudes : array_like, shape (m, 4) or (4,), or scipy.spatial.transform.Rotation
 ///     Unit quaternions [x, y, z, w] at time 0, as `Scene` takes them.
 /// angular_velocities : array_like, shape (m, 3) or (3,)
 ///     Body components at time 0, in rad per unit of time.
@@ -33,6 +34,8 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 ///     Attitude error asked for within 1e9 rotations, in rad.
 /// threads : int, optional
 ///     How many threads work, 1 to 1024; by default one for each core.
+/// scalar_first : bool, optional
+///     Whether `attitudes` are [w, x, y, z]. The property `attitudes` has the scalar last all the same.
 ///
 /// Raises
 /// ------
@@ -65,7 +68,7 @@ pub(crate) struct Ensemble(andoyer_propagate::Ensemble);
 #[pymethods]
 impl Ensemble {
     #[new]
-    #[pyo3(signature = (moments, attitudes, angular_velocities, *, tolerance=1e-12, threads=None))]
+    #[pyo3(signature = (moments, attitudes, angular_velocities, *, tolerance=1e-12, threads=None, scalar_first=false))]
     fn new(
         py: Python<'_>,
         moments: &Bound<'_, PyAny>,
@@ -73,9 +76,12 @@ impl Ensemble {
         angular_velocities: &Bound<'_, PyAny>,
         #[pyo3(from_py_with = tolerance)] tolerance: f64,
         threads: Option<&Bound<'_, PyAny>>,
+        scalar_first: bool,
     ) -> PyResult<Self> {
         let moments = MemberRows::new("moments", moments)?;
-        let attitudes = MemberRows::new("attitudes", attitudes)?;
+        let scalar_first = scalar_first && !foreign::is_rotation(attitudes)?;
+        let mut attitudes = MemberRows::new("attitudes", attitudes)?;
+        attitudes.each(|quaternion| foreign::scalar_last(quaternion, scalar_first));
         let rates = MemberRows::new("angular_velocities", angular_velocities)?;
         let threads =
             threads.map(|value| whole_number::<ThreadsError>("threads", value, 1, MAX_THREADS)).transpose()?;
@@ -103,6 +109,8 @@ impl Ensemble {
     /// ----------
     /// times : float or array_like, shape (n,) or (m, n)
     ///     The times of all members, or a row for each.
+    /// scalar_first : bool, optional
+    ///     Attitudes as [w, x, y, z].
     ///
     /// Returns
     /// -------
@@ -117,15 +125,21 @@ impl Ensemble {
     ///     As of a scene, with the same attribute.
     /// ShapeError
     ///     Rows for another number of members.
-    fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Samples> {
+    #[pyo3(signature = (times, *, scalar_first=false))]
+    fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>, scalar_first: bool) -> PyResult<Samples> {
         let times = Times::of_members(times, self.0.len())?;
         let [copy, attitude, rates] = times.samples()?;
         {
             let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
             let (values, attitude, rates) = (times.values()?, chunks(&mut attitude)?, chunks(&mut rates)?);
-            py.detach(|| self.0.samples_into(values, attitude, rates)).map_err(error::propagation)?;
+            let evaluate = || {
+                self.0.samples_into(values, attitude, rates)?;
+                foreign::scalar_first(attitude, scalar_first);
+                Ok(())
+            };
+            py.detach(evaluate).map_err(error::propagation)?;
         }
-        Ok(Samples::new(copy.unbind(), attitude.unbind(), rates.unbind()))
+        Ok(Samples::new(copy.unbind(), attitude.unbind(), rates.unbind(), scalar_first))
     }
 
     /// Attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones.
@@ -135,14 +149,25 @@ impl Ensemble {
     /// times : float or array_like, shape (n,) or (m, n)
     /// out : ndarray, float64, C-contiguous, shape (m, n, 4), optional
     ///     Where the result is written. After an error it holds what had been computed.
+    /// scalar_first : bool, optional
+    ///     [w, x, y, z] instead.
     ///
     /// Returns
     /// -------
     /// ndarray, shape (m, n, 4)
     ///     `out`, if given.
-    #[pyo3(signature = (times, out=None))]
-    fn attitude<'py>(&self, times: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>) -> PyResult<Array<'py>> {
-        Times::of_members(times, self.0.len())?.evaluate(out, |times, rows| self.0.attitudes_into(times, rows))
+    #[pyo3(signature = (times, out=None, *, scalar_first=false))]
+    fn attitude<'py>(
+        &self,
+        times: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        scalar_first: bool,
+    ) -> PyResult<Array<'py>> {
+        Times::of_members(times, self.0.len())?.evaluate(out, |times, rows| {
+            self.0.attitudes_into(times, rows)?;
+            foreign::scalar_first(rows, scalar_first);
+            Ok(())
+        })
     }
 
     /// The plan of every member: a list of `Plan`.
@@ -186,11 +211,18 @@ impl Ensemble {
         self.0.len()
     }
 
-    fn __getitem__(&self, py: Python<'_>, index: isize) -> PyResult<Motion> {
+    fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        if let Ok(slice) = index.cast::<PySlice>() {
+            return Ok(Bound::new(py, self.part(slice)?)?.into_any());
+        }
+        let index: isize = index.extract()?;
         let members = self.0.len();
         let counted = if index < 0 { index.checked_add_unsigned(members) } else { Some(index) };
         match counted.and_then(|index| usize::try_from(index).ok()).filter(|&index| index < members) {
-            Some(index) => py.detach(|| self.0.motion(index)).map(Motion).map_err(error::propagation),
+            Some(index) => {
+                let motion = py.detach(|| self.0.motion(index)).map_err(error::propagation)?;
+                Ok(Bound::new(py, Motion(motion))?.into_any())
+            }
             None => Err(PyIndexError::new_err(format!("member {index} of an ensemble of {members}"))),
         }
     }
@@ -215,6 +247,25 @@ impl Ensemble {
         keywords.set_item("tolerance", self.tolerance())?;
         keywords.set_item("threads", self.threads())?;
         (arrays, keywords).into_pyobject(py)
+    }
+}
+
+impl Ensemble {
+    /// The members of a slice.
+    fn part(&self, slice: &Bound<'_, PySlice>) -> PyResult<Self> {
+        let range = slice.indices(self.0.len() as isize)?;
+        let chosen: Vec<usize> =
+            (0..range.slicelength as isize).map(|k| (range.start + k * range.step) as usize).collect();
+        let moments = chosen.iter().map(|&member| self.0.moments()[member]).collect();
+        let attitudes = chosen.iter().map(|&member| self.0.attitudes()[member]).collect();
+        let rates = chosen.iter().map(|&member| self.0.angular_velocities()[member]).collect();
+        let part = andoyer_propagate::Ensemble::new(moments, attitudes, rates)
+            .map_err(error::propagation)?
+            .tolerance(self.0.asked_tolerance());
+        Ok(Self(match self.0.asked_threads() {
+            Some(threads) => part.threads(threads),
+            None => part,
+        }))
     }
 }
 

@@ -16,6 +16,7 @@ mod body;
 mod ensemble;
 mod error;
 mod expression;
+mod foreign;
 mod form;
 mod motion;
 mod normal_form;

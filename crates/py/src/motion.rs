@@ -7,6 +7,7 @@ use pyo3::types::PyType;
 
 use crate::array::{Times, chunks, write};
 use crate::error;
+use crate::foreign;
 use crate::plan::Plan;
 use crate::samples::Samples;
 use crate::scene::Scene;
@@ -42,15 +43,27 @@ impl Motion {
     /// Parameters
     /// ----------
     /// times : float or array_like, shape (n,)
-    fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Samples> {
+    /// scalar_first : bool, optional
+    ///     Attitudes as [w, x, y, z].
+    ///
+    /// Returns
+    /// -------
+    /// Samples
+    #[pyo3(signature = (times, *, scalar_first=false))]
+    fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>, scalar_first: bool) -> PyResult<Samples> {
         let times = Times::new(times)?;
         let [copy, attitude, rates] = times.samples()?;
         {
             let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
             let (values, attitude, rates) = (times.values()?, chunks(&mut attitude)?, chunks(&mut rates)?);
-            py.detach(|| self.0.samples_into(values, attitude, rates)).map_err(error::propagation)?;
+            let evaluate = || {
+                self.0.samples_into(values, attitude, rates)?;
+                foreign::scalar_first(attitude, scalar_first);
+                Ok(())
+            };
+            py.detach(evaluate).map_err(error::propagation)?;
         }
-        Ok(Samples::new(copy.unbind(), attitude.unbind(), rates.unbind()))
+        Ok(Samples::new(copy.unbind(), attitude.unbind(), rates.unbind(), scalar_first))
     }
 
     /// Unit quaternions [x, y, z, w] that rotate body components into inertial ones (theory §8).
@@ -60,6 +73,8 @@ impl Motion {
     /// times : float or array_like, shape (n,)
     /// out : ndarray, float64, C-contiguous, shape (n, 4), optional
     ///     Where the result is written. After an error it holds what had been computed.
+    /// scalar_first : bool, optional
+    ///     [w, x, y, z] instead.
     ///
     /// Returns
     /// -------
@@ -80,9 +95,18 @@ impl Motion {
     /// >>> out = np.empty((2, 4))
     /// >>> motion.attitude([0, 1], out=out) is out
     /// True
-    #[pyo3(signature = (times, out=None))]
-    fn attitude<'py>(&self, times: &Bound<'py, PyAny>, out: Option<&Bound<'py, PyAny>>) -> PyResult<Array<'py>> {
-        Times::new(times)?.evaluate(out, |times, rows| self.0.attitudes_into(times, rows))
+    #[pyo3(signature = (times, out=None, *, scalar_first=false))]
+    fn attitude<'py>(
+        &self,
+        times: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        scalar_first: bool,
+    ) -> PyResult<Array<'py>> {
+        Times::new(times)?.evaluate(out, |times, rows| {
+            self.0.attitudes_into(times, rows)?;
+            foreign::scalar_first(rows, scalar_first);
+            Ok(())
+        })
     }
 
     /// Angular velocities in body components, in rad per unit of time.
@@ -155,7 +179,7 @@ impl Motion {
     ///     SciPy is not installed: the extra ``andoyer[scipy]`` brings it.
     fn rotation<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let rotation = times.py().import("scipy.spatial.transform")?.getattr("Rotation")?;
-        rotation.call_method1("from_quat", (self.attitude(times, None)?,))
+        rotation.call_method1("from_quat", (self.attitude(times, None, false)?,))
     }
 
     /// What is evaluated, and why.
@@ -196,6 +220,20 @@ impl Motion {
             periods.set_item(convention, class.call1((pair.precession, pair.rotation))?)?;
         }
         Ok(periods)
+    }
+
+    /// E/E0: rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum (theory §5).
+    ///
+    /// 1 on that axis, C/B on the separatrix, C/A on the axis of least inertia; with an orbit, of the state at the epoch.
+    #[getter]
+    fn energy_ratio(&self) -> f64 {
+        self.0.energy_ratio()
+    }
+
+    /// k², the parameter of the elliptic functions of the polhode (theory §10): 0 on a principal axis, 1 on the separatrix.
+    #[getter]
+    fn elliptic_parameter(&self) -> f64 {
+        self.0.elliptic_parameter()
     }
 
     fn __repr__(&self) -> String {

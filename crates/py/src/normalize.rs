@@ -33,7 +33,7 @@ use crate::progress;
 /// resonances : sequence of sequences of int, optional
 ///     Vectors k with k·ω = 0: terms that turn with e^{i k·φ} for their integer combinations are kept. ``[(1, -1)]`` for equal frequencies.
 /// smallest_divisor : float, optional
-///     Relative to the largest frequency, 0 to 1: a term with |k·ω| below it is an error unless it is kept, and the resonances given must
+///     Relative to the largest frequency, 0 to 1: a term with ``|k·ω|`` below it is an error unless it is kept, and the resonances given must
 ///     lie below it. 1e-6 costs six digits at worst; a wider bound admits resonances that are not exact.
 /// exact : bool, optional
 ///     True: rational numbers, which needs rational frequencies √(ab); floats count at their exact value. False: floats. By default

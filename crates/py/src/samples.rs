@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyType;
 
 type Array = Py<PyArrayDyn<f64>>;
+type Parts = (Array, Array, Array, bool);
 
 /// Attitudes and angular velocities at some times, of a motion or of the members of an ensemble: what `Motion.at` and `Ensemble.at` return.
 ///
@@ -27,16 +28,20 @@ pub(crate) struct Samples {
     #[pyo3(get)]
     times: Array,
     /// Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4) or (m, n, 4).
+    /// With `scalar_first` they are [w, x, y, z].
     #[pyo3(get)]
     attitude: Array,
     /// Angular velocities in body components, in rad per unit of time, shape (n, 3) or (m, n, 3).
     #[pyo3(get)]
     angular_velocity: Array,
+    /// Whether the quaternions are [w, x, y, z].
+    #[pyo3(get)]
+    scalar_first: bool,
 }
 
 impl Samples {
-    pub(crate) fn new(times: Array, attitude: Array, angular_velocity: Array) -> Self {
-        Self { times, attitude, angular_velocity }
+    pub(crate) fn new(times: Array, attitude: Array, angular_velocity: Array, scalar_first: bool) -> Self {
+        Self { times, attitude, angular_velocity, scalar_first }
     }
 }
 
@@ -66,15 +71,52 @@ impl Samples {
 
     /// Puts together what `pickle` took apart.
     #[classmethod]
-    fn _restored(_class: &Bound<'_, PyType>, times: Array, attitude: Array, angular_velocity: Array) -> Self {
-        Self::new(times, attitude, angular_velocity)
+    #[pyo3(signature = (times, attitude, angular_velocity, scalar_first=false))]
+    fn _restored(
+        _class: &Bound<'_, PyType>,
+        times: Array,
+        attitude: Array,
+        angular_velocity: Array,
+        scalar_first: bool,
+    ) -> Self {
+        Self::new(times, attitude, angular_velocity, scalar_first)
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Array, Array, Array))> {
+    /// A table of pandas, indexed by time, or by member and time: qx, qy, qz, qw, wx, wy, wz. pandas is imported here and nowhere else.
+    ///
+    /// Returns
+    /// -------
+    /// pandas.DataFrame
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     pandas is not installed: the extra ``andoyer[pandas]`` brings it.
+    fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("andoyer._frames")?.call_method1("pandas", (slf,))
+    }
+
+    /// A data set of xarray: attitude and angular_velocity by (member,) time, quaternion or axis. xarray is imported here and nowhere else.
+    ///
+    /// Members that have their own times have them as the coordinate ``t``.
+    ///
+    /// Returns
+    /// -------
+    /// xarray.Dataset
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     xarray is not installed: the extra ``andoyer[xarray]`` brings it.
+    fn to_xarray<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("andoyer._frames")?.call_method1("xarray", (slf,))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Parts)> {
         let (py, samples) = (slf.py(), slf.get());
         let [times, attitude, rates] =
             [&samples.times, &samples.attitude, &samples.angular_velocity].map(|array| array.clone_ref(py));
-        Ok((slf.get_type().getattr("_restored")?, (times, attitude, rates)))
+        Ok((slf.get_type().getattr("_restored")?, (times, attitude, rates, samples.scalar_first)))
     }
 }
 

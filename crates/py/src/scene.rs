@@ -10,7 +10,7 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 use crate::body::Body;
 use crate::motion::Motion;
 use crate::orbit::Orbit;
-use crate::{array, error};
+use crate::{array, error, foreign};
 
 /// A body, its state at an epoch, and the accuracy asked of the solution.
 ///
@@ -19,11 +19,14 @@ use crate::{array, error};
 /// Parameters
 /// ----------
 /// body : Body
-/// attitude : array_like, shape (4,)
+/// attitude : array_like, shape (4,), or scipy.spatial.transform.Rotation
 ///     Unit quaternion [x, y, z, w], scalar last (Hamilton product), that rotates body components into inertial ones; a norm within 1e-6
 ///     of 1 is normalized.
 /// angular_velocity : array_like, shape (3,)
-///     Body components, in rad per unit of time; zero is a body at rest.
+///     Body components, in rad per unit of time; zero is a body at rest. A Quantity of astropy is taken in SI units, here and wherever
+///     numbers are taken; a Time in TDB seconds since J2000.
+/// scalar_first : bool, optional
+///     Whether `attitude` is [w, x, y, z]. The property `attitude` has the scalar last all the same.
 /// epoch : float, optional
 ///     Time of the state.
 /// orbit : Orbit, optional
@@ -85,7 +88,7 @@ impl Scene {
     #[new]
     #[pyo3(signature = (
         body, attitude, angular_velocity, *, epoch=0.0, orbit=None, tolerance=1e-12, method="auto", order=None, span=None,
-        averaging="auto", level="full", name=None, source=None
+        averaging="auto", level="full", name=None, source=None, scalar_first=false
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn new(
@@ -102,9 +105,12 @@ impl Scene {
         level: &str,
         name: Option<&str>,
         source: Option<&str>,
+        scalar_first: bool,
     ) -> PyResult<Self> {
         let body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get();
-        let attitude = array::fixed("attitude", attitude)?;
+        let scalar_first = scalar_first && !foreign::is_rotation(attitude)?;
+        let mut attitude = array::fixed("attitude", attitude)?;
+        foreign::scalar_last(&mut attitude, scalar_first);
         let angular_velocity = array::fixed("angular_velocity", angular_velocity)?;
         let state = State::new(epoch, attitude, angular_velocity).map_err(error::propagation)?;
         let method = method.parse().map_err(error::propagation)?;

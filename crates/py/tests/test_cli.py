@@ -1,7 +1,9 @@
 """The command line, run as its users run it."""
 
+import io
 import os
 import re
+import shlex
 import subprocess
 import sys
 
@@ -9,7 +11,8 @@ import numpy as np
 import pytest
 
 import andoyer
-from andoyer.cli import main
+from andoyer import _terminal, output
+from andoyer.cli import EXAMPLES, main, parser
 
 COLUMNS = "t,qx,qy,qz,qw,wx,wy,wz"
 
@@ -259,6 +262,57 @@ def test_reader_that_has_seen_enough_is_no_error():
     child.stdout.close()
     assert child.stderr.read() == "" and child.wait() == 0
     child.stderr.close()
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_bar_is_for_terminals_and_long_work(monkeypatch):
+    monkeypatch.setattr(_terminal, "PATIENCE", 0.0)
+    shown, piped = Terminal(), io.StringIO()
+    for stream in (shown, piped):
+        bar = _terminal.Progress("order", stream)
+        for done in range(5):
+            bar(done, 4)
+        bar.close()
+    assert "order [###############---------------]  50 %  2 of 4" in shown.getvalue() and shown.getvalue().endswith("\r\x1b[K")
+    assert piped.getvalue() == ""
+    monkeypatch.setattr(_terminal, "PATIENCE", 1e9)
+    quick = Terminal()
+    bar = _terminal.Progress("order", quick)
+    bar(1, 2)
+    bar.close()
+    assert quick.getvalue() == ""
+
+
+def test_long_tables_tell_how_far_they_are(motion, tmp_path):
+    heard = []
+    output.write_csv(tmp_path / "long.csv", motion.at(np.arange(25_000.0)), lambda done, of: heard.append((done, of)))
+    assert heard == [(10_000, 25_000), (20_000, 25_000), (25_000, 25_000)]
+    assert len((tmp_path / "long.csv").read_text().splitlines()) == 25_001
+
+
+def test_names_are_bold_on_terminals_alone(monkeypatch):
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    assert _terminal.named("mode", Terminal()) == "\x1b[1mmode         \x1b[0m"
+    assert _terminal.named("mode", io.StringIO()) == "mode         "
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert _terminal.named("mode", Terminal()) == "mode         "
+
+
+@pytest.mark.parametrize("command", ["", *EXAMPLES])
+def test_help_ends_with_examples_that_are_parsed(command, capsys):
+    with pytest.raises(SystemExit) as left:
+        main([command, "--help"] if command else ["--help"])
+    text = capsys.readouterr().out
+    assert left.value.code == 0 and "\x1b" not in text
+    lines = [line.strip() for line in text.partition("examples:\n")[2].splitlines() if line.strip()]
+    assert lines and all(line.startswith("andoyer ") for line in lines)
+    for line in lines:
+        assert parser().parse_args(shlex.split(line.partition(" > ")[0])[1:]).run
 
 
 def test_no_command_prints_the_help_with_status_two():

@@ -117,6 +117,15 @@ def test_members_are_motions(ensemble, members):
             ensemble[index]
 
 
+@pytest.mark.parametrize("part", [slice(1, 3), slice(None, None, -2), slice(-2, None), slice(5, 2), slice(None)])
+def test_slices_are_ensembles_with_the_bits_of_the_whole(ensemble, part):
+    times = [0.0, 1.0, 1e6]
+    some = ensemble[part]
+    assert (some.tolerance, some.threads) == (ensemble.tolerance, ensemble.threads)
+    assert np.array_equal(some.attitude(times), ensemble.attitude(times)[part])
+    assert ensemble[:] == ensemble
+
+
 def test_plans_are_those_of_single_motions(ensemble, members):
     plans = ensemble.plans
     assert plans == [single(members, k).plan for k in range(MEMBERS)]

@@ -39,7 +39,7 @@ def test_names_users_rely_on_are_there(owner):
 
 
 def test_all_lists_everything_public_and_nothing_else():
-    modules = {"cli", "mean", "output", "plot"}
+    modules = {"cli", "mean", "output", "plot", "selftest"}
     assert public(andoyer.__all__) == public(vars(andoyer)) - modules
     assert andoyer.__all__ == sorted(andoyer.__all__)
 
@@ -55,6 +55,21 @@ def test_import_prints_nothing_and_loads_numpy_alone():
     code = "import sys, andoyer; sys.exit(bool({'scipy', 'matplotlib', 'mpmath', 'sympy', 'pyarrow'} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def test_import_costs_less_than_50_ms_beyond_numpy():
+    """The least of five, by the interpreter's own account: what andoyer and its own modules take, NumPy's share left out."""
+    code = [sys.executable, "-X", "importtime", "-c", "import numpy, andoyer"]
+    costs = []
+    for _ in range(5):
+        lines = subprocess.run(code, capture_output=True, text=True, check=True).stderr.splitlines()
+        costs += [int(line.split("|")[1]) for line in lines if line.split("|")[-1] == " andoyer"]
+    assert len(costs) == 5 and min(costs) < 50_000, costs
+
+
+def test_selftest_of_the_installed_wheel_holds():
+    done = subprocess.run([sys.executable, "-m", "andoyer.selftest"], capture_output=True, text=True, encoding="utf-8")
+    assert done.returncode == 0 and done.stdout.splitlines()[-1].endswith("9 of 9 hold"), done.stdout + done.stderr
 
 
 @pytest.mark.parametrize("name", ["Body", "Orbit", "Scene", "Motion", "Plan", "NormalForm"])

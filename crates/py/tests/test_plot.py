@@ -46,6 +46,7 @@ DRAWN = {
     "nu": lambda motion: plot.angles(motion, residual=False),
     "rates": plot.rates,
 }
+DIAGRAMS = {"error by order": plot.error_by_order, "work and precision": plot.work_precision}
 
 
 @pytest.fixture(autouse=True)
@@ -90,6 +91,30 @@ def test_picture_is_drawn_into_the_axes_that_are_given(motion):
     for picture in [plot.phase_portrait, plot.pole_path, plot.nutation, plot.angles, plot.rates, plot.polhode_near_pole]:
         assert picture(motion, axes=axes) is axes
     assert plot.polhode(motion, axes) is axes and figure.axes[0] is axes
+
+
+@pytest.mark.parametrize("diagram", DIAGRAMS)
+def test_diagram_is_drawn_into_its_axes_with_labels_and_nothing_cut_off(scene, diagram):
+    figure, axes = plt.subplots(layout="constrained")
+    assert DIAGRAMS[diagram](scene, orders=[0, 4, 8], axes=axes) is axes
+    assert all("[" in label or label == "order N" for label in (axes.get_xlabel(), axes.get_ylabel())) and axes.get_title()
+    assert outside(figure) < 0.01
+    assert DIAGRAMS[diagram](scene, orders=[1]).figure is not figure
+
+
+def test_error_by_order_falls_as_the_theory_says(scene):
+    series, line, _ = plot.error_by_order(scene, orders=range(0, 7, 2)).lines
+    errors = series.get_ydata()
+    assert all(later < earlier for earlier, later in zip(errors, errors[1:]))
+    # Over twenty rotations the frequencies' error adds up to at most 2π·20 times that of the harmonics.
+    assert np.all(errors < 130 * line.get_ydata()) and errors[0] > 1e-4
+
+
+def test_work_and_precision_has_both_methods_and_puts_accuracy_to_the_right():
+    axes = plot.work_precision(MOTIONS["long-axis"].scene, orders=[2, 4])
+    assert [line.get_label() for line in axes.lines] == ["series, by order", "closed form, by tolerance"]
+    errors, costs = axes.lines[0].get_data()
+    assert errors[0] > errors[1] > 0 and min(costs) > 0 and axes.get_xlim()[0] > axes.get_xlim()[1]
 
 
 def test_portrait_shows_the_place_of_the_body(motion):

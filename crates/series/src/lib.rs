@@ -8,6 +8,8 @@
 //! Contract: what is exact stays exact; overflow of an exponent is an error; iteration, printing and summation follow the canonical
 //! order of the monomials, so that two runs give the same bits; no I/O, no global state, and every type is `Send + Sync`.
 //! Brackets follow {q; p} = 1. Theory: M. Lara, *Short-axis-mode rotation in complex variables* (2017), with its errata.
+//!
+#![doc = include_str!("../doc/formulas.html")]
 
 mod birkhoff;
 mod bracket;

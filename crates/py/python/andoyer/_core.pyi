@@ -2,11 +2,13 @@
 import os
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import Any, Literal, TypeAlias, final
+from typing import Any, Literal, TypeAlias, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial.transform import Rotation  # type: ignore[import-untyped, unused-ignore]
+from pandas import DataFrame  # type: ignore[import-untyped, import-not-found, unused-ignore]
+from scipy.spatial.transform import Rotation  # type: ignore[import-untyped, import-not-found, unused-ignore]
+from xarray import Dataset  # type: ignore[import-untyped, import-not-found, unused-ignore]
 
 from andoyer.mean import Frequencies, Periods
 
@@ -190,7 +192,7 @@ class Scene:
     def __new__(
         cls,
         body: Body,
-        attitude: ArrayLike,
+        attitude: ArrayLike | Rotation,
         angular_velocity: ArrayLike,
         *,
         epoch: float = 0.0,
@@ -203,6 +205,7 @@ class Scene:
         level: Literal["full", "moving", "paper"] = "full",
         name: str | None = None,
         source: str | None = None,
+        scalar_first: bool = False,
     ) -> Scene: ...
     @classmethod
     def from_toml(cls, path: str | os.PathLike[str]) -> Scene:
@@ -227,7 +230,7 @@ class Scene:
     def tolerance(self) -> float:
         """The attitude error asked for, in rad."""
     @property
-    def method(self) -> str:
+    def method(self) -> Literal["auto", "series", "closed"]:
         """The method: "auto", "series" or "closed"."""
     @property
     def order(self) -> int | None:
@@ -239,10 +242,10 @@ class Scene:
     def orbit(self) -> Orbit | None:
         """The orbit of the disturbing body, or None."""
     @property
-    def averaging(self) -> str:
+    def averaging(self) -> Literal["auto", "orbit", "spin"]:
         """The averaging: "auto", "orbit" or "spin"."""
     @property
-    def level(self) -> str:
+    def level(self) -> Literal["full", "moving", "paper"]:
         """The level: "full", "moving" or "paper"."""
     @property
     def name(self) -> str | None:
@@ -260,9 +263,9 @@ class Scene:
 class Motion:
     """A solved motion, from `Scene.solve`: immutable, and shared between threads, which run in parallel while they evaluate it."""
 
-    def at(self, times: ArrayLike) -> Samples:
+    def at(self, times: ArrayLike, *, scalar_first: bool = False) -> Samples:
         """Attitudes and angular velocities, in one pass."""
-    def attitude(self, times: ArrayLike, out: _Array | None = None) -> _Array:
+    def attitude(self, times: ArrayLike, out: _Array | None = None, *, scalar_first: bool = False) -> _Array:
         """Unit quaternions [x, y, z, w] that rotate body components into inertial ones (theory §8)."""
     def angular_velocity(self, times: ArrayLike, out: _Array | None = None) -> _Array:
         """Angular velocities in body components, in rad per unit of time."""
@@ -284,6 +287,12 @@ class Motion:
     @property
     def periods(self) -> dict[Literal["long-axis", "short-axis"], Periods]:
         """Mean periods (P_φ, P_ψ) in both conventions: ``{"long-axis": (precession, rotation), "short-axis": (precession, rotation)}``."""
+    @property
+    def energy_ratio(self) -> float:
+        """E/E0: rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum (theory §5)."""
+    @property
+    def elliptic_parameter(self) -> float:
+        """k², the parameter of the elliptic functions of the polhode (theory §10): 0 on a principal axis, 1 on the separatrix."""
     def __copy__(self) -> Motion: ...
     def __deepcopy__(self, _memo: Any) -> Motion: ...
 
@@ -334,6 +343,13 @@ class Samples:
     @property
     def angular_velocity(self) -> _Array:
         """Angular velocities in body components, in rad per unit of time, shape (n, 3) or (m, n, 3)."""
+    @property
+    def scalar_first(self) -> bool:
+        """Whether the quaternions are [w, x, y, z]."""
+    def to_pandas(self) -> DataFrame:
+        """A table of pandas, indexed by time, or by member and time: qx, qy, qz, qw, wx, wy, wz. pandas is imported here and nowhere else."""
+    def to_xarray(self) -> Dataset:
+        """A data set of xarray: attitude and angular_velocity by (member,) time, quaternion or axis. xarray is imported here and nowhere else."""
     def __len__(self) -> int: ...
 
 @final
@@ -343,15 +359,16 @@ class Ensemble:
     def __new__(
         cls,
         moments: ArrayLike,
-        attitudes: ArrayLike,
+        attitudes: ArrayLike | Rotation,
         angular_velocities: ArrayLike,
         *,
         tolerance: float = 1e-12,
         threads: int | None = None,
+        scalar_first: bool = False,
     ) -> Ensemble: ...
-    def at(self, times: ArrayLike) -> Samples:
+    def at(self, times: ArrayLike, *, scalar_first: bool = False) -> Samples:
         """Attitudes and angular velocities of all members, in one pass."""
-    def attitude(self, times: ArrayLike, out: _Array | None = None) -> _Array:
+    def attitude(self, times: ArrayLike, out: _Array | None = None, *, scalar_first: bool = False) -> _Array:
         """Attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones."""
     @property
     def plans(self) -> list[Plan]:
@@ -372,7 +389,10 @@ class Ensemble:
     def threads(self) -> int | None:
         """The number of threads asked for, or None."""
     def __len__(self) -> int: ...
+    @overload
     def __getitem__(self, index: int, /) -> Motion: ...
+    @overload
+    def __getitem__(self, index: slice, /) -> Ensemble: ...
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: None  # type: ignore[assignment]
     def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...

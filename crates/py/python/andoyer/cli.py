@@ -7,13 +7,15 @@ Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad
 import argparse
 import math
 import os
+import shutil
 import sys
+import textwrap
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import datetime
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, NoReturn, TypeVar
+from typing import Any, Literal, NoReturn, TypeVar, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +23,7 @@ from numpy.typing import NDArray
 import andoyer
 from andoyer import output
 from andoyer._extra import extra
+from andoyer._terminal import Progress, named
 from andoyer.output import COLUMNS, CONVENTION, TIME_SYSTEMS, Heading
 
 Value = TypeVar("Value")
@@ -37,7 +40,21 @@ MOST_SAMPLES = 10**9
 ENDINGS = ".csv, .npz, .parquet or .aem"
 PICTURES = [".png", ".svg", ".pdf"]
 LANGUAGES = ["c", "rust", "python"]
-PARTS = ["hamiltonian", "generator", "direct", "inverse"]
+EXAMPLES = {
+    "propagate": """\
+andoyer propagate eros.toml -o eros.csv
+andoyer propagate eros.toml -o eros.npz --start 0 --stop 86400 --step 60
+andoyer propagate eros.toml -o eros.aem --date 2026-01-01T00:00:00 --frame ICRF""",
+    "plan": "andoyer plan eros.toml",
+    "plot": "andoyer plot eros.toml -o eros.png",
+    "bodies": "andoyer bodies",
+    "series": """\
+andoyer series --order 10
+andoyer series --order 20 --to json > normal-form.json
+andoyer series --order 10 --to c --beta 0.3 > rotation.c""",
+}
+Part = Literal["hamiltonian", "generator", "direct", "inverse"]
+PARTS: tuple[Part, ...] = get_args(Part)
 
 
 class InputError(Exception):
@@ -78,15 +95,23 @@ def main(argv: list[str] | None = None) -> int:
     return 0
 
 
+def examples(said: str, *lines: str) -> dict[str, Any]:
+    """The end of a help text: what is said, filled, then examples as they stand."""
+    width = max(40, min(shutil.get_terminal_size().columns, 100) - 2)
+    paragraphs = [textwrap.fill(said, width)] if said else []
+    paragraphs.append("examples:\n" + textwrap.indent("\n".join(lines), "  "))
+    return {"epilog": "\n\n".join(paragraphs), "formatter_class": argparse.RawDescriptionHelpFormatter}
+
+
 def parser() -> Parser:
     """The parser of the command line."""
-    top = Parser(prog="andoyer", description="Rotation of rigid bodies by perturbation series in complex variables.")
+    top = Parser(prog="andoyer", description="Rotation of rigid bodies by perturbation series in complex variables.", **examples("", *EXAMPLES.values()))
     top.add_argument("--version", action="version", version=f"andoyer {andoyer.__version__}")
     commands = top.add_subparsers(title="commands", metavar="COMMAND")
     top.set_defaults(run=None)
 
     writes = "write attitude and angular velocity at equal steps of time"
-    command = commands.add_parser("propagate", help=writes, description=f"{writes.capitalize()}.", epilog=f"Columns {COLUMNS}: {CONVENTION}.")
+    command = commands.add_parser("propagate", help=writes, description=f"{writes.capitalize()}.", **examples(f"Columns {COLUMNS}: {CONVENTION}.", EXAMPLES["propagate"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
     command.add_argument("-o", "--output", metavar="FILE", required=True, help=f"what is written, {ENDINGS} by its ending; - is CSV on stdout")
     command.add_argument("--start", type=number, metavar="T", help="first time (default: the scene's span, else its epoch)")
@@ -102,19 +127,19 @@ def parser() -> Parser:
     command.set_defaults(run=propagate)
 
     pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole"
-    command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib: andoyer[plot].")
+    command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib: andoyer[plot].", **examples("", EXAMPLES["plot"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
     command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .png, .svg or .pdf by its ending")
     command.set_defaults(run=plot)
 
-    command = commands.add_parser("plan", help="print what would be evaluated, and why")
+    command = commands.add_parser("plan", help="print what would be evaluated, and why", **examples("", EXAMPLES["plan"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
     command.set_defaults(run=plan)
 
-    command = commands.add_parser("bodies", help="print the catalogue of bodies, each with its source")
+    command = commands.add_parser("bodies", help="print the catalogue of bodies, each with its source", **examples("", EXAMPLES["bodies"]))
     command.set_defaults(run=bodies)
 
-    command = commands.add_parser("series", help="print the triaxiality polynomials P_0 ... P_N, or the normal form as JSON, LaTeX or source code")
+    command = commands.add_parser("series", help="print the triaxiality polynomials P_0 ... P_N, or the normal form as JSON, LaTeX or source code", **examples("", EXAMPLES["series"]))
     command.add_argument("--order", type=whole, required=True, metavar="N", help="order of the normal form")
     forms = ["text", "json", "latex", *LANGUAGES]
     command.add_argument("--to", choices=forms, default="text", metavar="FORM", help=f"what is printed: {', '.join(forms)} (default: text)")
@@ -171,22 +196,28 @@ def propagate(arguments: argparse.Namespace) -> None:
     path = Path(arguments.output)
     to_stdout = arguments.output == "-"
     ending = path.suffix.lower()
-    writers = {".csv": output.write_csv, ".npz": output.write_npz, ".parquet": output.write_parquet}
-    if not (to_stdout or ending in writers or ending == ".aem"):
+    writers = {".npz": output.write_npz, ".parquet": output.write_parquet}
+    if not (to_stdout or ending in writers or ending in (".csv", ".aem")):
         raise InputError(f"argument -o/--output: {arguments.output}: the name must end in {ENDINGS}, or be - for CSV on stdout")
     given = {key: getattr(arguments, key) for key in ("date", "time_system", "frame") if getattr(arguments, key) is not None}
     if given and ending != ".aem":
         raise InputError(f"argument --{next(iter(given)).replace('_', '-')}: goes with a .aem alone, not with {arguments.output}")
     motion = solved(arguments.scene)
     samples = motion.at(instants(arguments, motion))
-    if to_stdout:
-        output.write_table(sys.stdout, samples)
-    else:
-        with written_to(path):
-            if ending == ".aem":
-                write_message(path, motion, samples, given)
-            else:
-                writers[ending](path, samples)
+    progress = Progress("writing, lines")
+    try:
+        if to_stdout:
+            output.write_table(sys.stdout, samples, progress)
+        else:
+            with written_to(path):
+                if ending == ".aem":
+                    write_message(path, motion, samples, given)
+                elif ending == ".csv":
+                    output.write_csv(path, samples, progress)
+                else:
+                    writers[ending](path, samples)
+    finally:
+        progress.close()
     note_sparse(motion, samples.times)
 
 
@@ -280,11 +311,13 @@ def plan(arguments: argparse.Namespace) -> None:
     """Print the plan of a scene, and the periods of its motion."""
     motion = solved(arguments.scene)
     scene = motion.scene
-    print(f"scene         {scene.name or arguments.scene}")
-    print(f"body          {scene.body!r}")
-    print(motion.plan)
+    print(named("scene"), scene.name or arguments.scene)
+    print(named("body"), repr(scene.body))
+    for line in str(motion.plan).splitlines():
+        print(named(line[:13].rstrip()), line[14:])
+    print(named("energy"), f"E/E0 {motion.energy_ratio:.8g}, k^2 {motion.elliptic_parameter:.8g}")
     for convention, (precession, rotation) in motion.periods.items():
-        print(f"periods       {convention}: P_phi {precession:.10g}, P_psi {rotation:.10g}")
+        print(named("periods"), f"{convention}: P_phi {precession:.10g}, P_psi {rotation:.10g}")
 
 
 def bodies(_arguments: argparse.Namespace) -> None:
@@ -301,11 +334,11 @@ def series(arguments: argparse.Namespace) -> None:
     for option, value, served in [("--part", arguments.part, ["latex"]), ("--beta", arguments.beta, LANGUAGES)]:
         if value is not None and arguments.to not in served:
             raise InputError(f"argument {option}: goes with --to {' or '.join(served)} alone, not with --to {arguments.to}")
-    visible = sys.stderr.isatty()
-    progress = (lambda done, of: print(f"\rorder {done} of {of}", end="", file=sys.stderr, flush=True)) if visible else None
-    normal_form = andoyer.NormalForm(arguments.order, progress=progress)
-    if visible:
-        print("\r\x1b[K", end="", file=sys.stderr)
+    progress = Progress("normal form, order")
+    try:
+        normal_form = andoyer.NormalForm(arguments.order, progress=progress if progress.visible else None)
+    finally:
+        progress.close()
     sys.stdout.write(written(normal_form, arguments))
 
 
@@ -314,7 +347,8 @@ def written(normal_form: andoyer.NormalForm, arguments: argparse.Namespace) -> s
     if arguments.to == "json":
         return normal_form.to_json() + "\n"
     if arguments.to == "latex":
-        return normal_form.to_latex(arguments.part or PARTS[0])
+        part: Part = arguments.part or PARTS[0]
+        return normal_form.to_latex(part)
     if arguments.to in LANGUAGES:
         return normal_form.to_code(arguments.to, arguments.beta)
     lines = [f"P_{n} = {polynomial(normal_form.triaxiality_polynomial(n))}\n" for n in range(normal_form.order + 1)]

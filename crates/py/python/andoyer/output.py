@@ -5,12 +5,12 @@ and the angular velocity in deg/s. Its quaternion from frame A to frame B turns 
 body's axes it is the attitude as it stands, scalar last. Version 2 has no ATTITUDE_DIR and no QUATERNION_TYPE: it removed both.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from datetime import datetime, timedelta, timezone
 from fractions import Fraction
 from pathlib import Path
-from typing import TextIO
+from typing import TextIO, TypeAlias
 
 import numpy as np
 
@@ -34,6 +34,16 @@ REAL = "%.15e"
 
 LONGEST_LINE = 254
 
+LINES_AT_ONCE = 10_000
+"""Lines between two words on how far the writing is."""
+
+Progress: TypeAlias = Callable[[int, int], None]
+"""Called with how much is done, and of how much."""
+
+
+def silent(_done: int, _of: int) -> None:
+    """A progress that nobody sees."""
+
 
 @dataclass(frozen=True)
 class Heading:
@@ -46,17 +56,19 @@ class Heading:
     time_system: str = "TDB"
 
 
-def write_csv(path: Path, samples: Samples) -> None:
+def write_csv(path: Path, samples: Samples, progress: Progress = silent) -> None:
     """Samples as a CSV file."""
     with path.open("w", encoding="utf-8", newline="\n") as file:
-        write_table(file, samples)
+        write_table(file, samples, progress)
 
 
-def write_table(file: TextIO, samples: Samples) -> None:
-    """Samples as CSV: the names of the columns, one line a time with all 17 digits."""
+def write_table(file: TextIO, samples: Samples, progress: Progress = silent) -> None:
+    """Samples as CSV: the names of the columns, one line a time with all 17 digits; `progress` hears of the lines that are written."""
     table = np.column_stack([samples.times, samples.attitude, samples.angular_velocity])
     file.write(f"{COLUMNS}\n")
-    np.savetxt(file, table, fmt="%.17g", delimiter=",")
+    for start in range(0, len(table), LINES_AT_ONCE):
+        np.savetxt(file, table[start : start + LINES_AT_ONCE], fmt="%.17g", delimiter=",")
+        progress(min(start + LINES_AT_ONCE, len(table)), len(table))
 
 
 def write_npz(path: Path, samples: Samples) -> None:

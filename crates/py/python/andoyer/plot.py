@@ -9,10 +9,13 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from andoyer._core import Motion
+from andoyer._diagrams import axes_or_new as _axes, error_by_order, work_precision
+from andoyer._drawing import near_pole, on_ellipsoid, plane, surface as draw_surface
 from andoyer._extra import extra
+from andoyer._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION, Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,20 +23,15 @@ if TYPE_CHECKING:
 
 plt: Any = extra("matplotlib.pyplot", "plot", "andoyer.plot")
 
-_Array = NDArray[np.float64]
-
-BLUE, VERMILION, GREEN, BLACK, GREY = "#0072B2", "#D55E00", "#009E73", "#222222", "#9A9A9A"
 TINY = 0.01
 """Amplitude J [rad] below which the polhode is a dot on the sphere, and angles are in microradians."""
-ARCSECOND = math.pi / 648000
-STYLE = {"font.size": 10, "axes.titlesize": 10.5, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False}
 TURNS, SAMPLES = 3, 3000
 """Periods of the polhode that are drawn if no times are given, and how many times."""
 
-__all__ = ["angles", "nutation", "phase_portrait", "polhode", "polhode_near_pole", "pole_path", "rates", "summary", "whole_turns"]
+__all__ = ["angles", "error_by_order", "nutation", "phase_portrait", "polhode", "polhode_near_pole", "pole_path", "rates", "summary", "whole_turns", "work_precision"]
 
 
-def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> _Array:
+def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> Array:
     """Times over whole periods of the polhode from the epoch, or of the rotation where there is no polhode.
 
     Returns
@@ -65,8 +63,8 @@ def polhode(motion: Motion, axes: "Axes | None" = None, *, surface: str = "spher
         raise ValueError(f'surface = {surface!r}: it must be "sphere" or "ellipsoid"')
     axes = _axes(axes)
     numbers, moments, directions = _sorted(motion, whole_turns(motion, 1))
-    place = (lambda curve: curve) if surface == "sphere" else _on_ellipsoid(moments)
-    _surface(axes, moments, directions, place, _names(numbers))
+    place = (lambda curve: curve) if surface == "sphere" else on_ellipsoid(moments)
+    draw_surface(axes, moments, directions, place, _names(numbers))
     axes.set_title("Polhode on the momentum sphere" if surface == "sphere" else "Polhode on the inertia ellipsoid")
     return axes
 
@@ -76,7 +74,7 @@ def phase_portrait(motion: Motion, times: ArrayLike | None = None, axes: "Axes |
     axes, times = _axes(axes), _times(motion, times)
     _, moments, directions = _sorted(motion, times)
     nu = np.arctan2(directions[:, 0], directions[:, 1])
-    _plane(axes, moments, nu, directions[:, 2])
+    plane(axes, moments, nu, directions[:, 2])
     return axes
 
 
@@ -84,7 +82,7 @@ def polhode_near_pole(motion: Motion, times: ArrayLike | None = None, axes: "Axe
     """The path of the angular momentum in the body, near the axis of greatest inertia: of a motion whose J is small."""
     axes, times = _axes(axes), _times(motion, times)
     numbers, _, directions = _sorted(motion, times)
-    _near_pole(axes, directions, _names(numbers))
+    near_pole(axes, directions, _names(numbers))
     return axes
 
 
@@ -214,15 +212,11 @@ def summary(motion: Motion, times: ArrayLike | None = None) -> "Figure":
     return figure
 
 
-def _axes(axes: "Axes | None") -> "Axes":
-    return plt.figure(layout="constrained").add_subplot() if axes is None else axes
-
-
-def _times(motion: Motion, times: ArrayLike | None) -> _Array:
+def _times(motion: Motion, times: ArrayLike | None) -> Array:
     return whole_turns(motion) if times is None else np.asarray(times, dtype=float)
 
 
-def _sorted(motion: Motion, times: _Array) -> tuple[list[int], _Array, _Array]:
+def _sorted(motion: Motion, times: Array) -> tuple[list[int], Array, Array]:
     """The user's axes of moments A, B, C; these moments; directions of the momentum on them, axis 1 reversed as `Motion.andoyer` has it.
 
     A body at rest has no direction: NaN, which matplotlib leaves out.
@@ -246,134 +240,20 @@ def _names(numbers: list[int]) -> list[str]:
     return [f"−{names[0]}", *names[1:]] if _left_handed(numbers) else names
 
 
-def _nutation(directions: _Array) -> _Array:
+def _nutation(directions: Array) -> Array:
     """J from the components across axis 3: the arccosine of N/M would lose a small one."""
-    angle: _Array = np.arctan2(np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2])
+    angle: Array = np.arctan2(np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2])
     return angle
 
 
-def _on_ellipsoid(moments: _Array) -> Any:
-    """From momentum directions to the angular velocities of energy 1/2 along them, the longest semi-axis being 1."""
-
-    def place(directions: _Array) -> _Array:
-        rates = directions / moments
-        scaled: _Array = rates / np.sqrt(np.sum(directions * rates, axis=-1, keepdims=True)) * np.sqrt(moments[0])
-        return scaled
-
-    return place
-
-
-def _polhode(moments: _Array, energy: float) -> tuple[_Array, _Array]:
-    """Both closed curves on the unit sphere with 2T/M^2 = `energy`, as (n, 3) arrays."""
-    inverse = 1 / moments
-    angle = np.linspace(0, 2 * np.pi, 721)
-    pole = 2 if energy < inverse[1] else 0
-    i, j = (0, 1) if pole == 2 else (2, 1)
-    along = (inverse[i] - inverse[pole]) * np.sin(angle) ** 2 + (inverse[j] - inverse[pole]) * np.cos(angle) ** 2
-    tilt = np.sqrt((energy - inverse[pole]) / along)
-    curve = np.empty((angle.size, 3))
-    curve[:, i], curve[:, j], curve[:, pole] = tilt * np.sin(angle), tilt * np.cos(angle), np.sqrt(1 - tilt**2)
-    mirrored = curve.copy()
-    mirrored[:, pole] *= -1
-    return curve, mirrored
-
-
-def _separatrix(moments: _Array) -> tuple[_Array, ...]:
-    """The two great circles of the separatrix, or none for an axisymmetric body."""
-    a, b, c = 1 / moments
-    if a == b or b == c:
-        return ()
-    angle = np.linspace(0, 2 * np.pi, 721)
-    across = np.array([np.sqrt(b - c), 0, np.sqrt(a - b)]) / np.sqrt(a - c)
-    return tuple(np.outer(np.cos(angle), across * [sign, 1, 1]) + np.outer(np.sin(angle), [0, 1, 0]) for sign in (1, -1))
-
-
-def _surface(axes: "Axes", moments: _Array, pole: _Array, place: Any, names: list[str]) -> None:
-    """The surface that `place` makes of the momentum sphere, seen from between the body axes, axis 3 up."""
-    azimuth, elevation = np.radians(32), np.radians(24)
-    view = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
-    right = np.array([-np.sin(azimuth), np.cos(azimuth), 0])
-    up = np.cross(view, right)
-    screen = np.array([right, up])
-
-    def line(curve: _Array, **style: Any) -> None:
-        # The momentum is normal to the inertia ellipsoid: it tells front from back on either surface.
-        flat, front = place(curve) @ screen.T, curve @ view >= 0
-        label = style.pop("label", None)
-        axes.plot(*np.where(front[:, None], flat, np.nan).T, label=label, **style)
-        axes.plot(*np.where(front[:, None], np.nan, flat).T, **{**style, "alpha": 0.25})
-
-    circle = np.linspace(0, 2 * np.pi, 361)[:, None]
-    axes.fill(*(place(np.cos(circle) * right + np.sin(circle) * up) @ screen.T).T, facecolor="#F3F5F7", edgecolor=GREY, linewidth=0.8, zorder=0)
-    a, b, c = 1 / moments
-    for low, high in ((c, b), (b, a)):
-        for share in (0.12, 0.35, 0.65) if high > low else ():
-            for curve in _polhode(moments, low + share * (high - low)):
-                line(curve, color=GREY, linewidth=0.6)
-    for number, curve in enumerate(_separatrix(moments)):
-        line(curve, color=VERMILION, linewidth=1.3, linestyle=(0, (5, 2)), label="separatrix" if number == 0 else None)
-    line(pole, color=BLUE, linewidth=2.4, label="this motion")
-    axes.plot(*(screen @ place(pole[0])), "o", color=BLUE, markersize=6, label="start")
-    for axis, letter in enumerate("ABC"):
-        tip = screen @ place(np.eye(3)[axis])
-        ahead = 0.32 * screen[:, axis] / np.hypot(*screen[:, axis])
-        axes.annotate("", tip + ahead, tip, arrowprops={"arrowstyle": "-|>", "color": BLACK, "linewidth": 1.2})
-        x, y = tip + 1.5 * ahead
-        axes.text(x, y, f"{names[axis]} ({letter})", ha="center", va="center", fontweight="bold")
-    axes.set(xlim=(-1.6, 1.6), ylim=(-1.3, 1.6), aspect="equal")
-    axes.axis("off")
-    axes.legend(loc="upper right", fontsize=9, frameon=False)
-
-
-def _plane(axes: "Axes", moments: _Array, nu: _Array, cosine: _Array) -> None:
-    """The (nu, N/M) plane: level curves of the energy, the separatrix, the motion."""
-    a, b, c = moments
-    alpha = (c / a + c / b) / 2 - 1
-    beta = (c / a - c / b) / 2 / alpha if alpha else 0
-    low, high = (0 if cosine.min() > 0 else -1), (0 if cosine.max() < 0 else 1)
-    angle, height = np.meshgrid(np.linspace(-np.pi, np.pi, 361), np.linspace(low, high, 201 * (high - low)))
-    energy = (1 - height**2) * (1 - beta * np.cos(2 * angle))
-    shares = np.array([0.1, 0.3, 0.6])
-    levels = np.unique([*(1 - beta) * shares, *(1 - beta) + 2 * beta * shares])
-    axes.contour(np.degrees(angle), height, energy, levels, colors=GREY, linewidths=0.6)
-    if 0 < beta < 1:
-        axes.contour(np.degrees(angle), height, energy, [1 - beta], colors=VERMILION, linewidths=1.3, linestyles=[(0, (5, 2))])
-    wrapped = np.degrees(np.angle(np.exp(1j * nu)))
-    gap = np.abs(np.diff(wrapped, append=wrapped[-1])) > 180
-    axes.plot(np.where(gap, np.nan, wrapped), cosine, color=BLUE, linewidth=2.4)
-    axes.plot(wrapped[0], cosine[0], "o", color=BLUE, markersize=6)
-    axes.set(xlim=(-180, 180), ylim=(1.02 * low, 1.02 * high), xticks=range(-180, 181, 90))
-    axes.set(xlabel="ν [deg]", ylabel="N/M = cos J", title="Andoyer's plane (ν, N/M)")
-
-
-def _near_pole(axes: "Axes", pole: _Array, names: list[str]) -> None:
-    """The path of the angular momentum in the body, near axis 3; angles beside it in microradians and in arcseconds."""
-    x, y = 1e6 * pole[:, 0], 1e6 * pole[:, 1]
-    axes.plot(x, y, color=BLUE, linewidth=1.8)
-    axes.plot(x[0], y[0], "o", color=BLUE, markersize=6)
-    axes.plot(0, 0, "+", color=BLACK, markersize=10)
-    axes.annotate(f"axis {names[2]}", (0, 0), (6, 6), textcoords="offset points")
-    size = max(np.abs(x).max(), np.abs(y).max())
-    reach = 1.2 * size if size > 0 else 1.0
-    if size > 0:
-        tail, tip = len(x) // 48, len(x) // 48 + max(1, len(x) // 300)
-        arrow = {"arrowstyle": "-|>", "color": BLUE, "mutation_scale": 20, "shrinkA": 0, "shrinkB": 0}
-        axes.annotate("", (x[tip], y[tip]), (x[tail], y[tail]), arrowprops=arrow)
-    axes.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal", xlabel=f"towards axis {names[0]} [μrad]", ylabel=f"towards axis {names[1]} [μrad]")
-    axes.set_title(f"Path of the angular momentum near axis {names[2]}")
-    scale = 1e-6 / ARCSECOND
-    second = axes.secondary_yaxis("right", functions=(lambda v: np.multiply(v, scale), lambda v: np.divide(v, scale)))
-    second.set_ylabel("[arcsec]")
-
-
-def _clock(times: _Array) -> tuple[_Array, str, tuple[str, float]]:
+def _clock(times: Array) -> tuple[Array, str, tuple[str, float]]:
     """Times since the first one in seconds, hours or days, the axis label, and the unit of time of rates with its seconds."""
     elapsed = times - times[0]
     unit, seconds = ("d", 86400) if elapsed[-1] > 30 * 86400 else ("h", 3600) if elapsed[-1] > 7200 else ("s", 1)
     return elapsed / seconds, f"time [{unit}]", ("s", 1.0) if unit == "s" else ("h", 3600.0)
 
 
-def _without_mean(angle: _Array, times: _Array) -> tuple[_Array, float, _Array]:
+def _without_mean(angle: Array, times: Array) -> tuple[Array, float, Array]:
     """An angle [rad] less its mean motion, the mean motion [rad/s], the angle unwrapped.
 
     `times` span whole periods of the polhode, and sample every turn of the angle more than twice.
@@ -389,7 +269,7 @@ def _legend(axes: "Axes") -> None:
     axes.legend(loc="lower right", bbox_to_anchor=(1, 0.98), ncols=3, fontsize=9, frameon=False)
 
 
-def _period(rate: float, times: _Array) -> str:
+def _period(rate: float, times: Array) -> str:
     """The period of a mean motion, in seconds, hours or days, with its sense."""
     if abs(rate) * (times[-1] - times[0]) < np.pi:
         return "none (libration)"

@@ -1,0 +1,123 @@
+"""Diagrams of accuracy: error by order of the series, and what accuracy costs. They measure while they are drawn, against the closed form at its best."""
+
+import time
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from andoyer._core import Motion, Scene, SeparatrixError
+from andoyer._extra import extra
+from andoyer._style import BLUE, GREY, VERMILION, Array
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+EPOCHS = 50
+"""Times at which an error is taken."""
+ROTATIONS = 20
+"""Rotations over which errors are taken, where the scene has no span: those of a fixed order grow with time."""
+
+
+def error_by_order(scene: Scene, orders: Iterable[int] = range(0, 31, 2), axes: "Axes | None" = None) -> "Axes":
+    """Largest attitude error of the series over 20 rotations by order, beside (σ/σ_sep)^(N+1) and the closed form's bound.
+
+    The error is that against the closed form, whose own bound is the dashed line: below it nothing is told apart.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its method, order, tolerance and span are not used.
+    orders : iterable of int, optional
+    axes : matplotlib.axes.Axes, optional
+
+    Raises
+    ------
+    SeparatrixError
+        A scene on the separatrix: there are no series.
+    """
+    axes = axes_or_new(axes)
+    chosen = list(orders)
+    closed, times, truth = _truth(scene)
+    errors = [_largest_angle(truth, _variant(scene, method="series", order=order).solve().attitude(times)) for order in chosen]
+    ratio = closed.plan.separatrix_ratio
+    axes.semilogy(chosen, np.maximum(errors, 1e-17), "o-", color=BLUE, markersize=4, label="series")
+    axes.semilogy(chosen, [ratio ** (order + 1) for order in chosen], ":", color=VERMILION, label="(σ/σ_sep)$^{N+1}$")
+    axes.axhline(closed.plan.error_bound, color=GREY, linestyle="--", label="bound of the closed form")
+    axes.set(xlabel="order N", ylabel="largest attitude error [rad]", title=f"Error of the series by order, σ/σ_sep = {ratio:.3g}")
+    axes.set_ylim(bottom=closed.plan.error_bound / 100)
+    axes.legend(frameon=False)
+    return axes
+
+
+def work_precision(scene: Scene, orders: Iterable[int] = range(0, 21, 2), axes: "Axes | None" = None) -> "Axes":
+    """Time of solving against the error reached: the series by order, the closed form by tolerance. Accuracy grows to the right.
+
+    Errors below the bound of the closed form are drawn on it: they are not told apart.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its method, order, tolerance and span are not used.
+    orders : iterable of int, optional
+    axes : matplotlib.axes.Axes, optional
+    """
+    axes = axes_or_new(axes)
+    best, times, truth = _truth(scene)
+    series = [_variant(scene, method="series", order=order) for order in orders]
+    closed = [_variant(scene, method="closed", tolerance=tolerance) for tolerance in (1e-3, 1e-6, 1e-9, 1e-12, 1e-15)]
+    for label, variants, style in (("series, by order", series, ("o-", BLUE)), ("closed form, by tolerance", closed, ("*--", VERMILION))):
+        points = []
+        for variant in variants:
+            try:
+                seconds, motion = _timed(variant)
+            except SeparatrixError:
+                continue
+            error = max(_largest_angle(truth, motion.attitude(times)), best.plan.error_bound)
+            points.append((error, 1e6 * seconds))
+        if points:
+            axes.loglog(*zip(*points), style[0], color=style[1], markersize=5, label=label)
+    axes.set(xlabel="largest attitude error [rad]", ylabel="time of solving [μs]", title="What accuracy costs")
+    axes.set_xlim(*sorted(axes.get_xlim(), reverse=True))
+    axes.legend(frameon=False)
+    return axes
+
+
+def axes_or_new(axes: "Axes | None") -> "Axes":
+    """The axes, by default those of a new figure."""
+    if axes is not None:
+        return axes
+    plt: Any = extra("matplotlib.pyplot", "plot", "andoyer.plot")
+    new: "Axes" = plt.subplots(layout="constrained")[1]
+    return new
+
+
+def _variant(scene: Scene, **options: Any) -> Scene:
+    """The free motion of the scene with other choices."""
+    return Scene(scene.body, scene.attitude, scene.angular_velocity, epoch=scene.epoch, name=scene.name, **options)
+
+
+def _truth(scene: Scene) -> tuple[Motion, Array, Array]:
+    """The closed form at its best, times, and its attitudes at these."""
+    motion = _variant(scene, method="closed", tolerance=1e-15).solve()
+    rotation = motion.periods["long-axis"].precession
+    times = scene.epoch + np.linspace(0, ROTATIONS * rotation, EPOCHS)
+    return motion, times, motion.attitude(times)
+
+
+def _largest_angle(first: Array, second: Array) -> float:
+    """The largest angle between attitudes, from the vector part of the relative quaternion, which small ones do not leave."""
+    v, w = first[:, :3], first[:, 3:]
+    difference = second * np.sign(np.sum(first * second, axis=1, keepdims=True)) - first
+    vector = w * difference[:, :3] - v * difference[:, 3:] - np.cross(v, difference[:, :3])
+    return float(2 * np.arcsin(np.minimum(np.linalg.norm(vector, axis=1), 1)).max())
+
+
+def _timed(scene: Scene) -> tuple[float, Motion]:
+    """Seconds of solving, the least of five, and the motion."""
+    spans = []
+    for _ in range(5):
+        start = time.perf_counter()
+        motion = scene.solve()
+        spans.append(time.perf_counter() - start)
+    return min(spans), motion

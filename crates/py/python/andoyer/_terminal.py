@@ -1,0 +1,45 @@
+"""What is shown on a terminal and nowhere else: a bar for long work, bold names. Files and pipes get plain text."""
+
+import os
+import sys
+import time
+from typing import TextIO
+
+WIDTH = 30
+PATIENCE = 0.3
+"""Seconds before a bar is shown: short work has none."""
+
+
+class Progress:
+    """A bar on stderr, if that is a terminal; call it with what is done and of how much, and `close` it."""
+
+    def __init__(self, what: str, stream: TextIO | None = None) -> None:
+        self.what = what
+        self.stream = sys.stderr if stream is None else stream
+        self.visible = self.stream.isatty()
+        self.started = time.monotonic()
+        self.last = ""
+
+    def __call__(self, done: int, of: int) -> None:
+        """Show how far it is."""
+        if not self.visible or time.monotonic() - self.started < PATIENCE:
+            return
+        share = done / of if of else 1.0
+        bar = "#" * int(WIDTH * share)
+        line = f"{self.what} [{bar:-<{WIDTH}}] {100 * share:3.0f} %  {done} of {of}"
+        if line != self.last:
+            self.stream.write(f"\r{line}\x1b[K")
+            self.stream.flush()
+            self.last = line
+
+    def close(self) -> None:
+        """Leave the line empty."""
+        if self.last:
+            self.stream.write("\r\x1b[K")
+            self.stream.flush()
+
+
+def named(name: str, stream: TextIO | None = None) -> str:
+    """A name in front of a value, bold on a terminal that is not asked to be plain (NO_COLOR)."""
+    terminal = (sys.stdout if stream is None else stream).isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+    return f"\x1b[1m{name:13}\x1b[0m" if terminal else f"{name:13}"

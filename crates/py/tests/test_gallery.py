@@ -1,0 +1,55 @@
+"""The scripts of the gallery run as they are printed; the pages of documentation say nothing in Python that is not run."""
+
+import csv
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+
+from conftest import REPOSITORY
+
+pytest.importorskip("matplotlib")
+SCRIPTS = sorted((REPOSITORY / "examples/gallery").glob("*.py"))
+PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
+
+
+def test_there_are_the_six_of_them():
+    assert [path.stem[7:] for path in SCRIPTS] == ["earth_wobble", "eros_separatrix", "apophis", "box_satellite", "normal_form", "ensemble"]
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
+def test_script_runs_and_says_something(script, tmp_path):
+    environment = os.environ | {"MPLBACKEND": "Agg", "PYTHONWARNINGS": "ignore:FigureCanvasAgg:UserWarning"}
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, cwd=tmp_path, env=environment)
+    assert done.returncode == 0 and done.stdout, done.stderr
+    assert "Warning" not in done.stderr.replace("UserWarning: FigureCanvasAgg", "")
+
+
+def test_table_of_the_readme_is_the_file_that_the_pages_are_made_from():
+    rows = re.findall(r"^\| (.*) \|$", PAGES[0].read_text(encoding="utf-8"), re.MULTILINE)[1:]
+    with (REPOSITORY / "docs/data/scenes.csv").open(encoding="utf-8", newline="") as file:
+        assert [row.replace("–", "").split(" | ") for row in rows] == list(csv.reader(file))[1:]
+
+
+def test_record_writes_both(tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(REPOSITORY / "examples")
+    import demo
+
+    monkeypatch.setattr(demo, "ENSEMBLE", (100, 2))
+    (tmp_path / "docs/data").mkdir(parents=True)
+    text = PAGES[0].read_text(encoding="utf-8")
+    (tmp_path / "README.md").write_text(text, encoding="utf-8")
+    demo.record([["a body", "short-axis", "closed", "0.1", "–", "3", "1e-16", "1e-15", "3.0"]], tmp_path)
+    written = (tmp_path / "README.md").read_text(encoding="utf-8")
+    before, _, after = text.partition("| Apophis")
+    assert written == before + "| a body | short-axis | closed | 0.1 | – | 3 | 1e-16 | 1e-15 | 3.0 |\n" + after[after.index("\n\n") + 1 :]
+    assert (tmp_path / "docs/data/scenes.csv").read_text().splitlines()[1] == "a body,short-axis,closed,0.1,,3,1e-16,1e-15,3.0"
+    assert (tmp_path / "docs/data/ensemble.csv").read_text().splitlines()[2].startswith("100,2,2,")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_python_on_a_page_is_a_doctest(page):
+    blocks = re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+    assert all(block.startswith(">>> ") for block in blocks)

@@ -1,0 +1,117 @@
+"""Sphinx: tables made from the committed figures in docs/data, so that no page says anything else than its file.
+
+A block marked `measured` holds the name of one of the tables below.
+"""
+
+import csv
+import statistics
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+from docutils import nodes
+from docutils.statemachine import StringList
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+DATA = Path(__file__).resolve().parents[1] / "data"
+BODY_EPOCHS = 1e9
+
+Row = dict[str, str]
+
+
+def read(name: str) -> list[Row]:
+    """The lines of a file of figures."""
+    with (DATA / name).open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def markdown(header: Iterable[str], rows: Iterable[Iterable[str]]) -> list[str]:
+    """A table in Markdown."""
+    head = list(header)
+    return [f"| {' | '.join(line)} |" for line in [head, ["---"] * len(head), *map(list, rows)]]
+
+
+def scenes_accuracy() -> list[str]:
+    """Errors and bounds of the example scenes."""
+    rows = ([r["scene"], r["method"], r["separatrix_ratio"], r["order"] or "–", r["harmonics"], r["error"], r["bound"]] for r in read("scenes.csv"))
+    return markdown(["scene", "method", "σ/σ_sep", "order", "harmonics", "error [rad]", "bound [rad]"], rows)
+
+
+def scenes_speed() -> list[str]:
+    """Time of a sample of the example scenes."""
+    return markdown(["scene", "method", "harmonics", "ns/sample"], ([r["scene"], r["method"], r["harmonics"], r["sample_ns"]] for r in read("scenes.csv")))
+
+
+def chosen(method: str) -> dict[float, list[Row]]:
+    """The motions of the sweep for which a tolerance was asked, by tolerance."""
+    groups: dict[float, list[Row]] = {}
+    for row in read("sweep.csv"):
+        if (row["method"], row["fixed"]) == (method, "tolerance"):
+            groups.setdefault(float(row["tolerance"]), []).append(row)
+    return dict(sorted(groups.items(), reverse=True))
+
+
+def sweep_accuracy() -> list[str]:
+    """Errors by tolerance: median, highest, and against the bound."""
+    rows = []
+    for method in ("series", "closed"):
+        for tolerance, motions in chosen(method).items():
+            errors = [float(row["error"]) for row in motions]
+            shares = [float(row["error"]) / float(row["bound"]) for row in motions]
+            figures = [f"{statistics.median(errors):.1e}", f"{max(errors):.1e}", f"{max(shares):.2f}"]
+            rows.append([method, f"{tolerance:.0e}", str(len(motions)), *figures])
+    return markdown(["method", "tolerance [rad]", "motions served", "median error [rad]", "largest error [rad]", "largest error / bound"], rows)
+
+
+def sweep_speed() -> list[str]:
+    """Set-up and evaluation by tolerance."""
+    rows = []
+    for method in ("series", "closed"):
+        for tolerance, motions in chosen(method).items():
+            figures = []
+            for column in ("setup_us", "sample_ns"):
+                values = [float(row[column]) for row in motions]
+                figures += [f"{statistics.median(values):.1f}", f"{max(values):.1f}"]
+            rows.append([method, f"{tolerance:.0e}", *figures])
+    return markdown(["method", "tolerance [rad]", "set-up [μs], median", "highest", "ns/sample, median", "highest"], rows)
+
+
+def ensemble() -> list[str]:
+    """Measured ensembles, and what 1e9 body-epochs would take at their rate."""
+    rows = []
+    for row in read("ensemble.csv"):
+        body_epochs = int(row["bodies"]) * int(row["epochs"])
+        each = float(row["seconds"]) / body_epochs
+        rows.append([row["bodies"], row["epochs"], row["threads"], row["seconds"], f"{1e9 * each:.0f}", f"{BODY_EPOCHS * each:,.0f}"])
+    return markdown(["bodies", "epochs each", "threads", "seconds", "ns a body-epoch", "seconds for 1e9 body-epochs"], rows)
+
+
+TABLES: dict[str, Callable[[], list[str]]] = {
+    "ensemble": ensemble,
+    "scenes-accuracy": scenes_accuracy,
+    "scenes-speed": scenes_speed,
+    "sweep-accuracy": sweep_accuracy,
+    "sweep-speed": sweep_speed,
+}
+
+
+class Measured(SphinxDirective):
+    """One of the tables, by name."""
+
+    has_content = True
+
+    def run(self) -> list[nodes.Node]:
+        name = " ".join(self.content).strip()
+        if name not in TABLES:
+            raise self.error(f"measured: there is no table {name!r}, only {', '.join(TABLES)}")
+        for file in DATA.glob("*.csv"):
+            self.env.note_dependency(str(file))
+        container = nodes.container()
+        self.state.nested_parse(StringList(TABLES[name](), source=name), 0, container)
+        return container.children
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    app.add_directive("measured", Measured)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,68 @@
+"""The documentation site: `make docs` builds it, every warning is an error, and the network is not used."""
+
+import sys
+from pathlib import Path
+
+import andoyer
+import matplotlib
+
+DOCS = Path(__file__).parent
+sys.path.insert(0, str(DOCS / "_ext"))
+matplotlib.use("Agg")
+
+project = "andoyer"
+author = copyright = "The andoyer developers"
+version = release = andoyer.__version__
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_gallery.gen_gallery", "equations", "measured"]
+exclude_patterns = ["_ext", "requirements.txt", "gallery/*.ipynb", "gallery/*.py", "**/sg_execution_times.rst", "sg_execution_times.rst"]
+default_role = "py:obj"
+
+myst_enable_extensions = ["dollarmath", "colon_fence"]
+myst_fence_as_directive = ["equation", "math", "measured"]
+myst_heading_anchors = 3
+
+html_theme = "furo"
+html_title = "andoyer"
+html_math_renderer = "mathml"
+html_static_path = ["_static"]
+html_favicon = "_static/favicon.svg"
+html_css_files = ["site.css"]
+html_show_sourcelink = False
+html_copy_source = False
+
+autodoc_member_order = "groupwise"
+autodoc_typehints = "none"
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+
+sphinx_gallery_conf = {
+    "examples_dirs": "../examples/gallery",
+    "gallery_dirs": "gallery",
+    "within_subsection_order": "FileNameSortKey",
+    "filename_pattern": "/plot_",
+    "image_scrapers": ("matplotlib",),
+    "abort_on_example_error": True,
+    "only_warn_on_example_error": False,
+    "download_all_examples": False,
+    "show_signature": False,
+    "min_reported_time": 1e9,
+    "remove_config_comments": True,
+    "matplotlib_animations": False,
+    "default_thumb_file": None,
+}
+
+
+def setup(app):
+    """Keep the docstrings of attributes as they are: napoleon takes what stands before a colon in them for a type."""
+    kept = {}
+
+    def keep(_app, what, name, _obj, _options, lines):
+        if what in ("attribute", "property"):
+            kept[name] = list(lines)
+
+    def restore(_app, _what, name, _obj, _options, lines):
+        if name in kept:
+            lines[:] = kept.pop(name)
+
+    app.connect("autodoc-process-docstring", keep, priority=400)
+    app.connect("autodoc-process-docstring", restore, priority=600)

@@ -1,0 +1,51 @@
+"""
+Your own normal form
+====================
+
+The algebra behind the rigid body serves any Hamiltonian near an elliptic point. Here the pendulum: its frequency against the amplitude, order by order.
+"""
+
+import math
+
+import andoyer
+import matplotlib.pyplot as plt
+import numpy as np
+
+# %%
+# H = p²/2 − cos q as a polynomial: exact rationals, written out to degree 14.
+
+terms = [f"{'+' if k % 2 else '-'} q^{2 * k}/{math.factorial(2 * k)}" for k in range(2, 8)]
+pendulum = " ".join(["(p^2 + q^2)/2", *terms])
+print(pendulum)
+form = andoyer.normalize(pendulum, 12, variables=[("q", "p")])
+print(form)
+
+# %%
+# The frequency is the slope of K in the action; the true one comes from the arithmetic-geometric mean.
+
+
+def true_frequency(amplitude: float) -> float:
+    """Of a pendulum that swings to `amplitude` [rad]: the mean of 1 and cos(amplitude/2)."""
+    x, y = 1.0, math.cos(amplitude / 2)
+    for _ in range(6):
+        x, y = (x + y) / 2, math.sqrt(x * y)
+    return x
+
+
+amplitudes = np.linspace(0.05, 2.5, 50)
+true = np.array([true_frequency(amplitude) for amplitude in amplitudes])
+figure, axes = plt.subplots(figsize=(8, 5), layout="constrained")
+for order, style in zip([2, 4, 8, 12], [":", "-.", "--", "-"]):
+    form = andoyer.normalize(pendulum, order, variables=[("q", "p")])
+    found = form.frequency_map(form.actions([[amplitude, 0.0] for amplitude in amplitudes]))[:, 0]
+    error = np.maximum(np.abs(found / true - 1), 1e-16)
+    axes.semilogy(amplitudes, error, style, label=f"order {order}")
+axes.set(xlabel="amplitude [rad]", ylabel="relative error of the frequency")
+axes.set_title("The pendulum's normal form, by order")
+axes.legend(frameon=False)
+plt.show()
+
+# %%
+# As C for another program: `docs/normalize.md` has SymPy's way; the rigid body's own form has `NormalForm.to_code`.
+
+print(andoyer.NormalForm(4).to_code("c", beta=0.5)[:600])
