@@ -89,9 +89,10 @@ class Enclosure:
         self.precession = self.momentum / ball(i1)
         self.factor = self.momentum * ball((i3 - i1) / (i1 * i3)) / self.rate
         self.principal = [ball(i) for i in (i1, i2, i3)]
-        self.quarter = acb(self.parameter).elliptic_k().real
+        # K = pi / (2 agm(1, k')), and K' with k: neither needs a difference from 1.
+        self.quarter = arb.pi() / 2 / arb(1).agm(self.complement.sqrt())
         if parameter:
-            self.tau = acb(0, 1) * acb(self.complement).elliptic_k() / self.quarter
+            self.tau = acb(0, arb.pi() / 2 / arb(1).agm(self.parameter.sqrt()) / self.quarter)
             self.constants = [x.real for x in acb(0).modular_theta(self.tau)]
         self.turn = 2 * self._third(arb(1), arb(0), self.complement)
         first, second = ball(w1) / self.amplitudes[0], ball(w2) / self.amplitudes[1]
@@ -106,14 +107,18 @@ class Enclosure:
     def _third(self, s, cosine2, delta2):
         """T of the module's formulas from sn, cn^2, dn^2, |u| <= K."""
         v = self.characteristic
-        if v.is_zero():
+        if v.is_zero() or s.is_zero():
             return arb(0)
-        return v / 3 * s**3 * acb.elliptic_rj(cosine2, delta2, 1, 1 - v * s * s).real
+        return v / 3 * s * s * s * acb.elliptic_rj(cosine2, delta2, 1, 1 - v * s * s).real
 
-    def _third_beside_quarter(self, u, s):
-        """T(u) where u may be K or -K, and Carlson's integral has a branch point: |dT/du| = |v s^2/(1 - v s^2)| < 1."""
-        sign = 1 if s > 0 else -1
-        return sign * self.turn / 2 + (u - sign * self.quarter) * arb(0, 1)
+    def _third_at_ends(self, u, s, c):
+        """T(u) where u may be 0, K or -K, and Carlson's integral is at the edge of its domain: dT/du = v s^2/(1 - v s^2), and |s| <= |u|."""
+        if s.contains(0):
+            return self.characteristic * u * u * u * arb(0, 1)
+        if c.contains(0):
+            sign = 1 if s > 0 else -1
+            return sign * self.turn / 2 + (u - sign * self.quarter) * arb(0, 1)
+        return None
 
     def _in_invariable_frame(self, w, phi):
         g1, g2, g3 = (moment * x / self.momentum for moment, x in zip(self.principal, w))
@@ -165,7 +170,9 @@ class Enclosure:
         turns = arb((turns + arb(0.5)).floor().unique_fmpz())
         u -= 2 * turns * self.quarter
         s, c, d = self._jacobi(u)
-        third = self._third_beside_quarter(u, s) if c.contains(0) else self._third(s, c * c, d * d)
+        third = self._third_at_ends(u, s, c)
+        if third is None:
+            third = self._third(s, c * c, d * d)
         third += turns * self.turn
         if int(float(turns)) % 2:
             s, c = -s, -c

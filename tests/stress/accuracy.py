@@ -74,6 +74,19 @@ def measured(seed, number):
     return one.regime, found, number
 
 
+def of_block(seed, numbers):
+    """What `measured` returns, of many; members of one ensemble, those with epoch 0 must have the same bits."""
+    found = [measured(seed, number) for number in numbers]
+    members = [one for one in (case(seed, number) for number in numbers) if one.epoch == 0.0]
+    fields = zip(*((one.moments, one.attitude, one.rates) for one in members))
+    many = andoyer.Ensemble(*fields, tolerance=TOLERANCE, threads=1).at([one.times for one in members])
+    for k, one in enumerate(members):
+        alone = andoyer.Scene(andoyer.Body(one.moments), one.attitude, one.rates, tolerance=TOLERANCE).solve().at(one.times)
+        same = np.array_equal(many.attitude[k], alone.attitude) and np.array_equal(many.angular_velocity[k], alone.angular_velocity)
+        found.append((one.regime, {"ensemble": 0.0 if same else np.inf}, numbers[0]))
+    return found
+
+
 def invariants(one, body, motion, samples):
     """What the equations of motion keep, and what their symmetries say."""
     moments = np.array(one.moments) / max(one.moments)
@@ -93,10 +106,6 @@ def invariants(one, body, motion, samples):
     back = andoyer.Scene(body, one.attitude, [-x for x in one.rates], epoch=-one.epoch, tolerance=TOLERANCE).solve()
     found["time reversal"] = float(angle(back.attitude([-t for t in one.times]), samples.attitude).max())
     found["powers of two"] = powers_of_two(one, samples)
-    if one.epoch == 0.0:
-        many = andoyer.Ensemble([one.moments], [one.attitude], [one.rates], tolerance=TOLERANCE, threads=1).at(one.times)
-        same = np.array_equal(many.attitude[0], samples.attitude) and np.array_equal(many.angular_velocity[0], samples.angular_velocity)
-        found["ensemble"] = 0.0 if same else np.inf
     if 0.0 < motion.plan.separatrix_ratio < 0.9:
         found["group"] = group(one, body, motion, samples)
     return found
