@@ -67,7 +67,7 @@ deny:  ## the same rules by cargo-deny, which is installed if it is not there
 	cargo deny --offline check licenses bans sources
 
 msrv:  ## the oldest compiler that Cargo.toml promises
-	cargo +$$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml) check --workspace --all-targets --locked --quiet --target-dir target/msrv
+	cargo +$$(sed -n 's/^rust-version = "\(.*\)"/\1.0/p' Cargo.toml) check --workspace --all-targets --locked --quiet --target-dir target/msrv
 
 MINIMAL := target/minimal-versions
 minimal-versions:  ## the oldest versions of the direct dependencies that Cargo.toml promises, in a copy
@@ -76,9 +76,10 @@ minimal-versions:  ## the oldest versions of the direct dependencies that Cargo.
 	cd $(MINIMAL)/source && RUSTC_BOOTSTRAP=1 cargo update --quiet -Z direct-minimal-versions
 	cargo check --workspace --locked --quiet --manifest-path $(MINIMAL)/source/Cargo.toml --target-dir $(MINIMAL)/target
 
-parallel: $(VENV)/installed  ## the wheel's tests, each on eight threads at once
+PARALLEL := body_and_scene motion ensemble orbit expressions normal_form normalize
+parallel: $(VENV)/installed  ## the wheel's tests of objects, each on eight threads at once; those of signals, processes and files are not for threads
 	$(BIN)/python -m pip install --quiet 'pytest-run-parallel>=0.6'
-	$(BIN)/python -m pytest -q --parallel-threads=8 crates/py/tests
+	$(BIN)/python -m pytest -q --parallel-threads=8 $(PARALLEL:%=crates/py/tests/test_%.py)
 
 sweep: $(VENV)/installed  ## series against closed form by order, σ/σ_sep and β: docs/data/sweep.csv, picture and table of its page; a minute
 	$(BIN)/python examples/sweep.py

