@@ -26,7 +26,7 @@ lint:
 	RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps --document-private-items --quiet
 
 bench: $(VENV)/installed  ## criterion by order, then run time against error: docs/data/bench.csv, docs/data/work-precision.csv; under ten minutes
-	start=$$(date +%s) && cargo bench --workspace && $(BIN)/python benches/collect.py --since $$start
+	start=$$(date +%s) && cargo bench -p andoyer-benches && $(BIN)/python benches/collect.py --since $$start
 	$(BIN)/python benches/work_precision.py
 
 report: $(VENV)/ready  ## docs/performance.md with its picture, and the table of the README, from docs/data
