@@ -69,7 +69,7 @@ KINDS = {
     "generic": lambda r: _sorted(r.uniform(0.5, 1, 3)),
     "nearly spherical": lambda r: _sorted(1 - decades(r, 2, 12) * r.uniform(0, 1, 3)),
     "needle": lambda r: (lambda a: [a, 1 - a * r.uniform(0, 1), 1.0])(decades(r, 1, 4)),
-    "flat": lambda r: (lambda b: [1 - b * (1 - decades(r, 1, 8)), b, 1.0])(r.uniform(0.5, 0.95)),
+    "flat": lambda r: (lambda b: _sorted([1 - b * (1 - decades(r, 1, 8)), b, 1.0]))(r.uniform(0.5, 0.95)),
     "β → 0": lambda r: (lambda b: [b * (1 - decades(r, 1, 12)), b, 1.0])(r.uniform(0.6, 0.95)),
     "β → 1": lambda r: [r.uniform(0.1, 0.95), 1 - 0.05 * decades(r, 0, 12), 1.0],
 }

@@ -146,11 +146,11 @@ impl Ensemble {
     /// The motion of one member.
     ///
     /// # Errors
-    /// - [`Error::Length`] for an index that no member has.
+    /// - [`Error::Index`] for an index that no member has.
     /// - [`Error::Member`] with what [`Scene::solve`] says of it.
     pub fn motion(&self, index: usize) -> Result<Motion, Error> {
         if index >= self.len() {
-            return Err(Error::Length { argument: "index + 1", found: index + 1, expected: self.len() });
+            return Err(Error::Index { index, members: self.len() });
         }
         let motion = self.scene(index).and_then(|scene| scene.solve());
         motion.map_err(|problem| Error::Member { index, others: 0, problem: Box::new(problem) })

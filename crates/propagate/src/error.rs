@@ -33,12 +33,14 @@ pub enum Error {
         /// Largest moment over the smallest.
         ratio: f64,
     },
-    /// An angular momentum that has no double.
+    /// An angular momentum or a rate that has no double.
     #[error(
-        "moments and angular_velocity: the angular momentum, 2^{exponent}, is no normal double; choose other units"
+        "moments and angular_velocity: {quantity}, 2^{exponent}, is no normal double, or too near the largest; choose other units"
     )]
     Units {
-        /// Its binary exponent, which must be from −1021 to 1023.
+        /// What has no double: the angular momentum, or a rate.
+        quantity: &'static str,
+        /// Its binary exponent, which must be from −1021 to 1021.
         exponent: i32,
     },
     /// An attitude quaternion that is zero, not finite, or too far from unit norm.
@@ -92,7 +94,7 @@ pub enum Error {
         value: String,
     },
     /// A time that is not finite, or so far from the epoch that it has no phase.
-    #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch (1e15 rotations)")]
+    #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{}", beyond(*bound))]
     Time {
         /// Its index among the times given.
         index: usize,
@@ -175,7 +177,9 @@ pub enum Error {
         bound: f64,
     },
     /// A mode of motion that the gravity gradient theory does not serve.
-    #[error("orbit: a {mode} motion has no averaged theory (the separatrix ratio is {ratio:.6}, the bound {bound})")]
+    #[error(
+        "orbit: no averaged theory serves this motion (mode {mode}, σ/σ_sep = {ratio:.6}, which must be at most {bound})"
+    )]
     Unaveraged {
         /// The mode.
         mode: String,
@@ -193,6 +197,14 @@ pub enum Error {
         others: usize,
         /// What is wrong with it.
         problem: Box<Error>,
+    },
+    /// An index that no member of an ensemble has.
+    #[error("index = {index}: the ensemble has {members} members, counted from 0")]
+    Index {
+        /// The index as given.
+        index: usize,
+        /// How many members there are.
+        members: usize,
     },
     /// A number of threads that the system does not give.
     #[error("threads = {value}: {problem}")]
@@ -225,6 +237,11 @@ pub enum Error {
 
 fn and_others(others: usize) -> String {
     if others == 0 { String::new() } else { format!(" (and {others} more bad members)") }
+}
+
+/// Why a time has a bound: a body at rest has one too, so that no sum of two times overflows.
+fn beyond(bound: f64) -> &'static str {
+    if bound < crate::motion::LONGEST { ": farther away the motion has no phase" } else { "" }
 }
 
 impl Error {

@@ -7,6 +7,7 @@
 mod andoyer;
 mod batch;
 mod body;
+mod bound;
 mod catalogue;
 mod closed;
 mod elliptic;
@@ -28,6 +29,7 @@ mod separatrix;
 mod series;
 mod solution;
 mod state;
+mod steady;
 
 pub use batch::Batch;
 pub use body::Body;

@@ -21,6 +21,9 @@ use crate::state::State;
 /// Rotations from the epoch within which phases are good to 1e-14 rad; not far beyond, a double no longer tells one turn from the next.
 const MOST_ROTATIONS: f64 = 1e15;
 
+/// No sum of two times this long overflows.
+pub(crate) const LONGEST: f64 = 1e300;
+
 /// Attitude and angular velocity at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
@@ -100,6 +103,8 @@ pub struct Motion {
     pub(crate) plan: Plan,
     pub(crate) course: Course,
     pub(crate) frequencies: Frequencies,
+    /// dy′/dt + dℓ′/dt, summed before it is rounded: for a needle the two nearly cancel.
+    pub(crate) precession: f64,
     /// Whether the theory's axis 3 is that of least inertia.
     pub(crate) long_axis: bool,
     /// Inertial components.
@@ -137,7 +142,7 @@ impl Motion {
     /// Periods of the theory's axis 3, or of its axis 1, which is carried around by y′.
     fn periods(&self, own: bool) -> Periods {
         let Frequencies { anomaly, longitude } = self.frequencies;
-        let precession = if own { longitude + anomaly } else { longitude };
+        let precession = if own { self.precession } else { longitude };
         Periods { precession: std::f64::consts::TAU / precession, rotation: std::f64::consts::TAU / anomaly.abs() }
     }
 
@@ -207,8 +212,8 @@ impl Motion {
 
     /// The largest distance from the epoch at which the motion has a phase.
     pub(crate) fn bound(&self) -> f64 {
-        // A body at rest, or one that turns once in 1e285 units, is still bounded: no sum of two times overflows.
-        let phases = (MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude).min(1e300);
+        // A body at rest, or one that turns once in 1e285 units, is still bounded.
+        let phases = (MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude).min(LONGEST);
         match &self.course {
             Course::Gradient(gradient) => phases.min(gradient.bound()),
             _ => phases,

@@ -8,6 +8,9 @@ use crate::scene::Method;
 /// The highest order of the series; reached at σ/σ_sep = 0.64 for a tolerance of 1e-12.
 pub const MAX_ORDER: usize = 60;
 
+/// σ/σ_sep above which its distance from 1 is printed.
+const NEAR_ONE: f64 = 0.999;
+
 /// A tolerance below this is met as well as rounding allows \[rad\].
 const ROUNDED_TOLERANCE: f64 = 2e-14;
 
@@ -65,6 +68,8 @@ pub struct Plan {
     pub(crate) harmonics: usize,
     pub(crate) error_bound: f64,
     pub(crate) tolerance: f64,
+    /// Whether the scene has a span.
+    pub(crate) spanned: bool,
     pub(crate) separatrix_ratio: f64,
     pub(crate) gradient: Option<GradientPlan>,
     pub(crate) skipped: Vec<String>,
@@ -121,9 +126,18 @@ impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "mode          {}", self.mode)?;
         writeln!(f, "method        {}", self.method())?;
-        writeln!(f, "σ/σ_sep       {:.3e}", self.separatrix_ratio)?;
-        writeln!(f, "order         {}", self.order)?;
-        writeln!(f, "harmonics     {}", self.harmonics)?;
+        match self.separatrix_ratio {
+            ratio if ratio > NEAR_ONE && ratio < 1.0 => writeln!(f, "σ/σ_sep       1 − {:.3e}", 1.0 - ratio)?,
+            ratio => writeln!(f, "σ/σ_sep       {ratio:.3e}")?,
+        }
+        match self.method {
+            Method::Series => writeln!(f, "order         {}", self.order)?,
+            _ => writeln!(f, "order         –")?,
+        }
+        match self.harmonics {
+            0 => writeln!(f, "harmonics     –")?,
+            harmonics => writeln!(f, "harmonics     {harmonics}")?,
+        }
         if let Some(GradientPlan { averaging, level, terms, size }) = self.gradient {
             writeln!(
                 f,
@@ -132,7 +146,8 @@ impl fmt::Display for Plan {
         }
         write!(f, "error bound   {:.1e} rad", self.error_bound)?;
         if self.error_bound > self.tolerance.max(ROUNDED_TOLERANCE) {
-            write!(f, "\ntolerance     {:e} rad is not met over the span", self.tolerance)?;
+            let span = if self.spanned { "the span" } else { "1e9 rotations (no span given)" };
+            write!(f, "\ntolerance     {:e} rad is not met over {span}", self.tolerance)?;
         }
         for reason in &self.skipped {
             write!(f, "\nskipped       {reason}")?;

@@ -11,6 +11,8 @@
 //! Q1 > 0 is the short-axis mode, Q1 = 0 the separatrix: no difference of energies is formed (theory §5, §7). The long-axis mode is the same with the axes in
 //! the opposite order: A ≥ B ≥ C, a and b negative, and γ taken negative with them, so that ℓ′ runs backwards (theory §10).
 
+use std::f64::consts::FRAC_2_PI;
+
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::body::Body;
@@ -142,19 +144,29 @@ impl Polhode {
         Self { direction, squares, parts, momentum, ..self.clone() }
     }
 
-    /// Q1 and Q2 for B < C. The difference is formed before it is divided by M²: it is zero where that is exact.
+    /// Q1 and Q2 for B < C.
+    ///
+    /// Q1 = [G3² A (C−B) − G1² C (B−A)]/(A (C−B) M²): nothing is divided before the difference is taken, so that it is zero on the separatrix wherever the
+    /// terms have a double-double.
     pub(crate) fn cosine_squares(&self) -> [DoubleDouble; 2] {
-        let [first, second, third] = self.parts.map(|part| part * part);
-        let [a, b] = self.excesses;
+        let (terms, divisor) = self.separatrix_terms();
+        let [_, second, third] = self.parts.map(|part| part * part);
         let square = self.momentum * self.momentum;
-        [(third - first * (self.difference / b)) / square, (third + second * (self.difference / a)) / square]
+        [(terms[0] - terms[1]) / (divisor * square), (third + second * (self.difference / self.excesses[0])) / square]
+    }
+
+    /// The two terms of Q1, and what their difference is to be divided by, but for M².
+    fn separatrix_terms(&self) -> ([DoubleDouble; 2], DoubleDouble) {
+        let [a, b, c] = self.moments;
+        let [first, _, third] = self.parts.map(|part| part * part);
+        let divisor = DoubleDouble::from(a) * DoubleDouble::sum(c, -b);
+        ([third * divisor, first * (DoubleDouble::from(c) * DoubleDouble::sum(b, -a))], divisor)
     }
 
     /// How many times the terms of Q1 are larger than it: what its relative error is multiplied by. Infinite on the separatrix.
     pub(crate) fn cancellation(&self) -> f64 {
-        let [g1, _, g3] = self.squares;
-        let terms = g3 + g1 * self.difference / self.excesses[1];
-        (terms / self.cosine_squares()[0]).to_f64().abs()
+        let ([third, first], _) = self.separatrix_terms();
+        ((third + first) / (third - first)).to_f64().abs()
     }
 
     /// Q2 − Q1, a sum of two terms of one sign.
@@ -172,6 +184,14 @@ impl Polhode {
     /// β of theory §1, of the axes in this order.
     pub(crate) fn beta(&self) -> f64 {
         (self.difference / (self.excesses[0] + self.excesses[1])).to_f64().min(1.0)
+    }
+
+    /// σ_sep(β) of the axes in this order, 1 for A = B and 0 for B = C (theory §5).
+    ///
+    /// (1−β)/2β = b/(a−b): from the moments, so that it keeps its digits where β is next to 1.
+    pub(crate) fn separatrix_action(&self) -> f64 {
+        let [second, difference] = [self.excesses[1], self.difference].map(|x| x.to_f64().abs().sqrt());
+        FRAC_2_PI * second.atan2(difference)
     }
 
     /// γE of theory §5.

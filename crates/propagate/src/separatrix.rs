@@ -7,7 +7,7 @@
 //! a ∝ Σ p^(n²+n) cos (2n+1)(ζ0 + iξ)        b ∝ iρ Σ (−1)^n p^(n²+n) sin (2n+1)(ζ0 + iξ)        half phase: y′/2 + πηf/(2K′)
 //! ```
 //!
-//! A passage from one rotation about the middle axis to the opposite one is cosh and sinh, and p, which is 2.5e-4 at k′ = 1e-3, corrects them at the ends. On the separatrix
+//! A passage from one rotation about the middle axis to the opposite one is cosh and sinh, and p, which is 2.4e-6 at k′ = 1e-5, corrects them at the ends. On the separatrix
 //! K is infinite, p = 0, ξ is linear in time without end and dy′/dt = M/B. Sums are scaled by e^(−|ξ|), their n-th terms are then of size p^(n²) at most. Every
 //! ℓ″ → ℓ″ + π turns b over.
 
@@ -54,7 +54,7 @@ impl Flip {
     }
 }
 
-/// p^9 is 4e-33 at k′ = 1e-3: terms n = 0, 1, 2.
+/// p^(n²) is 3e-23 for n = 2 at k′ = 1e-5: terms n = 0, 1, 2.
 const TERMS: i32 = 3;
 
 /// What carries time to the place on the polhode.
@@ -135,7 +135,7 @@ impl Passage {
     /// The two sums at ξ, times 2e^(−|ξ|).
     fn theta(&self, xi: f64) -> [[f64; 2]; 2] {
         let decay = (-2.0 * xi.abs()).exp();
-        let growth = if self.nome == 0.0 { 0.0 } else { self.nome / decay };
+        let growth = if self.nome == 0.0 { 0.0 } else { (self.nome / decay).min(1.0) };
         let (mut a, mut b) = ([0.0; 2], [0.0; 2]);
         for n in 0..TERMS {
             let rising = growth.powi(n) * self.nome.powi(n * n);

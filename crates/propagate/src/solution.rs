@@ -4,33 +4,27 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use andoyer_series::{DoubleDouble, separatrix_action};
 
+use crate::bound::{COSINE_ROUNDING, ROUNDING, conditioning, drift, duration, phase_rounding, rounding};
 use crate::closed::{ClosedForm, NEAREST_COMPLEMENT, anomaly};
 use crate::elliptic::Theta;
 use crate::error::Error;
 use crate::fourier::{QuaternionSeries, oscillator_and_longitude};
-use crate::gradient::{Gradient, Request};
+use crate::gradient::{Averaging, Gradient, Level, Request};
 use crate::motion::{Course, Frequencies, Motion, Place, Wobble};
 use crate::orbit::Orbit;
 use crate::order::{Expanded, expanded, first_order, initial_anomaly};
 use crate::phase::Phase;
 use crate::plan::{Mode, Plan};
-use crate::polhode::{Polhode, SMALLEST_TILT, scaled};
+use crate::polhode::{Polhode, SMALLEST_TILT, exponent, scaled};
 use crate::scene::{Method, Scene};
 use crate::secular::Secular;
 use crate::separatrix::{Clock, Flip, Passage};
+use crate::steady::{at_rest, steadily_rotating};
 
-/// What double precision leaves of an attitude: rounding of the frames, of two quaternion products, and, for eight harmonics each, of the sums \[rad\].
-const ROUNDING: f64 = 3e-15;
 /// Part of the tolerance that dropped harmonics may use.
 const HARMONICS_SHARE: f64 = 0.125;
-/// Rotations over which the tolerance holds if no span is given.
-const DEFAULT_ROTATIONS: f64 = 1e9;
-/// Relative error of frequencies and phases in double-double: 2^−104, twenty operations deep.
-const PHASE_ROUNDING: f64 = 1e-30;
 /// σ/σ_sep up to which the tables for the gravity gradient have enough harmonics.
 const LARGEST_RATIO: f64 = 0.9;
-/// Relative error of the terms of Q1 in double-double, with inputs taken as exact.
-const COSINE_ROUNDING: f64 = 1e-31;
 
 impl Motion {
     /// The motion of a valid scene.
@@ -38,13 +32,20 @@ impl Motion {
         let Some(polhode) = Polhode::new(scene.body(), scene.state()) else {
             return match scene.asked_orbit() {
                 Some(_) => Err(Error::Unaveraged { mode: Mode::AtRest.to_string(), ratio: 0.0, bound: LARGEST_RATIO }),
-                None => Ok(at_rest(scene)),
+                None => Ok(with_unused(at_rest(scene))),
             };
         };
         let momentum = polhode.user_momentum();
         if !momentum.is_normal() {
             let (moment, rate) = polhode.scales;
-            return Err(Error::Units { exponent: moment + rate });
+            return Err(Error::Units { quantity: "the angular momentum", exponent: moment + rate });
+        }
+        // No rate or frequency of the motion is more than twice M over the smallest moment.
+        let smallest = polhode.moments.iter().copied().fold(f64::INFINITY, f64::min);
+        let fastest = polhode.momentum.to_f64() / smallest;
+        if !scaled(4.0 * fastest, polhode.scales.1).is_finite() {
+            let exponent = exponent(fastest) + polhode.scales.1;
+            return Err(Error::Units { quantity: "the rate that belongs to the smallest moment", exponent });
         }
         let mode = mode(&polhode);
         if let Some(&orbit) = scene.asked_orbit()
@@ -52,11 +53,12 @@ impl Motion {
         {
             return disturbed(scene, &polhode, mode, &orbit);
         }
-        match mode {
-            mode @ (Mode::Spherical | Mode::PrincipalAxis) => Ok(steadily_rotating(scene, &polhode, mode)),
-            Mode::Separatrix => passing(scene, &polhode),
-            mode => wobbling(scene, &polhode, mode),
-        }
+        let motion = match mode {
+            mode @ (Mode::Spherical | Mode::PrincipalAxis) => steadily_rotating(scene, &polhode, mode),
+            Mode::Separatrix => passing(scene, &polhode)?,
+            mode => wobbling(scene, &polhode, mode)?,
+        };
+        Ok(with_unused(motion))
     }
 }
 
@@ -66,8 +68,9 @@ fn mode(polhode: &Polhode) -> Mode {
     if first == DoubleDouble::ZERO {
         return Mode::Spherical;
     }
-    // With B = C every axis across axis 1 is one of greatest inertia; in the middle between A and C rotation is steady too, as long as it is exact.
-    if g1 && (g2 || g3 || second == DoubleDouble::ZERO) {
+    // With B = C every axis across axis 1 is one of greatest inertia, with A = B every axis across axis 3 one of least; in the middle between A and C
+    // rotation is steady too, as long as it is exact.
+    if g1 && (g2 || g3 || second == DoubleDouble::ZERO) || g3 && polhode.difference == DoubleDouble::ZERO {
         return Mode::PrincipalAxis;
     }
     if polhode.difference == DoubleDouble::ZERO {
@@ -80,78 +83,18 @@ fn mode(polhode: &Polhode) -> Mode {
     if polhode.long_axis { Mode::LongAxis } else { Mode::ShortAxis }
 }
 
-fn at_rest(scene: Scene) -> Motion {
-    let half_angle = Phase::new(DoubleDouble::ZERO, 0.0);
-    Motion {
-        plan: steady_plan(&scene, Mode::AtRest, "the body is at rest"),
-        course: Course::steady(scene.state(), Vector3::zeros(), half_angle),
-        frequencies: Frequencies { anomaly: 0.0, longitude: 0.0 },
-        angular_momentum: Vector3::zeros(),
-        long_axis: false,
-        scene,
-    }
-}
-
-fn steady_plan(scene: &Scene, mode: Mode, reason: &str) -> Plan {
-    let mut skipped = vec![format!("series: {reason}")];
-    skipped.extend(unused_order(scene));
-    Plan {
-        mode,
-        method: Method::Closed,
-        order: 0,
-        harmonics: 0,
-        error_bound: ROUNDING,
-        tolerance: scene.asked_tolerance(),
-        separatrix_ratio: 0.0,
-        gradient: None,
-        skipped,
-    }
-}
-
-fn unused_order(scene: &Scene) -> Option<String> {
-    scene.asked_order().map(|order| format!("order {order}, which was asked for: this motion has no series"))
-}
-
-fn steadily_rotating(scene: Scene, polhode: &Polhode, mode: Mode) -> Motion {
-    let [_, g2, g3] = polhode.direction;
-    let [_, second] = polhode.excesses;
-    let middle = mode == Mode::PrincipalAxis && second != DoubleDouble::ZERO && g3.abs() < SMALLEST_TILT;
-    let reason = match mode {
-        Mode::Spherical => "every axis of a sphere is a principal axis",
-        _ if middle => "the rotation is about the axis of middle inertia, its unstable equilibrium",
-        _ if g2.abs() < SMALLEST_TILT && polhode.long_axis => "the rotation is about the axis of least inertia",
-        _ if g2.abs() < SMALLEST_TILT => "the rotation is about the axis of greatest inertia (J = 0)",
-        _ => "B = C and the rotation is about one of their axes",
-    };
-    let rate = if middle { polhode.middle_rate() } else { polhode.mean_rate() };
-    let (_, exponent) = polhode.scales;
-    let axis = polhode.frame.user(polhode.direction);
-    let anomaly = if middle { 0.0 } else { scaled((rate * polhode.gamma()).to_f64(), exponent) };
-    let mut plan = steady_plan(&scene, mode, reason);
-    plan.error_bound += phase_rounding(&scene, rate, exponent);
-    if middle {
-        plan.separatrix_ratio = 1.0;
-    }
-    Motion {
-        plan,
-        course: Course::steady(scene.state(), Vector3::from(axis), half(user_rate(rate, exponent), 0.0)),
-        frequencies: Frequencies { anomaly, longitude: scaled(rate.to_f64(), exponent) },
-        angular_momentum: angular_momentum(&scene, polhode),
-        long_axis: polhode.long_axis,
-        scene,
-    }
-}
-
-fn user_rate(rate: DoubleDouble, exponent: i32) -> DoubleDouble {
+/// A rate in the user's unit.
+pub(crate) fn user_rate(rate: DoubleDouble, exponent: i32) -> DoubleDouble {
     DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) }
 }
 
 /// The phase of half an angle, which a quaternion needs: whole turns of it leave the sign alone.
-fn half(rate: DoubleDouble, start: f64) -> Phase {
+pub(crate) fn half(rate: DoubleDouble, start: f64) -> Phase {
     Phase::new(rate * DoubleDouble::from(0.5), 0.5 * start)
 }
 
-fn angular_momentum(scene: &Scene, polhode: &Polhode) -> Vector3<f64> {
+/// The angular momentum at the epoch, inertial components.
+pub(crate) fn angular_momentum(scene: &Scene, polhode: &Polhode) -> Vector3<f64> {
     let direction = Vector3::from(polhode.frame.user(polhode.direction));
     scene.state().attitude * direction * polhode.user_momentum()
 }
@@ -175,7 +118,7 @@ struct Solved {
 
 fn wobbling(scene: Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
     let exact = Secular::exact(polhode);
-    let ratio = (exact.kappa_sigma / polhode.kappa() / separatrix_action(polhode.beta())?).min(1.0);
+    let ratio = (exact.kappa_sigma / polhode.kappa() / polhode.separatrix_action()).min(1.0);
     let by_series = match scene.asked_method() {
         Method::Series => true,
         Method::Closed => false,
@@ -189,6 +132,7 @@ fn wobbling(scene: Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error
         harmonics: 0,
         error_bound: 0.0,
         tolerance: scene.asked_tolerance(),
+        spanned: scene.asked_span().is_some(),
         separatrix_ratio: ratio,
         gradient: None,
         skipped: Vec::new(),
@@ -206,7 +150,8 @@ fn wobbling(scene: Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error
 fn assembled(scene: Scene, polhode: &Polhode, solved: Solved) -> Motion {
     let exponent = polhode.scales.1;
     let longitude_rate = user_rate(solved.rates.longitude_rate, exponent);
-    let anomaly = scaled(solved.rates.anomaly_rate.to_f64(), exponent);
+    let [anomaly, precession] = [solved.rates.anomaly_rate, solved.rates.longitude_rate + solved.rates.anomaly_rate]
+        .map(|rate| scaled(rate.to_f64(), exponent));
     let half_longitude = half(longitude_rate, solved.longitude);
     let place = Place {
         inertial: invariable_frame(&scene, polhode, polhode.zeta()),
@@ -221,6 +166,7 @@ fn assembled(scene: Scene, polhode: &Polhode, solved: Solved) -> Motion {
         plan: solved.plan,
         course,
         frequencies: Frequencies { anomaly, longitude: longitude_rate.to_f64() },
+        precession,
         angular_momentum: angular_momentum(&scene, polhode),
         long_axis: polhode.long_axis,
         scene,
@@ -245,7 +191,7 @@ fn by_the_series(scene: &Scene, polhode: &Polhode, exact: Secular, mut plan: Pla
     plan.error_bound =
         truncation + dropped + drift(scene, &exact, &secular, exponent, theta.quarter) + rounding(&series);
     plan.skipped =
-        if plan.mode == Mode::Axisymmetric { round_body(scene) } else { dropped_harmonics(&series, 4 * order + 3) };
+        if plan.mode == Mode::Axisymmetric { round_body() } else { dropped_harmonics(&series, 4 * order + 3) };
     let anomaly = Phase::new(user_rate(secular.anomaly_rate, exponent), anomaly);
     Ok(Solved { pair: Pair::Fourier(anomaly, series), longitude: -longitude, rates: secular, plan })
 }
@@ -274,11 +220,11 @@ fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secular, mut plan
     plan.error_bound =
         (2.0 * dropped + rounding(&series)) / closed.least_norm.min(1.0) + conditioning(scene, polhode, &rates);
     plan.skipped = if plan.mode == Mode::Axisymmetric {
-        round_body(scene)
+        round_body()
     } else {
         let reason = match series_order {
             Some(order) => {
-                format!("series: for this tolerance it has order {order}, and no fewer harmonics than the closed form")
+                format!("series: it would need order {order} or more, and no fewer harmonics")
             }
             None => "series: too near the separatrix for its highest order".to_owned(),
         };
@@ -296,6 +242,8 @@ fn passing(scene: Scene, polhode: &Polhode) -> Result<Motion, Error> {
     }
     let theta = Theta::new(polhode);
     let (place, turned) = Passage::place(polhode, &theta);
+    // Without end, however far from 0 rounding has left Q1.
+    let theta = Theta { quarter: f64::INFINITY, ..theta };
     let rate = (polhode.mean_rate() * polhode.gamma()).to_f64() * theta.cosines[1];
     let clock = Clock::Once(0.5 * place, 0.5 * scaled(rate, polhode.scales.1));
     let passage = Passage::new(&theta, clock).turned(turned);
@@ -304,8 +252,6 @@ fn passing(scene: Scene, polhode: &Polhode) -> Result<Motion, Error> {
     let growth = (rate.abs() * duration(&scene, rates.longitude_rate, polhode.scales.1)).exp();
     let unseen = if polhode.cosine_squares()[0] == DoubleDouble::ZERO { 0.0 } else { COSINE_ROUNDING * growth };
     let phases = phase_rounding(&scene, rates.longitude_rate, polhode.scales.1);
-    let mut skipped = vec!["series: on the separatrix".to_owned()];
-    skipped.extend(unused_order(&scene));
     let plan = Plan {
         mode: Mode::Separatrix,
         method: Method::Closed,
@@ -313,9 +259,10 @@ fn passing(scene: Scene, polhode: &Polhode) -> Result<Motion, Error> {
         harmonics: 0,
         error_bound: (4.0 * ROUNDING + phases + unseen).min(std::f64::consts::PI),
         tolerance: scene.asked_tolerance(),
+        spanned: scene.asked_span().is_some(),
         separatrix_ratio: 1.0,
         gradient: None,
-        skipped,
+        skipped: vec!["series: on the separatrix".to_owned()],
     };
     let longitude = -2.0 * passage.phase((0.0, 0.0));
     Ok(assembled(scene, polhode, Solved { pair: Pair::Passage(passage), longitude, rates, plan }))
@@ -362,6 +309,7 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
         harmonics: 0,
         error_bound: (gradient.error + 4.0 * ROUNDING).min(std::f64::consts::PI),
         tolerance: scene.asked_tolerance(),
+        spanned: scene.asked_span().is_some(),
         separatrix_ratio: ratio,
         gradient: Some(gradient.plan()),
         skipped,
@@ -369,6 +317,7 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
     Ok(Motion {
         plan,
         frequencies: Frequencies { anomaly, longitude },
+        precession: longitude + anomaly,
         angular_momentum: angular_momentum(&scene, polhode),
         long_axis: polhode.long_axis,
         course: Course::Gradient(Box::new(gradient)),
@@ -376,53 +325,45 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
     })
 }
 
-fn rounding(series: &QuaternionSeries) -> f64 {
-    ROUNDING * (1.0 + series.harmonics() as f64 / 8.0)
-}
-
-/// What the error of Q1, with inputs taken as exact, makes of the phase over the span \[rad\]: K goes with −½ ln Q1, so that each half turn of ℓ′ is late by half the
-/// relative error of Q1, in u.
-fn conditioning(scene: &Scene, polhode: &Polhode, rates: &Secular) -> f64 {
-    let half_turns =
-        (rates.anomaly_rate / rates.longitude_rate).to_f64().abs() * rotations(scene, rates, polhode) * 2.0;
-    COSINE_ROUNDING * polhode.cancellation() * half_turns
-}
-
-fn rotations(scene: &Scene, rates: &Secular, polhode: &Polhode) -> f64 {
-    duration(scene, rates.longitude_rate, polhode.scales.1) * rates.longitude_rate.to_f64() / std::f64::consts::TAU
-}
-
-/// How far a fixed order lets the phases drift over the span \[rad\].
-fn drift(scene: &Scene, exact: &Secular, secular: &Secular, exponent: i32, quarter: f64) -> f64 {
-    let anomaly = (exact.anomaly_rate - secular.anomaly_rate).to_f64().abs();
-    let longitude = (exact.longitude_rate - secular.longitude_rate).to_f64().abs();
-    // Where it is fastest the polhode turns 2K/π times as fast as ℓ′.
-    (std::f64::consts::FRAC_2_PI * quarter * anomaly + longitude) * duration(scene, exact.longitude_rate, exponent)
-}
-
-/// What rounding of frequencies and phases adds over the span \[rad\].
-fn phase_rounding(scene: &Scene, rate: DoubleDouble, exponent: i32) -> f64 {
-    PHASE_ROUNDING * rate.to_f64() * duration(scene, rate, exponent)
-}
-
-/// The longest time from the epoch that the tolerance is asked for, in the scaled unit.
-fn duration(scene: &Scene, rate: DoubleDouble, exponent: i32) -> f64 {
-    let epoch = scene.state().epoch;
-    match scene.asked_span() {
-        Some((start, stop)) => scaled((start - epoch).abs().max((stop - epoch).abs()), exponent),
-        None => DEFAULT_ROTATIONS * std::f64::consts::TAU / rate.to_f64(),
-    }
-}
-
-fn round_body(scene: &Scene) -> Vec<String> {
-    let reason = "series: two moments are equal, the wobble is a circle and the precession regular".to_owned();
-    std::iter::once(reason).chain(unused_order(scene)).collect()
+fn round_body() -> Vec<String> {
+    vec!["series: two moments are equal, the wobble is a circle and the precession regular".to_owned()]
 }
 
 fn dropped_harmonics(series: &QuaternionSeries, all: usize) -> Vec<String> {
     let kept = series.harmonics();
     let reason = (kept < all).then(|| format!("harmonics above {kept}: together below an eighth of the tolerance"));
     reason.into_iter().collect()
+}
+
+/// The motion with what its scene asked for and did not need among what was skipped.
+fn with_unused(mut motion: Motion) -> Motion {
+    let scene = &motion.scene;
+    let mut unused: Vec<String> = match (motion.plan.method, motion.plan.mode) {
+        (Method::Series, Mode::ShortAxis | Mode::LongAxis) => None,
+        (_, Mode::ShortAxis | Mode::LongAxis) => {
+            scene.asked_order().map(|order| format!("order {order}, which was asked for: the closed form has none"))
+        }
+        _ => unused_order(scene),
+    }
+    .into_iter()
+    .collect();
+    if scene.asked_orbit().is_some() {
+        unused.push("gravity gradient: it exerts no torque on a sphere".to_owned());
+    } else {
+        let (averaging, level) = (scene.asked_averaging(), scene.asked_level());
+        if averaging != Averaging::default() {
+            unused.push(format!("averaging {averaging}, which was asked for: there is no orbit"));
+        }
+        if level != Level::default() {
+            unused.push(format!("level {level}, which was asked for: there is no orbit"));
+        }
+    }
+    motion.plan.skipped.extend(unused);
+    motion
+}
+
+fn unused_order(scene: &Scene) -> Option<String> {
+    scene.asked_order().map(|order| format!("order {order}, which was asked for: this motion has no series"))
 }
 
 /// The rotation that leads from the invariable plane, with a node at which y = 0 at the epoch, to the inertial frame.

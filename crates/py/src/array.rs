@@ -89,6 +89,10 @@ impl<const N: usize> MemberRows<N> {
         match (array.shape(), values.as_slice()?.as_chunks().0) {
             (&[n], &[row]) if n == N => Ok(Self::One(row)),
             (&[_, n], rows) if n == N => Ok(Self::Many(rows.to_vec())),
+            (&[0], _) => {
+                let text = format!("{argument} is empty: it must be (m, {N}) or ({N},), and for no members (0, {N})");
+                Err(ShapeError::new_err(text))
+            }
             (shape, _) => {
                 let shape = shape_text(shape);
                 Err(ShapeError::new_err(format!("{argument} has shape {shape}: it must be (m, {N}) or ({N},)")))

@@ -1,5 +1,6 @@
 //! `andoyer.Body`.
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -37,6 +38,12 @@ impl Body {
     #[new]
     #[pyo3(signature = (moments, *, name=None))]
     fn new(moments: &Bound<'_, PyAny>, name: Option<&str>) -> PyResult<Self> {
+        if let Ok(text) = moments.extract::<String>() {
+            let hint = format!(
+                "moments must hold three numbers: got {text:?}; a body of the catalogue is Body.named({text:?})"
+            );
+            return Err(PyTypeError::new_err(hint));
+        }
         let body = andoyer_propagate::Body::new(array::fixed("moments", moments)?).map_err(error::propagation)?;
         Ok(Self(match name {
             Some(name) => body.with_name(name),

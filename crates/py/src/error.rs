@@ -18,7 +18,12 @@ create_exception!(
 create_exception!(andoyer, MomentsError, Error, "Moments of inertia that no body has.");
 create_exception!(andoyer, AttitudeError, Error, "An attitude that is no unit quaternion.");
 create_exception!(andoyer, AngularVelocityError, Error, "An angular velocity that is not finite.");
-create_exception!(andoyer, UnitsError, Error, "Units in which the angular momentum over- or underflows.");
+create_exception!(
+    andoyer,
+    UnitsError,
+    Error,
+    "Units in which the angular momentum, or a rate that belongs to it, over- or underflows."
+);
 create_exception!(andoyer, EpochError, Error, "An epoch that is not finite.");
 create_exception!(andoyer, ToleranceError, Error, "A tolerance that is not positive and finite.");
 create_exception!(andoyer, SpanError, Error, "A span that is not finite or runs backwards.");
@@ -104,7 +109,7 @@ fn of_kind(error: &Propagation, message: String) -> PyErr {
         Propagation::TorqueTooStrong { .. } => TorqueError::new_err(message),
         Propagation::Time { .. } => TimesError::new_err(message),
         Propagation::Threads { .. } => ThreadsError::new_err(message),
-        Propagation::Length { .. } => ShapeError::new_err(message),
+        Propagation::Index { .. } | Propagation::Length { .. } => ShapeError::new_err(message),
         Propagation::NearSeparatrix { .. } | Propagation::Separatrix => SeparatrixError::new_err(message),
         Propagation::UnknownBody { .. } => UnknownBodyError::new_err(message),
         Propagation::SceneFile { .. } => SceneFileError::new_err(message),

@@ -36,7 +36,7 @@ use crate::{array, error};
 /// order : int, optional
 ///     Fixed order of the series, of the secular part too (theory §7), 0 to 60; by default, with ``method="series"``, the one that the tolerance needs (theory §5).
 ///     A fixed order is not raised for the tolerance: where it is too low, `Plan.error_bound` exceeds the tolerance and ``str(plan)``
-///     says that it "is not met over the span".
+///     says that it "is not met", and over what.
 /// span : (float, float), optional
 ///     Times over which the tolerance is asked for; by default any within 1e9 rotations. A motion can be evaluated outside it, up to
 ///     1e15 rotations from the epoch; farther away is a `TimesError` of the motion.

@@ -213,3 +213,8 @@ def test_missing_scene_file_is_a_scene_file_error(tmp_path):
         Scene.from_toml(tmp_path / "absent.toml")
     with pytest.raises(TypeError):
         Scene.from_toml(3)
+
+
+def test_name_given_as_moments_points_at_the_catalogue():
+    with pytest.raises(TypeError, match=r"""got "eros"; a body of the catalogue is Body\.named\("eros"\)"""):
+        Body("eros")

@@ -134,7 +134,6 @@ def test_console_script_is_installed():
 
 
 BAD_LINES = {
-    "no command": ([], "required"),
     "unknown command": (["dance"], "dance"),
     "missing scene": (["plan", "absent.toml"], "absent.toml"),
     "missing output": (["propagate", "SCENE"], "--output"),
@@ -260,3 +259,19 @@ def test_reader_that_has_seen_enough_is_no_error():
     child.stdout.close()
     assert child.stderr.read() == "" and child.wait() == 0
     child.stderr.close()
+
+
+def test_no_command_prints_the_help_with_status_two():
+    done = run()
+    assert done.returncode == 2 and done.stdout == ""
+    assert done.stderr.startswith("usage: andoyer") and "propagate" in done.stderr and "bodies" in done.stderr
+
+
+@pytest.mark.parametrize("ending", ["csv", "npz", "parquet", "aem", "png"])
+def test_folder_that_is_not_there_is_one_line_in_the_words_of_the_system(scene_file, tmp_path, ending):
+    if ending in ("parquet", "png"):
+        pytest.importorskip("pyarrow" if ending == "parquet" else "matplotlib")
+    output = tmp_path / "absent" / f"out.{ending}"
+    done = run("plot" if ending == "png" else "propagate", scene_file, "-o", output)
+    assert done.returncode == 2 and done.stdout == ""
+    assert done.stderr == f"andoyer: error: argument -o/--output: {output}: No such file or directory\n"

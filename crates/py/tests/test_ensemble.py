@@ -276,3 +276,8 @@ def test_no_members_give_empty_results():
         assert samples.attitude.shape == (*shape, 4) and samples.angular_velocity.shape == (*shape, 3)
         assert len(samples) == 0
     assert len(ensemble) == 0 and ensemble.plans == [] and list(ensemble) == []
+
+
+def test_empty_list_is_refused_with_the_shape_of_no_members():
+    with pytest.raises(andoyer.ShapeError, match=r"moments is empty: it must be \(m, 3\) or \(3,\), and for no members \(0, 3\)"):
+        Ensemble([], LEVEL, [0, 0, 1])

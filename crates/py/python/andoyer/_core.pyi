@@ -95,7 +95,7 @@ class TorqueError(Error):
     """A torque too strong for an expansion in it."""
 
 class UnitsError(Error):
-    """Units in which the angular momentum over- or underflows."""
+    """Units in which the angular momentum, or a rate that belongs to it, over- or underflows."""
 
 class UnknownBodyError(Error):
     """A name that the catalogue of bodies does not have."""

@@ -1,13 +1,15 @@
 """The command line: `andoyer propagate`, `plan`, `plot`, `bodies`, `series`.
 
-Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion that is not served.
+Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion that is not served; without a command
+2 with the help on stderr.
 """
 
 import argparse
 import math
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from datetime import datetime
 from fractions import Fraction
 from pathlib import Path
@@ -56,7 +58,11 @@ def main(argv: list[str] | None = None) -> int:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
     try:
-        arguments = parser().parse_args(argv)
+        top = parser()
+        arguments = top.parse_args(argv)
+        if arguments.run is None:
+            top.print_help(sys.stderr)
+            return 2
         arguments.run(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
@@ -76,7 +82,8 @@ def parser() -> Parser:
     """The parser of the command line."""
     top = Parser(prog="andoyer", description="Rotation of rigid bodies by perturbation series in complex variables.")
     top.add_argument("--version", action="version", version=f"andoyer {andoyer.__version__}")
-    commands = top.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    commands = top.add_subparsers(title="commands", metavar="COMMAND")
+    top.set_defaults(run=None)
 
     writes = "write attitude and angular velocity at equal steps of time"
     command = commands.add_parser("propagate", help=writes, description=f"{writes.capitalize()}.", epilog=f"Columns {COLUMNS}: {CONVENTION}.")
@@ -174,10 +181,12 @@ def propagate(arguments: argparse.Namespace) -> None:
     samples = motion.at(instants(arguments, motion))
     if to_stdout:
         output.write_table(sys.stdout, samples)
-    elif ending == ".aem":
-        write_message(path, motion, samples, given)
     else:
-        writers[ending](path, samples)
+        with written_to(path):
+            if ending == ".aem":
+                write_message(path, motion, samples, given)
+            else:
+                writers[ending](path, samples)
     note_sparse(motion, samples.times)
 
 
@@ -202,7 +211,21 @@ def plot(arguments: argparse.Namespace) -> None:
     extra("matplotlib", "plot", "drawing").use("Agg")
     from andoyer import plot as pictures
 
-    pictures.summary(solved(arguments.scene)).savefig(path, dpi=130)
+    figure = pictures.summary(solved(arguments.scene))
+    with written_to(path):
+        figure.savefig(path, dpi=130)
+
+
+@contextmanager
+def written_to(path: Path) -> Iterator[None]:
+    """What the system says against `path` is an error of the argument, in its own words whoever writes."""
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        said = os.strerror(error.errno) if error.errno else str(error)
+        raise InputError(f"argument -o/--output: {path}: {said}") from error
 
 
 def solved(path: str) -> andoyer.Motion:

@@ -1,0 +1,120 @@
+//! What a plan says, and what errors say, in the words that a user reads.
+
+use andoyer_propagate::{Averaging, Body, Ensemble, Error, Level, Method, Orbit, Scene, State};
+
+const LEVEL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+
+fn scene(moments: [f64; 3], rates: [f64; 3]) -> Scene {
+    Scene::new(Body::new(moments).expect("a body"), State::new(0.0, LEVEL, rates).expect("a state"))
+}
+
+fn triaxial() -> Scene {
+    scene([1.0, 1.5, 2.0], [0.1, 0.2, 1.0])
+}
+
+fn skipped(scene: &Scene) -> String {
+    scene.solve().expect("served").plan().skipped().join("\n")
+}
+
+fn orbit() -> Orbit {
+    Orbit::new(1e-3, 0.0).expect("an orbit")
+}
+
+#[test]
+fn what_the_series_would_need_is_a_condition_and_no_statement() {
+    let text = skipped(&triaxial());
+    assert!(text.contains("series: it would need order 6 or more, and no fewer harmonics"), "{text}");
+}
+
+#[test]
+fn what_was_asked_for_and_not_used_is_said() {
+    let closed = triaxial().method(Method::Closed);
+    assert!(skipped(&closed.clone().order(8)).contains("order 8, which was asked for: the closed form has none"));
+    assert!(!skipped(&closed).contains("asked for") && !skipped(&triaxial().order(8)).contains("asked for"));
+    let text = skipped(&triaxial().averaging(Averaging::Spin).level(Level::Paper));
+    assert!(text.contains("averaging spin, which was asked for: there is no orbit"), "{text}");
+    assert!(text.contains("level paper, which was asked for: there is no orbit"), "{text}");
+    let at_rest = scene([1.0, 1.5, 2.0], [0.0; 3]).order(3).averaging(Averaging::Orbit);
+    assert_eq!(at_rest.solve().expect("rest").plan().skipped().len(), 3);
+    let sphere = scene([1.0; 3], [0.0, 0.0, 1.0]).orbit(orbit());
+    assert!(skipped(&sphere).contains("gravity gradient: it exerts no torque on a sphere"), "{}", skipped(&sphere));
+    // Of a round body and on the separatrix the order is said once.
+    for scene in [scene([1.0, 1.0, 2.0], [0.1, 0.0, 1.0]), scene([1.0, 2.0, 2.25], [0.75, 0.0, 1.0])] {
+        assert_eq!(skipped(&scene.method(Method::Closed).order(8)).matches("order 8").count(), 1);
+    }
+}
+
+#[test]
+fn the_plan_says_over_what_the_tolerance_is_missed() {
+    let plan = |scene: Scene| scene.order(1).solve().expect("served").plan().to_string();
+    assert!(plan(triaxial()).contains("is not met over 1e9 rotations (no span given)"), "{}", plan(triaxial()));
+    assert!(plan(triaxial().span(0.0, 100.0)).ends_with("is not met over the span"));
+}
+
+#[test]
+fn the_plan_shows_no_order_where_there_is_none_and_how_near_the_separatrix_is() {
+    let line = |scene: &Scene, name: &str| {
+        let text = scene.solve().expect("served").plan().to_string();
+        text.lines().find(|line| line.starts_with(name)).expect("a line of that name").to_owned()
+    };
+    let closed = triaxial();
+    assert_eq!(line(&closed, "order"), "order         –");
+    assert_eq!(line(&closed.clone().method(Method::Series), "order"), "order         6");
+    assert!(line(&closed, "harmonics").ends_with(|end: char| end.is_ascii_digit()));
+    let near = scene([1.0, 2.0, 3.0], [0.0, 1.0, 1e-3]);
+    assert!(line(&near, "σ/σ_sep").starts_with("σ/σ_sep       1 − "), "{}", line(&near, "σ/σ_sep"));
+    let steady = scene([1.0, 2.0, 3.0], [0.0, 1.0, 0.0]);
+    assert_eq!([line(&steady, "harmonics"), line(&steady, "σ/σ_sep")], ["harmonics     –", "σ/σ_sep       1.000e0"]);
+}
+
+#[test]
+fn rates_that_have_no_double_are_an_error_of_units_and_not_nan() {
+    // M/C is finite and M/A is not: the rates were NaN.
+    let error = scene([1e-6, 1.0 - 5e-7, 1.0], [0.0, 1e301, 1e304]).solve().expect_err("no rates");
+    assert!(matches!(error, Error::Units { exponent: 1024.., .. }), "{error:?}");
+    assert!(error.to_string().contains("the rate that belongs to the smallest moment, 2^10"), "{error}");
+    let motion = scene([1e-6, 1.0 - 5e-7, 1.0], [0.0, 1e297, 1e300]).solve().expect("served");
+    let rates = motion.at(1e-300).expect("finite").angular_velocity;
+    assert!(rates.iter().all(|rate| rate.is_finite()), "{rates:?}");
+}
+
+#[test]
+fn an_index_beyond_an_ensemble_is_named_with_the_number_of_members() {
+    let ensemble = Ensemble::new(vec![[1.0, 1.5, 2.0]; 2], vec![LEVEL; 2], vec![[0.0, 0.1, 1.0]; 2]).expect("bodies");
+    for index in [2, usize::MAX] {
+        let error = ensemble.motion(index).expect_err("no member");
+        assert!(matches!(error, Error::Index { members: 2, index: found } if found == index), "{error:?}");
+    }
+    assert_eq!(
+        ensemble.motion(2).expect_err("none").to_string(),
+        "index = 2: the ensemble has 2 members, counted from 0"
+    );
+}
+
+#[test]
+fn refusals_are_sentences() {
+    let error = scene([1.0, 1.5, 2.0], [0.0; 3]).orbit(orbit()).solve().expect_err("at rest");
+    let text =
+        "orbit: no averaged theory serves this motion (mode at-rest, σ/σ_sep = 0.000000, which must be at most 0.9)";
+    assert_eq!(error.to_string(), text);
+    let motion = scene([1.0, 1.5, 2.0], [0.0; 3]).solve().expect("rest");
+    let text = "times[0] = 2e300: a time must be finite and within 1.000e300 of the epoch";
+    assert_eq!(motion.at(2e300).expect_err("too far").to_string(), text);
+    let error = triaxial().solve().expect("served").at(1e30).expect_err("too far");
+    assert!(error.to_string().ends_with("of the epoch: farther away the motion has no phase"), "{error}");
+}
+
+#[test]
+fn the_slow_precession_of_a_needle_keeps_its_digits() {
+    // dy′/dt and dℓ′/dt nearly cancel: M/C to 1e-10 of M/A, of which six digits were left in P_φ. A prolate body has them as formulas.
+    let (slender, rates) = (1e-10, [1e-3, 0.0, 1.0]);
+    let motion = scene([1.0, 1.0, slender], rates).solve().expect("precession");
+    // The long axis goes round the angular momentum with M/B.
+    let momentum = (1e-6 + slender * slender).sqrt();
+    let [short, long] = [motion.short_axis_periods(), motion.long_axis_periods()].map(|pair| pair.precession);
+    let expected = std::f64::consts::TAU / momentum;
+    assert!(
+        (long / expected - 1.0).abs() < 1e-15 || (short / expected - 1.0).abs() < 1e-15,
+        "{short} {long} {expected}"
+    );
+}
