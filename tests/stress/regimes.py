@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-# Smallest tilt from the middle axis: the code takes one below 1e-150 for none, so that such a body never turns over. From other axes tilts go down to denormals.
+# Smallest tilt from the middle axis: the code takes one below 1e-150 for none, and its error bound is π then. From other axes tilts go down to denormals.
 SMALLEST_TILT = 1e-145
 
 
