@@ -6,12 +6,12 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test lint bench sweep bounds rivals rivals-normal-form rivals-propagation docs docs-test package wheel clean
+.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv minimal-versions parallel rivals rivals-normal-form rivals-propagation rivals-gradient docs docs-test package wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
 
-test: lint $(VENV)/installed $(VENV)/tested docs-test  ## everything that CI runs
+test: lint supply $(VENV)/installed $(VENV)/tested docs-test  ## everything that CI runs
 	cargo test --workspace --quiet
 	$(BIN)/python tests/reference/torque_free.py tests/data/torque_free.json
 	$(BIN)/python examples/scenes/make_scenes.py --check
@@ -19,14 +19,68 @@ test: lint $(VENV)/installed $(VENV)/tested docs-test  ## everything that CI run
 	$(BIN)/python -m pytest -q crates/py/tests
 	mkdir -p out
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
+	$(MAKE) --no-print-directory stress-short gate
 
 lint:
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --quiet -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps --document-private-items --quiet
 
-bench:  ## criterion groups by order
-	cargo bench --workspace
+bench: $(VENV)/installed  ## criterion by order, then run time against error: docs/data/bench.csv, docs/data/work-precision.csv; under ten minutes
+	start=$$(date +%s) && cargo bench -p andoyer-benches && $(BIN)/python benches/collect.py --since $$start
+	$(BIN)/python benches/work_precision.py
+
+report: $(VENV)/ready  ## docs/performance.md with its picture, and the table of the README, from docs/data
+	$(BIN)/python benches/report.py
+
+kernels:
+	cargo build --release --locked --quiet -p andoyer-benches --bin kernels
+
+gate: kernels  ## instruction counts of five kernels against benches/instructions.json, where there is valgrind
+	$(PYTHON) benches/gate.py target/release/kernels
+
+gate-write: kernels  ## takes the counts of now as those to keep
+	$(PYTHON) benches/gate.py target/release/kernels --write
+
+memcheck: kernels  ## valgrind over the kernels, whose SIMD is pulp's (there is no unsafe code here)
+	for kernel in normalize numeric solve-closed solve-series evaluate; do valgrind --quiet --error-exitcode=1 target/release/kernels $$kernel 1 || exit 1; done
+
+stress: $(VENV)/installed  ## 240,000 random scenes of every regime against 40 digits: docs/data/stress.csv, docs/accuracy.md; minutes
+	$(BIN)/python tests/stress/run.py --write
+
+stress-short: $(VENV)/installed  ## the same with 16,000 scenes, half a minute
+	$(BIN)/python tests/stress/run.py --short
+
+FUZZED := series_json scene_toml expression scene_numbers
+FUZZ_SECONDS ?= 60
+fuzz:  ## each fuzz target for a minute; needs a nightly compiler, and cargo-fuzz, which is installed if it is not there
+	command -v cargo-fuzz >/dev/null || cargo install --locked --quiet cargo-fuzz
+	for target in $(FUZZED); do \
+	  mkdir -p fuzz/target/corpus/$$target && \
+	  cargo +nightly fuzz run --release --sanitizer none $$target fuzz/target/corpus/$$target fuzz/corpus/$$target -- -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=2048 -max_len=4096 || exit 1; \
+	done
+
+supply:  ## licences, bans and sources of every locked dependency, by cargo alone
+	$(PYTHON) tests/supply.py
+
+deny:  ## the same rules by cargo-deny, which is installed if it is not there
+	command -v cargo-deny >/dev/null || cargo install --locked --quiet cargo-deny
+	cargo deny --offline check licenses bans sources
+
+msrv:  ## the oldest compiler that Cargo.toml promises
+	cargo +$$(sed -n 's/^rust-version = "\(.*\)"/\1.0/p' Cargo.toml) check --workspace --all-targets --locked --quiet --target-dir target/msrv
+
+MINIMAL := target/minimal-versions
+minimal-versions:  ## the oldest versions of the direct dependencies that Cargo.toml promises, in a copy
+	rm -rf $(MINIMAL)/source && mkdir -p $(MINIMAL)/source
+	cp -r Cargo.toml README.md crates tests benches $(MINIMAL)/source
+	cd $(MINIMAL)/source && RUSTC_BOOTSTRAP=1 cargo update --quiet -Z direct-minimal-versions
+	cargo check --workspace --locked --quiet --manifest-path $(MINIMAL)/source/Cargo.toml --target-dir $(MINIMAL)/target
+
+PARALLEL := body_and_scene motion ensemble orbit expressions normal_form normalize
+parallel: $(VENV)/installed  ## the wheel's tests of objects, each on eight threads at once; those of signals, processes and files are not for threads
+	$(BIN)/python -m pip install --quiet 'pytest-run-parallel>=0.6'
+	$(BIN)/python -m pytest -q --parallel-threads=8 $(PARALLEL:%=crates/py/tests/test_%.py)
 
 sweep: $(VENV)/installed  ## series against closed form by order, σ/σ_sep and β: docs/data/sweep.csv, picture and table of its page; a minute
 	$(BIN)/python examples/sweep.py
@@ -34,7 +88,7 @@ sweep: $(VENV)/installed  ## series against closed form by order, σ/σ_sep and 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes
 	$(BIN)/python examples/bounds.py
 
-rivals: rivals-normal-form rivals-propagation  ## both tables of ratios, in out/ too
+rivals: rivals-normal-form rivals-propagation rivals-gradient  ## the tables of ratios, in out/ too
 
 rivals-normal-form: $(RIVALS)/normal-form $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine
 	$(RIVALS)/bin/python benches/rivals/normal_form.py
@@ -42,6 +96,9 @@ rivals-normal-form: $(RIVALS)/normal-form $(RIVALS)/installed  ## the normal for
 rivals-propagation: $(RIVALS)/propagation $(RIVALS)/installed $(RIVALS)/orekit/ready  ## propagation against heyoka, SciPy, ode_solvers and, where there is Maven, Orekit
 	RUSTFLAGS='-C target-cpu=native' cargo build --release --locked --quiet --manifest-path benches/rivals/ode_solvers/Cargo.toml --target-dir $(RIVALS)/ode_solvers
 	$(RIVALS)/bin/python benches/rivals/propagation.py --ode-solvers $(RIVALS)/ode_solvers/release/ode-solvers-rival --orekit $(RIVALS)/orekit
+
+rivals-gradient: $(RIVALS)/propagation $(RIVALS)/installed  ## the gravity gradient against heyoka
+	$(RIVALS)/bin/python benches/rivals/gradient.py
 
 $(RIVALS)/installed: $(RIVALS)/made $(VENV)/installed
 	$(RIVALS)/bin/python -m pip install --quiet --force-reinstall --no-deps $(WHEELS)/andoyer-*.whl

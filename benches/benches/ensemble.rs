@@ -38,5 +38,9 @@ fn evaluate(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, evaluate);
+criterion_group! {
+    name = benches;
+    config = andoyer_benches::short();
+    targets = evaluate
+}
 criterion_main!(benches);

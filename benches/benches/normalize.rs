@@ -67,5 +67,9 @@ fn by_order(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, by_order);
+criterion_group! {
+    name = benches;
+    config = andoyer_benches::short();
+    targets = by_order
+}
 criterion_main!(benches);

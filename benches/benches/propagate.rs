@@ -69,6 +69,35 @@ fn evaluate(c: &mut Criterion) {
     group.finish();
 }
 
+/// The same by order, and by tolerance with the closed form beside the series.
+fn evaluate_by(c: &mut Criterion) {
+    let mut group = c.benchmark_group("evaluate");
+    group.throughput(Throughput::Elements(SAMPLES as u64)).sample_size(20);
+    let (mut attitudes, mut rates) = (vec![[0.0; 4]; SAMPLES], vec![[0.0; 3]; SAMPLES]);
+    let uneven: Vec<f64> = (0..SAMPLES).map(|k| 628.0 * (0.618_033_988_749_894_9 * k as f64).fract()).collect();
+    let mut kinds: Vec<_> =
+        ORDERS.map(|order| (format!("order-{order}"), "series", triaxial().order(order))).into_iter().collect();
+    for digits in [3, 6, 9, 12, 15] {
+        let scene = triaxial().tolerance(10_f64.powi(-digits)).span(0.0, 628.0);
+        kinds.push((format!("tolerance-1e-{digits}"), "closed", scene.clone().method(Method::Closed)));
+        // The series do not hold 1e-15 at this σ/σ_sep: rounding rules.
+        if digits < 15 {
+            kinds.push((format!("tolerance-1e-{digits}"), "series", scene.method(Method::Series)));
+        }
+    }
+    for (size, engine, scene) in &kinds {
+        let motion = scene.solve().expect("short-axis");
+        group.bench_function(BenchmarkId::new(size, engine), |b| {
+            b.iter(|| {
+                motion.batch().threads(1).samples_into(black_box(&uneven), &mut attitudes, &mut rates).expect("finite");
+                assert!((norm(&attitudes[SAMPLES - 1]) - 1.0).abs() < 1e-12);
+                assert!(momentum(&motion, &rates[SAMPLES - 1]) < 1e-2 || motion.plan().order() < 2);
+            });
+        });
+    }
+    group.finish();
+}
+
 fn evaluate_one(c: &mut Criterion) {
     let motion = triaxial().solve().expect("short-axis");
     let mut group = c.benchmark_group("evaluate");
@@ -184,5 +213,9 @@ fn momentum(motion: &Motion, rates: &[f64; 3]) -> f64 {
     (whole / motion.angular_momentum().norm() - 1.0).abs()
 }
 
-criterion_group!(benches, solve, evaluate, evaluate_one, set_up, skip);
+criterion_group! {
+    name = benches;
+    config = andoyer_benches::short();
+    targets = solve, evaluate, evaluate_by, evaluate_one, set_up, skip
+}
 criterion_main!(benches);

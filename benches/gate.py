@@ -1,0 +1,67 @@
+"""Instruction counts of five kernels against those on file: exit status 1 where one has grown by more than 5 %.
+
+    python benches/gate.py PROGRAM             `make gate`; PROGRAM is the built `kernels` of benches
+    python benches/gate.py PROGRAM --write     `make gate-write`: benches/instructions.json, on purpose
+
+Counted by valgrind's callgrind, which depends on neither the clock nor what else the machine does. Valgrind shows the program a processor without AVX-512, so that kernels are those
+of AVX2 with FMA everywhere; without AVX2 on the machine itself nothing is compared. Compilers differ: counts are held against the compiler that they were taken with, and only reported for others.
+"""
+
+import argparse
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from machine import described
+
+FILE = Path(__file__).with_name("instructions.json")
+GROWTH = 1.05
+# Repeats of each kernel: few, since valgrind is fifty times slower.
+KERNELS = {"normalize": 2, "numeric": 2, "solve-closed": 2, "solve-series": 1, "evaluate": 4}
+
+
+def instructions(program, kernel, repeats):
+    """What callgrind counts for so many repeats."""
+    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", program, kernel, str(repeats)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    found = re.search(r"Collected\s*:\s*(\d+)", done.stderr)
+    if done.returncode or not found:
+        sys.exit(f"{' '.join(map(str, command))}: status {done.returncode}\n{done.stderr[-2000:]}")
+    return int(found.group(1))
+
+
+def counted(program):
+    """Instructions of one repeat of each kernel: the first, which fills what later ones find, is left out."""
+    return {kernel: (instructions(program, kernel, 1 + n) - instructions(program, kernel, 1)) // n for kernel, n in KERNELS.items()}
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Instruction counts of five kernels against those on file.")
+    parser.add_argument("program", type=Path)
+    parser.add_argument("--write", action="store_true")
+    arguments = parser.parse_args()
+    if not shutil.which("valgrind"):
+        print("no valgrind here: instruction counts are not checked")
+        return
+    compiler = described()["compiler"]
+    counts = counted(arguments.program)
+    if arguments.write:
+        FILE.write_text(json.dumps({"compiler": compiler, "instructions": counts}, indent=2) + "\n", encoding="utf-8")
+    kept = json.loads(FILE.read_text(encoding="utf-8"))
+    grown = []
+    for kernel, count in counts.items():
+        before = kept["instructions"][kernel]
+        print(f"{kernel:<14}{count:>14,} instructions, {100 * (count / before - 1):+.2f} % against {before:,}")
+        if count > GROWTH * before:
+            grown.append(kernel)
+    if kept["compiler"] != compiler:
+        print(f"the counts on file are those of {kept['compiler']}, this is {compiler}: reported, not checked")
+    elif grown:
+        sys.exit(f"grown by more than {100 * (GROWTH - 1):.0f} %: {', '.join(grown)}; if that is on purpose, `make gate-write`")
+
+
+if __name__ == "__main__":
+    main()

