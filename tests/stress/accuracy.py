@@ -32,8 +32,6 @@ BUDGETS = {
 }
 # Beside the middle axis, 1 − m down to 1e-290: a half turn takes hundreds of the polhode's units of time, and `plan.error_bound`, which must hold too, grows to 7e-14.
 WIDER = {(check, "beside an axis: 1−m from 1e-290"): 1e-13 for check in ("attitude", "rates", "time reversal")}
-# There `plan.error_bound` itself is exceeded now and then, by up to 1.3 in one scene of some thousand: a known fault of the bound, to be narrowed to 1.
-WIDER["attitude / bound", "beside an axis: 1−m from 1e-290"] = 1.5
 TOLERANCE = 1e-15
 # Relative rounding of a state that is taken as the start of a new motion, and of the quaternion.
 STATE_ROUNDING = 2e-15

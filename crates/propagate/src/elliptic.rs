@@ -11,7 +11,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use andoyer_series::DoubleDouble;
+use andoyer_series::{DoubleDouble, arithmetic_geometric_mean as double_mean};
 
 use crate::polhode::Polhode;
 
@@ -45,14 +45,56 @@ pub(crate) fn carlson(x: f64, y: f64, z: f64) -> f64 {
         (x, y, z) = (0.25 * (x + lambda), 0.25 * (y + lambda), 0.25 * (z + lambda));
     }
     let mean = (x + y + z) / 3.0;
-    let (u, v) = (1.0 - x / mean, 1.0 - y / mean);
+    (1.0 + beyond_one(1.0 - x / mean, 1.0 - y / mean)) / mean.sqrt()
+}
+
+/// Carlson's series for R_F times the root of the mean, less 1, through order 7 of the spread: what is left is below 3e-3^8.
+fn beyond_one(u: f64, v: f64) -> f64 {
     let w = -(u + v);
     let (e2, e3) = (u * v - w * w, u * v * w);
-    // Carlson's series through order 7 of the spread: what is left is below 3e-3^8.
-    let series = 1.0 - e2 / 10.0 + e3 / 14.0 + e2 * e2 / 24.0 - 3.0 * e2 * e3 / 44.0 - 5.0 * e2 * e2 * e2 / 208.0
+    -e2 / 10.0 + e3 / 14.0 + e2 * e2 / 24.0 - 3.0 * e2 * e3 / 44.0 - 5.0 * e2 * e2 * e2 / 208.0
         + 3.0 * e3 * e3 / 104.0
-        + e2 * e2 * e3 / 16.0;
-    series / mean.sqrt()
+        + e2 * e2 * e3 / 16.0
+}
+
+/// R_F to 1e-20 of itself, for a distance along the polhode that is many times a radian.
+fn carlson_to_twenty_digits(mut x: DoubleDouble, mut y: DoubleDouble, mut z: DoubleDouble) -> DoubleDouble {
+    let mut mean = (x + y + z).over(3.0);
+    for _ in 0..600 {
+        let spread = [x, y, z].map(|value| (value.high - mean.high).abs()).into_iter().fold(0.0, f64::max);
+        if spread <= 3e-3 * mean.high {
+            break;
+        }
+        let (rx, ry, rz) = (x.sqrt(), y.sqrt(), z.sqrt());
+        let lambda = rx * (ry + rz) + ry * rz;
+        [x, y, z] = [x, y, z].map(|value| (value + lambda).times_double(0.25));
+        mean = (x + y + z).over(3.0);
+    }
+    let [u, v] = [x, y].map(|value| ((mean - value) / mean).to_f64());
+    DoubleDouble::sum(1.0, beyond_one(u, v)) / mean.sqrt()
+}
+
+/// K of one polhode with 0 < Q1, and u of a state from where cos J is greatest, 0 ≤ u ≤ K, to 1e-20 of K.
+///
+/// Both are as in [`Theta::argument`]. A double u of forty radians beside the middle axis would be wrong by 1e-14, and so would the time of the passage.
+pub(crate) fn precise_argument(polhode: &Polhode, [cosine, sine]: [f64; 2]) -> (DoubleDouble, DoubleDouble) {
+    let [least, greatest] = polhode.cosine_squares().map(DoubleDouble::sqrt);
+    let [cosine, sine] = [cosine, sine].map(DoubleDouble::from);
+    let length = (cosine * cosine + sine * sine).sqrt();
+    let (cosine, sine) = (cosine / length, sine / length);
+    let (x, y) = (least * cosine, greatest * sine);
+    let q = x * x + y * y;
+    // Without end, where it is not that of a number.
+    let quarter = if least == DoubleDouble::ZERO {
+        DoubleDouble::from(f64::INFINITY)
+    } else {
+        DoubleDouble::PI.times_double(0.5) / double_mean(DoubleDouble::ONE, least / greatest)
+    };
+    if y.high > x.high {
+        (quarter, greatest * cosine * carlson_to_twenty_digits(y * y, q, greatest * greatest))
+    } else {
+        (quarter, quarter - greatest * sine * carlson_to_twenty_digits(x * x, q, least * least))
+    }
 }
 
 /// Periods and arguments of the theta functions of one polhode with 0 < Q1 ≤ Q2.
@@ -141,6 +183,25 @@ mod tests {
         // R_F(x, x, 1) = ln((1 + √(1−x))/√x)/√(1−x).
         let tiny = 1e-200;
         assert!((carlson(tiny, tiny, 1.0) / (2.0 / tiny.sqrt()).ln() - 1.0).abs() < 4e-16);
+    }
+
+    #[test]
+    fn twenty_digits_of_carlson_are_the_logarithm_and_those_of_the_duplication_theorem() {
+        // R_F(x, 1, 1) = artanh √(1−x)/√(1−x): 1.31695789692481670862… = arcosh 2 at x = ¼, times 2/√3.
+        let [quarter, one] = [0.25, 1.0].map(DoubleDouble::from);
+        let exact = DoubleDouble { high: 1.316_957_896_924_816_7, low: 0.0 } * DoubleDouble::from(2.0)
+            / DoubleDouble::from(3.0).sqrt();
+        assert!((carlson_to_twenty_digits(quarter, one, one) - exact).to_f64().abs() < 2e-16);
+        for arguments in [[0.3, 0.7, 1.9], [1e-9, 0.2, 1.0], [1e-280, 1e-100, 1.0]] {
+            let [x, y, z] = arguments.map(DoubleDouble::from);
+            let (rx, ry, rz) = (x.sqrt(), y.sqrt(), z.sqrt());
+            let lambda = rx * ry + ry * rz + rz * rx;
+            let value = carlson_to_twenty_digits(x, y, z);
+            let doubled = carlson_to_twenty_digits(x + lambda, y + lambda, z + lambda).times_double(2.0);
+            assert!(((value - doubled) / value).to_f64().abs() < 2e-20, "{arguments:?}");
+            let [x, y, z] = arguments;
+            assert!((carlson(x, y, z) / value.to_f64() - 1.0).abs() < 1e-15, "{arguments:?}");
+        }
     }
 
     #[test]

@@ -11,11 +11,12 @@
 //! K is infinite, p = 0, ξ is linear in time without end and dy′/dt = M/B. Sums are scaled by e^(−|ξ|), their n-th terms are then of size p^(n²) at most. Every
 //! ℓ″ → ℓ″ + π turns b over.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
+use andoyer_series::DoubleDouble;
 use nalgebra::Quaternion;
 
-use crate::elliptic::{Theta, quadrant};
+use crate::elliptic::{Theta, precise_argument, quadrant};
 use crate::motion::Place;
 use crate::phase::Phase;
 use crate::polhode::Polhode;
@@ -57,13 +58,32 @@ impl Flip {
 /// p^(n²) is 3e-23 for n = 2 at k′ = 1e-5: terms n = 0, 1, 2.
 const TERMS: i32 = 3;
 
+/// |ξ| beyond which e^(−2|ξ|) is nothing.
+const FARTHEST: f64 = 1e4;
+
 /// What carries time to the place on the polhode.
+///
+/// Beside the middle axis u is tens of radians, hundreds at 1 − m = 1e-290, while the passage is over in a few: neither u at the epoch nor what it is counted
+/// from is rounded to a double before they cancel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Clock {
-    /// ℓ″, and ξ for each radian of it.
+    /// 2ℓ″, in whole turns of which b is turned over, and ξ for each radian of it.
     Repeating(Phase, f64),
     /// ξ at the epoch and its rate, on the separatrix itself.
-    Once(f64, f64),
+    Once(DoubleDouble, DoubleDouble),
+}
+
+impl Clock {
+    /// Beside the separatrix: from the rate of ℓ″, the place and a quarter of the period that [`Passage::place`] gives, and K′.
+    pub(crate) fn repeating(
+        anomaly_rate: DoubleDouble,
+        place: DoubleDouble,
+        quarter: DoubleDouble,
+        conjugate: f64,
+    ) -> Self {
+        let start = DoubleDouble::PI * (place / quarter);
+        Self::Repeating(Phase::new(anomaly_rate.times_double(2.0), start), 0.25 * quarter.to_f64() / conjugate)
+    }
 }
 
 /// The theta functions of one polhode.
@@ -96,13 +116,12 @@ impl Passage {
         Self { clock, lead, offset, ratio: theta.half_tangents[1] * cosines / sines, nome }
     }
 
-    /// u of the state, and whether b is turned over: the place nearest to the angular momentum is u = 0.
-    pub(crate) fn place(polhode: &Polhode, theta: &Theta) -> (f64, bool) {
+    /// u of the state, K, and whether b is turned over: the place nearest to the angular momentum is u = 0.
+    pub(crate) fn place(polhode: &Polhode) -> (DoubleDouble, DoubleDouble, bool) {
         let (position, [cosine_sign, sine_sign]) = quadrant(polhode);
-        let (from_the_top, distance) = theta.argument(position);
-        let distance = if from_the_top { distance } else { theta.quarter - distance };
+        let (quarter, distance) = precise_argument(polhode, position);
         // ℓ from −π/2 to 0 goes with ℓ′ → ℓ′ + π.
-        (-distance * cosine_sign * sine_sign, sine_sign < 0.0)
+        (distance.times_double(-cosine_sign * sine_sign), quarter, sine_sign < 0.0)
     }
 
     /// The same with b turned over.
@@ -120,12 +139,14 @@ impl Passage {
     /// a and b up to their norm, and the half phase to add, a time after the epoch.
     pub(crate) fn evaluate(&self, elapsed: (f64, f64)) -> ([f64; 2], [f64; 2], f64) {
         let (xi, lead, turned) = match self.clock {
-            Clock::Once(start, rate) => (start + rate * elapsed.0, 0.0, false),
+            Clock::Once(start, rate) => {
+                let far = start.high + rate.high * elapsed.0;
+                let near = || start + rate * DoubleDouble { high: elapsed.0, low: elapsed.1 };
+                (if far.abs() < FARTHEST { near().to_f64() } else { far }, 0.0, false)
+            }
             Clock::Repeating(phase, scale) => {
-                let angle = phase.angle(elapsed);
-                let turned = angle.abs() > FRAC_PI_2;
-                let folded = if turned { angle - PI.copysign(angle) } else { angle };
-                (scale * folded, self.lead * folded, turned)
+                let (turns, angle) = phase.whole_turns_and_angle(elapsed);
+                (scale * angle, 0.5 * self.lead * angle, turns % 2.0 != 0.0)
             }
         };
         let [a, b] = self.theta(xi);

@@ -202,12 +202,10 @@ fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secular, mut plan
     let anomaly_rate = user_rate(rates.anomaly_rate, exponent);
     let series_order = first_order(plan.separatrix_ratio, plan.tolerance);
     if theta.complement < NEAREST_COMPLEMENT {
-        let (place, turned) = Passage::place(polhode, &theta);
-        let start = std::f64::consts::FRAC_PI_2 * place / theta.quarter;
-        let start = if turned { start - std::f64::consts::PI } else { start };
-        let scale = 0.5 * theta.quarter / theta.conjugate;
-        let passage = Passage::new(&theta, Clock::Repeating(Phase::new(anomaly_rate, start), scale));
-        plan.error_bound = 2.0 * ROUNDING + f64::EPSILON * theta.quarter + conditioning(scene, polhode, &rates);
+        let (place, quarter, turned) = Passage::place(polhode);
+        let clock = Clock::repeating(anomaly_rate, place, quarter, theta.conjugate);
+        let passage = Passage::new(&theta, clock).turned(turned);
+        plan.error_bound = 2.0 * ROUNDING + conditioning(scene, polhode, &rates);
         plan.skipped.push("series: too near the separatrix".to_owned());
         let longitude = -2.0 * passage.phase((0.0, 0.0));
         return Solved { pair: Pair::Passage(passage), longitude, rates, plan };
@@ -241,11 +239,13 @@ fn passing(scene: Scene, polhode: &Polhode) -> Result<Motion, Error> {
         return Err(Error::Separatrix);
     }
     let theta = Theta::new(polhode);
-    let (place, turned) = Passage::place(polhode, &theta);
+    let (place, _, turned) = Passage::place(polhode);
     // Without end, however far from 0 rounding has left Q1.
     let theta = Theta { quarter: f64::INFINITY, ..theta };
-    let rate = (polhode.mean_rate() * polhode.gamma()).to_f64() * theta.cosines[1];
-    let clock = Clock::Once(0.5 * place, 0.5 * scaled(rate, polhode.scales.1));
+    let [_, greatest] = polhode.cosine_squares();
+    let precise = polhode.mean_rate() * polhode.gamma() * greatest.sqrt();
+    let clock = Clock::Once(place.times_double(0.5), user_rate(precise.times_double(0.5), polhode.scales.1));
+    let rate = precise.to_f64();
     let passage = Passage::new(&theta, clock).turned(turned);
     let rates = Secular { kappa_sigma: 0.0, anomaly_rate: DoubleDouble::ZERO, longitude_rate: polhode.middle_rate() };
     // A distance from the separatrix that double-double does not see grows like e^u.
