@@ -49,7 +49,11 @@ pub(crate) fn expanded(
     for order in first.unwrap_or(MAX_ORDER)..=MAX_ORDER {
         let tables = scene.body().tables().reaching(order, polhode.beta(), polhode.long_axis)?;
         let fixed = mode != Mode::Axisymmetric && scene.asked_order().is_some();
-        let secular = if fixed { Secular::truncated(polhode, tables.polynomials(order)) } else { *exact };
+        let secular = if fixed {
+            Secular::truncated(polhode, tables.polynomials(order, polhode.precise_beta())?)
+        } else {
+            *exact
+        };
         let expansion = tables.expand(order, secular.kappa_sigma, polhode.kappa());
         let [first, second] = polhode.excesses;
         let ellipse = Ellipse::new((first / second).to_f64());

@@ -183,7 +183,13 @@ impl Polhode {
 
     /// β of theory §1, of the axes in this order.
     pub(crate) fn beta(&self) -> f64 {
-        (self.difference / (self.excesses[0] + self.excesses[1])).to_f64().min(1.0)
+        self.precise_beta().to_f64().min(1.0)
+    }
+
+    /// β to 32 digits.
+    pub(crate) fn precise_beta(&self) -> DoubleDouble {
+        let beta = self.difference / (self.excesses[0] + self.excesses[1]);
+        if beta.to_f64() >= 1.0 { DoubleDouble::ONE } else { beta }
     }
 
     /// σ_sep(β) of the axes in this order, 1 for A = B and 0 for B = C (theory §5).

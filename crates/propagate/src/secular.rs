@@ -49,46 +49,58 @@ impl Secular {
         }
     }
 
-    /// By the series truncated after P_N, `polynomials` = P_0 … P_N (theory §7).
-    pub(crate) fn truncated(polhode: &Polhode, polynomials: &[f64]) -> Self {
-        let s = invert_energy(polynomials, polhode.kappa_energy().to_f64());
-        let (mut slope, mut rest) = (0.0, 0.0);
+    /// By the series truncated after P_N, `polynomials` = P_0 … P_N (theory §7), in double-double as the other: a double would be 1e-13 rad off after 100 rotations.
+    pub(crate) fn truncated(polhode: &Polhode, polynomials: &[DoubleDouble]) -> Self {
+        let s = invert_energy(polynomials, polhode.kappa_energy());
+        let (mut slope, mut rest) = (DoubleDouble::ZERO, DoubleDouble::ZERO);
         for (n, &p) in polynomials.iter().enumerate().rev() {
-            slope = slope * s + (n as f64 + 1.0) * p;
-            rest = rest * s + (1.0 - n as f64) * p;
+            slope = slope * s + p.times_double(n as f64 + 1.0);
+            rest = rest * s + p.times_double(1.0 - n as f64);
         }
-        let half = 0.5 * polhode.gamma().to_f64();
+        let half = polhode.gamma().times_double(0.5);
+        let kappa = polhode.alpha() / polhode.gamma();
         let mean_rate = polhode.mean_rate();
         Self {
-            kappa_sigma: s,
-            anomaly_rate: mean_rate * (half * slope).into(),
-            longitude_rate: mean_rate * (1.0 + half / polhode.kappa() * rest * s).into(),
+            kappa_sigma: s.to_f64(),
+            anomaly_rate: mean_rate * half * slope,
+            longitude_rate: mean_rate * (DoubleDouble::ONE + half / kappa * rest * s),
         }
     }
 }
 
-/// κσ from Σ P_n (κσ)^(n+1) = κE by Newton's method.
+/// κσ from Σ P_n (κσ)^(n+1) = κE by Newton's method, in doubles and then two steps beyond.
 ///
 /// P_0 = 2 and P_n ≤ 0: the sum is concave and at most 2κσ, so from κE/2 the iteration rises to the root without passing it.
-fn invert_energy(polynomials: &[f64], kappa_energy: f64) -> f64 {
-    let mut s = 0.5 * kappa_energy;
+fn invert_energy(polynomials: &[DoubleDouble], kappa_energy: DoubleDouble) -> DoubleDouble {
+    let target = kappa_energy.to_f64();
+    let mut s = 0.5 * target;
     // Quadratic from below; the bound is for the slow first steps next to the separatrix.
     for _ in 0..100 {
-        let (mut value, mut slope) = (0.0, 0.0);
-        for (n, &p) in polynomials.iter().enumerate().rev() {
-            value = value * s + p;
-            slope = slope * s + (n as f64 + 1.0) * p;
-        }
+        let (value, slope) = value_and_slope(polynomials, s);
         if slope <= 0.0 {
-            break;
+            return s.into(); // beyond the maximum of a truncated sum there is no root
         }
-        let step = (kappa_energy - value * s) / slope;
+        let step = (target - value * s) / slope;
         s += step;
         if step.abs() <= f64::EPSILON * s {
             break;
         }
     }
-    s
+    let mut root = DoubleDouble::from(s);
+    for _ in 0..2 {
+        let (_, slope) = value_and_slope(polynomials, root.to_f64());
+        if slope > 0.0 {
+            let value = polynomials.iter().rev().fold(DoubleDouble::ZERO, |value, &p| value * root + p);
+            root = root + (kappa_energy - value * root).over(slope);
+        }
+    }
+    root
+}
+
+/// Σ P_n s^n and the slope of s times it.
+fn value_and_slope(polynomials: &[DoubleDouble], s: f64) -> (f64, f64) {
+    let terms = polynomials.iter().enumerate().rev();
+    terms.fold((0.0, 0.0), |(value, slope), (n, &p)| (value * s + p.high, slope * s + (n as f64 + 1.0) * p.high))
 }
 
 /// ⟨1/(1+√Q)⟩_ℓ, ⟨1/(1+√Q)⟩_t and agm(√Q1, √Q2), for 0 < Q1 ≤ Q2.
@@ -167,7 +179,10 @@ fn exponential_of_the_step() -> DoubleDouble {
 
 #[cfg(test)]
 mod tests {
+    use andoyer_series::NumericNormalForm;
+
     use super::*;
+    use crate::{Body, State};
 
     #[test]
     fn the_mean_of_one_over_the_cosine_is_one_over_the_agm_to_thirty_digits() {
@@ -176,6 +191,20 @@ mod tests {
             let (by_anomaly, by_time, agm) = means(q1.into(), q2.into());
             let whole = by_time + by_anomaly * agm;
             assert!((whole - DoubleDouble::ONE).to_f64().abs() < 1e-28, "{q1} {q2}: {whole:?}");
+        }
+    }
+
+    #[test]
+    fn the_series_has_the_frequencies_of_the_quadrature_to_twenty_eight_digits_where_it_converges() {
+        // σ/σ_sep is some 1e-2: order 20 leaves 1e-40. In doubles both rates were 1e-16 off, and phases 1e-13 after 100 rotations.
+        let body = Body::new([1.0, 1.5, 2.1]).expect("a body");
+        let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.02, 0.01, 1.0]).expect("a state");
+        let polhode = Polhode::new(&body, &state).expect("it turns");
+        let beta = polhode.precise_beta();
+        let polynomials = NumericNormalForm::new(beta, 20).expect("a β").triaxiality_polynomials();
+        let (exact, series) = (Secular::exact(&polhode), Secular::truncated(&polhode, &polynomials));
+        for (one, two) in [(exact.anomaly_rate, series.anomaly_rate), (exact.longitude_rate, series.longitude_rate)] {
+            assert!(((one - two) / one).to_f64().abs() < 1e-28, "{one:?} {two:?}");
         }
     }
 
