@@ -8,6 +8,7 @@ use num_rational::BigRational;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
+use crate::computing::detached;
 use crate::error;
 use crate::order::order;
 use crate::progress;
@@ -27,7 +28,7 @@ use crate::progress;
 /// Raises
 /// ------
 /// OrderError
-///     ``-1``, ``2.5``, ``16382`` (exponents that would not fit).
+///     ``-1``, ``2.5``, ``2000`` (more than 8 GiB of memory by its estimate), ``16382`` (exponents that would not fit).
 /// KeyboardInterrupt
 ///     Ctrl-C is noticed while it works.
 ///
@@ -180,7 +181,7 @@ impl NormalForm {
 
     /// This normal form as JSON text: exact, "p/q" strings, with a format version.
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {
-        py.detach(|| self.0.to_json()).map_err(error::algebra)
+        detached(py, error::algebra, || self.0.to_json())
     }
 
     /// Reads what `to_json` wrote.
@@ -195,7 +196,7 @@ impl NormalForm {
     ///     Not JSON, another format or version, a term that no normal form has. The coefficients themselves are not computed again.
     #[classmethod]
     fn from_json(class: &Bound<'_, PyType>, text: &str) -> PyResult<Self> {
-        class.py().detach(|| andoyer_series::NormalForm::from_json(text)).map(Self).map_err(error::algebra)
+        detached(class.py(), error::algebra, || andoyer_series::NormalForm::from_json(text)).map(Self)
     }
 
     /// A part of this normal form as LaTeX, for a document that uses amsmath.
@@ -212,7 +213,7 @@ impl NormalForm {
     fn to_latex(&self, py: Python<'_>, what: &str) -> PyResult<String> {
         let part = what.parse().map_err(error::algebra)?;
         self.prepare(py, part)?;
-        py.detach(|| self.0.to_latex(part)).map_err(error::algebra)
+        detached(py, error::algebra, || self.0.to_latex(part))
     }
 
     /// A part of this normal form as exact SymPy expressions. SymPy is imported here and nowhere else.
@@ -278,7 +279,7 @@ impl NormalForm {
         if beta.is_none() && self.0.order() <= MAXIMUM_CODE_ORDER {
             self.prepare(py, Part::Direct)?;
         }
-        py.detach(|| self.0.to_code(language, beta)).map_err(error::algebra)
+        detached(py, error::algebra, || self.0.to_code(language, beta))
     }
 
     fn __repr__(&self) -> String {

@@ -179,6 +179,16 @@ pub enum Error {
         /// The largest order.
         bound: usize,
     },
+    /// An order whose normal form would not fit in memory.
+    #[error("order {order} would take some {estimate_gib:.0} GiB of memory: the bound is {bound_gib} GiB")]
+    MemoryTooLarge {
+        /// The order asked for.
+        order: usize,
+        /// Memory by its estimate.
+        estimate_gib: f64,
+        /// The most that is accepted.
+        bound_gib: f64,
+    },
     /// An order outside what was computed.
     #[error("order {order} of the {what} is outside {minimum}..={maximum}")]
     OrderOutOfRange {

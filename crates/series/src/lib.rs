@@ -46,7 +46,7 @@ pub use forms::{Form, Real};
 pub use homological::Homological;
 pub use latex::Part;
 pub use monomial::{MAXIMUM_EXPONENT, Monomial, SLOTS};
-pub use normal_form::NormalForm;
+pub use normal_form::{MAXIMUM_MEMORY, NormalForm};
 pub use numeric::NumericNormalForm;
 pub use polynomial::{Polynomial, Truncation};
 pub use real_field::RealField;

@@ -58,7 +58,8 @@ impl NormalForm {
     /// The normal form to `order` ≥ 0.
     ///
     /// # Errors
-    /// - order 16382: [`Error::OrderTooLarge`], refused before any work.
+    /// - order 16382: [`Error::OrderTooLarge`], refused before any work;
+    /// - order 2000: [`Error::MemoryTooLarge`], likewise.
     pub fn new(order: usize) -> Result<Self, Error> {
         Self::with_progress(order, quiet)
     }
@@ -69,12 +70,14 @@ impl NormalForm {
     ///
     /// # Errors
     /// - order 16382: [`Error::OrderTooLarge`], refused before any work;
+    /// - order 2000: [`Error::MemoryTooLarge`], likewise;
     /// - a callback that returns `Break`: [`Error::Interrupted`].
     pub fn with_progress(
         order: usize,
         mut progress: impl FnMut(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
         check_order(order)?;
+        check_memory(order)?;
         let progress: &mut Progress<'_> = &mut progress;
         let EnergyNormalization { kernel, generators } = EnergyNormalization::new(order, progress)?;
         let triaxiality = kernel.iter().enumerate().map(|(n, row)| rigid_body::triaxiality(n, row)).collect();
@@ -240,6 +243,24 @@ impl NormalForm {
 /// Refuses an order whose exponents do not fit.
 pub(crate) fn check_order(order: usize) -> Result<(), Error> {
     if order > MAXIMUM_ORDER { Err(Error::OrderTooLarge { order, bound: MAXIMUM_ORDER }) } else { Ok(()) }
+}
+
+/// The most memory that a normal form may take by its estimate, 8 GiB: order 594. Its time is then days.
+pub const MAXIMUM_MEMORY: f64 = 8.0 * GIBIBYTE;
+/// Bytes.
+const GIBIBYTE: f64 = 1024.0 * 1024.0 * 1024.0;
+
+/// Memory for a normal form to an order in bytes: 5N³/24 integers of N/4 bytes on average, in generators and powers, and what keeps each; 15 MiB for the 13 of order 100.
+fn estimated_memory(order: usize) -> f64 {
+    let order = order as f64;
+    5.0 / 24.0 * order.powi(3) * (48.0 + 0.25 * order)
+}
+
+/// Refuses an order that would not fit in memory.
+fn check_memory(order: usize) -> Result<(), Error> {
+    let estimate = estimated_memory(order);
+    let [estimate_gib, bound_gib] = [estimate, MAXIMUM_MEMORY].map(|bytes| bytes / GIBIBYTE);
+    if estimate > MAXIMUM_MEMORY { Err(Error::MemoryTooLarge { order, estimate_gib, bound_gib }) } else { Ok(()) }
 }
 
 impl PartialEq for NormalForm {

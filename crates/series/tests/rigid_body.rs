@@ -210,6 +210,15 @@ fn separatrix_action_is_the_table_of_the_theory() -> Result<(), Error> {
 }
 
 #[test]
+fn an_order_beyond_the_memory_is_refused_with_its_size() {
+    for order in [595, MAXIMUM_ORDER] {
+        let refused = NormalForm::new(order).expect_err("too large");
+        let Error::MemoryTooLarge { estimate_gib, bound_gib: 8.0, .. } = refused else { panic!("{refused}") };
+        assert!(estimate_gib > 8.0 && refused.to_string().starts_with(&format!("order {order} would take some ")));
+    }
+}
+
+#[test]
 fn orders_out_of_range_are_refused_with_their_bounds() -> Result<(), Error> {
     let normal_form = NormalForm::new(3)?;
     assert_eq!(normal_form.order(), 3);
@@ -246,7 +255,7 @@ fn progress_is_told_and_may_stop() -> Result<(), Error> {
     let stop_at_2 = |done, _| if done == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
     assert!(matches!(NormalForm::with_progress(4, stop_at_2), Err(Error::Interrupted { done: 2, of: 4 })));
     let immediately = |_, _| ControlFlow::Break(());
-    assert!(matches!(NormalForm::with_progress(MAXIMUM_ORDER, immediately), Err(Error::Interrupted { done: 0, .. })));
+    assert!(matches!(NormalForm::with_progress(594, immediately), Err(Error::Interrupted { done: 0, .. })));
     Ok(())
 }
 
