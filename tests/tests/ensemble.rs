@@ -1,6 +1,6 @@
 //! Many bodies at once: the same bits as one by one, for any number of threads; bad members are named.
 
-use andoyer_propagate::{Body, Ensemble, Error, MAX_THREADS, Scene, State};
+use andoyer_propagate::{Body, Ensemble, Error, MAX_THREADS, Orbit, Scene, State};
 
 const MEMBERS: usize = 500;
 const LEVEL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
@@ -88,4 +88,53 @@ fn a_tolerance_and_a_number_of_threads_are_no_fault_of_a_member() {
         assert!(matches!(ensemble.plans(), Err(Error::Threads { value: found, .. }) if found == value));
     }
     assert!(ensemble().threads(MAX_THREADS).validate().is_ok());
+}
+
+/// Nine bodies that turn fast about their shortest axis, every third without an orbit.
+fn disturbed() -> (Ensemble, Vec<Option<Orbit>>) {
+    let orbit =
+        |k: usize| Orbit::new(1e-3 * (1.0 + k as f64), 0.05).and_then(|orbit| orbit.plane(0.1 * k as f64, 0.2, 0.3));
+    let orbits: Vec<_> = (0..9).map(|k| (k % 3 != 2).then(|| orbit(k).expect("an orbit"))).collect();
+    let moments = (0..9).map(|k| [1.0, 1.02 + 0.001 * k as f64, 1.05]).collect();
+    let ensemble = Ensemble::new(moments, vec![LEVEL; 9], vec![[0.01, 0.02, 1.0]; 9]).expect("bodies and states");
+    (ensemble, orbits)
+}
+
+#[test]
+fn members_under_orbits_have_the_bits_and_the_plan_of_their_scenes() {
+    let (ensemble, orbits) = disturbed();
+    let times = [-1e3, 0.0, 5e4];
+    for given in [orbits.clone(), vec![orbits[0]], vec![None; 9], vec![None]] {
+        let ensemble = ensemble.clone().orbits(given.clone()).expect("one each").span(-1e3, 1e5).threads(3);
+        let (mut attitudes, mut rates) = (vec![[0.0; 4]; 27], vec![[0.0; 3]; 27]);
+        ensemble.samples_into(&times, &mut attitudes, &mut rates).expect("solved");
+        for k in 0..9 {
+            let state = State::new(0.0, LEVEL, ensemble.angular_velocities()[k]).expect("a state");
+            let mut scene = Scene::new(Body::new(ensemble.moments()[k]).expect("a body"), state).span(-1e3, 1e5);
+            if let Some(orbit) = given[k % given.len()] {
+                scene = scene.orbit(orbit);
+            }
+            let motion = scene.solve().expect("solved");
+            let (mut of_one, mut rates_of_one) = ([[0.0; 4]; 3], [[0.0; 3]; 3]);
+            motion.samples_into(&times, &mut of_one, &mut rates_of_one).expect("finite times");
+            assert_eq!((&of_one[..], &rates_of_one[..]), (&attitudes[3 * k..3 * k + 3], &rates[3 * k..3 * k + 3]));
+            assert_eq!(ensemble.plans().expect("solved")[k], *motion.plan());
+            assert_eq!(ensemble.motion(k).expect("solved").scene(), motion.scene());
+        }
+    }
+}
+
+#[test]
+fn orbits_are_one_for_all_or_one_for_each_and_what_they_cannot_disturb_is_named() {
+    let (ensemble, orbits) = disturbed();
+    let wrong = ensemble.clone().orbits(orbits[..4].to_vec());
+    assert!(matches!(wrong, Err(Error::Length { argument: "orbits", found: 4, expected: 9 })));
+    let one = ensemble.clone().orbits(vec![orbits[0]]).expect("one for all");
+    assert_eq!(one, ensemble.clone().orbits(vec![orbits[0]; 9]).expect("nine equal ones"));
+    assert_eq!(ensemble, ensemble.clone().orbits(vec![None; 9]).expect("none"));
+    assert_ne!(one, ensemble);
+    let mut strong = orbits;
+    strong[4] = Some(Orbit::new(0.9, 0.0).expect("an orbit"));
+    let problem = ensemble.orbits(strong).expect("nine").plans().expect_err("too fast an orbit");
+    assert!(matches!(problem, Error::Member { index: 4, .. }), "{problem}");
 }

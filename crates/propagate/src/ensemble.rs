@@ -1,8 +1,8 @@
 //! Many bodies at a few epochs each: solved and evaluated member by member, in memory proportional to the result.
 //!
 //! A member's motion lives while its rows are written; nothing of it is kept. Each member is computed by one thread alone, so that the bits
-//! do not depend on how many threads there are. A member costs its set-up, 4 to 6 µs, and its epochs. Every bad member is found before any is
-//! computed, and the error names the first with its index.
+//! do not depend on how many threads there are. A member costs its set-up, 4 to 6 µs, some 200 µs under the gravity gradient of an orbit, and its epochs.
+//! Every bad member is found before any is computed, and the error names the first with its index.
 
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -10,12 +10,15 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use crate::body::Body;
 use crate::error::Error;
 use crate::motion::{Motion, length};
+use crate::orbit::Orbit;
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::state::State;
 
 /// Members that a thread takes at least: 64 of them are some 300 µs.
 const BLOCK: usize = 64;
+/// The same under a gravity gradient, at 200 µs each.
+const DISTURBED_BLOCK: usize = 2;
 
 /// The largest number of threads that can be asked for.
 pub const MAX_THREADS: usize = 1024;
@@ -39,7 +42,10 @@ pub struct Ensemble {
     moments: Vec<[f64; 3]>,
     attitudes: Vec<[f64; 4]>,
     angular_velocities: Vec<[f64; 3]>,
+    /// None, one for all, or one for each.
+    orbits: Vec<Option<Orbit>>,
     tolerance: f64,
+    span: Option<(f64, f64)>,
     threads: Option<usize>,
 }
 
@@ -56,7 +62,8 @@ impl Ensemble {
     ) -> Result<Self, Error> {
         length("attitudes", attitudes.len(), moments.len())?;
         length("angular_velocities", angular_velocities.len(), moments.len())?;
-        let ensemble = Self { moments, attitudes, angular_velocities, tolerance: 1e-12, threads: None };
+        let (orbits, tolerance) = (Vec::new(), 1e-12);
+        let ensemble = Self { moments, attitudes, angular_velocities, orbits, tolerance, span: None, threads: None };
         let problems = |index: usize| ensemble.scene(index).err().map(|problem| (index, problem));
         let bad: Vec<(usize, Error)> =
             (0..ensemble.len()).into_par_iter().with_min_len(BLOCK).filter_map(problems).collect();
@@ -71,6 +78,42 @@ impl Ensemble {
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
+        self
+    }
+
+    /// Orbits of bodies whose gravity gradient acts on the members: one for all, or one or none for each, as for [`Scene::orbit`].
+    ///
+    /// What averaging leaves grows with time: without [`Ensemble::span`] the error bounds are those after 1e9 rotations. Which motions are served is known only when they are
+    /// solved.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Ensemble, Orbit};
+    /// let (moments, level) = (vec![[1.0, 1.02, 1.05]; 2], vec![[0.0, 0.0, 0.0, 1.0]; 2]);
+    /// let ensemble = Ensemble::new(moments, level, vec![[0.0, 0.01, 1.0]; 2])?;
+    /// let ensemble = ensemble.orbits(vec![Some(Orbit::new(2e-3, 0.1)?), None])?.span(0.0, 1e5);
+    /// let torques: Vec<f64> = ensemble.plans()?.iter().map(|plan| plan.torque()).collect();
+    /// assert!(torques[0] > 0.0 && torques[1] == 0.0);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - [`Error::Length`] for three orbits of five members.
+    pub fn orbits(mut self, mut orbits: Vec<Option<Orbit>>) -> Result<Self, Error> {
+        if orbits.len() != 1 {
+            length("orbits", orbits.len(), self.len())?;
+        }
+        // What is the same for all is kept once, and no orbit not at all: equal ensembles are equal.
+        if orbits.windows(2).all(|pair| pair[0] == pair[1]) {
+            orbits.truncate(usize::from(orbits.first().is_some_and(Option::is_some)));
+        }
+        self.orbits = orbits;
+        Ok(self)
+    }
+
+    /// The times over which the tolerance is asked for and error bounds hold, as for [`Scene::span`].
+    #[must_use]
+    pub fn span(mut self, start: f64, stop: f64) -> Self {
+        self.span = Some((start, stop));
         self
     }
 
@@ -106,6 +149,24 @@ impl Ensemble {
         &self.angular_velocities
     }
 
+    /// The orbits: none, one for all, or one or none for each member.
+    pub fn asked_orbits(&self) -> &[Option<Orbit>] {
+        &self.orbits
+    }
+
+    /// The orbit of a member, if it has one.
+    pub fn orbit(&self, index: usize) -> Option<&Orbit> {
+        match &self.orbits[..] {
+            [of_all] => of_all.as_ref(),
+            each => each.get(index)?.as_ref(),
+        }
+    }
+
+    /// The span, if one was given.
+    pub fn asked_span(&self) -> Option<(f64, f64)> {
+        self.span
+    }
+
     /// The tolerance \[rad\].
     pub fn asked_tolerance(&self) -> f64 {
         self.tolerance
@@ -120,9 +181,15 @@ impl Ensemble {
     ///
     /// # Errors
     /// - [`Error::Tolerance`] for `0.0`.
+    /// - [`Error::Span`] for `(1.0, 0.0)`.
     /// - [`Error::Threads`] for `0` and above [`MAX_THREADS`].
     pub fn validate(&self) -> Result<(), Error> {
         self.validate_threads()?;
+        if let Some((start, stop)) = self.span
+            && !(start.is_finite() && stop.is_finite() && start <= stop)
+        {
+            return Err(Error::Span { start, stop });
+        }
         match self.tolerance {
             value if value.is_finite() && value > 0.0 => Ok(()),
             value => Err(Error::Tolerance { value }),
@@ -138,7 +205,13 @@ impl Ensemble {
 
     fn scene(&self, index: usize) -> Result<Scene, Error> {
         let state = State::new(0.0, self.attitudes[index], self.angular_velocities[index])?;
-        let scene = Scene::new(Body::new(self.moments[index])?, state).tolerance(self.tolerance);
+        let mut scene = Scene::new(Body::new(self.moments[index])?, state).tolerance(self.tolerance);
+        if let Some(&orbit) = self.orbit(index) {
+            scene = scene.orbit(orbit);
+        }
+        if let Some((start, stop)) = self.span {
+            scene = scene.span(start, stop);
+        }
         scene.validate()?;
         Ok(scene)
     }
@@ -162,7 +235,7 @@ impl Ensemble {
     /// - As [`Ensemble::motion`], of the first that has one.
     pub fn plans(&self) -> Result<Vec<Plan>, Error> {
         let plan = |index: usize| self.motion(index).map(|motion| motion.plan().clone());
-        self.pool()?.install(|| (0..self.len()).into_par_iter().with_min_len(BLOCK).map(plan).collect())
+        self.pool()?.install(|| (0..self.len()).into_par_iter().with_min_len(self.block()).map(plan).collect())
     }
 
     /// Attitudes [x, y, z, w] of all members, the times of a member next to each other.
@@ -220,9 +293,14 @@ impl Ensemble {
             let problem = evaluate(&motion, index, rows).err()?;
             Some((index, Error::Member { index, others: 0, problem: Box::new(problem) }))
         };
-        let members = rows.enumerate().with_min_len(BLOCK).filter_map(of_member);
+        let members = rows.enumerate().with_min_len(self.block()).filter_map(of_member);
         let first = self.pool()?.install(|| members.min_by_key(|&(index, _)| index));
         first.map_or(Ok(()), |(_, error)| Err(error))
+    }
+
+    /// Members that a thread takes at least.
+    fn block(&self) -> usize {
+        if self.orbits.is_empty() { BLOCK } else { DISTURBED_BLOCK }
     }
 
     fn pool(&self) -> Result<Pool, Error> {

@@ -266,7 +266,11 @@ BAD_ARGUMENTS = {
     "negative threads": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": -1}, andoyer.ThreadsError, "threads = -1"),
     "half a thread": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": 0.5}, andoyer.ThreadsError, "threads = 0.5"),
     "boolean threads": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": True}, TypeError, "threads"),
-    "orbits": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"orbits": None}, TypeError, "orbits"),
+    "three orbits": (([1, 1, 1], [LEVEL] * 2, [0, 0, 1]), {"orbits": [None] * 3}, andoyer.ShapeError, "orbits has 3 entries: it must have 2"),
+    "a mean motion": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"orbits": [1e-3]}, TypeError, r"orbits\[0\] must be an Orbit or None, not float"),
+    "one mean motion": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"orbits": 1e-3}, TypeError, "orbits must be an Orbit or a sequence"),
+    "a span that runs backwards": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"span": (1, 0)}, andoyer.SpanError, "span"),
+    "a method": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"method": "series"}, TypeError, "method"),
 }
 
 
@@ -290,3 +294,40 @@ def test_no_members_give_empty_results():
 def test_empty_list_is_refused_with_the_shape_of_no_members():
     with pytest.raises(andoyer.ShapeError, match=r"moments is empty: it must be \(m, 3\) or \(3,\), and for no members \(0, 3\)"):
         Ensemble([], LEVEL, [0, 0, 1])
+
+
+SUN = andoyer.Orbit(2e-3, 0.1, inclination=0.3)
+MOON = andoyer.Orbit(5e-3, 0.02, mass_fraction=0.5)
+FAST = ([[1, 1.02, 1.05], [1, 1.01, 1.03], [1, 1.02, 1.04]], LEVEL, [[0.01, 0.02, 1.0], [0.02, 0.0, 1.1], [0.0, 0.03, -0.9]])
+
+
+@pytest.mark.parametrize("orbits", [SUN, [SUN, None, MOON], (SUN,) * 3, [None] * 3, None])
+def test_members_under_orbits_have_the_bits_of_their_scenes(orbits):
+    ensemble, times, span = Ensemble(*FAST, orbits=orbits, span=(0, 1e5)), [0.0, 1e3, 1e5], (0, 1e5)
+    samples, each = ensemble.at(times), list(orbits) if isinstance(orbits, (list, tuple)) else [orbits] * 3
+    for k, orbit in enumerate(each):
+        motion = Scene(Body(FAST[0][k]), LEVEL, FAST[2][k], orbit=orbit, span=span).solve()
+        assert ensemble[k].scene == motion.scene and ensemble.plans[k] == motion.plan
+        assert np.array_equal(samples.attitude[k], motion.attitude(times)) and np.array_equal(ensemble.attitude(times)[k], motion.attitude(times))
+        assert np.array_equal(samples.angular_velocity[k], motion.angular_velocity(times))
+        moved = np.abs(np.diff(ensemble[k].angular_momentum(times), axis=0)).max()
+        assert (moved > 1e-4) == (orbit is not None)
+
+
+def test_orbits_are_part_of_slices_equality_text_and_pickles():
+    ensemble = Ensemble(*FAST, orbits=[SUN, None, MOON], span=(0, 1e5))
+    assert ensemble.orbits == [SUN, None, MOON] and ensemble.span == (0.0, 1e5)
+    assert ensemble[::-1].orbits == [MOON, None, SUN] and ensemble[1:2].orbits is None and ensemble[:1].orbits == SUN
+    assert len(ensemble[:0]) == 0 and ensemble[:] == ensemble == pickle.loads(pickle.dumps(ensemble))
+    assert np.array_equal(ensemble[1:].attitude(1e3), ensemble.attitude(1e3)[1:])
+    assert Ensemble(*FAST, orbits=SUN) == Ensemble(*FAST, orbits=[SUN] * 3) == pickle.loads(pickle.dumps(Ensemble(*FAST, orbits=SUN)))
+    assert Ensemble(*FAST) == Ensemble(*FAST, orbits=[None] * 3) != Ensemble(*FAST, orbits=SUN)
+    assert Ensemble(*FAST) != Ensemble(*FAST, span=(0, 1))
+    assert repr(ensemble) == "<Ensemble of 3 bodies, 2 under an orbit, tolerance=1e-12, span=(0.0, 100000.0)>"
+
+
+def test_a_member_that_its_orbit_does_not_let_be_averaged_is_named():
+    ensemble = Ensemble(*FAST, orbits=[None, SUN, andoyer.Orbit(0.9)])
+    with pytest.raises((andoyer.TorqueError, andoyer.SpinResonanceError), match="^member 2: ") as caught:
+        ensemble.at(0.0)
+    assert caught.value.index == 2

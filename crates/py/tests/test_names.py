@@ -21,7 +21,7 @@ NAMES = {
     "Motion": "at attitude angular_velocity angular_momentum andoyer rotation plan frequencies periods scene",
     "Plan": "mode method order harmonics error_bound separatrix_ratio averaging torque skipped",
     "Samples": "times attitude angular_velocity",
-    "Ensemble": "at attitude plans moments attitudes angular_velocities tolerance threads",
+    "Ensemble": "at attitude plans moments attitudes angular_velocities orbits tolerance span threads",
 }
 STUB = ast.parse(Path(core.__file__).with_name("_core.pyi").read_text(encoding="utf-8"))
 CLASSES = {node.name: node for node in STUB.body if isinstance(node, ast.ClassDef)}
