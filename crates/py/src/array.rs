@@ -14,6 +14,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PySlice, PyTuple};
 
+use crate::computing::detached;
 use crate::error::{self, Error, ShapeError};
 use crate::foreign;
 
@@ -193,10 +194,10 @@ pub(crate) fn interruptible(
     width: usize,
     evaluate: impl Fn(&[f64]) -> Result<Vec<Vec<f64>>, andoyer_series::Error> + Sync,
 ) -> PyResult<Vec<Vec<f64>>> {
-    let mut rows = py.detach(|| evaluate(&[])).map_err(error::algebra)?;
+    let mut rows = detached(py, error::algebra, || evaluate(&[]))?;
     for part in values.chunks(width * ROWS_AT_ONCE) {
         py.check_signals()?;
-        rows.extend(py.detach(|| evaluate(part)).map_err(error::algebra)?);
+        rows.extend(detached(py, error::algebra, || evaluate(part))?);
     }
     Ok(rows)
 }
@@ -316,7 +317,7 @@ impl<'py> Times<'py> {
         };
         let mut rows = write(&result)?;
         let (times, rows) = (self.values()?, chunks(&mut rows)?);
-        self.array.py().detach(|| evaluate(times, rows)).map_err(error::propagation)?;
+        detached(self.array.py(), error::propagation, || evaluate(times, rows))?;
         Ok(result)
     }
 }

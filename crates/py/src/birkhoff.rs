@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::{Rows, Times, fixed_length, interruptible, number, write};
+use crate::computing::detached;
 use crate::error::{self, UnknownNameError};
 use crate::expression::{Expression, complex, real};
 use crate::form::{Form, either, rounded, transformed};
@@ -103,20 +104,24 @@ impl BirkhoffNormalForm {
     ///     K has resonant terms, and is no function of the actions alone.
     fn in_actions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let slots = self.space().degrees_of_freedom() + self.space().parameters();
-        either!(&self.form, form => real(py, &py.detach(|| form.in_actions()).map_err(error::algebra)?, slots))
+        either!(&self.form, form => real(py, &detached(py, error::algebra, || form.in_actions())?, slots))
     }
 
     /// K in the complex variables: (re, im) by exponents of u₁, U₁, u₂, U₂, …, parameters.
     fn in_complex<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         match &self.form {
-            Form::Exact(form) => complex::<BigRational>(py, &py.detach(|| form.in_complex()), self.slots()),
-            Form::Float(form) => complex::<f64>(py, &py.detach(|| form.in_complex()), self.slots()),
+            Form::Exact(form) => {
+                complex::<BigRational>(py, &detached(py, error::algebra, || Ok(form.in_complex()))?, self.slots())
+            }
+            Form::Float(form) => {
+                complex::<f64>(py, &detached(py, error::algebra, || Ok(form.in_complex()))?, self.slots())
+            }
         }
     }
 
     /// K in the new real variables.
     fn in_real<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        either!(&self.form, form => real(py, &py.detach(|| form.in_real()).map_err(error::algebra)?, self.slots()))
+        either!(&self.form, form => real(py, &detached(py, error::algebra, || form.in_real())?, self.slots()))
     }
 
     /// Generating function S_m in the real variables, of degree m + 2.
@@ -132,7 +137,7 @@ impl BirkhoffNormalForm {
     ///     ``0``, or above the order.
     fn generator<'py>(&self, py: Python<'py>, m: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let m = order("m", m, 1, self.order())?;
-        either!(&self.form, form => real(py, &py.detach(|| form.generator(m)).map_err(error::algebra)?, self.slots()))
+        either!(&self.form, form => real(py, &detached(py, error::algebra, || form.generator(m))?, self.slots()))
     }
 
     /// A function of the old variables in the new ones, complete to degree d + N, d its lowest positive degree.

@@ -15,6 +15,7 @@ create_exception!(
     PyValueError,
     "Bad input, or a motion that is not served; the base of every error of this package."
 );
+create_exception!(andoyer, InternalError, Error, "A fault of this package: no input should lead to it.");
 create_exception!(andoyer, MomentsError, Error, "Moments of inertia that no body has.");
 create_exception!(andoyer, AttitudeError, Error, "An attitude that is no unit quaternion.");
 create_exception!(andoyer, AngularVelocityError, Error, "An angular velocity that is not finite.");

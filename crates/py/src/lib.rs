@@ -13,6 +13,7 @@
 mod array;
 mod birkhoff;
 mod body;
+mod computing;
 mod ensemble;
 mod error;
 mod expression;
@@ -36,13 +37,15 @@ mod _core {
     #[pymodule_export]
     use super::body::Body;
     #[pymodule_export]
+    use super::computing::_panic;
+    #[pymodule_export]
     use super::ensemble::Ensemble;
     #[pymodule_export]
     use super::error::{
         AngularVelocityError, AttitudeError, AveragingError, EpochError, Error, FormatError, HamiltonianError,
-        IntervalError, LevelError, MethodError, MomentsError, OrbitError, OrderError, ResonanceError, SceneFileError,
-        SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError, ThreadsError, TimesError,
-        ToleranceError, TorqueError, UnitsError, UnknownBodyError, UnknownNameError,
+        InternalError, IntervalError, LevelError, MethodError, MomentsError, OrbitError, OrderError, ResonanceError,
+        SceneFileError, SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError, ThreadsError,
+        TimesError, ToleranceError, TorqueError, UnitsError, UnknownBodyError, UnknownNameError,
     };
     #[pymodule_export]
     use super::motion::Motion;

@@ -6,6 +6,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 
 use crate::array::{Times, chunks, write};
+use crate::computing::detached;
 use crate::error;
 use crate::foreign;
 use crate::plan::Plan;
@@ -61,7 +62,7 @@ impl Motion {
                 foreign::scalar_first(attitude, scalar_first);
                 Ok(())
             };
-            py.detach(evaluate).map_err(error::propagation)?;
+            detached(py, error::propagation, evaluate)?;
         }
         Ok(Samples::new(copy.unbind(), attitude.unbind(), rates.unbind(), scalar_first))
     }

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use andoyer_series::{Error as Algebra, Progress};
 use pyo3::prelude::*;
 
+use crate::computing::detached;
 use crate::error;
 
 /// What `compute` returns, without the interpreter lock. An exception in `progress` stops it and is raised here.
@@ -33,9 +34,9 @@ pub(crate) fn reported<T: Send>(
             }
         }
     };
-    let result = py.detach(|| compute(&mut tell));
+    let result = detached(py, error::algebra, || compute(&mut tell));
     match failure {
         Some(problem) => Err(problem),
-        None => result.map_err(error::algebra),
+        None => result,
     }
 }

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::body::Body;
+use crate::computing::detached;
 use crate::motion::Motion;
 use crate::orbit::Orbit;
 use crate::{array, error, foreign};
@@ -174,7 +175,7 @@ impl Scene {
     /// UnitsError
     ///     The angular momentum, moment × rate, is no normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {
-        py.detach(|| self.0.solve()).map(Motion).map_err(error::propagation)
+        detached(py, error::propagation, || self.0.solve()).map(Motion)
     }
 
     /// The body.

@@ -1,6 +1,6 @@
 # Types of the compiled core. Docstrings here are the first lines of those at run time, which say the rest; a test holds the two together.
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from typing import Any, Literal, TypeAlias, final, overload
 
@@ -44,6 +44,9 @@ class FormatError(Error):
 
 class HamiltonianError(Error):
     """A polynomial that cannot be read, or a Hamiltonian whose origin is no elliptic point with a diagonal quadratic part."""
+
+class InternalError(Error):
+    """A fault of this package: no input should lead to it."""
 
 class IntervalError(Error):
     """A number outside its interval."""
@@ -362,7 +365,9 @@ class Ensemble:
         attitudes: ArrayLike | Rotation,
         angular_velocities: ArrayLike,
         *,
+        orbits: Orbit | Iterable[Orbit | None] | None = None,
         tolerance: float = 1e-12,
+        span: tuple[float, float] | None = None,
         threads: int | None = None,
         scalar_first: bool = False,
     ) -> Ensemble: ...
@@ -385,6 +390,12 @@ class Ensemble:
     @property
     def tolerance(self) -> float:
         """The attitude error asked for, in rad."""
+    @property
+    def orbits(self) -> Orbit | list[Orbit | None] | None:
+        """The orbits: an Orbit for all members, a list of one or None for each, or None."""
+    @property
+    def span(self) -> tuple[float, float] | None:
+        """The times over which `tolerance` is asked for, or None."""
     @property
     def threads(self) -> int | None:
         """The number of threads asked for, or None."""
