@@ -132,7 +132,9 @@ pub(crate) fn algebra_of(argument: &str, error: Algebra) -> PyErr {
 
 fn exception(error: Algebra, message: String) -> PyErr {
     match error {
-        Algebra::OrderTooLarge { .. } | Algebra::OrderOutOfRange { .. } => OrderError::new_err(message),
+        Algebra::OrderTooLarge { .. } | Algebra::MemoryTooLarge { .. } | Algebra::OrderOutOfRange { .. } => {
+            OrderError::new_err(message)
+        }
         Algebra::NameUnknown { .. } | Algebra::Parse { problem: ParseProblem::UnknownName(_), .. } => {
             UnknownNameError::new_err(message)
         }
