@@ -16,8 +16,6 @@ pub(crate) struct Phase {
     frequency: DoubleDouble,
     /// Turns at the epoch: from ½ to 1½, so that it is a multiple of 2^−53, and the rest.
     start: DoubleDouble,
-    /// How many turns were added for that.
-    added: f64,
 }
 
 impl Phase {
@@ -25,13 +23,13 @@ impl Phase {
     pub(crate) fn new(rate: DoubleDouble, start: impl Into<DoubleDouble>) -> Self {
         let turn = DoubleDouble::PI * DoubleDouble::from(2.0);
         let start = start.into() / turn;
-        let added = 1.0 - start.high.round();
-        Self { frequency: rate / turn, start: start + DoubleDouble::from(added), added }
+        let whole = 1.0 - start.high.round();
+        Self { frequency: rate / turn, start: start + DoubleDouble::from(whole) }
     }
 
     /// The phase that is 0 at its epoch.
     pub(crate) fn unstarted(&self) -> Self {
-        Self { start: DoubleDouble::ONE, added: 1.0, ..*self }
+        Self { start: DoubleDouble::ONE, ..*self }
     }
 
     /// Turns per unit of time.
@@ -55,16 +53,16 @@ impl Phase {
         (product.rounded() + (turns + over), (beyond - over) * product.all(std::f64::consts::TAU))
     }
 
-    /// Whole turns from the angle 0, and the angle beyond them, of one time.
-    pub(crate) fn whole_turns_and_angle(&self, (high, low): (f64, f64)) -> (f64, f64) {
+    /// The same of one time.
+    pub(crate) fn turns_and_angle_at(&self, (high, low): (f64, f64)) -> (f64, f64) {
         let elapsed = (Lanes::splat(pulp::Scalar, high), Lanes::splat(pulp::Scalar, low));
         let (turns, angle) = self.turns_and_angle(elapsed);
-        (turns.values()[0] - self.added, angle.values()[0])
+        (turns.values()[0], angle.values()[0])
     }
 
     /// That angle of one time.
     pub(crate) fn angle(&self, elapsed: (f64, f64)) -> f64 {
-        self.whole_turns_and_angle(elapsed).1
+        self.turns_and_angle_at(elapsed).1
     }
 
     /// (sin, cos) a time `(high, low)` after the epoch.

@@ -11,7 +11,7 @@
 //! K is infinite, p = 0, ξ is linear in time without end and dy′/dt = M/B. Sums are scaled by e^(−|ξ|), their n-th terms are then of size p^(n²) at most. Every
 //! ℓ″ → ℓ″ + π turns b over.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
 use andoyer_series::DoubleDouble;
 use nalgebra::Quaternion;
@@ -67,8 +67,8 @@ const FARTHEST: f64 = 1e4;
 /// from is rounded to a double before they cancel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Clock {
-    /// 2ℓ″, in whole turns of which b is turned over, and ξ for each radian of it.
-    Repeating(Phase, f64),
+    /// 2ℓ″, in whole turns of which b is turned over; the turns that are 0 of them; and ξ for each radian.
+    Repeating(Phase, f64, f64),
     /// ξ at the epoch and its rate, on the separatrix itself.
     Once(DoubleDouble, DoubleDouble),
 }
@@ -82,7 +82,10 @@ impl Clock {
         conjugate: f64,
     ) -> Self {
         let start = DoubleDouble::PI * (place / quarter);
-        Self::Repeating(Phase::new(anomaly_rate.times_double(2.0), start), 0.25 * quarter.to_f64() / conjugate)
+        let phase = Phase::new(anomaly_rate.times_double(2.0), start);
+        let (turns, angle) = phase.turns_and_angle_at((0.0, 0.0));
+        let none = turns - ((start.to_f64() - angle) / TAU).round();
+        Self::Repeating(phase, none, 0.25 * quarter.to_f64() / conjugate)
     }
 }
 
@@ -144,9 +147,9 @@ impl Passage {
                 let near = || start + rate * DoubleDouble { high: elapsed.0, low: elapsed.1 };
                 (if far.abs() < FARTHEST { near().to_f64() } else { far }, 0.0, false)
             }
-            Clock::Repeating(phase, scale) => {
-                let (turns, angle) = phase.whole_turns_and_angle(elapsed);
-                (scale * angle, 0.5 * self.lead * angle, turns % 2.0 != 0.0)
+            Clock::Repeating(phase, none, scale) => {
+                let (turns, angle) = phase.turns_and_angle_at(elapsed);
+                (scale * angle, 0.5 * self.lead * angle, (turns - none) % 2.0 != 0.0)
             }
         };
         let [a, b] = self.theta(xi);
