@@ -30,8 +30,6 @@ BUDGETS = {
     "ensemble": 0.0,
     "group": 1.0,
 }
-# Beside the middle axis, 1 − m down to 1e-290: a half turn takes hundreds of the polhode's units of time, and `plan.error_bound`, which must hold too, grows to 7e-14.
-WIDER = {(check, "beside an axis: 1−m from 1e-290"): 1e-13 for check in ("attitude", "rates", "time reversal")}
 TOLERANCE = 1e-15
 # Relative rounding of a state that is taken as the start of a new motion, and of the quaternion.
 STATE_ROUNDING = 2e-15

@@ -73,7 +73,7 @@ def summary(values):
     for (check, regime), pairs in values.items():
         sample = np.array([value for value, _ in pairs])
         quantiles = {name: float(f"{np.quantile(sample, q):.2e}") for name, q in QUANTILES.items()}
-        rows.append({"check": check, "regime": regime, "scenes": len(pairs), **quantiles, "budget": accuracy.WIDER.get((check, regime), BUDGETS[check]), "worst": max(pairs)[1]})
+        rows.append({"check": check, "regime": regime, "scenes": len(pairs), **quantiles, "budget": BUDGETS[check], "worst": max(pairs)[1]})
     return ordered(rows)
 
 
