@@ -146,6 +146,7 @@ def by_work(bench, precision, stress):
         ["exact normal form, order 10 / 30 / 50", " / ".join(of("normalize", f"order-{n}", "energy") for n in (10, 30, 50))],
         ["set-up of a motion, closed form / series of order 20", f"{of('set-up', 'body-new-tolerance-1e-12', 'closed')} / {of('set-up', 'body-new-order-20', 'series')}"],
         ["a sample of attitude and rates, even / uneven times", f"{of('skip', 'times-uniform', 'closed')} / {of('skip', 'outputs-attitudes-and-rates', 'closed')}"],
+        ["gravity gradient, 1,000 rotations: set-up / a sample", f"{of('gradient-solve', 'ellipse-full', 'spin')} / {of('gradient-evaluate', 'ellipse-full', 'spin')}"],
         ["against SciPy's closed form, calls from Python", f"{min(ratios):.3g} to {max(ratios):.3g} times as fast"],
         [f"attitude error, {total:,} random scenes: largest q99.9 of a regime / maximum", f"{max(float(r['q99.9']) for r in attitude):.1e} / {max(float(r['max']) for r in attitude):.1e} rad"],
     ]
