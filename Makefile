@@ -30,7 +30,7 @@ bench: $(VENV)/installed  ## criterion by order, then run time against error: do
 	start=$$(date +%s) && cargo bench -p andoyer-benches && $(BIN)/python benches/collect.py --since $$start
 	$(BIN)/python benches/work_precision.py
 
-report: $(VENV)/ready  ## docs/performance.md with its picture, and the table of the README, from docs/data
+report: $(VENV)/ready  ## the figures of docs/speed.md with their picture, and the tables of the README, from docs/data
 	$(BIN)/python benches/report.py
 
 kernels:

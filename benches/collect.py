@@ -53,10 +53,16 @@ def main():
     parser.add_argument("--criterion", type=Path, default=ROOT / "target" / "criterion")
     parser.add_argument("--since", type=float, default=0.0)
     parser.add_argument("--output", type=Path, default=OUTPUT)
+    parser.add_argument("--keep", action="store_true", help="keep the rows of the file that were not measured anew")
     arguments = parser.parse_args()
     found = sorted(rows(arguments.criterion, arguments.since), key=by_number)
     if not found:
         parser.exit(1, f"no measurement in {arguments.criterion}: run `cargo bench` first\n")
+    if arguments.keep:
+        ids = {tuple(row[key] for key in ("task", "size", "engine")) for row in found}
+        with open(arguments.output, encoding="utf-8") as file:
+            found += [row for row in csv.DictReader(file) if (row["task"], row["size"], row["engine"]) not in ids]
+        found.sort(key=by_number)
     with open(arguments.output, "w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, found[0], lineterminator="\n")
         writer.writeheader()

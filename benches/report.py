@@ -1,6 +1,6 @@
-"""What was measured, as pages: docs/performance.md, docs/performance.png and the table of the README.
+"""What was measured, as pages: the end of docs/speed.md, docs/performance.png and the tables of the README.
 
-    python benches/report.py          `make report`, from docs/data/bench.csv, work-precision.csv and stress.csv
+    python benches/report.py          `make report`, from docs/data/bench.csv, work-precision.csv, stress.csv and scenes.csv
 
 Nothing is measured here. Where a rival is faster at the same error, the tables say so.
 """
@@ -92,7 +92,9 @@ def by_task(rows):
             found = [cells.get((size, engine)) for engine in engines]
             counted = max(int(row["elements"]) for row in found if row)
             lines.append([size, f"{counted:,}" if counted > 1 else "", *(duration(row["element_ns"]) if row else "" for row in found)])
-        parts.append(f"### {task}\n\n" + table([task, "elements", *(engine or "time" for engine in engines)], lines))
+        # A task that was measured apart says when and on what.
+        apart = "" if machine(here) == machine(rows) else f"{machine(here)}\n\n"
+        parts.append(f"### {task}\n\n{apart}" + table([task, "elements", *(engine or "time" for engine in engines)], lines))
     return "\n\n".join(parts)
 
 
@@ -116,8 +118,19 @@ def at_equal_error(rows):
     return table(["scene", "error [rad]", *(f"{engine} [ms]" for engine in CURVES), "fastest"], lines)
 
 
-def summary(bench, precision, stress):
-    """The table of the README."""
+def by_scene(scenes):
+    """A row a scene: the error and the time of a sample, in closed form and by the series where they serve."""
+    found = {(row["scene"], row["method"]): row for row in scenes}
+    lines = []
+    for scene in dict.fromkeys(row["scene"] for row in scenes):
+        closed, series = found[scene, "closed"], found.get((scene, "series"))
+        cells = [series[column] for column in ("order", "error", "sample_ns")] if series else ["–"] * 3
+        lines.append([scene, closed["separatrix_ratio"], closed["error"], closed["sample_ns"], *cells])
+    return table(["scene", "σ/σ_sep", "closed form: error [rad]", "ns/sample", "series: order", "error [rad]", "ns/sample"], lines)
+
+
+def by_work(bench, precision, stress):
+    """What each kind of work takes, and the error over all random scenes."""
     ids = {(row["task"], row["size"], row["engine"]): row for row in bench}
 
     def of(task, size, engine):
@@ -133,10 +146,22 @@ def summary(bench, precision, stress):
         ["exact normal form, order 10 / 30 / 50", " / ".join(of("normalize", f"order-{n}", "energy") for n in (10, 30, 50))],
         ["set-up of a motion, closed form / series of order 20", f"{of('set-up', 'body-new-tolerance-1e-12', 'closed')} / {of('set-up', 'body-new-order-20', 'series')}"],
         ["a sample of attitude and rates, even / uneven times", f"{of('skip', 'times-uniform', 'closed')} / {of('skip', 'outputs-attitudes-and-rates', 'closed')}"],
+        ["gravity gradient, 1,000 rotations: set-up / a sample", f"{of('gradient-solve', 'ellipse-full', 'spin')} / {of('gradient-evaluate', 'ellipse-full', 'spin')}"],
         ["against SciPy's closed form, calls from Python", f"{min(ratios):.3g} to {max(ratios):.3g} times as fast"],
         [f"attitude error, {total:,} random scenes: largest q99.9 of a regime / maximum", f"{max(float(r['q99.9']) for r in attitude):.1e} / {max(float(r['max']) for r in attitude):.1e} rad"],
     ]
-    return "Measured by `make bench report stress`: [speed](docs/performance.md), [accuracy](docs/accuracy.md).\n\n" + table(["what", "measured"], lines)
+    return table(["what", "measured"], lines)
+
+
+def summary(bench, precision, stress, scenes):
+    """The tables of the README: by scene, and by kind of work."""
+    return "\n\n".join(
+        [
+            "Written by `make report` from what `python examples/demo.py --record`, `make bench` and `make stress` measured; all of it: [accuracy](docs/accuracy.md), [speed](docs/speed.md).",
+            by_scene(scenes),
+            by_work(bench, precision, stress),
+        ]
+    )
 
 
 def between(path, text):
@@ -160,9 +185,9 @@ def main():
             by_task(bench),
         ]
     )
-    between(ROOT / "docs" / "performance.md", page)
-    between(ROOT / "README.md", summary(bench, precision, stress))
-    print("docs/performance.md, docs/performance.png, README.md")
+    between(ROOT / "docs" / "speed.md", page)
+    between(ROOT / "README.md", summary(bench, precision, stress, read("scenes")))
+    print("docs/speed.md, docs/performance.png, README.md")
 
 
 if __name__ == "__main__":

@@ -8,8 +8,8 @@ against a numerical integration, tests/reference/gravity_gradient.py),
 the error bound that the plan promised, and the time of one sample in calls with 100,000 even times. Exit status 1 if a scene fails or its
 error exceeds its bound.
 
-With --record the figures are also written to the table of README.md, to docs/data/scenes.csv and, those of a measured `Ensemble`, to docs/data/ensemble.csv, which the pages of the
-documentation are made from.
+With --record the figures are also written to docs/data/scenes.csv and, those of a measured `Ensemble`, to docs/data/ensemble.csv, which the pages of the documentation and, by
+`make report`, the tables of the README are made from.
 """
 
 import csv
@@ -162,11 +162,8 @@ def ensemble_seconds(threads: int) -> float:
 
 
 def record(table: Sequence[Sequence[str]], root: Path = ROOT) -> None:
-    """The table of the README, and the figures of the pages of accuracy and speed."""
-    data, readme = root / "docs" / "data", root / "README.md"
-    text = readme.read_text(encoding="utf-8")
-    start = text.index(f"| {' | '.join(HEADER)} |")
-    readme.write_text(text[:start] + markdown(table) + text[text.index("\n\n", start) + 1 :], encoding="utf-8")
+    """The figures of the README and of the pages of accuracy and speed."""
+    data = root / "docs" / "data"
     with (data / "scenes.csv").open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["scene", "mode", "method", "separatrix_ratio", "order", "harmonics", "error", "bound", "sample_ns"])

@@ -178,6 +178,14 @@ fn skip(c: &mut Criterion) {
             assert_eq!(rates[SAMPLES - 1], <[f64; 3]>::from(size));
         });
     });
+    let mut variables = vec![[0.0; 6]; SAMPLES];
+    let last = whole.andoyer(uneven[SAMPLES - 1]).expect("a finite time");
+    group.bench_function("outputs-andoyer-variables/closed", |b| {
+        b.iter(|| {
+            whole.andoyer_into(black_box(&uneven), &mut variables).expect("finite times");
+            assert!(variables[SAMPLES - 1].iter().zip(last).all(|(one, other)| (one - other).abs() < 1e-12));
+        });
+    });
     let state = || State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.4, 0.6, 0.9]).expect("a state");
     let of = |moments| Scene::new(Body::new(moments).expect("a body"), state());
     let kinds = [

@@ -1,4 +1,4 @@
-//! What the benchmarks share. Ids are `task/order-N/engine`; each closure asserts its answer.
+//! What the benchmarks share. Ids are `task/size/engine`; each closure asserts its answer.
 
 use std::time::Duration;
 

@@ -13,7 +13,7 @@ from browser import CHROMEDRIVER, Browser
 SITE = Path(__file__).resolve().parents[2] / "target" / "site"
 PAGES = sorted(str(path.relative_to(SITE)) for path in SITE.rglob("*.html") if "rust" not in path.parts and "_static" not in path.parts)
 WITH_EQUATIONS = {"theory.html": 12, "errata.html": 4}
-WITH_PICTURES = {"gallery/index.html": 6, "speed.html": 1, "series-or-closed.html": 1} | {
+WITH_PICTURES = {"gallery/index.html": 6, "speed.html": 2, "series-or-closed.html": 1} | {
     page: 1 for page in PAGES if page.startswith("gallery/plot_")
 }
 
