@@ -96,6 +96,8 @@ pub(crate) struct Corrections {
     pub(crate) size: f64,
     /// Number of terms that are kept.
     pub(crate) count: usize,
+    /// The largest that is not, or what is left of one that is \[rad\].
+    pub(crate) neglected: f64,
 }
 
 /// One (h, m) before it is known whether it is kept.
@@ -139,11 +141,12 @@ impl Corrections {
         // A change of the mean M makes the phases drift.
         let growth = 1.0 + inertia.rates[1].to_f64() * duration;
         let nothing = (0.01 * demand.tolerance / growth).max(demand.share * size * size);
-        let (mut rest, mut count, mut most_orders) = (0.0, 0, 0);
+        let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
         for candidate in regular {
             if candidate.size() <= nothing {
                 dropped += growth * candidate.size();
+                neglected = neglected.max(candidate.size());
                 continue;
             }
             let most = if level == Level::Paper { 1 } else { ORDERS };
@@ -152,6 +155,7 @@ impl Corrections {
             let enough = (1..most).find(|&orders| left(orders) <= nothing);
             let orders = enough.unwrap_or(most);
             rest += growth * left(orders);
+            neglected = neglected.max(left(orders));
             count += 1;
             most_orders = most_orders.max(orders);
             candidate.join(&mut harmonics[candidate.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2
@@ -165,7 +169,7 @@ impl Corrections {
             root: inertia.sigma.sqrt(),
             momentum: inertia.momentum,
         };
-        Ok(Self { generator, dropped, rest, size, count })
+        Ok(Self { generator, dropped, rest, size, count, neglected })
     }
 
     /// The changes from mean to osculating variables, for |p| = √σ.

@@ -5,6 +5,7 @@
 //! small is [`Error::Resonance`]. What is left is of second order in the torque, and grows with time.
 
 mod corrections;
+mod evaluate;
 mod generator;
 mod inertia;
 mod level;
@@ -21,18 +22,16 @@ use std::str::FromStr;
 use andoyer_series::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion};
 use num_complex::Complex;
-use pulp::NullaryFnOnce;
 
 use crate::error::Error;
 use crate::kernel::lanes::Lanes;
-use crate::kernel::level::{Level as Instructions, Task, dispatch};
-use crate::kernel::plane::{Plane, Turns};
-use crate::orbit::{Orbit, Place};
-use crate::phase::{Phase, elapsed};
+use crate::orbit::Orbit;
+use crate::phase::Phase;
 use crate::plan::GradientPlan;
 use crate::polhode::{Frame, Polhode, scaled};
 use corrections::{Change, Corrections, Demand, Mean, SHARE, second_order};
-use inertia::{HIGHEST, Harmonics, Inertia};
+use evaluate::{Powers, when};
+use inertia::Inertia;
 use slow::{Ellipse, MOST_QUARTERS, Precession, Slow, Spin, When};
 
 type C64 = Complex<f64>;
@@ -41,8 +40,6 @@ type C64 = Complex<f64>;
 const CONVERGED: f64 = 1e-15;
 /// Steps to the mean variables.
 const MOST_STEPS: usize = 12;
-/// A harmonic of a or b below this turns nothing \[rad\].
-const NEGLIGIBLE: f64 = 1e-18;
 /// Torque over M²/C above which an expansion in it has no first order.
 pub(crate) const STRONGEST: f64 = 0.02;
 
@@ -102,18 +99,6 @@ pub(crate) struct Gradient {
     /// Units of the motion: of rate and angular momentum over the user's.
     units: [f64; 2],
     pub(crate) error: f64,
-}
-
-/// Time since the epoch, with its rounding error.
-type Elapsed<S> = (Lanes<S>, Lanes<S>);
-
-/// Osculating variables at some times: p, the circle of y′/2, M, and the invariable frame, but for its norm.
-#[derive(Clone, Copy)]
-struct State<S: Instructions> {
-    p: Plane<S>,
-    half: Plane<S>,
-    momentum: Lanes<S>,
-    frame: Turns<S>,
 }
 
 /// What is asked of the perturbed motion.
@@ -184,7 +169,7 @@ impl Gradient {
             + corrections.dropped
             + 2.0 * corrections.rest;
         let slow = if by_orbit {
-            Slow::Orbit(Precession::new(ellipse, mean.frame, &start.place, scaled(1.0, exponent)))
+            Slow::Orbit(Box::new(Precession::new(ellipse, mean.frame, &start.place, scaled(1.0, exponent))))
         } else {
             Slow::Spin(Box::new(Spin::new(ellipse, mean.frame, &start)))
         };
@@ -234,6 +219,7 @@ impl Gradient {
             level: self.level,
             terms: self.corrections.count,
             size: self.corrections.size,
+            neglected: self.corrections.neglected.max(self.corrections.size * self.corrections.size),
         }
     }
 
@@ -249,173 +235,6 @@ impl Gradient {
         }
         skipped
     }
-
-    /// The motion at times after the epoch, in osculating variables: compiled by itself, once for each instruction set.
-    #[inline(always)]
-    fn state<S: Instructions>(&self, elapsed: Elapsed<S>) -> State<S> {
-        elapsed.0.simd().vectorize(At { gradient: self, elapsed })
-    }
-
-    #[inline(always)]
-    fn osculating<S: Instructions>(&self, elapsed: Elapsed<S>) -> State<S> {
-        let all = |value: f64| elapsed.0.all(value);
-        let when = when(&self.mean_anomaly, elapsed, self.eccentricity);
-        let (frame, phase) = self.slow.at(&when, elapsed);
-        let plane = |(im, re): (Lanes<S>, Lanes<S>)| Plane { re, im };
-        let turn = plane(self.anomaly.sin_cos_beyond(elapsed, phase * all(self.drifts[0] / TAU)));
-        let half = plane(self.half_longitude.sin_cos_beyond(elapsed, phase * all(0.5 * self.drifts[1] / TAU)));
-        let change = self.corrections.generator.at(&generator::Mean { turn, spin: half * half, frame }, &when.place);
-        let relative = Plane { re: change.p.re + all(self.root), im: change.p.im };
-        let [x, y] = change.rotation;
-        let zero = all(0.0);
-        State {
-            p: turn * relative,
-            half: half * small_turn(all(0.5) * change.longitude),
-            momentum: change.momentum + all(self.inertia.momentum),
-            frame: frame * Turns([all(0.5) * x, all(0.5) * y, zero, all(1.0)]),
-        }
-    }
-
-    /// Attitude and rates at times after the epoch, as far as they are asked for.
-    #[inline(always)]
-    pub(crate) fn evaluate<S: Instructions, const ATTITUDE: bool, const RATES: bool>(
-        &self,
-        elapsed: Elapsed<S>,
-    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
-        let state = self.state(elapsed);
-        let relative = self.relative(&state);
-        let zero = elapsed.0.all(0.0);
-        let mut rates = [zero; 3];
-        if RATES {
-            let body = relative.rows()[2];
-            for i in 0..3 {
-                let factor = self.frame.signs[i] * self.units[0] / self.moments[i];
-                rates[self.frame.axes[i]] = state.momentum * body[i] * zero.all(factor);
-            }
-        }
-        let mut attitude = [zero; 4];
-        if ATTITUDE {
-            let turned = state.frame * relative * Turns::all(zero, &self.frame.quaternion);
-            attitude = turned.normalized().0;
-        }
-        (attitude, rates)
-    }
-
-    /// The angular momenta, inertial components, at times from an epoch.
-    pub(crate) fn angular_momenta(&self, times: &[f64], epoch: f64, out: &mut [[f64; 3]]) {
-        dispatch(pulp::Arch::new(), Momenta { gradient: self, times, epoch, out });
-    }
-
-    /// The quaternion of theory §8 of a state near the mean one.
-    #[inline(always)]
-    fn relative<S: Instructions>(&self, state: &State<S>) -> Turns<S> {
-        let State { p, half, .. } = *state;
-        let beyond = p.re.mul_add(p.re, p.im.mul_add(p.im, p.re.all(-self.inertia.sigma)));
-        let square = p * p;
-        let [[a, a_bar], [b, b_bar]] = [self.pair[0].at(square, beyond), self.pair[1].at(square, beyond)];
-        let a = a.plus(a_bar, square.conjugate()) * half;
-        let b = (b * p).plus(b_bar, p.conjugate()) * half;
-        Turns([b.re, b.im, a.im, a.re]).normalized()
-    }
-}
-
-/// [`Gradient::state`] as a function of its own.
-struct At<'a, S: Instructions> {
-    gradient: &'a Gradient,
-    elapsed: Elapsed<S>,
-}
-
-impl<S: Instructions> NullaryFnOnce for At<'_, S> {
-    type Output = State<S>;
-
-    #[inline(always)]
-    fn call(self) -> State<S> {
-        self.gradient.osculating(self.elapsed)
-    }
-}
-
-/// e^(ix) for |x| ≤ 0.05, to 2e-17.
-#[inline(always)]
-fn small_turn<S: Instructions>(x: Lanes<S>) -> Plane<S> {
-    let square = x * x;
-    let series = |coefficients: &[f64]| square.polynomial(coefficients);
-    Plane {
-        re: series(&[1.0, -1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40320.0]),
-        im: x * series(&[1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0]),
-    }
-}
-
-/// Angular momenta at many times.
-struct Momenta<'a> {
-    gradient: &'a Gradient,
-    times: &'a [f64],
-    epoch: f64,
-    out: &'a mut [[f64; 3]],
-}
-
-impl Task for Momenta<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Instructions>(self, simd: S) {
-        let epoch = Lanes::splat(simd, self.epoch);
-        let width = Lanes::<S>::WIDTH;
-        for (times, rows) in self.times.chunks(width).zip(self.out.chunks_mut(width)) {
-            let state = self.gradient.state(elapsed(Lanes::load(simd, times), epoch));
-            let matrix = state.frame.normalized().rows();
-            let size = state.momentum * epoch.all(self.gradient.units[1]);
-            for c in 0..3 {
-                for (row, value) in rows.iter_mut().zip((matrix[c][2] * size).values()) {
-                    row[c] = *value;
-                }
-            }
-        }
-    }
-}
-
-/// The harmonics of a or b that are not nothing, with their slopes, as polynomials in p² and p̄²: the first with h ≥ 0, the second with h < 0.
-#[derive(Clone, Debug)]
-struct Powers([Vec<[f64; 2]>; 2]);
-
-impl Powers {
-    fn new(series: &Harmonics, root: f64) -> Self {
-        let odd = series.values[HIGHEST] == 0.0;
-        let side = |first: usize, sign: i32| {
-            let mut terms: Vec<(i32, [f64; 2])> = (first..=HIGHEST)
-                .step_by(2)
-                .map(|h| sign * h as i32)
-                .map(|h| (h.abs(), <[f64; 2]>::from(series.at(h))))
-                .collect();
-            while let Some((degree, [value, slope])) = terms.last()
-                && root.powi(*degree) * (value.abs() + slope.abs() * root * root) < NEGLIGIBLE
-            {
-                terms.pop();
-            }
-            terms.into_iter().map(|(_, pair)| pair).collect()
-        };
-        if odd { Self([side(1, 1), side(1, -1)]) } else { Self([side(0, 1), side(2, -1)]) }
-    }
-
-    /// Their sums, to be multiplied with what they lack of p and p̄.
-    #[inline(always)]
-    fn at<S: Instructions>(&self, square: Plane<S>, beyond: Lanes<S>) -> [Plane<S>; 2] {
-        let zero = beyond.all(0.0);
-        let mut sums = [Plane { re: zero, im: zero }; 2];
-        for ((sum, terms), by) in sums.iter_mut().zip(&self.0).zip([square, square.conjugate()]) {
-            for [value, slope] in terms.iter().rev() {
-                let factor = Plane { re: beyond.mul_add(zero.all(*slope), zero.all(*value)), im: zero };
-                *sum = factor.plus(*sum, by);
-            }
-        }
-        sums
-    }
-}
-
-/// Where the disturbing body is at times after the epoch.
-#[inline(always)]
-fn when<S: Instructions>(mean_anomaly: &Phase, elapsed: Elapsed<S>, eccentricity: f64) -> When<S> {
-    let (turns, angle) = mean_anomaly.turns_and_angle(elapsed);
-    When { turns, place: Place::of(angle, eccentricity) }
 }
 
 /// The frame of theory §8 at a state: axis 3 along the angular momentum, y = 0.

@@ -60,7 +60,7 @@ pub(crate) enum Slow {
     /// Averaged over the rotation alone.
     Spin(Box<Spin>),
     /// Averaged over the orbit too.
-    Orbit(Precession),
+    Orbit(Box<Precession>),
 }
 
 impl Slow {
