@@ -9,6 +9,7 @@ mod evaluate;
 mod generator;
 mod inertia;
 mod level;
+mod resonance;
 mod slow;
 #[cfg(test)]
 mod tests;
@@ -20,7 +21,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use andoyer_series::DoubleDouble;
-use nalgebra::{Quaternion, UnitQuaternion};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use num_complex::Complex;
 
 use crate::error::Error;
@@ -38,10 +39,14 @@ type C64 = Complex<f64>;
 
 /// Changes of the mean variables below which they are converged.
 const CONVERGED: f64 = 1e-15;
+/// And below which that is all that can be had.
+const NEARLY_CONVERGED: f64 = 1e-13;
 /// Steps to the mean variables.
 const MOST_STEPS: usize = 12;
 /// Torque over M²/C above which an expansion in it has no first order.
 pub(crate) const STRONGEST: f64 = 0.02;
+/// Orbits on each side of the epoch that quarters are kept for.
+const MOST_ORBITS: f64 = (MOST_QUARTERS / 4 - 2) as f64;
 
 /// How far the equations are averaged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -93,6 +98,8 @@ pub(crate) struct Gradient {
     root: f64,
     /// J times these is added to ℓ′ and y′.
     drifts: [f64; 2],
+    /// What they add to the rates in the orbit average, in the user's unit.
+    secular: [f64; 2],
     frame: Frame,
     moments: [f64; 3],
     level: Level,
@@ -111,6 +118,8 @@ pub(crate) struct Request<'a> {
     pub(crate) epoch: f64,
     /// Longest time from the epoch, in the user's unit.
     pub(crate) duration: f64,
+    /// Whether the scene asks for it.
+    pub(crate) spanned: bool,
 }
 
 impl Gradient {
@@ -123,14 +132,13 @@ impl Gradient {
     ) -> Result<Self, Error> {
         let exponent = polhode.scales.1;
         let orbit = request.orbit;
+        orbit.within_reach(request.epoch)?;
         let mean_motion = scaled(orbit.mean_motion(), -exponent);
         let momentum = polhode.momentum.to_f64();
-        let [_, _, third] = polhode.moments;
         let duration = scaled(request.duration, exponent);
         let demand =
             Demand { orbit, mean_motion, level: request.level, tolerance: request.tolerance, duration, share: SHARE };
-        let size = 1.5 * (mean_motion / (momentum / third)).powi(2) * orbit.disturbing_fraction()
-            / (1.0 - orbit.eccentricity()).powi(3);
+        let size = strongest_torque(polhode, orbit, mean_motion / momentum);
         if size > STRONGEST {
             // A resonance is the better reason, if it is one.
             Corrections::new(&Inertia::new(polhode, osculating.0, momentum), &demand)?;
@@ -140,12 +148,8 @@ impl Gradient {
         let none = Lanes::splat(pulp::Scalar, 0.0);
         let start = when(&mean_anomaly, (none, none), orbit.eccentricity());
         let (sigma, [anomaly, longitude]) = osculating;
-        let state = Mean {
-            p: C64::from_polar(sigma.sqrt(), anomaly),
-            longitude,
-            momentum,
-            frame: invariable_frame(polhode, attitude),
-        };
+        let p = C64::from_polar(sigma.sqrt(), anomaly);
+        let state = Mean { p, longitude, momentum, frame: invariable_frame(polhode, attitude) };
         let MeanMotion { mean, change, inertia, corrections } = mean_motion_of(polhode, &state, &start, &demand)?;
         let (axial, axial_slope) = request.level.axial(&inertia);
         let fraction = orbit.disturbing_fraction();
@@ -153,37 +157,30 @@ impl Gradient {
         let ellipse = Ellipse::new(orbit, mean_motion, delta / mean.momentum);
         // Rates are proportional to M, which as a double would leave 1e-16 of the phases.
         let precise = (polhode.momentum - change.momentum.into()) / mean.momentum.into();
-        let [anomaly_rate, longitude_rate] = inertia.rates.map(|rate| rate * precise);
-        let budget = Budget {
-            spin: second_order(corrections.size, &inertia, duration),
-            strength: ellipse.strength(),
-            orbital: mean_motion * duration,
-        };
-        let by_orbit = match request.averaging {
-            Averaging::Orbit => true,
-            Averaging::Spin => false,
-            Averaging::Auto => budget.of_the_orbit() <= request.tolerance,
-        };
-        let error = budget.spin
-            + if by_orbit { budget.of_the_orbit() } else { 0.0 }
-            + corrections.dropped
-            + 2.0 * corrections.rest;
+        let rates = inertia.rates.map(|rate| rate * precise);
+        let budget = Budget::new(&corrections, &inertia, ellipse.strength(), mean_motion, duration);
+        let by_orbit = budget.by_orbit(request)?;
+        let error = budget.error(by_orbit);
+        let unit = scaled(1.0, exponent);
+        let secular = ellipse.secular(&(mean.frame * Vector3::z())) * unit;
         let slow = if by_orbit {
-            Slow::Orbit(Box::new(Precession::new(ellipse, mean.frame, &start.place, scaled(1.0, exponent))))
+            Slow::Orbit(Box::new(Precession::new(ellipse, mean.frame, &start.place, unit)))
         } else {
             Slow::Spin(Box::new(Spin::new(ellipse, mean.frame, &start)))
         };
         // ⟨D⟩ = −½ (dJ/dt) Δ: its derivatives with respect to L and M at fixed L.
         let slope = -0.5 * 1.5 * axial_slope * fraction / mean.momentum;
-        let user =
-            |rate: DoubleDouble| DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) };
+        let [anomaly_rate, longitude_rate] =
+            rates.map(|rate| DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) });
+        let drifts = [slope, -slope * inertia.sigma];
         Ok(Self {
-            anomaly: Phase::new(user(anomaly_rate), mean.p.arg()),
-            half_longitude: Phase::new(user(longitude_rate) * 0.5.into(), 0.5 * mean.longitude),
+            anomaly: Phase::new(anomaly_rate, mean.p.arg()),
+            half_longitude: Phase::new(longitude_rate * 0.5.into(), 0.5 * mean.longitude),
             mean_anomaly,
             eccentricity: orbit.eccentricity(),
             root: mean.p.norm(),
-            drifts: [slope, -slope * inertia.sigma],
+            drifts,
+            secular: drifts.map(|drift| drift * secular),
             pair: inertia.pair.each_ref().map(|series| Powers::new(series, inertia.sigma.sqrt())),
             inertia,
             corrections,
@@ -191,20 +188,21 @@ impl Gradient {
             frame: polhode.frame.clone(),
             moments: polhode.moments,
             level: request.level,
-            units: [scaled(1.0, exponent), polhode.user_momentum() / momentum],
+            units: [unit, polhode.user_momentum() / momentum],
             error,
         })
     }
 
-    /// Mean rates of ℓ′ and y′ in the user's unit.
+    /// Mean rates of ℓ′ and y′ in the user's unit, y′ from an axis that turns with the angular momentum and not about it.
     pub(crate) fn frequencies(&self) -> [f64; 2] {
-        [self.anomaly.frequency() * TAU, 2.0 * self.half_longitude.frequency() * TAU]
+        let [anomaly, longitude] = self.secular;
+        [self.anomaly.frequency() * TAU + anomaly, 2.0 * self.half_longitude.frequency() * TAU + longitude]
     }
 
     /// The longest time from the epoch that quarters are kept for, in the user's unit.
     pub(crate) fn bound(&self) -> f64 {
         match self.slow {
-            Slow::Spin(_) => (MOST_QUARTERS / 4 - 2) as f64 / self.mean_anomaly.frequency(),
+            Slow::Spin(_) => MOST_ORBITS / self.mean_anomaly.frequency(),
             Slow::Orbit(_) => f64::INFINITY,
         }
     }
@@ -272,26 +270,69 @@ fn mean_motion_of(
             + (next.longitude - mean.longitude).abs()
             + (next.momentum / mean.momentum - 1.0).abs()
             + next.frame.angle_to(&mean.frame);
-        if moved <= CONVERGED || step == MOST_STEPS {
+        if moved <= CONVERGED {
             return Ok(MeanMotion { mean, change, inertia, corrections });
+        }
+        if step == MOST_STEPS {
+            // Rounding of large corrections may keep it from standing still; what does not come near has no mean motion.
+            let size = corrections.size;
+            let near = moved <= NEARLY_CONVERGED;
+            return if near {
+                Ok(MeanMotion { mean, change, inertia, corrections })
+            } else {
+                Err(Error::TorqueTooStrong { size, bound: STRONGEST })
+            };
         }
         (mean, change) = (next, next_change);
         step += 1;
     }
 }
 
-/// What second order leaves.
+/// 3n²C²/2M² at the pericentre, C the greatest moment, times the mass fraction, from n/M.
+fn strongest_torque(polhode: &Polhode, orbit: &Orbit, rate: f64) -> f64 {
+    let greatest = polhode.moments.iter().fold(0.0_f64, |most, moment| most.max(*moment));
+    1.5 * (rate * greatest).powi(2) * orbit.disturbing_fraction() / (1.0 - orbit.eccentricity()).powi(3)
+}
+
+/// What is left of the attitude \[rad\].
 struct Budget {
-    /// Of the average over the rotation.
+    /// By the average over the rotation.
     spin: f64,
-    strength: f64,
-    /// Radians of the orbit.
-    orbital: f64,
+    /// By the average over the orbit.
+    orbit: f64,
+    /// By dropped terms.
+    dropped: f64,
+    /// By σ as a double in the phases.
+    rounding: f64,
+    /// Orbits from the epoch.
+    orbits: f64,
 }
 
 impl Budget {
-    /// Of the average over the orbit.
-    fn of_the_orbit(&self) -> f64 {
-        self.strength.powi(2) * (1.0 + self.orbital)
+    fn new(corrections: &Corrections, inertia: &Inertia, strength: f64, mean_motion: f64, duration: f64) -> Self {
+        let [anomaly, longitude] = inertia.rate_slopes;
+        let orbital = mean_motion * duration;
+        Self {
+            spin: second_order(corrections.size, inertia, duration),
+            orbit: strength.powi(2) * (1.0 + orbital),
+            dropped: corrections.dropped + 2.0 * corrections.rest,
+            rounding: 4.0 * f64::EPSILON * inertia.sigma * (anomaly.abs() + longitude.abs()) * duration,
+            orbits: orbital / TAU,
+        }
+    }
+
+    /// Whether the equations are averaged over the orbit too.
+    fn by_orbit(&self, request: &Request<'_>) -> Result<bool, Error> {
+        let too_far = request.spanned && self.orbits > MOST_ORBITS;
+        match request.averaging {
+            Averaging::Orbit => Ok(true),
+            Averaging::Auto => Ok(self.orbit <= request.tolerance || too_far),
+            Averaging::Spin if too_far => Err(Error::TooManyOrbits { orbits: self.orbits, bound: MOST_ORBITS }),
+            Averaging::Spin => Ok(false),
+        }
+    }
+
+    fn error(&self, by_orbit: bool) -> f64 {
+        self.spin + self.dropped + self.rounding + if by_orbit { self.orbit } else { 0.0 }
     }
 }

@@ -50,6 +50,7 @@ impl Case {
             tolerance: 1e-12,
             epoch: state.epoch,
             duration: 1.0,
+            spanned: true,
         };
         let (_, osculating) = crate::solution::osculating(&polhode).expect("no separatrix");
         let gradient = Gradient::new(&polhode, state.attitude, osculating, &request).expect("averaged");
