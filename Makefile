@@ -6,7 +6,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv minimal-versions parallel rivals rivals-normal-form rivals-propagation rivals-gradient docs docs-test package wheel clean kernels
+.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv minimal-versions parallel rivals rivals-normal-form rivals-propagation rivals-gradient gravity docs docs-test package wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -84,6 +84,13 @@ parallel: $(VENV)/installed  ## the wheel's tests of objects, each on eight thre
 
 sweep: $(VENV)/installed  ## series against closed form by order, σ/σ_sep and β: docs/data/sweep.csv, picture and table of its page; a minute
 	$(BIN)/python examples/sweep.py
+
+gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory leaves, against integrations: docs/data/gravity-*.csv and their picture; two minutes
+	cargo build --release --quiet --package andoyer-tests --bin gradient
+	target/release/gradient cases > docs/data/gravity-cases.csv
+	target/release/gradient levels > docs/data/gravity-levels.csv
+	target/release/gradient bounds 300 1 > docs/data/gravity-bounds.csv
+	$(BIN)/python examples/gravity.py
 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes
 	$(BIN)/python examples/bounds.py

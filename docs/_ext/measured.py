@@ -87,8 +87,29 @@ def ensemble() -> list[str]:
     return markdown(["bodies", "epochs each", "threads", "seconds", "ns a body-epoch", "seconds for 1e9 body-epochs"], rows)
 
 
+def gravity_cases() -> list[str]:
+    """What each level leaves of the torque's effect in the reference cases."""
+    header = ["case", "n/spin", "e", "effect of the torque [rad]", "paper", "moving", "full", "error of full [rad]", "bound [rad]"]
+    names = ["case", "n_over_spin", "e", "effect_rad", "paper", "moving", "full", "full_error_rad", "bound_rad"]
+    return markdown(header, ([row[name] for name in names] for row in read("gravity-cases.csv")))
+
+
+def gravity_bounds() -> list[str]:
+    """Error over bound in random scenes, by averaging."""
+    rows = []
+    for averaging in ("spin", "orbit"):
+        motions = [row for row in read("gravity-bounds.csv") if row["averaging"] == averaging]
+        shares = sorted(float(row["error"]) / float(row["bound"]) for row in motions)
+        errors = [float(row["error"]) / float(row["torque"]) for row in motions]
+        figures = [f"{statistics.median(shares):.3f}", f"{shares[-1]:.2f}", f"{statistics.median(errors):.1e}"]
+        rows.append([averaging, str(len(motions)), *figures])
+    return markdown(["averaged over", "motions", "error / bound, median", "largest", "error / torque, median"], rows)
+
+
 TABLES: dict[str, Callable[[], list[str]]] = {
     "ensemble": ensemble,
+    "gravity-bounds": gravity_bounds,
+    "gravity-cases": gravity_cases,
     "scenes-accuracy": scenes_accuracy,
     "scenes-speed": scenes_speed,
     "sweep-accuracy": sweep_accuracy,

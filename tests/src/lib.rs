@@ -2,6 +2,7 @@
 
 pub mod integration;
 
+use andoyer_propagate::Orbit;
 use serde_json::Value;
 
 /// A reference solution: a body, its state at t = 0, and what multiple precision says of later times.
@@ -26,6 +27,22 @@ pub struct Case {
 pub fn cases(text: &str) -> Vec<Case> {
     let file: Value = serde_json::from_str(text).expect("the reference file is JSON");
     file.as_array().expect("a list of cases").iter().map(case).collect()
+}
+
+/// The orbits of the cases of a gravity-gradient reference.
+///
+/// # Panics
+/// For a text that is no such file.
+pub fn orbits(reference: &str) -> Vec<Orbit> {
+    let file: Value = serde_json::from_str(reference).expect("JSON");
+    let orbit = |case: &Value| {
+        let number = |key: &str| case["orbit"][key].as_f64().expect("a number");
+        Orbit::new(number("mean_motion"), number("eccentricity"))
+            .and_then(|orbit| orbit.plane(0.0, 0.0, number("pericentre_longitude")))
+            .and_then(|orbit| orbit.time_of_pericentre(number("time_of_pericentre")))
+            .expect("an orbit")
+    };
+    file.as_array().expect("cases").iter().map(orbit).collect()
 }
 
 fn case(value: &Value) -> Case {

@@ -55,7 +55,6 @@ fn planets_and_asteroids_precess_at_the_rates_of_theory_9_by_either_average() {
         let orbit = heliocentric(axis, eccentricity);
         let years = 10.0 * axis.powf(1.5);
         let [by_orbit, by_spin] = [Averaging::Orbit, Averaging::Spin].map(|a| spinning.precession(orbit, a, years));
-        println!("{name}: {by_orbit:.5} averaged over the orbit, {by_spin:.5} over the spin");
         // Half of the last digit of the expected rate.
         let budget = if name == "Eros" { 0.04 } else { 0.006 };
         assert!((by_orbit - expected).abs() <= budget, "{name}: {by_orbit}");
@@ -77,6 +76,5 @@ fn sun_and_moon_together_move_the_equinox_by_fifty_arcseconds_a_year() {
         earth.precession(orbit, Averaging::Orbit, 27.321_661 / YEAR)
     });
     let lunar = moon.iter().sum::<f64>() / 4.0;
-    println!("Sun {sun:.4}, Moon {lunar:.4}, together {:.4}", sun + lunar);
     assert!((sun + lunar + 50.3).abs() <= 0.05, "{sun} + {lunar}");
 }

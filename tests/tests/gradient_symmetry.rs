@@ -49,7 +49,6 @@ fn differs(other: impl Fn() -> Scene, shift: f64, map: impl Fn(UnitQuaternion<f6
             largest = largest.max(attitude_error(at(&two, time + shift).coords.into(), expected));
         }
     }
-    println!("{largest:.1e}");
     largest
 }
 
@@ -103,7 +102,6 @@ fn share(moments: [f64; 3], rates: [f64; 3], times: &[f64]) -> f64 {
         let errors = times.iter().zip(&truth).map(|(&t, &(q, _))| attitude_error(at(&motion, t).coords.into(), q));
         errors.fold(0.0, f64::max)
     });
-    println!("{disturbed:.1e} of {free:.1e}");
     disturbed / free
 }
 
@@ -129,7 +127,6 @@ fn a_motion_started_again_from_its_own_state_goes_on_within_both_bounds() {
         .expect("averaged");
     for time in [1234.0, 2000.0, 5000.0] {
         let difference = attitude_error(at(&again, time).coords.into(), at(&motion, time).coords.into());
-        println!("{difference:.1e}, bound {:.1e}", motion.plan().error_bound());
         assert!(difference <= motion.plan().error_bound() + again.plan().error_bound());
     }
     // At its own state it is exact but for what the inversion of the corrections leaves.

@@ -1,22 +1,9 @@
 //! Rotation under the gravity gradient against a numerical integration of the full equations in 80-bit reals (tests/data/README.md).
 
 use andoyer_propagate::{Averaging, Body, Error, Level, Motion, Orbit, Scene, State};
-use andoyer_tests::{Case, attitude_error, cases, difference};
+use andoyer_tests::{Case, attitude_error, cases, difference, orbits};
 
 const REFERENCE: &str = include_str!("../data/gravity_gradient.json");
-
-/// Mean motion and eccentricity of a case.
-fn orbits() -> Vec<Orbit> {
-    let file: serde_json::Value = serde_json::from_str(REFERENCE).expect("JSON");
-    let orbit = |case: &serde_json::Value| {
-        let number = |key: &str| case["orbit"][key].as_f64().expect("a number");
-        Orbit::new(number("mean_motion"), number("eccentricity"))
-            .and_then(|orbit| orbit.plane(0.0, 0.0, number("pericentre_longitude")))
-            .and_then(|orbit| orbit.time_of_pericentre(number("time_of_pericentre")))
-            .expect("an orbit")
-    };
-    file.as_array().expect("cases").iter().map(orbit).collect()
-}
 
 fn free(case: &Case) -> Scene {
     let body = Body::new(case.moments).expect("a body");
@@ -40,7 +27,7 @@ fn share(case: &Case, orbit: &Orbit, level: Level, averaging: Averaging) -> f64 
 
 #[test]
 fn the_full_level_explains_all_but_a_ten_thousandth_of_the_torques_effect() {
-    for (case, orbit) in cases(REFERENCE).iter().zip(orbits()) {
+    for (case, orbit) in cases(REFERENCE).iter().zip(orbits(REFERENCE)) {
         let [paper, moving, full] =
             [Level::Paper, Level::Moving, Level::Full].map(|level| share(case, &orbit, level, Averaging::Spin));
         let shares = format!("{}: paper {paper:.1e}, moving {moving:.1e}, full {full:.1e}", case.name);
@@ -52,7 +39,7 @@ fn the_full_level_explains_all_but_a_ten_thousandth_of_the_torques_effect() {
 
 #[test]
 fn rates_are_those_of_the_integration_and_of_the_angular_momentum() {
-    for (case, orbit) in cases(REFERENCE).iter().zip(orbits()) {
+    for (case, orbit) in cases(REFERENCE).iter().zip(orbits(REFERENCE)) {
         let motion = free(case).orbit(orbit).solve().expect("solved");
         let free_motion = free(case).solve().expect("solved");
         // A phase that is late by an angle changes rates of size 1 by as much.

@@ -156,7 +156,7 @@ pub enum Error {
     },
     /// A rotation so slow, or so near a resonance with its orbit, that no averaging holds.
     #[error(
-        "spin resonance (k−j, m) = ({harmonic}, {multiple}): its frequency is {divisor:.3} times the orbital angular rate at pericentre, and averaging needs more than {bound}"
+        "spin resonance (k−j, m) = ({harmonic}, {multiple}): its frequency is {divisor:.3} times the orbital angular rate at pericentre, and averaging needs more than {bound} or a shorter span"
     )]
     Resonance {
         /// k − j: the multiple of dℓ′/dt.
@@ -169,11 +169,23 @@ pub enum Error {
         bound: f64,
     },
     /// A torque too strong for an expansion in it.
-    #[error("the torque is {size:.3e} of M²/C at pericentre, and an expansion in it needs less than {bound}")]
+    #[error(
+        "the torque, or what it does in a rotation, is {size:.3e} of M²/C at pericentre, and an expansion in it needs less than {bound}"
+    )]
     TorqueTooStrong {
-        /// 3n²C²/2M² at the pericentre.
+        /// 3n²C²/2M² times the mass fraction at the pericentre, or the sum of the short-period corrections \[rad\].
         size: f64,
         /// The bound.
+        bound: f64,
+    },
+    /// A span with more orbits than the averaged equations are solved for.
+    #[error(
+        "averaging = spin: the span has {orbits:.0} orbits on one side of the epoch, and the averaged equations are solved for {bound} at most; averaging over the orbit has no such bound"
+    )]
+    TooManyOrbits {
+        /// Orbits from the epoch to the farther end of the span.
+        orbits: f64,
+        /// The most that are served.
         bound: f64,
     },
     /// A mode of motion that the gravity gradient theory does not serve.

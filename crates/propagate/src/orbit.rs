@@ -14,6 +14,9 @@ use crate::kernel::level::Level;
 use crate::kernel::sincos::{sin_cos_of_turns, twice_arc};
 use crate::phase::Phase;
 
+/// Radians of the mean anomaly beyond which a double has no phase.
+const MOST_TURNS: f64 = TAU * 1e15;
+
 /// A Keplerian orbit of the disturbing body about the rotating one.
 ///
 /// ```
@@ -127,12 +130,18 @@ impl Orbit {
         Phase::new(self.mean_motion.into(), TAU * rest.to_f64())
     }
 
+    /// Whether there is a mean anomaly at an epoch.
+    pub(crate) fn within_reach(&self, epoch: f64) -> Result<(), Error> {
+        let bounded = (epoch - self.time_of_pericentre).abs() * self.mean_motion <= MOST_TURNS;
+        check("time_of_pericentre", self.time_of_pericentre, bounded, "within 1e15 periods of the epoch of the state")
+    }
+
     /// The true anomaly at a time, in (−π, π] \[rad\].
     ///
     /// # Errors
     /// - [`Error::Orbit`] for a time that is NaN, infinite, or more than 1e15 periods from the epoch of the elements.
     pub fn true_anomaly(&self, time: f64) -> Result<f64, Error> {
-        let bounded = (time - self.time_of_pericentre).abs() * self.mean_motion <= TAU * 1e15;
+        let bounded = (time - self.time_of_pericentre).abs() * self.mean_motion <= MOST_TURNS;
         check("time", time, bounded, "finite and within 1e15 periods of the pericentre")?;
         let anomaly = self.mean_anomaly(self.time_of_pericentre).angle((time - self.time_of_pericentre, 0.0));
         Ok(Place::of(Lanes::splat(pulp::Scalar, anomaly), self.eccentricity).angle.values()[0])

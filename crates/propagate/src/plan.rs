@@ -57,6 +57,8 @@ pub(crate) struct GradientPlan {
     pub(crate) terms: usize,
     /// Sum of their sizes \[rad\].
     pub(crate) size: f64,
+    /// The first term that is neglected \[rad\].
+    pub(crate) neglected: f64,
 }
 
 /// The evaluation plan of a motion.
@@ -116,6 +118,11 @@ impl Plan {
         self.gradient.map_or(0.0, |gradient| gradient.size)
     }
 
+    /// The first neglected term under a gravity gradient: of second order in the torque, or a short-period one that was dropped; 0 without an orbit \[rad\].
+    pub fn first_neglected(&self) -> f64 {
+        self.gradient.map_or(0.0, |gradient| gradient.neglected)
+    }
+
     /// What this scene did not need, and why.
     pub fn skipped(&self) -> &[String] {
         &self.skipped
@@ -138,10 +145,11 @@ impl fmt::Display for Plan {
             0 => writeln!(f, "harmonics     –")?,
             harmonics => writeln!(f, "harmonics     {harmonics}")?,
         }
-        if let Some(GradientPlan { averaging, level, terms, size }) = self.gradient {
+        if let Some(GradientPlan { averaging, level, terms, size, neglected }) = self.gradient {
             writeln!(
                 f,
-                "gradient      {level}, averaged over the {averaging}; {terms} short-period terms, together {size:.1e} rad"
+                "gradient      {level}, averaged over the {averaging}; {terms} short-period terms, together {size:.1e} rad, \
+                 first neglected {neglected:.1e}"
             )?;
         }
         write!(f, "error bound   {:.1e} rad", self.error_bound)?;

@@ -302,10 +302,14 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
         tolerance: scene.asked_tolerance(),
         epoch: scene.state().epoch,
         duration: scaled(duration(&scene, rotation, exponent), -exponent),
+        spanned: scene.asked_span().is_some(),
     };
     let gradient = Gradient::new(polhode, scene.state().attitude, osculating, &request)?;
     let [anomaly, longitude] = gradient.frequencies();
     let mut skipped: Vec<String> = unused_order(&scene).into_iter().collect();
+    if scene.asked_method() == Method::Series {
+        skipped.push("series: a scene with an orbit is solved about the closed form".to_owned());
+    }
     skipped.extend(gradient.skipped());
     let plan = Plan {
         mode,

@@ -104,7 +104,9 @@ fn of_kind(error: &Propagation, message: String) -> PyErr {
         Propagation::Order { .. } => OrderError::new_err(message),
         Propagation::Method { .. } => MethodError::new_err(message),
         Propagation::Orbit { .. } => OrbitError::new_err(message),
-        Propagation::Averaging { .. } | Propagation::Unaveraged { .. } => AveragingError::new_err(message),
+        Propagation::Averaging { .. } | Propagation::TooManyOrbits { .. } | Propagation::Unaveraged { .. } => {
+            AveragingError::new_err(message)
+        }
         Propagation::Level { .. } => LevelError::new_err(message),
         Propagation::Resonance { .. } => SpinResonanceError::new_err(message),
         Propagation::TorqueTooStrong { .. } => TorqueError::new_err(message),

@@ -66,6 +66,12 @@ impl Plan {
         self.0.torque()
     }
 
+    /// First neglected term under a gravity gradient, in rad: of second order in the torque, or a short-period one that was dropped; 0 without an orbit.
+    #[getter]
+    fn first_neglected(&self) -> f64 {
+        self.0.first_neglected()
+    }
+
     /// What this scene did not need, and why: a list of str.
     #[getter]
     fn skipped(&self) -> Vec<String> {

@@ -1,13 +1,14 @@
 //! Figures of the gravity-gradient theory against an integration of the full equations, as CSV on standard output.
 //!
+//! `cases`: the share of the torque's effect on the attitude that each level leaves in the reference cases.
 //! `levels`: the share of the torque's effect on the attitude that each level leaves, against J, n/spin, e and B − A, one of them varied at a time.
 //! `bounds N`: the error of N random scenes over the bound that the plan states, for both averagings.
 
 use std::io::{self, Write};
 
 use andoyer_propagate::{Averaging, Body, Error, Level, Motion, Orbit, Scene, State};
-use andoyer_tests::attitude_error;
 use andoyer_tests::integration::Problem;
+use andoyer_tests::{attitude_error, cases, orbits};
 
 /// Samples of a run.
 const SAMPLES: usize = 61;
@@ -59,6 +60,31 @@ impl Run {
     }
 }
 
+fn reference_cases(out: &mut impl Write) -> Result<(), Box<dyn std::error::Error>> {
+    const REFERENCE: &str = include_str!("../../data/gravity_gradient.json");
+    writeln!(out, "case,n_over_spin,e,paper,moving,full,effect_rad,full_error_rad,bound_rad")?;
+    for (case, orbit) in cases(REFERENCE).iter().zip(orbits(REFERENCE)) {
+        let body = Body::new(case.moments)?;
+        let span = case.states.iter().map(|&(time, ..)| time).fold(0.0, f64::max);
+        let scene = Scene::new(body, State::new(0.0, case.attitude, case.angular_velocity)?).span(0.0, span);
+        let error = |motion: &Motion| -> Result<f64, Error> {
+            case.states.iter().try_fold(0.0_f64, |worst, &(time, reference, _)| {
+                Ok(worst.max(attitude_error(motion.at(time)?.attitude.coords.into(), reference)))
+            })
+        };
+        let effect = error(&scene.solve()?)?;
+        let solve = |level| scene.clone().orbit(orbit).level(level).averaging(Averaging::Spin).solve();
+        let [n, e, ..] = orbit.elements();
+        write!(out, "{},{n},{e}", case.name)?;
+        for level in [Level::Paper, Level::Moving, Level::Full] {
+            write!(out, ",{:.1e}", error(&solve(level)?)? / effect)?;
+        }
+        let full = solve(Level::Full)?;
+        writeln!(out, ",{effect:.2e},{:.2e},{:.2e}", error(&full)?, full.plan().error_bound())?;
+    }
+    Ok(())
+}
+
 fn levels(out: &mut impl Write) -> Result<(), Box<dyn std::error::Error>> {
     writeln!(out, "varied,value,paper,moving,full,effect_rad,full_error_rad,bound_rad")?;
     let base = Setting {
@@ -75,7 +101,7 @@ fn levels(out: &mut impl Write) -> Result<(), Box<dyn std::error::Error>> {
     };
     let mut series: Vec<(&str, f64, Setting)> = Vec::new();
     series.extend(logarithmic(1e-4, 0.5, 12).into_iter().map(|v| ("J", v, Setting { tilt: v, ..base })));
-    series.extend(logarithmic(1e-4, 3e-2, 11).into_iter().map(|v| ("n/spin", v, Setting { mean_motion: v, ..base })));
+    series.extend(logarithmic(1e-4, 2e-2, 11).into_iter().map(|v| ("n/spin", v, Setting { mean_motion: v, ..base })));
     series.extend((0..=10).map(|k| 0.05 * f64::from(k)).map(|v| ("e", v, Setting { eccentricity: v, ..base })));
     // A + B is kept.
     series.extend(logarithmic(1e-5, 0.06, 11).into_iter().map(|v| {
@@ -86,6 +112,10 @@ fn levels(out: &mut impl Write) -> Result<(), Box<dyn std::error::Error>> {
         let run = setting.run()?;
         let effect = run.error(&run.scene.solve()?)?;
         let solve = |level| run.scene.clone().orbit(run.orbit).level(level).averaging(Averaging::Spin).solve();
+        // A resonance has no line.
+        if solve(Level::Full).is_err() {
+            continue;
+        }
         write!(out, "{varied},{value:.6e}")?;
         for level in [Level::Paper, Level::Moving, Level::Full] {
             write!(out, ",{:.3e}", run.error(&solve(level)?)? / effect)?;
@@ -137,13 +167,8 @@ fn bounds(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn s
         let setting = setting(&mut random);
         let run = setting.run()?;
         for averaging in [Averaging::Spin, Averaging::Orbit] {
-            let motion = match run.scene.clone().orbit(run.orbit).averaging(averaging).solve() {
-                Ok(motion) => motion,
-                Err(error) => {
-                    writeln!(out, "# {error}")?;
-                    continue;
-                }
-            };
+            // A resonance has no line.
+            let Ok(motion) = run.scene.clone().orbit(run.orbit).averaging(averaging).solve() else { continue };
             let plan = motion.plan();
             let [a, b, _] = setting.moments;
             let kappa =
@@ -170,8 +195,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words[..] {
+        ["cases"] => reference_cases(&mut out),
         ["levels"] => levels(&mut out),
         ["bounds", count, seed] => bounds(&mut out, count.parse()?, seed.parse()?),
-        _ => Err("usage: gradient levels | gradient bounds COUNT SEED".into()),
+        _ => Err("usage: gradient cases | gradient levels | gradient bounds COUNT SEED".into()),
     }
 }

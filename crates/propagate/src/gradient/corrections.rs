@@ -14,7 +14,7 @@
 //! ```
 //!
 //! with y′ counted from an axis that turns with k and not about it. Terms, and derivatives of g, that are smaller than what second order leaves or the tolerance allows are
-//! dropped here. So is a term in resonance, whose effect over the span is no larger; any other is an error.
+//! dropped here. So is a term in resonance, whose effect over the span is no larger; any other is an error ([`super::resonance`]).
 
 use nalgebra::{Quaternion, UnitQuaternion};
 use num_complex::Complex;
@@ -22,6 +22,7 @@ use num_complex::Complex;
 use super::generator::{self, Generator, Harmonic, ORDERS, Orbital};
 use super::inertia::{HIGHEST, Inertia};
 use super::level::Level;
+use super::resonance::Commensurability;
 use crate::error::Error;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::plane::{Plane, Turns};
@@ -30,11 +31,11 @@ use crate::orbit::{Orbit, Place};
 type C64 = Complex<f64>;
 
 /// Ω over the fastest angular rate of twice the true anomaly below which the sum for G does not converge; above it what the sum leaves is part of the error.
-const SMALLEST_RATIO: f64 = 1.5;
+pub(super) const SMALLEST_RATIO: f64 = 1.5;
+/// Sum of the corrections above which they are no first order.
+const LARGEST_SIZE: f64 = 0.05;
 /// [`Demand::share`] of a motion: what second order leaves is 0.003 of its bound in the median, and a few tens of terms may be dropped.
 pub(crate) const SHARE: f64 = 1e-5;
-/// Orbital harmonics that a resonance is named after: the nearest of them, from −3 to 3.
-const ORBITAL_HARMONICS: i32 = 3;
 
 /// What a moment of time has of the mean motion.
 #[derive(Clone, Copy, Debug)]
@@ -96,25 +97,28 @@ pub(crate) struct Corrections {
     pub(crate) size: f64,
     /// Number of terms that are kept.
     pub(crate) count: usize,
+    /// The largest that is not, or what is left of one that is \[rad\].
+    pub(crate) neglected: f64,
 }
 
 /// One (h, m) before it is known whether it is kept.
-struct Candidate {
-    harmonic: i32,
-    multiple: i32,
+pub(super) struct Candidate {
+    pub(super) harmonic: i32,
+    pub(super) multiple: i32,
     /// Real f_h and df_h/dσ, of i t1 for m = 1.
     value: f64,
     slope: f64,
-    frequency: f64,
+    pub(super) frequency: f64,
     /// Rate of the attitude's change \[rad per unit of time\].
-    rate: f64,
+    pub(super) rate: f64,
 }
 
 impl Corrections {
     /// The corrections of a mean motion.
     ///
     /// # Errors
-    /// - [`Error::Resonance`] where Ω is not larger than the bound.
+    /// - [`Error::Resonance`] where a term that no correction serves has an effect.
+    /// - [`Error::TorqueTooStrong`] where the corrections are no small ones.
     pub(crate) fn new(inertia: &Inertia, demand: &Demand<'_>) -> Result<Self, Error> {
         let Demand { orbit, mean_motion, level, duration, .. } = *demand;
         let eccentricity = orbit.eccentricity();
@@ -124,26 +128,22 @@ impl Corrections {
         let strength = 1.5 * mean_motion * mean_motion * orbit.disturbing_fraction();
         let pericentre = strength * ((1.0 + eccentricity) / eta_cubed.powf(2.0 / 3.0)).powi(3);
         let all = candidates(inertia, level, pericentre);
-        let (regular, resonant): (Vec<_>, Vec<_>) =
-            all.into_iter().partition(|candidate| candidate.frequency.abs() > SMALLEST_RATIO * fastest);
-        let size: f64 = regular.iter().map(Candidate::size).sum();
-        let allowed = demand.tolerance.max(second_order(size, inertia, duration));
-        let nearest = |a: &&Candidate, b: &&Candidate| a.distance(mean_motion).total_cmp(&b.distance(mean_motion));
-        let (effect, large) = resonances(&resonant, inertia, duration, allowed);
-        if effect > allowed
-            && let Some(candidate) = large.into_iter().min_by(nearest)
-        {
-            return Err(candidate.error(fastest));
+        let commensurability = Commensurability { inertia, mean_motion, eccentricity, fastest, duration };
+        let regular = |candidate: &Candidate| candidate.frequency.abs() > SMALLEST_RATIO * fastest;
+        let size: f64 = all.iter().filter(|candidate| regular(candidate)).map(Candidate::size).sum();
+        if size > LARGEST_SIZE {
+            return Err(Error::TorqueTooStrong { size, bound: LARGEST_SIZE });
         }
-        let mut dropped = effect;
+        let mut dropped = commensurability.left(&all, demand.tolerance.max(second_order(size, inertia, duration)))?;
         // A change of the mean M makes the phases drift.
         let growth = 1.0 + inertia.rates[1].to_f64() * duration;
         let nothing = (0.01 * demand.tolerance / growth).max(demand.share * size * size);
-        let (mut rest, mut count, mut most_orders) = (0.0, 0, 0);
+        let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
-        for candidate in regular {
+        for candidate in all.into_iter().filter(regular) {
             if candidate.size() <= nothing {
                 dropped += growth * candidate.size();
+                neglected = neglected.max(candidate.size());
                 continue;
             }
             let most = if level == Level::Paper { 1 } else { ORDERS };
@@ -152,6 +152,7 @@ impl Corrections {
             let enough = (1..most).find(|&orders| left(orders) <= nothing);
             let orders = enough.unwrap_or(most);
             rest += growth * left(orders);
+            neglected = neglected.max(left(orders));
             count += 1;
             most_orders = most_orders.max(orders);
             candidate.join(&mut harmonics[candidate.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2
@@ -165,7 +166,7 @@ impl Corrections {
             root: inertia.sigma.sqrt(),
             momentum: inertia.momentum,
         };
-        Ok(Self { generator, dropped, rest, size, count })
+        Ok(Self { generator, dropped, rest, size, count, neglected })
     }
 
     /// The changes from mean to osculating variables, for |p| = √σ.
@@ -212,40 +213,10 @@ fn candidates(inertia: &Inertia, level: Level, pericentre: f64) -> Vec<Candidate
     candidates
 }
 
-/// The effect of resonant terms over a time, and those that have a part in it.
-fn resonances<'a>(
-    resonant: &'a [Candidate],
-    inertia: &Inertia,
-    duration: f64,
-    allowed: f64,
-) -> (f64, Vec<&'a Candidate>) {
-    let [anomaly, longitude] = inertia.rate_slopes;
-    // A change of σ, by less than 2√σ of p's, makes the phases drift; that of M too.
-    let drift = 1.0 + duration * (anomaly.abs() + longitude.abs() + inertia.rates[1].to_f64());
-    let effect = |candidate: &Candidate| candidate.rate * duration * drift;
-    let large = resonant.iter().filter(|candidate| effect(candidate) > SHARE * allowed);
-    (resonant.iter().map(effect).sum(), large.collect())
-}
-
 impl Candidate {
     /// Largest change of the attitude \[rad\].
     fn size(&self) -> f64 {
         self.rate / self.frequency.abs()
-    }
-
-    /// How far Ω is from a multiple of the mean motion.
-    fn distance(&self, mean_motion: f64) -> f64 {
-        let multiples = -ORBITAL_HARMONICS..=ORBITAL_HARMONICS;
-        multiples.map(|j| (self.frequency - f64::from(j) * mean_motion).abs()).fold(f64::INFINITY, f64::min)
-    }
-
-    fn error(&self, fastest: f64) -> Error {
-        Error::Resonance {
-            harmonic: self.harmonic,
-            multiple: self.multiple,
-            divisor: 2.0 * self.frequency.abs() / fastest,
-            bound: 2.0 * SMALLEST_RATIO,
-        }
     }
 
     /// Joins the others of its |h|, with as many derivatives of g as `orders`.

@@ -142,7 +142,8 @@ impl Generator {
         let none = place.sine.all(0.0);
         let zero = Plane { re: none, im: none };
         let tensors = self.tensors(mean.frame, place);
-        let turns = circle(mean.turn);
+        let highest = self.harmonics.iter().flatten().map(|harmonic| harmonic.degree).max().unwrap_or(0);
+        let turns = circle(mean.turn, highest);
         let orders = self.orbital.series.len();
         let mut sums = Sums { by_p: [zero; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
         let mut spin = Plane { re: none.all(1.0), im: none };
@@ -248,9 +249,9 @@ fn sum<S: Level>(circle: &[[Lanes<S>; 2]], series: &Fourier, part: usize) -> Lan
 
 /// e^(ihℓ′).
 #[inline(always)]
-fn circle<S: Level>(turn: Plane<S>) -> [Plane<S>; HIGHEST + 1] {
+fn circle<S: Level>(turn: Plane<S>, highest: usize) -> [Plane<S>; HIGHEST + 1] {
     let mut turns = [Plane { re: turn.re.all(1.0), im: turn.re.all(0.0) }; HIGHEST + 1];
-    for h in 1..=HIGHEST {
+    for h in 1..=highest {
         turns[h] = turns[h - 1] * turn;
     }
     turns

@@ -24,7 +24,7 @@ use crate::phase::Phase;
 
 /// Chebyshev points of a quarter: what a degree of 17 leaves of cos 3f is 1e-15 of κ.
 const POINTS: usize = 18;
-/// Picard's iterations: each multiplies the error by κ at most.
+/// Picard's iterations: each multiplies the error by κ, which [`super::STRONGEST`] bounds, so that a dozen do.
 const MOST_ITERATIONS: usize = 40;
 /// Quarters that are kept on each side of the epoch; 0.7 kB each.
 pub(crate) const MOST_QUARTERS: usize = 1 << 18;
@@ -60,7 +60,7 @@ pub(crate) enum Slow {
     /// Averaged over the rotation alone.
     Spin(Box<Spin>),
     /// Averaged over the orbit too.
-    Orbit(Precession),
+    Orbit(Box<Precession>),
 }
 
 impl Slow {
@@ -87,6 +87,13 @@ impl Ellipse {
     /// κ.
     pub(crate) fn strength(&self) -> f64 {
         self.strength
+    }
+
+    /// dJ/dt averaged over the orbit, for an angular momentum along an axis.
+    pub(crate) fn secular(&self, axis: &Vector3<f64>) -> f64 {
+        // 1 − (3/2) sin² I without cancellation at I = 0.
+        let sine_square = axis.cross(&self.axes[2]).norm_squared();
+        self.mean_motion * self.mean_motion * (1.0 - 1.5 * sine_square) / self.eta_cubed
     }
 
     fn slope(&self, frame: &Quaternion<f64>, sine: f64, cosine: f64) -> Column {
@@ -305,18 +312,13 @@ impl Precession {
             precession.frame = UnitQuaternion::new_normalize(Quaternion::new(1.0, x, y, z)) * frame;
             phase = next;
         }
-        let normal = precession.ellipse.axes[2];
         let axis = precession.frame * Vector3::z();
-        let cosine = axis.dot(&normal);
-        // 1 − (3/2) sin² I without cancellation at I = 0.
-        let sine_square = axis.cross(&normal).norm_squared();
-        let rate = precession.ellipse.mean_motion * unit;
+        let cosine = axis.dot(&precession.ellipse.axes[2]);
         // dλ/dt = −(3/2) n² Δ cos I/(M η³): κ is 3 n Δ/(M η³).
-        let precessing = -0.5 * precession.ellipse.strength * cosine * rate;
+        let precessing = -0.5 * precession.ellipse.strength * cosine * precession.ellipse.mean_motion * unit;
         precession.half = Phase::new((0.5 * precessing).into(), 0.0);
         precession.half_back = Phase::new((-0.5 * cosine * precessing).into(), 0.0);
-        precession.secular =
-            precession.ellipse.mean_motion * (1.0 - 1.5 * sine_square) * rate / precession.ellipse.eta_cubed;
+        precession.secular = precession.ellipse.secular(&axis) * unit;
         precession.phase = phase.values()[0];
         precession
     }

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::*;
+use crate::orbit::Place;
 use crate::{Body, State};
 
 const REFERENCE: &str = include_str!("../../../../tests/data/gravity_gradient.json");
@@ -49,6 +50,7 @@ impl Case {
             tolerance: 1e-12,
             epoch: state.epoch,
             duration: 1.0,
+            spanned: true,
         };
         let (_, osculating) = crate::solution::osculating(&polhode).expect("no separatrix");
         let gradient = Gradient::new(&polhode, state.attitude, osculating, &request).expect("averaged");
@@ -81,7 +83,6 @@ fn mean_momentum_swings_as_little_as_theory_9_says_of_each_level() {
         let dense = case.dense();
         let [paper, moving] = [Level::Paper, Level::Moving].map(|level| case.ratio(&dense, level));
         let full = case.ratio(&case.states, Level::Full);
-        println!("{name:8} paper {paper:.1}, moving {moving:.1}, full {full:.1e}");
         // Over 20 rotations; over another stretch the largest swing of M, and so the ratio, is another by a third.
         assert!((paper / ratio).ln().abs() <= 0.35, "{name}: {paper}");
         assert!(moving >= 0.99 * paper && full >= 1e6, "{name}: {moving}, {full}");
@@ -188,7 +189,6 @@ fn corrections_keep_the_poisson_brackets_to_first_order() {
         let size = change.p.norm() + change.longitude.abs();
         for (bracket, residual) in residuals {
             let scaled = residual.norm() / size;
-            println!("{bracket}: {scaled:.1e}");
             // Differences: the square of the step, 1e-8, times derivatives, which are larger by 1/σ; slopes of the tables 1e-10.
             assert!(scaled <= 1e-5, "{bracket}: {scaled:e}");
         }

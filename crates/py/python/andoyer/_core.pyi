@@ -328,6 +328,9 @@ class Plan:
     def torque(self) -> float:
         """Size of the torque: the sum of the short-period corrections by the gravity gradient, in rad; 0 without an orbit."""
     @property
+    def first_neglected(self) -> float:
+        """First neglected term under a gravity gradient, in rad: of second order in the torque, or a short-period one that was dropped; 0 without an orbit."""
+    @property
     def skipped(self) -> list[str]:
         """What this scene did not need, and why: a list of str."""
     def __eq__(self, other: object, /) -> bool: ...

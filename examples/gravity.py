@@ -1,0 +1,42 @@
+"""What each level of the gravity-gradient theory leaves of the torque's effect on the attitude, as a picture.
+
+    make gravity    writes docs/data/gravity-*.csv from integrations of the full equations, and docs/gravity-gradient.png from them
+"""
+
+import csv
+from collections import defaultdict
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+# Okabe and Ito's colours, which the colour-blind tell apart, and markers of their own.
+LEVELS = {"paper": ("#D55E00", "o"), "moving": ("#0072B2", "s"), "full": ("#009E73", "^")}
+PANELS = {"J": "J [rad]", "n/spin": "n / spin", "e": "eccentricity e", "(B-A)/C": "(B − A) / C"}
+
+
+def main() -> None:
+    """Draws the four panels."""
+    series: dict[str, list[dict[str, str]]] = defaultdict(list)
+    with (DOCS / "data" / "gravity-levels.csv").open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            series[row["varied"]].append(row)
+    figure, grid = plt.subplots(2, 2, figsize=(9.0, 6.6), sharey=True, layout="constrained")
+    for axes, (varied, label) in zip(grid.flat, PANELS.items(), strict=True):
+        rows = series[varied]
+        for level, (colour, marker) in LEVELS.items():
+            values = [float(row["value"]) for row in rows]
+            axes.plot(values, [float(row[level]) for row in rows], color=colour, marker=marker, markersize=4, label=level)
+        axes.set_xscale("linear" if varied == "e" else "log")
+        axes.set_yscale("log")
+        axes.set_xlabel(label)
+        axes.grid(visible=True, which="major", alpha=0.3)
+    for axes in grid[:, 0]:
+        axes.set_ylabel("left of the torque's effect")
+    grid[0, 0].legend(title="level", loc="center left")
+    figure.suptitle("Base scene: J = 0.02, n/spin = 2e-3, e = 0.1, (B − A)/C = 0.019, inclination 0.4 rad, 3 orbits")
+    figure.savefig(DOCS / "gravity-gradient.png", dpi=150)
+
+
+if __name__ == "__main__":
+    main()
