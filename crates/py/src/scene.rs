@@ -171,7 +171,8 @@ impl Scene {
     /// TorqueError
     ///     An orbit whose torque is too strong for an expansion in it.
     /// AveragingError
-    ///     An orbit, and a motion too near the separatrix, a body at rest, or one with B = C.
+    ///     An orbit, and a motion too near the separatrix, a body at rest or on its middle axis, or a round one that turns about an axis across; or more orbits
+    ///     than `averaging="spin"` solves.
     /// UnitsError
     ///     The angular momentum, moment × rate, is no normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {

@@ -218,16 +218,18 @@ impl<S: Level> Lanes<S> {
             // The sign goes into the instruction.
             return self.mul_add(other, product * product.all(-1.0));
         }
-        // Veltkamp's splitting and Dekker's product.
+        // Dekker's product.
         let ((a, a_low), (b, b_low)) = (self.halves(), other.halves());
         (((a * b - product) + a * b_low) + a_low * b) + a_low * b_low
     }
 
-    /// Two parts of 26 bits whose products are exact.
+    /// The first 26 bits and the 27 others, whose products are exact but for the last bit of the smallest; cut off, since a factor would overflow.
     #[inline(always)]
     fn halves(self) -> (Self, Self) {
-        let scaled = self * self.all(134_217_729.0);
-        let high = scaled - (scaled - self);
+        let high = strands!(self, i => {
+            let bits = self.simd.transmute_u64s_f64s(self.strands[i]);
+            self.simd.transmute_f64s_u64s(self.simd.and_u64s(bits, self.simd.splat_u64s(!0x7ff_ffff)))
+        });
         (high, self - high)
     }
 
