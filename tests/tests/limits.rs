@@ -220,3 +220,18 @@ fn andoyer_variables_keep_the_short_axis_for_any_order_of_the_moments() {
         assert!((n + 1.2).abs() < 1e-14, "{axes:?}: N = {n}");
     }
 }
+
+#[test]
+fn rates_as_large_as_doubles_go_give_numbers_or_an_error_next_to_the_separatrix() {
+    // A time at a time, this mode has phases without a fused multiply-add, whose split products once overflowed above 2^996.
+    for rate in [1e290, 1e299, 1e301, 1e302, 1e305] {
+        let body = Body::new([1.0, 0.873_29, 0.898_4]).expect("a body");
+        let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, rate * 1e-20, -rate]).expect("a state");
+        let Ok(motion) = Scene::new(body, state).solve() else { continue };
+        for time in [0.0, 1.0 / rate, -3.0 / rate] {
+            let sample = motion.at(time).expect("a phase");
+            let numbers = sample.attitude.coords.iter().chain(&sample.angular_velocity);
+            assert!(numbers.fold(true, |all, number| all && number.is_finite()), "{rate:e} at {time:e}: {sample:?}");
+        }
+    }
+}

@@ -144,6 +144,8 @@ impl Orbit {
         let bounded = (time - self.time_of_pericentre).abs() * self.mean_motion <= MOST_TURNS;
         check("time", time, bounded, "finite and within 1e15 periods of the pericentre")?;
         let anomaly = self.mean_anomaly(self.time_of_pericentre).angle((time - self.time_of_pericentre, 0.0));
+        // Half a turn may come out on either side.
+        let anomaly = if anomaly == -PI { PI } else { anomaly };
         Ok(Place::of(Lanes::splat(pulp::Scalar, anomaly), self.eccentricity).angle.values()[0])
     }
 }
