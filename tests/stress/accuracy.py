@@ -42,6 +42,11 @@ def angle(p, q, low=0.0):
     return 2 * np.linalg.norm(difference, axis=-1)
 
 
+def span(one, unit=1.0):
+    """From the first to the last of the epoch and the times."""
+    return min(one.epoch, *one.times) * unit, max(one.epoch, *one.times) * unit
+
+
 def truth(one):
     """Attitudes and rates as sums of two doubles: ((n, 4), (n, 4)), ((n, 3), (n, 3))."""
     rows = enclosures.solve(one.moments, one.attitude, one.rates, one.times, one.epoch)
@@ -53,7 +58,8 @@ def measured(seed, number):
     """(regime, {check: value}, case) of one scene: errors over the times, invariants over more of them."""
     one = case(seed, number)
     body = andoyer.Body(one.moments)
-    motion = andoyer.Scene(body, one.attitude, one.rates, epoch=one.epoch, tolerance=TOLERANCE).solve()
+    # The bound is one over a span: without it, nothing is said of the times that are looked at.
+    motion = andoyer.Scene(body, one.attitude, one.rates, epoch=one.epoch, tolerance=TOLERANCE, span=span(one)).solve()
     samples = motion.at(one.times)
     found = {}
     try:
@@ -116,7 +122,7 @@ def powers_of_two(one, samples):
     if min(abs(x) for x in (*one.rates, *one.times) if x) < 1e-290:
         return 0.0
     body = andoyer.Body([x * 2.0**37 for x in one.moments])
-    scene = andoyer.Scene(body, one.attitude, [x * 2.0**9 for x in one.rates], epoch=one.epoch * 2.0**-9, tolerance=TOLERANCE)
+    scene = andoyer.Scene(body, one.attitude, [x * 2.0**9 for x in one.rates], epoch=one.epoch * 2.0**-9, tolerance=TOLERANCE, span=span(one, 2.0**-9))
     other = scene.solve().at([t * 2.0**-9 for t in one.times])
     return float(max(np.max(np.abs(other.attitude - samples.attitude)), np.max(np.abs(other.angular_velocity * 2.0**-9 - samples.angular_velocity))))
 
