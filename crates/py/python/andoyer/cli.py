@@ -127,7 +127,7 @@ def parser() -> Parser:
     command.set_defaults(run=propagate)
 
     pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole"
-    command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib: andoyer[plot].", **examples("", EXAMPLES["plot"]))
+    command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
     command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .png, .svg or .pdf by its ending")
     command.set_defaults(run=plot)
@@ -239,7 +239,7 @@ def plot(arguments: argparse.Namespace) -> None:
     path = Path(arguments.output)
     if path.suffix.lower() not in PICTURES:
         raise InputError(f"argument -o/--output: {arguments.output}: the name must end in {', '.join(PICTURES)}")
-    extra("matplotlib", "plot", "drawing").use("Agg")
+    extra("matplotlib", "drawing").use("Agg")
     from andoyer import plot as pictures
 
     figure = pictures.summary(solved(arguments.scene))

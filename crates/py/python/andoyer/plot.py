@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-plt: Any = extra("matplotlib.pyplot", "plot", "andoyer.plot")
+plt: Any = extra("matplotlib.pyplot", "andoyer.plot")
 
 TINY = 0.01
 """Amplitude J [rad] below which the polhode is a dot on the sphere, and angles are in microradians."""
