@@ -1,7 +1,7 @@
 """The command line: `andoyer propagate`, `plan`, `plot`, `bodies`, `series`.
 
-Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion that is not served; without a command
-2 with the help on stderr.
+Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion that is not served,
+no command.
 """
 
 import argparse
@@ -39,6 +39,7 @@ MOST_SAMPLES = 10**9
 
 ENDINGS = ".csv, .npz, .parquet or .aem"
 PICTURES = [".png", ".svg", ".pdf"]
+COMMANDS = ["propagate", "plot", "plan", "bodies", "series"]
 LANGUAGES = ["c", "rust", "python"]
 EXAMPLES = {
     "propagate": """\
@@ -78,8 +79,7 @@ def main(argv: list[str] | None = None) -> int:
         top = parser()
         arguments = top.parse_args(argv)
         if arguments.run is None:
-            top.print_help(sys.stderr)
-            return 2
+            raise InputError(f"a command is missing: {', '.join(COMMANDS)} (--help says more)")
         arguments.run(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
