@@ -155,6 +155,9 @@ package: $(VENV)/installed  ## the sdist and a wheel from it without network, th
 	tar -xzf target/package-check/andoyer-*.tar.gz -C target/package-check && rm target/package-check/andoyer-*.tar.gz
 	cd target/package-check/andoyer-* && mkdir .cargo && cargo vendor --quiet > .cargo/config.toml
 	cd target/package-check/andoyer-* && CARGO_NET_OFFLINE=true $(abspath $(BIN))/maturin build --quiet --release --locked --offline --interpreter $(abspath $(BIN))/python --out ..
+	for text in MIT APACHE; do \
+		cmp LICENSE-$$text crates/py/LICENSE-$$text && unzip -p target/package-check/andoyer-*.whl '*.dist-info/licenses/LICENSE-'$$text | cmp - LICENSE-$$text || exit 1; \
+	done
 	$(PYTHON) -m venv target/package-check/venv
 	target/package-check/venv/bin/python -m pip install --quiet target/package-check/andoyer-*.whl
 	target/package-check/venv/bin/python -m andoyer.selftest

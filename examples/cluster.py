@@ -4,16 +4,19 @@
     python examples/cluster.py CATALOGUE.parquet RESULT --epochs 0 10 20    two processes here, or --scheduler ADDRESS
 
 The catalogue is cut into chunks of lines; each becomes one file of RESULT, written under another name and renamed when it is whole. A chunk whose worker dies is
-given to another worker, which writes the same bytes; chunks that are there already are left alone, so a stopped run is taken up again. Needs `andoyer[cluster]`.
+given to another worker, which writes the same bytes; chunks that are there already are left alone, so a stopped run is taken up again. What the run is of stands in
+RESULT/_plan.json (readers of a folder of Parquet skip names with an underscore), and a run of something else is refused. Needs Dask, distributed and PyArrow.
 """
 
 import argparse
+import hashlib
+import json
 import os
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import andoyer
 import numpy as np
@@ -26,6 +29,7 @@ CHUNK = 10_000
 TOLERANCE = 1e-9
 MOMENTS, ATTITUDE, RATES = ["A", "B", "C"], ["qx", "qy", "qz", "qw"], ["wx", "wy", "wz"]
 RESULT = ["body", "t", *ATTITUDE, *RATES]
+PLAN = "_plan.json"
 
 
 @dataclass(frozen=True)
@@ -44,6 +48,36 @@ def plan(catalogue: Path, result: Path, epochs: Sequence[float], size: int = CHU
     bodies = parquet.read_metadata(catalogue).num_rows
     starts = range(0, bodies, size)
     return [Chunk(str(catalogue), start, min(start + size, bodies), str(result / f"part-{start:012}.parquet"), tuple(epochs)) for start in starts]
+
+
+def settle(catalogue: Path, result: Path, epochs: Sequence[float], size: int = CHUNK) -> None:
+    """Write down what the run is of, before its first chunk; `SystemExit` if the folder is of another run."""
+    with catalogue.open("rb") as file:
+        digest = hashlib.file_digest(file, "sha256").hexdigest()
+    bodies = parquet.read_metadata(catalogue).num_rows
+    run = {"bytes": catalogue.stat().st_size, "sha256": digest, "bodies": bodies, "chunk": size, "epochs": list(epochs), "andoyer": andoyer.__version__}
+    path = result / PLAN
+    if path.exists():
+        try:
+            before = json.loads(path.read_text(encoding="utf-8"))
+        except ValueError:
+            before = None
+        other = [name for name in run if not isinstance(before, dict) or before.get(name) != run[name]]
+        if other:
+            refuse(f"{result} holds another run ({', '.join(other)} differ): take another folder, or remove that one")
+    elif any(result.glob("part-*.parquet")):
+        refuse(f"{result} holds parts of a run without {PLAN}: take another folder, or remove that one")
+    else:
+        result.mkdir(parents=True, exist_ok=True)
+        half = result / f"{PLAN}.{os.getpid()}.half"
+        half.write_text(json.dumps(run, indent=2) + "\n", encoding="utf-8")
+        os.replace(half, path)
+
+
+def refuse(why: str) -> NoReturn:
+    """End with status 2 and one line."""
+    print("cluster.py:", why, file=sys.stderr)
+    sys.exit(2)
 
 
 def lines(chunk: Chunk) -> NDArray[np.float64]:
@@ -125,7 +159,12 @@ def main() -> None:
         make_catalogue(given.catalogue, given.bodies)
         return
     if given.result is None:
-        sys.exit("cluster.py: a folder for the result must be given")
+        refuse("a folder for the result must be given")
+    if not given.catalogue.is_file():
+        refuse(f"there is no file {given.catalogue}")
+    if given.chunk < 1:
+        refuse(f"--chunk = {given.chunk}: it must be 1 or more")
+    settle(given.catalogue, given.result, given.epochs, given.chunk)
     chunks = plan(given.catalogue, given.result, given.epochs, given.chunk)
     if given.workers == 0 and given.scheduler is None:
         print(len(run(chunks)), "parts")

@@ -11,7 +11,12 @@ import matplotlib.pyplot as plt
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 # Okabe and Ito's colours, which the colour-blind tell apart, and markers of their own.
-LEVELS = {"paper": ("#D55E00", "o"), "moving": ("#0072B2", "s"), "full": ("#009E73", "^")}
+# The paper's level is drawn last, dashed and open, so that another one under it is seen.
+LEVELS = {
+    "full": {"color": "#009E73", "marker": "^"},
+    "moving": {"color": "#0072B2", "marker": "s"},
+    "paper": {"color": "#D55E00", "marker": "o", "linestyle": "--", "markerfacecolor": "none", "markersize": 7},
+}
 PANELS = {"J": "J [rad]", "n/spin": "n / spin", "e": "eccentricity e", "(B-A)/C": "(B − A) / C"}
 
 
@@ -24,16 +29,16 @@ def main() -> None:
     figure, grid = plt.subplots(2, 2, figsize=(9.0, 6.6), sharey=True, layout="constrained")
     for axes, (varied, label) in zip(grid.flat, PANELS.items(), strict=True):
         rows = series[varied]
-        for level, (colour, marker) in LEVELS.items():
+        for level, style in LEVELS.items():
             values = [float(row["value"]) for row in rows]
-            axes.plot(values, [float(row[level]) for row in rows], color=colour, marker=marker, markersize=4, label=level)
+            axes.plot(values, [float(row[level]) for row in rows], label=level, **({"markersize": 4} | style))
         axes.set_xscale("linear" if varied == "e" else "log")
         axes.set_yscale("log")
         axes.set_xlabel(label)
         axes.grid(visible=True, which="major", alpha=0.3)
     for axes in grid[:, 0]:
         axes.set_ylabel("left of the torque's effect")
-    grid[0, 0].legend(title="level", loc="center left")
+    figure.legend(*grid[0, 0].get_legend_handles_labels(), title="level", loc="outside lower center", ncols=len(LEVELS))
     figure.suptitle("Base scene: J = 0.02, n/spin = 2e-3, e = 0.1, (B − A)/C = 0.019, inclination 0.4 rad, 3 orbits")
     figure.savefig(DOCS / "gravity-gradient.png", dpi=150)
 

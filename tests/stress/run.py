@@ -88,7 +88,7 @@ def tables(rows, seed):
         numbers = [attitude[name] for name in QUANTILES] + [rates["q99.9"], rates["max"]]
         lines.append(f"| {regime} | {attitude['scenes']:,} | " + " | ".join(f"{x:.1e}" for x in numbers) + f" | {bound['max']:.2f} |")
     lines += ["", "The largest of what must vanish, without any reference (`group` in units of its budget):", ""]
-    lines += ["| regime | " + " | ".join(INVARIANTS) + " |", "|---" * (len(INVARIANTS) + 1) + "|"]
+    lines += ["| regime | " + " | ".join(name.replace("|", r"\|") for name in INVARIANTS) + " |", "|---" * (len(INVARIANTS) + 1) + "|"]
     for regime in REGIMES:
         found = [cells.get((check, regime)) for check in INVARIANTS]
         lines.append(f"| {regime} | " + " | ".join(f"{row['max']:.1e}" if row else "" for row in found) + " |")

@@ -3,6 +3,7 @@
 import hashlib
 import os
 import signal
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -103,3 +104,38 @@ def test_parts_that_are_there_are_left_alone(catalogue, alone, tmp_path):
     before = [Path(chunk.part).stat().st_mtime_ns for chunk in chunks[:5]]
     assert digests(cluster.run(chunks)) == alone
     assert [Path(chunk.part).stat().st_mtime_ns for chunk in chunks[:5]] == before
+
+
+def command(*arguments):
+    script = [sys.executable, str(REPOSITORY / "examples" / "cluster.py"), *map(str, arguments), "--workers", "0"]
+    return subprocess.run(script, capture_output=True, text=True, check=False)
+
+
+def test_folder_of_another_run_is_refused_and_that_of_the_same_run_goes_on(catalogue, tmp_path):
+    folder = tmp_path / "result"
+    one = [catalogue, folder, "--chunk", CHUNK, "--epochs", 0, 10, 20]
+    first = command(*one)
+    assert first.returncode == 0, first.stderr
+    before = digests(folder.iterdir())
+    last = sorted(folder.glob("part-*.parquet"))[-1]
+    last.unlink()
+    assert command(*one).returncode == 0
+    other = tmp_path / "other.parquet"
+    cluster.make_catalogue(other, BODIES, seed=2)
+    for what, asked in {
+        "epochs": [catalogue, folder, "--chunk", CHUNK, "--epochs", 0, 500],
+        "chunk": [catalogue, folder, "--chunk", CHUNK + 1, "--epochs", 0, 10, 20],
+        "sha256": [other, folder, "--chunk", CHUNK, "--epochs", 0, 10, 20],
+    }.items():
+        done = command(*asked)
+        assert done.returncode == 2 and done.stderr.count("\n") == 1 and what in done.stderr, done.stderr
+    assert digests(folder.iterdir()) == before
+    assert parquet.read_table(folder).num_rows == 3 * BODIES
+    (folder / cluster.PLAN).unlink()
+    assert command(*one).returncode == 2
+
+
+def test_missing_catalogue_is_said_in_one_line(tmp_path):
+    done = command(tmp_path / "none.parquet", tmp_path / "result")
+    assert done.returncode == 2 and done.stderr.count("\n") == 1 and "none.parquet" in done.stderr
+    assert not (tmp_path / "result").exists()

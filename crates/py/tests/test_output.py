@@ -101,9 +101,9 @@ def test_parquet_holds_the_motion_to_the_last_bit(scene_file, motion, tmp_path):
     assert np.array_equal(np.column_stack([column.to_numpy() for column in table.columns]), expected)
 
 
-@pytest.mark.parametrize("module, extra, arguments", [("pyarrow", "parquet", ["propagate", "-o", "out.parquet"]), ("matplotlib", "plot", ["plot", "-o", "out.png"])])
-def test_missing_package_is_one_line_that_names_the_extra(scene_file, tmp_path, module, extra, arguments):
+@pytest.mark.parametrize("module, arguments", [("pyarrow", ["propagate", "-o", "out.parquet"]), ("matplotlib", ["plot", "-o", "out.png"])])
+def test_missing_package_is_one_line_that_names_the_package(scene_file, tmp_path, module, arguments):
     code = f"import sys; sys.modules[{module!r}] = None; from andoyer.cli import main; sys.exit(main({[*arguments, str(scene_file)]!r}))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path)
     assert done.returncode == 2 and done.stderr.count("\n") == 1 and done.stdout == ""
-    assert f"needs {module}, which is not installed: pip install 'andoyer[{extra}]'" in done.stderr
+    assert f"needs {module}, which is not installed: pip install {module}\n" in done.stderr

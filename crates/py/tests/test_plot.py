@@ -161,3 +161,21 @@ def test_command_writes_the_picture(tmp_path, ending, magic):
     output = tmp_path / f"eros.{ending}"
     assert main(["plot", str(REPOSITORY / "examples/scenes/eros.toml"), "-o", str(output)]) == 0
     assert output.read_bytes().startswith(magic)
+
+
+@pytest.mark.parametrize("name", ["principal-axis", "at rest", "spherical"])
+def test_rounding_of_a_steady_motion_is_not_shown_as_signal(name):
+    axes = plot.angles(MOTIONS[name])
+    spread = max(np.ptp(line.get_ydata()) for line in axes.get_lines())
+    assert axes.get_ylim() == (-1e-6, 1e-6) and spread < 1e-8
+
+
+def test_angle_that_stands_still_has_no_period():
+    assert "ν: period none (constant)" in plot.angles(MOTIONS["principal-axis"], residual=False).get_title("left")
+    assert plot.angles(MOTIONS["short-axis"]).get_ylim()[1] > 1e-3
+
+
+def test_path_of_the_pole_says_over_what():
+    axes = plot.pole_path(MOTIONS["torque"])
+    assert axes.get_title() == "Path of the angular momentum over one orbit"
+    assert plot.pole_path(MOTIONS["torque"], [0.0, 1.0, 2.0]).get_title().endswith("under the gravity gradient")

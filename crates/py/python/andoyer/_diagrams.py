@@ -87,7 +87,7 @@ def axes_or_new(axes: "Axes | None") -> "Axes":
     """The axes, by default those of a new figure."""
     if axes is not None:
         return axes
-    plt: Any = extra("matplotlib.pyplot", "plot", "andoyer.plot")
+    plt: Any = extra("matplotlib.pyplot", "andoyer.plot")
     new: "Axes" = plt.subplots(layout="constrained")[1]
     return new
 

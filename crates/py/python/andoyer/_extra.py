@@ -1,11 +1,11 @@
-"""Optional packages: imported where they are used, and an error that names the extra which brings them."""
+"""Optional packages: imported where they are used, and an error that names the one which is missing."""
 
 import importlib
 from typing import Any
 
 
-def extra(module: str, name: str, purpose: str) -> Any:
-    """The module `module`, which the extra `name` of the package brings.
+def extra(module: str, purpose: str) -> Any:
+    """The module `module` of a package that is not among the requirements.
 
     Raises
     ------
@@ -16,4 +16,4 @@ def extra(module: str, name: str, purpose: str) -> Any:
         return importlib.import_module(module)
     except ImportError as error:
         package = module.partition(".")[0]
-        raise ImportError(f"{purpose} needs {package}, which is not installed: pip install 'andoyer[{name}]'", name=package) from error
+        raise ImportError(f"{purpose} needs {package}, which is not installed: pip install {package}", name=package) from error

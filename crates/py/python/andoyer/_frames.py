@@ -16,7 +16,7 @@ RATES = ["wx", "wy", "wz"]
 
 def pandas(samples: Samples) -> Any:
     """A row for each time, or for each member and time."""
-    pd = extra("pandas", "pandas", "Samples.to_pandas")
+    pd = extra("pandas", "Samples.to_pandas")
     columns = [*_quaternion(samples, "q"), *RATES]
     rows = np.concatenate([samples.attitude, samples.angular_velocity], axis=-1).reshape(-1, 7)
     times = np.atleast_1d(samples.times)
@@ -30,7 +30,7 @@ def pandas(samples: Samples) -> Any:
 
 def xarray(samples: Samples) -> Any:
     """A data set with the dimensions member (of an ensemble), time (unless it is a scalar), quaternion, axis."""
-    xr = extra("xarray", "xarray", "Samples.to_xarray")
+    xr = extra("xarray", "Samples.to_xarray")
     before = ["member"] * _ensemble(samples) + ["time"] * (samples.times.ndim > 0)
     own = samples.times.ndim == 2
     return xr.Dataset(

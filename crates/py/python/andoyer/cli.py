@@ -1,7 +1,7 @@
 """The command line: `andoyer propagate`, `plan`, `plot`, `bodies`, `series`.
 
-Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion that is not served; without a command
-2 with the help on stderr.
+Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion that is not served,
+no command.
 """
 
 import argparse
@@ -39,6 +39,7 @@ MOST_SAMPLES = 10**9
 
 ENDINGS = ".csv, .npz, .parquet or .aem"
 PICTURES = [".png", ".svg", ".pdf"]
+COMMANDS = ["propagate", "plot", "plan", "bodies", "series"]
 LANGUAGES = ["c", "rust", "python"]
 EXAMPLES = {
     "propagate": """\
@@ -78,8 +79,7 @@ def main(argv: list[str] | None = None) -> int:
         top = parser()
         arguments = top.parse_args(argv)
         if arguments.run is None:
-            top.print_help(sys.stderr)
-            return 2
+            raise InputError(f"a command is missing: {', '.join(COMMANDS)} (--help says more)")
         arguments.run(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
@@ -127,7 +127,7 @@ def parser() -> Parser:
     command.set_defaults(run=propagate)
 
     pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole"
-    command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib: andoyer[plot].", **examples("", EXAMPLES["plot"]))
+    command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
     command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .png, .svg or .pdf by its ending")
     command.set_defaults(run=plot)
@@ -239,7 +239,7 @@ def plot(arguments: argparse.Namespace) -> None:
     path = Path(arguments.output)
     if path.suffix.lower() not in PICTURES:
         raise InputError(f"argument -o/--output: {arguments.output}: the name must end in {', '.join(PICTURES)}")
-    extra("matplotlib", "plot", "drawing").use("Agg")
+    extra("matplotlib", "drawing").use("Agg")
     from andoyer import plot as pictures
 
     figure = pictures.summary(solved(arguments.scene))

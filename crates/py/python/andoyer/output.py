@@ -91,7 +91,7 @@ def write_parquet(path: Path, samples: Samples) -> None:
     ImportError
         pyarrow is not installed: the extra ``andoyer[parquet]`` brings it.
     """
-    arrow, parquet = (extra(module, "parquet", "writing Parquet") for module in ("pyarrow", "pyarrow.parquet"))
+    arrow, parquet = (extra(module, "writing Parquet") for module in ("pyarrow", "pyarrow.parquet"))
     columns = np.column_stack([samples.times, samples.attitude, samples.angular_velocity]).T
     schema = arrow.schema([(name, arrow.float64()) for name in COLUMNS.split(",")], metadata={"convention": CONVENTION})
     parquet.write_table(arrow.table(list(np.ascontiguousarray(columns)), schema=schema), path)

@@ -21,10 +21,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-plt: Any = extra("matplotlib.pyplot", "plot", "andoyer.plot")
+plt: Any = extra("matplotlib.pyplot", "andoyer.plot")
 
 TINY = 0.01
 """Amplitude J [rad] below which the polhode is a dot on the sphere, and angles are in microradians."""
+STEADY = 1e-11
+"""Variation [rad] of an angle below which it is rounding."""
 TURNS, SAMPLES = 3, 3000
 """Periods of the polhode that are drawn if no times are given, and how many times."""
 
@@ -93,6 +95,7 @@ def pole_path(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None
     """
     axes = _axes(axes)
     orbit = motion.scene.orbit
+    whole = times is None and orbit is not None
     if times is None and orbit is not None:
         times = motion.scene.epoch + np.linspace(0, 2 * math.pi / orbit.mean_motion, SAMPLES)
     momentum = motion.angular_momentum(_times(motion, times))
@@ -105,8 +108,8 @@ def pole_path(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None
     axes.plot(*across.T, color=BLUE, linewidth=1.4)
     axes.plot(*across[0], "o", color=BLUE, markersize=6, label="start")
     axes.plot(*across[-1], "s", color=VERMILION, markersize=6, label="end")
-    axes.set(xlabel="east, along z × k [arcsec]", ylabel="north, towards z [arcsec]")
-    title = "without a torque" if orbit is None else "under the gravity gradient"
+    axes.set(xlabel="east of where it starts [arcsec]", ylabel="north of where it starts [arcsec]")
+    title = "without a torque" if orbit is None else "over one orbit" if whole else "under the gravity gradient"
     axes.set_title(f"Path of the angular momentum {title}", pad=22)
     axes.margins(0.1)
     axes.ticklabel_format(useOffset=False)
@@ -140,12 +143,14 @@ def angles(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" =
     axes, times = _axes(axes), _times(motion, times)
     variables = motion.andoyer(times)
     elapsed, label, _ = _clock(times)
-    mu, mu_rate, _ = _without_mean(variables[:, 1], times)
+    mu, mu_rate, mu_all = _without_mean(variables[:, 1], times)
     nu, nu_rate, nu_all = _without_mean(variables[:, 2], times)
     if residual:
         axes.plot(elapsed, np.degrees(mu), color=VERMILION, linestyle="--", label="μ")
         axes.plot(elapsed, np.degrees(nu), color=BLUE, label="ν")
         axes.set_ylabel("[deg]")
+        if max(np.ptp(mu), np.ptp(nu)) < STEADY:
+            axes.set_ylim(-1e-6, 1e-6)
         axes.set_title("μ and ν less their mean motion", loc="left")
         _legend(axes)
     else:
@@ -153,7 +158,7 @@ def angles(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" =
         if np.ptp(nu_all) > 2 * np.pi:
             axes.yaxis.set_major_locator(plt.MultipleLocator(360 * math.ceil(np.ptp(nu_all) / (8 * math.pi))))
         axes.set_ylabel("ν [deg]")
-        axes.set_title(f"ν: period {_period(nu_rate, times)}, μ: period {_period(mu_rate, times)}", loc="left")
+        axes.set_title(f"ν: period {_period(nu_all, nu_rate)}, μ: period {_period(mu_all, mu_rate)}", loc="left")
     axes.set_xlabel(label)
     axes.margins(x=0)
     return axes
@@ -269,9 +274,11 @@ def _legend(axes: "Axes") -> None:
     axes.legend(loc="lower right", bbox_to_anchor=(1, 0.98), ncols=3, fontsize=9, frameon=False)
 
 
-def _period(rate: float, times: Array) -> str:
-    """The period of a mean motion, in seconds, hours or days, with its sense."""
-    if abs(rate) * (times[-1] - times[0]) < np.pi:
+def _period(unwrapped: Array, rate: float) -> str:
+    """The period of an angle of that mean motion, in seconds, hours or days, with its sense."""
+    if np.ptp(unwrapped) < STEADY:
+        return "none (constant)"
+    if abs(unwrapped[-1] - unwrapped[0]) < np.pi:
         return "none (libration)"
     seconds = 2 * np.pi / abs(rate)
     unit, size = ("d", 86400) if seconds > 30 * 86400 else ("h", 3600) if seconds > 1800 else ("s", 1)

@@ -1,4 +1,4 @@
-"""`python -m andoyer.selftest`: the installed wheel against answers that are known, in a few seconds. Needs NumPy alone.
+"""`python -m andoyer.selftest`: the installed wheel against answers that are known, in under a second. Needs NumPy alone.
 
 Exit status 0 if all hold, 1 with a line for each that does not.
 """
