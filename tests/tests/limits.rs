@@ -227,11 +227,17 @@ fn rates_as_large_as_doubles_go_give_numbers_or_an_error_next_to_the_separatrix(
     for rate in [1e290, 1e299, 1e301, 1e302, 1e305] {
         let body = Body::new([1.0, 0.873_29, 0.898_4]).expect("a body");
         let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, rate * 1e-20, -rate]).expect("a state");
-        let Ok(motion) = Scene::new(body, state).solve() else { continue };
+        let motion = match Scene::new(body, state).solve() {
+            Ok(motion) => motion,
+            Err(error) => {
+                assert!(rate >= 1e305 && matches!(error, Error::Units { .. }), "{rate:e}: {error}");
+                continue;
+            }
+        };
         for time in [0.0, 1.0 / rate, -3.0 / rate] {
             let sample = motion.at(time).expect("a phase");
-            let numbers = sample.attitude.coords.iter().chain(&sample.angular_velocity);
-            assert!(numbers.fold(true, |all, number| all && number.is_finite()), "{rate:e} at {time:e}: {sample:?}");
+            let mut numbers = sample.attitude.coords.iter().chain(&sample.angular_velocity);
+            assert!(numbers.all(|number| number.is_finite()), "{rate:e} at {time:e}: {sample:?}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Real bodies: moments of inertia in units of C about the principal axes, each with its source.
 //!
 //! "Homogeneous" moments follow from a shape's semi-axes a ≥ b ≥ c as A : B : C = b² + c² : a² + c² : a² + b².
-//! A source said to be recalled is quoted from memory and was not seen when the figure was entered.
+//! A source said to be recalled is quoted from memory and was not seen when the figure was entered; any other is attributed to it, and was not held against it either.
 
 pub(crate) struct Entry {
     pub(crate) name: &'static str,
@@ -53,7 +53,17 @@ const ENTRIES: &[Entry] = &[
     Entry {
         name: "Toutatis",
         moments: [1.0 / 3.22, 3.09 / 3.22, 1.0],
-        source: "A : B : C = 1 : 3.09 : 3.22 (recalled; Hudson & Ostro 1995); a long-axis rotator",
+        source: "A : B : C = 1 : 3.09 : 3.22 (recalled; Hudson & Ostro 1995); a long-axis rotator: closed form, the series do not serve it",
+    },
+    Entry {
+        name: "Moon",
+        moments: [0.999_369_25, 0.999_596_95, 1.0],
+        source: "(C-A)/B = 6.310e-4, (B-A)/C = 2.277e-4 (recalled; Williams 2014); synchronous: a spin resonance under its own orbit, which no averaging serves",
+    },
+    Entry {
+        name: "Dimorphos",
+        moments: [0.709_878_4, 0.726_970_3, 1.0],
+        source: "axes 177, 174, 116 m, homogeneous (recalled; Daly 2023); synchronous: a spin resonance under its own orbit, which no averaging serves",
     },
 ];
 
