@@ -31,7 +31,7 @@ def main() -> None:
         rows = series[varied]
         for level, style in LEVELS.items():
             values = [float(row["value"]) for row in rows]
-            axes.plot(values, [float(row[level]) for row in rows], label=level, **({"markersize": 4} | style))
+            axes.plot(values, [float(row[level]) for row in rows], label=level, **{"markersize": 4, **style})
         axes.set_xscale("linear" if varied == "e" else "log")
         axes.set_yscale("log")
         axes.set_xlabel(label)
