@@ -6,13 +6,14 @@
 import csv
 from collections import defaultdict
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 # Okabe and Ito's colours, which the colour-blind tell apart, and markers of their own.
 # The paper's level is drawn last, dashed and open, so that another one under it is seen.
-LEVELS = {
+LEVELS: dict[str, dict[str, Any]] = {
     "full": {"color": "#009E73", "marker": "^"},
     "moving": {"color": "#0072B2", "marker": "s"},
     "paper": {"color": "#D55E00", "marker": "o", "linestyle": "--", "markerfacecolor": "none", "markersize": 7},
