@@ -77,29 +77,55 @@ pub enum Error {
         /// Its coefficient.
         coefficient: String,
     },
-    /// A quadratic part that is not Σ (a p² + b q²)/2 with numbers a, b.
+    /// A term whose parameters count too little: it would belong to the quadratic part, which has numbers for coefficients.
     #[error(
-        "the quadratic part is not diagonal: the term {term} has the coefficient {coefficient}; only squares with numbers for coefficients are read"
+        "the term {term} would be of order 0: give a parameter in it a degree of at least {bound}, to make it a detuning, or a number for its value"
     )]
-    QuadraticNotDiagonal {
+    ParameterDegree {
         /// The term.
         term: String,
-        /// Its coefficient.
-        coefficient: String,
+        /// The smallest degree that serves.
+        bound: u32,
     },
-    /// A mode (a p² + b q²)/2 that is hyperbolic or degenerate: a b ≤ 0.
+    /// A name that is no parameter of the space.
+    #[error("{name:?} is no parameter: they are [{known}]")]
+    ParameterUnknown {
+        /// The name given.
+        name: String,
+        /// The parameters.
+        known: String,
+    },
+    /// A quadratic part with an eigenvalue 0: a direction along which nothing oscillates, grows or decays.
     #[error(
-        "the mode ({coordinate}, {momentum}) is not elliptic: {momentum}^2 and {coordinate}^2 have the coefficients {momentum_square} and {coordinate_square}, whose product must be positive"
+        "the quadratic part in {pairs} has a zero frequency, along the direction with the components {direction}: no normal form of this kind exists there"
     )]
-    NotElliptic {
-        /// Name of q.
-        coordinate: String,
-        /// Name of p.
-        momentum: String,
-        /// Coefficient of q².
-        coordinate_square: String,
-        /// Coefficient of p².
-        momentum_square: String,
+    ZeroFrequency {
+        /// The pairs of the block.
+        pairs: String,
+        /// Sizes of the components of the null vector.
+        direction: String,
+    },
+    /// A quadratic part that cannot be diagonalized.
+    #[error(
+        "the quadratic part in {pairs} cannot be diagonalized: the eigenvalues {eigenvalue} have a Jordan block, with the eigenvector of components {direction}"
+    )]
+    Defective {
+        /// The pairs of the block.
+        pairs: String,
+        /// The eigenvalues.
+        eigenvalue: String,
+        /// Sizes of the components of the eigenvector.
+        direction: String,
+    },
+    /// Eigenvalues of a quadratic part with rational coefficients that are not rational.
+    #[error(
+        "the eigenvalues {eigenvalue} of the quadratic part in {pairs} are not rational (with a denominator below 1e7): use floats"
+    )]
+    SpectrumIrrational {
+        /// The pairs of the block.
+        pairs: String,
+        /// The eigenvalues.
+        eigenvalue: String,
     },
     /// A frequency √(ab) that is no rational number where the coefficients are rational.
     #[error(
