@@ -105,6 +105,16 @@ pub enum Error {
         /// Sizes of the components of the null vector.
         direction: String,
     },
+    /// A quadratic part that has a frequency only through its parameters.
+    #[error(
+        "the quadratic part in {pairs} has a zero frequency where its parameters are 0, in the term {term}: write the parameter as a number and a detuning, w = w0 + d, or scale q -> q/sqrt(w), p -> p sqrt(w), t -> t/w, so that the frequency is a number"
+    )]
+    FrequencyParameter {
+        /// The pairs of the block.
+        pairs: String,
+        /// A quadratic term with a parameter.
+        term: String,
+    },
     /// A quadratic part that cannot be diagonalized.
     #[error(
         "the quadratic part in {pairs} cannot be diagonalized: the eigenvalues {eigenvalue} have a Jordan block, with the eigenvector of components {direction}"
@@ -288,7 +298,17 @@ pub enum Error {
         /// Entries expected.
         expected: usize,
     },
-    /// A term that no normal form of the rigid body contains.
+    /// A matrix read from a file that is not symplectic: Mᵀ J M ≠ J.
+    #[error("the linear change is not symplectic: entry ({row}, {column}) of MᵀJM − J is {error:?}")]
+    NotSymplectic {
+        /// Row of MᵀJM − J.
+        row: usize,
+        /// Its column.
+        column: usize,
+        /// The entry.
+        error: f64,
+    },
+    /// A term that no normal form of this kind contains.
     #[error("term {exponents:?} of the {what} of order {order}: {problem}")]
     TermInconsistent {
         /// The series that holds it.
@@ -315,6 +335,12 @@ pub enum ParseProblem {
     /// A name that is no variable.
     #[error("unknown name {0:?}")]
     UnknownName(String),
+    /// A name before a bracket: a function.
+    #[error("{0:?} is a function, and only polynomials are read: expand it as a Taylor polynomial, for a normal form of order N to degree N + 2")]
+    Function(String),
+    /// A bracket after an operand: a product without its sign.
+    #[error("a factor in brackets needs * before it")]
+    ProductWithoutSign,
     /// The list of names is longer than the number of slots, or holds a name twice or one that is no identifier.
     #[error("the list of variable names cannot hold {0:?}")]
     UnusableName(String),

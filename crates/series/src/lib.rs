@@ -35,7 +35,7 @@ mod rigid_body;
 mod ring;
 mod triangle;
 
-pub use birkhoff::{BirkhoffMap, BirkhoffNormalForm, Mode, PhaseSpace, Resonances, normalize, normalize_with};
+pub use birkhoff::{BirkhoffMap, BirkhoffNormalForm, Domain, Mode, PhaseSpace, Resonances, normalize, normalize_with};
 pub use bracket::Poisson;
 pub use coefficient::Coefficient;
 pub use display::Named;

@@ -29,19 +29,23 @@ fn a_point_without_a_diagonal_form_is_refused_by_term() {
         "x^2 + X^2 + y^2 + Y^2 + c*y",
         "the origin is no equilibrium: the linear term y*c has the coefficient 1",
     );
-    for (text, direction) in [("Y^2", "y 1.000"), ("0", "Y 1.000"), ("y^2/2", "Y 1.000"), ("(y + Y)^2", "y 1.000, Y 1.000")] {
+    for (text, direction) in [("Y^2", "y 1.000"), ("0", "y 1.000"), ("y^2/2", "Y 1.000"), ("(y + Y)^2", "y 1.000, Y 1.000")] {
         let message = format!(
             "the quadratic part in (y, Y) has a zero frequency, along the direction with the components {direction}: no normal form of this kind exists there"
         );
         assert_message(&format!("x^2 + X^2 + {text}"), &message);
     }
     assert_message(
+        "x^2 + X^2 + Y^2/2 + c^2*y^2/2",
+        "the quadratic part in (y, Y) has a zero frequency where its parameters are 0, in the term 1/2*y^2*c^2: write the parameter as a number and a detuning, w = w0 + d, or scale q -> q/sqrt(w), p -> p sqrt(w), t -> t/w, so that the frequency is a number",
+    );
+    assert_message(
         "x*X + y*Y + x*Y",
         "the quadratic part in (x, X), (y, Y) cannot be diagonalized: the eigenvalues ±1.000000000 have a Jordan block, with the eigenvector of components y 1.000",
     );
     assert_message(
         "x^2 + X^2 + y^2 + Y^2 + x*y",
-        "the eigenvalues ±2.236067977i of the quadratic part in (x, X), (y, Y) are not rational (with a denominator below 1e7): use floats",
+        "the eigenvalues ±2.449489743i of the quadratic part in (x, X), (y, Y) are not rational (with a denominator below 1e7): use floats",
     );
     assert_message(
         "x^2 + X^2 + y^2 + Y^2/2",

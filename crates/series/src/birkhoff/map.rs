@@ -220,7 +220,7 @@ impl Series {
     }
 }
 
-fn check(what: &'static str, values: &[f64], expected: usize) -> Result<(), Error> {
+pub(super) fn check(what: &'static str, values: &[f64], expected: usize) -> Result<(), Error> {
     if values.len() != expected {
         return Err(Error::CountMismatch { what, found: values.len(), expected });
     }

@@ -10,15 +10,20 @@
 //! Sources: G. D. Birkhoff, *Dynamical Systems* (1927), ch. III; F. G. Gustavson, Astron. J. 71 (1966) 670; A. Deprit,
 //! Celest. Mech. 1 (1969) 12.
 
+mod code;
+mod domain;
 mod flow;
+mod json;
 mod map;
 mod matrix;
 mod mode;
 mod phase_space;
 mod quadratic;
 mod resonances;
+mod text;
 mod williamson;
 
+pub use domain::Domain;
 pub use map::BirkhoffMap;
 pub use mode::Mode;
 pub use phase_space::PhaseSpace;
@@ -38,16 +43,6 @@ pub struct BirkhoffNormalForm<R: RealField> {
     resonances: Resonances,
     offset: Polynomial<R>,
     normalization: Normalization<R::Complex>,
-}
-
-/// The normal form as text: in the actions `I_q`, or with resonant terms in the complex variables `u_q`, `U_q`.
-impl<R: RealField> std::fmt::Display for BirkhoffNormalForm<R> {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(&match self.in_actions() {
-            Ok(actions) => PhaseSpace::text(&actions, &self.space.action_names()),
-            Err(_) => PhaseSpace::text(&self.in_complex(), &self.space.complex_names()),
-        })
-    }
 }
 
 /// The normal form of `hamiltonian` to `order`, of degree `order` + 2, without resonances.

@@ -36,7 +36,8 @@ impl<R: RealField> Diagonal<R> {
                 modes[pairs[0]] = Some(mode);
                 continue;
             }
-            let Diagonal { modes: found, matrix } = scaled(&block, &names)?;
+            let explained = |error| explained(error, hamiltonian, space, &slots);
+            let Diagonal { modes: found, matrix } = scaled(&block, &names).map_err(explained)?;
             for (mode, &pair) in found.into_iter().zip(&pairs) {
                 modes[pair] = Some(match mode {
                     Mode::Complex { rate, frequency, partner } => {
@@ -62,6 +63,19 @@ impl<R: RealField> Diagonal<R> {
     /// The forms of the new variables in the old ones, `None` where they are the same.
     pub(crate) fn inverse_forms(&self) -> Result<Option<Vec<Polynomial<R>>>, Error> {
         forms(&symplectic_inverse(&self.matrix))
+    }
+}
+
+/// A zero frequency that a parameter would lift is another error.
+fn explained<R: RealField>(error: Error, hamiltonian: &Polynomial<R>, space: &PhaseSpace, slots: &[usize]) -> Error {
+    let phase = space.phase_slots();
+    let in_block = |m: Monomial| m.degree_in(slots) == 2 && m.degree_in(&phase) == 2 && m.total_degree() > 2;
+    match (error, hamiltonian.terms().find(|&(monomial, _)| in_block(monomial))) {
+        (Error::ZeroFrequency { pairs, .. }, Some((monomial, c))) => {
+            let term = PhaseSpace::text(&Polynomial::from_terms([(monomial, c.clone())]), &owned(space));
+            Error::FrequencyParameter { pairs, term }
+        }
+        (error, _) => error,
     }
 }
 

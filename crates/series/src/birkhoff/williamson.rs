@@ -233,6 +233,7 @@ fn centres<R: RealField>(
     names: &Names,
 ) -> Result<(), Error> {
     let mut vectors = space.vectors.clone();
+    let mut found = Vec::new();
     while !vectors.is_empty() {
         let vector = independent::<R>(&mut vectors).ok_or_else(|| Error::Defective {
             pairs: names.pairs(),
@@ -254,9 +255,13 @@ fn centres<R: RealField>(
         let (n, _) = norm::<R>(&vector);
         let (a, b) = parts::<R>(&vector);
         let ratio = if R::EPSILON > 0.0 { R::one() } else { magnitude((n.clone(), false)).invert().ok_or(Error::DivisionByZero)? };
-        columns.push(a);
-        columns.push(scaled(&b, &n.invert().ok_or(Error::DivisionByZero)?));
-        modes.push(Mode::Elliptic { frequency: space.im.times(n.sign().into()), ratio });
+        let mode = Mode::Elliptic { frequency: space.im.times(n.sign().into()), ratio };
+        found.push((mode, a, scaled(&b, &n.invert().ok_or(Error::DivisionByZero)?), n.sign()));
+    }
+    found.sort_by_key(|&(.., sign)| -sign);
+    for (mode, a, b, _) in found {
+        modes.push(mode);
+        columns.extend([a, b]);
     }
     Ok(())
 }

@@ -3,12 +3,14 @@
 use andoyer_series::{Error, Monomial, PhaseSpace, Polynomial};
 
 /// x, y, z and their momenta.
-pub fn space() -> Result<PhaseSpace, Error> {
+#[allow(dead_code, reason = "not every test has it")]
+pub(crate) fn space() -> Result<PhaseSpace, Error> {
     PhaseSpace::new(&[("x", "X"), ("y", "Y"), ("z", "Z")])
 }
 
 /// Terms in place of x, y, z of ρⁿ P_n((a·r)/ρ), a a unit vector: with t = a·r, n P_n = (2n−1) t P_{n−1} − (n−1) ρ² P_{n−2}.
-pub fn legendre(direction: [f64; 3], highest: u32) -> Result<Vec<Polynomial<f64>>, Error> {
+#[allow(dead_code, reason = "not every test has it")]
+pub(crate) fn legendre(direction: [f64; 3], highest: u32) -> Result<Vec<Polynomial<f64>>, Error> {
     let mut along = Polynomial::zero();
     let mut square = Polynomial::zero();
     for (i, c) in direction.into_iter().enumerate() {
@@ -30,8 +32,8 @@ fn rotating() -> Result<Polynomial<f64>, Error> {
 }
 
 /// About L4: −(1−μ)/r₁ − μ/r₂ with both bodies at distance 1, in the directions (∓1/2, −√3/2, 0), and the linear terms cancelled.
-#[allow(dead_code, reason = "not every test has this point")]
-pub fn triangular(mu: f64, degree: u32) -> Result<Polynomial<f64>, Error> {
+#[allow(dead_code, reason = "not every test has it")]
+pub(crate) fn triangular(mu: f64, degree: u32) -> Result<Polynomial<f64>, Error> {
     let mut h = rotating()?;
     let height = 0.75_f64.sqrt();
     for (mass, x) in [(1.0 - mu, -0.5), (mu, 0.5)] {
@@ -43,8 +45,8 @@ pub fn triangular(mu: f64, degree: u32) -> Result<Polynomial<f64>, Error> {
 }
 
 /// γ of L1 or L2: the distance to the smaller body, from the quintic equation.
-#[allow(dead_code, reason = "not every test has this point")]
-pub fn distance(mu: f64, second: bool) -> f64 {
+#[allow(dead_code, reason = "not every test has it")]
+pub(crate) fn distance(mu: f64, second: bool) -> f64 {
     let sign = if second { 1.0 } else { -1.0 };
     // γ⁵ ∓ (3−μ) γ⁴ + (3−2μ) γ³ − μ γ² ± 2μ γ − μ = 0, upper signs for L1.
     let value = |g: f64| {
@@ -60,8 +62,8 @@ pub fn distance(mu: f64, second: bool) -> f64 {
 
 /// About L1 or L2, in units of the distance γ to the smaller body, x towards the larger one:
 /// (X² + Y² + Z²)/2 + y X − x Y − Σ c_n ρⁿ P_n(x/ρ), as Jorba and Masdemont (1999) have it.
-#[allow(dead_code, reason = "not every test has this point")]
-pub fn collinear(mu: f64, second: bool, degree: u32) -> Result<Polynomial<f64>, Error> {
+#[allow(dead_code, reason = "not every test has it")]
+pub(crate) fn collinear(mu: f64, second: bool, degree: u32) -> Result<Polynomial<f64>, Error> {
     let gamma = distance(mu, second);
     let mut h = rotating()?;
     for (n, part) in (0_i32..).zip(&legendre([1.0, 0.0, 0.0], degree)?).skip(2) {
