@@ -35,6 +35,10 @@ impl Flow {
         map.iter().map(|frequency| frequency.evaluate(actions)).collect()
     }
 
+    pub(crate) fn is_integrable(&self) -> bool {
+        self.frequencies.is_ok()
+    }
+
     pub(crate) fn energy(&self, normal: &[f64]) -> Result<f64, Error> {
         self.energy.evaluate(normal)
     }

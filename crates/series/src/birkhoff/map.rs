@@ -107,6 +107,25 @@ impl BirkhoffMap {
         finite("transformed state", self.linear(0, &self.transformed(&self.direct, normal)?))
     }
 
+    /// The state of a point of the centre manifold, given by q and p of the centres alone.
+    ///
+    /// # Errors
+    /// - as [`to_normal`](Self::to_normal).
+    pub fn from_centre(&self, centre: &[f64]) -> Result<Vec<f64>, Error> {
+        let centres = self.modes.iter().filter(|mode| mode.is_elliptic()).count();
+        check("state", centre, 2 * centres)?;
+        let mut pairs = centre.chunks(2);
+        let pair = |mode: &Mode<f64>| if mode.is_elliptic() { pairs.next().unwrap_or(&[0.0, 0.0]) } else { &[0.0, 0.0] };
+        let normal: Vec<f64> = self.modes.iter().flat_map(pair).copied().collect();
+        self.from_normal(&normal)
+    }
+
+    /// Whether K is a function of the actions.
+    #[must_use]
+    pub fn is_integrable(&self) -> bool {
+        self.flow.is_integrable()
+    }
+
     /// The actions of a state, constant along its motion to the order of the normal form if there is no resonance.
     ///
     /// # Errors

@@ -77,6 +77,20 @@ impl<R: RealField> Mode<R> {
         }
     }
 
+    /// "elliptic", "hyperbolic" or "complex".
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Mode::Elliptic { .. } => "elliptic",
+            Mode::Hyperbolic { .. } => "hyperbolic",
+            Mode::Complex { .. } => "complex",
+        }
+    }
+
+    /// r = √(a/b) of a centre.
+    pub fn ratio(&self) -> Option<&R> {
+        if let Mode::Elliptic { ratio, .. } = self { Some(ratio) } else { None }
+    }
+
     /// Whether this is a centre.
     pub fn is_elliptic(&self) -> bool {
         matches!(self, Mode::Elliptic { .. })
