@@ -1,14 +1,14 @@
-//! The Birkhoff normal form of any polynomial Hamiltonian about an elliptic point.
+//! The Birkhoff normal form of any polynomial Hamiltonian about an equilibrium.
 //!
-//! H(q₁, p₁, …, qₙ, pₙ) = constant + Σ (aᵢ pᵢ² + bᵢ qᵢ²)/2 + terms of higher degree, aᵢ bᵢ > 0, {q; p} = 1. Graded by degree:
-//! the terms of degree 2 + n are of order n. Order N removes by Deprit's triangle (theory §4), in the complex variables of
-//! [`elliptic`], every term of degree 2 + N at most that the angles turn, but those that [`Resonances`] keeps: the Gustavson
-//! form where there are any. Generators have no kernel part, which makes the normal form unique.
+//! H(q₁, p₁, …, qₙ, pₙ) = constant + H₂ + terms of higher degree, {q; p} = 1. A linear symplectic change makes H₂ a sum of modes ([`quadratic`], [`williamson`],
+//! [`mode`]): centres, saddles, quartets. Graded by degree, parameters by the degrees they are given: the terms of degree 2 + n are of order n. Order N removes by
+//! Deprit's triangle (theory §4), in the complex variables (u, U) of the modes, every term of degree 2 + N at most but those that [`Resonances`] keeps: the Gustavson
+//! form where there are resonances, the centre manifold where all terms of the centres are kept. Generators have no kernel part, which makes the normal form unique.
 //!
-//! Exact over the rationals where the frequencies √(aᵢ bᵢ) are rational, else in `f64`. The series diverge in general: at
-//! fixed amplitude there is a best order. Cost: the triangle's, N³/6 brackets of ever larger polynomials.
-//! Sources: G. D. Birkhoff, *Dynamical Systems* (1927), ch. III; F. G. Gustavson, Astron. J. 71 (1966) 670; A. Deprit,
-//! Celest. Mech. 1 (1969) 12.
+//! Exact over the rationals where the eigenvalues are rational, else in `f64`. The series diverge in general: at fixed amplitude there is a best order ([`domain`]).
+//! Cost: the triangle's, N³/6 brackets of ever larger polynomials.
+//! Sources: G. D. Birkhoff, *Dynamical Systems* (1927), ch. III; J. Williamson, Amer. J. Math. 58 (1936) 141; F. G. Gustavson, Astron. J. 71 (1966) 670; A. Deprit,
+//! Celest. Mech. 1 (1969) 12; A. Jorba and J. Masdemont, Physica D 132 (1999) 189.
 
 mod code;
 mod domain;
@@ -35,7 +35,7 @@ use mode::{complex_in_real, modulus, real_in_complex, substitute};
 use quadratic::Diagonal;
 use resonances::{divisor, is_small};
 
-/// The normal form of a Hamiltonian about an elliptic point, and the transformation to it.
+/// The normal form of a Hamiltonian about an equilibrium, and the transformation to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BirkhoffNormalForm<R: RealField> {
     space: PhaseSpace,
@@ -47,7 +47,7 @@ pub struct BirkhoffNormalForm<R: RealField> {
 
 /// The normal form of `hamiltonian` to `order`, of degree `order` + 2, without resonances.
 ///
-/// Terms of a higher degree do not matter. Parameters count as degree 0.
+/// Terms of a higher degree do not matter. Parameters count as [`PhaseSpace::with_parameters`] says.
 ///
 /// ```
 /// use andoyer_series::{PhaseSpace, normalize};
@@ -60,8 +60,9 @@ pub struct BirkhoffNormalForm<R: RealField> {
 /// ```
 ///
 /// # Errors
-/// - q + p²/2: [`Error::LinearTerm`]; p²/2 + q²/2 + q p: [`Error::QuadraticNotDiagonal`]; p² − q²: [`Error::NotElliptic`];
-/// - p²/2 + q² over the rationals: [`Error::FrequencyIrrational`]; a NaN: [`Error::NotFinite`];
+/// - q + p²/2: [`Error::LinearTerm`]; p²/2: [`Error::ZeroFrequency`]; x X + y Y + x Y: [`Error::Defective`]; d q² + p² with d of degree 0:
+///   [`Error::ParameterDegree`], and else [`Error::FrequencyParameter`];
+/// - p²/2 + q² over the rationals: [`Error::FrequencyIrrational`], of coupled pairs [`Error::SpectrumIrrational`]; a NaN: [`Error::NotFinite`];
 /// - two modes of one frequency, coupled: [`Error::SmallDivisor`];
 /// - order 171 in `f64`, 32764 over the rationals: [`Error::OrderTooLarge`];
 /// - a variable beyond those of `space`: [`Error::ValueMissing`].
