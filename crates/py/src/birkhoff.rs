@@ -284,11 +284,7 @@ impl BirkhoffNormalForm {
     /// IntervalError
     ///     A NaN.
     #[pyo3(signature = (normal, parameters=None))]
-    fn energy<'py>(
-        &self,
-        normal: &Bound<'py, PyAny>,
-        parameters: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Array<'py>> {
+    fn energy<'py>(&self, normal: &Bound<'py, PyAny>, parameters: Option<&Bound<'py, PyDict>>) -> PyResult<Array<'py>> {
         let (n, map) = (2 * self.space().degrees_of_freedom(), self.map(normal.py(), parameters)?);
         Rows::new("normal", normal, n)?.map(1, |normal| map.energy(normal).map(|energy| vec![energy]))
     }
@@ -307,11 +303,7 @@ impl BirkhoffNormalForm {
     /// IntervalError
     ///     A NaN.
     #[pyo3(signature = (normal, parameters=None))]
-    fn rates<'py>(
-        &self,
-        normal: &Bound<'py, PyAny>,
-        parameters: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Array<'py>> {
+    fn rates<'py>(&self, normal: &Bound<'py, PyAny>, parameters: Option<&Bound<'py, PyDict>>) -> PyResult<Array<'py>> {
         let (n, map) = (2 * self.space().degrees_of_freedom(), self.map(normal.py(), parameters)?);
         Rows::new("normal", normal, n)?.map(n, |normal| map.rates(normal))
     }
@@ -535,9 +527,13 @@ impl BirkhoffNormalForm {
         Ok((slf.get_type().getattr("from_json")?, (form.to_json(py)?, form.symbols.clone_ref(py))))
     }
 
+    /// Order, variables, kind of numbers, and where there are no parameters the last radius of the domain.
     fn __repr__(&self) -> String {
         let (space, numbers) = (self.space(), if self.exact() { "exact" } else { "float" });
-        format!("<BirkhoffNormalForm of order {} in {}, {numbers}>", self.order(), space.names().join(", "))
+        let radii = either!(&self.form, form => form.domain(&[])).map(|domain| domain.radii()).unwrap_or_default();
+        let radius = radii.into_iter().rev().find(|radius| radius.is_finite());
+        let radius = radius.map(|radius| format!(", radius {radius:.3}")).unwrap_or_default();
+        format!("<BirkhoffNormalForm of order {} in {}, {numbers}{radius}>", self.order(), space.names().join(", "))
     }
 
     /// K as text, in the actions or, with resonant terms, in the complex variables.
@@ -614,7 +610,10 @@ impl BirkhoffNormalForm {
 }
 
 /// A real frequency as its number, any other as a complex one.
-fn frequency<'py, R: RealField + IntoPyObject<'py>>(py: Python<'py>, omega: &Complex<R>) -> PyResult<Bound<'py, PyAny>> {
+fn frequency<'py, R: RealField + IntoPyObject<'py>>(
+    py: Python<'py>,
+    omega: &Complex<R>,
+) -> PyResult<Bound<'py, PyAny>> {
     if omega.im == R::zero() {
         return omega.re.clone().into_bound_py_any(py);
     }

@@ -137,9 +137,9 @@ fn exception(error: Algebra, message: String) -> PyErr {
         Algebra::OrderTooLarge { .. } | Algebra::MemoryTooLarge { .. } | Algebra::OrderOutOfRange { .. } => {
             OrderError::new_err(message)
         }
-        Algebra::NameUnknown { .. } | Algebra::ParameterUnknown { .. } | Algebra::Parse { problem: ParseProblem::UnknownName(_), .. } => {
-            UnknownNameError::new_err(message)
-        }
+        Algebra::NameUnknown { .. }
+        | Algebra::ParameterUnknown { .. }
+        | Algebra::Parse { problem: ParseProblem::UnknownName(_), .. } => UnknownNameError::new_err(message),
         Algebra::OutsideInterval { .. } | Algebra::NotFinite { .. } => IntervalError::new_err(message),
         Algebra::Parse { .. }
         | Algebra::PhaseSpaceSize { .. }

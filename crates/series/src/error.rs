@@ -336,7 +336,9 @@ pub enum ParseProblem {
     #[error("unknown name {0:?}")]
     UnknownName(String),
     /// A name before a bracket: a function.
-    #[error("{0:?} is a function, and only polynomials are read: expand it as a Taylor polynomial, for a normal form of order N to degree N + 2")]
+    #[error(
+        "{0:?} is a function, and only polynomials are read: expand it as a Taylor polynomial, for a normal form of order N to degree N + 2"
+    )]
     Function(String),
     /// A bracket after an operand: a product without its sign.
     #[error("a factor in brackets needs * before it")]

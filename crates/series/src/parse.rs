@@ -107,7 +107,11 @@ impl Parser<'_> {
 
     /// A character that stands where an operator is due.
     fn unexpected(&self, letter: char) -> Error {
-        self.fail(if letter == '(' { ParseProblem::ProductWithoutSign } else { ParseProblem::UnexpectedCharacter(letter) })
+        self.fail(if letter == '(' {
+            ParseProblem::ProductWithoutSign
+        } else {
+            ParseProblem::UnexpectedCharacter(letter)
+        })
     }
 
     fn fail(&self, problem: ParseProblem) -> Error {

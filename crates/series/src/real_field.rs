@@ -76,7 +76,8 @@ impl RealField for BigRational {
     const EPSILON: f64 = 0.0;
 
     fn candidates(approximation: f64) -> Vec<Self> {
-        let (mut rest, mut before, mut last) = (approximation, (BigInt::ZERO, BigInt::from(1)), (BigInt::from(1), BigInt::ZERO));
+        let (mut rest, mut before, mut last) =
+            (approximation, (BigInt::ZERO, BigInt::from(1)), (BigInt::from(1), BigInt::ZERO));
         let mut convergents = Vec::new();
         // A fraction with a denominator below 1e7 is a convergent of its float; twenty steps reach it.
         for _ in 0..20 {

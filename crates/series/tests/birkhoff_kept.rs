@@ -103,7 +103,10 @@ fn json_that_is_no_normal_form_is_refused() -> Result<(), Error> {
     assert!(matches!(changed("[[\"1\",\"0\"", "[[\"2/2\",\"0\""), Some(Error::RationalMalformed { .. })));
     assert!(matches!(changed("[[2,-1]]", "[[1,-1]]"), Some(Error::NotResonant { .. })));
     assert!(matches!(changed("[[2,-1]]", "[]"), Some(Error::TermInconsistent { what: "hamiltonian", .. })));
-    assert!(matches!(changed("\"elliptic\",\"1\",\"1\"", "\"elliptic\",\"1\",\"-1\""), Some(Error::NameUnknown { .. })));
+    assert!(matches!(
+        changed("\"elliptic\",\"1\",\"1\"", "\"elliptic\",\"1\",\"-1\""),
+        Some(Error::NameUnknown { .. })
+    ));
     assert!(matches!(BirkhoffNormalForm::<f64>::from_json(&text), Err(Error::FormatUnknown { .. })));
     Ok(())
 }

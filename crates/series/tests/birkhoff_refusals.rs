@@ -29,7 +29,9 @@ fn a_point_without_a_diagonal_form_is_refused_by_term() {
         "x^2 + X^2 + y^2 + Y^2 + c*y",
         "the origin is no equilibrium: the linear term y*c has the coefficient 1",
     );
-    for (text, direction) in [("Y^2", "y 1.000"), ("0", "y 1.000"), ("y^2/2", "Y 1.000"), ("(y + Y)^2", "y 1.000, Y 1.000")] {
+    for (text, direction) in
+        [("Y^2", "y 1.000"), ("0", "y 1.000"), ("y^2/2", "Y 1.000"), ("(y + Y)^2", "y 1.000, Y 1.000")]
+    {
         let message = format!(
             "the quadratic part in (y, Y) has a zero frequency, along the direction with the components {direction}: no normal form of this kind exists there"
         );

@@ -1,8 +1,8 @@
 //! Normal forms about equilibria with gyroscopic terms and saddles: the triangular and the collinear points of the restricted problem.
 
 use andoyer_series::{
-    BirkhoffMap, BirkhoffNormalForm, Error, Mode, Monomial, PhaseSpace, Polynomial, Resonances, normalize, normalize_with,
-    quiet,
+    BirkhoffMap, BirkhoffNormalForm, Error, Mode, Monomial, PhaseSpace, Polynomial, Resonances, normalize,
+    normalize_with, quiet,
 };
 
 mod hamiltonians;
@@ -50,7 +50,10 @@ fn the_triangular_point_has_the_published_frequencies_and_second_order() -> Resu
         let normal_form = triangle(mu)?;
         let found: Vec<f64> = normal_form.frequencies().iter().map(|omega| omega.re).collect();
         // The long-period mode has negative energy. Rounding of ω₂² = (1 − root)/2: 1e-16/ω₂.
-        assert!((found[0] - first).abs() < 1e-14 && (found[1] + second).abs() < 1e-14, "{mu}: {found:?} {first} {second}");
+        assert!(
+            (found[0] - first).abs() < 1e-14 && (found[1] + second).abs() < 1e-14,
+            "{mu}: {found:?} {first} {second}"
+        );
         // K₂ = ω₁I₁ − ω₂I₂, so the mixed coefficient is theirs. Towards μ = 0 terms of the size ω₂⁻⁴ cancel: changing the last bit of the
         // Hamiltonian's coefficients moves the result by 1e-13 ω₂⁻⁴, 2e-9 at μ = 0.001.
         let tolerance = if accurate.contains(&mu) { 1e-12 } else { 1e-13 / second.powi(4) };

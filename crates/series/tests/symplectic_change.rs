@@ -1,6 +1,8 @@
 //! The linear symplectic change that diagonalizes a quadratic part, over random matrices.
 
-use andoyer_series::{BigRational, BirkhoffNormalForm, Coefficient, Error, Mode, Monomial, PhaseSpace, Polynomial, RealField, normalize};
+use andoyer_series::{
+    BigRational, BirkhoffNormalForm, Coefficient, Error, Mode, Monomial, PhaseSpace, Polynomial, RealField, normalize,
+};
 use proptest::prelude::*;
 
 const PAIRS: [(&str, &str); 4] = [("a", "A"), ("b", "B"), ("c", "C"), ("d", "D")];
@@ -36,7 +38,13 @@ fn largest(a: &[Vec<f64>]) -> f64 {
 
 fn symplectic(n: usize) -> Vec<Vec<f64>> {
     let sign = |i: usize, j: usize| {
-        if i % 2 == 0 && j == i + 1 { 1.0 } else if j % 2 == 0 && i == j + 1 { -1.0 } else { 0.0 }
+        if i.is_multiple_of(2) && j == i + 1 {
+            1.0
+        } else if j.is_multiple_of(2) && i == j + 1 {
+            -1.0
+        } else {
+            0.0
+        }
     };
     (0..n).map(|i| (0..n).map(|j| sign(i, j)).collect()).collect()
 }
@@ -122,7 +130,7 @@ proptest! {
     fn a_change_of_units_changes_the_frequencies_not(root in square(6), exponents in proptest::array::uniform3(-40_i32..40)) {
         let mut a = product(&root, &transposed(&root));
         (0..6).for_each(|i| a[i][i] += 0.1);
-        let unit = |slot: usize| 2.0_f64.powi(if slot % 2 == 0 { exponents[slot / 2] } else { -exponents[slot / 2] });
+        let unit = |slot: usize| 2.0_f64.powi(if slot.is_multiple_of(2) { exponents[slot / 2] } else { -exponents[slot / 2] });
         let scaled: Vec<Vec<f64>> = (0..6).map(|i| (0..6).map(|j| a[i][j] * unit(i) * unit(j)).collect()).collect();
         let frequencies = |a: &[Vec<f64>]| diagonalized(a).map(|form| form.frequencies());
         let fail = |error: Error| TestCaseError::fail(error.to_string());

@@ -50,7 +50,8 @@ impl<R: RealField> BirkhoffNormalForm<R> {
 
     fn functions(&self) -> Result<Vec<Function>, Error> {
         let n = self.space().degrees_of_freedom();
-        let forward: Matrix<f64> = self.linear_change().iter().map(|row| row.iter().map(R::to_float).collect()).collect();
+        let forward: Matrix<f64> =
+            self.linear_change().iter().map(|row| row.iter().map(R::to_float).collect()).collect();
         let images = |direct: bool| {
             let image = |slot| {
                 let image = if direct { self.normal_image(slot, true) } else { self.normal_image(slot, false) };
@@ -112,7 +113,10 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// A real variable of the one side in those of the other, without the linear change.
     fn normal_image(&self, slot: usize, direct: bool) -> Result<Polynomial<R>, Error> {
         let variable = Polynomial::variable(slot)?;
-        self.transported(&variable, |transform, part| if direct { transform.direct(part) } else { transform.inverse(part) })
+        self.transported(
+            &variable,
+            |transform, part| if direct { transform.direct(part) } else { transform.inverse(part) },
+        )
     }
 
     fn actions_program(&self) -> Result<Program, Error> {
@@ -167,7 +171,11 @@ impl<R: RealField> BirkhoffNormalForm<R> {
                 ),
                 Mode::Hyperbolic { rate } => format!("({q}, {p}): saddle, rate {:?}, I = {q} {p}", rate.to_float()),
                 Mode::Complex { rate, frequency, .. } => {
-                    format!("({q}, {p}): of a quartet, rate {:?}, frequency {:?}", rate.to_float(), frequency.to_float())
+                    format!(
+                        "({q}, {p}): of a quartet, rate {:?}, frequency {:?}",
+                        rate.to_float(),
+                        frequency.to_float()
+                    )
                 }
             });
         }
@@ -190,10 +198,15 @@ fn from_normal(images: &[Polynomial<f64>], forward: &Matrix<f64>) -> Program {
 
 /// The results of `polynomials` get names of their own where the linear change follows.
 fn rename(mut program: Program, stem: &str) -> Program {
-    let last: BTreeMap<String, usize> = program.statements.iter().enumerate().filter_map(|(at, statement)| match statement {
-        Statement::Assignment(target, _) => Some((target.clone(), at)),
-        Statement::Comment(_) => None,
-    }).collect();
+    let last: BTreeMap<String, usize> = program
+        .statements
+        .iter()
+        .enumerate()
+        .filter_map(|(at, statement)| match statement {
+            Statement::Assignment(target, _) => Some((target.clone(), at)),
+            Statement::Comment(_) => None,
+        })
+        .collect();
     for (at, statement) in program.statements.iter_mut().enumerate() {
         if let Statement::Assignment(target, _) = statement
             && let Some(number) = target.strip_prefix("result_")
@@ -241,7 +254,8 @@ fn polynomials(list: &[Polynomial<f64>], first: usize, stem: &str) -> Program {
 
 /// The value of a polynomial in the variables from `slot` on, in the name `a_slot` where it takes more than one assignment.
 fn horner(program: &mut Program, terms: &[(Monomial, f64)], slot: usize, first: usize) -> Expression {
-    let Some(slot) = (slot..crate::SLOTS).find(|&slot| terms.iter().any(|(monomial, _)| monomial.exponent(slot) > 0)) else {
+    let Some(slot) = (slot..crate::SLOTS).find(|&slot| terms.iter().any(|(monomial, _)| monomial.exponent(slot) > 0))
+    else {
         return terms.iter().map(|(_, c)| c).sum::<f64>().into();
     };
     let mut by_power: BTreeMap<u32, Vec<(Monomial, f64)>> = BTreeMap::new();
@@ -270,7 +284,8 @@ fn variable(slot: usize, first: usize) -> String {
 }
 
 fn header(lines: &[String], language: Language) -> String {
-    let body = |mark: &str| lines.iter().map(|line| format!("{mark}{line}").trim_end().to_owned() + "\n").collect::<String>();
+    let body =
+        |mark: &str| lines.iter().map(|line| format!("{mark}{line}").trim_end().to_owned() + "\n").collect::<String>();
     match language {
         Language::C => format!("/*\n{} */\n", body(" * ")),
         Language::Rust => body("// "),

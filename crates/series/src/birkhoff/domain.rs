@@ -67,7 +67,10 @@ impl Domain {
     /// ρ_m = (‖T_{m−2}‖/‖T_m‖)^{1/2} for m = 3, …, N: the amplitude at which order m is as large as order m − 2. Infinite where T_m is 0.
     #[must_use]
     pub fn radii(&self) -> Vec<f64> {
-        self.norms.windows(3).map(|norms| if norms[2] > 0.0 { (norms[0] / norms[2]).sqrt() } else { f64::INFINITY }).collect()
+        self.norms
+            .windows(3)
+            .map(|norms| if norms[2] > 0.0 { (norms[0] / norms[2]).sqrt() } else { f64::INFINITY })
+            .collect()
     }
 
     /// The sizes (m + 2) ‖T_m‖ a^(m+1), m = 1, …, N, of the orders of the transformation where all amplitudes √(2|I|) are a.

@@ -14,7 +14,7 @@
 //! Reading verifies format, version, names, counts, degrees, that numbers are finite, that M is symplectic, that K has only terms that are kept and S none of
 //! them. It does *not* verify that K is the normal form of some Hamiltonian.
 
-use super::matrix::{Matrix, pairing, transposed};
+use super::matrix::{Matrix, form_entry, pairing, transposed};
 use super::mode::Mode;
 use super::quadratic::Diagonal;
 use super::{BirkhoffNormalForm, PhaseSpace, Resonances, turns};
@@ -110,7 +110,12 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         let header: Header = serde_json::from_str(text)?;
         if header.format != format::<R>() || header.version != VERSION {
             let (format, version) = (header.format, header.version);
-            return Err(Error::FormatUnknown { format, version, known_format: self::format::<R>(), known_version: VERSION });
+            return Err(Error::FormatUnknown {
+                format,
+                version,
+                known_format: self::format::<R>(),
+                known_version: VERSION,
+            });
         }
         let document: Document = serde_json::from_str(text)?;
         if document.order > R::MAXIMUM_ORDER {
@@ -126,7 +131,8 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         resonances.check(&diagonal.modes)?;
         let mut offset = Polynomial::zero();
         for (exponents, c) in &document.offset {
-            let fits = exponents.len() == space.names().len() && exponents[..2 * space.degrees_of_freedom()].iter().all(|&e| e == 0);
+            let fits = exponents.len() == space.names().len()
+                && exponents[..2 * space.degrees_of_freedom()].iter().all(|&e| e == 0);
             if !fits {
                 return Err(inconsistent("constant term", 0, exponents, TermProblem::Degree));
             }
@@ -137,7 +143,10 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             diagonal,
             resonances,
             offset,
-            normalization: Normalization { hamiltonian: Vec::new(), transform: LieTransform::new(crate::Poisson::new(&[])?, Vec::new()) },
+            normalization: Normalization {
+                hamiltonian: Vec::new(),
+                transform: LieTransform::new(crate::Poisson::new(&[])?, Vec::new()),
+            },
         };
         count("hamiltonian", document.hamiltonian.len(), document.order + 1)?;
         count("generators", document.generators.len(), document.order)?;
@@ -153,7 +162,13 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     }
 
     /// A polynomial of order n, checked term by term.
-    fn series(&self, what: &'static str, n: usize, terms: &[Term], kept: bool) -> Result<Polynomial<R::Complex>, Error> {
+    fn series(
+        &self,
+        what: &'static str,
+        n: usize,
+        terms: &[Term],
+        kept: bool,
+    ) -> Result<Polynomial<R::Complex>, Error> {
         let mut polynomial = Polynomial::zero();
         for (exponents, re, im) in terms {
             let fail = |problem| inconsistent(what, n, exponents, problem);
@@ -231,7 +246,11 @@ fn diagonal<R: RealField>(document: &Document, pairs: usize) -> Result<Diagonal<
             [kind, rate] if kind == "hyperbolic" => Mode::Hyperbolic { rate: number(rate)? },
             [kind, rate, frequency, partner] if kind == "complex" => {
                 let partner = partner.as_u64().map(|partner| partner as usize).filter(|&partner| partner < pairs);
-                Mode::Complex { rate: number(rate)?, frequency: number(frequency)?, partner: partner.ok_or_else(malformed)? }
+                Mode::Complex {
+                    rate: number(rate)?,
+                    frequency: number(frequency)?,
+                    partner: partner.ok_or_else(malformed)?,
+                }
             }
             _ => return Err(malformed()),
         });
@@ -248,7 +267,11 @@ fn diagonal<R: RealField>(document: &Document, pairs: usize) -> Result<Diagonal<
         _ => true,
     };
     if !modes.iter().enumerate().all(mutual) {
-        return Err(Error::NameUnknown { what: "mode", name: "complex".to_owned(), known: "two modes that name each other" });
+        return Err(Error::NameUnknown {
+            what: "mode",
+            name: "complex".to_owned(),
+            known: "two modes that name each other",
+        });
     }
     let mut matrix: Matrix<R> = Vec::new();
     for row in &document.linear_change {
@@ -265,7 +288,7 @@ fn symplectic<R: RealField>(matrix: &Matrix<R>) -> Result<(), Error> {
     let largest = matrix.iter().flatten().map(|entry| entry.to_float().abs()).fold(1.0, f64::max);
     for (i, j) in (0..columns.len()).flat_map(|i| (0..columns.len()).map(move |j| (i, j))) {
         let mut error = pairing(&columns[i], &columns[j]);
-        error -= &R::integer(i64::from(i % 2 == 0 && j == i + 1) - i64::from(j % 2 == 0 && i == j + 1));
+        error -= &R::integer(form_entry(i, j));
         if error.to_float().abs() > 1e4 * R::EPSILON * largest * largest || (R::EPSILON == 0.0 && !error.is_zero()) {
             return Err(Error::NotSymplectic { row: i, column: j, error: error.to_float() });
         }

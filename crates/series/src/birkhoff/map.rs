@@ -115,7 +115,8 @@ impl BirkhoffMap {
         let centres = self.modes.iter().filter(|mode| mode.is_elliptic()).count();
         check("state", centre, 2 * centres)?;
         let mut pairs = centre.chunks(2);
-        let pair = |mode: &Mode<f64>| if mode.is_elliptic() { pairs.next().unwrap_or(&[0.0, 0.0]) } else { &[0.0, 0.0] };
+        let pair =
+            |mode: &Mode<f64>| if mode.is_elliptic() { pairs.next().unwrap_or(&[0.0, 0.0]) } else { &[0.0, 0.0] };
         let normal: Vec<f64> = self.modes.iter().flat_map(pair).copied().collect();
         self.from_normal(&normal)
     }

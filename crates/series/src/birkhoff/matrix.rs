@@ -12,7 +12,10 @@ pub(crate) fn unit<C: Coefficient>(n: usize) -> Matrix<C> {
 }
 
 /// Σ aᵢ bᵢ.
-pub(crate) fn dot<'a, C: Coefficient + 'a>(a: impl IntoIterator<Item = &'a C>, b: impl IntoIterator<Item = &'a C>) -> C {
+pub(crate) fn dot<'a, C: Coefficient + 'a>(
+    a: impl IntoIterator<Item = &'a C>,
+    b: impl IntoIterator<Item = &'a C>,
+) -> C {
     let mut sum = C::zero();
     for (a, b) in a.into_iter().zip(b) {
         let mut product = a.clone();
@@ -39,6 +42,12 @@ pub(crate) fn turned<C: Coefficient>(z: &[C]) -> Vec<C> {
 /// xᵀ J y = Σ x_q y_p − x_p y_q.
 pub(crate) fn pairing<C: Coefficient>(x: &[C], y: &[C]) -> C {
     dot(x, &turned(y))
+}
+
+/// An entry of J.
+pub(crate) fn form_entry(i: usize, j: usize) -> i64 {
+    let above = |i: usize, j: usize| i64::from(i.is_multiple_of(2) && j == i + 1);
+    above(i, j) - above(j, i)
 }
 
 /// J M, the rows in pairs.

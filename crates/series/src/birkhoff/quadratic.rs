@@ -187,12 +187,14 @@ fn scaled<R: RealField>(block: &Matrix<R>, names: &dyn Fn(usize) -> String) -> R
 fn scales<R: RealField>(block: &Matrix<R>) -> Vec<i32> {
     let mut exponents = vec![0; block.len() / 2];
     let size = |i: usize, j: usize, exponents: &[i32]| {
-        let unit = |slot: usize| if slot % 2 == 0 { exponents[slot / 2] } else { -exponents[slot / 2] };
+        let unit = |slot: usize| if slot.is_multiple_of(2) { exponents[slot / 2] } else { -exponents[slot / 2] };
         block[i][j].to_float().abs() * 2.0_f64.powi(unit(i) + unit(j))
     };
     for _ in 0..8 {
         for pair in 0..exponents.len() {
-            let row = |slot: usize| (0..block.len()).filter(|&j| j != (slot ^ 1)).map(|j| size(slot, j, &exponents)).sum::<f64>();
+            let row = |slot: usize| {
+                (0..block.len()).filter(|&j| j != (slot ^ 1)).map(|j| size(slot, j, &exponents)).sum::<f64>()
+            };
             let (coordinate, momentum) = (row(2 * pair), row(2 * pair + 1));
             if coordinate > 0.0 && momentum > 0.0 && (momentum / coordinate).is_normal() {
                 exponents[pair] += ((momentum / coordinate).log2() / 4.0).round() as i32;

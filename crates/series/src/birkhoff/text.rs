@@ -148,8 +148,8 @@ fn align<R: RealField>(
 /// A name as a symbol: Greek letters by name, what follows an underscore or the digits at the end as an index.
 fn symbol(name: &str, prime: &str) -> String {
     const GREEK: [&str; 24] = [
-        "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu", "xi", "pi",
-        "rho", "sigma", "tau", "phi", "chi", "psi", "omega", "Gamma", "Omega",
+        "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu",
+        "xi", "pi", "rho", "sigma", "tau", "phi", "chi", "psi", "omega", "Gamma", "Omega",
     ];
     let stem = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
     let (stem, index) = match name.split_once('_') {

@@ -49,9 +49,7 @@ pub(crate) fn triangular(mu: f64, degree: u32) -> Result<Polynomial<f64>, Error>
 pub(crate) fn distance(mu: f64, second: bool) -> f64 {
     let sign = if second { 1.0 } else { -1.0 };
     // γ⁵ ∓ (3−μ) γ⁴ + (3−2μ) γ³ − μ γ² ± 2μ γ − μ = 0, upper signs for L1.
-    let value = |g: f64| {
-        ((((g + sign * (3.0 - mu)) * g + (3.0 - 2.0 * mu)) * g - mu) * g - 2.0 * sign * mu) * g - mu
-    };
+    let value = |g: f64| ((((g + sign * (3.0 - mu)) * g + (3.0 - 2.0 * mu)) * g - mu) * g - 2.0 * sign * mu) * g - mu;
     let (mut low, mut high) = (1e-6, 0.9);
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
