@@ -20,6 +20,8 @@ use crate::order::order;
 use crate::progress;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
+/// What pickle calls, and with what.
+type Reduced<'py> = (Bound<'py, PyAny>, (String, Py<PyDict>));
 
 /// The Birkhoff normal form of a Hamiltonian, from `normalize`: the new Hamiltonian K, and the transformation both ways.
 ///
@@ -255,6 +257,10 @@ impl BirkhoffNormalForm {
     /// IntervalError
     ///     A NaN, or a result that overflows.
     #[pyo3(signature = (states, parameters=None))]
+    #[expect(
+        clippy::wrong_self_convention,
+        reason = "the states of a manifold, as from_normal those of normal variables"
+    )]
     fn from_centre_manifold<'py>(
         &self,
         states: &Bound<'py, PyAny>,
@@ -522,7 +528,7 @@ impl BirkhoffNormalForm {
     }
 
     /// Pickled as its JSON text, with the symbols of SymPy.
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, Py<PyDict>))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let (py, form) = (slf.py(), slf.get());
         Ok((slf.get_type().getattr("from_json")?, (form.to_json(py)?, form.symbols.clone_ref(py))))
     }
