@@ -262,7 +262,7 @@ def test_progress_hears_of_every_order_and_stops():
 def test_normal_form_is_a_value():
     normal_form = pendulum(4)
     assert normal_form == pendulum(4) and normal_form != pendulum(6) and str(normal_form) == "I_q - 1/16*I_q^2 - 1/256*I_q^3"
-    assert repr(normal_form) == "<BirkhoffNormalForm of order 4 in q, p, exact>"
+    assert repr(normal_form) == "<BirkhoffNormalForm of order 4 in q, p, exact, radius 3.119>"
     with pytest.raises(AttributeError):
         normal_form.order = 3
 
