@@ -210,6 +210,15 @@ pub enum Error {
         /// What is wrong with it.
         problem: Box<Error>,
     },
+    /// What becomes of bad members of an ensemble, in a word that is unknown.
+    #[error("errors = {value:?}: it must be \"raise\" or \"nan\"")]
+    OnError {
+        /// The word as given.
+        value: String,
+    },
+    /// A computation that was stopped by the flag that it was given.
+    #[error("stopped before the end")]
+    Stopped,
     /// An index that no member of an ensemble has.
     #[error("index = {index}: the ensemble has {members} members, counted from 0")]
     Index {

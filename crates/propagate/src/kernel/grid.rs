@@ -17,7 +17,7 @@ use crate::phase::{Phase, elapsed};
 /// Times that share a factor. 32 and 128 take the same time within 2 %.
 pub(super) const BLOCK: usize = 64;
 /// Times whose blocks' first factors are computed together.
-pub(super) const GROUP: usize = 16 * BLOCK;
+pub(crate) const GROUP: usize = 16 * BLOCK;
 /// Fewer times are not worth a table.
 const FEWEST: usize = 8 * BLOCK;
 /// Largest phase of a deviation \[rad\], whose square is not corrected.

@@ -20,6 +20,8 @@ mod sums;
 mod tests;
 pub(crate) mod wobble;
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use pulp::Arch;
 
 use crate::motion::Course;
@@ -56,6 +58,30 @@ impl<'a> Outputs<'a> {
     }
 }
 
+/// Why an evaluation ends before its last time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Halt {
+    /// The index of a time at which the motion has no phase.
+    Time(usize),
+    /// The flag was set.
+    Stopped,
+}
+
+impl Halt {
+    /// The same of times that begin later.
+    fn later(self, place: usize) -> Self {
+        match self {
+            Self::Time(index) => Self::Time(place + index),
+            Self::Stopped => Self::Stopped,
+        }
+    }
+}
+
+/// Whether to go on. Asked once for each group of times, which takes a microsecond or more.
+pub(crate) fn going(stop: &AtomicBool) -> Result<(), Halt> {
+    if stop.load(Ordering::Relaxed) { Err(Halt::Stopped) } else { Ok(()) }
+}
+
 /// A motion, the times that it has a phase at, and how to compute.
 #[derive(Clone, Copy)]
 pub(crate) struct Evaluation<'a> {
@@ -64,11 +90,13 @@ pub(crate) struct Evaluation<'a> {
     /// Largest distance from the epoch.
     pub(crate) bound: f64,
     pub(crate) arch: Arch,
+    /// Set by another thread to end the evaluation.
+    pub(crate) stop: &'a AtomicBool,
 }
 
 impl Evaluation<'_> {
-    /// All times, on at most so many threads; or the index of the first that has no phase. Outputs are as long as the times.
-    pub(crate) fn fill(&self, times: &[f64], outputs: Outputs<'_>, threads: usize) -> Result<(), usize> {
+    /// All times, on at most so many threads; or why not. Outputs are as long as the times.
+    pub(crate) fn fill(&self, times: &[f64], outputs: Outputs<'_>, threads: usize) -> Result<(), Halt> {
         let grid = Grid::new(self, times);
         let enough = times.len() / SAMPLES_PER_THREAD;
         // Asking for the pool's size starts it: not for a few samples.
@@ -77,7 +105,7 @@ impl Evaluation<'_> {
     }
 
     /// Halves go to threads. They begin where a group does, so that each sample is computed as it would be by one thread.
-    fn spread(&self, times: &[f64], outputs: Outputs<'_>, grid: Option<&Grid>, threads: usize) -> Result<(), usize> {
+    fn spread(&self, times: &[f64], outputs: Outputs<'_>, grid: Option<&Grid>, threads: usize) -> Result<(), Halt> {
         if threads <= 1 {
             return level::dispatch(self.arch, Run { evaluation: self, times, outputs, grid });
         }
@@ -89,6 +117,6 @@ impl Evaluation<'_> {
             || self.spread(left, left_outputs, grid, half),
             || self.spread(right, right_outputs, grid, threads - half),
         );
-        first.and(second.map_err(|index| place + index))
+        first.and(second.map_err(|halt| halt.later(place)))
     }
 }

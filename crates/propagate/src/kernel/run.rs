@@ -3,11 +3,12 @@
 use super::grid::{BLOCK, GROUP, Grid, Tabled};
 use super::lanes::{Lanes, WIDEST};
 use super::level::{Level, Task};
-use super::{Evaluation, Outputs};
+use super::{Evaluation, Halt, Outputs, going};
 use crate::gradient::Gradient;
 use crate::motion::Course;
 use crate::phase::{Phase, elapsed};
 use andoyer_series::two_sum;
+use std::sync::atomic::AtomicBool;
 
 /// Sine and cosine.
 pub(crate) type Circle<S> = (Lanes<S>, Lanes<S>);
@@ -52,7 +53,7 @@ pub(super) struct Run<'a> {
 }
 
 impl Task for Run<'_> {
-    type Output = Result<(), usize>;
+    type Output = Result<(), Halt>;
 
     #[inline(always)]
     fn run<S: Level>(self, simd: S) -> Self::Output {
@@ -67,8 +68,8 @@ impl Task for Run<'_> {
 
 impl Run<'_> {
     /// Each time by itself, without vectors.
-    fn one_by_one(self, evaluate: impl Fn((f64, f64)) -> ([f64; 4], [f64; 3])) -> Result<(), usize> {
-        let Self { evaluation: &Evaluation { epoch, bound, .. }, times, outputs, .. } = self;
+    fn one_by_one(self, evaluate: impl Fn((f64, f64)) -> ([f64; 4], [f64; 3])) -> Result<(), Halt> {
+        let Self { evaluation: &Evaluation { epoch, bound, stop, .. }, times, outputs, .. } = self;
         let (mut attitudes, mut rates) = match outputs {
             Outputs::Attitudes(attitudes) => (Some(attitudes), None),
             Outputs::Rates(rates) => (None, Some(rates)),
@@ -76,6 +77,9 @@ impl Run<'_> {
         };
         all_within(times, epoch, bound)?;
         for (index, &time) in times.iter().enumerate() {
+            if index % GROUP == 0 {
+                going(stop)?;
+            }
             let (attitude, rate) = evaluate(two_sum(time, -epoch));
             if let Some(attitudes) = &mut attitudes {
                 attitudes[index] = attitude;
@@ -89,22 +93,21 @@ impl Run<'_> {
 
     /// Under a gravity gradient.
     #[inline(always)]
-    fn disturbed<S: Level>(self, simd: S, gradient: &Gradient) -> Result<(), usize> {
-        let Self { evaluation: &Evaluation { epoch, bound, .. }, times, outputs, .. } = self;
+    fn disturbed<S: Level>(self, simd: S, gradient: &Gradient) -> Result<(), Halt> {
+        let Self { evaluation: &Evaluation { epoch, bound, stop, .. }, times, outputs, .. } = self;
         all_within(times, epoch, bound)?;
         let source = Disturbed { gradient, epoch: Lanes::splat(simd, epoch) };
         match outputs {
-            Outputs::Attitudes(attitudes) => each::<S, true, false>(simd, times, (attitudes, &mut []), source),
-            Outputs::Rates(rates) => each::<S, false, true>(simd, times, (&mut [], rates), source),
-            Outputs::Both(attitudes, rates) => each::<S, true, true>(simd, times, (attitudes, rates), source),
+            Outputs::Attitudes(attitudes) => groups::<S, true, false>(simd, times, (attitudes, &mut []), source, stop),
+            Outputs::Rates(rates) => groups::<S, false, true>(simd, times, (&mut [], rates), source, stop),
+            Outputs::Both(attitudes, rates) => groups::<S, true, true>(simd, times, (attitudes, rates), source, stop),
         }
-        Ok(())
     }
 
     #[inline(always)]
-    fn select<S: Level, C: Evaluate>(self, simd: S, course: &C) -> Result<(), usize> {
-        let Self { evaluation: &Evaluation { epoch, bound, .. }, times, outputs, grid } = self;
-        let stretch = Stretch { simd, epoch, bound, course, grid };
+    fn select<S: Level, C: Evaluate>(self, simd: S, course: &C) -> Result<(), Halt> {
+        let Self { evaluation: &Evaluation { epoch, bound, stop, .. }, times, outputs, grid } = self;
+        let stretch = Stretch { simd, epoch, bound, course, grid, stop };
         match outputs {
             Outputs::Attitudes(attitudes) => stretch.fill::<true, false>(times, (attitudes, &mut [])),
             Outputs::Rates(rates) => stretch.fill::<false, true>(times, (&mut [], rates)),
@@ -122,15 +125,17 @@ struct Stretch<'a, S, C> {
     bound: f64,
     course: &'a C,
     grid: Option<&'a Grid>,
+    stop: &'a AtomicBool,
 }
 
 impl<S: Level, C: Evaluate> Stretch<'_, S, C> {
     /// Group by group, each after its times are found to be valid.
     #[inline(always)]
-    fn fill<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], mut rows: Rows<'_>) -> Result<(), usize> {
+    fn fill<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], mut rows: Rows<'_>) -> Result<(), Halt> {
         for (index, group) in times.chunks(GROUP).enumerate() {
             let start = index * GROUP;
-            all_within(group, self.epoch, self.bound).map_err(|place| start + place)?;
+            going(self.stop)?;
+            all_within(group, self.epoch, self.bound).map_err(|halt| halt.later(start))?;
             let rows = part::<ATTITUDE, RATES>(&mut rows, start, group.len());
             match self.grid {
                 Some(grid) => self.uniform::<ATTITUDE, RATES>(grid, group, rows),
@@ -170,12 +175,29 @@ impl<S: Level, C: Evaluate> Stretch<'_, S, C> {
 
 /// Whether all times are within the bound, or the first that is not. NaN is not.
 #[inline(always)]
-fn all_within(times: &[f64], epoch: f64, bound: f64) -> Result<(), usize> {
+fn all_within(times: &[f64], epoch: f64, bound: f64) -> Result<(), Halt> {
     let valid = |time: &f64| (time - epoch).abs() <= bound;
     if times.iter().fold(true, |all, time| all & valid(time)) {
         return Ok(());
     }
-    Err(times.iter().position(|time| !valid(time)).unwrap_or(0))
+    Err(Halt::Time(times.iter().position(|time| !valid(time)).unwrap_or(0)))
+}
+
+/// Group by group, as long as the flag is not set.
+#[inline(always)]
+fn groups<S: Level, const ATTITUDE: bool, const RATES: bool>(
+    simd: S,
+    times: &[f64],
+    mut rows: Rows<'_>,
+    source: impl Source<S> + Copy,
+    stop: &AtomicBool,
+) -> Result<(), Halt> {
+    for (index, group) in times.chunks(GROUP).enumerate() {
+        going(stop)?;
+        let rows = part::<ATTITUDE, RATES>(&mut rows, index * GROUP, group.len());
+        each::<S, ATTITUDE, RATES>(simd, group, rows, source);
+    }
+    Ok(())
 }
 
 /// All lanes at once, and the last times with lanes that lack filled up.
@@ -279,6 +301,7 @@ impl<S: Level, C: Evaluate> Source<S> for Blocks<'_, S, C> {
 }
 
 /// Under a gravity gradient.
+#[derive(Clone, Copy)]
 struct Disturbed<'a, S: Level> {
     gradient: &'a Gradient,
     epoch: Lanes<S>,

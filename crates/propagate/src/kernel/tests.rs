@@ -6,7 +6,8 @@ use pulp::Arch;
 
 use super::lanes::Lanes;
 use super::level::{Level, Task, dispatch};
-use super::{Evaluation, Outputs};
+use super::{Evaluation, Halt, Outputs};
+use crate::batch::GOING;
 use crate::fourier::QuaternionSeries;
 use crate::motion::{Course, Place, Wobble};
 use crate::phase::Phase;
@@ -181,7 +182,7 @@ impl Case {
 }
 
 fn evaluation(course: &Course, arch: Arch) -> Evaluation<'_> {
-    Evaluation { course, epoch: 0.0, bound: 1e15, arch }
+    Evaluation { course, epoch: 0.0, bound: 1e15, arch, stop: &GOING }
 }
 
 type Both = (Vec<[f64; 4]>, Vec<[f64; 3]>);
@@ -330,7 +331,7 @@ fn the_first_time_without_a_phase_is_named() {
                 (times[place], times[49_000]) = (wrong, wrong);
                 let mut rates = vec![[0.0; 3]; times.len()];
                 let found = evaluation(&course, arch).fill(&times, Outputs::Rates(&mut rates), 4);
-                assert_eq!(found, Err(place), "{arch:?} {wrong}");
+                assert_eq!(found, Err(Halt::Time(place)), "{arch:?} {wrong}");
             }
         }
     }
