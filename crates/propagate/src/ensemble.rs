@@ -404,7 +404,12 @@ impl Ensemble {
     ///
     /// # Errors
     /// As [`Ensemble::attitudes_into`].
-    pub fn samples_into(&self, times: &[f64], attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<Outcome, Error> {
+    pub fn samples_into(
+        &self,
+        times: &[f64],
+        attitudes: &mut [[f64; 4]],
+        rates: &mut [[f64; 3]],
+    ) -> Result<Outcome, Error> {
         self.run().samples_into(times, attitudes, rates)
     }
 
@@ -541,7 +546,8 @@ impl<'a> Run<'a> {
             }
         };
         let members = rows.enumerate().with_min_len(ensemble.block());
-        let outcome = ensemble.pool()?.install(|| members.fold(Outcome::default, told).reduce(Outcome::default, Outcome::and));
+        let outcome =
+            ensemble.pool()?.install(|| members.fold(Outcome::default, told).reduce(Outcome::default, Outcome::and));
         self.going()?;
         match ensemble.on_error {
             OnError::Nan => Ok(outcome),

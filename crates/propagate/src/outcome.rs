@@ -46,7 +46,10 @@ impl Outcome {
     pub fn missed_tolerance(&self) -> Option<String> {
         let Missed { member, bound, tolerance, spanned } = self.worst?;
         let said = missed(bound, tolerance, spanned);
-        Some(format!("{} of {} members miss the tolerance, the worst is member {member}: {said}", self.missing, self.solved))
+        Some(format!(
+            "{} of {} members miss the tolerance, the worst is member {member}: {said}",
+            self.missing, self.solved
+        ))
     }
 
     /// With a member that was solved.

@@ -8,7 +8,7 @@ use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::array::{Rows, Times, fixed_length, interruptible, number, write};
+use crate::array::{Rows, Times, fixed_length, number, row_by_row, write};
 use crate::computing::detached;
 use crate::error::{self, UnknownNameError};
 use crate::expression::{Expression, complex, real};
@@ -281,9 +281,9 @@ impl BirkhoffNormalForm {
     ) -> PyResult<Array<'py>> {
         let (py, n) = (state.py(), 2 * self.space().degrees_of_freedom());
         let map = self.map(py, parameters)?;
-        let (state, times) = (fixed_length("state", state, n)?, Times::new(times)?);
+        let (state, times) = (fixed_length("state", state, n)?, Times::new(times, None, false)?);
         let result = times.rows(n)?;
-        let states = interruptible(py, times.values()?, 1, |times| map.trajectory(&state, times))?;
+        let states = row_by_row(py, times.values()?, 1, |times| map.trajectory(&state, times))?;
         write(&result)?.as_slice_mut()?.copy_from_slice(&states.concat());
         Ok(result)
     }

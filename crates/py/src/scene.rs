@@ -9,9 +9,10 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::body::Body;
 use crate::computing::detached;
+use crate::foreign::{self, Calendar};
 use crate::motion::Motion;
 use crate::orbit::Orbit;
-use crate::{array, error, foreign};
+use crate::{array, error};
 
 /// A body, its state at an epoch, and the accuracy asked of the solution.
 ///
@@ -28,8 +29,8 @@ use crate::{array, error, foreign};
 ///     numbers are taken; a Time in TDB seconds since J2000.
 /// scalar_first : bool, optional
 ///     Whether `attitude` is [w, x, y, z]. The property `attitude` has the scalar last all the same.
-/// epoch : float, optional
-///     Time of the state.
+/// epoch : float or astropy.time.Time, optional
+///     Time of the state. Of a Time the two doubles are kept, in TDB, and times of the motion may be Time; numbers are then seconds since J2000.
 /// orbit : Orbit, optional
 ///     Relative orbit of a body whose gravity gradient acts (theory §9); by default none, and the motion is free.
 /// tolerance : float, optional
@@ -42,6 +43,7 @@ use crate::{array, error, foreign};
 ///     A fixed order is not raised for the tolerance: where it is too low, `Plan.error_bound` exceeds the tolerance and ``str(plan)``
 ///     says that it "is not met", and over what.
 /// span : (float, float), optional
+///     Two numbers, or two Time, or two TimeDelta from the epoch.
 ///     Times over which the tolerance is asked for; by default any within 1e9 rotations. A motion can be evaluated outside it, up to
 ///     1e15 rotations from the epoch; farther away is a `TimesError` of the motion.
 /// averaging : {"auto", "orbit", "spin"}, optional
@@ -82,21 +84,25 @@ use crate::{array, error, foreign};
 /// True
 #[pyclass(frozen, eq, module = "andoyer")]
 #[derive(PartialEq)]
-pub(crate) struct Scene(pub(crate) andoyer_propagate::Scene);
+pub(crate) struct Scene(pub(crate) andoyer_propagate::Scene, pub(crate) Option<Calendar>);
 
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(signature = (
-        body, attitude, angular_velocity, *, epoch=0.0, orbit=None, tolerance=1e-12, method="auto", order=None, span=None,
-        averaging="auto", level="full", name=None, source=None, scalar_first=false
-    ))]
+    #[pyo3(
+        signature = (
+            body, attitude, angular_velocity, *, epoch=None, orbit=None, tolerance=1e-12, method="auto", order=None, span=None,
+            averaging="auto", level="full", name=None, source=None, scalar_first=false
+        ),
+        text_signature = "(body, attitude, angular_velocity, *, epoch=0.0, orbit=None, tolerance=1e-12, method='auto', order=None, span=None, \
+                          averaging='auto', level='full', name=None, source=None, scalar_first=False)"
+    )]
     #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn new(
         body: &Bound<'_, PyAny>,
         attitude: &Bound<'_, PyAny>,
         angular_velocity: &Bound<'_, PyAny>,
-        #[pyo3(from_py_with = epoch)] epoch: f64,
+        epoch: Option<&Bound<'_, PyAny>>,
         orbit: Option<&Bound<'_, PyAny>>,
         #[pyo3(from_py_with = tolerance)] tolerance: f64,
         method: &str,
@@ -113,6 +119,7 @@ impl Scene {
         let mut attitude = array::fixed("attitude", attitude)?;
         foreign::scalar_last(&mut attitude, scalar_first);
         let angular_velocity = array::fixed("angular_velocity", angular_velocity)?;
+        let (epoch, calendar) = self::epoch(epoch)?;
         let state = State::new(epoch, attitude, angular_velocity).map_err(error::propagation)?;
         let method = method.parse().map_err(error::propagation)?;
         let mut scene = andoyer_propagate::Scene::new(body.0.clone(), state)
@@ -127,7 +134,7 @@ impl Scene {
             scene = scene.order(crate::order::order("order", value, 0, MAX_ORDER)?);
         }
         if let Some(value) = span {
-            let [start, stop] = array::fixed("span", value)?;
+            let [start, stop] = foreign::span(value, epoch, calendar)?;
             scene = scene.span(start, stop);
         }
         if let Some(name) = name {
@@ -137,7 +144,7 @@ impl Scene {
             scene = scene.source(source);
         }
         scene.validate().map_err(error::propagation)?;
-        Ok(Self(scene))
+        Ok(Self(scene, calendar))
     }
 
     /// The scene of a TOML file.
@@ -152,7 +159,7 @@ impl Scene {
     ///     No such file, no TOML, an unknown or missing key, a value that no scene has; the message names file, key and bound.
     #[classmethod]
     fn from_toml(_class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
-        andoyer_propagate::Scene::from_toml(path).map(Self).map_err(error::propagation)
+        andoyer_propagate::Scene::from_toml(path).map(|scene| Self(scene, None)).map_err(error::propagation)
     }
 
     /// The scene as TOML text, which `from_toml` reads back from a file to an equal scene.
@@ -161,6 +168,11 @@ impl Scene {
     }
 
     /// The motion: everything that does not depend on time is done here, once.
+    ///
+    /// Warns
+    /// -----
+    /// ToleranceWarning
+    ///     Once, with both numbers, where the error bound exceeds the tolerance over the span (`Plan.meets_tolerance`).
     ///
     /// Raises
     /// ------
@@ -176,7 +188,9 @@ impl Scene {
     /// UnitsError
     ///     The angular momentum, moment × rate, is no normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {
-        detached(py, error::propagation, || self.0.solve()).map(Motion)
+        let motion = detached(py, error::propagation, || self.0.solve())?;
+        error::warn_of_tolerance(py, motion.plan().missed_tolerance())?;
+        Ok(Motion(motion, self.1))
     }
 
     /// The body.
@@ -270,7 +284,8 @@ impl Scene {
     fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
         let state = self.0.state();
         let numbers: ([f64; 4], [f64; 3]) = (state.attitude.coords.into(), state.angular_velocity.into());
-        let keywords = PyTuple::new(py, self.keywords(py)?.values())?;
+        let keywords = Self(self.0.clone(), None).keywords(py)?.values();
+        let keywords = PyTuple::new(py, keywords)?;
         let [attitude, rates] = [PyTuple::new(py, numbers.0)?, PyTuple::new(py, numbers.1)?];
         (self.body().__hash__(py)?, attitude, rates, keywords).into_pyobject(py)?.hash()
     }
@@ -291,8 +306,10 @@ impl Scene {
 }
 
 // PyO3 leaves the name of an argument out of the message of its own `TypeError`.
-fn epoch(value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    array::number("epoch", value)
+fn epoch(value: Option<&Bound<'_, PyAny>>) -> PyResult<(f64, Option<Calendar>)> {
+    let Some(value) = value else { return Ok((0.0, None)) };
+    let (numbers, calendar) = foreign::epochs("epoch", value)?;
+    Ok((array::number("epoch", &numbers)?, calendar.first().copied()))
 }
 
 fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
@@ -318,7 +335,10 @@ impl Scene {
     /// The keyword arguments that make this scene.
     fn keywords<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let keywords = PyDict::new(py);
-        keywords.set_item("epoch", self.epoch())?;
+        match self.1 {
+            Some(calendar) => keywords.set_item("epoch", foreign::calendar(py, &[calendar])?.get_item(0)?)?,
+            None => keywords.set_item("epoch", self.epoch())?,
+        }
         keywords.set_item("orbit", self.orbit())?;
         keywords.set_item("tolerance", self.tolerance())?;
         keywords.set_item("method", self.method())?;
