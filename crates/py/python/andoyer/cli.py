@@ -1,7 +1,7 @@
 """The command line: `andoyer propagate`, `plan`, `plot`, `bodies`, `series`.
 
 Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion that is not served,
-no command.
+no command. A tolerance that is not met is one line on stderr, and exit status 3 under `--strict`. After Ctrl-C it is 130, and no file is left half written.
 """
 
 import argparse
@@ -10,6 +10,7 @@ import os
 import shutil
 import sys
 import textwrap
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import datetime
@@ -33,6 +34,9 @@ ROTATIONS = 10
 
 SAMPLES = 1000
 """Samples if the command line gives neither their number nor a step."""
+
+MISSED = 3
+"""Exit status of a tolerance that is not met, under --strict."""
 
 MOST_SAMPLES = 10**9
 """More would not fit a file that anyone reads."""
@@ -80,7 +84,7 @@ def main(argv: list[str] | None = None) -> int:
         arguments = top.parse_args(argv)
         if arguments.run is None:
             raise InputError(f"a command is missing: {', '.join(COMMANDS)} (--help says more)")
-        arguments.run(arguments)
+        status: int = arguments.run(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
         # The reader of a pipe has seen enough; nothing may be flushed into it at exit.
@@ -92,7 +96,7 @@ def main(argv: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("andoyer: interrupted", file=sys.stderr)
         return 130
-    return 0
+    return status
 
 
 def examples(said: str, *lines: str) -> dict[str, Any]:
@@ -124,16 +128,19 @@ def parser() -> Parser:
     message.add_argument("--date", type=date, metavar="DATE", help=f"calendar date of time 0 (default: {default.date.isoformat()})")
     message.add_argument("--time-system", choices=TIME_SYSTEMS, metavar="SYSTEM", help=f"of that date: {', '.join(TIME_SYSTEMS)} (default: {default.time_system})")
     message.add_argument("--frame", type=word, metavar="NAME", help=f"name of the inertial frame (default: {default.frame})")
+    strictly(command)
     command.set_defaults(run=propagate)
 
     pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole"
     command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
     command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .png, .svg or .pdf by its ending")
+    strictly(command)
     command.set_defaults(run=plot)
 
     command = commands.add_parser("plan", help="print what would be evaluated, and why", **examples("", EXAMPLES["plan"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
+    strictly(command)
     command.set_defaults(run=plan)
 
     command = commands.add_parser("bodies", help="print the catalogue of bodies, each with its source", **examples("", EXAMPLES["bodies"]))
@@ -147,6 +154,11 @@ def parser() -> Parser:
     command.add_argument("--beta", type=number, metavar="BETA", help="triaxiality in source code (default: an argument of the function)")
     command.set_defaults(run=series)
     return top
+
+
+def strictly(command: argparse.ArgumentParser) -> None:
+    """Add the option that makes a missed tolerance a failure."""
+    command.add_argument("--strict", action="store_true", help=f"exit with status {MISSED} if the tolerance is not met")
 
 
 def number(text: str) -> float:
@@ -191,7 +203,7 @@ def checked(text: str, read: Callable[[str], Value], accepts: Callable[[Value], 
     return value
 
 
-def propagate(arguments: argparse.Namespace) -> None:
+def propagate(arguments: argparse.Namespace) -> int:
     """Write a motion at equal steps of time."""
     path = Path(arguments.output)
     to_stdout = arguments.output == "-"
@@ -203,30 +215,32 @@ def propagate(arguments: argparse.Namespace) -> None:
     if given and ending != ".aem":
         raise InputError(f"argument --{next(iter(given)).replace('_', '-')}: goes with a .aem alone, not with {arguments.output}")
     motion = solved(arguments.scene)
+    remark = motion.plan.missed_tolerance
     samples = motion.at(instants(arguments, motion))
     progress = Progress("writing, lines")
     try:
         if to_stdout:
             output.write_table(sys.stdout, samples, progress)
         else:
-            with written_to(path):
+            with written_to(path) as part:
                 if ending == ".aem":
-                    write_message(path, motion, samples, given)
+                    write_message(part, motion, samples, given, path)
                 elif ending == ".csv":
-                    output.write_csv(path, samples, progress)
+                    output.write_csv(part, samples, progress)
                 else:
-                    writers[ending](path, samples)
+                    writers[ending](part, samples, remark or "")
     finally:
         progress.close()
     note_sparse(motion, samples.times)
+    return status(arguments, motion)
 
 
-def write_message(path: Path, motion: andoyer.Motion, samples: andoyer.Samples, given: dict[str, Any]) -> None:
+def write_message(part: Path, motion: andoyer.Motion, samples: andoyer.Samples, given: dict[str, Any], path: Path) -> None:
     """Write an AEM; what was not given of its heading is said on stderr."""
     name = motion.scene.name or motion.scene.body.name or Heading.name
-    heading = Heading(name=name, **given)
+    heading = Heading(name=name, remark=motion.plan.missed_tolerance or "", **given)
     try:
-        output.write_aem(path, samples, heading)
+        output.write_aem(part, samples, heading)
     except ValueError as error:
         raise InputError(f"argument -o/--output: {path}: {error}") from error
     if "date" not in given or "frame" not in given:
@@ -234,7 +248,7 @@ def write_message(path: Path, motion: andoyer.Motion, samples: andoyer.Samples, 
         print(f"andoyer: note: {said}; --date and --frame name others", file=sys.stderr)
 
 
-def plot(arguments: argparse.Namespace) -> None:
+def plot(arguments: argparse.Namespace) -> int:
     """Draw the pictures of a motion."""
     path = Path(arguments.output)
     if path.suffix.lower() not in PICTURES:
@@ -242,16 +256,30 @@ def plot(arguments: argparse.Namespace) -> None:
     extra("matplotlib", "drawing").use("Agg")
     from andoyer import plot as pictures
 
-    figure = pictures.summary(solved(arguments.scene))
-    with written_to(path):
-        figure.savefig(path, dpi=130)
+    motion = solved(arguments.scene)
+    figure = pictures.summary(motion)
+    with written_to(path) as part:
+        figure.savefig(part, dpi=130, format=path.suffix[1:].lower())
+    return status(arguments, motion)
 
 
 @contextmanager
-def written_to(path: Path) -> Iterator[None]:
-    """What the system says against `path` is an error of the argument, in its own words whoever writes."""
+def written_to(path: Path) -> Iterator[Path]:
+    """Where to write what takes the place of `path` when it is complete: what was there before stays until then, and an interruption leaves it.
+
+    What the system says against `path` is an error of the argument, in its own words whoever writes.
+    """
     try:
-        yield
+        if path.exists() and not path.is_file():
+            yield path  # a pipe or a device
+            return
+        final = path.resolve()
+        part = final.with_name(f".{final.name}.{os.getpid()}.part")
+        try:
+            yield part
+            part.replace(final)
+        finally:
+            part.unlink(missing_ok=True)
     except BrokenPipeError:
         raise
     except OSError as error:
@@ -262,10 +290,22 @@ def written_to(path: Path) -> Iterator[None]:
 def solved(path: str) -> andoyer.Motion:
     """The motion of a scene file; that it has none is an error of the file."""
     scene = andoyer.Scene.from_toml(path)
-    try:
-        return scene.solve()
-    except andoyer.Error as error:
-        raise InputError(f"{path}: {error}") from error
+    with warnings.catch_warnings():
+        # `status` says it in one line.
+        warnings.simplefilter("ignore", andoyer.ToleranceWarning)
+        try:
+            return scene.solve()
+        except andoyer.Error as error:
+            raise InputError(f"{path}: {error}") from error
+
+
+def status(arguments: argparse.Namespace, motion: andoyer.Motion) -> int:
+    """The exit status of a command about this motion; a tolerance that is not met is said on stderr."""
+    missed = motion.plan.missed_tolerance
+    if missed is None:
+        return 0
+    print(f"andoyer: warning: {missed}", file=sys.stderr)
+    return MISSED if arguments.strict else 0
 
 
 def instants(arguments: argparse.Namespace, motion: andoyer.Motion) -> NDArray[np.float64]:
@@ -307,7 +347,7 @@ def interval(motion: andoyer.Motion, start: float | None, stop: float | None) ->
     return start, stop
 
 
-def plan(arguments: argparse.Namespace) -> None:
+def plan(arguments: argparse.Namespace) -> int:
     """Print the plan of a scene, and the periods of its motion."""
     motion = solved(arguments.scene)
     scene = motion.scene
@@ -318,18 +358,20 @@ def plan(arguments: argparse.Namespace) -> None:
     print(named("energy"), f"E/E0 {motion.energy_ratio:.8g}, k^2 {motion.elliptic_parameter:.8g}")
     for convention, (precession, rotation) in motion.periods.items():
         print(named("periods"), f"{convention}: P_phi {precession:.10g}, P_psi {rotation:.10g}")
+    return status(arguments, motion)
 
 
-def bodies(_arguments: argparse.Namespace) -> None:
+def bodies(_arguments: argparse.Namespace) -> int:
     """Print the catalogue."""
     print(f"{'name':10} {'A/C':>10} {'B/C':>10} {'beta':>10}  source")
     for name in andoyer.Body.catalogue():
         body = andoyer.Body.named(name)
         a, b, c = np.sort(body.moments)
         print(f"{name:10} {a / c:10.8f} {b / c:10.8f} {body.beta:10.8f}  {andoyer.Body.source(name)}")
+    return 0
 
 
-def series(arguments: argparse.Namespace) -> None:
+def series(arguments: argparse.Namespace) -> int:
     """Print the normal form: its triaxiality polynomials, or all of it in another form."""
     for option, value, served in [("--part", arguments.part, ["latex"]), ("--beta", arguments.beta, LANGUAGES)]:
         if value is not None and arguments.to not in served:
@@ -340,6 +382,7 @@ def series(arguments: argparse.Namespace) -> None:
     finally:
         progress.close()
     sys.stdout.write(written(normal_form, arguments))
+    return 0
 
 
 def written(normal_form: andoyer.NormalForm, arguments: argparse.Namespace) -> str:

@@ -5,6 +5,7 @@ and the angular velocity in deg/s. Its quaternion from frame A to frame B turns 
 body's axes it is the attitude as it stands, scalar last. Version 2 has no ATTITUDE_DIR and no QUATERNION_TYPE: it removed both.
 """
 
+import textwrap
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from datetime import datetime, timedelta, timezone
@@ -34,6 +35,9 @@ REAL = "%.15e"
 
 LONGEST_LINE = 254
 
+ROWS_AT_ONCE = 2**20
+"""Rows of a group of Parquet, which takes some 0.1 s."""
+
 LINES_AT_ONCE = 10_000
 """Lines between two words on how far the writing is."""
 
@@ -54,6 +58,8 @@ class Heading:
     date: datetime = datetime(2000, 1, 1, 12)
     """Calendar date of time 0 in `time_system`."""
     time_system: str = "TDB"
+    remark: str = ""
+    """What is to be said of the samples, as a comment."""
 
 
 def write_csv(path: Path, samples: Samples, progress: Progress = silent) -> None:
@@ -71,8 +77,8 @@ def write_table(file: TextIO, samples: Samples, progress: Progress = silent) -> 
         progress(min(start + LINES_AT_ONCE, len(table)), len(table))
 
 
-def write_npz(path: Path, samples: Samples) -> None:
-    """Samples as NPZ: arrays times, attitude, angular_velocity, and the convention."""
+def write_npz(path: Path, samples: Samples, remark: str = "") -> None:
+    """Samples as NPZ: arrays times, attitude, angular_velocity, and the convention; a remark, if there is one."""
     with path.open("wb") as file:
         np.savez(
             file,
@@ -80,11 +86,12 @@ def write_npz(path: Path, samples: Samples) -> None:
             attitude=samples.attitude,
             angular_velocity=samples.angular_velocity,
             convention=np.array(CONVENTION),
+            **({"remark": np.array(remark)} if remark else {}),
         )
 
 
-def write_parquet(path: Path, samples: Samples) -> None:
-    """Samples as Parquet: the columns of the CSV as float64, the convention in the metadata of the schema.
+def write_parquet(path: Path, samples: Samples, remark: str = "") -> None:
+    """Samples as Parquet: the columns of the CSV as float64, the convention and a remark, if there is one, in the metadata of the schema.
 
     Raises
     ------
@@ -92,9 +99,14 @@ def write_parquet(path: Path, samples: Samples) -> None:
         pyarrow is not installed: the extra ``andoyer[parquet]`` brings it.
     """
     arrow, parquet = (extra(module, "writing Parquet") for module in ("pyarrow", "pyarrow.parquet"))
-    columns = np.column_stack([samples.times, samples.attitude, samples.angular_velocity]).T
-    schema = arrow.schema([(name, arrow.float64()) for name in COLUMNS.split(",")], metadata={"convention": CONVENTION})
-    parquet.write_table(arrow.table(list(np.ascontiguousarray(columns)), schema=schema), path)
+    metadata = {"convention": CONVENTION} | ({"remark": remark} if remark else {})
+    schema = arrow.schema([(name, arrow.float64()) for name in COLUMNS.split(",")], metadata=metadata)
+    with parquet.ParquetWriter(path, schema) as writer:
+        # One group of rows after the other: Python looks for Ctrl-C between them. A table of no rows has a group too.
+        for start in range(0, max(len(samples), 1), ROWS_AT_ONCE):
+            rows = slice(start, start + ROWS_AT_ONCE)
+            columns = np.column_stack([samples.times[rows], samples.attitude[rows], samples.angular_velocity[rows]]).T
+            writer.write_table(arrow.table(list(np.ascontiguousarray(columns)), schema=schema))
 
 
 def write_aem(path: Path, samples: Samples, heading: Heading) -> None:
@@ -126,6 +138,8 @@ def heading_lines(heading: Heading, epochs: list[str]) -> Iterator[str]:
     yield "META_START"
     yield f"COMMENT Time 0 of the scene is {heading.date.isoformat()}; its unit of time is taken as the second."
     yield "COMMENT REF_FRAME_A is the inertial frame of the scene, REF_FRAME_B the principal axes of the body."
+    remark = heading.remark.encode("ascii", "replace").decode()
+    yield from textwrap.wrap(remark, LONGEST_LINE, initial_indent="COMMENT ", subsequent_indent="COMMENT ")
     name = " ".join(heading.name.encode("ascii", "replace").decode().upper().split())  # text is of one case
     yield f"OBJECT_NAME = {name or 'UNKNOWN'}"[:LONGEST_LINE]
     yield "OBJECT_ID = UNKNOWN"
