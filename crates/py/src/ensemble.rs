@@ -82,7 +82,7 @@ const LONG: usize = 1 << 16;
 /// >>> [plan.mode for plan in ensemble.plans]
 /// ['short-axis', 'long-axis']
 /// >>> sun = Orbit(2e-3, 0.1)
-/// >>> under_the_sun = Ensemble([1, 1.02, 1.05], [0, 0, 0, 1], [[0, 0, 1], [0, 0.1, 1]], orbits=[sun, None], span=(0, 1e5))
+/// >>> under_the_sun = Ensemble([1, 1.02, 1.05], [0, 0, 0, 1], [[0, 0, 1], [0, 0.1, 1]], orbits=[sun, None], tolerance=1e-6, span=(0, 1e5))
 /// >>> [plan.torque > 0 for plan in under_the_sun.plans]
 /// [True, False]
 /// >>> Ensemble([[1.0, 1.5, 2.0], [1.0, 1.0, 2.5]], [0, 0, 0, 1], [0, 0, 1])

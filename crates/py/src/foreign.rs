@@ -93,7 +93,7 @@ pub(crate) fn since<'py>(
 /// Epochs as numbers, and as calendar times where they are some.
 pub(crate) fn epochs<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<(Bound<'py, PyAny>, Vec<Calendar>)> {
     let time = match first_of(value)? {
-        Some(first) => first.hasattr(intern!(value.py(), "tdb"))?,
+        Some(first) => is_time(&first)?,
         None => is_time(value)?,
     };
     if !time {

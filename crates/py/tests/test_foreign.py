@@ -94,7 +94,7 @@ def test_quantity_of_another_kind_is_refused_by_name_and_unit(body, make, messag
 def test_epochs_of_astropy_are_tdb_seconds_since_j2000(body):
     motion = andoyer.Scene(body, QUATERNION, RATES, epoch=Time("2000-01-01T12:00:00", scale="tdb")).solve()
     epochs = Time(["2000-01-01T12:00:00", "2000-01-01T12:01:40"], scale="tdb")
-    assert np.array_equal(motion.attitude(epochs), motion.attitude([0.0, 100.0]))
+    assert np.abs(motion.attitude(epochs) - motion.attitude([0.0, 100.0])).max() < 1e-11
     leap = Time(["2016-12-31T23:59:59", "2017-01-01T00:00:00"], scale="utc")
     motion = andoyer.Scene(body, QUATERNION, RATES, epoch=leap[0]).solve()
     apart = np.abs(motion.attitude(leap[1]) - motion.attitude(motion.scene.epoch + 2.0)).max()

@@ -89,9 +89,12 @@ def joined(argument: str, value: Any) -> Any:
     try:
         if unit is not None:
             return sys.modules["astropy.units"].Quantity(value)
-        return kind(value)
+        if not isinstance(first, sys.modules["astropy.time"].TimeDelta):
+            return kind(value)
+        # Durations do not join by themselves.
+        return kind([part.jd1 for part in value], [part.jd2 for part in value], format="jd", scale=first.scale)
     except Exception as error:
-        raise TypeError(f"{argument} must hold values of one kind, here {kind.__name__}: {error}") from error
+        raise TypeError(f"{argument} must hold values of one kind, here {kind.__name__}: {str(error).splitlines()[0]}") from error
 
 
 def unmasked(argument: str, value: Any) -> None:
@@ -138,9 +141,11 @@ def since(argument: str, value: Any, first: list[float], second: list[float]) ->
 
 
 def epochs(argument: str, value: Any) -> tuple[Any, list[tuple[float, float]]]:
-    """Calendar times as TDB seconds since J2000, and as the two doubles of their TDB Julian dates."""
+    """Calendar times as TDB seconds since J2000, and as the two doubles of their TDB Julian dates; durations as seconds."""
     value = joined(argument, value)
     unmasked(argument, value)
+    if isinstance(value, sys.modules["astropy.time"].TimeDelta):
+        return plain(argument, value), []
     moment = value.tdb
     return seconds(moment), list(zip(np.ravel(moment.jd1).tolist(), np.ravel(moment.jd2).tolist()))
 
