@@ -101,7 +101,7 @@ pub(crate) fn epochs<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult
     }
     let py = value.py();
     let epochs = py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "epochs"))?;
-    Ok(epochs.call1((argument, value))?.extract()?)
+    epochs.call1((argument, value))?.extract()
 }
 
 /// First and last time of a span, of a state at an epoch.
