@@ -41,6 +41,20 @@ fn is_time(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     value.hasattr(intern!(value.py(), "jd1"))
 }
 
+/// Whether `value` is one, or a list of them. Numbers and plain arrays are told by their type alone: asking for an attribute that is not there takes 0.2 µs.
+fn holds_times(value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    if value.is_exact_instance_of::<PyFloat>()
+        || value.is_exact_instance_of::<PyInt>()
+        || value.is_exact_instance_of::<PyUntypedArray>()
+    {
+        return Ok(false);
+    }
+    if value.is_exact_instance_of::<PyList>() || value.is_exact_instance_of::<PyTuple>() {
+        return first_of(value)?.map_or(Ok(false), |first| is_time(&first));
+    }
+    is_time(value)
+}
+
 /// Whether `value` is an array of NumPy that has a mask.
 fn masked(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     let py = value.py();
@@ -73,11 +87,7 @@ pub(crate) fn since<'py>(
     value: &Bound<'py, PyAny>,
     epochs: &[Calendar],
 ) -> PyResult<Option<Since<'py>>> {
-    let time = match first_of(value)? {
-        Some(first) => is_time(&first)?,
-        None => is_time(value)?,
-    };
-    if !time {
+    if !holds_times(value)? {
         if !epochs.is_empty() && value.hasattr(intern!(value.py(), "unit"))? {
             let text = "is a Quantity, and the epoch a calendar time: give a Time, or a TimeDelta from the epoch";
             return Err(TimesError::new_err(format!("{argument} {text}")));
@@ -92,11 +102,7 @@ pub(crate) fn since<'py>(
 
 /// Epochs as numbers, and as calendar times where they are some.
 pub(crate) fn epochs<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<(Bound<'py, PyAny>, Vec<Calendar>)> {
-    let time = match first_of(value)? {
-        Some(first) => is_time(&first)?,
-        None => is_time(value)?,
-    };
-    if !time {
+    if !holds_times(value)? {
         return Ok((value.clone(), Vec::new()));
     }
     let py = value.py();
