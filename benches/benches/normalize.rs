@@ -3,8 +3,9 @@
 
 use std::hint::black_box;
 
+use andoyer_double::DoubleDouble;
 use andoyer_series::{
-    DoubleDouble, Monomial, NormalForm, Normalization, NumericNormalForm, Real, deprit_triangle, hamiltonian,
+    Monomial, NormalForm, Normalization, NumericNormalForm, Real, deprit_triangle, hamiltonian,
     homological, poisson, quiet,
 };
 use criterion::measurement::WallTime;

@@ -6,7 +6,7 @@
 
 use andoyer_propagate::Orbit;
 use andoyer_propagate::nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
-use andoyer_series::DoubleDouble;
+use andoyer_double::DoubleDouble;
 
 const STAGES: usize = 8;
 const UNKNOWNS: usize = 7;

@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_2_PI, TAU};
 
-use andoyer_series::DoubleDouble;
+use andoyer_double::DoubleDouble;
 
 use crate::fourier::QuaternionSeries;
 use crate::polhode::{Polhode, scaled};

@@ -5,7 +5,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use andoyer_series::DoubleDouble;
+use andoyer_double::DoubleDouble;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::Error;

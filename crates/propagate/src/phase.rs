@@ -3,7 +3,7 @@
 //! In double precision alone n·t is wrong by 6e-7 rad after 1e9 rotations. Here frequency, time since the epoch, product and the phase at the
 //! epoch carry 32 digits, and a phase in turns is reduced by subtracting integers and quarters, which is exact: 1.4e-17 turns are left to rounding.
 
-use andoyer_series::DoubleDouble;
+use andoyer_double::DoubleDouble;
 
 use crate::kernel::lanes::Lanes;
 use crate::kernel::level::Level;

@@ -17,7 +17,7 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::body::Body;
 use crate::state::State;
-use andoyer_series::DoubleDouble;
+use andoyer_double::DoubleDouble;
 
 /// The body axes in the theory's order, C along the user's axis or, for N < 0, against it; A is reversed where that makes them right-handed.
 #[derive(Clone, Debug)]

@@ -12,7 +12,7 @@
 //! `truncated` is the series of theory §7 at a stated order, for who asks for that order.
 
 use crate::polhode::Polhode;
-use andoyer_series::{DoubleDouble, arithmetic_geometric_mean};
+use andoyer_double::{DoubleDouble, arithmetic_geometric_mean};
 
 /// Nodes in a quarter period from which on the logarithmic sum is shorter.
 const MOST_NODES: usize = 1000;

@@ -13,7 +13,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
-use andoyer_series::DoubleDouble;
+use andoyer_double::DoubleDouble;
 use nalgebra::Quaternion;
 
 use crate::elliptic::{Theta, precise_argument, quadrant};

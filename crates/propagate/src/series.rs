@@ -9,7 +9,8 @@
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use andoyer_series::{DoubleDouble, Form, NumericNormalForm};
+use andoyer_double::DoubleDouble;
+use andoyer_series::{Form, NumericNormalForm};
 
 use crate::error::Error;
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use andoyer_series::DoubleDouble;
+use andoyer_double::DoubleDouble;
 
 use crate::bound::{COSINE_ROUNDING, ROUNDING, conditioning, drift, duration, phase_rounding, rounding};
 use crate::closed::{ClosedForm, NEAREST_COMPLEMENT, anomaly};

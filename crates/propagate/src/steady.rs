@@ -2,7 +2,7 @@
 //!
 //! A sphere, a principal axis, any axis across the equal ones of a round body: the attitude turns about the constant angular velocity at M over the moment about it.
 
-use andoyer_series::DoubleDouble;
+use andoyer_double::DoubleDouble;
 use nalgebra::Vector3;
 
 use crate::bound::{ROUNDING, departure, phase_rounding};

@@ -8,7 +8,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use andoyer_series::DoubleDouble;
+use andoyer_double::DoubleDouble;
 use num_complex::Complex;
 
 use crate::closed::ClosedForm;

@@ -20,7 +20,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 use std::str::FromStr;
 
-use andoyer_series::DoubleDouble;
+use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use num_complex::Complex;
 

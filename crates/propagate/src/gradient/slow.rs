@@ -13,7 +13,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use std::sync::{Arc, RwLock};
 
-use andoyer_series::DoubleDouble;
+use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::kernel::lanes::{Lanes, WIDEST};

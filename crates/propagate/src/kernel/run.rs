@@ -7,7 +7,7 @@ use super::{Evaluation, Outputs};
 use crate::gradient::Gradient;
 use crate::motion::Course;
 use crate::phase::{Phase, elapsed};
-use andoyer_series::two_sum;
+use andoyer_double::two_sum;
 
 /// Sine and cosine.
 pub(crate) type Circle<S> = (Lanes<S>, Lanes<S>);

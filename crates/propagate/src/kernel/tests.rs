@@ -1,6 +1,6 @@
 //! Kernels of every instruction set that the machine has, against a reference in double-double and against each other.
 
-use andoyer_series::DoubleDouble;
+use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use pulp::Arch;
 

@@ -1,9 +1,7 @@
 //! Double-double arithmetic: an unevaluated sum of two doubles, about 32 digits.
 //!
-//! Used where a phase is made: frequencies, and their product with a time of up to 1e9 rotations and more (theory §10); and as a
-//! coefficient of the algebra.
-//! Error-free sums and products (Dekker 1971; Knuth, TAOCP 2, §4.2.2; products by fused multiply-add), with relative
-//! errors of a few 2^−104 for each operation. Values are finite; nothing here guards against overflow, the callers scale.
+//! Error-free sums and products (Dekker 1971; Knuth, TAOCP 2, §4.2.2; products by fused multiply-add). The crate's documentation has the error bound of each
+//! operation. Values are finite; nothing here guards against overflow.
 
 use num_traits::{One, Zero};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -11,7 +9,7 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 /// The unevaluated sum `high + low`, |low| ≤ ulp(high)/2.
 ///
 /// ```
-/// use andoyer_series::DoubleDouble;
+/// use andoyer_double::DoubleDouble;
 /// let third = DoubleDouble::ONE / DoubleDouble::from(3.0);
 /// assert!((third * DoubleDouble::from(3.0) - DoubleDouble::ONE).to_f64().abs() < 1e-31);
 /// ```
@@ -173,20 +171,6 @@ impl Div for DoubleDouble {
     }
 }
 
-/// The arithmetic-geometric mean of two positive numbers: (1/2π) ∮ dφ/√(a² cos²φ + b² sin²φ) = 1/agm(a, b) (Gauss).
-#[must_use]
-pub fn arithmetic_geometric_mean(mut a: DoubleDouble, mut b: DoubleDouble) -> DoubleDouble {
-    let half = DoubleDouble::from(0.5);
-    // Each step halves the logarithm of b/a, then doubles the digits: 1e-300 takes 15 steps.
-    for _ in 0..24 {
-        if (a.high - b.high).abs() <= 1e-17 * a.high {
-            break;
-        }
-        (a, b) = ((a + b) * half, (a * b).sqrt());
-    }
-    (a + b) * half
-}
-
 impl Zero for DoubleDouble {
     fn zero() -> Self {
         Self::ZERO
@@ -223,6 +207,7 @@ impl<'a> MulAssign<&'a Self> for DoubleDouble {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mean::arithmetic_geometric_mean;
 
     fn close(a: DoubleDouble, b: DoubleDouble) -> bool {
         (a - b).to_f64().abs() <= 1e-30 * b.high.abs()
