@@ -5,8 +5,8 @@ use std::hint::black_box;
 
 use andoyer_double::DoubleDouble;
 use andoyer_series::{
-    Monomial, NormalForm, Normalization, NumericNormalForm, Real, deprit_triangle, hamiltonian,
-    homological, poisson, quiet,
+    Monomial, NormalForm, Normalization, NumericNormalForm, Real, deprit_triangle, hamiltonian, homological, poisson,
+    quiet,
 };
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};

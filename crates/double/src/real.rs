@@ -14,13 +14,7 @@ use crate::double_double::DoubleDouble;
 /// assert!((lemniscate::<f64>() - lemniscate::<DoubleDouble>()).abs() < 4e-16);
 /// ```
 pub trait Real:
-    Copy
-    + From<f64>
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + sealed::Sealed
+    Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + sealed::Sealed
 {
     /// Relative difference of two numbers whose arithmetic mean is their arithmetic-geometric one to rounding.
     const EQUAL_MEANS: f64;

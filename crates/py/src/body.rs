@@ -86,8 +86,12 @@ impl Body {
     ///     ``"vulcan"``.
     #[staticmethod]
     fn source(name: &str) -> PyResult<&'static str> {
-        andoyer_propagate::Body::source(name)
-            .ok_or_else(|| error::propagation(andoyer_propagate::Error::UnknownBody { name: name.to_owned() }))
+        andoyer_propagate::Body::source(name).ok_or_else(|| {
+            error::propagation(andoyer_propagate::Error::UnknownBody {
+                name: name.to_owned(),
+                known: andoyer_propagate::Body::catalogue(),
+            })
+        })
     }
 
     /// The moments about body axes 1, 2, 3 as given: a read-only array, shape (3,).
