@@ -21,7 +21,9 @@ test: lint supply $(VENV)/installed $(VENV)/tested docs-test  ## everything that
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
 	$(MAKE) --no-print-directory stress-short gate
 
-lint:
+lint:  ## formatting, clippy, documentation, and the imports between the files of each crate
+	$(PYTHON) tests/layers.py
+	$(PYTHON) tests/layers.py --planted
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --quiet -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps --document-private-items --quiet
