@@ -126,8 +126,8 @@ impl Motion {
         self.frequencies
     }
 
-    /// Mean periods in the long-axis convention, that of light curves: P_φ of the precession of the long axis, P_ψ of the rotation about it or, in the
-    /// short-axis mode, of its oscillation (Kaasalainen 2001); infinite where there is none.
+    /// Mean periods in the long-axis convention: P_φ of the precession of the long axis, P_ψ of the rotation about it or, in the short-axis mode, of its
+    /// oscillation; infinite where there is none. Radar papers use it.
     pub fn long_axis_periods(&self) -> Periods {
         self.periods(self.long_axis)
     }
@@ -136,6 +136,12 @@ impl Motion {
     /// long-axis mode, of its oscillation; in the short-axis mode μ turns with dy′/dt + dℓ′/dt and ν with −dℓ′/dt (for N < 0 with +dℓ′/dt).
     pub fn short_axis_periods(&self) -> Periods {
         self.periods(!self.long_axis)
+    }
+
+    /// Mean periods in the extremal-axis convention, that of light-curve papers (Pravec et al. 2014): those of the short axis in the short-axis mode, of the
+    /// long axis in the long-axis mode. The body turns all the way round this axis.
+    pub fn extremal_axis_periods(&self) -> Periods {
+        self.periods(true)
     }
 
     /// Periods of the theory's axis 3, or of its axis 1, which is carried around by y′.

@@ -288,8 +288,8 @@ class Motion:
     def frequencies(self) -> Frequencies:
         """Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time; 0 where there is none."""
     @property
-    def periods(self) -> dict[Literal["long-axis", "short-axis"], Periods]:
-        """Mean periods (P_φ, P_ψ) in both conventions: ``{"long-axis": (precession, rotation), "short-axis": (precession, rotation)}``."""
+    def periods(self) -> dict[Literal["long-axis", "short-axis", "extremal-axis"], Periods]:
+        """Mean periods (P_φ, P_ψ) in three conventions: a dict with the keys "long-axis", "short-axis" and "extremal-axis"."""
     @property
     def energy_ratio(self) -> float:
         """E/E0: rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum (theory §5)."""
