@@ -87,3 +87,11 @@ pub(crate) fn find(name: &str) -> Option<&'static Entry> {
 pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     ENTRIES.iter().map(|entry| entry.name)
 }
+
+/// The name most like an unknown one, if one is: up to a third of the letters wrong, missing, added or exchanged.
+pub(crate) fn nearest(name: &str) -> Option<&'static str> {
+    let name = name.to_lowercase();
+    let likeness = |known: &str| strsim::normalized_damerau_levenshtein(&known.to_lowercase(), &name);
+    let best = names().max_by(|one, two| likeness(one).total_cmp(&likeness(two)));
+    best.filter(|best| likeness(best) >= 2.0 / 3.0)
+}

@@ -45,7 +45,7 @@ pub enum Error {
     },
     /// An attitude quaternion that is zero, not finite, or too far from unit norm.
     #[error(
-        "attitude = {value:?}: a quaternion [x, y, z, w] must be finite with a norm within 1e-6 of 1 (it is {norm})"
+        "attitude = {value:?}: a quaternion [x, y, z, w] must be finite with a norm within 1e-6 of 1 (it is {norm}){}", advice(*norm)
     )]
     Attitude {
         /// The quaternion as given, [x, y, z, w].
@@ -93,8 +93,8 @@ pub enum Error {
         /// The method as given.
         value: String,
     },
-    /// A time that is not finite, or so far from the epoch that it has no phase.
-    #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{}", beyond(*bound))]
+    /// A time that is not finite, or so far from the epoch that the motion is not evaluated there.
+    #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{reason}")]
     Time {
         /// Its index among the times given.
         index: usize,
@@ -102,6 +102,8 @@ pub enum Error {
         value: f64,
         /// Largest distance from the epoch that is accepted.
         bound: f64,
+        /// What ends there, as the end of a sentence; empty where the number is only the largest that is added without an overflow.
+        reason: &'static str,
     },
     /// A slice whose length doesn't fit.
     #[error("{argument} has {found} entries: it must have {expected}")]
@@ -227,7 +229,7 @@ pub enum Error {
         problem: String,
     },
     /// A body that the catalogue doesn't have.
-    #[error("body {name:?} is not in the catalogue: it has {}", crate::Body::catalogue().join(", "))]
+    #[error("body {name:?} is not in the catalogue{}: it has {}", did_you_mean(name), crate::Body::catalogue().join(", "))]
     UnknownBody {
         /// The name as given.
         name: String,
@@ -247,20 +249,28 @@ pub enum Error {
     },
 }
 
+fn did_you_mean(name: &str) -> String {
+    crate::catalogue::nearest(name).map_or_else(String::new, |known| format!("; did you mean {known:?}?"))
+}
+
 fn and_others(others: usize) -> String {
     if others == 0 { String::new() } else { format!(" (and {others} more bad members)") }
 }
 
-/// Why a time has a bound: a body at rest has one too, so that no sum of two times overflows.
-fn beyond(bound: f64) -> &'static str {
-    if bound < crate::motion::LONGEST { ": farther away the motion has no phase" } else { "" }
+/// What to do with a quaternion that is no attitude.
+fn advice(norm: f64) -> &'static str {
+    if norm > 0.0 && norm.is_finite() {
+        "; to normalize it, divide it by its norm; a quaternion [w, x, y, z] is read with scalar_first=True in Python"
+    } else {
+        ""
+    }
 }
 
 impl Error {
     /// The same error of times that begin later in an array.
     pub(crate) fn later(self, start: usize) -> Self {
         match self {
-            Self::Time { index, value, bound } => Self::Time { index: start + index, value, bound },
+            Self::Time { index, value, bound, reason } => Self::Time { index: start + index, value, bound, reason },
             other => other,
         }
     }

@@ -21,7 +21,10 @@ use crate::state::State;
 const MOST_ROTATIONS: f64 = 1e15;
 
 /// No sum of two times this long overflows.
-pub(crate) const LONGEST: f64 = 1e300;
+const LONGEST: f64 = 1e300;
+
+/// Why a motion averaged over the spin ends.
+const SOLVED: &str = ": averaging = spin solves the averaged equations no farther; averaging over the orbit has no such bound";
 
 /// Attitude and angular velocity at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,7 +162,7 @@ impl Motion {
     /// Attitude and rates at a time.
     ///
     /// # Errors
-    /// - [`Error::Time`] for NaN, infinite, or more than 1e15 rotations from the epoch.
+    /// - [`Error::Time`] for NaN, infinite, more than 1e15 rotations from the epoch, or where the scene is averaged over the spin more than 65,534 orbits from it.
     pub fn at(&self, time: f64) -> Result<Sample, Error> {
         let (mut attitude, mut rates) = ([[0.0; 4]], [[0.0; 3]]);
         self.batch().samples_into(&[time], &mut attitude, &mut rates)?;
@@ -212,12 +215,18 @@ impl Motion {
         self.batch().samples_into(times, attitudes, rates)
     }
 
-    /// The largest distance from the epoch at which the motion has a phase.
+    /// The largest distance from the epoch that is evaluated.
     pub(crate) fn bound(&self) -> f64 {
-        // A body at rest, or one that turns once in 1e285 units, is still bounded.
-        let phases = (MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude).min(LONGEST);
+        self.reach().0
+    }
+
+    /// The largest distance from the epoch that is evaluated, and why there is one.
+    pub(crate) fn reach(&self) -> (f64, &'static str) {
+        // A body at rest, or one that turns once in 1e285 units, is still bounded, so that no sum of two times overflows.
+        let phases = MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude;
+        let phases = if phases < LONGEST { (phases, ": farther away the motion has no phase") } else { (LONGEST, "") };
         match &self.course {
-            Course::Gradient(gradient) => phases.min(gradient.bound()),
+            Course::Gradient(gradient) if gradient.bound() < phases.0 => (gradient.bound(), SOLVED),
             _ => phases,
         }
     }
@@ -233,7 +242,8 @@ impl Motion {
     }
 
     pub(crate) fn no_phase(&self, index: usize, times: &[f64]) -> Error {
-        Error::Time { index, value: times[index], bound: self.bound() }
+        let (bound, reason) = self.reach();
+        Error::Time { index, value: times[index], bound, reason }
     }
 }
 

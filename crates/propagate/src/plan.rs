@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 use crate::gradient::{Averaging, Level};
 use crate::scene::Method;
 
@@ -15,7 +17,7 @@ const NEAR_ONE: f64 = 0.999;
 const ROUNDED_TOLERANCE: f64 = 2e-14;
 
 /// The kind of motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Mode {
     /// Triaxial body near rotation about its axis of greatest inertia.
@@ -49,7 +51,7 @@ impl fmt::Display for Mode {
 }
 
 /// What a plan says of a gravity gradient.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct GradientPlan {
     pub(crate) averaging: Averaging,
     pub(crate) level: Level,
@@ -61,8 +63,8 @@ pub(crate) struct GradientPlan {
     pub(crate) neglected: f64,
 }
 
-/// The evaluation plan of a motion.
-#[derive(Clone, Debug, PartialEq)]
+/// The evaluation plan of a motion. It is printed in ASCII, and can be serialized.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     pub(crate) mode: Mode,
     pub(crate) method: Method,
@@ -134,15 +136,17 @@ impl fmt::Display for Plan {
         writeln!(f, "mode          {}", self.mode)?;
         writeln!(f, "method        {}", self.method())?;
         match self.separatrix_ratio {
-            ratio if ratio > NEAR_ONE && ratio < 1.0 => writeln!(f, "σ/σ_sep       1 − {:.3e}", 1.0 - ratio)?,
-            ratio => writeln!(f, "σ/σ_sep       {ratio:.3e}")?,
+            ratio if ratio > NEAR_ONE && ratio < 1.0 => {
+                writeln!(f, "separatrix    1 - {:.3e} (sigma/sigma_sep)", 1.0 - ratio)?;
+            }
+            ratio => writeln!(f, "separatrix    {ratio:.3e} (sigma/sigma_sep)")?,
         }
         match self.method {
             Method::Series => writeln!(f, "order         {}", self.order)?,
-            _ => writeln!(f, "order         –")?,
+            _ => writeln!(f, "order         -")?,
         }
         match self.harmonics {
-            0 => writeln!(f, "harmonics     –")?,
+            0 => writeln!(f, "harmonics     -")?,
             harmonics => writeln!(f, "harmonics     {harmonics}")?,
         }
         if let Some(GradientPlan { averaging, level, terms, size, neglected }) = self.gradient {

@@ -12,7 +12,7 @@ use crate::plan::MAX_ORDER;
 use crate::state::State;
 
 /// Which formulas evaluate a motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub enum Method {
     /// Whatever meets the tolerance at the lowest cost.

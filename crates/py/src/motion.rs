@@ -23,7 +23,8 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// Raises
 /// ------
 /// TimesError
-///     A time that is NaN, infinite or more than 1e15 rotations from the epoch; the message has its index.
+///     A time that is NaN, infinite, more than 1e15 rotations from the epoch, or under ``averaging="spin"`` more than 65,534 orbits from it; the
+///     message has its index and says which.
 /// ShapeError
 ///     Times with two axes.
 ///

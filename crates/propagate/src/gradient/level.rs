@@ -7,7 +7,7 @@ use super::inertia::Inertia;
 use crate::error::Error;
 
 /// Which terms the corrections by the gravity gradient have.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub enum Level {
     /// Those of Lara (2017): the potential at J = 0, the disturbing body held fixed in the divisors.

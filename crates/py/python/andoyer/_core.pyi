@@ -1,6 +1,6 @@
 # Types of the compiled core. Docstrings here are the first lines of those at run time, which say the rest; a test holds the two together.
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any, Literal, TypeAlias, final, overload
 
@@ -335,6 +335,8 @@ class Plan:
         """What this scene did not need, and why: a list of str."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: None  # type: ignore[assignment]
+    def __copy__(self) -> Plan: ...
+    def __deepcopy__(self, _memo: Any) -> Plan: ...
 
 @final
 class Samples:
@@ -403,6 +405,7 @@ class Ensemble:
     def threads(self) -> int | None:
         """The number of threads asked for, or None."""
     def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[Motion]: ...
     @overload
     def __getitem__(self, index: int, /) -> Motion: ...
     @overload
