@@ -1,4 +1,4 @@
-//! The free rigid body: the one file that knows it.
+//! The free rigid body: its Hamiltonian, and the two faces of its series. [`crate::energy`] computes them.
 //!
 //! Convention, with w = √L e^{iℓ}, u = i w̄, U = w, S = i s, τ = α/(√γ V) and the time unit C/(√γ V) (theory §1, §2):
 //!
