@@ -28,7 +28,7 @@ use crate::{array, error};
 /// >>> body.beta
 /// 0.5
 /// >>> Body.named("eros").moments
-/// array([0.22942677, 0.96375352, 1.        ])
+/// array([0.21007832, 0.98310982, 1.        ])
 #[pyclass(frozen, eq, module = "andoyer")]
 #[derive(PartialEq)]
 pub(crate) struct Body(pub(crate) andoyer_propagate::Body);
@@ -61,7 +61,7 @@ impl Body {
     /// Raises
     /// ------
     /// UnknownBodyError
-    ///     ``"vulcan"``.
+    ///     ``"vulcan"``; for ``"ceers"`` the message asks for Ceres.
     #[staticmethod]
     fn named(name: &str) -> PyResult<Self> {
         andoyer_propagate::Body::named(name).map(Self).map_err(error::propagation)
