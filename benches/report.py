@@ -25,7 +25,8 @@ CURVES = {
     "SciPy closed form": ("#009E73", "s", "SciPy, closed form"),
     "SciPy DOP853": ("#CC79A7", "^", "SciPy, DOP853, tolerances 1e-4 to 1e-13"),
 }
-PANELS = {"earth": "Earth", "ceres": "Ceres", "eros": "Eros", "triaxial": "triaxial, β = ½", "apophis": "Apophis", "near-separatrix-1e-2": "near the separatrix"}
+# The cases of tests/data/torque_free.json resemble these bodies.
+PANELS = {"earth": "Earth-like", "ceres": "Ceres-like", "eros": "Eros-like", "triaxial": "triaxial, β = ½", "apophis": "Apophis-like", "near-separatrix-1e-2": "near the separatrix"}
 STYLE = {"font.size": 10, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False}
 SMALLEST = 1e-17  # where an error of zero is drawn
 
