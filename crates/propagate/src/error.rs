@@ -25,13 +25,15 @@ pub enum Error {
     /// Moments so far apart that their differences have no double.
     #[error(
         "moments = {moments:?}: the largest must not exceed {:e} times the smallest (it is {ratio:e} times it)",
-        crate::body::LARGEST_RATIO
+        bound
     )]
     MomentsRatio {
         /// The moments as given.
         moments: [f64; 3],
         /// Largest moment over the smallest.
         ratio: f64,
+        /// The largest ratio that is accepted.
+        bound: f64,
     },
     /// An angular momentum or a rate that has no double.
     #[error(
@@ -82,10 +84,12 @@ pub enum Error {
         stop: f64,
     },
     /// An order that is not served.
-    #[error("order = {value}: it must be at most {}", crate::MAX_ORDER)]
+    #[error("order = {value}: it must be at most {bound}")]
     Order {
         /// The order as given.
         value: usize,
+        /// The highest order that is served.
+        bound: usize,
     },
     /// A method that is unknown.
     #[error("method = {value:?}: it must be \"auto\", \"series\" or \"closed\"")]
@@ -117,8 +121,7 @@ pub enum Error {
     },
     /// The series asked for too near the separatrix for the tolerance.
     #[error(
-        "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {}, is good to {}, and the tolerance is {tolerance:e} rad",
-        crate::MAX_ORDER,
+        "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {highest}, is good to {}, and the tolerance is {tolerance:e} rad",
         rounded_up(*attainable)
     )]
     NearSeparatrix {
@@ -128,6 +131,8 @@ pub enum Error {
         tolerance: f64,
         /// The smallest tolerance that the highest order meets \[rad\].
         attainable: f64,
+        /// The highest order.
+        highest: usize,
     },
     /// The series asked for on the separatrix.
     #[error(
@@ -229,10 +234,12 @@ pub enum Error {
         problem: String,
     },
     /// A body that the catalogue doesn't have.
-    #[error("body {name:?} is not in the catalogue{}: it has {}", did_you_mean(name), crate::Body::catalogue().join(", "))]
+    #[error("body {name:?} is not in the catalogue{}: it has {}", did_you_mean(name, known), known.join(", "))]
     UnknownBody {
         /// The name as given.
         name: String,
+        /// The names in the catalogue.
+        known: Vec<&'static str>,
     },
     /// What the series crate has to say; no input that passed the checks of this crate is known to raise it.
     #[error(transparent)]
@@ -249,8 +256,13 @@ pub enum Error {
     },
 }
 
-fn did_you_mean(name: &str) -> String {
-    crate::catalogue::nearest(name).map_or_else(String::new, |known| format!("; did you mean {known:?}?"))
+/// The name most like an unknown one, if one is: up to a third of the letters wrong, missing, added or exchanged.
+fn did_you_mean(name: &str, known: &[&str]) -> String {
+    let name = name.to_lowercase();
+    let likeness = |known: &str| strsim::normalized_damerau_levenshtein(&known.to_lowercase(), &name);
+    let best = known.iter().max_by(|one, two| likeness(one).total_cmp(&likeness(two)));
+    let near = best.filter(|best| likeness(best) >= 2.0 / 3.0);
+    near.map_or_else(String::new, |best| format!("; did you mean {best:?}?"))
 }
 
 fn and_others(others: usize) -> String {
