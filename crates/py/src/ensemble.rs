@@ -245,7 +245,7 @@ impl Ensemble {
     }
 
     fn __iter__(slf: Py<Self>) -> Members {
-        Members::of(slf)
+        Members::of(slf.into_any())
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {

@@ -2,21 +2,16 @@
 
 use pyo3::prelude::*;
 
-use crate::computing::detached;
-use crate::ensemble::Ensemble;
-use crate::error;
-use crate::motion::Motion;
-
-/// The motions of an ensemble, in order: what ``iter(ensemble)`` gives.
+/// The members of a sequence, in order: what ``iter(ensemble)`` gives.
 #[pyclass(module = "andoyer._core")]
 pub(crate) struct Members {
-    ensemble: Py<Ensemble>,
+    sequence: Py<PyAny>,
     next: usize,
 }
 
 impl Members {
-    pub(crate) fn of(ensemble: Py<Ensemble>) -> Self {
-        Self { ensemble, next: 0 }
+    pub(crate) fn of(sequence: Py<PyAny>) -> Self {
+        Self { sequence, next: 0 }
     }
 }
 
@@ -26,13 +21,13 @@ impl Members {
         slf
     }
 
-    fn __next__(&mut self, py: Python<'_>) -> PyResult<Option<Motion>> {
-        let ensemble = &self.ensemble.get().0;
-        if self.next >= ensemble.len() {
+    fn __next__<'py>(&mut self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let sequence = self.sequence.bind(py);
+        if self.next >= sequence.len()? {
             return Ok(None);
         }
-        let motion = detached(py, error::propagation, || ensemble.motion(self.next))?;
+        let member = sequence.get_item(self.next)?;
         self.next += 1;
-        Ok(Some(Motion(motion)))
+        Ok(Some(member))
     }
 }
