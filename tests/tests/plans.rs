@@ -104,9 +104,17 @@ fn refusals_are_sentences() {
     let error = triaxial().solve().expect("served").at(1e30).expect_err("too far");
     assert!(error.to_string().ends_with("of the epoch: farther away the motion has no phase"), "{error}");
     // Averaged over the spin it has a phase, but its equations are solved for 65,534 orbits only: the message said otherwise.
-    let spun = scene([1.0, 1.02, 1.05], [0.0, 0.0, 1.0]).orbit(orbit()).averaging(Averaging::Spin).span(0.0, 1e4).solve().expect("averaged");
+    let spun = scene([1.0, 1.02, 1.05], [0.0, 0.0, 1.0])
+        .orbit(orbit())
+        .averaging(Averaging::Spin)
+        .span(0.0, 1e4)
+        .solve()
+        .expect("averaged");
     let text = spun.at(4.2e8).expect_err("too far").to_string();
-    assert!(text.contains("within 4.118e8 of the epoch: averaging = spin solves the averaged equations no farther"), "{text}");
+    assert!(
+        text.contains("within 4.118e8 of the epoch: averaging = spin solves the averaged equations no farther"),
+        "{text}"
+    );
 }
 
 #[test]

@@ -155,7 +155,8 @@ impl Orbit {
 /// Warns of angles beyond a whole turn, which are often degrees.
 pub(crate) fn doubt(py: Python<'_>, orbit: &andoyer_propagate::Orbit) -> PyResult<()> {
     for (argument, angle) in orbit.beyond_a_turn() {
-        let said = format!("orbit.{argument} = {angle:?} is more than a whole turn: angles are in radians, not in degrees");
+        let said =
+            format!("orbit.{argument} = {angle:?} is more than a whole turn: angles are in radians, not in degrees");
         let said = CString::new(said)?;
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &said, 1)?;
     }

@@ -84,7 +84,9 @@ impl Plan {
     /// The plan in the text that pickles hold.
     #[staticmethod]
     fn _restored(text: &str) -> PyResult<Self> {
-        toml::from_str(text).map(Self).map_err(|error| PyValueError::new_err(format!("not the text of a plan: {error}")))
+        toml::from_str(text)
+            .map(Self)
+            .map_err(|error| PyValueError::new_err(format!("not the text of a plan: {error}")))
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {

@@ -83,7 +83,8 @@ impl NormalForm {
     }
 
     pub(crate) fn computed(computed: EnergyNormalization) -> Self {
-        let triaxiality = computed.kernel().iter().enumerate().map(|(n, row)| rigid_body::triaxiality(n, row)).collect();
+        let triaxiality =
+            computed.kernel().iter().enumerate().map(|(n, row)| rigid_body::triaxiality(n, row)).collect();
         let generators = computed.into_generators();
         NormalForm { triaxiality, generators, transform: OnceLock::new(), series: Default::default() }
     }

@@ -18,7 +18,8 @@ const MOST_ROTATIONS: f64 = 1e15;
 const LONGEST: f64 = 1e300;
 
 /// Why a motion averaged over the spin ends.
-const SOLVED: &str = ": averaging = spin solves the averaged equations no farther; averaging over the orbit has no such bound";
+const SOLVED: &str =
+    ": averaging = spin solves the averaged equations no farther; averaging over the orbit has no such bound";
 
 /// Attitude and angular velocity at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
