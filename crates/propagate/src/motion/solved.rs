@@ -5,7 +5,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::plan::Plan;
-use super::trajectory::Course;
+use super::trajectory::Trajectory;
 use crate::error::Error;
 use crate::input::scene::Scene;
 
@@ -49,7 +49,7 @@ pub struct Periods {
 pub struct Motion {
     pub(crate) scene: Scene,
     pub(crate) plan: Plan,
-    pub(crate) course: Course,
+    pub(crate) trajectory: Trajectory,
     pub(crate) frequencies: Frequencies,
     /// dy′/dt + dℓ′/dt, summed before it is rounded: for a needle the two nearly cancel.
     pub(crate) precession: f64,
@@ -134,7 +134,7 @@ impl Motion {
     pub fn angular_momenta_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
         self.valid(times)?;
-        if let Course::Gradient(gradient) = &self.course {
+        if let Trajectory::Gradient(gradient) = &self.trajectory {
             gradient.angular_momenta(times, self.scene.state().epoch, out);
         } else {
             out.fill(self.angular_momentum.into());
@@ -154,8 +154,8 @@ impl Motion {
     pub(crate) fn bound(&self) -> f64 {
         // A body at rest, or one that turns once in 1e285 units, is still bounded.
         let phases = (MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude).min(LONGEST);
-        match &self.course {
-            Course::Gradient(gradient) => phases.min(gradient.bound()),
+        match &self.trajectory {
+            Trajectory::Gradient(gradient) => phases.min(gradient.bound()),
             _ => phases,
         }
     }
