@@ -145,7 +145,7 @@ impl Generator {
         let highest = self.harmonics.iter().flatten().map(|harmonic| harmonic.degree).max().unwrap_or(0);
         let turns = circle(mean.turn, highest);
         let orders = self.orbital.series.len();
-        let mut sums = Sums { by_p: [zero; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
+        let mut sums = Derivatives { by_p: [zero; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
         let mut spin = ComplexLanes { re: none.all(1.0), im: none };
         for (multiple, harmonics) in self.harmonics.iter().enumerate() {
             if !harmonics.is_empty() {
@@ -199,7 +199,7 @@ impl Generator {
     }
 
     #[inline(always)]
-    fn change<S: InstructionSet>(&self, sums: &Sums<S>) -> Correction<S> {
+    fn change<S: InstructionSet>(&self, sums: &Derivatives<S>) -> Correction<S> {
         let all = |value: f64| sums.by_longitude.all(value);
         let momentum = sums.by_longitude * all(-self.strength);
         // The real part of X counts: ∂/∂p̄ of it is (∂X/∂p̄ + conj ∂X/∂p)/2.
@@ -297,7 +297,7 @@ fn contractions<S: InstructionSet>(tensor: &[Lanes<S>; 6], multiple: usize, odd:
 }
 
 /// Derivatives of W over the strength.
-struct Sums<S: InstructionSet> {
+struct Derivatives<S: InstructionSet> {
     /// By p and p̄.
     by_p: [ComplexLanes<S>; 2],
     by_longitude: Lanes<S>,
@@ -305,7 +305,7 @@ struct Sums<S: InstructionSet> {
     by_rotation: [Lanes<S>; 2],
 }
 
-impl<S: InstructionSet> Sums<S> {
+impl<S: InstructionSet> Derivatives<S> {
     #[inline(always)]
     fn add(&mut self, totals: &[ComplexLanes<S>; SUMS + 2], multiple: usize, spin: ComplexLanes<S>) {
         // −i of 1/(iΩ), and −i of t1: their coefficients are real without it.

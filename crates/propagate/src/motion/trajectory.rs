@@ -78,7 +78,7 @@ impl Evaluation<'_> {
     fn spread(&self, times: &[f64], outputs: Outputs<'_>, grid: Option<&Grid>, threads: usize) -> Result<(), usize> {
         if threads <= 1 {
             let Self { trajectory, epoch, bound, arch } = *self;
-            return dispatch(arch, Stretch { trajectory, run: Run { epoch, bound, times, outputs, grid } });
+            return dispatch(arch, Dispatch { trajectory, run: Run { epoch, bound, times, outputs, grid } });
         }
         let half = threads / 2;
         let place = (times.len() / threads * half).next_multiple_of(GROUP).min(times.len());
@@ -93,12 +93,12 @@ impl Evaluation<'_> {
 }
 
 /// A stretch of times for one thread.
-struct Stretch<'a> {
+struct Dispatch<'a> {
     trajectory: &'a Trajectory,
     run: Run<'a>,
 }
 
-impl Task for Stretch<'_> {
+impl Task for Dispatch<'_> {
     type Output = Result<(), usize>;
 
     #[inline(always)]

@@ -23,7 +23,7 @@ const FEWEST: usize = 8 * BLOCK;
 const LARGEST_DEVIATION: f64 = 2e-8;
 
 /// Sine and cosine of the two phases.
-type Pair = [[f64; 2]; 2];
+type Seed = [[f64; 2]; 2];
 
 /// The table of a step.
 #[derive(Debug)]
@@ -91,7 +91,7 @@ impl Grid {
         phases: [&Phase; 2],
         times: &[f64],
         epoch: f64,
-    ) -> [Pair; GROUP / BLOCK] {
+    ) -> [Seed; GROUP / BLOCK] {
         let mut bases = [0.0; GROUP / BLOCK];
         for (base, block) in bases.iter_mut().zip(times.chunks(BLOCK)) {
             *base = block[0];
@@ -111,7 +111,7 @@ impl Grid {
 
     /// What a block that [`Grid::holds`] is computed from.
     #[inline(always)]
-    pub(super) fn tabled<S: InstructionSet>(&self, simd: S, base: f64, seed: &Pair) -> Tabled<'_, S> {
+    pub(super) fn tabled<S: InstructionSet>(&self, simd: S, base: f64, seed: &Seed) -> Tabled<'_, S> {
         Tabled {
             grid: self,
             base: Lanes::splat(simd, base),
