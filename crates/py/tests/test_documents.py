@@ -62,3 +62,9 @@ def test_columns_and_keys_of_what_is_written_are_listed(example):
     with np.load(output) as file:
         assert [f"`{key}`" for key in file] == npz
         assert len(file["times"]) == 61
+
+
+def test_no_symbol_stands_twice_in_the_table_of_symbols():
+    rows = re.findall(r"^\| (.+?) \|", (REPOSITORY / "docs/symbols.md").read_text(encoding="utf-8"), re.MULTILINE)[2:]
+    symbols = [symbol for row in rows for symbol in re.split(r", | ≤ ", row)]
+    assert len(symbols) > 60 and sorted(symbols) == sorted(set(symbols))
