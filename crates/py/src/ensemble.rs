@@ -243,6 +243,10 @@ impl Ensemble {
         self.0.len()
     }
 
+    fn __iter__(slf: Py<Self>) -> Members {
+        Members { ensemble: slf, next: 0 }
+    }
+
     fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         if let Ok(slice) = index.cast::<PySlice>() {
             return Ok(Bound::new(py, self.part(slice)?)?.into_any());
@@ -348,4 +352,28 @@ fn orbits_of(value: &Bound<'_, PyAny>) -> PyResult<Vec<Option<andoyer_propagate:
 
 fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
     number("tolerance", value)
+}
+
+/// The motions of an ensemble, in order: what ``iter(ensemble)`` gives.
+#[pyclass(module = "andoyer._core")]
+struct Members {
+    ensemble: Py<Ensemble>,
+    next: usize,
+}
+
+#[pymethods]
+impl Members {
+    fn __iter__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __next__(&mut self, py: Python<'_>) -> PyResult<Option<Motion>> {
+        let ensemble = &self.ensemble.get().0;
+        if self.next >= ensemble.len() {
+            return Ok(None);
+        }
+        let motion = detached(py, error::propagation, || ensemble.motion(self.next))?;
+        self.next += 1;
+        Ok(Some(Motion(motion)))
+    }
 }

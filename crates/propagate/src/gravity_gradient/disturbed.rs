@@ -36,11 +36,11 @@ const NEARLY_CONVERGED: f64 = 1e-13;
 const MOST_STEPS: usize = 12;
 /// Torque over M²/C above which an expansion in it has no first order.
 pub(crate) const STRONGEST: f64 = 0.02;
-/// Orbits on each side of the epoch that quarters are kept for.
+/// Orbits on each side of the epoch that quarters are kept for: 65,534.
 const MOST_ORBITS: f64 = (MOST_QUARTERS / 4 - 2) as f64;
 
 /// What a plan says of a gravity gradient.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct GradientPlan {
     pub(crate) averaging: Averaging,
     pub(crate) level: Level,

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 use crate::gravity_gradient::disturbed::GradientPlan;
 use crate::input::options::{Averaging, Method};
 use crate::input::scene::Scene;
@@ -13,8 +15,8 @@ const NEAR_ONE: f64 = 0.999;
 /// A tolerance below this is met as well as rounding allows \[rad\].
 const ROUNDED_TOLERANCE: f64 = 2e-14;
 
-/// The evaluation plan of a motion.
-#[derive(Clone, Debug, PartialEq)]
+/// The evaluation plan of a motion. It is printed in ASCII, and can be serialized.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     pub(crate) mode: Mode,
     pub(crate) method: Method,
@@ -102,15 +104,17 @@ impl fmt::Display for Plan {
         writeln!(f, "mode          {}", self.mode)?;
         writeln!(f, "method        {}", self.method())?;
         match self.separatrix_ratio {
-            ratio if ratio > NEAR_ONE && ratio < 1.0 => writeln!(f, "σ/σ_sep       1 − {:.3e}", 1.0 - ratio)?,
-            ratio => writeln!(f, "σ/σ_sep       {ratio:.3e}")?,
+            ratio if ratio > NEAR_ONE && ratio < 1.0 => {
+                writeln!(f, "separatrix    1 - {:.3e} (sigma/sigma_sep)", 1.0 - ratio)?;
+            }
+            ratio => writeln!(f, "separatrix    {ratio:.3e} (sigma/sigma_sep)")?,
         }
         match self.method {
             Method::Series => writeln!(f, "order         {}", self.order)?,
-            _ => writeln!(f, "order         –")?,
+            _ => writeln!(f, "order         -")?,
         }
         match self.harmonics {
-            0 => writeln!(f, "harmonics     –")?,
+            0 => writeln!(f, "harmonics     -")?,
             harmonics => writeln!(f, "harmonics     {harmonics}")?,
         }
         if let Some(GradientPlan { averaging, level, terms, size, neglected }) = self.gradient {
