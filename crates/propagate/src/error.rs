@@ -234,12 +234,10 @@ pub enum Error {
         problem: String,
     },
     /// A body that the catalogue doesn't have.
-    #[error("body {name:?} is not in the catalogue{}: it has {}", did_you_mean(*nearest), known.join(", "))]
+    #[error("body {name:?} is not in the catalogue{}: it has {}", did_you_mean(name, known), known.join(", "))]
     UnknownBody {
         /// The name as given.
         name: String,
-        /// The name in the catalogue that is most like it, if one is.
-        nearest: Option<&'static str>,
         /// The names in the catalogue.
         known: Vec<&'static str>,
     },
@@ -258,8 +256,13 @@ pub enum Error {
     },
 }
 
-fn did_you_mean(nearest: Option<&str>) -> String {
-    nearest.map_or_else(String::new, |known| format!("; did you mean {known:?}?"))
+/// The name most like an unknown one, if one is: up to a third of the letters wrong, missing, added or exchanged.
+fn did_you_mean(name: &str, known: &[&str]) -> String {
+    let name = name.to_lowercase();
+    let likeness = |known: &str| strsim::normalized_damerau_levenshtein(&known.to_lowercase(), &name);
+    let best = known.iter().max_by(|one, two| likeness(one).total_cmp(&likeness(two)));
+    let near = best.filter(|best| likeness(best) >= 2.0 / 3.0);
+    near.map_or_else(String::new, |best| format!("; did you mean {best:?}?"))
 }
 
 fn and_others(others: usize) -> String {

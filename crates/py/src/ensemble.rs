@@ -10,6 +10,7 @@ use crate::array::{MemberRows, Times, chunks, constant_rows, fixed, number, writ
 use crate::computing::detached;
 use crate::error::{self, ShapeError, ThreadsError};
 use crate::foreign;
+use crate::members::Members;
 use crate::motion::Motion;
 use crate::orbit::Orbit;
 use crate::order::whole_number;
@@ -244,7 +245,7 @@ impl Ensemble {
     }
 
     fn __iter__(slf: Py<Self>) -> Members {
-        Members { ensemble: slf, next: 0 }
+        Members::of(slf.into_any())
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
@@ -352,28 +353,4 @@ fn orbits_of(value: &Bound<'_, PyAny>) -> PyResult<Vec<Option<andoyer_propagate:
 
 fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
     number("tolerance", value)
-}
-
-/// The motions of an ensemble, in order: what ``iter(ensemble)`` gives.
-#[pyclass(module = "andoyer._core")]
-struct Members {
-    ensemble: Py<Ensemble>,
-    next: usize,
-}
-
-#[pymethods]
-impl Members {
-    fn __iter__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __next__(&mut self, py: Python<'_>) -> PyResult<Option<Motion>> {
-        let ensemble = &self.ensemble.get().0;
-        if self.next >= ensemble.len() {
-            return Ok(None);
-        }
-        let motion = detached(py, error::propagation, || ensemble.motion(self.next))?;
-        self.next += 1;
-        Ok(Some(Motion(motion)))
-    }
 }

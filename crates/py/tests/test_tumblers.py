@@ -42,7 +42,7 @@ def test_strongest_line_of_the_light_of_apophis_is_twice_the_precession_of_its_l
     # Illuminated and seen from one direction, a homogeneous ellipsoid shows the area π |(b c s1, c a s2, a b s3)| of its outline.
     a, b, c = apophis.scene.body.moments
     semi_axes = np.sqrt([b + c - a, a + c - b, a + b - c])
-    times = np.arange(2**13) * 1.5 * HOUR  # 512 days, two samples a line's tenth
+    times = np.arange(2**13) * 1.5 * HOUR  # 512 days, ten samples in a period
     direction = np.array(direction) / np.linalg.norm(direction)
     seen = apophis.rotation(times).apply(direction, inverse=True)
     light = math.pi * np.prod(semi_axes) * np.linalg.norm(seen / semi_axes, axis=1)

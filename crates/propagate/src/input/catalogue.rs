@@ -84,18 +84,10 @@ const ENTRIES: &[Entry] = &[
 
 /// The entry of a name, in any case.
 pub(crate) fn entry(name: &str) -> Result<&'static Entry, Error> {
-    let unknown = || Error::UnknownBody { name: name.to_owned(), nearest: nearest(name), known: names().collect() };
+    let unknown = || Error::UnknownBody { name: name.to_owned(), known: names().collect() };
     ENTRIES.iter().find(|entry| entry.name.eq_ignore_ascii_case(name)).ok_or_else(unknown)
 }
 
 pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     ENTRIES.iter().map(|entry| entry.name)
-}
-
-/// The name most like an unknown one, if one is: up to a third of the letters wrong, missing, added or exchanged.
-fn nearest(name: &str) -> Option<&'static str> {
-    let name = name.to_lowercase();
-    let likeness = |known: &str| strsim::normalized_damerau_levenshtein(&known.to_lowercase(), &name);
-    let best = names().max_by(|one, two| likeness(one).total_cmp(&likeness(two)));
-    best.filter(|best| likeness(best) >= 2.0 / 3.0)
 }

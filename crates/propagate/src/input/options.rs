@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use crate::error::Error;
 
-/// The highest order of the series; reached at σ/σ_sep = 0.64 for a tolerance of 1e-12.
+/// The highest order of the series; it reaches σ/σ_sep = 0.66 for a tolerance of 1e-12.
 pub const MAX_ORDER: usize = 60;
 
 /// Which formulas evaluate a motion.
