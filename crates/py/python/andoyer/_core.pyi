@@ -91,7 +91,7 @@ class ThreadsError(Error):
     """A number of threads that is none, or that the system does not give."""
 
 class TimesError(Error):
-    """A time that is not finite, or too far from the epoch to have a phase."""
+    """A time that is not finite, or too far from the epoch to be evaluated."""
 
 class ToleranceError(Error):
     """A tolerance that is not positive and finite."""
