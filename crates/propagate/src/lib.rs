@@ -32,8 +32,9 @@ pub use input::options::{Averaging, Level, MAX_ORDER, Method};
 pub use input::orbit::Orbit;
 pub use input::scene::Scene;
 pub use input::state::State;
+pub use motion::batch::Batch;
 pub use motion::plan::Plan;
-pub use motion::solved::{Batch, Frequencies, Motion, Periods, Sample};
+pub use motion::solved::{Frequencies, Motion, Periods, Sample};
 pub use torque_free::mode::Mode;
 pub use torque_free::series::tables::SeriesTables;
 

@@ -14,7 +14,7 @@ use andoyer_double::DoubleDouble;
 use nalgebra::{UnitQuaternion, Vector3};
 use num_complex::Complex;
 
-use super::averaged::{Ellipse, MOST_QUARTERS, Precession, Slow, Spin, When, when};
+use super::averaged::{AveragedOrbit, MOST_QUARTERS, Precession, Slow, Spin, When, when};
 use super::corrections::{Change, Corrections, Demand, Mean, SHARE, second_order};
 use super::inertia::Inertia;
 use super::powers::Powers;
@@ -122,7 +122,7 @@ impl Gradient {
         let (axial, axial_slope) = request.level.axial(&inertia);
         let fraction = orbit.disturbing_fraction();
         let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) * fraction;
-        let ellipse = Ellipse::new(orbit, mean_motion, delta / mean.momentum);
+        let ellipse = AveragedOrbit::new(orbit, mean_motion, delta / mean.momentum);
         // Rates are proportional to M, which as a double would leave 1e-16 of the phases.
         let precise = (polhode.momentum - change.momentum.into()) / mean.momentum.into();
         let rates = inertia.rates.map(|rate| rate * precise);

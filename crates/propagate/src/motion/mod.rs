@@ -3,6 +3,7 @@
 //! Imports errors, numerics, simd, input, torque_free and gravity_gradient.
 
 mod andoyer;
+pub(crate) mod batch;
 mod energy;
 pub(crate) mod plan;
 pub(crate) mod solved;

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::gravity_gradient::disturbed::GradientPlan;
 use crate::input::options::{Averaging, Method};
+use crate::input::scene::Scene;
 use crate::torque_free::mode::Mode;
 
 /// σ/σ_sep above which its distance from 1 is printed.
@@ -31,6 +32,22 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// The plan of a scene by the closed form, without a sum, to which the rest is added.
+    pub(crate) fn new(scene: &Scene, mode: Mode, separatrix_ratio: f64, error_bound: f64) -> Self {
+        Self {
+            mode,
+            method: Method::Closed,
+            order: 0,
+            harmonics: 0,
+            error_bound: error_bound.min(std::f64::consts::PI),
+            tolerance: scene.asked_tolerance(),
+            spanned: scene.asked_span().is_some(),
+            separatrix_ratio,
+            gradient: None,
+            skipped: Vec::new(),
+        }
+    }
+
     /// The kind of motion.
     pub fn mode(&self) -> Mode {
         self.mode

@@ -3,13 +3,11 @@
 //! Evaluation is two sines and cosines (of ℓ′ and y′/2), the sums of theory §8, a normalization and a constant map: see [`super::trajectory`].
 
 use nalgebra::{UnitQuaternion, Vector3};
-use pulp::Arch;
 
 use super::plan::Plan;
-use super::trajectory::{Course, Evaluation};
+use super::trajectory::Trajectory;
 use crate::error::Error;
 use crate::input::scene::Scene;
-use crate::simd::outputs::Outputs;
 
 /// Rotations from the epoch within which phases are good to 1e-14 rad; not far beyond, a double no longer tells one turn from the next.
 const MOST_ROTATIONS: f64 = 1e15;
@@ -55,7 +53,7 @@ pub struct Periods {
 pub struct Motion {
     pub(crate) scene: Scene,
     pub(crate) plan: Plan,
-    pub(crate) course: Course,
+    pub(crate) trajectory: Trajectory,
     pub(crate) frequencies: Frequencies,
     /// dy′/dt + dℓ′/dt, summed before it is rounded: for a needle the two nearly cancel.
     pub(crate) precession: f64,
@@ -122,11 +120,6 @@ impl Motion {
         Ok(Sample { time, attitude, angular_velocity: rates[0].into() })
     }
 
-    /// How many times at once are evaluated: on as many threads as pay, unless told otherwise.
-    pub fn batch(&self) -> Batch<'_> {
-        Batch::new(self)
-    }
-
     /// Attitudes [x, y, z, w] at many times, without an allocation.
     ///
     /// # Errors
@@ -151,7 +144,7 @@ impl Motion {
     pub fn angular_momenta_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
         self.valid(times)?;
-        if let Course::Gradient(gradient) = &self.course {
+        if let Trajectory::Gradient(gradient) = &self.trajectory {
             gradient.angular_momenta(times, self.scene.state().epoch, out);
         } else {
             out.fill(self.angular_momentum.into());
@@ -168,7 +161,7 @@ impl Motion {
     }
 
     /// The largest distance from the epoch that is evaluated.
-    fn bound(&self) -> f64 {
+    pub(crate) fn bound(&self) -> f64 {
         self.reach().0
     }
 
@@ -177,8 +170,8 @@ impl Motion {
         // A body at rest, or one that turns once in 1e285 units, is still bounded, so that no sum of two times overflows.
         let phases = MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude;
         let phases = if phases < LONGEST { (phases, ": farther away the motion has no phase") } else { (LONGEST, "") };
-        match &self.course {
-            Course::Gradient(gradient) if gradient.bound() < phases.0 => (gradient.bound(), SOLVED),
+        match &self.trajectory {
+            Trajectory::Gradient(gradient) if gradient.bound() < phases.0 => (gradient.bound(), SOLVED),
             _ => phases,
         }
     }
@@ -193,75 +186,9 @@ impl Motion {
         }
     }
 
-    fn no_phase(&self, index: usize, times: &[f64]) -> Error {
+    pub(crate) fn no_phase(&self, index: usize, times: &[f64]) -> Error {
         let (bound, reason) = self.reach();
         Error::Time { index, value: times[index], bound, reason }
-    }
-}
-
-/// How a motion is evaluated at many times: the number of threads changes no bit of the result.
-///
-/// ```
-/// use andoyer_propagate::{Body, Scene, State};
-/// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?;
-/// let motion = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).solve()?;
-/// let times: Vec<f64> = (0..40_000).map(f64::from).collect();
-/// let (mut one, mut many) = (vec![[0.0; 4]; times.len()], vec![[0.0; 4]; times.len()]);
-/// motion.batch().threads(1).attitudes_into(&times, &mut one)?;
-/// motion.attitudes_into(&times, &mut many)?;
-/// assert_eq!(one, many);
-/// # Ok::<(), andoyer_propagate::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug)]
-pub struct Batch<'a> {
-    motion: &'a Motion,
-    threads: usize,
-}
-
-impl<'a> Batch<'a> {
-    fn new(motion: &'a Motion) -> Self {
-        Self { motion, threads: usize::MAX }
-    }
-
-    /// On at most so many threads of rayon's pool; few times take one in any case. 0 is taken as 1.
-    #[must_use]
-    pub fn threads(self, most: usize) -> Self {
-        Self { threads: most, ..self }
-    }
-
-    /// Attitudes [x, y, z, w].
-    ///
-    /// # Errors
-    /// As [`Motion::attitudes_into`].
-    pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<(), Error> {
-        length("out", out.len(), times.len())?;
-        self.fill(times, Outputs::Attitudes(out))
-    }
-
-    /// Angular velocities, body components [rad per unit of time].
-    ///
-    /// # Errors
-    /// As [`Motion::attitudes_into`].
-    pub fn angular_velocities_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
-        length("out", out.len(), times.len())?;
-        self.fill(times, Outputs::Rates(out))
-    }
-
-    /// Both.
-    ///
-    /// # Errors
-    /// As [`Motion::attitudes_into`].
-    pub fn samples_into(&self, times: &[f64], attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
-        length("attitudes", attitudes.len(), times.len())?;
-        length("rates", rates.len(), times.len())?;
-        self.fill(times, Outputs::Both(attitudes, rates))
-    }
-
-    fn fill(&self, times: &[f64], outputs: Outputs<'_>) -> Result<(), Error> {
-        let Self { motion, threads } = *self;
-        let epoch = motion.scene.state().epoch;
-        let evaluation = Evaluation { course: &motion.course, epoch, bound: motion.bound(), arch: Arch::new() };
-        evaluation.fill(times, outputs, threads).map_err(|index| motion.no_phase(index, times))
     }
 }
 
