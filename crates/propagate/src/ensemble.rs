@@ -11,15 +11,16 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::batch::{Batch, GOING};
-use crate::body::Body;
 use crate::error::Error;
-use crate::motion::{Motion, length};
-use crate::orbit::Orbit;
+use crate::input::body::Body;
+use crate::input::orbit::Orbit;
+use crate::input::scene::Scene;
+use crate::input::state::State;
+use crate::motion::batch::Batch;
+use crate::motion::plan::Plan;
+use crate::motion::solved::{Motion, length};
 use crate::outcome::Outcome;
-use crate::plan::Plan;
-use crate::scene::Scene;
-use crate::state::State;
+use crate::simd::halt::GOING;
 
 /// Members that a thread takes at least: 64 of them are some 300 µs.
 const BLOCK: usize = 64;

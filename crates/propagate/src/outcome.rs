@@ -1,7 +1,7 @@
 //! What became of the members of an ensemble: which were refused, and which miss the tolerance.
 
 use crate::error::Error;
-use crate::plan::{Plan, missed};
+use crate::motion::plan::{Plan, missed};
 
 /// A member that misses the tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -48,7 +48,7 @@ create_exception!(
     "A rotation so slow, or so near a resonance with its orbit, that no averaging holds."
 );
 create_exception!(andoyer, TorqueError, Error, "A torque too strong for an expansion in it.");
-create_exception!(andoyer, TimesError, Error, "A time that is not finite, or too far from the epoch to have a phase.");
+create_exception!(andoyer, TimesError, Error, "A time that is not finite, or too far from the epoch to be evaluated.");
 create_exception!(andoyer, ShapeError, Error, "An array of the wrong shape or memory layout.");
 create_exception!(
     andoyer,
@@ -69,7 +69,7 @@ create_exception!(
     andoyer,
     HamiltonianError,
     Error,
-    "A polynomial that cannot be read, or a Hamiltonian whose origin is no elliptic point with a diagonal quadratic part."
+    "A polynomial that cannot be read, or a Hamiltonian whose quadratic part cannot be diagonalized."
 );
 create_exception!(
     andoyer,
@@ -153,15 +153,18 @@ fn exception(error: Algebra, message: String) -> PyErr {
         Algebra::OrderTooLarge { .. } | Algebra::MemoryTooLarge { .. } | Algebra::OrderOutOfRange { .. } => {
             OrderError::new_err(message)
         }
-        Algebra::NameUnknown { .. } | Algebra::Parse { problem: ParseProblem::UnknownName(_), .. } => {
-            UnknownNameError::new_err(message)
-        }
+        Algebra::NameUnknown { .. }
+        | Algebra::ParameterUnknown { .. }
+        | Algebra::Parse { problem: ParseProblem::UnknownName(_), .. } => UnknownNameError::new_err(message),
         Algebra::OutsideInterval { .. } | Algebra::NotFinite { .. } => IntervalError::new_err(message),
         Algebra::Parse { .. }
         | Algebra::PhaseSpaceSize { .. }
         | Algebra::LinearTerm { .. }
-        | Algebra::QuadraticNotDiagonal { .. }
-        | Algebra::NotElliptic { .. }
+        | Algebra::ParameterDegree { .. }
+        | Algebra::ZeroFrequency { .. }
+        | Algebra::FrequencyParameter { .. }
+        | Algebra::Defective { .. }
+        | Algebra::SpectrumIrrational { .. }
         | Algebra::FrequencyIrrational { .. } => HamiltonianError::new_err(message),
         Algebra::SmallDivisor { .. }
         | Algebra::NotResonant { .. }
@@ -171,7 +174,9 @@ fn exception(error: Algebra, message: String) -> PyErr {
         | Algebra::FormatUnknown { .. }
         | Algebra::RationalMalformed { .. }
         | Algebra::CountMismatch { .. }
-        | Algebra::TermInconsistent { .. } => FormatError::new_err(message),
+        | Algebra::NotSymplectic { .. }
+        | Algebra::TermInconsistent { .. }
+        | Algebra::CoefficientWrong { .. } => FormatError::new_err(message),
         _ => SeriesError::new_err(message),
     }
 }

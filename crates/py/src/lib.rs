@@ -14,11 +14,13 @@ mod array;
 mod birkhoff;
 mod body;
 mod computing;
+mod domain;
 mod ensemble;
 mod error;
 mod expression;
 mod foreign;
 mod form;
+mod members;
 mod motion;
 mod normal_form;
 mod normalize;
@@ -28,6 +30,7 @@ mod plan;
 mod progress;
 mod samples;
 mod scene;
+mod scene_class;
 
 /// Compiled core of the package `andoyer`, which re-exports all of it.
 #[pyo3::pymodule]
@@ -38,6 +41,8 @@ mod _core {
     use super::body::Body;
     #[pymodule_export]
     use super::computing::_panic;
+    #[pymodule_export]
+    use super::domain::Domain;
     #[pymodule_export]
     use super::ensemble::Ensemble;
     #[pymodule_export]
@@ -60,7 +65,7 @@ mod _core {
     #[pymodule_export]
     use super::samples::Samples;
     #[pymodule_export]
-    use super::scene::Scene;
+    use super::scene_class::Scene;
 
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "Python's name for it")]
