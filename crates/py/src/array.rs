@@ -174,6 +174,14 @@ pub(crate) fn fixed<const N: usize>(argument: &str, value: &Bound<'_, PyAny>) ->
     read(argument, &array)?.as_slice()?.try_into().map_err(|_| wrong())
 }
 
+/// First and last time of a span, of a state at an epoch.
+pub(crate) fn span(value: &Bound<'_, PyAny>, epoch: f64, calendar: Option<Calendar>) -> PyResult<[f64; 2]> {
+    match foreign::since("span", value, calendar.as_slice())? {
+        Some((seconds, ..)) => Ok(fixed("span", &seconds)?.map(|seconds: f64| epoch + seconds)),
+        None => fixed("span", value),
+    }
+}
+
 /// Rows of `columns` numbers: an array_like of shape (`columns`,) or (m, `columns`).
 pub(crate) struct Rows<'py> {
     array: PyReadonlyArrayDyn<'py, f64>,

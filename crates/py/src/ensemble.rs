@@ -8,7 +8,7 @@ use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice, PyTuple};
 
-use crate::array::{MemberRows, Times, chunks, constant, constant_rows, number, numbers_of, write};
+use crate::array::{MemberRows, Times, chunks, constant, constant_rows, number, numbers_of, span as span_of, write};
 use crate::computing::{detached, interruptible};
 use crate::error::{self, ShapeError, ThreadsError};
 use crate::foreign::{self, Calendar};
@@ -123,7 +123,7 @@ impl Ensemble {
         let on_error: OnError = errors.parse().map_err(error::propagation)?;
         let (epochs, calendar) = epochs.map(epochs_of).transpose()?.unwrap_or_default();
         let first = epochs.first().copied().unwrap_or(0.0);
-        let span = span.map(|value| foreign::span(value, first, calendar.first().copied())).transpose()?;
+        let span = span.map(|value| span_of(value, first, calendar.first().copied())).transpose()?;
         let Some(members) = moments.members().or(attitudes.members()).or(rates.members()) else {
             let text =
                 "moments, attitudes and angular_velocities are one row each: one of them must have an axis of members";

@@ -11,7 +11,6 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyInt, PyList, PyTuple};
 
-use crate::array;
 use crate::error::TimesError;
 
 /// `value`, or the numbers in it.
@@ -108,14 +107,6 @@ pub(crate) fn epochs<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult
     let py = value.py();
     let epochs = py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "epochs"))?;
     epochs.call1((argument, value))?.extract()
-}
-
-/// First and last time of a span, of a state at an epoch.
-pub(crate) fn span(value: &Bound<'_, PyAny>, epoch: f64, calendar: Option<Calendar>) -> PyResult<[f64; 2]> {
-    match since("span", value, calendar.as_slice())? {
-        Some((seconds, ..)) => Ok(array::fixed("span", &seconds)?.map(|seconds: f64| epoch + seconds)),
-        None => array::fixed("span", value),
-    }
 }
 
 /// Epochs as Times of astropy.

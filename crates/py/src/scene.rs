@@ -63,7 +63,7 @@ impl Scene {
             scene = scene.order(crate::order::order("order", value, 0, MAX_ORDER)?);
         }
         if let Some(value) = span {
-            let [start, stop] = foreign::span(value, epoch, calendar)?;
+            let [start, stop] = array::span(value, epoch, calendar)?;
             scene = scene.span(start, stop);
         }
         if let Some(name) = name {
