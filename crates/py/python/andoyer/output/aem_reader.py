@@ -128,8 +128,9 @@ def _segment(message: RawMessage, raw: RawSegment, date: datetime | None) -> Seg
     if message.version == "1.0" and name.startswith("QUATERNION") and _choice(raw, "QUATERNION_TYPE", ["FIRST", "LAST"]) == "FIRST":
         fields = _scalar_first(fields)
     table = np.array([_numbers(record, fields) for record in raw.records])[:, [fields.index(field) for field in FIELDS[name]]]
+    sequence = _sequence(raw, name)
     try:
-        attitude, rates = attitudes_of(name, table, _sequence(raw, name))
+        attitude, rates = attitudes_of(name, table, sequence)
     except ValueError as error:
         raise ValueError(f"{raw.where}: {error}") from error
     if name.endswith("/ANGVEL"):
@@ -171,14 +172,13 @@ def _plain(text: str) -> str:
 
 
 def _numbers(record: Record, fields: list[str]) -> list[float]:
-    if isinstance(record.values, dict):
-        wrong = sorted(set(record.values) ^ set(fields))
-        values = [record.values.get(field, "") for field in fields]
-    else:
-        wrong = [] if len(record.values) == len(fields) else [f"{len(fields)} numbers, got {len(record.values)}"]
-        values = record.values
-    if wrong:
-        raise ValueError(f"{record.where}: a record of this type must have {', '.join(fields)}: not so {', '.join(wrong)}")
+    values = record.values
+    if isinstance(values, dict):
+        if set(values) != set(fields):
+            raise ValueError(f"{record.where}: a record of this type must have {', '.join(fields)}: got {', '.join(values)}")
+        values = [values[field] for field in fields]
+    if len(values) != len(fields):
+        raise ValueError(f"{record.where}: a record of this type must have {len(fields)} numbers, {', '.join(fields)}: got {len(values)}")
     for field, value in zip(fields, values):
         if not NUMBER.fullmatch(value) or not np.isfinite(float(value)):
             raise ValueError(f"{record.where}: {field} must be a finite number: got {value!r}")

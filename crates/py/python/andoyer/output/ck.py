@@ -22,7 +22,7 @@ from andoyer._extra import extra
 from andoyer._quaternions import Array, rotate
 from andoyer.output.calendar import J2000, seconds_of_tdb
 from andoyer.output.files import whole_file
-from andoyer.output.nodes import SMALLEST_ERROR, nodes, windows
+from andoyer.output.nodes import SMALLEST_ERROR, estimate, nodes, windows
 from andoyer.output.table import Progress, silent
 
 STEADY = ("principal-axis", "spherical", "at-rest")
@@ -178,11 +178,9 @@ def _uniform(motion: Motion, begin: float, end: float, error: float) -> Iterator
 def _tabulated(motion: Motion, begin: float, end: float, error: float, progress: Progress) -> Iterator[_Segment]:
     """Segments of type 3, one for each window; neighbours share a node, so that there is no gap."""
     borders = windows(motion, begin, end)
-    written = 0
+    _limit(round(estimate(motion, borders, error)), error)
     try:
         for done, times in enumerate(nodes(motion, borders, error), 1):
-            written += len(times)
-            _limit(round(written / done * (len(borders) - 1)), error)
             samples = motion.at(times)
             yield _Segment(times, samples.attitude, rotate(samples.attitude, samples.angular_velocity), False)
             progress(done, len(borders) - 1)

@@ -39,6 +39,12 @@ def windows(motion: Motion, start: float, stop: float) -> Array:
     return np.linspace(start, stop, count + 1)
 
 
+def estimate(motion: Motion, borders: Array, error: float) -> float:
+    """About how many nodes there will be, by the first window."""
+    _, integral = _count(motion, float(borders[0]), float(borders[1]), MARGIN * error)
+    return float(integral[-1]) * (len(borders) - 1)
+
+
 def nodes(motion: Motion, borders: Array, error: float) -> Iterator[Array]:
     """The nodes of each window between two borders; both borders are nodes.
 
