@@ -218,9 +218,10 @@ def _times(raw: RawSegment, system: str, date: datetime | None) -> Array:
 def _of_second(raw: RawSegment, attitude: Array, rates: Array) -> Array:
     """An angular velocity in components of frame B."""
     frame = _plain(_given(raw, "ANGVEL_FRAME"))
-    if frame == _plain(raw.metadata["REF_FRAME_B"]):
+    # The standard's own figure G-13 has the keyword in the place of the name.
+    if frame in (_plain(raw.metadata["REF_FRAME_B"]), "REF FRAME B"):
         return rates
-    if frame == _plain(raw.metadata["REF_FRAME_A"]):
+    if frame in (_plain(raw.metadata["REF_FRAME_A"]), "REF FRAME A"):
         return rotate(conjugate(attitude), rates)
     raise ValueError(f"{raw.where}: ANGVEL_FRAME must be REF_FRAME_A or REF_FRAME_B: got {raw.metadata['ANGVEL_FRAME']!r}")
 

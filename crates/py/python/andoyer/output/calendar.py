@@ -29,6 +29,8 @@ DAY = 86400
 JULIAN_J2000 = 2451545
 GPS_BEHIND_TAI = 19
 """Seconds: GPS = TAI − 19 s."""
+TT_LESS_TAI = Fraction(32184, 1000)
+"""Seconds: TT = TAI + 32.184 s."""
 
 EPOCH = re.compile(r"(\d{4})-(?:(\d{2})-(\d{2})|(\d{3}))T(\d{2}):(\d{2}):(\d{2})(?:\.(\d*))?(Z?)", re.ASCII)
 
@@ -101,13 +103,28 @@ def tdb(seconds: Fraction, system: str) -> float:
     """
     if system == "TDB":
         return float(seconds)
-    time = extra("astropy.time", f"converting {system} to TDB")
-    if system in ("GPS", "UTC"):
-        # Both are counted in SI seconds; 2000-01-01T12:00:00 UTC was 32 s of TAI later.
-        seconds, system = seconds + (GPS_BEHIND_TAI if system == "GPS" else _leap_seconds(J2000.date())), "TAI"
+    erfa = _erfa(f"converting {system} to TDB")
+    if system == "TCB":
+        return _of_julian(*erfa.tcbtdb(*_julian(seconds)))
+    if system == "TCG":
+        # TT − TCG is far below a day: what is converted is the difference.
+        first, second = _julian(seconds)
+        seconds, system = seconds + Fraction(_of_julian(*erfa.tcgtt(first, second)) - _of_julian(first, second)), "TT"
+    if system != "TT":
+        # GPS and UTC are counted in SI seconds; 2000-01-01T12:00:00 UTC was 32 s of TAI later.
+        behind = {"TAI": 0, "GPS": GPS_BEHIND_TAI, "UTC": _leap_seconds(J2000.date()) if system == "UTC" else 0}[system]
+        seconds += behind + TT_LESS_TAI
+    return float(seconds + Fraction(float(erfa.dtdb(*_julian(seconds), 0.0, 0.0, 0.0, 0.0))))
+
+
+def _julian(seconds: Fraction) -> tuple[float, float]:
+    """The Julian date in two doubles."""
     days, rest = divmod(seconds, DAY)
-    moment = time.Time(JULIAN_J2000 + int(days), float(rest / DAY), format="jd", scale=system.lower()).tdb
-    return float(((moment.jd1 - JULIAN_J2000) + moment.jd2) * DAY)
+    return float(JULIAN_J2000 + days), float(rest / DAY)
+
+
+def _of_julian(first: float, second: float) -> float:
+    return float((Fraction(float(first)) - JULIAN_J2000 + Fraction(float(second))) * DAY)
 
 
 def _leap_seconds(day: Day) -> int:
@@ -136,8 +153,13 @@ def _utc(whole: int) -> tuple[int, int]:
 @cache
 def _table() -> tuple[list[Day], list[int]]:
     """Days on which TAI − UTC changed, and its values from then on."""
-    extra("astropy.time", "UTC, for its leap seconds,")
-    erfa: Any = extra("erfa", "UTC, for its leap seconds,")
+    erfa = _erfa("UTC, for its leap seconds,")
     rows = [(Day(int(row["year"]), int(row["month"]), 1), float(row["tai_utc"])) for row in erfa.leap_seconds.get()]
     whole = [(day, round(offset)) for day, offset in rows if offset == int(offset)]
     return [day for day, _ in whole], [offset for _, offset in whole]
+
+
+def _erfa(purpose: str) -> Any:
+    """The library of astropy for scales of time, with astropy's leap seconds: importing astropy brings them up to date."""
+    extra("astropy.time", purpose)
+    return extra("erfa", purpose)

@@ -12,6 +12,9 @@ from andoyer.output.raw import RawMessage, RawSegment, Record, version_of
 DEEPEST = 12
 """A message has its numbers eight elements deep; a document that goes deeper than this is none."""
 
+ENCODINGS = ["UTF-8", "UTF-16", "US-ASCII", "ISO-8859-1"]
+"""Those that the parser knows without looking for a codec."""
+
 NAMES = {f"rotation{place}": place for place in (1, 2, 3)}
 """Version 1 has the angles and rates of a rotation in elements of one name."""
 
@@ -79,6 +82,11 @@ def _tree(data: bytes) -> Element:
     def refuse(*_: object) -> None:
         raise ValueError(f"line {parser.CurrentLineNumber}: a document type, and so an entity, is not read")
 
+    def declared(_version: str, encoding: str | None, _standalone: int) -> None:
+        if encoding is not None and encoding.upper() not in ENCODINGS:
+            raise ValueError(f"line {parser.CurrentLineNumber}: the encoding must be {', '.join(ENCODINGS)}: got {encoding!r}")
+
+    parser.XmlDeclHandler = declared
     parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = start, end, text
     parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = refuse
     parser.buffer_text = True
