@@ -44,7 +44,7 @@ def test_calendar_times_come_back_as_they_were_given(motion, tmp_path, ending, s
     time = pytest.importorskip("astropy.time")
     if ending == "parquet":
         pytest.importorskip("pyarrow")
-    times = time.Time("2017-01-01T00:00:00", scale=scale) + np.linspace(0, 0.001, 9)
+    times = time.Time("2017-01-01T00:00:00", scale=scale) + time.TimeDelta(np.linspace(0, 0.001, 9), format="jd")
     path = tmp_path / f"out.{ending}"
     getattr(output, f"write_{ending}")(path, motion.at(times), times=times)
     table = read_table(path)

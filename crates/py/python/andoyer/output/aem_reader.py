@@ -210,7 +210,7 @@ def _times(raw: RawSegment, system: str, date: datetime | None) -> Array:
         if len(moments) > 1 and moments[-2] >= moments[-1]:
             raise ValueError(f"{record.where}: times must ascend: got {record.epoch} after one that is not before it")
     if date is None:
-        return np.array([tdb(moment, system) for moment in moments])
+        return tdb(moments, system)
     zero = count(date, system)
     return np.array([float(moment - zero) for moment in moments])
 

@@ -6,13 +6,17 @@ SI seconds through the leap seconds that astropy knows, TDB against other scales
 
 import re
 from bisect import bisect_right
+from collections.abc import Sequence
 from datetime import date as Day
 from datetime import datetime, timedelta
 from fractions import Fraction
 from functools import cache
 from typing import Any
 
+import numpy as np
+
 from andoyer._extra import extra
+from andoyer._quaternions import Array
 
 J2000 = datetime(2000, 1, 1, 12)
 
@@ -90,11 +94,11 @@ def written(seconds: Fraction, system: str) -> str:
 
 def seconds_of_tdb(date: datetime, system: str) -> float:
     """Seconds of TDB since J2000, 2000-01-01T12:00:00 TDB, at a date."""
-    return tdb(count(date, system), system)
+    return float(tdb([count(date, system)], system)[0])
 
 
-def tdb(seconds: Fraction, system: str) -> float:
-    """Seconds of TDB since J2000 at the time so many seconds after 2000-01-01T12:00:00 of the scale.
+def tdb(moments: Sequence[Fraction], system: str) -> Array:
+    """Seconds of TDB since J2000 at times so many seconds after 2000-01-01T12:00:00 of the scale.
 
     Raises
     ------
@@ -102,29 +106,26 @@ def tdb(seconds: Fraction, system: str) -> float:
         A scale other than TDB without astropy.
     """
     if system == "TDB":
-        return float(seconds)
+        return np.array([float(moment) for moment in moments])
     erfa = _erfa(f"converting {system} to TDB")
+    # GPS and UTC are counted in SI seconds; 2000-01-01T12:00:00 UTC was 32 s of TAI later.
+    behind = {"GPS": GPS_BEHIND_TAI, "UTC": _leap_seconds(J2000.date()) if system == "UTC" else 0}.get(system, 0)
+    offset = behind + TT_LESS_TAI if system in ("TAI", "GPS", "UTC") else 0
+    given = [divmod(moment + offset, DAY) for moment in moments]
+    julian = np.array([[float(JULIAN_J2000 + days), float(rest / DAY)] for days, rest in given]).T
     if system == "TCB":
-        return _of_julian(*erfa.tcbtdb(*_julian(seconds)))
+        return _since_j2000(*erfa.tcbtdb(*julian))
     if system == "TCG":
-        # TT − TCG is far below a day: what is converted is the difference.
-        first, second = _julian(seconds)
-        seconds, system = seconds + Fraction(_of_julian(*erfa.tcgtt(first, second)) - _of_julian(first, second)), "TT"
-    if system != "TT":
-        # GPS and UTC are counted in SI seconds; 2000-01-01T12:00:00 UTC was 32 s of TAI later.
-        behind = {"TAI": 0, "GPS": GPS_BEHIND_TAI, "UTC": _leap_seconds(J2000.date()) if system == "UTC" else 0}[system]
-        seconds += behind + TT_LESS_TAI
-    return float(seconds + Fraction(float(erfa.dtdb(*_julian(seconds), 0.0, 0.0, 0.0, 0.0))))
+        julian = np.array(erfa.tcgtt(*julian))
+    less_tt = erfa.dtdb(*julian, 0.0, 0.0, 0.0, 0.0)
+    if system == "TCG":
+        return _since_j2000(*julian) + less_tt
+    return np.array([float(moment + offset + Fraction(float(less))) for moment, less in zip(moments, less_tt)])
 
 
-def _julian(seconds: Fraction) -> tuple[float, float]:
-    """The Julian date in two doubles."""
-    days, rest = divmod(seconds, DAY)
-    return float(JULIAN_J2000 + days), float(rest / DAY)
-
-
-def _of_julian(first: float, second: float) -> float:
-    return float((Fraction(float(first)) - JULIAN_J2000 + Fraction(float(second))) * DAY)
+def _since_j2000(first: Array, second: Array) -> Array:
+    days: Array = first - JULIAN_J2000
+    return (days + second) * DAY
 
 
 def _leap_seconds(day: Day) -> int:
