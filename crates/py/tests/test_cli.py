@@ -73,7 +73,7 @@ def test_samples_more_than_half_a_rotation_apart_are_noted(scene_file, motion, t
     assert done.returncode == 0 and done.stdout == "" and done.stderr.count("\n") == 1
     found = re.match(r"andoyer: note: samples are (\S+) rotations apart; --step (\S+) ", done.stderr)
     assert float(found[1]) == pytest.approx(apart, rel=5e-3)
-    assert run("propagate", scene_file, "-o", tmp_path / "out.csv", "--stop", "1000", "--step", found[2]).stderr == ""
+    assert run("propagate", scene_file, "-o", tmp_path / "out.csv", "--stop", "1000", "--step", found[2], "--force").stderr == ""
     assert len(read(tmp_path / "out.csv")) > 10_000
 
 
@@ -100,7 +100,7 @@ def test_span_of_the_scene_is_the_default_if_there_is_one(scene, tmp_path):
     path.write_text(given.to_toml(), encoding="utf-8")
     assert main(["propagate", str(path), "-o", str(output), "--samples", "4"]) == 0
     assert read(output)[:, 0].tolist() == [1, 2, 3, 4]
-    assert main(["propagate", str(path), "-o", str(output), "--samples", "1", "--start", "3"]) == 0
+    assert main(["propagate", str(path), "-o", str(output), "--samples", "1", "--start", "3", "--force"]) == 0
     assert read(output)[:, 0].tolist() == [3]
 
 

@@ -10,7 +10,8 @@ Array: TypeAlias = NDArray[np.float64]
 
 def conjugate(q: Array) -> Array:
     """The inverse rotations."""
-    return q * np.array([-1.0, -1.0, -1.0, 1.0])
+    inverse: Array = q * np.array([-1.0, -1.0, -1.0, 1.0])
+    return inverse
 
 
 def product(p: Array, q: Array) -> Array:

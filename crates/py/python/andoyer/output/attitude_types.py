@@ -62,13 +62,19 @@ def columns_of(name: str, attitude: Array, rates: Array, body: Body | None = Non
         across = np.hypot(rates[:, 0], rates[:, 1])
         if np.any(across > 1e-9 * np.abs(rates[:, 2])):
             raise ValueError(f"attitude_type SPIN must have a rotation about body axis 3 alone: {across.max():.3g} rad/s is across it")
-        return np.degrees(np.column_stack([alpha, delta, angle, rates[:, 2]]))
+        return _degrees(alpha, delta, angle, rates[:, 2])
     momentum, nutation_rate, spin_rate = _nutation(name, rates, body)
     spin = np.column_stack([alpha, delta, angle, spin_rate])
     if name == "SPIN/NUTATION_MOM":
-        return np.degrees(np.column_stack([spin, *directions(rotate(attitude, momentum)), nutation_rate]))
+        return _degrees(spin, *directions(rotate(attitude, momentum)), nutation_rate)
     nutation, phase = np.arctan2(np.hypot(momentum[:, 0], momentum[:, 1]), momentum[:, 2]), np.arctan2(-momentum[:, 1], momentum[:, 0])
-    return np.column_stack([np.degrees(np.column_stack([spin, nutation])), 2 * np.pi / nutation_rate, np.degrees(phase)])
+    return np.column_stack([_degrees(spin, nutation), 2 * np.pi / nutation_rate, _degrees(phase)])
+
+
+def _degrees(*columns: Array) -> Array:
+    """Columns of angles or their rates, in degrees."""
+    degrees: Array = np.degrees(np.column_stack(columns))
+    return degrees
 
 
 def _nutation(name: str, rates: Array, body: Body | None) -> tuple[Array, Array, Array]:

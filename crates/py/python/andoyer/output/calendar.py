@@ -65,7 +65,7 @@ def parse(text: str, system: str) -> Fraction:
     if system == "UTC":
         whole += _leap_seconds(date) - _leap_seconds(J2000.date())
     decimals = match[8] or ""
-    return whole + (Fraction(int(decimals), 10 ** len(decimals)) if decimals else 0)
+    return whole + Fraction(int(decimals or "0"), 10 ** len(decimals))
 
 
 def count(date: datetime, system: str) -> Fraction:
@@ -119,13 +119,14 @@ def tdb(moments: Sequence[Fraction], system: str) -> Array:
         julian = np.array(erfa.tcgtt(*julian))
     less_tt = erfa.dtdb(*julian, 0.0, 0.0, 0.0, 0.0)
     if system == "TCG":
-        return _since_j2000(*julian) + less_tt
+        together: Array = _since_j2000(*julian) + less_tt
+        return together
     return np.array([float(moment + offset + Fraction(float(less))) for moment, less in zip(moments, less_tt)])
 
 
 def _since_j2000(first: Array, second: Array) -> Array:
-    days: Array = first - JULIAN_J2000
-    return (days + second) * DAY
+    seconds: Array = ((first - JULIAN_J2000) + second) * DAY
+    return seconds
 
 
 def _leap_seconds(day: Day) -> int:

@@ -23,7 +23,7 @@ def parse_kvn(text: str) -> RawMessage:
     if key != "CCSDS_AEM_VERS":
         raise ValueError(f"line {lines[0][0]}: an AEM must start with CCSDS_AEM_VERS: got {key}")
     message = RawMessage(version_of(value, f"line {lines[0][0]}"))
-    state = _Header(message)
+    state: _State = _Header(message)
     for number, line in lines[1:]:
         state = state.take(number, line)
     state.end(lines[-1][0])

@@ -113,8 +113,10 @@ def write_npz(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | 
     """
     table = rows(samples)
     texts, julian = _about(table, scene, times)
+    arrays: dict[str, Any] = {"times": table[:, 0], "attitude": table[:, 1:5], "angular_velocity": table[:, 5:]}
+    arrays |= julian | {key: np.array(text) for key, text in texts.items()}
     with whole_file(path, force) as temporary, temporary.open("wb") as file:
-        np.savez(file, times=table[:, 0], attitude=table[:, 1:5], angular_velocity=table[:, 5:], **julian, **{key: np.array(text) for key, text in texts.items()})
+        np.savez(file, **arrays)
 
 
 def write_parquet(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, times: Any = None, force: bool = True) -> None:
