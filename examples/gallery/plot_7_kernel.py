@@ -18,8 +18,8 @@ from andoyer.output import Kernel, write_ck
 # %%
 # The state of the scene file: seconds, ecliptic frame, time 0 at J2000. Thirty days are enough for a picture.
 
-attitude = [-0.9684470110523898, 0.18484619592060467, 0.12628171830822016, -0.10952259245697712]
-rates = [2.1711456174137208e-05, 0.0, 6.126197961316196e-05]
+attitude = [0.9936142273587073, 0.039164900723114, -0.09451299087115574, 0.047583319538432894]
+rates = [1.7762925277359764e-05, 0.0, 5.530125462483281e-05]
 scene = andoyer.Scene(andoyer.Body.named("apophis"), attitude, rates, tolerance=1e-10, name="Apophis, tumbling")
 motion = scene.solve()
 DAY = 86400.0

@@ -25,13 +25,15 @@ pub enum Error {
     /// Moments so far apart that their differences have no double.
     #[error(
         "moments = {moments:?}: the largest must not exceed {:e} times the smallest (it is {ratio:e} times it)",
-        crate::body::LARGEST_RATIO
+        bound
     )]
     MomentsRatio {
         /// The moments as given.
         moments: [f64; 3],
         /// Largest moment over the smallest.
         ratio: f64,
+        /// The largest ratio that is accepted.
+        bound: f64,
     },
     /// An angular momentum or a rate that has no double.
     #[error(
@@ -45,7 +47,7 @@ pub enum Error {
     },
     /// An attitude quaternion that is zero, not finite, or too far from unit norm.
     #[error(
-        "attitude = {value:?}: a quaternion [x, y, z, w] must be finite with a norm within 1e-6 of 1 (it is {norm})"
+        "attitude = {value:?}: a quaternion [x, y, z, w] must be finite with a norm within 1e-6 of 1 (it is {norm}){}", advice(*norm)
     )]
     Attitude {
         /// The quaternion as given, [x, y, z, w].
@@ -82,10 +84,12 @@ pub enum Error {
         stop: f64,
     },
     /// An order that is not served.
-    #[error("order = {value}: it must be at most {}", crate::MAX_ORDER)]
+    #[error("order = {value}: it must be at most {bound}")]
     Order {
         /// The order as given.
         value: usize,
+        /// The highest order that is served.
+        bound: usize,
     },
     /// A method that is unknown.
     #[error("method = {value:?}: it must be \"auto\", \"series\" or \"closed\"")]
@@ -93,8 +97,8 @@ pub enum Error {
         /// The method as given.
         value: String,
     },
-    /// A time that is not finite, or so far from the epoch that it has no phase.
-    #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{}", beyond(*bound))]
+    /// A time that is not finite, or so far from the epoch that the motion is not evaluated there.
+    #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{reason}")]
     Time {
         /// Its index among the times given.
         index: usize,
@@ -102,6 +106,8 @@ pub enum Error {
         value: f64,
         /// Largest distance from the epoch that is accepted.
         bound: f64,
+        /// What ends there, as the end of a sentence; empty where the number is only the largest that is added without an overflow.
+        reason: &'static str,
     },
     /// A slice whose length doesn't fit.
     #[error("{argument} has {found} entries: it must have {expected}")]
@@ -115,8 +121,7 @@ pub enum Error {
     },
     /// The series asked for too near the separatrix for the tolerance.
     #[error(
-        "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {}, is good to {}, and the tolerance is {tolerance:e} rad",
-        crate::MAX_ORDER,
+        "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {highest}, is good to {}, and the tolerance is {tolerance:e} rad",
         rounded_up(*attainable)
     )]
     NearSeparatrix {
@@ -126,6 +131,8 @@ pub enum Error {
         tolerance: f64,
         /// The smallest tolerance that the highest order meets \[rad\].
         attainable: f64,
+        /// The highest order.
+        highest: usize,
     },
     /// The series asked for on the separatrix.
     #[error(
@@ -227,10 +234,12 @@ pub enum Error {
         problem: String,
     },
     /// A body that the catalogue doesn't have.
-    #[error("body {name:?} is not in the catalogue: it has {}", crate::Body::catalogue().join(", "))]
+    #[error("body {name:?} is not in the catalogue{}: it has {}", did_you_mean(name, known), known.join(", "))]
     UnknownBody {
         /// The name as given.
         name: String,
+        /// The names in the catalogue.
+        known: Vec<&'static str>,
     },
     /// What the series crate has to say; no input that passed the checks of this crate is known to raise it.
     #[error(transparent)]
@@ -247,20 +256,33 @@ pub enum Error {
     },
 }
 
+/// The name most like an unknown one, if one is: up to a third of the letters wrong, missing, added or exchanged.
+fn did_you_mean(name: &str, known: &[&str]) -> String {
+    let name = name.to_lowercase();
+    let likeness = |known: &str| strsim::normalized_damerau_levenshtein(&known.to_lowercase(), &name);
+    let best = known.iter().max_by(|one, two| likeness(one).total_cmp(&likeness(two)));
+    let near = best.filter(|best| likeness(best) >= 2.0 / 3.0);
+    near.map_or_else(String::new, |best| format!("; did you mean {best:?}?"))
+}
+
 fn and_others(others: usize) -> String {
     if others == 0 { String::new() } else { format!(" (and {others} more bad members)") }
 }
 
-/// Why a time has a bound: a body at rest has one too, so that no sum of two times overflows.
-fn beyond(bound: f64) -> &'static str {
-    if bound < crate::motion::LONGEST { ": farther away the motion has no phase" } else { "" }
+/// What to do with a quaternion that is no attitude.
+fn advice(norm: f64) -> &'static str {
+    if norm > 0.0 && norm.is_finite() {
+        "; to normalize it, divide it by its norm; a quaternion [w, x, y, z] is read with scalar_first=True in Python"
+    } else {
+        ""
+    }
 }
 
 impl Error {
     /// The same error of times that begin later in an array.
     pub(crate) fn later(self, start: usize) -> Self {
         match self {
-            Self::Time { index, value, bound } => Self::Time { index: start + index, value, bound },
+            Self::Time { index, value, bound, reason } => Self::Time { index: start + index, value, bound, reason },
             other => other,
         }
     }
