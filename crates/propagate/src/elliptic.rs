@@ -120,11 +120,7 @@ impl Theta {
         let cosine_squares = polhode.cosine_squares();
         let roots = cosine_squares.map(|q| q.to_f64().max(0.0).sqrt());
         let sines = polhode.sine_squares().map(|s| s.to_f64().sqrt());
-        let modulus = if polhode.difference == DoubleDouble::ZERO {
-            0.0
-        } else {
-            (polhode.spread() / cosine_squares[1]).to_f64()
-        };
+        let modulus = polhode.parameter();
         let conjugate = FRAC_PI_2 / arithmetic_geometric_mean(1.0, modulus.sqrt().min(1.0));
         let sine = (second / first).to_f64();
         let cosine = (polhode.difference / first).to_f64();

@@ -132,6 +132,11 @@ pub enum Error {
         "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it): no order of the series serves; the closed form does"
     )]
     Separatrix,
+    /// Derivatives asked for on the separatrix.
+    #[error(
+        "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it) the frequencies have no derivatives: a state beside it has"
+    )]
+    SeparatrixPartials,
     /// An element of an orbit that is none.
     #[error("orbit.{argument} = {value}: it must be {bound}")]
     Orbit {

@@ -216,7 +216,7 @@ impl Motion {
         }
     }
 
-    fn valid(&self, times: &[f64]) -> Result<(), Error> {
+    pub(crate) fn valid(&self, times: &[f64]) -> Result<(), Error> {
         let (epoch, bound) = (self.scene.state().epoch, self.bound());
         // Written so that NaN fails it.
         let valid = |time: &f64| (time - epoch).abs() <= bound;

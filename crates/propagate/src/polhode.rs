@@ -174,6 +174,15 @@ impl Polhode {
         self.difference * (self.squares[0] / self.excesses[1] + self.squares[1] / self.excesses[0])
     }
 
+    /// m = k² = 1 − Q1/Q2 of the elliptic functions; 0 for A = B.
+    pub(crate) fn parameter(&self) -> f64 {
+        if self.difference == DoubleDouble::ZERO {
+            return 0.0;
+        }
+        let [_, greatest] = self.cosine_squares();
+        (self.spread() / greatest).to_f64()
+    }
+
     /// 1 − Q1 and 1 − Q2: sin²J where it is greatest and where it is least.
     pub(crate) fn sine_squares(&self) -> [DoubleDouble; 2] {
         let [g1, g2, _] = self.squares;

@@ -147,6 +147,11 @@ fn wobbling(scene: Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error
     Ok(assembled(scene, polhode, solved))
 }
 
+/// The motion of a wobbling body by the closed form, with every harmonic that rounding leaves: what derivatives are taken of.
+pub(crate) fn untruncated(scene: &Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
+    wobbling(scene.clone().method(Method::Closed).tolerance(0.0), polhode, mode)
+}
+
 fn assembled(scene: Scene, polhode: &Polhode, solved: Solved) -> Motion {
     let exponent = polhode.scales.1;
     let longitude_rate = user_rate(solved.rates.longitude_rate, exponent);
@@ -213,7 +218,8 @@ fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secular, mut plan
     let closed = ClosedForm::new(polhode, &theta);
     let all = closed.series.harmonics();
     // What is dropped is missing at the epoch and at the time.
-    let (series, dropped) = closed.series.truncated(0.5 * HARMONICS_SHARE * plan.tolerance * closed.least_norm);
+    let budget = 0.5 * HARMONICS_SHARE * plan.tolerance * closed.least_norm;
+    let (series, dropped) = if budget == 0.0 { (closed.series, 0.0) } else { closed.series.truncated(budget) };
     plan.harmonics = series.harmonics();
     plan.error_bound =
         (2.0 * dropped + rounding(&series)) / closed.least_norm.min(1.0) + conditioning(scene, polhode, &rates);
