@@ -66,7 +66,15 @@ impl Setting {
             let sign = frame.signs[index];
             if parameter < 3 {
                 let (step, unit) = (1.0 / rates[index], scaled(1.0, -rate));
-                Change { axis, sorted: index, lever: step * unit, step: sign * step, rate: 0.0, inverse_moment: 0.0, unit }
+                Change {
+                    axis,
+                    sorted: index,
+                    lever: step * unit,
+                    step: sign * step,
+                    rate: 0.0,
+                    inverse_moment: 0.0,
+                    unit,
+                }
             } else {
                 let (step, unit) = (direction[index] / polhode.moments[index], scaled(1.0, -moment));
                 Change {

@@ -102,7 +102,13 @@ pub(super) struct Amplitudes {
 
 impl Amplitudes {
     /// `anomaly_rate` is that of ℓ′, scaled; `quarter` is K.
-    pub(super) fn new(setting: &Setting, constants: [Constants; CHANGES], anomaly_rate: f64, quarter: f64, start: f64) -> Self {
+    pub(super) fn new(
+        setting: &Setting,
+        constants: [Constants; CHANGES],
+        anomaly_rate: f64,
+        quarter: f64,
+        start: f64,
+    ) -> Self {
         let Setting { direction: g, slopes: d, axes, .. } = setting;
         let swing = g[1] * g[1] / d[1] - g[0] * g[0] / d[0];
         let mut owners = [0; 3];
@@ -119,7 +125,13 @@ impl Amplitudes {
     }
 
     #[inline(always)]
-    fn polhodic<S: Level>(&self, setting: &Setting, rates: [Lanes<S>; 3], time: Lanes<S>, zeta: Lanes<S>) -> Polhodic<S> {
+    fn polhodic<S: Level>(
+        &self,
+        setting: &Setting,
+        rates: [Lanes<S>; 3],
+        time: Lanes<S>,
+        zeta: Lanes<S>,
+    ) -> Polhodic<S> {
         let one = time.all(1.0);
         let mut direction = rates;
         for (g, rate) in direction.iter_mut().zip(setting.user_rates) {
@@ -129,7 +141,8 @@ impl Amplitudes {
         let [a, b, c] = setting.user_slopes;
         let slope = [y * z * one.all(a), z * x * one.all(b), x * y * one.all(c)];
         let [(first, a), (second, b)] = self.invariants;
-        let square = [direction[first] * direction[first] * one.all(a), direction[second] * direction[second] * one.all(b)];
+        let square =
+            [direction[first] * direction[first] * one.all(a), direction[second] * direction[second] * one.all(b)];
         let squares = [square[self.owners[0]], square[self.owners[1]], square[self.owners[2]]];
         let swing = (zeta - one.all(self.start)) * one.all(self.swing);
         Polhodic { direction, slope, squares, time: time * one.all(setting.unit), swing }

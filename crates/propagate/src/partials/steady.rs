@@ -54,7 +54,8 @@ impl Varied {
     pub(super) fn new(polhode: &Polhode, setting: &Setting, mode: Mode) -> Self {
         let (g, d) = (setting.direction, setting.slopes);
         // A δg: rows of the linearized ġ_i = d_i g_j g_k.
-        let apply = |v: [f64; 3]| [0, 1, 2].map(|i| d[i] * (g[(i + 1) % 3] * v[(i + 2) % 3] + v[(i + 1) % 3] * g[(i + 2) % 3]));
+        let apply =
+            |v: [f64; 3]| [0, 1, 2].map(|i| d[i] * (g[(i + 1) % 3] * v[(i + 2) % 3] + v[(i + 1) % 3] * g[(i + 2) % 3]));
         let signs = polhode.frame.signs;
         let vectors = setting.changes.map(|change| {
             let [step, rate] = change.vectors();
