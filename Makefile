@@ -21,7 +21,9 @@ test: lint supply $(VENV)/installed $(VENV)/tested docs-test  ## everything that
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
 	$(MAKE) --no-print-directory stress-short gate
 
-lint:
+lint:  ## formatting, clippy, documentation, and the imports between the files of each crate
+	$(PYTHON) tests/layers.py
+	$(PYTHON) tests/layers.py --planted
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --quiet -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps --document-private-items --quiet
@@ -131,7 +133,7 @@ $(RIVALS)/orekit/ready: benches/rivals/orekit/pom.xml $(RIVALS)/made
 
 docs: $(VENV)/documented  ## the site in target/site, the Rust documentation in it; warnings are errors, and the network is not used
 	$(BIN)/python docs/_ext/rustdoc.py --check
-	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --quiet -p andoyer-series -p andoyer-propagate --target-dir target/site-rust
+	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --quiet -p andoyer-double -p andoyer-series -p andoyer-propagate --target-dir target/site-rust
 	rm -rf target/site docs/gallery
 	$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet --builder html docs target/site
 	cp -r target/site-rust/doc target/site/rust
@@ -149,7 +151,7 @@ $(VENV)/tested: crates/py/requirements-test.txt $(VENV)/ready
 	touch $@
 
 # The sdist must build where there is no network: its crates' sources are vendored from its own lock file, and Cargo is told to stay offline.
-package: $(VENV)/installed  ## the sdist and a wheel from it without network, the two crates as they would be published
+package: $(VENV)/installed  ## the sdist and a wheel from it without network, the three crates as they would be published
 	rm -rf target/package-check && mkdir -p target/package-check
 	$(BIN)/maturin sdist --manifest-path crates/py/Cargo.toml --out target/package-check
 	tar -xzf target/package-check/andoyer-*.tar.gz -C target/package-check && rm target/package-check/andoyer-*.tar.gz
@@ -161,7 +163,7 @@ package: $(VENV)/installed  ## the sdist and a wheel from it without network, th
 	$(PYTHON) -m venv target/package-check/venv
 	target/package-check/venv/bin/python -m pip install --quiet target/package-check/andoyer-*.whl
 	target/package-check/venv/bin/python -m andoyer.selftest
-	cargo package --quiet -p andoyer-series -p andoyer-propagate --target-dir target/package-check/crates
+	cargo package --quiet -p andoyer-double -p andoyer-series -p andoyer-propagate --target-dir target/package-check/crates
 
 wheel: $(VENV)/installed
 

@@ -7,13 +7,13 @@
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::body::Body;
 use crate::error::Error;
-use crate::motion::{Motion, length};
-use crate::orbit::Orbit;
-use crate::plan::Plan;
-use crate::scene::Scene;
-use crate::state::State;
+use crate::input::body::Body;
+use crate::input::orbit::Orbit;
+use crate::input::scene::Scene;
+use crate::input::state::State;
+use crate::motion::plan::Plan;
+use crate::motion::solved::{Motion, length};
 
 /// Members that a thread takes at least: 64 of them are some 300 µs.
 const BLOCK: usize = 64;

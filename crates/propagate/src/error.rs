@@ -25,13 +25,15 @@ pub enum Error {
     /// Moments so far apart that their differences have no double.
     #[error(
         "moments = {moments:?}: the largest must not exceed {:e} times the smallest (it is {ratio:e} times it)",
-        crate::body::LARGEST_RATIO
+        bound
     )]
     MomentsRatio {
         /// The moments as given.
         moments: [f64; 3],
         /// Largest moment over the smallest.
         ratio: f64,
+        /// The largest ratio that is accepted.
+        bound: f64,
     },
     /// An angular momentum or a rate that has no double.
     #[error(
@@ -82,10 +84,12 @@ pub enum Error {
         stop: f64,
     },
     /// An order that is not served.
-    #[error("order = {value}: it must be at most {}", crate::MAX_ORDER)]
+    #[error("order = {value}: it must be at most {bound}")]
     Order {
         /// The order as given.
         value: usize,
+        /// The highest order that is served.
+        bound: usize,
     },
     /// A method that is unknown.
     #[error("method = {value:?}: it must be \"auto\", \"series\" or \"closed\"")]
@@ -94,7 +98,7 @@ pub enum Error {
         value: String,
     },
     /// A time that is not finite, or so far from the epoch that it has no phase.
-    #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{}", beyond(*bound))]
+    #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{reason}")]
     Time {
         /// Its index among the times given.
         index: usize,
@@ -102,6 +106,8 @@ pub enum Error {
         value: f64,
         /// Largest distance from the epoch that is accepted.
         bound: f64,
+        /// Why there is a bound, where the motion sets it; otherwise empty.
+        reason: &'static str,
     },
     /// A slice whose length doesn't fit.
     #[error("{argument} has {found} entries: it must have {expected}")]
@@ -115,8 +121,7 @@ pub enum Error {
     },
     /// The series asked for too near the separatrix for the tolerance.
     #[error(
-        "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {}, is good to {}, and the tolerance is {tolerance:e} rad",
-        crate::MAX_ORDER,
+        "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {highest}, is good to {}, and the tolerance is {tolerance:e} rad",
         rounded_up(*attainable)
     )]
     NearSeparatrix {
@@ -126,6 +131,8 @@ pub enum Error {
         tolerance: f64,
         /// The smallest tolerance that the highest order meets \[rad\].
         attainable: f64,
+        /// The highest order.
+        highest: usize,
     },
     /// The series asked for on the separatrix.
     #[error(
@@ -232,10 +239,12 @@ pub enum Error {
         problem: String,
     },
     /// A body that the catalogue doesn't have.
-    #[error("body {name:?} is not in the catalogue: it has {}", crate::Body::catalogue().join(", "))]
+    #[error("body {name:?} is not in the catalogue: it has {}", known.join(", "))]
     UnknownBody {
         /// The name as given.
         name: String,
+        /// The names in the catalogue.
+        known: Vec<&'static str>,
     },
     /// What the series crate has to say; no input that passed the checks of this crate is known to raise it.
     #[error(transparent)]
@@ -256,16 +265,11 @@ fn and_others(others: usize) -> String {
     if others == 0 { String::new() } else { format!(" (and {others} more bad members)") }
 }
 
-/// Why a time has a bound: a body at rest has one too, so that no sum of two times overflows.
-fn beyond(bound: f64) -> &'static str {
-    if bound < crate::motion::LONGEST { ": farther away the motion has no phase" } else { "" }
-}
-
 impl Error {
     /// The same error of times that begin later in an array.
     pub(crate) fn later(self, start: usize) -> Self {
         match self {
-            Self::Time { index, value, bound } => Self::Time { index: start + index, value, bound },
+            Self::Time { index, value, bound, reason } => Self::Time { index: start + index, value, bound, reason },
             other => other,
         }
     }

@@ -1,5 +1,6 @@
 //! `andoyer.Body`.
 
+use andoyer_propagate::SeriesTables;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -30,8 +31,23 @@ use crate::{array, error};
 /// >>> Body.named("eros").moments
 /// array([0.22942677, 0.96375352, 1.        ])
 #[pyclass(frozen, eq, module = "andoyer")]
-#[derive(PartialEq)]
-pub(crate) struct Body(pub(crate) andoyer_propagate::Body);
+pub(crate) struct Body {
+    pub(crate) body: andoyer_propagate::Body,
+    /// What its scenes share of the perturbation series.
+    pub(crate) tables: SeriesTables,
+}
+
+impl From<andoyer_propagate::Body> for Body {
+    fn from(body: andoyer_propagate::Body) -> Self {
+        Self { body, tables: SeriesTables::default() }
+    }
+}
+
+impl PartialEq for Body {
+    fn eq(&self, other: &Self) -> bool {
+        self.body == other.body
+    }
+}
 
 #[pymethods]
 impl Body {
@@ -45,7 +61,7 @@ impl Body {
             return Err(PyTypeError::new_err(hint));
         }
         let body = andoyer_propagate::Body::new(array::fixed("moments", moments)?).map_err(error::propagation)?;
-        Ok(Self(match name {
+        Ok(Self::from(match name {
             Some(name) => body.with_name(name),
             None => body,
         }))
@@ -64,7 +80,7 @@ impl Body {
     ///     ``"vulcan"``.
     #[staticmethod]
     fn named(name: &str) -> PyResult<Self> {
-        andoyer_propagate::Body::named(name).map(Self).map_err(error::propagation)
+        andoyer_propagate::Body::named(name).map(Self::from).map_err(error::propagation)
     }
 
     /// The names that `Body.named` knows.
@@ -86,56 +102,60 @@ impl Body {
     ///     ``"vulcan"``.
     #[staticmethod]
     fn source(name: &str) -> PyResult<&'static str> {
-        andoyer_propagate::Body::source(name)
-            .ok_or_else(|| error::propagation(andoyer_propagate::Error::UnknownBody { name: name.to_owned() }))
+        andoyer_propagate::Body::source(name).ok_or_else(|| {
+            error::propagation(andoyer_propagate::Error::UnknownBody {
+                name: name.to_owned(),
+                known: andoyer_propagate::Body::catalogue(),
+            })
+        })
     }
 
     /// The moments about body axes 1, 2, 3 as given: a read-only array, shape (3,).
     #[getter]
     fn moments<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
-        array::constant(py, &self.0.moments()).into_any()
+        array::constant(py, &self.body.moments()).into_any()
     }
 
     /// Oblateness α = [(C/A − 1) + (C/B − 1)]/2 of the sorted moments A ≤ B ≤ C (theory §1); 0 for a sphere.
     #[getter]
     fn alpha(&self) -> f64 {
-        self.0.alpha()
+        self.body.alpha()
     }
 
     /// Triaxiality β, 0 ≤ β ≤ 1 (theory §1); 0 for A = B and for a sphere, 1 for B = C.
     #[getter]
     fn beta(&self) -> f64 {
-        self.0.beta()
+        self.body.beta()
     }
 
     /// γ = √((C/A − 1)(C/B − 1)) (theory §1).
     #[getter]
     fn gamma(&self) -> f64 {
-        self.0.gamma()
+        self.body.gamma()
     }
 
     /// ω = √((1 + β)/(1 − β)) (theory §1); 1 for a sphere, infinite for B = C.
     #[getter]
     fn omega(&self) -> f64 {
-        self.0.omega()
+        self.body.omega()
     }
 
     /// The name, or None.
     #[getter]
     fn name(&self) -> Option<&str> {
-        self.0.name()
+        self.body.name()
     }
 
     pub(crate) fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let name = match self.0.name() {
+        let name = match self.body.name() {
             Some(name) => format!(", name={}", name.into_pyobject(py)?.repr()?),
             None => String::new(),
         };
-        Ok(format!("Body({:?}{name})", self.0.moments()))
+        Ok(format!("Body({:?}{name})", self.body.moments()))
     }
 
     pub(crate) fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
-        (PyTuple::new(py, self.0.moments())?, self.0.name()).into_pyobject(py)?.hash()
+        (PyTuple::new(py, self.body.moments())?, self.body.name()).into_pyobject(py)?.hash()
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {
@@ -148,7 +168,7 @@ impl Body {
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let keywords = pyo3::types::PyDict::new(py);
-        keywords.set_item("name", self.0.name())?;
-        ((self.0.moments(),), keywords).into_pyobject(py)
+        keywords.set_item("name", self.body.name())?;
+        ((self.body.moments(),), keywords).into_pyobject(py)
     }
 }

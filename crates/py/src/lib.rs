@@ -29,6 +29,7 @@ mod plan;
 mod progress;
 mod samples;
 mod scene;
+mod scene_class;
 
 /// Compiled core of the package `andoyer`, which re-exports all of it.
 #[pyo3::pymodule]
@@ -63,7 +64,7 @@ mod _core {
     #[pymodule_export]
     use super::samples::Samples;
     #[pymodule_export]
-    use super::scene::Scene;
+    use super::scene_class::Scene;
 
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "Python's name for it")]

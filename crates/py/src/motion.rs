@@ -13,7 +13,7 @@ use crate::foreign;
 use crate::partials::Partials;
 use crate::plan::Plan;
 use crate::samples::Samples;
-use crate::scene::Scene;
+use crate::scene_class::Scene;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
@@ -231,7 +231,7 @@ impl Motion {
     /// The scene that was solved.
     #[getter]
     fn scene(&self) -> Scene {
-        Scene(self.0.scene().clone())
+        self.0.scene().clone().into()
     }
 
     /// Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time; 0 where there is none.

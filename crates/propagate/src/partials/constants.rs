@@ -1,7 +1,8 @@
 //! What derivatives are computed from: the state in units of M = 1, the six changes of it, and the constants of theory §12 for each.
 
-use crate::elliptic::Theta;
-use crate::polhode::{Polhode, scaled};
+use crate::numerics::scaling::scaled;
+use crate::numerics::theta::Theta;
+use crate::torque_free::polhode::Polhode;
 
 use super::integral::Integral;
 

@@ -1,16 +1,15 @@
 //! Derivatives of a motion under a gravity gradient, by differences of solved motions.
 //!
-//! The mean motion and its corrections have derivatives in closed form too, but with the short-period terms truncated they would hold to the torque's own size alone, 1e-4 and more.
-//! Central differences of fourth order with steps that turn the body by [`STEP`] at the farthest time leave STEP⁴/30 of the derivative, 3e-10, and as much by rounding: measured
-//! 1e-8 at most. One call solves 36 motions.
+//! Central differences of fourth order with steps that turn the body by [`STEP`] at the farthest time: their truncation is STEP⁴/30 of the largest derivative, 3e-10, and rounding of a
+//! solution, 1e-13, over the step as much. Derivatives of the mean motion alone would lack those of the short-period corrections, which are of the size of the torque. One call
+//! solves 37 motions, however many times it has.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::Error;
-use crate::motion::Motion;
-use crate::scene::Scene;
-use crate::state::State;
-use crate::body::Body;
+use crate::input::scene::Scene;
+use crate::input::state::State;
+use crate::motion::solved::Motion;
 
 use super::{Derivatives, PARAMETERS};
 
@@ -96,7 +95,7 @@ fn changed(scene: &Scene, parameter: usize, step: f64) -> Scene {
         3..6 => state.angular_velocity[parameter - 3] += step,
         _ => moments[parameter - 6] += step,
     }
-    scene.clone().with_body(Body::varied(moments)).with_state(state)
+    scene.starting_from(scene.body().with_moments(moments), state)
 }
 
 /// The rotation vector from one attitude to a neighbouring one, body components.

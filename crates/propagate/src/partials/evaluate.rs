@@ -12,21 +12,22 @@
 use nalgebra::UnitQuaternion;
 use pulp::Arch;
 
-use crate::elliptic::Theta;
 use crate::error::Error;
-use crate::kernel::lanes::{Lanes, WIDEST};
-use crate::kernel::level::{self, Level, Task};
-use crate::kernel::plane::Turns;
-use crate::kernel::run::{Circle, Circles, Evaluate};
-use crate::kernel::steady::Steady;
-use crate::kernel::wobble::Tables;
-use crate::motion::Course;
-use crate::phase::{Phase, elapsed};
-use crate::plan::Mode;
-use crate::polhode::{Polhode, scaled};
-use crate::scene::Scene;
-use crate::separatrix::Flip;
-use crate::solution::untruncated;
+use crate::input::scene::Scene;
+use crate::motion::trajectory::Course;
+use crate::numerics::phase::Phase;
+use crate::numerics::scaling::scaled;
+use crate::simd::circles::{Circle, Circles, Evaluate};
+use crate::simd::complex_quaternion::Turns;
+use crate::simd::instruction_set::{Level, Task, dispatch};
+use crate::simd::lanes::{Lanes, WIDEST};
+use crate::simd::phase::elapsed;
+use crate::solve::untruncated;
+use crate::torque_free::mode::Mode;
+use crate::torque_free::polhode::Polhode;
+use crate::torque_free::separatrix::Flip;
+use crate::torque_free::steady::Steady;
+use crate::torque_free::wobble::Tables;
 
 use super::Derivatives;
 use super::constants::{CHANGES, Change, Constants, Setting};
@@ -282,7 +283,7 @@ pub(super) struct Target<'a> {
 impl Target<'_> {
     /// By the best instruction set of the machine.
     pub(super) fn fill<T: Source>(self, source: &T, attitudes: &mut [Derivatives], rates: &mut [Derivatives]) {
-        level::dispatch(Arch::new(), Run { target: self, source, attitudes, rates });
+        dispatch(Arch::new(), Run { target: self, source, attitudes, rates });
     }
 
     /// On a polhode, with every harmonic that the closed form has.
@@ -294,8 +295,8 @@ impl Target<'_> {
         (attitudes, rates): (&mut [Derivatives], &mut [Derivatives]),
     ) -> Result<(), Error> {
         let exact = untruncated(scene, polhode, mode)?;
-        let theta = Theta::new(polhode);
-        let integral = Integral::new(&theta, polhode.parameter());
+        let theta = polhode.theta();
+        let integral = Integral::new(&theta);
         let constants = Constants::all(self.setting, &theta, &integral);
         let anomaly_rate = scaled(exact.frequencies.anomaly, -polhode.scales.1);
         let amplitudes = |start| Amplitudes::new(self.setting, constants, anomaly_rate, theta.quarter, start);

@@ -11,7 +11,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use crate::elliptic::Theta;
+use crate::numerics::theta::Theta;
 
 /// q^(n²) below this is nothing beside 1.
 const NEGLIGIBLE: f64 = 1e-18;
@@ -35,7 +35,8 @@ pub(super) struct Integral {
 
 impl Integral {
     /// For a polhode with m = 1 − Q1/Q2.
-    pub(super) fn new(theta: &Theta, parameter: f64) -> Self {
+    pub(super) fn new(theta: &Theta) -> Self {
+        let parameter = theta.parameter;
         let logarithm = -PI * theta.conjugate / theta.quarter;
         let nome = logarithm.exp();
         let ratio = if parameter < SMALL_PARAMETER {

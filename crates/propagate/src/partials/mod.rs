@@ -3,17 +3,21 @@
 //! Nine parameters: a small rotation of the initial attitude about the three body axes, the initial angular velocity, the three moments as given. A change of attitude,
 //! at the epoch and at the time, is a rotation vector about body axes, R → R exp([δθ]×). With g = G/M, ν_i = M/(A, B, C)_i and the invariants of the polhode, every
 //! derivative is an algebraic function of attitude and rates at the time and of one elliptic integral of the second kind, ∫g2² dt. Set-up takes some microseconds.
-//! Accuracy: 1e-13 of the largest derivative, and 1e-15/Q1 next to the separatrix, Q1 = cos²J where it is least.
+//! Accuracy: 1e-14 of the largest derivative over Q1, which is cos²J where it is least and small next to the separatrix.
+//!
+//! Imports errors, numerics, simd, input, torque_free, motion and solve.
 
 mod constants;
+mod differences;
 mod evaluate;
 mod integral;
 mod steady;
 
 use crate::error::Error;
-use crate::motion::{Course, Motion, length};
-use crate::plan::Mode;
-use crate::polhode::Polhode;
+use crate::motion::solved::{Motion, length};
+use crate::motion::trajectory::Course;
+use crate::torque_free::mode::Mode;
+use crate::torque_free::polhode::Polhode;
 
 use constants::Setting;
 use evaluate::{Steadily, Target};
@@ -86,12 +90,14 @@ impl Motion {
                 let varied = Varied::new(&polhode, &setting, mode);
                 let bound = varied.bound();
                 if let Some(index) = times.iter().position(|time| (time - epoch).abs() > bound) {
-                    return Err(Error::Time { index, value: times[index], bound });
+                    let reason = ": about the middle axis a change grows beyond every double";
+                    return Err(Error::Time { index, value: times[index], bound, reason });
                 }
                 target.fill(&Steadily { course, varied: &varied }, attitudes, rates);
                 Ok(())
             }
-            _ => target.wobbling(&self.scene, &polhode, mode, (attitudes, rates)),
+            Course::Gradient(_) => differences::fill(self, times, attitudes, rates),
+            Course::Polhode(_) | Course::Flip(_) => target.wobbling(&self.scene, &polhode, mode, (attitudes, rates)),
         }
     }
 }

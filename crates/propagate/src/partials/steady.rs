@@ -8,12 +8,12 @@
 //!
 //! sin and cos about an axis of extreme inertia, where λ² = −(dℓ′/dt)², t and t²/2 where λ = 0. About the middle axis S grows until it has no double.
 
-use andoyer_series::{DoubleDouble, two_sum};
+use andoyer_double::{DoubleDouble, two_sum};
 
-use crate::phase::Phase;
-use crate::plan::Mode;
-use crate::polhode::Polhode;
-use crate::solution::user_rate;
+use crate::numerics::phase::Phase;
+use crate::numerics::scaling::user_rate;
+use crate::torque_free::mode::Mode;
+use crate::torque_free::polhode::Polhode;
 
 use super::constants::{CHANGES, Setting};
 use super::{Derivatives, PARAMETERS};

@@ -1,0 +1,11 @@
+//! What the user states: body and catalogue, state, orbit, options, scene, scene file. Everything is validated here.
+//!
+//! Imports errors, numerics and simd (an orbit gives its true anomaly).
+
+pub(crate) mod body;
+mod catalogue;
+pub(crate) mod options;
+pub(crate) mod orbit;
+pub(crate) mod scene;
+mod scene_file;
+pub(crate) mod state;

@@ -1,0 +1,320 @@
+//! Scenes in TOML files.
+//!
+//! ```toml
+//! name = "…"                       # optional, as are source, epoch (0), span, tolerance (1e-12), method ("auto"), order, averaging ("auto"), level ("full")
+//! source = "where the figures come from"
+//! epoch = 0.0                      # time of the state
+//! span = [0.0, 1.0e6]              # times over which the tolerance is asked for
+//! tolerance = 1e-12                # \[rad\]
+//! [body]
+//! moments = [0.5, 0.75, 1.0]       # about body axes 1, 2, 3; or named = "ceres"
+//! [state]
+//! attitude = [0.0, 0.0, 0.0, 1.0]  # [x, y, z, w], body components → inertial ones
+//! angular_velocity = [0.0, 0.1, 1.0]   # body components
+//! [orbit]                          # optional: of the disturbing body, for the gravity gradient
+//! mean_motion = 1e-3               # the only element without a default
+//! eccentricity = 0.1               # 0, as time_of_pericentre, inclination, node, argument_of_pericentre; mass_fraction is 1
+//! ```
+//!
+//! Any other key is an error. Numbers are written so that they are read back to the same bits.
+
+use std::path::Path;
+use std::str::FromStr;
+
+use toml::{Table, Value};
+
+use super::body::Body;
+use super::options::{Averaging, Level, MAX_ORDER};
+use super::orbit::Orbit;
+use super::scene::Scene;
+use super::state::State;
+use crate::error::Error;
+
+const SCENE_KEYS: &[&str] = &[
+    "name",
+    "source",
+    "epoch",
+    "span",
+    "tolerance",
+    "method",
+    "order",
+    "averaging",
+    "level",
+    "body",
+    "state",
+    "orbit",
+];
+const BODY_KEYS: &[&str] = &["moments", "named", "name"];
+const STATE_KEYS: &[&str] = &["attitude", "angular_velocity"];
+/// In the order of [`Orbit::elements`].
+const ORBIT_KEYS: &[&str; 7] = &[
+    "mean_motion",
+    "eccentricity",
+    "time_of_pericentre",
+    "inclination",
+    "node",
+    "argument_of_pericentre",
+    "mass_fraction",
+];
+
+impl Scene {
+    /// The scene of a TOML file.
+    ///
+    /// # Errors
+    /// - [`Error::SceneFile`] for no such file, no TOML, an unknown or missing key, a value that no scene has: with file, key and bound.
+    pub fn from_toml(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let file = path.as_ref().display().to_string();
+        let text = std::fs::read_to_string(path.as_ref()).map_err(|error| Error::SceneFile {
+            file: file.clone(),
+            key: "file".to_owned(),
+            problem: error.to_string(),
+        })?;
+        Self::parse_toml(&text, &file)
+    }
+
+    /// The scene of a TOML text, `file` being what errors call it.
+    ///
+    /// # Errors
+    /// As [`Scene::from_toml`].
+    ///
+    /// ```
+    /// use andoyer_propagate::Scene;
+    /// let text = "[body]\nmoments = [1.0, 2.0, 3.5]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0, 1]";
+    /// let error = Scene::parse_toml(text, "flat.toml").unwrap_err();
+    /// assert!(error.to_string().starts_with("flat.toml: body.moments: moments = [1.0, 2.0, 3.5]: the largest must not exceed"));
+    /// ```
+    pub fn parse_toml(text: &str, file: &str) -> Result<Self, Error> {
+        let at = |key: &str, problem: String| Error::SceneFile { file: file.to_owned(), key: key.to_owned(), problem };
+        let table: Table = text.parse().map_err(|error: toml::de::Error| {
+            let line = error.span().map_or(1, |span| 1 + text[..span.start].matches('\n').count());
+            at(&format!("line {line}"), error.message().to_owned())
+        })?;
+        let keys = Keys { file, table: &table, path: "", known: SCENE_KEYS };
+        keys.check()?;
+        let body_keys = keys.table("body", BODY_KEYS)?;
+        let state_keys = keys.table("state", STATE_KEYS)?;
+        let epoch = keys.number("epoch")?.unwrap_or(0.0);
+        let attitude = state_keys.numbers("attitude")?;
+        let state = State::new(
+            epoch,
+            attitude.ok_or_else(|| state_keys.missing("attitude"))?,
+            state_keys.numbers("angular_velocity")?.ok_or_else(|| state_keys.missing("angular_velocity"))?,
+        )
+        .map_err(|error| keys.refused(error))?;
+        let scene = keys.asked_of(Self::new(body_keys.body()?, state))?;
+        scene.validate().map_err(|error| keys.refused(error))?;
+        Ok(scene)
+    }
+
+    /// The scene as TOML, which [`Scene::parse_toml`] reads back to the same scene.
+    pub fn to_toml(&self) -> String {
+        let mut table = Table::new();
+        let texts = [("name", self.asked_name()), ("source", self.asked_source())];
+        for (key, text) in texts.into_iter().filter_map(|(key, text)| Some((key, text?))) {
+            table.insert(key.to_owned(), Value::from(text));
+        }
+        table.insert("epoch".to_owned(), Value::from(self.state().epoch));
+        if let Some((start, stop)) = self.asked_span() {
+            table.insert("span".to_owned(), Value::from(vec![start, stop]));
+        }
+        table.insert("tolerance".to_owned(), Value::from(self.asked_tolerance()));
+        table.insert("method".to_owned(), Value::from(self.asked_method().to_string()));
+        if let Some(order) = self.asked_order() {
+            // At most 60.
+            table.insert("order".to_owned(), Value::from(order as i64));
+        }
+        // What only a scene with an orbit needs is left out of the others.
+        let averaging = (self.asked_averaging(), Averaging::default());
+        if self.asked_orbit().is_some() || averaging.0 != averaging.1 {
+            table.insert("averaging".to_owned(), Value::from(averaging.0.to_string()));
+        }
+        if self.asked_orbit().is_some() || self.asked_level() != Level::default() {
+            table.insert("level".to_owned(), Value::from(self.asked_level().to_string()));
+        }
+        table.insert("body".to_owned(), Value::Table(self.body_table()));
+        table.insert("state".to_owned(), Value::Table(self.state_table()));
+        if let Some(orbit) = self.asked_orbit() {
+            let elements = ORBIT_KEYS.iter().zip(orbit.elements());
+            let orbit: Table = elements.map(|(key, element)| ((*key).to_owned(), Value::from(element))).collect();
+            table.insert("orbit".to_owned(), Value::Table(orbit));
+        }
+        table.to_string()
+    }
+
+    fn body_table(&self) -> Table {
+        let mut body = Table::new();
+        body.insert("moments".to_owned(), Value::from(self.body().moments().to_vec()));
+        if let Some(name) = self.body().name() {
+            body.insert("name".to_owned(), Value::from(name));
+        }
+        body
+    }
+
+    fn state_table(&self) -> Table {
+        let mut state = Table::new();
+        let attitude = self.state().attitude.coords;
+        state.insert("attitude".to_owned(), Value::from(attitude.as_slice().to_vec()));
+        let rates = self.state().angular_velocity;
+        state.insert("angular_velocity".to_owned(), Value::from(rates.as_slice().to_vec()));
+        state
+    }
+}
+
+/// A table of the file, with what is needed to say where something is wrong.
+struct Keys<'a> {
+    file: &'a str,
+    table: &'a Table,
+    path: &'a str,
+    known: &'a [&'a str],
+}
+
+impl<'a> Keys<'a> {
+    fn error(&self, key: &str, problem: impl Into<String>) -> Error {
+        let key = if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) };
+        Error::SceneFile { file: self.file.to_owned(), key, problem: problem.into() }
+    }
+
+    /// What a constructor has against a value, under the key that the value came from.
+    fn refused(&self, error: Error) -> Error {
+        let key = match error {
+            Error::Orbit { argument, .. } => &format!("orbit.{argument}"),
+            Error::Averaging { .. } => "averaging",
+            Error::Level { .. } => "level",
+            Error::Moment { .. } | Error::MomentsTriangle { .. } | Error::MomentsRatio { .. } => "body.moments",
+            Error::UnknownBody { .. } => "body.named",
+            Error::Attitude { .. } => "state.attitude",
+            Error::AngularVelocity { .. } => "state.angular_velocity",
+            Error::Epoch { .. } => "epoch",
+            Error::Tolerance { .. } => "tolerance",
+            Error::Span { .. } => "span",
+            Error::Order { .. } => "order",
+            Error::Method { .. } => "method",
+            _ => "scene",
+        };
+        Error::SceneFile { file: self.file.to_owned(), key: key.to_owned(), problem: error.to_string() }
+    }
+
+    fn missing(&self, key: &str) -> Error {
+        self.error(key, "is missing, and a scene must have it")
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        match self.table.keys().find(|key| !self.known.contains(&key.as_str())) {
+            Some(key) => Err(self.error(key, format!("is no key of a scene; known here: {}", self.known.join(", ")))),
+            None => Ok(()),
+        }
+    }
+
+    fn table(&self, key: &'a str, known: &'a [&'a str]) -> Result<Self, Error> {
+        let value = self.table.get(key).ok_or_else(|| self.missing(key))?;
+        let table = value.as_table().ok_or_else(|| self.wrong(key, value, "a table"))?;
+        let keys = Keys { file: self.file, table, path: key, known };
+        keys.check()?;
+        Ok(keys)
+    }
+
+    fn wrong(&self, key: &str, value: &Value, expected: &str) -> Error {
+        self.error(key, format!("is {value}: it must be {expected}"))
+    }
+
+    fn number(&self, key: &str) -> Result<Option<f64>, Error> {
+        let parse = |value| as_number(value).ok_or_else(|| self.wrong(key, value, "a number"));
+        self.table.get(key).map(parse).transpose()
+    }
+
+    fn numbers<const N: usize>(&self, key: &str) -> Result<Option<[f64; N]>, Error> {
+        let parse = |value: &Value| {
+            let list: Option<Vec<f64>> = value.as_array()?.iter().map(as_number).collect();
+            list?.try_into().ok()
+        };
+        let Some(value) = self.table.get(key) else { return Ok(None) };
+        parse(value).map(Some).ok_or_else(|| self.wrong(key, value, &format!("a list of {N} numbers")))
+    }
+
+    fn text(&self, key: &str) -> Result<Option<&str>, Error> {
+        let parse = |value: &'a Value| value.as_str().ok_or_else(|| self.wrong(key, value, "a text"));
+        self.table.get(key).map(parse).transpose()
+    }
+
+    fn order(&self) -> Result<Option<usize>, Error> {
+        let expected = format!("a whole number from 0 to {MAX_ORDER}");
+        let parse = |value: &Value| {
+            let order = value.as_integer().and_then(|order| usize::try_from(order).ok());
+            order.filter(|&order| order <= MAX_ORDER).ok_or_else(|| self.wrong("order", value, &expected))
+        };
+        self.table.get("order").map(parse).transpose()
+    }
+
+    /// A scene with what the top of the file and its orbit ask of it.
+    fn asked_of(&self, mut scene: Scene) -> Result<Scene, Error> {
+        if let Some(tolerance) = self.number("tolerance")? {
+            scene = scene.tolerance(tolerance);
+        }
+        if let Some([start, stop]) = self.numbers("span")? {
+            scene = scene.span(start, stop);
+        }
+        if let Some(method) = self.choice("method")? {
+            scene = scene.method(method);
+        }
+        if let Some(order) = self.order()? {
+            scene = scene.order(order);
+        }
+        if let Some(averaging) = self.choice("averaging")? {
+            scene = scene.averaging(averaging);
+        }
+        if let Some(level) = self.choice("level")? {
+            scene = scene.level(level);
+        }
+        if self.table.contains_key("orbit") {
+            scene = scene.orbit(self.table("orbit", ORBIT_KEYS)?.orbit()?);
+        }
+        if let Some(name) = self.text("name")? {
+            scene = scene.name(name);
+        }
+        if let Some(source) = self.text("source")? {
+            scene = scene.source(source);
+        }
+        Ok(scene)
+    }
+
+    /// One of the names that a choice has.
+    fn choice<T: FromStr<Err = Error>>(&self, key: &str) -> Result<Option<T>, Error> {
+        self.text(key)?.map(|text| text.parse().map_err(|error| self.refused(error))).transpose()
+    }
+
+    fn orbit(&self) -> Result<Orbit, Error> {
+        let or = |key, default| Ok::<f64, Error>(self.number(key)?.unwrap_or(default));
+        let mean_motion = self.number("mean_motion")?.ok_or_else(|| self.missing("mean_motion"))?;
+        let (time, fraction) = (or("time_of_pericentre", 0.0)?, or("mass_fraction", 1.0)?);
+        let plane = [or("inclination", 0.0)?, or("node", 0.0)?, or("argument_of_pericentre", 0.0)?];
+        Orbit::new(mean_motion, or("eccentricity", 0.0)?)
+            .and_then(|orbit| orbit.time_of_pericentre(time))
+            .and_then(|orbit| orbit.plane(plane[0], plane[1], plane[2]))
+            .and_then(|orbit| orbit.mass_fraction(fraction))
+            .map_err(|error| self.refused(error))
+    }
+
+    fn body(&self) -> Result<Body, Error> {
+        let body = match (self.numbers("moments")?, self.text("named")?) {
+            (Some(moments), None) => Body::new(moments),
+            (None, Some(name)) => Body::named(name),
+            (Some(_), Some(_)) => return Err(self.error("named", "stands beside moments: a body has one or the other")),
+            (None, None) => {
+                return Err(self.error(
+                    "moments",
+                    "is missing: moments = [A, B, C], or named = \"ceres\" for a body of the catalogue",
+                ));
+            }
+        };
+        let body = body.map_err(|error| self.refused(error))?;
+        Ok(match self.text("name")? {
+            Some(name) => body.with_name(name),
+            None => body,
+        })
+    }
+}
+
+/// A float or a whole number.
+fn as_number(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}

@@ -1,0 +1,116 @@
+//! What will be evaluated for a motion, and why: order, harmonics, error bound, and what was not needed.
+
+use std::fmt;
+
+use crate::gravity_gradient::disturbed::GradientPlan;
+use crate::input::options::{Averaging, Method};
+use crate::torque_free::mode::Mode;
+
+/// σ/σ_sep above which its distance from 1 is printed.
+const NEAR_ONE: f64 = 0.999;
+
+/// A tolerance below this is met as well as rounding allows \[rad\].
+const ROUNDED_TOLERANCE: f64 = 2e-14;
+
+/// The evaluation plan of a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    pub(crate) mode: Mode,
+    pub(crate) method: Method,
+    pub(crate) order: usize,
+    pub(crate) harmonics: usize,
+    pub(crate) error_bound: f64,
+    pub(crate) tolerance: f64,
+    /// Whether the scene has a span.
+    pub(crate) spanned: bool,
+    pub(crate) separatrix_ratio: f64,
+    pub(crate) gradient: Option<GradientPlan>,
+    pub(crate) skipped: Vec<String>,
+}
+
+impl Plan {
+    /// The kind of motion.
+    pub fn mode(&self) -> Mode {
+        self.mode
+    }
+
+    /// How it is evaluated: by the series, or by the closed form, of which formulas without a sum are a part.
+    pub fn method(&self) -> Method {
+        self.method
+    }
+
+    /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance.
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// The highest multiple of ℓ′ that is evaluated; 0 where none is.
+    pub fn harmonics(&self) -> usize {
+        self.harmonics
+    }
+
+    /// Estimate from above of the attitude error over the span \[rad\]: truncation, dropped harmonics, rounding.
+    pub fn error_bound(&self) -> f64 {
+        self.error_bound
+    }
+
+    /// σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5).
+    pub fn separatrix_ratio(&self) -> f64 {
+        self.separatrix_ratio
+    }
+
+    /// How far the equations of a scene with an orbit are averaged; `None` without one.
+    pub fn averaging(&self) -> Option<Averaging> {
+        self.gradient.map(|gradient| gradient.averaging)
+    }
+
+    /// Sum of the short-period corrections by the gravity gradient, which is the size of the torque; 0 without an orbit \[rad\].
+    pub fn torque(&self) -> f64 {
+        self.gradient.map_or(0.0, |gradient| gradient.size)
+    }
+
+    /// The first neglected term under a gravity gradient: of second order in the torque, or a short-period one that was dropped; 0 without an orbit \[rad\].
+    pub fn first_neglected(&self) -> f64 {
+        self.gradient.map_or(0.0, |gradient| gradient.neglected)
+    }
+
+    /// What this scene did not need, and why.
+    pub fn skipped(&self) -> &[String] {
+        &self.skipped
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "mode          {}", self.mode)?;
+        writeln!(f, "method        {}", self.method())?;
+        match self.separatrix_ratio {
+            ratio if ratio > NEAR_ONE && ratio < 1.0 => writeln!(f, "σ/σ_sep       1 − {:.3e}", 1.0 - ratio)?,
+            ratio => writeln!(f, "σ/σ_sep       {ratio:.3e}")?,
+        }
+        match self.method {
+            Method::Series => writeln!(f, "order         {}", self.order)?,
+            _ => writeln!(f, "order         –")?,
+        }
+        match self.harmonics {
+            0 => writeln!(f, "harmonics     –")?,
+            harmonics => writeln!(f, "harmonics     {harmonics}")?,
+        }
+        if let Some(GradientPlan { averaging, level, terms, size, neglected }) = self.gradient {
+            writeln!(
+                f,
+                "gradient      {level}, averaged over the {averaging}; {terms} short-period terms, together {size:.1e} rad, \
+                 first neglected {neglected:.1e}"
+            )?;
+        }
+        write!(f, "error bound   {:.1e} rad", self.error_bound)?;
+        if self.error_bound > self.tolerance.max(ROUNDED_TOLERANCE) {
+            let span = if self.spanned { "the span" } else { "1e9 rotations (no span given)" };
+            write!(f, "\ntolerance     {:e} rad is not met over {span}", self.tolerance)?;
+        }
+        for reason in &self.skipped {
+            write!(f, "\nskipped       {reason}")?;
+        }
+        Ok(())
+    }
+}

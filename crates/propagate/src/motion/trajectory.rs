@@ -1,0 +1,146 @@
+//! From a solved motion to arrays of attitudes and rates: several times at once, with the best instructions of the machine, on several threads.
+//!
+//! Kernels are written once over [`crate::simd::lanes`] and compiled for each instruction set ([`crate::simd::instruction_set`]). A time takes two phases in double-double, two
+//! sines and cosines ([`crate::simd::sincos`]), the sums of theory §8 ([`crate::torque_free::sums`]) and a constant map ([`crate::torque_free::wobble`]); on a uniform grid the sines come from one
+//! product with a table ([`crate::simd::grid`]). Only what is asked for is computed. All sets with a fused multiply-add give the same bits, and so does any
+//! number of threads. 100,000 samples of attitude and rates with seven harmonics on one core of a Zen 5 take 36 ns each with the portable kernel, 7.3
+//! with AVX2, 3.9 with AVX-512; 18, 4.8 and 2.4 at uniform times; storing alone 0.8. In its first form this took 42, 8.0 and 4.2; lanes as plain arrays
+//! in functions with target features, which the compiler is to make vectors of, 31, 15 and 11.7; `wide` takes its instructions when it is compiled,
+//! and cannot be dispatched.
+
+use nalgebra::Vector3;
+use pulp::Arch;
+
+use crate::gravity_gradient::disturbed::Gradient;
+use crate::input::state::State;
+use crate::numerics::phase::Phase;
+use crate::simd::circles::{Evaluate, Source};
+use crate::simd::grid::{GROUP, Grid};
+use crate::simd::instruction_set::{Level, Task, dispatch};
+use crate::simd::lanes::Lanes;
+use crate::simd::outputs::Outputs;
+use crate::simd::phase::elapsed;
+use crate::simd::run::Run;
+use crate::torque_free::separatrix::Flip;
+use crate::torque_free::steady::Steady;
+use crate::torque_free::wobble::{Tables, Wobble};
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;
+
+/// Samples for each thread below which one more thread costs more than it saves: a join takes 11 μs, this many samples 40 to 65.
+const SAMPLES_PER_THREAD: usize = 16_384;
+
+/// How a motion goes on from its epoch.
+#[derive(Clone, Debug)]
+pub(crate) enum Course {
+    /// Rotation about an axis fixed in the body.
+    Steady(Box<Steady>),
+    /// A polhode.
+    Polhode(Box<Tables>),
+    /// A polhode next to the separatrix or on it.
+    Flip(Box<Flip>),
+    /// Any of them under a gravity gradient.
+    Gradient(Box<Gradient>),
+}
+
+impl Course {
+    /// Rotation about a unit axis of the body, or the zero vector for none, with the phase of half the angle.
+    pub(crate) fn steady(state: &State, axis: Vector3<f64>, half_angle: Phase) -> Self {
+        Self::Steady(Box::new(Steady::new(axis, half_angle, state.attitude, state.angular_velocity)))
+    }
+
+    /// ℓ′ and y′/2, where sines and cosines of them are all that is needed.
+    fn phases(&self) -> Option<[&Phase; 2]> {
+        match self {
+            Self::Steady(steady) => Some(steady.phases()),
+            Self::Polhode(tables) => Some(tables.phases()),
+            Self::Flip(_) | Self::Gradient(_) => None,
+        }
+    }
+
+    /// A wobble, with what its evaluation takes from it.
+    pub(crate) fn polhode(wobble: &Wobble) -> Self {
+        Self::Polhode(Box::new(Tables::new(wobble)))
+    }
+}
+
+/// A motion, the times that it has a phase at, and how to compute.
+#[derive(Clone, Copy)]
+pub(crate) struct Evaluation<'a> {
+    pub(crate) course: &'a Course,
+    pub(crate) epoch: f64,
+    /// Largest distance from the epoch.
+    pub(crate) bound: f64,
+    pub(crate) arch: Arch,
+}
+
+impl Evaluation<'_> {
+    /// All times, on at most so many threads; or the index of the first that has no phase. Outputs are as long as the times.
+    pub(crate) fn fill(&self, times: &[f64], outputs: Outputs<'_>, threads: usize) -> Result<(), usize> {
+        let grid = self.course.phases().and_then(|phases| Grid::new(self.arch, phases, times));
+        let enough = times.len() / SAMPLES_PER_THREAD;
+        // Asking for the pool's size starts it: not for a few samples.
+        let threads = if enough.min(threads) <= 1 { 1 } else { enough.min(threads).min(rayon::current_num_threads()) };
+        self.spread(times, outputs, grid.as_ref(), threads)
+    }
+
+    /// Halves go to threads. They begin where a group does, so that each sample is computed as it would be by one thread.
+    fn spread(&self, times: &[f64], outputs: Outputs<'_>, grid: Option<&Grid>, threads: usize) -> Result<(), usize> {
+        if threads <= 1 {
+            let Self { course, epoch, bound, arch } = *self;
+            return dispatch(arch, Stretch { course, run: Run { epoch, bound, times, outputs, grid } });
+        }
+        let half = threads / 2;
+        let place = (times.len() / threads * half).next_multiple_of(GROUP).min(times.len());
+        let (left, right) = times.split_at(place);
+        let (left_outputs, right_outputs) = outputs.split_at(place);
+        let (first, second) = rayon::join(
+            || self.spread(left, left_outputs, grid, half),
+            || self.spread(right, right_outputs, grid, threads - half),
+        );
+        first.and(second.map_err(|index| place + index))
+    }
+}
+
+/// A stretch of times for one thread.
+struct Stretch<'a> {
+    course: &'a Course,
+    run: Run<'a>,
+}
+
+impl Task for Stretch<'_> {
+    type Output = Result<(), usize>;
+
+    #[inline(always)]
+    fn run<S: Level>(self, simd: S) -> Self::Output {
+        let Self { course, run } = self;
+        match course {
+            Course::Steady(steady) => run.by_circles(simd, steady.as_ref()),
+            Course::Polhode(tables) => run.by_circles(simd, tables.as_ref()),
+            Course::Flip(flip) => run.one_by_one(|elapsed| flip.evaluate(elapsed)),
+            Course::Gradient(gradient) => {
+                let epoch = Lanes::splat(simd, run.epoch);
+                run.by_source(simd, Disturbed { gradient, epoch })
+            }
+        }
+    }
+}
+
+/// Under a gravity gradient.
+struct Disturbed<'a, S: Level> {
+    gradient: &'a Gradient,
+    epoch: Lanes<S>,
+}
+
+impl<S: Level> Source<S> for Disturbed<'_, S> {
+    #[inline(always)]
+    fn at<const ATTITUDE: bool, const RATES: bool>(
+        &self,
+        _place: usize,
+        times: Lanes<S>,
+    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
+        self.gradient.evaluate::<S, ATTITUDE, RATES>(elapsed(times, self.epoch))
+    }
+}
