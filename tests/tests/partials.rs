@@ -251,9 +251,10 @@ fn derivatives_under_a_gravity_gradient_predict_a_neighbouring_motion() {
             let neighbour = with_orbit(moments, attitude.coords.into(), rates, 2e-3).at(time).expect("a time");
             (start.inverse() * neighbour.attitude).scaled_axis()
         };
-        let difference = stencil.iter().fold(Vector3::zeros(), |sum, (multiple, weight)| {
-            sum + (turned(*multiple) - turned(-*multiple)) * *weight
-        }) / (60.0 * step);
+        let difference = stencil
+            .iter()
+            .fold(Vector3::zeros(), |sum, (multiple, weight)| sum + (turned(*multiple) - turned(-*multiple)) * *weight)
+            / (60.0 * step);
         for row in 0..3 {
             let lost = (difference[row] - partials.attitude[row][parameter]).abs();
             let size = if parameter < 3 { 1.0 } else { time };

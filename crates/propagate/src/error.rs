@@ -12,6 +12,34 @@ pub enum Error {
         /// The moment as given.
         value: f64,
     },
+    /// An inertia tensor that is not symmetric, or not finite.
+    #[error(
+        "tensor[{row}][{column}] = {value} and tensor[{column}][{row}] = {mirrored}: an inertia tensor must be finite and symmetric to 1e-12 of its largest entry"
+    )]
+    InertiaSymmetry {
+        /// The row.
+        row: usize,
+        /// The column.
+        column: usize,
+        /// The entry.
+        value: f64,
+        /// The entry across the diagonal.
+        mirrored: f64,
+    },
+    /// An inertia tensor with a principal moment that is not positive.
+    #[error("tensor: its principal moments are {moments:?}, and each must be positive")]
+    InertiaMoments {
+        /// The principal moments.
+        moments: [f64; 3],
+    },
+    /// A length or a mass that is zero, negative, NaN or infinite.
+    #[error("{argument} = {value}: it must be positive and finite")]
+    Positive {
+        /// The argument.
+        argument: &'static str,
+        /// The value as given.
+        value: f64,
+    },
     /// Moments that no body has: the largest exceeds the sum of the others.
     #[error(
         "moments = {moments:?}: the largest must not exceed the sum of the other two (it is {ratio} times that sum)"

@@ -6,6 +6,7 @@ pub(crate) mod body;
 mod catalogue;
 pub(crate) mod options;
 pub(crate) mod orbit;
+mod principal_axes;
 pub(crate) mod scene;
 mod scene_file;
 pub(crate) mod state;

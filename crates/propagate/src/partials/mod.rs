@@ -13,6 +13,8 @@ mod evaluate;
 mod integral;
 mod steady;
 
+use nalgebra::{Matrix3, SMatrix};
+
 use crate::error::Error;
 use crate::motion::solved::{Motion, length};
 use crate::motion::trajectory::Course;
@@ -35,7 +37,7 @@ pub struct Partials {
     /// The time.
     pub time: f64,
     /// Of the attitude, as a rotation vector about body axes: three columns for the initial attitude \[1\], three for the initial angular velocity \[unit of time\], three for
-    /// the moments [1/unit of moment].
+    /// the moments [1/unit of moment]; of a body with an inertia tensor the principal moments, with the principal axes kept.
     pub attitude: Derivatives,
     /// Of the angular velocity, body components, in the same order [rate, 1, rate/unit of moment].
     pub angular_velocity: Derivatives,
@@ -76,6 +78,20 @@ impl Motion {
         length("attitudes", attitudes.len(), times.len())?;
         length("rates", rates.len(), times.len())?;
         self.valid(times)?;
+        self.partials_about_principal_axes(times, attitudes, rates)?;
+        if let Some(given) = &self.given {
+            let axes = given.turn.to_rotation_matrix().into_inner();
+            attitudes.iter_mut().chain(rates).for_each(|derivatives| turn(&axes, derivatives));
+        }
+        Ok(())
+    }
+
+    fn partials_about_principal_axes(
+        &self,
+        times: &[f64],
+        attitudes: &mut [Derivatives],
+        rates: &mut [Derivatives],
+    ) -> Result<(), Error> {
         let epoch = self.scene.state().epoch;
         let Some(polhode) = Polhode::new(self.scene.body(), self.scene.state()) else {
             steady::at_rest(times, epoch, attitudes, rates);
@@ -98,6 +114,21 @@ impl Motion {
             }
             Course::Gradient(_) => differences::fill(self, times, attitudes, rates),
             Course::Polhode(_) | Course::Flip(_) => target.wobbling(&self.scene, &polhode, mode, (attitudes, rates)),
+        }
+    }
+}
+
+/// From principal axes to the user's: the vector, and the parameters that are vectors.
+fn turn(axes: &Matrix3<f64>, derivatives: &mut Derivatives) {
+    let matrix = SMatrix::<f64, 3, PARAMETERS>::from_fn(|row, column| derivatives[row][column]);
+    let mut turned = axes * matrix;
+    for first in [0, 3] {
+        let block = turned.fixed_columns::<3>(first) * axes.transpose();
+        turned.fixed_columns_mut::<3>(first).copy_from(&block);
+    }
+    for (row, values) in derivatives.iter_mut().enumerate() {
+        for (column, value) in values.iter_mut().enumerate() {
+            *value = turned[(row, column)];
         }
     }
 }

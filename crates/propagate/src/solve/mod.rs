@@ -11,7 +11,7 @@ use crate::input::options::{Averaging, Level, Method};
 use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
 use crate::motion::plan::Plan;
-use crate::motion::solved::{Frequencies, Motion};
+use crate::motion::solved::{Frequencies, Given, Motion};
 use crate::motion::trajectory::Course;
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::{exponent, half, scaled, user_rate};
@@ -64,6 +64,14 @@ impl Scene {
     /// ```
     pub fn solve_with(&self, tables: &SeriesTables) -> Result<Motion, Error> {
         let scene = self.validated()?;
+        let Some(turn) = scene.body().turn() else { return scene.solve_about_principal_axes(tables) };
+        let mut motion = scene.about_principal_axes(turn).solve_about_principal_axes(tables)?;
+        motion.given = Some(Box::new(Given { scene, turn }));
+        Ok(motion)
+    }
+
+    fn solve_about_principal_axes(self, tables: &SeriesTables) -> Result<Motion, Error> {
+        let scene = self;
         let Some(polhode) = Polhode::new(scene.body(), scene.state()) else {
             return match scene.asked_orbit() {
                 Some(_) => Err(Error::Unaveraged {
@@ -173,6 +181,7 @@ fn assembled(scene: Scene, polhode: &Polhode, solved: Solved) -> Motion {
         plan: solved.plan,
         course,
         frequencies: Frequencies { anomaly, longitude: longitude_rate.to_f64() },
+        given: None,
         precession,
         angular_momentum: polhode.angular_momentum(scene.state().attitude),
         long_axis: polhode.long_axis,
@@ -316,6 +325,7 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
     Ok(Motion {
         plan,
         frequencies: Frequencies { anomaly, longitude },
+        given: None,
         precession: longitude + anomaly,
         angular_momentum: polhode.angular_momentum(scene.state().attitude),
         long_axis: polhode.long_axis,
