@@ -75,7 +75,7 @@ pub enum Error {
     },
     /// An attitude quaternion that is zero, not finite, or too far from unit norm.
     #[error(
-        "attitude = {value:?}: a quaternion [x, y, z, w] must be finite with a norm within 1e-6 of 1 (it is {norm})"
+        "attitude = {value:?}: a quaternion [x, y, z, w] must be finite with a norm within 1e-6 of 1 (it is {norm}){}", advice(*norm)
     )]
     Attitude {
         /// The quaternion as given, [x, y, z, w].
@@ -125,7 +125,7 @@ pub enum Error {
         /// The method as given.
         value: String,
     },
-    /// A time that is not finite, or so far from the epoch that it has no phase.
+    /// A time that is not finite, or so far from the epoch that the motion is not evaluated there.
     #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{reason}")]
     Time {
         /// Its index among the times given.
@@ -134,7 +134,7 @@ pub enum Error {
         value: f64,
         /// Largest distance from the epoch that is accepted.
         bound: f64,
-        /// Why there is a bound, where the motion sets it; otherwise empty.
+        /// What ends there, as the end of a sentence; empty where the number is only the largest that is added without an overflow.
         reason: &'static str,
     },
     /// A slice whose length doesn't fit.
@@ -267,7 +267,7 @@ pub enum Error {
         problem: String,
     },
     /// A body that the catalogue doesn't have.
-    #[error("body {name:?} is not in the catalogue: it has {}", known.join(", "))]
+    #[error("body {name:?} is not in the catalogue{}: it has {}", did_you_mean(name, known), known.join(", "))]
     UnknownBody {
         /// The name as given.
         name: String,
@@ -289,8 +289,26 @@ pub enum Error {
     },
 }
 
+/// The name most like an unknown one, if one is: up to a third of the letters wrong, missing, added or exchanged.
+fn did_you_mean(name: &str, known: &[&str]) -> String {
+    let name = name.to_lowercase();
+    let likeness = |known: &str| strsim::normalized_damerau_levenshtein(&known.to_lowercase(), &name);
+    let best = known.iter().max_by(|one, two| likeness(one).total_cmp(&likeness(two)));
+    let near = best.filter(|best| likeness(best) >= 2.0 / 3.0);
+    near.map_or_else(String::new, |best| format!("; did you mean {best:?}?"))
+}
+
 fn and_others(others: usize) -> String {
     if others == 0 { String::new() } else { format!(" (and {others} more bad members)") }
+}
+
+/// What to do with a quaternion that is no attitude.
+fn advice(norm: f64) -> &'static str {
+    if norm > 0.0 && norm.is_finite() {
+        "; to normalize it, divide it by its norm; a quaternion [w, x, y, z] is read with scalar_first=True in Python"
+    } else {
+        ""
+    }
 }
 
 impl Error {

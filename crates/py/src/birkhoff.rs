@@ -241,7 +241,7 @@ impl BirkhoffNormalForm {
     /// ShapeError
     ///     Another length.
     /// IntervalError
-    ///     A NaN.
+    ///     A NaN, or an action below 0.
     #[pyo3(signature = (actions, parameters=None))]
     fn frequency_map<'py>(
         &self,

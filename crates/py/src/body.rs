@@ -29,7 +29,7 @@ use crate::{array, error};
 /// >>> body.beta
 /// 0.5
 /// >>> Body.named("eros").moments
-/// array([0.22942677, 0.96375352, 1.        ])
+/// array([0.21007832, 0.98310982, 1.        ])
 #[pyclass(frozen, eq, module = "andoyer")]
 pub(crate) struct Body {
     pub(crate) body: andoyer_propagate::Body,
@@ -77,7 +77,7 @@ impl Body {
     /// Raises
     /// ------
     /// UnknownBodyError
-    ///     ``"vulcan"``.
+    ///     ``"vulcan"``; for ``"ceers"`` the message asks for Ceres.
     #[staticmethod]
     fn named(name: &str) -> PyResult<Self> {
         andoyer_propagate::Body::named(name).map(Self::from).map_err(error::propagation)
@@ -102,12 +102,7 @@ impl Body {
     ///     ``"vulcan"``.
     #[staticmethod]
     fn source(name: &str) -> PyResult<&'static str> {
-        andoyer_propagate::Body::source(name).ok_or_else(|| {
-            error::propagation(andoyer_propagate::Error::UnknownBody {
-                name: name.to_owned(),
-                known: andoyer_propagate::Body::catalogue(),
-            })
-        })
+        andoyer_propagate::Body::source(name).map_err(error::propagation)
     }
 
     /// The moments about body axes 1, 2, 3 as given: a read-only array, shape (3,).

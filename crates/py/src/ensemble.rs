@@ -10,6 +10,7 @@ use crate::array::{MemberRows, Times, chunks, constant_rows, fixed, number, writ
 use crate::computing::detached;
 use crate::error::{self, ShapeError, ThreadsError};
 use crate::foreign;
+use crate::members::Members;
 use crate::motion::Motion;
 use crate::orbit::Orbit;
 use crate::order::whole_number;
@@ -241,6 +242,10 @@ impl Ensemble {
 
     fn __len__(&self) -> usize {
         self.0.len()
+    }
+
+    fn __iter__(slf: Py<Self>) -> Members {
+        Members::of(slf.into_any())
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {

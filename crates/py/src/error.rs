@@ -46,7 +46,7 @@ create_exception!(
     "A rotation so slow, or so near a resonance with its orbit, that no averaging holds."
 );
 create_exception!(andoyer, TorqueError, Error, "A torque too strong for an expansion in it.");
-create_exception!(andoyer, TimesError, Error, "A time that is not finite, or too far from the epoch to have a phase.");
+create_exception!(andoyer, TimesError, Error, "A time that is not finite, or too far from the epoch to be evaluated.");
 create_exception!(andoyer, ShapeError, Error, "An array of the wrong shape or memory layout.");
 create_exception!(
     andoyer,
@@ -157,7 +157,8 @@ fn exception(error: Algebra, message: String) -> PyErr {
         | Algebra::FormatUnknown { .. }
         | Algebra::RationalMalformed { .. }
         | Algebra::CountMismatch { .. }
-        | Algebra::TermInconsistent { .. } => FormatError::new_err(message),
+        | Algebra::TermInconsistent { .. }
+        | Algebra::CoefficientWrong { .. } => FormatError::new_err(message),
         _ => SeriesError::new_err(message),
     }
 }

@@ -19,6 +19,7 @@ mod error;
 mod expression;
 mod foreign;
 mod form;
+mod members;
 mod motion;
 mod normal_form;
 mod normalize;

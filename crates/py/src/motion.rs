@@ -25,7 +25,8 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// Raises
 /// ------
 /// TimesError
-///     A time that is NaN, infinite or more than 1e15 rotations from the epoch; the message has its index.
+///     A time that is NaN, infinite, more than 1e15 rotations from the epoch, or under ``averaging="spin"`` more than 65,534 orbits from it; the
+///     message has its index and says which.
 /// ShapeError
 ///     Times with two axes.
 ///
@@ -244,19 +245,38 @@ impl Motion {
         FREQUENCIES.import(py, "andoyer.mean", "Frequencies")?.call1((frequencies.anomaly, frequencies.longitude))
     }
 
-    /// Mean periods (P_φ, P_ψ) in both conventions: ``{"long-axis": (precession, rotation), "short-axis": (precession, rotation)}``.
+    /// Mean periods (P_φ, P_ψ) in three conventions: a dict with the keys "long-axis", "short-axis" and "extremal-axis".
     ///
-    /// Long-axis is the convention of light curves: P_φ = 2π/(dy′/dt), P_ψ = 2π/(dℓ′/dt), in which the long axis oscillates
-    /// (Kaasalainen 2001). Short-axis is that of the Andoyer variables: P_φ = 2π/(dy′/dt + dℓ′/dt), with which μ turns, and
-    /// P_ψ = 2π/(dℓ′/dt), with which ν turns: backwards, for N < 0 forwards. In units of time, named tuples; infinite where there is none.
+    /// Values are named tuples (precession, rotation) in units of time, infinite where there is no such period.
+    ///
+    /// - "short-axis" is the convention of the Andoyer variables. P_φ is the mean precession of the short axis about the angular momentum;
+    ///   P_ψ is the rotation about it, in the long-axis mode its oscillation. In the short-axis mode P_φ = 2π/(dy′/dt + dℓ′/dt), with
+    ///   which μ turns, and P_ψ = 2π/(dℓ′/dt), with which ν turns: backwards, for N < 0 forwards.
+    /// - "long-axis" has the same of the long axis: in the short-axis mode P_φ = 2π/(dy′/dt). Radar papers use it.
+    /// - "extremal-axis" is the convention of light-curve papers (Pravec et al. 2014): the short axis in the short-axis mode, the long axis
+    ///   in the long-axis mode. It is one of the other two.
+    ///
+    /// P_ψ is the same in all three.
+    ///
+    /// Examples
+    /// --------
+    /// >>> periods = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve().periods
+    /// >>> periods["extremal-axis"] == periods["short-axis"]
+    /// True
+    /// >>> (precession, rotation), long = periods["short-axis"], periods["long-axis"].precession
+    /// >>> abs(1 / precession - 1 / rotation - 1 / long) < 1e-15
+    /// True
     #[getter]
     fn periods<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, pyo3::types::PyDict>> {
         static PERIODS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
         let class = PERIODS.import(py, "andoyer.mean", "Periods")?;
         let periods = pyo3::types::PyDict::new(py);
-        for (convention, pair) in
-            [("long-axis", self.0.long_axis_periods()), ("short-axis", self.0.short_axis_periods())]
-        {
+        let conventions = [
+            ("long-axis", self.0.long_axis_periods()),
+            ("short-axis", self.0.short_axis_periods()),
+            ("extremal-axis", self.0.extremal_axis_periods()),
+        ];
+        for (convention, pair) in conventions {
             periods.set_item(convention, class.call1((pair.precession, pair.rotation))?)?;
         }
         Ok(periods)

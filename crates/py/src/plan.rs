@@ -1,6 +1,9 @@
 //! `andoyer.Plan`.
 
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+
+use crate::error::InternalError;
 
 /// What is evaluated for a motion, and why: see `Motion.plan`; ``str(plan)`` is a table of it.
 ///
@@ -76,6 +79,27 @@ impl Plan {
     #[getter]
     fn skipped(&self) -> Vec<String> {
         self.0.skipped().to_vec()
+    }
+
+    /// The plan in the text that pickles hold.
+    #[staticmethod]
+    fn _restored(text: &str) -> PyResult<Self> {
+        toml::from_str(text)
+            .map(Self)
+            .map_err(|error| PyValueError::new_err(format!("not the text of a plan: {error}")))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        let text = toml::to_string(&self.0).map_err(|error| InternalError::new_err(error.to_string()))?;
+        Ok((py.get_type::<Self>().getattr("_restored")?, (text,)))
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
     }
 
     fn __str__(&self) -> String {

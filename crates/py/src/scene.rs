@@ -10,7 +10,7 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 use crate::body::Body;
 use crate::computing::detached;
 use crate::motion::Motion;
-use crate::orbit::Orbit;
+use crate::orbit::{self, Orbit};
 use crate::scene_class::Scene;
 use crate::{array, error, foreign};
 
@@ -81,8 +81,10 @@ impl Scene {
     /// SceneFileError
     ///     No such file, no TOML, an unknown or missing key, a value that no scene has; the message names file, key and bound.
     #[classmethod]
-    fn from_toml(_class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
-        andoyer_propagate::Scene::from_toml(path).map(Self::from).map_err(error::propagation)
+    fn from_toml(class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
+        let scene = andoyer_propagate::Scene::from_toml(path).map_err(error::propagation)?;
+        scene.asked_orbit().map_or(Ok(()), |orbit| orbit::doubt(class.py(), orbit))?;
+        Ok(Self::from(scene))
     }
 
     /// The scene as TOML text, which `from_toml` reads back from a file to an equal scene.

@@ -32,7 +32,7 @@ def test_lines_that_the_example_comments_out_are_keys_too(example):
     example.write_text(UNCOMMENTED, encoding="utf-8")
     scene = andoyer.Scene.from_toml(example)
     assert scene.order == 8 and scene.body == andoyer.Body.named("ceres")
-    assert scene.orbit == andoyer.Orbit(4.323e-8, 0.0785, argument_of_pericentre=1.0)
+    assert scene.orbit == andoyer.Orbit(4.329e-8, 0.0797, argument_of_pericentre=1.0)
     assert scene.solve().plan.averaging == "spin"
 
 

@@ -150,3 +150,14 @@ motion.at(range(3)); motion.at(numpy.float32(1)); motion.attitude([1, 2])
 sys.exit(bool({'scipy', 'astropy', 'pandas', 'xarray', 'andoyer._foreign'} & set(sys.modules)))
 """
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+def test_rates_in_hertz_are_refused_with_the_unit_that_says_turns(body):
+    with pytest.raises(TypeError, match=r"angular_velocity must be in rad / s.*got Hz; rates in turns per second have the unit u\.cycle / u\.s"):
+        andoyer.Scene(body, QUATERNION, [0.0, 0.0, 1.0] * units.Hz)
+    with pytest.raises(TypeError, match=r"mean_motion.*u\.cycle / u\.s"):
+        andoyer.Orbit(1 / units.day)
+    with pytest.raises(TypeError, match=r"angular_velocity must be in rad / s, or what converts to it: got m$"):
+        andoyer.Scene(body, QUATERNION, [0.0, 0.0, 1.0] * units.m)
+    turning = andoyer.Scene(body, QUATERNION, [0.0, 0.0, 1.0] * units.cycle / units.s)
+    assert turning.angular_velocity[2] == pytest.approx(2 * math.pi, rel=1e-15)

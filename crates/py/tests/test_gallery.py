@@ -26,11 +26,11 @@ def test_script_runs_and_says_something(script, tmp_path):
     assert "Warning" not in done.stderr.replace("UserWarning: FigureCanvasAgg", "")
 
 
-def test_tables_of_the_readme_are_those_of_the_files(monkeypatch):
+def test_the_table_of_the_readme_is_that_of_the_files(monkeypatch):
     monkeypatch.syspath_prepend(REPOSITORY / "benches")
     import report
 
-    written = report.summary(*map(report.read, ("bench", "work-precision", "stress", "scenes")))
+    written = report.summary(*map(report.read, ("bench", "work-precision", "stress")))
     assert f"{report.MARKS[0]}\n\n{written}\n\n{report.MARKS[1]}" in PAGES[0].read_text(encoding="utf-8")
 
 

@@ -141,9 +141,9 @@ def test_example_scene_precesses_at_the_rate_of_the_averaged_theory():
     times = [0.0, orbits * period]
     variables, momentum = motion.andoyer(times), motion.angular_momentum(times)
     rate = (variables[1, 0] - variables[0, 0]) / times[1] * year * 648000 / math.pi
-    # -2.870 "/yr at J = 0, as its source says. The mean of (3 T33 - A - B - C)/2 over the wobble is 0.9 % below d; the pole's yearly swing of 52" starts
+    # -2.872 "/yr at J = 0, as its source says. The mean of (3 T33 - A - B - C)/2 over the wobble is 1.0 % below d; the pole's yearly swing of 52" starts
     # at its lowest, so that cos I = 0.01745 is 0.9 % more on the mean. Short-period terms at the ends, 1.3e-6 rad, are 0.1 %.
-    assert rate == pytest.approx(-2.870, rel=5e-3)
+    assert rate == pytest.approx(-2.872, rel=5e-3)
     assert variables[:, 0] == pytest.approx(np.arctan2(momentum[:, 0], -momentum[:, 1]), abs=1e-15)
     assert variables[:, 3] == pytest.approx(momentum[:, 2], rel=1e-15)
     assert variables[:, 4] == pytest.approx(np.linalg.norm(momentum, axis=1), rel=1e-15)

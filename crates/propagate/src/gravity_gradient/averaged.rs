@@ -18,8 +18,8 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::input::orbit::Orbit;
 use crate::numerics::phase::Phase;
-use crate::simd::complex_quaternion::{Plane, Turns};
-use crate::simd::instruction_set::Level;
+use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
+use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::{Lanes, WIDEST};
 
@@ -38,7 +38,7 @@ type Column = [f64; 5];
 
 /// An orbit as the averaged motion sees it.
 #[derive(Clone, Debug)]
-pub(crate) struct Ellipse {
+pub(crate) struct AveragedOrbit {
     pub(crate) eccentricity: f64,
     eta_cubed: f64,
     /// n in the units of the motion.
@@ -50,7 +50,7 @@ pub(crate) struct Ellipse {
 
 /// Where the disturbing body is at some times: whole turns since the epoch's pericentre, and its place.
 #[derive(Clone, Copy)]
-pub(crate) struct When<S: Level> {
+pub(crate) struct When<S: InstructionSet> {
     pub(crate) turns: Lanes<S>,
     pub(crate) place: Place<S>,
 }
@@ -60,7 +60,7 @@ pub(super) type Elapsed<S> = (Lanes<S>, Lanes<S>);
 
 /// Where the disturbing body is at times after the epoch.
 #[inline(always)]
-pub(super) fn when<S: Level>(mean_anomaly: &Phase, elapsed: Elapsed<S>, eccentricity: f64) -> When<S> {
+pub(super) fn when<S: InstructionSet>(mean_anomaly: &Phase, elapsed: Elapsed<S>, eccentricity: f64) -> When<S> {
     let (turns, angle) = mean_anomaly.turns_and_angle(elapsed);
     When { turns, place: Place::of(angle, eccentricity) }
 }
@@ -77,7 +77,11 @@ pub(crate) enum Slow {
 impl Slow {
     /// The frame and J at times after the epoch.
     #[inline(always)]
-    pub(crate) fn at<S: Level>(&self, when: &When<S>, elapsed: (Lanes<S>, Lanes<S>)) -> (Turns<S>, Lanes<S>) {
+    pub(crate) fn at<S: InstructionSet>(
+        &self,
+        when: &When<S>,
+        elapsed: (Lanes<S>, Lanes<S>),
+    ) -> (QuaternionLanes<S>, Lanes<S>) {
         match self {
             Self::Spin(spin) => spin.at(when),
             Self::Orbit(precession) => precession.at(&when.place, elapsed),
@@ -85,7 +89,7 @@ impl Slow {
     }
 }
 
-impl Ellipse {
+impl AveragedOrbit {
     /// `delta` is Δ times the mass fraction over M.
     pub(crate) fn new(orbit: &Orbit, mean_motion: f64, delta: f64) -> Self {
         let eccentricity = orbit.eccentricity();
@@ -123,7 +127,7 @@ impl Ellipse {
 /// The averaged motion by quarters of the orbit.
 #[derive(Clone, Debug)]
 pub(crate) struct Spin {
-    ellipse: Ellipse,
+    ellipse: AveragedOrbit,
     /// The quarter of the epoch, counted from the pericentre before it.
     first: i64,
     epoch: Quarter,
@@ -140,7 +144,7 @@ struct Quarter {
 
 impl Spin {
     /// From the frame at a place of the orbit, where J is 0.
-    pub(crate) fn new(ellipse: Ellipse, frame: UnitQuaternion<f64>, when: &When<pulp::Scalar>) -> Self {
+    pub(crate) fn new(ellipse: AveragedOrbit, frame: UnitQuaternion<f64>, when: &When<pulp::Scalar>) -> Self {
         let (first, inside) = quarter(when.turns.values()[0], when.place.angle.values()[0]);
         let start: Column = [frame.i, frame.j, frame.k, frame.w, 0.0];
         let epoch = Quarter::solved(&ellipse, first, inside, &start);
@@ -149,7 +153,7 @@ impl Spin {
 
     /// Neighbours in one quarter are computed together.
     #[inline(always)]
-    fn at<S: Level>(&self, when: &When<S>) -> (Turns<S>, Lanes<S>) {
+    fn at<S: InstructionSet>(&self, when: &When<S>) -> (QuaternionLanes<S>, Lanes<S>) {
         let (turns, angles) = (when.turns.values(), when.place.angle.values());
         let (mut quarters, mut insides) = ([0_i64; WIDEST], [0.0; WIDEST]);
         for (lane, (turns, angle)) in turns.iter().zip(angles).enumerate() {
@@ -163,7 +167,7 @@ impl Spin {
             let columns = self.quarter(quarters[lane] - self.first).sums(inside);
             if next - lane == turns.len() {
                 let [x, y, z, w, phase] = columns;
-                return (Turns([x, y, z, w]), phase);
+                return (QuaternionLanes([x, y, z, w]), phase);
             }
             for (row, column) in rows.iter_mut().zip(&columns) {
                 row[lane..next].copy_from_slice(&column.values()[lane..next]);
@@ -175,7 +179,7 @@ impl Spin {
             *column = inside.like(row);
         }
         let [x, y, z, w, phase] = columns;
-        (Turns([x, y, z, w]), phase)
+        (QuaternionLanes([x, y, z, w]), phase)
     }
 
     /// The quarter so many after the epoch's: solved, with all between, if it was not needed yet.
@@ -214,7 +218,7 @@ fn quarter(turns: f64, angle: f64) -> (i64, f64) {
 
 impl Quarter {
     /// The solution through `start` at a place of the quarter.
-    fn solved(ellipse: &Ellipse, number: i64, place: f64, start: &Column) -> Self {
+    fn solved(ellipse: &AveragedOrbit, number: i64, place: f64, start: &Column) -> Self {
         let middle = (number.rem_euclid(4) as f64 + 0.5) * FRAC_PI_2;
         let nodes: [f64; POINTS] = std::array::from_fn(|i| (PI * (i as f64 + 0.5) / POINTS as f64).cos());
         let circles = nodes.map(|x| (middle + FRAC_PI_4 * x).sin_cos());
@@ -268,7 +272,7 @@ impl Quarter {
 
     /// Clenshaw's sums.
     #[inline(always)]
-    fn sums<S: Level>(&self, x: Lanes<S>) -> [Lanes<S>; 5] {
+    fn sums<S: InstructionSet>(&self, x: Lanes<S>) -> [Lanes<S>; 5] {
         let twice = x + x;
         let (mut next, mut after) = ([x.all(0.0); 5], [x.all(0.0); 5]);
         for coefficient in self.coefficients[1..self.terms].iter().rev() {
@@ -297,7 +301,7 @@ impl Quarter {
 /// Steady precession and the periodic part of one orbit.
 #[derive(Clone, Debug)]
 pub(crate) struct Precession {
-    ellipse: Ellipse,
+    ellipse: AveragedOrbit,
     /// The mean frame at the epoch.
     frame: UnitQuaternion<f64>,
     /// Half the angle about the orbit's normal, and half that about the angular momentum which keeps the frame from turning about it.
@@ -311,14 +315,19 @@ pub(crate) struct Precession {
 
 impl Precession {
     /// From the frame at a place of the orbit, where J is 0; `unit` is the user's unit of time in the motion's.
-    pub(crate) fn new(ellipse: Ellipse, frame: UnitQuaternion<f64>, place: &Place<pulp::Scalar>, unit: f64) -> Self {
+    pub(crate) fn new(
+        ellipse: AveragedOrbit,
+        frame: UnitQuaternion<f64>,
+        place: &Place<pulp::Scalar>,
+        unit: f64,
+    ) -> Self {
         let still = Phase::new(DoubleDouble::ZERO, 0.0);
         let mut precession = Self { ellipse, frame, half: still, half_back: still, secular: 0.0, phase: 0.0 };
         let one = Lanes::splat(pulp::Scalar, 1.0);
         // The mean axis to first order, then once more with the periodic part at itself.
         let mut phase = one;
         for _ in 0..3 {
-            let (rotation, next) = precession.periodic(Turns::all(one, &precession.frame), place);
+            let (rotation, next) = precession.periodic(QuaternionLanes::all(one, &precession.frame), place);
             let [x, y, z] = rotation.map(|lanes| -0.5 * lanes.values()[0]);
             precession.frame = UnitQuaternion::new_normalize(Quaternion::new(1.0, x, y, z)) * frame;
             phase = next;
@@ -335,24 +344,24 @@ impl Precession {
     }
 
     #[inline(always)]
-    fn at<S: Level>(&self, place: &Place<S>, elapsed: (Lanes<S>, Lanes<S>)) -> (Turns<S>, Lanes<S>) {
-        let turn = Turns::about(&self.ellipse.axes[2], self.half.sin_cos(elapsed));
-        let back = Turns::about(&Vector3::z(), self.half_back.sin_cos(elapsed));
-        let mean = turn * Turns::all(elapsed.0, &self.frame) * back;
+    fn at<S: InstructionSet>(&self, place: &Place<S>, elapsed: (Lanes<S>, Lanes<S>)) -> (QuaternionLanes<S>, Lanes<S>) {
+        let turn = QuaternionLanes::about(&self.ellipse.axes[2], self.half.sin_cos(elapsed));
+        let back = QuaternionLanes::about(&Vector3::z(), self.half_back.sin_cos(elapsed));
+        let mean = turn * QuaternionLanes::all(elapsed.0, &self.frame) * back;
         let ([x, y, z], phase) = self.periodic(mean, place);
         let (half, one) = (x.all(0.5), x.all(1.0));
-        let frame = Turns([half * x, half * y, half * z, one]) * mean;
+        let frame = QuaternionLanes([half * x, half * y, half * z, one]) * mean;
         (frame.normalized(), elapsed.0.mul_add(x.all(self.secular), phase - x.all(self.phase)))
     }
 
     /// What the orbit average leaves out: a rotation (inertial) and J, by the integrals of theory §9.
     #[inline(always)]
-    fn periodic<S: Level>(&self, frame: Turns<S>, place: &Place<S>) -> ([Lanes<S>; 3], Lanes<S>) {
-        let Ellipse { eccentricity, eta_cubed, mean_motion, axes, strength } = &self.ellipse;
+    fn periodic<S: InstructionSet>(&self, frame: QuaternionLanes<S>, place: &Place<S>) -> ([Lanes<S>; 3], Lanes<S>) {
+        let AveragedOrbit { eccentricity, eta_cubed, mean_motion, axes, strength } = &self.ellipse;
         let Place { centre, sine, cosine, .. } = *place;
         let all = |value: f64| sine.all(value);
-        let double = Plane { re: cosine, im: sine } * Plane { re: cosine, im: sine };
-        let triple = double * Plane { re: cosine, im: sine };
+        let double = ComplexLanes { re: cosine, im: sine } * ComplexLanes { re: cosine, im: sine };
+        let triple = double * ComplexLanes { re: cosine, im: sine };
         let (half, first, third) = (all(0.5), all(0.5 * eccentricity), all(eccentricity / 6.0));
         let constant = sine.mul_add(all(*eccentricity), centre);
         let by_cosine = triple.im.mul_add(third, sine.mul_add(first, half * double.im));

@@ -26,7 +26,7 @@ use super::resonance::Commensurability;
 use crate::error::Error;
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
-use crate::simd::complex_quaternion::{Plane, Turns};
+use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
@@ -162,9 +162,9 @@ impl Corrections {
         let one = |value: f64| Lanes::splat(pulp::Scalar, value);
         let turn = if mean.p == C64::default() { C64::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
         let spin = C64::from_polar(1.0, mean.longitude);
-        let point = |c: C64| Plane { re: one(c.re), im: one(c.im) };
-        let frame = Turns::all(one(0.0), &mean.frame);
-        let change = self.generator.at(&generator::Mean { turn: point(turn), spin: point(spin), frame }, place);
+        let point = |c: C64| ComplexLanes { re: one(c.re), im: one(c.im) };
+        let frame = QuaternionLanes::all(one(0.0), &mean.frame);
+        let change = self.generator.at(&generator::MeanLanes { turn: point(turn), spin: point(spin), frame }, place);
         let value = |lanes: Lanes<pulp::Scalar>| lanes.values()[0];
         Change {
             p: turn * C64::new(value(change.p.re), value(change.p.im)),

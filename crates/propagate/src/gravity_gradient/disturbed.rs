@@ -14,7 +14,7 @@ use andoyer_double::DoubleDouble;
 use nalgebra::{UnitQuaternion, Vector3};
 use num_complex::Complex;
 
-use super::averaged::{Ellipse, MOST_QUARTERS, Precession, Slow, Spin, When, when};
+use super::averaged::{AveragedOrbit, MOST_QUARTERS, Precession, Slow, Spin, When, when};
 use super::corrections::{Change, Corrections, Demand, Mean, SHARE, second_order};
 use super::inertia::Inertia;
 use super::powers::Powers;
@@ -36,11 +36,11 @@ const NEARLY_CONVERGED: f64 = 1e-13;
 const MOST_STEPS: usize = 12;
 /// Torque over M²/C above which an expansion in it has no first order.
 pub(crate) const STRONGEST: f64 = 0.02;
-/// Orbits on each side of the epoch that quarters are kept for.
+/// Orbits on each side of the epoch that quarters are kept for: 65,534.
 const MOST_ORBITS: f64 = (MOST_QUARTERS / 4 - 2) as f64;
 
 /// What a plan says of a gravity gradient.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct GradientPlan {
     pub(crate) averaging: Averaging,
     pub(crate) level: Level,
@@ -122,7 +122,7 @@ impl Gradient {
         let (axial, axial_slope) = request.level.axial(&inertia);
         let fraction = orbit.disturbing_fraction();
         let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) * fraction;
-        let ellipse = Ellipse::new(orbit, mean_motion, delta / mean.momentum);
+        let ellipse = AveragedOrbit::new(orbit, mean_motion, delta / mean.momentum);
         // Rates are proportional to M, which as a double would leave 1e-16 of the phases.
         let precise = (polhode.momentum - change.momentum.into()) / mean.momentum.into();
         let rates = inertia.rates.map(|rate| rate * precise);

@@ -7,50 +7,51 @@ use pulp::NullaryFnOnce;
 use super::averaged::{Elapsed, when};
 use super::disturbed::Gradient;
 use super::generator;
-use crate::simd::complex_quaternion::{Plane, Turns};
-use crate::simd::instruction_set::{Level, Task, dispatch};
+use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
 use crate::simd::phase::elapsed;
 
 /// Osculating variables at some times: p, the circle of y′/2, M, and the invariable frame, but for its norm.
 #[derive(Clone, Copy)]
-struct State<S: Level> {
-    p: Plane<S>,
-    half: Plane<S>,
+struct Osculating<S: InstructionSet> {
+    p: ComplexLanes<S>,
+    half: ComplexLanes<S>,
     momentum: Lanes<S>,
-    frame: Turns<S>,
+    frame: QuaternionLanes<S>,
 }
 
 impl Gradient {
     /// The motion at times after the epoch, in osculating variables: compiled by itself, once for each instruction set.
     #[inline(always)]
-    fn state<S: Level>(&self, elapsed: Elapsed<S>) -> State<S> {
+    fn state<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
         elapsed.0.simd().vectorize(At { gradient: self, elapsed })
     }
 
     #[inline(always)]
-    fn osculating<S: Level>(&self, elapsed: Elapsed<S>) -> State<S> {
+    fn osculating<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
         let all = |value: f64| elapsed.0.all(value);
         let when = when(&self.mean_anomaly, elapsed, self.eccentricity);
         let (frame, phase) = self.slow.at(&when, elapsed);
-        let plane = |(im, re): (Lanes<S>, Lanes<S>)| Plane { re, im };
+        let plane = |(im, re): (Lanes<S>, Lanes<S>)| ComplexLanes { re, im };
         let turn = plane(self.anomaly.sin_cos_beyond(elapsed, phase * all(self.drifts[0] / TAU)));
         let half = plane(self.half_longitude.sin_cos_beyond(elapsed, phase * all(0.5 * self.drifts[1] / TAU)));
-        let change = self.corrections.generator.at(&generator::Mean { turn, spin: half * half, frame }, &when.place);
-        let relative = Plane { re: change.p.re + all(self.root), im: change.p.im };
+        let change =
+            self.corrections.generator.at(&generator::MeanLanes { turn, spin: half * half, frame }, &when.place);
+        let relative = ComplexLanes { re: change.p.re + all(self.root), im: change.p.im };
         let [x, y] = change.rotation;
         let zero = all(0.0);
-        State {
+        Osculating {
             p: turn * relative,
             half: half * small_turn(all(0.5) * change.longitude),
             momentum: change.momentum + all(self.inertia.momentum),
-            frame: frame * Turns([all(0.5) * x, all(0.5) * y, zero, all(1.0)]),
+            frame: frame * QuaternionLanes([all(0.5) * x, all(0.5) * y, zero, all(1.0)]),
         }
     }
 
     /// Attitude and rates at times after the epoch, as far as they are asked for.
     #[inline(always)]
-    pub(crate) fn evaluate<S: Level, const ATTITUDE: bool, const RATES: bool>(
+    pub(crate) fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
         &self,
         elapsed: Elapsed<S>,
     ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
@@ -67,7 +68,7 @@ impl Gradient {
         }
         let mut attitude = [zero; 4];
         if ATTITUDE {
-            let turned = state.frame * relative * Turns::all(zero, &self.frame.quaternion);
+            let turned = state.frame * relative * QuaternionLanes::all(zero, &self.frame.quaternion);
             attitude = turned.normalized().0;
         }
         (attitude, rates)
@@ -80,38 +81,38 @@ impl Gradient {
 
     /// The quaternion of theory §8 of a state near the mean one.
     #[inline(always)]
-    fn relative<S: Level>(&self, state: &State<S>) -> Turns<S> {
-        let State { p, half, .. } = *state;
+    fn relative<S: InstructionSet>(&self, state: &Osculating<S>) -> QuaternionLanes<S> {
+        let Osculating { p, half, .. } = *state;
         let beyond = p.re.mul_add(p.re, p.im.mul_add(p.im, p.re.all(-self.inertia.sigma)));
         let square = p * p;
         let [[a, a_bar], [b, b_bar]] = [self.pair[0].at(square, beyond), self.pair[1].at(square, beyond)];
         let a = a.plus(a_bar, square.conjugate()) * half;
         let b = (b * p).plus(b_bar, p.conjugate()) * half;
-        Turns([b.re, b.im, a.im, a.re]).normalized()
+        QuaternionLanes([b.re, b.im, a.im, a.re]).normalized()
     }
 }
 
 /// [`Gradient::state`] as a function of its own.
-struct At<'a, S: Level> {
+struct At<'a, S: InstructionSet> {
     gradient: &'a Gradient,
     elapsed: Elapsed<S>,
 }
 
-impl<S: Level> NullaryFnOnce for At<'_, S> {
-    type Output = State<S>;
+impl<S: InstructionSet> NullaryFnOnce for At<'_, S> {
+    type Output = Osculating<S>;
 
     #[inline(always)]
-    fn call(self) -> State<S> {
+    fn call(self) -> Osculating<S> {
         self.gradient.osculating(self.elapsed)
     }
 }
 
 /// e^(ix) for |x| ≤ 0.05, to 2e-17.
 #[inline(always)]
-fn small_turn<S: Level>(x: Lanes<S>) -> Plane<S> {
+fn small_turn<S: InstructionSet>(x: Lanes<S>) -> ComplexLanes<S> {
     let square = x * x;
     let series = |coefficients: &[f64]| square.polynomial(coefficients);
-    Plane {
+    ComplexLanes {
         re: series(&[1.0, -1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40320.0]),
         im: x * series(&[1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0]),
     }
@@ -129,7 +130,7 @@ impl Task for Momenta<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<S: Level>(self, simd: S) {
+    fn run<S: InstructionSet>(self, simd: S) {
         let epoch = Lanes::splat(simd, self.epoch);
         let width = Lanes::<S>::WIDTH;
         for (times, rows) in self.times.chunks(width).zip(self.out.chunks_mut(width)) {

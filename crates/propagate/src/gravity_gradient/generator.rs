@@ -7,8 +7,8 @@
 use nalgebra::Vector3;
 
 use super::inertia::HIGHEST;
-use crate::simd::complex_quaternion::{Plane, Turns};
-use crate::simd::instruction_set::Level;
+use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
+use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
@@ -56,18 +56,18 @@ pub(crate) struct Generator {
     pub(crate) momentum: f64,
 }
 
-/// Mean motion at some times: the circles of ℓ′ and y′ (cosine and sine), and the invariable frame.
+/// MeanLanes motion at some times: the circles of ℓ′ and y′ (cosine and sine), and the invariable frame.
 #[derive(Clone, Copy)]
-pub(crate) struct Mean<S: Level> {
-    pub(crate) turn: Plane<S>,
-    pub(crate) spin: Plane<S>,
-    pub(crate) frame: Turns<S>,
+pub(crate) struct MeanLanes<S: InstructionSet> {
+    pub(crate) turn: ComplexLanes<S>,
+    pub(crate) spin: ComplexLanes<S>,
+    pub(crate) frame: QuaternionLanes<S>,
 }
 
 /// First-order changes of it; of p the change times e^(−iℓ′); `rotation` is about axes 1 and 2 of the frame.
 #[derive(Clone, Copy)]
-pub(crate) struct Change<S: Level> {
-    pub(crate) p: Plane<S>,
+pub(crate) struct Correction<S: InstructionSet> {
+    pub(crate) p: ComplexLanes<S>,
     pub(crate) longitude: Lanes<S>,
     pub(crate) momentum: Lanes<S>,
     pub(crate) rotation: [Lanes<S>; 2],
@@ -133,20 +133,20 @@ fn trimmed(series: &[f64]) -> Fourier {
 }
 
 /// What r̂r̂ gives to a multiple of y′, r₃² − ⅓, r̄₊ r₃, r̄₊², and its derivatives when the frame turns about its axes 1 and 2; times i for odd j.
-type Contracted<S> = [Plane<S>; 3];
+type Contracted<S> = [ComplexLanes<S>; 3];
 
 impl Generator {
     /// The changes from mean to osculating variables, for |p| = √σ.
     #[inline(always)]
-    pub(crate) fn at<S: Level>(&self, mean: &Mean<S>, place: &Place<S>) -> Change<S> {
+    pub(crate) fn at<S: InstructionSet>(&self, mean: &MeanLanes<S>, place: &Place<S>) -> Correction<S> {
         let none = place.sine.all(0.0);
-        let zero = Plane { re: none, im: none };
+        let zero = ComplexLanes { re: none, im: none };
         let tensors = self.tensors(mean.frame, place);
         let highest = self.harmonics.iter().flatten().map(|harmonic| harmonic.degree).max().unwrap_or(0);
         let turns = circle(mean.turn, highest);
         let orders = self.orbital.series.len();
-        let mut sums = Sums { by_p: [zero; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
-        let mut spin = Plane { re: none.all(1.0), im: none };
+        let mut sums = Derivatives { by_p: [zero; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
+        let mut spin = ComplexLanes { re: none.all(1.0), im: none };
         for (multiple, harmonics) in self.harmonics.iter().enumerate() {
             if !harmonics.is_empty() {
                 let mut totals = [zero; SUMS + 2];
@@ -168,7 +168,7 @@ impl Generator {
 
     /// r̂r̂ (a/r)³ and its time derivatives in the frame: components 11, 22, 33, 12, 13, 23.
     #[inline(always)]
-    fn tensors<S: Level>(&self, frame: Turns<S>, place: &Place<S>) -> [[Lanes<S>; 6]; ORDERS] {
+    fn tensors<S: InstructionSet>(&self, frame: QuaternionLanes<S>, place: &Place<S>) -> [[Lanes<S>; 6]; ORDERS] {
         let none = place.sine.all(0.0);
         let rows = frame.rows();
         let mut axes = [[none; 3]; 2];
@@ -199,7 +199,7 @@ impl Generator {
     }
 
     #[inline(always)]
-    fn change<S: Level>(&self, sums: &Sums<S>) -> Change<S> {
+    fn change<S: InstructionSet>(&self, sums: &Derivatives<S>) -> Correction<S> {
         let all = |value: f64| sums.by_longitude.all(value);
         let momentum = sums.by_longitude * all(-self.strength);
         // The real part of X counts: ∂/∂p̄ of it is (∂X/∂p̄ + conj ∂X/∂p)/2.
@@ -209,8 +209,8 @@ impl Generator {
         let real = momentum.negate_mul_add(all(0.5 * self.root / self.momentum), -(by_p_bar.im * half));
         let circling = by_p_bar.re.negate_mul_add(all(0.5 * self.root), sums.by_momentum);
         let [x, y] = sums.by_rotation;
-        Change {
-            p: Plane { re: real, im: by_p_bar.re * half },
+        Correction {
+            p: ComplexLanes { re: real, im: by_p_bar.re * half },
             longitude: relative * circling,
             momentum,
             // k × δ(Mk)/M turns k, and the frame with it.
@@ -225,9 +225,9 @@ const COMPONENTS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2),
 impl Orbital {
     /// cos kf and sin kf.
     #[inline(always)]
-    fn circle<S: Level>(&self, place: &Place<S>) -> [[Lanes<S>; 2]; WIDTH + 1] {
+    fn circle<S: InstructionSet>(&self, place: &Place<S>) -> [[Lanes<S>; 2]; WIDTH + 1] {
         let mut circle = [[place.sine.all(1.0), place.sine.all(0.0)]; WIDTH + 1];
-        let step = Plane { re: place.cosine, im: place.sine };
+        let step = ComplexLanes { re: place.cosine, im: place.sine };
         let mut turn = step;
         for slot in circle.iter_mut().take(self.highest + 1).skip(1) {
             *slot = [turn.re, turn.im];
@@ -239,7 +239,7 @@ impl Orbital {
 
 /// A series in cosines (part 0) or sines.
 #[inline(always)]
-fn sum<S: Level>(circle: &[[Lanes<S>; 2]], series: &Fourier, part: usize) -> Lanes<S> {
+fn sum<S: InstructionSet>(circle: &[[Lanes<S>; 2]], series: &Fourier, part: usize) -> Lanes<S> {
     let mut sum = circle[0][1];
     for (turn, coefficient) in circle[series.0..].iter().zip(&series.1) {
         sum = turn[part].mul_add(sum.all(*coefficient), sum);
@@ -249,8 +249,8 @@ fn sum<S: Level>(circle: &[[Lanes<S>; 2]], series: &Fourier, part: usize) -> Lan
 
 /// e^(ihℓ′).
 #[inline(always)]
-fn circle<S: Level>(turn: Plane<S>, highest: usize) -> [Plane<S>; HIGHEST + 1] {
-    let mut turns = [Plane { re: turn.re.all(1.0), im: turn.re.all(0.0) }; HIGHEST + 1];
+fn circle<S: InstructionSet>(turn: ComplexLanes<S>, highest: usize) -> [ComplexLanes<S>; HIGHEST + 1] {
+    let mut turns = [ComplexLanes { re: turn.re.all(1.0), im: turn.re.all(0.0) }; HIGHEST + 1];
     for h in 1..=highest {
         turns[h] = turns[h - 1] * turn;
     }
@@ -259,12 +259,12 @@ fn circle<S: Level>(turn: Plane<S>, highest: usize) -> [Plane<S>; HIGHEST + 1] {
 
 /// The sums over the terms of an m for one j.
 #[inline(always)]
-fn summed<S: Level>(
+fn summed<S: InstructionSet>(
     harmonics: &[Harmonic],
-    turns: &[Plane<S>; HIGHEST + 1],
+    turns: &[ComplexLanes<S>; HIGHEST + 1],
     j: usize,
-    zero: Plane<S>,
-) -> [Plane<S>; SUMS] {
+    zero: ComplexLanes<S>,
+) -> [ComplexLanes<S>; SUMS] {
     let mut sums = [zero; SUMS];
     for harmonic in harmonics {
         let turn = turns[harmonic.degree];
@@ -279,11 +279,11 @@ fn summed<S: Level>(
 }
 
 #[inline(always)]
-fn contractions<S: Level>(tensor: &[Lanes<S>; 6], multiple: usize, odd: bool) -> Contracted<S> {
+fn contractions<S: InstructionSet>(tensor: &[Lanes<S>; 6], multiple: usize, odd: bool) -> Contracted<S> {
     let [xx, yy, zz, xy, xz, yz] = *tensor;
     let none = xx.all(0.0);
     let (three, two) = (xx.all(3.0), xx.all(2.0));
-    let c = |re, im| Plane { re, im };
+    let c = |re, im| ComplexLanes { re, im };
     let contracted = match multiple {
         0 => [c(zz - (xx + yy) * xx.all(0.5), none), c(-(three * yz), none), c(three * xz, none)],
         1 => [c(xz, -yz), c(-xy, yy - zz), c(xx - zz, -xy)],
@@ -297,20 +297,20 @@ fn contractions<S: Level>(tensor: &[Lanes<S>; 6], multiple: usize, odd: bool) ->
 }
 
 /// Derivatives of W over the strength.
-struct Sums<S: Level> {
+struct Derivatives<S: InstructionSet> {
     /// By p and p̄.
-    by_p: [Plane<S>; 2],
+    by_p: [ComplexLanes<S>; 2],
     by_longitude: Lanes<S>,
     by_momentum: Lanes<S>,
     by_rotation: [Lanes<S>; 2],
 }
 
-impl<S: Level> Sums<S> {
+impl<S: InstructionSet> Derivatives<S> {
     #[inline(always)]
-    fn add(&mut self, totals: &[Plane<S>; SUMS + 2], multiple: usize, spin: Plane<S>) {
+    fn add(&mut self, totals: &[ComplexLanes<S>; SUMS + 2], multiple: usize, spin: ComplexLanes<S>) {
         // −i of 1/(iΩ), and −i of t1: their coefficients are real without it.
         let factor = spin.re.all(-2.0);
-        let phase = Plane { re: spin.re * factor, im: spin.im * factor };
+        let phase = ComplexLanes { re: spin.re * factor, im: spin.im * factor };
         let phase = if multiple == 1 { phase } else { phase.quarter_turned() };
         let mut turned = *totals;
         for total in &mut turned {

@@ -1,8 +1,8 @@
 //! The harmonics of a and b of a motion near the mean one, as polynomials in p² and p̄².
 
 use super::inertia::{HIGHEST, Harmonics};
-use crate::simd::complex_quaternion::Plane;
-use crate::simd::instruction_set::Level;
+use crate::simd::complex_quaternion::ComplexLanes;
+use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 
 /// A harmonic of a or b below this turns nothing \[rad\].
@@ -33,12 +33,12 @@ impl Powers {
 
     /// Their sums, to be multiplied with what they lack of p and p̄.
     #[inline(always)]
-    pub(super) fn at<S: Level>(&self, square: Plane<S>, beyond: Lanes<S>) -> [Plane<S>; 2] {
+    pub(super) fn at<S: InstructionSet>(&self, square: ComplexLanes<S>, beyond: Lanes<S>) -> [ComplexLanes<S>; 2] {
         let zero = beyond.all(0.0);
-        let mut sums = [Plane { re: zero, im: zero }; 2];
+        let mut sums = [ComplexLanes { re: zero, im: zero }; 2];
         for ((sum, terms), by) in sums.iter_mut().zip(&self.0).zip([square, square.conjugate()]) {
             for [value, slope] in terms.iter().rev() {
-                let factor = Plane { re: beyond.mul_add(zero.all(*slope), zero.all(*value)), im: zero };
+                let factor = ComplexLanes { re: beyond.mul_add(zero.all(*slope), zero.all(*value)), im: zero };
                 *sum = factor.plus(*sum, by);
             }
         }

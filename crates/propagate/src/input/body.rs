@@ -173,8 +173,7 @@ impl Body {
     /// # Errors
     /// - [`Error::UnknownBody`] for `"vulcan"`.
     pub fn named(name: &str) -> Result<Self, Error> {
-        let entry = catalogue::find(name)
-            .ok_or_else(|| Error::UnknownBody { name: name.to_owned(), known: Self::catalogue() })?;
+        let entry = catalogue::entry(name)?;
         Ok(Self::new(entry.moments)?.with_name(entry.name))
     }
 
@@ -183,9 +182,12 @@ impl Body {
         catalogue::names().collect()
     }
 
-    /// Where the figures of a catalogue body come from; `None` for any other name.
-    pub fn source(name: &str) -> Option<&'static str> {
-        catalogue::find(name).map(|entry| entry.source)
+    /// Where the figures of a catalogue body come from.
+    ///
+    /// # Errors
+    /// - [`Error::UnknownBody`] for `"vulcan"`.
+    pub fn source(name: &str) -> Result<&'static str, Error> {
+        catalogue::entry(name).map(|entry| entry.source)
     }
 
     /// The same body with a name, which is printed and nothing else.

@@ -5,11 +5,11 @@ use std::str::FromStr;
 
 use crate::error::Error;
 
-/// The highest order of the series; reached at σ/σ_sep = 0.64 for a tolerance of 1e-12.
+/// The highest order of the series; it reaches σ/σ_sep = 0.66 for a tolerance of 1e-12.
 pub const MAX_ORDER: usize = 60;
 
 /// Which formulas evaluate a motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub enum Method {
     /// Whatever meets the tolerance at the lowest cost.
@@ -45,7 +45,7 @@ impl fmt::Display for Method {
 }
 
 /// Which terms the corrections by the gravity gradient have.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub enum Level {
     /// Those of Lara (2017): the potential at J = 0, the disturbing body held fixed in the divisors.
@@ -81,7 +81,7 @@ impl fmt::Display for Level {
 }
 
 /// How far the equations are averaged.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub enum Averaging {
     /// Whatever meets the tolerance at the lowest cost.

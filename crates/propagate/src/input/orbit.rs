@@ -98,6 +98,19 @@ impl Orbit {
         ]
     }
 
+    /// Angles of the elements beyond a whole turn, by name \[rad\]: they are taken as they are, but are often degrees given by mistake.
+    ///
+    /// ```
+    /// let orbit = andoyer_propagate::Orbit::new(1e-3, 0.1)?.plane(23.4, 0.0, 6.0)?;
+    /// assert_eq!(orbit.beyond_a_turn().collect::<Vec<_>>(), [("inclination", 23.4)]);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    pub fn beyond_a_turn(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        let names = ["inclination", "node", "argument_of_pericentre"];
+        let angles = [self.inclination, self.node, self.argument_of_pericentre];
+        names.into_iter().zip(angles).filter(|(_, angle)| angle.abs() > TAU)
+    }
+
     pub(crate) fn eccentricity(&self) -> f64 {
         self.eccentricity
     }

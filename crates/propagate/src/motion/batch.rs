@@ -91,7 +91,7 @@ impl<'a> Batch<'a> {
     fn fill(&self, times: &[f64], outputs: Outputs<'_>) -> Result<(), Error> {
         let Self { motion, threads } = *self;
         let epoch = motion.scene.state().epoch;
-        let evaluation = Evaluation { course: &motion.course, epoch, bound: motion.bound(), arch: Arch::new() };
+        let evaluation = Evaluation { trajectory: &motion.trajectory, epoch, bound: motion.bound(), arch: Arch::new() };
         evaluation.fill(times, outputs, threads).map_err(|index| motion.no_phase(index, times))
     }
 }

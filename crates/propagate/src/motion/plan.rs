@@ -2,8 +2,11 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 use crate::gravity_gradient::disturbed::GradientPlan;
 use crate::input::options::{Averaging, Method};
+use crate::input::scene::Scene;
 use crate::torque_free::mode::Mode;
 
 /// σ/σ_sep above which its distance from 1 is printed.
@@ -12,8 +15,8 @@ const NEAR_ONE: f64 = 0.999;
 /// A tolerance below this is met as well as rounding allows \[rad\].
 const ROUNDED_TOLERANCE: f64 = 2e-14;
 
-/// The evaluation plan of a motion.
-#[derive(Clone, Debug, PartialEq)]
+/// The evaluation plan of a motion. It is printed in ASCII, and can be serialized.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     pub(crate) mode: Mode,
     pub(crate) method: Method,
@@ -29,6 +32,22 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// The plan of a scene by the closed form, without a sum, to which the rest is added.
+    pub(crate) fn new(scene: &Scene, mode: Mode, separatrix_ratio: f64, error_bound: f64) -> Self {
+        Self {
+            mode,
+            method: Method::Closed,
+            order: 0,
+            harmonics: 0,
+            error_bound: error_bound.min(std::f64::consts::PI),
+            tolerance: scene.asked_tolerance(),
+            spanned: scene.asked_span().is_some(),
+            separatrix_ratio,
+            gradient: None,
+            skipped: Vec::new(),
+        }
+    }
+
     /// The kind of motion.
     pub fn mode(&self) -> Mode {
         self.mode
@@ -85,15 +104,17 @@ impl fmt::Display for Plan {
         writeln!(f, "mode          {}", self.mode)?;
         writeln!(f, "method        {}", self.method())?;
         match self.separatrix_ratio {
-            ratio if ratio > NEAR_ONE && ratio < 1.0 => writeln!(f, "σ/σ_sep       1 − {:.3e}", 1.0 - ratio)?,
-            ratio => writeln!(f, "σ/σ_sep       {ratio:.3e}")?,
+            ratio if ratio > NEAR_ONE && ratio < 1.0 => {
+                writeln!(f, "separatrix    1 - {:.3e} (sigma/sigma_sep)", 1.0 - ratio)?;
+            }
+            ratio => writeln!(f, "separatrix    {ratio:.3e} (sigma/sigma_sep)")?,
         }
         match self.method {
             Method::Series => writeln!(f, "order         {}", self.order)?,
-            _ => writeln!(f, "order         –")?,
+            _ => writeln!(f, "order         -")?,
         }
         match self.harmonics {
-            0 => writeln!(f, "harmonics     –")?,
+            0 => writeln!(f, "harmonics     -")?,
             harmonics => writeln!(f, "harmonics     {harmonics}")?,
         }
         if let Some(GradientPlan { averaging, level, terms, size, neglected }) = self.gradient {

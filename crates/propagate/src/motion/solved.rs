@@ -5,7 +5,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::plan::Plan;
-use super::trajectory::Course;
+use super::trajectory::Trajectory;
 use crate::error::Error;
 use crate::input::scene::Scene;
 
@@ -14,6 +14,10 @@ const MOST_ROTATIONS: f64 = 1e15;
 
 /// No sum of two times this long overflows.
 const LONGEST: f64 = 1e300;
+
+/// Why a motion averaged over the spin ends.
+const SOLVED: &str =
+    ": averaging = spin solves the averaged equations no farther; averaging over the orbit has no such bound";
 
 /// Attitude and angular velocity at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +78,7 @@ pub struct Motion {
     /// The scene as given, where its axes are others.
     pub(crate) given: Option<Box<Given>>,
     pub(crate) plan: Plan,
-    pub(crate) course: Course,
+    pub(crate) trajectory: Trajectory,
     pub(crate) frequencies: Frequencies,
     /// dy′/dt + dℓ′/dt, summed before it is rounded: for a needle the two nearly cancel.
     pub(crate) precession: f64,
@@ -100,8 +104,8 @@ impl Motion {
         self.frequencies
     }
 
-    /// Mean periods in the long-axis convention, that of light curves: P_φ of the precession of the long axis, P_ψ of the rotation about it or, in the
-    /// short-axis mode, of its oscillation (Kaasalainen 2001); infinite where there is none.
+    /// Mean periods in the long-axis convention: P_φ of the precession of the long axis, P_ψ of the rotation about it or, in the short-axis mode, of its
+    /// oscillation; infinite where there is none. Radar papers use it.
     pub fn long_axis_periods(&self) -> Periods {
         self.periods(self.long_axis)
     }
@@ -110,6 +114,12 @@ impl Motion {
     /// long-axis mode, of its oscillation; in the short-axis mode μ turns with dy′/dt + dℓ′/dt and ν with −dℓ′/dt (for N < 0 with +dℓ′/dt).
     pub fn short_axis_periods(&self) -> Periods {
         self.periods(!self.long_axis)
+    }
+
+    /// Mean periods in the extremal-axis convention, that of light-curve papers (Pravec et al. 2014): those of the short axis in the short-axis mode, of the
+    /// long axis in the long-axis mode. The body turns all the way round this axis.
+    pub fn extremal_axis_periods(&self) -> Periods {
+        self.periods(true)
     }
 
     /// Periods of the theory's axis 3, or of its axis 1, which is carried around by y′.
@@ -127,7 +137,7 @@ impl Motion {
     /// Attitude and rates at a time.
     ///
     /// # Errors
-    /// - [`Error::Time`] for NaN, infinite, or more than 1e15 rotations from the epoch.
+    /// - [`Error::Time`] for NaN, infinite, more than 1e15 rotations from the epoch, or where the scene is averaged over the spin more than 65,534 orbits from it.
     pub fn at(&self, time: f64) -> Result<Sample, Error> {
         let (mut attitude, mut rates) = ([[0.0; 4]], [[0.0; 3]]);
         self.batch().samples_into(&[time], &mut attitude, &mut rates)?;
@@ -159,7 +169,7 @@ impl Motion {
     pub fn angular_momenta_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
         self.valid(times)?;
-        if let Course::Gradient(gradient) = &self.course {
+        if let Trajectory::Gradient(gradient) = &self.trajectory {
             gradient.angular_momenta(times, self.scene.state().epoch, out);
         } else {
             out.fill(self.angular_momentum.into());
@@ -175,12 +185,18 @@ impl Motion {
         self.batch().samples_into(times, attitudes, rates)
     }
 
-    /// The largest distance from the epoch at which the motion has a phase.
+    /// The largest distance from the epoch that is evaluated.
     pub(crate) fn bound(&self) -> f64 {
-        // A body at rest, or one that turns once in 1e285 units, is still bounded.
-        let phases = (MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude).min(LONGEST);
-        match &self.course {
-            Course::Gradient(gradient) => phases.min(gradient.bound()),
+        self.reach().0
+    }
+
+    /// The largest distance from the epoch that is evaluated, and why there is one.
+    fn reach(&self) -> (f64, &'static str) {
+        // A body at rest, or one that turns once in 1e285 units, is still bounded, so that no sum of two times overflows.
+        let phases = MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude;
+        let phases = if phases < LONGEST { (phases, ": farther away the motion has no phase") } else { (LONGEST, "") };
+        match &self.trajectory {
+            Trajectory::Gradient(gradient) if gradient.bound() < phases.0 => (gradient.bound(), SOLVED),
             _ => phases,
         }
     }
@@ -196,8 +212,7 @@ impl Motion {
     }
 
     pub(crate) fn no_phase(&self, index: usize, times: &[f64]) -> Error {
-        let bound = self.bound();
-        let reason = if bound < LONGEST { ": farther away the motion has no phase" } else { "" };
+        let (bound, reason) = self.reach();
         Error::Time { index, value: times[index], bound, reason }
     }
 }

@@ -4,14 +4,14 @@ use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use pulp::Arch;
 
-use super::{Course, Evaluation};
+use super::{Evaluation, Trajectory};
 use crate::numerics::phase::Phase;
-use crate::simd::instruction_set::{Level, Task, dispatch};
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
 use crate::simd::outputs::Outputs;
-use crate::torque_free::harmonics::QuaternionSeries;
-use crate::torque_free::polhode::{Frame, Place};
-use crate::torque_free::wobble::Wobble;
+use crate::torque_free::harmonics::CayleyKleinSeries;
+use crate::torque_free::polhode::{Frame, UserFrame};
+use crate::torque_free::wobble::{Wobble, WobbleEvaluator};
 
 const SIZES: [usize; 12] = [0, 1, 2, 7, 8, 9, 63, 64, 65, 511, 1000, 1537];
 
@@ -58,7 +58,7 @@ impl Task for At<'_> {
     type Output = Vec<(f64, f64)>;
 
     #[inline(always)]
-    fn run<S: Level>(self, simd: S) -> Self::Output {
+    fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
         let mut circles = Vec::new();
         for times in self.1.chunks(Lanes::<S>::WIDTH) {
             let (sine, cosine) = self.0.sin_cos((Lanes::load(simd, times), Lanes::splat(simd, 0.0)));
@@ -147,13 +147,14 @@ impl Case {
         }
     }
 
-    fn course(&self) -> Course {
-        Course::polhode(&Wobble {
+    fn trajectory(&self) -> Trajectory {
+        let wobble = Wobble {
             anomaly: Phase::new(self.rates[0], self.starts[0]),
             half_longitude: Phase::new(self.rates[1], self.starts[1]),
-            series: QuaternionSeries::from_terms(self.terms.clone()),
-            place: Place { inertial: self.inertial, frame: self.frame.clone(), rates: self.factors },
-        })
+            series: CayleyKleinSeries::from_terms(self.terms.clone()),
+            place: UserFrame { inertial: self.inertial, frame: self.frame.clone(), rates: self.factors },
+        };
+        Trajectory::Wobble(Box::new(WobbleEvaluator::new(&wobble)))
     }
 
     /// Attitude and rates by theory §8, harmonic by harmonic.
@@ -181,15 +182,15 @@ impl Case {
     }
 }
 
-fn evaluation(course: &Course, arch: Arch) -> Evaluation<'_> {
-    Evaluation { course, epoch: 0.0, bound: 1e15, arch }
+fn evaluation(trajectory: &Trajectory, arch: Arch) -> Evaluation<'_> {
+    Evaluation { trajectory, epoch: 0.0, bound: 1e15, arch }
 }
 
 type Both = (Vec<[f64; 4]>, Vec<[f64; 3]>);
 
-fn both(course: &Course, arch: Arch, times: &[f64], threads: usize) -> Both {
+fn both(trajectory: &Trajectory, arch: Arch, times: &[f64], threads: usize) -> Both {
     let (mut attitudes, mut rates) = (vec![[0.0; 4]; times.len()], vec![[0.0; 3]; times.len()]);
-    evaluation(course, arch).fill(times, Outputs::Both(&mut attitudes, &mut rates), threads).expect("valid times");
+    evaluation(trajectory, arch).fill(times, Outputs::Both(&mut attitudes, &mut rates), threads).expect("valid times");
     (attitudes, rates)
 }
 
@@ -219,11 +220,11 @@ fn every_level_holds_the_reference_at_any_number_of_terms() {
         (40, 0.7, 6e-15),
     ] {
         let case = Case::new(&mut draw, terms, ratio);
-        let course = case.course();
+        let trajectory = case.trajectory();
         let times = uneven(&mut draw, 300);
         let (attitudes, rates): Both = times.iter().map(|&time| case.reference(time)).unzip();
         for arch in archs() {
-            let (found_attitudes, found_rates) = both(&course, arch, &times, 1);
+            let (found_attitudes, found_rates) = both(&trajectory, arch, &times, 1);
             let (attitude, rate) = (apart(&attitudes, &found_attitudes), apart(&rates, &found_rates));
             assert!(attitude <= bound && rate <= bound, "{arch:?}, {terms} terms: {attitude:e} {rate:e}");
         }
@@ -233,16 +234,16 @@ fn every_level_holds_the_reference_at_any_number_of_terms() {
 #[test]
 fn any_size_and_either_output_alone_give_the_bits_of_both_together() {
     let mut draw = Draw(4);
-    let course = Case::new(&mut draw, 3, 0.1).course();
+    let trajectory = Case::new(&mut draw, 3, 0.1).trajectory();
     for arch in archs() {
         for size in SIZES {
             for times in [uneven(&mut draw, size), (0..size).map(|k| 0.1 * k as f64).collect()] {
-                let (attitudes, rates) = both(&course, arch, &times, 1);
+                let (attitudes, rates) = both(&trajectory, arch, &times, 1);
                 let mut alone = vec![[f64::NAN; 4]; size];
-                evaluation(&course, arch).fill(&times, Outputs::Attitudes(&mut alone), 1).expect("valid times");
+                evaluation(&trajectory, arch).fill(&times, Outputs::Attitudes(&mut alone), 1).expect("valid times");
                 assert_eq!(alone, attitudes, "{arch:?} {size}");
                 let mut alone = vec![[f64::NAN; 3]; size];
-                evaluation(&course, arch).fill(&times, Outputs::Rates(&mut alone), 1).expect("valid times");
+                evaluation(&trajectory, arch).fill(&times, Outputs::Rates(&mut alone), 1).expect("valid times");
                 assert_eq!(alone, rates, "{arch:?} {size}");
             }
         }
@@ -253,9 +254,9 @@ fn any_size_and_either_output_alone_give_the_bits_of_both_together() {
 fn levels_with_fused_additions_give_the_same_bits() {
     let mut draw = Draw(5);
     for (terms, ratio) in [(4, 0.1), (30, 0.8)] {
-        let course = Case::new(&mut draw, terms, ratio).course();
+        let trajectory = Case::new(&mut draw, terms, ratio).trajectory();
         for times in [uneven(&mut draw, 2000), (0..2000).map(|k| 3.0 + 0.1 * k as f64).collect()] {
-            let fused = archs().into_iter().skip(1).map(|arch| both(&course, arch, &times, 1));
+            let fused = archs().into_iter().skip(1).map(|arch| both(&trajectory, arch, &times, 1));
             let results: Vec<Both> = fused.collect();
             assert!(results.windows(2).all(|pair| pair[0] == pair[1]));
         }
@@ -265,14 +266,14 @@ fn levels_with_fused_additions_give_the_same_bits() {
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     let mut draw = Draw(6);
-    let course = Case::new(&mut draw, 3, 0.1).course();
+    let trajectory = Case::new(&mut draw, 3, 0.1).trajectory();
     let size = 5 * super::SAMPLES_PER_THREAD + 77;
     for times in [uneven(&mut draw, size), (0..size).map(|k| 7.0 + 0.01 * k as f64).collect()] {
-        let one = both(&course, Arch::new(), &times, 1);
+        let one = both(&trajectory, Arch::new(), &times, 1);
         // The pool of a small machine has too few threads to cut so often.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(5).build().expect("threads");
         for threads in [2, 3, 5] {
-            assert!(pool.install(|| both(&course, Arch::new(), &times, threads)) == one, "{threads}");
+            assert!(pool.install(|| both(&trajectory, Arch::new(), &times, threads)) == one, "{threads}");
         }
     }
 }
@@ -281,7 +282,7 @@ fn any_number_of_threads_gives_the_same_bits() {
 fn uniform_times_agree_with_the_same_times_one_by_one() {
     // A table's circle has three roundings more for each phase, and 2e-16 of the deviation's square: 1e-15 in all.
     let mut draw = Draw(7);
-    let course = Case::new(&mut draw, 3, 0.1).course();
+    let trajectory = Case::new(&mut draw, 3, 0.1).trajectory();
     let size = 3000;
     let even = |start: f64, step: f64| (0..size).map(|k| start + step * k as f64).collect::<Vec<_>>();
     let mut broken = even(0.0, 0.1);
@@ -300,9 +301,9 @@ fn uniform_times_agree_with_the_same_times_one_by_one() {
     ];
     for times in grids {
         for arch in archs() {
-            let (attitudes, rates) = both(&course, arch, &times, 1);
+            let (attitudes, rates) = both(&trajectory, arch, &times, 1);
             // Too few times for a table.
-            let parts: Vec<Both> = times.chunks(100).map(|part| both(&course, arch, part, 1)).collect();
+            let parts: Vec<Both> = times.chunks(100).map(|part| both(&trajectory, arch, part, 1)).collect();
             let direct_attitudes: Vec<[f64; 4]> = parts.iter().flat_map(|part| part.0.clone()).collect();
             let direct_rates: Vec<[f64; 3]> = parts.iter().flat_map(|part| part.1.clone()).collect();
             let (attitude, rate) = (apart(&attitudes, &direct_attitudes), apart(&rates, &direct_rates));
@@ -314,8 +315,8 @@ fn uniform_times_agree_with_the_same_times_one_by_one() {
 #[test]
 fn the_table_serves_uniform_times_and_leaves_others() {
     let mut draw = Draw(8);
-    let course = Case::new(&mut draw, 3, 0.1).course();
-    let grid = |times: &[f64]| super::Grid::new(Arch::new(), course.phases().expect("two phases"), times).is_some();
+    let trajectory = Case::new(&mut draw, 3, 0.1).trajectory();
+    let grid = |times: &[f64]| super::Grid::new(Arch::new(), trajectory.phases().expect("two phases"), times).is_some();
     assert!(grid(&(0..3000).map(|k| 17.0 + 0.1 * f64::from(k)).collect::<Vec<_>>()));
     assert!(!grid(&uneven(&mut draw, 3000)));
     assert!(!grid(&[f64::INFINITY; 3000]) && !grid(&[f64::NAN; 3000]));
@@ -323,14 +324,14 @@ fn the_table_serves_uniform_times_and_leaves_others() {
 
 #[test]
 fn the_first_time_without_a_phase_is_named() {
-    let course = Case::new(&mut Draw(9), 2, 0.1).course();
+    let trajectory = Case::new(&mut Draw(9), 2, 0.1).trajectory();
     for arch in archs() {
         for wrong in [f64::NAN, f64::INFINITY, -f64::INFINITY, 1.1e15] {
             for place in [0, 5, 511, 512, 999, 40_000] {
                 let mut times: Vec<f64> = (0..50_000).map(f64::from).collect();
                 (times[place], times[49_000]) = (wrong, wrong);
                 let mut rates = vec![[0.0; 3]; times.len()];
-                let found = evaluation(&course, arch).fill(&times, Outputs::Rates(&mut rates), 4);
+                let found = evaluation(&trajectory, arch).fill(&times, Outputs::Rates(&mut rates), 4);
                 assert_eq!(found, Err(place), "{arch:?} {wrong}");
             }
         }

@@ -8,22 +8,20 @@
 //! in functions with target features, which the compiler is to make vectors of, 31, 15 and 11.7; `wide` takes its instructions when it is compiled,
 //! and cannot be dispatched.
 
-use nalgebra::Vector3;
 use pulp::Arch;
 
 use crate::gravity_gradient::disturbed::Gradient;
-use crate::input::state::State;
 use crate::numerics::phase::Phase;
 use crate::simd::circles::{Evaluate, Source};
 use crate::simd::grid::{GROUP, Grid};
-use crate::simd::instruction_set::{Level, Task, dispatch};
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
 use crate::simd::outputs::Outputs;
 use crate::simd::phase::elapsed;
 use crate::simd::run::Run;
-use crate::torque_free::separatrix::Flip;
+use crate::torque_free::separatrix::Passage;
 use crate::torque_free::steady::Steady;
-use crate::torque_free::wobble::{Tables, Wobble};
+use crate::torque_free::wobble::WobbleEvaluator;
 
 #[cfg(test)]
 #[path = "tests.rs"]
@@ -34,42 +32,32 @@ const SAMPLES_PER_THREAD: usize = 16_384;
 
 /// How a motion goes on from its epoch.
 #[derive(Clone, Debug)]
-pub(crate) enum Course {
+pub(crate) enum Trajectory {
     /// Rotation about an axis fixed in the body.
     Steady(Box<Steady>),
     /// A polhode.
-    Polhode(Box<Tables>),
+    Wobble(Box<WobbleEvaluator>),
     /// A polhode next to the separatrix or on it.
-    Flip(Box<Flip>),
+    Passage(Box<Passage>),
     /// Any of them under a gravity gradient.
     Gradient(Box<Gradient>),
 }
 
-impl Course {
-    /// Rotation about a unit axis of the body, or the zero vector for none, with the phase of half the angle.
-    pub(crate) fn steady(state: &State, axis: Vector3<f64>, half_angle: Phase) -> Self {
-        Self::Steady(Box::new(Steady::new(axis, half_angle, state.attitude, state.angular_velocity)))
-    }
-
+impl Trajectory {
     /// ℓ′ and y′/2, where sines and cosines of them are all that is needed.
     fn phases(&self) -> Option<[&Phase; 2]> {
         match self {
             Self::Steady(steady) => Some(steady.phases()),
-            Self::Polhode(tables) => Some(tables.phases()),
-            Self::Flip(_) | Self::Gradient(_) => None,
+            Self::Wobble(tables) => Some(tables.phases()),
+            Self::Passage(_) | Self::Gradient(_) => None,
         }
-    }
-
-    /// A wobble, with what its evaluation takes from it.
-    pub(crate) fn polhode(wobble: &Wobble) -> Self {
-        Self::Polhode(Box::new(Tables::new(wobble)))
     }
 }
 
 /// A motion, the times that it has a phase at, and how to compute.
 #[derive(Clone, Copy)]
 pub(crate) struct Evaluation<'a> {
-    pub(crate) course: &'a Course,
+    pub(crate) trajectory: &'a Trajectory,
     pub(crate) epoch: f64,
     /// Largest distance from the epoch.
     pub(crate) bound: f64,
@@ -79,7 +67,7 @@ pub(crate) struct Evaluation<'a> {
 impl Evaluation<'_> {
     /// All times, on at most so many threads; or the index of the first that has no phase. Outputs are as long as the times.
     pub(crate) fn fill(&self, times: &[f64], outputs: Outputs<'_>, threads: usize) -> Result<(), usize> {
-        let grid = self.course.phases().and_then(|phases| Grid::new(self.arch, phases, times));
+        let grid = self.trajectory.phases().and_then(|phases| Grid::new(self.arch, phases, times));
         let enough = times.len() / SAMPLES_PER_THREAD;
         // Asking for the pool's size starts it: not for a few samples.
         let threads = if enough.min(threads) <= 1 { 1 } else { enough.min(threads).min(rayon::current_num_threads()) };
@@ -89,8 +77,8 @@ impl Evaluation<'_> {
     /// Halves go to threads. They begin where a group does, so that each sample is computed as it would be by one thread.
     fn spread(&self, times: &[f64], outputs: Outputs<'_>, grid: Option<&Grid>, threads: usize) -> Result<(), usize> {
         if threads <= 1 {
-            let Self { course, epoch, bound, arch } = *self;
-            return dispatch(arch, Stretch { course, run: Run { epoch, bound, times, outputs, grid } });
+            let Self { trajectory, epoch, bound, arch } = *self;
+            return dispatch(arch, Dispatch { trajectory, run: Run { epoch, bound, times, outputs, grid } });
         }
         let half = threads / 2;
         let place = (times.len() / threads * half).next_multiple_of(GROUP).min(times.len());
@@ -105,22 +93,22 @@ impl Evaluation<'_> {
 }
 
 /// A stretch of times for one thread.
-struct Stretch<'a> {
-    course: &'a Course,
+struct Dispatch<'a> {
+    trajectory: &'a Trajectory,
     run: Run<'a>,
 }
 
-impl Task for Stretch<'_> {
+impl Task for Dispatch<'_> {
     type Output = Result<(), usize>;
 
     #[inline(always)]
-    fn run<S: Level>(self, simd: S) -> Self::Output {
-        let Self { course, run } = self;
-        match course {
-            Course::Steady(steady) => run.by_circles(simd, steady.as_ref()),
-            Course::Polhode(tables) => run.by_circles(simd, tables.as_ref()),
-            Course::Flip(flip) => run.one_by_one(|elapsed| flip.evaluate(elapsed)),
-            Course::Gradient(gradient) => {
+    fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
+        let Self { trajectory, run } = self;
+        match trajectory {
+            Trajectory::Steady(steady) => run.by_circles(simd, steady.as_ref()),
+            Trajectory::Wobble(tables) => run.by_circles(simd, tables.as_ref()),
+            Trajectory::Passage(passage) => run.one_by_one(|elapsed| passage.evaluate(elapsed)),
+            Trajectory::Gradient(gradient) => {
                 let epoch = Lanes::splat(simd, run.epoch);
                 run.by_source(simd, Disturbed { gradient, epoch })
             }
@@ -129,12 +117,12 @@ impl Task for Stretch<'_> {
 }
 
 /// Under a gravity gradient.
-struct Disturbed<'a, S: Level> {
+struct Disturbed<'a, S: InstructionSet> {
     gradient: &'a Gradient,
     epoch: Lanes<S>,
 }
 
-impl<S: Level> Source<S> for Disturbed<'_, S> {
+impl<S: InstructionSet> Source<S> for Disturbed<'_, S> {
     #[inline(always)]
     fn at<const ATTITUDE: bool, const RATES: bool>(
         &self,

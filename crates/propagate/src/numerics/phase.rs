@@ -5,9 +5,9 @@ use andoyer_double::DoubleDouble;
 /// An angle that grows with time, in turns.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Phase {
-    /// Turns per unit of time.
+    /// QuaternionLanes per unit of time.
     pub(crate) frequency: DoubleDouble,
-    /// Turns at the epoch: from ½ to 1½, so that it is a multiple of 2^−53, and the rest.
+    /// QuaternionLanes at the epoch: from ½ to 1½, so that it is a multiple of 2^−53, and the rest.
     pub(crate) start: DoubleDouble,
 }
 
@@ -25,7 +25,7 @@ impl Phase {
         Self { start: DoubleDouble::ONE, ..*self }
     }
 
-    /// Turns per unit of time.
+    /// QuaternionLanes per unit of time.
     pub(crate) fn frequency(&self) -> f64 {
         self.frequency.high
     }

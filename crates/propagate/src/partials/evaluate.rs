@@ -14,20 +14,20 @@ use pulp::Arch;
 
 use crate::error::Error;
 use crate::input::scene::Scene;
-use crate::motion::trajectory::Course;
+use crate::motion::trajectory::Trajectory;
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
 use crate::simd::circles::{Circle, Circles, Evaluate};
-use crate::simd::complex_quaternion::Turns;
-use crate::simd::instruction_set::{Level, Task, dispatch};
+use crate::simd::complex_quaternion::QuaternionLanes;
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::{Lanes, WIDEST};
 use crate::simd::phase::elapsed;
 use crate::solve::untruncated;
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
-use crate::torque_free::separatrix::Flip;
+use crate::torque_free::separatrix::Passage;
 use crate::torque_free::steady::Steady;
-use crate::torque_free::wobble::Tables;
+use crate::torque_free::wobble::WobbleEvaluator;
 
 use super::Derivatives;
 use super::constants::{CHANGES, Change, Constants, Setting};
@@ -35,7 +35,7 @@ use super::integral::Integral;
 use super::steady::{Growth, Varied};
 
 /// Attitude, g and what the derivatives of g at some times are computed from.
-pub(super) struct Place<S: Level, T> {
+pub(super) struct Place<S: InstructionSet, T> {
     attitude: [Lanes<S>; 4],
     rates: [Lanes<S>; 3],
     rest: T,
@@ -44,21 +44,26 @@ pub(super) struct Place<S: Level, T> {
 /// How attitude, rates and their derivatives come from the time since the epoch.
 pub(super) trait Source {
     /// What derivatives of g at some times are computed from.
-    type Rest<S: Level>: Copy;
+    type Rest<S: InstructionSet>: Copy;
     /// Whether several times are computed at once.
     const VECTORS: bool = true;
 
-    fn place<S: Level>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S, Self::Rest<S>>;
+    fn place<S: InstructionSet>(
+        &self,
+        simd: S,
+        setting: &Setting,
+        elapsed: (Lanes<S>, Lanes<S>),
+    ) -> Place<S, Self::Rest<S>>;
 
     /// δg and g·δθ for a unit of one parameter.
-    fn change<S: Level>(&self, rest: &Self::Rest<S>, parameter: usize) -> ([Lanes<S>; 3], Lanes<S>);
+    fn change<S: InstructionSet>(&self, rest: &Self::Rest<S>, parameter: usize) -> ([Lanes<S>; 3], Lanes<S>);
 }
 
 /// Sines and cosines of ℓ′ and y′/2 that have been computed.
 #[derive(Clone, Copy)]
-struct Ready<S: Level>([Circle<S>; 2]);
+struct Ready<S: InstructionSet>([Circle<S>; 2]);
 
-impl<S: Level> Circles<S> for Ready<S> {
+impl<S: InstructionSet> Circles<S> for Ready<S> {
     #[inline(always)]
     fn anomaly(self) -> Circle<S> {
         self.0[0]
@@ -71,13 +76,13 @@ impl<S: Level> Circles<S> for Ready<S> {
 }
 
 #[inline(always)]
-fn ready<S: Level>(phases: [&Phase; 2], elapsed: (Lanes<S>, Lanes<S>)) -> Ready<S> {
+fn ready<S: InstructionSet>(phases: [&Phase; 2], elapsed: (Lanes<S>, Lanes<S>)) -> Ready<S> {
     Ready([phases[0].sin_cos(elapsed), phases[1].sin_cos(elapsed)])
 }
 
 /// g, ġ and the time-dependent amplitudes on a polhode.
 #[derive(Clone, Copy)]
-pub(super) struct Polhodic<S: Level> {
+pub(super) struct Polhodic<S: InstructionSet> {
     direction: [Lanes<S>; 3],
     slope: [Lanes<S>; 3],
     /// The r_i that belongs to each of the user's axes.
@@ -126,7 +131,7 @@ impl Amplitudes {
     }
 
     #[inline(always)]
-    fn polhodic<S: Level>(
+    fn polhodic<S: InstructionSet>(
         &self,
         setting: &Setting,
         rates: [Lanes<S>; 3],
@@ -150,7 +155,7 @@ impl Amplitudes {
     }
 
     #[inline(always)]
-    fn change<S: Level>(&self, rest: &Polhodic<S>, parameter: usize) -> ([Lanes<S>; 3], Lanes<S>) {
+    fn change<S: InstructionSet>(&self, rest: &Polhodic<S>, parameter: usize) -> ([Lanes<S>; 3], Lanes<S>) {
         let Polhodic { direction, slope, squares, time, swing } = *rest;
         let Constants { growth, half_beta, delay, drift, turn, swing: work } = self.constants[parameter];
         let half = time.all(half_beta);
@@ -166,16 +171,21 @@ impl Amplitudes {
 
 /// A wobble by its Fourier series.
 pub(super) struct Wobbling<'a> {
-    pub(super) tables: &'a Tables,
+    pub(super) tables: &'a WobbleEvaluator,
     pub(super) integral: &'a Integral,
     pub(super) amplitudes: &'a Amplitudes,
 }
 
 impl Source for Wobbling<'_> {
-    type Rest<S: Level> = Polhodic<S>;
+    type Rest<S: InstructionSet> = Polhodic<S>;
 
     #[inline(always)]
-    fn place<S: Level>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S, Polhodic<S>> {
+    fn place<S: InstructionSet>(
+        &self,
+        simd: S,
+        setting: &Setting,
+        elapsed: (Lanes<S>, Lanes<S>),
+    ) -> Place<S, Polhodic<S>> {
         let circles = ready(self.tables.phases(), elapsed);
         let (attitude, rates) = self.tables.evaluate::<S, true, true>(simd, circles);
         let (sine, cosine) = circles.anomaly();
@@ -193,24 +203,29 @@ impl Source for Wobbling<'_> {
     }
 
     #[inline(always)]
-    fn change<S: Level>(&self, rest: &Polhodic<S>, parameter: usize) -> ([Lanes<S>; 3], Lanes<S>) {
+    fn change<S: InstructionSet>(&self, rest: &Polhodic<S>, parameter: usize) -> ([Lanes<S>; 3], Lanes<S>) {
         self.amplitudes.change(rest, parameter)
     }
 }
 
 /// A passage along the separatrix: each time by itself.
 pub(super) struct Passing<'a> {
-    pub(super) flip: &'a Flip,
+    pub(super) flip: &'a Passage,
     pub(super) integral: &'a Integral,
     pub(super) amplitudes: &'a Amplitudes,
 }
 
 impl Source for Passing<'_> {
     const VECTORS: bool = false;
-    type Rest<S: Level> = Polhodic<S>;
+    type Rest<S: InstructionSet> = Polhodic<S>;
 
     #[inline(always)]
-    fn place<S: Level>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S, Polhodic<S>> {
+    fn place<S: InstructionSet>(
+        &self,
+        simd: S,
+        setting: &Setting,
+        elapsed: (Lanes<S>, Lanes<S>),
+    ) -> Place<S, Polhodic<S>> {
         let now = (elapsed.0.values()[0], elapsed.1.values()[0]);
         let (attitude, rates) = self.flip.evaluate(now);
         let zeta = self.integral.zeta_of_passages(self.flip.passage.angle(now));
@@ -220,7 +235,7 @@ impl Source for Passing<'_> {
     }
 
     #[inline(always)]
-    fn change<S: Level>(&self, rest: &Polhodic<S>, parameter: usize) -> ([Lanes<S>; 3], Lanes<S>) {
+    fn change<S: InstructionSet>(&self, rest: &Polhodic<S>, parameter: usize) -> ([Lanes<S>; 3], Lanes<S>) {
         self.amplitudes.change(rest, parameter)
     }
 }
@@ -233,10 +248,15 @@ pub(super) struct Steadily<'a> {
 
 impl Source for Steadily<'_> {
     /// S, C and the time, scaled.
-    type Rest<S: Level> = [Lanes<S>; 3];
+    type Rest<S: InstructionSet> = [Lanes<S>; 3];
 
     #[inline(always)]
-    fn place<S: Level>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S, [Lanes<S>; 3]> {
+    fn place<S: InstructionSet>(
+        &self,
+        simd: S,
+        setting: &Setting,
+        elapsed: (Lanes<S>, Lanes<S>),
+    ) -> Place<S, [Lanes<S>; 3]> {
         let (attitude, rates) = self.course.evaluate::<S, true, true>(simd, ready(self.course.phases(), elapsed));
         let time = elapsed.0 * elapsed.0.all(setting.unit);
         let [first, second] = match &self.varied.growth {
@@ -257,7 +277,7 @@ impl Source for Steadily<'_> {
     }
 
     #[inline(always)]
-    fn change<S: Level>(&self, rest: &[Lanes<S>; 3], parameter: usize) -> ([Lanes<S>; 3], Lanes<S>) {
+    fn change<S: InstructionSet>(&self, rest: &[Lanes<S>; 3], parameter: usize) -> ([Lanes<S>; 3], Lanes<S>) {
         let [first, second, time] = *rest;
         let vectors = &self.varied.vectors[parameter];
         let [start, once, twice, pushed] = vectors.change;
@@ -300,18 +320,18 @@ impl Target<'_> {
         let constants = Constants::all(self.setting, &theta, &integral);
         let anomaly_rate = scaled(exact.frequencies.anomaly, -polhode.scales.1);
         let amplitudes = |start| Amplitudes::new(self.setting, constants, anomaly_rate, theta.quarter, start);
-        match &exact.course {
-            Course::Polhode(tables) => {
+        match &exact.trajectory {
+            Trajectory::Wobble(tables) => {
                 let (sine, cosine) = (2.0 * tables.phases()[0].angle((0.0, 0.0))).sin_cos();
                 let amplitudes = &amplitudes(integral.zeta((sine, cosine)));
                 self.fill(&Wobbling { tables, integral: &integral, amplitudes }, attitudes, rates);
             }
-            Course::Flip(flip) => {
+            Trajectory::Passage(flip) => {
                 let start = integral.zeta_of_passages(flip.passage.angle((0.0, 0.0)));
                 let amplitudes = &amplitudes(start);
                 self.fill(&Passing { flip, integral: &integral, amplitudes }, attitudes, rates);
             }
-            Course::Steady(_) | Course::Gradient(_) => {}
+            Trajectory::Steady(_) | Trajectory::Gradient(_) => {}
         }
         Ok(())
     }
@@ -329,11 +349,11 @@ impl<T: Source> Task for Run<'_, T> {
     type Output = ();
 
     #[inline(always)]
-    fn run<S: Level>(self, simd: S) {
+    fn run<S: InstructionSet>(self, simd: S) {
         let Self { target: Target { times, epoch, initial, setting }, source, attitudes, rates } = self;
         let width = if T::VECTORS { Lanes::<S>::WIDTH } else { 1 };
         let origin = Lanes::splat(simd, epoch);
-        let initial = Turns::all(origin, &initial);
+        let initial = QuaternionLanes::all(origin, &initial);
         let outputs = attitudes.chunks_mut(width).zip(rates.chunks_mut(width));
         for (times, (attitudes, rates)) in times.chunks(width).zip(outputs) {
             let mut block = [times[0]; WIDEST];
@@ -347,16 +367,16 @@ impl<T: Source> Task for Run<'_, T> {
 
 /// All columns at some times.
 #[inline(always)]
-fn columns<S: Level, T: Source>(
+fn columns<S: InstructionSet, T: Source>(
     place: &Place<S, T::Rest<S>>,
     source: &T,
     setting: &Setting,
-    initial: Turns<S>,
+    initial: QuaternionLanes<S>,
     (attitudes, rates): (&mut [Derivatives], &mut [Derivatives]),
 ) {
     let Place { attitude: [x, y, z, w], rates: rate, rest } = place;
     let one = x.all(1.0);
-    let carried = (Turns([-*x, -*y, -*z, *w]) * initial).rows();
+    let carried = (QuaternionLanes([-*x, -*y, -*z, *w]) * initial).rows();
     let mut direction = *rate;
     for (g, nu) in direction.iter_mut().zip(setting.user_rates) {
         *g = *g * one.all(1.0 / nu);
@@ -389,7 +409,7 @@ fn columns<S: Level, T: Source>(
 
 /// One column of as many matrices as there are rows left.
 #[inline(always)]
-fn store<S: Level>(matrices: &mut [Derivatives], column: usize, vector: [Lanes<S>; 3]) {
+fn store<S: InstructionSet>(matrices: &mut [Derivatives], column: usize, vector: [Lanes<S>; 3]) {
     for (row, component) in vector.iter().enumerate() {
         for (matrix, value) in matrices.iter_mut().zip(component.values()) {
             matrix[row][column] = *value;

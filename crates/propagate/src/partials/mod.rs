@@ -17,7 +17,7 @@ use nalgebra::{Matrix3, SMatrix};
 
 use crate::error::Error;
 use crate::motion::solved::{Motion, length};
-use crate::motion::trajectory::Course;
+use crate::motion::trajectory::Trajectory;
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
 
@@ -100,9 +100,9 @@ impl Motion {
         let mode = self.plan.mode();
         let setting = Setting::new(&polhode, self.scene.body().moments());
         let target = Target { times, epoch, initial: self.scene.state().attitude, setting: &setting };
-        match &self.course {
+        match &self.trajectory {
             _ if mode == Mode::Separatrix => Err(Error::SeparatrixPartials),
-            Course::Steady(course) => {
+            Trajectory::Steady(course) => {
                 let varied = Varied::new(&polhode, &setting, mode);
                 let bound = varied.bound();
                 if let Some(index) = times.iter().position(|time| (time - epoch).abs() > bound) {
@@ -112,8 +112,10 @@ impl Motion {
                 target.fill(&Steadily { course, varied: &varied }, attitudes, rates);
                 Ok(())
             }
-            Course::Gradient(_) => differences::fill(self, times, attitudes, rates),
-            Course::Polhode(_) | Course::Flip(_) => target.wobbling(&self.scene, &polhode, mode, (attitudes, rates)),
+            Trajectory::Gradient(_) => differences::fill(self, times, attitudes, rates),
+            Trajectory::Wobble(_) | Trajectory::Passage(_) => {
+                target.wobbling(&self.scene, &polhode, mode, (attitudes, rates))
+            }
         }
     }
 }

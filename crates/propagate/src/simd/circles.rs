@@ -1,6 +1,6 @@
 //! What a kernel is generic over: where sines and cosines come from, and what is computed from them.
 
-use super::instruction_set::Level;
+use super::instruction_set::InstructionSet;
 use super::lanes::Lanes;
 use crate::numerics::phase::Phase;
 
@@ -8,7 +8,7 @@ use crate::numerics::phase::Phase;
 pub(crate) type Circle<S> = (Lanes<S>, Lanes<S>);
 
 /// Sines and cosines of ℓ′ and y′/2 at some times.
-pub(crate) trait Circles<S: Level>: Copy {
+pub(crate) trait Circles<S: InstructionSet>: Copy {
     /// That of ℓ′.
     fn anomaly(self) -> Circle<S>;
     /// That of y′/2.
@@ -16,7 +16,7 @@ pub(crate) trait Circles<S: Level>: Copy {
 }
 
 /// What gives attitude and rates at some times, as far as they are asked for.
-pub(crate) trait Source<S: Level> {
+pub(crate) trait Source<S: InstructionSet> {
     /// At the times from a place on.
     fn at<const ATTITUDE: bool, const RATES: bool>(
         &self,
@@ -31,7 +31,7 @@ pub(crate) trait Evaluate {
     fn phases(&self) -> [&Phase; 2];
 
     /// Attitude and rates, as far as they are asked for.
-    fn evaluate<S: Level, const ATTITUDE: bool, const RATES: bool>(
+    fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
         &self,
         simd: S,
         circles: impl Circles<S>,

@@ -4,17 +4,17 @@ use std::ops::{Add, Mul};
 
 use nalgebra::{Quaternion, Vector3};
 
-use super::instruction_set::Level;
+use super::instruction_set::InstructionSet;
 use super::lanes::Lanes;
 
 /// Complex numbers.
 #[derive(Clone, Copy)]
-pub(crate) struct Plane<S: Level> {
+pub(crate) struct ComplexLanes<S: InstructionSet> {
     pub(crate) re: Lanes<S>,
     pub(crate) im: Lanes<S>,
 }
 
-impl<S: Level> Add for Plane<S> {
+impl<S: InstructionSet> Add for ComplexLanes<S> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -22,7 +22,7 @@ impl<S: Level> Add for Plane<S> {
     }
 }
 
-impl<S: Level> Mul for Plane<S> {
+impl<S: InstructionSet> Mul for ComplexLanes<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -33,7 +33,7 @@ impl<S: Level> Mul for Plane<S> {
     }
 }
 
-impl<S: Level> Plane<S> {
+impl<S: InstructionSet> ComplexLanes<S> {
     /// self + a·b.
     #[inline(always)]
     pub(crate) fn plus(self, a: Self, b: Self) -> Self {
@@ -57,9 +57,9 @@ impl<S: Level> Plane<S> {
 
 /// Quaternions x, y, z, w.
 #[derive(Clone, Copy)]
-pub(crate) struct Turns<S: Level>(pub(crate) [Lanes<S>; 4]);
+pub(crate) struct QuaternionLanes<S: InstructionSet>(pub(crate) [Lanes<S>; 4]);
 
-impl<S: Level> Turns<S> {
+impl<S: InstructionSet> QuaternionLanes<S> {
     #[inline(always)]
     pub(crate) fn all(like: Lanes<S>, quaternion: &Quaternion<f64>) -> Self {
         let [x, y, z, w] = [quaternion.i, quaternion.j, quaternion.k, quaternion.w];
@@ -93,7 +93,7 @@ impl<S: Level> Turns<S> {
     }
 }
 
-impl<S: Level> Mul for Turns<S> {
+impl<S: InstructionSet> Mul for QuaternionLanes<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {

@@ -8,7 +8,7 @@
 use pulp::Arch;
 
 use super::circles::{Circle, Circles};
-use super::instruction_set::{self, Level, Task};
+use super::instruction_set::{self, InstructionSet, Task};
 use super::lanes::Lanes;
 use super::phase::elapsed;
 use crate::numerics::phase::Phase;
@@ -23,7 +23,7 @@ const FEWEST: usize = 8 * BLOCK;
 const LARGEST_DEVIATION: f64 = 2e-8;
 
 /// Sine and cosine of the two phases.
-type Pair = [[f64; 2]; 2];
+type Seed = [[f64; 2]; 2];
 
 /// The table of a step.
 #[derive(Debug)]
@@ -68,7 +68,7 @@ impl Grid {
 
     /// Whether a block of times is whole, and uniform.
     #[inline(always)]
-    pub(super) fn holds<S: Level>(&self, simd: S, times: &[f64]) -> bool {
+    pub(super) fn holds<S: InstructionSet>(&self, simd: S, times: &[f64]) -> bool {
         let base = times[0];
         let exact = base == 0.0 || base.abs() >= 2.0 * BLOCK as f64 * self.step.abs();
         if times.len() < BLOCK || !exact {
@@ -85,13 +85,13 @@ impl Grid {
 
     /// The first factors of the blocks of a group.
     #[inline(always)]
-    pub(super) fn seeds<S: Level>(
+    pub(super) fn seeds<S: InstructionSet>(
         &self,
         simd: S,
         phases: [&Phase; 2],
         times: &[f64],
         epoch: f64,
-    ) -> [Pair; GROUP / BLOCK] {
+    ) -> [Seed; GROUP / BLOCK] {
         let mut bases = [0.0; GROUP / BLOCK];
         for (base, block) in bases.iter_mut().zip(times.chunks(BLOCK)) {
             *base = block[0];
@@ -111,7 +111,7 @@ impl Grid {
 
     /// What a block that [`Grid::holds`] is computed from.
     #[inline(always)]
-    pub(super) fn tabled<S: Level>(&self, simd: S, base: f64, seed: &Pair) -> Tabled<'_, S> {
+    pub(super) fn tabled<S: InstructionSet>(&self, simd: S, base: f64, seed: &Seed) -> Tabled<'_, S> {
         Tabled {
             grid: self,
             base: Lanes::splat(simd, base),
@@ -130,7 +130,7 @@ impl Task for Fill<'_> {
     type Output = [[[f64; BLOCK]; 2]; 2];
 
     #[inline(always)]
-    fn run<S: Level>(self, simd: S) -> Self::Output {
+    fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
         let mut table = [[[0.0; BLOCK]; 2]; 2];
         for (circles, phase) in table.iter_mut().zip(self.phases) {
             let width = Lanes::<S>::WIDTH;
@@ -147,7 +147,7 @@ impl Task for Fill<'_> {
 
 /// A block of a grid.
 #[derive(Clone, Copy)]
-pub(super) struct Tabled<'a, S: Level> {
+pub(super) struct Tabled<'a, S: InstructionSet> {
     grid: &'a Grid,
     base: Lanes<S>,
     seeds: [[Lanes<S>; 2]; 2],
@@ -155,13 +155,13 @@ pub(super) struct Tabled<'a, S: Level> {
 
 /// Some times of a block.
 #[derive(Clone, Copy)]
-pub(super) struct TabledCircles<'a, S: Level> {
+pub(super) struct TabledCircles<'a, S: InstructionSet> {
     block: Tabled<'a, S>,
     place: usize,
     deviation: Lanes<S>,
 }
 
-impl<'a, S: Level> Tabled<'a, S> {
+impl<'a, S: InstructionSet> Tabled<'a, S> {
     #[inline(always)]
     pub(super) fn at(&self, place: usize, times: Lanes<S>) -> TabledCircles<'a, S> {
         let offset = times.like(&self.grid.offsets[place..]);
@@ -169,7 +169,7 @@ impl<'a, S: Level> Tabled<'a, S> {
     }
 }
 
-impl<S: Level> TabledCircles<'_, S> {
+impl<S: InstructionSet> TabledCircles<'_, S> {
     #[inline(always)]
     fn circle(self, phase: usize) -> Circle<S> {
         let [sines, cosines] = &self.block.grid.table[phase];
@@ -182,7 +182,7 @@ impl<S: Level> TabledCircles<'_, S> {
     }
 }
 
-impl<S: Level> Circles<S> for TabledCircles<'_, S> {
+impl<S: InstructionSet> Circles<S> for TabledCircles<'_, S> {
     #[inline(always)]
     fn anomaly(self) -> Circle<S> {
         self.circle(0)

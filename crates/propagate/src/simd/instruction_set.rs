@@ -6,7 +6,7 @@
 use pulp::{Arch, NullaryFnOnce, Simd, bytemuck, cast};
 
 /// An instruction set.
-pub(crate) trait Level: Simd {
+pub(crate) trait InstructionSet: Simd {
     /// Whether `mul_add` rounds once.
     const FUSED: bool = true;
 
@@ -31,12 +31,12 @@ pub(crate) trait Task {
     type Output;
 
     /// Does it; to be inlined, so that it is compiled for the set.
-    fn run<S: Level>(self, simd: S) -> Self::Output;
+    fn run<S: InstructionSet>(self, simd: S) -> Self::Output;
 }
 
 struct On<S, T>(S, T);
 
-impl<S: Level, T: Task> NullaryFnOnce for On<S, T> {
+impl<S: InstructionSet, T: Task> NullaryFnOnce for On<S, T> {
     type Output = T::Output;
 
     #[inline(always)]
@@ -72,7 +72,7 @@ fn rows<S: Simd, const N: usize>(columns: [S::f64s; N]) -> [S::f64s; N] {
 }
 
 /// One lane, without a fused multiply-add: what every machine has.
-impl Level for pulp::Scalar {
+impl InstructionSet for pulp::Scalar {
     const FUSED: bool = false;
 
     #[inline(always)]
@@ -87,12 +87,12 @@ impl Level for pulp::Scalar {
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
-    use super::{Level, Simd, cast};
+    use super::{InstructionSet, Simd, cast};
     use pulp::x86::{V3, V4};
     use pulp::{f64x4, f64x8, u64x4, u64x8};
 
     /// AVX2 and FMA: four lanes.
-    impl Level for V3 {
+    impl InstructionSet for V3 {
         #[inline(always)]
         fn turned(self, sine: f64x4, cosine: f64x4, quarters: u64x4) -> (f64x4, f64x4) {
             let odd = cast(self.shl_const_u64x4::<63>(quarters));
@@ -136,7 +136,7 @@ mod x86 {
     }
 
     /// AVX-512: eight lanes.
-    impl Level for V4 {
+    impl InstructionSet for V4 {
         #[inline(always)]
         fn turned(self, sine: f64x8, cosine: f64x8, quarters: u64x8) -> (f64x8, f64x8) {
             let odd = self.avx512f._mm512_test_epi64_mask(cast(quarters), cast(self.splat_u64s(1)));
@@ -192,12 +192,12 @@ mod x86 {
 
 #[cfg(target_arch = "aarch64")]
 mod aarch64 {
-    use super::{Level, Simd, cast};
+    use super::{InstructionSet, Simd, cast};
     use pulp::aarch64::Neon;
     use pulp::{f64x2, u64x2};
 
     /// NEON: two lanes.
-    impl Level for Neon {
+    impl InstructionSet for Neon {
         #[inline(always)]
         fn turned(self, sine: f64x2, cosine: f64x2, quarters: u64x2) -> (f64x2, f64x2) {
             let one = self.splat_u64s(1);

@@ -5,13 +5,13 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::instruction_set::Level;
+use super::instruction_set::InstructionSet;
 use super::lanes::Lanes;
 use super::sincos::{sin_cos_of_turns, twice_arc};
 
 /// Where on its ellipse the disturbing body is, at some times.
 #[derive(Clone, Copy)]
-pub(crate) struct Place<S: Level> {
+pub(crate) struct Place<S: InstructionSet> {
     /// The true anomaly, in [−π, π] \[rad\].
     pub(crate) angle: Lanes<S>,
     /// The true anomaly less the mean one, by no difference of them.
@@ -21,7 +21,7 @@ pub(crate) struct Place<S: Level> {
     pub(crate) cosine: Lanes<S>,
 }
 
-impl<S: Level> Place<S> {
+impl<S: InstructionSet> Place<S> {
     /// From the mean anomaly, in [−π, π] or a rounding beyond.
     #[inline(always)]
     pub(crate) fn of(mean_anomaly: Lanes<S>, eccentricity: f64) -> Self {
@@ -47,7 +47,7 @@ impl<S: Level> Place<S> {
 
 /// E from Kepler's equation E − e sin E = M, for M in [−π, π] and 0 ≤ e < 1.
 #[inline(always)]
-pub(crate) fn eccentric_anomaly<S: Level>(m: Lanes<S>, e: f64) -> Lanes<S> {
+pub(crate) fn eccentric_anomaly<S: InstructionSet>(m: Lanes<S>, e: f64) -> Lanes<S> {
     let all = |value: f64| m.all(value);
     let mut anomaly = starter(m, e);
     for _ in 0..2 {
@@ -67,7 +67,7 @@ pub(crate) fn eccentric_anomaly<S: Level>(m: Lanes<S>, e: f64) -> Lanes<S> {
 
 /// E − sin E without cancellation.
 #[inline(always)]
-fn excess<S: Level>(anomaly: Lanes<S>, sine: Lanes<S>) -> Lanes<S> {
+fn excess<S: InstructionSet>(anomaly: Lanes<S>, sine: Lanes<S>) -> Lanes<S> {
     // x³/3! − x⁵/5! + …: the term x^21/21! is 2e-20 of the sum at x = 1.
     let square = anomaly * anomaly;
     let mut sum = anomaly.all(0.0);
@@ -79,7 +79,7 @@ fn excess<S: Level>(anomaly: Lanes<S>, sine: Lanes<S>) -> Lanes<S> {
 
 /// The root of the cubic that a Padé approximation of the sine makes of Kepler's equation.
 #[inline(always)]
-fn starter<S: Level>(m: Lanes<S>, e: f64) -> Lanes<S> {
+fn starter<S: InstructionSet>(m: Lanes<S>, e: f64) -> Lanes<S> {
     let all = |value: f64| m.all(value);
     let scale = 1.6 * PI / (1.0 + e) / (PI * PI - 6.0);
     let alpha = (all(PI) - m.magnitude()).mul_add(all(scale), all(3.0 * PI * PI / (PI * PI - 6.0)));

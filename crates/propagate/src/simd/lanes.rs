@@ -7,7 +7,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use pulp::bytemuck;
 
-use super::instruction_set::Level;
+use super::instruction_set::InstructionSet;
 
 /// Vectors worked on side by side.
 pub(crate) const STRANDS: usize = 2;
@@ -20,7 +20,7 @@ pub(crate) const INTEGERS: f64 = 6_755_399_441_055_744.0;
 
 /// Vectors of doubles. With a fused multiply-add `mul_add` rounds once, without one twice; everything else has the same bits everywhere.
 #[derive(Clone, Copy)]
-pub(crate) struct Lanes<S: Level> {
+pub(crate) struct Lanes<S: InstructionSet> {
     simd: S,
     strands: [S::f64s; STRANDS],
 }
@@ -38,7 +38,7 @@ macro_rules! strands {
     }};
 }
 
-impl<S: Level> Add for Lanes<S> {
+impl<S: InstructionSet> Add for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -46,7 +46,7 @@ impl<S: Level> Add for Lanes<S> {
     }
 }
 
-impl<S: Level> Sub for Lanes<S> {
+impl<S: InstructionSet> Sub for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -54,7 +54,7 @@ impl<S: Level> Sub for Lanes<S> {
     }
 }
 
-impl<S: Level> Mul for Lanes<S> {
+impl<S: InstructionSet> Mul for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -62,7 +62,7 @@ impl<S: Level> Mul for Lanes<S> {
     }
 }
 
-impl<S: Level> Div for Lanes<S> {
+impl<S: InstructionSet> Div for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
@@ -70,7 +70,7 @@ impl<S: Level> Div for Lanes<S> {
     }
 }
 
-impl<S: Level> Neg for Lanes<S> {
+impl<S: InstructionSet> Neg for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -78,7 +78,7 @@ impl<S: Level> Neg for Lanes<S> {
     }
 }
 
-impl<S: Level> Lanes<S> {
+impl<S: InstructionSet> Lanes<S> {
     /// How many doubles.
     pub(crate) const WIDTH: usize = STRANDS * S::F64_LANES;
 

@@ -3,7 +3,7 @@
 //! In double precision alone n·t is wrong by 6e-7 rad after 1e9 rotations. Here frequency, time since the epoch, product and the phase at the
 //! epoch carry 32 digits, and a phase in turns is reduced by subtracting integers and quarters, which is exact: 1.4e-17 turns are left to rounding.
 
-use super::instruction_set::Level;
+use super::instruction_set::InstructionSet;
 use super::lanes::{INTEGERS, Lanes};
 use super::sincos::sin_cos;
 use crate::numerics::phase::Phase;
@@ -11,7 +11,7 @@ use crate::numerics::phase::Phase;
 impl Phase {
     /// Whole turns since the epoch's own, and the angle beyond them, up to half a turn either way \[rad\].
     #[inline(always)]
-    pub(crate) fn turns_and_angle<S: Level>(&self, elapsed: (Lanes<S>, Lanes<S>)) -> (Lanes<S>, Lanes<S>) {
+    pub(crate) fn turns_and_angle<S: InstructionSet>(&self, elapsed: (Lanes<S>, Lanes<S>)) -> (Lanes<S>, Lanes<S>) {
         let (product, fraction, rest) = self.reduced(elapsed);
         let start = product.all(self.start.high);
         // Knuth's sum.
@@ -39,14 +39,14 @@ impl Phase {
 
     /// (sin, cos) a time `(high, low)` after the epoch.
     #[inline(always)]
-    pub(crate) fn sin_cos<S: Level>(&self, elapsed: (Lanes<S>, Lanes<S>)) -> (Lanes<S>, Lanes<S>) {
+    pub(crate) fn sin_cos<S: InstructionSet>(&self, elapsed: (Lanes<S>, Lanes<S>)) -> (Lanes<S>, Lanes<S>) {
         let (_, fraction, rest) = self.reduced(elapsed);
         self.circle(fraction, rest)
     }
 
     /// (sin, cos) with some turns more.
     #[inline(always)]
-    pub(crate) fn sin_cos_beyond<S: Level>(
+    pub(crate) fn sin_cos_beyond<S: InstructionSet>(
         &self,
         elapsed: (Lanes<S>, Lanes<S>),
         turns: Lanes<S>,
@@ -57,7 +57,7 @@ impl Phase {
 
     /// Frequency × time, what it has beyond an integer, and the rest of the phase but for the turns at the epoch.
     #[inline(always)]
-    fn reduced<S: Level>(&self, elapsed: (Lanes<S>, Lanes<S>)) -> (Lanes<S>, Lanes<S>, Lanes<S>) {
+    fn reduced<S: InstructionSet>(&self, elapsed: (Lanes<S>, Lanes<S>)) -> (Lanes<S>, Lanes<S>, Lanes<S>) {
         let (high, low) = (elapsed.0.all(self.frequency.high), elapsed.0.all(self.frequency.low));
         let product = high * elapsed.0;
         let error = high.product_error(elapsed.0, product);
@@ -67,7 +67,7 @@ impl Phase {
     }
 
     #[inline(always)]
-    fn circle<S: Level>(&self, fraction: Lanes<S>, rest: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+    fn circle<S: InstructionSet>(&self, fraction: Lanes<S>, rest: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
         let (start, integers) = (fraction.all(self.start.high), fraction.all(INTEGERS));
         // Both start and k/4 are multiples of 2^−53, so their difference is exact, and what is left of the sum rounds at 1/8 of a turn.
         let quarters = (start + (fraction + rest)).mul_add(fraction.all(4.0), integers);
@@ -78,7 +78,7 @@ impl Phase {
 
 /// Time since the epoch, with its rounding error.
 #[inline(always)]
-pub(crate) fn elapsed<S: Level>(time: Lanes<S>, epoch: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+pub(crate) fn elapsed<S: InstructionSet>(time: Lanes<S>, epoch: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
     // Knuth's sum of time and −epoch.
     let high = time - epoch;
     let virtual_epoch = time - high;

@@ -4,7 +4,7 @@ use andoyer_double::two_sum;
 
 use super::circles::{Circle, Circles, Evaluate, Source};
 use super::grid::{BLOCK, GROUP, Grid, Tabled};
-use super::instruction_set::Level;
+use super::instruction_set::InstructionSet;
 use super::lanes::{Lanes, WIDEST};
 use super::outputs::Outputs;
 use super::phase::elapsed;
@@ -44,7 +44,7 @@ impl Run<'_> {
 
     /// From a source that has no circles and no grid.
     #[inline(always)]
-    pub(crate) fn by_source<S: Level>(self, simd: S, source: impl Source<S>) -> Result<(), usize> {
+    pub(crate) fn by_source<S: InstructionSet>(self, simd: S, source: impl Source<S>) -> Result<(), usize> {
         let Self { epoch, bound, times, outputs, .. } = self;
         all_within(times, epoch, bound)?;
         match outputs {
@@ -57,7 +57,7 @@ impl Run<'_> {
 
     /// By the circles of a motion.
     #[inline(always)]
-    pub(crate) fn by_circles<S: Level, C: Evaluate>(self, simd: S, course: &C) -> Result<(), usize> {
+    pub(crate) fn by_circles<S: InstructionSet, C: Evaluate>(self, simd: S, course: &C) -> Result<(), usize> {
         let Self { epoch, bound, times, outputs, grid } = self;
         let stretch = Stretch { simd, epoch, bound, course, grid };
         match outputs {
@@ -79,7 +79,7 @@ struct Stretch<'a, S, C> {
     grid: Option<&'a Grid>,
 }
 
-impl<S: Level, C: Evaluate> Stretch<'_, S, C> {
+impl<S: InstructionSet, C: Evaluate> Stretch<'_, S, C> {
     /// Group by group, each after its times are found to be valid.
     #[inline(always)]
     fn fill<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], mut rows: Rows<'_>) -> Result<(), usize> {
@@ -135,7 +135,7 @@ fn all_within(times: &[f64], epoch: f64, bound: f64) -> Result<(), usize> {
 
 /// All lanes at once, and the last times with lanes that lack filled up.
 #[inline(always)]
-fn each<S: Level, const ATTITUDE: bool, const RATES: bool>(
+fn each<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     simd: S,
     times: &[f64],
     (attitudes, rates): Rows<'_>,
@@ -179,19 +179,19 @@ fn part<'a, const ATTITUDE: bool, const RATES: bool>(rows: &'a mut Rows<'_>, sta
 }
 
 /// By the phases of each time.
-struct Direct<'a, S: Level, C> {
+struct Direct<'a, S: InstructionSet, C> {
     course: &'a C,
     simd: S,
     epoch: Lanes<S>,
 }
 
 #[derive(Clone, Copy)]
-struct DirectCircles<'a, S: Level> {
+struct DirectCircles<'a, S: InstructionSet> {
     phases: [&'a Phase; 2],
     elapsed: (Lanes<S>, Lanes<S>),
 }
 
-impl<S: Level, C: Evaluate> Source<S> for Direct<'_, S, C> {
+impl<S: InstructionSet, C: Evaluate> Source<S> for Direct<'_, S, C> {
     #[inline(always)]
     fn at<const ATTITUDE: bool, const RATES: bool>(
         &self,
@@ -203,7 +203,7 @@ impl<S: Level, C: Evaluate> Source<S> for Direct<'_, S, C> {
     }
 }
 
-impl<S: Level> Circles<S> for DirectCircles<'_, S> {
+impl<S: InstructionSet> Circles<S> for DirectCircles<'_, S> {
     #[inline(always)]
     fn anomaly(self) -> Circle<S> {
         self.phases[0].sin_cos(self.elapsed)
@@ -216,13 +216,13 @@ impl<S: Level> Circles<S> for DirectCircles<'_, S> {
 }
 
 /// By the table of a grid.
-struct Blocks<'a, S: Level, C> {
+struct Blocks<'a, S: InstructionSet, C> {
     course: &'a C,
     simd: S,
     tabled: Tabled<'a, S>,
 }
 
-impl<S: Level, C: Evaluate> Source<S> for Blocks<'_, S, C> {
+impl<S: InstructionSet, C: Evaluate> Source<S> for Blocks<'_, S, C> {
     #[inline(always)]
     fn at<const ATTITUDE: bool, const RATES: bool>(
         &self,

@@ -4,7 +4,7 @@
 //! minimax polynomials of degree 5 and 6, found by Remez' exchange in 60 digits with the coefficients rounded one by one, each time fitting the rest
 //! anew: truncation 1.6e-18 and 3.5e-19. 2π is carried with its tail, so with a fused product the sine is rounded once. Largest error 1.2e-16.
 
-use super::instruction_set::Level;
+use super::instruction_set::InstructionSet;
 use super::lanes::{INTEGERS, Lanes};
 
 /// 2π and what its double leaves of it.
@@ -29,7 +29,7 @@ const COSINE: [f64; 7] = [
 
 /// (sin, cos) of x turns, |x| ≤ 1/8, and of as many quarters of a turn as the lowest bits of `quarters` say.
 #[inline(always)]
-pub(crate) fn sin_cos<S: Level>(x: Lanes<S>, quarters: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+pub(crate) fn sin_cos<S: InstructionSet>(x: Lanes<S>, quarters: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
     let square = x * x;
     let mut sine = x.all(SINE[5]);
     for k in (0..5).rev() {
@@ -45,7 +45,7 @@ pub(crate) fn sin_cos<S: Level>(x: Lanes<S>, quarters: Lanes<S>) -> (Lanes<S>, L
 
 /// (sin, cos) of x turns.
 #[inline(always)]
-pub(crate) fn sin_cos_of_turns<S: Level>(x: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+pub(crate) fn sin_cos_of_turns<S: InstructionSet>(x: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
     let quarters = x.mul_add(x.all(4.0), x.all(INTEGERS));
     sin_cos((quarters - x.all(INTEGERS)).negate_mul_add(x.all(0.25), x), quarters)
 }
@@ -67,7 +67,7 @@ const ARC: [f64; 11] = [
 
 /// Twice the arctangent of y/x, for x ≥ 0.
 #[inline(always)]
-pub(crate) fn twice_arc<S: Level>(y: Lanes<S>, x: Lanes<S>) -> Lanes<S> {
+pub(crate) fn twice_arc<S: InstructionSet>(y: Lanes<S>, x: Lanes<S>) -> Lanes<S> {
     // Halved twice: tan φ/2 = y/(x + |(x, y)|), and so on.
     let quarter = y / (x + x.mul_add(x, y * y).root());
     let one = x.all(1.0);

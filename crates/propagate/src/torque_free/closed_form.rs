@@ -15,7 +15,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::harmonics::QuaternionSeries;
+use super::harmonics::CayleyKleinSeries;
 use super::polhode::Polhode;
 use crate::numerics::theta::Theta;
 
@@ -32,7 +32,7 @@ const NEGLIGIBLE: f64 = 1e-18;
 #[derive(Clone, Debug)]
 pub(crate) struct ClosedForm {
     /// Unnormalized.
-    pub(crate) series: QuaternionSeries,
+    pub(crate) series: CayleyKleinSeries,
     /// ℓ′ at the epoch \[rad\].
     pub(crate) anomaly: f64,
     /// The smallest √(|a|² + |b|²) of the series.
@@ -70,7 +70,7 @@ impl ClosedForm {
         let signed = terms.iter().enumerate().rev().map(|(k, t)| if k % 2 == 0 { t.0[0] } else { -t.0[0] });
         let alternating: f64 = signed.sum();
         let least_norm = alternating / (0.5 * (1.0 + theta.cosines[1])).sqrt();
-        Self { series: QuaternionSeries::from_terms(terms), anomaly: anomaly(polhode, theta), least_norm }
+        Self { series: CayleyKleinSeries::from_terms(terms), anomaly: anomaly(polhode, theta), least_norm }
     }
 }
 

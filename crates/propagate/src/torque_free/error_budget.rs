@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_2_PI, TAU};
 use andoyer_double::DoubleDouble;
 
 use super::frequencies::Secular;
-use super::harmonics::QuaternionSeries;
+use super::harmonics::CayleyKleinSeries;
 use super::polhode::Polhode;
 use crate::input::scene::Scene;
 use crate::numerics::scaling::scaled;
@@ -23,7 +23,7 @@ const PHASE_ROUNDING: f64 = 1e-30;
 pub(crate) const COSINE_ROUNDING: f64 = 1e-31;
 
 /// What rounding leaves of an attitude by these harmonics \[rad\].
-pub(crate) fn rounding(series: &QuaternionSeries) -> f64 {
+pub(crate) fn rounding(series: &CayleyKleinSeries) -> f64 {
     ROUNDING * (1.0 + series.harmonics() as f64 / 8.0)
 }
 

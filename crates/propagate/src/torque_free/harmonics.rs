@@ -14,12 +14,12 @@ type Pair = [f64; 2];
 
 /// a e^(−iy′/2) = Σ c_k cos 2kℓ′ + i d_k sin 2kℓ′, and b e^(−iy′/2) with the harmonics 2k + 1.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct QuaternionSeries {
+pub(crate) struct CayleyKleinSeries {
     /// (c_k, d_k) of a and of b.
     terms: Vec<(Pair, Pair)>,
 }
 
-impl QuaternionSeries {
+impl CayleyKleinSeries {
     /// From the terms (c_k, d_k) of a and of b; what is evaluated is normalized, so their norm need not be 1.
     pub(crate) fn from_terms(terms: Vec<(Pair, Pair)>) -> Self {
         Self { terms }

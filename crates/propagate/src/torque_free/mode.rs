@@ -8,7 +8,7 @@ use super::error_budget::COSINE_ROUNDING;
 use super::polhode::{Polhode, SMALLEST_TILT};
 
 /// The kind of motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub enum Mode {
     /// Triaxial body near rotation about its axis of greatest inertia.

@@ -70,7 +70,7 @@ impl Frame {
 
 /// What leads from the pair (a, b) to the body: the attitude is inertial · (a, b) · frame.
 #[derive(Clone, Debug)]
-pub(crate) struct Place {
+pub(crate) struct UserFrame {
     pub(crate) inertial: UnitQuaternion<f64>,
     pub(crate) frame: Frame,
     /// M over each moment, on the sorted axes.

@@ -16,19 +16,19 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 use andoyer_double::DoubleDouble;
 use nalgebra::Quaternion;
 
-use super::polhode::{Place, Polhode};
+use super::polhode::{Polhode, UserFrame};
 use crate::numerics::phase::Phase;
 use crate::numerics::theta::{Theta, precise_argument};
 
 /// A motion by such a passage, one time after another.
 #[derive(Clone, Debug)]
-pub(crate) struct Flip {
-    pub(crate) passage: Passage,
+pub(crate) struct Passage {
+    pub(crate) passage: PassageTheta,
     pub(crate) half_longitude: Phase,
-    pub(crate) place: Place,
+    pub(crate) place: UserFrame,
 }
 
-impl Flip {
+impl Passage {
     /// Attitude and rates a time after the epoch.
     pub(crate) fn evaluate(&self, elapsed: (f64, f64)) -> ([f64; 4], [f64; 3]) {
         let (a, b, lead) = self.passage.evaluate(elapsed);
@@ -40,7 +40,7 @@ impl Flip {
             2.0 * (b[0] * a[0] + b[1] * a[1]),
             a[0] * a[0] + a[1] * a[1] - b[0] * b[0] - b[1] * b[1],
         ];
-        let Place { inertial, frame, rates } = &self.place;
+        let UserFrame { inertial, frame, rates } = &self.place;
         let rates = frame.user(std::array::from_fn(|i| rates[i] * direction[i]));
         let (sine, cosine) = (self.half_longitude.angle(elapsed) + lead).sin_cos();
         let relative = Quaternion::new(
@@ -73,7 +73,7 @@ pub(crate) enum Clock {
 }
 
 impl Clock {
-    /// Beside the separatrix: from the rate of ℓ″, the place and a quarter of the period that [`Passage::place`] gives, and K′.
+    /// Beside the separatrix: from the rate of ℓ″, the place and a quarter of the period that [`PassageTheta::place`] gives, and K′.
     pub(crate) fn repeating(
         anomaly_rate: DoubleDouble,
         place: DoubleDouble,
@@ -90,7 +90,7 @@ impl Clock {
 
 /// The theta functions of one polhode.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Passage {
+pub(crate) struct PassageTheta {
     clock: Clock,
     /// Half phase for each radian of ℓ″, η/(2K′).
     lead: f64,
@@ -102,8 +102,8 @@ pub(crate) struct Passage {
     nome: f64,
 }
 
-impl Passage {
-    /// The passage of a polhode; `clock` is made from what [`Passage::place`] says.
+impl PassageTheta {
+    /// The passage of a polhode; `clock` is made from what [`PassageTheta::place`] says.
     pub(crate) fn new(theta: &Theta, clock: Clock) -> Self {
         let offset = FRAC_PI_4 * theta.eta / theta.conjugate;
         let nome = (-FRAC_PI_2 * theta.quarter / theta.conjugate).exp();

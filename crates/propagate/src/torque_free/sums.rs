@@ -5,8 +5,8 @@
 //! which is taken as long as rounding is no worse than that of the sum itself: Σ k|p_k| ≤ 2 beside a pair of norm 1. That holds where the harmonics
 //! fall by 0.3 and more; otherwise e^(2iℓ′) leads from term to term, at ten operations each.
 
-use super::harmonics::QuaternionSeries;
-use crate::simd::instruction_set::Level;
+use super::harmonics::CayleyKleinSeries;
+use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 
 /// More terms are not tried as powers: the powers of 1 + √2 are then sure to have won.
@@ -24,7 +24,7 @@ pub(crate) enum Sums {
 }
 
 impl Sums {
-    pub(crate) fn new(series: &QuaternionSeries) -> Self {
+    pub(crate) fn new(series: &CayleyKleinSeries) -> Self {
         let harmonics: Vec<[f64; 4]> = series.terms().iter().map(|(a, b)| [a[0], a[1], b[0], b[1]]).collect();
         match powers(&harmonics) {
             Some(powers) => Self::Powers(powers),
@@ -34,7 +34,7 @@ impl Sums {
 
     /// (Re a, Im a, Re b, Im b) of the pair at an ℓ′ with this sine and cosine.
     #[inline(always)]
-    pub(crate) fn pair<S: Level>(&self, simd: S, sine: Lanes<S>, cosine: Lanes<S>) -> [Lanes<S>; 4] {
+    pub(crate) fn pair<S: InstructionSet>(&self, simd: S, sine: Lanes<S>, cosine: Lanes<S>) -> [Lanes<S>; 4] {
         let twice = sine + sine;
         let double_sine = twice * cosine;
         let double_cosine = twice.negate_mul_add(sine, sine.all(1.0));

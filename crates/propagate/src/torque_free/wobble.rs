@@ -5,26 +5,26 @@
 
 use nalgebra::Quaternion;
 
-use super::harmonics::QuaternionSeries;
-use super::polhode::Place;
+use super::harmonics::CayleyKleinSeries;
+use super::polhode::UserFrame;
 use super::sums::Sums;
 use crate::numerics::phase::Phase;
 use crate::simd::circles::{Circles, Evaluate};
-use crate::simd::instruction_set::Level;
+use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 
 /// A wobble.
 #[derive(Clone, Debug)]
 pub(crate) struct Wobble {
     pub(crate) anomaly: Phase,
-    pub(crate) series: QuaternionSeries,
+    pub(crate) series: CayleyKleinSeries,
     pub(crate) half_longitude: Phase,
-    pub(crate) place: Place,
+    pub(crate) place: UserFrame,
 }
 
 /// What a wobbling motion is evaluated from.
 #[derive(Clone, Debug)]
-pub(crate) struct Tables {
+pub(crate) struct WobbleEvaluator {
     anomaly: Phase,
     half_longitude: Phase,
     sums: Sums,
@@ -34,7 +34,7 @@ pub(crate) struct Tables {
     rates: [(usize, f64); 3],
 }
 
-impl Tables {
+impl WobbleEvaluator {
     pub(crate) fn new(wobble: &Wobble) -> Self {
         let mut map = [[0.0; 4]; 4];
         for column in 0..4 {
@@ -62,13 +62,13 @@ impl Tables {
     }
 }
 
-impl Evaluate for Tables {
+impl Evaluate for WobbleEvaluator {
     fn phases(&self) -> [&Phase; 2] {
         [&self.anomaly, &self.half_longitude]
     }
 
     #[inline(always)]
-    fn evaluate<S: Level, const ATTITUDE: bool, const RATES: bool>(
+    fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
         &self,
         simd: S,
         circles: impl Circles<S>,

@@ -1,6 +1,6 @@
 # Types of the compiled core. Docstrings here are the first lines of those at run time, which say the rest; a test holds the two together.
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any, Literal, TypeAlias, final, overload
 
@@ -290,8 +290,8 @@ class Motion:
     def frequencies(self) -> Frequencies:
         """Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time; 0 where there is none."""
     @property
-    def periods(self) -> dict[Literal["long-axis", "short-axis"], Periods]:
-        """Mean periods (P_φ, P_ψ) in both conventions: ``{"long-axis": (precession, rotation), "short-axis": (precession, rotation)}``."""
+    def periods(self) -> dict[Literal["long-axis", "short-axis", "extremal-axis"], Periods]:
+        """Mean periods (P_φ, P_ψ) in three conventions: a dict with the keys "long-axis", "short-axis" and "extremal-axis"."""
     @property
     def energy_ratio(self) -> float:
         """E/E0: rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum (theory §5)."""
@@ -337,6 +337,8 @@ class Plan:
         """What this scene did not need, and why: a list of str."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: None  # type: ignore[assignment]
+    def __copy__(self) -> Plan: ...
+    def __deepcopy__(self, _memo: Any) -> Plan: ...
 
 @final
 class Samples:
@@ -420,6 +422,7 @@ class Ensemble:
     def threads(self) -> int | None:
         """The number of threads asked for, or None."""
     def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[Motion]: ...
     @overload
     def __getitem__(self, index: int, /) -> Motion: ...
     @overload

@@ -48,5 +48,7 @@ def plain(argument: str, value: Any) -> Any:
         try:
             return value.to_value(unit)
         except units.UnitConversionError:
-            raise TypeError(f"{argument} must be in {unit or 'no unit'}, or what converts to it: got {value.unit}") from None
+            # 1 Hz is no rad/s in astropy, since a frequency may count turns or radians.
+            advice = "; rates in turns per second have the unit u.cycle / u.s" if unit == "rad / s" and value.unit.is_equivalent("Hz") else ""
+            raise TypeError(f"{argument} must be in {unit or 'no unit'}, or what converts to it: got {value.unit}{advice}") from None
     return value

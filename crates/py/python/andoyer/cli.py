@@ -10,6 +10,7 @@ import os
 import shutil
 import sys
 import textwrap
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import datetime
@@ -259,9 +260,19 @@ def written_to(path: Path) -> Iterator[None]:
         raise InputError(f"argument -o/--output: {path}: {said}") from error
 
 
+def read(path: str) -> andoyer.Scene:
+    """The scene of a file; what is doubtful in it is said on stderr."""
+    with warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always")
+        scene = andoyer.Scene.from_toml(path)
+    for doubt in doubts:
+        print(f"andoyer: warning: {path}: {doubt.message}", file=sys.stderr)
+    return scene
+
+
 def solved(path: str) -> andoyer.Motion:
     """The motion of a scene file; that it has none is an error of the file."""
-    scene = andoyer.Scene.from_toml(path)
+    scene = read(path)
     try:
         return scene.solve()
     except andoyer.Error as error:

@@ -213,7 +213,6 @@ def summary(motion: Motion, times: ArrayLike | None = None) -> "Figure":
             panel.set_xlabel("")
             panel.tick_params(labelbottom=False)
         figure.align_ylabels(panels)
-        plt.close(figure)
     return figure
 
 

@@ -108,10 +108,14 @@ impl BirkhoffMap {
     /// The frequencies Ωᵢ = ∂K/∂Iᵢ at given actions.
     ///
     /// # Errors
-    /// - another number of actions: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`];
+    /// - another number of actions: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`]; −1: [`Error::OutsideInterval`], since
+    ///   I = (q²/r + r p²)/2 is never negative;
     /// - a resonant normal form: [`Error::ResonantTerm`].
     pub fn frequencies(&self, actions: &[f64]) -> Result<Vec<f64>, Error> {
         check("actions", actions, self.ratios.len())?;
+        if let Some(&value) = actions.iter().find(|&&action| action < 0.0) {
+            return Err(Error::OutsideInterval { argument: "actions", value, lower: 0.0, upper: f64::INFINITY });
+        }
         let map = self.frequencies.as_ref().map_err(|term| Error::ResonantTerm { term: term.clone() })?;
         let values = map.iter().map(|frequency| frequency.evaluate(actions)).collect::<Result<Vec<_>, _>>()?;
         finite("frequencies", values)

@@ -1,7 +1,7 @@
 //! From the Fourier coefficients of w and y − y′ to those of the quaternion of theory §8.
 
 use super::tables::Expansion;
-use crate::torque_free::harmonics::QuaternionSeries;
+use crate::torque_free::harmonics::CayleyKleinSeries;
 
 /// Grid points in a period for each order: the products of theory §8 reach past the 2N+1 harmonics of ζ, and what folds back from beyond eight times
 /// the order is smaller than the truncation squared.
@@ -50,7 +50,7 @@ pub(crate) fn oscillator_and_longitude(
 }
 
 /// The composition of theory §8, sampled over a quarter period and analysed.
-pub(crate) fn harmonics(expansion: &Expansion, ellipse: Ellipse) -> QuaternionSeries {
+pub(crate) fn harmonics(expansion: &Expansion, ellipse: Ellipse) -> CayleyKleinSeries {
     let order = expansion.longitude.len();
     let period = (GRID_PER_ORDER * (order + 1)).next_power_of_two();
     let quarter = period / 4;
@@ -72,7 +72,7 @@ pub(crate) fn harmonics(expansion: &Expansion, ellipse: Ellipse) -> QuaternionSe
         }
     }
     terms[0].0[0] *= 0.5; // the mean is no pair
-    QuaternionSeries::from_terms(terms)
+    CayleyKleinSeries::from_terms(terms)
 }
 
 /// a e^(−iy′/2) and b e^(−iy′/2) by theory §8.

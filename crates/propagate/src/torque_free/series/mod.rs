@@ -4,4 +4,5 @@
 
 pub(crate) mod composition;
 pub(crate) mod order;
+pub(crate) mod solution;
 pub(crate) mod tables;

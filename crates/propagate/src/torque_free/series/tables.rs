@@ -1,4 +1,4 @@
-//! The one file that knows the series crate: from β, an order and κσ to Fourier coefficients in ℓ′.
+//! The series of one motion: from β, an order and κσ to Fourier coefficients in ℓ′.
 //!
 //! With s = κσ (theory §6, §7) order n of w/√M is √σ s^n times a form of degree 2n + 1, and order n of y − y′ is s^(n+1)/κ times one of
 //! degree 2n + 2. A form becomes harmonics by w^j w̄^k → e^(i(j−k)ℓ′). Sums run from the lowest order to the highest.
