@@ -142,6 +142,11 @@ impl Body {
         Self::new([b + c, a + c, a + b].map(|sum| mass * sum / divisor))
     }
 
+    /// Whether the body was given by an inertia tensor whose axes are not the principal ones.
+    pub fn has_tensor(&self) -> bool {
+        self.tensor.is_some()
+    }
+
     /// The inertia tensor about the user's axes, as it was given; diagonal for a body about its principal axes.
     pub fn inertia(&self) -> [[f64; 3]; 3] {
         let [a, b, c] = self.moments;
