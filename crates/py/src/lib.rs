@@ -14,6 +14,7 @@ mod array;
 mod birkhoff;
 mod body;
 mod computing;
+mod domain;
 mod ensemble;
 mod error;
 mod expression;
@@ -41,6 +42,8 @@ mod _core {
     use super::body::Body;
     #[pymodule_export]
     use super::computing::_panic;
+    #[pymodule_export]
+    use super::domain::Domain;
     #[pymodule_export]
     use super::ensemble::Ensemble;
     #[pymodule_export]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from andoyer._core import Motion
-from andoyer._diagrams import axes_or_new as _axes, error_by_order, work_precision
+from andoyer._diagrams import axes_or_new as _axes, domain, error_by_order, work_precision
 from andoyer._drawing import near_pole, on_ellipsoid, plane, surface as draw_surface
 from andoyer._extra import extra
 from andoyer._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION, Array
@@ -30,7 +30,7 @@ STEADY = 1e-11
 TURNS, SAMPLES = 3, 3000
 """Periods of the polhode that are drawn if no times are given, and how many times."""
 
-__all__ = ["angles", "error_by_order", "nutation", "phase_portrait", "polhode", "polhode_near_pole", "pole_path", "rates", "summary", "whole_turns", "work_precision"]
+__all__ = ["angles", "domain", "error_by_order", "nutation", "phase_portrait", "polhode", "polhode_near_pole", "pole_path", "rates", "summary", "whole_turns", "work_precision"]
 
 
 def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> Array:
