@@ -129,7 +129,9 @@ fn of_kind(error: &Propagation, message: String) -> PyErr {
         Propagation::Time { .. } => TimesError::new_err(message),
         Propagation::Threads { .. } => ThreadsError::new_err(message),
         Propagation::Index { .. } | Propagation::Length { .. } => ShapeError::new_err(message),
-        Propagation::NearSeparatrix { .. } | Propagation::Separatrix => SeparatrixError::new_err(message),
+        Propagation::NearSeparatrix { .. } | Propagation::Separatrix | Propagation::SeparatrixPartials => {
+            SeparatrixError::new_err(message)
+        }
         Propagation::UnknownBody { .. } => UnknownBodyError::new_err(message),
         Propagation::SceneFile { .. } => SceneFileError::new_err(message),
         _ => Error::new_err(message),

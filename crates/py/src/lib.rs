@@ -26,6 +26,7 @@ mod normal_form;
 mod normalize;
 mod orbit;
 mod order;
+mod partials;
 mod plan;
 mod progress;
 mod samples;
@@ -60,6 +61,8 @@ mod _core {
     use super::normalize::normalize;
     #[pymodule_export]
     use super::orbit::Orbit;
+    #[pymodule_export]
+    use super::partials::Partials;
     #[pymodule_export]
     use super::plan::Plan;
     #[pymodule_export]

@@ -1,19 +1,24 @@
 //! `andoyer.Motion`.
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
+use andoyer_propagate::{Error as Propagation, PARAMETERS};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 
-use crate::array::{Times, chunks, write};
+use crate::array::{Times, chunks, matrices, write};
 use crate::computing::{detached, interruptible};
 use crate::error;
 use crate::foreign::{self, Calendar};
+use crate::partials::Partials;
 use crate::plan::Plan;
 use crate::samples::Samples;
 use crate::scene_class::Scene;
+
+/// Times between two looks for Ctrl-C while derivatives are computed.
+const AT_ONCE: usize = 1 << 13;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
@@ -201,6 +206,56 @@ impl Motion {
     fn rotation<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let rotation = times.py().import("scipy.spatial.transform")?.getattr("Rotation")?;
         rotation.call_method1("from_quat", (self.attitude(times, None, false)?,))
+    }
+
+    /// Derivatives of attitude and angular velocity with respect to the state at the epoch and the moments (theory §12).
+    ///
+    /// Columns are nine parameters: the initial attitude (a small rotation about body axes 1, 2, 3), the initial angular velocity, the moments as given. A change of attitude,
+    /// at the epoch and at the time, is a rotation vector δθ about body axes, R → R exp([δθ]×); rates are body components. Closed form: no differences and no
+    /// integration, at any time and in every mode; for a scene with an orbit by differences (`Plan.partials` says which).
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,)
+    ///
+    /// Returns
+    /// -------
+    /// Partials
+    ///
+    /// Raises
+    /// ------
+    /// SeparatrixError
+    ///     A motion on the separatrix, whose frequencies have no derivatives.
+    ///
+    /// Examples
+    /// --------
+    /// Rotation about axis 3 for 10 units of time: the angle grows by 10 for each unit of its rate.
+    ///
+    /// >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0, 0, 2.0]).solve()
+    /// >>> float(motion.partials(10.0).attitude[2, 5])
+    /// 10.0
+    fn partials(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Partials> {
+        let times = self.times(times)?;
+        let since = if times.since_epoch() { self.0.scene().state().epoch } else { 0.0 };
+        let [copy, attitude, rates] = times.matrices(PARAMETERS)?;
+        {
+            let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
+            let (values, attitude, rates) = (times.values()?, matrices(&mut attitude)?, matrices(&mut rates)?);
+            let evaluate = |stop: &AtomicBool| {
+                let parts = values.chunks(AT_ONCE).zip(attitude.chunks_mut(AT_ONCE)).zip(rates.chunks_mut(AT_ONCE));
+                for (index, ((values, attitude), rates)) in parts.enumerate() {
+                    if stop.load(Ordering::Relaxed) {
+                        return Err(Propagation::Stopped);
+                    }
+                    let values: Vec<f64> = values.iter().map(|time| since + time).collect();
+                    let done = self.0.partials_into(&values, attitude, rates);
+                    done.map_err(|problem| problem.later(index * AT_ONCE))?;
+                }
+                Ok(())
+            };
+            interruptible(py, times.long_partials(), error::propagation, evaluate)?;
+        }
+        Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
     }
 
     /// What is evaluated, and why.

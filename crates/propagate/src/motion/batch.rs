@@ -72,7 +72,8 @@ impl<'a> Batch<'a> {
     /// As [`Motion::attitudes_into`].
     pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
-        self.fill(times, Outputs::Attitudes(out))
+        self.fill(times, Outputs::Attitudes(out))?;
+        self.turn(out, &mut [])
     }
 
     /// Angular velocities, body components [rad per unit of time].
@@ -81,7 +82,8 @@ impl<'a> Batch<'a> {
     /// As [`Motion::attitudes_into`].
     pub fn angular_velocities_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
-        self.fill(times, Outputs::Rates(out))
+        self.fill(times, Outputs::Rates(out))?;
+        self.turn(&mut [], out)
     }
 
     /// Both.
@@ -91,6 +93,17 @@ impl<'a> Batch<'a> {
     pub fn samples_into(&self, times: &[f64], attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
         length("attitudes", attitudes.len(), times.len())?;
         length("rates", rates.len(), times.len())?;
+        self.about_principal_axes(times, attitudes, rates)?;
+        self.turn(attitudes, rates)
+    }
+
+    /// Both about the principal axes.
+    pub(crate) fn about_principal_axes(
+        &self,
+        times: &[f64],
+        attitudes: &mut [[f64; 4]],
+        rates: &mut [[f64; 3]],
+    ) -> Result<(), Error> {
         self.fill(times, Outputs::Both(attitudes, rates))
     }
 
@@ -108,6 +121,20 @@ impl<'a> Batch<'a> {
                 Trajectory::Gradient(gradient) => gradient.angular_momenta(part, epoch, out),
                 _ => out.fill(motion.angular_momentum.into()),
             }
+        }
+        Ok(())
+    }
+
+    /// To the user's axes.
+    fn turn(&self, attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
+        let Some(given) = &self.motion.given else { return Ok(()) };
+        for part in attitudes.chunks_mut(GROUP) {
+            going(self.stop).map_err(|_| Error::Stopped)?;
+            given.turn(part, &mut []);
+        }
+        for part in rates.chunks_mut(GROUP) {
+            going(self.stop).map_err(|_| Error::Stopped)?;
+            given.turn(&mut [], part);
         }
         Ok(())
     }

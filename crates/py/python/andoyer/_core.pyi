@@ -281,6 +281,8 @@ class Motion:
         """Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1)."""
     def rotation(self, times: ArrayLike) -> Rotation:
         """Attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else."""
+    def partials(self, times: ArrayLike) -> Partials:
+        """Derivatives of attitude and angular velocity with respect to the state at the epoch and the moments (theory §12)."""
     @property
     def plan(self) -> Plan:
         """What is evaluated, and why."""
@@ -373,6 +375,21 @@ class Samples:
         """A table of pandas, indexed by time, or by member and time: qx, qy, qz, qw, wx, wy, wz. pandas is imported here and nowhere else."""
     def to_xarray(self) -> Dataset:
         """A data set of xarray: attitude and angular_velocity by (member,) time, quaternion or axis. xarray is imported here and nowhere else."""
+    def __len__(self) -> int: ...
+
+@final
+class Partials:
+    """Derivatives of attitude and angular velocity at some times: what `Motion.partials` returns."""
+
+    @property
+    def times(self) -> _Array:
+        """The times, float64, shape (n,)."""
+    @property
+    def attitude(self) -> _Array:
+        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9)."""
+    @property
+    def angular_velocity(self) -> _Array:
+        """Derivatives of the angular velocity in body components, shape (n, 3, 9)."""
     def __len__(self) -> int: ...
 
 @final

@@ -11,23 +11,23 @@ import shutil
 import sys
 import textwrap
 import warnings
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from datetime import datetime
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, Literal, NoReturn, TypeVar, get_args
+from typing import Any, Literal, NoReturn, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 import andoyer
+from andoyer import _reading as reading
+from andoyer import _writing as writing
 from andoyer import output
+from andoyer._arguments import MOST_SAMPLES, InputError, count, number, step, whole
 from andoyer._extra import extra
 from andoyer._terminal import Progress, named
-from andoyer.output import COLUMNS, CONVENTION, TIME_SYSTEMS, Heading
-
-Value = TypeVar("Value")
+from andoyer._writing import ENDINGS
+from andoyer.output import COLUMNS, CONVENTION
+from andoyer.output.files import whole_file
 
 ROTATIONS = 10
 """Rotations from the epoch that are propagated if neither the scene nor the command line has a span."""
@@ -38,10 +38,6 @@ SAMPLES = 1000
 MISSED = 3
 """Exit status of a tolerance that is not met, under --strict."""
 
-MOST_SAMPLES = 10**9
-"""More would not fit a file that anyone reads."""
-
-ENDINGS = ".csv, .npz, .parquet or .aem"
 PICTURES = [".png", ".svg", ".pdf"]
 COMMANDS = ["propagate", "plot", "plan", "bodies", "series"]
 LANGUAGES = ["c", "rust", "python"]
@@ -49,9 +45,12 @@ EXAMPLES = {
     "propagate": """\
 andoyer propagate eros.toml -o eros.csv
 andoyer propagate eros.toml -o eros.npz --start 0 --stop 86400 --step 60
-andoyer propagate eros.toml -o eros.aem --date 2026-01-01T00:00:00 --frame ICRF""",
+andoyer propagate eros.toml -o eros.aem --date 2026-01-01T00:00:00 --frame ICRF
+andoyer propagate eros.toml -o eros.bc --stop 86400 --interpolation-error 1e-6 --frame ECLIPJ2000""",
     "plan": "andoyer plan eros.toml",
-    "plot": "andoyer plot eros.toml -o eros.png",
+    "plot": """\
+andoyer plot eros.toml -o eros.png
+andoyer plot eros.aem -o difference.png --against eros.toml --date 2026-01-01T00:00:00""",
     "bodies": "andoyer bodies",
     "series": """\
 andoyer series --order 10
@@ -60,10 +59,6 @@ andoyer series --order 10 --to c --beta 0.3 > rotation.c""",
 }
 Part = Literal["hamiltonian", "generator", "direct", "inverse"]
 PARTS: tuple[Part, ...] = get_args(Part)
-
-
-class InputError(Exception):
-    """What the command line was given cannot be done."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -123,18 +118,16 @@ def parser() -> Parser:
     spacing = command.add_mutually_exclusive_group()
     spacing.add_argument("--samples", type=count, metavar="N", help=f"number of times, the last one included (default: {SAMPLES})")
     spacing.add_argument("--step", type=step, metavar="DT", help="time from one sample to the next, from the first time on")
-    message = command.add_argument_group("the message of a .aem (CCSDS AEM version 2, times in seconds)")
-    default = Heading()
-    message.add_argument("--date", type=date, metavar="DATE", help=f"calendar date of time 0 (default: {default.date.isoformat()})")
-    message.add_argument("--time-system", choices=TIME_SYSTEMS, metavar="SYSTEM", help=f"of that date: {', '.join(TIME_SYSTEMS)} (default: {default.time_system})")
-    message.add_argument("--frame", type=word, metavar="NAME", help=f"name of the inertial frame (default: {default.frame})")
+    writing.add_options(command)
     strictly(command)
     command.set_defaults(run=propagate)
 
     pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole"
     command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"]))
-    command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
+    command.add_argument("scene", metavar="SCENE", help="scene file (TOML), or a file of attitudes")
     command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .png, .svg or .pdf by its ending")
+    command.add_argument("--force", action="store_true", help="replace a file that is there already")
+    reading.add_options(command)
     strictly(command)
     command.set_defaults(run=plot)
 
@@ -161,130 +154,48 @@ def strictly(command: argparse.ArgumentParser) -> None:
     command.add_argument("--strict", action="store_true", help=f"exit with status {MISSED} if the tolerance is not met")
 
 
-def number(text: str) -> float:
-    """A finite number."""
-    return checked(text, float, math.isfinite, "a finite number")
-
-
-def step(text: str) -> float:
-    """A step of time."""
-    return checked(text, float, lambda value: 0 < value < math.inf, "a finite number above 0")
-
-
-def whole(text: str) -> int:
-    """A whole number."""
-    return checked(text, int, lambda _: True, "a whole number")
-
-
-def count(text: str) -> int:
-    """A number of samples."""
-    return checked(text, int, lambda value: 1 <= value <= MOST_SAMPLES, f"a whole number from 1 to {MOST_SAMPLES}")
-
-
-def date(text: str) -> datetime:
-    """A calendar date without a zone."""
-    return checked(text, datetime.fromisoformat, lambda value: value.tzinfo is None, "a date like 2000-01-01T12:00:00, without a zone")
-
-
-def word(text: str) -> str:
-    """A word of printable ASCII characters."""
-    return checked(text, str, lambda value: value.isascii() and value.isprintable() and value.split() == [value], "one word in ASCII")
-
-
-def checked(text: str, read: Callable[[str], Value], accepts: Callable[[Value], bool], expected: str) -> Value:
-    """`text` as `read` reads it, if that is accepted; argparse puts the name of the argument before the message."""
-    refusal = argparse.ArgumentTypeError(f"must be {expected}: got {text!r}")
-    try:
-        value = read(text)
-    except ValueError:
-        raise refusal from None
-    if not accepts(value):
-        raise refusal
-    return value
-
-
 def propagate(arguments: argparse.Namespace) -> int:
-    """Write a motion at equal steps of time."""
+    """Write a motion at equal steps of time, or as a C-kernel."""
     path = Path(arguments.output)
-    to_stdout = arguments.output == "-"
-    ending = path.suffix.lower()
-    writers = {".npz": output.write_npz, ".parquet": output.write_parquet}
-    if not (to_stdout or ending in writers or ending in (".csv", ".aem")):
-        raise InputError(f"argument -o/--output: {arguments.output}: the name must end in {ENDINGS}, or be - for CSV on stdout")
-    given = {key: getattr(arguments, key) for key in ("date", "time_system", "frame") if getattr(arguments, key) is not None}
-    if given and ending != ".aem":
-        raise InputError(f"argument --{next(iter(given)).replace('_', '-')}: goes with a .aem alone, not with {arguments.output}")
+    given = writing.check(arguments)
     motion = solved(arguments.scene)
-    remark = motion.plan.missed_tolerance
+    if arguments.output != "-" and path.suffix.lower() == ".bc":
+        writing.write_kernel(path, motion, interval(motion, arguments.start, arguments.stop), given, arguments.force)
+        return status(arguments, motion)
     samples = motion.at(instants(arguments, motion))
-    progress = Progress("writing, lines")
-    try:
-        if to_stdout:
+    if arguments.output == "-":
+        progress = Progress("writing, lines")
+        try:
             output.write_table(sys.stdout, samples, progress)
-        else:
-            with written_to(path) as part:
-                if ending == ".aem":
-                    write_message(part, motion, samples, given, path)
-                elif ending == ".csv":
-                    output.write_csv(part, samples, progress)
-                else:
-                    writers[ending](part, samples, remark or "")
-    finally:
-        progress.close()
+        finally:
+            progress.close()
+    else:
+        writing.write_samples(path, motion, samples, given, arguments.force)
     note_sparse(motion, samples.times)
     return status(arguments, motion)
 
 
-def write_message(part: Path, motion: andoyer.Motion, samples: andoyer.Samples, given: dict[str, Any], path: Path) -> None:
-    """Write an AEM; what was not given of its heading is said on stderr."""
-    name = motion.scene.name or motion.scene.body.name or Heading.name
-    heading = Heading(name=name, remark=motion.plan.missed_tolerance or "", **given)
-    try:
-        output.write_aem(part, samples, heading)
-    except ValueError as error:
-        raise InputError(f"argument -o/--output: {path}: {error}") from error
-    if "date" not in given or "frame" not in given:
-        said = f"time 0 is {heading.date.isoformat()} {heading.time_system}, the inertial frame {heading.frame}"
-        print(f"andoyer: note: {said}; --date and --frame name others", file=sys.stderr)
-
-
 def plot(arguments: argparse.Namespace) -> int:
-    """Draw the pictures of a motion."""
+    """Draw the pictures of a motion, or those of a file of attitudes."""
     path = Path(arguments.output)
     if path.suffix.lower() not in PICTURES:
         raise InputError(f"argument -o/--output: {arguments.output}: the name must end in {', '.join(PICTURES)}")
+    if not arguments.force:
+        writing.refuse_existing(path)
     extra("matplotlib", "drawing").use("Agg")
     from andoyer import plot as pictures
 
-    motion = solved(arguments.scene)
-    figure = pictures.summary(motion)
-    with written_to(path) as part:
-        figure.savefig(part, dpi=130, format=path.suffix[1:].lower())
-    return status(arguments, motion)
-
-
-@contextmanager
-def written_to(path: Path) -> Iterator[Path]:
-    """Where to write what takes the place of `path` when it is complete: what was there before stays until then, and an interruption leaves it.
-
-    What the system says against `path` is an error of the argument, in its own words whoever writes.
-    """
-    try:
-        if path.exists() and not path.is_file():
-            yield path  # a pipe or a device
-            return
-        final = path.resolve()
-        part = final.with_name(f".{final.name}.{os.getpid()}.part")
-        try:
-            yield part
-            part.replace(final)
-        finally:
-            part.unlink(missing_ok=True)
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        said = os.strerror(error.errno) if error.errno else str(error)
-        raise InputError(f"argument -o/--output: {path}: {said}") from error
+    if reading.is_attitude_file(arguments.scene):
+        samples = reading.read(arguments)
+        motion = solved(arguments.against) if arguments.against else None
+        figure = pictures.samples_summary(samples, motion, name=Path(arguments.scene).name)
+    else:
+        reading.refuse_options(arguments)
+        motion = solved(arguments.scene)
+        figure = pictures.summary(motion)
+    with writing.written_to(path), whole_file(path, arguments.force) as temporary:
+        figure.savefig(temporary, dpi=130, format=path.suffix.lower()[1:])
+    return 0 if motion is None else status(arguments, motion)
 
 
 def read(path: str) -> andoyer.Scene:
