@@ -86,7 +86,7 @@ def run(folder, *arguments):
     return subprocess.run([sys.executable, "-m", "andoyer", *arguments], capture_output=True, text=True, cwd=folder)
 
 
-@pytest.mark.parametrize("command", [["plan", "scene.toml"], ["propagate", "scene.toml", "-o", "out.csv", "--samples", "9", "--stop", "9"]])
+@pytest.mark.parametrize("command", [["plan", "scene.toml"], ["propagate", "scene.toml", "-o", "out.csv", "--samples", "9", "--stop", "9", "--force"]])
 def test_command_says_so_in_one_line_and_fails_only_when_strict(tmp_path, command):
     (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
     done = run(tmp_path, *command)
