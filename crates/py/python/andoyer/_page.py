@@ -72,7 +72,7 @@ def page(
     FileExistsError
         There is such a file, and ``force=False``.
     ValueError
-        An interval of no length or of more than 200 rotations; a mesh of another shape.
+        An interval of no length or of more than 208 rotations; a mesh of another shape.
 
     Examples
     --------

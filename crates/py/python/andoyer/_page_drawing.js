@@ -121,7 +121,7 @@ function surface(q, v) {
 }
 
 function drawBody(q) {
-  const light = unit([-0.4, 0.6, 0.8]), colors = [css("--light"), css("--dark")], edge = css("--pale");
+  const light = unit([-0.4, 0.6, 0.8]), colors = ["--light", "--dark"].map(name => [1, 3, 5].map(at => parseInt(css(name).slice(at, at + 2), 16)));
   const points = body.vertices.map(v => place(rotate(q, v)));
   const drawn = [];
   body.faces.forEach((face, k) => {
@@ -134,16 +134,14 @@ function drawBody(q) {
   });
   drawn.sort((one, other) => one[0] - other[0]);
   for (const [, face, k, bright] of drawn) {
-    context.fillStyle = colors[octant[k] ? 0 : 1];
-    context.strokeStyle = context.fillStyle;
+    const shade = colors[octant[k] ? 0 : 1].map(part => Math.round(part * (0.55 + 0.45 * bright)));
+    context.fillStyle = context.strokeStyle = `rgb(${shade.join(",")})`;
     context.lineWidth = 1;
     context.beginPath();
     face.forEach((vertex, n) => context[n ? "lineTo" : "moveTo"](points[vertex][0], points[vertex][1]));
     context.closePath();
     context.fill();
     context.stroke();
-    context.fillStyle = `rgba(0, 0, 0, ${(0.45 * (1 - bright)).toFixed(3)})`;
-    context.fill();
   }
 }
 
