@@ -12,6 +12,34 @@ pub enum Error {
         /// The moment as given.
         value: f64,
     },
+    /// An inertia tensor that is not symmetric, or not finite.
+    #[error(
+        "tensor[{row}][{column}] = {value} and tensor[{column}][{row}] = {mirrored}: an inertia tensor must be finite and symmetric to 1e-12 of its largest entry"
+    )]
+    InertiaSymmetry {
+        /// The row.
+        row: usize,
+        /// The column.
+        column: usize,
+        /// The entry.
+        value: f64,
+        /// The entry across the diagonal.
+        mirrored: f64,
+    },
+    /// An inertia tensor with a principal moment that is not positive.
+    #[error("tensor: its principal moments are {moments:?}, and each must be positive")]
+    InertiaMoments {
+        /// The principal moments.
+        moments: [f64; 3],
+    },
+    /// A length or a mass that is zero, negative, NaN or infinite.
+    #[error("{argument} = {value}: it must be positive and finite")]
+    Positive {
+        /// The argument.
+        argument: &'static str,
+        /// The value as given.
+        value: f64,
+    },
     /// Moments that no body has: the largest exceeds the sum of the others.
     #[error(
         "moments = {moments:?}: the largest must not exceed the sum of the other two (it is {ratio} times that sum)"
@@ -139,6 +167,67 @@ pub enum Error {
         "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it): no order of the series serves; the closed form does"
     )]
     Separatrix,
+    /// Derivatives asked for on the separatrix.
+    #[error(
+        "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it) the frequencies have no derivatives: a state beside it has"
+    )]
+    SeparatrixPartials,
+    /// A convention of periods that is unknown.
+    #[error("convention = {value:?}: it must be \"extremal-axis\", \"long-axis\" or \"short-axis\"")]
+    Convention {
+        /// The convention as given.
+        value: String,
+    },
+    /// A mode that is unknown, or has no periods.
+    #[error("mode = {value:?}: it must be \"short-axis\" or \"long-axis\"")]
+    ModeName {
+        /// The mode as given.
+        value: String,
+    },
+    /// A mode that a body does not have: the two moments on its far side are equal.
+    #[error("mode = {mode:?}: a body with moments {moments:?} has none, since its {pair} moments are equal")]
+    NoSuchMode {
+        /// The mode.
+        mode: String,
+        /// The moments.
+        moments: [f64; 3],
+        /// Which two of them.
+        pair: &'static str,
+    },
+    /// A pair of periods that a body cannot have in a mode.
+    #[error(
+        "rotation/precession = {ratio}: in the {mode} mode and the {convention} convention this body has P_ψ/P_φ from {lower} up to {upper}"
+    )]
+    PeriodRatio {
+        /// P_ψ/P_φ as given.
+        ratio: f64,
+        /// The mode.
+        mode: String,
+        /// The convention.
+        convention: String,
+        /// The smallest ratio, that of rotation about the axis itself.
+        lower: f64,
+        /// The largest, next to the separatrix, that doubles hold.
+        upper: f64,
+    },
+    /// A vector or a number that is not finite, or a direction of length 0.
+    #[error("{argument} = {value:?}: it must be finite{}", if value.iter().any(|x| *x != 0.0) { "" } else { " and not 0" })]
+    Direction {
+        /// The argument.
+        argument: &'static str,
+        /// The value as given.
+        value: Vec<f64>,
+    },
+    /// An Andoyer variable out of its bounds.
+    #[error("andoyer[{index}] = {value}: {bound}")]
+    Andoyer {
+        /// Its index among (λ, μ, ν, Λ, M, N).
+        index: usize,
+        /// The value as given.
+        value: f64,
+        /// What it must be.
+        bound: &'static str,
+    },
     /// An element of an orbit that is none.
     #[error("orbit.{argument} = {value}: it must be {bound}")]
     Orbit {

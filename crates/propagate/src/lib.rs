@@ -23,18 +23,26 @@ mod motion;
 
 mod solve;
 
+mod partials;
+
+mod observed;
+
+mod scene_file;
+
 mod ensemble;
 
 pub use ensemble::{Ensemble, MAX_THREADS};
 pub use error::Error;
 pub use input::body::Body;
-pub use input::options::{Averaging, Level, MAX_ORDER, Method};
+pub use input::options::{Averaging, Convention, Level, MAX_ORDER, Method};
 pub use input::orbit::Orbit;
 pub use input::scene::Scene;
 pub use input::state::State;
 pub use motion::batch::Batch;
 pub use motion::plan::Plan;
 pub use motion::solved::{Frequencies, Motion, Periods, Sample};
+pub use observed::periods::ObservedPeriods;
+pub use partials::{Derivatives, PARAMETERS, Partials};
 pub use torque_free::mode::Mode;
 pub use torque_free::series::tables::SeriesTables;
 

@@ -7,7 +7,7 @@ use crate::input::options::{Averaging, Level, Method};
 use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
 use crate::motion::plan::Plan;
-use crate::motion::solved::{Frequencies, Motion};
+use crate::motion::solved::{Frequencies, Given, Motion};
 use crate::motion::trajectory::Trajectory;
 use crate::numerics::scaling::{exponent, half, scaled, user_rate};
 use crate::torque_free::error_budget::{ROUNDING, duration, phase_rounding};
@@ -52,6 +52,14 @@ impl Scene {
     /// ```
     pub fn solve_with(&self, tables: &SeriesTables) -> Result<Motion, Error> {
         let scene = self.validated()?;
+        let Some(turn) = scene.body().turn() else { return scene.solve_about_principal_axes(tables) };
+        let mut motion = scene.about_principal_axes(turn).solve_about_principal_axes(tables)?;
+        motion.given = Some(Box::new(Given { scene, turn }));
+        Ok(motion)
+    }
+
+    fn solve_about_principal_axes(self, tables: &SeriesTables) -> Result<Motion, Error> {
+        let scene = self;
         let Some(polhode) = Polhode::new(scene.body(), scene.state()) else {
             return match scene.asked_orbit() {
                 Some(_) => Err(Error::Unaveraged {
@@ -97,6 +105,7 @@ fn at_rest(scene: Scene) -> Motion {
         plan,
         trajectory: Trajectory::Steady(Box::new(rotation.evaluator(scene.state(), 0))),
         frequencies: Frequencies { anomaly: 0.0, longitude: 0.0 },
+        given: None,
         precession: 0.0,
         angular_momentum: [0.0; 3].into(),
         long_axis: false,
@@ -117,6 +126,7 @@ fn steadily_rotating(scene: Scene, polhode: &Polhode, mode: Mode) -> Motion {
         plan,
         trajectory: Trajectory::Steady(Box::new(rotation.evaluator(scene.state(), exponent))),
         frequencies: Frequencies { anomaly, longitude },
+        given: None,
         precession,
         angular_momentum: polhode.angular_momentum(scene.state().attitude),
         long_axis: polhode.long_axis,
@@ -155,6 +165,11 @@ fn wobbling((scene, tables): (Scene, &SeriesTables), polhode: &Polhode, mode: Mo
     Ok(assembled(scene, polhode, plan, solution))
 }
 
+/// The motion of a wobbling body by the closed form, with every harmonic that rounding leaves: what derivatives are taken of.
+pub(crate) fn untruncated(scene: &Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
+    wobbling((scene.clone().method(Method::Closed).tolerance(0.0), &SeriesTables::default()), polhode, mode)
+}
+
 fn assembled(scene: Scene, polhode: &Polhode, mut plan: Plan, solution: Solution) -> Motion {
     let Solution { parameters, longitude, rates, order, harmonics, skipped, .. } = solution;
     (plan.order, plan.harmonics, plan.skipped) = (order, harmonics, skipped);
@@ -179,6 +194,7 @@ fn assembled(scene: Scene, polhode: &Polhode, mut plan: Plan, solution: Solution
         plan,
         trajectory,
         frequencies: Frequencies { anomaly, longitude: longitude_rate.to_f64() },
+        given: None,
         precession,
         angular_momentum: polhode.angular_momentum(scene.state().attitude),
         long_axis: polhode.long_axis,
@@ -212,6 +228,7 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
     Ok(Motion {
         plan,
         frequencies: Frequencies { anomaly, longitude },
+        given: None,
         precession: longitude + anomaly,
         angular_momentum: polhode.angular_momentum(scene.state().attitude),
         long_axis: polhode.long_axis,

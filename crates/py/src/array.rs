@@ -260,11 +260,21 @@ impl<'py> Times<'py> {
     }
 
     /// A copy of the times, and arrays to be filled with four and with three numbers for each.
+    pub(crate) fn samples(&self) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
+        self.with_outputs([&[4], &[3]])
+    }
+
+    /// A copy of the times, and two arrays to be filled with three rows of `columns` numbers for each.
+    pub(crate) fn matrices(&self, columns: usize) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
+        self.with_outputs([&[3, columns], &[3, columns]])
+    }
+
+    /// A copy of the times, and two arrays to be filled, of these shapes for each time.
     ///
     /// Many times share one block of memory. In three blocks it is given back to the system with each call, and every page of the next one is a fault:
     /// 25 ns a sample for 100,000 of them, against 1.0 in one block.
-    pub(crate) fn samples(&self) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
-        let shapes = [self.array.shape().to_vec(), self.shape(4), self.shape(3)];
+    fn with_outputs(&self, [first, second]: [&[usize]; 2]) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
+        let shapes = [self.array.shape().to_vec(), self.shape(first), self.shape(second)];
         let arrays = if self.array.len() < FEWEST_SHARED {
             [self.empty(&shapes[0])?, self.empty(&shapes[1])?, self.empty(&shapes[2])?]
         } else {
@@ -296,13 +306,13 @@ impl<'py> Times<'py> {
 
     /// An array to be filled with N numbers for each time.
     pub(crate) fn rows(&self, n: usize) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.empty(&self.shape(n))
+        self.empty(&self.shape(&[n]))
     }
 
-    fn shape(&self, n: usize) -> Vec<usize> {
+    fn shape(&self, last: &[usize]) -> Vec<usize> {
         let times = self.array.shape();
         let members = self.members.filter(|_| times.len() < 2);
-        members.into_iter().chain(times.iter().copied()).chain([n]).collect()
+        members.into_iter().chain(times.iter().copied()).chain(last.iter().copied()).collect()
     }
 
     /// N numbers for each time, computed by `evaluate` without the interpreter lock, into `out` or a new array.
@@ -312,7 +322,7 @@ impl<'py> Times<'py> {
         evaluate: impl FnOnce(&[f64], &mut [[f64; N]]) -> Result<(), Propagation> + Send,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let result = match out {
-            Some(out) => output(out, &self.shape(N))?,
+            Some(out) => output(out, &self.shape(&[N]))?,
             None => self.rows(N)?,
         };
         let mut rows = write(&result)?;
@@ -346,6 +356,13 @@ pub(crate) fn write<'py>(array: &Bound<'py, PyArrayDyn<f64>>) -> PyResult<PyRead
         numpy::BorrowError::NotWriteable => PyTypeError::new_err("out is read-only: it must be writeable"),
         _ => in_use("out"),
     })
+}
+
+/// Matrices of three rows of N numbers.
+pub(crate) fn matrices<'a, const N: usize>(
+    array: &'a mut PyReadwriteArrayDyn<'_, f64>,
+) -> PyResult<&'a mut [[[f64; N]; 3]]> {
+    Ok(chunks(array)?.as_chunks_mut().0)
 }
 
 /// Rows of N numbers.

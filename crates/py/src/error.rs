@@ -67,7 +67,7 @@ create_exception!(
     andoyer,
     HamiltonianError,
     Error,
-    "A polynomial that cannot be read, or a Hamiltonian whose origin is no elliptic point with a diagonal quadratic part."
+    "A polynomial that cannot be read, or a Hamiltonian whose quadratic part cannot be diagonalized."
 );
 create_exception!(
     andoyer,
@@ -113,7 +113,9 @@ fn of_kind(error: &Propagation, message: String) -> PyErr {
         Propagation::Time { .. } => TimesError::new_err(message),
         Propagation::Threads { .. } => ThreadsError::new_err(message),
         Propagation::Index { .. } | Propagation::Length { .. } => ShapeError::new_err(message),
-        Propagation::NearSeparatrix { .. } | Propagation::Separatrix => SeparatrixError::new_err(message),
+        Propagation::NearSeparatrix { .. } | Propagation::Separatrix | Propagation::SeparatrixPartials => {
+            SeparatrixError::new_err(message)
+        }
         Propagation::UnknownBody { .. } => UnknownBodyError::new_err(message),
         Propagation::SceneFile { .. } => SceneFileError::new_err(message),
         _ => Error::new_err(message),
@@ -137,15 +139,18 @@ fn exception(error: Algebra, message: String) -> PyErr {
         Algebra::OrderTooLarge { .. } | Algebra::MemoryTooLarge { .. } | Algebra::OrderOutOfRange { .. } => {
             OrderError::new_err(message)
         }
-        Algebra::NameUnknown { .. } | Algebra::Parse { problem: ParseProblem::UnknownName(_), .. } => {
-            UnknownNameError::new_err(message)
-        }
+        Algebra::NameUnknown { .. }
+        | Algebra::ParameterUnknown { .. }
+        | Algebra::Parse { problem: ParseProblem::UnknownName(_), .. } => UnknownNameError::new_err(message),
         Algebra::OutsideInterval { .. } | Algebra::NotFinite { .. } => IntervalError::new_err(message),
         Algebra::Parse { .. }
         | Algebra::PhaseSpaceSize { .. }
         | Algebra::LinearTerm { .. }
-        | Algebra::QuadraticNotDiagonal { .. }
-        | Algebra::NotElliptic { .. }
+        | Algebra::ParameterDegree { .. }
+        | Algebra::ZeroFrequency { .. }
+        | Algebra::FrequencyParameter { .. }
+        | Algebra::Defective { .. }
+        | Algebra::SpectrumIrrational { .. }
         | Algebra::FrequencyIrrational { .. } => HamiltonianError::new_err(message),
         Algebra::SmallDivisor { .. }
         | Algebra::NotResonant { .. }
@@ -155,6 +160,7 @@ fn exception(error: Algebra, message: String) -> PyErr {
         | Algebra::FormatUnknown { .. }
         | Algebra::RationalMalformed { .. }
         | Algebra::CountMismatch { .. }
+        | Algebra::NotSymplectic { .. }
         | Algebra::TermInconsistent { .. }
         | Algebra::CoefficientWrong { .. } => FormatError::new_err(message),
         _ => SeriesError::new_err(message),

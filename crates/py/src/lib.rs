@@ -14,6 +14,7 @@ mod array;
 mod birkhoff;
 mod body;
 mod computing;
+mod domain;
 mod ensemble;
 mod error;
 mod expression;
@@ -25,6 +26,7 @@ mod normal_form;
 mod normalize;
 mod orbit;
 mod order;
+mod partials;
 mod plan;
 mod progress;
 mod samples;
@@ -40,6 +42,8 @@ mod _core {
     use super::body::Body;
     #[pymodule_export]
     use super::computing::_panic;
+    #[pymodule_export]
+    use super::domain::Domain;
     #[pymodule_export]
     use super::ensemble::Ensemble;
     #[pymodule_export]
@@ -57,6 +61,8 @@ mod _core {
     use super::normalize::normalize;
     #[pymodule_export]
     use super::orbit::Orbit;
+    #[pymodule_export]
+    use super::partials::Partials;
     #[pymodule_export]
     use super::plan::Plan;
     #[pymodule_export]

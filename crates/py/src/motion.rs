@@ -1,14 +1,16 @@
 //! `andoyer.Motion`.
 
+use andoyer_propagate::PARAMETERS;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 
-use crate::array::{Times, chunks, write};
+use crate::array::{Times, chunks, matrices, write};
 use crate::computing::detached;
 use crate::error;
 use crate::foreign;
+use crate::partials::Partials;
 use crate::plan::Plan;
 use crate::samples::Samples;
 use crate::scene_class::Scene;
@@ -182,6 +184,43 @@ impl Motion {
     fn rotation<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let rotation = times.py().import("scipy.spatial.transform")?.getattr("Rotation")?;
         rotation.call_method1("from_quat", (self.attitude(times, None, false)?,))
+    }
+
+    /// Derivatives of attitude and angular velocity with respect to the state at the epoch and the moments (theory §12).
+    ///
+    /// Columns are nine parameters: the initial attitude (a small rotation about body axes 1, 2, 3), the initial angular velocity, the moments as given. A change of attitude,
+    /// at the epoch and at the time, is a rotation vector δθ about body axes, R → R exp([δθ]×); rates are body components. Closed form: no differences and no
+    /// integration, at any time and in every mode; for a scene with an orbit by differences (`Plan.partials` says which).
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,)
+    ///
+    /// Returns
+    /// -------
+    /// Partials
+    ///
+    /// Raises
+    /// ------
+    /// SeparatrixError
+    ///     A motion on the separatrix, whose frequencies have no derivatives.
+    ///
+    /// Examples
+    /// --------
+    /// Rotation about axis 3 for 10 units of time: the angle grows by 10 for each unit of its rate.
+    ///
+    /// >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0, 0, 2.0]).solve()
+    /// >>> float(motion.partials(10.0).attitude[2, 5])
+    /// 10.0
+    fn partials(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Partials> {
+        let times = Times::new(times)?;
+        let [copy, attitude, rates] = times.matrices(PARAMETERS)?;
+        {
+            let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
+            let (values, attitude, rates) = (times.values()?, matrices(&mut attitude)?, matrices(&mut rates)?);
+            detached(py, error::propagation, || self.0.partials_into(values, attitude, rates))?;
+        }
+        Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
     }
 
     /// What is evaluated, and why.

@@ -1,5 +1,6 @@
 """docs/scene.md held against the package: its example is solved, its keys, columns and names are those there are."""
 
+import builtins
 import re
 
 import numpy as np
@@ -68,3 +69,14 @@ def test_no_symbol_stands_twice_in_the_table_of_symbols():
     rows = re.findall(r"^\| (.+?) \|", (REPOSITORY / "docs/symbols.md").read_text(encoding="utf-8"), re.MULTILINE)[2:]
     symbols = [symbol for row in rows for symbol in re.split(r", | ≤ ", row)]
     assert len(symbols) > 60 and sorted(symbols) == sorted(set(symbols))
+
+
+def test_errors_that_the_pages_name_exist_and_are_raised_for_what_they_say():
+    pages = [REPOSITORY / "README.md", REPOSITORY / "CHANGELOG.md", *(REPOSITORY / "docs").glob("*.md")]
+    named = {(page.name, name) for page in pages for name in re.findall(r"`(?:andoyer\.)?(\w+Error)`", page.read_text(encoding="utf-8"))}
+    assert ("gravity-gradient.md", "SpinResonanceError") in named
+    assert not [(page, name) for page, name in named if not (hasattr(andoyer, name) or name in dir(builtins))]
+    # A synchronous moon, which gravity-gradient.md gives as an example.
+    moon = andoyer.Scene(andoyer.Body.named("moon"), [0, 0, 0, 1], [0, 0, 1], orbit=andoyer.Orbit(1.0, 0.0554))
+    with pytest.raises(andoyer.SpinResonanceError):
+        moon.solve()

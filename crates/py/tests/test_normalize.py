@@ -171,11 +171,9 @@ def test_complex_form_has_real_and_imaginary_parts():
 @pytest.mark.parametrize(
     "hamiltonian, message",
     [
-        ("x^2 + X^2 + x*X/3", r"not diagonal: the term x\*X has the coefficient 1/3"),
-        ("x^2 + X^2 + y^2 + Y^2 + 2*x*y", r"the term x\*y has the coefficient 2"),
+        ("x^2 + X^2 + y^2 + Y^2 + 2*x*y", r"in \(x, X\), \(y, Y\) has a zero frequency, along the direction with the components x 1.000, y 1.000"),
         ("x^2 + X^2 + y^2 + Y^2 - Y", "no equilibrium: the linear term Y has the coefficient -1"),
-        ("x^2 + X^2 + y^2 - Y^2", r"mode \(y, Y\) is not elliptic: Y\^2 and y\^2 have the coefficients -1 and 1"),
-        ("x^2 + X^2 + y^4 + Y^2", r"mode \(y, Y\) is not elliptic"),
+        ("x^2 + X^2 + y^4 + Y^2", r"in \(y, Y\) has a zero frequency"),
         ("x^2 +", "at byte 5"),
         ("sin(x)", "at byte"),
         ({(2, 0): 1}, r"tuple of exponents of x, X, y, Y"),
@@ -207,7 +205,7 @@ def test_resonances_not_asked_for_and_none_are_refused():
         with pytest.raises(andoyer.ResonanceError, match="no resonance vector"):
             normalize(HENON_HEILES, 4, PLANE, resonances=wrong)
     resonant = normalize(HENON_HEILES, 4, PLANE, resonances=[(1, -1)])
-    for ask in [resonant.in_actions, lambda: resonant.frequency_map([0.1, 0.1]), lambda: resonant.trajectory([0.1, 0, 0, 0], 1.0)]:
+    for ask in [resonant.in_actions, lambda: resonant.frequency_map([0.1, 0.1])]:
         with pytest.raises(andoyer.ResonanceError, match=r"contains u_x\^2\*U_y\^2"):
             ask()
     assert resonant.to_normal([0.1, 0, 0, 0.1]).shape == (4,)
@@ -281,7 +279,7 @@ def test_refusals_name_the_argument():
     for wrong in [(2, -1), [(1.0,)], [(2**70,)], ["11"], 1]:
         with pytest.raises(TypeError, match="resonances must be a sequence of vectors of integers"):
             normalize(h, 2, [("x", "X")], resonances=wrong)
-    for wrong, kind in [("x^2 +", andoyer.HamiltonianError), ("cos(x)", andoyer.UnknownNameError), ({(70000, 0): 1}, andoyer.SeriesError)]:
+    for wrong, kind in [("x^2 +", andoyer.HamiltonianError), ("cos(x)", andoyer.HamiltonianError), ({(70000, 0): 1}, andoyer.SeriesError)]:
         with pytest.raises(kind, match="^hamiltonian: "):
             normalize(wrong, 2, [("x", "X")])
     with pytest.raises(andoyer.HamiltonianError, match="^function: at byte 3"):

@@ -77,29 +77,65 @@ pub enum Error {
         /// Its coefficient.
         coefficient: String,
     },
-    /// A quadratic part that is not Σ (a p² + b q²)/2 with numbers a, b.
+    /// A term whose parameters count too little: it would belong to the quadratic part, which has numbers for coefficients.
     #[error(
-        "the quadratic part is not diagonal: the term {term} has the coefficient {coefficient}; only squares with numbers for coefficients are read"
+        "the term {term} would be of order 0: give a parameter in it a degree of at least {bound}, to make it a detuning, or a number for its value"
     )]
-    QuadraticNotDiagonal {
+    ParameterDegree {
         /// The term.
         term: String,
-        /// Its coefficient.
-        coefficient: String,
+        /// The smallest degree that serves.
+        bound: u32,
     },
-    /// A mode (a p² + b q²)/2 that is hyperbolic or degenerate: a b ≤ 0.
+    /// A name that is no parameter of the space.
+    #[error("{name:?} is no parameter: they are [{known}]")]
+    ParameterUnknown {
+        /// The name given.
+        name: String,
+        /// The parameters.
+        known: String,
+    },
+    /// A quadratic part with an eigenvalue 0: a direction along which nothing oscillates, grows or decays.
     #[error(
-        "the mode ({coordinate}, {momentum}) is not elliptic: {momentum}^2 and {coordinate}^2 have the coefficients {momentum_square} and {coordinate_square}, whose product must be positive"
+        "the quadratic part in {pairs} has a zero frequency, along the direction with the components {direction}: no normal form of this kind exists there"
     )]
-    NotElliptic {
-        /// Name of q.
-        coordinate: String,
-        /// Name of p.
-        momentum: String,
-        /// Coefficient of q².
-        coordinate_square: String,
-        /// Coefficient of p².
-        momentum_square: String,
+    ZeroFrequency {
+        /// The pairs of the block.
+        pairs: String,
+        /// Sizes of the components of the null vector.
+        direction: String,
+    },
+    /// A quadratic part that has a frequency only through its parameters.
+    #[error(
+        "the quadratic part in {pairs} has a zero frequency where its parameters are 0, in the term {term}: write the parameter as a number and a detuning, w = w0 + d, or scale q -> q/sqrt(w), p -> p sqrt(w), t -> t/w, so that the frequency is a number"
+    )]
+    FrequencyParameter {
+        /// The pairs of the block.
+        pairs: String,
+        /// A quadratic term with a parameter.
+        term: String,
+    },
+    /// A quadratic part that cannot be diagonalized.
+    #[error(
+        "the quadratic part in {pairs} cannot be diagonalized: the eigenvalues {eigenvalue} have a Jordan block, with the eigenvector of components {direction}"
+    )]
+    Defective {
+        /// The pairs of the block.
+        pairs: String,
+        /// The eigenvalues.
+        eigenvalue: String,
+        /// Sizes of the components of the eigenvector.
+        direction: String,
+    },
+    /// Eigenvalues of a quadratic part with rational coefficients that are not rational.
+    #[error(
+        "the eigenvalues {eigenvalue} of the quadratic part in {pairs} are not rational (with a denominator below 1e7): use floats"
+    )]
+    SpectrumIrrational {
+        /// The pairs of the block.
+        pairs: String,
+        /// The eigenvalues.
+        eigenvalue: String,
     },
     /// A frequency √(ab) that is no rational number where the coefficients are rational.
     #[error(
@@ -262,7 +298,17 @@ pub enum Error {
         /// Entries expected.
         expected: usize,
     },
-    /// A term that no normal form of the rigid body contains.
+    /// A matrix read from a file that is not symplectic: Mᵀ J M ≠ J.
+    #[error("the linear change is not symplectic: entry ({row}, {column}) of MᵀJM − J is {error:?}")]
+    NotSymplectic {
+        /// Row of MᵀJM − J.
+        row: usize,
+        /// Its column.
+        column: usize,
+        /// The entry.
+        error: f64,
+    },
+    /// A term that no normal form of this kind contains.
     #[error("term {exponents:?} of the {what} of order {order}: {problem}")]
     TermInconsistent {
         /// The series that holds it.
@@ -305,6 +351,14 @@ pub enum ParseProblem {
     /// A name that is no variable.
     #[error("unknown name {0:?}")]
     UnknownName(String),
+    /// A name before a bracket: a function.
+    #[error(
+        "{0:?} is a function, and only polynomials are read: expand it as a Taylor polynomial, for a normal form of order N to degree N + 2"
+    )]
+    Function(String),
+    /// A bracket after an operand: a product without its sign.
+    #[error("a factor in brackets needs * before it")]
+    ProductWithoutSign,
     /// The list of names is longer than the number of slots, or holds a name twice or one that is no identifier.
     #[error("the list of variable names cannot hold {0:?}")]
     UnusableName(String),

@@ -2,7 +2,7 @@
 //!
 //! The algebra: [`Polynomial`]s in up to eight variables over any [`Coefficient`], their [`Poisson`] bracket, the [`Homological`] equation
 //! of a diagonal quadratic part and Deprit's triangle ([`deprit_triangle`], [`LieTransform`]), to any order. Any Hamiltonian about an
-//! elliptic point: [`normalize`] gives its [`BirkhoffNormalForm`], [`BirkhoffMap`] evaluates it. The rigid body: [`NormalForm`],
+//! equilibrium: [`normalize`] gives its [`BirkhoffNormalForm`], [`BirkhoffMap`] evaluates it. The rigid body: [`NormalForm`],
 //! exact and symbolic in the triaxiality β. [`NumericNormalForm`] is the same in floating point at a given β, for the propagation.
 //!
 //! Contract: what is exact stays exact; overflow of an exponent is an error; iteration, printing and summation follow the canonical
@@ -34,7 +34,7 @@ mod rigid_body;
 mod ring;
 mod triangle;
 
-pub use birkhoff::{BirkhoffMap, BirkhoffNormalForm, PhaseSpace, Resonances, normalize, normalize_with};
+pub use birkhoff::{BirkhoffMap, BirkhoffNormalForm, Domain, Mode, PhaseSpace, Resonances, normalize, normalize_with};
 pub use bracket::Poisson;
 pub use coefficient::Coefficient;
 pub use display::Named;

@@ -1,4 +1,4 @@
-//! What the user states: body and catalogue, state, orbit, options, scene, scene file. Everything is validated here.
+//! What the user states: body and catalogue, state, orbit, options, scene. Everything is validated here.
 //!
 //! Imports errors, numerics and simd (an orbit gives its true anomaly).
 
@@ -6,6 +6,6 @@ pub(crate) mod body;
 mod catalogue;
 pub(crate) mod options;
 pub(crate) mod orbit;
+mod principal_axes;
 pub(crate) mod scene;
-mod scene_file;
 pub(crate) mod state;

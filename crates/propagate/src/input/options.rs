@@ -44,6 +44,42 @@ impl fmt::Display for Method {
     }
 }
 
+/// Whose precession and rotation a pair of periods belongs to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Convention {
+    /// The axis that the angular momentum circles: the short axis in the short-axis mode, the long axis in the long-axis mode. Light-curve papers use it.
+    #[default]
+    ExtremalAxis,
+    /// The long axis. Radar papers use it.
+    LongAxis,
+    /// The short axis.
+    ShortAxis,
+}
+
+impl FromStr for Convention {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        match text {
+            "extremal-axis" => Ok(Self::ExtremalAxis),
+            "long-axis" => Ok(Self::LongAxis),
+            "short-axis" => Ok(Self::ShortAxis),
+            _ => Err(Error::Convention { value: text.to_owned() }),
+        }
+    }
+}
+
+impl fmt::Display for Convention {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::ExtremalAxis => "extremal-axis",
+            Self::LongAxis => "long-axis",
+            Self::ShortAxis => "short-axis",
+        })
+    }
+}
+
 /// Which terms the corrections by the gravity gradient have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]

@@ -1,5 +1,7 @@
 //! A scene: a body, its state and the accuracy asked for; `solve` turns it into a motion.
 
+use nalgebra::UnitQuaternion;
+
 use super::body::Body;
 use super::options::{Averaging, Level, MAX_ORDER, Method};
 use super::orbit::Orbit;
@@ -111,6 +113,18 @@ impl Scene {
     pub fn source(mut self, source: &str) -> Self {
         self.source = Some(source.to_owned());
         self
+    }
+
+    /// The same scene about the principal axes of its body, to which `turn` leads from the user's.
+    pub(crate) fn about_principal_axes(&self, turn: UnitQuaternion<f64>) -> Self {
+        let State { epoch, attitude, angular_velocity } = self.state;
+        let state = State { epoch, attitude: attitude * turn, angular_velocity: turn.inverse() * angular_velocity };
+        self.starting_from(self.body.about_principal_axes(), state)
+    }
+
+    /// The same scene with another body and another state.
+    pub(crate) fn starting_from(&self, body: Body, state: State) -> Self {
+        Self { body, state, ..self.clone() }
     }
 
     /// The body.

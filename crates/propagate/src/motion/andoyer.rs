@@ -35,7 +35,7 @@ impl Motion {
         for ((index, part), out) in times.chunks(AT_ONCE).enumerate().zip(out.chunks_mut(AT_ONCE)) {
             let (attitudes, rates) = (&mut attitudes[..part.len()], &mut rates[..part.len()]);
             let momenta = &mut momenta[..part.len()];
-            self.samples_into(part, attitudes, rates).map_err(|error| error.later(index * AT_ONCE))?;
+            self.batch().about_principal_axes(part, attitudes, rates).map_err(|error| error.later(index * AT_ONCE))?;
             self.angular_momenta_into(part, momenta).map_err(|error| error.later(index * AT_ONCE))?;
             for (((slot, attitude), rates), total) in out.iter_mut().zip(attitudes).zip(rates).zip(momenta) {
                 *slot = self.andoyer_of(*attitude, *rates, (*total).into());
@@ -50,7 +50,7 @@ impl Motion {
         if momentum == 0.0 {
             return [0.0; 6];
         }
-        let moments = self.scene().body().moments();
+        let moments = self.scene.body().moments();
         // A momentum that is not turned over: axis 3 keeps its sense.
         let frame = Frame::new(moments, [0.0; 3], false);
         let [g1, g2, g3] = frame.sorted(std::array::from_fn(|i| moments[i] * rates[i]));

@@ -43,7 +43,9 @@ impl<'a> Batch<'a> {
     /// As [`Motion::attitudes_into`].
     pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
-        self.fill(times, Outputs::Attitudes(out))
+        self.fill(times, Outputs::Attitudes(out))?;
+        self.turn(out, &mut []);
+        Ok(())
     }
 
     /// Angular velocities, body components [rad per unit of time].
@@ -52,7 +54,9 @@ impl<'a> Batch<'a> {
     /// As [`Motion::attitudes_into`].
     pub fn angular_velocities_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
-        self.fill(times, Outputs::Rates(out))
+        self.fill(times, Outputs::Rates(out))?;
+        self.turn(&mut [], out);
+        Ok(())
     }
 
     /// Both.
@@ -62,7 +66,26 @@ impl<'a> Batch<'a> {
     pub fn samples_into(&self, times: &[f64], attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
         length("attitudes", attitudes.len(), times.len())?;
         length("rates", rates.len(), times.len())?;
+        self.about_principal_axes(times, attitudes, rates)?;
+        self.turn(attitudes, rates);
+        Ok(())
+    }
+
+    /// Both about the principal axes.
+    pub(crate) fn about_principal_axes(
+        &self,
+        times: &[f64],
+        attitudes: &mut [[f64; 4]],
+        rates: &mut [[f64; 3]],
+    ) -> Result<(), Error> {
         self.fill(times, Outputs::Both(attitudes, rates))
+    }
+
+    /// To the user's axes.
+    fn turn(&self, attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) {
+        if let Some(given) = &self.motion.given {
+            given.turn(attitudes, rates);
+        }
     }
 
     fn fill(&self, times: &[f64], outputs: Outputs<'_>) -> Result<(), Error> {

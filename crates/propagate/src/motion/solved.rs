@@ -48,10 +48,35 @@ pub struct Periods {
     pub rotation: f64,
 }
 
+/// A scene about axes that are not the principal ones of its body.
+#[derive(Clone, Debug)]
+pub(crate) struct Given {
+    pub(crate) scene: Scene,
+    /// Rotation of components about principal axes into the user's.
+    pub(crate) turn: UnitQuaternion<f64>,
+}
+
+impl Given {
+    /// Brings attitudes and rates about principal axes to the user's.
+    pub(crate) fn turn(&self, attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) {
+        let back = self.turn.inverse();
+        for attitude in attitudes {
+            *attitude = (UnitQuaternion::new_unchecked((*attitude).into()) * back).coords.into();
+        }
+        let matrix = self.turn.to_rotation_matrix();
+        for rate in rates {
+            *rate = (matrix * Vector3::from(*rate)).into();
+        }
+    }
+}
+
 /// A solved motion.
 #[derive(Clone, Debug)]
 pub struct Motion {
+    /// The scene about principal axes.
     pub(crate) scene: Scene,
+    /// The scene as given, where its axes are others.
+    pub(crate) given: Option<Box<Given>>,
     pub(crate) plan: Plan,
     pub(crate) trajectory: Trajectory,
     pub(crate) frequencies: Frequencies,
@@ -66,7 +91,7 @@ pub struct Motion {
 impl Motion {
     /// The scene that was solved.
     pub fn scene(&self) -> &Scene {
-        &self.scene
+        self.given.as_ref().map_or(&self.scene, |given| &given.scene)
     }
 
     /// What is evaluated, and why.
@@ -176,7 +201,7 @@ impl Motion {
         }
     }
 
-    fn valid(&self, times: &[f64]) -> Result<(), Error> {
+    pub(crate) fn valid(&self, times: &[f64]) -> Result<(), Error> {
         let (epoch, bound) = (self.scene.state().epoch, self.bound());
         // Written so that NaN fails it.
         let valid = |time: &f64| (time - epoch).abs() <= bound;

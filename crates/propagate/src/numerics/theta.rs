@@ -54,6 +54,8 @@ pub(crate) struct Theta {
     pub(crate) eta: f64,
     /// k′² = Q1/Q2.
     pub(crate) complement: f64,
+    /// m = k²; 0 for A = B.
+    pub(crate) parameter: f64,
 }
 
 impl Theta {
@@ -83,6 +85,7 @@ impl Theta {
             conjugate,
             eta,
             complement: if round { 1.0 } else { (cosine_squares[0] / cosine_squares[1]).to_f64() },
+            parameter: modulus,
         }
     }
 

@@ -1,11 +1,13 @@
 //! The modes of free rotation (theory §5).
 
 use std::fmt;
+use std::str::FromStr;
 
 use andoyer_double::DoubleDouble;
 
 use super::error_budget::COSINE_ROUNDING;
 use super::polhode::{Polhode, SMALLEST_TILT};
+use crate::error::Error;
 
 /// The kind of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
@@ -38,6 +40,19 @@ impl fmt::Display for Mode {
             Self::PrincipalAxis => "principal-axis",
             Self::AtRest => "at-rest",
         })
+    }
+}
+
+impl FromStr for Mode {
+    type Err = Error;
+
+    /// One of the two modes that have periods.
+    fn from_str(text: &str) -> Result<Self, Error> {
+        match text {
+            "short-axis" => Ok(Self::ShortAxis),
+            "long-axis" => Ok(Self::LongAxis),
+            _ => Err(Error::ModeName { value: text.to_owned() }),
+        }
     }
 }
 

@@ -149,9 +149,15 @@ impl Polhode {
 
     /// The same body turning with sin²J = `square` at ℓ = 0, and M.
     pub(crate) fn tilted(&self, square: f64, momentum: f64) -> Self {
-        let direction = [0.0, square.sqrt(), (1.0 - square).sqrt()];
+        self.with_squares([square.into(), DoubleDouble::ONE - square.into()], momentum)
+    }
+
+    /// The same body turning with these sin²J and cos²J at ℓ = 0, and M.
+    pub(crate) fn with_squares(&self, squares: [DoubleDouble; 2], momentum: f64) -> Self {
+        let [sine, cosine] = squares.map(|square| square.to_f64().sqrt());
+        let direction = [0.0, sine, cosine];
         let momentum = DoubleDouble::from(momentum);
-        let squares = [DoubleDouble::ZERO, square.into(), DoubleDouble::ONE - square.into()];
+        let squares = [DoubleDouble::ZERO, squares[0], squares[1]];
         let parts = squares.map(|g| g.sqrt() * momentum);
         Self { direction, squares, parts, momentum, ..self.clone() }
     }

@@ -138,6 +138,14 @@ impl PassageTheta {
         a[1].atan2(a[0]) + lead
     }
 
+    /// 2ℓ″ a time after the epoch, up to half a turn either way; 0 on the separatrix itself \[rad\].
+    pub(crate) fn angle(&self, elapsed: (f64, f64)) -> f64 {
+        match self.clock {
+            Clock::Once(..) => 0.0,
+            Clock::Repeating(phase, ..) => phase.angle(elapsed),
+        }
+    }
+
     /// a and b up to their norm, and the half phase to add, a time after the epoch.
     pub(crate) fn evaluate(&self, elapsed: (f64, f64)) -> ([f64; 2], [f64; 2], f64) {
         let (xi, lead, turned) = match self.clock {

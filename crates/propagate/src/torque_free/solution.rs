@@ -51,7 +51,7 @@ pub(crate) fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secula
     let all = closed.series.harmonics();
     // What is dropped is missing at the epoch and at the time.
     let budget = 0.5 * HARMONICS_SHARE * scene.asked_tolerance() * closed.least_norm;
-    let (series, dropped) = closed.series.truncated(budget);
+    let (series, dropped) = if budget == 0.0 { (closed.series, 0.0) } else { closed.series.truncated(budget) };
     let error_bound =
         (2.0 * dropped + rounding(&series)) / closed.least_norm.min(1.0) + conditioning(scene, polhode, &rates);
     let skipped = if mode == Mode::Axisymmetric {

@@ -1,7 +1,7 @@
 """Rotation of rigid bodies by perturbation series in complex variables.
 
 The exact side is `NormalForm`: the normal form of the free rigid body to any order; `normalize` finds that of any other polynomial
-Hamiltonian about an elliptic point. The numerical side is `Scene`, a `Body` with its state,
+Hamiltonian about an equilibrium. The numerical side is `Scene`, a `Body` with its state,
 which is solved into a `Motion` and evaluated at any time; with an `Orbit`, under the gravity gradient of another body; an `Ensemble` is many of
 them. No unit is built in; angles are in rad. Attitudes are unit quaternions
 [x, y, z, w] that rotate body components into inertial ones.
@@ -23,6 +23,7 @@ from andoyer._core import (
     AveragingError,
     BirkhoffNormalForm,
     Body,
+    Domain,
     Ensemble,
     EpochError,
     Error,
@@ -38,6 +39,7 @@ from andoyer._core import (
     Orbit,
     OrbitError,
     OrderError,
+    Partials,
     Plan,
     ResonanceError,
     Samples,
@@ -67,6 +69,7 @@ __all__ = [
     "AveragingError",
     "BirkhoffNormalForm",
     "Body",
+    "Domain",
     "Ensemble",
     "EpochError",
     "Error",
@@ -83,6 +86,7 @@ __all__ = [
     "Orbit",
     "OrbitError",
     "OrderError",
+    "Partials",
     "Periods",
     "Plan",
     "ResonanceError",

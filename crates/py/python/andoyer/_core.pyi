@@ -91,7 +91,7 @@ class ThreadsError(Error):
     """A number of threads that is none, or that the system does not give."""
 
 class TimesError(Error):
-    """A time that is not finite, or too far from the epoch to have a phase."""
+    """A time that is not finite, or too far from the epoch to be evaluated."""
 
 class ToleranceError(Error):
     """A tolerance that is not positive and finite."""
@@ -278,6 +278,8 @@ class Motion:
         """Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1)."""
     def rotation(self, times: ArrayLike) -> Rotation:
         """Attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else."""
+    def partials(self, times: ArrayLike) -> Partials:
+        """Derivatives of attitude and angular velocity with respect to the state at the epoch and the moments (theory §12)."""
     @property
     def plan(self) -> Plan:
         """What is evaluated, and why."""
@@ -358,6 +360,21 @@ class Samples:
         """A table of pandas, indexed by time, or by member and time: qx, qy, qz, qw, wx, wy, wz. pandas is imported here and nowhere else."""
     def to_xarray(self) -> Dataset:
         """A data set of xarray: attitude and angular_velocity by (member,) time, quaternion or axis. xarray is imported here and nowhere else."""
+    def __len__(self) -> int: ...
+
+@final
+class Partials:
+    """Derivatives of attitude and angular velocity at some times: what `Motion.partials` returns."""
+
+    @property
+    def times(self) -> _Array:
+        """The times, float64, shape (n,)."""
+    @property
+    def attitude(self) -> _Array:
+        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9)."""
+    @property
+    def angular_velocity(self) -> _Array:
+        """Derivatives of the angular velocity in body components, shape (n, 3, 9)."""
     def __len__(self) -> int: ...
 
 @final
@@ -473,17 +490,28 @@ class BirkhoffNormalForm:
     def parameters(self) -> tuple[str, ...]:
         """The parameters."""
     @property
-    def frequencies(self) -> tuple[_Number, ...]:
-        """The frequencies ω = ±√(ab) at the origin, negative where a and b are."""
+    def frequencies(self) -> tuple[_Number | complex, ...]:
+        """The frequencies ω at the origin: of a centre real, and negative where its energy is; of a saddle iλ; of a quartet iσ − ν and iσ + ν."""
     @property
-    def ratios(self) -> tuple[_Number, ...]:
-        """The ratios r = √(a/b)."""
+    def kinds(self) -> tuple[Literal["elliptic", "hyperbolic", "complex"], ...]:
+        """The kind of every mode: "elliptic", "hyperbolic" or "complex"."""
+    @property
+    def ratios(self) -> tuple[_Number | None, ...]:
+        """The ratios r = √(a/b) of the centres, None for other modes."""
+    @property
+    def linear_change(self) -> tuple[tuple[_Number, ...], ...]:
+        """The symplectic matrix M of the linear change z = M z′ that diagonalizes the quadratic part, by rows; the unit matrix where it is diagonal already."""
+    @property
+    def resonances(self) -> tuple[tuple[int, ...], ...]:
+        """The resonances that were kept: vectors k with k·ω = 0, whose terms turn with the resonant angles k·φ."""
     def in_actions(self) -> _Polynomial:
         """K in the actions: exponents of I₁, I₂, …, parameters. The constant term of H is in it."""
     def in_complex(self) -> dict[tuple[int, ...], tuple[_Number, _Number]]:
         """K in the complex variables: (re, im) by exponents of u₁, U₁, u₂, U₂, …, parameters."""
     def in_real(self) -> _Polynomial:
         """K in the new real variables."""
+    def centre_manifold(self) -> _Polynomial:
+        """The Hamiltonian on the centre manifold: K in the new real variables of the centres, where the saddles rest at q = p = 0."""
     def generator(self, m: int) -> _Polynomial:
         """Generating function S_m in the real variables, of degree m + 2."""
     def direct(self, function: _Expression) -> _Polynomial:
@@ -496,15 +524,47 @@ class BirkhoffNormalForm:
         """The states of new variables; errors are those of `to_normal`."""
     def actions(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The actions of states, which hardly change along a motion unless a resonance exchanges them."""
+    def from_centre_manifold(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+        """The states of points of the centre manifold, given by the new variables of the centres alone."""
+    def energy(self, normal: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+        """The value of K at new variables: the energy."""
+    def rates(self, normal: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+        """The rates of new variables, by Hamilton's equations of K."""
+    def domain(self, parameters: dict[str, float] | None = None) -> Domain:
+        """How far the form is good: the sizes of its orders, and the best order at an amplitude."""
     def frequency_map(self, actions: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The frequencies Ω = ∂K/∂I at actions."""
+        """The frequencies Ω = ∂K/∂I at actions: of a saddle the rate, of a quartet rate and frequency."""
     def trajectory(self, state: ArrayLike, times: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The states at times after that of `state`: the angles move uniformly with the frequencies at its actions."""
+        """The states at times after that of `state`, by the motion of the normal form."""
+    def to_json(self) -> str:
+        """This normal form as JSON text, with a format version: exact numbers as "p/q" strings, floats with all their digits."""
+    @classmethod
+    def from_json(cls, text: str, symbols: dict[str, Any] | None = None) -> BirkhoffNormalForm:
+        """Reads what `to_json` wrote."""
+    def to_latex(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> str:
+        """A part of this normal form as LaTeX, for a document that uses amsmath."""
+    def to_code(self, language: Literal["c", "rust", "python"] = "c") -> str:
+        """Functions that evaluate this normal form, as the text of a file of source that needs nothing but its language."""
     def to_sympy(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> Any:
         """A part of this normal form as SymPy expressions. SymPy is imported here and nowhere else."""
     def __eq__(self, other: object, /) -> bool: ...
     def __copy__(self) -> BirkhoffNormalForm: ...
     def __deepcopy__(self, _memo: Any) -> BirkhoffNormalForm: ...
+
+class Domain:
+    """How far a normal form is good, from `BirkhoffNormalForm.domain`: an estimate by the sizes of its orders."""
+
+    @property
+    def norms(self) -> list[float]:
+        """‖T_1‖ … ‖T_N‖: norms of the generating functions S_m/(m−1)! at the amplitude 1."""
+    @property
+    def radii(self) -> list[float]:
+        """ρ_m = (‖T_{m−2}‖/‖T_m‖)^½, m = 3 … N: the amplitude at which order m is as large as order m − 2."""
+    def sizes(self, amplitude: float) -> list[float]:
+        """The sizes (m + 2) ‖T_m‖ a^(m+1) of the orders of the transformation at an amplitude."""
+    def best_order(self, amplitude: float) -> int:
+        """The order whose size is least at an amplitude."""
+    def __eq__(self, other: object, /) -> bool: ...
 
 def normalize(
     hamiltonian: _Expression,
@@ -512,9 +572,11 @@ def normalize(
     variables: Sequence[tuple[Any, Any]],
     *,
     parameters: Sequence[Any] | None = None,
+    degrees: dict[str, int] | None = None,
     resonances: Sequence[Sequence[int]] | None = None,
+    keep: Literal["hyperbolic"] | None = None,
     smallest_divisor: float = 1e-6,
     exact: bool | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> BirkhoffNormalForm:
-    """Birkhoff normal form of a polynomial Hamiltonian about an elliptic point at the origin."""
+    """Birkhoff normal form of a polynomial Hamiltonian about an equilibrium at the origin."""

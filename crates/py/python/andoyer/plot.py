@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from andoyer._compared import clock as _clock, components, difference, sampled_rates
 from andoyer._core import Motion, Samples
-from andoyer._diagrams import axes_or_new as _axes, error_by_order, work_precision
+from andoyer._diagrams import axes_or_new as _axes, domain, error_by_order, work_precision
 from andoyer._drawing import near_pole, on_ellipsoid, plane, surface as draw_surface
 from andoyer._extra import extra
 from andoyer._film import film
@@ -34,7 +34,7 @@ STEADY = 1e-11
 TURNS, SAMPLES = 3, 3000
 """Periods of the polhode that are drawn if no times are given, and how many times."""
 
-__all__ = ["angles", "animate", "components", "difference", "error_by_order", "nutation", "page", "phase_portrait", "polhode", "polhode_near_pole", "pole_path", "rates", "sampled_rates", "samples_summary", "summary", "whole_turns", "work_precision"]
+__all__ = ["angles", "animate", "components", "difference", "domain", "error_by_order", "nutation", "page", "phase_portrait", "polhode", "polhode_near_pole", "pole_path", "rates", "sampled_rates", "samples_summary", "summary", "whole_turns", "work_precision"]
 
 
 def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> Array:
