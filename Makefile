@@ -141,6 +141,7 @@ docs: $(VENV)/documented  ## the site in target/site, the Rust documentation in 
 	rm -rf target/site docs/gallery
 	$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet --builder html docs target/site
 	cp -r target/site-rust/doc target/site/rust
+	$(BIN)/python examples/pages.py target/site/pages
 
 docs-test: docs  ## the pages as files, and in a headless Chromium of this machine (Debian: apt-get install chromium)
 	$(BIN)/python -m pytest -q tests/site

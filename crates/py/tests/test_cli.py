@@ -174,7 +174,7 @@ BAD_LINES = {
     "two words": (["propagate", "SCENE", "-o", "out.aem", "--frame", "my frame"], "--frame: must be one word"),
     "year 10000": (["propagate", "SCENE", "-o", "out.aem", "--stop", "1e12"], "years from 1 to 9999"),
     "time stands still": (["propagate", "SCENE", "-o", "out.aem", "--start", "3", "--stop", "3", "--samples", "2"], "ascending times"),
-    "picture of text": (["plot", "SCENE", "-o", "out.txt"], r"\.png, \.svg, \.pdf"),
+    "picture of text": (["plot", "SCENE", "-o", "out.txt"], r"\.png, \.svg, \.pdf, \.html"),
     "time without a phase": (["propagate", "SCENE", "-o", "out.csv", "--stop", "1e308"], r"times\[\d+\]"),
     "negative order": (["series", "--order", "-1"], "order"),
     "huge order": (["series", "--order", "100000"], "order.*16381"),

@@ -24,6 +24,7 @@ from andoyer import _writing as writing
 from andoyer import output
 from andoyer._arguments import MOST_SAMPLES, InputError, count, number, step, whole
 from andoyer._extra import extra
+from andoyer._page import page
 from andoyer._terminal import Progress, named
 from andoyer._writing import ENDINGS
 from andoyer.output import COLUMNS, CONVENTION
@@ -38,7 +39,7 @@ SAMPLES = 1000
 MISSED = 3
 """Exit status of a tolerance that is not met, under --strict."""
 
-PICTURES = [".png", ".svg", ".pdf"]
+PICTURES = [".png", ".svg", ".pdf", ".html"]
 COMMANDS = ["propagate", "plot", "plan", "bodies", "series"]
 LANGUAGES = ["c", "rust", "python"]
 EXAMPLES = {
@@ -50,6 +51,7 @@ andoyer propagate eros.toml -o eros.bc --stop 86400 --interpolation-error 1e-6 -
     "plan": "andoyer plan eros.toml",
     "plot": """\
 andoyer plot eros.toml -o eros.png
+andoyer plot eros.toml -o eros.html
 andoyer plot eros.aem -o difference.png --against eros.toml --date 2026-01-01T00:00:00""",
     "bodies": "andoyer bodies",
     "series": """\
@@ -125,7 +127,7 @@ def parser() -> Parser:
     pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole"
     command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML), or a file of attitudes")
-    command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .png, .svg or .pdf by its ending")
+    command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .png, .svg, .pdf, or a page that turns, .html, by its ending")
     command.add_argument("--force", action="store_true", help="replace a file that is there already")
     reading.add_options(command)
     strictly(command)
@@ -182,6 +184,8 @@ def plot(arguments: argparse.Namespace) -> int:
         raise InputError(f"argument -o/--output: {arguments.output}: the name must end in {', '.join(PICTURES)}")
     if not arguments.force:
         writing.refuse_existing(path)
+    if path.suffix.lower() == ".html":
+        return turning(arguments, path)
     extra("matplotlib", "drawing").use("Agg")
     from andoyer import plot as pictures
 
@@ -196,6 +200,17 @@ def plot(arguments: argparse.Namespace) -> int:
     with writing.written_to(path), whole_file(path, arguments.force) as temporary:
         figure.savefig(temporary, dpi=130, format=path.suffix.lower()[1:])
     return 0 if motion is None else status(arguments, motion)
+
+
+def turning(arguments: argparse.Namespace, path: Path) -> int:
+    """Write the page in which a scene turns."""
+    reading.refuse_options(arguments)
+    if reading.is_attitude_file(arguments.scene):
+        raise InputError(f"argument -o/--output: {arguments.output}: a page is of a scene, not of a file of attitudes")
+    motion = solved(arguments.scene)
+    with writing.written_to(path):
+        page(motion, path, force=arguments.force)
+    return status(arguments, motion)
 
 
 def read(path: str) -> andoyer.Scene:

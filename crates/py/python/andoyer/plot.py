@@ -16,9 +16,12 @@ from andoyer._core import Motion, Samples
 from andoyer._diagrams import axes_or_new as _axes, domain, error_by_order, work_precision
 from andoyer._drawing import near_pole, on_ellipsoid, plane, surface as draw_surface
 from andoyer._extra import extra
+from andoyer._film import film
+from andoyer._page import page
 from andoyer._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION, Array
 
 if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -31,7 +34,7 @@ STEADY = 1e-11
 TURNS, SAMPLES = 3, 3000
 """Periods of the polhode that are drawn if no times are given, and how many times."""
 
-__all__ = ["angles", "components", "difference", "domain", "error_by_order", "nutation", "phase_portrait", "polhode", "polhode_near_pole", "pole_path", "rates", "sampled_rates", "samples_summary", "summary", "whole_turns", "work_precision"]
+__all__ = ["angles", "animate", "components", "difference", "domain", "error_by_order", "nutation", "page", "phase_portrait", "polhode", "polhode_near_pole", "pole_path", "rates", "sampled_rates", "samples_summary", "summary", "whole_turns", "work_precision"]
 
 
 def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> Array:
@@ -242,6 +245,26 @@ def samples_summary(samples: Samples, motion: Motion | None = None, *, name: str
         figure.align_ylabels(panels)
         plt.close(figure)
     return figure
+
+
+def animate(motion: Motion, times: ArrayLike | None = None, *, interval: float = 40.0) -> "FuncAnimation":
+    """An animation of a motion: body axes, angular momentum upwards, angular velocity, polhode and herpolhode; ``.save`` writes a film.
+
+    Parameters
+    ----------
+    motion : Motion
+    times : array_like, shape (n,), optional
+        One frame each. By default 300 over one period of the polhode.
+    interval : float, optional
+        Time between frames [ms].
+
+    Examples
+    --------
+    >>> from andoyer import plot
+    >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    >>> plot.animate(motion, [0.0, 0.1, 0.2]).save("motion.gif", writer="pillow")
+    """
+    return film(motion, whole_turns(motion, 1, 300) if times is None else np.atleast_1d(np.asarray(times, dtype=float)), interval)
 
 
 def _times(motion: Motion, times: ArrayLike | None) -> Array:
