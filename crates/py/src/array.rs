@@ -182,6 +182,40 @@ pub(crate) fn span(value: &Bound<'_, PyAny>, epoch: f64, calendar: Option<Calend
     }
 }
 
+/// Two numbers or three.
+pub(crate) enum TwoOrThree {
+    Two([f64; 2]),
+    Three([f64; 3]),
+}
+
+/// `value` as two numbers or three.
+pub(crate) fn two_or_three(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<TwoOrThree> {
+    let array = numbers(argument, value)?;
+    match (array.shape(), read(argument, &array)?.as_slice()?) {
+        (&[2], &[x, y]) => Ok(TwoOrThree::Two([x, y])),
+        (&[3], &[x, y, z]) => Ok(TwoOrThree::Three([x, y, z])),
+        (shape, _) => {
+            Err(ShapeError::new_err(format!("{argument} has shape {}: it must be (3,) or (2,)", shape_text(shape))))
+        }
+    }
+}
+
+/// Whether `value` is an array_like of shape (3, 3).
+pub(crate) fn is_matrix(value: &Bound<'_, PyAny>) -> bool {
+    numbers("moments", value).is_ok_and(|array| array.shape() == [3, 3])
+}
+
+/// `value` as a 3 × 3 matrix, row by row.
+pub(crate) fn matrix(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<[[f64; 3]; 3]> {
+    let array = numbers(argument, value)?;
+    let wrong =
+        || ShapeError::new_err(format!("{argument} has shape {}: it must be (3, 3)", shape_text(array.shape())));
+    if array.shape() != [3, 3] {
+        return Err(wrong());
+    }
+    read(argument, &array)?.as_slice()?.as_chunks().0.try_into().map_err(|_| wrong())
+}
+
 /// Rows of `columns` numbers: an array_like of shape (`columns`,) or (m, `columns`).
 pub(crate) struct Rows<'py> {
     array: PyReadonlyArrayDyn<'py, f64>,

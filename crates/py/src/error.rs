@@ -19,6 +19,12 @@ create_exception!(
 );
 create_exception!(andoyer, InternalError, Error, "A fault of this package: no input should lead to it.");
 create_exception!(andoyer, MomentsError, Error, "Moments of inertia that no body has.");
+create_exception!(
+    andoyer,
+    PeriodsError,
+    Error,
+    "Periods that a body cannot have in a mode, a mode it does not have, or Andoyer variables that are none."
+);
 create_exception!(andoyer, AttitudeError, Error, "An attitude that is no unit quaternion.");
 create_exception!(andoyer, AngularVelocityError, Error, "An angular velocity that is not finite.");
 create_exception!(
@@ -111,6 +117,15 @@ fn of_kind(error: &Propagation, message: String) -> PyErr {
         Propagation::Moment { .. } | Propagation::MomentsTriangle { .. } | Propagation::MomentsRatio { .. } => {
             MomentsError::new_err(message)
         }
+        Propagation::InertiaSymmetry { .. } | Propagation::InertiaMoments { .. } => MomentsError::new_err(message),
+        Propagation::Positive { argument: "precession" | "rotation", .. }
+        | Propagation::PeriodRatio { .. }
+        | Propagation::ModeName { .. }
+        | Propagation::NoSuchMode { .. }
+        | Propagation::Convention { .. }
+        | Propagation::Direction { .. }
+        | Propagation::Andoyer { .. } => PeriodsError::new_err(message),
+        Propagation::Positive { .. } => MomentsError::new_err(message),
         Propagation::Units { .. } => UnitsError::new_err(message),
         Propagation::Attitude { .. } => AttitudeError::new_err(message),
         Propagation::AngularVelocity { .. } => AngularVelocityError::new_err(message),

@@ -49,9 +49,10 @@ mod _core {
     #[pymodule_export]
     use super::error::{
         AngularVelocityError, AttitudeError, AveragingError, EpochError, Error, FormatError, HamiltonianError,
-        InternalError, IntervalError, LevelError, MethodError, MomentsError, OrbitError, OrderError, ResonanceError,
-        SceneFileError, SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError, ThreadsError,
-        TimesError, ToleranceError, ToleranceWarning, TorqueError, UnitsError, UnknownBodyError, UnknownNameError,
+        InternalError, IntervalError, LevelError, MethodError, MomentsError, OrbitError, OrderError, PeriodsError,
+        ResonanceError, SceneFileError, SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError,
+        ThreadsError, TimesError, ToleranceError, ToleranceWarning, TorqueError, UnitsError, UnknownBodyError,
+        UnknownNameError,
     };
     #[pymodule_export]
     use super::motion::Motion;

@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
-use andoyer_propagate::{MAX_ORDER, State};
+use andoyer_propagate::{MAX_ORDER, ObservedPeriods, State};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
+use crate::array::TwoOrThree;
 use crate::body::Body;
 use crate::computing::detached;
 use crate::foreign::{self, Calendar};
@@ -74,6 +75,119 @@ impl Scene {
         }
         scene.validate().map_err(error::propagation)?;
         Ok(Self { scene, tables: body.tables.clone(), calendar })
+    }
+
+    /// The torque-free state of a body that tumbles with these periods (theory §7): for a mode there is one.
+    ///
+    /// Parameters
+    /// ----------
+    /// body : Body
+    /// precession : float
+    ///     P_φ, of the precession of an axis about the angular momentum.
+    /// rotation : float
+    ///     P_ψ, of the rotation about this axis, or of its oscillation.
+    /// mode : {"short-axis", "long-axis"}, optional
+    ///     The axis that the angular momentum circles.
+    /// convention : {"extremal-axis", "long-axis", "short-axis"}, optional
+    ///     Whose periods they are: by default those of the mode's own axis, as light-curve papers give them; radar papers give those of the long axis.
+    /// momentum_direction : array_like, shape (3,) or (2,), optional
+    ///     Direction of the angular momentum: inertial components of any length, or (longitude, latitude) in rad; by default inertial axis 3.
+    /// phases : (float, float), optional
+    ///     Parts of P_ψ and P_φ, in turns, that have gone by at the epoch. At (0, 0) the mode's axis is nearest to the angular momentum, tilted towards
+    ///     (inertial axis 3) × momentum, or towards inertial axis 1 where the momentum is along axis 3.
+    /// epoch : float, optional
+    ///     Time of the state.
+    /// **options
+    ///     The other keyword arguments of `Scene`: orbit, tolerance, method, order, span, averaging, level, name, source.
+    ///
+    /// Raises
+    /// ------
+    /// PeriodsError
+    ///     A ratio P_ψ/P_φ that the body cannot have; the message has the interval that it can, as `Body.period_ratios`. A mode that a round body does not have; a period,
+    ///     a direction or phases that are none.
+    ///
+    /// Examples
+    /// --------
+    /// Apophis, in hours (Pravec et al. 2014):
+    ///
+    /// >>> scene = Scene.from_periods(Body([0.61, 0.965, 1.0]), 27.38, 263.0)
+    /// >>> motion = scene.solve()
+    /// >>> round(motion.energy_ratio, 5), round(motion.periods["long-axis"].precession, 2)
+    /// (1.02364, 30.56)
+    #[classmethod]
+    #[pyo3(signature = (
+        body, precession, rotation, *, mode="short-axis", convention="extremal-axis", momentum_direction=None, phases=None, epoch=None,
+        **options
+    ), text_signature = "(body, precession, rotation, *, mode='short-axis', convention='extremal-axis', momentum_direction=None, phases=None, epoch=0.0, **options)")]
+    #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
+    fn from_periods<'py>(
+        class: &Bound<'py, PyType>,
+        body: &Bound<'py, PyAny>,
+        #[pyo3(from_py_with = precession)] precession: f64,
+        #[pyo3(from_py_with = rotation)] rotation: f64,
+        mode: &str,
+        convention: &str,
+        momentum_direction: Option<&Bound<'py, PyAny>>,
+        phases: Option<&Bound<'py, PyAny>>,
+        epoch: Option<&Bound<'py, PyAny>>,
+        options: Option<Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (time, _) = self::epoch(epoch)?;
+        let mut periods = ObservedPeriods { epoch: time, ..ObservedPeriods::new(precession, rotation) };
+        periods.mode = mode.parse().map_err(error::propagation)?;
+        periods.convention = convention.parse().map_err(error::propagation)?;
+        if let Some(phases) = phases {
+            periods.phases = array::fixed("phases", phases)?;
+        }
+        if let Some(direction) = momentum_direction {
+            periods = match array::two_or_three("momentum_direction", direction)? {
+                TwoOrThree::Two([longitude, latitude]) => periods.towards(longitude, latitude),
+                TwoOrThree::Three(vector) => ObservedPeriods { momentum_direction: vector.into(), ..periods },
+            };
+        }
+        let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
+        let solve = || andoyer_propagate::Scene::from_periods(of_body, &periods);
+        let scene = detached(class.py(), error::propagation, solve)?;
+        with_options(class, body, (&scene, epoch), options)
+    }
+
+    /// The scene whose Andoyer variables at the epoch are these: the inverse of `Motion.andoyer` (theory §1).
+    ///
+    /// Parameters
+    /// ----------
+    /// body : Body
+    /// andoyer : array_like, shape (6,)
+    ///     (λ, μ, ν, Λ, M, N): angles in rad, momenta in the unit of moment × rate; M > 0, |Λ| ≤ M, |N| ≤ M. Small inclinations I and J, which Λ and N give by
+    ///     differences from M, are known to 1e-8 rad.
+    /// epoch : float, optional
+    ///     Time of the state.
+    /// **options
+    ///     The other keyword arguments of `Scene`.
+    ///
+    /// Raises
+    /// ------
+    /// PeriodsError
+    ///     A variable that is not finite or out of its bounds; the message has its index.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = Scene.from_andoyer(Body([1, 1.5, 2]), [0.1, 0.2, 0.3, 0.5, 1.0, 0.9])
+    /// >>> scene.solve().andoyer(0.0).round(12)
+    /// array([0.1, 0.2, 0.3, 0.5, 1. , 0.9])
+    #[classmethod]
+    #[pyo3(signature = (body, andoyer, *, epoch=None, **options), text_signature = "(body, andoyer, *, epoch=0.0, **options)")]
+    fn from_andoyer<'py>(
+        class: &Bound<'py, PyType>,
+        body: &Bound<'py, PyAny>,
+        andoyer: &Bound<'py, PyAny>,
+        epoch: Option<&Bound<'py, PyAny>>,
+        options: Option<Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
+        let variables = array::fixed("andoyer", andoyer)?;
+        let (time, _) = self::epoch(epoch)?;
+        let scene = andoyer_propagate::Scene::from_andoyer(of_body, variables, time).map_err(error::propagation)?;
+        with_options(class, body, (&scene, epoch), options)
     }
 
     /// The scene of a TOML file.
@@ -245,6 +359,33 @@ fn epoch(value: Option<&Bound<'_, PyAny>>) -> PyResult<(f64, Option<Calendar>)> 
 
 fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
     array::number("tolerance", value)
+}
+
+fn precession(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    array::number("precession", value)
+}
+
+fn rotation(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    array::number("rotation", value)
+}
+
+/// The scene of this state, at the epoch as it was given, with the keyword arguments of `Scene`.
+fn with_options<'py>(
+    class: &Bound<'py, PyType>,
+    body: &Bound<'py, PyAny>,
+    (scene, epoch): (&andoyer_propagate::Scene, Option<&Bound<'py, PyAny>>),
+    options: Option<Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let keywords = options.unwrap_or_else(|| PyDict::new(class.py()));
+    if keywords.contains("scalar_first")? {
+        return Err(PyTypeError::new_err("scalar_first says how an attitude is given, and none is given here"));
+    }
+    let State { attitude, angular_velocity, .. } = scene.state();
+    if let Some(epoch) = epoch {
+        keywords.set_item("epoch", epoch)?;
+    }
+    let (attitude, rates): ([f64; 4], [f64; 3]) = (attitude.coords.into(), (*angular_velocity).into());
+    class.call((body, attitude, rates), Some(&keywords))
 }
 
 /// What is said of a body that is none.

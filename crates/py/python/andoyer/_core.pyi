@@ -66,6 +66,9 @@ class OrbitError(Error):
 class OrderError(Error):
     """An order that is no whole number within its bounds."""
 
+class PeriodsError(Error):
+    """Periods that a body cannot have in a mode, a mode it does not have, or Andoyer variables that are none."""
+
 class ResonanceError(Error):
     """A resonance or small divisor not asked for, or one asked for that is none."""
 
@@ -117,6 +120,22 @@ class Body:
 
     def __new__(cls, moments: ArrayLike, *, name: str | None = None) -> Body: ...
     @staticmethod
+    def from_inertia(tensor: ArrayLike, *, name: str | None = None) -> Body:
+        """A body from its inertia tensor about axes of your own: attitudes, rates, momenta and derivatives of its scenes are about these axes."""
+    @staticmethod
+    def ellipsoid(a: float, b: float, c: float, *, mass: float = 1.0, name: str | None = None) -> Body:
+        """A homogeneous ellipsoid with semi-axes a, b, c along body axes 1, 2, 3: moments m (b² + c²)/5 and so on."""
+    @staticmethod
+    def box(x: float, y: float, z: float, *, mass: float = 1.0, name: str | None = None) -> Body:
+        """A homogeneous box with edges x, y, z along body axes 1, 2, 3: moments m (y² + z²)/12 and so on."""
+    def period_ratios(
+        self,
+        mode: Literal["short-axis", "long-axis"] = "short-axis",
+        *,
+        convention: Literal["extremal-axis", "long-axis", "short-axis"] = "extremal-axis",
+    ) -> tuple[float, float]:
+        """The ratios P_ψ/P_φ that this body can have in a mode: an interval, of which each number belongs to one motion."""
+    @staticmethod
     def named(name: str) -> Body:
         """A body of the catalogue, by its name in any case."""
     @staticmethod
@@ -128,6 +147,12 @@ class Body:
     @property
     def moments(self) -> _Array:
         """The moments about body axes 1, 2, 3 as given: a read-only array, shape (3,)."""
+    @property
+    def inertia(self) -> _Array:
+        """The inertia tensor about the user's axes: a read-only array, shape (3, 3), diagonal unless `from_inertia` was given another."""
+    @property
+    def principal_axes(self) -> _Array:
+        """The principal axes, the columns of a proper rotation in the order of `moments`, in the user's components: a read-only array, shape (3, 3)."""
     @property
     def alpha(self) -> float:
         """Oblateness α = [(C/A − 1) + (C/B − 1)]/2 of the sorted moments A ≤ B ≤ C (theory §1); 0 for a sphere."""
@@ -145,7 +170,6 @@ class Body:
         """The name, or None."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
     def __copy__(self) -> Body: ...
     def __deepcopy__(self, _memo: Any) -> Body: ...
 
@@ -213,6 +237,24 @@ class Scene:
         source: str | None = None,
         scalar_first: bool = False,
     ) -> Scene: ...
+    @classmethod
+    def from_periods(
+        cls,
+        body: Body,
+        precession: float,
+        rotation: float,
+        *,
+        mode: Literal["short-axis", "long-axis"] = "short-axis",
+        convention: Literal["extremal-axis", "long-axis", "short-axis"] = "extremal-axis",
+        momentum_direction: ArrayLike | None = None,
+        phases: ArrayLike | None = None,
+        epoch: float = 0.0,
+        **options: Any,
+    ) -> Scene:
+        """The torque-free state of a body that tumbles with these periods (theory §7): for a mode there is one."""
+    @classmethod
+    def from_andoyer(cls, body: Body, andoyer: ArrayLike, *, epoch: float = 0.0, **options: Any) -> Scene:
+        """The scene whose Andoyer variables at the epoch are these: the inverse of `Motion.andoyer` (theory §1)."""
     @classmethod
     def from_toml(cls, path: str | os.PathLike[str]) -> Scene:
         """The scene of a TOML file."""
