@@ -288,10 +288,11 @@ fn mean_motion_of(
     }
 }
 
-/// 3n²C²/2M² at the pericentre, C the greatest moment, times the mass fraction, from n/M.
+/// 3n²C(C − A)/2M² at the pericentre times the mass fraction, C the greatest moment and A the least, from n/M: the largest torque over M²/C.
 fn strongest_torque(polhode: &Polhode, orbit: &Orbit, rate: f64) -> f64 {
-    let greatest = polhode.moments.iter().fold(0.0_f64, |most, moment| most.max(*moment));
-    1.5 * (rate * greatest).powi(2) * orbit.disturbing_fraction() / (1.0 - orbit.eccentricity()).powi(3)
+    let [first, _, third] = polhode.moments;
+    let product = first.max(third) * (first - third).abs();
+    1.5 * rate * rate * product * orbit.disturbing_fraction() / (1.0 - orbit.eccentricity()).powi(3)
 }
 
 /// What is left of the attitude \[rad\].
