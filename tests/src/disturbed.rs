@@ -42,6 +42,13 @@ pub struct Measured {
     pub effect: f64,
 }
 
+impl Measured {
+    /// Error over bound; what the integration loses over a span, 1e-12, is no error.
+    pub fn ratio(&self) -> f64 {
+        (self.error - 1e-12) / self.bound
+    }
+}
+
 impl Disturbed {
     /// The full level, either averaging, tolerance 1e-8.
     pub fn new(moments: [f64; 3], attitude: [f64; 4], rates: [f64; 3], orbit: [f64; 6], span: f64) -> Self {

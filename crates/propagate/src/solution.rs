@@ -25,6 +25,10 @@ use crate::steady::{at_rest, steadily_rotating};
 const HARMONICS_SHARE: f64 = 0.125;
 /// σ/σ_sep up to which the tables for the gravity gradient have enough harmonics.
 const LARGEST_RATIO: f64 = 0.9;
+/// Error bound below which the corrections are not held against their own effect \[rad\].
+const WORTH: f64 = 1e-3;
+/// Intervals of a span at whose ends they are.
+const EFFECT_SAMPLES: u32 = 16;
 
 impl Motion {
     /// The motion of a valid scene.
@@ -323,7 +327,8 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
         gradient: Some(gradient.plan()),
         skipped,
     };
-    Ok(Motion {
+    let error = gradient.error;
+    let motion = Motion {
         plan,
         frequencies: Frequencies { anomaly, longitude },
         precession: longitude + anomaly,
@@ -331,6 +336,25 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
         long_axis: polhode.long_axis,
         course: Course::Gradient(Box::new(gradient)),
         scene,
+    };
+    let orbits = request.duration * orbit.mean_motion() / std::f64::consts::TAU;
+    if request.level == Level::Full && orbits < 1.0 && error > WORTH.max(request.tolerance) {
+        let effect = effect(&motion)?;
+        if error > effect {
+            return Err(Error::TorqueTooStrong { size: error, bound: effect });
+        }
+    }
+    Ok(motion)
+}
+
+/// Largest turn between a motion under a torque and the free one over the span.
+fn effect(motion: &Motion) -> Result<f64, Error> {
+    let scene = &motion.scene;
+    let (start, stop) = scene.asked_span().unwrap_or((scene.state().epoch, scene.state().epoch));
+    let free = Motion::new(Scene::new(scene.body().clone(), *scene.state()).span(start, stop))?;
+    (0..=EFFECT_SAMPLES).try_fold(0.0_f64, |largest, k| {
+        let time = start + (stop - start) * f64::from(k) / f64::from(EFFECT_SAMPLES);
+        Ok(largest.max(free.at(time)?.attitude.angle_to(&motion.at(time)?.attitude)))
     })
 }
 

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use pulp::NullaryFnOnce;
 
 use super::Gradient;
+use super::epoch::Offset;
 use super::generator;
 use super::inertia::{HIGHEST, Harmonics};
 use super::slow::When;
@@ -22,17 +23,17 @@ pub(super) type Elapsed<S> = (Lanes<S>, Lanes<S>);
 
 /// Osculating variables at some times: p, the circle of y′/2, M, and the invariable frame, but for its norm.
 #[derive(Clone, Copy)]
-struct State<S: Level> {
-    p: Plane<S>,
-    half: Plane<S>,
-    momentum: Lanes<S>,
-    frame: Turns<S>,
+pub(super) struct State<S: Level> {
+    pub(super) p: Plane<S>,
+    pub(super) half: Plane<S>,
+    pub(super) momentum: Lanes<S>,
+    pub(super) frame: Turns<S>,
 }
 
 impl Gradient {
     /// The motion at times after the epoch, in osculating variables: compiled by itself, once for each instruction set.
     #[inline(always)]
-    fn state<S: Level>(&self, elapsed: Elapsed<S>) -> State<S> {
+    pub(super) fn state<S: Level>(&self, elapsed: Elapsed<S>) -> State<S> {
         elapsed.0.simd().vectorize(At { gradient: self, elapsed })
     }
 
@@ -45,13 +46,14 @@ impl Gradient {
         let turn = plane(self.anomaly.sin_cos_beyond(elapsed, phase * all(self.drifts[0] / TAU)));
         let half = plane(self.half_longitude.sin_cos_beyond(elapsed, phase * all(0.5 * self.drifts[1] / TAU)));
         let change = self.corrections.generator.at(&generator::Mean { turn, spin: half * half, frame }, &when.place);
-        let relative = Plane { re: change.p.re + all(self.root), im: change.p.im };
+        let Offset { p, momentum } = self.offset;
+        let relative = Plane { re: change.p.re + all(self.root + p.re), im: change.p.im + all(p.im) };
         let [x, y] = change.rotation;
         let zero = all(0.0);
         State {
             p: turn * relative,
             half: half * small_turn(all(0.5) * change.longitude),
-            momentum: change.momentum + all(self.inertia.momentum),
+            momentum: change.momentum + all(self.inertia.momentum + momentum),
             frame: frame * Turns([all(0.5) * x, all(0.5) * y, zero, all(1.0)]),
         }
     }
@@ -88,7 +90,7 @@ impl Gradient {
 
     /// The quaternion of theory §8 of a state near the mean one.
     #[inline(always)]
-    fn relative<S: Level>(&self, state: &State<S>) -> Turns<S> {
+    pub(super) fn relative<S: Level>(&self, state: &State<S>) -> Turns<S> {
         let State { p, half, .. } = *state;
         let beyond = p.re.mul_add(p.re, p.im.mul_add(p.im, p.re.all(-self.inertia.sigma)));
         let square = p * p;

@@ -55,6 +55,8 @@ impl Harmonics {
 pub(crate) struct Inertia {
     pub(crate) momentum: f64,
     pub(crate) sigma: f64,
+    /// σ_sep.
+    pub(crate) separatrix: f64,
     /// dℓ′/dt and dy′/dt.
     pub(crate) rates: [DoubleDouble; 2],
     /// Their derivatives with respect to σ, at fixed M.
@@ -101,6 +103,7 @@ impl Inertia {
         Self {
             momentum,
             sigma,
+            separatrix: polhode.separatrix_action(),
             rates: exact.1,
             rate_slopes,
             tensor: [part(0), part(1), part(2)],

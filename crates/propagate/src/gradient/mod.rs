@@ -4,12 +4,15 @@
 //! first order lead from it to the motion. Each is regular at J = 0 and at any inclination. Validity: rotation much faster than the orbit, torque weak; a divisor that is too
 //! small is [`Error::Resonance`]. What is left is of second order in the torque, and grows with time.
 
+mod budget;
 mod corrections;
+mod epoch;
 mod evaluate;
 mod generator;
 mod inertia;
 mod level;
 mod resonance;
+mod response;
 mod slow;
 #[cfg(test)]
 mod tests;
@@ -30,23 +33,24 @@ use crate::orbit::Orbit;
 use crate::phase::Phase;
 use crate::plan::GradientPlan;
 use crate::polhode::{Frame, Polhode, scaled};
-use corrections::{Change, Corrections, Demand, Mean, SHARE, second_order};
+use budget::{Budget, MOST_ORBITS, Subject};
+use corrections::{Change, Corrections, Demand, Mean, SHARE};
+use epoch::Offset;
 use evaluate::{Powers, when};
 use inertia::Inertia;
-use slow::{Ellipse, MOST_QUARTERS, Precession, Slow, Spin, When};
+use response::Response;
+use slow::{Ellipse, Precession, Slow, Spin, When};
 
 type C64 = Complex<f64>;
 
 /// Changes of the mean variables below which they are converged.
 const CONVERGED: f64 = 1e-15;
-/// And below which that is all that can be had.
-const NEARLY_CONVERGED: f64 = 1e-13;
 /// Steps to the mean variables.
-const MOST_STEPS: usize = 12;
+const MOST_STEPS: usize = 24;
+/// What a step may leave of the change before it, in the mean of the steps: with more there is no mean motion.
+const CONTRACTION: f64 = 0.5;
 /// Torque over M²/C above which an expansion in it has no first order.
 pub(crate) const STRONGEST: f64 = 0.02;
-/// Orbits on each side of the epoch that quarters are kept for.
-const MOST_ORBITS: f64 = (MOST_QUARTERS / 4 - 2) as f64;
 
 /// How far the equations are averaged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -91,6 +95,8 @@ pub(crate) struct Gradient {
     pair: [Powers; 2],
     corrections: Corrections,
     slow: Slow,
+    /// What first order leaves at the epoch.
+    offset: Offset,
     anomaly: Phase,
     half_longitude: Phase,
     mean_anomaly: Phase,
@@ -158,22 +164,35 @@ impl Gradient {
         // Rates are proportional to M, which as a double would leave 1e-16 of the phases.
         let precise = (polhode.momentum - change.momentum.into()) / mean.momentum.into();
         let rates = inertia.rates.map(|rate| rate * precise);
-        let budget = Budget::new(&corrections, &inertia, ellipse.strength(), mean_motion, duration);
+        // ⟨D⟩ = −½ (dJ/dt) Δ: its derivatives with respect to L and M at fixed L.
+        let slope = -0.5 * 1.5 * axial_slope * fraction / mean.momentum;
+        let response = Response::new(&inertia);
+        let anomaly = start.place.angle.values()[0] - start.place.centre.values()[0];
+        let subject = Subject {
+            mean: &mean,
+            inertia: &inertia,
+            corrections: &corrections,
+            response: &response,
+            ellipse: &ellipse,
+            anomaly,
+            drift: slope,
+        };
+        let budget = Budget::new(&subject, mean_motion, duration);
         let by_orbit = budget.by_orbit(request)?;
         let error = budget.error(by_orbit);
         let unit = scaled(1.0, exponent);
         let secular = ellipse.secular(&(mean.frame * Vector3::z())) * unit;
-        let slow = if by_orbit {
-            Slow::Orbit(Box::new(Precession::new(ellipse, mean.frame, &start.place, unit)))
-        } else {
-            Slow::Spin(Box::new(Spin::new(ellipse, mean.frame, &start)))
+        let slow = |frame: UnitQuaternion<f64>| {
+            if by_orbit {
+                Slow::Orbit(Box::new(Precession::new(ellipse.clone(), frame, &start.place, unit)))
+            } else {
+                Slow::Spin(Box::new(Spin::new(ellipse.clone(), frame, &start)))
+            }
         };
-        // ⟨D⟩ = −½ (dJ/dt) Δ: its derivatives with respect to L and M at fixed L.
-        let slope = -0.5 * 1.5 * axial_slope * fraction / mean.momentum;
         let [anomaly_rate, longitude_rate] =
             rates.map(|rate| DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) });
         let drifts = [slope, -slope * inertia.sigma];
-        Ok(Self {
+        let mut gradient = Self {
             anomaly: Phase::new(anomaly_rate, mean.p.arg()),
             half_longitude: Phase::new(longitude_rate * 0.5.into(), 0.5 * mean.longitude),
             mean_anomaly,
@@ -184,13 +203,16 @@ impl Gradient {
             pair: inertia.pair.each_ref().map(|series| Powers::new(series, inertia.sigma.sqrt())),
             inertia,
             corrections,
-            slow,
+            slow: slow(mean.frame),
+            offset: Offset::default(),
             frame: polhode.frame.clone(),
             moments: polhode.moments,
             level: request.level,
             units: [unit, polhode.user_momentum() / momentum],
             error,
-        })
+        };
+        gradient.start_at(polhode, attitude, mean.frame, slow);
+        Ok(gradient)
     }
 
     /// Mean rates of ℓ′ and y′ in the user's unit, y′ from an axis that turns with the angular momentum and not about it.
@@ -259,7 +281,7 @@ fn mean_motion_of(
     demand: &Demand<'_>,
 ) -> Result<MeanMotion, Error> {
     let (mut mean, mut change) = (*state, Change::default());
-    let mut step = 0;
+    let (mut step, mut first) = (0, 0.0_f64);
     // Each step gains the relative size of the corrections, which is below a fiftieth.
     loop {
         let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
@@ -273,14 +295,14 @@ fn mean_motion_of(
         if moved <= CONVERGED {
             return Ok(MeanMotion { mean, change, inertia, corrections });
         }
+        first = first.max(moved);
         if step == MOST_STEPS {
             // Rounding of large corrections may keep it from standing still; what does not come near has no mean motion.
-            let size = corrections.size;
-            let near = moved <= NEARLY_CONVERGED;
-            return if near {
+            let contraction = (moved / first).powf(1.0 / MOST_STEPS as f64);
+            return if contraction <= CONTRACTION {
                 Ok(MeanMotion { mean, change, inertia, corrections })
             } else {
-                Err(Error::TorqueTooStrong { size, bound: STRONGEST })
+                Err(Error::TorqueTooStrong { size: contraction, bound: CONTRACTION })
             };
         }
         (mean, change) = (next, next_change);
@@ -293,47 +315,4 @@ fn strongest_torque(polhode: &Polhode, orbit: &Orbit, rate: f64) -> f64 {
     let [first, _, third] = polhode.moments;
     let product = first.max(third) * (first - third).abs();
     1.5 * rate * rate * product * orbit.disturbing_fraction() / (1.0 - orbit.eccentricity()).powi(3)
-}
-
-/// What is left of the attitude \[rad\].
-struct Budget {
-    /// By the average over the rotation.
-    spin: f64,
-    /// By the average over the orbit.
-    orbit: f64,
-    /// By dropped terms.
-    dropped: f64,
-    /// By σ as a double in the phases.
-    rounding: f64,
-    /// Orbits from the epoch.
-    orbits: f64,
-}
-
-impl Budget {
-    fn new(corrections: &Corrections, inertia: &Inertia, strength: f64, mean_motion: f64, duration: f64) -> Self {
-        let [anomaly, longitude] = inertia.rate_slopes;
-        let orbital = mean_motion * duration;
-        Self {
-            spin: second_order(corrections.size, inertia, duration),
-            orbit: strength.powi(2) * (1.0 + orbital),
-            dropped: corrections.dropped + 2.0 * corrections.rest,
-            rounding: 4.0 * f64::EPSILON * inertia.sigma * (anomaly.abs() + longitude.abs()) * duration,
-            orbits: orbital / TAU,
-        }
-    }
-
-    /// Whether the equations are averaged over the orbit too.
-    fn by_orbit(&self, request: &Request<'_>) -> Result<bool, Error> {
-        let too_far = request.spanned && self.orbits > MOST_ORBITS;
-        match request.averaging {
-            Averaging::Orbit => Ok(true),
-            Averaging::Auto => Ok(self.orbit <= request.tolerance || too_far),
-            Averaging::Spin if too_far => Err(Error::TooManyOrbits { orbits: self.orbits, bound: MOST_ORBITS }),
-            Averaging::Spin => Ok(false),
-        }
-    }
-
-    fn error(&self, by_orbit: bool) -> f64 {
-        self.spin + self.dropped + self.rounding + if by_orbit { self.orbit } else { 0.0 }
-    }
 }

@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use std::sync::{Arc, RwLock};
 
 use andoyer_series::DoubleDouble;
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 
 use crate::kernel::lanes::{Lanes, WIDEST};
 use crate::kernel::level::Level;
@@ -87,6 +87,16 @@ impl Ellipse {
     /// κ.
     pub(crate) fn strength(&self) -> f64 {
         self.strength
+    }
+
+    /// η³.
+    pub(crate) fn eta_cubed(&self) -> f64 {
+        self.eta_cubed
+    }
+
+    /// The orbit's normal.
+    pub(crate) fn normal(&self) -> Unit<Vector3<f64>> {
+        Unit::new_unchecked(self.axes[2])
     }
 
     /// dJ/dt averaged over the orbit, for an angular momentum along an axis.
