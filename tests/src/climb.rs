@@ -60,6 +60,11 @@ impl Family {
         }
     }
 
+    /// A random scene.
+    pub fn random(self, long_axis: bool, averaging: Averaging, random: &mut Uniform) -> Disturbed {
+        self.scene(&std::array::from_fn(|_| random.draw()), long_axis, averaging)
+    }
+
     /// The scene at a point, in the short-axis mode or the long-axis one.
     fn scene(self, point: &Point, long_axis: bool, averaging: Averaging) -> Disturbed {
         let [shape, ratio, tilt, azimuth, inclination, motion, eccentricity, anomaly, argument, node, span] = *point;
@@ -91,15 +96,18 @@ impl Family {
         let squeezed = (1.0 - eccentricity).powf(1.5) / (1.0 + eccentricity).sqrt();
         let (mean_motion, span) = match self {
             Self::Pericentre => (squeezed * power(-3.0, -0.7, motion), power(-0.5, 2.0, span)),
-            _ => (power(-4.0, -1.5, motion), power(1.3, 3.3, span)),
+            _ => (power(-4.0, -1.5, motion), power(1.3, 3.0, span)),
         };
+        let rates: [f64; 3] = std::array::from_fn(|i| direction[i] / moments[i]);
+        // In radians of the fastest rate, which the integration's time is proportional to.
+        let span = span / rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         // At the pericentre the body is within a radian of the true anomaly there.
         let mean = if self == Self::Pericentre { squeezed * (2.0 * anomaly - 1.0) } else { TAU * anomaly };
         let attitude = UnitQuaternion::from_euler_angles(TAU * node, PI * inclination, 1.0);
         let scene = Disturbed::new(
             moments,
             attitude.coords.into(),
-            std::array::from_fn(|i| direction[i] / moments[i]),
+            rates,
             [mean_motion, eccentricity, -mean / mean_motion, 0.0, 0.0, TAU * argument],
             span,
         );
