@@ -170,7 +170,7 @@ pub enum Error {
     },
     /// A torque too strong for an expansion in it.
     #[error(
-        "the torque is too strong for an expansion in it: its measure is {size:.3e}, which must be less than {bound:.3e}"
+        "the torque, or what it does to the motion, measures {size:.3e} at pericentre, and an expansion in it needs less than {bound:.3e}"
     )]
     TorqueTooStrong {
         /// Its measure: 3n²C(C − A)/2M² times the mass fraction at the pericentre, the sum of the short-period corrections \[rad\], what a step towards the mean variables leaves of
