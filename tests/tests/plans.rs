@@ -102,6 +102,10 @@ fn refusals_are_sentences() {
     assert_eq!(motion.at(2e300).expect_err("too far").to_string(), text);
     let error = triaxial().solve().expect("served").at(1e30).expect_err("too far");
     assert!(error.to_string().ends_with("of the epoch: farther away the motion has no phase"), "{error}");
+    // Averaged over the spin the phases go on, and the solved quarters end.
+    let disturbed = triaxial().orbit(orbit()).averaging(Averaging::Spin).span(0.0, 1.0).solve().expect("served");
+    let error = disturbed.at(1e12).expect_err("too far");
+    assert!(error.to_string().contains("solved for 65,534 orbits on either side"), "{error}");
 }
 
 #[test]

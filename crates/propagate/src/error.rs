@@ -93,8 +93,8 @@ pub enum Error {
         /// The method as given.
         value: String,
     },
-    /// A time that is not finite, or so far from the epoch that it has no phase.
-    #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{}", beyond(*bound))]
+    /// A time that is not finite, or too far from the epoch.
+    #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{reason}")]
     Time {
         /// Its index among the times given.
         index: usize,
@@ -102,6 +102,8 @@ pub enum Error {
         value: f64,
         /// Largest distance from the epoch that is accepted.
         bound: f64,
+        /// Why it has a bound, after a colon; empty where only a sum of two times would overflow.
+        reason: &'static str,
     },
     /// A slice whose length doesn't fit.
     #[error("{argument} has {found} entries: it must have {expected}")]
@@ -252,16 +254,11 @@ fn and_others(others: usize) -> String {
     if others == 0 { String::new() } else { format!(" (and {others} more bad members)") }
 }
 
-/// Why a time has a bound: a body at rest has one too, so that no sum of two times overflows.
-fn beyond(bound: f64) -> &'static str {
-    if bound < crate::motion::LONGEST { ": farther away the motion has no phase" } else { "" }
-}
-
 impl Error {
     /// The same error of times that begin later in an array.
     pub(crate) fn later(self, start: usize) -> Self {
         match self {
-            Self::Time { index, value, bound } => Self::Time { index: start + index, value, bound },
+            Self::Time { index, value, bound, reason } => Self::Time { index: start + index, value, bound, reason },
             other => other,
         }
     }

@@ -22,6 +22,9 @@ const MOST_ROTATIONS: f64 = 1e15;
 
 /// No sum of two times this long overflows.
 pub(crate) const LONGEST: f64 = 1e300;
+/// Why a time has a bound.
+const NO_PHASE: &str = ": farther away the motion has no phase";
+const TOO_MANY_ORBITS: &str = ": averaged over the spin, the motion is solved for 65,534 orbits on either side; averaged over the orbit, for any number";
 
 /// Attitude and angular velocity at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -206,13 +209,19 @@ impl Motion {
         self.batch().samples_into(times, attitudes, rates)
     }
 
-    /// The largest distance from the epoch at which the motion has a phase.
+    /// The largest distance from the epoch that is evaluated.
     pub(crate) fn bound(&self) -> f64 {
+        self.bound_and_reason().0
+    }
+
+    /// That distance, and why it is one.
+    fn bound_and_reason(&self) -> (f64, &'static str) {
         // A body at rest, or one that turns once in 1e285 units, is still bounded.
         let phases = (MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude).min(LONGEST);
         match &self.course {
-            Course::Gradient(gradient) => phases.min(gradient.bound()),
-            _ => phases,
+            Course::Gradient(gradient) if gradient.bound() < phases => (gradient.bound(), TOO_MANY_ORBITS),
+            _ if phases < LONGEST => (phases, NO_PHASE),
+            _ => (phases, ""),
         }
     }
 
@@ -227,7 +236,8 @@ impl Motion {
     }
 
     pub(crate) fn no_phase(&self, index: usize, times: &[f64]) -> Error {
-        Error::Time { index, value: times[index], bound: self.bound() }
+        let (bound, reason) = self.bound_and_reason();
+        Error::Time { index, value: times[index], bound, reason }
     }
 }
 

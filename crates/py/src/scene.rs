@@ -43,7 +43,7 @@ use crate::{array, error, foreign};
 ///     says that it "is not met", and over what.
 /// span : (float, float), optional
 ///     Times over which the tolerance is asked for; by default any within 1e9 rotations. A motion can be evaluated outside it, up to
-///     1e15 rotations from the epoch; farther away is a `TimesError` of the motion.
+///     1e15 rotations from the epoch, or 65,534 orbits of ``averaging="spin"``; farther away is a `TimesError` of the motion.
 /// averaging : {"auto", "orbit", "spin"}, optional
 ///     How far the equations of a scene with an orbit are averaged: over rotation and orbit, which leaves formulas; over the rotation alone; by
 ///     default the first where it meets the tolerance.

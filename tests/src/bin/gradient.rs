@@ -236,6 +236,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ["levels"] => levels(&mut out),
         ["climb", starts, steps, seed] => climbs(&mut out, starts.parse()?, steps.parse()?, seed.parse()?),
         ["bounds", count, seed] => bounds(&mut out, count.parse()?, seed.parse()?),
-        _ => Err("usage: gradient cases | gradient levels | gradient bounds COUNT SEED | gradient climb STARTS STEPS SEED".into()),
+        _ => Err(
+            "usage: gradient cases | gradient levels | gradient bounds COUNT SEED | gradient climb STARTS STEPS SEED"
+                .into(),
+        ),
     }
 }

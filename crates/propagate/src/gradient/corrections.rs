@@ -137,8 +137,7 @@ impl Corrections {
         let response = Response::new(inertia);
         let scale = 4.0 * pericentre / inertia.momentum;
         let all = candidates(inertia, &response, scale, |m, h| level.tensor(inertia, m, h));
-        let commensurability =
-            Commensurability { response: &response, mean_motion, eccentricity, fastest, duration };
+        let commensurability = Commensurability { response: &response, mean_motion, eccentricity, fastest, duration };
         let regular = |candidate: &Candidate| candidate.frequency.abs() > SMALLEST_RATIO * fastest;
         let size: f64 = all.iter().filter(|candidate| regular(candidate)).map(Candidate::size).sum();
         if size > LARGEST_SIZE {
@@ -161,7 +160,9 @@ impl Corrections {
             }
             // The sum is asymptotic: it ends where it is good enough, or else where the rest is least.
             let left = |orders: usize| {
-                candidate.size() * orbital.norms[orders] / orbital.norms[0] / candidate.frequency.abs().powi(orders as i32)
+                candidate.size() * orbital.norms[orders]
+                    / orbital.norms[0]
+                    / candidate.frequency.abs().powi(orders as i32)
             };
             let enough = (1..most).find(|&orders| left(orders) <= nothing);
             let least = (1..=most).min_by(|&a, &b| left(a).total_cmp(&left(b)));

@@ -74,12 +74,7 @@ impl Gradient {
         let columns = [(step, 0.0), (0.0, step)].map(|(re, im)| (axis(re, im) - axis(-re, -im)) / (2.0 * step));
         let residual = direction - axis(0.0, 0.0);
         let [first, second] = columns;
-        let normal = Matrix2::new(
-            first.norm_squared(),
-            first.dot(&second),
-            first.dot(&second),
-            second.norm_squared(),
-        );
+        let normal = Matrix2::new(first.norm_squared(), first.dot(&second), first.dot(&second), second.norm_squared());
         let side = Vector2::new(first.dot(&residual), second.dot(&residual));
         let solution = normal.lu().solve(&side).unwrap_or_default();
         C64::new(solution.x, solution.y)

@@ -29,8 +29,7 @@ impl Response {
             for harmonic in -highest..=highest {
                 let (value, by_sigma) = series.at(harmonic);
                 let degree = harmonic.abs();
-                let falling =
-                    if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value.abs() };
+                let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value.abs() };
                 slope += falling + 2.0 * root.powi(degree + 1) * by_sigma.abs();
             }
         }
