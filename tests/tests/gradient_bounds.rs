@@ -110,6 +110,51 @@ fn a_small_torque_on_a_nearly_prolate_body_moves_it_far() {
 }
 
 #[test]
+fn second_order_is_bounded_where_the_first_order_change_vanishes() {
+    // Found by the climb: the angular momentum is along the line to the disturbing body, where the change is a hundredth of the sum of its terms and its derivatives are not.
+    let scene = Disturbed::new(
+        [0.485_212_849_097_711_2, 0.997_500_734_702_296_5, 1.0],
+        normalized([
+            0.710_800_118_944_316_9,
+            -0.048_527_626_866_340_43,
+            -0.697_910_358_784_609_8,
+            -0.073_002_679_721_314_41,
+        ]),
+        [2.060_901_909_953_477, 0.004_756_709_056_639_838, 0.005_031_026_245_676_17],
+        [0.005_374_253_683_923_701, 0.176_159_100_759_418_5, -81.862_297_303_303_31, 0.0, 0.0, 2.629_755_800_488_134],
+        191.439,
+    );
+    bounded("aligned", scene);
+}
+
+#[test]
+fn the_wobble_that_a_level_leaves_out_is_in_its_bound() {
+    // Found by the climb: at J = 2e-7 the torque forces a wobble of 7e-5 rad.
+    let scene = Disturbed::new(
+        [0.917_941_572_529_001_3, 0.964_094_313_083_096_8, 1.0],
+        normalized([
+            0.358_364_080_701_360_6,
+            -0.408_999_699_201_735_9,
+            -0.769_571_718_330_892_6,
+            0.334_743_380_867_031_07,
+        ]),
+        [1.218_965e-7, -1.394_547e-7, 1.0],
+        [
+            0.013_201_005_412_837_597,
+            0.218_986_009_509_650_16,
+            -17.446_081_753_380_06,
+            0.0,
+            0.0,
+            2.978_392_260_393_486_3,
+        ],
+        524.98,
+    );
+    for level in [Level::Paper, Level::Moving] {
+        bounded(&level.to_string(), Disturbed { level, ..scene });
+    }
+}
+
+#[test]
 fn a_body_that_is_nearly_a_sphere_may_turn_eight_times_an_orbit() {
     // The torque has C − A = 1e-6 C in it.
     let scene = Disturbed::new(

@@ -1,7 +1,7 @@
 //! What is left of the attitude: the parts of the error bound.
 //!
-//! The largest first-order change ε is sampled over ℓ′, y′, the place of the disturbing body within the span, and the precession. Second order leaves ε² and lets the phases drift by
-//! what it does to σ and M. To that come the terms that are dropped, what the sums for G leave, what the level leaves out, the average over the orbit, and rounding.
+//! The largest first-order change ε is sampled over ℓ′, y′, the place of the disturbing body within the span, and the precession. Second order leaves ε times the derivatives of the
+//! change, which are of the size of all terms together, and lets the phases drift by what it does to σ and M. To that come the terms that are dropped, what the sums for G leave, what the level leaves out, the average over the orbit, and rounding.
 
 use std::f64::consts::{PI, TAU};
 
@@ -20,6 +20,8 @@ use crate::orbit::Place;
 const SAMPLES: usize = 48;
 /// What the largest change may be beyond the largest sample, squared, and the factor of second order: with it the worst of the climbs (docs/gravity-gradient.md) is below its bound.
 const MARGIN: f64 = 2.0;
+/// Size of the derivatives of the change over the sum of the largest sizes of all terms.
+const SLOPE_SHARE: f64 = 0.25;
 /// Orbits on each side of the epoch that quarters are kept for.
 pub(super) const MOST_ORBITS: f64 = (MOST_QUARTERS / 4 - 2) as f64;
 
@@ -57,12 +59,14 @@ impl Budget {
         let Subject { inertia, corrections, response, ellipse, .. } = *subject;
         let orbital = mean_motion * duration;
         let [size, p] = subject.largest_change(orbital);
+        // Where the angular momentum is along the line to the disturbing body, or across it, the change vanishes and its derivatives do not.
+        let slope = size.max(SLOPE_SHARE * corrections.size);
         let [anomaly, longitude] = inertia.rate_slopes;
         let strength = ellipse.strength().abs();
         // Of the phases as κ is of the axis: Δ(σ) may vanish where its slope does not.
         let by_phase = subject.phase() * mean_motion / ellipse.eta_cubed();
         Self {
-            spin: MARGIN * response.second_order(size, p, duration),
+            spin: MARGIN * response.second_order([size, slope], p, duration),
             orbit: strength * (strength + 6.0 * by_phase) * (1.0 + orbital),
             dropped: corrections.dropped + 2.0 * corrections.rest,
             omitted: corrections.omitted + subject.omitted(mean_motion) * (1.0 + orbital),

@@ -145,7 +145,7 @@ impl Corrections {
         }
         let mut dropped = commensurability.left(&all, demand.tolerance.max(second_order(size, &response, duration)))?;
         let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
-        let omitted = omitted.iter().map(|term| commensurability.effect(term)).sum();
+        let omitted = omitted.iter().map(|term| commensurability.whole(term)).sum();
         let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * size * size);
         let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
         let mut orbital = Orbital::new(eccentricity, mean_motion);

@@ -56,12 +56,22 @@ impl Commensurability<'_> {
     }
 
     /// What a term leaves over the span \[rad\], π at most.
-    pub(super) fn effect(&self, term: &Candidate) -> f64 {
-        let (amplitude, distance) = if term.frequency.abs() > SMALLEST_RATIO * self.fastest {
-            self.beyond_the_sum(term)
+    fn effect(&self, term: &Candidate) -> f64 {
+        if term.frequency.abs() > SMALLEST_RATIO * self.fastest {
+            let (amplitude, distance) = self.beyond_the_sum(term);
+            self.turned(term, amplitude, distance)
         } else {
-            (1.0, self.slow_distance(term))
-        };
+            self.turned(term, 1.0, self.slow_distance(term))
+        }
+    }
+
+    /// What a term turns the attitude by over the span \[rad\] if it is not corrected at all, π at most.
+    pub(super) fn whole(&self, term: &Candidate) -> f64 {
+        self.turned(term, 1.0, self.slow_distance(term))
+    }
+
+    /// What a part of a term turns the attitude by, at its distance from a commensurability.
+    fn turned(&self, term: &Candidate, amplitude: f64, distance: f64) -> f64 {
         let time = if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration };
         (amplitude * term.rate * time * self.response.growth(term.multiple, self.duration)).min(PI)
     }

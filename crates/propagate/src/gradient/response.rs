@@ -52,12 +52,12 @@ impl Response {
         p * (2.0 * self.sigma.sqrt() + p)
     }
 
-    /// Attitude error of second order over a time, for first-order changes of this size \[rad\] of which p has that \[1\].
-    pub(super) fn second_order(&self, size: f64, p: f64, duration: f64) -> f64 {
+    /// Attitude error of second order over a time, for first-order changes of this size and with derivatives of that one \[rad\]; of the change p has `p` \[1\].
+    pub(super) fn second_order(&self, [size, slope]: [f64; 2], p: f64, duration: f64) -> f64 {
         let of_sigma = self.of_sigma(p);
         // The bracket of two changes of p, and the curvature of the functions of σ, which the separatrix bounds.
-        let sigma = of_sigma * (size + p / self.distance.sqrt() + of_sigma / self.distance);
-        size * size * (1.0 + self.by_momentum * duration) + self.by_sigma * sigma * duration
+        let sigma = of_sigma * (slope + p / self.distance.sqrt() + of_sigma / self.distance);
+        size * slope * (1.0 + self.by_momentum * duration) + self.by_sigma * sigma * duration
     }
 
     /// How much a change of the attitude by a term grows over a time: by σ, and by M for m ≠ 0.
