@@ -10,24 +10,29 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 use crate::array::TwoOrThree;
 use crate::body::Body;
 use crate::computing::detached;
+use crate::foreign::{self, Calendar};
 use crate::motion::Motion;
 use crate::orbit::{self, Orbit};
 use crate::scene_class::Scene;
-use crate::{array, error, foreign};
+use crate::{array, error};
 
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(signature = (
-        body, attitude, angular_velocity, *, epoch=0.0, orbit=None, tolerance=1e-12, method="auto", order=None, span=None,
-        averaging="auto", level="full", name=None, source=None, scalar_first=false
-    ))]
+    #[pyo3(
+        signature = (
+            body, attitude, angular_velocity, *, epoch=None, orbit=None, tolerance=1e-12, method="auto", order=None, span=None,
+            averaging="auto", level="full", name=None, source=None, scalar_first=false
+        ),
+        text_signature = "(body, attitude, angular_velocity, *, epoch=0.0, orbit=None, tolerance=1e-12, method='auto', order=None, span=None, \
+                          averaging='auto', level='full', name=None, source=None, scalar_first=False)"
+    )]
     #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn new(
         body: &Bound<'_, PyAny>,
         attitude: &Bound<'_, PyAny>,
         angular_velocity: &Bound<'_, PyAny>,
-        #[pyo3(from_py_with = epoch)] epoch: f64,
+        epoch: Option<&Bound<'_, PyAny>>,
         orbit: Option<&Bound<'_, PyAny>>,
         #[pyo3(from_py_with = tolerance)] tolerance: f64,
         method: &str,
@@ -44,6 +49,7 @@ impl Scene {
         let mut attitude = array::fixed("attitude", attitude)?;
         foreign::scalar_last(&mut attitude, scalar_first);
         let angular_velocity = array::fixed("angular_velocity", angular_velocity)?;
+        let (epoch, calendar) = self::epoch(epoch)?;
         let state = State::new(epoch, attitude, angular_velocity).map_err(error::propagation)?;
         let method = method.parse().map_err(error::propagation)?;
         let mut scene = andoyer_propagate::Scene::new(body.body.clone(), state)
@@ -58,7 +64,7 @@ impl Scene {
             scene = scene.order(crate::order::order("order", value, 0, MAX_ORDER)?);
         }
         if let Some(value) = span {
-            let [start, stop] = array::fixed("span", value)?;
+            let [start, stop] = array::span(value, epoch, calendar)?;
             scene = scene.span(start, stop);
         }
         if let Some(name) = name {
@@ -68,7 +74,7 @@ impl Scene {
             scene = scene.source(source);
         }
         scene.validate().map_err(error::propagation)?;
-        Ok(Self { scene, tables: body.tables.clone() })
+        Ok(Self { scene, tables: body.tables.clone(), calendar })
     }
 
     /// The torque-free state of a body that tumbles with these periods (theory §7): for a mode there is one.
@@ -110,9 +116,9 @@ impl Scene {
     /// (1.02364, 30.56)
     #[classmethod]
     #[pyo3(signature = (
-        body, precession, rotation, *, mode="short-axis", convention="extremal-axis", momentum_direction=None, phases=None, epoch=0.0,
+        body, precession, rotation, *, mode="short-axis", convention="extremal-axis", momentum_direction=None, phases=None, epoch=None,
         **options
-    ))]
+    ), text_signature = "(body, precession, rotation, *, mode='short-axis', convention='extremal-axis', momentum_direction=None, phases=None, epoch=0.0, **options)")]
     #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn from_periods<'py>(
         class: &Bound<'py, PyType>,
@@ -123,10 +129,11 @@ impl Scene {
         convention: &str,
         momentum_direction: Option<&Bound<'py, PyAny>>,
         phases: Option<&Bound<'py, PyAny>>,
-        #[pyo3(from_py_with = epoch)] epoch: f64,
+        epoch: Option<&Bound<'py, PyAny>>,
         options: Option<Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let mut periods = ObservedPeriods { epoch, ..ObservedPeriods::new(precession, rotation) };
+        let (time, _) = self::epoch(epoch)?;
+        let mut periods = ObservedPeriods { epoch: time, ..ObservedPeriods::new(precession, rotation) };
         periods.mode = mode.parse().map_err(error::propagation)?;
         periods.convention = convention.parse().map_err(error::propagation)?;
         if let Some(phases) = phases {
@@ -141,7 +148,7 @@ impl Scene {
         let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
         let solve = || andoyer_propagate::Scene::from_periods(of_body, &periods);
         let scene = detached(class.py(), error::propagation, solve)?;
-        with_options(class, body, &scene, options)
+        with_options(class, body, (&scene, epoch), options)
     }
 
     /// The scene whose Andoyer variables at the epoch are these: the inverse of `Motion.andoyer` (theory §1).
@@ -168,18 +175,19 @@ impl Scene {
     /// >>> scene.solve().andoyer(0.0).round(12)
     /// array([0.1, 0.2, 0.3, 0.5, 1. , 0.9])
     #[classmethod]
-    #[pyo3(signature = (body, andoyer, *, epoch=0.0, **options))]
+    #[pyo3(signature = (body, andoyer, *, epoch=None, **options), text_signature = "(body, andoyer, *, epoch=0.0, **options)")]
     fn from_andoyer<'py>(
         class: &Bound<'py, PyType>,
         body: &Bound<'py, PyAny>,
         andoyer: &Bound<'py, PyAny>,
-        #[pyo3(from_py_with = epoch)] epoch: f64,
+        epoch: Option<&Bound<'py, PyAny>>,
         options: Option<Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
         let variables = array::fixed("andoyer", andoyer)?;
-        let scene = andoyer_propagate::Scene::from_andoyer(of_body, variables, epoch).map_err(error::propagation)?;
-        with_options(class, body, &scene, options)
+        let (time, _) = self::epoch(epoch)?;
+        let scene = andoyer_propagate::Scene::from_andoyer(of_body, variables, time).map_err(error::propagation)?;
+        with_options(class, body, (&scene, epoch), options)
     }
 
     /// The scene of a TOML file.
@@ -206,6 +214,11 @@ impl Scene {
 
     /// The motion: everything that does not depend on time is done here, once.
     ///
+    /// Warns
+    /// -----
+    /// ToleranceWarning
+    ///     Once, with both numbers, where the error bound exceeds the tolerance over the span (`Plan.meets_tolerance`).
+    ///
     /// Raises
     /// ------
     /// SeparatrixError
@@ -220,7 +233,9 @@ impl Scene {
     /// UnitsError
     ///     The angular momentum, moment × rate, is no normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {
-        detached(py, error::propagation, || self.scene.solve_with(&self.tables)).map(Motion)
+        let motion = detached(py, error::propagation, || self.scene.solve_with(&self.tables))?;
+        error::warn_of_tolerance(py, motion.plan().missed_tolerance())?;
+        Ok(Motion(motion, self.calendar))
     }
 
     /// The body.
@@ -314,7 +329,8 @@ impl Scene {
     fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
         let state = self.scene.state();
         let numbers: ([f64; 4], [f64; 3]) = (state.attitude.coords.into(), state.angular_velocity.into());
-        let keywords = PyTuple::new(py, self.keywords(py)?.values())?;
+        let keywords = Self::from(self.scene.clone()).keywords(py)?.values();
+        let keywords = PyTuple::new(py, keywords)?;
         let [attitude, rates] = [PyTuple::new(py, numbers.0)?, PyTuple::new(py, numbers.1)?];
         (self.body().__hash__(py)?, attitude, rates, keywords).into_pyobject(py)?.hash()
     }
@@ -335,8 +351,10 @@ impl Scene {
 }
 
 // PyO3 leaves the name of an argument out of the message of its own `TypeError`.
-fn epoch(value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    array::number("epoch", value)
+fn epoch(value: Option<&Bound<'_, PyAny>>) -> PyResult<(f64, Option<Calendar>)> {
+    let Some(value) = value else { return Ok((0.0, None)) };
+    let (numbers, calendar) = foreign::epochs("epoch", value)?;
+    Ok((array::number("epoch", &numbers)?, calendar.first().copied()))
 }
 
 fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
@@ -351,19 +369,21 @@ fn rotation(value: &Bound<'_, PyAny>) -> PyResult<f64> {
     array::number("rotation", value)
 }
 
-/// The scene of this state with the keyword arguments of `Scene`.
+/// The scene of this state, at the epoch as it was given, with the keyword arguments of `Scene`.
 fn with_options<'py>(
     class: &Bound<'py, PyType>,
     body: &Bound<'py, PyAny>,
-    scene: &andoyer_propagate::Scene,
+    (scene, epoch): (&andoyer_propagate::Scene, Option<&Bound<'py, PyAny>>),
     options: Option<Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let keywords = options.unwrap_or_else(|| PyDict::new(class.py()));
     if keywords.contains("scalar_first")? {
         return Err(PyTypeError::new_err("scalar_first says how an attitude is given, and none is given here"));
     }
-    let State { epoch, attitude, angular_velocity } = scene.state();
-    keywords.set_item("epoch", epoch)?;
+    let State { attitude, angular_velocity, .. } = scene.state();
+    if let Some(epoch) = epoch {
+        keywords.set_item("epoch", epoch)?;
+    }
     let (attitude, rates): ([f64; 4], [f64; 3]) = (attitude.coords.into(), (*angular_velocity).into());
     class.call((body, attitude, rates), Some(&keywords))
 }
@@ -387,7 +407,10 @@ impl Scene {
     /// The keyword arguments that make this scene.
     fn keywords<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let keywords = PyDict::new(py);
-        keywords.set_item("epoch", self.epoch())?;
+        match self.calendar {
+            Some(calendar) => keywords.set_item("epoch", foreign::calendar(py, &[calendar])?.get_item(0)?)?,
+            None => keywords.set_item("epoch", self.epoch())?,
+        }
         keywords.set_item("orbit", self.orbit())?;
         keywords.set_item("tolerance", self.tolerance())?;
         keywords.set_item("method", self.method())?;

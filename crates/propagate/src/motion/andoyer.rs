@@ -7,11 +7,12 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use super::batch::Batch;
 use super::solved::{Motion, length};
 use crate::error::Error;
 use crate::torque_free::polhode::Frame;
 
-/// Times evaluated together, on the stack.
+/// Times that are evaluated together.
 const AT_ONCE: usize = 64;
 
 impl Motion {
@@ -30,18 +31,7 @@ impl Motion {
     /// # Errors
     /// As [`Motion::attitudes_into`].
     pub fn andoyer_into(&self, times: &[f64], out: &mut [[f64; 6]]) -> Result<(), Error> {
-        length("out", out.len(), times.len())?;
-        let (mut attitudes, mut rates, mut momenta) = ([[0.0; 4]; AT_ONCE], [[0.0; 3]; AT_ONCE], [[0.0; 3]; AT_ONCE]);
-        for ((index, part), out) in times.chunks(AT_ONCE).enumerate().zip(out.chunks_mut(AT_ONCE)) {
-            let (attitudes, rates) = (&mut attitudes[..part.len()], &mut rates[..part.len()]);
-            let momenta = &mut momenta[..part.len()];
-            self.batch().about_principal_axes(part, attitudes, rates).map_err(|error| error.later(index * AT_ONCE))?;
-            self.angular_momenta_into(part, momenta).map_err(|error| error.later(index * AT_ONCE))?;
-            for (((slot, attitude), rates), total) in out.iter_mut().zip(attitudes).zip(rates).zip(momenta) {
-                *slot = self.andoyer_of(*attitude, *rates, (*total).into());
-            }
-        }
-        Ok(())
+        self.batch().andoyer_into(times, out)
     }
 
     fn andoyer_of(&self, attitude: [f64; 4], rates: [f64; 3], total: Vector3<f64>) -> [f64; 6] {
@@ -51,7 +41,7 @@ impl Motion {
             return [0.0; 6];
         }
         let moments = self.scene.body().moments();
-        // A momentum that is not turned over: axis 3 keeps its sense.
+        // Axis 3 keeps its sense.
         let frame = Frame::new(moments, [0.0; 3], false);
         let [g1, g2, g3] = frame.sorted(std::array::from_fn(|i| moments[i] * rates[i]));
         let node = node_angle(total.x, -total.y);
@@ -61,13 +51,34 @@ impl Motion {
         let z = Vector3::z_axis();
         let x = Vector3::x_axis();
         let about = UnitQuaternion::from_axis_angle;
-        // Rz(μ) is what is left of R between the two inclined nodes.
+        // Rz(μ) is R without the rotations before and after it.
         let left = (about(&z, node) * about(&x, inclination)).inverse();
         let right = (about(&x, tilt) * about(&z, spin)).inverse();
         let sorted = UnitQuaternion::new_unchecked(attitude.into()) * frame.quaternion.inverse();
         let middle = left * sorted * right;
         let angle = 2.0 * middle.k.atan2(middle.w);
         [node, wrapped(angle), spin, total.z, momentum, g3]
+    }
+}
+
+impl Batch<'_> {
+    /// [λ, μ, ν, Λ, M, N].
+    ///
+    /// # Errors
+    /// As [`Motion::attitudes_into`].
+    pub fn andoyer_into(&self, times: &[f64], out: &mut [[f64; 6]]) -> Result<(), Error> {
+        length("out", out.len(), times.len())?;
+        let (mut attitudes, mut rates, mut momenta) = ([[0.0; 4]; AT_ONCE], [[0.0; 3]; AT_ONCE], [[0.0; 3]; AT_ONCE]);
+        for ((index, part), out) in times.chunks(AT_ONCE).enumerate().zip(out.chunks_mut(AT_ONCE)) {
+            let (attitudes, rates) = (&mut attitudes[..part.len()], &mut rates[..part.len()]);
+            let momenta = &mut momenta[..part.len()];
+            self.about_principal_axes(part, attitudes, rates).map_err(|error| error.later(index * AT_ONCE))?;
+            self.angular_momenta_into(part, momenta).map_err(|error| error.later(index * AT_ONCE))?;
+            for (((slot, attitude), rates), total) in out.iter_mut().zip(attitudes).zip(rates).zip(momenta) {
+                *slot = self.motion().andoyer_of(*attitude, *rates, (*total).into());
+            }
+        }
+        Ok(())
     }
 }
 

@@ -8,12 +8,15 @@
 //! in functions with target features, which the compiler is to make vectors of, 31, 15 and 11.7; `wide` takes its instructions when it is compiled,
 //! and cannot be dispatched.
 
+use std::sync::atomic::AtomicBool;
+
 use pulp::Arch;
 
 use crate::gravity_gradient::disturbed::Gradient;
 use crate::numerics::phase::Phase;
 use crate::simd::circles::{Evaluate, Source};
 use crate::simd::grid::{GROUP, Grid};
+use crate::simd::halt::Halt;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
 use crate::simd::outputs::Outputs;
@@ -30,7 +33,7 @@ mod tests;
 /// Samples for each thread below which one more thread costs more than it saves: a join takes 11 μs, this many samples 40 to 65.
 const SAMPLES_PER_THREAD: usize = 16_384;
 
-/// How a motion goes on from its epoch.
+/// The formulas that evaluate a motion.
 #[derive(Clone, Debug)]
 pub(crate) enum Trajectory {
     /// Rotation about an axis fixed in the body.
@@ -39,7 +42,7 @@ pub(crate) enum Trajectory {
     Wobble(Box<WobbleEvaluator>),
     /// A polhode next to the separatrix or on it.
     Passage(Box<Passage>),
-    /// Any of them under a gravity gradient.
+    /// Rotation under a gravity gradient.
     Gradient(Box<Gradient>),
 }
 
@@ -54,7 +57,7 @@ impl Trajectory {
     }
 }
 
-/// A motion, the times that it has a phase at, and how to compute.
+/// A trajectory with the bounds of its times and the instruction set.
 #[derive(Clone, Copy)]
 pub(crate) struct Evaluation<'a> {
     pub(crate) trajectory: &'a Trajectory,
@@ -62,23 +65,25 @@ pub(crate) struct Evaluation<'a> {
     /// Largest distance from the epoch.
     pub(crate) bound: f64,
     pub(crate) arch: Arch,
+    /// Set by another thread to end the evaluation.
+    pub(crate) stop: &'a AtomicBool,
 }
 
 impl Evaluation<'_> {
-    /// All times, on at most so many threads; or the index of the first that has no phase. Outputs are as long as the times.
-    pub(crate) fn fill(&self, times: &[f64], outputs: Outputs<'_>, threads: usize) -> Result<(), usize> {
+    /// Evaluates all times on at most `threads` threads, or says why it ended. Outputs are as long as the times.
+    pub(crate) fn fill(&self, times: &[f64], outputs: Outputs<'_>, threads: usize) -> Result<(), Halt> {
         let grid = self.trajectory.phases().and_then(|phases| Grid::new(self.arch, phases, times));
         let enough = times.len() / SAMPLES_PER_THREAD;
-        // Asking for the pool's size starts it: not for a few samples.
+        // A query of the size of the pool starts it, so a few samples do not query it.
         let threads = if enough.min(threads) <= 1 { 1 } else { enough.min(threads).min(rayon::current_num_threads()) };
         self.spread(times, outputs, grid.as_ref(), threads)
     }
 
     /// Halves go to threads. They begin where a group does, so that each sample is computed as it would be by one thread.
-    fn spread(&self, times: &[f64], outputs: Outputs<'_>, grid: Option<&Grid>, threads: usize) -> Result<(), usize> {
+    fn spread(&self, times: &[f64], outputs: Outputs<'_>, grid: Option<&Grid>, threads: usize) -> Result<(), Halt> {
         if threads <= 1 {
-            let Self { trajectory, epoch, bound, arch } = *self;
-            return dispatch(arch, Dispatch { trajectory, run: Run { epoch, bound, times, outputs, grid } });
+            let Self { trajectory, epoch, bound, arch, stop } = *self;
+            return dispatch(arch, Dispatch { trajectory, run: Run { epoch, bound, times, outputs, grid, stop } });
         }
         let half = threads / 2;
         let place = (times.len() / threads * half).next_multiple_of(GROUP).min(times.len());
@@ -88,7 +93,7 @@ impl Evaluation<'_> {
             || self.spread(left, left_outputs, grid, half),
             || self.spread(right, right_outputs, grid, threads - half),
         );
-        first.and(second.map_err(|index| place + index))
+        first.and(second.map_err(|halt| halt.later(place)))
     }
 }
 
@@ -99,7 +104,7 @@ struct Dispatch<'a> {
 }
 
 impl Task for Dispatch<'_> {
-    type Output = Result<(), usize>;
+    type Output = Result<(), Halt>;
 
     #[inline(always)]
     fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
@@ -117,6 +122,7 @@ impl Task for Dispatch<'_> {
 }
 
 /// Under a gravity gradient.
+#[derive(Clone, Copy)]
 struct Disturbed<'a, S: InstructionSet> {
     gradient: &'a Gradient,
     epoch: Lanes<S>,
