@@ -118,6 +118,16 @@ impl Plan {
         self.gradient.map_or(0.0, |gradient| gradient.neglected)
     }
 
+    /// How derivatives with respect to the state and the moments are computed: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; `None` on the separatrix,
+    /// where the frequencies have none.
+    pub fn partials(&self) -> Option<&'static str> {
+        match (self.mode, self.gradient) {
+            (_, Some(_)) => Some("differences"),
+            (Mode::Separatrix, None) => None,
+            _ => Some("closed"),
+        }
+    }
+
     /// The parts of the theory that this scene did not need, each with its reason.
     pub fn skipped(&self) -> &[String] {
         &self.skipped
