@@ -1,11 +1,12 @@
 """Samples of one motion as rows of numbers, and back."""
 
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from andoyer._core import Samples
+from andoyer._foreign import plain
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -19,6 +20,8 @@ CONVENTION = (
 def rows(samples: Samples) -> Array:
     """The samples as an array of shape (n, 8), its columns in the order of `COLUMNS` whatever the order of the quaternions is.
 
+    Calendar times are in TDB seconds since J2000.
+
     Raises
     ------
     ValueError
@@ -29,7 +32,12 @@ def rows(samples: Samples) -> Array:
     attitude = np.atleast_2d(samples.attitude)
     if samples.scalar_first:
         attitude = np.roll(attitude, -1, axis=1)
-    return np.column_stack([np.atleast_1d(samples.times), attitude, np.atleast_2d(samples.angular_velocity)])
+    return np.column_stack([np.atleast_1d(plain("times", samples.times)), attitude, np.atleast_2d(samples.angular_velocity)])
+
+
+def calendar_times(samples: Samples) -> Any:
+    """The times of the samples if they are an astropy Time, or None."""
+    return samples.times if hasattr(samples.times, "tdb") else None
 
 
 def samples_of(times: ArrayLike, attitude: ArrayLike, angular_velocity: ArrayLike) -> Samples:

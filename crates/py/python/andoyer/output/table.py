@@ -18,7 +18,7 @@ from andoyer._core import Samples, Scene
 from andoyer._extra import extra
 from andoyer._foreign import plain
 from andoyer.output.files import whole_file
-from andoyer.output.rows import COLUMNS, CONVENTION, Array, rows, samples_of
+from andoyer.output.rows import COLUMNS, CONVENTION, Array, calendar_times, rows, samples_of
 
 LINES_AT_ONCE = 10_000
 """Lines between two words on how far the writing is."""
@@ -100,7 +100,7 @@ def write_npz(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | 
     scene : Scene, optional
         The scene of the samples: it is kept as its TOML.
     times : astropy.time.Time, optional
-        The times of the samples as they were given: `read_table` gives them back.
+        The times of the samples as they were given, if the samples have numbers: `read_table` gives them back.
     force : bool, optional
         Whether a file that is there already is replaced.
 
@@ -112,7 +112,7 @@ def write_npz(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | 
         Samples of an ensemble, or `times` that are not those of the samples.
     """
     table = rows(samples)
-    texts, julian = _about(table, scene, times)
+    texts, julian = _about(table, scene, calendar_times(samples) if times is None else times)
     arrays: dict[str, Any] = {"times": table[:, 0], "attitude": table[:, 1:5], "angular_velocity": table[:, 5:]}
     arrays |= julian | {key: np.array(text) for key, text in texts.items()}
     with whole_file(path, force) as temporary, temporary.open("wb") as file:
@@ -136,7 +136,7 @@ def write_parquet(path: str | os.PathLike[str], samples: Samples, *, scene: Scen
     """
     arrow, parquet = (extra(module, "writing Parquet") for module in ("pyarrow", "pyarrow.parquet"))
     table = rows(samples)
-    texts, julian = _about(table, scene, times)
+    texts, julian = _about(table, scene, calendar_times(samples) if times is None else times)
     columns = dict(zip(COLUMNS.split(","), np.ascontiguousarray(table.T))) | julian
     schema = arrow.schema([(name, arrow.float64()) for name in columns], metadata=texts)
     with whole_file(path, force) as temporary:
