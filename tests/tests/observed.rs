@@ -167,7 +167,9 @@ fn bad_periods_are_named() {
     let refused = |periods: ObservedPeriods| Scene::from_periods(body.clone(), &periods).expect_err("bad").to_string();
     assert!(refused(ObservedPeriods { precession: -1.0, ..good }).starts_with("precession = -1: "));
     assert!(refused(ObservedPeriods { rotation: f64::NAN, ..good }).starts_with("rotation = NaN: "));
-    assert!(refused(ObservedPeriods { momentum_direction: Vector3::zeros(), ..good }).starts_with("momentum_direction"));
+    assert!(
+        refused(ObservedPeriods { momentum_direction: Vector3::zeros(), ..good }).starts_with("momentum_direction")
+    );
     assert!(refused(ObservedPeriods { phases: [0.0, f64::INFINITY], ..good }).starts_with("phases = "));
     assert!(refused(ObservedPeriods { mode: Mode::Spherical, ..good }).starts_with("mode = \"spherical\""));
     let swapped = refused(ObservedPeriods { precession: 263.0, rotation: 27.38, ..good });

@@ -26,7 +26,8 @@ fn state() -> State {
 }
 
 /// The modes, a round body, a sphere's neighbour, and the separatrix's.
-const MOMENTS: [[f64; 3]; 5] = [[1.0, 1.5, 2.0], [2.0, 1.0, 1.5], [1.0, 1.0, 1.5], [1.0, 3.0836, 3.235], [1.0, 1.001, 1.002]];
+const MOMENTS: [[f64; 3]; 5] =
+    [[1.0, 1.5, 2.0], [2.0, 1.0, 1.5], [1.0, 1.0, 1.5], [1.0, 3.0836, 3.235], [1.0, 1.001, 1.002]];
 
 #[test]
 fn the_state_is_that_of_the_scene_and_the_angular_momentum_is_constant() {
@@ -125,8 +126,9 @@ fn a_diagonal_tensor_is_a_body_about_its_axes() {
 #[test]
 fn envisat_of_its_tensor_has_the_principal_moments_of_its_maker() {
     // Ixx, Iyy, Izz = 17023.3, 124825.7, 129112.2; Ixy, Ixz, Iyz = 397.1, −2171.4, 344.2 kg m² (ESA).
-    let body = Body::from_inertia([[17_023.3, 397.1, -2_171.4], [397.1, 124_825.7, 344.2], [-2_171.4, 344.2, 129_112.2]])
-        .expect("a body");
+    let body =
+        Body::from_inertia([[17_023.3, 397.1, -2_171.4], [397.1, 124_825.7, 344.2], [-2_171.4, 344.2, 129_112.2]])
+            .expect("a body");
     let [a, b, c] = body.moments();
     assert!((a / c - 0.131_442_23).abs() < 1e-8 && (b / c - 0.966_101_28).abs() < 1e-8, "{} {}", a / c, b / c);
 }

@@ -306,6 +306,15 @@ pub enum Error {
         /// What is wrong with it.
         problem: Box<Error>,
     },
+    /// What becomes of bad members of an ensemble, in a word that is unknown.
+    #[error("errors = {value:?}: it must be \"raise\" or \"nan\"")]
+    OnError {
+        /// The word as given.
+        value: String,
+    },
+    /// A computation that was stopped by the flag that it was given.
+    #[error("stopped before the end")]
+    Stopped,
     /// An index that no member of an ensemble has.
     #[error("index = {index}: the ensemble has {members} members, counted from 0")]
     Index {
@@ -369,7 +378,8 @@ fn advice(norm: f64) -> &'static str {
 
 impl Error {
     /// The same error of times that begin later in an array.
-    pub(crate) fn later(self, start: usize) -> Self {
+    #[must_use]
+    pub fn later(self, start: usize) -> Self {
         match self {
             Self::Time { index, value, bound, reason } => Self::Time { index: start + index, value, bound, reason },
             other => other,

@@ -29,9 +29,11 @@ mod observed;
 
 mod scene_file;
 
+mod outcome;
+
 mod ensemble;
 
-pub use ensemble::{Ensemble, MAX_THREADS};
+pub use ensemble::{Ensemble, MAX_THREADS, OnError, Run};
 pub use error::Error;
 pub use input::body::Body;
 pub use input::options::{Averaging, Convention, Level, MAX_ORDER, Method};
@@ -42,6 +44,7 @@ pub use motion::batch::Batch;
 pub use motion::plan::Plan;
 pub use motion::solved::{Frequencies, Motion, Periods, Sample};
 pub use observed::periods::ObservedPeriods;
+pub use outcome::Outcome;
 pub use partials::{Derivatives, PARAMETERS, Partials};
 pub use torque_free::mode::Mode;
 pub use torque_free::series::tables::SeriesTables;

@@ -3,6 +3,8 @@
 //! Numbers are what NumPy calls integers and floats, and objects with `__float__`; strings, booleans and complex numbers are a
 //! `TypeError`. A scalar time gives results without the leading axis. Nothing is copied that is float64, aligned and in C order already.
 
+use std::sync::atomic::AtomicBool;
+
 use andoyer_propagate::Error as Propagation;
 use numpy::{
     Element, IntoPyArray, PyArray1, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
@@ -14,9 +16,9 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PySlice, PyTuple};
 
-use crate::computing::detached;
+use crate::computing::{detached, interruptible};
 use crate::error::{self, Error, ShapeError};
-use crate::foreign;
+use crate::foreign::{self, Calendar};
 
 /// Times whose samples fill 128 KiB, from where on glibc asks the system for memory.
 const FEWEST_SHARED: usize = 2048;
@@ -39,13 +41,20 @@ fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py
             let require = numpy.getattr(intern!(py, "require"))?;
             Ok(require.call1((array, dtype::<f64>(py), ["C", "A"]))?.cast_into()?)
         }
-        _ => Err(PyTypeError::new_err(format!("{argument} must hold real numbers, not {kind}"))),
+        _ => {
+            let other = || PyTypeError::new_err(format!("{argument} must hold real numbers, not {kind}"));
+            Err(foreign::date(argument, &array).unwrap_or_else(other))
+        }
     }
 }
 
 /// An array of Python objects as numbers, one by one: NumPy would read None as NaN, and texts as what they spell.
 fn objects<'py>(argument: &str, array: &Bound<'py, PyUntypedArray>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let refused = |problem: PyErr| {
+        let first = array.getattr("flat").and_then(|flat| flat.get_item(0)).ok();
+        if let Some(date) = first.and_then(|first| foreign::date(argument, &first)) {
+            return date;
+        }
         let problem = problem.into_value(array.py());
         PyTypeError::new_err(format!("{argument} must hold real numbers: {problem}"))
     };
@@ -67,6 +76,9 @@ fn read<'py>(argument: &str, array: &Bound<'py, PyArrayDyn<f64>>) -> PyResult<Py
 /// `value` as one number.
 pub(crate) fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let refused = |cause: Option<PyErr>| {
+        if let Some(date) = foreign::date(argument, value) {
+            return date;
+        }
         let shown = value.repr().map_or_else(|_| "what cannot be printed".to_owned(), |text| text.to_string());
         let error = PyTypeError::new_err(format!("{argument} must be a real number: got {shown}"));
         error.set_cause(value.py(), cause);
@@ -131,6 +143,16 @@ impl<const N: usize> MemberRows<N> {
     }
 }
 
+/// `value` as one number, or as one axis of them.
+pub(crate) fn numbers_of(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let array = numbers(argument, value)?;
+    if array.ndim() > 1 {
+        let shape = shape_text(array.shape());
+        return Err(ShapeError::new_err(format!("{argument} has shape {shape}: it must be () or (m,)")));
+    }
+    Ok(read(argument, &array)?.as_slice()?.to_vec())
+}
+
 /// `value` as `length` numbers.
 pub(crate) fn fixed_length(argument: &str, value: &Bound<'_, PyAny>, length: usize) -> PyResult<Vec<f64>> {
     let array = numbers(argument, value)?;
@@ -150,6 +172,14 @@ pub(crate) fn fixed<const N: usize>(argument: &str, value: &Bound<'_, PyAny>) ->
         return Err(wrong());
     }
     read(argument, &array)?.as_slice()?.try_into().map_err(|_| wrong())
+}
+
+/// First and last time of a span, of a state at an epoch.
+pub(crate) fn span(value: &Bound<'_, PyAny>, epoch: f64, calendar: Option<Calendar>) -> PyResult<[f64; 2]> {
+    match foreign::since("span", value, calendar.as_slice())? {
+        Some((seconds, ..)) => Ok(fixed("span", &seconds)?.map(|seconds: f64| epoch + seconds)),
+        None => fixed("span", value),
+    }
 }
 
 /// Rows of `columns` numbers: an array_like of shape (`columns`,) or (m, `columns`).
@@ -177,7 +207,7 @@ impl<'py> Rows<'py> {
         evaluate: impl Fn(&[f64]) -> Result<Vec<f64>, andoyer_series::Error> + Sync,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let (py, values, width) = (self.array.py(), self.array.as_slice()?, self.columns);
-        let rows = interruptible(py, values, width, |values| values.chunks(width).map(&evaluate).collect())?;
+        let rows = row_by_row(py, values, width, |values| values.chunks(width).map(&evaluate).collect())?;
         let mut shape = self.array.shape().to_vec();
         shape[self.array.ndim() - 1] = columns; // one axis at least
         rows.concat().into_pyarray(py).reshape(shape)
@@ -188,7 +218,7 @@ impl<'py> Rows<'py> {
 const ROWS_AT_ONCE: usize = 64;
 
 /// What `evaluate` makes of rows of `width` numbers, part by part, without the interpreter lock; Ctrl-C is noticed in between.
-pub(crate) fn interruptible(
+pub(crate) fn row_by_row(
     py: Python<'_>,
     values: &[f64],
     width: usize,
@@ -227,32 +257,88 @@ fn shape_text(shape: &[usize]) -> String {
     }
 }
 
+/// Times of a motion from which on evaluating them is a long call: 1 to 200 ms.
+const LONG: usize = 1 << 19;
+/// The same under a gravity gradient, 3 to 20 ms.
+const LONG_DISTURBED: usize = 1 << 14;
+/// Members of an ensemble from which on solving them is a long call: 20 ms.
+const LONG_MEMBERS: usize = 1 << 12;
+/// The same under a gravity gradient, at 200 µs each.
+const LONG_DISTURBED_MEMBERS: usize = 32;
+
 /// Times: a scalar, or one axis of them; for the members of an ensemble also an axis of each.
 pub(crate) struct Times<'py> {
     array: PyReadonlyArrayDyn<'py, f64>,
     members: Option<usize>,
+    /// Axes of the result before its last.
+    leading: Vec<usize>,
+    /// Times of another package, as they were given: the numbers are then seconds since the epoch.
+    given: Option<Bound<'py, PyAny>>,
+    disturbed: bool,
 }
 
 impl<'py> Times<'py> {
     /// Times of a motion.
-    pub(crate) fn new(value: &Bound<'py, PyAny>) -> PyResult<Self> {
-        let array = numbers("times", value)?;
-        if array.ndim() > 1 {
-            let shape = shape_text(array.shape());
+    pub(crate) fn new(value: &Bound<'py, PyAny>, epoch: Option<Calendar>, disturbed: bool) -> PyResult<Self> {
+        let (array, given, shape) = Self::read(value, epoch.as_slice())?;
+        if shape.len() > 1 {
+            let shape = shape_text(&shape);
             return Err(ShapeError::new_err(format!("times has shape {shape}: it must be () or (n,)")));
         }
-        Ok(Self { array: read("times", &array)?, members: None })
+        Ok(Self { array: read("times", &array)?, members: None, leading: shape, given, disturbed })
+    }
+
+    /// Numbers, the times of another package if they are some, and the shape as given.
+    #[expect(clippy::type_complexity, reason = "taken apart at once")]
+    fn read(
+        value: &Bound<'py, PyAny>,
+        epochs: &[Calendar],
+    ) -> PyResult<(Bound<'py, PyArrayDyn<f64>>, Option<Bound<'py, PyAny>>, Vec<usize>)> {
+        if let Some((seconds, given, shape)) = foreign::since("times", value, epochs)? {
+            return Ok((numbers("times", &seconds)?, Some(given), shape));
+        }
+        let array = numbers("times", value)?;
+        let shape = array.shape().to_vec();
+        Ok((array, None, shape))
     }
 
     /// Times of an ensemble.
-    pub(crate) fn of_members(value: &Bound<'py, PyAny>, members: usize) -> PyResult<Self> {
-        let array = numbers("times", value)?;
-        if !matches!(array.shape(), [] | [_]) && !matches!(array.shape(), [m, _] if *m == members) {
-            let shape = shape_text(array.shape());
+    pub(crate) fn of_members(
+        value: &Bound<'py, PyAny>,
+        members: usize,
+        epochs: &[Calendar],
+        disturbed: bool,
+    ) -> PyResult<Self> {
+        let (array, given, shape) = Self::read(value, epochs)?;
+        if !matches!(shape[..], [] | [_]) && !matches!(shape[..], [m, _] if m == members) {
+            let shape = shape_text(&shape);
             let text = format!("times has shape {shape}: it must be (), (n,) or ({members}, n)");
             return Err(ShapeError::new_err(text));
         }
-        Ok(Self { array: read("times", &array)?, members: Some(members) })
+        let leading = if shape.len() < 2 { std::iter::once(members).chain(shape).collect() } else { shape };
+        Ok(Self { array: read("times", &array)?, members: Some(members), leading, given, disturbed })
+    }
+
+    /// Whether the numbers are seconds since the epoch.
+    pub(crate) fn since_epoch(&self) -> bool {
+        self.given.is_some()
+    }
+
+    /// Times of another package, as they were given.
+    pub(crate) fn given(&self) -> Option<Py<PyAny>> {
+        self.given.clone().map(Bound::unbind)
+    }
+
+    /// The same for derivatives, which take some microseconds a time.
+    pub(crate) fn long_partials(&self) -> bool {
+        self.array.len() > LONG_DISTURBED
+    }
+
+    /// Whether evaluating at these times may take so long that Ctrl-C must end it.
+    pub(crate) fn long(&self) -> bool {
+        let (times, members) =
+            if self.disturbed { (LONG_DISTURBED, LONG_DISTURBED_MEMBERS) } else { (LONG, LONG_MEMBERS) };
+        self.leading.iter().product::<usize>() >= times || self.members.is_some_and(|count| count >= members)
     }
 
     pub(crate) fn values(&self) -> PyResult<&[f64]> {
@@ -310,25 +396,24 @@ impl<'py> Times<'py> {
     }
 
     fn shape(&self, last: &[usize]) -> Vec<usize> {
-        let times = self.array.shape();
-        let members = self.members.filter(|_| times.len() < 2);
-        members.into_iter().chain(times.iter().copied()).chain(last.iter().copied()).collect()
+        self.leading.iter().chain(last).copied().collect()
     }
 
     /// N numbers for each time, computed by `evaluate` without the interpreter lock, into `out` or a new array.
-    pub(crate) fn evaluate<const N: usize>(
+    pub(crate) fn evaluate<const N: usize, T: Send>(
         &self,
         out: Option<&Bound<'py, PyAny>>,
-        evaluate: impl FnOnce(&[f64], &mut [[f64; N]]) -> Result<(), Propagation> + Send,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        evaluate: impl FnOnce(&[f64], &mut [[f64; N]], &AtomicBool) -> Result<T, Propagation> + Send,
+    ) -> PyResult<(Bound<'py, PyArrayDyn<f64>>, T)> {
         let result = match out {
             Some(out) => output(out, &self.shape(&[N]))?,
             None => self.rows(N)?,
         };
         let mut rows = write(&result)?;
         let (times, rows) = (self.values()?, chunks(&mut rows)?);
-        detached(self.array.py(), error::propagation, || evaluate(times, rows))?;
-        Ok(result)
+        let evaluate = |stop: &AtomicBool| evaluate(times, rows, stop);
+        let told = interruptible(self.array.py(), self.long(), error::propagation, evaluate)?;
+        Ok((result, told))
     }
 }
 

@@ -3,10 +3,12 @@
 //! `Error` is a `ValueError`; every kind of bad input has one subclass of it. The message is that of the Rust error. What is not an
 //! array-like of numbers, no `Body` or no string where one is due, stays Python's own `TypeError`.
 
+use std::ffi::CString;
+
 use andoyer_propagate::Error as Propagation;
 use andoyer_series::{Error as Algebra, ParseProblem};
 use pyo3::create_exception;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 
 create_exception!(
@@ -78,6 +80,20 @@ create_exception!(
 create_exception!(andoyer, FormatError, Error, "A text that is not the JSON of a normal form.");
 create_exception!(andoyer, SeriesError, Error, "Any other error of the exact algebra.");
 
+create_exception!(
+    andoyer,
+    ToleranceWarning,
+    PyUserWarning,
+    "A motion, or members of an ensemble, whose error bound exceeds the tolerance over the span."
+);
+
+/// Warns with a sentence, if there is one, at the line that called.
+pub(crate) fn warn_of_tolerance(py: Python<'_>, said: Option<String>) -> PyResult<()> {
+    let Some(said) = said else { return Ok(()) };
+    let said = CString::new(said)?;
+    PyErr::warn(py, &py.get_type::<ToleranceWarning>(), &said, 1)
+}
+
 /// The exception of an error in propagation: of a member of an ensemble that of a single body, with the attribute `index`.
 pub(crate) fn propagation(error: Propagation) -> PyErr {
     let message = error.to_string();
@@ -102,7 +118,7 @@ fn of_kind(error: &Propagation, message: String) -> PyErr {
         Propagation::Tolerance { .. } => ToleranceError::new_err(message),
         Propagation::Span { .. } => SpanError::new_err(message),
         Propagation::Order { .. } => OrderError::new_err(message),
-        Propagation::Method { .. } => MethodError::new_err(message),
+        Propagation::Method { .. } | Propagation::OnError { .. } => MethodError::new_err(message),
         Propagation::Orbit { .. } => OrbitError::new_err(message),
         Propagation::Averaging { .. } | Propagation::TooManyOrbits { .. } | Propagation::Unaveraged { .. } => {
             AveragingError::new_err(message)

@@ -51,7 +51,7 @@ mod _core {
         AngularVelocityError, AttitudeError, AveragingError, EpochError, Error, FormatError, HamiltonianError,
         InternalError, IntervalError, LevelError, MethodError, MomentsError, OrbitError, OrderError, ResonanceError,
         SceneFileError, SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError, ThreadsError,
-        TimesError, ToleranceError, TorqueError, UnitsError, UnknownBodyError, UnknownNameError,
+        TimesError, ToleranceError, ToleranceWarning, TorqueError, UnitsError, UnknownBodyError, UnknownNameError,
     };
     #[pymodule_export]
     use super::motion::Motion;

@@ -45,7 +45,7 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 /// --------
 /// >>> import numpy as np
 /// >>> sun = Orbit(2e-3, 0.1, inclination=0.4)
-/// >>> scene = Scene(Body([1, 1.02, 1.05]), [0, 0, 0, 1], [0, 0, 1], orbit=sun)
+/// >>> scene = Scene(Body([1, 1.02, 1.05]), [0, 0, 0, 1], [0, 0, 1], orbit=sun, tolerance=1e-5, span=(0, 1e6))
 /// >>> motion = scene.solve()
 /// >>> motion.plan.averaging, motion.plan.torque < 1e-5
 /// ('spin', True)

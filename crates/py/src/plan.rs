@@ -51,6 +51,24 @@ impl Plan {
         self.0.error_bound()
     }
 
+    /// The attitude error asked for over the span, in rad.
+    #[getter]
+    fn tolerance(&self) -> f64 {
+        self.0.tolerance()
+    }
+
+    /// Whether the error bound is within the tolerance, or within 2e-14 rad where the tolerance is less than double precision holds.
+    #[getter]
+    fn meets_tolerance(&self) -> bool {
+        self.0.meets_tolerance()
+    }
+
+    /// The sentence of the `ToleranceWarning` where the tolerance is not met, or None.
+    #[getter]
+    fn missed_tolerance(&self) -> Option<String> {
+        self.0.missed_tolerance()
+    }
+
     /// σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5).
     #[getter]
     fn separatrix_ratio(&self) -> f64 {

@@ -9,24 +9,29 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::body::Body;
 use crate::computing::detached;
+use crate::foreign::{self, Calendar};
 use crate::motion::Motion;
 use crate::orbit::{self, Orbit};
 use crate::scene_class::Scene;
-use crate::{array, error, foreign};
+use crate::{array, error};
 
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(signature = (
-        body, attitude, angular_velocity, *, epoch=0.0, orbit=None, tolerance=1e-12, method="auto", order=None, span=None,
-        averaging="auto", level="full", name=None, source=None, scalar_first=false
-    ))]
+    #[pyo3(
+        signature = (
+            body, attitude, angular_velocity, *, epoch=None, orbit=None, tolerance=1e-12, method="auto", order=None, span=None,
+            averaging="auto", level="full", name=None, source=None, scalar_first=false
+        ),
+        text_signature = "(body, attitude, angular_velocity, *, epoch=0.0, orbit=None, tolerance=1e-12, method='auto', order=None, span=None, \
+                          averaging='auto', level='full', name=None, source=None, scalar_first=False)"
+    )]
     #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn new(
         body: &Bound<'_, PyAny>,
         attitude: &Bound<'_, PyAny>,
         angular_velocity: &Bound<'_, PyAny>,
-        #[pyo3(from_py_with = epoch)] epoch: f64,
+        epoch: Option<&Bound<'_, PyAny>>,
         orbit: Option<&Bound<'_, PyAny>>,
         #[pyo3(from_py_with = tolerance)] tolerance: f64,
         method: &str,
@@ -43,6 +48,7 @@ impl Scene {
         let mut attitude = array::fixed("attitude", attitude)?;
         foreign::scalar_last(&mut attitude, scalar_first);
         let angular_velocity = array::fixed("angular_velocity", angular_velocity)?;
+        let (epoch, calendar) = self::epoch(epoch)?;
         let state = State::new(epoch, attitude, angular_velocity).map_err(error::propagation)?;
         let method = method.parse().map_err(error::propagation)?;
         let mut scene = andoyer_propagate::Scene::new(body.body.clone(), state)
@@ -57,7 +63,7 @@ impl Scene {
             scene = scene.order(crate::order::order("order", value, 0, MAX_ORDER)?);
         }
         if let Some(value) = span {
-            let [start, stop] = array::fixed("span", value)?;
+            let [start, stop] = array::span(value, epoch, calendar)?;
             scene = scene.span(start, stop);
         }
         if let Some(name) = name {
@@ -67,7 +73,7 @@ impl Scene {
             scene = scene.source(source);
         }
         scene.validate().map_err(error::propagation)?;
-        Ok(Self { scene, tables: body.tables.clone() })
+        Ok(Self { scene, tables: body.tables.clone(), calendar })
     }
 
     /// The scene of a TOML file.
@@ -94,6 +100,11 @@ impl Scene {
 
     /// The motion: everything that does not depend on time is done here, once.
     ///
+    /// Warns
+    /// -----
+    /// ToleranceWarning
+    ///     Once, with both numbers, where the error bound exceeds the tolerance over the span (`Plan.meets_tolerance`).
+    ///
     /// Raises
     /// ------
     /// SeparatrixError
@@ -108,7 +119,9 @@ impl Scene {
     /// UnitsError
     ///     The angular momentum, moment × rate, is no normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {
-        detached(py, error::propagation, || self.scene.solve_with(&self.tables)).map(Motion)
+        let motion = detached(py, error::propagation, || self.scene.solve_with(&self.tables))?;
+        error::warn_of_tolerance(py, motion.plan().missed_tolerance())?;
+        Ok(Motion(motion, self.calendar))
     }
 
     /// The body.
@@ -202,7 +215,8 @@ impl Scene {
     fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
         let state = self.scene.state();
         let numbers: ([f64; 4], [f64; 3]) = (state.attitude.coords.into(), state.angular_velocity.into());
-        let keywords = PyTuple::new(py, self.keywords(py)?.values())?;
+        let keywords = Self::from(self.scene.clone()).keywords(py)?.values();
+        let keywords = PyTuple::new(py, keywords)?;
         let [attitude, rates] = [PyTuple::new(py, numbers.0)?, PyTuple::new(py, numbers.1)?];
         (self.body().__hash__(py)?, attitude, rates, keywords).into_pyobject(py)?.hash()
     }
@@ -223,8 +237,10 @@ impl Scene {
 }
 
 // PyO3 leaves the name of an argument out of the message of its own `TypeError`.
-fn epoch(value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    array::number("epoch", value)
+fn epoch(value: Option<&Bound<'_, PyAny>>) -> PyResult<(f64, Option<Calendar>)> {
+    let Some(value) = value else { return Ok((0.0, None)) };
+    let (numbers, calendar) = foreign::epochs("epoch", value)?;
+    Ok((array::number("epoch", &numbers)?, calendar.first().copied()))
 }
 
 fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
@@ -250,7 +266,10 @@ impl Scene {
     /// The keyword arguments that make this scene.
     fn keywords<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let keywords = PyDict::new(py);
-        keywords.set_item("epoch", self.epoch())?;
+        match self.calendar {
+            Some(calendar) => keywords.set_item("epoch", foreign::calendar(py, &[calendar])?.get_item(0)?)?,
+            None => keywords.set_item("epoch", self.epoch())?,
+        }
         keywords.set_item("orbit", self.orbit())?;
         keywords.set_item("tolerance", self.tolerance())?;
         keywords.set_item("method", self.method())?;

@@ -3,6 +3,8 @@
 use andoyer_propagate::SeriesTables;
 use pyo3::prelude::*;
 
+use crate::foreign::Calendar;
+
 /// A body, its state at an epoch, and the accuracy asked of the solution.
 ///
 /// No unit is built in: time, moments and angular velocity in any consistent set, angles in rad.
@@ -18,8 +20,8 @@ use pyo3::prelude::*;
 ///     numbers are taken; a Time in TDB seconds since J2000.
 /// scalar_first : bool, optional
 ///     Whether `attitude` is [w, x, y, z]. The property `attitude` has the scalar last all the same.
-/// epoch : float, optional
-///     Time of the state.
+/// epoch : float or astropy.time.Time, optional
+///     Time of the state. Of a Time the two doubles are kept, in TDB, and times of the motion may be Time; numbers are then seconds since J2000.
 /// orbit : Orbit, optional
 ///     Relative orbit of a body whose gravity gradient acts (theory §9); by default none, and the motion is free.
 /// tolerance : float, optional
@@ -32,6 +34,7 @@ use pyo3::prelude::*;
 ///     A fixed order is not raised for the tolerance: where it is too low, `Plan.error_bound` exceeds the tolerance and ``str(plan)``
 ///     says that it "is not met", and over what.
 /// span : (float, float), optional
+///     Two numbers, or two Time, or two TimeDelta from the epoch.
 ///     Times over which the tolerance is asked for; by default any within 1e9 rotations. A motion can be evaluated outside it, up to
 ///     1e15 rotations from the epoch; farther away is a `TimesError` of the motion.
 /// averaging : {"auto", "orbit", "spin"}, optional
@@ -75,16 +78,18 @@ pub(crate) struct Scene {
     pub(crate) scene: andoyer_propagate::Scene,
     /// Those of its body.
     pub(crate) tables: SeriesTables,
+    /// The epoch, where it was given as a calendar time.
+    pub(crate) calendar: Option<Calendar>,
 }
 
 impl From<andoyer_propagate::Scene> for Scene {
     fn from(scene: andoyer_propagate::Scene) -> Self {
-        Self { scene, tables: SeriesTables::default() }
+        Self { scene, tables: SeriesTables::default(), calendar: None }
     }
 }
 
 impl PartialEq for Scene {
     fn eq(&self, other: &Self) -> bool {
-        self.scene == other.scene
+        self.scene == other.scene && self.calendar == other.calendar
     }
 }

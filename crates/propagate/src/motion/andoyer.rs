@@ -7,6 +7,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use super::batch::Batch;
 use super::solved::{Motion, length};
 use crate::error::Error;
 use crate::torque_free::polhode::Frame;
@@ -30,18 +31,7 @@ impl Motion {
     /// # Errors
     /// As [`Motion::attitudes_into`].
     pub fn andoyer_into(&self, times: &[f64], out: &mut [[f64; 6]]) -> Result<(), Error> {
-        length("out", out.len(), times.len())?;
-        let (mut attitudes, mut rates, mut momenta) = ([[0.0; 4]; AT_ONCE], [[0.0; 3]; AT_ONCE], [[0.0; 3]; AT_ONCE]);
-        for ((index, part), out) in times.chunks(AT_ONCE).enumerate().zip(out.chunks_mut(AT_ONCE)) {
-            let (attitudes, rates) = (&mut attitudes[..part.len()], &mut rates[..part.len()]);
-            let momenta = &mut momenta[..part.len()];
-            self.batch().about_principal_axes(part, attitudes, rates).map_err(|error| error.later(index * AT_ONCE))?;
-            self.angular_momenta_into(part, momenta).map_err(|error| error.later(index * AT_ONCE))?;
-            for (((slot, attitude), rates), total) in out.iter_mut().zip(attitudes).zip(rates).zip(momenta) {
-                *slot = self.andoyer_of(*attitude, *rates, (*total).into());
-            }
-        }
-        Ok(())
+        self.batch().andoyer_into(times, out)
     }
 
     fn andoyer_of(&self, attitude: [f64; 4], rates: [f64; 3], total: Vector3<f64>) -> [f64; 6] {
@@ -68,6 +58,27 @@ impl Motion {
         let middle = left * sorted * right;
         let angle = 2.0 * middle.k.atan2(middle.w);
         [node, wrapped(angle), spin, total.z, momentum, g3]
+    }
+}
+
+impl Batch<'_> {
+    /// [λ, μ, ν, Λ, M, N].
+    ///
+    /// # Errors
+    /// As [`Motion::attitudes_into`].
+    pub fn andoyer_into(&self, times: &[f64], out: &mut [[f64; 6]]) -> Result<(), Error> {
+        length("out", out.len(), times.len())?;
+        let (mut attitudes, mut rates, mut momenta) = ([[0.0; 4]; AT_ONCE], [[0.0; 3]; AT_ONCE], [[0.0; 3]; AT_ONCE]);
+        for ((index, part), out) in times.chunks(AT_ONCE).enumerate().zip(out.chunks_mut(AT_ONCE)) {
+            let (attitudes, rates) = (&mut attitudes[..part.len()], &mut rates[..part.len()]);
+            let momenta = &mut momenta[..part.len()];
+            self.about_principal_axes(part, attitudes, rates).map_err(|error| error.later(index * AT_ONCE))?;
+            self.angular_momenta_into(part, momenta).map_err(|error| error.later(index * AT_ONCE))?;
+            for (((slot, attitude), rates), total) in out.iter_mut().zip(attitudes).zip(rates).zip(momenta) {
+                *slot = self.motion().andoyer_of(*attitude, *rates, (*total).into());
+            }
+        }
+        Ok(())
     }
 }
 

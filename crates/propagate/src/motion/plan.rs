@@ -73,6 +73,31 @@ impl Plan {
         self.error_bound
     }
 
+    /// The attitude error asked for over the span \[rad\].
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Whether the error bound is within the tolerance, or within 2e-14 rad where the tolerance is less than double precision holds.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Body, Orbit, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.01, 1.0])?;
+    /// let free = Scene::new(Body::new([1.0, 1.02, 1.05])?, state);
+    /// assert!(free.solve()?.plan().meets_tolerance());
+    /// let disturbed = free.orbit(Orbit::new(2e-3, 0.1)?).span(0.0, 1e5).solve()?;
+    /// assert!(!disturbed.plan().meets_tolerance() && disturbed.plan().error_bound() > 1e-12);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    pub fn meets_tolerance(&self) -> bool {
+        self.error_bound <= self.tolerance.max(ROUNDED_TOLERANCE)
+    }
+
+    /// One sentence with the error bound and the tolerance where the tolerance is not met.
+    pub fn missed_tolerance(&self) -> Option<String> {
+        (!self.meets_tolerance()).then(|| missed(self.error_bound, self.tolerance, self.spanned))
+    }
+
     /// σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5).
     pub fn separatrix_ratio(&self) -> f64 {
         self.separatrix_ratio
@@ -125,13 +150,23 @@ impl fmt::Display for Plan {
             )?;
         }
         write!(f, "error bound   {:.1e} rad", self.error_bound)?;
-        if self.error_bound > self.tolerance.max(ROUNDED_TOLERANCE) {
-            let span = if self.spanned { "the span" } else { "1e9 rotations (no span given)" };
-            write!(f, "\ntolerance     {:e} rad is not met over {span}", self.tolerance)?;
+        if !self.meets_tolerance() {
+            write!(f, "\ntolerance     {:e} rad is not met over {}", self.tolerance, asked_span(self.spanned))?;
         }
         for reason in &self.skipped {
             write!(f, "\nskipped       {reason}")?;
         }
         Ok(())
     }
+}
+
+/// The times over which the tolerance is asked for, in words.
+fn asked_span(spanned: bool) -> &'static str {
+    if spanned { "the span" } else { "1e9 rotations (no span given)" }
+}
+
+/// The sentence of a tolerance that is not met.
+pub(crate) fn missed(bound: f64, tolerance: f64, spanned: bool) -> String {
+    let over = asked_span(spanned);
+    format!("the error bound of the attitude, {bound:.1e} rad, exceeds the tolerance, {tolerance:e} rad, over {over}")
 }

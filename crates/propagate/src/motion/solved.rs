@@ -167,14 +167,7 @@ impl Motion {
     /// # Errors
     /// As [`Motion::attitudes_into`].
     pub fn angular_momenta_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
-        length("out", out.len(), times.len())?;
-        self.valid(times)?;
-        if let Trajectory::Gradient(gradient) = &self.trajectory {
-            gradient.angular_momenta(times, self.scene.state().epoch, out);
-        } else {
-            out.fill(self.angular_momentum.into());
-        }
-        Ok(())
+        self.batch().angular_momenta_into(times, out)
     }
 
     /// Attitudes and angular velocities at many times, without an allocation.
@@ -201,8 +194,9 @@ impl Motion {
         }
     }
 
-    pub(crate) fn valid(&self, times: &[f64]) -> Result<(), Error> {
-        let (epoch, bound) = (self.scene.state().epoch, self.bound());
+    /// Whether all times, counted as this epoch is, have a phase.
+    pub(crate) fn valid(&self, times: &[f64], epoch: f64) -> Result<(), Error> {
+        let bound = self.bound();
         // Written so that NaN fails it.
         let valid = |time: &f64| (time - epoch).abs() <= bound;
         match times.iter().position(|time| !valid(time)) {

@@ -6,6 +6,7 @@ use pulp::Arch;
 
 use super::{Evaluation, Trajectory};
 use crate::numerics::phase::Phase;
+use crate::simd::halt::{GOING, Halt};
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
 use crate::simd::outputs::Outputs;
@@ -183,7 +184,7 @@ impl Case {
 }
 
 fn evaluation(trajectory: &Trajectory, arch: Arch) -> Evaluation<'_> {
-    Evaluation { trajectory, epoch: 0.0, bound: 1e15, arch }
+    Evaluation { trajectory, epoch: 0.0, bound: 1e15, arch, stop: &GOING }
 }
 
 type Both = (Vec<[f64; 4]>, Vec<[f64; 3]>);
@@ -332,7 +333,7 @@ fn the_first_time_without_a_phase_is_named() {
                 (times[place], times[49_000]) = (wrong, wrong);
                 let mut rates = vec![[0.0; 3]; times.len()];
                 let found = evaluation(&trajectory, arch).fill(&times, Outputs::Rates(&mut rates), 4);
-                assert_eq!(found, Err(place), "{arch:?} {wrong}");
+                assert_eq!(found, Err(Halt::Time(place)), "{arch:?} {wrong}");
             }
         }
     }

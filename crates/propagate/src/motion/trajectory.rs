@@ -8,12 +8,15 @@
 //! in functions with target features, which the compiler is to make vectors of, 31, 15 and 11.7; `wide` takes its instructions when it is compiled,
 //! and cannot be dispatched.
 
+use std::sync::atomic::AtomicBool;
+
 use pulp::Arch;
 
 use crate::gravity_gradient::disturbed::Gradient;
 use crate::numerics::phase::Phase;
 use crate::simd::circles::{Evaluate, Source};
 use crate::simd::grid::{GROUP, Grid};
+use crate::simd::halt::Halt;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
 use crate::simd::outputs::Outputs;
@@ -62,11 +65,13 @@ pub(crate) struct Evaluation<'a> {
     /// Largest distance from the epoch.
     pub(crate) bound: f64,
     pub(crate) arch: Arch,
+    /// Set by another thread to end the evaluation.
+    pub(crate) stop: &'a AtomicBool,
 }
 
 impl Evaluation<'_> {
-    /// All times, on at most so many threads; or the index of the first that has no phase. Outputs are as long as the times.
-    pub(crate) fn fill(&self, times: &[f64], outputs: Outputs<'_>, threads: usize) -> Result<(), usize> {
+    /// All times, on at most so many threads; or why not. Outputs are as long as the times.
+    pub(crate) fn fill(&self, times: &[f64], outputs: Outputs<'_>, threads: usize) -> Result<(), Halt> {
         let grid = self.trajectory.phases().and_then(|phases| Grid::new(self.arch, phases, times));
         let enough = times.len() / SAMPLES_PER_THREAD;
         // Asking for the pool's size starts it: not for a few samples.
@@ -75,10 +80,10 @@ impl Evaluation<'_> {
     }
 
     /// Halves go to threads. They begin where a group does, so that each sample is computed as it would be by one thread.
-    fn spread(&self, times: &[f64], outputs: Outputs<'_>, grid: Option<&Grid>, threads: usize) -> Result<(), usize> {
+    fn spread(&self, times: &[f64], outputs: Outputs<'_>, grid: Option<&Grid>, threads: usize) -> Result<(), Halt> {
         if threads <= 1 {
-            let Self { trajectory, epoch, bound, arch } = *self;
-            return dispatch(arch, Dispatch { trajectory, run: Run { epoch, bound, times, outputs, grid } });
+            let Self { trajectory, epoch, bound, arch, stop } = *self;
+            return dispatch(arch, Dispatch { trajectory, run: Run { epoch, bound, times, outputs, grid, stop } });
         }
         let half = threads / 2;
         let place = (times.len() / threads * half).next_multiple_of(GROUP).min(times.len());
@@ -88,7 +93,7 @@ impl Evaluation<'_> {
             || self.spread(left, left_outputs, grid, half),
             || self.spread(right, right_outputs, grid, threads - half),
         );
-        first.and(second.map_err(|index| place + index))
+        first.and(second.map_err(|halt| halt.later(place)))
     }
 }
 
@@ -99,7 +104,7 @@ struct Dispatch<'a> {
 }
 
 impl Task for Dispatch<'_> {
-    type Output = Result<(), usize>;
+    type Output = Result<(), Halt>;
 
     #[inline(always)]
     fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
@@ -117,6 +122,7 @@ impl Task for Dispatch<'_> {
 }
 
 /// Under a gravity gradient.
+#[derive(Clone, Copy)]
 struct Disturbed<'a, S: InstructionSet> {
     gradient: &'a Gradient,
     epoch: Lanes<S>,

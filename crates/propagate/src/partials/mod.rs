@@ -77,7 +77,7 @@ impl Motion {
     ) -> Result<(), Error> {
         length("attitudes", attitudes.len(), times.len())?;
         length("rates", rates.len(), times.len())?;
-        self.valid(times)?;
+        self.valid(times, self.scene.state().epoch)?;
         self.partials_about_principal_axes(times, attitudes, rates)?;
         if let Some(given) = &self.given {
             let axes = given.turn.to_rotation_matrix().into_inner();

@@ -6,6 +6,7 @@
 pub(crate) mod circles;
 pub(crate) mod complex_quaternion;
 pub(crate) mod grid;
+pub(crate) mod halt;
 pub(crate) mod instruction_set;
 pub(crate) mod kepler;
 pub(crate) mod lanes;

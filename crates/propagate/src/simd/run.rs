@@ -1,9 +1,12 @@
 //! The loop over blocks of times, compiled for each instruction set and each set of outputs.
 
+use std::sync::atomic::AtomicBool;
+
 use andoyer_double::two_sum;
 
 use super::circles::{Circle, Circles, Evaluate, Source};
 use super::grid::{BLOCK, GROUP, Grid, Tabled};
+use super::halt::{Halt, going};
 use super::instruction_set::InstructionSet;
 use super::lanes::{Lanes, WIDEST};
 use super::outputs::Outputs;
@@ -18,12 +21,14 @@ pub(crate) struct Run<'a> {
     pub(crate) times: &'a [f64],
     pub(crate) outputs: Outputs<'a>,
     pub(crate) grid: Option<&'a Grid>,
+    /// Set by another thread to end the evaluation.
+    pub(crate) stop: &'a AtomicBool,
 }
 
 impl Run<'_> {
     /// Each time by itself, without vectors.
-    pub(crate) fn one_by_one(self, evaluate: impl Fn((f64, f64)) -> ([f64; 4], [f64; 3])) -> Result<(), usize> {
-        let Self { epoch, bound, times, outputs, .. } = self;
+    pub(crate) fn one_by_one(self, evaluate: impl Fn((f64, f64)) -> ([f64; 4], [f64; 3])) -> Result<(), Halt> {
+        let Self { epoch, bound, times, outputs, stop, .. } = self;
         let (mut attitudes, mut rates) = match outputs {
             Outputs::Attitudes(attitudes) => (Some(attitudes), None),
             Outputs::Rates(rates) => (None, Some(rates)),
@@ -31,6 +36,9 @@ impl Run<'_> {
         };
         all_within(times, epoch, bound)?;
         for (index, &time) in times.iter().enumerate() {
+            if index % GROUP == 0 {
+                going(stop)?;
+            }
             let (attitude, rate) = evaluate(two_sum(time, -epoch));
             if let Some(attitudes) = &mut attitudes {
                 attitudes[index] = attitude;
@@ -44,22 +52,21 @@ impl Run<'_> {
 
     /// From a source that has no circles and no grid.
     #[inline(always)]
-    pub(crate) fn by_source<S: InstructionSet>(self, simd: S, source: impl Source<S>) -> Result<(), usize> {
-        let Self { epoch, bound, times, outputs, .. } = self;
+    pub(crate) fn by_source<S: InstructionSet>(self, simd: S, source: impl Source<S> + Copy) -> Result<(), Halt> {
+        let Self { epoch, bound, times, outputs, stop, .. } = self;
         all_within(times, epoch, bound)?;
         match outputs {
-            Outputs::Attitudes(attitudes) => each::<S, true, false>(simd, times, (attitudes, &mut []), source),
-            Outputs::Rates(rates) => each::<S, false, true>(simd, times, (&mut [], rates), source),
-            Outputs::Both(attitudes, rates) => each::<S, true, true>(simd, times, (attitudes, rates), source),
+            Outputs::Attitudes(attitudes) => groups::<S, true, false>(simd, times, (attitudes, &mut []), source, stop),
+            Outputs::Rates(rates) => groups::<S, false, true>(simd, times, (&mut [], rates), source, stop),
+            Outputs::Both(attitudes, rates) => groups::<S, true, true>(simd, times, (attitudes, rates), source, stop),
         }
-        Ok(())
     }
 
     /// By the circles of a motion.
     #[inline(always)]
-    pub(crate) fn by_circles<S: InstructionSet, C: Evaluate>(self, simd: S, course: &C) -> Result<(), usize> {
-        let Self { epoch, bound, times, outputs, grid } = self;
-        let stretch = Stretch { simd, epoch, bound, course, grid };
+    pub(crate) fn by_circles<S: InstructionSet, C: Evaluate>(self, simd: S, course: &C) -> Result<(), Halt> {
+        let Self { epoch, bound, times, outputs, grid, stop } = self;
+        let stretch = Stretch { simd, epoch, bound, course, grid, stop };
         match outputs {
             Outputs::Attitudes(attitudes) => stretch.fill::<true, false>(times, (attitudes, &mut [])),
             Outputs::Rates(rates) => stretch.fill::<false, true>(times, (&mut [], rates)),
@@ -77,15 +84,17 @@ struct Stretch<'a, S, C> {
     bound: f64,
     course: &'a C,
     grid: Option<&'a Grid>,
+    stop: &'a AtomicBool,
 }
 
 impl<S: InstructionSet, C: Evaluate> Stretch<'_, S, C> {
     /// Group by group, each after its times are found to be valid.
     #[inline(always)]
-    fn fill<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], mut rows: Rows<'_>) -> Result<(), usize> {
+    fn fill<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], mut rows: Rows<'_>) -> Result<(), Halt> {
         for (index, group) in times.chunks(GROUP).enumerate() {
             let start = index * GROUP;
-            all_within(group, self.epoch, self.bound).map_err(|place| start + place)?;
+            going(self.stop)?;
+            all_within(group, self.epoch, self.bound).map_err(|halt| halt.later(start))?;
             let rows = part::<ATTITUDE, RATES>(&mut rows, start, group.len());
             match self.grid {
                 Some(grid) => self.uniform::<ATTITUDE, RATES>(grid, group, rows),
@@ -125,12 +134,29 @@ impl<S: InstructionSet, C: Evaluate> Stretch<'_, S, C> {
 
 /// Whether all times are within the bound, or the first that is not. NaN is not.
 #[inline(always)]
-fn all_within(times: &[f64], epoch: f64, bound: f64) -> Result<(), usize> {
+fn all_within(times: &[f64], epoch: f64, bound: f64) -> Result<(), Halt> {
     let valid = |time: &f64| (time - epoch).abs() <= bound;
     if times.iter().fold(true, |all, time| all & valid(time)) {
         return Ok(());
     }
-    Err(times.iter().position(|time| !valid(time)).unwrap_or(0))
+    Err(Halt::Time(times.iter().position(|time| !valid(time)).unwrap_or(0)))
+}
+
+/// Group by group, as long as the flag is not set.
+#[inline(always)]
+fn groups<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
+    simd: S,
+    times: &[f64],
+    mut rows: Rows<'_>,
+    source: impl Source<S> + Copy,
+    stop: &AtomicBool,
+) -> Result<(), Halt> {
+    for (index, group) in times.chunks(GROUP).enumerate() {
+        going(stop)?;
+        let rows = part::<ATTITUDE, RATES>(&mut rows, index * GROUP, group.len());
+        each::<S, ATTITUDE, RATES>(simd, group, rows, source);
+    }
+    Ok(())
 }
 
 /// All lanes at once, and the last times with lanes that lack filled up.

@@ -96,6 +96,9 @@ class TimesError(Error):
 class ToleranceError(Error):
     """A tolerance that is not positive and finite."""
 
+class ToleranceWarning(UserWarning):
+    """A motion, or members of an ensemble, whose error bound exceeds the tolerance over the span."""
+
 class TorqueError(Error):
     """A torque too strong for an expansion in it."""
 
@@ -198,7 +201,7 @@ class Scene:
         attitude: ArrayLike | Rotation,
         angular_velocity: ArrayLike,
         *,
-        epoch: float = 0.0,
+        epoch: float | Any = 0.0,
         orbit: Orbit | None = None,
         tolerance: float = 1e-12,
         method: Literal["auto", "series", "closed"] = "auto",
@@ -321,6 +324,15 @@ class Plan:
     def error_bound(self) -> float:
         """Estimate from above of the attitude error over the span, in rad: truncation, dropped harmonics, rounding."""
     @property
+    def tolerance(self) -> float:
+        """The attitude error asked for over the span, in rad."""
+    @property
+    def meets_tolerance(self) -> bool:
+        """Whether the error bound is within the tolerance, or within 2e-14 rad where the tolerance is less than double precision holds."""
+    @property
+    def missed_tolerance(self) -> str | None:
+        """The sentence of the `ToleranceWarning` where the tolerance is not met, or None."""
+    @property
     def separatrix_ratio(self) -> float:
         """σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5)."""
     @property
@@ -345,8 +357,11 @@ class Samples:
     """Attitudes and angular velocities at some times, of a motion or of the members of an ensemble: what `Motion.at` and `Ensemble.at` return."""
 
     @property
-    def times(self) -> _Array:
-        """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n)."""
+    def times(self) -> Any:
+        """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n). Times of astropy are given back as they are."""
+    @property
+    def errors(self) -> dict[int, Error]:
+        """Why members have no samples but NaN: errors by index, of an ensemble with ``errors="nan"``; else empty."""
     @property
     def attitude(self) -> _Array:
         """Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4) or (m, n, 4)."""
@@ -379,7 +394,7 @@ class Partials:
 
 @final
 class Ensemble:
-    """Many bodies with their states at time 0, solved and evaluated member by member on all cores, in memory proportional to the result."""
+    """Many bodies with their states, solved and evaluated member by member on all cores, in memory proportional to the result."""
 
     def __new__(
         cls,
@@ -387,10 +402,12 @@ class Ensemble:
         attitudes: ArrayLike | Rotation,
         angular_velocities: ArrayLike,
         *,
+        epochs: ArrayLike | Any | None = None,
         orbits: Orbit | Iterable[Orbit | None] | None = None,
         tolerance: float = 1e-12,
-        span: tuple[float, float] | None = None,
+        span: ArrayLike | Any | None = None,
         threads: int | None = None,
+        errors: Literal["raise", "nan"] = "raise",
         scalar_first: bool = False,
     ) -> Ensemble: ...
     def at(self, times: ArrayLike, *, scalar_first: bool = False) -> Samples:
@@ -398,8 +415,14 @@ class Ensemble:
     def attitude(self, times: ArrayLike, out: _Array | None = None, *, scalar_first: bool = False) -> _Array:
         """Attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones."""
     @property
-    def plans(self) -> list[Plan]:
-        """The plan of every member: a list of `Plan`."""
+    def plans(self) -> list[Any]:
+        """The plan of every member: a list of `Plan`; with ``errors="nan"`` None for a member that is refused."""
+    @property
+    def errors(self) -> dict[int, Error]:
+        """Why members have no motion: errors by index. All members are solved for it; empty where every member has one."""
+    @property
+    def epochs(self) -> Any:
+        """The times of the states: a float for all members, or a read-only array, shape (m,)."""
     @property
     def moments(self) -> _Array:
         """The moments about body axes 1, 2, 3: a read-only array, shape (m, 3)."""

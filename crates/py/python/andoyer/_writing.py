@@ -100,18 +100,19 @@ def write_samples(path: Path, motion: andoyer.Motion, samples: andoyer.Samples, 
     """Write samples in the format of the ending."""
     progress = Progress("writing, lines")
     ending = path.suffix.lower()
+    remark = motion.plan.missed_tolerance
     try:
         with written_to(path):
             if ending == ".aem":
-                heading = Heading(**({"name": _name(motion)} | given))
+                heading = Heading(**({"name": _name(motion), "comments": _comments(motion)} | given))
                 output.write_aem(path, samples, heading, body=motion.scene.body, force=force)
                 _note(heading, given)
             elif ending == ".csv":
                 output.write_csv(path, samples, progress, force=force)
             elif ending == ".npz":
-                output.write_npz(path, samples, scene=motion.scene, force=force)
+                output.write_npz(path, samples, scene=motion.scene, remark=remark, force=force)
             else:
-                output.write_parquet(path, samples, scene=motion.scene, force=force)
+                output.write_parquet(path, samples, scene=motion.scene, remark=remark, force=force)
     finally:
         progress.close()
 
@@ -119,7 +120,7 @@ def write_samples(path: Path, motion: andoyer.Motion, samples: andoyer.Samples, 
 def write_kernel(path: Path, motion: andoyer.Motion, interval: tuple[float, float], given: dict[str, Any], force: bool) -> None:
     """Write a C-kernel, and say how many records it has."""
     names = {field.name for field in fields(Kernel)}
-    kernel = Kernel(**{key: value for key, value in given.items() if key in names})
+    kernel = Kernel(comments=_comments(motion), **{key: value for key, value in given.items() if key in names})
     progress = Progress("writing, windows")
     try:
         with written_to(path):
@@ -127,6 +128,12 @@ def write_kernel(path: Path, motion: andoyer.Motion, interval: tuple[float, floa
     finally:
         progress.close()
     _note(kernel, given)
+
+
+def _comments(motion: andoyer.Motion) -> tuple[str, ...]:
+    """That the tolerance is not met, where it is not."""
+    missed = motion.plan.missed_tolerance
+    return () if missed is None else (missed,)
 
 
 def _name(motion: andoyer.Motion) -> str:

@@ -1,7 +1,7 @@
 """The command line: `andoyer propagate`, `plan`, `plot`, `bodies`, `series`.
 
 Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion that is not served,
-no command.
+no command. A tolerance that is not met is one line on stderr, and exit status 3 under `--strict`. After Ctrl-C it is 130, and no file is left half written.
 """
 
 import argparse
@@ -35,6 +35,9 @@ ROTATIONS = 10
 
 SAMPLES = 1000
 """Samples if the command line gives neither their number nor a step."""
+
+MISSED = 3
+"""Exit status of a tolerance that is not met, under --strict."""
 
 PICTURES = [".png", ".svg", ".pdf", ".html"]
 COMMANDS = ["propagate", "plot", "plan", "bodies", "series"]
@@ -78,7 +81,7 @@ def main(argv: list[str] | None = None) -> int:
         arguments = top.parse_args(argv)
         if arguments.run is None:
             raise InputError(f"a command is missing: {', '.join(COMMANDS)} (--help says more)")
-        arguments.run(arguments)
+        status: int = arguments.run(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
         # The reader of a pipe has seen enough; nothing may be flushed into it at exit.
@@ -90,7 +93,7 @@ def main(argv: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("andoyer: interrupted", file=sys.stderr)
         return 130
-    return 0
+    return status
 
 
 def examples(said: str, *lines: str) -> dict[str, Any]:
@@ -118,6 +121,7 @@ def parser() -> Parser:
     spacing.add_argument("--samples", type=count, metavar="N", help=f"number of times, the last one included (default: {SAMPLES})")
     spacing.add_argument("--step", type=step, metavar="DT", help="time from one sample to the next, from the first time on")
     writing.add_options(command)
+    strictly(command)
     command.set_defaults(run=propagate)
 
     pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole"
@@ -126,10 +130,12 @@ def parser() -> Parser:
     command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .png, .svg, .pdf, or a page that turns, .html, by its ending")
     command.add_argument("--force", action="store_true", help="replace a file that is there already")
     reading.add_options(command)
+    strictly(command)
     command.set_defaults(run=plot)
 
     command = commands.add_parser("plan", help="print what would be evaluated, and why", **examples("", EXAMPLES["plan"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
+    strictly(command)
     command.set_defaults(run=plan)
 
     command = commands.add_parser("bodies", help="print the catalogue of bodies, each with its source", **examples("", EXAMPLES["bodies"]))
@@ -145,14 +151,19 @@ def parser() -> Parser:
     return top
 
 
-def propagate(arguments: argparse.Namespace) -> None:
+def strictly(command: argparse.ArgumentParser) -> None:
+    """Add the option that makes a missed tolerance a failure."""
+    command.add_argument("--strict", action="store_true", help=f"exit with status {MISSED} if the tolerance is not met")
+
+
+def propagate(arguments: argparse.Namespace) -> int:
     """Write a motion at equal steps of time, or as a C-kernel."""
     path = Path(arguments.output)
     given = writing.check(arguments)
     motion = solved(arguments.scene)
     if arguments.output != "-" and path.suffix.lower() == ".bc":
         writing.write_kernel(path, motion, interval(motion, arguments.start, arguments.stop), given, arguments.force)
-        return
+        return status(arguments, motion)
     samples = motion.at(instants(arguments, motion))
     if arguments.output == "-":
         progress = Progress("writing, lines")
@@ -163,9 +174,10 @@ def propagate(arguments: argparse.Namespace) -> None:
     else:
         writing.write_samples(path, motion, samples, given, arguments.force)
     note_sparse(motion, samples.times)
+    return status(arguments, motion)
 
 
-def plot(arguments: argparse.Namespace) -> None:
+def plot(arguments: argparse.Namespace) -> int:
     """Draw the pictures of a motion, or those of a file of attitudes."""
     path = Path(arguments.output)
     if path.suffix.lower() not in PICTURES:
@@ -173,23 +185,24 @@ def plot(arguments: argparse.Namespace) -> None:
     if not arguments.force:
         writing.refuse_existing(path)
     if path.suffix.lower() == ".html":
-        turning(arguments, path)
-        return
+        return turning(arguments, path)
     extra("matplotlib", "drawing").use("Agg")
     from andoyer import plot as pictures
 
     if reading.is_attitude_file(arguments.scene):
         samples = reading.read(arguments)
-        against = solved(arguments.against) if arguments.against else None
-        figure = pictures.samples_summary(samples, against, name=Path(arguments.scene).name)
+        motion = solved(arguments.against) if arguments.against else None
+        figure = pictures.samples_summary(samples, motion, name=Path(arguments.scene).name)
     else:
         reading.refuse_options(arguments)
-        figure = pictures.summary(solved(arguments.scene))
+        motion = solved(arguments.scene)
+        figure = pictures.summary(motion)
     with writing.written_to(path), whole_file(path, arguments.force) as temporary:
         figure.savefig(temporary, dpi=130, format=path.suffix.lower()[1:])
+    return 0 if motion is None else status(arguments, motion)
 
 
-def turning(arguments: argparse.Namespace, path: Path) -> None:
+def turning(arguments: argparse.Namespace, path: Path) -> int:
     """Write the page in which a scene turns."""
     reading.refuse_options(arguments)
     if reading.is_attitude_file(arguments.scene):
@@ -197,6 +210,7 @@ def turning(arguments: argparse.Namespace, path: Path) -> None:
     motion = solved(arguments.scene)
     with writing.written_to(path):
         page(motion, path, force=arguments.force)
+    return status(arguments, motion)
 
 
 def read(path: str) -> andoyer.Scene:
@@ -212,10 +226,22 @@ def read(path: str) -> andoyer.Scene:
 def solved(path: str) -> andoyer.Motion:
     """The motion of a scene file; that it has none is an error of the file."""
     scene = read(path)
-    try:
-        return scene.solve()
-    except andoyer.Error as error:
-        raise InputError(f"{path}: {error}") from error
+    with warnings.catch_warnings():
+        # `status` says it in one line.
+        warnings.simplefilter("ignore", andoyer.ToleranceWarning)
+        try:
+            return scene.solve()
+        except andoyer.Error as error:
+            raise InputError(f"{path}: {error}") from error
+
+
+def status(arguments: argparse.Namespace, motion: andoyer.Motion) -> int:
+    """The exit status of a command about this motion; a tolerance that is not met is said on stderr."""
+    missed = motion.plan.missed_tolerance
+    if missed is None:
+        return 0
+    print(f"andoyer: warning: {missed}", file=sys.stderr)
+    return MISSED if arguments.strict else 0
 
 
 def instants(arguments: argparse.Namespace, motion: andoyer.Motion) -> NDArray[np.float64]:
@@ -257,7 +283,7 @@ def interval(motion: andoyer.Motion, start: float | None, stop: float | None) ->
     return start, stop
 
 
-def plan(arguments: argparse.Namespace) -> None:
+def plan(arguments: argparse.Namespace) -> int:
     """Print the plan of a scene, and the periods of its motion."""
     motion = solved(arguments.scene)
     scene = motion.scene
@@ -268,18 +294,20 @@ def plan(arguments: argparse.Namespace) -> None:
     print(named("energy"), f"E/E0 {motion.energy_ratio:.8g}, k^2 {motion.elliptic_parameter:.8g}")
     for convention, (precession, rotation) in motion.periods.items():
         print(named("periods"), f"{convention}: P_phi {precession:.10g}, P_psi {rotation:.10g}")
+    return status(arguments, motion)
 
 
-def bodies(_arguments: argparse.Namespace) -> None:
+def bodies(_arguments: argparse.Namespace) -> int:
     """Print the catalogue."""
     print(f"{'name':10} {'A/C':>10} {'B/C':>10} {'beta':>10}  source")
     for name in andoyer.Body.catalogue():
         body = andoyer.Body.named(name)
         a, b, c = np.sort(body.moments)
         print(f"{name:10} {a / c:10.8f} {b / c:10.8f} {body.beta:10.8f}  {andoyer.Body.source(name)}")
+    return 0
 
 
-def series(arguments: argparse.Namespace) -> None:
+def series(arguments: argparse.Namespace) -> int:
     """Print the normal form: its triaxiality polynomials, or all of it in another form."""
     for option, value, served in [("--part", arguments.part, ["latex"]), ("--beta", arguments.beta, LANGUAGES)]:
         if value is not None and arguments.to not in served:
@@ -290,6 +318,7 @@ def series(arguments: argparse.Namespace) -> None:
     finally:
         progress.close()
     sys.stdout.write(written(normal_form, arguments))
+    return 0
 
 
 def written(normal_form: andoyer.NormalForm, arguments: argparse.Namespace) -> str:

@@ -27,12 +27,14 @@ def rows(samples: Samples) -> Array:
     ValueError
         Samples of an ensemble.
     """
+    times = plain("times", samples.times)
     if samples.times.ndim > 1 or samples.attitude.ndim > samples.times.ndim + 1:
         raise ValueError(f"samples must be of one motion: got {samples!r}; a file holds one member of an ensemble")
     attitude = np.atleast_2d(samples.attitude)
     if samples.scalar_first:
         attitude = np.roll(attitude, -1, axis=1)
-    return np.column_stack([np.atleast_1d(plain("times", samples.times)), attitude, np.atleast_2d(samples.angular_velocity)])
+    return np.column_stack([np.atleast_1d(times), attitude, np.atleast_2d(samples.angular_velocity)])
+
 
 
 def calendar_times(samples: Samples) -> Any:

@@ -20,6 +20,9 @@ from andoyer._foreign import plain
 from andoyer.output.files import whole_file
 from andoyer.output.rows import COLUMNS, CONVENTION, Array, calendar_times, rows, samples_of
 
+ROWS_AT_ONCE = 2**20
+"""Rows of a group of Parquet, which takes some 0.1 s."""
+
 LINES_AT_ONCE = 10_000
 """Lines between two words on how far the writing is."""
 
@@ -89,7 +92,9 @@ def write_table(file: TextIO, samples: Samples, progress: Progress = silent) -> 
         progress(min(start + LINES_AT_ONCE, len(table)), len(table))
 
 
-def write_npz(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, times: Any = None, force: bool = True) -> None:
+def write_npz(
+    path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, times: Any = None, remark: str | None = None, force: bool = True
+) -> None:
     """Samples as NPZ: arrays times, attitude (scalar last), angular_velocity, and texts: convention, units, scene.
 
     Parameters
@@ -101,6 +106,8 @@ def write_npz(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | 
         The scene of the samples: it is kept as its TOML.
     times : astropy.time.Time, optional
         The times of the samples as they were given, if the samples have numbers: `read_table` gives them back.
+    remark : str, optional
+        What is to be said of the samples: that they miss the tolerance.
     force : bool, optional
         Whether a file that is there already is replaced.
 
@@ -113,18 +120,21 @@ def write_npz(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | 
     """
     table = rows(samples)
     texts, julian = _about(table, scene, calendar_times(samples) if times is None else times)
+    texts |= {"remark": remark} if remark else {}
     arrays: dict[str, Any] = {"times": table[:, 0], "attitude": table[:, 1:5], "angular_velocity": table[:, 5:]}
     arrays |= julian | {key: np.array(text) for key, text in texts.items()}
     with whole_file(path, force) as temporary, temporary.open("wb") as file:
         np.savez(file, **arrays)
 
 
-def write_parquet(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, times: Any = None, force: bool = True) -> None:
+def write_parquet(
+    path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, times: Any = None, remark: str | None = None, force: bool = True
+) -> None:
     """Samples as Parquet: the columns of the CSV as float64; convention, units and scene in the metadata of the schema.
 
     Parameters
     ----------
-    path, samples, scene, times, force
+    path, samples, scene, times, remark, force
         As in `write_npz`.
 
     Raises
@@ -137,10 +147,14 @@ def write_parquet(path: str | os.PathLike[str], samples: Samples, *, scene: Scen
     arrow, parquet = (extra(module, "writing Parquet") for module in ("pyarrow", "pyarrow.parquet"))
     table = rows(samples)
     texts, julian = _about(table, scene, calendar_times(samples) if times is None else times)
+    texts |= {"remark": remark} if remark else {}
     columns = dict(zip(COLUMNS.split(","), np.ascontiguousarray(table.T))) | julian
     schema = arrow.schema([(name, arrow.float64()) for name in columns], metadata=texts)
-    with whole_file(path, force) as temporary:
-        parquet.write_table(arrow.table(list(columns.values()), schema=schema), temporary)
+    with whole_file(path, force) as temporary, parquet.ParquetWriter(temporary, schema) as writer:
+        # One group of rows after the other: Python looks for Ctrl-C between them. A table of no rows has a group too.
+        for start in range(0, max(len(table), 1), ROWS_AT_ONCE):
+            part = [column[start : start + ROWS_AT_ONCE] for column in columns.values()]
+            writer.write_table(arrow.table(part, schema=schema))
 
 
 def read_table(path: str | os.PathLike[str]) -> Table:
