@@ -36,7 +36,6 @@ def rows(samples: Samples) -> Array:
     return np.column_stack([np.atleast_1d(times), attitude, np.atleast_2d(samples.angular_velocity)])
 
 
-
 def calendar_times(samples: Samples) -> Any:
     """The times of the samples if they are an astropy Time, or None."""
     return samples.times if hasattr(samples.times, "tdb") else None
