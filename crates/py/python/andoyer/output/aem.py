@@ -129,7 +129,7 @@ def _check(heading: Heading, samples: Samples) -> None:
         raise ValueError(f"attitude_type must be one of {', '.join(types)} in version {heading.version}: got {heading.type!r}")
     if heading.interpolation is not None:
         method, degree = heading.interpolation
-        most = np.atleast_1d(samples.times).size - 1
+        most = len(np.atleast_2d(samples.attitude)) - 1
         if method not in METHODS or not 1 <= degree <= most:
             raise ValueError(f"interpolation must be {', '.join(METHODS)} of degree 1 to {most}, which these samples allow: got {heading.interpolation!r}")
 

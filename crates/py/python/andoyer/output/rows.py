@@ -41,8 +41,8 @@ def calendar_times(samples: Samples) -> Any:
     return samples.times if hasattr(samples.times, "tdb") else None
 
 
-def samples_of(times: ArrayLike, attitude: ArrayLike, angular_velocity: ArrayLike) -> Samples:
-    """Samples with the arrays of their own: shapes (n,), (n, 4) scalar last, (n, 3)."""
+def samples_of(times: ArrayLike, attitude: ArrayLike, angular_velocity: ArrayLike, calendar: Any = None) -> Samples:
+    """Samples with the arrays of their own: shapes (n,), (n, 4) scalar last, (n, 3); `calendar` are the times as an astropy Time."""
     arrays = [np.array(value, dtype=np.float64) for value in (times, attitude, angular_velocity)]
-    restored: Samples = Samples._restored(*arrays)  # type: ignore[attr-defined]
+    restored: Samples = Samples._restored(*arrays, False, calendar)  # type: ignore[attr-defined]
     return restored
