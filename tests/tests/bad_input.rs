@@ -78,7 +78,7 @@ fn tolerance_order_span_and_method_have_bounds() {
         assert!(matches!(error, Error::Tolerance { .. }), "{error}");
         assert!(error.to_string().contains(&format!("tolerance = {bad}")), "{error}");
     }
-    assert!(matches!(scene().order(MAX_ORDER + 1).solve(), Err(Error::Order { value: 61 })));
+    assert!(matches!(scene().order(MAX_ORDER + 1).solve(), Err(Error::Order { value: 61, bound: MAX_ORDER })));
     assert!(scene().order(MAX_ORDER).solve().is_ok());
     assert!(matches!(scene().span(1.0, 0.0).solve(), Err(Error::Span { .. })));
     assert!(matches!("elliptic".parse::<Method>(), Err(Error::Method { .. })));

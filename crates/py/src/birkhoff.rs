@@ -10,7 +10,7 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyComplex, PyDict, PyTuple, PyType};
 
-use crate::array::{Rows, Times, fixed_length, interruptible, number, write};
+use crate::array::{Rows, Times, fixed_length, number, row_by_row, write};
 use crate::computing::detached;
 use crate::domain::Domain;
 use crate::error::{self, UnknownNameError};
@@ -373,7 +373,7 @@ impl BirkhoffNormalForm {
     /// ShapeError
     ///     Another length.
     /// IntervalError
-    ///     A NaN.
+    ///     A NaN, or an action below 0.
     #[pyo3(signature = (actions, parameters=None))]
     fn frequency_map<'py>(
         &self,
@@ -417,12 +417,12 @@ impl BirkhoffNormalForm {
         let (py, form) = (state.py(), slf.get());
         let n = 2 * form.space().degrees_of_freedom();
         let map = form.map(py, parameters)?;
-        let (given, shape) = (fixed_length("state", state, n)?, Times::new(times)?);
+        let (given, shape) = (fixed_length("state", state, n)?, Times::new(times, None, false)?);
         if !map.is_integrable() {
             return py.import("andoyer._flow")?.call_method1("trajectory", (slf, given, times, parameters));
         }
         let result = shape.rows(n)?;
-        let states = interruptible(py, shape.values()?, 1, |times| map.trajectory(&given, times))?;
+        let states = row_by_row(py, shape.values()?, 1, |times| map.trajectory(&given, times))?;
         write(&result)?.as_slice_mut()?.copy_from_slice(&states.concat());
         Ok(result.into_any())
     }

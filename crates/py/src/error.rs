@@ -3,10 +3,12 @@
 //! `Error` is a `ValueError`; every kind of bad input has one subclass of it. The message is that of the Rust error. What is not an
 //! array-like of numbers, no `Body` or no string where one is due, stays Python's own `TypeError`.
 
+use std::ffi::CString;
+
 use andoyer_propagate::Error as Propagation;
 use andoyer_series::{Error as Algebra, ParseProblem};
 use pyo3::create_exception;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 
 create_exception!(
@@ -17,6 +19,12 @@ create_exception!(
 );
 create_exception!(andoyer, InternalError, Error, "A fault of this package: no input should lead to it.");
 create_exception!(andoyer, MomentsError, Error, "Moments of inertia that no body has.");
+create_exception!(
+    andoyer,
+    PeriodsError,
+    Error,
+    "Periods that a body cannot have in a mode, a mode it does not have, or Andoyer variables that are none."
+);
 create_exception!(andoyer, AttitudeError, Error, "An attitude that is no unit quaternion.");
 create_exception!(andoyer, AngularVelocityError, Error, "An angular velocity that is not finite.");
 create_exception!(
@@ -46,7 +54,7 @@ create_exception!(
     "A rotation so slow, or so near a resonance with its orbit, that no averaging holds."
 );
 create_exception!(andoyer, TorqueError, Error, "A torque too strong for an expansion in it.");
-create_exception!(andoyer, TimesError, Error, "A time that is not finite, or too far from the epoch to have a phase.");
+create_exception!(andoyer, TimesError, Error, "A time that is not finite, or too far from the epoch to be evaluated.");
 create_exception!(andoyer, ShapeError, Error, "An array of the wrong shape or memory layout.");
 create_exception!(
     andoyer,
@@ -78,6 +86,20 @@ create_exception!(
 create_exception!(andoyer, FormatError, Error, "A text that is not the JSON of a normal form.");
 create_exception!(andoyer, SeriesError, Error, "Any other error of the exact algebra.");
 
+create_exception!(
+    andoyer,
+    ToleranceWarning,
+    PyUserWarning,
+    "A motion, or members of an ensemble, whose error bound exceeds the tolerance over the span."
+);
+
+/// Warns with a sentence, if there is one, at the line that called.
+pub(crate) fn warn_of_tolerance(py: Python<'_>, said: Option<String>) -> PyResult<()> {
+    let Some(said) = said else { return Ok(()) };
+    let said = CString::new(said)?;
+    PyErr::warn(py, &py.get_type::<ToleranceWarning>(), &said, 1)
+}
+
 /// The exception of an error in propagation: of a member of an ensemble that of a single body, with the attribute `index`.
 pub(crate) fn propagation(error: Propagation) -> PyErr {
     let message = error.to_string();
@@ -95,6 +117,15 @@ fn of_kind(error: &Propagation, message: String) -> PyErr {
         Propagation::Moment { .. } | Propagation::MomentsTriangle { .. } | Propagation::MomentsRatio { .. } => {
             MomentsError::new_err(message)
         }
+        Propagation::InertiaSymmetry { .. } | Propagation::InertiaMoments { .. } => MomentsError::new_err(message),
+        Propagation::Positive { argument: "precession" | "rotation", .. }
+        | Propagation::PeriodRatio { .. }
+        | Propagation::ModeName { .. }
+        | Propagation::NoSuchMode { .. }
+        | Propagation::Convention { .. }
+        | Propagation::Direction { .. }
+        | Propagation::Andoyer { .. } => PeriodsError::new_err(message),
+        Propagation::Positive { .. } => MomentsError::new_err(message),
         Propagation::Units { .. } => UnitsError::new_err(message),
         Propagation::Attitude { .. } => AttitudeError::new_err(message),
         Propagation::AngularVelocity { .. } => AngularVelocityError::new_err(message),
@@ -102,7 +133,7 @@ fn of_kind(error: &Propagation, message: String) -> PyErr {
         Propagation::Tolerance { .. } => ToleranceError::new_err(message),
         Propagation::Span { .. } => SpanError::new_err(message),
         Propagation::Order { .. } => OrderError::new_err(message),
-        Propagation::Method { .. } => MethodError::new_err(message),
+        Propagation::Method { .. } | Propagation::OnError { .. } => MethodError::new_err(message),
         Propagation::Orbit { .. } => OrbitError::new_err(message),
         Propagation::Averaging { .. } | Propagation::TooManyOrbits { .. } | Propagation::Unaveraged { .. } => {
             AveragingError::new_err(message)
@@ -113,7 +144,9 @@ fn of_kind(error: &Propagation, message: String) -> PyErr {
         Propagation::Time { .. } => TimesError::new_err(message),
         Propagation::Threads { .. } => ThreadsError::new_err(message),
         Propagation::Index { .. } | Propagation::Length { .. } => ShapeError::new_err(message),
-        Propagation::NearSeparatrix { .. } | Propagation::Separatrix => SeparatrixError::new_err(message),
+        Propagation::NearSeparatrix { .. } | Propagation::Separatrix | Propagation::SeparatrixPartials => {
+            SeparatrixError::new_err(message)
+        }
         Propagation::UnknownBody { .. } => UnknownBodyError::new_err(message),
         Propagation::SceneFile { .. } => SceneFileError::new_err(message),
         _ => Error::new_err(message),
@@ -159,7 +192,8 @@ fn exception(error: Algebra, message: String) -> PyErr {
         | Algebra::RationalMalformed { .. }
         | Algebra::CountMismatch { .. }
         | Algebra::NotSymplectic { .. }
-        | Algebra::TermInconsistent { .. } => FormatError::new_err(message),
+        | Algebra::TermInconsistent { .. }
+        | Algebra::CoefficientWrong { .. } => FormatError::new_err(message),
         _ => SeriesError::new_err(message),
     }
 }

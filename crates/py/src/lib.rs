@@ -20,15 +20,18 @@ mod error;
 mod expression;
 mod foreign;
 mod form;
+mod members;
 mod motion;
 mod normal_form;
 mod normalize;
 mod orbit;
 mod order;
+mod partials;
 mod plan;
 mod progress;
 mod samples;
 mod scene;
+mod scene_class;
 
 /// Compiled core of the package `andoyer`, which re-exports all of it.
 #[pyo3::pymodule]
@@ -46,9 +49,10 @@ mod _core {
     #[pymodule_export]
     use super::error::{
         AngularVelocityError, AttitudeError, AveragingError, EpochError, Error, FormatError, HamiltonianError,
-        InternalError, IntervalError, LevelError, MethodError, MomentsError, OrbitError, OrderError, ResonanceError,
-        SceneFileError, SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError, ThreadsError,
-        TimesError, ToleranceError, TorqueError, UnitsError, UnknownBodyError, UnknownNameError,
+        InternalError, IntervalError, LevelError, MethodError, MomentsError, OrbitError, OrderError, PeriodsError,
+        ResonanceError, SceneFileError, SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError,
+        ThreadsError, TimesError, ToleranceError, ToleranceWarning, TorqueError, UnitsError, UnknownBodyError,
+        UnknownNameError,
     };
     #[pymodule_export]
     use super::motion::Motion;
@@ -59,11 +63,13 @@ mod _core {
     #[pymodule_export]
     use super::orbit::Orbit;
     #[pymodule_export]
+    use super::partials::Partials;
+    #[pymodule_export]
     use super::plan::Plan;
     #[pymodule_export]
     use super::samples::Samples;
     #[pymodule_export]
-    use super::scene::Scene;
+    use super::scene_class::Scene;
 
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "Python's name for it")]

@@ -193,10 +193,19 @@ impl NormalForm {
     /// Raises
     /// ------
     /// FormatError
-    ///     Not JSON, another format or version, a term that no normal form has. The coefficients themselves are not computed again.
+    ///     Not JSON, another format or version, a term that no normal form has, a coefficient that is not that of the rigid body. Each
+    ///     order is computed anew and compared.
+    ///
+    /// Examples
+    /// --------
+    /// >>> text = NormalForm(2).to_json()
+    /// >>> NormalForm.from_json(text.replace('[[2,"-1/2"]]', '[[2,"-3/4"]]'))
+    /// Traceback (most recent call last):
+    ///     ...
+    /// andoyer.FormatError: the triaxiality polynomial of order 2 has the coefficient -3/4 at the exponents [2]: it must be -1/2
     #[classmethod]
     fn from_json(class: &Bound<'_, PyType>, text: &str) -> PyResult<Self> {
-        detached(class.py(), error::algebra, || andoyer_series::NormalForm::from_json(text)).map(Self)
+        progress::reported(class.py(), None, |tell| andoyer_series::NormalForm::from_json_with(text, tell)).map(Self)
     }
 
     /// A part of this normal form as LaTeX, for a document that uses amsmath.

@@ -26,10 +26,27 @@ def test_catalogue_knows_its_bodies_in_any_case():
     assert "Ceres" in Body.catalogue()
     assert Body.named("ceres") == Body.named("CERES")
     assert Body.named("ceres").name == "Ceres"
-    assert all(Body.source(name) for name in Body.catalogue())
+    for name in Body.catalogue():
+        assert "read" in Body.source(name) or "derived" in Body.source(name)
+        assert not [word for word in ("recalled", "memory") if word in Body.source(name)]
     for lookup in [Body.named, Body.source]:
         with pytest.raises(andoyer.UnknownBodyError, match='"vulcan".*Ceres'):
             lookup("vulcan")
+
+
+@pytest.mark.parametrize("misspelt, known", [("ceers", "Ceres"), ("toutatos", "Toutatis"), ("Aphopis", "Apophis"), ("hyperyon", "Hyperion")])
+def test_misspelt_name_is_answered_with_the_nearest_one(misspelt, known):
+    with pytest.raises(andoyer.UnknownBodyError, match=f'did you mean "{known}"'):
+        Body.named(misspelt)
+    with pytest.raises(andoyer.UnknownBodyError, match="^(?!.*did you mean)"):
+        Body.named("vulcan")
+
+
+def test_quaternion_that_is_not_normalized_is_told_how_and_reminded_of_the_order(body):
+    with pytest.raises(andoyer.AttitudeError, match=r"it is 2\); to normalize it, divide it by its norm; .*scalar_first=True"):
+        Scene(body, [0, 0, 0, 2], RATES)
+    with pytest.raises(andoyer.AttitudeError, match=r"it is 0\)$"):
+        Scene(body, [0, 0, 0, 0], RATES)
 
 
 @pytest.mark.parametrize("name", ["earth", "ceres", "vesta", "eros", "apophis"])

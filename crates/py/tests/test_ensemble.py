@@ -331,3 +331,44 @@ def test_a_member_that_its_orbit_does_not_let_be_averaged_is_named():
     with pytest.raises((andoyer.TorqueError, andoyer.SpinResonanceError), match="^member 2: ") as caught:
         ensemble.at(0.0)
     assert caught.value.index == 2
+
+
+def test_refused_member_names_itself_or_is_nan_with_its_reason(body):
+    moments = [[1, 1.5, 2], [1, 1, 2.5], [1, 1.5, 2], [1, 1.5, 2]]
+    rates = [[0.1, 0.2, 1.0], [0, 0, 1], [0.1, 0.2, 1.0], [0, np.nan, 0]]
+    with pytest.raises(andoyer.MomentsError, match=r"^member 1: moments = .* \(and 1 more bad members\)$") as caught:
+        andoyer.Ensemble(moments, [0, 0, 0, 1], rates)
+    assert caught.value.index == 1
+    ensemble = andoyer.Ensemble(moments, [0, 0, 0, 1], rates, errors="nan")
+    samples = ensemble.at([0.0, 5.0])
+    expected = andoyer.Scene(body, [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    for good in (0, 2):
+        assert np.array_equal(samples.attitude[good], expected.attitude([0.0, 5.0]))
+    for bad in (1, 3):
+        assert np.isnan(samples.attitude[bad]).all() and np.isnan(samples.angular_velocity[bad]).all()
+    for errors in (samples.errors, ensemble.errors):
+        assert list(errors) == [1, 3] and isinstance(errors[1], andoyer.MomentsError) and isinstance(errors[3], andoyer.AngularVelocityError)
+        assert str(errors[3]).startswith("member 3: angular_velocity[1] = NaN") and errors[3].index == 3
+    assert [plan is None for plan in ensemble.plans] == [False, True, False, True]
+    assert np.isnan(ensemble.attitude(1.0)[[1, 3]]).all() and pickle.loads(pickle.dumps(ensemble)).errors.keys() == {1, 3}
+    assert list(pickle.loads(pickle.dumps(samples)).errors) == [1, 3]
+    with pytest.raises(andoyer.MomentsError, match="^member 1: "):
+        ensemble[1]
+
+
+def test_member_without_a_motion_names_itself_or_is_nan_with_its_reason():
+    options = {"orbits": andoyer.Orbit(2e-3), "span": (0, 1e3), "tolerance": 1.0}
+    rates = [[0, 0.01, 1], [0, 1, 0.001], [0, 0.02, 1]]  # the second turns about the middle axis
+    with pytest.raises(andoyer.AveragingError, match="^member 1: ") as caught:
+        andoyer.Ensemble([1, 1.02, 1.05], [0, 0, 0, 1], rates, **options).at([0.0])
+    assert caught.value.index == 1
+    ensemble = andoyer.Ensemble([1, 1.02, 1.05], [0, 0, 0, 1], rates, errors="nan", **options)
+    assert np.isnan(ensemble.attitude([0.0]))[:, 0, 0].tolist() == [False, True, False]
+    assert {index: type(error) for index, error in ensemble.at([0.0]).errors.items()} == {1: andoyer.AveragingError}
+
+
+def test_ensemble_without_refusals_has_no_errors_and_another_word_is_refused():
+    ensemble = andoyer.Ensemble([1, 1.5, 2], [[0, 0, 0, 1]] * 2, [0.1, 0.2, 1.0], errors="nan")
+    assert ensemble.errors == {} and ensemble.at(0.0).errors == {}
+    with pytest.raises(andoyer.MethodError, match='errors = "ignore": it must be "raise" or "nan"'):
+        andoyer.Ensemble([1, 1.5, 2], [[0, 0, 0, 1]] * 2, [0.1, 0.2, 1.0], errors="ignore")

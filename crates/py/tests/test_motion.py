@@ -187,8 +187,9 @@ def test_mode_is_that_of_the_motion(mode):
 def test_periods_follow_from_the_frequencies(motion):
     anomaly, longitude = motion.frequencies
     assert motion.frequencies.anomaly == anomaly > 0 and motion.frequencies.longitude == longitude > 0
-    assert list(motion.periods) == ["long-axis", "short-axis"]
-    long_axis, short_axis = motion.periods.values()
+    assert list(motion.periods) == ["long-axis", "short-axis", "extremal-axis"]
+    long_axis, short_axis, extremal_axis = motion.periods.values()
+    assert motion.plan.mode == "short-axis" and extremal_axis == short_axis
     assert long_axis == pytest.approx((math.tau / longitude, math.tau / anomaly), rel=1e-15)
     assert short_axis == pytest.approx((math.tau / (longitude + anomaly), math.tau / anomaly), rel=1e-15)
     assert short_axis.precession == short_axis[0] and short_axis.rotation == short_axis[1]
@@ -258,7 +259,7 @@ def test_the_series_refuses_what_is_too_near_the_separatrix(case):
         scene.solve()
 
 
-def test_long_axis_mode_has_both_conventions_of_periods():
+def test_long_axis_mode_has_the_periods_of_every_convention():
     case = next(case for case in REFERENCE if case["name"] == "long-axis")
     motion = solved(case)
     assert (motion.plan.mode, motion.plan.method) == ("long-axis", "closed")
@@ -266,4 +267,5 @@ def test_long_axis_mode_has_both_conventions_of_periods():
     precession, roll = (abs(float(rate)) for rate in reference.mean_rates())
     # The long axis precesses and the body rolls about it.
     assert motion.periods["long-axis"] == pytest.approx((math.tau / precession, math.tau / roll), rel=1e-13)
+    assert motion.periods["extremal-axis"] == motion.periods["long-axis"]
     assert motion.periods["short-axis"].rotation == motion.periods["long-axis"].rotation

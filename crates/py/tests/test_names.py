@@ -46,7 +46,9 @@ def test_all_lists_everything_public_and_nothing_else():
 
 def test_every_exception_is_an_error_and_a_value_error():
     exceptions = [value for value in vars(core).values() if isinstance(value, type) and issubclass(value, BaseException)]
-    assert len(exceptions) == 28
+    assert len(exceptions) == 29
+    exceptions.remove(andoyer.ToleranceWarning)
+    assert issubclass(andoyer.ToleranceWarning, UserWarning) and andoyer.ToleranceWarning.__module__ == "andoyer"
     assert all(issubclass(exception, andoyer.Error) and exception.__module__ == "andoyer" for exception in exceptions)
     assert issubclass(andoyer.Error, ValueError)
 

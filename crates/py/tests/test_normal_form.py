@@ -119,6 +119,18 @@ def test_text_that_is_no_normal_form_is_refused(normal_form):
             NormalForm.from_json(text)
 
 
+def test_json_with_another_coefficient_is_refused_with_its_order(normal_form):
+    document = json.loads(normal_form.to_json())
+    document["triaxiality"][2] = [[2, "-3/4"]]
+    with pytest.raises(andoyer.FormatError, match="triaxiality polynomial of order 2 has the coefficient -3/4.*must be -1/2"):
+        NormalForm.from_json(json.dumps(document))
+    document = json.loads(normal_form.to_json())
+    for term in document["generators"][4]:
+        term[3], term[4] = (text if text == "0" else f"-{text}".replace("--", "") for text in term[3:])
+    with pytest.raises(andoyer.FormatError, match="generating function of order 5"):
+        NormalForm.from_json(json.dumps(document))
+
+
 def test_latex_has_the_parts_and_no_others(normal_form):
     assert r"P_{3} &= -\frac{5}{8}\beta^{2}" in normal_form.to_latex()
     assert len({NormalForm(2).to_latex(what) for what in ["hamiltonian", "generator", "direct", "inverse"]}) == 4

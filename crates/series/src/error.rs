@@ -320,6 +320,22 @@ pub enum Error {
         /// What is wrong with it.
         problem: TermProblem,
     },
+    /// A coefficient read from a file that is not that of the rigid body.
+    #[error(
+        "the {what} of order {order} has the coefficient {found} at the exponents {exponents:?}: it must be {expected}"
+    )]
+    CoefficientWrong {
+        /// The series that holds it.
+        what: &'static str,
+        /// Order in the small parameter.
+        order: usize,
+        /// Exponents (u, U, β), or (β) alone.
+        exponents: Vec<u32>,
+        /// The coefficient read, 0 where there is none.
+        found: String,
+        /// That of the rigid body, 0 where it has none.
+        expected: String,
+    },
 }
 
 /// What is wrong with a text that should be a polynomial.

@@ -16,7 +16,6 @@ mod bracket;
 mod calculus;
 mod coefficient;
 mod display;
-mod double_double;
 mod emit;
 mod energy;
 mod error;
@@ -39,7 +38,6 @@ pub use birkhoff::{BirkhoffMap, BirkhoffNormalForm, Domain, Mode, PhaseSpace, Re
 pub use bracket::Poisson;
 pub use coefficient::Coefficient;
 pub use display::Named;
-pub use double_double::{DoubleDouble, arithmetic_geometric_mean, two_product, two_sum};
 pub use emit::{Language, MAXIMUM_CODE_ORDER};
 pub use error::{Error, ParseProblem, TermProblem};
 pub use forms::{Form, Real};

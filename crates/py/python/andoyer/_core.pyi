@@ -1,6 +1,6 @@
 # Types of the compiled core. Docstrings here are the first lines of those at run time, which say the rest; a test holds the two together.
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any, Literal, TypeAlias, final, overload
 
@@ -66,6 +66,9 @@ class OrbitError(Error):
 class OrderError(Error):
     """An order that is no whole number within its bounds."""
 
+class PeriodsError(Error):
+    """Periods that a body cannot have in a mode, a mode it does not have, or Andoyer variables that are none."""
+
 class ResonanceError(Error):
     """A resonance or small divisor not asked for, or one asked for that is none."""
 
@@ -91,10 +94,13 @@ class ThreadsError(Error):
     """A number of threads that is none, or that the system does not give."""
 
 class TimesError(Error):
-    """A time that is not finite, or too far from the epoch to have a phase."""
+    """A time that is not finite, or too far from the epoch to be evaluated."""
 
 class ToleranceError(Error):
     """A tolerance that is not positive and finite."""
+
+class ToleranceWarning(UserWarning):
+    """A motion, or members of an ensemble, whose error bound exceeds the tolerance over the span."""
 
 class TorqueError(Error):
     """A torque too strong for an expansion in it."""
@@ -114,6 +120,22 @@ class Body:
 
     def __new__(cls, moments: ArrayLike, *, name: str | None = None) -> Body: ...
     @staticmethod
+    def from_inertia(tensor: ArrayLike, *, name: str | None = None) -> Body:
+        """A body from its inertia tensor about axes of your own: attitudes, rates, momenta and derivatives of its scenes are about these axes."""
+    @staticmethod
+    def ellipsoid(a: float, b: float, c: float, *, mass: float = 1.0, name: str | None = None) -> Body:
+        """A homogeneous ellipsoid with semi-axes a, b, c along body axes 1, 2, 3: moments m (b² + c²)/5 and so on."""
+    @staticmethod
+    def box(x: float, y: float, z: float, *, mass: float = 1.0, name: str | None = None) -> Body:
+        """A homogeneous box with edges x, y, z along body axes 1, 2, 3: moments m (y² + z²)/12 and so on."""
+    def period_ratios(
+        self,
+        mode: Literal["short-axis", "long-axis"] = "short-axis",
+        *,
+        convention: Literal["extremal-axis", "long-axis", "short-axis"] = "extremal-axis",
+    ) -> tuple[float, float]:
+        """The ratios P_ψ/P_φ that this body can have in a mode: an interval, of which each number belongs to one motion."""
+    @staticmethod
     def named(name: str) -> Body:
         """A body of the catalogue, by its name in any case."""
     @staticmethod
@@ -125,6 +147,12 @@ class Body:
     @property
     def moments(self) -> _Array:
         """The moments about body axes 1, 2, 3 as given: a read-only array, shape (3,)."""
+    @property
+    def inertia(self) -> _Array:
+        """The inertia tensor about the user's axes: a read-only array, shape (3, 3), diagonal unless `from_inertia` was given another."""
+    @property
+    def principal_axes(self) -> _Array:
+        """The principal axes, the columns of a proper rotation in the order of `moments`, in the user's components: a read-only array, shape (3, 3)."""
     @property
     def alpha(self) -> float:
         """Oblateness α = [(C/A − 1) + (C/B − 1)]/2 of the sorted moments A ≤ B ≤ C (theory §1); 0 for a sphere."""
@@ -142,7 +170,6 @@ class Body:
         """The name, or None."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
     def __copy__(self) -> Body: ...
     def __deepcopy__(self, _memo: Any) -> Body: ...
 
@@ -198,7 +225,7 @@ class Scene:
         attitude: ArrayLike | Rotation,
         angular_velocity: ArrayLike,
         *,
-        epoch: float = 0.0,
+        epoch: float | Any = 0.0,
         orbit: Orbit | None = None,
         tolerance: float = 1e-12,
         method: Literal["auto", "series", "closed"] = "auto",
@@ -210,6 +237,24 @@ class Scene:
         source: str | None = None,
         scalar_first: bool = False,
     ) -> Scene: ...
+    @classmethod
+    def from_periods(
+        cls,
+        body: Body,
+        precession: float,
+        rotation: float,
+        *,
+        mode: Literal["short-axis", "long-axis"] = "short-axis",
+        convention: Literal["extremal-axis", "long-axis", "short-axis"] = "extremal-axis",
+        momentum_direction: ArrayLike | None = None,
+        phases: ArrayLike | None = None,
+        epoch: float = 0.0,
+        **options: Any,
+    ) -> Scene:
+        """The torque-free state of a body that tumbles with these periods (theory §7): for a mode there is one."""
+    @classmethod
+    def from_andoyer(cls, body: Body, andoyer: ArrayLike, *, epoch: float = 0.0, **options: Any) -> Scene:
+        """The scene whose Andoyer variables at the epoch are these: the inverse of `Motion.andoyer` (theory §1)."""
     @classmethod
     def from_toml(cls, path: str | os.PathLike[str]) -> Scene:
         """The scene of a TOML file."""
@@ -278,6 +323,8 @@ class Motion:
         """Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1)."""
     def rotation(self, times: ArrayLike) -> Rotation:
         """Attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else."""
+    def partials(self, times: ArrayLike) -> Partials:
+        """Derivatives of attitude and angular velocity with respect to the state at the epoch and the moments (theory §12)."""
     @property
     def plan(self) -> Plan:
         """What is evaluated, and why."""
@@ -288,8 +335,8 @@ class Motion:
     def frequencies(self) -> Frequencies:
         """Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time; 0 where there is none."""
     @property
-    def periods(self) -> dict[Literal["long-axis", "short-axis"], Periods]:
-        """Mean periods (P_φ, P_ψ) in both conventions: ``{"long-axis": (precession, rotation), "short-axis": (precession, rotation)}``."""
+    def periods(self) -> dict[Literal["long-axis", "short-axis", "extremal-axis"], Periods]:
+        """Mean periods (P_φ, P_ψ) in three conventions: a dict with the keys "long-axis", "short-axis" and "extremal-axis"."""
     @property
     def energy_ratio(self) -> float:
         """E/E0: rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum (theory §5)."""
@@ -319,6 +366,15 @@ class Plan:
     def error_bound(self) -> float:
         """Estimate from above of the attitude error over the span, in rad: truncation, dropped harmonics, rounding."""
     @property
+    def tolerance(self) -> float:
+        """The attitude error asked for over the span, in rad."""
+    @property
+    def meets_tolerance(self) -> bool:
+        """Whether the error bound is within the tolerance, or within 2e-14 rad where the tolerance is less than double precision holds."""
+    @property
+    def missed_tolerance(self) -> str | None:
+        """The sentence of the `ToleranceWarning` where the tolerance is not met, or None."""
+    @property
     def separatrix_ratio(self) -> float:
         """σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5)."""
     @property
@@ -331,18 +387,26 @@ class Plan:
     def first_neglected(self) -> float:
         """First neglected term under a gravity gradient, in rad: of second order in the torque, or a short-period one that was dropped; 0 without an orbit."""
     @property
+    def partials(self) -> Literal["closed", "differences"] | None:
+        """How `Motion.partials` computes: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; None on the separatrix, where there are none."""
+    @property
     def skipped(self) -> list[str]:
         """What this scene did not need, and why: a list of str."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: None  # type: ignore[assignment]
+    def __copy__(self) -> Plan: ...
+    def __deepcopy__(self, _memo: Any) -> Plan: ...
 
 @final
 class Samples:
     """Attitudes and angular velocities at some times, of a motion or of the members of an ensemble: what `Motion.at` and `Ensemble.at` return."""
 
     @property
-    def times(self) -> _Array:
-        """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n)."""
+    def times(self) -> Any:
+        """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n). Times of astropy are given back as they are."""
+    @property
+    def errors(self) -> dict[int, Error]:
+        """Why members have no samples but NaN: errors by index, of an ensemble with ``errors="nan"``; else empty."""
     @property
     def attitude(self) -> _Array:
         """Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4) or (m, n, 4)."""
@@ -359,8 +423,23 @@ class Samples:
     def __len__(self) -> int: ...
 
 @final
+class Partials:
+    """Derivatives of attitude and angular velocity at some times: what `Motion.partials` returns."""
+
+    @property
+    def times(self) -> _Array:
+        """The times, float64, shape (n,)."""
+    @property
+    def attitude(self) -> _Array:
+        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9)."""
+    @property
+    def angular_velocity(self) -> _Array:
+        """Derivatives of the angular velocity in body components, shape (n, 3, 9)."""
+    def __len__(self) -> int: ...
+
+@final
 class Ensemble:
-    """Many bodies with their states at time 0, solved and evaluated member by member on all cores, in memory proportional to the result."""
+    """Many bodies with their states, solved and evaluated member by member on all cores, in memory proportional to the result."""
 
     def __new__(
         cls,
@@ -368,10 +447,12 @@ class Ensemble:
         attitudes: ArrayLike | Rotation,
         angular_velocities: ArrayLike,
         *,
+        epochs: ArrayLike | Any | None = None,
         orbits: Orbit | Iterable[Orbit | None] | None = None,
         tolerance: float = 1e-12,
-        span: tuple[float, float] | None = None,
+        span: ArrayLike | Any | None = None,
         threads: int | None = None,
+        errors: Literal["raise", "nan"] = "raise",
         scalar_first: bool = False,
     ) -> Ensemble: ...
     def at(self, times: ArrayLike, *, scalar_first: bool = False) -> Samples:
@@ -379,8 +460,14 @@ class Ensemble:
     def attitude(self, times: ArrayLike, out: _Array | None = None, *, scalar_first: bool = False) -> _Array:
         """Attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones."""
     @property
-    def plans(self) -> list[Plan]:
-        """The plan of every member: a list of `Plan`."""
+    def plans(self) -> list[Any]:
+        """The plan of every member: a list of `Plan`; with ``errors="nan"`` None for a member that is refused."""
+    @property
+    def errors(self) -> dict[int, Error]:
+        """Why members have no motion: errors by index. All members are solved for it; empty where every member has one."""
+    @property
+    def epochs(self) -> Any:
+        """The times of the states: a float for all members, or a read-only array, shape (m,)."""
     @property
     def moments(self) -> _Array:
         """The moments about body axes 1, 2, 3: a read-only array, shape (m, 3)."""
@@ -403,6 +490,7 @@ class Ensemble:
     def threads(self) -> int | None:
         """The number of threads asked for, or None."""
     def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[Motion]: ...
     @overload
     def __getitem__(self, index: int, /) -> Motion: ...
     @overload

@@ -14,9 +14,9 @@
 //! Reading verifies format, version, names, counts, degrees, that numbers are finite, that M is symplectic, that K has only terms that are kept and S none of
 //! them. It does *not* verify that K is the normal form of some Hamiltonian.
 
+use super::diagonal::Diagonal;
 use super::matrix::{Matrix, form_entry, pairing, transposed};
 use super::mode::Mode;
-use super::quadratic::Diagonal;
 use super::{BirkhoffNormalForm, PhaseSpace, Resonances, turns};
 use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, RealField, TermProblem};
 use serde::{Deserialize, Serialize};

@@ -138,10 +138,15 @@ impl BirkhoffMap {
     /// The frequencies Ωᵢ = ∂K/∂Iᵢ at given actions: of a saddle the rate, of a quartet the rate and the frequency.
     ///
     /// # Errors
-    /// - another number of actions: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`];
+    /// - another number of actions: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`]; −1 of a
+    ///   centre: [`Error::OutsideInterval`], since I = (q²/r + r p²)/2 is never negative;
     /// - a resonant normal form: [`Error::ResonantTerm`].
     pub fn frequencies(&self, actions: &[f64]) -> Result<Vec<f64>, Error> {
         check("actions", actions, self.modes.len())?;
+        let negative = self.modes.iter().zip(actions).find(|(mode, action)| mode.is_elliptic() && **action < 0.0);
+        if let Some((_, &value)) = negative {
+            return Err(Error::OutsideInterval { argument: "actions", value, lower: 0.0, upper: f64::INFINITY });
+        }
         finite("frequencies", self.flow.frequencies(actions)?)
     }
 

@@ -11,6 +11,7 @@
 //! Celest. Mech. 1 (1969) 12; A. Jorba and J. Masdemont, Physica D 132 (1999) 189.
 
 mod code;
+mod diagonal;
 mod domain;
 mod flow;
 mod json;
@@ -33,8 +34,8 @@ pub use resonances::Resonances;
 
 use crate::triangle::{Removal, normalize_by};
 use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, Progress, RealField, quiet};
+use diagonal::Diagonal;
 use mode::{modulus, substitute};
-use quadratic::Diagonal;
 use resonances::{divisor, is_small};
 use transformation::{changed, to_complex, to_real};
 

@@ -8,17 +8,11 @@
 //! A is scaled by powers of two before eigenvalues are compared, q → s q, p → p/s, so that units do not matter.
 
 use super::PhaseSpace;
+use super::diagonal::Diagonal;
 use super::matrix::{Matrix, product, symplectic_inverse, transposed, unit};
 use super::mode::Mode;
 use super::williamson;
 use crate::{Error, Monomial, Polynomial, RealField};
-
-/// The modes and the symplectic matrix M of the old variables in the new ones, z = M z′.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Diagonal<R> {
-    pub(crate) modes: Vec<Mode<R>>,
-    pub(crate) matrix: Matrix<R>,
-}
 
 impl<R: RealField> Diagonal<R> {
     /// The modes of the quadratic part of `hamiltonian`, whose terms are checked first.

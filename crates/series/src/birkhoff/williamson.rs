@@ -4,9 +4,9 @@
 //! its sign. Those of λ and −λ are paired. Among floats M is then made symplectic to rounding, M ← M (1 + ½ J E), E = Mᵀ J M − J, and the frequencies are read
 //! off Mᵀ A M, where errors of the vectors enter squared.
 
+use super::diagonal::Diagonal;
 use super::matrix::{Matrix, dot, form_entry, pairing, product, transposed, turned, turned_rows};
 use super::mode::{Mode, modulus};
-use super::quadratic::Diagonal;
 use super::spectrum::{Eigenspace, Names, ROOT, eigenspace, shown, spectrum};
 use crate::{Coefficient, Error, RealField};
 use num_traits::{One, Zero};

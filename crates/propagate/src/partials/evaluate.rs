@@ -1,0 +1,174 @@
+//! Derivatives at many times, several at once (theory §12).
+//!
+//! The attitude's follow from those of g by the conservation of the angular momentum, δL = R0 δG0, but for the component along g, which grows with twice the energy's
+//! change:
+//!
+//! ```text
+//! δθ = g × (RᵀR0 δg0 − δg) + g (g·δθ)
+//! ```
+//!
+//! All is computed in units of M = 1 and of the scaled time.
+
+use nalgebra::UnitQuaternion;
+use pulp::Arch;
+
+use crate::error::Error;
+use crate::input::scene::Scene;
+use crate::motion::trajectory::Trajectory;
+use crate::numerics::scaling::scaled;
+use crate::simd::circles::Evaluate;
+use crate::simd::complex_quaternion::QuaternionLanes;
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
+use crate::simd::lanes::{Lanes, WIDEST};
+use crate::simd::phase::elapsed;
+use crate::solve::untruncated;
+use crate::torque_free::mode::Mode;
+use crate::torque_free::polhode::Polhode;
+
+use super::Derivatives;
+use super::constants::{Change, Constants, Setting};
+use super::integral::Integral;
+use super::sources::{Amplitudes, Passing, Place, Source, Wobbling};
+
+/// Samples for each thread below which one more thread costs more than it saves.
+const SAMPLES_PER_THREAD: usize = 1024;
+
+/// Times and the state that derivatives are wanted at.
+#[derive(Clone, Copy)]
+pub(super) struct Target<'a> {
+    pub(super) times: &'a [f64],
+    pub(super) epoch: f64,
+    /// Attitude at the epoch.
+    pub(super) initial: UnitQuaternion<f64>,
+    pub(super) setting: &'a Setting,
+}
+
+impl Target<'_> {
+    /// By the best instruction set of the machine, on as many threads as pay; parts begin where lanes do, so that no bit depends on their number.
+    pub(super) fn fill<T: Source + Sync>(self, source: &T, attitudes: &mut [Derivatives], rates: &mut [Derivatives]) {
+        let length = self.times.len();
+        if length < 2 * SAMPLES_PER_THREAD || rayon::current_num_threads() == 1 {
+            dispatch(Arch::new(), Run { target: self, source, attitudes, rates });
+            return;
+        }
+        let threads = (length / SAMPLES_PER_THREAD).min(rayon::current_num_threads());
+        let part = length.div_ceil(threads).next_multiple_of(WIDEST);
+        rayon::scope(|scope| {
+            let outputs = attitudes.chunks_mut(part).zip(rates.chunks_mut(part));
+            for (times, (attitudes, rates)) in self.times.chunks(part).zip(outputs) {
+                let target = Target { times, ..self };
+                scope.spawn(move |_| dispatch(Arch::new(), Run { target, source, attitudes, rates }));
+            }
+        });
+    }
+
+    /// On a polhode, with every harmonic that the closed form has.
+    pub(super) fn wobbling(
+        self,
+        scene: &Scene,
+        polhode: &Polhode,
+        mode: Mode,
+        (attitudes, rates): (&mut [Derivatives], &mut [Derivatives]),
+    ) -> Result<(), Error> {
+        let exact = untruncated(scene, polhode, mode)?;
+        let theta = polhode.theta();
+        let integral = Integral::new(&theta);
+        let constants = Constants::all(self.setting, &theta, &integral);
+        let anomaly_rate = scaled(exact.frequencies.anomaly, -polhode.scales.1);
+        let amplitudes = |start| Amplitudes::new(self.setting, constants, anomaly_rate, theta.quarter, start);
+        match &exact.trajectory {
+            Trajectory::Wobble(tables) => {
+                let (sine, cosine) = (2.0 * tables.phases()[0].angle((0.0, 0.0))).sin_cos();
+                let amplitudes = &amplitudes(integral.zeta((sine, cosine)));
+                self.fill(&Wobbling { tables, integral: &integral, amplitudes }, attitudes, rates);
+            }
+            Trajectory::Passage(flip) => {
+                let start = integral.zeta_of_passages(flip.passage.angle((0.0, 0.0)));
+                let amplitudes = &amplitudes(start);
+                self.fill(&Passing { flip, integral: &integral, amplitudes }, attitudes, rates);
+            }
+            Trajectory::Steady(_) | Trajectory::Gradient(_) => {}
+        }
+        Ok(())
+    }
+}
+
+/// The loop over times, compiled for each instruction set.
+struct Run<'a, T> {
+    target: Target<'a>,
+    source: &'a T,
+    attitudes: &'a mut [Derivatives],
+    rates: &'a mut [Derivatives],
+}
+
+impl<T: Source> Task for Run<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, simd: S) {
+        let Self { target: Target { times, epoch, initial, setting }, source, attitudes, rates } = self;
+        let width = if T::VECTORS { Lanes::<S>::WIDTH } else { 1 };
+        let origin = Lanes::splat(simd, epoch);
+        let initial = QuaternionLanes::all(origin, &initial);
+        let outputs = attitudes.chunks_mut(width).zip(rates.chunks_mut(width));
+        for (times, (attitudes, rates)) in times.chunks(width).zip(outputs) {
+            let mut block = [times[0]; WIDEST];
+            block[..times.len()].copy_from_slice(times);
+            let elapsed = elapsed(Lanes::load(simd, &block), origin);
+            let place = source.place(simd, setting, elapsed);
+            columns(&place, source, setting, initial, (attitudes, rates));
+        }
+    }
+}
+
+/// All columns at some times.
+#[inline(always)]
+fn columns<S: InstructionSet, T: Source>(
+    place: &Place<S, T::Rest<S>>,
+    source: &T,
+    setting: &Setting,
+    initial: QuaternionLanes<S>,
+    (attitudes, rates): (&mut [Derivatives], &mut [Derivatives]),
+) {
+    let Place { attitude: [x, y, z, w], rates: rate, rest } = place;
+    let one = x.all(1.0);
+    let carried = (QuaternionLanes([-*x, -*y, -*z, *w]) * initial).rows();
+    let mut direction = *rate;
+    for (g, nu) in direction.iter_mut().zip(setting.user_rates) {
+        *g = *g * one.all(1.0 / nu);
+    }
+    for axis in 0..3 {
+        store(attitudes, axis, [carried[0][axis], carried[1][axis], carried[2][axis]]);
+        store(rates, axis, [one.all(0.0); 3]);
+    }
+    for (parameter, &Change { axis, lever, inverse_moment, .. }) in setting.changes.iter().enumerate() {
+        let (change, along) = source.change(rest, parameter);
+        let lever = one.all(lever);
+        let [a, b, c] = [
+            lever.mul_add(carried[0][axis], -change[0]),
+            lever.mul_add(carried[1][axis], -change[1]),
+            lever.mul_add(carried[2][axis], -change[2]),
+        ];
+        let [g, h, k] = direction;
+        let turned = [
+            along.mul_add(g, k.negate_mul_add(b, h * c)),
+            along.mul_add(h, g.negate_mul_add(c, k * a)),
+            along.mul_add(k, h.negate_mul_add(a, g * b)),
+        ];
+        store(attitudes, 3 + parameter, turned);
+        let [a, b, c] = setting.user_rates;
+        let mut changed = [change[0] * one.all(a), change[1] * one.all(b), change[2] * one.all(c)];
+        changed[axis] = rate[axis].mul_add(one.all(inverse_moment), changed[axis]);
+        store(rates, 3 + parameter, changed);
+    }
+}
+
+/// One column of as many matrices as there are rows left.
+#[inline(always)]
+fn store<S: InstructionSet>(matrices: &mut [Derivatives], column: usize, vector: [Lanes<S>; 3]) {
+    for (row, component) in vector.iter().enumerate() {
+        for (matrix, value) in matrices.iter_mut().zip(component.values()) {
+            matrix[row][column] = *value;
+        }
+    }
+}
