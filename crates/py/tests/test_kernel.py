@@ -24,7 +24,7 @@ MOTIONS = {
     "short-axis": (solved([0.1, 0.2, 1.0]), (-10.0, 20.0)),
     "long-axis": (solved([1.0, 0.1, 0.2]), (0.0, 30.0)),
     "near the separatrix": (solved([1e-5, 1.0, 1e-5]), (0.0, 100.0)),
-    "gravity gradient": (solved([0.01, 0.02, 1.0], orbit=ORBIT, tolerance=1e-6), (0.0, 40.0)),
+    "gravity gradient": (solved([0.01, 0.02, 1.0], orbit=ORBIT, tolerance=1e-3, span=(0.0, 100.0)), (0.0, 40.0)),
     "one rotation a day": (solved([1e-6, 2e-6, 7.3e-5]), (0.0, 3e6)),
 }
 UNIFORM = {
@@ -118,10 +118,10 @@ def test_date_of_time_0_moves_the_times(tmp_path, loaded):
 
     motion, interval = MOTIONS["short-axis"]
     path = tmp_path / "motion.bc"
-    kernel = Kernel(date=datetime(2029, 4, 13), time_system="UTC")
+    kernel = Kernel(date=datetime(2026, 4, 13), time_system="UTC")
     write_ck(path, motion, interval, kernel)
     loaded(path, path.with_suffix(".tsc"))
-    moment = Time("2029-04-13", scale="utc").tdb
+    moment = Time("2026-04-13", scale="utc").tdb
     zero = ((moment.jd1 - 2451545) + moment.jd2) * 86400
     times = np.linspace(-9, 19, 100)
     attitude, _ = read(zero + times)
