@@ -87,11 +87,12 @@ parallel: $(VENV)/installed  ## the wheel's tests of objects, each on eight thre
 sweep: $(VENV)/installed  ## series against closed form by order, σ/σ_sep and β: docs/data/sweep.csv, picture and table of its page; a minute
 	$(BIN)/python examples/sweep.py
 
-gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory leaves, against integrations: docs/data/gravity-*.csv and their picture; two minutes
+gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory leaves, against integrations: docs/data/gravity-*.csv and their picture; some minutes
 	cargo build --release --quiet --package andoyer-tests --bin gradient
 	target/release/gradient cases > docs/data/gravity-cases.csv
 	target/release/gradient levels > docs/data/gravity-levels.csv
 	target/release/gradient bounds 300 1 > docs/data/gravity-bounds.csv
+	target/release/gradient climb 1 45 11 > docs/data/gravity-climb.csv
 	$(BIN)/python examples/gravity.py
 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes
