@@ -13,7 +13,7 @@ use pyo3::types::{PyComplex, PyDict, PyTuple, PyType};
 use crate::array::{Rows, Times, fixed_length, number, row_by_row, write};
 use crate::computing::detached;
 use crate::domain::Domain;
-use crate::error::{self, UnknownNameError};
+use crate::error;
 use crate::expression::{Expression, complex, real};
 use crate::form::{Form, either, rounded, transformed};
 use crate::order::order;
@@ -131,7 +131,7 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ResonanceError
+    /// TheoryError
     ///     K has resonant terms, and is no function of the actions alone.
     fn in_actions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let slots = self.space().degrees_of_freedom() + self.space().parameters();
@@ -169,11 +169,11 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// OrderError
+    /// InputError
     ///     ``0``, or above the order.
     fn generator<'py>(&self, py: Python<'py>, m: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let m = order("m", m, 1, self.order())?;
-        either!(&self.form, form => real(py, &detached(py, error::algebra, || form.generator(m))?, self.slots()))
+        either!(&self.form, form => real(py, &detached(py, error::algebra_as("m"), || form.generator(m))?, self.slots()))
     }
 
     /// A function of the old variables in the new ones, complete to degree d + N, d its lowest positive degree.
@@ -205,9 +205,8 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
+    /// InputError
     ///     Another length.
-    /// IntervalError
     ///     A NaN, or a result that overflows.
     #[pyo3(signature = (states, parameters=None))]
     fn to_normal<'py>(
@@ -250,9 +249,8 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
+    /// InputError
     ///     Another length.
-    /// IntervalError
     ///     A NaN, or a result that overflows.
     #[pyo3(signature = (states, parameters=None))]
     fn from_centre_manifold<'py>(
@@ -279,9 +277,8 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
+    /// InputError
     ///     Another length.
-    /// IntervalError
     ///     A NaN.
     #[pyo3(signature = (normal, parameters=None))]
     fn energy<'py>(&self, normal: &Bound<'py, PyAny>, parameters: Option<&Bound<'py, PyDict>>) -> PyResult<Array<'py>> {
@@ -298,9 +295,8 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
+    /// InputError
     ///     Another length.
-    /// IntervalError
     ///     A NaN.
     #[pyo3(signature = (normal, parameters=None))]
     fn rates<'py>(&self, normal: &Bound<'py, PyAny>, parameters: Option<&Bound<'py, PyDict>>) -> PyResult<Array<'py>> {
@@ -339,9 +335,8 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
+    /// InputError
     ///     Another length.
-    /// IntervalError
     ///     A NaN, or a result that overflows.
     #[pyo3(signature = (states, parameters=None))]
     fn actions<'py>(
@@ -362,11 +357,10 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ResonanceError
+    /// TheoryError
     ///     K has resonant terms.
-    /// ShapeError
+    /// InputError
     ///     Another length.
-    /// IntervalError
     ///     A NaN, or an action below 0.
     #[pyo3(signature = (actions, parameters=None))]
     fn frequency_map<'py>(
@@ -395,9 +389,8 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
+    /// InputError
     ///     Another length.
-    /// IntervalError
     ///     A NaN, or a result that overflows.
     /// ImportError
     ///     K has resonant terms, and SciPy is not installed.
@@ -438,7 +431,7 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// UnknownNameError
+    /// InputError
     ///     ``"lagrangian"``.
     /// ImportError
     ///     SymPy is not installed: the extra ``andoyer[sympy]`` brings it.
@@ -449,7 +442,7 @@ impl BirkhoffNormalForm {
     /// -15*I_x**2/4 + I_x
     #[pyo3(signature = (what="hamiltonian"))]
     fn to_sympy<'py>(slf: &Bound<'py, Self>, what: &str) -> PyResult<Bound<'py, PyAny>> {
-        let _: Part = what.parse().map_err(error::algebra)?;
+        let _: Part = what.parse().map_err(error::algebra_as("what"))?;
         slf.py().import("andoyer._symbolic")?.call_method1("birkhoff", (slf, what, &slf.get().symbols))
     }
 
@@ -468,7 +461,7 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// FormatError
+    /// FileError
     ///     Not JSON, another format or version, a term that no normal form has. The coefficients themselves are not computed again.
     #[classmethod]
     #[pyo3(signature = (text, symbols=None))]
@@ -487,11 +480,11 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// UnknownNameError
+    /// InputError
     ///     ``"lagrangian"``.
     #[pyo3(signature = (what="hamiltonian"))]
     fn to_latex(&self, py: Python<'_>, what: &str) -> PyResult<String> {
-        let part = what.parse().map_err(error::algebra)?;
+        let part = what.parse().map_err(error::algebra_as("what"))?;
         detached(py, error::algebra, || either!(&self.form, form => form.to_latex(part)))
     }
 
@@ -506,7 +499,7 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// UnknownNameError
+    /// InputError
     ///     ``"fortran"``.
     ///
     /// Examples
@@ -591,7 +584,9 @@ impl BirkhoffNormalForm {
         let space = self.space();
         let names = &space.names()[2 * space.degrees_of_freedom()..];
         let unknown = |name: &str, problem: &str| {
-            UnknownNameError::new_err(format!("parameters: {name:?} {problem}; they are [{}]", names.join(", ")))
+            let known = names.join(", ");
+            let message = format!("parameters: {name:?} {problem}; they are [{known}]");
+            error::input("parameters", name, known, message)
         };
         let mut values = vec![None; names.len()];
         for (name, value) in parameters.into_iter().flatten() {

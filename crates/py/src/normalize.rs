@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 
 use crate::birkhoff::BirkhoffNormalForm;
-use crate::error::{self, UnknownNameError};
+use crate::error;
 use crate::expression::Expression;
 use crate::form::{Form, rounded};
 use crate::order::order;
@@ -50,17 +50,15 @@ use crate::progress;
 ///
 /// Raises
 /// ------
-/// HamiltonianError
+/// TheoryError
 ///     Linear terms, a quadratic part with a Jordan block or a zero frequency, irrational frequencies with ``exact=True``, a text that is no
 ///     polynomial, five pairs.
-/// ResonanceError
 ///     A resonant term or small divisor that was not asked for, by its monomial; a resonance asked for that is none.
-/// UnknownNameError
+/// InputError
 ///     A name that is no variable; another `keep`.
-/// OrderError
-///     ``-1``, ``32764``; ``171`` in floats.
-/// IntervalError
 ///     A smallest divisor outside 0 to 1, numbers that overflow.
+/// RepresentationError
+///     ``-1``, ``32764``; ``171`` in floats.
 ///
 /// Examples
 /// --------
@@ -101,7 +99,8 @@ pub(crate) fn normalize(
         None => resonances,
         Some("hyperbolic") => resonances.with_centre(),
         Some(other) => {
-            return Err(UnknownNameError::new_err(format!("keep = {other:?}: it must be \"hyperbolic\" or None")));
+            let message = format!("keep = {other:?}: it must be \"hyperbolic\" or None");
+            return Err(error::input("keep", other, "hyperbolic", message));
         }
     };
     let compute = |tell: &mut Progress<'_>| {
