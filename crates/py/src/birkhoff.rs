@@ -173,7 +173,7 @@ impl BirkhoffNormalForm {
     ///     ``0``, or above the order.
     fn generator<'py>(&self, py: Python<'py>, m: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let m = order("m", m, 1, self.order())?;
-        either!(&self.form, form => real(py, &detached(py, error::algebra_as("m"), || form.generator(m))?, self.slots()))
+        either!(&self.form, form => real(py, &detached(py, error::algebra, || form.generator(m))?, self.slots()))
     }
 
     /// A function of the old variables in the new ones, complete to degree d + N, d its lowest positive degree.
@@ -206,8 +206,7 @@ impl BirkhoffNormalForm {
     /// Raises
     /// ------
     /// InputError
-    ///     Another length.
-    ///     A NaN, or a result that overflows.
+    ///     An array of another length; a NaN, or a result that overflows.
     #[pyo3(signature = (states, parameters=None))]
     fn to_normal<'py>(
         &self,
@@ -250,8 +249,7 @@ impl BirkhoffNormalForm {
     /// Raises
     /// ------
     /// InputError
-    ///     Another length.
-    ///     A NaN, or a result that overflows.
+    ///     An array of another length; a NaN, or a result that overflows.
     #[pyo3(signature = (states, parameters=None))]
     fn from_centre_manifold<'py>(
         &self,
@@ -278,8 +276,7 @@ impl BirkhoffNormalForm {
     /// Raises
     /// ------
     /// InputError
-    ///     Another length.
-    ///     A NaN.
+    ///     An array of another length; a NaN.
     #[pyo3(signature = (normal, parameters=None))]
     fn energy<'py>(&self, normal: &Bound<'py, PyAny>, parameters: Option<&Bound<'py, PyDict>>) -> PyResult<Array<'py>> {
         let (n, map) = (2 * self.space().degrees_of_freedom(), self.map(normal.py(), parameters)?);
@@ -296,8 +293,7 @@ impl BirkhoffNormalForm {
     /// Raises
     /// ------
     /// InputError
-    ///     Another length.
-    ///     A NaN.
+    ///     An array of another length; a NaN.
     #[pyo3(signature = (normal, parameters=None))]
     fn rates<'py>(&self, normal: &Bound<'py, PyAny>, parameters: Option<&Bound<'py, PyDict>>) -> PyResult<Array<'py>> {
         let (n, map) = (2 * self.space().degrees_of_freedom(), self.map(normal.py(), parameters)?);
@@ -336,8 +332,7 @@ impl BirkhoffNormalForm {
     /// Raises
     /// ------
     /// InputError
-    ///     Another length.
-    ///     A NaN, or a result that overflows.
+    ///     An array of another length; a NaN, or a result that overflows.
     #[pyo3(signature = (states, parameters=None))]
     fn actions<'py>(
         &self,
@@ -360,8 +355,7 @@ impl BirkhoffNormalForm {
     /// TheoryError
     ///     K has resonant terms.
     /// InputError
-    ///     Another length.
-    ///     A NaN, or an action below 0.
+    ///     An array of another length; a NaN, or an action below 0.
     #[pyo3(signature = (actions, parameters=None))]
     fn frequency_map<'py>(
         &self,
@@ -390,8 +384,7 @@ impl BirkhoffNormalForm {
     /// Raises
     /// ------
     /// InputError
-    ///     Another length.
-    ///     A NaN, or a result that overflows.
+    ///     An array of another length; a NaN, or a result that overflows.
     /// ImportError
     ///     K has resonant terms, and SciPy is not installed.
     #[pyo3(signature = (state, times, parameters=None))]

@@ -62,12 +62,9 @@ const LONG: usize = 1 << 16;
 /// InputError
 ///     A member that is no body or no state: the error of a single one, with its place among the members in the message and as the
 ///     attribute ``index`` of the exception; the message also says how many other members are bad.
-///     Not finite.
-///     ``errors="ignore"``.
-///     ``0``, ``-1``, not finite.
-///     ``(1, 0)``, not finite.
-///     ``0``, ``-1``, ``2.5``; or, when it evaluates, a number that the system does not give.
-///     Two moments, five attitudes, three orbits; or one row of each.
+///     An epoch, a tolerance or a span that is not finite; a tolerance of ``0`` or ``-1``, the span ``(1, 0)``, ``errors="ignore"``.
+///     Threads ``0``, ``-1``, ``2.5``; or, when it evaluates, a number that the system does not give.
+///     Two moments, five attitudes and three orbits; or one row of each.
 ///
 /// Examples
 /// --------
@@ -158,8 +155,7 @@ impl Ensemble {
     /// Raises
     /// ------
     /// RepresentationError
-    ///     As of a motion, with the attribute ``index`` of the first member that has it.
-    ///     As of a scene, with the same attribute.
+    ///     Times as of a motion and units as of a scene, with the attribute ``index`` of the first member that has it.
     /// InputError
     ///     Rows for another number of members.
     #[pyo3(signature = (times, *, scalar_first=false))]

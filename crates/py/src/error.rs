@@ -17,7 +17,7 @@ create_exception!(
     andoyer,
     Error,
     PyValueError,
-    "The base of every error of this package. ``argument`` is the name of the argument, ``value`` the value given or computed from it, ``bound`` what it must be: a number, (lower, upper) or words; each is None where there is none. ``index`` is the place of a member of an ensemble, and only there."
+    "The base of every error of this package.\n\nAttributes\n----------\nargument : str or None\n    Name of the argument.\nvalue\n    The value given, or the number computed from it.\nbound\n    What the value must be: a number, (lower, upper) or words.\nindex : int\n    Place of the member, in an error of a member of an ensemble alone."
 );
 create_exception!(andoyer, InputError, Error, "An argument that is wrong.");
 create_exception!(andoyer, FileError, Error, "A scene file or a JSON text that cannot be read.");

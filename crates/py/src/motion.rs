@@ -31,9 +31,9 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// Raises
 /// ------
 /// RepresentationError
-///     A time that is NaN, infinite, more than 1e15 rotations from the epoch, or under ``averaging="spin"`` more than 65,534 orbits from it; the
-///     message has its index and says which. A calendar time (a Time) where the epoch is a number; a Quantity where the epoch is a calendar time.
+///     A time more than 1e15 rotations from the epoch, or under ``averaging="spin"`` more than 65,534 orbits from it; the message has its index and says which.
 /// InputError
+///     A time that is NaN or infinite. A calendar time (a Time) where the epoch is a number; a Quantity where the epoch is a calendar time.
 ///     Times with two axes.
 ///
 /// Examples

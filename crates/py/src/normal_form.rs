@@ -28,7 +28,9 @@ use crate::progress;
 /// Raises
 /// ------
 /// InputError
-///     ``-1``, ``2.5``, ``2000`` (more than 8 GiB of memory by its estimate), ``16382`` (exponents that would not fit).
+///     ``-1``, ``2.5``.
+/// RepresentationError
+///     ``2000`` (more than 8 GiB of memory by its estimate), ``16382`` (exponents that would not fit).
 /// KeyboardInterrupt
 ///     Ctrl-C is noticed while it works.
 ///
@@ -81,7 +83,7 @@ impl NormalForm {
     /// >>> NormalForm(3).triaxiality_polynomial(3)
     /// {2: Fraction(-5, 8)}
     fn triaxiality_polynomial<'py>(&self, py: Python<'py>, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
-        let polynomial = self.0.triaxiality_polynomial(order("n", n, 0, self.0.order())?).map_err(error::algebra_as("n"))?;
+        let polynomial = self.0.triaxiality_polynomial(order("n", n, 0, self.0.order())?).map_err(error::algebra)?;
         polynomial.into_pyobject(py)
     }
 
@@ -102,7 +104,7 @@ impl NormalForm {
     /// InputError
     ///     ``-1``, or above the order.
     fn paper_polynomial<'py>(&self, py: Python<'py>, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
-        let polynomial = self.0.paper_polynomial(order("n", n, 0, self.0.order())?).map_err(error::algebra_as("n"))?;
+        let polynomial = self.0.paper_polynomial(order("n", n, 0, self.0.order())?).map_err(error::algebra)?;
         gaussian(py, polynomial)
     }
 
@@ -145,8 +147,7 @@ impl NormalForm {
     /// Raises
     /// ------
     /// InputError
-    ///     ``"x"``.
-    ///     ``0``, or above the order.
+    ///     The name ``"x"``; n ``0``, or above the order.
     fn direct<'py>(&self, py: Python<'py>, name: &str, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let variable = name.parse().map_err(error::algebra_as("name"))?;
         let n = order("n", n, 1, self.0.order())?;
@@ -169,8 +170,7 @@ impl NormalForm {
     /// Raises
     /// ------
     /// InputError
-    ///     ``"x"``.
-    ///     ``0``, or above the order.
+    ///     The name ``"x"``; n ``0``, or above the order.
     fn inverse<'py>(&self, py: Python<'py>, name: &str, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let variable = name.parse().map_err(error::algebra_as("name"))?;
         let n = order("n", n, 1, self.0.order())?;
@@ -268,8 +268,8 @@ impl NormalForm {
     /// Raises
     /// ------
     /// InputError
-    ///     ``"fortran"``.
-    ///     ``-0.1``, ``1.0``, NaN.
+    ///     The language ``"fortran"``; β ``-0.1``, ``1.0``, NaN.
+    /// RepresentationError
     ///     An order above 100.
     ///
     /// Examples

@@ -50,15 +50,13 @@ use crate::progress;
 ///
 /// Raises
 /// ------
-/// TheoryError
-///     Linear terms, a quadratic part with a Jordan block or a zero frequency, irrational frequencies with ``exact=True``, a text that is no
-///     polynomial, five pairs.
-///     A resonant term or small divisor that was not asked for, by its monomial; a resonance asked for that is none.
 /// InputError
-///     A name that is no variable; another `keep`.
-///     A smallest divisor outside 0 to 1, numbers that overflow.
+///     A text that is no polynomial, a linear term, five pairs, a name that is no variable, a resonance that is none, another `keep`, the order ``-1``, a
+///     smallest divisor outside 0 to 1, numbers that overflow.
+/// TheoryError
+///     A quadratic part with a Jordan block or a zero frequency. A resonant term or small divisor that was not asked for: the message has its monomial.
 /// RepresentationError
-///     ``-1``, ``32764``; ``171`` in floats.
+///     The orders ``32764``, and ``171`` in floats; irrational frequencies with ``exact=True``.
 ///
 /// Examples
 /// --------

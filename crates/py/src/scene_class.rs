@@ -48,15 +48,10 @@ use crate::foreign::Calendar;
 /// Raises
 /// ------
 /// InputError
-///     ``[0, 0, 0, 0]``, ``[0, 0, 0, 1.1]``, or not finite.
-///     Not finite.
-///     ``0``, ``-1``, not finite.
-///     ``"taylor"``.
-///     ``(1, 0)``, or not finite.
-///     ``"moon"``.
-///     An attitude of 3 numbers, an angular velocity of 4.
+///     The attitudes ``[0, 0, 0, 0]`` and ``[0, 0, 0, 1.1]``, a tolerance of ``0`` or ``-1``, the span ``(1, 0)``, and any of them that is not finite.
+///     An attitude of 3 numbers, an angular velocity of 4. The orders ``-1`` and ``2.5``. A method, an averaging or a level of another name.
 /// RepresentationError
-///     ``-1``, ``61``, ``2.5``.
+///     The order ``61``.
 /// TypeError
 ///     A body that is a list, an orbit that is a number, a tolerance or an epoch that is a text, an order that is a boolean.
 ///

@@ -18,7 +18,7 @@ impl Error {
     pub fn kind(&self) -> Kind {
         match self {
             Self::SceneFile { .. } => Kind::File,
-            Self::Units { .. } | Self::MomentsRatio { .. } | Self::Order { .. } => Kind::Representation,
+            Self::Units { .. } | Self::Order { .. } => Kind::Representation,
             Self::Time { value, .. } if value.is_finite() => Kind::Representation,
             Self::NearSeparatrix { .. }
             | Self::Separatrix
@@ -35,6 +35,7 @@ impl Error {
             | Self::InertiaMoments { .. }
             | Self::Positive { .. }
             | Self::MomentsTriangle { .. }
+            | Self::MomentsRatio { .. }
             | Self::Attitude { .. }
             | Self::AngularVelocity { .. }
             | Self::Epoch { .. }

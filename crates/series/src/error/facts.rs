@@ -195,8 +195,9 @@ impl Error {
             Self::MemoryTooLarge { order, bound_gib, .. } => {
                 facts("order", *order, format!("{bound_gib} GiB of memory"))
             }
-            Self::OrderOutOfRange { order, minimum, maximum, .. } => {
-                facts("order", *order, [*minimum as f64, *maximum as f64])
+            Self::OrderOutOfRange { what, order, minimum, maximum } => {
+                let argument = if *what == "generating function" { "m" } else { "n" };
+                facts(argument, *order, Value::Integers(vec![*minimum as i64, *maximum as i64]))
             }
             Self::NameUnknown { what, name, known } => facts(what, name, *known),
             Self::OutsideInterval { argument, value, lower, upper } => facts(argument, *value, [*lower, *upper]),
