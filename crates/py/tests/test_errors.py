@@ -13,7 +13,6 @@ from andoyer import Body, Ensemble, FileError, InputError, NormalForm, Orbit, Re
 INF, NAN = math.inf, math.nan
 UNIT, RATES = [0, 0, 0, 1], [0.1, 0.2, 1.0]
 BODY, PAIR = Body([1.0, 1.5, 2.0]), [("x", "X")]
-MIDDLE = [0.0, 1.0, 0.0]
 OSCILLATOR, PLANE = "(x^2 + X^2 + y^2 + Y^2)/2 + x^2*y", [("x", "X"), ("y", "Y")]
 
 
@@ -75,7 +74,7 @@ BAD = {
     "shape of times": (lambda: motion().at([[0.0]]), InputError, "times", (1, 1), "() or (n,)"),
     "shape of out": (lambda: motion().attitude([0.0], out=np.empty((2, 4))), InputError, "out", (2, 4), "(1, 4)"),
     "strided out": (lambda: motion().attitude([0.0], out=np.empty((1, 8))[:, ::2]), InputError, "out", "strided", "C-contiguous"),
-    "series on the separatrix": (lambda: scene(rates=MIDDLE, method="series").solve(), TheoryError, ..., ..., ...),
+    "series on the separatrix": (lambda: Scene(Body([3, 5, 6]), UNIT, [1, 0.5, 1], method="series").solve(), TheoryError, "method", "series", "closed"),
     "series near the separatrix": (lambda: scene(rates=[1e-4, 1, 1e-4], method="series").solve(), TheoryError, "tolerance", 1e-12, ...),
     "spin resonance": (lambda: round_body(Orbit(0.06, mass_fraction=1e-4), [0, 0.01, 1]), TheoryError, "orbit", ..., ...),
     "torque": (lambda: round_body(Orbit(0.3), [0, 0, 1]), TheoryError, "orbit", ..., ...),
