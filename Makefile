@@ -6,7 +6,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv minimal-versions parallel rivals rivals-normal-form rivals-propagation rivals-gradient rivals-messages gravity docs docs-test package wheel clean kernels
+.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv minimal-versions parallel rivals rivals-normal-form rivals-propagation rivals-gradient rivals-partials rivals-messages gravity docs docs-test package wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -87,17 +87,18 @@ parallel: $(VENV)/installed  ## the wheel's tests of objects, each on eight thre
 sweep: $(VENV)/installed  ## series against closed form by order, σ/σ_sep and β: docs/data/sweep.csv, picture and table of its page; a minute
 	$(BIN)/python examples/sweep.py
 
-gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory leaves, against integrations: docs/data/gravity-*.csv and their picture; two minutes
+gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory leaves, against integrations: docs/data/gravity-*.csv and their picture; some minutes
 	cargo build --release --quiet --package andoyer-tests --bin gradient
 	target/release/gradient cases > docs/data/gravity-cases.csv
 	target/release/gradient levels > docs/data/gravity-levels.csv
 	target/release/gradient bounds 300 1 > docs/data/gravity-bounds.csv
+	target/release/gradient climb 1 45 11 > docs/data/gravity-climb.csv
 	$(BIN)/python examples/gravity.py
 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes
 	$(BIN)/python examples/bounds.py
 
-rivals: rivals-normal-form rivals-propagation rivals-gradient rivals-messages  ## the tables of ratios, in out/ too
+rivals: rivals-normal-form rivals-propagation rivals-gradient rivals-partials rivals-messages  ## the tables of ratios, in out/ too
 
 rivals-normal-form: $(RIVALS)/normal-form $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine
 	$(RIVALS)/bin/python benches/rivals/normal_form.py
@@ -108,6 +109,9 @@ rivals-propagation: $(RIVALS)/propagation $(RIVALS)/installed $(RIVALS)/orekit/r
 
 rivals-gradient: $(RIVALS)/propagation $(RIVALS)/installed  ## the gravity gradient against heyoka
 	$(RIVALS)/bin/python benches/rivals/gradient.py
+
+rivals-partials: $(RIVALS)/propagation $(RIVALS)/installed  ## derivatives against heyoka's variational equations
+	$(RIVALS)/bin/python benches/rivals/partials.py
 
 rivals-messages: $(RIVALS)/installed $(RIVALS)/orekit/ready  ## attitude ephemeris messages as we write them, read by Orekit; EXAMPLES=FOLDER: other messages, read by both
 	$(RIVALS)/bin/python -m pip install --quiet astropy

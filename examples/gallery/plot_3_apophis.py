@@ -12,19 +12,20 @@ import numpy as np
 from andoyer import plot
 
 # %%
-# The state solves the two periods for the moments of the catalogue; frame: ecliptic, phases chosen. Time in seconds.
+# A state with the two periods and the moments of the catalogue; the angular momentum points to longitude 275°, latitude −85° of the ecliptic (Lee et al. 2022), the phases are chosen.
+# Time in seconds.
 
+HOUR = 3600.0
 apophis = andoyer.Body.named("apophis")
-attitude = [0.9936142273587073, 0.039164900723114, -0.09451299087115574, 0.047583319538432894]
-rates = [1.7762925277359764e-05, 0.0, 5.530125462483281e-05]
-scene = andoyer.Scene(apophis, attitude, rates, name="Apophis, tumbling")
+scene = andoyer.Scene.from_periods(
+    apophis, 27.38 * HOUR, 263.0 * HOUR, momentum_direction=np.radians([275, -85]), name="Apophis, tumbling"
+)
 motion = scene.solve()
 print(motion.plan)
 
 # %%
 # Light-curve papers take the extremal axis: the short axis in a short-axis mode, as here. The long axis precesses more slowly, in 30.56 hours.
 
-HOUR = 3600.0
 for convention, (precession, rotation) in motion.periods.items():
     print(f"{convention:13}  P_φ {precession / HOUR:.2f} h   P_ψ {rotation / HOUR:.1f} h")
 precession, rotation = motion.periods["extremal-axis"]

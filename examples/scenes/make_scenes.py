@@ -5,9 +5,9 @@
 
 The state is given in Andoyer's angles: attitude R = Rz(lambda) Rx(I) Rz(mu) Rx(J) Rz(nu), angular momentum M (sinJ sin nu, sinJ cos nu, cosJ)
 in the body (theory §1). M follows from the spin period, P_spin = 2 pi / (mean rate of mu + nu), the mean rates from Jacobi's closed form in
-40 digits (tests/reference/torque_free.py). Apophis has two measured periods instead, from which M and J are solved.
+40 digits (tests/reference/torque_free.py). Apophis has two measured periods instead, which its file states: `Scene.from_periods` finds the state.
 The source text of a scene says of each figure whether it was read, and where, whether it is chosen, or computed.
-Needs mpmath.
+Needs mpmath and andoyer.
 """
 
 import sys
@@ -15,7 +15,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from textwrap import fill
 
-from mpmath import asin, cos, cospi, degrees, findroot, mp, mpf, pi, quad, radians, sin, sinpi, sqrt
+import andoyer
+from mpmath import asin, atan2, cos, cospi, degrees, mp, mpf, pi, quad, radians, sin, sinpi, sqrt
 
 FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parents[1] / "tests" / "reference"))
@@ -141,7 +142,7 @@ are chosen. Computed: the averaged torque turns the pole at {precession} arcsec 
         file="apophis.toml",
         name="Apophis, tumbling",
         moments=("0.61", "0.965", "1.0"),
-        nu="90",
+        nu=None,  # of the state that the periods lead to
         node="5",
         inclination="175",
         tumbling=(mpf("27.38") * HOUR, 263 * HOUR),
@@ -149,10 +150,10 @@ are chosen. Computed: the averaged torque turns the pole at {precession} arcsec 
         source="""
 Moments {moments} in units of C and the periods P_phi = 27.38 h, P_psi = 263 h of Pravec et al. 2014, Icarus 233, 48 (periods read in the list of
 tumblers of DAMIT; moments published there, of which the abstract alone was read). Extremal-axis convention: the short axis precesses in P_phi, the body
-turns about it in P_psi. The state solves these two periods. Computed: J swings between {J_low} and {J_high} deg, E/E0 = {energy} (read: Pravec et al.,
+turns about it in P_psi. The state follows from these two periods. Computed: J swings between {J_low} and {J_high} deg, E/E0 = {energy} (read: Pravec et al.,
 1.024 +- 0.013), k^2 = {modulus}, sigma/sigma_sep = {ratio}, and the long axis precesses in {long_axis_h} h; the strongest line of the light curve is at
-half of that. Frame: ecliptic; the angular momentum points to longitude 275 deg, latitude -85 deg (read: Lee et al. 2022, arXiv:2204.02540), so
-lambda = 275 + 90 deg, I = 90 + 85 deg. The phases mu and nu are chosen. Span: one Julian year.
+half of that. Frame: ecliptic; the angular momentum points to longitude 275 deg, latitude -85 deg (read: Lee et al. 2022, arXiv:2204.02540). The phases,
+0 at the epoch, are chosen. Span: one Julian year.
 """,
     ),
 ]
@@ -171,17 +172,11 @@ def mean_rates(moments, nutation, nu):
     return mpf(precession), mpf(roll), mpf(motion.parameter)
 
 
-def solve_tumbling(recipe, nu):
-    """J at nu and M of a short-axis tumbler from P_phi, P_psi of its short axis: it precesses at mean(mu'), the body turns about it at -mean(nu')."""
-
-    def ratio(nutation):
-        precession, roll, _ = mean_rates(recipe.moments, nutation, nu)
-        return -precession / roll
-
-    phi, psi = recipe.tumbling
-    nutation = findroot(lambda j: ratio(j) - mpf(psi) / phi, (radians(10), radians(13)), solver="anderson")  # below J_sep = 13.8 deg
-    precession, _, _ = mean_rates(recipe.moments, nutation, nu)
-    return nutation, 2 * pi / phi / precession
+def state_of_periods(recipe):
+    """J and nu at the epoch, and M, of the state that `Scene.from_periods` finds."""
+    state = andoyer.Scene.from_periods(andoyer.Body([float(moment) for moment in recipe.moments]), *(float(period) for period in recipe.tumbling))
+    g1, g2, g3 = (mpf(moment) * mpf(float(rate)) for moment, rate in zip(recipe.moments, state.angular_velocity))
+    return atan2(sqrt(g1**2 + g2**2), g3), atan2(g1, g2), sqrt(g1**2 + g2**2 + g3**2)
 
 
 def action(moments, energy):
@@ -259,23 +254,40 @@ def quaternion(recipe, nutation, nu, mu):
     return q
 
 
+def row(values):
+    """A list of numbers as TOML has it."""
+    return "[" + ", ".join(repr(float(x)) for x in values) + "]"
+
+
+def periods_table(recipe):
+    """The table of the periods, the angular momentum towards the pole of node and inclination."""
+    precession, rotation = (float(period) for period in recipe.tumbling)
+    direction = row([radians(mpf(recipe.node) - 90), radians(90 - mpf(recipe.inclination))])
+    return f"[periods]\nprecession = {precession!r}\nrotation = {rotation!r}\nmomentum_direction = {direction}\n"
+
+
+def state_table(recipe, nutation, nu, momentum):
+    """The table of the state, and what is said of it."""
+    rates = [momentum * g / mpf(moment) for g, moment in zip(momentum_direction(nutation, nu), recipe.moments)]
+    attitude = quaternion(recipe, nutation, nu, -nu)
+    angles = f"lambda = {recipe.node} deg, I = {recipe.inclination} deg, mu = -{recipe.nu} deg, nu = {recipe.nu} deg"
+    return f"[state]\nattitude = {row(attitude)}\nangular_velocity = {row(rates)}\n", f" The state: {angles}."
+
+
 def scene(recipe):
     """The text of a scene file."""
-    nu = radians(mpf(recipe.nu))
     if recipe.tumbling:
-        nutation, momentum = solve_tumbling(recipe, nu)
+        nutation, nu, momentum = state_of_periods(recipe)
+        table, said = periods_table(recipe), ""
     else:
-        nutation = recipe.nutation
+        nutation, nu = recipe.nutation, radians(mpf(recipe.nu))
         precession, roll, _ = mean_rates(recipe.moments, nutation, nu)
         momentum = 2 * pi / recipe.spin / (precession + roll)
-    attitude = quaternion(recipe, nutation, nu, -nu)
-    rates = [momentum * g / mpf(moment) for g, moment in zip(momentum_direction(nutation, nu), recipe.moments)]
-    row = lambda values: "[" + ", ".join(repr(float(x)) for x in values) + "]"
-    angles = f"lambda = {recipe.node} deg, I = {recipe.inclination} deg, mu = -{recipe.nu} deg, nu = {recipe.nu} deg"
-    source = recipe.source.format(**describe(recipe, nutation, nu, momentum)) + f"The state: {angles}. Computed by make_scenes.py."
+        table, said = state_table(recipe, nutation, nu, momentum)
+    source = recipe.source.strip().format(**describe(recipe, nutation, nu, momentum)) + said + " Computed by make_scenes.py."
     return f'''name = "{recipe.name}"
 source = """
-{fill(source.strip(), 120)}
+{fill(source, 120)}
 """
 epoch = 0.0
 span = {row([0, recipe.span])}
@@ -284,10 +296,7 @@ tolerance = {recipe.tolerance!r}
 [body]
 moments = [{", ".join(recipe.moments)}]
 
-[state]
-attitude = {row(attitude)}
-angular_velocity = {row(rates)}
-{orbit_table(recipe)}'''
+{table}{orbit_table(recipe)}'''
 
 
 def main(check):

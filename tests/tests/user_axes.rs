@@ -34,15 +34,17 @@ fn the_state_is_that_of_the_scene_and_the_angular_momentum_is_constant() {
     for moments in MOMENTS {
         let motion = Scene::new(body(moments), state()).solve().expect("a motion");
         let start = motion.at(2.0).expect("the epoch");
-        assert!(attitude_error(start.attitude.coords.into(), state().attitude.coords.into()) < 4e-15);
-        assert!((start.angular_velocity - state().angular_velocity).amax() < 4e-15);
+        let lost = attitude_error(start.attitude.coords.into(), state().attitude.coords.into());
+        let bound = motion.plan().error_bound() + 4e-15;
+        assert!(lost < bound, "{moments:?}: {lost:e}");
+        assert!((start.angular_velocity - state().angular_velocity).amax() < bound);
         assert_eq!(*motion.scene().state(), state());
         let expected = state().attitude * (tensor(moments) * state().angular_velocity);
         assert!((motion.angular_momentum() - expected).amax() < 1e-14);
         for time in [-31.0, 2.5, 777.0] {
             let sample = motion.at(time).expect("a time");
             let momentum = sample.attitude * (tensor(moments) * sample.angular_velocity);
-            assert!((momentum - expected).amax() < 2e-14, "{moments:?} at {time}");
+            assert!((momentum - expected).amax() < 4.0 * bound, "{moments:?} at {time}");
         }
     }
 }

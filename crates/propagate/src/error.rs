@@ -270,12 +270,13 @@ pub enum Error {
     },
     /// A torque too strong for an expansion in it.
     #[error(
-        "the torque, or what it does in a rotation, is {size:.3e} of M²/C at pericentre, and an expansion in it needs less than {bound}"
+        "the torque, or what it does to the motion, measures {size:.3e} at pericentre, and an expansion in it needs less than {bound:.3e}"
     )]
     TorqueTooStrong {
-        /// 3n²C²/2M² times the mass fraction at the pericentre, or the sum of the short-period corrections \[rad\].
+        /// Its measure: 3n²C(C − A)/2M² times the mass fraction at the pericentre, the sum of the short-period corrections \[rad\], what a step towards the mean variables leaves of
+        /// the one before, or the error bound of a span below one orbit \[rad\].
         size: f64,
-        /// The bound.
+        /// What that measure must be below; of the error bound, the effect of the torque over the span \[rad\].
         bound: f64,
     },
     /// A span with more orbits than the averaged equations are solved for.

@@ -105,7 +105,9 @@ impl Scene {
         let epoch = keys.number("epoch")?.unwrap_or(0.0);
         let body = body_keys.body()?;
         let scene = match (table.contains_key("state"), table.contains_key("periods")) {
-            (true, true) => return Err(keys.error("periods", "stands beside state: a scene has one or the other", "alone")),
+            (true, true) => {
+                return Err(keys.error("periods", "stands beside state: a scene has one or the other", "alone"));
+            }
             (_, false) => Self::new(body, keys.table("state", STATE_KEYS)?.state(epoch)?),
             (false, true) => {
                 let periods = keys.table("periods", PERIODS_KEYS)?.periods(epoch)?;

@@ -1,8 +1,9 @@
 //! From a scene to its motion: mode, method, secular part, series, initial phases (theory §5 to §8, §10).
 
 use crate::error::Error;
-use crate::gravity_gradient::disturbed::{Gradient, Request};
+use crate::gravity_gradient::disturbed::Gradient;
 use crate::gravity_gradient::osculating::{LARGEST_SEPARATRIX_RATIO, osculating};
+use crate::gravity_gradient::request::Request;
 use crate::input::options::{Averaging, Level, Method};
 use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
@@ -20,6 +21,11 @@ use crate::torque_free::series::tables::SeriesTables;
 use crate::torque_free::solution::{CayleyKlein, Solution, by_theta_functions, on_the_separatrix};
 use crate::torque_free::steady::SteadyRotation;
 use crate::torque_free::wobble::{Wobble, WobbleEvaluator};
+
+/// Error bound below which the corrections are not held against their own effect \[rad\].
+const WORTH: f64 = 1e-3;
+/// Intervals of a span at whose ends they are.
+const EFFECT_SAMPLES: u32 = 16;
 
 impl Scene {
     /// The motion: everything that does not depend on time is done here, once.
@@ -225,7 +231,8 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
     skipped.extend(gradient.skipped());
     let mut plan = Plan::new(&scene, mode, ratio, gradient.error + 4.0 * ROUNDING);
     (plan.gradient, plan.skipped) = (Some(gradient.plan()), skipped);
-    Ok(Motion {
+    let error = gradient.error;
+    let motion = Motion {
         plan,
         frequencies: Frequencies { anomaly, longitude },
         given: None,
@@ -234,6 +241,25 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
         long_axis: polhode.long_axis,
         trajectory: Trajectory::Gradient(Box::new(gradient)),
         scene,
+    };
+    let orbits = request.duration * orbit.mean_motion() / std::f64::consts::TAU;
+    if request.level == Level::Full && orbits < 1.0 && error > WORTH.max(request.tolerance) {
+        let effect = effect(&motion)?;
+        if error > effect {
+            return Err(Error::TorqueTooStrong { size: error, bound: effect });
+        }
+    }
+    Ok(motion)
+}
+
+/// Largest turn between a motion under a torque and the free one over the span.
+fn effect(motion: &Motion) -> Result<f64, Error> {
+    let scene = &motion.scene;
+    let (start, stop) = scene.asked_span().unwrap_or((scene.state().epoch, scene.state().epoch));
+    let free = Scene::new(scene.body().clone(), *scene.state()).span(start, stop).solve()?;
+    (0..=EFFECT_SAMPLES).try_fold(0.0_f64, |largest, k| {
+        let time = start + (stop - start) * f64::from(k) / f64::from(EFFECT_SAMPLES);
+        Ok(largest.max(free.at(time)?.attitude.angle_to(&motion.at(time)?.attitude)))
     })
 }
 

@@ -109,8 +109,7 @@ impl Ensemble {
         let mut attitudes = MemberRows::new("attitudes", attitudes)?;
         attitudes.each(|quaternion| foreign::scalar_last(quaternion, scalar_first));
         let rates = MemberRows::new("angular_velocities", angular_velocities)?;
-        let threads =
-            threads.map(|value| whole_number("threads", value, 1, MAX_THREADS, Kind::Input)).transpose()?;
+        let threads = threads.map(|value| whole_number("threads", value, 1, MAX_THREADS, Kind::Input)).transpose()?;
         let orbits = orbits.map(orbits_of).transpose()?;
         let on_error: OnError = errors.parse().map_err(error::propagation)?;
         let (epochs, calendar) = epochs.map(epochs_of).transpose()?.unwrap_or_default();

@@ -31,7 +31,8 @@ pub(crate) fn whole_number(
         let message = format!("{argument} = {shown}: it must be a whole number from {minimum} to {maximum}");
         let whole = value.is_instance_of::<PyInt>() && value.gt(maximum).unwrap_or(false);
         let bound = Value::Integers(vec![minimum as i64, maximum as i64]);
-        let exception = error::exception(if whole { above } else { Kind::Input }, Some(argument), None, Some(bound), message);
+        let exception =
+            error::exception(if whole { above } else { Kind::Input }, Some(argument), None, Some(bound), message);
         error::with_attribute(exception, "value", value)
     })
 }

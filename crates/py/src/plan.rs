@@ -93,6 +93,12 @@ impl Plan {
         self.0.first_neglected()
     }
 
+    /// How `Motion.partials` computes: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; None on the separatrix, where there are none.
+    #[getter]
+    fn partials(&self) -> Option<&'static str> {
+        self.0.partials()
+    }
+
     /// What this scene did not need, and why: a list of str.
     #[getter]
     fn skipped(&self) -> Vec<String> {

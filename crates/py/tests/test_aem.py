@@ -4,6 +4,7 @@ import itertools
 from dataclasses import replace
 from datetime import datetime
 from fractions import Fraction
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -355,3 +356,18 @@ def test_samples_without_rates_are_written_as_quaternions_alone(tmp_path):
 def test_scalar_first_samples_are_written_scalar_last(tmp_path):
     write_aem(tmp_path / "a.aem", TRIAXIAL.at(TIMES, scalar_first=True))
     assert angle_between(read_aem(tmp_path / "a.aem").attitude, TRIAXIAL.attitude(TIMES)).max() < 1e-15
+
+
+@pytest.mark.parametrize("system", ["TDB", "TT", "TAI", "GPS", "UTC"])
+def test_calendar_times_of_samples_are_the_epochs(tmp_path, system):
+    time = pytest.importorskip("astropy.time")
+    times = time.Time(["2016-12-31T23:59:58.25", "2016-12-31T23:59:60.25", "2017-01-01T00:00:01.25"], scale="utc")
+    samples = TRIAXIAL.at([0.0, 2.0, 4.0])
+    given = SimpleNamespace(times=times, attitude=samples.attitude, angular_velocity=samples.angular_velocity, scalar_first=False)
+    path = tmp_path / "message.aem"
+    write_aem(path, given, Heading(time_system=system, date=datetime(1999, 1, 1)))  # a date of time 0, which such times do not have
+    epochs = [line.split()[0] for line in path.read_text().splitlines() if line.startswith("201") and " " in line]
+    shown = {"TDB": times.tdb, "TT": times.tt, "TAI": times.tai, "GPS": times.tai - time.TimeDelta(19, format="sec"), "UTC": times}[system]
+    shown.precision = 9
+    # A Julian date in two doubles has 1e-11 s.
+    assert [float(parse(epoch, system) - parse(str(text), system)) for epoch, text in zip(epochs, shown.isot, strict=True)] == pytest.approx([0, 0, 0], abs=1e-9)

@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use std::sync::{Arc, RwLock};
 
 use andoyer_double::DoubleDouble;
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 
 use crate::input::orbit::Orbit;
 use crate::numerics::phase::Phase;
@@ -102,6 +102,16 @@ impl AveragedOrbit {
     /// κ.
     pub(crate) fn strength(&self) -> f64 {
         self.strength
+    }
+
+    /// η³.
+    pub(crate) fn eta_cubed(&self) -> f64 {
+        self.eta_cubed
+    }
+
+    /// The orbit's normal.
+    pub(crate) fn normal(&self) -> Unit<Vector3<f64>> {
+        Unit::new_unchecked(self.axes[2])
     }
 
     /// dJ/dt averaged over the orbit, for an angular momentum along an axis.

@@ -13,4 +13,6 @@ pub(super) struct Candidate {
     pub(super) frequency: f64,
     /// Rate of the attitude's change \[rad per unit of time\].
     pub(super) rate: f64,
+    /// What Ω's slope adds to it, times Ω.
+    pub(super) shift: f64,
 }

@@ -23,6 +23,7 @@ use super::candidate::{Candidate, SMALLEST_RATIO};
 use super::generator::{self, Generator, Harmonic, ORDERS, Orbital};
 use super::inertia::{HIGHEST, Inertia};
 use super::resonance::Commensurability;
+use super::response::Response;
 use crate::error::Error;
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
@@ -91,6 +92,10 @@ pub(crate) struct Corrections {
     pub(crate) generator: Generator,
     /// Sum of what was dropped, over the span \[rad\].
     pub(crate) dropped: f64,
+    /// Sum of the terms that the level leaves out, over the span \[rad\].
+    pub(crate) omitted: f64,
+    /// What it leaves out of ⟨T33⟩ and of its slope, times the mass fraction over M.
+    pub(crate) axial_omitted: [f64; 2],
     /// What the sums for G leave \[rad\].
     pub(crate) rest: f64,
     /// Sum of all terms \[rad\].
@@ -115,46 +120,60 @@ impl Corrections {
         let fastest = 2.0 * mean_motion * (1.0 + eccentricity).powi(2) / eta_cubed;
         let strength = 1.5 * mean_motion * mean_motion * orbit.disturbing_fraction();
         let pericentre = strength * ((1.0 + eccentricity) / eta_cubed.powf(2.0 / 3.0)).powi(3);
-        let all = candidates(inertia, level, pericentre);
-        let commensurability = Commensurability { inertia, mean_motion, eccentricity, fastest, duration };
+        let response = Response::new(inertia);
+        let scale = 4.0 * pericentre / inertia.momentum;
+        let all = candidates(inertia, &response, scale, |m, h| level.tensor(inertia, m, h));
+        let commensurability = Commensurability { response: &response, mean_motion, eccentricity, fastest, duration };
         let regular = |candidate: &Candidate| candidate.frequency.abs() > SMALLEST_RATIO * fastest;
         let size: f64 = all.iter().filter(|candidate| regular(candidate)).map(Candidate::size).sum();
         if size > LARGEST_SIZE {
             return Err(Error::TorqueTooStrong { size, bound: LARGEST_SIZE });
         }
-        let mut dropped = commensurability.left(&all, demand.tolerance.max(second_order(size, inertia, duration)))?;
-        // A change of the mean M makes the phases drift.
-        let growth = 1.0 + inertia.rates[1].to_f64() * duration;
-        let nothing = (0.01 * demand.tolerance / growth).max(demand.share * size * size);
+        let mut dropped = commensurability.left(&all, demand.tolerance.max(second_order(size, &response, duration)))?;
+        let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
+        let omitted = omitted.iter().map(|term| commensurability.whole(term)).sum();
+        let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * size * size);
         let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
+        let mut orbital = Orbital::new(eccentricity, mean_motion);
+        let most = if level == Level::Paper { 1 } else { ORDERS };
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
         for candidate in all.into_iter().filter(regular) {
+            let growth = response.growth(candidate.multiple, duration);
             if candidate.size() <= nothing {
                 dropped += growth * candidate.size();
                 neglected = neglected.max(candidate.size());
                 continue;
             }
-            let most = if level == Level::Paper { 1 } else { ORDERS };
-            let ratio = fastest / candidate.frequency.abs();
-            let left = |orders: usize| candidate.size() * ratio.powi(orders as i32);
+            // The sum is asymptotic: it ends where it is good enough, or else where the rest is least.
+            let left = |orders: usize| {
+                candidate.size() * orbital.norms[orders]
+                    / orbital.norms[0]
+                    / candidate.frequency.abs().powi(orders as i32)
+            };
             let enough = (1..most).find(|&orders| left(orders) <= nothing);
-            let orders = enough.unwrap_or(most);
+            let least = (1..=most).min_by(|&a, &b| left(a).total_cmp(&left(b)));
+            let orders = enough.or(least).unwrap_or(most);
             rest += growth * left(orders);
             neglected = neglected.max(left(orders));
             count += 1;
             most_orders = most_orders.max(orders);
             candidate.join(&mut harmonics[candidate.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2
         }
+        orbital.keep(most_orders);
         let [first, second, _] = orbit.axes();
+        let per_momentum = orbit.disturbing_fraction() / inertia.momentum;
+        let (level_axial, full_axial) = (level.axial(inertia), Level::Full.axial(inertia));
+        let axial_omitted = [full_axial.0 - level_axial.0, full_axial.1 - level_axial.1];
+        let axial_omitted = axial_omitted.map(|part| part.abs() * per_momentum);
         let generator = Generator {
             harmonics,
-            orbital: Orbital::new(eccentricity, mean_motion, most_orders),
+            orbital,
             axes: [first, second],
             strength,
             root: inertia.sigma.sqrt(),
             momentum: inertia.momentum,
         };
-        Ok(Self { generator, dropped, rest, size, count, neglected })
+        Ok(Self { generator, dropped, omitted, axial_omitted, rest, size, count, neglected })
     }
 
     /// The changes from mean to osculating variables, for |p| = √σ.
@@ -175,26 +194,38 @@ impl Corrections {
     }
 }
 
-/// What the terms of second order do to the attitude over a time.
-pub(crate) fn second_order(size: f64, inertia: &Inertia, duration: f64) -> f64 {
-    let [_, spin_rate] = inertia.rates.map(|rate| rate.to_f64());
-    size * size * (1.0 + 0.1 * spin_rate * duration)
+/// What the terms of second order do to the attitude over a time, at the least.
+fn second_order(size: f64, response: &Response, duration: f64) -> f64 {
+    size * size * (1.0 + 0.1 * response.by_momentum * duration)
 }
 
-/// Every (h, m) that is there.
-fn candidates(inertia: &Inertia, level: Level, pericentre: f64) -> Vec<Candidate> {
+/// Every (h, m) that is there, of functions (value, slope) of (m, h); `scale` is four times the strength of the torque at the pericentre over M.
+fn candidates(
+    inertia: &Inertia,
+    response: &Response,
+    scale: f64,
+    function: impl Fn(i32, i32) -> (f64, f64),
+) -> Vec<Candidate> {
     let highest = HIGHEST as i32;
+    let root = inertia.sigma.sqrt();
     let mut candidates = Vec::new();
     for multiple in 0..=2_i32 {
         let lowest = if multiple == 0 { 1 } else { -highest };
         // ℓ′ → ℓ′ + π turns the body half about axis 3: h and m are even or odd together.
         for harmonic in (lowest..=highest).filter(|h| (h + multiple) % 2 == 0) {
-            let (value, slope) = level.tensor(inertia, multiple, harmonic);
-            let weight = inertia.sigma.sqrt().powi(harmonic.abs() - 1).min(1.0) * (1.0 + f64::from(harmonic.abs()));
-            let rate = 4.0 * pericentre * (value.abs() + slope.abs() * inertia.sigma) * weight / inertia.momentum;
+            let (value, slope) = function(multiple, harmonic);
+            let (value_size, slope_size) = (value.abs(), slope.abs());
+            let degree = harmonic.abs();
+            let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value_size };
+            let further = root.powi(degree + 1);
+            let by_p = 0.5 * response.gain * (falling + 2.0 * further * slope_size);
+            let rate = scale * (root.powi(degree) * value_size + by_p);
             if rate > 0.0 {
                 let frequency = frequency(inertia, harmonic, multiple);
-                candidates.push(Candidate { harmonic, multiple, value, slope, frequency, rate });
+                let [anomaly, longitude] = inertia.rate_slopes;
+                let by_sigma = f64::from(harmonic) * anomaly + f64::from(multiple) * longitude;
+                let shift = scale * 0.5 * response.gain * further * value_size * by_sigma.abs();
+                candidates.push(Candidate { harmonic, multiple, value, slope, frequency, rate, shift });
             }
         }
     }
@@ -204,7 +235,8 @@ fn candidates(inertia: &Inertia, level: Level, pericentre: f64) -> Vec<Candidate
 impl Candidate {
     /// Largest change of the attitude \[rad\].
     fn size(&self) -> f64 {
-        self.rate / self.frequency.abs()
+        let frequency = self.frequency.abs();
+        (self.rate + self.shift / frequency) / frequency
     }
 
     /// Joins the others of its |h|, with as many derivatives of g as `orders`.

@@ -14,10 +14,14 @@ use andoyer_double::DoubleDouble;
 use nalgebra::{UnitQuaternion, Vector3};
 use num_complex::Complex;
 
-use super::averaged::{AveragedOrbit, MOST_QUARTERS, Precession, Slow, Spin, When, when};
-use super::corrections::{Change, Corrections, Demand, Mean, SHARE, second_order};
+use super::averaged::{AveragedOrbit, Precession, Slow, Spin, When, when};
+use super::budget::{Budget, MOST_ORBITS, Subject};
+use super::corrections::{Change, Corrections, Demand, Mean, SHARE};
 use super::inertia::Inertia;
+use super::offset::Offset;
 use super::powers::Powers;
+use super::request::Request;
+use super::response::Response;
 use crate::error::Error;
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
@@ -30,14 +34,12 @@ type C64 = Complex<f64>;
 
 /// Changes of the mean variables below which they are converged.
 const CONVERGED: f64 = 1e-15;
-/// And below which that is all that can be had.
-const NEARLY_CONVERGED: f64 = 1e-13;
 /// Steps to the mean variables.
-const MOST_STEPS: usize = 12;
+const MOST_STEPS: usize = 24;
+/// What a step may leave of the change before it, in the mean of the steps: with more there is no mean motion.
+const CONTRACTION: f64 = 0.5;
 /// Torque over M²/C above which an expansion in it has no first order.
 pub(crate) const STRONGEST: f64 = 0.02;
-/// Orbits on each side of the epoch that quarters are kept for: 65,534.
-const MOST_ORBITS: f64 = (MOST_QUARTERS / 4 - 2) as f64;
 
 /// What a plan says of a gravity gradient.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -59,6 +61,8 @@ pub(crate) struct Gradient {
     pub(super) pair: [Powers; 2],
     pub(super) corrections: Corrections,
     pub(super) slow: Slow,
+    /// What first order leaves at the epoch.
+    pub(super) offset: Offset,
     pub(super) anomaly: Phase,
     pub(super) half_longitude: Phase,
     pub(super) mean_anomaly: Phase,
@@ -74,20 +78,6 @@ pub(crate) struct Gradient {
     /// Units of the motion: of rate and angular momentum over the user's.
     pub(super) units: [f64; 2],
     pub(crate) error: f64,
-}
-
-/// What is asked of the perturbed motion.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Request<'a> {
-    pub(crate) orbit: &'a Orbit,
-    pub(crate) averaging: Averaging,
-    pub(crate) level: Level,
-    pub(crate) tolerance: f64,
-    pub(crate) epoch: f64,
-    /// Longest time from the epoch, in the user's unit.
-    pub(crate) duration: f64,
-    /// Whether the scene asks for it.
-    pub(crate) spanned: bool,
 }
 
 impl Gradient {
@@ -126,22 +116,35 @@ impl Gradient {
         // Rates are proportional to M, which as a double would leave 1e-16 of the phases.
         let precise = (polhode.momentum - change.momentum.into()) / mean.momentum.into();
         let rates = inertia.rates.map(|rate| rate * precise);
-        let budget = Budget::new(&corrections, &inertia, ellipse.strength(), mean_motion, duration);
+        // ⟨D⟩ = −½ (dJ/dt) Δ: its derivatives with respect to L and M at fixed L.
+        let slope = -0.5 * 1.5 * axial_slope * fraction / mean.momentum;
+        let response = Response::new(&inertia);
+        let anomaly = start.place.angle.values()[0] - start.place.centre.values()[0];
+        let subject = Subject {
+            mean: &mean,
+            inertia: &inertia,
+            corrections: &corrections,
+            response: &response,
+            ellipse: &ellipse,
+            anomaly,
+            drift: slope,
+        };
+        let budget = Budget::new(&subject, mean_motion, duration);
         let by_orbit = budget.by_orbit(request)?;
         let error = budget.error(by_orbit);
         let unit = scaled(1.0, exponent);
         let secular = ellipse.secular(&(mean.frame * Vector3::z())) * unit;
-        let slow = if by_orbit {
-            Slow::Orbit(Box::new(Precession::new(ellipse, mean.frame, &start.place, unit)))
-        } else {
-            Slow::Spin(Box::new(Spin::new(ellipse, mean.frame, &start)))
+        let slow = |frame: UnitQuaternion<f64>| {
+            if by_orbit {
+                Slow::Orbit(Box::new(Precession::new(ellipse.clone(), frame, &start.place, unit)))
+            } else {
+                Slow::Spin(Box::new(Spin::new(ellipse.clone(), frame, &start)))
+            }
         };
-        // ⟨D⟩ = −½ (dJ/dt) Δ: its derivatives with respect to L and M at fixed L.
-        let slope = -0.5 * 1.5 * axial_slope * fraction / mean.momentum;
         let [anomaly_rate, longitude_rate] =
             rates.map(|rate| DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) });
         let drifts = [slope, -slope * inertia.sigma];
-        Ok(Self {
+        let mut gradient = Self {
             anomaly: Phase::new(anomaly_rate, mean.p.arg()),
             half_longitude: Phase::new(longitude_rate * 0.5.into(), 0.5 * mean.longitude),
             mean_anomaly,
@@ -152,13 +155,16 @@ impl Gradient {
             pair: inertia.pair.each_ref().map(|series| Powers::new(series, inertia.sigma.sqrt())),
             inertia,
             corrections,
-            slow,
+            slow: slow(mean.frame),
+            offset: Offset::default(),
             frame: polhode.frame.clone(),
             moments: polhode.moments,
             level: request.level,
             units: [unit, polhode.user_momentum() / momentum],
             error,
-        })
+        };
+        gradient.start_at(polhode, attitude, mean.frame, slow);
+        Ok(gradient)
     }
 
     /// Mean rates of ℓ′ and y′ in the user's unit, y′ from an axis that turns with the angular momentum and not about it.
@@ -219,7 +225,7 @@ fn mean_motion_of(
     demand: &Demand<'_>,
 ) -> Result<MeanMotion, Error> {
     let (mut mean, mut change) = (*state, Change::default());
-    let mut step = 0;
+    let (mut step, mut first) = (0, 0.0_f64);
     // Each step gains the relative size of the corrections, which is below a fiftieth.
     loop {
         let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
@@ -233,14 +239,14 @@ fn mean_motion_of(
         if moved <= CONVERGED {
             return Ok(MeanMotion { mean, change, inertia, corrections });
         }
+        first = first.max(moved);
         if step == MOST_STEPS {
             // Rounding of large corrections may keep it from standing still; what does not come near has no mean motion.
-            let size = corrections.size;
-            let near = moved <= NEARLY_CONVERGED;
-            return if near {
+            let contraction = (moved / first).powf(1.0 / MOST_STEPS as f64);
+            return if contraction <= CONTRACTION {
                 Ok(MeanMotion { mean, change, inertia, corrections })
             } else {
-                Err(Error::TorqueTooStrong { size, bound: STRONGEST })
+                Err(Error::TorqueTooStrong { size: contraction, bound: CONTRACTION })
             };
         }
         (mean, change) = (next, next_change);
@@ -248,51 +254,9 @@ fn mean_motion_of(
     }
 }
 
-/// 3n²C²/2M² at the pericentre, C the greatest moment, times the mass fraction, from n/M.
+/// 3n²C(C − A)/2M² at the pericentre times the mass fraction, C the greatest moment and A the least, from n/M: the largest torque over M²/C.
 fn strongest_torque(polhode: &Polhode, orbit: &Orbit, rate: f64) -> f64 {
-    let greatest = polhode.moments.iter().fold(0.0_f64, |most, moment| most.max(*moment));
-    1.5 * (rate * greatest).powi(2) * orbit.disturbing_fraction() / (1.0 - orbit.eccentricity()).powi(3)
-}
-
-/// What is left of the attitude \[rad\].
-struct Budget {
-    /// By the average over the rotation.
-    spin: f64,
-    /// By the average over the orbit.
-    orbit: f64,
-    /// By dropped terms.
-    dropped: f64,
-    /// By σ as a double in the phases.
-    rounding: f64,
-    /// Orbits from the epoch.
-    orbits: f64,
-}
-
-impl Budget {
-    fn new(corrections: &Corrections, inertia: &Inertia, strength: f64, mean_motion: f64, duration: f64) -> Self {
-        let [anomaly, longitude] = inertia.rate_slopes;
-        let orbital = mean_motion * duration;
-        Self {
-            spin: second_order(corrections.size, inertia, duration),
-            orbit: strength.powi(2) * (1.0 + orbital),
-            dropped: corrections.dropped + 2.0 * corrections.rest,
-            rounding: 4.0 * f64::EPSILON * inertia.sigma * (anomaly.abs() + longitude.abs()) * duration,
-            orbits: orbital / TAU,
-        }
-    }
-
-    /// Whether the equations are averaged over the orbit too.
-    fn by_orbit(&self, request: &Request<'_>) -> Result<bool, Error> {
-        let too_far = request.spanned && self.orbits > MOST_ORBITS;
-        match request.averaging {
-            Averaging::Orbit => Ok(true),
-            Averaging::Auto => Ok(self.orbit <= request.tolerance || too_far),
-            Averaging::Spin if too_far => Err(Error::TooManyOrbits { orbits: self.orbits, bound: MOST_ORBITS }),
-            Averaging::Spin => Ok(false),
-        }
-    }
-
-    fn error(&self, by_orbit: bool) -> f64 {
-        self.spin + self.dropped + self.rounding + if by_orbit { self.orbit } else { 0.0 }
-    }
+    let [first, _, third] = polhode.moments;
+    let product = first.max(third) * (first - third).abs();
+    1.5 * rate * rate * product * orbit.disturbing_fraction() / (1.0 - orbit.eccentricity()).powi(3)
 }

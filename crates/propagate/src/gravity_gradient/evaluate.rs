@@ -7,6 +7,7 @@ use pulp::NullaryFnOnce;
 use super::averaged::{Elapsed, when};
 use super::disturbed::Gradient;
 use super::generator;
+use super::offset::Offset;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
@@ -14,17 +15,17 @@ use crate::simd::phase::elapsed;
 
 /// Osculating variables at some times: p, the circle of y′/2, M, and the invariable frame, but for its norm.
 #[derive(Clone, Copy)]
-struct Osculating<S: InstructionSet> {
-    p: ComplexLanes<S>,
-    half: ComplexLanes<S>,
-    momentum: Lanes<S>,
-    frame: QuaternionLanes<S>,
+pub(super) struct Osculating<S: InstructionSet> {
+    pub(super) p: ComplexLanes<S>,
+    pub(super) half: ComplexLanes<S>,
+    pub(super) momentum: Lanes<S>,
+    pub(super) frame: QuaternionLanes<S>,
 }
 
 impl Gradient {
     /// The motion at times after the epoch, in osculating variables: compiled by itself, once for each instruction set.
     #[inline(always)]
-    fn state<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
+    pub(super) fn state<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
         elapsed.0.simd().vectorize(At { gradient: self, elapsed })
     }
 
@@ -38,13 +39,14 @@ impl Gradient {
         let half = plane(self.half_longitude.sin_cos_beyond(elapsed, phase * all(0.5 * self.drifts[1] / TAU)));
         let change =
             self.corrections.generator.at(&generator::MeanLanes { turn, spin: half * half, frame }, &when.place);
-        let relative = ComplexLanes { re: change.p.re + all(self.root), im: change.p.im };
+        let Offset { p, momentum } = self.offset;
+        let relative = ComplexLanes { re: change.p.re + all(self.root + p.re), im: change.p.im + all(p.im) };
         let [x, y] = change.rotation;
         let zero = all(0.0);
         Osculating {
             p: turn * relative,
             half: half * small_turn(all(0.5) * change.longitude),
-            momentum: change.momentum + all(self.inertia.momentum),
+            momentum: change.momentum + all(self.inertia.momentum + momentum),
             frame: frame * QuaternionLanes([all(0.5) * x, all(0.5) * y, zero, all(1.0)]),
         }
     }
@@ -81,7 +83,7 @@ impl Gradient {
 
     /// The quaternion of theory §8 of a state near the mean one.
     #[inline(always)]
-    fn relative<S: InstructionSet>(&self, state: &Osculating<S>) -> QuaternionLanes<S> {
+    pub(super) fn relative<S: InstructionSet>(&self, state: &Osculating<S>) -> QuaternionLanes<S> {
         let Osculating { p, half, .. } = *state;
         let beyond = p.re.mul_add(p.re, p.im.mul_add(p.im, p.re.all(-self.inertia.sigma)));
         let square = p * p;

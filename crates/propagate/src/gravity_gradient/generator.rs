@@ -79,6 +79,8 @@ pub(crate) struct Orbital {
     series: Vec<[Fourier; 3]>,
     /// Highest k.
     highest: usize,
+    /// Largest sum of the coefficients' sizes, by j: one more than there are derivatives.
+    pub(crate) norms: Vec<f64>,
 }
 
 /// The first k, and coefficients from there on.
@@ -86,17 +88,22 @@ pub(crate) struct Orbital {
 struct Fourier(usize, Vec<f64>);
 
 impl Orbital {
-    /// As many derivatives as `orders` by a body of mean motion n; n η^(−3) w² d/df, w = 1 + e cos f.
-    pub(crate) fn new(eccentricity: f64, mean_motion: f64, orders: usize) -> Self {
+    /// All derivatives by a body of mean motion n; n η^(−3) w² d/df, w = 1 + e cos f.
+    pub(crate) fn new(eccentricity: f64, mean_motion: f64) -> Self {
         let eta_square = 1.0 - eccentricity * eccentricity;
         let rate = mean_motion / (eta_square * eta_square.sqrt());
-        let unit = |k: usize| -> Vec<f64> { (0..=WIDTH).map(|i| if i == k { 1.0 } else { 0.0 }).collect() };
+        let unit = |k: usize| -> Vec<f64> { (0..=WIDTH + 2).map(|i| if i == k { 1.0 } else { 0.0 }).collect() };
         let mut current = [(unit(0), false), (unit(2), false), (unit(2), true)].map(|(series, odd)| {
             let cubed = (0..3).fold(series, |series, _| times_w(&series, eccentricity, odd));
             (cubed.iter().map(|c| c / eta_square.powi(3)).collect::<Vec<f64>>(), odd)
         });
-        let mut series = Vec::new();
-        for _ in 0..orders {
+        let (mut series, mut norms) = (Vec::new(), Vec::new());
+        for j in 0..=ORDERS {
+            let sums = current.each_ref().map(|(coefficients, _)| coefficients.iter().map(|c| c.abs()).sum::<f64>());
+            norms.push(sums.into_iter().fold(0.0, f64::max));
+            if j == ORDERS {
+                break;
+            }
             series.push(current.each_ref().map(|(coefficients, _)| trimmed(coefficients)));
             current = current.map(|(coefficients, odd)| {
                 let sign = if odd { rate } else { -rate };
@@ -105,8 +112,16 @@ impl Orbital {
                 (weighted, !odd)
             });
         }
-        let highest = series.iter().flatten().map(|Fourier(first, rest)| first + rest.len()).max().unwrap_or(1) - 1;
-        Self { series, highest }
+        let mut orbital = Self { series, highest: 0, norms };
+        orbital.keep(ORDERS);
+        orbital
+    }
+
+    /// Keeps the first derivatives.
+    pub(crate) fn keep(&mut self, orders: usize) {
+        self.series.truncate(orders);
+        let ends = self.series.iter().flatten().map(|Fourier(first, rest)| first + rest.len());
+        self.highest = ends.max().unwrap_or(1) - 1;
     }
 }
 

@@ -54,6 +54,8 @@ impl Harmonics {
 pub(crate) struct Inertia {
     pub(crate) momentum: f64,
     pub(crate) sigma: f64,
+    /// σ_sep.
+    pub(crate) separatrix: f64,
     /// dℓ′/dt and dy′/dt.
     pub(crate) rates: [DoubleDouble; 2],
     /// Their derivatives with respect to σ, at fixed M.
@@ -100,6 +102,7 @@ impl Inertia {
         Self {
             momentum,
             sigma,
+            separatrix: polhode.separatrix_action(),
             rates: exact.1,
             rate_slopes,
             tensor: [part(0), part(1), part(2)],
@@ -175,13 +178,13 @@ fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
             }
         }
     }
-    // Samples end at 1e-16 of the largest, which is of the size of 1; what is smaller is nothing, and so is a harmonic that has no more than that left by σ^(h/2).
+    // Samples end at 1e-16 of the largest, which is of the size of 1; what is smaller is nothing. σ^(h/2) may be: near B = C the rest grows like σ_sep^(−h/2).
     let noise = 4.0 * f64::EPSILON;
     let root = sigma.sqrt();
     for (index, sum) in sums.iter_mut().enumerate() {
         let h = (index % COUNT) as i32 - HIGHEST as i32; // small
         let power = root.powi(h.abs());
-        *sum = if power < noise || sum.abs() < noise { 0.0 } else { *sum / power };
+        *sum = if sum.abs() < noise { 0.0 } else { *sum / power };
     }
     Member { sigma, rates, harmonics: sums }
 }

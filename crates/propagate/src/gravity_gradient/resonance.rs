@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use super::candidate::{Candidate, SMALLEST_RATIO};
-use super::inertia::Inertia;
+use super::response::Response;
 use crate::error::Error;
 
 /// Orbital harmonics that a slow term is held against, from −3 to 3.
@@ -20,7 +20,7 @@ const PREFACTOR: f64 = 1.0;
 
 /// Frequencies of a mean motion against those of the orbit.
 pub(super) struct Commensurability<'a> {
-    pub(super) inertia: &'a Inertia,
+    pub(super) response: &'a Response,
     pub(super) mean_motion: f64,
     pub(super) eccentricity: f64,
     /// Of twice the true anomaly.
@@ -57,16 +57,23 @@ impl Commensurability<'_> {
 
     /// What a term leaves over the span \[rad\], π at most.
     fn effect(&self, term: &Candidate) -> f64 {
-        let (amplitude, distance) = if term.frequency.abs() > SMALLEST_RATIO * self.fastest {
-            self.beyond_the_sum(term)
+        if term.frequency.abs() > SMALLEST_RATIO * self.fastest {
+            let (amplitude, distance) = self.beyond_the_sum(term);
+            self.turned(term, amplitude, distance)
         } else {
-            (1.0, self.slow_distance(term))
-        };
+            self.turned(term, 1.0, self.slow_distance(term))
+        }
+    }
+
+    /// What a term turns the attitude by over the span \[rad\] if it is not corrected at all, π at most.
+    pub(super) fn whole(&self, term: &Candidate) -> f64 {
+        self.turned(term, 1.0, self.slow_distance(term))
+    }
+
+    /// What a part of a term turns the attitude by, at its distance from a commensurability.
+    fn turned(&self, term: &Candidate, amplitude: f64, distance: f64) -> f64 {
         let time = if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration };
-        let [anomaly, longitude] = self.inertia.rate_slopes;
-        let by_sigma = 2.0 * self.inertia.sigma.sqrt() * (anomaly.abs() + longitude.abs());
-        let by_momentum = if term.multiple == 0 { 0.0 } else { self.inertia.rates[1].to_f64() };
-        (amplitude * term.rate * time * (1.0 + self.duration * (by_sigma + by_momentum))).min(PI)
+        (amplitude * term.rate * time * self.response.growth(term.multiple, self.duration)).min(PI)
     }
 
     /// How far Ω is from a low multiple of the mean motion.

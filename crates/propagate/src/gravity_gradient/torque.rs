@@ -13,6 +13,13 @@ impl Level {
         }
     }
 
+    /// What the level leaves out of that.
+    pub(crate) fn omitted(self, inertia: &Inertia, multiple: i32, harmonic: i32) -> (f64, f64) {
+        let (value, slope) = Self::Full.tensor(inertia, multiple, harmonic);
+        let (kept, kept_slope) = self.tensor(inertia, multiple, harmonic);
+        (value - kept, slope - kept_slope)
+    }
+
     /// T33 averaged over ℓ′ and its slope.
     pub(crate) fn axial(self, inertia: &Inertia) -> (f64, f64) {
         match self {

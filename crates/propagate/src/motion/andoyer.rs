@@ -12,7 +12,7 @@ use super::solved::{Motion, length};
 use crate::error::Error;
 use crate::torque_free::polhode::Frame;
 
-/// Times evaluated together, on the stack.
+/// Times that are evaluated together.
 const AT_ONCE: usize = 64;
 
 impl Motion {
@@ -41,7 +41,7 @@ impl Motion {
             return [0.0; 6];
         }
         let moments = self.scene.body().moments();
-        // A momentum that is not turned over: axis 3 keeps its sense.
+        // Axis 3 keeps its sense.
         let frame = Frame::new(moments, [0.0; 3], false);
         let [g1, g2, g3] = frame.sorted(std::array::from_fn(|i| moments[i] * rates[i]));
         let node = node_angle(total.x, -total.y);
@@ -51,7 +51,7 @@ impl Motion {
         let z = Vector3::z_axis();
         let x = Vector3::x_axis();
         let about = UnitQuaternion::from_axis_angle;
-        // Rz(μ) is what is left of R between the two inclined nodes.
+        // Rz(μ) is R without the rotations before and after it.
         let left = (about(&z, node) * about(&x, inclination)).inverse();
         let right = (about(&x, tilt) * about(&z, spin)).inverse();
         let sorted = UnitQuaternion::new_unchecked(attitude.into()) * frame.quaternion.inverse();

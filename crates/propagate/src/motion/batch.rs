@@ -37,7 +37,7 @@ impl<'a> Batch<'a> {
         Self { motion, threads: usize::MAX, since_epoch: false, stop: &GOING }
     }
 
-    /// On at most so many threads of rayon's pool; few times take one in any case. 0 is taken as 1.
+    /// Sets the largest number of threads of rayon's pool; 0 counts as 1. A few times are always evaluated by one thread.
     #[must_use]
     pub fn threads(self, most: usize) -> Self {
         Self { threads: most, ..self }
@@ -86,7 +86,7 @@ impl<'a> Batch<'a> {
         self.turn(&mut [], out)
     }
 
-    /// Both.
+    /// Attitudes [x, y, z, w] and angular velocities, body components [rad per unit of time].
     ///
     /// # Errors
     /// As [`Motion::attitudes_into`].

@@ -1,4 +1,4 @@
-//! What will be evaluated for a motion, and why: order, harmonics, error bound, and what was not needed.
+//! The evaluation plan of a motion: mode, method, order, harmonics, error bound, and the parts of the theory that were not needed.
 
 use std::fmt;
 
@@ -53,7 +53,7 @@ impl Plan {
         self.mode
     }
 
-    /// How it is evaluated: by the series, or by the closed form, of which formulas without a sum are a part.
+    /// The method of evaluation: the series, or the closed form (which includes the formulas of steady rotation).
     pub fn method(&self) -> Method {
         self.method
     }
@@ -118,7 +118,17 @@ impl Plan {
         self.gradient.map_or(0.0, |gradient| gradient.neglected)
     }
 
-    /// What this scene did not need, and why.
+    /// How derivatives with respect to the state and the moments are computed: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; `None` on the separatrix,
+    /// where the frequencies have none.
+    pub fn partials(&self) -> Option<&'static str> {
+        match (self.mode, self.gradient) {
+            (_, Some(_)) => Some("differences"),
+            (Mode::Separatrix, None) => None,
+            _ => Some("closed"),
+        }
+    }
+
+    /// The parts of the theory that this scene did not need, each with its reason.
     pub fn skipped(&self) -> &[String] {
         &self.skipped
     }

@@ -33,7 +33,7 @@ mod tests;
 /// Samples for each thread below which one more thread costs more than it saves: a join takes 11 μs, this many samples 40 to 65.
 const SAMPLES_PER_THREAD: usize = 16_384;
 
-/// How a motion goes on from its epoch.
+/// The formulas that evaluate a motion.
 #[derive(Clone, Debug)]
 pub(crate) enum Trajectory {
     /// Rotation about an axis fixed in the body.
@@ -42,7 +42,7 @@ pub(crate) enum Trajectory {
     Wobble(Box<WobbleEvaluator>),
     /// A polhode next to the separatrix or on it.
     Passage(Box<Passage>),
-    /// Any of them under a gravity gradient.
+    /// Rotation under a gravity gradient.
     Gradient(Box<Gradient>),
 }
 
@@ -57,7 +57,7 @@ impl Trajectory {
     }
 }
 
-/// A motion, the times that it has a phase at, and how to compute.
+/// A trajectory with the bounds of its times and the instruction set.
 #[derive(Clone, Copy)]
 pub(crate) struct Evaluation<'a> {
     pub(crate) trajectory: &'a Trajectory,
@@ -70,11 +70,11 @@ pub(crate) struct Evaluation<'a> {
 }
 
 impl Evaluation<'_> {
-    /// All times, on at most so many threads; or why not. Outputs are as long as the times.
+    /// Evaluates all times on at most `threads` threads, or says why it ended. Outputs are as long as the times.
     pub(crate) fn fill(&self, times: &[f64], outputs: Outputs<'_>, threads: usize) -> Result<(), Halt> {
         let grid = self.trajectory.phases().and_then(|phases| Grid::new(self.arch, phases, times));
         let enough = times.len() / SAMPLES_PER_THREAD;
-        // Asking for the pool's size starts it: not for a few samples.
+        // A query of the size of the pool starts it, so a few samples do not query it.
         let threads = if enough.min(threads) <= 1 { 1 } else { enough.min(threads).min(rayon::current_num_threads()) };
         self.spread(times, outputs, grid.as_ref(), threads)
     }

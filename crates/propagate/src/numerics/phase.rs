@@ -1,13 +1,13 @@
-//! Phases that last: turns = frequency × time, in double-double (theory §10). [`crate::simd::phase`] evaluates them.
+//! Phases over long times: turns = frequency × time, in double-double (theory §10). [`crate::simd::phase`] evaluates them.
 
 use andoyer_double::DoubleDouble;
 
 /// An angle that grows with time, in turns.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Phase {
-    /// QuaternionLanes per unit of time.
+    /// Turns per unit of time.
     pub(crate) frequency: DoubleDouble,
-    /// QuaternionLanes at the epoch: from ½ to 1½, so that it is a multiple of 2^−53, and the rest.
+    /// Turns at the epoch: a part from ½ to 1½, which is a multiple of 2^−53, and the rest.
     pub(crate) start: DoubleDouble,
 }
 
@@ -25,7 +25,7 @@ impl Phase {
         Self { start: DoubleDouble::ONE, ..*self }
     }
 
-    /// QuaternionLanes per unit of time.
+    /// Turns per unit of time.
     pub(crate) fn frequency(&self) -> f64 {
         self.frequency.high
     }

@@ -1,4 +1,4 @@
-//! What the closed form needs of elliptic integrals, in `f64`: the theta quantities of one polhode.
+//! Elliptic integrals for the closed form, in `f64`: the periods and arguments of the theta functions of one polhode.
 //!
 //! With m = k² = 1 − Q1/Q2 and 1 − m = k′² = Q1/Q2 of the polhode module, both without cancellation,
 //!
@@ -6,8 +6,8 @@
 //! K = π/(2 agm(1, k′))     K′ = π/(2 agm(1, k))     η = F(φ, k′),  tan φ = √(b/(a−b)),  a = C/A − 1,  b = C/B − 1
 //! ```
 //!
-//! iη is where |cos J| = 1: there the elliptic function of 1 ± cos J that a and b are made of has its zeros (theory §10; Piña, arXiv:1505.06186). F is Carlson's
-//! R_F (Numer. Algorithms 10 (1995) 13), whose arguments are all positive. Relative accuracy: a few 2^−53, at any k′ > 0.
+//! At iη, |cos J| = 1: there the elliptic function 1 ± cos J has its zeros (theory §10; Piña, arXiv:1505.06186). F is computed as Carlson's
+//! R_F (Numer. Algorithms 10 (1995) 13) with positive arguments. Relative accuracy: a few 2^−53, at any k′ > 0.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -15,7 +15,7 @@ use andoyer_double::{DoubleDouble, arithmetic_geometric_mean, carlson_rf};
 
 /// K of one polhode with 0 < Q1, and u of a state from where cos J is greatest, 0 ≤ u ≤ K, to 1e-20 of K.
 ///
-/// Both are as in [`Theta::argument`]. A double u of forty radians beside the middle axis would be wrong by 1e-14, and so would the time of the passage.
+/// Both are defined as in [`Theta::argument`]. Beside the middle axis u is forty radians: rounded to a double, it would make the time of the passage wrong by 1e-14.
 pub(crate) fn precise_argument(
     cosine_squares: [DoubleDouble; 2],
     [cosine, sine]: [f64; 2],
@@ -26,7 +26,7 @@ pub(crate) fn precise_argument(
     let (cosine, sine) = (cosine / length, sine / length);
     let (x, y) = (least * cosine, greatest * sine);
     let q = x * x + y * y;
-    // Without end, where it is not that of a number.
+    // K is infinite on the separatrix.
     let quarter = if least == DoubleDouble::ZERO {
         DoubleDouble::from(f64::INFINITY)
     } else {
@@ -75,7 +75,7 @@ impl Theta {
         let cosine = (difference / first).to_f64();
         let eta =
             if cosine == 0.0 { conjugate } else { sine.sqrt() * carlson_rf(cosine, cosine + modulus * sine, 1.0) };
-        // A round body may turn about an axis across its own: Q1 = Q2 = 0.
+        // An axisymmetric body may rotate about an axis perpendicular to its own: Q1 = Q2 = 0.
         let round = difference == DoubleDouble::ZERO;
         let ratio = if round { 1.0 } else { (roots[0] / roots[1]).min(1.0) };
         Self {
@@ -89,14 +89,14 @@ impl Theta {
         }
     }
 
-    /// u of a state along the polhode, from the nearer of the two places where cos J is extremal: whether that is where it is greatest, and the distance.
+    /// The argument u of a state on the polhode, counted from the nearer extremum of cos J. Returns whether that extremum is the maximum, and the distance.
     ///
     /// u = √Q2 ∫ dℓ/√Q from ℓ = 0, or from ℓ = π/2 back, for ℓ in the first quadrant.
     pub(crate) fn argument(&self, [cosine, sine]: [f64; 2]) -> (bool, f64) {
         let [least, greatest] = self.cosines;
         let (x, y) = (least * cosine, greatest * sine);
         let q = x * x + y * y;
-        // Both degenerate only where Q1 = 0, at ℓ = 0.
+        // Both expressions degenerate only for Q1 = 0 at ℓ = 0.
         if y > x {
             (true, greatest * cosine * carlson_rf(y * y, q, greatest * greatest))
         } else {

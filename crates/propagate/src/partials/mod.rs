@@ -11,6 +11,7 @@ mod constants;
 mod differences;
 mod evaluate;
 mod integral;
+mod sources;
 mod steady;
 
 use nalgebra::{Matrix3, SMatrix};
@@ -22,7 +23,8 @@ use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
 
 use constants::Setting;
-use evaluate::{Steadily, Target};
+use evaluate::Target;
+use sources::Steadily;
 use steady::Varied;
 
 /// Parameters with respect to which derivatives are taken.

@@ -1,4 +1,4 @@
-//! What a kernel is generic over: where sines and cosines come from, and what is computed from them.
+//! The traits of a kernel: one gives sines and cosines of the phases, the other computes attitude and rates from them.
 
 use super::instruction_set::InstructionSet;
 use super::lanes::Lanes;
@@ -9,15 +9,15 @@ pub(crate) type Circle<S> = (Lanes<S>, Lanes<S>);
 
 /// Sines and cosines of ℓ′ and y′/2 at some times.
 pub(crate) trait Circles<S: InstructionSet>: Copy {
-    /// That of ℓ′.
+    /// Sine and cosine of ℓ′.
     fn anomaly(self) -> Circle<S>;
-    /// That of y′/2.
+    /// Sine and cosine of y′/2.
     fn half_longitude(self) -> Circle<S>;
 }
 
-/// What gives attitude and rates at some times, as far as they are asked for.
+/// Gives attitude and rates at some times, each only if requested.
 pub(crate) trait Source<S: InstructionSet> {
-    /// At the times from a place on.
+    /// At the times from an index on.
     fn at<const ATTITUDE: bool, const RATES: bool>(
         &self,
         place: usize,
@@ -25,12 +25,12 @@ pub(crate) trait Source<S: InstructionSet> {
     ) -> ([Lanes<S>; 4], [Lanes<S>; 3]);
 }
 
-/// How attitude and rates come from the circles.
+/// Computes attitude and rates from sines and cosines of the phases.
 pub(crate) trait Evaluate {
     /// ℓ′ and y′/2.
     fn phases(&self) -> [&Phase; 2];
 
-    /// Attitude and rates, as far as they are asked for.
+    /// Attitude and rates, each only if requested.
     fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
         &self,
         simd: S,

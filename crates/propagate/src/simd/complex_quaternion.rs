@@ -1,4 +1,4 @@
-//! Complex numbers and rotations, several at a time.
+//! Complex numbers and quaternions in lanes.
 
 use std::ops::{Add, Mul};
 
@@ -66,13 +66,13 @@ impl<S: InstructionSet> QuaternionLanes<S> {
         Self([like.all(x), like.all(y), like.all(z), like.all(w)])
     }
 
-    /// About a direction by an angle whose half has this sine and cosine.
+    /// The rotation about a direction; the arguments are sine and cosine of half the angle.
     #[inline(always)]
     pub(crate) fn about(axis: &Vector3<f64>, (sine, cosine): (Lanes<S>, Lanes<S>)) -> Self {
         Self([sine * sine.all(axis.x), sine * sine.all(axis.y), sine * sine.all(axis.z), cosine])
     }
 
-    /// Rows of the matrix.
+    /// Rows of the rotation matrix.
     #[inline(always)]
     pub(crate) fn rows(self) -> [[Lanes<S>; 3]; 3] {
         let [x, y, z, w] = self.0;

@@ -1,9 +1,9 @@
 //! Uniform times: sines and cosines by one product with a table instead of two phases and two polynomials.
 //!
 //! With times t_b + jh in a block of 64, e^(iφ(t_b + jh)) = e^(iφ(t_b)) e^(i2πf·jh): the second factor is the same for all blocks. The first is
-//! computed for each block, so that no error accumulates. Times are seldom uniform to the last bit (`linspace` and `arange` round each), so what is left, δ = t − t_b − jh,
-//! turns the product by 1 + i2πfδ. A block is taken so if δ is known exactly, which it is if the block is short beside t_b (Sterbenz) or t_b = 0, and if
-//! 2πf|δ| ≤ 2e-8, which leaves 2e-16 rad to the square. Rounding adds 5e-16 rad to the phases of [`super::run`]'s direct path. All else goes there.
+//! computed for each block, so that no error accumulates. Times are seldom uniform to the last bit (`linspace` and `arange` round each), so the product is corrected by
+//! 1 + i2πfδ for the deviation δ = t − t_b − jh. A block is evaluated by the table if δ is exact (the block is short beside t_b, by Sterbenz' lemma, or t_b = 0) and if
+//! 2πf|δ| ≤ 2e-8: the neglected square is then 2e-16 rad. Rounding adds 5e-16 rad to the error of the direct path in [`super::run`], which evaluates all other blocks.
 
 use pulp::Arch;
 
@@ -13,13 +13,13 @@ use super::lanes::Lanes;
 use super::phase::elapsed;
 use crate::numerics::phase::Phase;
 
-/// Times that share a factor. 32 and 128 take the same time within 2 %.
+/// Times in a block. 32 and 128 take the same time within 2 %.
 pub(super) const BLOCK: usize = 64;
-/// Times whose blocks' first factors are computed together.
+/// Times in a group: the first factors of its blocks are computed together.
 pub(crate) const GROUP: usize = 16 * BLOCK;
-/// Fewer times are not worth a table.
+/// With fewer times a table costs more than it saves.
 const FEWEST: usize = 8 * BLOCK;
-/// Largest phase of a deviation \[rad\], whose square is not corrected.
+/// Largest 2πf|δ| \[rad\]; its square is neglected.
 const LARGEST_DEVIATION: f64 = 2e-8;
 
 /// Sine and cosine of the two phases.
@@ -40,7 +40,7 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// The grid of these times, if they look like one and it pays.
+    /// The grid of these times, if they look uniform and are many enough.
     pub(crate) fn new(arch: Arch, phases: [&Phase; 2], times: &[f64]) -> Option<Self> {
         let (&[first, ..], &[.., last]) = (times, times) else { return None };
         if times.len() < FEWEST {
@@ -56,7 +56,7 @@ impl Grid {
             rates,
             table: [[[0.0; BLOCK]; 2]; 2],
         };
-        // One block in the middle speaks for all: a wrong guess costs time, not accuracy.
+        // One block in the middle is tested for all: a wrong guess costs time, not accuracy.
         let middle = times.len() / 2 / BLOCK * BLOCK;
         if !(step.is_finite() && grid.holds(pulp::Scalar, &times[middle..middle + BLOCK])) {
             return None;
@@ -66,7 +66,7 @@ impl Grid {
         Some(grid)
     }
 
-    /// Whether a block of times is whole, and uniform.
+    /// Whether a block of times is complete and uniform.
     #[inline(always)]
     pub(super) fn holds<S: InstructionSet>(&self, simd: S, times: &[f64]) -> bool {
         let base = times[0];
@@ -109,7 +109,7 @@ impl Grid {
         seeds
     }
 
-    /// What a block that [`Grid::holds`] is computed from.
+    /// The factors of a block for which [`Grid::holds`].
     #[inline(always)]
     pub(super) fn tabled<S: InstructionSet>(&self, simd: S, base: f64, seed: &Seed) -> Tabled<'_, S> {
         Tabled {

@@ -1,7 +1,7 @@
-//! Instruction sets: what a kernel needs of each beyond the arithmetic that `pulp` has for all.
+//! Instruction sets: the operations of a kernel that `pulp` does not have for all sets.
 //!
-//! One program carries every set that its architecture may have and takes the best at run time. Sets with a fused multiply-add give the same bits as
-//! each other, whatever their width: no operation goes across lanes but the stores.
+//! The program contains the kernels for every instruction set of its architecture and selects the best one at run time. All sets with a fused multiply-add give the same bits,
+//! whatever their width, because only the stores combine lanes.
 
 use pulp::{Arch, NullaryFnOnce, Simd, bytemuck, cast};
 
@@ -10,27 +10,27 @@ pub(crate) trait InstructionSet: Simd {
     /// Whether `mul_add` rounds once.
     const FUSED: bool = true;
 
-    /// (sine, cosine) turned on by as many quarters of a turn as the lowest bits of `quarters` say.
+    /// (sine, cosine) of the angle plus as many quarter turns as the lowest two bits of `quarters` say.
     fn turned(self, sine: Self::f64s, cosine: Self::f64s, quarters: Self::u64s) -> (Self::f64s, Self::f64s);
 
-    /// Columns of four to rows, as they lie in memory.
+    /// Four columns to rows in memory order.
     #[inline(always)]
     fn fours(self, columns: [Self::f64s; 4]) -> [Self::f64s; 4] {
         rows::<Self, 4>(columns)
     }
 
-    /// Columns of three to rows, as they lie in memory.
+    /// Three columns to rows in memory order.
     #[inline(always)]
     fn threes(self, columns: [Self::f64s; 3]) -> [Self::f64s; 3] {
         rows::<Self, 3>(columns)
     }
 }
 
-/// Something to do with the instructions of a set.
+/// A computation that is compiled for each instruction set.
 pub(crate) trait Task {
     type Output;
 
-    /// Does it; to be inlined, so that it is compiled for the set.
+    /// Runs the computation. It must be inlined, so that it is compiled for the set.
     fn run<S: InstructionSet>(self, simd: S) -> Self::Output;
 }
 
@@ -45,7 +45,7 @@ impl<S: InstructionSet, T: Task> NullaryFnOnce for On<S, T> {
     }
 }
 
-/// Does a task with a set that the machine has.
+/// Runs a task with the best instruction set available.
 pub(crate) fn dispatch<T: Task>(arch: Arch, task: T) -> T::Output {
     match arch {
         #[cfg(target_arch = "x86_64")]
@@ -71,13 +71,13 @@ fn rows<S: Simd, const N: usize>(columns: [S::f64s; N]) -> [S::f64s; N] {
     rows
 }
 
-/// One lane, without a fused multiply-add: what every machine has.
+/// One lane without a fused multiply-add, available on every machine.
 impl InstructionSet for pulp::Scalar {
     const FUSED: bool = false;
 
     #[inline(always)]
     fn turned(self, sine: f64, cosine: f64, quarters: u64) -> (f64, f64) {
-        // No branch: that would be guessed wrong every other time.
+        // Without a branch: it would be mispredicted every other time.
         let (s, c) = (sine.to_bits(), cosine.to_bits());
         let exchange = (s ^ c) & (quarters & 1).wrapping_neg();
         let sign = |bits: u64| (bits << 62) & (1 << 63);

@@ -1,6 +1,6 @@
-//! Kepler's equation and the true anomaly, several at a time.
+//! Kepler's equation and the true anomaly, in lanes.
 //!
-//! Kepler's equation is solved without a loop that could run out: Markley's starter (Celest. Mech. Dyn. Astron.
+//! Kepler's equation is solved with a fixed number of steps: Markley's starter (Celest. Mech. Dyn. Astron.
 //! 63 (1995) 101), good to 1e-4, then two steps of third order with a residual that is formed without cancellation, (1−e)E + e(E − sin E) − M.
 
 use std::f64::consts::{PI, TAU};
@@ -9,12 +9,12 @@ use super::instruction_set::InstructionSet;
 use super::lanes::Lanes;
 use super::sincos::{sin_cos_of_turns, twice_arc};
 
-/// Where on its ellipse the disturbing body is, at some times.
+/// The place of the disturbing body on its ellipse at some times.
 #[derive(Clone, Copy)]
 pub(crate) struct Place<S: InstructionSet> {
     /// The true anomaly, in [−π, π] \[rad\].
     pub(crate) angle: Lanes<S>,
-    /// The true anomaly less the mean one, by no difference of them.
+    /// The true anomaly minus the mean anomaly, computed without that subtraction.
     pub(crate) centre: Lanes<S>,
     /// Sine and cosine of the true anomaly.
     pub(crate) sine: Lanes<S>,
@@ -22,7 +22,7 @@ pub(crate) struct Place<S: InstructionSet> {
 }
 
 impl<S: InstructionSet> Place<S> {
-    /// From the mean anomaly, in [−π, π] or a rounding beyond.
+    /// From the mean anomaly in [−π, π], up to a rounding error.
     #[inline(always)]
     pub(crate) fn of(mean_anomaly: Lanes<S>, eccentricity: f64) -> Self {
         let all = |value: f64| mean_anomaly.all(value);

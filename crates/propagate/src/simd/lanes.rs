@@ -1,7 +1,8 @@
-//! Several doubles at a time, with the arithmetic that the kernels are written in.
+//! Several doubles at a time, with the arithmetic of the kernels.
 //!
-//! A value is as many vectors as [`STRANDS`]: a kernel is one long chain of dependent operations, and two of them side by side fill the time that each
-//! waits (AVX-512 3.9 ns a sample for 4.6 with one, AVX2 7.3 for 8.7, portable 36 for 44). No closure and no `array::map` stands around vectors: what is not inlined is compiled without the instructions of the set, and fifty times slower.
+//! A value consists of [`STRANDS`] vectors. A kernel is one long chain of dependent operations; two chains side by side use the time that each one waits
+//! (a sample takes 3.9 ns instead of 4.6 with AVX-512, 7.3 instead of 8.7 with AVX2, 36 instead of 44 portably). No closure and no `array::map` is used around vectors: a function
+//! that is not inlined is compiled without the instructions of the set and is fifty times slower.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -9,13 +10,13 @@ use pulp::bytemuck;
 
 use super::instruction_set::InstructionSet;
 
-/// Vectors worked on side by side.
+/// Vectors that are processed side by side.
 pub(crate) const STRANDS: usize = 2;
 
 /// Most lanes of any instruction set.
 pub(crate) const WIDEST: usize = 8 * STRANDS;
 
-/// 1.5·2^52: added to a smaller number and taken off again, it leaves the nearest integer; added, its lowest bits are that integer's.
+/// 1.5·2^52. Adding and subtracting it rounds a smaller number to the nearest integer; after the addition the lowest bits are those of that integer.
 pub(crate) const INTEGERS: f64 = 6_755_399_441_055_744.0;
 
 /// Vectors of doubles. With a fused multiply-add `mul_add` rounds once, without one twice; everything else has the same bits everywhere.
@@ -88,7 +89,7 @@ impl<S: InstructionSet> Lanes<S> {
         Self { simd, strands: [simd.splat_f64s(value); STRANDS] }
     }
 
-    /// Each value in all lanes of its own.
+    /// Each value in all lanes of one vector.
     #[inline(always)]
     pub(crate) fn splats<const N: usize>(simd: S, values: [f64; N]) -> [Self; N] {
         let mut all = [Self::splat(simd, 0.0); N];
@@ -98,7 +99,7 @@ impl<S: InstructionSet> Lanes<S> {
         all
     }
 
-    /// As many values as there are lanes; zeros for those that lack.
+    /// The values of a slice, one for each lane; missing ones are zero.
     #[inline(always)]
     pub(crate) fn load(simd: S, values: &[f64]) -> Self {
         let zeros = Self::splat(simd, 0.0);
@@ -118,13 +119,13 @@ impl<S: InstructionSet> Lanes<S> {
         self.simd
     }
 
-    /// `value` in each lane, of the kind of self.
+    /// `value` in each lane, for the instruction set of self.
     #[inline(always)]
     pub(crate) fn all(self, value: f64) -> Self {
         Self::splat(self.simd, value)
     }
 
-    /// As many values as there are lanes, from a slice that has them.
+    /// The values of a slice that has one for each lane.
     #[inline(always)]
     pub(crate) fn like(self, values: &[f64]) -> Self {
         Self::load(self.simd, values)
@@ -181,7 +182,7 @@ impl<S: InstructionSet> Lanes<S> {
         })
     }
 
-    /// A function of each value: for what has no vector form.
+    /// A scalar function of each value.
     #[inline(always)]
     pub(crate) fn each(self, function: impl Fn(f64) -> f64) -> Self {
         let mut lanes = self;
@@ -225,7 +226,7 @@ impl<S: InstructionSet> Lanes<S> {
         (((a * b - product) + a * b_low) + a_low * b) + a_low * b_low
     }
 
-    /// The first 26 bits and the 27 others, whose products are exact but for the last bit of the smallest; cut off, since a factor would overflow.
+    /// The first 26 bits and the other 27 bits. Their products are exact except for the last bit of the smallest. The bits are cut off, because Veltkamp's factor would overflow.
     #[inline(always)]
     fn halves(self) -> (Self, Self) {
         let high = strands!(self, i => {
@@ -235,7 +236,7 @@ impl<S: InstructionSet> Lanes<S> {
         (high, self - high)
     }
 
-    /// (self, cosine) of an angle turned on by as many quarter turns as the lowest bits of `quarters` say.
+    /// (self, cosine) of the angle plus as many quarter turns as the lowest two bits of `quarters` say.
     #[inline(always)]
     pub(crate) fn turned(self, cosine: Self, quarters: Self) -> (Self, Self) {
         let (mut sines, mut cosines) = (self, cosine);
@@ -246,7 +247,7 @@ impl<S: InstructionSet> Lanes<S> {
         (sines, cosines)
     }
 
-    /// Columns to rows of four, of which there are as many as lanes.
+    /// Four columns to rows, one row for each lane.
     #[inline(always)]
     pub(crate) fn store_fours([x, y, z, w]: [Self; 4], rows: &mut [[f64; 4]]) {
         for (i, rows) in rows.chunks_exact_mut(S::F64_LANES).enumerate().take(STRANDS) {
@@ -255,7 +256,7 @@ impl<S: InstructionSet> Lanes<S> {
         }
     }
 
-    /// Columns to rows of three, of which there are as many as lanes.
+    /// Three columns to rows, one row for each lane.
     #[inline(always)]
     pub(crate) fn store_threes([x, y, z]: [Self; 3], rows: &mut [[f64; 3]]) {
         for (i, rows) in rows.chunks_exact_mut(S::F64_LANES).enumerate().take(STRANDS) {

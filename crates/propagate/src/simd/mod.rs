@@ -1,4 +1,4 @@
-//! Several times at once, with the best instructions of the machine: lanes, instruction sets, sines and cosines, complex numbers and quaternions in lanes, phases and
+//! Evaluation at several times at once with the best instruction set of the machine: lanes, instruction sets, sines and cosines, complex numbers and quaternions in lanes, phases and
 //! Kepler's equation in lanes, the table of a uniform grid, and the loop over times, which is generic over what it evaluates.
 //!
 //! Imports errors and numerics.

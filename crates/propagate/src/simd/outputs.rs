@@ -1,6 +1,6 @@
 //! The arrays that an evaluation fills.
 
-/// What is computed, one row for each time.
+/// The requested outputs, one row for each time.
 pub(crate) enum Outputs<'a> {
     Attitudes(&'a mut [[f64; 4]]),
     Rates(&'a mut [[f64; 3]]),
@@ -8,7 +8,7 @@ pub(crate) enum Outputs<'a> {
 }
 
 impl<'a> Outputs<'a> {
-    /// The first rows, and those from a place on.
+    /// The rows before an index, and those from it on.
     pub(crate) fn split_at(self, place: usize) -> (Self, Self) {
         match self {
             Self::Attitudes(attitudes) => {

@@ -1,4 +1,4 @@
-//! Phases that last: turns = frequency × time, in double-double, reduced before any sine (theory §10).
+//! Phases over long times: turns = frequency × time, in double-double, reduced before any sine (theory §10).
 //!
 //! In double precision alone n·t is wrong by 6e-7 rad after 1e9 rotations. Here frequency, time since the epoch, product and the phase at the
 //! epoch carry 32 digits, and a phase in turns is reduced by subtracting integers and quarters, which is exact: 1.4e-17 turns are left to rounding.
@@ -9,7 +9,7 @@ use super::sincos::sin_cos;
 use crate::numerics::phase::Phase;
 
 impl Phase {
-    /// Whole turns since the epoch's own, and the angle beyond them, up to half a turn either way \[rad\].
+    /// Whole turns since the epoch, and the angle beyond them, at most half a turn in either direction \[rad\].
     #[inline(always)]
     pub(crate) fn turns_and_angle<S: InstructionSet>(&self, elapsed: (Lanes<S>, Lanes<S>)) -> (Lanes<S>, Lanes<S>) {
         let (product, fraction, rest) = self.reduced(elapsed);
@@ -20,19 +20,19 @@ impl Phase {
         let lost = (fraction - (sum - added)) + (start - added);
         let turns = sum.rounded();
         let beyond = (sum - turns) + (lost + rest);
-        // The rest may carry the angle over half a turn: that is then the next turn's.
+        // The rest may move the angle past half a turn; the angle then belongs to the next turn.
         let over = beyond.rounded();
         (product.rounded() + (turns + over), (beyond - over) * product.all(std::f64::consts::TAU))
     }
 
-    /// The same of one time.
+    /// The same for one time.
     pub(crate) fn turns_and_angle_at(&self, (high, low): (f64, f64)) -> (f64, f64) {
         let elapsed = (Lanes::splat(pulp::Scalar, high), Lanes::splat(pulp::Scalar, low));
         let (turns, angle) = self.turns_and_angle(elapsed);
         (turns.values()[0], angle.values()[0])
     }
 
-    /// That angle of one time.
+    /// The angle at one time.
     pub(crate) fn angle(&self, elapsed: (f64, f64)) -> f64 {
         self.turns_and_angle_at(elapsed).1
     }
@@ -44,7 +44,7 @@ impl Phase {
         self.circle(fraction, rest)
     }
 
-    /// (sin, cos) with some turns more.
+    /// (sin, cos) of the phase plus some turns.
     #[inline(always)]
     pub(crate) fn sin_cos_beyond<S: InstructionSet>(
         &self,
@@ -55,7 +55,7 @@ impl Phase {
         self.circle(fraction, rest + (turns - turns.rounded()))
     }
 
-    /// Frequency × time, what it has beyond an integer, and the rest of the phase but for the turns at the epoch.
+    /// Frequency × time rounded to an integer, the fraction beyond it, and the low part of the phase without the turns at the epoch.
     #[inline(always)]
     fn reduced<S: InstructionSet>(&self, elapsed: (Lanes<S>, Lanes<S>)) -> (Lanes<S>, Lanes<S>, Lanes<S>) {
         let (high, low) = (elapsed.0.all(self.frequency.high), elapsed.0.all(self.frequency.low));
@@ -69,7 +69,7 @@ impl Phase {
     #[inline(always)]
     fn circle<S: InstructionSet>(&self, fraction: Lanes<S>, rest: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
         let (start, integers) = (fraction.all(self.start.high), fraction.all(INTEGERS));
-        // Both start and k/4 are multiples of 2^−53, so their difference is exact, and what is left of the sum rounds at 1/8 of a turn.
+        // Both start and k/4 are multiples of 2^−53, so their difference is exact. The sum is then below 1/8 of a turn and rounds there.
         let quarters = (start + (fraction + rest)).mul_add(fraction.all(4.0), integers);
         let x = ((quarters - integers).negate_mul_add(fraction.all(0.25), start) + fraction) + rest;
         sin_cos(x, quarters)

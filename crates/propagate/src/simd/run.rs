@@ -13,7 +13,7 @@ use super::outputs::Outputs;
 use super::phase::elapsed;
 use crate::numerics::phase::Phase;
 
-/// A stretch of times for one thread.
+/// The times of one thread.
 pub(crate) struct Run<'a> {
     pub(crate) epoch: f64,
     /// Largest distance from the epoch.
@@ -26,7 +26,7 @@ pub(crate) struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Each time by itself, without vectors.
+    /// Evaluates each time by itself, without vectors.
     pub(crate) fn one_by_one(self, evaluate: impl Fn((f64, f64)) -> ([f64; 4], [f64; 3])) -> Result<(), Halt> {
         let Self { epoch, bound, times, outputs, stop, .. } = self;
         let (mut attitudes, mut rates) = match outputs {
@@ -50,7 +50,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// From a source that has no circles and no grid.
+    /// Evaluates a source that has neither circles nor a grid.
     #[inline(always)]
     pub(crate) fn by_source<S: InstructionSet>(self, simd: S, source: impl Source<S> + Copy) -> Result<(), Halt> {
         let Self { epoch, bound, times, outputs, stop, .. } = self;
@@ -62,7 +62,7 @@ impl Run<'_> {
         }
     }
 
-    /// By the circles of a motion.
+    /// Evaluates a motion by sines and cosines of its phases.
     #[inline(always)]
     pub(crate) fn by_circles<S: InstructionSet, C: Evaluate>(self, simd: S, course: &C) -> Result<(), Halt> {
         let Self { epoch, bound, times, outputs, grid, stop } = self;
@@ -75,7 +75,7 @@ impl Run<'_> {
     }
 }
 
-/// Attitudes and rates; one that is not asked for is empty.
+/// Attitudes and rates; an output that is not requested is empty.
 type Rows<'a> = (&'a mut [[f64; 4]], &'a mut [[f64; 3]]);
 
 struct Stretch<'a, S, C> {
@@ -88,7 +88,7 @@ struct Stretch<'a, S, C> {
 }
 
 impl<S: InstructionSet, C: Evaluate> Stretch<'_, S, C> {
-    /// Group by group, each after its times are found to be valid.
+    /// Evaluates group by group; the times of a group are validated first.
     #[inline(always)]
     fn fill<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], mut rows: Rows<'_>) -> Result<(), Halt> {
         for (index, group) in times.chunks(GROUP).enumerate() {
@@ -104,7 +104,7 @@ impl<S: InstructionSet, C: Evaluate> Stretch<'_, S, C> {
         Ok(())
     }
 
-    /// The blocks of a group that are uniform from the table, the others and what is no whole block directly.
+    /// Evaluates the uniform blocks of a group by the table, and the other times directly.
     #[inline(always)]
     fn uniform<const ATTITUDE: bool, const RATES: bool>(&self, grid: &Grid, times: &[f64], mut rows: Rows<'_>) {
         let seeds = grid.seeds(self.simd, self.course.phases(), times, self.epoch);
@@ -124,7 +124,7 @@ impl<S: InstructionSet, C: Evaluate> Stretch<'_, S, C> {
         }
     }
 
-    /// Each time by its own phases.
+    /// Evaluates each time by its own phases.
     #[inline(always)]
     fn direct<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], rows: Rows<'_>) {
         let source = Direct { course: self.course, simd: self.simd, epoch: Lanes::splat(self.simd, self.epoch) };
@@ -159,7 +159,7 @@ fn groups<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     Ok(())
 }
 
-/// All lanes at once, and the last times with lanes that lack filled up.
+/// Evaluates all lanes at once; for the last times the missing lanes are filled up.
 #[inline(always)]
 fn each<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     simd: S,
@@ -195,7 +195,7 @@ fn each<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     }
 }
 
-/// Some of the rows, where there are any.
+/// A part of the rows, if the output is requested.
 #[inline(always)]
 fn part<'a, const ATTITUDE: bool, const RATES: bool>(rows: &'a mut Rows<'_>, start: usize, length: usize) -> Rows<'a> {
     (

@@ -1,13 +1,13 @@
 //! Sine and cosine of an angle in turns.
 //!
-//! A quarter turn k/4 is taken off, exactly, and on |x| ≤ 1/8 stand sin 2πx = 2πx + x³ p(x²) and cos 2πx = 1 + x² q(x²), with p and q the
-//! minimax polynomials of degree 5 and 6, found by Remez' exchange in 60 digits with the coefficients rounded one by one, each time fitting the rest
-//! anew: truncation 1.6e-18 and 3.5e-19. 2π is carried with its tail, so with a fused product the sine is rounded once. Largest error 1.2e-16.
+//! A multiple k/4 of a quarter turn is subtracted exactly. For |x| ≤ 1/8, sin 2πx = 2πx + x³ p(x²) and cos 2πx = 1 + x² q(x²), with p and q the
+//! minimax polynomials of degree 5 and 6. They were found by Remez' exchange in 60 digits; the coefficients were rounded one after another, and the remaining ones were fitted
+//! again each time. Truncation: 1.6e-18 and 3.5e-19. 2π is carried with its tail, so with a fused product the sine is rounded once. Largest error 1.2e-16.
 
 use super::instruction_set::InstructionSet;
 use super::lanes::{INTEGERS, Lanes};
 
-/// 2π and what its double leaves of it.
+/// 2π as the sum of two doubles.
 const TURN: [f64; 2] = [std::f64::consts::TAU, 2.449_293_598_294_706_4e-16];
 const SINE: [f64; 6] = [
     -41.3417022403996,
@@ -27,7 +27,7 @@ const COSINE: [f64; 7] = [
     -1.6862683429441374,
 ];
 
-/// (sin, cos) of x turns, |x| ≤ 1/8, and of as many quarters of a turn as the lowest bits of `quarters` say.
+/// (sin, cos) of x turns, |x| ≤ 1/8, plus as many quarter turns as the lowest two bits of `quarters` say.
 #[inline(always)]
 pub(crate) fn sin_cos<S: InstructionSet>(x: Lanes<S>, quarters: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
     let square = x * x;

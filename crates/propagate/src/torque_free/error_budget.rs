@@ -13,7 +13,7 @@ use super::polhode::Polhode;
 use crate::input::scene::Scene;
 use crate::numerics::scaling::scaled;
 
-/// What double precision leaves of an attitude: rounding of the frames, of two quaternion products, and, for eight harmonics each, of the sums \[rad\].
+/// Rounding error of an attitude \[rad\]: of the frames, of two quaternion products, and of the sums of eight harmonics each.
 pub(crate) const ROUNDING: f64 = 3e-15;
 /// Rotations over which the tolerance holds if no span is given.
 const DEFAULT_ROTATIONS: f64 = 1e9;
@@ -22,15 +22,15 @@ const PHASE_ROUNDING: f64 = 1e-30;
 /// Relative error of the terms of Q1 in double-double, with inputs taken as exact.
 pub(crate) const COSINE_ROUNDING: f64 = 1e-31;
 
-/// What rounding leaves of an attitude by these harmonics \[rad\].
+/// Rounding error of an attitude with these harmonics \[rad\].
 pub(crate) fn rounding(series: &CayleyKleinSeries) -> f64 {
     ROUNDING * (1.0 + series.harmonics() as f64 / 8.0)
 }
 
-/// What the error of Q1, with inputs taken as exact, makes of the phase over the span \[rad\]: K goes with −½ ln Q1, so that each half turn of ℓ′ is late by half the
-/// relative error of Q1, in u.
+/// Phase error over the span by the rounding error of Q1 \[rad\], for exact inputs. K contains −½ ln Q1, so each half turn of ℓ′ is late by half the relative error of Q1,
+/// in u.
 pub(crate) fn conditioning(scene: &Scene, polhode: &Polhode, rates: &Secular) -> f64 {
-    // Of a round body Q is one number, and no difference.
+    // For an axisymmetric body Q is constant and not a difference.
     if polhode.difference == DoubleDouble::ZERO {
         return 0.0;
     }
@@ -43,7 +43,7 @@ fn rotations(scene: &Scene, rates: &Secular, polhode: &Polhode) -> f64 {
     duration(scene, rates.longitude_rate, polhode.scales.1) * rates.longitude_rate.to_f64() / TAU
 }
 
-/// How far a rotation next to the middle axis, taken as one about it, is from it at the end of the span \[rad\]; 0 on the axis itself.
+/// Error at the end of the span of a rotation next to the middle axis that is treated as a rotation about that axis \[rad\]; 0 on the axis itself.
 ///
 /// With λ = (M/C)√(b(a−b)) the linear motion is g3 cosh λt + g1 √((a−b)/b) sinh λt, and the same for g1 with the root's inverse; the attitude follows it.
 pub(crate) fn departure(scene: &Scene, polhode: &Polhode) -> f64 {
@@ -55,20 +55,20 @@ pub(crate) fn departure(scene: &Scene, polhode: &Polhode) -> f64 {
     let rate = (polhode.mean_rate() * (second * polhode.difference).sqrt()).to_f64();
     let stretch = (polhode.difference / second).to_f64().sqrt();
     let [g1, _, g3] = polhode.direction.map(f64::abs);
-    // The smallest rates have lost their size when they were scaled.
+    // Scaling may underflow the smallest rates.
     let tilt = (g1 * (1.0 + stretch) + g3 * (1.0 + 1.0 / stretch)).max(f64::MIN_POSITIVE);
     2.0 * (tilt.ln() + rate * duration(scene, polhode.middle_rate(), polhode.scales.1)).exp()
 }
 
-/// How far a fixed order lets the phases drift over the span \[rad\].
+/// Phase error over the span by the frequencies of a fixed order \[rad\].
 pub(crate) fn drift(scene: &Scene, exact: &Secular, secular: &Secular, exponent: i32, quarter: f64) -> f64 {
     let anomaly = (exact.anomaly_rate - secular.anomaly_rate).to_f64().abs();
     let longitude = (exact.longitude_rate - secular.longitude_rate).to_f64().abs();
-    // Where it is fastest the polhode turns 2K/π times as fast as ℓ′.
+    // At its fastest the polhode angle changes 2K/π times as fast as ℓ′.
     (FRAC_2_PI * quarter * anomaly + longitude) * duration(scene, exact.longitude_rate, exponent)
 }
 
-/// What rounding of frequencies and phases adds over the span \[rad\].
+/// Error over the span by rounding of frequencies and phases \[rad\].
 pub(crate) fn phase_rounding(scene: &Scene, rate: DoubleDouble, exponent: i32) -> f64 {
     PHASE_ROUNDING * rate.to_f64() * duration(scene, rate, exponent)
 }

@@ -9,13 +9,13 @@
 //!
 //! where ⟨⟩_ℓ is the mean over ℓ and ⟨⟩_t that with the weight 1/√Q (dt is proportional to dℓ/√Q). The last follows from
 //! dy/dt = ∂H/∂M = (M/C)[1 + α(1−cosJ)(1−β cos 2ν)] at fixed (x, X). Every term is positive, and all of it is in double-double.
-//! `truncated` is the series of theory §7 at a stated order, for who asks for that order.
+//! `truncated` is the series of theory §7 at a fixed order.
 
 use andoyer_double::{DoubleDouble, arithmetic_geometric_mean};
 
 use super::polhode::Polhode;
 
-/// Nodes in a quarter period from which on the logarithmic sum is shorter.
+/// Above this number of nodes in a quarter period the logarithmic sum is shorter.
 const MOST_NODES: usize = 1000;
 /// Step of the logarithmic sum: its error is e^(−π²/step), 1e-33.
 const LOGARITHMIC_STEP: f64 = 0.125;
@@ -50,7 +50,7 @@ impl Secular {
         }
     }
 
-    /// By the series truncated after P_N, `polynomials` = P_0 … P_N (theory §7), in double-double as the other: a double would be 1e-13 rad off after 100 rotations.
+    /// By the series truncated after P_N, `polynomials` = P_0 … P_N (theory §7), in double-double: in doubles the phase would be wrong by 1e-13 rad after 100 rotations.
     pub(crate) fn truncated(polhode: &Polhode, polynomials: &[DoubleDouble]) -> Self {
         let s = invert_energy(polynomials, polhode.kappa_energy());
         let (mut slope, mut rest) = (DoubleDouble::ZERO, DoubleDouble::ZERO);

@@ -6,7 +6,7 @@
 
 use num_complex::Complex;
 
-/// A harmonic that turns the attitude by less than this is what rounding of the samples left of a smaller one \[rad\].
+/// A harmonic that turns the attitude by less than this is rounding error of the samples \[rad\].
 const NOISE: f64 = 6e-16;
 
 /// Cosine and sine coefficient of one harmonic.
@@ -25,9 +25,9 @@ impl CayleyKleinSeries {
         Self { terms }
     }
 
-    /// Without the highest harmonics, as many as turn the attitude by less than `budget` \[rad\] together; and by how much they do.
+    /// Drops the highest harmonics as long as they turn the attitude by less than `budget` \[rad\] together. Returns the series and the angle dropped.
     ///
-    /// The fundamental always stays: of a small wobble it is all there is.
+    /// The fundamental is always kept; a small wobble has no other harmonic.
     pub(crate) fn truncated(mut self, budget: f64) -> (Self, f64) {
         let mut dropped = 0.0;
         while let [_, .., (even, odd)] = self.terms[..] {

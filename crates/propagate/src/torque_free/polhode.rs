@@ -68,7 +68,7 @@ impl Frame {
     }
 }
 
-/// What leads from the pair (a, b) to the body: the attitude is inertial · (a, b) · frame.
+/// The rotations around the Cayley–Klein parameters: the attitude is inertial · (a, b) · frame.
 #[derive(Clone, Debug)]
 pub(crate) struct UserFrame {
     pub(crate) inertial: UnitQuaternion<f64>,
@@ -77,7 +77,7 @@ pub(crate) struct UserFrame {
     pub(crate) rates: Vector3<f64>,
 }
 
-/// sin J below which the wobble is nothing: its square has no normal double.
+/// sin J below which the wobble is neglected: its square is not a normal double.
 pub(crate) const SMALLEST_TILT: f64 = 1e-150;
 
 /// A state reduced to the quantities of theory §1, §5 and §7.
@@ -173,7 +173,7 @@ impl Polhode {
         [(terms[0] - terms[1]) / (divisor * square), (third + second * (self.difference / self.excesses[0])) / square]
     }
 
-    /// The two terms of Q1, and what their difference is to be divided by, but for M².
+    /// The two terms of Q1 and their common denominator, without M².
     fn separatrix_terms(&self) -> ([DoubleDouble; 2], DoubleDouble) {
         let [a, b, c] = self.moments;
         let [first, _, third] = self.parts.map(|part| part * part);
@@ -181,7 +181,7 @@ impl Polhode {
         ([third * divisor, first * (DoubleDouble::from(c) * DoubleDouble::sum(b, -a))], divisor)
     }
 
-    /// How many times the terms of Q1 are larger than it: what its relative error is multiplied by. Infinite on the separatrix.
+    /// The terms of Q1 over Q1: the factor by which its relative error grows. Infinite on the separatrix.
     pub(crate) fn cancellation(&self) -> f64 {
         let ([third, first], _) = self.separatrix_terms();
         ((third + first) / (third - first)).to_f64().abs()

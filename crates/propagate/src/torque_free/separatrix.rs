@@ -57,10 +57,10 @@ impl Passage {
 /// p^(n²) is 3e-23 for n = 2 at k′ = 1e-5: terms n = 0, 1, 2.
 const TERMS: i32 = 3;
 
-/// |ξ| beyond which e^(−2|ξ|) is nothing.
+/// |ξ| beyond which e^(−2|ξ|) is negligible.
 const FARTHEST: f64 = 1e4;
 
-/// What carries time to the place on the polhode.
+/// The relation between the time and the place on the polhode.
 ///
 /// Beside the middle axis u is tens of radians, hundreds at 1 − m = 1e-290, while the passage is over in a few: neither u at the epoch nor what it is counted
 /// from is rounded to a double before they cancel.

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from andoyer._core import Motion, Samples
+from andoyer._core import InputError, Motion, Samples
 from andoyer._diagrams import axes_or_new
 from andoyer._quaternions import angle_between
 from andoyer._style import BLACK, BLUE, GREEN, VERMILION, Array
@@ -91,10 +91,18 @@ def difference(samples: Samples, motion: Motion | Samples, axes: "Axes | None" =
 def angles_between(samples: Samples, motion: Motion | Samples) -> Array:
     """The angles [rad] between samples and a motion at their times, or other samples of the same times."""
     table = rows(samples)
-    other = rows(motion.at(table[:, 0]) if isinstance(motion, Motion) else motion)
+    other = rows(_at(motion, samples, table[:, 0]) if isinstance(motion, Motion) else motion)
     if not np.array_equal(other[:, 0], table[:, 0]):
         raise ValueError("samples that are compared must have the same times")
     return angle_between(table[:, 1:5], other[:, 1:5])
+
+
+def _at(motion: Motion, samples: Samples, times: Array) -> Samples:
+    """The motion at the times of samples: at calendar times as they are, if the epoch of its state is one, else at the seconds since J2000."""
+    try:
+        return motion.at(samples.times)
+    except InputError:
+        return motion.at(times)
 
 
 def clock(times: Array) -> tuple[Array, str, tuple[str, float]]:

@@ -320,6 +320,9 @@ class Plan:
     def first_neglected(self) -> float:
         """First neglected term under a gravity gradient, in rad: of second order in the torque, or a short-period one that was dropped; 0 without an orbit."""
     @property
+    def partials(self) -> Literal["closed", "differences"] | None:
+        """How `Motion.partials` computes: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; None on the separatrix, where there are none."""
+    @property
     def skipped(self) -> list[str]:
         """What this scene did not need, and why: a list of str."""
     def __eq__(self, other: object, /) -> bool: ...

@@ -20,7 +20,7 @@ pub(crate) fn first_order(ratio: f64, tolerance: f64) -> Option<usize> {
         .find(|&order| ratio.powi(order as i32 + 1) <= tolerance.max(SMALLEST_TOLERANCE) * (order as f64 + 1.0))
 }
 
-/// The series of one order, and what it leaves out.
+/// The series of one order with its truncation error.
 pub(crate) struct Expanded {
     pub(crate) order: usize,
     pub(crate) expansion: Expansion,

@@ -16,9 +16,9 @@ import numpy as np
 
 from andoyer._core import Body, Samples
 from andoyer.output.attitude_types import FROM_SAMPLES, VERSION_1, columns_of
-from andoyer.output.calendar import J2000, count, written
+from andoyer.output.calendar import J2000, count, counts, written
 from andoyer.output.files import whole_file
-from andoyer.output.rows import rows
+from andoyer.output.rows import Array, calendar_times, rows
 
 REAL = "%.15e"
 """Sixteen digits, the most that section 6.8 of the standard lets a number have."""
@@ -37,7 +37,7 @@ class Heading:
     frame: str = "INERTIAL"
     """REF_FRAME_A, the inertial frame of the scene."""
     date: datetime = J2000
-    """Calendar date of time 0 in `time_system`."""
+    """Calendar date of time 0 in `time_system`, for samples whose times are numbers."""
     time_system: str = "TDB"
     """TDB, TT, TAI, GPS or UTC; for UTC the leap seconds of astropy are counted."""
     object_id: str = "UNKNOWN"
@@ -100,8 +100,7 @@ def write_aem(path: str | os.PathLike[str], samples: Samples, heading: Heading =
     numbers = columns_of(heading.type, table[:, 1:5], table[:, 5:], body)
     if not np.isfinite(numbers).all():
         raise ValueError(f"samples must be finite for attitude_type {heading.type}: without angular velocities QUATERNION can be written")
-    zero = count(heading.date, heading.time_system)
-    epochs = [written(zero + Fraction(float(time)), heading.time_system) for time in table[:, 0]]
+    epochs = [written(moment, heading.time_system) for moment in _moments(samples, table[:, 0], heading)]
     if any(first >= second for first, second in pairwise(epochs)):
         raise ValueError("an AEM must have ascending times, 1e-12 s apart at least")
     with whole_file(path, force) as temporary, temporary.open("w", encoding="ascii", newline="\n") as file:
@@ -113,6 +112,15 @@ def write_aem(path: str | os.PathLike[str], samples: Samples, heading: Heading =
         file.write("DATA_STOP\n")
 
 
+def _moments(samples: Samples, times: Array, heading: Heading) -> list[Fraction]:
+    """The times of the samples as the calendar counts them: numbers from the date of time 0, calendar times as they are."""
+    calendar = calendar_times(samples)
+    if calendar is not None:
+        return counts(calendar, heading.time_system)
+    zero = count(heading.date, heading.time_system)
+    return [zero + Fraction(float(time)) for time in times]
+
+
 def _check(heading: Heading, samples: Samples) -> None:
     if heading.version not in (1, 2):
         raise ValueError(f"version must be 1 or 2: got {heading.version!r}")
@@ -121,7 +129,7 @@ def _check(heading: Heading, samples: Samples) -> None:
         raise ValueError(f"attitude_type must be one of {', '.join(types)} in version {heading.version}: got {heading.type!r}")
     if heading.interpolation is not None:
         method, degree = heading.interpolation
-        most = np.atleast_1d(samples.times).size - 1
+        most = len(np.atleast_2d(samples.attitude)) - 1
         if method not in METHODS or not 1 <= degree <= most:
             raise ValueError(f"interpolation must be {', '.join(METHODS)} of degree 1 to {most}, which these samples allow: got {heading.interpolation!r}")
 

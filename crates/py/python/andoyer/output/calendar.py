@@ -73,6 +73,16 @@ def count(date: datetime, system: str) -> Fraction:
     return parse(f"{date.replace(microsecond=0).isoformat()}.{date.microsecond:06d}", system)
 
 
+def counts(times: Any, system: str) -> list[Fraction]:
+    """Seconds since 2000-01-01T12:00:00 of the scale at the times of an astropy Time, exactly as its two doubles have them."""
+    offset = {"GPS": -GPS_BEHIND_TAI, "UTC": -_leap_seconds(J2000.date())}.get(system, 0)
+    moments = getattr(times, "tai" if offset else system.lower())
+    return [
+        (Fraction(float(first)) - JULIAN_J2000 + Fraction(float(second))) * DAY + offset
+        for first, second in zip(np.atleast_1d(moments.jd1), np.atleast_1d(moments.jd2))
+    ]
+
+
 def written(seconds: Fraction, system: str) -> str:
     """The calendar time so many seconds after 2000-01-01T12:00:00 of the scale, to `EPOCH_DIGITS` decimals.
 

@@ -1,6 +1,6 @@
 """Samples of one motion as rows of numbers, and back."""
 
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +20,8 @@ CONVENTION = (
 def rows(samples: Samples) -> Array:
     """The samples as an array of shape (n, 8), its columns in the order of `COLUMNS` whatever the order of the quaternions is.
 
+    Calendar times are in TDB seconds since J2000.
+
     Raises
     ------
     ValueError
@@ -34,8 +36,13 @@ def rows(samples: Samples) -> Array:
     return np.column_stack([np.atleast_1d(times), attitude, np.atleast_2d(samples.angular_velocity)])
 
 
-def samples_of(times: ArrayLike, attitude: ArrayLike, angular_velocity: ArrayLike) -> Samples:
-    """Samples with the arrays of their own: shapes (n,), (n, 4) scalar last, (n, 3)."""
+def calendar_times(samples: Samples) -> Any:
+    """The times of the samples if they are an astropy Time, or None."""
+    return samples.times if hasattr(samples.times, "tdb") else None
+
+
+def samples_of(times: ArrayLike, attitude: ArrayLike, angular_velocity: ArrayLike, calendar: Any = None) -> Samples:
+    """Samples with the arrays of their own: shapes (n,), (n, 4) scalar last, (n, 3); `calendar` are the times as an astropy Time."""
     arrays = [np.array(value, dtype=np.float64) for value in (times, attitude, angular_velocity)]
-    restored: Samples = Samples._restored(*arrays)  # type: ignore[attr-defined]
+    restored: Samples = Samples._restored(*arrays, False, calendar)  # type: ignore[attr-defined]
     return restored

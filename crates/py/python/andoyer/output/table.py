@@ -1,6 +1,6 @@
 """Tables of samples: CSV, NPZ and Parquet, written and read back to the same bits.
 
-NPZ and Parquet carry the convention, the units, the scene and, where the times were given as an astropy Time, the calendar times.
+NPZ and Parquet carry the convention, the units, the scene and, where the samples have times of astropy, these times.
 """
 
 import json
@@ -16,9 +16,8 @@ import numpy as np
 
 from andoyer._core import Samples, Scene
 from andoyer._extra import extra
-from andoyer._foreign import plain
 from andoyer.output.files import whole_file
-from andoyer.output.rows import COLUMNS, CONVENTION, Array, rows, samples_of
+from andoyer.output.rows import COLUMNS, CONVENTION, Array, calendar_times, rows, samples_of
 
 ROWS_AT_ONCE = 2**20
 """Rows of a group of Parquet, which takes some 0.1 s."""
@@ -44,8 +43,7 @@ class Table:
     """What a table of samples holds: see `read_table`."""
 
     samples: Samples
-    times: Any
-    """The times: an array of shape (n,), or the astropy Time that was written."""
+    """The samples; their times are an astropy Time where such times were written."""
     scene: Scene | None = None
     """The scene that the samples are of, where the file has it."""
     units: dict[str, str] = field(default_factory=dict)
@@ -93,7 +91,7 @@ def write_table(file: TextIO, samples: Samples, progress: Progress = silent) -> 
 
 
 def write_npz(
-    path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, times: Any = None, remark: str | None = None, force: bool = True
+    path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, remark: str | None = None, force: bool = True
 ) -> None:
     """Samples as NPZ: arrays times, attitude (scalar last), angular_velocity, and texts: convention, units, scene.
 
@@ -104,8 +102,6 @@ def write_npz(
         Of one motion.
     scene : Scene, optional
         The scene of the samples: it is kept as its TOML.
-    times : astropy.time.Time, optional
-        The times of the samples as they were given: `read_table` gives them back.
     remark : str, optional
         What is to be said of the samples: that they miss the tolerance.
     force : bool, optional
@@ -116,10 +112,10 @@ def write_npz(
     FileExistsError
         There is such a file, and ``force=False``.
     ValueError
-        Samples of an ensemble, or `times` that are not those of the samples.
+        Samples of an ensemble.
     """
     table = rows(samples)
-    texts, julian = _about(table, scene, times)
+    texts, julian = _about(scene, calendar_times(samples))
     texts |= {"remark": remark} if remark else {}
     arrays: dict[str, Any] = {"times": table[:, 0], "attitude": table[:, 1:5], "angular_velocity": table[:, 5:]}
     arrays |= julian | {key: np.array(text) for key, text in texts.items()}
@@ -128,13 +124,13 @@ def write_npz(
 
 
 def write_parquet(
-    path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, times: Any = None, remark: str | None = None, force: bool = True
+    path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, remark: str | None = None, force: bool = True
 ) -> None:
     """Samples as Parquet: the columns of the CSV as float64; convention, units and scene in the metadata of the schema.
 
     Parameters
     ----------
-    path, samples, scene, times, remark, force
+    path, samples, scene, remark, force
         As in `write_npz`.
 
     Raises
@@ -146,7 +142,7 @@ def write_parquet(
     """
     arrow, parquet = (extra(module, "writing Parquet") for module in ("pyarrow", "pyarrow.parquet"))
     table = rows(samples)
-    texts, julian = _about(table, scene, times)
+    texts, julian = _about(scene, calendar_times(samples))
     texts |= {"remark": remark} if remark else {}
     columns = dict(zip(COLUMNS.split(","), np.ascontiguousarray(table.T))) | julian
     schema = arrow.schema([(name, arrow.float64()) for name in columns], metadata=texts)
@@ -196,16 +192,16 @@ def read_table(path: str | os.PathLike[str]) -> Table:
     table = np.column_stack([columns[name] for name in COLUMNS.split(",")])
     if not np.isfinite(table).all():
         raise ValueError(f"{path}: must hold finite numbers: row {np.flatnonzero(~np.isfinite(table).all(axis=1))[0] + 1} does not")
-    samples = samples_of(table[:, 0], table[:, 1:5], table[:, 5:])
-    times = samples.times
+    times = None
     if texts.get("time_scale"):
         time = extra("astropy.time", f"reading calendar times of {path}")
         times = time.Time(columns["jd1"], columns["jd2"], format="jd", scale=texts["time_scale"])
+    samples = samples_of(table[:, 0], table[:, 1:5], table[:, 5:], times)
     scene = _scene(texts["scene"]) if texts.get("scene") else None
-    return Table(samples, times, scene, json.loads(texts.get("units", "{}")))
+    return Table(samples, scene, json.loads(texts.get("units", "{}")))
 
 
-def _about(table: Array, scene: Scene | None, times: Any) -> tuple[dict[str, str], dict[str, Array]]:
+def _about(scene: Scene | None, times: Any) -> tuple[dict[str, str], dict[str, Array]]:
     """What is said of a table beside its numbers: texts, and the columns of calendar times."""
     unit = "unit of time of the scene" if times is None else "s"
     units = {"t": unit} | dict.fromkeys(["qx", "qy", "qz", "qw"], "1") | dict.fromkeys(["wx", "wy", "wz"], "rad/s" if times is not None else f"rad per {unit}")
@@ -214,8 +210,6 @@ def _about(table: Array, scene: Scene | None, times: Any) -> tuple[dict[str, str
         texts["scene"] = scene.to_toml()
     if times is None:
         return texts, {}
-    if not np.array_equal(np.atleast_1d(plain("times", times)), table[:, 0]):
-        raise ValueError(f"times must be those of the samples, an astropy Time of shape ({len(table)},): got {times!r}")
     texts["time_scale"] = times.scale
     return texts, {name: np.atleast_1d(np.asarray(getattr(times, name), dtype=np.float64)) for name in JULIAN}
 
