@@ -277,14 +277,6 @@ pub(crate) fn constant_rows<'py, const N: usize>(
     Ok(array)
 }
 
-/// A shape as Python prints it.
-pub(crate) fn shape_text(shape: &[usize]) -> String {
-    match shape {
-        [n] => format!("({n},)"),
-        _ => format!("({})", shape.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
-    }
-}
-
 /// Times of a motion from which on evaluating them is a long call: 1 to 200 ms.
 const LONG: usize = 1 << 19;
 /// The same under a gravity gradient, 3 to 20 ms.
@@ -451,7 +443,7 @@ fn output<'py>(out: &Bound<'py, PyAny>, shape: &[usize]) -> PyResult<Bound<'py, 
         return Err(PyTypeError::new_err(format!("out has dtype {}: it must be float64", array.dtype())));
     }
     if array.shape() != shape {
-        return Err(error::shape("out", array.shape(), &shape_text(shape)));
+        return Err(error::shape("out", array.shape(), &error::shape_text(shape)));
     }
     if !array.is_c_contiguous() {
         let message = "out is strided: it must be C-contiguous".to_owned();

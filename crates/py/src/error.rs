@@ -88,9 +88,17 @@ pub(crate) fn input(argument: &str, value: impl Into<Value>, bound: impl Into<Va
 
 /// An array of a wrong shape.
 pub(crate) fn shape(argument: &str, shape: &[usize], bound: &str) -> PyErr {
-    let message = format!("{argument} has shape {}: it must be {bound}", crate::array::shape_text(shape));
+    let message = format!("{argument} has shape {}: it must be {bound}", shape_text(shape));
     let lengths: Vec<i64> = shape.iter().filter_map(|&length| length.try_into().ok()).collect();
     input(argument, lengths.as_slice(), bound, message)
+}
+
+/// A shape as Python prints it.
+pub(crate) fn shape_text(shape: &[usize]) -> String {
+    match shape {
+        [n] => format!("({n},)"),
+        _ => format!("({})", shape.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
+    }
 }
 
 /// The exception of a kind, with its attributes.
