@@ -159,10 +159,10 @@ fn an_error_is_a_value_with_its_kind_argument_value_and_bound() {
         (Some(Value::Number(-2.0)), Some(Value::Text("positive and finite".into())))
     );
 
-    let error = motion().sample(1e18).expect_err("too far");
+    let error = motion().at(1e18).expect_err("too far");
     assert_eq!((error.kind(), error.argument()), (Kind::Representation, Some("times")));
     assert_eq!(error.value(), Some(Value::Number(1e18)));
-    assert_eq!(motion().sample(NAN).expect_err("no time").kind(), Kind::Input);
+    assert_eq!(motion().at(NAN).expect_err("no time").kind(), Kind::Input);
 
     let error = Scene::parse_toml(
         "[body]\nmoments = [1, 2, 4]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0, 1]",
