@@ -5,7 +5,6 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::error;
 use crate::{array, error};
 
 /// Principal moments of inertia of a rigid body.

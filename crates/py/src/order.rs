@@ -33,6 +33,6 @@ pub(crate) fn whole_number(
         let bound = Value::Integers(vec![minimum as i64, maximum as i64]);
         let exception =
             error::exception(if whole { above } else { Kind::Input }, Some(argument), None, Some(bound), message);
-        error::with_attribute(exception, "value", value)
+        error::with_attribute(exception, "value", value.clone().unbind())
     })
 }
