@@ -88,7 +88,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             hamiltonian: self.normalization.hamiltonian.iter().map(terms).collect(),
             generators: generators.map(terms).collect(),
         };
-        Ok(serde_json::to_string(&document)?)
+        serde_json::to_string(&document).map_err(Error::json)
     }
 
     /// Reads what [`to_json`](Self::to_json) wrote from a normal form in the same kind of numbers.
@@ -107,7 +107,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// - lists of the wrong length: [`Error::CountMismatch`]; terms that no such normal form has: [`Error::TermInconsistent`];
     /// - M not symplectic: [`Error::NotSymplectic`]; names and resonances as their constructors.
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        let header: Header = serde_json::from_str(text)?;
+        let header: Header = serde_json::from_str(text).map_err(Error::json)?;
         if header.format != format::<R>() || header.version != VERSION {
             let (format, version) = (header.format, header.version);
             return Err(Error::FormatUnknown {
@@ -117,7 +117,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
                 known_version: VERSION,
             });
         }
-        let document: Document = serde_json::from_str(text)?;
+        let document: Document = serde_json::from_str(text).map_err(Error::json)?;
         if document.order > R::MAXIMUM_ORDER {
             return Err(Error::OrderTooLarge { order: document.order, bound: R::MAXIMUM_ORDER });
         }
