@@ -43,7 +43,7 @@ class FormatError(Error):
     """A text that is not the JSON of a normal form."""
 
 class HamiltonianError(Error):
-    """A polynomial that cannot be read, or a Hamiltonian whose origin is no elliptic point with a diagonal quadratic part."""
+    """A polynomial that cannot be read, or a Hamiltonian whose quadratic part cannot be diagonalized."""
 
 class InternalError(Error):
     """A fault of this package: no input should lead to it."""
