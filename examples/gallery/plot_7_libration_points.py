@@ -3,7 +3,7 @@ The Moon's L1
 =============
 
 Beside the collinear point L1 of Earth and Moon most motions leave along a saddle. The normal form that separates the saddle leaves the centre manifold: the bounded
-motions, planar and vertical Lyapunov orbits, and the halo orbits that branch off. Here a Poincaré section of it, computed from the Hamiltonian of two degrees of freedom.
+motions: planar and vertical Lyapunov orbits and the tori round them. Here a Poincaré section of it, computed from the Hamiltonian of two degrees of freedom.
 """
 
 import math
@@ -48,8 +48,8 @@ form = andoyer.normalize(terms, ORDER, [("x", "X"), ("y", "Y"), ("z", "Z")], kee
 print(form.kinds, [complex(frequency) for frequency in form.frequencies])
 
 # %%
-# The Hamiltonian on the manifold has two pairs, (y, Y) horizontal and (z, Z) vertical. The section z = 0, Z > 0 at one energy: closed curves are tori round a periodic orbit, the
-# two islands those round the halo orbits.
+# The Hamiltonian on the manifold has two pairs, (y, Y) horizontal and (z, Z) vertical. The section z = 0, Z > 0 at one energy: the closed curves are tori round
+# the vertical Lyapunov orbit.
 
 reduced = form.centre_manifold()
 exponents, coefficients = np.array([key[2:] for key in reduced]), np.array(list(reduced.values()))
