@@ -132,22 +132,23 @@ fn columns<S: InstructionSet, T: Source>(
 ) {
     let Place { attitude: [x, y, z, w], rates: rate, rest } = place;
     let one = x.all(1.0);
-    let carried = (QuaternionLanes([-*x, -*y, -*z, *w]) * initial).rows();
+    let [[a, b, c], [d, e, f], [g, h, k]] = (QuaternionLanes([-*x, -*y, -*z, *w]) * initial).rows();
+    let carried = [[a, d, g], [b, e, h], [c, f, k]];
     let mut direction = *rate;
     for (g, nu) in direction.iter_mut().zip(setting.user_rates) {
         *g = *g * one.all(1.0 / nu);
     }
-    for axis in 0..3 {
-        store(attitudes, axis, [carried[0][axis], carried[1][axis], carried[2][axis]]);
+    for (axis, column) in carried.into_iter().enumerate() {
+        store(attitudes, axis, column);
         store(rates, axis, [one.all(0.0); 3]);
     }
     for (parameter, &Change { axis, lever, inverse_moment, .. }) in setting.changes.iter().enumerate() {
         let (change, along) = source.change(rest, parameter);
         let lever = one.all(lever);
         let [a, b, c] = [
-            lever.mul_add(carried[0][axis], -change[0]),
-            lever.mul_add(carried[1][axis], -change[1]),
-            lever.mul_add(carried[2][axis], -change[2]),
+            lever.mul_add(carried[axis][0], -change[0]),
+            lever.mul_add(carried[axis][1], -change[1]),
+            lever.mul_add(carried[axis][2], -change[2]),
         ];
         let [g, h, k] = direction;
         let turned = [
