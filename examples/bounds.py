@@ -136,7 +136,7 @@ def outcomes(seed: int, number: int) -> list[Outcome]:
         asked: dict[str, Any] = {"method": "closed"} if method == "closed" else {"method": "series", "order": case.order if method == "fixed order" else None}
         try:
             motion = andoyer.Scene(body, case.attitude, case.rates, span=(0, end), tolerance=case.tolerance, **asked).solve()
-        except andoyer.SeparatrixError:
+        except andoyer.TheoryError:
             continue
         plan = motion.plan
         if plan.method != "closed" or method == "closed":

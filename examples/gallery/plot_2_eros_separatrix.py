@@ -34,7 +34,7 @@ for degrees in [0.1, 1.0, 2.0, 3.0, 3.8]:
     closed = tilted(degrees)
     try:
         order = str(tilted(degrees, "series").plan.order)
-    except andoyer.SeparatrixError as error:
+    except andoyer.TheoryError as error:
         order = f"none, {error}"
     plan = closed.plan
     ratio, bound = plan.separatrix_ratio, plan.error_bound

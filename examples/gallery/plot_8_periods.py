@@ -64,7 +64,7 @@ assert round(motion.elliptic_parameter, 3) == 0.032
 
 try:
     andoyer.Scene.from_periods(andoyer.Body([0.61, 0.965, 1.0]), 263 * HOUR, 27.38 * HOUR)
-except andoyer.PeriodsError as problem:
+except andoyer.InputError as problem:
     print(problem)
 
 # %%

@@ -1,7 +1,11 @@
 //! What can be wrong with an input, and what the series can't serve: each with its argument, its value and the bound.
 
+mod facts;
+
+pub use facts::{Kind, Value};
+
 /// The error of this crate: what was given, and what would have been accepted.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A moment of inertia that is zero, negative, NaN or infinite.
@@ -352,6 +356,10 @@ pub enum Error {
         key: String,
         /// What is wrong, with the bound.
         problem: String,
+        /// The value of the key, where there is one.
+        value: Option<Box<Value>>,
+        /// What the value must be.
+        bound: Option<Box<Value>>,
     },
 }
 

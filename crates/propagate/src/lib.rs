@@ -7,7 +7,7 @@
 #![doc = include_str!("../doc/formulas.html")]
 
 // The layers, each of which imports only those above it: tests/layers.py holds them to it. Empty lines keep rustfmt from sorting them.
-mod error;
+pub mod error;
 
 mod numerics;
 

@@ -30,7 +30,7 @@ use std::str::FromStr;
 use nalgebra::Vector3;
 use toml::{Table, Value};
 
-use crate::error::Error;
+use crate::error::{Error, Value as Fact};
 use crate::input::body::Body;
 use crate::input::options::{Averaging, Level, MAX_ORDER};
 use crate::input::orbit::Orbit;
@@ -74,11 +74,11 @@ impl Scene {
     /// - [`Error::SceneFile`] for no such file, no TOML, an unknown or missing key, a value that no scene has: with file, key and bound.
     pub fn from_toml(path: impl AsRef<Path>) -> Result<Self, Error> {
         let file = path.as_ref().display().to_string();
-        let text = std::fs::read_to_string(path.as_ref()).map_err(|error| Error::SceneFile {
-            file: file.clone(),
-            key: "file".to_owned(),
-            problem: error.to_string(),
-        })?;
+        let unreadable = |error: std::io::Error| {
+            let value = Some(Fact::from(&file));
+            in_file(&file, "file", error.to_string(), value, Some("a file that can be read".into()))
+        };
+        let text = std::fs::read_to_string(path.as_ref()).map_err(unreadable)?;
         Self::parse_toml(&text, &file)
     }
 
@@ -94,10 +94,10 @@ impl Scene {
     /// assert!(error.to_string().starts_with("flat.toml: body.moments: moments = [1.0, 2.0, 3.5]: the largest must not exceed"));
     /// ```
     pub fn parse_toml(text: &str, file: &str) -> Result<Self, Error> {
-        let at = |key: &str, problem: String| Error::SceneFile { file: file.to_owned(), key: key.to_owned(), problem };
         let table: Table = text.parse().map_err(|error: toml::de::Error| {
             let line = error.span().map_or(1, |span| 1 + text[..span.start].matches('\n').count());
-            at(&format!("line {line}"), error.message().to_owned())
+            let value = text.lines().nth(line - 1).unwrap_or_default();
+            in_file(file, &format!("line {line}"), error.message().to_owned(), Some(value.into()), Some("TOML".into()))
         })?;
         let keys = Keys { file, table: &table, path: "", known: SCENE_KEYS };
         keys.check()?;
@@ -105,7 +105,9 @@ impl Scene {
         let epoch = keys.number("epoch")?.unwrap_or(0.0);
         let body = body_keys.body()?;
         let scene = match (table.contains_key("state"), table.contains_key("periods")) {
-            (true, true) => return Err(keys.error("periods", "stands beside state: a scene has one or the other")),
+            (true, true) => {
+                return Err(keys.error("periods", "stands beside state: a scene has one or the other", "alone"));
+            }
             (_, false) => Self::new(body, keys.table("state", STATE_KEYS)?.state(epoch)?),
             (false, true) => {
                 let periods = keys.table("periods", PERIODS_KEYS)?.periods(epoch)?;
@@ -185,14 +187,15 @@ struct Keys<'a> {
 }
 
 impl<'a> Keys<'a> {
-    fn error(&self, key: &str, problem: impl Into<String>) -> Error {
+    fn error(&self, key: &str, problem: impl Into<String>, bound: &str) -> Error {
+        let value = self.table.get(key).map(fact);
         let key = if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) };
-        Error::SceneFile { file: self.file.to_owned(), key, problem: problem.into() }
+        in_file(self.file, &key, problem.into(), value, Some(bound.into()))
     }
 
     /// What a constructor has against a value, under the key that the value came from.
     fn refused(&self, error: Error) -> Error {
-        let key = match error {
+        let key = match &error {
             Error::Orbit { argument, .. } => &format!("orbit.{argument}"),
             Error::Averaging { .. } => "averaging",
             Error::Level { .. } => "level",
@@ -212,16 +215,19 @@ impl<'a> Keys<'a> {
             Error::Method { .. } => "method",
             _ => "scene",
         };
-        Error::SceneFile { file: self.file.to_owned(), key: key.to_owned(), problem: error.to_string() }
+        in_file(self.file, key, error.to_string(), error.value(), error.bound())
     }
 
     fn missing(&self, key: &str) -> Error {
-        self.error(key, "is missing, and a scene must have it")
+        self.error(key, "is missing, and a scene must have it", "present")
     }
 
     fn check(&self) -> Result<(), Error> {
         match self.table.keys().find(|key| !self.known.contains(&key.as_str())) {
-            Some(key) => Err(self.error(key, format!("is no key of a scene; known here: {}", self.known.join(", ")))),
+            Some(key) => {
+                let known = self.known.join(", ");
+                Err(self.error(key, format!("is no key of a scene; known here: {known}"), &known))
+            }
             None => Ok(()),
         }
     }
@@ -235,7 +241,7 @@ impl<'a> Keys<'a> {
     }
 
     fn wrong(&self, key: &str, value: &Value, expected: &str) -> Error {
-        self.error(key, format!("is {value}: it must be {expected}"))
+        self.error(key, format!("is {value}: it must be {expected}"), expected)
     }
 
     fn number(&self, key: &str) -> Result<Option<f64>, Error> {
@@ -362,18 +368,35 @@ impl<'a> Keys<'a> {
                 return Err(self.error(
                     "moments",
                     "is missing: moments = [A, B, C], or named = \"ceres\" for a body of the catalogue, or inertia for a tensor",
+                    "moments, named or inertia",
                 ));
             }
             (Some(_), Some(_), _) => {
-                return Err(self.error("named", "stands beside moments: a body has one or the other"));
+                return Err(self.error("named", "stands beside moments: a body has one or the other", "alone"));
             }
-            _ => return Err(self.error("inertia", "stands beside moments or named: a body has one of them")),
+            _ => return Err(self.error("inertia", "stands beside moments or named: a body has one of them", "alone")),
         };
         let body = body.map_err(|error| self.refused(error))?;
         Ok(match self.text("name")? {
             Some(name) => body.with_name(name),
             None => body,
         })
+    }
+}
+
+fn in_file(file: &str, key: &str, problem: String, value: Option<Fact>, bound: Option<Fact>) -> Error {
+    let (value, bound) = (value.map(Box::new), bound.map(Box::new));
+    Error::SceneFile { file: file.to_owned(), key: key.to_owned(), problem, value, bound }
+}
+
+/// What a file holds, as an error tells it.
+fn fact(value: &Value) -> Fact {
+    let list = || value.as_array()?.iter().map(as_number).collect::<Option<Vec<f64>>>();
+    match value {
+        Value::String(text) => text.into(),
+        Value::Integer(whole) => Fact::Integer(*whole),
+        Value::Float(number) => Fact::Number(*number),
+        _ => list().map_or_else(|| value.to_string().into(), Fact::Numbers),
     }
 }
 

@@ -17,7 +17,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PySlice, PyTuple};
 
 use crate::computing::{detached, interruptible};
-use crate::error::{self, Error, ShapeError};
+use crate::error;
 use crate::foreign::{self, Calendar};
 
 /// Times whose samples fill 128 KiB, from where on glibc asks the system for memory.
@@ -31,7 +31,11 @@ fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py
     let array = numpy.getattr(intern!(py, "asarray"))?.call1((value,)).map_err(|problem| {
         // NumPy says so of nested lists of unequal length.
         let ragged = problem.is_instance_of::<PyValueError>(py);
-        if ragged { ShapeError::new_err(format!("{argument}: {}", problem.value(py))) } else { problem }
+        if !ragged {
+            return problem;
+        }
+        let said = problem.value(py).to_string();
+        error::input(argument, said.as_str(), "rows of one length", format!("{argument}: {said}"))
     })?;
     let array = array.cast_into::<PyUntypedArray>()?;
     let kind = array.dtype();
@@ -66,7 +70,8 @@ fn objects<'py>(argument: &str, array: &Bound<'py, PyUntypedArray>) -> PyResult<
 }
 
 fn in_use(argument: &str) -> PyErr {
-    Error::new_err(format!("{argument} shares memory with an array that is in use"))
+    let message = format!("{argument} shares memory with an array that is in use");
+    error::input(argument, "an array in use", "an array that is not in use", message)
 }
 
 fn read<'py>(argument: &str, array: &Bound<'py, PyArrayDyn<f64>>) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
@@ -107,12 +112,9 @@ impl<const N: usize> MemberRows<N> {
             (&[_, n], rows) if n == N => Ok(Self::Many(rows.to_vec())),
             (&[0], _) => {
                 let text = format!("{argument} is empty: it must be (m, {N}) or ({N},), and for no members (0, {N})");
-                Err(ShapeError::new_err(text))
+                Err(error::input(argument, &[0_i64][..], format!("(m, {N}) or ({N},)"), text))
             }
-            (shape, _) => {
-                let shape = shape_text(shape);
-                Err(ShapeError::new_err(format!("{argument} has shape {shape}: it must be (m, {N}) or ({N},)")))
-            }
+            (shape, _) => Err(error::shape(argument, shape, &format!("(m, {N}) or ({N},)"))),
         }
     }
 
@@ -147,8 +149,7 @@ impl<const N: usize> MemberRows<N> {
 pub(crate) fn numbers_of(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let array = numbers(argument, value)?;
     if array.ndim() > 1 {
-        let shape = shape_text(array.shape());
-        return Err(ShapeError::new_err(format!("{argument} has shape {shape}: it must be () or (m,)")));
+        return Err(error::shape(argument, array.shape(), "() or (m,)"));
     }
     Ok(read(argument, &array)?.as_slice()?.to_vec())
 }
@@ -157,8 +158,7 @@ pub(crate) fn numbers_of(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<V
 pub(crate) fn fixed_length(argument: &str, value: &Bound<'_, PyAny>, length: usize) -> PyResult<Vec<f64>> {
     let array = numbers(argument, value)?;
     if array.shape() != [length] {
-        let shape = shape_text(array.shape());
-        return Err(ShapeError::new_err(format!("{argument} has shape {shape}: it must be ({length},)")));
+        return Err(error::shape(argument, array.shape(), &format!("({length},)")));
     }
     Ok(read(argument, &array)?.as_slice()?.to_vec())
 }
@@ -166,8 +166,7 @@ pub(crate) fn fixed_length(argument: &str, value: &Bound<'_, PyAny>, length: usi
 /// `value` as N numbers.
 pub(crate) fn fixed<const N: usize>(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
     let array = numbers(argument, value)?;
-    let wrong =
-        || ShapeError::new_err(format!("{argument} has shape {}: it must be ({N},)", shape_text(array.shape())));
+    let wrong = || error::shape(argument, array.shape(), &format!("({N},)"));
     if array.shape() != [N] {
         return Err(wrong());
     }
@@ -194,9 +193,7 @@ pub(crate) fn two_or_three(argument: &str, value: &Bound<'_, PyAny>) -> PyResult
     match (array.shape(), read(argument, &array)?.as_slice()?) {
         (&[2], &[x, y]) => Ok(TwoOrThree::Two([x, y])),
         (&[3], &[x, y, z]) => Ok(TwoOrThree::Three([x, y, z])),
-        (shape, _) => {
-            Err(ShapeError::new_err(format!("{argument} has shape {}: it must be (3,) or (2,)", shape_text(shape))))
-        }
+        (shape, _) => Err(error::shape(argument, shape, "(3,) or (2,)")),
     }
 }
 
@@ -208,8 +205,7 @@ pub(crate) fn is_matrix(value: &Bound<'_, PyAny>) -> bool {
 /// `value` as a 3 × 3 matrix, row by row.
 pub(crate) fn matrix(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<[[f64; 3]; 3]> {
     let array = numbers(argument, value)?;
-    let wrong =
-        || ShapeError::new_err(format!("{argument} has shape {}: it must be (3, 3)", shape_text(array.shape())));
+    let wrong = || error::shape(argument, array.shape(), "(3, 3)");
     if array.shape() != [3, 3] {
         return Err(wrong());
     }
@@ -227,9 +223,7 @@ impl<'py> Rows<'py> {
         let array = numbers(argument, value)?;
         let fits = matches!(array.shape(), [n] | [_, n] if *n == columns);
         if !fits {
-            let shape = shape_text(array.shape());
-            let message = format!("{argument} has shape {shape}: it must be ({columns},) or (m, {columns})");
-            return Err(ShapeError::new_err(message));
+            return Err(error::shape(argument, array.shape(), &format!("({columns},) or (m, {columns})")));
         }
         Ok(Self { array: read(argument, &array)?, columns })
     }
@@ -283,14 +277,6 @@ pub(crate) fn constant_rows<'py, const N: usize>(
     Ok(array)
 }
 
-/// A shape as Python prints it.
-fn shape_text(shape: &[usize]) -> String {
-    match shape {
-        [n] => format!("({n},)"),
-        _ => format!("({})", shape.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
-    }
-}
-
 /// Times of a motion from which on evaluating them is a long call: 1 to 200 ms.
 const LONG: usize = 1 << 19;
 /// The same under a gravity gradient, 3 to 20 ms.
@@ -316,8 +302,7 @@ impl<'py> Times<'py> {
     pub(crate) fn new(value: &Bound<'py, PyAny>, epoch: Option<Calendar>, disturbed: bool) -> PyResult<Self> {
         let (array, given, shape) = Self::read(value, epoch.as_slice())?;
         if shape.len() > 1 {
-            let shape = shape_text(&shape);
-            return Err(ShapeError::new_err(format!("times has shape {shape}: it must be () or (n,)")));
+            return Err(error::shape("times", &shape, "() or (n,)"));
         }
         Ok(Self { array: read("times", &array)?, members: None, leading: shape, given, disturbed })
     }
@@ -345,9 +330,7 @@ impl<'py> Times<'py> {
     ) -> PyResult<Self> {
         let (array, given, shape) = Self::read(value, epochs)?;
         if !matches!(shape[..], [] | [_]) && !matches!(shape[..], [m, _] if m == members) {
-            let shape = shape_text(&shape);
-            let text = format!("times has shape {shape}: it must be (), (n,) or ({members}, n)");
-            return Err(ShapeError::new_err(text));
+            return Err(error::shape("times", &shape, &format!("(), (n,) or ({members}, n)")));
         }
         let leading = if shape.len() < 2 { std::iter::once(members).chain(shape).collect() } else { shape };
         Ok(Self { array: read("times", &array)?, members: Some(members), leading, given, disturbed })
@@ -459,12 +442,12 @@ fn output<'py>(out: &Bound<'py, PyAny>, shape: &[usize]) -> PyResult<Bound<'py, 
     if !array.dtype().is_equiv_to(&f64::get_dtype(out.py())) {
         return Err(PyTypeError::new_err(format!("out has dtype {}: it must be float64", array.dtype())));
     }
-    let expected = shape_text(shape);
     if array.shape() != shape {
-        return Err(ShapeError::new_err(format!("out has shape {}: it must be {expected}", shape_text(array.shape()))));
+        return Err(error::shape("out", array.shape(), &error::shape_text(shape)));
     }
     if !array.is_c_contiguous() {
-        return Err(ShapeError::new_err("out is strided: it must be C-contiguous"));
+        let message = "out is strided: it must be C-contiguous".to_owned();
+        return Err(error::input("out", "strided", "C-contiguous", message));
     }
     Ok(out.cast::<PyArrayDyn<f64>>()?.clone())
 }

@@ -13,13 +13,15 @@ use pyo3::types::{PyComplex, PyDict, PyTuple, PyType};
 use crate::array::{Rows, Times, fixed_length, number, row_by_row, write};
 use crate::computing::detached;
 use crate::domain::Domain;
-use crate::error::{self, UnknownNameError};
+use crate::error;
 use crate::expression::{Expression, complex, real};
 use crate::form::{Form, either, rounded, transformed};
 use crate::order::order;
 use crate::progress;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
+/// What pickle calls, and with what.
+type Reduced<'py> = (Bound<'py, PyAny>, (String, Py<PyDict>));
 
 /// The Birkhoff normal form of a Hamiltonian, from `normalize`: the new Hamiltonian K, and the transformation both ways.
 ///
@@ -131,7 +133,7 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ResonanceError
+    /// TheoryError
     ///     K has resonant terms, and is no function of the actions alone.
     fn in_actions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let slots = self.space().degrees_of_freedom() + self.space().parameters();
@@ -169,7 +171,7 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// OrderError
+    /// InputError
     ///     ``0``, or above the order.
     fn generator<'py>(&self, py: Python<'py>, m: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let m = order("m", m, 1, self.order())?;
@@ -205,10 +207,8 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
-    ///     Another length.
-    /// IntervalError
-    ///     A NaN, or a result that overflows.
+    /// InputError
+    ///     An array of another length; a NaN, or a result that overflows.
     #[pyo3(signature = (states, parameters=None))]
     fn to_normal<'py>(
         &self,
@@ -250,11 +250,13 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
-    ///     Another length.
-    /// IntervalError
-    ///     A NaN, or a result that overflows.
+    /// InputError
+    ///     An array of another length; a NaN, or a result that overflows.
     #[pyo3(signature = (states, parameters=None))]
+    #[expect(
+        clippy::wrong_self_convention,
+        reason = "the states of a manifold, as from_normal those of normal variables"
+    )]
     fn from_centre_manifold<'py>(
         &self,
         states: &Bound<'py, PyAny>,
@@ -279,10 +281,8 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
-    ///     Another length.
-    /// IntervalError
-    ///     A NaN.
+    /// InputError
+    ///     An array of another length; a NaN.
     #[pyo3(signature = (normal, parameters=None))]
     fn energy<'py>(&self, normal: &Bound<'py, PyAny>, parameters: Option<&Bound<'py, PyDict>>) -> PyResult<Array<'py>> {
         let (n, map) = (2 * self.space().degrees_of_freedom(), self.map(normal.py(), parameters)?);
@@ -298,10 +298,8 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
-    ///     Another length.
-    /// IntervalError
-    ///     A NaN.
+    /// InputError
+    ///     An array of another length; a NaN.
     #[pyo3(signature = (normal, parameters=None))]
     fn rates<'py>(&self, normal: &Bound<'py, PyAny>, parameters: Option<&Bound<'py, PyDict>>) -> PyResult<Array<'py>> {
         let (n, map) = (2 * self.space().degrees_of_freedom(), self.map(normal.py(), parameters)?);
@@ -339,10 +337,8 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
-    ///     Another length.
-    /// IntervalError
-    ///     A NaN, or a result that overflows.
+    /// InputError
+    ///     An array of another length; a NaN, or a result that overflows.
     #[pyo3(signature = (states, parameters=None))]
     fn actions<'py>(
         &self,
@@ -362,12 +358,10 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ResonanceError
+    /// TheoryError
     ///     K has resonant terms.
-    /// ShapeError
-    ///     Another length.
-    /// IntervalError
-    ///     A NaN, or an action below 0.
+    /// InputError
+    ///     An array of another length; a NaN, or an action below 0.
     #[pyo3(signature = (actions, parameters=None))]
     fn frequency_map<'py>(
         &self,
@@ -395,10 +389,8 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
-    ///     Another length.
-    /// IntervalError
-    ///     A NaN, or a result that overflows.
+    /// InputError
+    ///     An array of another length; a NaN, or a result that overflows.
     /// ImportError
     ///     K has resonant terms, and SciPy is not installed.
     #[pyo3(signature = (state, times, parameters=None))]
@@ -438,7 +430,7 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// UnknownNameError
+    /// InputError
     ///     ``"lagrangian"``.
     /// ImportError
     ///     SymPy is not installed: the extra ``andoyer[sympy]`` brings it.
@@ -449,7 +441,7 @@ impl BirkhoffNormalForm {
     /// -15*I_x**2/4 + I_x
     #[pyo3(signature = (what="hamiltonian"))]
     fn to_sympy<'py>(slf: &Bound<'py, Self>, what: &str) -> PyResult<Bound<'py, PyAny>> {
-        let _: Part = what.parse().map_err(error::algebra)?;
+        let _: Part = what.parse().map_err(error::algebra_as("what"))?;
         slf.py().import("andoyer._symbolic")?.call_method1("birkhoff", (slf, what, &slf.get().symbols))
     }
 
@@ -468,7 +460,7 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// FormatError
+    /// FileError
     ///     Not JSON, another format or version, a term that no normal form has. The coefficients themselves are not computed again.
     #[classmethod]
     #[pyo3(signature = (text, symbols=None))]
@@ -487,11 +479,11 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// UnknownNameError
+    /// InputError
     ///     ``"lagrangian"``.
     #[pyo3(signature = (what="hamiltonian"))]
     fn to_latex(&self, py: Python<'_>, what: &str) -> PyResult<String> {
-        let part = what.parse().map_err(error::algebra)?;
+        let part = what.parse().map_err(error::algebra_as("what"))?;
         detached(py, error::algebra, || either!(&self.form, form => form.to_latex(part)))
     }
 
@@ -506,7 +498,7 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// UnknownNameError
+    /// InputError
     ///     ``"fortran"``.
     ///
     /// Examples
@@ -522,14 +514,18 @@ impl BirkhoffNormalForm {
     }
 
     /// Pickled as its JSON text, with the symbols of SymPy.
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, Py<PyDict>))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let (py, form) = (slf.py(), slf.get());
         Ok((slf.get_type().getattr("from_json")?, (form.to_json(py)?, form.symbols.clone_ref(py))))
     }
 
+    /// Order, variables, kind of numbers, and where there are no parameters the last radius of the domain.
     fn __repr__(&self) -> String {
         let (space, numbers) = (self.space(), if self.exact() { "exact" } else { "float" });
-        format!("<BirkhoffNormalForm of order {} in {}, {numbers}>", self.order(), space.names().join(", "))
+        let radii = either!(&self.form, form => form.domain(&[])).map(|domain| domain.radii()).unwrap_or_default();
+        let radius = radii.into_iter().rev().find(|radius| radius.is_finite());
+        let radius = radius.map(|radius| format!(", radius {radius:.3}")).unwrap_or_default();
+        format!("<BirkhoffNormalForm of order {} in {}, {numbers}{radius}>", self.order(), space.names().join(", "))
     }
 
     /// K as text, in the actions or, with resonant terms, in the complex variables.
@@ -591,7 +587,9 @@ impl BirkhoffNormalForm {
         let space = self.space();
         let names = &space.names()[2 * space.degrees_of_freedom()..];
         let unknown = |name: &str, problem: &str| {
-            UnknownNameError::new_err(format!("parameters: {name:?} {problem}; they are [{}]", names.join(", ")))
+            let known = names.join(", ");
+            let message = format!("parameters: {name:?} {problem}; they are [{known}]");
+            error::input("parameters", name, known, message)
         };
         let mut values = vec![None; names.len()];
         for (name, value) in parameters.into_iter().flatten() {

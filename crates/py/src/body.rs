@@ -5,7 +5,6 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::error::ShapeError;
 use crate::{array, error};
 
 /// Principal moments of inertia of a rigid body.
@@ -19,9 +18,8 @@ use crate::{array, error};
 ///
 /// Raises
 /// ------
-/// MomentsError
+/// InputError
 ///     ``[0, 1, 1]``, ``[1, -1, 1]``, ``[1, nan, 1]``, ``[1, 1, 2.1]``, which no body has, or ``[1e-101, 1, 1]``.
-/// ShapeError
 ///     ``[1, 2]``.
 ///
 /// Examples
@@ -64,7 +62,7 @@ impl Body {
         if array::is_matrix(moments) {
             let hint =
                 "moments has shape (3, 3): it must be (3,); a body of an inertia tensor is Body.from_inertia(tensor)";
-            return Err(ShapeError::new_err(hint));
+            return Err(error::input("moments", &[3_i64, 3][..], "(3,)", hint.to_owned()));
         }
         named(andoyer_propagate::Body::new(array::fixed("moments", moments)?), name)
     }
@@ -83,9 +81,8 @@ impl Body {
     ///
     /// Raises
     /// ------
-    /// MomentsError
+    /// InputError
     ///     A tensor that is not symmetric or not finite, or that no body has.
-    /// ShapeError
     ///     ``[1, 1.5, 2]``.
     ///
     /// Examples
@@ -115,7 +112,7 @@ impl Body {
     ///
     /// Raises
     /// ------
-    /// MomentsError
+    /// InputError
     ///     A length or a mass that is zero, negative or not finite.
     ///
     /// Examples
@@ -140,7 +137,7 @@ impl Body {
     ///
     /// Raises
     /// ------
-    /// MomentsError
+    /// InputError
     ///     A length or a mass that is zero, negative or not finite.
     ///
     /// Examples
@@ -168,7 +165,7 @@ impl Body {
     ///
     /// Raises
     /// ------
-    /// PeriodsError
+    /// InputError
     ///     ``mode="separatrix"``, ``convention="L"``, or a mode that a round body does not have.
     ///
     /// Examples
@@ -192,7 +189,7 @@ impl Body {
     ///
     /// Raises
     /// ------
-    /// UnknownBodyError
+    /// InputError
     ///     ``"vulcan"``; for ``"ceers"`` the message asks for Ceres.
     #[staticmethod]
     fn named(name: &str) -> PyResult<Self> {
@@ -214,7 +211,7 @@ impl Body {
     ///
     /// Raises
     /// ------
-    /// UnknownBodyError
+    /// InputError
     ///     ``"vulcan"``.
     #[staticmethod]
     fn source(name: &str) -> PyResult<&'static str> {

@@ -42,7 +42,7 @@ impl Domain {
     ///
     /// Raises
     /// ------
-    /// IntervalError
+    /// InputError
     ///     ``-1.0``, NaN.
     fn sizes(&self, amplitude: f64) -> PyResult<Vec<f64>> {
         self.0.sizes(amplitude).map_err(error::algebra)
@@ -57,7 +57,7 @@ impl Domain {
     ///
     /// Raises
     /// ------
-    /// IntervalError
+    /// InputError
     ///     ``-1.0``, NaN.
     fn best_order(&self, amplitude: f64) -> PyResult<usize> {
         self.0.best_order(amplitude).map_err(error::algebra)

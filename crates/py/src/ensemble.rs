@@ -2,6 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
+use andoyer_propagate::error::Kind;
 use andoyer_propagate::{MAX_THREADS, OnError, Outcome};
 use numpy::PyArrayDyn;
 use pyo3::exceptions::{PyIndexError, PyTypeError};
@@ -10,7 +11,7 @@ use pyo3::types::{PyDict, PySlice, PyTuple};
 
 use crate::array::{MemberRows, Times, chunks, constant, constant_rows, number, numbers_of, span as span_of, write};
 use crate::computing::{detached, interruptible};
-use crate::error::{self, ShapeError, ThreadsError};
+use crate::error;
 use crate::foreign::{self, Calendar};
 use crate::members::Members;
 use crate::motion::Motion;
@@ -58,21 +59,12 @@ const LONG: usize = 1 << 16;
 ///
 /// Raises
 /// ------
-/// MomentsError, AttitudeError, AngularVelocityError
+/// InputError
 ///     A member that is no body or no state: the error of a single one, with its place among the members in the message and as the
 ///     attribute ``index`` of the exception; the message also says how many other members are bad.
-/// EpochError
-///     Not finite.
-/// MethodError
-///     ``errors="ignore"``.
-/// ToleranceError
-///     ``0``, ``-1``, not finite.
-/// SpanError
-///     ``(1, 0)``, not finite.
-/// ThreadsError
-///     ``0``, ``-1``, ``2.5``; or, when it evaluates, a number that the system does not give.
-/// ShapeError
-///     Two moments, five attitudes, three orbits; or one row of each.
+///     An epoch, a tolerance or a span that is not finite; a tolerance of ``0`` or ``-1``, the span ``(1, 0)``, ``errors="ignore"``.
+///     Threads ``0``, ``-1``, ``2.5``; or, when it evaluates, a number that the system does not give.
+///     Two moments, five attitudes and three orbits; or one row of each.
 ///
 /// Examples
 /// --------
@@ -89,7 +81,7 @@ const LONG: usize = 1 << 16;
 /// >>> Ensemble([[1.0, 1.5, 2.0], [1.0, 1.0, 2.5]], [0, 0, 0, 1], [0, 0, 1])
 /// Traceback (most recent call last):
 ///     ...
-/// andoyer.MomentsError: member 1: moments = [1.0, 1.0, 2.5]: the largest must not exceed the sum of the other two (it is 1.25 times that sum)
+/// andoyer.InputError: member 1: moments = [1.0, 1.0, 2.5]: the largest must not exceed the sum of the other two (it is 1.25 times that sum)
 #[pyclass(frozen, eq, module = "andoyer")]
 #[derive(PartialEq)]
 pub(crate) struct Ensemble(andoyer_propagate::Ensemble, Vec<Calendar>);
@@ -117,8 +109,7 @@ impl Ensemble {
         let mut attitudes = MemberRows::new("attitudes", attitudes)?;
         attitudes.each(|quaternion| foreign::scalar_last(quaternion, scalar_first));
         let rates = MemberRows::new("angular_velocities", angular_velocities)?;
-        let threads =
-            threads.map(|value| whole_number::<ThreadsError>("threads", value, 1, MAX_THREADS)).transpose()?;
+        let threads = threads.map(|value| whole_number("threads", value, 1, MAX_THREADS, Kind::Input)).transpose()?;
         let orbits = orbits.map(orbits_of).transpose()?;
         let on_error: OnError = errors.parse().map_err(error::propagation)?;
         let (epochs, calendar) = epochs.map(epochs_of).transpose()?.unwrap_or_default();
@@ -127,7 +118,7 @@ impl Ensemble {
         let Some(members) = moments.members().or(attitudes.members()).or(rates.members()) else {
             let text =
                 "moments, attitudes and angular_velocities are one row each: one of them must have an axis of members";
-            return Err(ShapeError::new_err(text));
+            return Err(error::input("moments", "one row", "(m, 3)", text.to_owned()));
         };
         let new = |stop: &AtomicBool| {
             let [moments, rates] = [moments, rates].map(|rows| rows.repeated(members));
@@ -162,11 +153,9 @@ impl Ensemble {
     ///
     /// Raises
     /// ------
-    /// TimesError
-    ///     As of a motion, with the attribute ``index`` of the first member that has it.
-    /// UnitsError
-    ///     As of a scene, with the same attribute.
-    /// ShapeError
+    /// RepresentationError
+    ///     Times as of a motion and units as of a scene, with the attribute ``index`` of the first member that has it.
+    /// InputError
     ///     Rows for another number of members.
     #[pyo3(signature = (times, *, scalar_first=false))]
     fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>, scalar_first: bool) -> PyResult<Samples> {

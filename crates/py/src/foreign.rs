@@ -11,7 +11,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyInt, PyList, PyTuple};
 
-use crate::error::TimesError;
+use crate::error;
 
 /// `value`, or the numbers in it.
 pub(crate) fn plain<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
@@ -89,7 +89,7 @@ pub(crate) fn since<'py>(
     if !holds_times(value)? {
         if !epochs.is_empty() && value.hasattr(intern!(value.py(), "unit"))? {
             let text = "is a Quantity, and the epoch a calendar time: give a Time, or a TimeDelta from the epoch";
-            return Err(TimesError::new_err(format!("{argument} {text}")));
+            return Err(error::input(argument, "a Quantity", "a Time or a TimeDelta", format!("{argument} {text}")));
         }
         return Ok(None);
     }

@@ -48,11 +48,7 @@ mod _core {
     use super::ensemble::Ensemble;
     #[pymodule_export]
     use super::error::{
-        AngularVelocityError, AttitudeError, AveragingError, EpochError, Error, FormatError, HamiltonianError,
-        InternalError, IntervalError, LevelError, MethodError, MomentsError, OrbitError, OrderError, PeriodsError,
-        ResonanceError, SceneFileError, SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError,
-        ThreadsError, TimesError, ToleranceError, ToleranceWarning, TorqueError, UnitsError, UnknownBodyError,
-        UnknownNameError,
+        Error, FileError, InputError, InternalError, RepresentationError, TheoryError, ToleranceWarning,
     };
     #[pymodule_export]
     use super::motion::Motion;
@@ -70,6 +66,11 @@ mod _core {
     use super::samples::Samples;
     #[pymodule_export]
     use super::scene_class::Scene;
+
+    #[pymodule_init]
+    fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        super::error::with_attributes(module.py())
+    }
 
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "Python's name for it")]

@@ -30,10 +30,10 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 ///
 /// Raises
 /// ------
-/// TimesError
-///     A time that is NaN, infinite, more than 1e15 rotations from the epoch, or under ``averaging="spin"`` more than 65,534 orbits from it; the
-///     message has its index and says which. A calendar time (a Time) where the epoch is a number; a Quantity where the epoch is a calendar time.
-/// ShapeError
+/// RepresentationError
+///     A time more than 1e15 rotations from the epoch, or under ``averaging="spin"`` more than 65,534 orbits from it; the message has its index and says which.
+/// InputError
+///     A time that is NaN or infinite. A calendar time (a Time) where the epoch is a number; a Quantity where the epoch is a calendar time.
 ///     Times with two axes.
 ///
 /// Examples
@@ -94,7 +94,7 @@ impl Motion {
     ///
     /// Raises
     /// ------
-    /// ShapeError
+    /// InputError
     ///     An `out` of another shape, or strided.
     /// TypeError
     ///     An `out` that is no float64 array, or read-only.
@@ -224,7 +224,7 @@ impl Motion {
     ///
     /// Raises
     /// ------
-    /// SeparatrixError
+    /// TheoryError
     ///     A motion on the separatrix, whose frequencies have no derivatives.
     ///
     /// Examples

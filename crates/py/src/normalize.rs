@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 
 use crate::birkhoff::BirkhoffNormalForm;
-use crate::error::{self, UnknownNameError};
+use crate::error;
 use crate::expression::Expression;
 use crate::form::{Form, rounded};
 use crate::order::order;
@@ -50,17 +50,13 @@ use crate::progress;
 ///
 /// Raises
 /// ------
-/// HamiltonianError
-///     Linear terms, a quadratic part with a Jordan block or a zero frequency, irrational frequencies with ``exact=True``, a text that is no
-///     polynomial, five pairs.
-/// ResonanceError
-///     A resonant term or small divisor that was not asked for, by its monomial; a resonance asked for that is none.
-/// UnknownNameError
-///     A name that is no variable; another `keep`.
-/// OrderError
-///     ``-1``, ``32764``; ``171`` in floats.
-/// IntervalError
-///     A smallest divisor outside 0 to 1, numbers that overflow.
+/// InputError
+///     A text that is no polynomial, a linear term, five pairs, a name that is no variable, a resonance that is none, another `keep`, the order ``-1``, a
+///     smallest divisor outside 0 to 1, numbers that overflow.
+/// TheoryError
+///     A quadratic part with a Jordan block or a zero frequency. A resonant term or small divisor that was not asked for: the message has its monomial.
+/// RepresentationError
+///     The orders ``32764``, and ``171`` in floats; irrational frequencies with ``exact=True``.
 ///
 /// Examples
 /// --------
@@ -101,7 +97,8 @@ pub(crate) fn normalize(
         None => resonances,
         Some("hyperbolic") => resonances.with_centre(),
         Some(other) => {
-            return Err(UnknownNameError::new_err(format!("keep = {other:?}: it must be \"hyperbolic\" or None")));
+            let message = format!("keep = {other:?}: it must be \"hyperbolic\" or None");
+            return Err(error::input("keep", other, "hyperbolic", message));
         }
     };
     let compute = |tell: &mut Progress<'_>| {

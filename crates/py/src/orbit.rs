@@ -36,7 +36,7 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 ///
 /// Raises
 /// ------
-/// OrbitError
+/// InputError
 ///     A mean motion of 0 or -1, an eccentricity of 1 or -0.1, a mass fraction of 0 or 1.1, or what is not finite.
 /// TypeError
 ///     A text.

@@ -102,7 +102,7 @@ impl Scene {
     ///
     /// Raises
     /// ------
-    /// PeriodsError
+    /// InputError
     ///     A ratio P_ψ/P_φ that the body cannot have; the message has the interval that it can, as `Body.period_ratios`. A mode that a round body does not have; a period,
     ///     a direction or phases that are none.
     ///
@@ -166,7 +166,7 @@ impl Scene {
     ///
     /// Raises
     /// ------
-    /// PeriodsError
+    /// InputError
     ///     A variable that is not finite or out of its bounds; the message has its index.
     ///
     /// Examples
@@ -198,7 +198,7 @@ impl Scene {
     ///
     /// Raises
     /// ------
-    /// SceneFileError
+    /// FileError
     ///     No such file, no TOML, an unknown or missing key, a value that no scene has; the message names file, key and bound.
     #[classmethod]
     fn from_toml(class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
@@ -221,16 +221,13 @@ impl Scene {
     ///
     /// Raises
     /// ------
-    /// SeparatrixError
+    /// TheoryError
     ///     ``method="series"`` where the tolerance needs an order above 60, so near is the separatrix, or on it.
-    /// SpinResonanceError
     ///     An orbit that is in resonance with the rotation, or not much slower: the Moon, Dimorphos. The message names the pair (k−j, m).
-    /// TorqueError
     ///     An orbit whose torque is too strong for an expansion in it.
-    /// AveragingError
     ///     An orbit, and a motion too near the separatrix, a body at rest or on its middle axis, or a round one that turns about an axis across; or more orbits
     ///     than `averaging="spin"` solves.
-    /// UnitsError
+    /// RepresentationError
     ///     The angular momentum, moment × rate, is no normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {
         let motion = detached(py, error::propagation, || self.scene.solve_with(&self.tables))?;

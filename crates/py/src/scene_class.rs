@@ -36,7 +36,7 @@ use crate::foreign::Calendar;
 /// span : (float, float), optional
 ///     Two numbers, or two Time, or two TimeDelta from the epoch.
 ///     Times over which the tolerance is asked for; by default any within 1e9 rotations. A motion can be evaluated outside it, up to
-///     1e15 rotations from the epoch; farther away is a `TimesError` of the motion.
+///     1e15 rotations from the epoch; farther away is a `RepresentationError` of the motion.
 /// averaging : {"auto", "orbit", "spin"}, optional
 ///     How far the equations of a scene with an orbit are averaged: over rotation and orbit, which leaves formulas; over the rotation alone; by
 ///     default the first where it meets the tolerance.
@@ -47,22 +47,11 @@ use crate::foreign::Calendar;
 ///
 /// Raises
 /// ------
-/// AttitudeError
-///     ``[0, 0, 0, 0]``, ``[0, 0, 0, 1.1]``, or not finite.
-/// AngularVelocityError, EpochError
-///     Not finite.
-/// ToleranceError
-///     ``0``, ``-1``, not finite.
-/// MethodError
-///     ``"taylor"``.
-/// OrderError
-///     ``-1``, ``61``, ``2.5``.
-/// SpanError
-///     ``(1, 0)``, or not finite.
-/// AveragingError, LevelError
-///     ``"moon"``.
-/// ShapeError
-///     An attitude of 3 numbers, an angular velocity of 4.
+/// InputError
+///     The attitudes ``[0, 0, 0, 0]`` and ``[0, 0, 0, 1.1]``, a tolerance of ``0`` or ``-1``, the span ``(1, 0)``, and any of them that is not finite.
+///     An attitude of 3 numbers, an angular velocity of 4. The orders ``-1`` and ``2.5``. A method, an averaging or a level of another name.
+/// RepresentationError
+///     The order ``61``.
 /// TypeError
 ///     A body that is a list, an orbit that is a number, a tolerance or an epoch that is a text, an order that is a boolean.
 ///

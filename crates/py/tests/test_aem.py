@@ -125,6 +125,15 @@ def test_nutation_that_is_written_propagates_the_free_motion(name, motion):
     assert angle_between(later, samples.attitude[1]) < 1e-13
 
 
+def test_nutation_is_for_a_tensor_whose_symmetry_axis_is_the_third():
+    samples = SYMMETRIC.at([0.0])
+    tensor = np.diag([1.0, 1.0, 1.5])
+    same = columns_of("SPIN/NUTATION_MOM", samples.attitude, samples.angular_velocity, andoyer.Body.from_inertia(tensor))
+    assert same == pytest.approx(columns_of("SPIN/NUTATION_MOM", samples.attitude, samples.angular_velocity, SYMMETRIC.scene.body), rel=1e-14)
+    with pytest.raises(ValueError, match="equal moments about axes 1 and 2: its inertia tensor is"):
+        columns_of("SPIN/NUTATION_MOM", samples.attitude, samples.angular_velocity, andoyer.Body.from_inertia(np.diag([1.5, 1.0, 1.0])))
+
+
 @pytest.mark.parametrize("sequence", ["".join(axes) for axes in itertools.product("XYZ", repeat=3) if axes[0] != axes[1] != axes[2]])
 def test_angles_of_any_sequence_are_those_of_scipy_and_their_rates_the_derivative(sequence):
     rotation = pytest.importorskip("scipy.spatial.transform").Rotation

@@ -100,7 +100,7 @@ def test_restricted_hamiltonian_of_the_centre_manifold_has_no_saddle_and_its_val
     centre = np.array([0.1, -0.05, 0.03, 0.08])
     value = sum(c * math.prod(v**e for v, e in zip(centre, exponents[2:], strict=True)) for exponents, c in reduced.items())
     assert form.energy([0.0, 0.0, *centre])[0] == pytest.approx(value, rel=1e-13)
-    with pytest.raises(andoyer.UnknownNameError, match='it must be "hyperbolic"'):
+    with pytest.raises(andoyer.InputError, match='it must be "hyperbolic"'):
         normalize("x*X", 2, [("x", "X")], keep="elliptic")
 
 
@@ -152,14 +152,14 @@ def test_elastic_pendulum_with_a_detuning_moves_as_its_equations():
 
 
 def test_letter_as_a_frequency_is_refused_with_what_to_do():
-    with pytest.raises(andoyer.HamiltonianError, match=r"in the term 1/2\*x\^2\*w\^2: write the parameter as a number and a detuning"):
+    with pytest.raises(andoyer.InputError, match=r"in the term 1/2\*x\^2\*w\^2: write the parameter as a number and a detuning"):
         normalize("X^2/2 + w^2*x^2/2 + x^4", 2, [("x", "X")], parameters=["w"])
     # Detuning: w = 2 + d, and the series in d that it is.
     form = normalize("X^2/2 + (2 + d)^2*x^2/2 + x^4", 6, [("x", "X")], parameters=["d"], degrees={"d": 1})
     assert form.in_actions()[1, 1] == 1 and form.in_actions()[1, 0] == 2
     # K = w I + (3/2) I²/w² + …: (3/2)/(2 + d)² = 3/8 − 3/8 d + …
     assert form.in_actions()[2, 0] == pytest.approx(3 / 8) and form.in_actions()[2, 1] == pytest.approx(-3 / 8)
-    with pytest.raises(andoyer.UnknownNameError, match="degrees: \"e\" is no parameter"):
+    with pytest.raises(andoyer.InputError, match="degrees: \"e\" is no parameter"):
         normalize("x^2 + X^2", 2, [("x", "X")], parameters=["d"], degrees={"e": 1})
 
 
@@ -174,16 +174,16 @@ def test_coupled_oscillators_need_no_eigenvectors():
 
 
 @pytest.mark.parametrize(
-    "hamiltonian, message",
+    "hamiltonian, error, message",
     [
-        ("x^2 + X^2 + Y^2", r"in \(y, Y\) has a zero frequency, along the direction with the components y 1.000"),
-        ("x*X + y*Y + x*Y", r"eigenvalues ±1.000000000 have a Jordan block, with the eigenvector of components y 1.000"),
-        ("x^2 + X^2 + y - cos(y)", r'"cos" is a function.*expand it as a Taylor polynomial, for a normal form of order N to degree N \+ 2'),
-        ("0.5(x^2 + X^2)", r"a factor in brackets needs \*"),
+        ("x^2 + X^2 + Y^2", andoyer.TheoryError, r"in \(y, Y\) has a zero frequency, along the direction with the components y 1.000"),
+        ("x*X + y*Y + x*Y", andoyer.TheoryError, r"eigenvalues ±1.000000000 have a Jordan block, with the eigenvector of components y 1.000"),
+        ("x^2 + X^2 + y - cos(y)", andoyer.InputError, r'"cos" is a function.*expand it as a Taylor polynomial, for a normal form of order N to degree N \+ 2'),
+        ("0.5(x^2 + X^2)", andoyer.InputError, r"a factor in brackets needs \*"),
     ],
 )
-def test_what_has_no_normal_form_is_refused_by_name(hamiltonian, message):
-    with pytest.raises(andoyer.HamiltonianError, match=message):
+def test_what_has_no_normal_form_is_refused_by_name(hamiltonian, error, message):
+    with pytest.raises(error, match=message):
         normalize(hamiltonian, 2, PLANE)
 
 
@@ -201,7 +201,7 @@ def test_a_form_is_kept_as_json_and_by_pickle(name):
     assert json.loads(text)["version"] == 1
     for kept in (BirkhoffNormalForm.from_json(text), pickle.loads(pickle.dumps(form)), copy.deepcopy(form)):
         assert kept == form and kept.in_complex() == form.in_complex() and kept.frequencies == form.frequencies
-    with pytest.raises(andoyer.FormatError):
+    with pytest.raises(andoyer.FileError):
         BirkhoffNormalForm.from_json(text.replace('"version":1', '"version":9'))
 
 
@@ -248,7 +248,7 @@ def test_latex_has_the_names_and_exact_numbers():
     duffing = normalize("(p^2 + q1^2)/2 + epsilon*q1^4/4", 2, [("q1", "p")], parameters=["epsilon"])
     assert "K &= I_{q1} + \\frac{3}{8}I_{q1}^{2}\\epsilon{}" in duffing.to_latex()
     assert "{q_{1}'}^{3}" in duffing.to_latex("direct") and "S_{2} &=" in duffing.to_latex("generator")
-    with pytest.raises(andoyer.UnknownNameError, match="lagrangian"):
+    with pytest.raises(andoyer.InputError, match="lagrangian"):
         duffing.to_latex("lagrangian")
 
 
@@ -280,7 +280,7 @@ def test_domain_shrinks_with_the_order_and_the_actions_drift_as_it_says():
         lower = normalize("(x^2 + X^2)/2 + 1.4142135623730951*(y^2 + Y^2)/2 + x^2*y - y^3/3", order, PLANE, exact=False)
         drift[order] = np.ptp(lower.actions(orbit), axis=0).max()
     assert min(drift, key=drift.get) not in (1, 12), drift
-    with pytest.raises(andoyer.IntervalError, match="amplitude"):
+    with pytest.raises(andoyer.InputError, match="amplitude"):
         domain.best_order(-1.0)
 
 

@@ -257,3 +257,11 @@ def test_summary_of_samples_has_its_panels_and_nothing_cut_off(motion):
     figure = plot.samples_summary(samples, motion, name="wobble.aem")
     assert len(figure.axes) == 3 and outside(figure) < 0.01
     assert all("[" in axes.get_ylabel() for axes in figure.axes)
+
+
+def test_pictures_of_a_tensor_are_about_its_principal_axes():
+    tensor = np.array([[1.4, 0.2, -0.1], [0.2, 1.6, 0.15], [-0.1, 0.15, 1.2]])
+    motion = solved([0.3, 0.5, 1.0], andoyer.Body.from_inertia(tensor))
+    start = plot.phase_portrait(motion).lines[1].get_xydata()[0]
+    variables = motion.andoyer(motion.scene.epoch)
+    assert start == pytest.approx([np.degrees(variables[2]), variables[5] / variables[4]], abs=1e-9)

@@ -63,6 +63,6 @@ def test_ensemble_is_iterated_member_by_member():
 
 def test_negative_actions_are_refused():
     form = andoyer.normalize("(x**2 + X**2)/2 + x**3", 2, [("x", "X")])
-    with pytest.raises(andoyer.IntervalError, match="actions = -1"):
+    with pytest.raises(andoyer.InputError, match="actions = -1"):
         form.frequency_map([-1.0])
     assert form.frequency_map([0.0]).tolist() == [1.0]

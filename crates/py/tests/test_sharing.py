@@ -128,10 +128,10 @@ def test_plans_are_pickled_to_the_last_bit(plan):
 
 
 def test_exceptions_are_pickled_as_themselves():
-    with pytest.raises(andoyer.MomentsError) as caught:
+    with pytest.raises(andoyer.InputError) as caught:
         andoyer.Body([0, 1, 1])
     again = pickle.loads(pickle.dumps(caught.value))
-    assert type(again) is andoyer.MomentsError and str(again) == str(caught.value)
+    assert type(again) is andoyer.InputError and str(again) == str(caught.value)
 
 
 def test_copies_of_what_is_frozen_are_itself(body, scene, motion):

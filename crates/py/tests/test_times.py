@@ -77,18 +77,17 @@ def test_span_may_be_two_times_or_two_durations(body):
 
 @pytest.mark.parametrize("argument", ["times", "span"])
 def test_calendar_time_of_a_state_without_a_calendar_is_an_error(body, free, argument):
-    kind = {"times": andoyer.TimesError, "span": andoyer.SpanError}[argument]
-    with pytest.raises(kind, match=f"{argument} is a calendar time, and the epoch of the state is a number: give the epoch as a Time too"):
+    with pytest.raises(andoyer.InputError, match=f"{argument} is a calendar time, and the epoch of the state is a number: give the epoch as a Time too"):
         if argument == "times":
             free.at(EPOCH)
         else:
             andoyer.Scene(body, QUATERNION, RATES, span=(EPOCH, EPOCH))
-    with pytest.raises(andoyer.TimesError, match="times is a calendar time"):
+    with pytest.raises(andoyer.InputError, match="times is a calendar time"):
         andoyer.Ensemble(MOMENTS, QUATERNION, RATES).at([EPOCH])
 
 
 def test_quantity_of_a_state_with_a_calendar_epoch_is_an_error(dated):
-    with pytest.raises(andoyer.TimesError, match="times is a Quantity, and the epoch a calendar time: give a Time, or a TimeDelta"):
+    with pytest.raises(andoyer.InputError, match="times is a Quantity, and the epoch a calendar time: give a Time, or a TimeDelta"):
         dated.at([1, 2] * units.s)
 
 
@@ -148,9 +147,9 @@ def test_ensembles_have_epochs_one_for_all_or_one_for_each():
     assert one.epochs == 3.0 and np.array_equal(one.attitude([50.0])[0], alone[0].attitude([50.0]))
     assert andoyer.Ensemble(MOMENTS, QUATERNION, RATES, epochs=[0.0, 0.0]) == andoyer.Ensemble(MOMENTS, QUATERNION, RATES)
     assert one != andoyer.Ensemble(MOMENTS, QUATERNION, RATES)
-    with pytest.raises(andoyer.ShapeError, match="epochs has 3 entries: it must have 2"):
+    with pytest.raises(andoyer.InputError, match="epochs has 3 entries: it must have 2"):
         andoyer.Ensemble(MOMENTS, QUATERNION, RATES, epochs=[1, 2, 3])
-    with pytest.raises(andoyer.EpochError, match="member 1: epoch = NaN") as caught:
+    with pytest.raises(andoyer.InputError, match="member 1: epoch = NaN") as caught:
         andoyer.Ensemble(MOMENTS, QUATERNION, RATES, epochs=[1.0, np.nan])
     assert caught.value.index == 1
 

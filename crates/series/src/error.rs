@@ -4,10 +4,14 @@
 //! input: an exponent that does not fit its field, a name nobody knows, a text that is not a polynomial, a file that is
 //! not a normal form.
 
+mod facts;
+
 use thiserror::Error;
 
+pub use facts::{Kind, Value};
+
 /// What can go wrong, with the offending value and its bound.
-#[derive(Debug, Error)]
+#[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
     /// An exponent does not fit its field of the packed monomial.
@@ -268,8 +272,15 @@ pub enum Error {
         problem: ParseProblem,
     },
     /// A text that is not JSON, or JSON of another shape.
-    #[error("not the JSON of a normal form: {0}")]
-    Json(#[from] serde_json::Error),
+    #[error("not the JSON of a normal form: {message} at line {line} column {column}")]
+    Json {
+        /// Line of the text, from 1; 0 where the text has none.
+        line: usize,
+        /// Column of the line, from 1.
+        column: usize,
+        /// What is wrong there.
+        message: String,
+    },
     /// A JSON document of another format or version.
     #[error("format {format:?} version {version} is unknown: {known_format:?} version {known_version} is read")]
     FormatUnknown {
@@ -336,6 +347,15 @@ pub enum Error {
         /// That of the rigid body, 0 where it has none.
         expected: String,
     },
+}
+
+impl Error {
+    /// The error of a text that is not the JSON expected.
+    pub(crate) fn json(error: serde_json::Error) -> Self {
+        let (line, column, text) = (error.line(), error.column(), error.to_string());
+        let place = format!(" at line {line} column {column}");
+        Self::Json { line, column, message: text.strip_suffix(&place).unwrap_or(&text).to_owned() }
+    }
 }
 
 /// What is wrong with a text that should be a polynomial.

@@ -68,7 +68,7 @@ impl NormalForm {
             let entries = entries.map(|((j, k, l), c)| (j, k, l, c.re.to_string(), c.im.to_string()));
             document.generators.push(entries.collect());
         }
-        Ok(serde_json::to_string(&document)?)
+        serde_json::to_string(&document).map_err(Error::json)
     }
 
     /// Reads what [`to_json`](Self::to_json) wrote.
@@ -99,12 +99,12 @@ impl NormalForm {
     /// # Errors
     /// - as [`from_json`](Self::from_json); a callback that returns `Break`: [`Error::Interrupted`].
     pub fn from_json_with(text: &str, progress: &mut Progress<'_>) -> Result<Self, Error> {
-        let header: Header = serde_json::from_str(text)?;
+        let header: Header = serde_json::from_str(text).map_err(Error::json)?;
         if header.format != FORMAT || header.version != VERSION {
             let (format, version) = (header.format, header.version);
             return Err(Error::FormatUnknown { format, version, known_format: FORMAT, known_version: VERSION });
         }
-        let document: Document = serde_json::from_str(text)?;
+        let document: Document = serde_json::from_str(text).map_err(Error::json)?;
         check_order(document.order)?;
         count("triaxiality", document.triaxiality.len(), document.order + 1)?;
         count("generators", document.generators.len(), document.order)?;

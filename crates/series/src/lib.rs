@@ -18,7 +18,7 @@ mod coefficient;
 mod display;
 mod emit;
 mod energy;
-mod error;
+pub mod error;
 mod forms;
 mod homological;
 mod json;

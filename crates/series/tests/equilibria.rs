@@ -174,3 +174,41 @@ fn the_transformation_about_a_saddle_takes_the_hamiltonian_to_its_normal_form_an
     }
     Ok(())
 }
+
+/// The Hamiltonian on the centre manifold to degree 10 by another program, in its own variables (see tests/data/README.md), as exponents and coefficients.
+fn other_program(point: &str) -> Result<(f64, Polynomial<f64>), Error> {
+    let data: serde_json::Value =
+        serde_json::from_str(include_str!("../../../tests/data/hiten_centre_manifolds.json"))?;
+    let number = |value: &serde_json::Value| value.as_f64().unwrap_or(f64::NAN);
+    let mut h = Polynomial::zero();
+    for term in data[point]["terms"].as_array().into_iter().flatten() {
+        let exponents: Vec<u32> = serde_json::from_value(term[0].clone())?;
+        h.add_term(Monomial::new(&exponents)?, &number(&term[1]));
+    }
+    Ok((number(&data["mu"]), h))
+}
+
+#[test]
+fn the_centre_manifolds_of_another_program_have_the_same_normal_form() -> Result<(), Error> {
+    // Coordinates on a centre manifold are no invariants, its normal form in the actions is: K(0, I₂, I₃) to degree 10 from the whole problem here, and from hiten's
+    // reduced Hamiltonian.
+    let plane = PhaseSpace::new(&[("y", "Y"), ("z", "Z")])?;
+    for (point, second) in [("L1", false), ("L2", true)] {
+        let (mu, reduced) = other_program(point)?;
+        assert!(reduced.degree() == Some(10));
+        let theirs = normalize(&reduced, 8, &plane)?.in_actions()?;
+        let ours = normalize(&collinear(mu, second, 10)?, 8, &space()?)?.in_actions()?;
+        let mut compared = 0;
+        for (monomial, c) in ours.terms().filter(|(monomial, _)| monomial.exponent(0) == 0) {
+            let their = Monomial::new(&[monomial.exponent(1), monomial.exponent(2)])?;
+            let found = theirs.coefficient(&their).copied().unwrap_or_default();
+            let largest = ours.homogeneous_part(monomial.total_degree());
+            let largest = largest.terms().map(|(_, c)| c.abs()).fold(0.0, f64::max);
+            // The frequencies of the centres differ by 3 %: divisors of 0.13 multiply rounding from order to order.
+            assert!((found - c).abs() < 1e-8 * largest, "{point} {monomial:?}: {found} {c}");
+            compared += 1;
+        }
+        assert_eq!(compared, 2 + 3 + 4 + 5 + 6);
+    }
+    Ok(())
+}

@@ -38,9 +38,9 @@ fn largest(a: &[Vec<f64>]) -> f64 {
 
 fn symplectic(n: usize) -> Vec<Vec<f64>> {
     let sign = |i: usize, j: usize| {
-        if i % 2 == 0 && j == i + 1 {
+        if i.is_multiple_of(2) && j == i + 1 {
             1.0
-        } else if j % 2 == 0 && i == j + 1 {
+        } else if j.is_multiple_of(2) && i == j + 1 {
             -1.0
         } else {
             0.0
@@ -130,7 +130,7 @@ proptest! {
     fn a_change_of_units_changes_the_frequencies_not(root in square(6), exponents in proptest::array::uniform3(-40_i32..40)) {
         let mut a = product(&root, &transposed(&root));
         (0..6).for_each(|i| a[i][i] += 0.1);
-        let unit = |slot: usize| 2.0_f64.powi(if slot % 2 == 0 { exponents[slot / 2] } else { -exponents[slot / 2] });
+        let unit = |slot: usize| 2.0_f64.powi(if slot.is_multiple_of(2) { exponents[slot / 2] } else { -exponents[slot / 2] });
         let scaled: Vec<Vec<f64>> = (0..6).map(|i| (0..6).map(|j| a[i][j] * unit(i) * unit(j)).collect()).collect();
         let frequencies = |a: &[Vec<f64>]| diagonalized(a).map(|form| form.frequencies());
         let fail = |error: Error| TestCaseError::fail(error.to_string());

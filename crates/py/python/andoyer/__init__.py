@@ -18,97 +18,80 @@ In every docstring "theory §n" is section n of docs/theory.md, and the scene fi
 """
 
 from andoyer._core import (
-    AngularVelocityError,
-    AttitudeError,
-    AveragingError,
     BirkhoffNormalForm,
     Body,
     Domain,
     Ensemble,
-    EpochError,
     Error,
-    FormatError,
-    HamiltonianError,
+    FileError,
+    InputError,
     InternalError,
-    IntervalError,
-    LevelError,
-    MethodError,
-    MomentsError,
     Motion,
     NormalForm,
     Orbit,
-    OrbitError,
-    OrderError,
     Partials,
-    PeriodsError,
     Plan,
-    ResonanceError,
+    RepresentationError,
     Samples,
     Scene,
-    SceneFileError,
-    SeparatrixError,
-    SeriesError,
-    ShapeError,
-    SpanError,
-    SpinResonanceError,
-    ThreadsError,
-    TimesError,
-    ToleranceError,
+    TheoryError,
     ToleranceWarning,
-    TorqueError,
-    UnitsError,
-    UnknownBodyError,
-    UnknownNameError,
     __version__,
     normalize,
     separatrix_action,
 )
 from andoyer.mean import Frequencies, Periods
 
+# Names of the errors before this release. They go in the next one; the base stands where an old class held errors of several new ones.
+AngularVelocityError = InputError
+AttitudeError = InputError
+AveragingError = Error
+EpochError = InputError
+FormatError = FileError
+HamiltonianError = Error
+IntervalError = InputError
+LevelError = InputError
+MethodError = InputError
+MomentsError = InputError
+OrbitError = InputError
+OrderError = Error
+PeriodsError = InputError
+ResonanceError = Error
+SceneFileError = FileError
+SeparatrixError = TheoryError
+SeriesError = Error
+ShapeError = InputError
+SpanError = InputError
+SpinResonanceError = TheoryError
+ThreadsError = InputError
+TimesError = Error
+ToleranceError = InputError
+TorqueError = TheoryError
+UnitsError = RepresentationError
+UnknownBodyError = InputError
+UnknownNameError = InputError
+
 __all__ = [
-    "AngularVelocityError",
-    "AttitudeError",
-    "AveragingError",
     "BirkhoffNormalForm",
     "Body",
     "Domain",
     "Ensemble",
-    "EpochError",
     "Error",
-    "FormatError",
+    "FileError",
     "Frequencies",
-    "HamiltonianError",
+    "InputError",
     "InternalError",
-    "IntervalError",
-    "LevelError",
-    "MethodError",
-    "MomentsError",
     "Motion",
     "NormalForm",
     "Orbit",
-    "OrbitError",
-    "OrderError",
     "Partials",
     "Periods",
-    "PeriodsError",
     "Plan",
-    "ResonanceError",
+    "RepresentationError",
     "Samples",
     "Scene",
-    "SceneFileError",
-    "SeparatrixError",
-    "SeriesError",
-    "ShapeError",
-    "SpanError",
-    "SpinResonanceError",
-    "ThreadsError",
-    "TimesError",
-    "ToleranceError",
+    "TheoryError",
     "ToleranceWarning",
-    "TorqueError",
-    "UnitsError",
-    "UnknownBodyError",
-    "UnknownNameError",
     "__version__",
     "normalize",
     "separatrix_action",

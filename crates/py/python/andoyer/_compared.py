@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from andoyer._core import Motion, Samples, TimesError
+from andoyer._core import InputError, Motion, Samples
 from andoyer._diagrams import axes_or_new
 from andoyer._quaternions import angle_between
 from andoyer._style import BLACK, BLUE, GREEN, VERMILION, Array
@@ -101,7 +101,7 @@ def _at(motion: Motion, samples: Samples, times: Array) -> Samples:
     """The motion at the times of samples: at calendar times as they are, if the epoch of its state is one, else at the seconds since J2000."""
     try:
         return motion.at(samples.times)
-    except TimesError:
+    except InputError:
         return motion.at(times)
 
 

@@ -23,98 +23,31 @@ _Expression: TypeAlias = str | dict[tuple[int, ...], Any] | Any
 __version__: str
 
 class Error(ValueError):
-    """Bad input, or a motion that is not served; the base of every error of this package."""
+    """The base of every error of this package."""
 
+    argument: str | None
+    value: Any
+    bound: Any
     index: int  # only of a member of an ensemble: its place among the members
 
-class AngularVelocityError(Error):
-    """An angular velocity that is not finite."""
+class FileError(Error):
+    """A scene file or a JSON text that cannot be read."""
 
-class AttitudeError(Error):
-    """An attitude that is no unit quaternion."""
-
-class AveragingError(Error):
-    """An averaging that is unknown, or a motion that has no averaged theory."""
-
-class EpochError(Error):
-    """An epoch that is not finite."""
-
-class FormatError(Error):
-    """A text that is not the JSON of a normal form."""
-
-class HamiltonianError(Error):
-    """A polynomial that cannot be read, or a Hamiltonian whose origin is no elliptic point with a diagonal quadratic part."""
+class InputError(Error):
+    """An argument that is wrong."""
 
 class InternalError(Error):
     """A fault of this package: no input should lead to it."""
 
-class IntervalError(Error):
-    """A number outside its interval."""
+class RepresentationError(Error):
+    """Units, times or orders that doubles, exact rationals or memory cannot hold."""
 
-class LevelError(Error):
-    """A level of the theory of the gravity gradient that is unknown."""
-
-class MethodError(Error):
-    """A method that is unknown."""
-
-class MomentsError(Error):
-    """Moments of inertia that no body has."""
-
-class OrbitError(Error):
-    """An element of an orbit that is none."""
-
-class OrderError(Error):
-    """An order that is no whole number within its bounds."""
-
-class PeriodsError(Error):
-    """Periods that a body cannot have in a mode, a mode it does not have, or Andoyer variables that are none."""
-
-class ResonanceError(Error):
-    """A resonance or small divisor not asked for, or one asked for that is none."""
-
-class SceneFileError(Error):
-    """A scene file that cannot be read or says something wrong."""
-
-class SeparatrixError(Error):
-    """The series asked for on the separatrix, or too near it for the tolerance."""
-
-class SeriesError(Error):
-    """Any other error of the exact algebra."""
-
-class ShapeError(Error):
-    """An array of the wrong shape or memory layout."""
-
-class SpanError(Error):
-    """A span that is not finite or runs backwards."""
-
-class SpinResonanceError(Error):
-    """A rotation so slow, or so near a resonance with its orbit, that no averaging holds."""
-
-class ThreadsError(Error):
-    """A number of threads that is none, or that the system does not give."""
-
-class TimesError(Error):
-    """A time that is not finite, or too far from the epoch to be evaluated."""
-
-class ToleranceError(Error):
-    """A tolerance that is not positive and finite."""
+class TheoryError(Error):
+    """No theory holds: the series near the separatrix, a spin resonance, a torque too strong, a motion without averaging, a small divisor or a Hamiltonian that cannot be diagonalized."""
 
 class ToleranceWarning(UserWarning):
     """A motion, or members of an ensemble, whose error bound exceeds the tolerance over the span."""
 
-class TorqueError(Error):
-    """A torque too strong for an expansion in it."""
-
-class UnitsError(Error):
-    """Units in which the angular momentum, or a rate that belongs to it, over- or underflows."""
-
-class UnknownBodyError(Error):
-    """A name that the catalogue of bodies does not have."""
-
-class UnknownNameError(Error):
-    """A name that is none of the known ones: of a variable, or of a part of the normal form."""
-
-@final
 class Body:
     """Principal moments of inertia of a rigid body."""
 

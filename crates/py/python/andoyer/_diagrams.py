@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from andoyer._core import BirkhoffNormalForm, Motion, Scene, SeparatrixError, ToleranceWarning
+from andoyer._core import BirkhoffNormalForm, Motion, Scene, TheoryError, ToleranceWarning
 from andoyer._extra import extra
 from andoyer._style import BLUE, GREY, VERMILION, Array
 
@@ -45,7 +45,7 @@ def error_by_order(scene: Scene, orders: Iterable[int] = range(0, 31, 2), axes: 
 
     Raises
     ------
-    SeparatrixError
+    TheoryError
         A scene on the separatrix: there are no series.
     """
     axes = axes_or_new(axes)
@@ -84,7 +84,7 @@ def work_precision(scene: Scene, orders: Iterable[int] = range(0, 21, 2), axes: 
         for variant in variants:
             try:
                 seconds, motion = _timed(variant)
-            except SeparatrixError:
+            except TheoryError:
                 continue
             error = max(_largest_angle(truth, motion.attitude(times)), best.plan.error_bound)
             points.append((error, 1e6 * seconds))

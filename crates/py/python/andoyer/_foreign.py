@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from andoyer._core import SpanError, TimesError
+from andoyer._core import InputError
 
 UNITS = {
     "times": "s",
@@ -120,7 +120,7 @@ def since(argument: str, value: Any, first: list[float], second: list[float]) ->
 
     Raises
     ------
-    SpanError, TimesError
+    InputError
         A calendar time where the epoch is a number.
     """
     value = joined(argument, value)
@@ -128,8 +128,9 @@ def since(argument: str, value: Any, first: list[float], second: list[float]) ->
     if isinstance(value, sys.modules["astropy.time"].TimeDelta):
         return np.asarray(value.jd1 * DAY + value.jd2 * DAY, dtype=float), value, value.shape
     if not first:
-        error = SpanError if argument == "span" else TimesError
-        raise error(f"{argument} is a calendar time, and the epoch of the state is a number: give the epoch as a Time too, or a TimeDelta from the epoch")
+        error = InputError(f"{argument} is a calendar time, and the epoch of the state is a number: give the epoch as a Time too, or a TimeDelta from the epoch")
+        error.argument, error.value, error.bound = argument, value, "numbers or a TimeDelta"
+        raise error
     moment, epoch = value.tdb, calendar(first, second)
     if len(first) == 1:
         epoch = epoch[0]

@@ -156,6 +156,7 @@ def _data(motion: Motion, start: float, stop: float, unit: str, error: float, me
     rotation = motion.periods["long-axis"].rotation
     data: dict[str, Any] = {
         "moments": moments.tolist(),
+        "axes": motion.scene.body.principal_axes.T.tolist(),
         "order": order.tolist(),
         "reversed": bool(np.linalg.det(np.eye(3)[order]) < 0),
         "start": start,

@@ -14,18 +14,16 @@ const rotate = (q, v) => { const t = scaled(2, cross(q, v)); return plus(plus(v,
 // The state at a time: attitude, rates, momentum in body and inertial components.
 function state(t) {
   const values = evaluate(t), q = values.slice(0, 4), rates = values.slice(4, 7);
-  const momentum = rates.map((rate, k) => data.moments[k] * rate);
+  const momentum = data.axes.reduce((sum, axis, k) => plus(sum, scaled(data.moments[k] * dot(axis, rates), axis)), [0, 0, 0]);
   return { t, q, rates, momentum, inertialMomentum: rotate(q, momentum), inertialRates: rotate(q, rates) };
 }
 
 // Andoyer variables (theory §1): axes sorted by moments, the first reversed where that is left-handed.
 function variables(s) {
-  const m = data.order.map(k => s.momentum[k]);
+  const m = data.order.map(k => dot(data.axes[k], s.momentum));
   if (data.reversed) m[0] = -m[0];
   const M = size(m), H = s.inertialMomentum, pole = unit(H);
-  const axis = [0, 0, 0];
-  axis[data.order[2]] = 1;
-  const third = rotate(s.q, axis), turn = 2 * Math.PI, positive = x => x < 0 ? x + turn : x;
+  const third = rotate(s.q, data.axes[data.order[2]]), turn = 2 * Math.PI, positive = x => x < 0 ? x + turn : x;
   const lambda = Math.hypot(H[0], H[1]) > 0 ? Math.atan2(H[0], -H[1]) : 0;
   const node = [Math.cos(lambda), Math.sin(lambda), 0], across = cross(pole, third);
   const mu = size(across) > 0 ? Math.atan2(dot(cross(node, across), pole), dot(node, across)) : 0;
@@ -49,7 +47,8 @@ function ellipsoid(semiaxes) {
   const vertices = [], faces = [], rings = 16, columns = 32;
   for (let i = 0; i <= rings; i++) for (let j = 0; j < columns; j++) {
     const theta = Math.PI * i / rings, phi = 2 * Math.PI * j / columns;
-    vertices.push([semiaxes[0] * Math.sin(theta) * Math.cos(phi), semiaxes[1] * Math.sin(theta) * Math.sin(phi), semiaxes[2] * Math.cos(theta)]);
+    const along = [Math.sin(theta) * Math.cos(phi), Math.sin(theta) * Math.sin(phi), Math.cos(theta)];
+    vertices.push(data.axes.reduce((sum, axis, k) => plus(sum, scaled(semiaxes[k] * along[k], axis)), [0, 0, 0]));
   }
   for (let i = 0; i < rings; i++) for (let j = 0; j < columns; j++) {
     const next = (j + 1) % columns;
@@ -59,7 +58,7 @@ function ellipsoid(semiaxes) {
 }
 const body = data.mesh || ellipsoid(data.semiaxes);
 const radius = Math.max(...body.vertices.map(size));
-const octant = body.faces.map(face => { const c = face.reduce((sum, k) => plus(sum, body.vertices[k]), [0, 0, 0]); return c[0] * c[1] * c[2] > 0; });
+const octant = body.faces.map(face => { const c = face.reduce((sum, k) => plus(sum, body.vertices[k]), [0, 0, 0]); return data.axes.reduce((sign, axis) => sign * Math.sign(dot(axis, c)), 1) > 0; });
 
 // Curves: the polhode, path of the angular velocity in the body; the herpolhode, its path among the stars. One rolls on the other.
 const fastest = data.largestRate > 0 ? data.largestRate : 1, reach = 1.35 * radius / fastest;
@@ -116,7 +115,7 @@ function arrow(tip, foot, color, label, front) {
 // Where a direction from the centre leaves the body: of the ellipsoid exactly, of a mesh at the centre.
 function surface(q, v) {
   const inBody = rotate([-q[0], -q[1], -q[2], q[3]], v);
-  const level = data.mesh ? Infinity : Math.hypot(...inBody.map((x, k) => x / data.semiaxes[k]));
+  const level = data.mesh ? Infinity : Math.hypot(...data.axes.map((axis, k) => dot(axis, inBody) / data.semiaxes[k]));
   return scaled(level > 1 ? 1 / level : level > 0 ? 1 : 0, v);
 }
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from andoyer._core import ResonanceError
+from andoyer._core import TheoryError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -36,7 +36,7 @@ def birkhoff(normal_form: BirkhoffNormalForm, what: str, symbols: Mapping[str, A
     if what == "hamiltonian":
         try:
             return _polynomial(sympy, normal_form.in_actions(), [f"I_{q}" for q, _ in normal_form.variables] + names[len(variables) :], symbols)
-        except ResonanceError:
+        except TheoryError:
             return _polynomial(sympy, normal_form.in_real(), names, symbols)
     if what == "generator":
         return [_polynomial(sympy, normal_form.generator(m), names, symbols) for m in range(1, normal_form.order + 1)]

@@ -276,9 +276,10 @@ def _sorted(motion: Motion, times: Array) -> tuple[list[int], Array, Array]:
 
     A body at rest has no direction: NaN, which matplotlib leaves out.
     """
-    moments = motion.scene.body.moments
+    body = motion.scene.body
+    moments = body.moments
     order = np.argsort(moments, kind="stable")
-    momentum = (moments * motion.angular_velocity(times))[:, order]
+    momentum = (moments * (motion.angular_velocity(times) @ body.principal_axes))[:, order]
     if _left_handed(order):
         momentum[:, 0] *= -1
     sizes = np.linalg.norm(momentum, axis=1, keepdims=True)

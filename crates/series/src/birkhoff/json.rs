@@ -15,7 +15,7 @@
 //! them. It does *not* verify that K is the normal form of some Hamiltonian.
 
 use super::diagonal::Diagonal;
-use super::matrix::{Matrix, pairing, transposed};
+use super::matrix::{Matrix, form_entry, pairing, transposed};
 use super::mode::Mode;
 use super::{BirkhoffNormalForm, PhaseSpace, Resonances, turns};
 use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, RealField, TermProblem};
@@ -88,7 +88,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             hamiltonian: self.normalization.hamiltonian.iter().map(terms).collect(),
             generators: generators.map(terms).collect(),
         };
-        Ok(serde_json::to_string(&document)?)
+        serde_json::to_string(&document).map_err(Error::json)
     }
 
     /// Reads what [`to_json`](Self::to_json) wrote from a normal form in the same kind of numbers.
@@ -107,7 +107,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// - lists of the wrong length: [`Error::CountMismatch`]; terms that no such normal form has: [`Error::TermInconsistent`];
     /// - M not symplectic: [`Error::NotSymplectic`]; names and resonances as their constructors.
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        let header: Header = serde_json::from_str(text)?;
+        let header: Header = serde_json::from_str(text).map_err(Error::json)?;
         if header.format != format::<R>() || header.version != VERSION {
             let (format, version) = (header.format, header.version);
             return Err(Error::FormatUnknown {
@@ -117,7 +117,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
                 known_version: VERSION,
             });
         }
-        let document: Document = serde_json::from_str(text)?;
+        let document: Document = serde_json::from_str(text).map_err(Error::json)?;
         if document.order > R::MAXIMUM_ORDER {
             return Err(Error::OrderTooLarge { order: document.order, bound: R::MAXIMUM_ORDER });
         }
@@ -288,7 +288,7 @@ fn symplectic<R: RealField>(matrix: &Matrix<R>) -> Result<(), Error> {
     let largest = matrix.iter().flatten().map(|entry| entry.to_float().abs()).fold(1.0, f64::max);
     for (i, j) in (0..columns.len()).flat_map(|i| (0..columns.len()).map(move |j| (i, j))) {
         let mut error = pairing(&columns[i], &columns[j]);
-        error -= &R::integer(i64::from(i % 2 == 0 && j == i + 1) - i64::from(j % 2 == 0 && i == j + 1));
+        error -= &R::integer(form_entry(i, j));
         if error.to_float().abs() > 1e4 * R::EPSILON * largest * largest || (R::EPSILON == 0.0 && !error.is_zero()) {
             return Err(Error::NotSymplectic { row: i, column: j, error: error.to_float() });
         }

@@ -44,6 +44,12 @@ pub(crate) fn pairing<C: Coefficient>(x: &[C], y: &[C]) -> C {
     dot(x, &turned(y))
 }
 
+/// An entry of J.
+pub(crate) fn form_entry(i: usize, j: usize) -> i64 {
+    let above = |i: usize, j: usize| i64::from(i.is_multiple_of(2) && j == i + 1);
+    above(i, j) - above(j, i)
+}
+
 /// J M, the rows in pairs.
 pub(crate) fn turned_rows<C: Coefficient>(matrix: &Matrix<C>) -> Matrix<C> {
     transposed(&transposed(matrix).iter().map(|column| turned(column)).collect())

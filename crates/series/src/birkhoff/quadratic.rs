@@ -181,7 +181,7 @@ fn scaled<R: RealField>(block: &Matrix<R>, names: &dyn Fn(usize) -> String) -> R
 fn scales<R: RealField>(block: &Matrix<R>) -> Vec<i32> {
     let mut exponents = vec![0; block.len() / 2];
     let size = |i: usize, j: usize, exponents: &[i32]| {
-        let unit = |slot: usize| if slot % 2 == 0 { exponents[slot / 2] } else { -exponents[slot / 2] };
+        let unit = |slot: usize| if slot.is_multiple_of(2) { exponents[slot / 2] } else { -exponents[slot / 2] };
         block[i][j].to_float().abs() * 2.0_f64.powi(unit(i) + unit(j))
     };
     for _ in 0..8 {

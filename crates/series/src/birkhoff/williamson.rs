@@ -1,56 +1,18 @@
 //! The symplectic diagonalization of one block of a quadratic part.
 //!
-//! Eigenvalues are those of J A in floats; over the rationals each must be one of the fractions near it, which elimination then proves. An eigenvalue
-//! of multiplicity m has m null vectors of J A − λ, or a Jordan block, which is an error.
-//! The vectors w = a + ib of iω are orthogonalized in the Hermitian form w̄ᵀ J w = 2i aᵀ J b, whose sign is the signature of the centre: it gives ω its sign.
-//! Those of λ and −λ are paired. Among floats M is then made symplectic to rounding, M ← M (1 + ½ J E), E = Mᵀ J M − J, and the frequencies are read off
-//! Mᵀ A M, where errors of the vectors enter squared.
+//! The vectors w = a + ib of an eigenvalue iω are orthogonalized in the Hermitian form w̄ᵀ J w = 2i aᵀ J b, whose sign is the signature of the centre: it gives ω
+//! its sign. Those of λ and −λ are paired. Among floats M is then made symplectic to rounding, M ← M (1 + ½ J E), E = Mᵀ J M − J, and the frequencies are read
+//! off Mᵀ A M, where errors of the vectors enter squared.
 
 use super::diagonal::Diagonal;
-use super::matrix::{Matrix, dot, null_space, pairing, product, transposed, turned, turned_rows};
+use super::matrix::{Matrix, dot, form_entry, pairing, product, transposed, turned, turned_rows};
 use super::mode::{Mode, modulus};
+use super::spectrum::{Eigenspace, Names, ROOT, eigenspace, shown, spectrum};
 use crate::{Coefficient, Error, RealField};
 use num_traits::{One, Zero};
 
-/// Eigenvalues of this size count as zero, and eigenvalues as close as this to an axis lie on it: relative to the largest entry of A, the root of rounding,
-/// by which a Jordan block splits.
-const ROOT: f64 = 1e-7;
-/// Eigenvalues as close as this are one of a higher multiplicity; where they are two, their vectors are told apart to 1e-5 and made symplectic afterwards.
-const EQUAL: f64 = 1e-11;
 /// What is left off the diagonal of Mᵀ A M by rounding.
 const RESIDUAL: f64 = 1e-9;
-
-/// An eigenvalue in the first quadrant, with its multiplicity and its null vectors.
-struct Eigenspace<R: RealField> {
-    re: R,
-    im: R,
-    vectors: Vec<Vec<R::Complex>>,
-    /// Null vectors of −λ, of saddles and quartets.
-    opposite: Vec<Vec<R::Complex>>,
-}
-
-/// What an error says about the block.
-struct Names<'a> {
-    names: &'a dyn Fn(usize) -> String,
-    slots: usize,
-}
-
-impl Names<'_> {
-    fn pairs(&self) -> String {
-        let pair = |slot| format!("({}, {})", (self.names)(slot), (self.names)(slot + 1));
-        (0..self.slots).step_by(2).map(pair).collect::<Vec<_>>().join(", ")
-    }
-
-    /// The largest components of a vector, relative to the largest of all.
-    fn direction<R: RealField>(&self, vector: &[R::Complex]) -> String {
-        let largest = vector.iter().map(modulus::<R>).fold(0.0, f64::max);
-        let part = |(slot, value): (usize, &R::Complex)| {
-            let share = modulus::<R>(value) / largest;
-            (share > 1e-6).then(|| format!("{} {share:.3}", (self.names)(slot)))
-        };
-        vector.iter().enumerate().filter_map(part).collect::<Vec<_>>().join(", ")
-    }
-}
 
 /// The modes of ½ zᵀ A z and M.
 pub(crate) fn diagonalized<R: RealField>(a: &Matrix<R>, names: &dyn Fn(usize) -> String) -> Result<Diagonal<R>, Error> {
@@ -72,119 +34,6 @@ pub(crate) fn diagonalized<R: RealField>(a: &Matrix<R>, names: &dyn Fn(usize) ->
     }
     let matrix = symplectic(transposed(&columns));
     finished(a, modes, matrix, scale, &names)
-}
-
-/// The eigenvalues of J A with Re ≥ 0, Im ≥ 0 and their multiplicities: real ones first, then complex ones, then imaginary ones, by descending size.
-fn spectrum<R: RealField>(motion: &Matrix<R>, scale: f64, names: &Names) -> Result<Vec<(f64, f64, usize)>, Error> {
-    let n = motion.len();
-    let floats = nalgebra::DMatrix::from_fn(n, n, |i, j| motion[i][j].to_float() / scale);
-    let not_finite = || Error::NotFinite { what: "quadratic part", term: names.pairs() };
-    if scale == 0.0 || floats.iter().any(|entry| !entry.is_finite()) {
-        return if scale == 0.0 { Err(zero::<R>(motion, names)) } else { Err(not_finite()) };
-    }
-    let schur = nalgebra::linalg::Schur::try_new(floats, f64::EPSILON, 10_000).ok_or_else(not_finite)?;
-    let mut found: Vec<(f64, f64, usize)> = Vec::new();
-    for value in schur.complex_eigenvalues().iter() {
-        if value.norm() < ROOT {
-            return Err(zero::<R>(motion, names));
-        }
-        // Each eigenvalue stands for ±λ, ±λ̄: what lies off the axis by less than the root of rounding is on it.
-        let re = if value.re.abs() < ROOT { 0.0 } else { value.re.abs() };
-        let im = if value.im.abs() < ROOT { 0.0 } else { value.im.abs() };
-        let weight = if re > 0.0 && im > 0.0 { 1 } else { 2 };
-        let known = found.iter_mut().find(|known| (known.0 - re).hypot(known.1 - im) < known_radius(value, re, im));
-        match known {
-            Some(known) => known.2 += weight,
-            None => found.push((re, im, weight)),
-        }
-    }
-    let rank = |(re, im, _): &(f64, f64, usize)| {
-        if *im == 0.0 {
-            0
-        } else if *re > 0.0 {
-            1
-        } else {
-            2
-        }
-    };
-    found.sort_by(|a, b| rank(a).cmp(&rank(b)).then((b.0.hypot(b.1)).total_cmp(&a.0.hypot(a.1))));
-    // Counted four times: ±λ, ±λ̄, or two of them twice.
-    Ok(found.into_iter().map(|(re, im, count)| (re * scale, im * scale, count.div_ceil(4))).collect())
-}
-
-/// How far apart two computed values of one eigenvalue can lie: by the root of rounding where they were off the axis, else by rounding.
-fn known_radius(value: &nalgebra::Complex<f64>, re: f64, im: f64) -> f64 {
-    let moved = (value.re.abs() - re).abs().max((value.im.abs() - im).abs());
-    if moved > EQUAL { ROOT } else { EQUAL }
-}
-
-fn zero<R: RealField>(motion: &Matrix<R>, names: &Names) -> Error {
-    let nulls =
-        |dimension| null_space::<R>(complexified(motion, &R::complex(R::zero(), R::zero())), dimension, f64::INFINITY);
-    let vectors = (1..=motion.len()).find_map(nulls).unwrap_or_default();
-    let direction = vectors.first().map(|vector| names.direction::<R>(vector)).unwrap_or_default();
-    Error::ZeroFrequency { pairs: names.pairs(), direction }
-}
-
-/// J A − λ.
-fn complexified<R: RealField>(motion: &Matrix<R>, eigenvalue: &R::Complex) -> Matrix<R::Complex> {
-    let complex = |i: usize, j: usize| {
-        let mut entry = R::complex(motion[i][j].clone(), R::zero());
-        if i == j {
-            entry -= eigenvalue;
-        }
-        entry
-    };
-    (0..motion.len()).map(|i| (0..motion.len()).map(|j| complex(i, j)).collect()).collect()
-}
-
-/// The null vectors of λ and of −λ.
-fn eigenspace<R: RealField>(
-    motion: &Matrix<R>,
-    (re, im): (f64, f64),
-    multiplicity: usize,
-    scale: f64,
-    names: &Names,
-) -> Result<Eigenspace<R>, Error> {
-    let candidates = |value: f64| {
-        let near = |candidate: &R| (candidate.to_float() - value).abs() < 1e-9 * scale;
-        if value == 0.0 { vec![R::zero()] } else { R::candidates(value).into_iter().filter(near).collect() }
-    };
-    let defective = |vector: Option<&Vec<R::Complex>>| Error::Defective {
-        pairs: names.pairs(),
-        eigenvalue: shown(re, im),
-        direction: vector.map(|vector| names.direction::<R>(vector)).unwrap_or_default(),
-    };
-    let nulls = |re: &R, im: &R, dimension| {
-        null_space::<R>(complexified(motion, &R::complex(re.clone(), im.clone())), dimension, ROOT * scale)
-    };
-    for (a, b) in candidates(re).iter().flat_map(|a| candidates(im).into_iter().map(move |b| (a.clone(), b))) {
-        if let Some(vectors) = nulls(&a, &b, multiplicity) {
-            let opposite = if re == 0.0 { None } else { nulls(&-a.clone(), &-b.clone(), multiplicity) };
-            if re > 0.0 && opposite.is_none() {
-                return Err(defective(vectors.first()));
-            }
-            return Ok(Eigenspace { re: a, im: b, vectors, opposite: opposite.unwrap_or_default() });
-        }
-        // Fewer vectors than the multiplicity.
-        for fewer in (1..multiplicity).rev() {
-            if let Some(vectors) = nulls(&a, &b, fewer) {
-                return Err(defective(vectors.first()));
-            }
-        }
-    }
-    if R::EPSILON > 0.0 {
-        return Err(defective(None));
-    }
-    Err(Error::SpectrumIrrational { pairs: names.pairs(), eigenvalue: shown(re, im) })
-}
-
-fn shown(re: f64, im: f64) -> String {
-    match (re > 0.0, im > 0.0) {
-        (true, true) => format!("±{re:.9} ± {im:.9}i"),
-        (true, false) => format!("±{re:.9}"),
-        _ => format!("±{im:.9}i"),
-    }
 }
 
 fn parts<R: RealField>(vector: &[R::Complex]) -> (Vec<R>, Vec<R>) {
@@ -394,8 +243,7 @@ fn symplectic<R: RealField>(mut matrix: Matrix<R>) -> Matrix<R> {
         let forms: Matrix<R> = columns.iter().map(|column| turned(column)).collect();
         let error = |i: usize, j: usize| {
             let mut error = dot(&columns[i], &forms[j]);
-            let expected = i64::from(i % 2 == 0 && j == i + 1) - i64::from(j % 2 == 0 && i == j + 1);
-            error -= &R::integer(expected);
+            error -= &R::integer(form_entry(i, j));
             error *= &half;
             error
         };
@@ -419,64 +267,55 @@ fn finished<R: RealField>(
     if R::EPSILON == 0.0 {
         return Ok(Diagonal { modes, matrix });
     }
-    let half = R::ratio(1, 2).ok_or(Error::DivisionByZero)?;
     let mut rest = product(&transposed(&matrix), &product(a, &matrix));
+    let read: Vec<(R, R)> = (0..modes.len()).map(|mode| read(&modes, mode, &rest)).collect::<Result<_, _>>()?;
+    for (mode, (kind, (first, second))) in modes.iter_mut().zip(read).enumerate() {
+        let (q, p) = (2 * mode, 2 * mode + 1);
+        let entries = match kind {
+            Mode::Elliptic { frequency, .. } => {
+                *frequency = first.clone();
+                vec![(q, q, first.clone()), (p, p, first)]
+            }
+            Mode::Hyperbolic { rate } => {
+                *rate = first.clone();
+                vec![(q, p, first.clone()), (p, q, first)]
+            }
+            Mode::Complex { rate, frequency, partner } => {
+                (*rate, *frequency) = (first.clone(), second.clone());
+                let other = 2 * *partner + 1;
+                vec![(q, p, first.clone()), (p, q, first), (q, other, -second.clone()), (other, q, -second)]
+            }
+        };
+        for (i, j, value) in entries {
+            rest[i][j] -= &value;
+        }
+    }
+    let left = rest.iter().flatten().map(|entry| entry.to_float().abs()).fold(0.0, f64::max);
+    if left > RESIDUAL * scale || !left.is_finite() {
+        let eigenvalue = modes.first().map(|mode| R::parts(&mode.frequency()));
+        let eigenvalue = eigenvalue.map(|(re, im)| shown(im.to_float().abs(), re.to_float().abs()));
+        let direction = String::new();
+        return Err(Error::Defective { pairs: names.pairs(), eigenvalue: eigenvalue.unwrap_or_default(), direction });
+    }
+    Ok(Diagonal { modes, matrix })
+}
+
+/// The numbers of a mode in Mᵀ A M.
+fn read<R: RealField>(modes: &[Mode<R>], mode: usize, rest: &Matrix<R>) -> Result<(R, R), Error> {
+    let half = R::ratio(1, 2).ok_or(Error::DivisionByZero)?;
     let mean = |x: &R, y: &R| {
         let mut sum = x.clone();
         sum += y;
         sum *= &half;
         sum
     };
-    let read: Vec<(R, R)> = modes
-        .iter()
-        .enumerate()
-        .map(|(mode, kind)| {
-            let (q, p) = (2 * mode, 2 * mode + 1);
-            match kind {
-                Mode::Elliptic { .. } => (mean(&rest[q][q], &rest[p][p]), R::zero()),
-                Mode::Hyperbolic { .. } => (rest[q][p].clone(), R::zero()),
-                Mode::Complex { partner, .. } => (
-                    mean(&rest[q][p], &rest[2 * partner][2 * partner + 1]),
-                    mean(&-rest[q][2 * partner + 1].clone(), &rest[2 * partner][p]),
-                ),
-            }
-        })
-        .collect();
-    for (mode, (kind, (first, second))) in modes.iter_mut().zip(read).enumerate() {
-        let (q, p) = (2 * mode, 2 * mode + 1);
-        let mut clear = |i: usize, j: usize, value: &R| rest[i][j] -= value;
-        match kind {
-            Mode::Elliptic { frequency, .. } => {
-                clear(q, q, &first);
-                clear(p, p, &first);
-                *frequency = first;
-            }
-            Mode::Hyperbolic { rate } => {
-                clear(q, p, &first);
-                clear(p, q, &first);
-                *rate = first;
-            }
-            Mode::Complex { rate, frequency, partner } => {
-                clear(q, p, &first);
-                clear(p, q, &first);
-                let other = 2 * *partner + 1;
-                clear(q, other, &-second.clone());
-                clear(other, q, &-second.clone());
-                (*rate, *frequency) = (first, second);
-            }
+    let (q, p) = (2 * mode, 2 * mode + 1);
+    Ok(match &modes[mode] {
+        Mode::Elliptic { .. } => (mean(&rest[q][q], &rest[p][p]), R::zero()),
+        Mode::Hyperbolic { .. } => (rest[q][p].clone(), R::zero()),
+        Mode::Complex { partner, .. } => {
+            let (other, other_p) = (2 * partner, 2 * partner + 1);
+            (mean(&rest[q][p], &rest[other][other_p]), mean(&-rest[q][other_p].clone(), &rest[other][p]))
         }
-    }
-    let left = rest.iter().flatten().map(|entry| entry.to_float().abs()).fold(0.0, f64::max);
-    if left > RESIDUAL * scale || !left.is_finite() {
-        let eigenvalue = modes
-            .first()
-            .map(|mode| R::parts(&mode.frequency()))
-            .map(|(re, im)| shown(im.to_float().abs(), re.to_float().abs()));
-        return Err(Error::Defective {
-            pairs: names.pairs(),
-            eigenvalue: eigenvalue.unwrap_or_default(),
-            direction: String::new(),
-        });
-    }
-    Ok(Diagonal { modes, matrix })
+    })
 }

@@ -35,6 +35,9 @@ VERSION_2 = [name for name in FIELDS if not name.endswith("/RATE")]
 FROM_SAMPLES = ["QUATERNION", "QUATERNION/DERIVATIVE", "QUATERNION/ANGVEL", "SPIN", "SPIN/NUTATION", "SPIN/NUTATION_MOM"]
 """Types that are written."""
 
+SYMMETRIC = 1e-12
+"""Moments whose difference is this part of the largest, or less, are equal."""
+
 LARGEST_NORM_ERROR = 1e-3
 """Messages carry as few as four digits: a quaternion with a norm within this of 1 is normalized."""
 
@@ -79,14 +82,17 @@ def _degrees(*columns: Array) -> Array:
 
 def _nutation(name: str, rates: Array, body: Body | None) -> tuple[Array, Array, Array]:
     """Directions of the angular momentum in the body, the rate of axis 3 about it, the rate of the body about axis 3 against that motion."""
-    if body is None or body.moments[0] != body.moments[1]:
-        said = "no body was given" if body is None else f"they are {body.moments.tolist()}"
-        raise ValueError(f"attitude_type {name} must have a body with equal moments about axes 1 and 2: {said}")
-    momentum = body.moments * rates
+    if body is None:
+        raise ValueError(f"attitude_type {name} must have a body with equal moments about axes 1 and 2: no body was given")
+    tensor = (body.principal_axes * body.moments) @ body.principal_axes.T
+    across, along = (tensor[0, 0] + tensor[1, 1]) / 2, tensor[2, 2]
+    if np.abs(tensor - np.diag([across, across, along])).max() > SYMMETRIC * body.moments.max():
+        raise ValueError(f"attitude_type {name} must have a body with equal moments about axes 1 and 2: its inertia tensor is {tensor.tolist()}")
+    momentum = rates * np.array([across, across, along])
     size = np.linalg.norm(momentum, axis=1)
     if np.any(size == 0):
         raise ValueError(f"attitude_type {name} must have a body that turns: its angular velocity is 0")
-    return momentum / size[:, None], size / body.moments[0], (1 - body.moments[2] / body.moments[0]) * rates[:, 2]
+    return momentum / size[:, None], size / across, (1 - along / across) * rates[:, 2]
 
 
 def attitudes_of(name: str, table: Array, sequence: str) -> tuple[Array, Array]:

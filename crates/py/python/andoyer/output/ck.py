@@ -31,6 +31,9 @@ STEADY = ("principal-axis", "spherical", "at-rest")
 MOST_RECORDS = 50_000_000
 """64 bytes each: more would not fit a file that anyone loads."""
 
+LONGEST_SEGMENT = 200_000
+"""Records of a segment, and those of a window more: SPICE looks for a segment one after the other."""
+
 LONGEST_NAME = 255
 """Characters of a path that SPICE opens."""
 
@@ -137,7 +140,7 @@ def write_ck(
     _check(path, begin, end, interpolation_error)
     zero = seconds_of_tdb(kernel.date, kernel.time_system)
     steady = motion.plan.mode in STEADY and motion.scene.orbit is None
-    segments = _uniform(motion, begin, end, interpolation_error) if steady else _tabulated(motion, begin, end, interpolation_error, progress)
+    segments = _uniform(motion, begin, end, interpolation_error, zero) if steady else _tabulated(motion, begin, end, interpolation_error, zero, progress)
     text = path.with_suffix(".tsc")
     with whole_file(path, force) as binary, whole_file(text, force) as beside, _plain_errors(spice), _clock(spice, kernel, zero + begin) as ticks:
         if not spice.namfrm(kernel.frame):
@@ -166,24 +169,32 @@ def _check(path: Path, begin: float, end: float, error: float) -> None:
         raise ValueError(f"path must have fewer than {LONGEST_NAME - 16} characters for SPICE: got {len(os.fsencode(path))}")
 
 
-def _uniform(motion: Motion, begin: float, end: float, error: float) -> Iterator[_Segment]:
+def _segment(motion: Motion, times: Array, zero: float, uniform: bool) -> _Segment:
+    """The motion at times that ephemeris time has exactly: after `zero` seconds they are rounded, and the motion is taken there."""
+    times = (zero + times) - zero
+    samples = motion.at(times)
+    return _Segment(times, samples.attitude, rotate(samples.attitude, samples.angular_velocity), uniform)
+
+
+def _uniform(motion: Motion, begin: float, end: float, error: float, zero: float) -> Iterator[_Segment]:
     """One record, or as many as keep the rounding of a record's angle below the error."""
     angle = float(np.linalg.norm(motion.angular_velocity(begin))) * (end - begin)
     count = max(1, math.ceil(angle * ROUNDING / error))
     _limit(count, error)
-    times = np.linspace(begin, end, count + 1)
-    samples = motion.at(times)
-    yield _Segment(times, samples.attitude, rotate(samples.attitude, samples.angular_velocity), True)
+    yield _segment(motion, np.linspace(begin, end, count + 1), zero, True)
 
 
-def _tabulated(motion: Motion, begin: float, end: float, error: float, progress: Progress) -> Iterator[_Segment]:
-    """Segments of type 3, one for each window; neighbours share a node, so that there is no gap."""
+def _tabulated(motion: Motion, begin: float, end: float, error: float, zero: float, progress: Progress) -> Iterator[_Segment]:
+    """Segments of type 3, each of whole windows; neighbours share a node, so that there is no gap."""
     borders = windows(motion, begin, end)
     _limit(round(estimate(motion, borders, error)), error)
+    parts: list[Array] = []
     try:
         for done, times in enumerate(nodes(motion, borders, error), 1):
-            samples = motion.at(times)
-            yield _Segment(times, samples.attitude, rotate(samples.attitude, samples.angular_velocity), False)
+            parts.append(times[1:] if parts else times)
+            if done == len(borders) - 1 or sum(map(len, parts)) > LONGEST_SEGMENT:
+                yield _segment(motion, np.concatenate(parts), zero, False)
+                parts = []
             progress(done, len(borders) - 1)
     except ArithmeticError as left:
         raise ValueError(f"interpolation_error must be above what rounding leaves of this motion: got {error!r}, but {left}") from left
@@ -226,6 +237,8 @@ def _write(spice: Any, path: Path, segments: Iterator[_Segment], kernel: Kernel,
         written = Written(3, 0)
         for segment in segments:
             times = ticks(zero + segment.times)
+            if np.any(np.diff(times) <= 0):
+                raise ValueError(f"interpolation_error must leave records that the clock tells apart: some are less than {np.spacing(times[-1]):.2g} ticks apart")
             quaternions = np.ascontiguousarray(segment.attitude[:, [3, 0, 1, 2]] * np.array([1.0, -1.0, -1.0, -1.0]))
             head = (handle, times[0], times[-1], kernel.instrument, kernel.frame)
             if segment.uniform:
