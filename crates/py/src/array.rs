@@ -20,8 +20,8 @@ use crate::computing::{detached, interruptible};
 use crate::error;
 use crate::foreign::{self, Calendar};
 
-/// Times whose samples fill 128 KiB, from where on glibc asks the system for memory.
-const FEWEST_SHARED: usize = 2048;
+/// Numbers that fill 128 KiB, from where on glibc asks the system for memory.
+const FEWEST_SHARED: usize = 16_384;
 
 /// `value` as a float64 array, aligned and in C order.
 fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
@@ -378,7 +378,8 @@ impl<'py> Times<'py> {
     /// 25 ns a sample for 100,000 of them, against 1.0 in one block.
     fn with_outputs(&self, [first, second]: [&[usize]; 2]) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
         let shapes = [self.array.shape().to_vec(), self.shape(first), self.shape(second)];
-        let arrays = if self.array.len() < FEWEST_SHARED {
+        let numbers = shapes.iter().map(|shape| shape.iter().product::<usize>()).sum::<usize>();
+        let arrays = if numbers < FEWEST_SHARED {
             [self.empty(&shapes[0])?, self.empty(&shapes[1])?, self.empty(&shapes[2])?]
         } else {
             self.shared(&shapes)?

@@ -80,8 +80,8 @@ def test_a_tensor_keeps_the_axes_of_its_user():
     body = Body.from_inertia(TENSOR, name="satellite")
     assert body.inertia.tolist() == TENSOR
     axes = body.principal_axes
-    assert np.abs(axes @ np.diag(body.moments) @ axes.T - TENSOR).max() < 1e-15
-    assert np.abs(axes.T @ axes - np.eye(3)).max() < 1e-15 and np.linalg.det(axes) > 0
+    assert np.abs(axes @ np.diag(body.moments) @ axes.T - TENSOR).max() < 4e-15
+    assert np.abs(axes.T @ axes - np.eye(3)).max() < 2e-15 and np.linalg.det(axes) > 0
     motion = Scene(body, [0.1, -0.2, 0.3, 0.9273618495495703], [0.3, -0.1, 1.0]).solve()
     samples = motion.at(np.linspace(0, 50, 11))
     momenta = motion.rotation(samples.times).apply(samples.angular_velocity @ np.array(TENSOR))

@@ -25,10 +25,10 @@ use crate::solve::untruncated;
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
 
-use super::Derivatives;
-use super::constants::{Change, Constants, Setting};
+use super::constants::{CHANGES, Change, Constants, Setting};
 use super::integral::Integral;
 use super::sources::{Amplitudes, Passing, Place, Source, Wobbling};
+use super::{Derivatives, PARAMETERS};
 
 /// Samples for each thread below which one more thread costs more than it saves.
 const SAMPLES_PER_THREAD: usize = 1024;
@@ -110,66 +110,86 @@ impl<T: Source> Task for Run<'_, T> {
         let width = if T::VECTORS { Lanes::<S>::WIDTH } else { 1 };
         let origin = Lanes::splat(simd, epoch);
         let initial = QuaternionLanes::all(origin, &initial);
-        let outputs = attitudes.chunks_mut(width).zip(rates.chunks_mut(width));
-        for (times, (attitudes, rates)) in times.chunks(width).zip(outputs) {
-            let mut block = [times[0]; WIDEST];
-            block[..times.len()].copy_from_slice(times);
+        let mut start = 0;
+        while start < times.len() {
+            let stop = times.len().min(start + width);
+            let mut block = [times[start]; WIDEST];
+            block[..stop - start].copy_from_slice(&times[start..stop]);
             let elapsed = elapsed(Lanes::load(simd, &block), origin);
             let place = source.place(simd, setting, elapsed);
-            columns(&place, source, setting, initial, (attitudes, rates));
+            let [attitude, rate] = columns(&place, source, setting, initial);
+            store(&attitude, &mut attitudes[start..stop]);
+            store(&rate, &mut rates[start..stop]);
+            start = stop;
         }
     }
 }
 
-/// All columns at some times.
+/// Derivatives of one vector in lanes: row by row, as they lie in memory.
+type Entries<S> = [Lanes<S>; 3 * PARAMETERS];
+
+/// Derivatives of attitude and rates at some times.
 #[inline(always)]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "iterators that carry vectors are not inlined into the code of an instruction set"
+)]
 fn columns<S: InstructionSet, T: Source>(
     place: &Place<S, T::Rest<S>>,
     source: &T,
     setting: &Setting,
     initial: QuaternionLanes<S>,
-    (attitudes, rates): (&mut [Derivatives], &mut [Derivatives]),
-) {
+) -> [Entries<S>; 2] {
     let Place { attitude: [x, y, z, w], rates: rate, rest } = place;
     let one = x.all(1.0);
-    let [[a, b, c], [d, e, f], [g, h, k]] = (QuaternionLanes([-*x, -*y, -*z, *w]) * initial).rows();
-    let carried = [[a, d, g], [b, e, h], [c, f, k]];
-    let mut direction = *rate;
-    for (g, nu) in direction.iter_mut().zip(setting.user_rates) {
-        *g = *g * one.all(1.0 / nu);
+    let carried = (QuaternionLanes([-*x, -*y, -*z, *w]) * initial).rows();
+    let nu = setting.user_rates;
+    let [g, h, k] = [rate[0] * one.all(1.0 / nu[0]), rate[1] * one.all(1.0 / nu[1]), rate[2] * one.all(1.0 / nu[2])];
+    let mut attitudes = [one.all(0.0); 3 * PARAMETERS];
+    let mut rates = attitudes;
+    for row in 0..3 {
+        for axis in 0..3 {
+            attitudes[PARAMETERS * row + axis] = carried[row][axis];
+        }
     }
-    for (axis, column) in carried.into_iter().enumerate() {
-        store(attitudes, axis, column);
-        store(rates, axis, [one.all(0.0); 3]);
-    }
-    for (parameter, &Change { axis, lever, inverse_moment, .. }) in setting.changes.iter().enumerate() {
+    for parameter in 0..CHANGES {
+        let Change { axis, lever, inverse_moment, .. } = setting.changes[parameter];
         let (change, along) = source.change(rest, parameter);
         let lever = one.all(lever);
         let [a, b, c] = [
-            lever.mul_add(carried[axis][0], -change[0]),
-            lever.mul_add(carried[axis][1], -change[1]),
-            lever.mul_add(carried[axis][2], -change[2]),
+            lever.mul_add(carried[0][axis], -change[0]),
+            lever.mul_add(carried[1][axis], -change[1]),
+            lever.mul_add(carried[2][axis], -change[2]),
         ];
-        let [g, h, k] = direction;
         let turned = [
             along.mul_add(g, k.negate_mul_add(b, h * c)),
             along.mul_add(h, g.negate_mul_add(c, k * a)),
             along.mul_add(k, h.negate_mul_add(a, g * b)),
         ];
-        store(attitudes, 3 + parameter, turned);
-        let [a, b, c] = setting.user_rates;
-        let mut changed = [change[0] * one.all(a), change[1] * one.all(b), change[2] * one.all(c)];
-        changed[axis] = rate[axis].mul_add(one.all(inverse_moment), changed[axis]);
-        store(rates, 3 + parameter, changed);
+        for row in 0..3 {
+            attitudes[PARAMETERS * row + 3 + parameter] = turned[row];
+            rates[PARAMETERS * row + 3 + parameter] = change[row] * one.all(nu[row]);
+        }
+        let entry = PARAMETERS * axis + 3 + parameter;
+        rates[entry] = rate[axis].mul_add(one.all(inverse_moment), rates[entry]);
     }
+    [attitudes, rates]
 }
 
-/// One column of as many matrices as there are rows left.
+/// As many matrices as there are, four entries at a time; the last four overlap those before them.
 #[inline(always)]
-fn store<S: InstructionSet>(matrices: &mut [Derivatives], column: usize, vector: [Lanes<S>; 3]) {
-    for (row, component) in vector.iter().enumerate() {
-        for (matrix, value) in matrices.iter_mut().zip(component.values()) {
-            matrix[row][column] = *value;
+#[expect(
+    clippy::needless_range_loop,
+    reason = "iterators that carry vectors are not inlined into the code of an instruction set"
+)]
+fn store<S: InstructionSet>(entries: &Entries<S>, matrices: &mut [Derivatives]) {
+    const FIRSTS: [usize; 7] = [0, 4, 8, 12, 16, 20, 23];
+    let mut rows = [[0.0; 4]; WIDEST];
+    for first in FIRSTS {
+        let four = [entries[first], entries[first + 1], entries[first + 2], entries[first + 3]];
+        Lanes::store_fours(four, &mut rows);
+        for lane in 0..matrices.len() {
+            matrices[lane].as_flattened_mut()[first..first + 4].copy_from_slice(&rows[lane]);
         }
     }
 }

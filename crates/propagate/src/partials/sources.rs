@@ -119,10 +119,9 @@ impl Amplitudes {
         zeta: Lanes<S>,
     ) -> Polhodic<S> {
         let one = time.all(1.0);
-        let mut direction = rates;
-        for (g, rate) in direction.iter_mut().zip(setting.user_rates) {
-            *g = *g * one.all(1.0 / rate);
-        }
+        let nu = setting.user_rates;
+        let direction =
+            [rates[0] * one.all(1.0 / nu[0]), rates[1] * one.all(1.0 / nu[1]), rates[2] * one.all(1.0 / nu[2])];
         let [x, y, z] = direction;
         let [a, b, c] = setting.user_slopes;
         let slope = [y * z * one.all(a), z * x * one.all(b), x * y * one.all(c)];
