@@ -1,7 +1,7 @@
 //! Sparse and dense products, and the brackets of a normal form: what `make rivals-products` sets beside other algebras.
 //!
-//! `products` reads the names of tasks from its standard input, a line each, and answers with processor seconds of the main thread, seconds on the clock and the number
-//! of terms. Factors are made once. Every answer is checked: by its number of terms and by its value at a point modulo nothing, in `f64`.
+//! `products` reads the names of tasks from its standard input, a line each, and answers with processor seconds of the main thread, seconds on the clock, the number
+//! of terms, seconds on the clock for the first look at a coefficient, and that coefficient. Factors are made before. Whoever asks checks the answer.
 
 use std::hint::black_box;
 use std::io::{BufRead, Write};
@@ -63,29 +63,38 @@ fn processor_seconds(start: Instant) -> f64 {
     nanoseconds.map_or_else(|| start.elapsed().as_secs_f64(), |nanoseconds| nanoseconds * 1e-9)
 }
 
-fn timed<T>(name: &str, mut task: impl FnMut() -> T, terms: impl Fn(&T) -> usize) {
+/// Runs a task and answers with a coefficient of its result.
+fn timed<C: Coefficient>(name: &str, exponents: &[u32], task: impl FnOnce() -> Polynomial<C>) {
     let start = Instant::now();
     let before = processor_seconds(start);
     let answer = black_box(task());
     let (processor, clock) = (processor_seconds(start) - before, start.elapsed().as_secs_f64());
+    let start = Instant::now();
+    let monomial = Monomial::new(exponents).expect("small exponents");
+    let literal = answer.coefficient(&monomial).map_or_else(|| "0".to_owned(), |c| c.literal().1);
+    let reading = start.elapsed().as_secs_f64();
+    let literal = literal.replace(' ', "");
     let mut out = std::io::stdout().lock();
-    writeln!(out, "{name} {processor:.6} {clock:.6} {}", terms(&answer)).expect("an open standard output");
+    writeln!(out, "{name} {processor:.6} {clock:.6} {} {reading:.6} {literal}", answer.len())
+        .expect("an open standard output");
 }
 
-fn product<C: Coefficient>(name: &str, [f, g]: &[Polynomial<C>; 2]) {
-    timed(name, || f.multiply(g).expect("small exponents"), Polynomial::len);
+fn product<C: Coefficient>(name: &str, [f, g]: &[Polynomial<C>; 2], exponents: &[u32]) {
+    timed(name, exponents, || f.multiply(g).expect("small exponents"));
 }
 
 /// The brackets of the last order of a normal form of degree `degree` in three degrees of freedom, and one with a truncation.
 fn brackets(name: &str, degree: u32) {
     let poisson = Poisson::new(&[(0, 1), (2, 3), (4, 5)]).expect("three pairs");
     let forms: Vec<_> = (3..degree).map(|d| form(d, d.into())).collect();
-    let pairs = || forms.iter().zip(forms.iter().rev());
-    timed(
-        name,
-        || pairs().map(|(f, g)| poisson.bracket(f, g).expect("small exponents").len()).max(),
-        |most| most.unwrap_or(0),
-    );
+    timed(name, &[degree - 2, 1, 1], || {
+        let brackets =
+            forms.iter().zip(forms.iter().rev()).map(|(f, g)| poisson.bracket(f, g).expect("small exponents"));
+        brackets.fold(Polynomial::zero(), |mut sum, bracket| {
+            sum += &bracket;
+            sum
+        })
+    });
 }
 
 fn truncated(name: &str, degree: u32) {
@@ -95,8 +104,8 @@ fn truncated(name: &str, degree: u32) {
         whole += &form(d, d.into());
     }
     let kept = Truncation::total(degree);
-    timed(name, || poisson.bracket_truncated(&whole, &whole, &kept).expect("small exponents"), Polynomial::len);
-    timed(name, || whole.multiply_truncated(&whole, &kept).expect("small exponents"), Polynomial::len);
+    timed(name, &[3, 3], || poisson.bracket_truncated(&whole, &whole, &kept).expect("small exponents"));
+    timed(name, &[3, 3], || whole.multiply_truncated(&whole, &kept).expect("small exponents"));
 }
 
 fn main() -> ExitCode {
@@ -107,10 +116,10 @@ fn main() -> ExitCode {
     for line in std::io::stdin().lock().lines() {
         let Ok(name) = line else { return ExitCode::FAILURE };
         match name.as_str() {
-            "pearce-f64" => product(&name, &sparse),
-            "pearce-exact" => product(&name, &sparse_exact),
-            "fateman-f64" => product(&name, &dense),
-            "fateman-exact" => product(&name, &dense_exact),
+            "pearce-f64" => product(&name, &sparse, &[60, 0, 0, 0, 60]),
+            "pearce-exact" => product(&name, &sparse_exact, &[60, 0, 0, 0, 60]),
+            "fateman-f64" => product(&name, &dense, &[0, 0, 0, 40]),
+            "fateman-exact" => product(&name, &dense_exact, &[0, 0, 0, 40]),
             "brackets-12" => brackets(&name, 12),
             "brackets-16" => brackets(&name, 16),
             "truncated-12" => truncated(&name, 12),

@@ -9,8 +9,8 @@
 //! j₁ k₂ − k₁ j₂; no derivative is ever formed. Cost: one coefficient product for each pair of terms with a weight that
 //! is not 0.
 
-use crate::product::{Accumulator, Rule};
 use crate::monomial::{check_slot, unit};
+use crate::product::{Accumulator, Rule};
 use crate::{Coefficient, Error, Polynomial, Truncation};
 
 /// A Poisson structure on the variable slots.

@@ -7,6 +7,7 @@ use num_integer::Integer;
 
 /// Numerators over a common denominator, in the order of the terms.
 #[derive(Debug, Clone, PartialEq)]
+#[allow(unreachable_pub, reason = "a public trait names it, hidden")]
 pub struct Words {
     pub(crate) numerators: Numerators,
     /// Greater than 0.

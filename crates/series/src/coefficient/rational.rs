@@ -1,11 +1,11 @@
 //! Exact coefficients: rationals and Gaussian rationals, lifted to integers over the least common denominator.
 
 use super::Coefficient;
+use crate::words::{MachineWords, Numerators, Words};
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_integer::Integer;
 use num_rational::BigRational;
-use crate::words::{MachineWords, Numerators, Words};
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 /// Least common multiple of denominators. Most of them divide the multiple found so far, and a remainder is cheaper
@@ -114,9 +114,8 @@ impl Coefficient for Complex<BigRational> {
             Some(Words { numerators: Numerators::Complex(numerators), denominator })
         },
         lower: |words| {
-            let complex = |[re, im]: [i128; 2]| {
-                Complex::new(fraction(re, words.denominator), fraction(im, words.denominator))
-            };
+            let complex =
+                |[re, im]: [i128; 2]| Complex::new(fraction(re, words.denominator), fraction(im, words.denominator));
             match &words.numerators {
                 Numerators::Real(values) => values.iter().map(|&re| complex([re, 0])).collect(),
                 Numerators::Complex(values) => values.iter().map(|&pair| complex(pair)).collect(),

@@ -17,12 +17,16 @@ pub(super) trait Key: Copy + Ord + Debug + Send + Sync {
     const BITS: u32;
 
     fn narrowed(code: i128) -> Self;
+    /// The packed exponents.
+    fn decoded(self, layout: &Layout) -> u128;
     fn widened(self) -> i128;
     fn plus(self, other: Self) -> Self;
-    /// self − base for 0 ≤ self − base < 2⁶⁴.
+    /// self − base ≥ 0, the largest number where it is larger.
     fn offset(self, base: Self) -> usize;
-    /// 64 bits whose upper ones are well mixed.
+    /// 64 bits whose upper ones are well mixed, from all bits but the last four.
     fn hash(self) -> u64;
+    /// The last bits.
+    fn low_bits(self, count: u32) -> usize;
 }
 
 /// 2⁶⁴ over the golden ratio.
@@ -35,6 +39,11 @@ impl Key for i64 {
     #[inline]
     fn narrowed(code: i128) -> Self {
         code as i64
+    }
+
+    #[inline]
+    fn decoded(self, layout: &Layout) -> u128 {
+        layout.decode_word(self)
     }
 
     #[inline]
@@ -54,7 +63,12 @@ impl Key for i64 {
 
     #[inline]
     fn hash(self) -> u64 {
-        (self as u64).wrapping_mul(GOLDEN)
+        ((self >> 4) as u64).wrapping_mul(GOLDEN)
+    }
+
+    #[inline(always)]
+    fn low_bits(self, count: u32) -> usize {
+        self as usize & ((1 << count) - 1)
     }
 }
 
@@ -64,6 +78,10 @@ impl Key for i128 {
 
     fn narrowed(code: i128) -> Self {
         code
+    }
+
+    fn decoded(self, layout: &Layout) -> u128 {
+        layout.decode_words(self)
     }
 
     fn widened(self) -> i128 {
@@ -77,12 +95,17 @@ impl Key for i128 {
 
     #[inline]
     fn offset(self, base: Self) -> usize {
-        (self - base) as usize
+        usize::try_from(self - base).unwrap_or(usize::MAX)
     }
 
     #[inline]
     fn hash(self) -> u64 {
-        ((self as u64) ^ ((self >> 64) as u64).wrapping_mul(0xc2b2_ae3d_27d4_eb4f)).wrapping_mul(GOLDEN)
+        ((self >> 4) as u64 ^ ((self >> 64) as u64).wrapping_mul(0xc2b2_ae3d_27d4_eb4f)).wrapping_mul(GOLDEN)
+    }
+
+    #[inline]
+    fn low_bits(self, count: u32) -> usize {
+        self as usize & ((1 << count) - 1)
     }
 }
 
@@ -94,8 +117,9 @@ pub(super) struct Layout {
     counts: [i128; SLOTS],
     /// The slot that the degree determines.
     determined: Option<usize>,
-    /// G.
+    /// G, and its binary logarithm where all radices are powers of two.
     grade: i128,
+    grade_bits: Option<u32>,
     /// Whether the codes follow the canonical order.
     pub(super) canonical: bool,
 }
@@ -103,9 +127,11 @@ pub(super) struct Layout {
 #[derive(Debug)]
 struct Field {
     slot: usize,
-    /// uₛ.
+    /// uₛ, and its binary logarithm where it is a power of two.
     unit: i128,
-    bits: Option<u32>,
+    bits: u32,
+    /// How often the slot counts in the degree.
+    count: u64,
 }
 
 impl Layout {
@@ -119,14 +145,15 @@ impl Layout {
         let canonical = used.iter().all(|&slot| counts[slot] == 1);
         let determined = used.iter().copied().rfind(|&slot| counts[slot] > 0);
         let mut fields = Vec::with_capacity(SLOTS);
-        let mut grade = 1;
+        let mut grade = 1_i128;
         for &slot in used.iter().rev().filter(|&&slot| Some(slot) != determined) {
             let radix = if powers_of_two { (bounds[slot] + 1).next_power_of_two() } else { bounds[slot] + 1 };
-            fields.push(Field { slot, unit: grade, bits: powers_of_two.then(|| grade.trailing_zeros()) });
+            fields.push(Field { slot, unit: grade, bits: grade.trailing_zeros(), count: counts[slot] as u64 });
             grade *= i128::from(radix);
         }
         fields.reverse();
-        Layout { fields, counts, determined, grade, canonical }
+        let grade_bits = powers_of_two.then(|| grade.trailing_zeros());
+        Layout { fields, counts, determined, grade, grade_bits, canonical }
     }
 
     /// What one more in the exponent of each slot adds to a code.
@@ -161,43 +188,33 @@ impl Layout {
         i128::BITS - largest.leading_zeros()
     }
 
-    /// The packed exponents of the monomial of a code.
+    /// The exponents of a code that is a word; units and G are, too.
     #[inline]
-    pub(super) fn decode(&self, code: i128) -> u128 {
-        let shifted = self.fields.first().is_none_or(|field| field.bits.is_some());
-        let (degree, rest) = if shifted {
-            let bits = self.grade.trailing_zeros();
-            let degree = (code + self.grade - 1) >> bits;
-            (degree, (degree << bits) - code)
-        } else {
-            let degree = (code + self.grade - 1).div_euclid(self.grade);
-            (degree, degree * self.grade - code)
+    fn decode_word(&self, code: i64) -> u128 {
+        let grade = self.grade as i64;
+        let mut degree = match self.grade_bits {
+            Some(bits) => (code + grade - 1) >> bits,
+            None => (code + grade - 1).div_euclid(grade),
         };
-        match u64::try_from(rest) {
-            Ok(rest) => self.decode_word(degree as i64, rest),
-            Err(_) => self.decode_words(degree, rest as u128),
-        }
-    }
-
-    #[inline]
-    fn decode_word(&self, mut degree: i64, mut rest: u64) -> u128 {
+        let mut rest = (degree * grade - code) as u64;
         let mut key = 0;
         for field in &self.fields {
-            let unit = field.unit as u64;
-            let exponent = if let Some(bits) = field.bits { rest >> bits } else { rest / unit };
-            rest -= exponent * unit;
-            degree -= exponent as i64 * self.counts[field.slot] as i64;
+            let exponent = if self.grade_bits.is_some() { rest >> field.bits } else { rest / field.unit as u64 };
+            rest -= exponent * field.unit as u64;
+            degree -= (exponent * field.count) as i64;
             key |= u128::from(exponent) << shift(field.slot);
         }
         key | self.last(degree.into())
     }
 
-    fn decode_words(&self, mut degree: i128, mut rest: u128) -> u128 {
+    fn decode_words(&self, code: i128) -> u128 {
+        let mut degree = (code + self.grade - 1).div_euclid(self.grade);
+        let mut rest = (degree * self.grade - code) as u128;
         let mut key = 0;
         for field in &self.fields {
             let exponent = rest / field.unit as u128;
             rest %= field.unit as u128;
-            degree -= exponent as i128 * self.counts[field.slot];
+            degree -= exponent as i128 * i128::from(field.count);
             key |= exponent << shift(field.slot);
         }
         key | self.last(degree)

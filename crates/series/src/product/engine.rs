@@ -18,11 +18,14 @@ const PARALLEL_PRODUCTS: usize = 1 << 18;
 /// Windows for each thread from one pause to the next.
 const WINDOWS_PER_BATCH: usize = 16;
 /// Cells of a window's array: a megabyte of 16-byte sums.
-const ARRAY_CELLS: usize = 1 << 16;
+const ARRAY_CELLS: i128 = 1 << 16;
+/// Products in a window's array: some milliseconds.
+const ARRAY_PRODUCTS: i128 = 1 << 22;
+const FEWEST_CELLS: i128 = 1 << 8;
 /// An array may have so many cells for each product.
 pub(super) const CELLS_PER_PRODUCT: i128 = 4;
 /// Bytes of a window's table that has a slot for every other product.
-const TABLE_BYTES: usize = 1 << 20;
+const TABLE_BYTES: usize = 1 << 19;
 /// The same for sums that own memory, each product of which takes tenths of a microsecond.
 const HEAVY_TABLE_PRODUCTS: usize = 1 << 13;
 /// Sums drawn for each boundary of the windows.
@@ -38,7 +41,10 @@ pub(super) struct Operand<K, F> {
 pub(super) enum Weights {
     Constant(i64),
     /// j₁ k₂ − k₁ j₂, (j, k) being given for every term of both sides.
-    Bracket { outer: Vec<[i64; 2]>, inner: Vec<[i64; 2]> },
+    Bracket {
+        outer: Vec<[i64; 2]>,
+        inner: Vec<[i64; 2]>,
+    },
 }
 
 /// One product: every outer term with every inner one.
@@ -49,6 +55,9 @@ pub(super) struct Part<'a, K, F> {
     pub(super) shift: K,
     pub(super) weights: Weights,
 }
+
+/// Takes numbers of products; an error ends the sum.
+type Count<'a> = dyn FnMut(usize) -> Result<(), Error> + 'a;
 
 /// The codes from `low` on, below `high`.
 #[derive(Clone, Copy)]
@@ -71,9 +80,13 @@ impl<K: Key, F> Part<'_, K, F> {
 
     /// Calls `row` with each outer position and the range of inner positions whose products are in the window.
     #[inline(always)]
-    fn rows(&self, window: Window<K>, mut row: impl FnMut(usize, K, std::ops::Range<usize>)) {
+    fn rows(
+        &self,
+        window: Window<K>,
+        mut row: impl FnMut(usize, K, std::ops::Range<usize>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         let inner = &self.inner.codes;
-        let Some(&top) = inner.last() else { return };
+        let Some(&top) = inner.last() else { return Ok(()) };
         let start = self.outer.codes.partition_point(|code| code.plus(self.shift).plus(top) < window.low);
         let (mut first, mut last) = (inner.len(), inner.len());
         for (position, code) in self.outer.codes.iter().enumerate().skip(start) {
@@ -88,21 +101,22 @@ impl<K: Key, F> Part<'_, K, F> {
                 break;
             }
             if first < last {
-                row(position, base, first..last);
+                row(position, base, first..last)?;
             }
         }
+        Ok(())
     }
 
-    fn pairs_in(&self, window: Window<K>) -> usize {
-        let mut pairs = 0;
-        self.rows(window, |_, _, range| pairs += range.len());
-        pairs
-    }
-
-    /// Adds the products that are in the window.
-    fn add<A: Arithmetic<Factor = F>, S: Store<K, A::Sum>>(&self, window: Window<K>, store: &mut S) {
+    /// Adds the products that are in the window, and tells `count` of those of each row.
+    fn add<A: Arithmetic<Factor = F>, S: Store<K, A::Sum>>(
+        &self,
+        window: Window<K>,
+        store: &mut S,
+        count: &mut Count<'_>,
+    ) -> Result<(), Error> {
         let (codes, factors) = (&self.inner.codes, &self.inner.factors);
         self.rows(window, |position, base, range| {
+            count(range.len())?;
             let first = &self.outer.factors[position];
             let inner = codes[range.clone()].iter().zip(&factors[range.clone()]);
             match &self.weights {
@@ -119,7 +133,7 @@ impl<K: Key, F> Part<'_, K, F> {
                 Weights::Bracket { outer, inner: exponents } => {
                     let [j, k] = outer[position];
                     if [j, k] == [0, 0] {
-                        return;
+                        return Ok(());
                     }
                     for ((&code, second), exponents) in inner.zip(&exponents[range]) {
                         let weight = j * exponents[1] - k * exponents[0];
@@ -129,7 +143,8 @@ impl<K: Key, F> Part<'_, K, F> {
                     }
                 }
             }
-        });
+            Ok(())
+        })
     }
 }
 
@@ -168,7 +183,7 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
         let whole = Window { low, high: K::narrowed(high) };
         let pairs = self.parts.iter().fold(0_usize, |pairs, part| pairs.saturating_add(part.pairs()));
         if A::LIGHT && high - low.widened() <= CELLS_PER_PRODUCT * pairs as i128 {
-            self.windows::<Array<K, A::Sum>>(Array::new, &even(whole), pairs, pause)
+            self.windows::<Array<K, A::Sum>>(Array::new, &even(whole, pairs), pairs, pause)
         } else {
             self.windows::<Table<K, A::Sum>>(Table::new, &self.quantiles(whole, pairs), pairs, pause)
         }
@@ -179,7 +194,7 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
         let products = if A::LIGHT { 2 * TABLE_BYTES / size_of::<(K, A::Sum)>() } else { HEAVY_TABLE_PRODUCTS };
         // Walking along the staircases must cost less than the products themselves.
         let steps: usize = self.parts.iter().map(|part| part.outer.codes.len() + 2 * part.inner.codes.len()).sum();
-        let count = (pairs / products).min(pairs / (4 * steps + 1)).max(1);
+        let count = (pairs / products).min(pairs / (2 * steps + 1)).max(1);
         let wanted = SAMPLES_PER_WINDOW * count;
         let mut sums = Vec::new();
         for part in self.parts.iter().filter(|_| count > 1) {
@@ -209,55 +224,65 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
         pause: &mut Pause<'_>,
     ) -> Result<Vec<Piece<A::Value>>, Error> {
         let threads = if pairs < PARALLEL_PRODUCTS { 1 } else { rayon::current_num_threads().min(windows.len()) };
+        let expected = pairs / windows.len().max(1);
         if threads > 1 {
             let mut pieces = Vec::new();
             for batch in windows.chunks(threads * WINDOWS_PER_BATCH) {
                 pause()?;
-                let stretches: Vec<_> = batch
+                let stretches: Vec<Piece<A::Value>> = batch
                     .par_iter()
                     .map_init(&store, |store, &window| {
                         let mut piece = Piece::new();
-                        self.window(window, store, &mut piece);
-                        piece
+                        self.window(window, expected, store, &mut piece, &mut |_| Ok(()))?;
+                        Ok(piece)
                     })
-                    .collect();
+                    .collect::<Result<_, Error>>()?;
                 pieces.extend(stretches);
             }
             return Ok(pieces);
         }
         let (mut piece, mut store, mut done) = (Piece::new(), store(), 0);
-        for &window in windows {
-            done += self.window(window, &mut store, &mut piece);
-            if done >= PRODUCTS_PER_PAUSE {
-                done = 0;
-                pause()?;
+        let mut count = |products| {
+            done += products;
+            if done < PRODUCTS_PER_PAUSE {
+                return Ok(());
             }
+            done = 0;
+            pause()
+        };
+        for &window in windows {
+            self.window(window, expected, &mut store, &mut piece, &mut count)?;
         }
         Ok(vec![piece])
     }
 
-    /// Forms the sums of one window; how many products that took.
-    fn window<S: Store<K, A::Sum>>(&self, window: Window<K>, store: &mut S, piece: &mut Piece<A::Value>) -> usize {
-        let pairs = self.parts.iter().map(|part| part.pairs_in(window)).sum();
-        store.open(window.low, window.high.offset(window.low), pairs);
+    /// Forms the sums of one window, on which about `expected` products fall.
+    fn window<S: Store<K, A::Sum>>(
+        &self,
+        window: Window<K>,
+        expected: usize,
+        store: &mut S,
+        piece: &mut Piece<A::Value>,
+        count: &mut Count<'_>,
+    ) -> Result<(), Error> {
+        store.open(window.low, window.high.offset(window.low), expected);
         for part in self.parts {
-            part.add::<A, S>(window, store);
+            part.add::<A, S>(window, store, count)?;
         }
         store.drain(&mut |key: K, sum| {
             if let Some(value) = self.arithmetic.value(sum) {
-                piece.keys.push(self.layout.decode(key.widened()));
+                piece.keys.push(key.decoded(self.layout));
                 piece.values.push(value);
             }
         });
-        pairs
+        Ok(())
     }
 }
 
-/// Windows of as many codes as an array has cells.
-fn even<K: Key>(whole: Window<K>) -> Vec<Window<K>> {
+/// Windows of as many codes as an array has cells, or of fewer where very many products fall on a cell.
+fn even<K: Key>(whole: Window<K>, pairs: usize) -> Vec<Window<K>> {
     let (low, high) = (whole.low.widened(), whole.high.widened());
-    let bounds = (low..high).step_by(ARRAY_CELLS);
-    bounds
-        .map(|start| Window { low: K::narrowed(start), high: K::narrowed(high.min(start + ARRAY_CELLS as i128)) })
-        .collect()
+    let cells = ((high - low) * ARRAY_PRODUCTS / pairs.max(1) as i128).clamp(FEWEST_CELLS, ARRAY_CELLS);
+    let bounds = (low..high).step_by(cells as usize);
+    bounds.map(|start| Window { low: K::narrowed(start), high: K::narrowed(high.min(start + cells)) }).collect()
 }

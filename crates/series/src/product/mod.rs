@@ -19,8 +19,8 @@ use crate::{Coefficient, Error, MAXIMUM_EXPONENT, Polynomial, SLOTS, Truncation}
 use arithmetic::{Arithmetic, GaussianIntegers, Integers, Lifted};
 use code::{Key, Layout};
 use engine::{CELLS_PER_PRODUCT, Part, Piece, Sum};
-use rayon::prelude::*;
 use operands::Sides;
+use rayon::prelude::*;
 
 /// Products from one call of `pause` to the next: some tens of milliseconds of large rationals.
 const PRODUCTS_PER_PAUSE: usize = 1 << 14;
@@ -110,7 +110,8 @@ impl<'a, C: Coefficient> Accumulator<'a, C> {
     /// The largest exponents of the result.
     fn exponent_bounds(&self) -> Result<[u32; SLOTS], Error> {
         let most = |p: &&Polynomial<C>| largest(p.terms.monomials());
-        let (left, right): (Vec<_>, Vec<_>) = (self.left.iter().map(most).collect(), self.right.iter().map(most).collect());
+        let (left, right): (Vec<_>, Vec<_>) =
+            (self.left.iter().map(most).collect(), self.right.iter().map(most).collect());
         let mut bounds = [0; SLOTS];
         for product in &self.products {
             let raised = match product.weight {
@@ -162,7 +163,8 @@ impl<'a, C: Coefficient> Accumulator<'a, C> {
                 Weight::Rule(rule) => {
                     let most = |p: &Polynomial<C>, slot| f64::from(largest(p.terms.monomials())[slot]);
                     let (left, right) = (self.left[product.left], self.right[product.right]);
-                    most(left, rule.first) * most(right, rule.second) + most(left, rule.second) * most(right, rule.first)
+                    most(left, rule.first) * most(right, rule.second)
+                        + most(left, rule.second) * most(right, rule.first)
                 }
             };
             weight * (sum1 * most2).min(sum2 * most1)
@@ -177,7 +179,8 @@ impl<'a, C: Coefficient> Accumulator<'a, C> {
         pause: &mut Pause<'_>,
     ) -> Result<Polynomial<C>, Error> {
         let real = |factors: &Factors| -> Option<Vec<Vec<i64>>> {
-            let list = |list: &FactorList| if let FactorList::Real(values) = list { Some(values.clone()) } else { None };
+            let list =
+                |list: &FactorList| if let FactorList::Real(values) = list { Some(values.clone()) } else { None };
             factors.lists.iter().map(list).collect()
         };
         let complex = |factors: &Factors| -> Vec<Vec<[i64; 2]>> {
@@ -257,7 +260,8 @@ impl<'a, C: Coefficient> Accumulator<'a, C> {
         A::Factor: Clone,
     {
         let sides = Sides::<K, A::Factor>::new((&self.left, &self.right), factors, layout);
-        let parts: Vec<Part<'_, K, A::Factor>> = self.products.iter().map(|product| sides.part(product, layout)).collect();
+        let parts: Vec<Part<'_, K, A::Factor>> =
+            self.products.iter().map(|product| sides.part(product, layout)).collect();
         let last_kept = self.truncation.map(|truncation| layout.last_of_degree(truncation.degree()));
         let pieces = Sum { arithmetic, parts: &parts, layout, last_kept }.form(pause)?;
         Ok(gather(pieces, &A::zero(), layout.canonical))

@@ -6,7 +6,7 @@ use super::code::Key;
 
 /// Sums by code.
 pub(super) trait Store<K, S> {
-    /// Prepares for the codes from `low`, `span` of them, on which `pairs` products fall.
+    /// Prepares for the codes from `low`, `span` of them, on which about `pairs` products fall.
     fn open(&mut self, low: K, span: usize, pairs: usize);
 
     /// The sum at a code of the window.
@@ -64,24 +64,34 @@ pub(super) struct Table<K, S> {
 
 /// A first table has a slot for so many products: about a quarter of them give a term of their own.
 const PRODUCTS_PER_SLOT: usize = 2;
-const SMALLEST: usize = 16;
+const SMALLEST: usize = 1 << (NEIGHBOURS + 1);
+/// Last bits of a code that the hash leaves alone: terms that follow each other lie in the same or the next line of the cache.
+const NEIGHBOURS: u32 = 4;
 
 impl<K: Key, S: Clone + Default> Table<K, S> {
     pub(super) fn new() -> Self {
-        Table { low: K::NONE, span_bits: 0, slots: Vec::new(), shift: 0, held: 0, order: Vec::new(), sorted: Vec::new() }
+        Table {
+            low: K::NONE,
+            span_bits: 0,
+            slots: Vec::new(),
+            shift: 0,
+            held: 0,
+            order: Vec::new(),
+            sorted: Vec::new(),
+        }
     }
 
     fn allocate(&mut self, length: usize) {
         let length = length.next_power_of_two().max(SMALLEST);
         self.slots = vec![(K::NONE, S::default()); length];
-        self.shift = u64::BITS - length.trailing_zeros();
+        self.shift = u64::BITS - (length.trailing_zeros() - NEIGHBOURS);
     }
 
     /// Position of a code, or of the free slot where it belongs.
     #[inline(always)]
     fn position(&self, key: K) -> usize {
         let last = self.slots.len() - 1;
-        let mut at = (key.hash() >> self.shift) as usize & last;
+        let mut at = (((key.hash() >> self.shift) as usize) << NEIGHBOURS | key.low_bits(NEIGHBOURS)) & last;
         while self.slots[at].0 != key && self.slots[at].0 != K::NONE {
             at = (at + 1) & last;
         }
@@ -105,7 +115,7 @@ impl<K: Key, S: Clone + Default> Store<K, S> for Table<K, S> {
         self.low = low;
         self.span_bits = usize::BITS - span.leading_zeros();
         if self.slots.is_empty() {
-            self.allocate((pairs / PRODUCTS_PER_SLOT).min(2 * span));
+            self.allocate((pairs / PRODUCTS_PER_SLOT).min(span.saturating_mul(2)));
         }
     }
 
