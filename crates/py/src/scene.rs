@@ -118,7 +118,7 @@ impl Scene {
     #[pyo3(signature = (
         body, precession, rotation, *, mode="short-axis", convention="extremal-axis", momentum_direction=None, phases=None, epoch=None,
         **options
-    ), text_signature = "(body, precession, rotation, *, mode='short-axis', convention='extremal-axis', momentum_direction=None, phases=None, epoch=0.0, **options)")]
+    ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn from_periods<'py>(
         class: &Bound<'py, PyType>,
@@ -175,7 +175,7 @@ impl Scene {
     /// >>> scene.solve().andoyer(0.0).round(12)
     /// array([0.1, 0.2, 0.3, 0.5, 1. , 0.9])
     #[classmethod]
-    #[pyo3(signature = (body, andoyer, *, epoch=None, **options), text_signature = "(body, andoyer, *, epoch=0.0, **options)")]
+    #[pyo3(signature = (body, andoyer, *, epoch=None, **options))]
     fn from_andoyer<'py>(
         class: &Bound<'py, PyType>,
         body: &Bound<'py, PyAny>,

@@ -17,7 +17,7 @@ def documented():
         value = getattr(andoyer, name)
         yield name, value
         if inspect.isclass(value):
-            yield from ((f"{name}.{member}", getattr(value, member)) for member in vars(value) if not member.startswith("_"))
+            yield from ((f"{name}.{member}", getattr(value, member)) for member in vars(value) if not member.startswith("_") and getattr(value, member) is not None)
     yield from ((f"output.{name}", getattr(output, name)) for name in output.__all__ if callable(getattr(output, name)) and name != "Progress")
 
 

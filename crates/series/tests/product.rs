@@ -1,7 +1,8 @@
 //! Products against the schoolbook's: arrays and tables, one word and two, machine words and big integers, truncations, threads.
 
+use andoyer_double::DoubleDouble;
 use andoyer_series::{
-    BigRational, Coefficient, Complex, DoubleDouble, Error, MAXIMUM_EXPONENT, Monomial, Poisson, Polynomial, Truncation,
+    BigRational, Coefficient, Complex, Error, MAXIMUM_EXPONENT, Monomial, Poisson, Polynomial, Truncation,
 };
 use num_bigint::BigInt;
 use proptest::collection::vec;

@@ -48,6 +48,7 @@ class TheoryError(Error):
 class ToleranceWarning(UserWarning):
     """A motion, or members of an ensemble, whose error bound exceeds the tolerance over the span."""
 
+@final
 class Body:
     """Principal moments of inertia of a rigid body."""
 
@@ -181,12 +182,12 @@ class Scene:
         convention: Literal["extremal-axis", "long-axis", "short-axis"] = "extremal-axis",
         momentum_direction: ArrayLike | None = None,
         phases: ArrayLike | None = None,
-        epoch: float = 0.0,
+        epoch: Any = None,
         **options: Any,
     ) -> Scene:
         """The torque-free state of a body that tumbles with these periods (theory §7): for a mode there is one."""
     @classmethod
-    def from_andoyer(cls, body: Body, andoyer: ArrayLike, *, epoch: float = 0.0, **options: Any) -> Scene:
+    def from_andoyer(cls, body: Body, andoyer: ArrayLike, *, epoch: Any = None, **options: Any) -> Scene:
         """The scene whose Andoyer variables at the epoch are these: the inverse of `Motion.andoyer` (theory §1)."""
     @classmethod
     def from_toml(cls, path: str | os.PathLike[str]) -> Scene:
@@ -552,6 +553,7 @@ class BirkhoffNormalForm:
     def __copy__(self) -> BirkhoffNormalForm: ...
     def __deepcopy__(self, _memo: Any) -> BirkhoffNormalForm: ...
 
+@final
 class Domain:
     """How far a normal form is good, from `BirkhoffNormalForm.domain`: an estimate by the sizes of its orders."""
 

@@ -30,8 +30,9 @@ def trajectory(normal_form: BirkhoffNormalForm, state: list[float], times: Array
             continue
         ends = np.unique(np.abs(moments[side]))
         sign = float(np.sign(moments[side][0]))
+        flow: Any = lambda _, z, sign=sign: sign * normal_form.rates(z, parameters)  # noqa: E731
         done = solve_ivp(
-            lambda _, z, sign=sign: sign * normal_form.rates(z, parameters),
+            flow,
             (0.0, ends[-1]),
             start,
             method="DOP853",

@@ -53,4 +53,4 @@ def _quaternion(samples: Samples, prefix: str) -> list[str]:
 
 
 def _ensemble(samples: Samples) -> bool:
-    return samples.times.ndim == 2 or samples.attitude.ndim > samples.times.ndim + 1
+    return bool(samples.times.ndim == 2 or samples.attitude.ndim > samples.times.ndim + 1)

@@ -7,6 +7,7 @@ motions: planar and vertical Lyapunov orbits and the tori round them. Here a Poi
 """
 
 import math
+from typing import Any
 
 import andoyer
 import matplotlib.pyplot as plt
@@ -29,7 +30,8 @@ def gamma(mu: float) -> float:
 
 def potential(degree: int) -> dict[tuple[int, int], float]:
     """Σ c_n ρⁿ P_n(x/ρ), n = 2 … degree, by exponents of x and of s = y² + z²."""
-    g, result = gamma(MU), {}
+    g = gamma(MU)
+    result: dict[tuple[int, int], float] = {}
     for n in range(2, degree + 1):
         c = (MU + (-1) ** n * (1 - MU) * (g / (1 - g)) ** (n + 1)) / g**3
         for k in range(n // 2 + 1):
@@ -55,12 +57,12 @@ reduced = form.centre_manifold()
 exponents, coefficients = np.array([key[2:] for key in reduced]), np.array(list(reduced.values()))
 
 
-def energy(state):
+def energy(state: Any) -> float:
     """K on the manifold at (y, Y, z, Z)."""
     return float(coefficients @ np.prod(np.asarray(state) ** exponents, axis=1))
 
 
-def slope(slot):
+def slope(slot: int) -> tuple[Any, Any]:
     """Exponents and coefficients of ∂K by one variable."""
     lowered = exponents - np.eye(4, dtype=int)[slot]
     return np.maximum(lowered, 0), coefficients * exponents[:, slot]
@@ -69,24 +71,25 @@ def slope(slot):
 slopes = [slope(slot) for slot in range(4)]
 
 
-def rates(_, state):
+def rates(_: float, state: Any) -> list[float]:
     """Hamilton's equations of K."""
     y, Y, z, Z = (float(c @ np.prod(state**powers, axis=1)) for powers, c in slopes)
     return [Y, -y, Z, -z]
 
 
-def section(y, momentum, level, crossings):
+def section(y: float, momentum: float, level: float, crossings: int) -> Any:
     """Crossings (y, Y) of z = 0 upwards of the orbit through a point of the section at an energy."""
     if energy([y, momentum, 0.0, 0.0]) >= level:
         return np.empty((0, 2))
     vertical = brentq(lambda Z: energy([y, momentum, 0.0, Z]) - level, 0.0, 3.0)
 
-    def crossed(_, state):
-        return state[2]
+    def upwards(_: float, state: Any) -> float:
+        return float(state[2])
 
+    crossed: Any = upwards
     crossed.direction = 1.0
-    period = 2 * math.pi / abs(form.frequencies[2])
-    found = solve_ivp(rates, (1e-9, crossings * period), [y, momentum, 0.0, vertical], method="DOP853", rtol=1e-7, atol=1e-9, events=crossed)
+    period = 2 * math.pi / abs(complex(form.frequencies[2]))
+    found: Any = solve_ivp(rates, (1e-9, crossings * period), [y, momentum, 0.0, vertical], method="DOP853", rtol=1e-7, atol=1e-9, events=crossed)
     return found.y_events[0][:, :2]
 
 
