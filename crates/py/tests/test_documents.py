@@ -13,6 +13,7 @@ from conftest import REPOSITORY
 TEXT = (REPOSITORY / "docs/scene.md").read_text(encoding="utf-8")
 EXAMPLE = re.search(r"```toml\n(.*?)```", TEXT, re.DOTALL)[1]
 UNCOMMENTED = re.sub(r"^# (?=[a-z_]+ +=|\[)", "", EXAMPLE, flags=re.MULTILINE).replace("named =", "# named =").replace("inertia =", "# inertia =")
+UNCOMMENTED = re.sub(r"\[periods\].*\n(?:.+\n)*", "", UNCOMMENTED)
 
 
 @pytest.fixture

@@ -140,6 +140,7 @@ def test_stub_has_the_parameters_of_the_function(node, function):
         (argument.arg, argument in keyword, None if default is None else ast.literal_eval(default))
         for argument, default in zip(positional + keyword, defaults, strict=True)
     ]
+    stub += [(node.args.kwarg.arg, False, None)] if node.args.kwarg else []
     bound = {"self", "cls"}
     assert [p for p in stub if p[0] not in bound] == [p for p in runtime if p[0] not in bound]
 
