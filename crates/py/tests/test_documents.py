@@ -13,7 +13,8 @@ from conftest import REPOSITORY
 TEXT = (REPOSITORY / "docs/scene.md").read_text(encoding="utf-8")
 EXAMPLE = re.search(r"```toml\n(.*?)```", TEXT, re.DOTALL)[1]
 UNCOMMENTED = re.sub(r"^# (?=[a-z_]+ +=|\[)", "", EXAMPLE, flags=re.MULTILINE).replace("named =", "# named =").replace("inertia =", "# inertia =")
-UNCOMMENTED = re.sub(r"\[periods\].*\n(?:.+\n)*", "", UNCOMMENTED)
+# A scene has a state or periods.
+OF_PERIODS, UNCOMMENTED = (re.sub(rf"\[{table}\].*\n(?:.+\n)*", "", UNCOMMENTED) for table in ("state", "periods"))
 
 
 @pytest.fixture
@@ -40,15 +41,16 @@ def test_lines_that_the_example_comments_out_are_keys_too(example):
 
 def known(path, line):
     """The keys that the error for an unknown one lists, in the table of `line`."""
-    path.write_text(UNCOMMENTED.replace(line, f"{line}\ncolour = 1") if line else f"colour = 1\n{EXAMPLE}", encoding="utf-8")
+    text = OF_PERIODS if line == "[periods]" else UNCOMMENTED
+    path.write_text(text.replace(line, f"{line}\ncolour = 1") if line else f"colour = 1\n{EXAMPLE}", encoding="utf-8")
     with pytest.raises(andoyer.FileError, match="colour") as caught:
         andoyer.Scene.from_toml(path)
     return str(caught.value).partition("known here: ")[2].split(", ")
 
 
 def test_table_has_every_key_and_no_other(example):
-    expected = [key for key in known(example, "") if key not in {"body", "state", "orbit"}]
-    expected += [f"{table}.{key}" for table in ["body", "state", "orbit"] for key in known(example, f"[{table}]")]
+    expected = [key for key in known(example, "") if key not in {"body", "state", "orbit", "periods"}]
+    expected += [f"{table}.{key}" for table in ["body", "state", "orbit", "periods"] for key in known(example, f"[{table}]")]
     assert set(re.findall(r"^\| `([a-z_.]+)` \|(?: .*)? \|.*\|.*\|$", TEXT.partition("## ")[0], re.MULTILINE)) == set(expected)
 
 
