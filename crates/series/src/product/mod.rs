@@ -22,6 +22,9 @@ use engine::{CELLS_PER_PRODUCT, Part, Piece, Sum};
 use operands::Sides;
 use rayon::prelude::*;
 
+/// The factors of both operands, block by block.
+type OperandFactors<A> = (Vec<Vec<<A as Arithmetic>::Factor>>, Vec<Vec<<A as Arithmetic>::Factor>>);
+
 /// Products from one call of `pause` to the next: some tens of milliseconds of large rationals.
 const PRODUCTS_PER_PAUSE: usize = 1 << 14;
 /// Sums of 128 bits are safe below this.
@@ -217,7 +220,7 @@ impl<'a, C: Coefficient> Accumulator<'a, C> {
     fn sum<A: Arithmetic>(
         &self,
         arithmetic: &A,
-        factors: (Vec<Vec<A::Factor>>, Vec<Vec<A::Factor>>),
+        factors: OperandFactors<A>,
         bounds: &[u32; SLOTS],
         pause: &mut Pause<'_>,
     ) -> Result<(Vec<Monomial>, Vec<A::Value>), Error>
@@ -252,7 +255,7 @@ impl<'a, C: Coefficient> Accumulator<'a, C> {
     fn sum_coded<K: Key, A: Arithmetic>(
         &self,
         arithmetic: &A,
-        factors: (Vec<Vec<A::Factor>>, Vec<Vec<A::Factor>>),
+        factors: OperandFactors<A>,
         layout: &Layout,
         pause: &mut Pause<'_>,
     ) -> Result<(Vec<Monomial>, Vec<A::Value>), Error>
