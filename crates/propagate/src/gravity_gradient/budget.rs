@@ -138,7 +138,7 @@ impl Subject<'_> {
         let wrapped = |angle: f64| angle - TAU * (angle / TAU).round();
         let reach = orbital.min(PI);
         let uniform = wrapped(self.anomaly + reach * (2.0 * part - 1.0));
-        if k % 2 == 0 {
+        if k.is_multiple_of(2) {
             return uniform;
         }
         let e = self.ellipse.eccentricity;

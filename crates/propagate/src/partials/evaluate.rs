@@ -130,10 +130,6 @@ type Entries<S> = [Lanes<S>; 3 * PARAMETERS];
 
 /// Derivatives of attitude and rates at some times.
 #[inline(always)]
-#[expect(
-    clippy::needless_range_loop,
-    reason = "iterators that carry vectors are not inlined into the code of an instruction set"
-)]
 fn columns<S: InstructionSet, T: Source>(
     place: &Place<S, T::Rest<S>>,
     source: &T,
@@ -178,10 +174,6 @@ fn columns<S: InstructionSet, T: Source>(
 
 /// As many matrices as there are, four entries at a time; the last four overlap those before them.
 #[inline(always)]
-#[expect(
-    clippy::needless_range_loop,
-    reason = "iterators that carry vectors are not inlined into the code of an instruction set"
-)]
 fn store<S: InstructionSet>(entries: &Entries<S>, matrices: &mut [Derivatives]) {
     const FIRSTS: [usize; 7] = [0, 4, 8, 12, 16, 20, 23];
     let mut rows = [[0.0; 4]; WIDEST];
