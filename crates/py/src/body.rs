@@ -7,6 +7,9 @@ use pyo3::types::PyTuple;
 
 use crate::{array, error};
 
+/// What makes a body with axes of its own again: a function and its arguments.
+type Reduced<'py, 'a> = (Bound<'py, PyAny>, (Rows, Option<&'a str>));
+
 /// Principal moments of inertia of a rigid body.
 ///
 /// Parameters
@@ -302,7 +305,7 @@ impl Body {
         named(andoyer_propagate::Body::from_inertia(inertia), name)
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Rows, Option<&str>))> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py, '_>> {
         Ok((py.get_type::<Self>().getattr("_restored")?, (self.body.inertia(), self.body.name())))
     }
 }
