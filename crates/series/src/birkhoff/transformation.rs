@@ -42,7 +42,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         self.direct_with(f, &mut quiet)
     }
 
-    /// As [`direct`](Self::direct), with a callback as that of [`normalize_with`], for every homogeneous part of f anew.
+    /// As [`direct`](Self::direct), with a callback as that of [`normalize_with`](crate::normalize_with), for every homogeneous part of f anew.
     ///
     /// # Errors
     /// - as [`direct`](Self::direct); a callback that returns `Break`: [`Error::Interrupted`].
@@ -59,7 +59,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         self.inverse_with(f, &mut quiet)
     }
 
-    /// As [`inverse`](Self::inverse), with a callback as that of [`normalize_with`], for every homogeneous part of f anew.
+    /// As [`inverse`](Self::inverse), with a callback as that of [`normalize_with`](crate::normalize_with), for every homogeneous part of f anew.
     ///
     /// # Errors
     /// - as [`direct_with`](Self::direct_with).
