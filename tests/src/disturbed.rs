@@ -27,18 +27,18 @@ pub struct Disturbed {
     pub averaging: Averaging,
     /// Which terms the corrections have.
     pub level: Level,
-    /// Tolerance of the scene [rad].
+    /// Tolerance of the scene \[rad\].
     pub tolerance: f64,
 }
 
 /// What the solution of a scene is worth.
 #[derive(Clone, Copy, Debug)]
 pub struct Measured {
-    /// Largest attitude error over the span [rad].
+    /// Largest attitude error over the span \[rad\].
     pub error: f64,
-    /// What the plan says of it [rad].
+    /// What the plan says of it \[rad\].
     pub bound: f64,
-    /// Largest error of the free motion, which is the effect of the torque [rad].
+    /// Largest error of the free motion, which is the effect of the torque \[rad\].
     pub effect: f64,
 }
 

@@ -1,7 +1,7 @@
 //! Derivatives of attitude and rates with respect to the state at the epoch and the moments, in closed form (theory §12).
 //!
 //! Nine parameters: a small rotation of the initial attitude about the three body axes, the initial angular velocity, the three moments as given. A change of attitude,
-//! at the epoch and at the time, is a rotation vector about body axes, R → R exp([δθ]×). With g = G/M, ν_i = M/(A, B, C)_i and the invariants of the polhode, every
+//! at the epoch and at the time, is a rotation vector about body axes, R → R exp(\[δθ\]×). With g = G/M, ν_i = M/(A, B, C)_i and the invariants of the polhode, every
 //! derivative is an algebraic function of attitude and rates at the time and of one elliptic integral of the second kind, ∫g2² dt. Set-up takes some microseconds.
 //! Accuracy: 1e-14 of the largest derivative over Q1, which is cos²J where it is least and small next to the separatrix.
 //!
