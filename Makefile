@@ -6,7 +6,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv minimal-versions parallel rivals rivals-normal-form rivals-propagation rivals-gradient gravity docs docs-test package wheel clean kernels
+.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv minimal-versions parallel rivals rivals-normal-form rivals-propagation rivals-gradient rivals-partials rivals-messages gravity docs docs-test package wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -21,7 +21,9 @@ test: lint supply $(VENV)/installed $(VENV)/tested docs-test  ## everything that
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
 	$(MAKE) --no-print-directory stress-short gate
 
-lint:
+lint:  ## formatting, clippy, documentation, and the imports between the files of each crate
+	$(PYTHON) tests/layers.py
+	$(PYTHON) tests/layers.py --planted
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --quiet -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps --document-private-items --quiet
@@ -85,17 +87,18 @@ parallel: $(VENV)/installed  ## the wheel's tests of objects, each on eight thre
 sweep: $(VENV)/installed  ## series against closed form by order, σ/σ_sep and β: docs/data/sweep.csv, picture and table of its page; a minute
 	$(BIN)/python examples/sweep.py
 
-gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory leaves, against integrations: docs/data/gravity-*.csv and their picture; two minutes
+gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory leaves, against integrations: docs/data/gravity-*.csv and their picture; some minutes
 	cargo build --release --quiet --package andoyer-tests --bin gradient
 	target/release/gradient cases > docs/data/gravity-cases.csv
 	target/release/gradient levels > docs/data/gravity-levels.csv
 	target/release/gradient bounds 300 1 > docs/data/gravity-bounds.csv
+	target/release/gradient climb 1 45 11 > docs/data/gravity-climb.csv
 	$(BIN)/python examples/gravity.py
 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes
 	$(BIN)/python examples/bounds.py
 
-rivals: rivals-normal-form rivals-propagation rivals-gradient  ## the tables of ratios, in out/ too
+rivals: rivals-normal-form rivals-propagation rivals-gradient rivals-partials rivals-messages  ## the tables of ratios, in out/ too
 
 rivals-normal-form: $(RIVALS)/normal-form $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine
 	$(RIVALS)/bin/python benches/rivals/normal_form.py
@@ -106,6 +109,13 @@ rivals-propagation: $(RIVALS)/propagation $(RIVALS)/installed $(RIVALS)/orekit/r
 
 rivals-gradient: $(RIVALS)/propagation $(RIVALS)/installed  ## the gravity gradient against heyoka
 	$(RIVALS)/bin/python benches/rivals/gradient.py
+
+rivals-partials: $(RIVALS)/propagation $(RIVALS)/installed  ## derivatives against heyoka's variational equations
+	$(RIVALS)/bin/python benches/rivals/partials.py
+
+rivals-messages: $(RIVALS)/installed $(RIVALS)/orekit/ready  ## attitude ephemeris messages as we write them, read by Orekit; EXAMPLES=FOLDER: other messages, read by both
+	$(RIVALS)/bin/python -m pip install --quiet astropy
+	$(RIVALS)/bin/python benches/rivals/attitude_messages.py --orekit $(RIVALS)/orekit $(if $(EXAMPLES),--examples $(EXAMPLES))
 
 $(RIVALS)/installed: $(RIVALS)/made $(VENV)/installed
 	$(RIVALS)/bin/python -m pip install --quiet --force-reinstall --no-deps $(WHEELS)/andoyer-*.whl
@@ -131,13 +141,13 @@ $(RIVALS)/orekit/ready: benches/rivals/orekit/pom.xml $(RIVALS)/made
 
 docs: $(VENV)/documented  ## the site in target/site, the Rust documentation in it; warnings are errors, and the network is not used
 	$(BIN)/python docs/_ext/rustdoc.py --check
-	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --quiet -p andoyer-series -p andoyer-propagate --target-dir target/site-rust
+	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --quiet -p andoyer-double -p andoyer-series -p andoyer-propagate --target-dir target/site-rust
 	rm -rf target/site docs/gallery
 	$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet --builder html docs target/site
 	cp -r target/site-rust/doc target/site/rust
+	$(BIN)/python examples/pages.py target/site/pages
 
-docs-test: docs  ## opens every page in a headless Chromium, which root installs on Debian where there is none
-	command -v chromedriver > /dev/null || { test "$$(id -u)" = 0 && apt-get update -qq && apt-get install -qq -y --no-install-recommends chromium chromium-driver > /dev/null; } || echo "no Chromium: the site is not opened"
+docs-test: docs  ## the pages as files, and in a headless Chromium of this machine (Debian: apt-get install chromium)
 	$(BIN)/python -m pytest -q tests/site
 
 $(VENV)/documented: docs/requirements.txt $(VENV)/installed
@@ -149,7 +159,7 @@ $(VENV)/tested: crates/py/requirements-test.txt $(VENV)/ready
 	touch $@
 
 # The sdist must build where there is no network: its crates' sources are vendored from its own lock file, and Cargo is told to stay offline.
-package: $(VENV)/installed  ## the sdist and a wheel from it without network, the two crates as they would be published
+package: $(VENV)/installed  ## the sdist and a wheel from it without network, the three crates as they would be published
 	rm -rf target/package-check && mkdir -p target/package-check
 	$(BIN)/maturin sdist --manifest-path crates/py/Cargo.toml --out target/package-check
 	tar -xzf target/package-check/andoyer-*.tar.gz -C target/package-check && rm target/package-check/andoyer-*.tar.gz
@@ -161,7 +171,7 @@ package: $(VENV)/installed  ## the sdist and a wheel from it without network, th
 	$(PYTHON) -m venv target/package-check/venv
 	target/package-check/venv/bin/python -m pip install --quiet target/package-check/andoyer-*.whl
 	target/package-check/venv/bin/python -m andoyer.selftest
-	cargo package --quiet -p andoyer-series -p andoyer-propagate --target-dir target/package-check/crates
+	cargo package --quiet -p andoyer-double -p andoyer-series -p andoyer-propagate --target-dir target/package-check/crates
 
 wheel: $(VENV)/installed
 

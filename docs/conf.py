@@ -13,7 +13,7 @@ matplotlib.use("Agg")
 project = "andoyer"
 author = copyright = "The andoyer developers"
 version = release = andoyer.__version__
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_gallery.gen_gallery", "equations", "measured"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_gallery.gen_gallery", "matplotlib.sphinxext.plot_directive", "equations", "measured"]
 exclude_patterns = ["_ext", "requirements.txt", "gallery/*.ipynb", "gallery/*.py", "**/sg_execution_times.rst", "sg_execution_times.rst"]
 default_role = "py:obj"
 
@@ -34,6 +34,11 @@ autodoc_member_order = "groupwise"
 autodoc_typehints = "none"
 napoleon_google_docstring = False
 napoleon_use_rtype = False
+
+plot_include_source = True
+plot_html_show_source_link = False
+plot_html_show_formats = False
+plot_formats = [("png", 110)]
 
 sphinx_gallery_conf = {
     "examples_dirs": "../examples/gallery",

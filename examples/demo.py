@@ -139,7 +139,7 @@ def rows(path: Path, out: Path) -> Iterator[tuple[list[str], bool]]:
             continue  # averaged theory, in closed form
         try:
             motion = with_method(scene, method).solve()
-        except andoyer.SeparatrixError:
+        except andoyer.TheoryError:
             continue  # the series do not reach this tolerance so near the separatrix
         if motion.plan.method == method:
             yield row(motion, reference)

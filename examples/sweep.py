@@ -16,6 +16,7 @@ import csv  # noqa: E402
 import statistics  # noqa: E402
 import sys  # noqa: E402
 import time  # noqa: E402
+import warnings  # noqa: E402
 from collections.abc import Callable, Iterator  # noqa: E402
 from concurrent.futures import ProcessPoolExecutor  # noqa: E402
 from dataclasses import astuple, dataclass, fields  # noqa: E402
@@ -27,6 +28,8 @@ import numpy as np  # noqa: E402
 import work_precision  # noqa: E402
 from accuracy import ROOT, Reference  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
+
+warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # what low orders miss is measured here
 
 ORDERS = range(1, 41)
 RATIOS = (0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95)
@@ -139,7 +142,7 @@ def rows(case: tuple[float, float], truth: Reference) -> Iterator[Row]:
     for method, tolerance in product(("series", "closed"), TOLERANCES):
         try:
             yield measured(case, solved(method=method, tolerance=tolerance), truth, "tolerance")
-        except andoyer.SeparatrixError:
+        except andoyer.TheoryError:
             pass  # the series do not reach this tolerance
 
 

@@ -3,9 +3,10 @@
 
 use std::hint::black_box;
 
+use andoyer_double::DoubleDouble;
 use andoyer_series::{
-    DoubleDouble, Monomial, NormalForm, Normalization, NumericNormalForm, Real, deprit_triangle, hamiltonian,
-    homological, poisson, quiet,
+    Monomial, NormalForm, Normalization, NumericNormalForm, Real, deprit_triangle, hamiltonian, homological, poisson,
+    quiet,
 };
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};

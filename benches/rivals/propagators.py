@@ -65,7 +65,7 @@ class Own(Engine):
         self.method = method
         try:
             self.prepare()
-        except andoyer.SeparatrixError as problem:
+        except andoyer.TheoryError as problem:
             raise Unfit("the series does not reach this scene") from problem
 
     def prepare(self):

@@ -101,15 +101,23 @@ def gravity_bounds() -> list[str]:
         motions = [row for row in read("gravity-bounds.csv") if row["averaging"] == averaging]
         shares = sorted(float(row["error"]) / float(row["bound"]) for row in motions)
         errors = [float(row["error"]) / float(row["torque"]) for row in motions]
-        figures = [f"{statistics.median(shares):.3f}", f"{shares[-1]:.2f}", f"{statistics.median(errors):.1e}"]
+        figures = [f"{statistics.median(shares):.4f}", f"{shares[-1]:.2f}", f"{statistics.median(errors):.1e}"]
         rows.append([averaging, str(len(motions)), *figures])
     return markdown(["averaged over", "motions", "error / bound, median", "largest", "error / torque, median"], rows)
+
+
+def gravity_climb() -> list[str]:
+    """The largest error over bound that hill climbing finds, by family of scenes."""
+    header = ["scenes", "mode", "averaged over", "climbs", "scenes solved", "error [rad]", "bound [rad]", "largest error / bound"]
+    names = ["family", "mode", "averaging", "starts", "solved", "error", "bound", "ratio"]
+    return markdown(header, ([row[name] for name in names] for row in read("gravity-climb.csv")))
 
 
 TABLES: dict[str, Callable[[], list[str]]] = {
     "ensemble": ensemble,
     "gravity-bounds": gravity_bounds,
     "gravity-cases": gravity_cases,
+    "gravity-climb": gravity_climb,
     "scenes-accuracy": scenes_accuracy,
     "scenes-speed": scenes_speed,
     "sweep-accuracy": sweep_accuracy,

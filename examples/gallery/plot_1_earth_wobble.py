@@ -3,7 +3,7 @@ The Earth's free wobble
 =======================
 
 A rigid Earth whose angular momentum is 0.2 arcseconds from its axis of figure: the axis goes round in Euler's 304 days. (The real Earth is
-not rigid, and takes 433.)
+not rigid, and takes longer.)
 """
 
 import math
@@ -18,9 +18,9 @@ from andoyer import plot
 # 0.2 arcseconds away. Time in seconds.
 
 ARCSECOND = math.pi / 648000
-SIDEREAL_DAY = 86164.0905
+STELLAR_DAY = 86400 / 1.00273781191135448  # Earth rotation angle of IAU 2000
 earth = andoyer.Body.named("earth")
-spin = 2 * math.pi / SIDEREAL_DAY
+spin = 2 * math.pi / STELLAR_DAY
 rates = [0.2 * ARCSECOND * spin, 0, spin]
 scene = andoyer.Scene(earth, attitude=[0, 0, 0, 1], angular_velocity=rates, name="Earth, free wobble")
 motion = scene.solve()
@@ -44,4 +44,4 @@ plt.show()
 # %%
 # A billion rotations are no further than one: attitude and rates are computed, not integrated.
 
-print(motion.attitude(1e9 * SIDEREAL_DAY), motion.plan.error_bound)
+print(motion.attitude(1e9 * STELLAR_DAY), motion.plan.error_bound)

@@ -2,7 +2,7 @@
 Eros near its separatrix
 ========================
 
-Eros is so long that the separatrix begins 6 degrees from its short axis. Hypothetical states on both sides of it: what the series need, where they
+Eros is so long that the separatrix begins 3.9 degrees from its short axis. Hypothetical states on both sides of it: what the series need, where they
 stop, and what the closed form does there.
 """
 
@@ -30,11 +30,11 @@ def tilted(degrees: float, method: Literal["auto", "series"] = "auto") -> andoye
 # %%
 # The order of the series grows towards the separatrix; then there is none, and the error says so.
 
-for degrees in [0.1, 1.0, 3.0, 5.0, 6.0]:
+for degrees in [0.1, 1.0, 2.0, 3.0, 3.8]:
     closed = tilted(degrees)
     try:
         order = str(tilted(degrees, "series").plan.order)
-    except andoyer.SeparatrixError as error:
+    except andoyer.TheoryError as error:
         order = f"none, {error}"
     plan = closed.plan
     ratio, bound = plan.separatrix_ratio, plan.error_bound
@@ -44,7 +44,7 @@ for degrees in [0.1, 1.0, 3.0, 5.0, 6.0]:
 # %%
 # Just inside and just outside: the same body, two kinds of motion.
 
-inside, outside = tilted(6.0), tilted(8.0)
+inside, outside = tilted(3.8), tilted(5.0)
 print(inside.plan.mode, outside.plan.mode)
 assert (inside.plan.mode, outside.plan.mode) == ("short-axis", "long-axis")
 figure, panels = plt.subplots(1, 2, figsize=(11, 5), layout="constrained")

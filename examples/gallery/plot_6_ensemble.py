@@ -19,8 +19,8 @@ moments = np.column_stack([middle[:2] * (1 + 0.01 * generator.standard_normal((1
 possible = (moments.max(axis=1) <= moments.sum(axis=1) / 2) & (moments[:, 1] < 1)
 moments = moments[possible][:1000]
 
-attitude = [-0.9684470110523898, 0.18484619592060467, 0.12628171830822016, -0.10952259245697712]
-rates = [2.1711456174137208e-05, 0.0, 6.126197961316196e-05]
+attitude = [0.9936142273587073, 0.039164900723114, -0.09451299087115574, 0.047583319538432894]
+rates = [1.7762925277359764e-05, 0.0, 5.530125462483281e-05]
 ensemble = andoyer.Ensemble(moments, attitude, rates, tolerance=1e-8)
 print(ensemble)
 

@@ -5,8 +5,9 @@
 
 The state is given in Andoyer's angles: attitude R = Rz(lambda) Rx(I) Rz(mu) Rx(J) Rz(nu), angular momentum M (sinJ sin nu, sinJ cos nu, cosJ)
 in the body (theory §1). M follows from the spin period, P_spin = 2 pi / (mean rate of mu + nu), the mean rates from Jacobi's closed form in
-40 digits (tests/reference/torque_free.py). Apophis has two measured periods instead, from which M and J are solved.
-Needs mpmath.
+40 digits (tests/reference/torque_free.py). Apophis has two measured periods instead, which its file states: `Scene.from_periods` finds the state.
+The source text of a scene says of each figure whether it was read, and where, whether it is chosen, or computed.
+Needs mpmath and andoyer.
 """
 
 import sys
@@ -14,7 +15,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from textwrap import fill
 
-from mpmath import asin, cos, cospi, degrees, findroot, mp, mpf, pi, quad, radians, sin, sinpi, sqrt
+import andoyer
+from mpmath import asin, atan2, cos, cospi, degrees, mp, mpf, pi, quad, radians, sin, sinpi, sqrt
 
 FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parents[1] / "tests" / "reference"))
@@ -41,126 +43,117 @@ class Recipe:
     tolerance: float = 1e-12
     nutation: mpf = None  # J [rad] at nu, with the period
     spin: mpf = None  # of the spin
-    tumbling: tuple = None  # or instead of both (P_phi, P_psi), long-axis convention
+    tumbling: tuple = None  # or instead of both (P_phi, P_psi) of the short axis: the extremal-axis convention in a short-axis mode
     orbit: tuple = None  # of the Sun: semi-major axis [au], eccentricity
 
-
-UNMARKED = "Figures marked neither read nor recalled are attributed to the source named beside them and were not checked against it."
 
 RECIPES = [
     Recipe(
         file="earth.toml",
         name="Earth, free wobble of 0.2 arcsec",
-        moments=("0.99671523", "0.99673718", "1.0"),
+        moments=("0.99671522", "0.99673719", "1.0"),
         nu="30",
         node="0",
         inclination="23.4393",
-        spin=mpf("0.99726957") * DAY,
+        spin=mpf("0.99726966") * DAY,
         nutation=radians(mpf("0.2") / 3600),
         span=608 * DAY,
-        source=f"""
-Moments {{moments}} in units of C, of a rigid Earth: recalled, from H = (C - (A+B)/2)/C = 3.273795e-3 and from J22 of the harmonics
-C22 = 1.5744e-6, S22 = -0.9038e-6 (IERS Conventions 2010). Spin period 0.99726957 d (mean rate of mu + nu). Frame: ecliptic, x along the
-node of the plane of the angular momentum; I = obliquity 23.4393 deg. The amplitude is chosen, of the size of polar motion:
-J = 0.2 arcsec = {{J_urad}} microradian. Computed: Euler period {{wobble_d}} d. The Earth's pole takes about 433 d (recalled: Chandler), since
-the real Earth yields and has a fluid core and oceans; this scene is Euler's rigid one. Span: 608 d, two Euler periods and a little.
-{UNMARKED}
+        source="""
+Moments {moments} in units of C, as in the catalogue: H = 3273795e-9 and the gravity field EGM2008 (both read). Spin period 0.99726966 d, the mean
+rate of mu + nu (read: 1.00273781191135448 turns a day, Earth rotation angle of IAU 2000, SOFA). Frame: ecliptic, x along the
+node of the plane of the angular momentum; I = obliquity 23.4393 deg (read). The amplitude is chosen, of the size of polar motion:
+J = 0.2 arcsec = {J_urad} microradian. Computed: Euler period {wobble_d} d. The real Earth yields and has a fluid core and oceans, which lengthens
+this period; the scene is Euler's rigid body. Span: 608 d, two Euler periods and a little.
 """,
     ),
     Recipe(
         file="ceres.toml",
         name="Ceres, hypothetical wobble of 0.1 mrad",
-        moments=("0.92553653", "0.93014538", "1.0"),
+        moments=("0.93041346", "0.93287245", "1.0"),
         nu="30",
         node="0",
-        inclination="4",
+        inclination="4.04",
         spin=mpf("9.07417") * HOUR,
         nutation=mpf("1e-4"),
         span=YEAR,
-        source=f"""
-Moments {{moments}} in units of C, computed for a homogeneous ellipsoid of semi-axes 482.79, 480.57, 445.57 km (Park et al. 2016).
-Spin period 9.07417 h (mean rate of mu + nu). Frame: orbit plane, x along the node of the plane of the angular momentum;
-I = obliquity 4 deg. Ceres has no known wobble: the amplitude J = 1e-4 rad is hypothetical. Computed: wobble period {{wobble_h}} h.
-Span: one Julian year.
-{UNMARKED}
+        source="""
+Moments {moments} in units of C, as in the catalogue: gravity field CERES18D and mean moment 0.37 M R^2 (both read).
+Spin period 9.07417 h (read: 952.1532635 deg/d), the mean rate of mu + nu. Frame: orbit plane, x along the node of the plane of the angular momentum;
+I = obliquity 4.04 deg, computed from the pole 291.418, 66.764 deg (read). Ceres has no known wobble: the amplitude J = 1e-4 rad is hypothetical.
+Computed: wobble period {wobble_h} h. Span: one Julian year.
 """,
     ),
     Recipe(
         file="vesta.toml",
         name="Vesta, hypothetical wobble of 0.1 mrad",
-        moments=("0.79854423", "0.82580063", "1.0"),
+        moments=("0.81773335", "0.84452477", "1.0"),
         nu="30",
         node="0",
-        inclination="27.5",
-        spin=mpf("5.3421276") * HOUR,
+        inclination="27.44",
+        spin=mpf("5.3421276322") * HOUR,
         nutation=mpf("1e-4"),
         span=YEAR,
-        source=f"""
-Moments {{moments}} in units of C, computed for a homogeneous ellipsoid of semi-axes 286.3, 278.6, 223.2 km (Russell et al. 2012).
-Spin period 5.3421276 h (mean rate of mu + nu). Frame: orbit plane, x along the node of the plane of the angular momentum;
-I = obliquity 27.5 deg. Vesta has no known wobble: the amplitude J = 1e-4 rad is hypothetical. Computed: wobble period {{wobble_h}} h.
-Span: one Julian year.
-{UNMARKED}
+        source="""
+Moments {moments} in units of C, as in the catalogue: gravity field VESTA20H and C/MR^2 = 0.4208 (both read).
+Spin period 5.3421276322 h (read), the mean rate of mu + nu. Frame: orbit plane, x along the node of the plane of the angular momentum;
+I = obliquity 27.44 deg, computed from the pole 309.031, 42.235 deg (read). Vesta has no known wobble: the amplitude J = 1e-4 rad is hypothetical.
+Computed: wobble period {wobble_h} h. Span: one Julian year.
 """,
     ),
     Recipe(
         file="eros.toml",
         name="Eros, 2 degrees off its short axis",
-        moments=("0.22942677", "0.96375352", "1.0"),
+        moments=("0.21007832", "0.98310982", "1.0"),
         nu="90",
         node="0",
         inclination="89.0",
-        spin=mpf("5.27025547") * HOUR,
+        spin=mpf("5.27025543") * HOUR,
         nutation=radians(mpf(2)),
         span=YEAR,
-        source=f"""
-Moments {{moments}} in units of C: recalled, from 17.09, 71.79, 74.49 km^2 (Miller et al. 2002). Spin period 5.27025547 h (mean rate of
-mu + nu). Frame: orbit plane, x along the node of the plane of the angular momentum; I = obliquity 89.0 deg (read: Souchay
-and Kinoshita 2003).
-Eros turns about its short axis with no measured wobble (read: Yeomans et al. 2000): J = 2 deg is hypothetical, taken at nu = 90 deg, towards the
-long axis, where the separatrix stands at {{J_separatrix}} deg. Computed: J swings between {{J_low}} and {{J_high}} deg, wobble period {{wobble_h}} h,
-sigma/sigma_sep = {{ratio}}. Span: one Julian year.
-{UNMARKED}
+        source="""
+Moments {moments} in units of C, as in the catalogue: gravity field JGE15A01 and C/M = 74.4434 km^2 of Miller's shape model (both read).
+Spin period 5.27025543 h (read: 1639.389232 deg/d), the mean rate of mu + nu. Frame: orbit plane, x along the node of the plane of the angular momentum;
+I = obliquity 89.0 deg (read: Souchay and Kinoshita 2003, abstract).
+Eros turns about its short axis with no measured wobble (read: Yeomans et al. 2000, abstract): J = 2 deg is hypothetical, taken at nu = 90 deg, towards the
+long axis, where the separatrix stands at {J_separatrix} deg. Computed: J swings between {J_low} and {J_high} deg, wobble period {wobble_h} h,
+sigma/sigma_sep = {ratio}. Span: one Julian year.
 """,
     ),
     Recipe(
         file="eros-sun.toml",
         name="Eros, 2 degrees off, under the Sun's torque",
-        moments=("0.22942677", "0.96375352", "1.0"),
+        moments=("0.21007832", "0.98310982", "1.0"),
         nu="90",
         node="0",
         inclination="89.0",
-        spin=mpf("5.27025547") * HOUR,
+        spin=mpf("5.27025543") * HOUR,
         nutation=radians(mpf(2)),
         span=100 * DAY,
         tolerance=1e-8,
-        orbit=("1.4583", "0.2227"),
-        source=f"""
-Body and state as in eros.toml: moments {{moments}} in units of C, recalled, from 17.09, 71.79, 74.49 km^2 (Miller et al. 2002); spin period 5.27025547 h
-(mean rate of mu + nu); I = obliquity 89.0 deg (read: Souchay and Kinoshita 2003); J = 2 deg is hypothetical. The Sun's orbit about Eros: a = 1.4583 au,
-e = 0.2227 (Souchay and Kinoshita 2003), mean motion k a^(-3/2) with Gauss's k = 0.01720209895 rad/d. Frame: orbit plane, x along the node of the plane of the angular
-momentum; the pericentre on x and its passage at the epoch are chosen. Computed: the averaged torque turns the pole at {{precession}} arcsec a year
-where J = 0. Span: 100 d. {UNMARKED}
+        orbit=("1.4581174", "0.2227967"),
+        source="""
+Body and state as in eros.toml: moments {moments} in units of C; spin period 5.27025543 h (mean rate of mu + nu); I = obliquity 89.0 deg; J = 2 deg is
+hypothetical. The Sun's orbit about Eros: a = 1.4581174 au, e = 0.2227967 (read: JPL Small-Body Database), mean motion k a^(-3/2) with Gauss's
+k = 0.01720209895 rad/d. Frame: orbit plane, x along the node of the plane of the angular momentum; the pericentre on x and its passage at the epoch
+are chosen. Computed: the averaged torque turns the pole at {precession} arcsec a year where J = 0. Span: 100 d.
 """,
     ),
     Recipe(
         file="apophis.toml",
         name="Apophis, tumbling",
         moments=("0.61", "0.965", "1.0"),
-        nu="90",
-        node="340",
-        inclination="165",
+        nu=None,  # of the state that the periods lead to
+        node="5",
+        inclination="175",
         tumbling=(mpf("27.38") * HOUR, 263 * HOUR),
         span=YEAR,
-        tolerance=1e-8,
-        source=f"""
-Moments {{moments}} in units of C and the periods P_phi = 27.38 h, P_psi = 263 h (long-axis convention: mean precession of the long axis,
-its roll) of Pravec et al. 2014, Icarus 233, 48. The state solves these two periods. Computed: J swings between {{J_low}} and {{J_high}} deg,
-E/E0 = {{energy}} (read: Pravec et al., 1.024 +- 0.013), k^2 = {{modulus}}, sigma/sigma_sep = {{ratio}}, short-axis precession {{precession_h}} h, and
-1/P_phi - 1/P_psi = 1/{{light_curve_h}} h, the strongest line of the light curve (recalled). Frame: ecliptic; the angular momentum points to
-longitude 250 deg, latitude -75 deg (recalled, same paper), so lambda = 250 + 90 deg, I = 90 + 75 deg. The phases mu and nu are chosen.
-Tolerance 1e-8: so near the separatrix the series to order 60 give little more. Span: one Julian year.
-{UNMARKED}
+        source="""
+Moments {moments} in units of C and the periods P_phi = 27.38 h, P_psi = 263 h of Pravec et al. 2014, Icarus 233, 48 (periods read in the list of
+tumblers of DAMIT; moments published there, of which the abstract alone was read). Extremal-axis convention: the short axis precesses in P_phi, the body
+turns about it in P_psi. The state follows from these two periods. Computed: J swings between {J_low} and {J_high} deg, E/E0 = {energy} (read: Pravec et al.,
+1.024 +- 0.013), k^2 = {modulus}, sigma/sigma_sep = {ratio}, and the long axis precesses in {long_axis_h} h; the strongest line of the light curve is at
+half of that. Frame: ecliptic; the angular momentum points to longitude 275 deg, latitude -85 deg (read: Lee et al. 2022, arXiv:2204.02540). The phases,
+0 at the epoch, are chosen. Span: one Julian year.
 """,
     ),
 ]
@@ -179,17 +172,11 @@ def mean_rates(moments, nutation, nu):
     return mpf(precession), mpf(roll), mpf(motion.parameter)
 
 
-def solve_tumbling(recipe, nu):
-    """J at nu and M of a short-axis tumbler from P_phi, P_psi: the long axis precesses at mean(mu') + mean(nu') and rolls at -mean(nu')."""
-
-    def ratio(nutation):
-        precession, roll, _ = mean_rates(recipe.moments, nutation, nu)
-        return -(precession + roll) / roll
-
-    phi, psi = recipe.tumbling
-    nutation = findroot(lambda j: ratio(j) - mpf(psi) / phi, (radians(10), radians(13)), solver="anderson")  # below J_sep = 13.8 deg
-    precession, roll, _ = mean_rates(recipe.moments, nutation, nu)
-    return nutation, 2 * pi / phi / (precession + roll)
+def state_of_periods(recipe):
+    """J and nu at the epoch, and M, of the state that `Scene.from_periods` finds."""
+    state = andoyer.Scene.from_periods(andoyer.Body([float(moment) for moment in recipe.moments]), *(float(period) for period in recipe.tumbling))
+    g1, g2, g3 = (mpf(moment) * mpf(float(rate)) for moment, rate in zip(recipe.moments, state.angular_velocity))
+    return atan2(sqrt(g1**2 + g2**2), g3), atan2(g1, g2), sqrt(g1**2 + g2**2 + g3**2)
 
 
 def action(moments, energy):
@@ -221,9 +208,7 @@ def describe(recipe, nutation, nu, momentum):
         "moments": " : ".join(recipe.moments),
         "wobble_d": figure(wobble / DAY, 5),
         "wobble_h": figure(wobble / HOUR, 5),
-        "spin_h": figure(spin / HOUR, 8),
-        "precession_h": figure(2 * pi / (momentum * precession) / HOUR, 5),
-        "light_curve_h": figure(2 * pi / (momentum * (precession + 2 * roll)) / HOUR, 4),
+        "long_axis_h": figure(spin / HOUR, 4),
         "J": figure(degrees(nutation), 6),
         "J_urad": figure(nutation * 10**6, 6),
         "J_low": figure(degrees(swing[0]), 4),
@@ -269,23 +254,40 @@ def quaternion(recipe, nutation, nu, mu):
     return q
 
 
+def row(values):
+    """A list of numbers as TOML has it."""
+    return "[" + ", ".join(repr(float(x)) for x in values) + "]"
+
+
+def periods_table(recipe):
+    """The table of the periods, the angular momentum towards the pole of node and inclination."""
+    precession, rotation = (float(period) for period in recipe.tumbling)
+    direction = row([radians(mpf(recipe.node) - 90), radians(90 - mpf(recipe.inclination))])
+    return f"[periods]\nprecession = {precession!r}\nrotation = {rotation!r}\nmomentum_direction = {direction}\n"
+
+
+def state_table(recipe, nutation, nu, momentum):
+    """The table of the state, and what is said of it."""
+    rates = [momentum * g / mpf(moment) for g, moment in zip(momentum_direction(nutation, nu), recipe.moments)]
+    attitude = quaternion(recipe, nutation, nu, -nu)
+    angles = f"lambda = {recipe.node} deg, I = {recipe.inclination} deg, mu = -{recipe.nu} deg, nu = {recipe.nu} deg"
+    return f"[state]\nattitude = {row(attitude)}\nangular_velocity = {row(rates)}\n", f" The state: {angles}."
+
+
 def scene(recipe):
     """The text of a scene file."""
-    nu = radians(mpf(recipe.nu))
     if recipe.tumbling:
-        nutation, momentum = solve_tumbling(recipe, nu)
+        nutation, nu, momentum = state_of_periods(recipe)
+        table, said = periods_table(recipe), ""
     else:
-        nutation = recipe.nutation
+        nutation, nu = recipe.nutation, radians(mpf(recipe.nu))
         precession, roll, _ = mean_rates(recipe.moments, nutation, nu)
         momentum = 2 * pi / recipe.spin / (precession + roll)
-    attitude = quaternion(recipe, nutation, nu, -nu)
-    rates = [momentum * g / mpf(moment) for g, moment in zip(momentum_direction(nutation, nu), recipe.moments)]
-    row = lambda values: "[" + ", ".join(repr(float(x)) for x in values) + "]"
-    angles = f"lambda = {recipe.node} deg, I = {recipe.inclination} deg, mu = -{recipe.nu} deg, nu = {recipe.nu} deg"
-    source = recipe.source.format(**describe(recipe, nutation, nu, momentum)) + f"The state: {angles}. Computed by make_scenes.py."
+        table, said = state_table(recipe, nutation, nu, momentum)
+    source = recipe.source.strip().format(**describe(recipe, nutation, nu, momentum)) + said + " Computed by make_scenes.py."
     return f'''name = "{recipe.name}"
 source = """
-{fill(source.strip(), 120)}
+{fill(source, 120)}
 """
 epoch = 0.0
 span = {row([0, recipe.span])}
@@ -294,10 +296,7 @@ tolerance = {recipe.tolerance!r}
 [body]
 moments = [{", ".join(recipe.moments)}]
 
-[state]
-attitude = {row(attitude)}
-angular_velocity = {row(rates)}
-{orbit_table(recipe)}'''
+{table}{orbit_table(recipe)}'''
 
 
 def main(check):

@@ -4,9 +4,9 @@
 //! theory. Steps of at most 1 rad of the fastest rate: the method leaves 1e-23 h^17 of a step, so that rounding is all that is left. Coefficients in plain doubles
 //! would make the energy drift by 1e-16 a step, and the phase by that times the square of their number: they carry a second double.
 
+use andoyer_double::DoubleDouble;
 use andoyer_propagate::Orbit;
 use andoyer_propagate::nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
-use andoyer_series::DoubleDouble;
 
 const STAGES: usize = 8;
 const UNKNOWNS: usize = 7;

@@ -1,5 +1,7 @@
 //! What the whole-project tests share: reference solutions and the distance between attitudes.
 
+pub mod climb;
+pub mod disturbed;
 pub mod integration;
 
 use andoyer_propagate::Orbit;

@@ -1,5 +1,6 @@
 //! Bad input is a typed error that names the argument, its value and the bound: never a panic, never NaN.
 
+use andoyer_propagate::error::{Kind, Value};
 use andoyer_propagate::{Body, Error, MAX_ORDER, Method, Motion, Scene, State};
 
 const NAN: f64 = f64::NAN;
@@ -78,7 +79,7 @@ fn tolerance_order_span_and_method_have_bounds() {
         assert!(matches!(error, Error::Tolerance { .. }), "{error}");
         assert!(error.to_string().contains(&format!("tolerance = {bad}")), "{error}");
     }
-    assert!(matches!(scene().order(MAX_ORDER + 1).solve(), Err(Error::Order { value: 61 })));
+    assert!(matches!(scene().order(MAX_ORDER + 1).solve(), Err(Error::Order { value: 61, bound: MAX_ORDER })));
     assert!(scene().order(MAX_ORDER).solve().is_ok());
     assert!(matches!(scene().span(1.0, 0.0).solve(), Err(Error::Span { .. })));
     assert!(matches!("elliptic".parse::<Method>(), Err(Error::Method { .. })));
@@ -146,4 +147,32 @@ fn motions_are_shared_between_threads() {
     shared::<Motion>();
     shared::<Scene>();
     shared::<Error>();
+}
+
+#[test]
+fn an_error_is_a_value_with_its_kind_argument_value_and_bound() {
+    let error = Body::new([1.0, -2.0, 1.0]).expect_err("no body");
+    assert_eq!(error.clone(), error);
+    assert_eq!((error.kind(), error.argument()), (Kind::Input, Some("moments")));
+    assert_eq!(
+        (error.value(), error.bound()),
+        (Some(Value::Number(-2.0)), Some(Value::Text("positive and finite".into())))
+    );
+
+    let error = motion().at(1e18).expect_err("too far");
+    assert_eq!((error.kind(), error.argument()), (Kind::Representation, Some("times")));
+    assert_eq!(error.value(), Some(Value::Number(1e18)));
+    assert_eq!(motion().at(NAN).expect_err("no time").kind(), Kind::Input);
+
+    let error = Scene::parse_toml(
+        "[body]\nmoments = [1, 2, 4]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0, 1]",
+        "f",
+    )
+    .expect_err("no body");
+    assert_eq!((error.kind(), error.argument()), (Kind::File, Some("body.moments")));
+    assert_eq!(error.value(), Some(Value::Numbers(vec![1.0, 2.0, 4.0])));
+
+    let error = andoyer_series::NormalForm::from_json("{").expect_err("no JSON");
+    assert!(matches!(error, andoyer_series::Error::Json { line: 1, column: 1, .. }), "{error}");
+    assert_eq!((error.clone(), error.kind()), (error, Kind::File));
 }

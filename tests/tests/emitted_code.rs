@@ -346,15 +346,6 @@ fn a_body_with_two_equal_moments_takes_no_harmonics_at_any_order() -> Result<(),
     Ok(())
 }
 
-/// A normal form of that order without terms, since only the order matters.
-fn empty(order: usize) -> Result<NormalForm, Error> {
-    let lists = |count: usize| vec!["[]"; count].join(",");
-    let [triaxiality, generators] = [lists(order + 1), lists(order)];
-    NormalForm::from_json(&format!(
-        r#"{{"format":"andoyer-normal-form","version":1,"order":{order},"triaxiality":[{triaxiality}],"generators":[{generators}]}}"#
-    ))
-}
-
 #[test]
 fn betas_outside_the_interval_unknown_languages_and_huge_orders_are_refused() -> Result<(), Error> {
     let normal_form = NormalForm::new(2)?;
@@ -372,7 +363,7 @@ fn betas_outside_the_interval_unknown_languages_and_huge_orders_are_refused() ->
         let refused = name.parse::<Language>();
         assert!(matches!(refused, Err(Error::NameUnknown { what: "language", .. })), "{name}");
     }
-    let refused = empty(101)?.to_code(Language::C, Some(0.5));
+    let refused = NormalForm::new(101)?.to_code(Language::C, Some(0.5));
     assert!(matches!(refused, Err(Error::OrderTooLarge { order: 101, bound: 100 })));
     Ok(())
 }

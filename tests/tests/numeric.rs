@@ -1,6 +1,7 @@
 //! The normal form in `f64` against the exact one: two recursions, two representations of a polynomial, two kinds of number.
 
-use andoyer_series::{DoubleDouble, Form, NormalForm, NumericNormalForm, PublicForm, Variable, separatrix_action};
+use andoyer_double::DoubleDouble;
+use andoyer_series::{Form, NormalForm, NumericNormalForm, PublicForm, Variable, separatrix_action};
 use num_complex::Complex;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};

@@ -18,7 +18,7 @@ angular_velocity = [0.1, 0.2, 1.0]
 
 fn refused(text: &str) -> (String, String) {
     match Scene::parse_toml(text, "scene.toml").expect_err("no scene") {
-        Error::SceneFile { file, key, problem } => {
+        Error::SceneFile { file, key, problem, .. } => {
             assert_eq!(file, "scene.toml");
             (key, problem)
         }

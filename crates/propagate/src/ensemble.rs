@@ -4,16 +4,23 @@
 //! do not depend on how many threads there are. A member costs its set-up, 4 to 6 µs, some 200 µs under the gravity gradient of an orbit, and its epochs.
 //! Every bad member is found before any is computed, and the error names the first with its index.
 
+use std::fmt;
+use std::str::FromStr;
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::body::Body;
 use crate::error::Error;
-use crate::motion::{Motion, length};
-use crate::orbit::Orbit;
-use crate::plan::Plan;
-use crate::scene::Scene;
-use crate::state::State;
+use crate::input::body::Body;
+use crate::input::orbit::Orbit;
+use crate::input::scene::Scene;
+use crate::input::state::State;
+use crate::motion::batch::Batch;
+use crate::motion::plan::Plan;
+use crate::motion::solved::{Motion, length};
+use crate::outcome::Outcome;
+use crate::simd::halt::GOING;
 
 /// Members that a thread takes at least: 64 of them are some 300 µs.
 const BLOCK: usize = 64;
@@ -23,7 +30,39 @@ const DISTURBED_BLOCK: usize = 2;
 /// The largest number of threads that can be asked for.
 pub const MAX_THREADS: usize = 1024;
 
-/// Bodies with their states, all at the same epoch.
+/// What becomes of a member that is no body or no state, or has no motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum OnError {
+    /// The first one is the error of all.
+    #[default]
+    Raise,
+    /// Its rows are NaN, and the outcome has its error.
+    Nan,
+}
+
+impl FromStr for OnError {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        match text {
+            "raise" => Ok(Self::Raise),
+            "nan" => Ok(Self::Nan),
+            _ => Err(Error::OnError { value: text.to_owned() }),
+        }
+    }
+}
+
+impl fmt::Display for OnError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Raise => "raise",
+            Self::Nan => "nan",
+        })
+    }
+}
+
+/// Bodies with their states, at one epoch or each at its own.
 ///
 /// ```
 /// use andoyer_propagate::Ensemble;
@@ -42,6 +81,9 @@ pub struct Ensemble {
     moments: Vec<[f64; 3]>,
     attitudes: Vec<[f64; 4]>,
     angular_velocities: Vec<[f64; 3]>,
+    /// None for 0, one for all, or one for each.
+    epochs: Vec<f64>,
+    on_error: OnError,
     /// None, one for all, or one for each.
     orbits: Vec<Option<Orbit>>,
     tolerance: f64,
@@ -60,18 +102,105 @@ impl Ensemble {
         attitudes: Vec<[f64; 4]>,
         angular_velocities: Vec<[f64; 3]>,
     ) -> Result<Self, Error> {
+        Self::new_or(moments, attitudes, angular_velocities, OnError::Raise, &GOING)
+    }
+
+    /// As [`Ensemble::new`], with a choice of what becomes of bad members, and a flag that ends the check of them early.
+    ///
+    /// ```
+    /// use std::sync::atomic::AtomicBool;
+    /// use andoyer_propagate::{Ensemble, OnError};
+    /// let moments = vec![[1.0, 1.5, 2.0], [1.0, 1.0, 2.5]]; // the second is no body
+    /// let (level, rates) = (vec![[0.0, 0.0, 0.0, 1.0]; 2], vec![[0.1, 0.2, 1.0]; 2]);
+    /// let ensemble = Ensemble::new_or(moments, level, rates, OnError::Nan, &AtomicBool::new(false))?;
+    /// let mut attitudes = [[0.0; 4]; 2];
+    /// let outcome = ensemble.attitudes_into(&[10.0], &mut attitudes)?;
+    /// assert!(attitudes[0][3].is_finite() && attitudes[1][3].is_nan());
+    /// assert_eq!(outcome.errors()[0].0, 1);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - Those of [`Ensemble::new`]; with [`OnError::Nan`] only [`Error::Length`].
+    /// - [`Error::Stopped`] where the flag is set.
+    pub fn new_or(
+        moments: Vec<[f64; 3]>,
+        attitudes: Vec<[f64; 4]>,
+        angular_velocities: Vec<[f64; 3]>,
+        on_error: OnError,
+        stop: &AtomicBool,
+    ) -> Result<Self, Error> {
         length("attitudes", attitudes.len(), moments.len())?;
         length("angular_velocities", angular_velocities.len(), moments.len())?;
-        let (orbits, tolerance) = (Vec::new(), 1e-12);
-        let ensemble = Self { moments, attitudes, angular_velocities, orbits, tolerance, span: None, threads: None };
-        let problems = |index: usize| ensemble.scene(index).err().map(|problem| (index, problem));
+        let ensemble = Self {
+            moments,
+            attitudes,
+            angular_velocities,
+            epochs: Vec::new(),
+            on_error,
+            orbits: Vec::new(),
+            tolerance: 1e-12,
+            span: None,
+            threads: None,
+        };
+        ensemble.raise_bad_members(stop)?;
+        Ok(ensemble)
+    }
+
+    /// The first member that is no body or no state, as an error, unless they are to be NaN.
+    fn raise_bad_members(&self, stop: &AtomicBool) -> Result<(), Error> {
+        if self.on_error == OnError::Nan {
+            return Ok(());
+        }
+        let problems = |index: usize| match stop.load(Ordering::Relaxed) {
+            true => Some((index, Error::Stopped)),
+            false => self.scene(index).err().map(|problem| (index, problem)),
+        };
         let bad: Vec<(usize, Error)> =
-            (0..ensemble.len()).into_par_iter().with_min_len(BLOCK).filter_map(problems).collect();
+            (0..self.len()).into_par_iter().with_min_len(BLOCK).filter_map(problems).collect();
+        if stop.load(Ordering::Relaxed) {
+            return Err(Error::Stopped);
+        }
         let others = bad.len().saturating_sub(1);
         match bad.into_iter().next() {
             Some((index, problem)) => Err(Error::Member { index, others, problem: Box::new(problem) }),
-            None => Ok(ensemble),
+            None => Ok(()),
         }
+    }
+
+    /// The times of the states: one for all members, or one for each; 0 if this is not called.
+    ///
+    /// ```
+    /// use andoyer_propagate::Ensemble;
+    /// let (moments, level) = (vec![[1.0, 1.5, 2.0]; 2], vec![[0.0, 0.0, 0.0, 1.0]; 2]);
+    /// let ensemble = Ensemble::new(moments, level, vec![[0.1, 0.2, 1.0]; 2])?.epochs(vec![0.0, 5.0])?;
+    /// let mut attitudes = [[0.0; 4]; 2];
+    /// ensemble.attitudes_into(&[5.0], &mut attitudes)?;
+    /// assert!((attitudes[1][3] - 1.0).abs() < 1e-15 && attitudes[0][3] < 0.0);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - [`Error::Length`] for three epochs of five members.
+    /// - [`Error::Epoch`] for `vec![f64::NAN]`, and [`Error::Member`] with it for one of many, unless bad members are to be NaN.
+    pub fn epochs(mut self, epochs: Vec<f64>) -> Result<Self, Error> {
+        if epochs.len() != 1 {
+            length("epochs", epochs.len(), self.len())?;
+        }
+        let bad = epochs.iter().position(|epoch| !epoch.is_finite());
+        match bad.map(|index| (index, Error::Epoch { value: epochs[index] })) {
+            Some((_, problem)) if epochs.len() == 1 => return Err(problem),
+            Some((index, problem)) if self.on_error == OnError::Raise => {
+                return Err(Error::Member { index, others: 0, problem: Box::new(problem) });
+            }
+            _ => {}
+        }
+        self.epochs = epochs;
+        // What is the same for all is kept once, and 0 not at all: equal ensembles are equal.
+        if self.epochs.windows(2).all(|pair| pair[0] == pair[1]) {
+            self.epochs.truncate(usize::from(self.epochs.first().is_some_and(|&epoch| epoch != 0.0)));
+        }
+        Ok(self)
     }
 
     /// The attitude error asked for \[rad\], as for [`Scene::tolerance`].
@@ -162,6 +291,25 @@ impl Ensemble {
         }
     }
 
+    /// The time of the state of a member.
+    pub fn epoch(&self, index: usize) -> f64 {
+        match &self.epochs[..] {
+            [] => 0.0,
+            [of_all] => *of_all,
+            each => each[index],
+        }
+    }
+
+    /// The times of the states: none for 0, one for all, or one for each member.
+    pub fn asked_epochs(&self) -> &[f64] {
+        &self.epochs
+    }
+
+    /// What becomes of members that have no motion.
+    pub fn asked_on_error(&self) -> OnError {
+        self.on_error
+    }
+
     /// The span, if one was given.
     pub fn asked_span(&self) -> Option<(f64, f64)> {
         self.span
@@ -204,7 +352,7 @@ impl Ensemble {
     }
 
     fn scene(&self, index: usize) -> Result<Scene, Error> {
-        let state = State::new(0.0, self.attitudes[index], self.angular_velocities[index])?;
+        let state = State::new(self.epoch(index), self.attitudes[index], self.angular_velocities[index])?;
         let mut scene = Scene::new(Body::new(self.moments[index])?, state).tolerance(self.tolerance);
         if let Some(&orbit) = self.orbit(index) {
             scene = scene.orbit(orbit);
@@ -226,7 +374,12 @@ impl Ensemble {
             return Err(Error::Index { index, members: self.len() });
         }
         let motion = self.scene(index).and_then(|scene| scene.solve());
-        motion.map_err(|problem| Error::Member { index, others: 0, problem: Box::new(problem) })
+        motion.map_err(|problem| in_member(index, problem))
+    }
+
+    /// How its members are evaluated.
+    pub fn run(&self) -> Run<'_> {
+        Run { ensemble: self, since_epoch: false, stop: &GOING }
     }
 
     /// The plan of every member.
@@ -234,8 +387,7 @@ impl Ensemble {
     /// # Errors
     /// - As [`Ensemble::motion`], of the first that has one.
     pub fn plans(&self) -> Result<Vec<Plan>, Error> {
-        let plan = |index: usize| self.motion(index).map(|motion| motion.plan().clone());
-        self.pool()?.install(|| (0..self.len()).into_par_iter().with_min_len(self.block()).map(plan).collect())
+        self.run().plans()?.into_iter().collect()
     }
 
     /// Attitudes [x, y, z, w] of all members, the times of a member next to each other.
@@ -244,25 +396,22 @@ impl Ensemble {
     ///
     /// # Errors
     /// - [`Error::Length`] where neither fits `out`.
-    /// - [`Error::Member`] with what [`Scene::solve`] or [`Motion::at`] says of it.
-    pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<(), Error> {
-        let each = self.times_of_each("out", times, out.len())?;
-        self.each_member(out.par_chunks_mut(each.max(1)), |motion, index, rows| {
-            motion.attitudes_into(of_member(times, index, each), rows)
-        })
+    /// - [`Error::Member`] with what [`Scene::solve`] or [`Motion::at`] says of it, unless such members are to be NaN.
+    pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<Outcome, Error> {
+        self.run().attitudes_into(times, out)
     }
 
     /// Attitudes and angular velocities, ordered as by [`Ensemble::attitudes_into`].
     ///
     /// # Errors
     /// As [`Ensemble::attitudes_into`].
-    pub fn samples_into(&self, times: &[f64], attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
-        length("rates", rates.len(), attitudes.len())?;
-        let each = self.times_of_each("attitudes", times, attitudes.len())?;
-        let rows = attitudes.par_chunks_mut(each.max(1)).zip(rates.par_chunks_mut(each.max(1)));
-        self.each_member(rows, |motion, index, (attitudes, rates)| {
-            motion.samples_into(of_member(times, index, each), attitudes, rates)
-        })
+    pub fn samples_into(
+        &self,
+        times: &[f64],
+        attitudes: &mut [[f64; 4]],
+        rates: &mut [[f64; 3]],
+    ) -> Result<Outcome, Error> {
+        self.run().samples_into(times, attitudes, rates)
     }
 
     /// The number of times of a member, if that many rows belong to `times`.
@@ -277,25 +426,6 @@ impl Ensemble {
         let each = rows / self.len();
         length("times", times.len(), each * self.len())?;
         Ok(each)
-    }
-
-    /// Of several members that cannot be evaluated the first is told, whatever the threads were.
-    fn each_member<Rows: Send>(
-        &self,
-        rows: impl IndexedParallelIterator<Item = Rows>,
-        evaluate: impl Fn(&Motion, usize, Rows) -> Result<(), Error> + Sync,
-    ) -> Result<(), Error> {
-        let of_member = |(index, rows): (usize, Rows)| {
-            let motion = match self.motion(index) {
-                Ok(motion) => motion,
-                Err(error) => return Some((index, error)),
-            };
-            let problem = evaluate(&motion, index, rows).err()?;
-            Some((index, Error::Member { index, others: 0, problem: Box::new(problem) }))
-        };
-        let members = rows.enumerate().with_min_len(self.block()).filter_map(of_member);
-        let first = self.pool()?.install(|| members.min_by_key(|&(index, _)| index));
-        first.map_or(Ok(()), |(_, error)| Err(error))
     }
 
     /// Members that a thread takes at least.
@@ -313,6 +443,122 @@ impl Ensemble {
             }
         }
     }
+}
+
+/// How the members of an ensemble are evaluated.
+#[derive(Clone, Copy, Debug)]
+pub struct Run<'a> {
+    ensemble: &'a Ensemble,
+    since_epoch: bool,
+    stop: &'a AtomicBool,
+}
+
+impl<'a> Run<'a> {
+    /// Times are counted from the epoch of each member, as by [`crate::Batch::since_epoch`].
+    #[must_use]
+    pub fn since_epoch(self) -> Self {
+        Self { since_epoch: true, ..self }
+    }
+
+    /// Ends early, with [`Error::Stopped`], once another thread has set this flag: after the members that are being solved.
+    #[must_use]
+    pub fn until(self, stop: &'a AtomicBool) -> Self {
+        Self { stop, ..self }
+    }
+
+    /// The plan of every member, or why it has none.
+    ///
+    /// # Errors
+    /// - [`Error::Threads`] for threads that the system does not give.
+    /// - [`Error::Stopped`] where the flag is set.
+    pub fn plans(&self) -> Result<Vec<Result<Plan, Error>>, Error> {
+        let Self { ensemble, .. } = *self;
+        let plan = |index: usize| {
+            self.going()?;
+            ensemble.motion(index).map(|motion| motion.plan().clone())
+        };
+        let members = || (0..ensemble.len()).into_par_iter().with_min_len(ensemble.block()).map(plan).collect();
+        let plans = ensemble.pool()?.install(members);
+        self.going().map(|()| plans)
+    }
+
+    /// As [`Ensemble::attitudes_into`].
+    ///
+    /// # Errors
+    /// As [`Ensemble::attitudes_into`]; [`Error::Stopped`] where the flag is set.
+    pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<Outcome, Error> {
+        let each = self.ensemble.times_of_each("out", times, out.len())?;
+        let evaluate = |motion: &Motion, index: usize, rows: &mut &mut [[f64; 4]]| {
+            self.batch(motion).attitudes_into(of_member(times, index, each), rows)
+        };
+        self.each_member(out.par_chunks_mut(each.max(1)), evaluate, |rows| rows.fill([f64::NAN; 4]))
+    }
+
+    /// As [`Ensemble::samples_into`].
+    ///
+    /// # Errors
+    /// As [`Ensemble::attitudes_into`]; [`Error::Stopped`] where the flag is set.
+    pub fn samples_into(
+        &self,
+        times: &[f64],
+        attitudes: &mut [[f64; 4]],
+        rates: &mut [[f64; 3]],
+    ) -> Result<Outcome, Error> {
+        length("rates", rates.len(), attitudes.len())?;
+        let each = self.ensemble.times_of_each("attitudes", times, attitudes.len())?;
+        let rows = attitudes.par_chunks_mut(each.max(1)).zip(rates.par_chunks_mut(each.max(1)));
+        let evaluate = |motion: &Motion, index: usize, rows: &mut (&mut [[f64; 4]], &mut [[f64; 3]])| {
+            self.batch(motion).samples_into(of_member(times, index, each), rows.0, rows.1)
+        };
+        self.each_member(rows, evaluate, |rows| {
+            rows.0.fill([f64::NAN; 4]);
+            rows.1.fill([f64::NAN; 3]);
+        })
+    }
+
+    fn batch(&self, motion: &'a Motion) -> Batch<'a> {
+        let batch = motion.batch().until(self.stop);
+        if self.since_epoch { batch.since_epoch() } else { batch }
+    }
+
+    fn going(&self) -> Result<(), Error> {
+        if self.stop.load(Ordering::Relaxed) { Err(Error::Stopped) } else { Ok(()) }
+    }
+
+    /// Of several members that cannot be evaluated the first is told, whatever the threads were; or all of them are `blank`.
+    fn each_member<Rows: Send>(
+        &self,
+        rows: impl IndexedParallelIterator<Item = Rows>,
+        evaluate: impl Fn(&Motion, usize, &mut Rows) -> Result<(), Error> + Sync,
+        blank: impl Fn(&mut Rows) + Sync,
+    ) -> Result<Outcome, Error> {
+        let Self { ensemble, .. } = *self;
+        let one = |index: usize, rows: &mut Rows| {
+            self.going()?;
+            let motion = ensemble.motion(index)?;
+            evaluate(&motion, index, rows).map_err(|problem| in_member(index, problem))?;
+            Ok(motion.plan().clone())
+        };
+        let told = |outcome: Outcome, (index, mut rows): (usize, Rows)| match one(index, &mut rows) {
+            Ok(plan) => outcome.solved(index, &plan),
+            Err(error) => {
+                blank(&mut rows);
+                outcome.refused(index, error)
+            }
+        };
+        let members = rows.enumerate().with_min_len(ensemble.block());
+        let outcome =
+            ensemble.pool()?.install(|| members.fold(Outcome::default, told).reduce(Outcome::default, Outcome::and));
+        self.going()?;
+        match ensemble.on_error {
+            OnError::Nan => Ok(outcome),
+            OnError::Raise => outcome.or_first_error(),
+        }
+    }
+}
+
+fn in_member(index: usize, problem: Error) -> Error {
+    Error::Member { index, others: 0, problem: Box::new(problem) }
 }
 
 fn of_member(times: &[f64], index: usize, each: usize) -> &[f64] {

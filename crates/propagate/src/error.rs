@@ -1,7 +1,11 @@
 //! What can be wrong with an input, and what the series can't serve: each with its argument, its value and the bound.
 
+mod facts;
+
+pub use facts::{Kind, Value};
+
 /// The error of this crate: what was given, and what would have been accepted.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A moment of inertia that is zero, negative, NaN or infinite.
@@ -10,6 +14,34 @@ pub enum Error {
         /// Index of the body axis, 0 to 2.
         axis: usize,
         /// The moment as given.
+        value: f64,
+    },
+    /// An inertia tensor that is not symmetric, or not finite.
+    #[error(
+        "tensor[{row}][{column}] = {value} and tensor[{column}][{row}] = {mirrored}: an inertia tensor must be finite and symmetric to 1e-12 of its largest entry"
+    )]
+    InertiaSymmetry {
+        /// The row.
+        row: usize,
+        /// The column.
+        column: usize,
+        /// The entry.
+        value: f64,
+        /// The entry across the diagonal.
+        mirrored: f64,
+    },
+    /// An inertia tensor with a principal moment that is not positive.
+    #[error("tensor: its principal moments are {moments:?}, and each must be positive")]
+    InertiaMoments {
+        /// The principal moments.
+        moments: [f64; 3],
+    },
+    /// A length or a mass that is zero, negative, NaN or infinite.
+    #[error("{argument} = {value}: it must be positive and finite")]
+    Positive {
+        /// The argument.
+        argument: &'static str,
+        /// The value as given.
         value: f64,
     },
     /// Moments that no body has: the largest exceeds the sum of the others.
@@ -25,13 +57,15 @@ pub enum Error {
     /// Moments so far apart that their differences have no double.
     #[error(
         "moments = {moments:?}: the largest must not exceed {:e} times the smallest (it is {ratio:e} times it)",
-        crate::body::LARGEST_RATIO
+        bound
     )]
     MomentsRatio {
         /// The moments as given.
         moments: [f64; 3],
         /// Largest moment over the smallest.
         ratio: f64,
+        /// The largest ratio that is accepted.
+        bound: f64,
     },
     /// An angular momentum or a rate that has no double.
     #[error(
@@ -45,7 +79,7 @@ pub enum Error {
     },
     /// An attitude quaternion that is zero, not finite, or too far from unit norm.
     #[error(
-        "attitude = {value:?}: a quaternion [x, y, z, w] must be finite with a norm within 1e-6 of 1 (it is {norm})"
+        "attitude = {value:?}: a quaternion [x, y, z, w] must be finite with a norm within 1e-6 of 1 (it is {norm}){}", advice(*norm)
     )]
     Attitude {
         /// The quaternion as given, [x, y, z, w].
@@ -82,10 +116,12 @@ pub enum Error {
         stop: f64,
     },
     /// An order that is not served.
-    #[error("order = {value}: it must be at most {}", crate::MAX_ORDER)]
+    #[error("order = {value}: it must be at most {bound}")]
     Order {
         /// The order as given.
         value: usize,
+        /// The highest order that is served.
+        bound: usize,
     },
     /// A method that is unknown.
     #[error("method = {value:?}: it must be \"auto\", \"series\" or \"closed\"")]
@@ -93,8 +129,8 @@ pub enum Error {
         /// The method as given.
         value: String,
     },
-    /// A time that is not finite, or so far from the epoch that it has no phase.
-    #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{}", beyond(*bound))]
+    /// A time that is not finite, or so far from the epoch that the motion is not evaluated there.
+    #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{reason}")]
     Time {
         /// Its index among the times given.
         index: usize,
@@ -102,6 +138,8 @@ pub enum Error {
         value: f64,
         /// Largest distance from the epoch that is accepted.
         bound: f64,
+        /// What ends there, as the end of a sentence; empty where the number is only the largest that is added without an overflow.
+        reason: &'static str,
     },
     /// A slice whose length doesn't fit.
     #[error("{argument} has {found} entries: it must have {expected}")]
@@ -115,8 +153,7 @@ pub enum Error {
     },
     /// The series asked for too near the separatrix for the tolerance.
     #[error(
-        "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {}, is good to {}, and the tolerance is {tolerance:e} rad",
-        crate::MAX_ORDER,
+        "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {highest}, is good to {}, and the tolerance is {tolerance:e} rad",
         rounded_up(*attainable)
     )]
     NearSeparatrix {
@@ -126,12 +163,75 @@ pub enum Error {
         tolerance: f64,
         /// The smallest tolerance that the highest order meets \[rad\].
         attainable: f64,
+        /// The highest order.
+        highest: usize,
     },
     /// The series asked for on the separatrix.
     #[error(
         "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it): no order of the series serves; the closed form does"
     )]
     Separatrix,
+    /// Derivatives asked for on the separatrix.
+    #[error(
+        "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it) the frequencies have no derivatives: a state beside it has"
+    )]
+    SeparatrixPartials,
+    /// A convention of periods that is unknown.
+    #[error("convention = {value:?}: it must be \"extremal-axis\", \"long-axis\" or \"short-axis\"")]
+    Convention {
+        /// The convention as given.
+        value: String,
+    },
+    /// A mode that is unknown, or has no periods.
+    #[error("mode = {value:?}: it must be \"short-axis\" or \"long-axis\"")]
+    ModeName {
+        /// The mode as given.
+        value: String,
+    },
+    /// A mode that a body does not have: the two moments on its far side are equal.
+    #[error("mode = {mode:?}: a body with moments {moments:?} has none, since its {pair} moments are equal")]
+    NoSuchMode {
+        /// The mode.
+        mode: String,
+        /// The moments.
+        moments: [f64; 3],
+        /// Which two of them.
+        pair: &'static str,
+    },
+    /// A pair of periods that a body cannot have in a mode.
+    #[error(
+        "rotation/precession = {ratio}: in the {mode} mode and the {convention} convention this body has P_ψ/P_φ from {lower} up to {upper}"
+    )]
+    PeriodRatio {
+        /// P_ψ/P_φ as given.
+        ratio: f64,
+        /// The mode.
+        mode: String,
+        /// The convention.
+        convention: String,
+        /// The smallest ratio, that of rotation about the axis itself.
+        lower: f64,
+        /// The largest, next to the separatrix, that doubles hold.
+        upper: f64,
+    },
+    /// A vector or a number that is not finite, or a direction of length 0.
+    #[error("{argument} = {value:?}: it must be finite{}", if value.iter().any(|x| *x != 0.0) { "" } else { " and not 0" })]
+    Direction {
+        /// The argument.
+        argument: &'static str,
+        /// The value as given.
+        value: Vec<f64>,
+    },
+    /// An Andoyer variable out of its bounds.
+    #[error("andoyer[{index}] = {value}: {bound}")]
+    Andoyer {
+        /// Its index among (λ, μ, ν, Λ, M, N).
+        index: usize,
+        /// The value as given.
+        value: f64,
+        /// What it must be.
+        bound: &'static str,
+    },
     /// An element of an orbit that is none.
     #[error("orbit.{argument} = {value}: it must be {bound}")]
     Orbit {
@@ -170,12 +270,13 @@ pub enum Error {
     },
     /// A torque too strong for an expansion in it.
     #[error(
-        "the torque, or what it does in a rotation, is {size:.3e} of M²/C at pericentre, and an expansion in it needs less than {bound}"
+        "the torque, or what it does to the motion, measures {size:.3e} at pericentre, and an expansion in it needs less than {bound:.3e}"
     )]
     TorqueTooStrong {
-        /// 3n²C²/2M² times the mass fraction at the pericentre, or the sum of the short-period corrections \[rad\].
+        /// Its measure: 3n²C(C − A)/2M² times the mass fraction at the pericentre, the sum of the short-period corrections \[rad\], what a step towards the mean variables leaves of
+        /// the one before, or the error bound of a span below one orbit \[rad\].
         size: f64,
-        /// The bound.
+        /// What that measure must be below; of the error bound, the effect of the torque over the span \[rad\].
         bound: f64,
     },
     /// A span with more orbits than the averaged equations are solved for.
@@ -210,6 +311,15 @@ pub enum Error {
         /// What is wrong with it.
         problem: Box<Error>,
     },
+    /// What becomes of bad members of an ensemble, in a word that is unknown.
+    #[error("errors = {value:?}: it must be \"raise\" or \"nan\"")]
+    OnError {
+        /// The word as given.
+        value: String,
+    },
+    /// A computation that was stopped by the flag that it was given.
+    #[error("stopped before the end")]
+    Stopped,
     /// An index that no member of an ensemble has.
     #[error("index = {index}: the ensemble has {members} members, counted from 0")]
     Index {
@@ -227,10 +337,12 @@ pub enum Error {
         problem: String,
     },
     /// A body that the catalogue doesn't have.
-    #[error("body {name:?} is not in the catalogue: it has {}", crate::Body::catalogue().join(", "))]
+    #[error("body {name:?} is not in the catalogue{}: it has {}", did_you_mean(name, known), known.join(", "))]
     UnknownBody {
         /// The name as given.
         name: String,
+        /// The names in the catalogue.
+        known: Vec<&'static str>,
     },
     /// What the series crate has to say; no input that passed the checks of this crate is known to raise it.
     #[error(transparent)]
@@ -244,23 +356,41 @@ pub enum Error {
         key: String,
         /// What is wrong, with the bound.
         problem: String,
+        /// The value of the key, where there is one.
+        value: Option<Box<Value>>,
+        /// What the value must be.
+        bound: Option<Box<Value>>,
     },
+}
+
+/// The name most like an unknown one, if one is: up to a third of the letters wrong, missing, added or exchanged.
+fn did_you_mean(name: &str, known: &[&str]) -> String {
+    let name = name.to_lowercase();
+    let likeness = |known: &str| strsim::normalized_damerau_levenshtein(&known.to_lowercase(), &name);
+    let best = known.iter().max_by(|one, two| likeness(one).total_cmp(&likeness(two)));
+    let near = best.filter(|best| likeness(best) >= 2.0 / 3.0);
+    near.map_or_else(String::new, |best| format!("; did you mean {best:?}?"))
 }
 
 fn and_others(others: usize) -> String {
     if others == 0 { String::new() } else { format!(" (and {others} more bad members)") }
 }
 
-/// Why a time has a bound: a body at rest has one too, so that no sum of two times overflows.
-fn beyond(bound: f64) -> &'static str {
-    if bound < crate::motion::LONGEST { ": farther away the motion has no phase" } else { "" }
+/// What to do with a quaternion that is no attitude.
+fn advice(norm: f64) -> &'static str {
+    if norm > 0.0 && norm.is_finite() {
+        "; to normalize it, divide it by its norm; a quaternion [w, x, y, z] is read with scalar_first=True in Python"
+    } else {
+        ""
+    }
 }
 
 impl Error {
     /// The same error of times that begin later in an array.
-    pub(crate) fn later(self, start: usize) -> Self {
+    #[must_use]
+    pub fn later(self, start: usize) -> Self {
         match self {
-            Self::Time { index, value, bound } => Self::Time { index: start + index, value, bound },
+            Self::Time { index, value, bound, reason } => Self::Time { index: start + index, value, bound, reason },
             other => other,
         }
     }

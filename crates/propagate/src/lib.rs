@@ -6,44 +6,48 @@
 //!
 #![doc = include_str!("../doc/formulas.html")]
 
-mod andoyer;
-mod batch;
-mod body;
-mod bound;
-mod catalogue;
-mod closed;
-mod elliptic;
-mod energy;
-mod ensemble;
-mod error;
-mod fourier;
-mod gradient;
-mod kernel;
-mod motion;
-mod orbit;
-mod order;
-mod phase;
-mod plan;
-mod polhode;
-mod scene;
-mod scene_file;
-mod secular;
-mod separatrix;
-mod series;
-mod solution;
-mod state;
-mod steady;
+// The layers, each of which imports only those above it: tests/layers.py holds them to it. Empty lines keep rustfmt from sorting them.
+pub mod error;
 
-pub use batch::Batch;
-pub use body::Body;
-pub use ensemble::{Ensemble, MAX_THREADS};
+mod numerics;
+
+mod simd;
+
+mod input;
+
+mod torque_free;
+
+mod gravity_gradient;
+
+mod motion;
+
+mod solve;
+
+mod partials;
+
+mod observed;
+
+mod scene_file;
+
+mod outcome;
+
+mod ensemble;
+
+pub use ensemble::{Ensemble, MAX_THREADS, OnError, Run};
 pub use error::Error;
-pub use gradient::{Averaging, Level};
-pub use motion::{Frequencies, Motion, Periods, Sample};
-pub use orbit::Orbit;
-pub use plan::{MAX_ORDER, Mode, Plan};
-pub use scene::{Method, Scene};
-pub use state::State;
+pub use input::body::Body;
+pub use input::options::{Averaging, Convention, Level, MAX_ORDER, Method};
+pub use input::orbit::Orbit;
+pub use input::scene::Scene;
+pub use input::state::State;
+pub use motion::batch::Batch;
+pub use motion::plan::Plan;
+pub use motion::solved::{Frequencies, Motion, Periods, Sample};
+pub use observed::periods::ObservedPeriods;
+pub use outcome::Outcome;
+pub use partials::{Derivatives, PARAMETERS, Partials};
+pub use torque_free::mode::Mode;
+pub use torque_free::series::tables::SeriesTables;
 
 /// The types of attitudes and vectors.
 pub use nalgebra;

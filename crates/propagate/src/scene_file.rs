@@ -7,10 +7,16 @@
 //! span = [0.0, 1.0e6]              # times over which the tolerance is asked for
 //! tolerance = 1e-12                # \[rad\]
 //! [body]
-//! moments = [0.5, 0.75, 1.0]       # about body axes 1, 2, 3; or named = "ceres"
+//! moments = [0.5, 0.75, 1.0]       # about body axes 1, 2, 3; or named = "ceres"; or inertia = [[…], […], […]], a tensor about axes of your own
 //! [state]
 //! attitude = [0.0, 0.0, 0.0, 1.0]  # [x, y, z, w], body components → inertial ones
 //! angular_velocity = [0.0, 0.1, 1.0]   # body components
+//! # or, instead of a state, the periods of a tumbler:
+//! # [periods]
+//! # precession = 27.38             # P_φ
+//! # rotation = 263.0               # P_ψ
+//! # mode = "short-axis"            # or "long-axis"; convention = "extremal-axis", or "long-axis", "short-axis"
+//! # momentum_direction = [0, 0, 1] # inertial components, or [longitude, latitude] \[rad\]; phases = [0, 0] \[turns\]
 //! [orbit]                          # optional: of the disturbing body, for the gravity gradient
 //! mean_motion = 1e-3               # the only element without a default
 //! eccentricity = 0.1               # 0, as time_of_pericentre, inclination, node, argument_of_pericentre; mass_fraction is 1
@@ -21,15 +27,16 @@
 use std::path::Path;
 use std::str::FromStr;
 
+use nalgebra::Vector3;
 use toml::{Table, Value};
 
-use crate::body::Body;
-use crate::error::Error;
-use crate::gradient::{Averaging, Level};
-use crate::orbit::Orbit;
-use crate::plan::MAX_ORDER;
-use crate::scene::Scene;
-use crate::state::State;
+use crate::error::{Error, Value as Fact};
+use crate::input::body::Body;
+use crate::input::options::{Averaging, Level, MAX_ORDER};
+use crate::input::orbit::Orbit;
+use crate::input::scene::Scene;
+use crate::input::state::State;
+use crate::observed::periods::ObservedPeriods;
 
 const SCENE_KEYS: &[&str] = &[
     "name",
@@ -43,10 +50,12 @@ const SCENE_KEYS: &[&str] = &[
     "level",
     "body",
     "state",
+    "periods",
     "orbit",
 ];
-const BODY_KEYS: &[&str] = &["moments", "named", "name"];
+const BODY_KEYS: &[&str] = &["moments", "named", "inertia", "name"];
 const STATE_KEYS: &[&str] = &["attitude", "angular_velocity"];
+const PERIODS_KEYS: &[&str] = &["precession", "rotation", "mode", "convention", "momentum_direction", "phases"];
 /// In the order of [`Orbit::elements`].
 const ORBIT_KEYS: &[&str; 7] = &[
     "mean_motion",
@@ -65,11 +74,11 @@ impl Scene {
     /// - [`Error::SceneFile`] for no such file, no TOML, an unknown or missing key, a value that no scene has: with file, key and bound.
     pub fn from_toml(path: impl AsRef<Path>) -> Result<Self, Error> {
         let file = path.as_ref().display().to_string();
-        let text = std::fs::read_to_string(path.as_ref()).map_err(|error| Error::SceneFile {
-            file: file.clone(),
-            key: "file".to_owned(),
-            problem: error.to_string(),
-        })?;
+        let unreadable = |error: std::io::Error| {
+            let value = Some(Fact::from(&file));
+            in_file(&file, "file", error.to_string(), value, Some("a file that can be read".into()))
+        };
+        let text = std::fs::read_to_string(path.as_ref()).map_err(unreadable)?;
         Self::parse_toml(&text, &file)
     }
 
@@ -85,24 +94,27 @@ impl Scene {
     /// assert!(error.to_string().starts_with("flat.toml: body.moments: moments = [1.0, 2.0, 3.5]: the largest must not exceed"));
     /// ```
     pub fn parse_toml(text: &str, file: &str) -> Result<Self, Error> {
-        let at = |key: &str, problem: String| Error::SceneFile { file: file.to_owned(), key: key.to_owned(), problem };
         let table: Table = text.parse().map_err(|error: toml::de::Error| {
             let line = error.span().map_or(1, |span| 1 + text[..span.start].matches('\n').count());
-            at(&format!("line {line}"), error.message().to_owned())
+            let value = text.lines().nth(line - 1).unwrap_or_default();
+            in_file(file, &format!("line {line}"), error.message().to_owned(), Some(value.into()), Some("TOML".into()))
         })?;
         let keys = Keys { file, table: &table, path: "", known: SCENE_KEYS };
         keys.check()?;
         let body_keys = keys.table("body", BODY_KEYS)?;
-        let state_keys = keys.table("state", STATE_KEYS)?;
         let epoch = keys.number("epoch")?.unwrap_or(0.0);
-        let attitude = state_keys.numbers("attitude")?;
-        let state = State::new(
-            epoch,
-            attitude.ok_or_else(|| state_keys.missing("attitude"))?,
-            state_keys.numbers("angular_velocity")?.ok_or_else(|| state_keys.missing("angular_velocity"))?,
-        )
-        .map_err(|error| keys.refused(error))?;
-        let scene = keys.asked_of(Self::new(body_keys.body()?, state))?;
+        let body = body_keys.body()?;
+        let scene = match (table.contains_key("state"), table.contains_key("periods")) {
+            (true, true) => {
+                return Err(keys.error("periods", "stands beside state: a scene has one or the other", "alone"));
+            }
+            (_, false) => Self::new(body, keys.table("state", STATE_KEYS)?.state(epoch)?),
+            (false, true) => {
+                let periods = keys.table("periods", PERIODS_KEYS)?.periods(epoch)?;
+                Self::from_periods(body, &periods).map_err(|error| keys.refused(error))?
+            }
+        };
+        let scene = keys.asked_of(scene)?;
         scene.validate().map_err(|error| keys.refused(error))?;
         Ok(scene)
     }
@@ -144,7 +156,12 @@ impl Scene {
 
     fn body_table(&self) -> Table {
         let mut body = Table::new();
-        body.insert("moments".to_owned(), Value::from(self.body().moments().to_vec()));
+        if self.body().has_tensor() {
+            let rows: Vec<Value> = self.body().inertia().map(|row| Value::from(row.to_vec())).into();
+            body.insert("inertia".to_owned(), Value::from(rows));
+        } else {
+            body.insert("moments".to_owned(), Value::from(self.body().moments().to_vec()));
+        }
         if let Some(name) = self.body().name() {
             body.insert("name".to_owned(), Value::from(name));
         }
@@ -170,18 +187,24 @@ struct Keys<'a> {
 }
 
 impl<'a> Keys<'a> {
-    fn error(&self, key: &str, problem: impl Into<String>) -> Error {
+    fn error(&self, key: &str, problem: impl Into<String>, bound: &str) -> Error {
+        let value = self.table.get(key).map(fact);
         let key = if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) };
-        Error::SceneFile { file: self.file.to_owned(), key, problem: problem.into() }
+        in_file(self.file, &key, problem.into(), value, Some(bound.into()))
     }
 
     /// What a constructor has against a value, under the key that the value came from.
     fn refused(&self, error: Error) -> Error {
-        let key = match error {
+        let key = match &error {
             Error::Orbit { argument, .. } => &format!("orbit.{argument}"),
             Error::Averaging { .. } => "averaging",
             Error::Level { .. } => "level",
             Error::Moment { .. } | Error::MomentsTriangle { .. } | Error::MomentsRatio { .. } => "body.moments",
+            Error::InertiaSymmetry { .. } | Error::InertiaMoments { .. } => "body.inertia",
+            Error::Positive { argument, .. } | Error::Direction { argument, .. } => &format!("periods.{argument}"),
+            Error::PeriodRatio { .. } => "periods.rotation",
+            Error::ModeName { .. } | Error::NoSuchMode { .. } => "periods.mode",
+            Error::Convention { .. } => "periods.convention",
             Error::UnknownBody { .. } => "body.named",
             Error::Attitude { .. } => "state.attitude",
             Error::AngularVelocity { .. } => "state.angular_velocity",
@@ -192,16 +215,19 @@ impl<'a> Keys<'a> {
             Error::Method { .. } => "method",
             _ => "scene",
         };
-        Error::SceneFile { file: self.file.to_owned(), key: key.to_owned(), problem: error.to_string() }
+        in_file(self.file, key, error.to_string(), error.value(), error.bound())
     }
 
     fn missing(&self, key: &str) -> Error {
-        self.error(key, "is missing, and a scene must have it")
+        self.error(key, "is missing, and a scene must have it", "present")
     }
 
     fn check(&self) -> Result<(), Error> {
         match self.table.keys().find(|key| !self.known.contains(&key.as_str())) {
-            Some(key) => Err(self.error(key, format!("is no key of a scene; known here: {}", self.known.join(", ")))),
+            Some(key) => {
+                let known = self.known.join(", ");
+                Err(self.error(key, format!("is no key of a scene; known here: {known}"), &known))
+            }
             None => Ok(()),
         }
     }
@@ -215,7 +241,7 @@ impl<'a> Keys<'a> {
     }
 
     fn wrong(&self, key: &str, value: &Value, expected: &str) -> Error {
-        self.error(key, format!("is {value}: it must be {expected}"))
+        self.error(key, format!("is {value}: it must be {expected}"), expected)
     }
 
     fn number(&self, key: &str) -> Result<Option<f64>, Error> {
@@ -295,23 +321,82 @@ impl<'a> Keys<'a> {
             .map_err(|error| self.refused(error))
     }
 
+    fn state(&self, epoch: f64) -> Result<State, Error> {
+        let attitude = self.numbers("attitude")?.ok_or_else(|| self.missing("attitude"))?;
+        let rates = self.numbers("angular_velocity")?.ok_or_else(|| self.missing("angular_velocity"))?;
+        State::new(epoch, attitude, rates).map_err(|error| self.refused(error))
+    }
+
+    fn periods(&self, epoch: f64) -> Result<ObservedPeriods, Error> {
+        let needed = |key| self.number(key)?.ok_or_else(|| self.missing(key));
+        let mut periods = ObservedPeriods { epoch, ..ObservedPeriods::new(needed("precession")?, needed("rotation")?) };
+        periods.mode = self.choice("mode")?.unwrap_or(periods.mode);
+        periods.convention = self.choice("convention")?.unwrap_or_default();
+        periods.phases = self.numbers("phases")?.unwrap_or_default();
+        let key = "momentum_direction";
+        match self.table.get(key).and_then(Value::as_array).map(Vec::len) {
+            Some(2) => {
+                let [longitude, latitude] = self.numbers(key)?.ok_or_else(|| self.missing(key))?;
+                Ok(periods.towards(longitude, latitude))
+            }
+            _ => {
+                periods.momentum_direction = self.numbers(key)?.map_or(periods.momentum_direction, Vector3::from);
+                Ok(periods)
+            }
+        }
+    }
+
+    fn matrix(&self, key: &str) -> Result<Option<[[f64; 3]; 3]>, Error> {
+        let row = |value: &Value| -> Option<[f64; 3]> {
+            let list: Option<Vec<f64>> = value.as_array()?.iter().map(as_number).collect();
+            list?.try_into().ok()
+        };
+        let parse = |value: &Value| -> Option<[[f64; 3]; 3]> {
+            let rows: Option<Vec<[f64; 3]>> = value.as_array()?.iter().map(row).collect();
+            rows?.try_into().ok()
+        };
+        let Some(value) = self.table.get(key) else { return Ok(None) };
+        parse(value).map(Some).ok_or_else(|| self.wrong(key, value, "three lists of three numbers"))
+    }
+
     fn body(&self) -> Result<Body, Error> {
-        let body = match (self.numbers("moments")?, self.text("named")?) {
-            (Some(moments), None) => Body::new(moments),
-            (None, Some(name)) => Body::named(name),
-            (Some(_), Some(_)) => return Err(self.error("named", "stands beside moments: a body has one or the other")),
-            (None, None) => {
+        let body = match (self.numbers("moments")?, self.text("named")?, self.matrix("inertia")?) {
+            (Some(moments), None, None) => Body::new(moments),
+            (None, Some(name), None) => Body::named(name),
+            (None, None, Some(tensor)) => Body::from_inertia(tensor),
+            (None, None, None) => {
                 return Err(self.error(
                     "moments",
-                    "is missing: moments = [A, B, C], or named = \"ceres\" for a body of the catalogue",
+                    "is missing: moments = [A, B, C], or named = \"ceres\" for a body of the catalogue, or inertia for a tensor",
+                    "moments, named or inertia",
                 ));
             }
+            (Some(_), Some(_), _) => {
+                return Err(self.error("named", "stands beside moments: a body has one or the other", "alone"));
+            }
+            _ => return Err(self.error("inertia", "stands beside moments or named: a body has one of them", "alone")),
         };
         let body = body.map_err(|error| self.refused(error))?;
         Ok(match self.text("name")? {
             Some(name) => body.with_name(name),
             None => body,
         })
+    }
+}
+
+fn in_file(file: &str, key: &str, problem: String, value: Option<Fact>, bound: Option<Fact>) -> Error {
+    let (value, bound) = (value.map(Box::new), bound.map(Box::new));
+    Error::SceneFile { file: file.to_owned(), key: key.to_owned(), problem, value, bound }
+}
+
+/// What a file holds, as an error tells it.
+fn fact(value: &Value) -> Fact {
+    let list = || value.as_array()?.iter().map(as_number).collect::<Option<Vec<f64>>>();
+    match value {
+        Value::String(text) => text.into(),
+        Value::Integer(whole) => Fact::Integer(*whole),
+        Value::Float(number) => Fact::Number(*number),
+        _ => list().map_or_else(|| value.to_string().into(), Fact::Numbers),
     }
 }
 

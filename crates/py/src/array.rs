@@ -3,6 +3,8 @@
 //! Numbers are what NumPy calls integers and floats, and objects with `__float__`; strings, booleans and complex numbers are a
 //! `TypeError`. A scalar time gives results without the leading axis. Nothing is copied that is float64, aligned and in C order already.
 
+use std::sync::atomic::AtomicBool;
+
 use andoyer_propagate::Error as Propagation;
 use numpy::{
     Element, IntoPyArray, PyArray1, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
@@ -14,12 +16,12 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PySlice, PyTuple};
 
-use crate::computing::detached;
-use crate::error::{self, Error, ShapeError};
-use crate::foreign;
+use crate::computing::{detached, interruptible};
+use crate::error;
+use crate::foreign::{self, Calendar};
 
-/// Times whose samples fill 128 KiB, from where on glibc asks the system for memory.
-const FEWEST_SHARED: usize = 2048;
+/// Numbers that fill 128 KiB, from where on glibc asks the system for memory.
+const FEWEST_SHARED: usize = 16_384;
 
 /// `value` as a float64 array, aligned and in C order.
 fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
@@ -29,7 +31,11 @@ fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py
     let array = numpy.getattr(intern!(py, "asarray"))?.call1((value,)).map_err(|problem| {
         // NumPy says so of nested lists of unequal length.
         let ragged = problem.is_instance_of::<PyValueError>(py);
-        if ragged { ShapeError::new_err(format!("{argument}: {}", problem.value(py))) } else { problem }
+        if !ragged {
+            return problem;
+        }
+        let said = problem.value(py).to_string();
+        error::input(argument, said.as_str(), "rows of one length", format!("{argument}: {said}"))
     })?;
     let array = array.cast_into::<PyUntypedArray>()?;
     let kind = array.dtype();
@@ -39,13 +45,20 @@ fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py
             let require = numpy.getattr(intern!(py, "require"))?;
             Ok(require.call1((array, dtype::<f64>(py), ["C", "A"]))?.cast_into()?)
         }
-        _ => Err(PyTypeError::new_err(format!("{argument} must hold real numbers, not {kind}"))),
+        _ => {
+            let other = || PyTypeError::new_err(format!("{argument} must hold real numbers, not {kind}"));
+            Err(foreign::date(argument, &array).unwrap_or_else(other))
+        }
     }
 }
 
 /// An array of Python objects as numbers, one by one: NumPy would read None as NaN, and texts as what they spell.
 fn objects<'py>(argument: &str, array: &Bound<'py, PyUntypedArray>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let refused = |problem: PyErr| {
+        let first = array.getattr("flat").and_then(|flat| flat.get_item(0)).ok();
+        if let Some(date) = first.and_then(|first| foreign::date(argument, &first)) {
+            return date;
+        }
         let problem = problem.into_value(array.py());
         PyTypeError::new_err(format!("{argument} must hold real numbers: {problem}"))
     };
@@ -57,7 +70,8 @@ fn objects<'py>(argument: &str, array: &Bound<'py, PyUntypedArray>) -> PyResult<
 }
 
 fn in_use(argument: &str) -> PyErr {
-    Error::new_err(format!("{argument} shares memory with an array that is in use"))
+    let message = format!("{argument} shares memory with an array that is in use");
+    error::input(argument, "an array in use", "an array that is not in use", message)
 }
 
 fn read<'py>(argument: &str, array: &Bound<'py, PyArrayDyn<f64>>) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
@@ -67,6 +81,9 @@ fn read<'py>(argument: &str, array: &Bound<'py, PyArrayDyn<f64>>) -> PyResult<Py
 /// `value` as one number.
 pub(crate) fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let refused = |cause: Option<PyErr>| {
+        if let Some(date) = foreign::date(argument, value) {
+            return date;
+        }
         let shown = value.repr().map_or_else(|_| "what cannot be printed".to_owned(), |text| text.to_string());
         let error = PyTypeError::new_err(format!("{argument} must be a real number: got {shown}"));
         error.set_cause(value.py(), cause);
@@ -95,12 +112,9 @@ impl<const N: usize> MemberRows<N> {
             (&[_, n], rows) if n == N => Ok(Self::Many(rows.to_vec())),
             (&[0], _) => {
                 let text = format!("{argument} is empty: it must be (m, {N}) or ({N},), and for no members (0, {N})");
-                Err(ShapeError::new_err(text))
+                Err(error::input(argument, &[0_i64][..], format!("(m, {N}) or ({N},)"), text))
             }
-            (shape, _) => {
-                let shape = shape_text(shape);
-                Err(ShapeError::new_err(format!("{argument} has shape {shape}: it must be (m, {N}) or ({N},)")))
-            }
+            (shape, _) => Err(error::shape(argument, shape, &format!("(m, {N}) or ({N},)"))),
         }
     }
 
@@ -131,12 +145,20 @@ impl<const N: usize> MemberRows<N> {
     }
 }
 
+/// `value` as one number, or as one axis of them.
+pub(crate) fn numbers_of(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let array = numbers(argument, value)?;
+    if array.ndim() > 1 {
+        return Err(error::shape(argument, array.shape(), "() or (m,)"));
+    }
+    Ok(read(argument, &array)?.as_slice()?.to_vec())
+}
+
 /// `value` as `length` numbers.
 pub(crate) fn fixed_length(argument: &str, value: &Bound<'_, PyAny>, length: usize) -> PyResult<Vec<f64>> {
     let array = numbers(argument, value)?;
     if array.shape() != [length] {
-        let shape = shape_text(array.shape());
-        return Err(ShapeError::new_err(format!("{argument} has shape {shape}: it must be ({length},)")));
+        return Err(error::shape(argument, array.shape(), &format!("({length},)")));
     }
     Ok(read(argument, &array)?.as_slice()?.to_vec())
 }
@@ -144,12 +166,50 @@ pub(crate) fn fixed_length(argument: &str, value: &Bound<'_, PyAny>, length: usi
 /// `value` as N numbers.
 pub(crate) fn fixed<const N: usize>(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
     let array = numbers(argument, value)?;
-    let wrong =
-        || ShapeError::new_err(format!("{argument} has shape {}: it must be ({N},)", shape_text(array.shape())));
+    let wrong = || error::shape(argument, array.shape(), &format!("({N},)"));
     if array.shape() != [N] {
         return Err(wrong());
     }
     read(argument, &array)?.as_slice()?.try_into().map_err(|_| wrong())
+}
+
+/// First and last time of a span, of a state at an epoch.
+pub(crate) fn span(value: &Bound<'_, PyAny>, epoch: f64, calendar: Option<Calendar>) -> PyResult<[f64; 2]> {
+    match foreign::since("span", value, calendar.as_slice())? {
+        Some((seconds, ..)) => Ok(fixed("span", &seconds)?.map(|seconds: f64| epoch + seconds)),
+        None => fixed("span", value),
+    }
+}
+
+/// Two numbers or three.
+pub(crate) enum TwoOrThree {
+    Two([f64; 2]),
+    Three([f64; 3]),
+}
+
+/// `value` as two numbers or three.
+pub(crate) fn two_or_three(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<TwoOrThree> {
+    let array = numbers(argument, value)?;
+    match (array.shape(), read(argument, &array)?.as_slice()?) {
+        (&[2], &[x, y]) => Ok(TwoOrThree::Two([x, y])),
+        (&[3], &[x, y, z]) => Ok(TwoOrThree::Three([x, y, z])),
+        (shape, _) => Err(error::shape(argument, shape, "(3,) or (2,)")),
+    }
+}
+
+/// Whether `value` is an array_like of shape (3, 3).
+pub(crate) fn is_matrix(value: &Bound<'_, PyAny>) -> bool {
+    numbers("moments", value).is_ok_and(|array| array.shape() == [3, 3])
+}
+
+/// `value` as a 3 × 3 matrix, row by row.
+pub(crate) fn matrix(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<[[f64; 3]; 3]> {
+    let array = numbers(argument, value)?;
+    let wrong = || error::shape(argument, array.shape(), "(3, 3)");
+    if array.shape() != [3, 3] {
+        return Err(wrong());
+    }
+    read(argument, &array)?.as_slice()?.as_chunks().0.try_into().map_err(|_| wrong())
 }
 
 /// Rows of `columns` numbers: an array_like of shape (`columns`,) or (m, `columns`).
@@ -163,9 +223,7 @@ impl<'py> Rows<'py> {
         let array = numbers(argument, value)?;
         let fits = matches!(array.shape(), [n] | [_, n] if *n == columns);
         if !fits {
-            let shape = shape_text(array.shape());
-            let message = format!("{argument} has shape {shape}: it must be ({columns},) or (m, {columns})");
-            return Err(ShapeError::new_err(message));
+            return Err(error::shape(argument, array.shape(), &format!("({columns},) or (m, {columns})")));
         }
         Ok(Self { array: read(argument, &array)?, columns })
     }
@@ -177,7 +235,7 @@ impl<'py> Rows<'py> {
         evaluate: impl Fn(&[f64]) -> Result<Vec<f64>, andoyer_series::Error> + Sync,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let (py, values, width) = (self.array.py(), self.array.as_slice()?, self.columns);
-        let rows = interruptible(py, values, width, |values| values.chunks(width).map(&evaluate).collect())?;
+        let rows = row_by_row(py, values, width, |values| values.chunks(width).map(&evaluate).collect())?;
         let mut shape = self.array.shape().to_vec();
         shape[self.array.ndim() - 1] = columns; // one axis at least
         rows.concat().into_pyarray(py).reshape(shape)
@@ -188,7 +246,7 @@ impl<'py> Rows<'py> {
 const ROWS_AT_ONCE: usize = 64;
 
 /// What `evaluate` makes of rows of `width` numbers, part by part, without the interpreter lock; Ctrl-C is noticed in between.
-pub(crate) fn interruptible(
+pub(crate) fn row_by_row(
     py: Python<'_>,
     values: &[f64],
     width: usize,
@@ -219,40 +277,85 @@ pub(crate) fn constant_rows<'py, const N: usize>(
     Ok(array)
 }
 
-/// A shape as Python prints it.
-fn shape_text(shape: &[usize]) -> String {
-    match shape {
-        [n] => format!("({n},)"),
-        _ => format!("({})", shape.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
-    }
-}
+/// Times of a motion from which on evaluating them is a long call: 1 to 200 ms.
+const LONG: usize = 1 << 19;
+/// The same under a gravity gradient, 3 to 20 ms.
+const LONG_DISTURBED: usize = 1 << 14;
+/// Members of an ensemble from which on solving them is a long call: 20 ms.
+const LONG_MEMBERS: usize = 1 << 12;
+/// The same under a gravity gradient, at 200 µs each.
+const LONG_DISTURBED_MEMBERS: usize = 32;
 
 /// Times: a scalar, or one axis of them; for the members of an ensemble also an axis of each.
 pub(crate) struct Times<'py> {
     array: PyReadonlyArrayDyn<'py, f64>,
     members: Option<usize>,
+    /// Axes of the result before its last.
+    leading: Vec<usize>,
+    /// Times of another package, as they were given: the numbers are then seconds since the epoch.
+    given: Option<Bound<'py, PyAny>>,
+    disturbed: bool,
 }
 
 impl<'py> Times<'py> {
     /// Times of a motion.
-    pub(crate) fn new(value: &Bound<'py, PyAny>) -> PyResult<Self> {
-        let array = numbers("times", value)?;
-        if array.ndim() > 1 {
-            let shape = shape_text(array.shape());
-            return Err(ShapeError::new_err(format!("times has shape {shape}: it must be () or (n,)")));
+    pub(crate) fn new(value: &Bound<'py, PyAny>, epoch: Option<Calendar>, disturbed: bool) -> PyResult<Self> {
+        let (array, given, shape) = Self::read(value, epoch.as_slice())?;
+        if shape.len() > 1 {
+            return Err(error::shape("times", &shape, "() or (n,)"));
         }
-        Ok(Self { array: read("times", &array)?, members: None })
+        Ok(Self { array: read("times", &array)?, members: None, leading: shape, given, disturbed })
+    }
+
+    /// Numbers, the times of another package if they are some, and the shape as given.
+    #[expect(clippy::type_complexity, reason = "taken apart at once")]
+    fn read(
+        value: &Bound<'py, PyAny>,
+        epochs: &[Calendar],
+    ) -> PyResult<(Bound<'py, PyArrayDyn<f64>>, Option<Bound<'py, PyAny>>, Vec<usize>)> {
+        if let Some((seconds, given, shape)) = foreign::since("times", value, epochs)? {
+            return Ok((numbers("times", &seconds)?, Some(given), shape));
+        }
+        let array = numbers("times", value)?;
+        let shape = array.shape().to_vec();
+        Ok((array, None, shape))
     }
 
     /// Times of an ensemble.
-    pub(crate) fn of_members(value: &Bound<'py, PyAny>, members: usize) -> PyResult<Self> {
-        let array = numbers("times", value)?;
-        if !matches!(array.shape(), [] | [_]) && !matches!(array.shape(), [m, _] if *m == members) {
-            let shape = shape_text(array.shape());
-            let text = format!("times has shape {shape}: it must be (), (n,) or ({members}, n)");
-            return Err(ShapeError::new_err(text));
+    pub(crate) fn of_members(
+        value: &Bound<'py, PyAny>,
+        members: usize,
+        epochs: &[Calendar],
+        disturbed: bool,
+    ) -> PyResult<Self> {
+        let (array, given, shape) = Self::read(value, epochs)?;
+        if !matches!(shape[..], [] | [_]) && !matches!(shape[..], [m, _] if m == members) {
+            return Err(error::shape("times", &shape, &format!("(), (n,) or ({members}, n)")));
         }
-        Ok(Self { array: read("times", &array)?, members: Some(members) })
+        let leading = if shape.len() < 2 { std::iter::once(members).chain(shape).collect() } else { shape };
+        Ok(Self { array: read("times", &array)?, members: Some(members), leading, given, disturbed })
+    }
+
+    /// Whether the numbers are seconds since the epoch.
+    pub(crate) fn since_epoch(&self) -> bool {
+        self.given.is_some()
+    }
+
+    /// Times of another package, as they were given.
+    pub(crate) fn given(&self) -> Option<Py<PyAny>> {
+        self.given.clone().map(Bound::unbind)
+    }
+
+    /// The same for derivatives, which take some microseconds a time.
+    pub(crate) fn long_partials(&self) -> bool {
+        self.array.len() > LONG_DISTURBED
+    }
+
+    /// Whether evaluating at these times may take so long that Ctrl-C must end it.
+    pub(crate) fn long(&self) -> bool {
+        let (times, members) =
+            if self.disturbed { (LONG_DISTURBED, LONG_DISTURBED_MEMBERS) } else { (LONG, LONG_MEMBERS) };
+        self.leading.iter().product::<usize>() >= times || self.members.is_some_and(|count| count >= members)
     }
 
     pub(crate) fn values(&self) -> PyResult<&[f64]> {
@@ -260,12 +363,23 @@ impl<'py> Times<'py> {
     }
 
     /// A copy of the times, and arrays to be filled with four and with three numbers for each.
+    pub(crate) fn samples(&self) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
+        self.with_outputs([&[4], &[3]])
+    }
+
+    /// A copy of the times, and two arrays to be filled with three rows of `columns` numbers for each.
+    pub(crate) fn matrices(&self, columns: usize) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
+        self.with_outputs([&[3, columns], &[3, columns]])
+    }
+
+    /// A copy of the times, and two arrays to be filled, of these shapes for each time.
     ///
     /// Many times share one block of memory. In three blocks it is given back to the system with each call, and every page of the next one is a fault:
     /// 25 ns a sample for 100,000 of them, against 1.0 in one block.
-    pub(crate) fn samples(&self) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
-        let shapes = [self.array.shape().to_vec(), self.shape(4), self.shape(3)];
-        let arrays = if self.array.len() < FEWEST_SHARED {
+    fn with_outputs(&self, [first, second]: [&[usize]; 2]) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
+        let shapes = [self.array.shape().to_vec(), self.shape(first), self.shape(second)];
+        let numbers = shapes.iter().map(|shape| shape.iter().product::<usize>()).sum::<usize>();
+        let arrays = if numbers < FEWEST_SHARED {
             [self.empty(&shapes[0])?, self.empty(&shapes[1])?, self.empty(&shapes[2])?]
         } else {
             self.shared(&shapes)?
@@ -296,29 +410,28 @@ impl<'py> Times<'py> {
 
     /// An array to be filled with N numbers for each time.
     pub(crate) fn rows(&self, n: usize) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.empty(&self.shape(n))
+        self.empty(&self.shape(&[n]))
     }
 
-    fn shape(&self, n: usize) -> Vec<usize> {
-        let times = self.array.shape();
-        let members = self.members.filter(|_| times.len() < 2);
-        members.into_iter().chain(times.iter().copied()).chain([n]).collect()
+    fn shape(&self, last: &[usize]) -> Vec<usize> {
+        self.leading.iter().chain(last).copied().collect()
     }
 
     /// N numbers for each time, computed by `evaluate` without the interpreter lock, into `out` or a new array.
-    pub(crate) fn evaluate<const N: usize>(
+    pub(crate) fn evaluate<const N: usize, T: Send>(
         &self,
         out: Option<&Bound<'py, PyAny>>,
-        evaluate: impl FnOnce(&[f64], &mut [[f64; N]]) -> Result<(), Propagation> + Send,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        evaluate: impl FnOnce(&[f64], &mut [[f64; N]], &AtomicBool) -> Result<T, Propagation> + Send,
+    ) -> PyResult<(Bound<'py, PyArrayDyn<f64>>, T)> {
         let result = match out {
-            Some(out) => output(out, &self.shape(N))?,
+            Some(out) => output(out, &self.shape(&[N]))?,
             None => self.rows(N)?,
         };
         let mut rows = write(&result)?;
         let (times, rows) = (self.values()?, chunks(&mut rows)?);
-        detached(self.array.py(), error::propagation, || evaluate(times, rows))?;
-        Ok(result)
+        let evaluate = |stop: &AtomicBool| evaluate(times, rows, stop);
+        let told = interruptible(self.array.py(), self.long(), error::propagation, evaluate)?;
+        Ok((result, told))
     }
 }
 
@@ -330,12 +443,12 @@ fn output<'py>(out: &Bound<'py, PyAny>, shape: &[usize]) -> PyResult<Bound<'py, 
     if !array.dtype().is_equiv_to(&f64::get_dtype(out.py())) {
         return Err(PyTypeError::new_err(format!("out has dtype {}: it must be float64", array.dtype())));
     }
-    let expected = shape_text(shape);
     if array.shape() != shape {
-        return Err(ShapeError::new_err(format!("out has shape {}: it must be {expected}", shape_text(array.shape()))));
+        return Err(error::shape("out", array.shape(), &error::shape_text(shape)));
     }
     if !array.is_c_contiguous() {
-        return Err(ShapeError::new_err("out is strided: it must be C-contiguous"));
+        let message = "out is strided: it must be C-contiguous".to_owned();
+        return Err(error::input("out", "strided", "C-contiguous", message));
     }
     Ok(out.cast::<PyArrayDyn<f64>>()?.clone())
 }
@@ -346,6 +459,13 @@ pub(crate) fn write<'py>(array: &Bound<'py, PyArrayDyn<f64>>) -> PyResult<PyRead
         numpy::BorrowError::NotWriteable => PyTypeError::new_err("out is read-only: it must be writeable"),
         _ => in_use("out"),
     })
+}
+
+/// Matrices of three rows of N numbers.
+pub(crate) fn matrices<'a, const N: usize>(
+    array: &'a mut PyReadwriteArrayDyn<'_, f64>,
+) -> PyResult<&'a mut [[[f64; N]; 3]]> {
+    Ok(chunks(array)?.as_chunks_mut().0)
 }
 
 /// Rows of N numbers.

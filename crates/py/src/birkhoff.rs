@@ -2,27 +2,33 @@
 
 use std::sync::{Arc, Mutex};
 
-use andoyer_series::{BirkhoffMap, Part, PhaseSpace, Progress};
+use andoyer_series::{BirkhoffMap, Mode, Part, PhaseSpace, Progress, RealField};
+use num_complex::Complex;
 use num_rational::BigRational;
 use numpy::PyArrayDyn;
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyComplex, PyDict, PyTuple, PyType};
 
-use crate::array::{Rows, Times, fixed_length, interruptible, number, write};
+use crate::array::{Rows, Times, fixed_length, number, row_by_row, write};
 use crate::computing::detached;
-use crate::error::{self, UnknownNameError};
+use crate::domain::Domain;
+use crate::error;
 use crate::expression::{Expression, complex, real};
 use crate::form::{Form, either, rounded, transformed};
 use crate::order::order;
 use crate::progress;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
+/// What pickle calls, and with what.
+type Reduced<'py> = (Bound<'py, PyAny>, (String, Py<PyDict>));
 
 /// The Birkhoff normal form of a Hamiltonian, from `normalize`: the new Hamiltonian K, and the transformation both ways.
 ///
 /// Polynomials are dictionaries of coefficients by tuple of exponents, in the order q₁, p₁, q₂, p₂, …, parameters: `Fraction` if
-/// `exact`, else float. With r = √(a/b) of a pair, the action is I = (q²/r + r p²)/2, and the complex variables are U = r p + i q =
-/// √(2rI) e^{iφ} and u = (q + i r p)/(2r); {u; U} = 1, uU = iI.
+/// `exact`, else float. The new variables (q, p) of a centre have the action I = (q²/r + r p²)/2 and the complex variables U = r p + i q =
+/// √(2rI) e^{iφ} and u = (q + i r p)/(2r), {u; U} = 1, uU = iI. Those of a saddle are real, u = q, U = p, I = q p; q is the unstable direction. The two modes
+/// (q, p), (Q, P) of a quartet have I = q p + Q P and q P − Q p, u = (q − iQ)/2 and U = p + iP.
 ///
 /// States are arrays (2n,) or (m, 2n) of q₁, p₁, q₂, p₂, …; for those methods parameters are given as a dict of numbers by name. The
 /// series are truncated: a state of amplitude ε errs by ε^(N+2).
@@ -39,6 +45,8 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 #[pyclass(frozen, eq, module = "andoyer")]
 pub(crate) struct BirkhoffNormalForm {
     form: Form,
+    /// SymPy symbols by name, as the caller gave them.
+    symbols: Py<PyDict>,
     /// The maps for the parameters last used.
     map: Mutex<Option<(Vec<f64>, Arc<BirkhoffMap>)>>,
 }
@@ -84,23 +92,48 @@ impl BirkhoffNormalForm {
         PyTuple::new(py, &space.names()[2 * space.degrees_of_freedom()..])
     }
 
-    /// The frequencies ω = ±√(ab) at the origin, negative where a and b are.
+    /// The frequencies ω at the origin: of a centre real, and negative where its energy is; of a saddle iλ; of a quartet iσ − ν and iσ + ν.
     #[getter]
     fn frequencies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        either!(&self.form, form => PyTuple::new(py, form.frequencies()))
+        either!(&self.form, form => {
+            let numbers = form.frequencies().iter().map(|omega| frequency(py, omega)).collect::<PyResult<Vec<_>>>();
+            PyTuple::new(py, numbers?)
+        })
     }
 
-    /// The ratios r = √(a/b).
+    /// The kind of every mode: "elliptic", "hyperbolic" or "complex".
+    #[getter]
+    fn kinds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        either!(&self.form, form => PyTuple::new(py, form.modes().iter().map(Mode::kind)))
+    }
+
+    /// The ratios r = √(a/b) of the centres, None for other modes.
     #[getter]
     fn ratios<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        either!(&self.form, form => PyTuple::new(py, form.ratios()))
+        either!(&self.form, form => PyTuple::new(py, form.modes().iter().map(|mode| mode.ratio().cloned())))
+    }
+
+    /// The symplectic matrix M of the linear change z = M z′ that diagonalizes the quadratic part, by rows; the unit matrix where it is diagonal already.
+    #[getter]
+    fn linear_change<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        either!(&self.form, form => {
+            let rows = form.linear_change().iter().map(|row| PyTuple::new(py, row.iter().cloned()));
+            PyTuple::new(py, rows.collect::<PyResult<Vec<_>>>()?)
+        })
+    }
+
+    /// The resonances that were kept: vectors k with k·ω = 0, whose terms turn with the resonant angles k·φ.
+    #[getter]
+    fn resonances<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let vectors = either!(&self.form, form => form.resonances().vectors().to_vec());
+        PyTuple::new(py, vectors.into_iter().map(|vector| PyTuple::new(py, vector)).collect::<PyResult<Vec<_>>>()?)
     }
 
     /// K in the actions: exponents of I₁, I₂, …, parameters. The constant term of H is in it.
     ///
     /// Raises
     /// ------
-    /// ResonanceError
+    /// TheoryError
     ///     K has resonant terms, and is no function of the actions alone.
     fn in_actions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let slots = self.space().degrees_of_freedom() + self.space().parameters();
@@ -124,6 +157,11 @@ impl BirkhoffNormalForm {
         either!(&self.form, form => real(py, &detached(py, error::algebra, || form.in_real())?, self.slots()))
     }
 
+    /// The Hamiltonian on the centre manifold: K in the new real variables of the centres, where the saddles rest at q = p = 0.
+    fn centre_manifold<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        either!(&self.form, form => real(py, &detached(py, error::algebra, || form.centre_manifold())?, self.slots()))
+    }
+
     /// Generating function S_m in the real variables, of degree m + 2.
     ///
     /// Parameters
@@ -133,7 +171,7 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// OrderError
+    /// InputError
     ///     ``0``, or above the order.
     fn generator<'py>(&self, py: Python<'py>, m: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let m = order("m", m, 1, self.order())?;
@@ -169,10 +207,8 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
-    ///     Another length.
-    /// IntervalError
-    ///     A NaN, or a result that overflows.
+    /// InputError
+    ///     An array of another length; a NaN, or a result that overflows.
     #[pyo3(signature = (states, parameters=None))]
     fn to_normal<'py>(
         &self,
@@ -200,6 +236,94 @@ impl BirkhoffNormalForm {
         Rows::new("states", states, n)?.map(n, |state| map.from_normal(state))
     }
 
+    /// The states of points of the centre manifold, given by the new variables of the centres alone.
+    ///
+    /// Parameters
+    /// ----------
+    /// states : array_like, shape (2c,) or (m, 2c)
+    ///     q, p of the c centres, in their order.
+    /// parameters : dict of {str: float}, optional
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (2n,) or (m, 2n)
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     An array of another length; a NaN, or a result that overflows.
+    #[pyo3(signature = (states, parameters=None))]
+    #[expect(
+        clippy::wrong_self_convention,
+        reason = "the states of a manifold, as from_normal those of normal variables"
+    )]
+    fn from_centre_manifold<'py>(
+        &self,
+        states: &Bound<'py, PyAny>,
+        parameters: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Array<'py>> {
+        let map = self.map(states.py(), parameters)?;
+        let centres = either!(&self.form, form => form.modes().iter().filter(|mode| mode.is_elliptic()).count());
+        let n = 2 * self.space().degrees_of_freedom();
+        Rows::new("states", states, 2 * centres)?.map(n, |centre| map.from_centre(centre))
+    }
+
+    /// The value of K at new variables: the energy.
+    ///
+    /// Parameters
+    /// ----------
+    /// normal : array_like, shape (2n,) or (m, 2n)
+    /// parameters : dict of {str: float}, optional
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (1,) or (m, 1)
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     An array of another length; a NaN.
+    #[pyo3(signature = (normal, parameters=None))]
+    fn energy<'py>(&self, normal: &Bound<'py, PyAny>, parameters: Option<&Bound<'py, PyDict>>) -> PyResult<Array<'py>> {
+        let (n, map) = (2 * self.space().degrees_of_freedom(), self.map(normal.py(), parameters)?);
+        Rows::new("normal", normal, n)?.map(1, |normal| map.energy(normal).map(|energy| vec![energy]))
+    }
+
+    /// The rates of new variables, by Hamilton's equations of K.
+    ///
+    /// Parameters
+    /// ----------
+    /// normal : array_like, shape (2n,) or (m, 2n)
+    /// parameters : dict of {str: float}, optional
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     An array of another length; a NaN.
+    #[pyo3(signature = (normal, parameters=None))]
+    fn rates<'py>(&self, normal: &Bound<'py, PyAny>, parameters: Option<&Bound<'py, PyDict>>) -> PyResult<Array<'py>> {
+        let (n, map) = (2 * self.space().degrees_of_freedom(), self.map(normal.py(), parameters)?);
+        Rows::new("normal", normal, n)?.map(n, |normal| map.rates(normal))
+    }
+
+    /// How far the form is good: the sizes of its orders, and the best order at an amplitude.
+    ///
+    /// Parameters
+    /// ----------
+    /// parameters : dict of {str: float}, optional
+    ///
+    /// Examples
+    /// --------
+    /// >>> pendulum = normalize("p**2/2 + q**2/2 - q**4/24 + q**6/720 - q**8/40320", 6, [("q", "p")])
+    /// >>> domain = pendulum.domain()
+    /// >>> domain.best_order(0.5), domain.best_order(10.0)
+    /// (6, 2)
+    #[pyo3(signature = (parameters=None))]
+    fn domain(&self, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Domain> {
+        let values = self.values(parameters)?;
+        either!(&self.form, form => form.domain(&values)).map(Domain).map_err(error::algebra)
+    }
+
     /// The actions of states, which hardly change along a motion unless a resonance exchanges them.
     ///
     /// Parameters
@@ -213,10 +337,8 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ShapeError
-    ///     Another length.
-    /// IntervalError
-    ///     A NaN, or a result that overflows.
+    /// InputError
+    ///     An array of another length; a NaN, or a result that overflows.
     #[pyo3(signature = (states, parameters=None))]
     fn actions<'py>(
         &self,
@@ -227,7 +349,7 @@ impl BirkhoffNormalForm {
         Rows::new("states", states, 2 * n)?.map(n, |state| map.actions(state))
     }
 
-    /// The frequencies Ω = ∂K/∂I at actions.
+    /// The frequencies Ω = ∂K/∂I at actions: of a saddle the rate, of a quartet rate and frequency.
     ///
     /// Parameters
     /// ----------
@@ -236,12 +358,10 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ResonanceError
+    /// TheoryError
     ///     K has resonant terms.
-    /// ShapeError
-    ///     Another length.
-    /// IntervalError
-    ///     A NaN.
+    /// InputError
+    ///     An array of another length; a NaN, or an action below 0.
     #[pyo3(signature = (actions, parameters=None))]
     fn frequency_map<'py>(
         &self,
@@ -252,7 +372,10 @@ impl BirkhoffNormalForm {
         Rows::new("actions", actions, n)?.map(n, |actions| map.frequencies(actions))
     }
 
-    /// The states at times after that of `state`: the angles move uniformly with the frequencies at its actions.
+    /// The states at times after that of `state`, by the motion of the normal form.
+    ///
+    /// Where K is a function of the actions, these are constant and the angles move uniformly with their frequencies. With resonant terms K is
+    /// integrated: SciPy's DOP853 at a relative tolerance of 1e-12, in the new variables.
     ///
     /// Parameters
     /// ----------
@@ -266,32 +389,34 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// ResonanceError
-    ///     K has resonant terms.
-    /// ShapeError
-    ///     Another length.
-    /// IntervalError
-    ///     A NaN, or a result that overflows.
+    /// InputError
+    ///     An array of another length; a NaN, or a result that overflows.
+    /// ImportError
+    ///     K has resonant terms, and SciPy is not installed.
     #[pyo3(signature = (state, times, parameters=None))]
     fn trajectory<'py>(
-        &self,
+        slf: &Bound<'py, Self>,
         state: &Bound<'py, PyAny>,
         times: &Bound<'py, PyAny>,
         parameters: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Array<'py>> {
-        let (py, n) = (state.py(), 2 * self.space().degrees_of_freedom());
-        let map = self.map(py, parameters)?;
-        let (state, times) = (fixed_length("state", state, n)?, Times::new(times)?);
-        let result = times.rows(n)?;
-        let states = interruptible(py, times.values()?, 1, |times| map.trajectory(&state, times))?;
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (py, form) = (state.py(), slf.get());
+        let n = 2 * form.space().degrees_of_freedom();
+        let map = form.map(py, parameters)?;
+        let (given, shape) = (fixed_length("state", state, n)?, Times::new(times, None, false)?);
+        if !map.is_integrable() {
+            return py.import("andoyer._flow")?.call_method1("trajectory", (slf, given, times, parameters));
+        }
+        let result = shape.rows(n)?;
+        let states = row_by_row(py, shape.values()?, 1, |times| map.trajectory(&given, times))?;
         write(&result)?.as_slice_mut()?.copy_from_slice(&states.concat());
-        Ok(result)
+        Ok(result.into_any())
     }
 
     /// A part of this normal form as SymPy expressions. SymPy is imported here and nowhere else.
     ///
-    /// Symbols are the names of variables and parameters and ``I_q`` for the action of (q, p), without assumptions: new variables in "direct",
-    /// old ones in "inverse". `sympy.latex`, `ccode` and `lambdify` lead on from there.
+    /// Symbols are those that `normalize` was given, with their assumptions, or of the names of variables and parameters; ``I_q`` is the action of
+    /// (q, p). They are the new variables in "direct", the old ones in "inverse". `sympy.ccode` and `lambdify` lead on from there.
     ///
     /// Parameters
     /// ----------
@@ -305,7 +430,7 @@ impl BirkhoffNormalForm {
     ///
     /// Raises
     /// ------
-    /// UnknownNameError
+    /// InputError
     ///     ``"lagrangian"``.
     /// ImportError
     ///     SymPy is not installed: the extra ``andoyer[sympy]`` brings it.
@@ -316,13 +441,91 @@ impl BirkhoffNormalForm {
     /// -15*I_x**2/4 + I_x
     #[pyo3(signature = (what="hamiltonian"))]
     fn to_sympy<'py>(slf: &Bound<'py, Self>, what: &str) -> PyResult<Bound<'py, PyAny>> {
-        let _: Part = what.parse().map_err(error::algebra)?;
-        slf.py().import("andoyer._symbolic")?.call_method1("birkhoff", (slf, what))
+        let _: Part = what.parse().map_err(error::algebra_as("what"))?;
+        slf.py().import("andoyer._symbolic")?.call_method1("birkhoff", (slf, what, &slf.get().symbols))
     }
 
+    /// This normal form as JSON text, with a format version: exact numbers as "p/q" strings, floats with all their digits.
+    fn to_json(&self, py: Python<'_>) -> PyResult<String> {
+        detached(py, error::algebra, || either!(&self.form, form => form.to_json()))
+    }
+
+    /// Reads what `to_json` wrote.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    /// symbols : dict of {str: sympy.Symbol}, optional
+    ///     What `to_sympy` puts for the names.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     Not JSON, another format or version, a term that no normal form has. The coefficients themselves are not computed again.
+    #[classmethod]
+    #[pyo3(signature = (text, symbols=None))]
+    fn from_json(class: &Bound<'_, PyType>, text: &str, symbols: Option<Bound<'_, PyDict>>) -> PyResult<Self> {
+        let py = class.py();
+        let form = detached(py, error::algebra, || Form::from_json(text))?;
+        Ok(Self::new(form, symbols.unwrap_or_else(|| PyDict::new(py)).unbind()))
+    }
+
+    /// A part of this normal form as LaTeX, for a document that uses amsmath.
+    ///
+    /// Parameters
+    /// ----------
+    /// what : {"hamiltonian", "generator", "direct", "inverse"}, optional
+    ///     As for `to_sympy`; with resonant terms the Hamiltonian is in u and U. New variables have a prime.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     ``"lagrangian"``.
+    #[pyo3(signature = (what="hamiltonian"))]
+    fn to_latex(&self, py: Python<'_>, what: &str) -> PyResult<String> {
+        let part = what.parse().map_err(error::algebra_as("what"))?;
+        detached(py, error::algebra, || either!(&self.form, form => form.to_latex(part)))
+    }
+
+    /// Functions that evaluate this normal form, as the text of a file of source that needs nothing but its language.
+    ///
+    /// ``from_normal(normal)`` and ``to_normal(state)`` transform arrays q₁, p₁, q₂, …; ``actions(normal)`` gives the actions, ``frequencies(actions)`` the rates
+    /// ∂K/∂I, which is left out where K has resonant terms. Parameters are an array after the first argument.
+    ///
+    /// Parameters
+    /// ----------
+    /// language : {"c", "rust", "python"}, optional
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     ``"fortran"``.
+    ///
+    /// Examples
+    /// --------
+    /// >>> namespace = {}
+    /// >>> exec(normalize("(x**2 + X**2)/2 + x**3", 2, [("x", "X")]).to_code("python"), namespace)
+    /// >>> namespace["frequencies"]([0.01])
+    /// [0.925]
+    #[pyo3(signature = (language="c"))]
+    fn to_code(&self, py: Python<'_>, language: &str) -> PyResult<String> {
+        let language = language.parse().map_err(error::algebra)?;
+        detached(py, error::algebra, || either!(&self.form, form => form.to_code(language)))
+    }
+
+    /// Pickled as its JSON text, with the symbols of SymPy.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let (py, form) = (slf.py(), slf.get());
+        Ok((slf.get_type().getattr("from_json")?, (form.to_json(py)?, form.symbols.clone_ref(py))))
+    }
+
+    /// Order, variables, kind of numbers, and where there are no parameters the last radius of the domain.
     fn __repr__(&self) -> String {
         let (space, numbers) = (self.space(), if self.exact() { "exact" } else { "float" });
-        format!("<BirkhoffNormalForm of order {} in {}, {numbers}>", self.order(), space.names().join(", "))
+        let radii = either!(&self.form, form => form.domain(&[])).map(|domain| domain.radii()).unwrap_or_default();
+        let radius = radii.into_iter().rev().find(|radius| radius.is_finite());
+        let radius = radius.map(|radius| format!(", radius {radius:.3}")).unwrap_or_default();
+        format!("<BirkhoffNormalForm of order {} in {}, {numbers}{radius}>", self.order(), space.names().join(", "))
     }
 
     /// K as text, in the actions or, with resonant terms, in the complex variables.
@@ -340,8 +543,8 @@ impl BirkhoffNormalForm {
 }
 
 impl BirkhoffNormalForm {
-    pub(crate) fn new(form: Form) -> Self {
-        Self { form, map: Mutex::new(None) }
+    pub(crate) fn new(form: Form, symbols: Py<PyDict>) -> Self {
+        Self { form, symbols, map: Mutex::new(None) }
     }
 
     fn space(&self) -> &PhaseSpace {
@@ -384,7 +587,9 @@ impl BirkhoffNormalForm {
         let space = self.space();
         let names = &space.names()[2 * space.degrees_of_freedom()..];
         let unknown = |name: &str, problem: &str| {
-            UnknownNameError::new_err(format!("parameters: {name:?} {problem}; they are [{}]", names.join(", ")))
+            let known = names.join(", ");
+            let message = format!("parameters: {name:?} {problem}; they are [{known}]");
+            error::input("parameters", name, known, message)
         };
         let mut values = vec![None; names.len()];
         for (name, value) in parameters.into_iter().flatten() {
@@ -396,4 +601,15 @@ impl BirkhoffNormalForm {
         }
         values.iter().zip(names).map(|(value, name)| value.ok_or_else(|| unknown(name, "is missing"))).collect()
     }
+}
+
+/// A real frequency as its number, any other as a complex one.
+fn frequency<'py, R: RealField + IntoPyObject<'py>>(
+    py: Python<'py>,
+    omega: &Complex<R>,
+) -> PyResult<Bound<'py, PyAny>> {
+    if omega.im == R::zero() {
+        return omega.re.clone().into_bound_py_any(py);
+    }
+    Ok(PyComplex::from_doubles(py, omega.re.to_float(), omega.im.to_float()).into_any())
 }

@@ -1,5 +1,6 @@
 //! `andoyer.Body`.
 
+use andoyer_propagate::SeriesTables;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -17,9 +18,8 @@ use crate::{array, error};
 ///
 /// Raises
 /// ------
-/// MomentsError
+/// InputError
 ///     ``[0, 1, 1]``, ``[1, -1, 1]``, ``[1, nan, 1]``, ``[1, 1, 2.1]``, which no body has, or ``[1e-101, 1, 1]``.
-/// ShapeError
 ///     ``[1, 2]``.
 ///
 /// Examples
@@ -28,10 +28,25 @@ use crate::{array, error};
 /// >>> body.beta
 /// 0.5
 /// >>> Body.named("eros").moments
-/// array([0.22942677, 0.96375352, 1.        ])
+/// array([0.21007832, 0.98310982, 1.        ])
 #[pyclass(frozen, eq, module = "andoyer")]
-#[derive(PartialEq)]
-pub(crate) struct Body(pub(crate) andoyer_propagate::Body);
+pub(crate) struct Body {
+    pub(crate) body: andoyer_propagate::Body,
+    /// What its scenes share of the perturbation series.
+    pub(crate) tables: SeriesTables,
+}
+
+impl From<andoyer_propagate::Body> for Body {
+    fn from(body: andoyer_propagate::Body) -> Self {
+        Self { body, tables: SeriesTables::default() }
+    }
+}
+
+impl PartialEq for Body {
+    fn eq(&self, other: &Self) -> bool {
+        self.body == other.body
+    }
+}
 
 #[pymethods]
 impl Body {
@@ -44,11 +59,125 @@ impl Body {
             );
             return Err(PyTypeError::new_err(hint));
         }
-        let body = andoyer_propagate::Body::new(array::fixed("moments", moments)?).map_err(error::propagation)?;
-        Ok(Self(match name {
-            Some(name) => body.with_name(name),
-            None => body,
-        }))
+        if array::is_matrix(moments) {
+            let hint =
+                "moments has shape (3, 3): it must be (3,); a body of an inertia tensor is Body.from_inertia(tensor)";
+            return Err(error::input("moments", &[3_i64, 3][..], "(3,)", hint.to_owned()));
+        }
+        named(andoyer_propagate::Body::new(array::fixed("moments", moments)?), name)
+    }
+
+    /// A body from its inertia tensor about axes of your own: attitudes, rates, momenta and derivatives of its scenes are about these axes.
+    ///
+    /// `moments` are then the principal ones and `principal_axes` says about which axes: those nearest to yours. Axes between which the moments are equal, to 1e-12 of the largest,
+    /// and no product of inertia is left stay as they are.
+    ///
+    /// Parameters
+    /// ----------
+    /// tensor : array_like, shape (3, 3)
+    ///     Symmetric to 1e-12 of its largest entry, with positive principal moments of which the largest is at most the sum of the others.
+    /// name : str, optional
+    ///     Printed, and nothing else.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A tensor that is not symmetric or not finite, or that no body has.
+    ///     ``[1, 1.5, 2]``.
+    ///
+    /// Examples
+    /// --------
+    /// >>> body = Body.from_inertia([[1.5, 0.5, 0], [0.5, 1.5, 0], [0, 0, 2]])
+    /// >>> body.moments.round(12)
+    /// array([1., 2., 2.])
+    /// >>> body.principal_axes.round(3) + 0.0
+    /// array([[ 0.707,  0.707,  0.   ],
+    ///        [-0.707,  0.707,  0.   ],
+    ///        [ 0.   ,  0.   ,  1.   ]])
+    #[staticmethod]
+    #[pyo3(signature = (tensor, *, name=None))]
+    fn from_inertia(tensor: &Bound<'_, PyAny>, name: Option<&str>) -> PyResult<Self> {
+        named(andoyer_propagate::Body::from_inertia(array::matrix("tensor", tensor)?), name)
+    }
+
+    /// A homogeneous ellipsoid with semi-axes a, b, c along body axes 1, 2, 3: moments m (b² + c²)/5 and so on.
+    ///
+    /// Parameters
+    /// ----------
+    /// a, b, c : float
+    ///     Positive, in any order.
+    /// mass : float, optional
+    /// name : str, optional
+    ///     Printed, and nothing else.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A length or a mass that is zero, negative or not finite.
+    ///
+    /// Examples
+    /// --------
+    /// >>> Body.ellipsoid(3, 2, 1, mass=5).moments
+    /// array([ 5., 10., 13.])
+    #[staticmethod]
+    #[pyo3(signature = (a, b, c, *, mass=1.0, name=None))]
+    fn ellipsoid(a: f64, b: f64, c: f64, mass: f64, name: Option<&str>) -> PyResult<Self> {
+        named(andoyer_propagate::Body::ellipsoid([a, b, c], mass), name)
+    }
+
+    /// A homogeneous box with edges x, y, z along body axes 1, 2, 3: moments m (y² + z²)/12 and so on.
+    ///
+    /// Parameters
+    /// ----------
+    /// x, y, z : float
+    ///     Positive, in any order.
+    /// mass : float, optional
+    /// name : str, optional
+    ///     Printed, and nothing else.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A length or a mass that is zero, negative or not finite.
+    ///
+    /// Examples
+    /// --------
+    /// >>> Body.box(3, 2, 1, mass=12).moments
+    /// array([ 5., 10., 13.])
+    #[staticmethod]
+    #[pyo3(name = "box", signature = (x, y, z, *, mass=1.0, name=None))]
+    fn cuboid(x: f64, y: f64, z: f64, mass: f64, name: Option<&str>) -> PyResult<Self> {
+        named(andoyer_propagate::Body::cuboid([x, y, z], mass), name)
+    }
+
+    /// The ratios P_ψ/P_φ that this body can have in a mode: an interval, of which each number belongs to one motion.
+    ///
+    /// Parameters
+    /// ----------
+    /// mode : {"short-axis", "long-axis"}, optional
+    /// convention : {"extremal-axis", "long-axis", "short-axis"}, optional
+    ///     As in `Scene.from_periods`.
+    ///
+    /// Returns
+    /// -------
+    /// (float, float)
+    ///     The ratio of rotation about the mode's axis, and the largest that doubles hold next to the separatrix, where it has no bound.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     ``mode="separatrix"``, ``convention="L"``, or a mode that a round body does not have.
+    ///
+    /// Examples
+    /// --------
+    /// >>> low, high = Body([0.61, 0.965, 1.0]).period_ratios()
+    /// >>> round(low, 3)
+    /// 7.567
+    #[pyo3(signature = (mode="short-axis", *, convention="extremal-axis"))]
+    fn period_ratios(&self, mode: &str, convention: &str) -> PyResult<(f64, f64)> {
+        let (mode, convention) =
+            (mode.parse().map_err(error::propagation)?, convention.parse().map_err(error::propagation)?);
+        self.body.period_ratios(mode, convention).map(Into::into).map_err(error::propagation)
     }
 
     /// A body of the catalogue, by its name in any case.
@@ -60,11 +189,11 @@ impl Body {
     ///
     /// Raises
     /// ------
-    /// UnknownBodyError
-    ///     ``"vulcan"``.
+    /// InputError
+    ///     ``"vulcan"``; for ``"ceers"`` the message asks for Ceres.
     #[staticmethod]
     fn named(name: &str) -> PyResult<Self> {
-        andoyer_propagate::Body::named(name).map(Self).map_err(error::propagation)
+        andoyer_propagate::Body::named(name).map(Self::from).map_err(error::propagation)
     }
 
     /// The names that `Body.named` knows.
@@ -82,60 +211,81 @@ impl Body {
     ///
     /// Raises
     /// ------
-    /// UnknownBodyError
+    /// InputError
     ///     ``"vulcan"``.
     #[staticmethod]
     fn source(name: &str) -> PyResult<&'static str> {
-        andoyer_propagate::Body::source(name)
-            .ok_or_else(|| error::propagation(andoyer_propagate::Error::UnknownBody { name: name.to_owned() }))
+        andoyer_propagate::Body::source(name).map_err(error::propagation)
     }
 
     /// The moments about body axes 1, 2, 3 as given: a read-only array, shape (3,).
     #[getter]
     fn moments<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
-        array::constant(py, &self.0.moments()).into_any()
+        array::constant(py, &self.body.moments()).into_any()
+    }
+
+    /// The inertia tensor about the user's axes: a read-only array, shape (3, 3), diagonal unless `from_inertia` was given another.
+    #[getter]
+    fn inertia<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        Ok(array::constant_rows(py, &self.body.inertia())?.into_any())
+    }
+
+    /// The principal axes, the columns of a proper rotation in the order of `moments`, in the user's components: a read-only array, shape (3, 3).
+    ///
+    /// The unit matrix unless `from_inertia` was given a tensor about other axes.
+    #[getter]
+    fn principal_axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let axes = self.body.principal_axes();
+        let rows: [[f64; 3]; 3] = std::array::from_fn(|row| std::array::from_fn(|column| axes[(row, column)]));
+        Ok(array::constant_rows(py, &rows)?.into_any())
     }
 
     /// Oblateness α = [(C/A − 1) + (C/B − 1)]/2 of the sorted moments A ≤ B ≤ C (theory §1); 0 for a sphere.
     #[getter]
     fn alpha(&self) -> f64 {
-        self.0.alpha()
+        self.body.alpha()
     }
 
     /// Triaxiality β, 0 ≤ β ≤ 1 (theory §1); 0 for A = B and for a sphere, 1 for B = C.
     #[getter]
     fn beta(&self) -> f64 {
-        self.0.beta()
+        self.body.beta()
     }
 
     /// γ = √((C/A − 1)(C/B − 1)) (theory §1).
     #[getter]
     fn gamma(&self) -> f64 {
-        self.0.gamma()
+        self.body.gamma()
     }
 
     /// ω = √((1 + β)/(1 − β)) (theory §1); 1 for a sphere, infinite for B = C.
     #[getter]
     fn omega(&self) -> f64 {
-        self.0.omega()
+        self.body.omega()
     }
 
     /// The name, or None.
     #[getter]
     fn name(&self) -> Option<&str> {
-        self.0.name()
+        self.body.name()
     }
 
     pub(crate) fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let name = match self.0.name() {
+        let name = match self.body.name() {
             Some(name) => format!(", name={}", name.into_pyobject(py)?.repr()?),
             None => String::new(),
         };
-        Ok(format!("Body({:?}{name})", self.0.moments()))
+        Ok(if self.body.has_tensor() {
+            format!("Body.from_inertia({:?}{name})", self.body.inertia())
+        } else {
+            format!("Body({:?}{name})", self.body.moments())
+        })
     }
 
     pub(crate) fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
-        (PyTuple::new(py, self.0.moments())?, self.0.name()).into_pyobject(py)?.hash()
+        let rows = self.body.inertia().map(|row| PyTuple::new(py, row));
+        let [first, second, third] = rows;
+        ((first?, second?, third?), self.body.name()).into_pyobject(py)?.hash()
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {
@@ -146,9 +296,23 @@ impl Body {
         slf
     }
 
-    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let keywords = pyo3::types::PyDict::new(py);
-        keywords.set_item("name", self.0.name())?;
-        ((self.0.moments(),), keywords).into_pyobject(py)
+    /// Puts together what `pickle` took apart.
+    #[staticmethod]
+    fn _restored(inertia: [[f64; 3]; 3], name: Option<&str>) -> PyResult<Self> {
+        named(andoyer_propagate::Body::from_inertia(inertia), name)
     }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Rows, Option<&str>))> {
+        Ok((py.get_type::<Self>().getattr("_restored")?, (self.body.inertia(), self.body.name())))
+    }
+}
+
+type Rows = [[f64; 3]; 3];
+
+fn named(body: Result<andoyer_propagate::Body, andoyer_propagate::Error>, name: Option<&str>) -> PyResult<Body> {
+    let body = body.map_err(error::propagation)?;
+    Ok(Body::from(match name {
+        Some(name) => body.with_name(name),
+        None => body,
+    }))
 }

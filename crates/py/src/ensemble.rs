@@ -1,15 +1,19 @@
 //! `andoyer.Ensemble`.
 
-use andoyer_propagate::MAX_THREADS;
+use std::sync::atomic::AtomicBool;
+
+use andoyer_propagate::error::Kind;
+use andoyer_propagate::{MAX_THREADS, OnError, Outcome};
 use numpy::PyArrayDyn;
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice, PyTuple};
 
-use crate::array::{MemberRows, Times, chunks, constant_rows, fixed, number, write};
-use crate::computing::detached;
-use crate::error::{self, ShapeError, ThreadsError};
-use crate::foreign;
+use crate::array::{MemberRows, Times, chunks, constant, constant_rows, number, numbers_of, span as span_of, write};
+use crate::computing::{detached, interruptible};
+use crate::error;
+use crate::foreign::{self, Calendar};
+use crate::members::Members;
 use crate::motion::Motion;
 use crate::orbit::Orbit;
 use crate::order::whole_number;
@@ -18,7 +22,10 @@ use crate::samples::Samples;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
-/// Many bodies with their states at time 0, solved and evaluated member by member on all cores, in memory proportional to the result.
+/// Members from which on building an ensemble, which checks each of them, is a long call.
+const LONG: usize = 1 << 16;
+
+/// Many bodies with their states, solved and evaluated member by member on all cores, in memory proportional to the result.
 ///
 /// Each member gives the bits that `Scene` and `Motion` give for it alone, whatever the number of threads. ``ensemble[i]`` is the motion
 /// of member i, ``ensemble[i:j]`` the ensemble of some members.
@@ -32,6 +39,8 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 ///     Unit quaternions [x, y, z, w] at time 0, as `Scene` takes them.
 /// angular_velocities : array_like, shape (m, 3) or (3,)
 ///     Body components at time 0, in rad per unit of time.
+/// epochs : float or array_like, shape (m,), or astropy.time.Time of these shapes, optional
+///     Times of the states: one for all, or one for each; by default 0.
 /// orbits : Orbit or sequence of m Orbit or None, optional
 ///     The orbit of a body whose gravity gradient acts on all members, or one or None for each. A member under an orbit takes some 200 µs to
 ///     solve, others 5.
@@ -42,22 +51,20 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 ///     orbit.
 /// threads : int, optional
 ///     How many threads work, 1 to 1024; by default one for each core.
+/// errors : {"raise", "nan"}, optional
+///     A member that is no body or no state, or has no motion, is an error that names it; or its rows are NaN, its plan is None, and the reason is in
+///     `Ensemble.errors` and `Samples.errors`.
 /// scalar_first : bool, optional
 ///     Whether `attitudes` are [w, x, y, z]. The property `attitudes` has the scalar last all the same.
 ///
 /// Raises
 /// ------
-/// MomentsError, AttitudeError, AngularVelocityError
+/// InputError
 ///     A member that is no body or no state: the error of a single one, with its place among the members in the message and as the
 ///     attribute ``index`` of the exception; the message also says how many other members are bad.
-/// ToleranceError
-///     ``0``, ``-1``, not finite.
-/// SpanError
-///     ``(1, 0)``, not finite.
-/// ThreadsError
-///     ``0``, ``-1``, ``2.5``; or, when it evaluates, a number that the system does not give.
-/// ShapeError
-///     Two moments, five attitudes, three orbits; or one row of each.
+///     An epoch, a tolerance or a span that is not finite; a tolerance of ``0`` or ``-1``, the span ``(1, 0)``, ``errors="ignore"``.
+///     Threads ``0``, ``-1``, ``2.5``; or, when it evaluates, a number that the system does not give.
+///     Two moments, five attitudes and three orbits; or one row of each.
 ///
 /// Examples
 /// --------
@@ -68,31 +75,33 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// >>> [plan.mode for plan in ensemble.plans]
 /// ['short-axis', 'long-axis']
 /// >>> sun = Orbit(2e-3, 0.1)
-/// >>> under_the_sun = Ensemble([1, 1.02, 1.05], [0, 0, 0, 1], [[0, 0, 1], [0, 0.1, 1]], orbits=[sun, None], span=(0, 1e5))
+/// >>> under_the_sun = Ensemble([1, 1.02, 1.05], [0, 0, 0, 1], [[0, 0, 1], [0, 0.1, 1]], orbits=[sun, None], tolerance=1e-6, span=(0, 1e5))
 /// >>> [plan.torque > 0 for plan in under_the_sun.plans]
 /// [True, False]
 /// >>> Ensemble([[1.0, 1.5, 2.0], [1.0, 1.0, 2.5]], [0, 0, 0, 1], [0, 0, 1])
 /// Traceback (most recent call last):
 ///     ...
-/// andoyer.MomentsError: member 1: moments = [1.0, 1.0, 2.5]: the largest must not exceed the sum of the other two (it is 1.25 times that sum)
+/// andoyer.InputError: member 1: moments = [1.0, 1.0, 2.5]: the largest must not exceed the sum of the other two (it is 1.25 times that sum)
 #[pyclass(frozen, eq, module = "andoyer")]
 #[derive(PartialEq)]
-pub(crate) struct Ensemble(andoyer_propagate::Ensemble);
+pub(crate) struct Ensemble(andoyer_propagate::Ensemble, Vec<Calendar>);
 
 #[pymethods]
 impl Ensemble {
     #[new]
-    #[pyo3(signature = (moments, attitudes, angular_velocities, *, orbits=None, tolerance=1e-12, span=None, threads=None, scalar_first=false))]
+    #[pyo3(signature = (moments, attitudes, angular_velocities, *, epochs=None, orbits=None, tolerance=1e-12, span=None, threads=None, errors="raise", scalar_first=false))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn new(
         py: Python<'_>,
         moments: &Bound<'_, PyAny>,
         attitudes: &Bound<'_, PyAny>,
         angular_velocities: &Bound<'_, PyAny>,
+        epochs: Option<&Bound<'_, PyAny>>,
         orbits: Option<&Bound<'_, PyAny>>,
         #[pyo3(from_py_with = tolerance)] tolerance: f64,
         span: Option<&Bound<'_, PyAny>>,
         threads: Option<&Bound<'_, PyAny>>,
+        errors: &str,
         scalar_first: bool,
     ) -> PyResult<Self> {
         let moments = MemberRows::new("moments", moments)?;
@@ -100,22 +109,27 @@ impl Ensemble {
         let mut attitudes = MemberRows::new("attitudes", attitudes)?;
         attitudes.each(|quaternion| foreign::scalar_last(quaternion, scalar_first));
         let rates = MemberRows::new("angular_velocities", angular_velocities)?;
-        let threads =
-            threads.map(|value| whole_number::<ThreadsError>("threads", value, 1, MAX_THREADS)).transpose()?;
+        let threads = threads.map(|value| whole_number("threads", value, 1, MAX_THREADS, Kind::Input)).transpose()?;
         let orbits = orbits.map(orbits_of).transpose()?;
-        let span = span.map(|value| fixed("span", value)).transpose()?.map(|[start, stop]: [f64; 2]| (start, stop));
+        let on_error: OnError = errors.parse().map_err(error::propagation)?;
+        let (epochs, calendar) = epochs.map(epochs_of).transpose()?.unwrap_or_default();
+        let first = epochs.first().copied().unwrap_or(0.0);
+        let span = span.map(|value| span_of(value, first, calendar.first().copied())).transpose()?;
         let Some(members) = moments.members().or(attitudes.members()).or(rates.members()) else {
             let text =
                 "moments, attitudes and angular_velocities are one row each: one of them must have an axis of members";
-            return Err(ShapeError::new_err(text));
+            return Err(error::input("moments", "one row", "(m, 3)", text.to_owned()));
         };
-        let new = || {
+        let new = |stop: &AtomicBool| {
             let [moments, rates] = [moments, rates].map(|rows| rows.repeated(members));
-            let ensemble = andoyer_propagate::Ensemble::new(moments, attitudes.repeated(members), rates)?;
+            let attitudes = attitudes.repeated(members);
+            let ensemble = andoyer_propagate::Ensemble::new_or(moments, attitudes, rates, on_error, stop)?;
+            let ensemble = if epochs.is_empty() { ensemble } else { ensemble.epochs(epochs)? };
+            let span = span.map(|[start, stop]: [f64; 2]| (start, stop));
             let ensemble = asked(ensemble.tolerance(tolerance), orbits, span, threads)?;
             ensemble.validate().map(|()| ensemble)
         };
-        detached(py, error::propagation, new).map(Self)
+        interruptible(py, members >= LONG, error::propagation, new).map(|ensemble| Self(ensemble, calendar))
     }
 
     /// Attitudes and angular velocities of all members, in one pass.
@@ -132,29 +146,35 @@ impl Ensemble {
     /// Samples
     ///     With a leading axis of members: attitudes (m, n, 4), angular velocities (m, n, 3); for a scalar time (m, 4) and (m, 3).
     ///
+    /// Warns
+    /// -----
+    /// ToleranceWarning
+    ///     How many members miss the tolerance, and which is the worst.
+    ///
     /// Raises
     /// ------
-    /// TimesError
-    ///     As of a motion, with the attribute ``index`` of the first member that has it.
-    /// UnitsError
-    ///     As of a scene, with the same attribute.
-    /// ShapeError
+    /// RepresentationError
+    ///     Times as of a motion and units as of a scene, with the attribute ``index`` of the first member that has it.
+    /// InputError
     ///     Rows for another number of members.
     #[pyo3(signature = (times, *, scalar_first=false))]
     fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>, scalar_first: bool) -> PyResult<Samples> {
-        let times = Times::of_members(times, self.0.len())?;
+        let times = self.times(times)?;
+        let since_epoch = times.since_epoch();
         let [copy, attitude, rates] = times.samples()?;
-        {
+        let outcome = {
             let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
             let (values, attitude, rates) = (times.values()?, chunks(&mut attitude)?, chunks(&mut rates)?);
-            let evaluate = || {
-                self.0.samples_into(values, attitude, rates)?;
-                foreign::scalar_first(attitude, scalar_first);
-                Ok(())
+            let evaluate = |stop: &AtomicBool| {
+                let outcome = self.run(since_epoch, stop).samples_into(values, attitude, rates)?;
+                foreign::scalar_first(attitude, scalar_first, stop);
+                Ok(outcome)
             };
-            detached(py, error::propagation, evaluate)?;
-        }
-        Ok(Samples::new(copy.unbind(), attitude.unbind(), rates.unbind(), scalar_first))
+            interruptible(py, times.long(), error::propagation, evaluate)?
+        };
+        error::warn_of_tolerance(py, outcome.missed_tolerance())?;
+        let samples = Samples::new(copy.unbind(), attitude.unbind(), rates.unbind(), scalar_first);
+        Ok(samples.given(times.given()).refused(refused(py, outcome)))
     }
 
     /// Attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones.
@@ -178,18 +198,48 @@ impl Ensemble {
         out: Option<&Bound<'py, PyAny>>,
         scalar_first: bool,
     ) -> PyResult<Array<'py>> {
-        Times::of_members(times, self.0.len())?.evaluate(out, |times, rows| {
-            self.0.attitudes_into(times, rows)?;
-            foreign::scalar_first(rows, scalar_first);
-            Ok(())
-        })
+        let times = self.times(times)?;
+        let since_epoch = times.since_epoch();
+        let evaluate = |values: &[f64], rows: &mut [[f64; 4]], stop: &AtomicBool| {
+            let outcome = self.run(since_epoch, stop).attitudes_into(values, rows)?;
+            foreign::scalar_first(rows, scalar_first, stop);
+            Ok(outcome)
+        };
+        let (rows, outcome) = times.evaluate(out, evaluate)?;
+        error::warn_of_tolerance(rows.py(), outcome.missed_tolerance())?;
+        Ok(rows)
     }
 
-    /// The plan of every member: a list of `Plan`.
+    /// The plan of every member: a list of `Plan`; with ``errors="nan"`` None for a member that is refused.
     #[getter]
-    fn plans(&self, py: Python<'_>) -> PyResult<Vec<Plan>> {
-        let plans = detached(py, error::propagation, || self.0.plans())?;
-        Ok(plans.into_iter().map(Plan).collect())
+    fn plans(&self, py: Python<'_>) -> PyResult<Vec<Option<Plan>>> {
+        let plans = self.solved(py)?.into_iter();
+        match self.0.asked_on_error() {
+            OnError::Nan => Ok(plans.map(|plan| plan.ok().map(Plan)).collect()),
+            _ => plans.map(|plan| plan.map(|plan| Some(Plan(plan))).map_err(error::propagation)).collect(),
+        }
+    }
+
+    /// Why members have no motion: errors by index. All members are solved for it; empty where every member has one.
+    #[getter]
+    fn errors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let errors = PyDict::new(py);
+        for (index, plan) in self.solved(py)?.into_iter().enumerate() {
+            if let Err(problem) = plan {
+                errors.set_item(index, error::propagation(problem).into_value(py))?;
+            }
+        }
+        Ok(errors)
+    }
+
+    /// The times of the states: a float for all members, or a read-only array, shape (m,).
+    #[getter]
+    fn epochs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        match self.0.asked_epochs() {
+            [] => Ok(0.0_f64.into_pyobject(py)?.into_any()),
+            [of_all] => Ok(of_all.into_pyobject(py)?.into_any()),
+            each => Ok(constant(py, each).into_any()),
+        }
     }
 
     /// The moments about body axes 1, 2, 3: a read-only array, shape (m, 3).
@@ -243,6 +293,10 @@ impl Ensemble {
         self.0.len()
     }
 
+    fn __iter__(slf: Py<Self>) -> Members {
+        Members::of(slf.into_any())
+    }
+
     fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         if let Ok(slice) = index.cast::<PySlice>() {
             return Ok(Bound::new(py, self.part(slice)?)?.into_any());
@@ -253,7 +307,8 @@ impl Ensemble {
         match counted.and_then(|index| usize::try_from(index).ok()).filter(|&index| index < members) {
             Some(index) => {
                 let motion = detached(py, error::propagation, || self.0.motion(index))?;
-                Ok(Bound::new(py, Motion(motion))?.into_any())
+                error::warn_of_tolerance(py, motion.plan().missed_tolerance())?;
+                Ok(Bound::new(py, Motion(motion, self.calendar(index)))?.into_any())
             }
             None => Err(PyIndexError::new_err(format!("member {index} of an ensemble of {members}"))),
         }
@@ -281,6 +336,12 @@ impl Ensemble {
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let arrays = (self.moments(py)?, self.attitudes(py)?, self.angular_velocities(py)?);
         let keywords = PyDict::new(py);
+        match &self.1[..] {
+            [] => keywords.set_item("epochs", self.epochs(py)?)?,
+            [of_all] => keywords.set_item("epochs", foreign::calendar(py, &[*of_all])?.get_item(0)?)?,
+            each => keywords.set_item("epochs", foreign::calendar(py, each)?)?,
+        }
+        keywords.set_item("errors", self.0.asked_on_error().to_string())?;
         keywords.set_item("orbits", self.orbits(py)?)?;
         keywords.set_item("tolerance", self.tolerance())?;
         keywords.set_item("span", self.span())?;
@@ -298,16 +359,62 @@ impl Ensemble {
         let moments = chosen.iter().map(|&member| self.0.moments()[member]).collect();
         let attitudes = chosen.iter().map(|&member| self.0.attitudes()[member]).collect();
         let rates = chosen.iter().map(|&member| self.0.angular_velocities()[member]).collect();
-        let part = andoyer_propagate::Ensemble::new(moments, attitudes, rates)
+        let (on_error, going) = (self.0.asked_on_error(), AtomicBool::new(false));
+        let part = andoyer_propagate::Ensemble::new_or(moments, attitudes, rates, on_error, &going)
             .map_err(error::propagation)?
             .tolerance(self.0.asked_tolerance());
+        let part = match self.0.asked_epochs() {
+            [] => Ok(part),
+            [of_all] => part.epochs(vec![*of_all]),
+            each => part.epochs(chosen.iter().map(|&member| each[member]).collect()),
+        }
+        .map_err(error::propagation)?;
+        let calendar = match &self.1[..] {
+            [] | [_] => self.1.clone(),
+            each => chosen.iter().map(|&member| each[member]).collect(),
+        };
         let orbits = match self.0.asked_orbits() {
             [] => None,
             [of_all] => Some(vec![*of_all]),
             each => Some(chosen.iter().map(|&member| each[member]).collect()),
         };
-        asked(part, orbits, self.0.asked_span(), self.0.asked_threads()).map(Self).map_err(error::propagation)
+        asked(part, orbits, self.0.asked_span(), self.0.asked_threads())
+            .map(|part| Self(part, calendar))
+            .map_err(error::propagation)
     }
+
+    fn times<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Times<'py>> {
+        Times::of_members(value, self.0.len(), &self.1, !self.0.asked_orbits().is_empty())
+    }
+
+    /// How the members are evaluated at these times.
+    fn run<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> andoyer_propagate::Run<'a> {
+        let run = self.0.run().until(stop);
+        if since_epoch { run.since_epoch() } else { run }
+    }
+
+    /// The plan of every member, or why it has none.
+    fn solved(&self, py: Python<'_>) -> PyResult<Vec<Result<andoyer_propagate::Plan, andoyer_propagate::Error>>> {
+        let long = self.0.len() >= if self.0.asked_orbits().is_empty() { LONG } else { 32 };
+        interruptible(py, long, error::propagation, |stop| self.0.run().until(stop).plans())
+    }
+
+    /// The calendar epoch of a member.
+    fn calendar(&self, index: usize) -> Option<Calendar> {
+        self.1.get(if self.1.len() == 1 { 0 } else { index }).copied()
+    }
+}
+
+/// The errors of members that were refused, as Python has them.
+fn refused(py: Python<'_>, outcome: Outcome) -> Vec<(usize, Py<PyAny>)> {
+    let value = |problem| error::propagation(problem).into_value(py).into_any();
+    outcome.into_errors().into_iter().map(|(index, problem)| (index, value(problem))).collect()
+}
+
+/// Epochs as seconds: one, or one for each member; and as calendar times where they are some.
+fn epochs_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<Calendar>)> {
+    let (seconds, calendar) = foreign::epochs("epochs", value)?;
+    Ok((numbers_of("epochs", &seconds)?, calendar))
 }
 
 /// The ensemble with what was asked for besides.

@@ -1,161 +1,150 @@
-//! The exceptions, and which error of the Rust crates becomes which.
+//! The exceptions, and which error of the Rust crates becomes which: its kind says it.
 //!
-//! `Error` is a `ValueError`; every kind of bad input has one subclass of it. The message is that of the Rust error. What is not an
-//! array-like of numbers, no `Body` or no string where one is due, stays Python's own `TypeError`.
+//! `Error` is a `ValueError`; there is one subclass of it for each thing that a caller would handle differently. Message, argument, value and bound are those of
+//! the Rust error. What is not an array-like of numbers, no `Body` or no string where one is due, stays Python's own `TypeError`.
+
+use std::ffi::CString;
 
 use andoyer_propagate::Error as Propagation;
-use andoyer_series::{Error as Algebra, ParseProblem};
+use andoyer_series::Error as Algebra;
+use andoyer_series::error::{Kind, Value};
 use pyo3::create_exception;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 create_exception!(
     andoyer,
     Error,
     PyValueError,
-    "Bad input, or a motion that is not served; the base of every error of this package."
+    "The base of every error of this package.\n\nAttributes\n----------\nargument : str or None\n    Name of the argument.\nvalue\n    The value given, or the number computed from it.\nbound\n    What the value must be: a number, (lower, upper) or words.\nindex : int\n    Place of the member, in an error of a member of an ensemble alone."
+);
+create_exception!(andoyer, InputError, Error, "An argument that is wrong.");
+create_exception!(andoyer, FileError, Error, "A scene file or a JSON text that cannot be read.");
+create_exception!(
+    andoyer,
+    RepresentationError,
+    Error,
+    "Units, times or orders that doubles, exact rationals or memory cannot hold."
+);
+create_exception!(
+    andoyer,
+    TheoryError,
+    Error,
+    "No theory holds: the series near the separatrix, a spin resonance, a torque too strong, a motion without averaging, a small divisor or a Hamiltonian that cannot be diagonalized."
 );
 create_exception!(andoyer, InternalError, Error, "A fault of this package: no input should lead to it.");
-create_exception!(andoyer, MomentsError, Error, "Moments of inertia that no body has.");
-create_exception!(andoyer, AttitudeError, Error, "An attitude that is no unit quaternion.");
-create_exception!(andoyer, AngularVelocityError, Error, "An angular velocity that is not finite.");
+
 create_exception!(
     andoyer,
-    UnitsError,
-    Error,
-    "Units in which the angular momentum, or a rate that belongs to it, over- or underflows."
+    ToleranceWarning,
+    PyUserWarning,
+    "A motion, or members of an ensemble, whose error bound exceeds the tolerance over the span."
 );
-create_exception!(andoyer, EpochError, Error, "An epoch that is not finite.");
-create_exception!(andoyer, ToleranceError, Error, "A tolerance that is not positive and finite.");
-create_exception!(andoyer, SpanError, Error, "A span that is not finite or runs backwards.");
-create_exception!(andoyer, OrderError, Error, "An order that is no whole number within its bounds.");
-create_exception!(andoyer, MethodError, Error, "A method that is unknown.");
-create_exception!(andoyer, ThreadsError, Error, "A number of threads that is none, or that the system does not give.");
-create_exception!(andoyer, OrbitError, Error, "An element of an orbit that is none.");
-create_exception!(
-    andoyer,
-    AveragingError,
-    Error,
-    "An averaging that is unknown, or a motion that has no averaged theory."
-);
-create_exception!(andoyer, LevelError, Error, "A level of the theory of the gravity gradient that is unknown.");
-create_exception!(
-    andoyer,
-    SpinResonanceError,
-    Error,
-    "A rotation so slow, or so near a resonance with its orbit, that no averaging holds."
-);
-create_exception!(andoyer, TorqueError, Error, "A torque too strong for an expansion in it.");
-create_exception!(andoyer, TimesError, Error, "A time that is not finite, or too far from the epoch to have a phase.");
-create_exception!(andoyer, ShapeError, Error, "An array of the wrong shape or memory layout.");
-create_exception!(
-    andoyer,
-    SeparatrixError,
-    Error,
-    "The series asked for on the separatrix, or too near it for the tolerance."
-);
-create_exception!(andoyer, UnknownBodyError, Error, "A name that the catalogue of bodies does not have.");
-create_exception!(andoyer, SceneFileError, Error, "A scene file that cannot be read or says something wrong.");
-create_exception!(
-    andoyer,
-    UnknownNameError,
-    Error,
-    "A name that is none of the known ones: of a variable, or of a part of the normal form."
-);
-create_exception!(andoyer, IntervalError, Error, "A number outside its interval.");
-create_exception!(
-    andoyer,
-    HamiltonianError,
-    Error,
-    "A polynomial that cannot be read, or a Hamiltonian whose origin is no elliptic point with a diagonal quadratic part."
-);
-create_exception!(
-    andoyer,
-    ResonanceError,
-    Error,
-    "A resonance or small divisor not asked for, or one asked for that is none."
-);
-create_exception!(andoyer, FormatError, Error, "A text that is not the JSON of a normal form.");
-create_exception!(andoyer, SeriesError, Error, "Any other error of the exact algebra.");
+
+/// Warns with a sentence, if there is one, at the line that called.
+pub(crate) fn warn_of_tolerance(py: Python<'_>, said: Option<String>) -> PyResult<()> {
+    let Some(said) = said else { return Ok(()) };
+    let said = CString::new(said)?;
+    PyErr::warn(py, &py.get_type::<ToleranceWarning>(), &said, 1)
+}
+
+/// Gives every error the attributes, None where an instance does not say otherwise.
+pub(crate) fn with_attributes(py: Python<'_>) -> PyResult<()> {
+    let class = py.get_type::<Error>();
+    ["argument", "value", "bound"].into_iter().try_for_each(|name| class.setattr(name, py.None()))
+}
 
 /// The exception of an error in propagation: of a member of an ensemble that of a single body, with the attribute `index`.
 pub(crate) fn propagation(error: Propagation) -> PyErr {
-    let message = error.to_string();
+    let (value, bound) = (error.value(), error.bound());
+    let exception = exception(error.kind(), error.argument(), value, bound, error.to_string());
     match error {
-        Propagation::Member { index, problem, .. } => Python::attach(|py| {
-            let exception = of_kind(&problem, message);
-            exception.value(py).setattr("index", index).map_or_else(|failure| failure, |()| exception)
-        }),
-        _ => of_kind(&error, message),
-    }
-}
-
-fn of_kind(error: &Propagation, message: String) -> PyErr {
-    match error {
-        Propagation::Moment { .. } | Propagation::MomentsTriangle { .. } | Propagation::MomentsRatio { .. } => {
-            MomentsError::new_err(message)
-        }
-        Propagation::Units { .. } => UnitsError::new_err(message),
-        Propagation::Attitude { .. } => AttitudeError::new_err(message),
-        Propagation::AngularVelocity { .. } => AngularVelocityError::new_err(message),
-        Propagation::Epoch { .. } => EpochError::new_err(message),
-        Propagation::Tolerance { .. } => ToleranceError::new_err(message),
-        Propagation::Span { .. } => SpanError::new_err(message),
-        Propagation::Order { .. } => OrderError::new_err(message),
-        Propagation::Method { .. } => MethodError::new_err(message),
-        Propagation::Orbit { .. } => OrbitError::new_err(message),
-        Propagation::Averaging { .. } | Propagation::TooManyOrbits { .. } | Propagation::Unaveraged { .. } => {
-            AveragingError::new_err(message)
-        }
-        Propagation::Level { .. } => LevelError::new_err(message),
-        Propagation::Resonance { .. } => SpinResonanceError::new_err(message),
-        Propagation::TorqueTooStrong { .. } => TorqueError::new_err(message),
-        Propagation::Time { .. } => TimesError::new_err(message),
-        Propagation::Threads { .. } => ThreadsError::new_err(message),
-        Propagation::Index { .. } | Propagation::Length { .. } => ShapeError::new_err(message),
-        Propagation::NearSeparatrix { .. } | Propagation::Separatrix => SeparatrixError::new_err(message),
-        Propagation::UnknownBody { .. } => UnknownBodyError::new_err(message),
-        Propagation::SceneFile { .. } => SceneFileError::new_err(message),
-        _ => Error::new_err(message),
+        Propagation::Member { index, .. } => with_attribute(exception, "index", index),
+        _ => exception,
     }
 }
 
 /// The exception of an error in the exact algebra.
 pub(crate) fn algebra(error: Algebra) -> PyErr {
-    let message = error.to_string();
-    exception(error, message)
+    exception(error.kind(), error.argument(), error.value(), error.bound(), error.to_string())
 }
 
 /// The same where the error is that of one argument and does not name it.
 pub(crate) fn algebra_of(argument: &str, error: Algebra) -> PyErr {
     let message = format!("{argument}: {error}");
-    exception(error, message)
+    exception(error.kind(), Some(argument), error.value(), error.bound(), message)
 }
 
-fn exception(error: Algebra, message: String) -> PyErr {
-    match error {
-        Algebra::OrderTooLarge { .. } | Algebra::MemoryTooLarge { .. } | Algebra::OrderOutOfRange { .. } => {
-            OrderError::new_err(message)
+/// The same, under the name that the argument has in Python.
+pub(crate) fn algebra_as(argument: &str) -> impl Fn(Algebra) -> PyErr {
+    move |error| exception(error.kind(), Some(argument), error.value(), error.bound(), error.to_string())
+}
+
+/// An argument that is wrong before a Rust crate sees it.
+pub(crate) fn input(argument: &str, value: impl Into<Value>, bound: impl Into<Value>, message: String) -> PyErr {
+    exception(Kind::Input, Some(argument), Some(value.into()), Some(bound.into()), message)
+}
+
+/// An array of a wrong shape.
+pub(crate) fn shape(argument: &str, shape: &[usize], bound: &str) -> PyErr {
+    let message = format!("{argument} has shape {}: it must be {bound}", shape_text(shape));
+    let lengths: Vec<i64> = shape.iter().filter_map(|&length| length.try_into().ok()).collect();
+    input(argument, lengths.as_slice(), bound, message)
+}
+
+/// A shape as Python prints it.
+pub(crate) fn shape_text(shape: &[usize]) -> String {
+    match shape {
+        [n] => format!("({n},)"),
+        _ => format!("({})", shape.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
+    }
+}
+
+/// The exception of a kind, with its attributes.
+pub(crate) fn exception(
+    kind: Kind,
+    argument: Option<&str>,
+    value: Option<Value>,
+    bound: Option<Value>,
+    message: String,
+) -> PyErr {
+    let exception = match kind {
+        Kind::Input => InputError::new_err(message),
+        Kind::File => FileError::new_err(message),
+        Kind::Representation => RepresentationError::new_err(message),
+        Kind::Theory => TheoryError::new_err(message),
+        _ => InternalError::new_err(message),
+    };
+    let exception = with_attribute(exception, "argument", argument);
+    let exception = with_attribute(exception, "value", value.map(Fact));
+    with_attribute(exception, "bound", bound.map(Fact))
+}
+
+/// The exception with one more attribute, or that of setting it.
+pub(crate) fn with_attribute<T: for<'py> IntoPyObject<'py>>(exception: PyErr, name: &str, value: T) -> PyErr {
+    Python::attach(|py| match exception.value(py).setattr(name, value) {
+        Ok(()) => exception,
+        Err(failure) => failure,
+    })
+}
+
+/// A value as a number, a text or a tuple of Python.
+struct Fact(Value);
+
+impl<'py> IntoPyObject<'py> for Fact {
+    type Target = PyAny;
+    type Output = Bound<'py, PyAny>;
+    type Error = PyErr;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
+        match self.0 {
+            Value::Integer(value) => Ok(value.into_pyobject(py)?.into_any()),
+            Value::Number(value) => Ok(value.into_pyobject(py)?.into_any()),
+            Value::Text(value) => Ok(value.into_pyobject(py)?.into_any()),
+            Value::Integers(values) => Ok(PyTuple::new(py, values)?.into_any()),
+            Value::Numbers(values) => Ok(PyTuple::new(py, values)?.into_any()),
+            _ => Ok(py.None().into_bound(py)),
         }
-        Algebra::NameUnknown { .. } | Algebra::Parse { problem: ParseProblem::UnknownName(_), .. } => {
-            UnknownNameError::new_err(message)
-        }
-        Algebra::OutsideInterval { .. } | Algebra::NotFinite { .. } => IntervalError::new_err(message),
-        Algebra::Parse { .. }
-        | Algebra::PhaseSpaceSize { .. }
-        | Algebra::LinearTerm { .. }
-        | Algebra::QuadraticNotDiagonal { .. }
-        | Algebra::NotElliptic { .. }
-        | Algebra::FrequencyIrrational { .. } => HamiltonianError::new_err(message),
-        Algebra::SmallDivisor { .. }
-        | Algebra::NotResonant { .. }
-        | Algebra::ResonanceMalformed { .. }
-        | Algebra::ResonantTerm { .. } => ResonanceError::new_err(message),
-        Algebra::Json(_)
-        | Algebra::FormatUnknown { .. }
-        | Algebra::RationalMalformed { .. }
-        | Algebra::CountMismatch { .. }
-        | Algebra::TermInconsistent { .. } => FormatError::new_err(message),
-        _ => SeriesError::new_err(message),
     }
 }

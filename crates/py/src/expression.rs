@@ -10,7 +10,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyString, PyTuple};
 
-use crate::error::{self, HamiltonianError, UnknownNameError};
+use crate::error;
 
 /// A polynomial with the exact values of its coefficients.
 pub(crate) struct Expression {
@@ -56,7 +56,7 @@ impl Expression {
             let Some(exponents) = exponents.filter(|exponents| exponents.len() == names.len()) else {
                 let (key, names) = (key.repr()?, names.join(", "));
                 let message = format!("{argument} has the key {key}: it must be a tuple of exponents of {names}");
-                return Err(HamiltonianError::new_err(message));
+                return Err(error::input(argument, key.to_string(), format!("exponents of {names}"), message));
             };
             expression.add(argument, &exponents, &value)?;
         }
@@ -70,8 +70,9 @@ impl Expression {
             let symbol = symbol?;
             let name = symbol.str()?.to_string();
             let Some(slot) = names.iter().position(|known| *known == name) else {
-                let message = format!("{argument} contains {name:?}, which is none of {}", names.join(", "));
-                return Err(UnknownNameError::new_err(message));
+                let known = names.join(", ");
+                let message = format!("{argument} contains {name:?}, which is none of {known}");
+                return Err(error::input(argument, name, known, message));
             };
             present.push((slot, symbol));
         }
@@ -79,7 +80,9 @@ impl Expression {
         let symbols = PyTuple::new(value.py(), present.iter().map(|(_, symbol)| symbol))?;
         let polynomial = if present.is_empty() { None } else { Some(value.call_method1("as_poly", symbols)?) };
         let Some(polynomial) = polynomial.filter(|polynomial| !polynomial.is_none()) else {
-            return Err(HamiltonianError::new_err(format!("{argument} is no polynomial: {}", value.str()?)));
+            let shown = value.str()?.to_string();
+            let message = format!("{argument} is no polynomial: {shown}");
+            return Err(error::input(argument, shown, "a polynomial", message));
         };
         let mut expression = Self::zero();
         for term in polynomial.call_method0("terms")?.try_iter()? {
@@ -119,7 +122,10 @@ fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<(BigRational, bo
     }
     let Ok(float) = value.extract::<f64>() else { return Err(refused()?) };
     let exact = BigRational::from_float(float);
-    let not_finite = || HamiltonianError::new_err(format!("{argument}: the coefficient {float} is not finite"));
+    let not_finite = || {
+        let message = format!("{argument}: the coefficient {float} is not finite");
+        error::input(argument, float, "finite", message)
+    };
     Ok((exact.ok_or_else(not_finite)?, true))
 }
 

@@ -1,6 +1,6 @@
 //! A Birkhoff normal form in one kind of numbers or the other, exact or floats.
 
-use andoyer_series::{BirkhoffNormalForm as Inner, Polynomial, RealField};
+use andoyer_series::{BirkhoffNormalForm as Inner, Error as Algebra, Polynomial, RealField};
 use num_rational::BigRational;
 use pyo3::prelude::*;
 
@@ -11,6 +11,16 @@ use crate::progress;
 pub(crate) enum Form {
     Exact(Inner<BigRational>),
     Float(Inner<f64>),
+}
+
+impl Form {
+    /// Reads the JSON of either kind.
+    pub(crate) fn from_json(text: &str) -> Result<Self, Algebra> {
+        match Inner::<BigRational>::from_json(text) {
+            Err(Algebra::FormatUnknown { .. }) => Inner::<f64>::from_json(text).map(Form::Float),
+            result => result.map(Form::Exact),
+        }
+    }
 }
 
 /// One expression for both kinds of numbers.

@@ -14,20 +14,24 @@ mod array;
 mod birkhoff;
 mod body;
 mod computing;
+mod domain;
 mod ensemble;
 mod error;
 mod expression;
 mod foreign;
 mod form;
+mod members;
 mod motion;
 mod normal_form;
 mod normalize;
 mod orbit;
 mod order;
+mod partials;
 mod plan;
 mod progress;
 mod samples;
 mod scene;
+mod scene_class;
 
 /// Compiled core of the package `andoyer`, which re-exports all of it.
 #[pyo3::pymodule]
@@ -39,13 +43,12 @@ mod _core {
     #[pymodule_export]
     use super::computing::_panic;
     #[pymodule_export]
+    use super::domain::Domain;
+    #[pymodule_export]
     use super::ensemble::Ensemble;
     #[pymodule_export]
     use super::error::{
-        AngularVelocityError, AttitudeError, AveragingError, EpochError, Error, FormatError, HamiltonianError,
-        InternalError, IntervalError, LevelError, MethodError, MomentsError, OrbitError, OrderError, ResonanceError,
-        SceneFileError, SeparatrixError, SeriesError, ShapeError, SpanError, SpinResonanceError, ThreadsError,
-        TimesError, ToleranceError, TorqueError, UnitsError, UnknownBodyError, UnknownNameError,
+        Error, FileError, InputError, InternalError, RepresentationError, TheoryError, ToleranceWarning,
     };
     #[pymodule_export]
     use super::motion::Motion;
@@ -56,11 +59,18 @@ mod _core {
     #[pymodule_export]
     use super::orbit::Orbit;
     #[pymodule_export]
+    use super::partials::Partials;
+    #[pymodule_export]
     use super::plan::Plan;
     #[pymodule_export]
     use super::samples::Samples;
     #[pymodule_export]
-    use super::scene::Scene;
+    use super::scene_class::Scene;
+
+    #[pymodule_init]
+    fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        super::error::with_attributes(module.py())
+    }
 
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "Python's name for it")]

@@ -1,30 +1,39 @@
 //! `andoyer.Motion`.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use andoyer_propagate::{Error as Propagation, PARAMETERS};
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 
-use crate::array::{Times, chunks, write};
-use crate::computing::detached;
+use crate::array::{Times, chunks, matrices, write};
+use crate::computing::{detached, interruptible};
 use crate::error;
-use crate::foreign;
+use crate::foreign::{self, Calendar};
+use crate::partials::Partials;
 use crate::plan::Plan;
 use crate::samples::Samples;
-use crate::scene::Scene;
+use crate::scene_class::Scene;
+
+/// Times between two looks for Ctrl-C while derivatives are computed.
+const AT_ONCE: usize = 1 << 13;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
 /// A solved motion, from `Scene.solve`: immutable, and shared between threads, which run in parallel while they evaluate it.
 ///
 /// Every method that takes `times` takes a scalar or an array_like of shape (n,), of floats or integers; a scalar gives results without
-/// the leading axis.
+/// the leading axis. Where the epoch of the scene is a Time of astropy, times may be Time too; a TimeDelta is a duration from the epoch. The difference
+/// from the epoch is formed in the two doubles of astropy, and `Samples.times` is what was given. Ctrl-C ends every call within a second.
 ///
 /// Raises
 /// ------
-/// TimesError
-///     A time that is NaN, infinite or more than 1e15 rotations from the epoch; the message has its index.
-/// ShapeError
+/// RepresentationError
+///     A time more than 1e15 rotations from the epoch, or under ``averaging="spin"`` more than 65,534 orbits from it; the message has its index and says which.
+/// InputError
+///     A time that is NaN or infinite. A calendar time (a Time) where the epoch is a number; a Quantity where the epoch is a calendar time.
 ///     Times with two axes.
 ///
 /// Examples
@@ -35,7 +44,7 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// >>> motion.angular_velocity([0, 1, 2]).shape
 /// (3, 3)
 #[pyclass(frozen, module = "andoyer")]
-pub(crate) struct Motion(pub(crate) andoyer_propagate::Motion);
+pub(crate) struct Motion(pub(crate) andoyer_propagate::Motion, pub(crate) Option<Calendar>);
 
 #[pymethods]
 impl Motion {
@@ -52,19 +61,20 @@ impl Motion {
     /// Samples
     #[pyo3(signature = (times, *, scalar_first=false))]
     fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>, scalar_first: bool) -> PyResult<Samples> {
-        let times = Times::new(times)?;
+        let times = self.times(times)?;
+        let since_epoch = times.since_epoch();
         let [copy, attitude, rates] = times.samples()?;
         {
             let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
             let (values, attitude, rates) = (times.values()?, chunks(&mut attitude)?, chunks(&mut rates)?);
-            let evaluate = || {
-                self.0.samples_into(values, attitude, rates)?;
-                foreign::scalar_first(attitude, scalar_first);
+            let evaluate = |stop: &AtomicBool| {
+                self.batch(since_epoch, stop).samples_into(values, attitude, rates)?;
+                foreign::scalar_first(attitude, scalar_first, stop);
                 Ok(())
             };
-            detached(py, error::propagation, evaluate)?;
+            interruptible(py, times.long(), error::propagation, evaluate)?;
         }
-        Ok(Samples::new(copy.unbind(), attitude.unbind(), rates.unbind(), scalar_first))
+        Ok(Samples::new(copy.unbind(), attitude.unbind(), rates.unbind(), scalar_first).given(times.given()))
     }
 
     /// Unit quaternions [x, y, z, w] that rotate body components into inertial ones (theory §8).
@@ -84,7 +94,7 @@ impl Motion {
     ///
     /// Raises
     /// ------
-    /// ShapeError
+    /// InputError
     ///     An `out` of another shape, or strided.
     /// TypeError
     ///     An `out` that is no float64 array, or read-only.
@@ -103,11 +113,14 @@ impl Motion {
         out: Option<&Bound<'py, PyAny>>,
         scalar_first: bool,
     ) -> PyResult<Array<'py>> {
-        Times::new(times)?.evaluate(out, |times, rows| {
-            self.0.attitudes_into(times, rows)?;
-            foreign::scalar_first(rows, scalar_first);
+        let times = self.times(times)?;
+        let since_epoch = times.since_epoch();
+        let evaluate = |values: &[f64], rows: &mut [[f64; 4]], stop: &AtomicBool| {
+            self.batch(since_epoch, stop).attitudes_into(values, rows)?;
+            foreign::scalar_first(rows, scalar_first, stop);
             Ok(())
-        })
+        };
+        times.evaluate(out, evaluate).map(|(rows, ())| rows)
     }
 
     /// Angular velocities in body components, in rad per unit of time.
@@ -127,7 +140,11 @@ impl Motion {
         times: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
-        Times::new(times)?.evaluate(out, |times, rows| self.0.angular_velocities_into(times, rows))
+        let times = self.times(times)?;
+        let since_epoch = times.since_epoch();
+        times
+            .evaluate(out, |values, rows, stop| self.batch(since_epoch, stop).angular_velocities_into(values, rows))
+            .map(|(rows, ())| rows)
     }
 
     /// Angular momenta in inertial components, in the unit of moment × rate: the same at all times unless the scene has an orbit.
@@ -140,7 +157,11 @@ impl Motion {
     /// -------
     /// ndarray, shape (n, 3)
     fn angular_momentum<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
-        Times::new(times)?.evaluate(None, |times, rows| self.0.angular_momenta_into(times, rows))
+        let times = self.times(times)?;
+        let since_epoch = times.since_epoch();
+        times
+            .evaluate(None, |values, rows, stop| self.batch(since_epoch, stop).angular_momenta_into(values, rows))
+            .map(|(rows, ())| rows)
     }
 
     /// Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1).
@@ -160,7 +181,11 @@ impl Motion {
     /// ndarray, shape (n, 6)
     ///     Angles in rad, momenta in the unit of moment × rate.
     fn andoyer<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
-        Times::new(times)?.evaluate(None, |times, rows| self.0.andoyer_into(times, rows))
+        let times = self.times(times)?;
+        let since_epoch = times.since_epoch();
+        times
+            .evaluate(None, |values, rows, stop| self.batch(since_epoch, stop).andoyer_into(values, rows))
+            .map(|(rows, ())| rows)
     }
 
     /// Attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else.
@@ -183,6 +208,56 @@ impl Motion {
         rotation.call_method1("from_quat", (self.attitude(times, None, false)?,))
     }
 
+    /// Derivatives of attitude and angular velocity with respect to the state at the epoch and the moments (theory §12).
+    ///
+    /// Columns are nine parameters: the initial attitude (a small rotation about body axes 1, 2, 3), the initial angular velocity, the moments as given. A change of attitude,
+    /// at the epoch and at the time, is a rotation vector δθ about body axes, R → R exp([δθ]×); rates are body components. Closed form: no differences and no
+    /// integration, at any time and in every mode; for a scene with an orbit by differences (`Plan.partials` says which).
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,)
+    ///
+    /// Returns
+    /// -------
+    /// Partials
+    ///
+    /// Raises
+    /// ------
+    /// TheoryError
+    ///     A motion on the separatrix, whose frequencies have no derivatives.
+    ///
+    /// Examples
+    /// --------
+    /// Rotation about axis 3 for 10 units of time: the angle grows by 10 for each unit of its rate.
+    ///
+    /// >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0, 0, 2.0]).solve()
+    /// >>> float(motion.partials(10.0).attitude[2, 5])
+    /// 10.0
+    fn partials(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Partials> {
+        let times = self.times(times)?;
+        let since = if times.since_epoch() { self.0.scene().state().epoch } else { 0.0 };
+        let [copy, attitude, rates] = times.matrices(PARAMETERS)?;
+        {
+            let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
+            let (values, attitude, rates) = (times.values()?, matrices(&mut attitude)?, matrices(&mut rates)?);
+            let evaluate = |stop: &AtomicBool| {
+                let parts = values.chunks(AT_ONCE).zip(attitude.chunks_mut(AT_ONCE)).zip(rates.chunks_mut(AT_ONCE));
+                for (index, ((values, attitude), rates)) in parts.enumerate() {
+                    if stop.load(Ordering::Relaxed) {
+                        return Err(Propagation::Stopped);
+                    }
+                    let values: Vec<f64> = values.iter().map(|time| since + time).collect();
+                    let done = self.0.partials_into(&values, attitude, rates);
+                    done.map_err(|problem| problem.later(index * AT_ONCE))?;
+                }
+                Ok(())
+            };
+            interruptible(py, times.long_partials(), error::propagation, evaluate)?;
+        }
+        Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
+    }
+
     /// What is evaluated, and why.
     #[getter]
     fn plan(&self) -> Plan {
@@ -192,7 +267,7 @@ impl Motion {
     /// The scene that was solved.
     #[getter]
     fn scene(&self) -> Scene {
-        Scene(self.0.scene().clone())
+        Scene { calendar: self.1, ..self.0.scene().clone().into() }
     }
 
     /// Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time; 0 where there is none.
@@ -205,19 +280,38 @@ impl Motion {
         FREQUENCIES.import(py, "andoyer.mean", "Frequencies")?.call1((frequencies.anomaly, frequencies.longitude))
     }
 
-    /// Mean periods (P_φ, P_ψ) in both conventions: ``{"long-axis": (precession, rotation), "short-axis": (precession, rotation)}``.
+    /// Mean periods (P_φ, P_ψ) in three conventions: a dict with the keys "long-axis", "short-axis" and "extremal-axis".
     ///
-    /// Long-axis is the convention of light curves: P_φ = 2π/(dy′/dt), P_ψ = 2π/(dℓ′/dt), in which the long axis oscillates
-    /// (Kaasalainen 2001). Short-axis is that of the Andoyer variables: P_φ = 2π/(dy′/dt + dℓ′/dt), with which μ turns, and
-    /// P_ψ = 2π/(dℓ′/dt), with which ν turns: backwards, for N < 0 forwards. In units of time, named tuples; infinite where there is none.
+    /// Values are named tuples (precession, rotation) in units of time, infinite where there is no such period.
+    ///
+    /// - "short-axis" is the convention of the Andoyer variables. P_φ is the mean precession of the short axis about the angular momentum;
+    ///   P_ψ is the rotation about it, in the long-axis mode its oscillation. In the short-axis mode P_φ = 2π/(dy′/dt + dℓ′/dt), with
+    ///   which μ turns, and P_ψ = 2π/(dℓ′/dt), with which ν turns: backwards, for N < 0 forwards.
+    /// - "long-axis" has the same of the long axis: in the short-axis mode P_φ = 2π/(dy′/dt). Radar papers use it.
+    /// - "extremal-axis" is the convention of light-curve papers (Pravec et al. 2014): the short axis in the short-axis mode, the long axis
+    ///   in the long-axis mode. It is one of the other two.
+    ///
+    /// P_ψ is the same in all three.
+    ///
+    /// Examples
+    /// --------
+    /// >>> periods = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve().periods
+    /// >>> periods["extremal-axis"] == periods["short-axis"]
+    /// True
+    /// >>> (precession, rotation), long = periods["short-axis"], periods["long-axis"].precession
+    /// >>> abs(1 / precession - 1 / rotation - 1 / long) < 1e-15
+    /// True
     #[getter]
     fn periods<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, pyo3::types::PyDict>> {
         static PERIODS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
         let class = PERIODS.import(py, "andoyer.mean", "Periods")?;
         let periods = pyo3::types::PyDict::new(py);
-        for (convention, pair) in
-            [("long-axis", self.0.long_axis_periods()), ("short-axis", self.0.short_axis_periods())]
-        {
+        let conventions = [
+            ("long-axis", self.0.long_axis_periods()),
+            ("short-axis", self.0.short_axis_periods()),
+            ("extremal-axis", self.0.extremal_axis_periods()),
+        ];
+        for (convention, pair) in conventions {
             periods.set_item(convention, class.call1((pair.precession, pair.rotation))?)?;
         }
         Ok(periods)
@@ -251,8 +345,26 @@ impl Motion {
         slf
     }
 
-    /// A motion is pickled as its scene, and solved again.
+    /// A motion is pickled as its scene, and solved again: without a warning, which was given when it was solved first.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Scene,))> {
-        Ok((py.get_type::<Scene>().getattr("solve")?, (self.scene(),)))
+        Ok((py.get_type::<Self>().getattr("_restored")?, (self.scene(),)))
+    }
+
+    #[staticmethod]
+    fn _restored(py: Python<'_>, scene: PyRef<'_, Scene>) -> PyResult<Self> {
+        let (scene, tables, epoch) = (&scene.scene, &scene.tables, scene.calendar);
+        detached(py, error::propagation, || scene.solve_with(tables)).map(|motion| Self(motion, epoch))
+    }
+}
+
+impl Motion {
+    fn times<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Times<'py>> {
+        Times::new(value, self.1, self.0.scene().asked_orbit().is_some())
+    }
+
+    /// How these times are evaluated.
+    fn batch<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> andoyer_propagate::Batch<'a> {
+        let batch = self.0.batch().until(stop);
+        if since_epoch { batch.since_epoch() } else { batch }
     }
 }

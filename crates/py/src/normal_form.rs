@@ -27,8 +27,10 @@ use crate::progress;
 ///
 /// Raises
 /// ------
-/// OrderError
-///     ``-1``, ``2.5``, ``2000`` (more than 8 GiB of memory by its estimate), ``16382`` (exponents that would not fit).
+/// InputError
+///     ``-1``, ``2.5``.
+/// RepresentationError
+///     ``2000`` (more than 8 GiB of memory by its estimate), ``16382`` (exponents that would not fit).
 /// KeyboardInterrupt
 ///     Ctrl-C is noticed while it works.
 ///
@@ -73,7 +75,7 @@ impl NormalForm {
     ///
     /// Raises
     /// ------
-    /// OrderError
+    /// InputError
     ///     ``-1``, or above the order.
     ///
     /// Examples
@@ -99,7 +101,7 @@ impl NormalForm {
     ///
     /// Raises
     /// ------
-    /// OrderError
+    /// InputError
     ///     ``-1``, or above the order.
     fn paper_polynomial<'py>(&self, py: Python<'py>, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let polynomial = self.0.paper_polynomial(order("n", n, 0, self.0.order())?).map_err(error::algebra)?;
@@ -120,7 +122,7 @@ impl NormalForm {
     ///
     /// Raises
     /// ------
-    /// OrderError
+    /// InputError
     ///     ``0``, or above the order.
     fn generator<'py>(&self, py: Python<'py>, m: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let m = order("m", m, 1, self.0.order())?;
@@ -144,12 +146,10 @@ impl NormalForm {
     ///
     /// Raises
     /// ------
-    /// UnknownNameError
-    ///     ``"x"``.
-    /// OrderError
-    ///     ``0``, or above the order.
+    /// InputError
+    ///     The name ``"x"``; n ``0``, or above the order.
     fn direct<'py>(&self, py: Python<'py>, name: &str, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
-        let variable = name.parse().map_err(error::algebra)?;
+        let variable = name.parse().map_err(error::algebra_as("name"))?;
         let n = order("n", n, 1, self.0.order())?;
         self.face(py, |tell| self.0.direct_with(variable, n, tell))
     }
@@ -169,12 +169,10 @@ impl NormalForm {
     ///
     /// Raises
     /// ------
-    /// UnknownNameError
-    ///     ``"x"``.
-    /// OrderError
-    ///     ``0``, or above the order.
+    /// InputError
+    ///     The name ``"x"``; n ``0``, or above the order.
     fn inverse<'py>(&self, py: Python<'py>, name: &str, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
-        let variable = name.parse().map_err(error::algebra)?;
+        let variable = name.parse().map_err(error::algebra_as("name"))?;
         let n = order("n", n, 1, self.0.order())?;
         self.face(py, |tell| self.0.inverse_with(variable, n, tell))
     }
@@ -192,11 +190,20 @@ impl NormalForm {
     ///
     /// Raises
     /// ------
-    /// FormatError
-    ///     Not JSON, another format or version, a term that no normal form has. The coefficients themselves are not computed again.
+    /// FileError
+    ///     Not JSON, another format or version, a term that no normal form has, a coefficient that is not that of the rigid body. Each
+    ///     order is computed anew and compared.
+    ///
+    /// Examples
+    /// --------
+    /// >>> text = NormalForm(2).to_json()
+    /// >>> NormalForm.from_json(text.replace('[[2,"-1/2"]]', '[[2,"-3/4"]]'))
+    /// Traceback (most recent call last):
+    ///     ...
+    /// andoyer.FileError: the triaxiality polynomial of order 2 has the coefficient -3/4 at the exponents [2]: it must be -1/2
     #[classmethod]
     fn from_json(class: &Bound<'_, PyType>, text: &str) -> PyResult<Self> {
-        detached(class.py(), error::algebra, || andoyer_series::NormalForm::from_json(text)).map(Self)
+        progress::reported(class.py(), None, |tell| andoyer_series::NormalForm::from_json_with(text, tell)).map(Self)
     }
 
     /// A part of this normal form as LaTeX, for a document that uses amsmath.
@@ -207,11 +214,11 @@ impl NormalForm {
     ///
     /// Raises
     /// ------
-    /// UnknownNameError
+    /// InputError
     ///     ``"lagrangian"``.
     #[pyo3(signature = (what="hamiltonian"))]
     fn to_latex(&self, py: Python<'_>, what: &str) -> PyResult<String> {
-        let part = what.parse().map_err(error::algebra)?;
+        let part = what.parse().map_err(error::algebra_as("what"))?;
         self.prepare(py, part)?;
         detached(py, error::algebra, || self.0.to_latex(part))
     }
@@ -233,13 +240,13 @@ impl NormalForm {
     ///
     /// Raises
     /// ------
-    /// UnknownNameError
+    /// InputError
     ///     ``"lagrangian"``.
     /// ImportError
     ///     SymPy is not installed: the extra ``andoyer[sympy]`` brings it.
     #[pyo3(signature = (what="hamiltonian"))]
     fn to_sympy<'py>(slf: &Bound<'py, Self>, what: &str) -> PyResult<Bound<'py, PyAny>> {
-        let _: Part = what.parse().map_err(error::algebra)?;
+        let _: Part = what.parse().map_err(error::algebra_as("what"))?;
         slf.py().import("andoyer._symbolic")?.call_method1("expressions", (slf, what))
     }
 
@@ -260,11 +267,9 @@ impl NormalForm {
     ///
     /// Raises
     /// ------
-    /// UnknownNameError
-    ///     ``"fortran"``.
-    /// IntervalError
-    ///     ``-0.1``, ``1.0``, NaN.
-    /// OrderError
+    /// InputError
+    ///     The language ``"fortran"``; β ``-0.1``, ``1.0``, NaN.
+    /// RepresentationError
     ///     An order above 100.
     ///
     /// Examples
@@ -344,7 +349,7 @@ fn gaussian<'py, K: IntoPyObject<'py>>(
 ///
 /// Raises
 /// ------
-/// IntervalError
+/// InputError
 ///     ``-0.1``, ``1.1``, NaN.
 ///
 /// Examples

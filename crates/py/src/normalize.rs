@@ -1,10 +1,10 @@
 //! `andoyer.normalize`.
 
-use andoyer_series::{Error as Algebra, PhaseSpace, Progress, RealField, Resonances, normalize_with};
+use andoyer_series::{Error as Algebra, MAXIMUM_EXPONENT, PhaseSpace, Progress, RealField, Resonances, normalize_with};
 use num_rational::BigRational;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyString;
+use pyo3::types::{PyDict, PyString};
 
 use crate::birkhoff::BirkhoffNormalForm;
 use crate::error;
@@ -13,9 +13,10 @@ use crate::form::{Form, rounded};
 use crate::order::order;
 use crate::progress;
 
-/// Birkhoff normal form of a polynomial Hamiltonian about an elliptic point at the origin.
+/// Birkhoff normal form of a polynomial Hamiltonian about an equilibrium at the origin.
 ///
-/// H = constant + Σ (a p² + b q²)/2 + terms of higher degree, ab > 0 for every pair (q, p). Order N normalizes the terms of degree
+/// The quadratic part may be any that can be diagonalized: oscillators, coupled or not, gyroscopic terms, saddles. A linear symplectic change makes it a
+/// sum of modes: centres ω (q²/r + r p²)/2, saddles λ q p, and quartets of complex eigenvalues. Order N normalizes the terms of degree
 /// N + 2 at most, by Lie transforms (Deprit's triangle).
 ///
 /// Parameters
@@ -27,34 +28,35 @@ use crate::progress;
 /// order : int
 ///     Order N ≥ 0. Terms beyond degree N + 2 do not matter.
 /// variables : sequence of (str, str)
-///     The pairs (q, p), up to four: all lists of exponents and states run q₁, p₁, q₂, p₂, …
+///     The pairs (q, p), up to four, as names or SymPy symbols: all lists of exponents and states run q₁, p₁, q₂, p₂, …
 /// parameters : sequence of str, optional
-///     Symbols in the coefficients beyond the quadratic part, of degree 0; eight variables and parameters together at most.
+///     Symbols in the coefficients, names or SymPy symbols; eight variables and parameters together at most. One that occurs in the quadratic part is a
+///     detuning, like d in ``(1 + d)*y^2/2``.
+/// degrees : dict of {str: int}, optional
+///     The degrees that parameters count in the order of the terms: by default 2 for a detuning and 0 for any other.
 /// resonances : sequence of sequences of int, optional
 ///     Vectors k with k·ω = 0: terms that turn with e^{i k·φ} for their integer combinations are kept. ``[(1, -1)]`` for equal frequencies.
+/// keep : {"hyperbolic"}, optional
+///     "hyperbolic" removes only what couples the centres to the saddles: the normal form restricts to the centre manifold, see `centre_manifold`.
 /// smallest_divisor : float, optional
 ///     Relative to the largest frequency, 0 to 1: a term with ``|k·ω|`` below it is an error unless it is kept, and the resonances given must
 ///     lie below it. 1e-6 costs six digits at worst; a wider bound admits resonances that are not exact.
 /// exact : bool, optional
 ///     True: rational numbers, which needs rational frequencies √(ab); floats count at their exact value. False: floats. By default
-///     exact where no coefficient is a float and the frequencies are rational.
+///     exact where no coefficient is a float and the eigenvalues are rational.
 /// progress : callable, optional
 ///     Called as ``progress(done, order)`` with the number of orders done, 0 to `order`. An exception in it stops the work and is raised
 ///     here.
 ///
 /// Raises
 /// ------
-/// HamiltonianError
-///     Linear terms, a quadratic part that is not diagonal or not elliptic, irrational frequencies with ``exact=True``, a text that is no
-///     polynomial, five pairs.
-/// ResonanceError
-///     A resonant term or small divisor that was not asked for, by its monomial; a resonance asked for that is none.
-/// UnknownNameError
-///     A name that is no variable.
-/// OrderError
-///     ``-1``, ``32764``; ``171`` in floats.
-/// IntervalError
-///     A smallest divisor outside 0 to 1, numbers that overflow.
+/// InputError
+///     A text that is no polynomial, a linear term, five pairs, a name that is no variable, a resonance that is none, another `keep`, the order ``-1``, a
+///     smallest divisor outside 0 to 1, numbers that overflow.
+/// TheoryError
+///     A quadratic part with a Jordan block or a zero frequency. A resonant term or small divisor that was not asked for: the message has its monomial.
+/// RepresentationError
+///     The orders ``32764``, and ``171`` in floats; irrational frequencies with ``exact=True``.
 ///
 /// Examples
 /// --------
@@ -64,8 +66,11 @@ use crate::progress;
 /// >>> henon_heiles = "(x^2 + X^2 + y^2 + Y^2)/2 + x^2*y - y^3/3"
 /// >>> normalize(henon_heiles, 2, [("x", "X"), ("y", "Y")], resonances=[(1, -1)]).in_real()[4, 0, 0, 0]
 /// Fraction(-5, 48)
+/// >>> saddle = normalize("(X^2 - 4*x^2)/2 + (Y^2 + y^2)/2 + x*y^2", 2, [("x", "X"), ("y", "Y")], keep="hyperbolic")
+/// >>> saddle.frequencies
+/// (2j, Fraction(1, 1))
 #[pyfunction]
-#[pyo3(signature = (hamiltonian, order, variables, *, parameters=None, resonances=None, smallest_divisor=1e-6, exact=None, progress=None))]
+#[pyo3(signature = (hamiltonian, order, variables, *, parameters=None, degrees=None, resonances=None, keep=None, smallest_divisor=1e-6, exact=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
 pub(crate) fn normalize(
     py: Python<'_>,
@@ -73,18 +78,29 @@ pub(crate) fn normalize(
     order: &Bound<'_, PyAny>,
     variables: &Bound<'_, PyAny>,
     parameters: Option<&Bound<'_, PyAny>>,
+    degrees: Option<&Bound<'_, PyDict>>,
     resonances: Option<&Bound<'_, PyAny>>,
+    keep: Option<&str>,
     smallest_divisor: f64,
     exact: Option<bool>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<BirkhoffNormalForm> {
-    let space = space(variables, parameters)?;
+    let space = space(variables, parameters, degrees)?;
+    let symbols = symbols(py, hamiltonian, variables, parameters)?;
     let order = self::order("order", order, 0, <BigRational as RealField>::MAXIMUM_ORDER)?;
     let Expression { polynomial, float } = Expression::new("hamiltonian", hamiltonian, &space)?;
     let vectors = resonances.map_or(Ok(Vec::new()), vectors)?;
     let resonances = Resonances::new(&vectors.iter().map(Vec::as_slice).collect::<Vec<_>>());
     let resonances =
         resonances.and_then(|some| some.with_smallest_divisor(smallest_divisor)).map_err(error::algebra)?;
+    let resonances = match keep {
+        None => resonances,
+        Some("hyperbolic") => resonances.with_centre(),
+        Some(other) => {
+            let message = format!("keep = {other:?}: it must be \"hyperbolic\" or None");
+            return Err(error::input("keep", other, "hyperbolic", message));
+        }
+    };
     let compute = |tell: &mut Progress<'_>| {
         let in_floats = |tell: &mut Progress<'_>| {
             normalize_with(&rounded(&polynomial), order, &space, &resonances, tell).map(Form::Float)
@@ -93,16 +109,44 @@ pub(crate) fn normalize(
             return in_floats(tell);
         }
         match normalize_with(&polynomial, order, &space, &resonances, tell) {
-            Err(Algebra::FrequencyIrrational { .. }) if exact.is_none() => in_floats(tell),
+            Err(Algebra::FrequencyIrrational { .. } | Algebra::SpectrumIrrational { .. }) if exact.is_none() => {
+                in_floats(tell)
+            }
             result => result.map(Form::Exact),
         }
     };
     let form = progress::reported(py, progress, compute)?;
-    Ok(BirkhoffNormalForm::new(form))
+    Ok(BirkhoffNormalForm::new(form, symbols))
+}
+
+/// The SymPy symbols among the arguments by their names, assumptions and all.
+fn symbols(
+    py: Python<'_>,
+    hamiltonian: &Bound<'_, PyAny>,
+    variables: &Bound<'_, PyAny>,
+    parameters: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Py<PyDict>> {
+    let symbols = PyDict::new(py);
+    let mut found = Vec::new();
+    if hamiltonian.hasattr("free_symbols")? {
+        found.extend(items(&hamiltonian.getattr("free_symbols")?).unwrap_or_default());
+    }
+    found.extend(items(variables).unwrap_or_default().iter().filter_map(items).flatten());
+    found.extend(parameters.and_then(items).unwrap_or_default());
+    for symbol in found {
+        if symbol.hasattr("assumptions0")? {
+            symbols.set_item(symbol.str()?, symbol)?;
+        }
+    }
+    Ok(symbols.unbind())
 }
 
 /// The phase space of names, or of whatever prints as a name.
-fn space(variables: &Bound<'_, PyAny>, parameters: Option<&Bound<'_, PyAny>>) -> PyResult<PhaseSpace> {
+fn space(
+    variables: &Bound<'_, PyAny>,
+    parameters: Option<&Bound<'_, PyAny>>,
+    degrees: Option<&Bound<'_, PyDict>>,
+) -> PyResult<PhaseSpace> {
     let wanted = "pairs (q, p), such as [(\"x\", \"p\")]";
     let refused = || refused("variables", wanted, variables);
     let mut pairs = Vec::new();
@@ -119,7 +163,13 @@ fn space(variables: &Bound<'_, PyAny>, parameters: Option<&Bound<'_, PyAny>>) ->
     let pairs: Vec<_> = pairs.iter().map(|(q, p)| (q.as_str(), p.as_str())).collect();
     let names: Vec<_> = names.iter().map(String::as_str).collect();
     let space = PhaseSpace::new(&pairs).map_err(|problem| error::algebra_of("variables", problem))?;
-    space.with_parameters(&names).map_err(|problem| error::algebra_of("parameters", problem))
+    let mut space = space.with_parameters(&names).map_err(|problem| error::algebra_of("parameters", problem))?;
+    for (name, degree) in degrees.into_iter().flatten() {
+        let degree = self::order("degrees", &degree, 0, MAXIMUM_EXPONENT as usize)? as u32;
+        let name = name.str()?.to_string();
+        space = space.with_degree(&name, degree).map_err(|problem| error::algebra_of("degrees", problem))?;
+    }
+    Ok(space)
 }
 
 /// The vectors of integers.

@@ -1,5 +1,8 @@
 //! `andoyer.Orbit`.
 
+use std::ffi::CString;
+
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -26,9 +29,14 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 /// mass_fraction : float, optional
 ///     Disturbing mass over the sum of both: 1 for the Sun on an asteroid, 1/82.3 for the Moon on the Earth.
 ///
+/// Warns
+/// -----
+/// UserWarning
+///     An inclination, node or argument beyond 2π: degrees by mistake.
+///
 /// Raises
 /// ------
-/// OrbitError
+/// InputError
 ///     A mean motion of 0 or -1, an eccentricity of 1 or -0.1, a mass fraction of 0 or 1.1, or what is not finite.
 /// TypeError
 ///     A text.
@@ -37,7 +45,7 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 /// --------
 /// >>> import numpy as np
 /// >>> sun = Orbit(2e-3, 0.1, inclination=0.4)
-/// >>> scene = Scene(Body([1, 1.02, 1.05]), [0, 0, 0, 1], [0, 0, 1], orbit=sun)
+/// >>> scene = Scene(Body([1, 1.02, 1.05]), [0, 0, 0, 1], [0, 0, 1], orbit=sun, tolerance=1e-5, span=(0, 1e6))
 /// >>> motion = scene.solve()
 /// >>> motion.plan.averaging, motion.plan.torque < 1e-5
 /// ('spin', True)
@@ -54,7 +62,9 @@ impl Orbit {
     #[pyo3(signature = (
         mean_motion, eccentricity=0.0, *, time_of_pericentre=0.0, inclination=0.0, node=0.0, argument_of_pericentre=0.0, mass_fraction=1.0
     ))]
+    #[expect(clippy::too_many_arguments, reason = "the elements, by keyword")]
     fn new(
+        py: Python<'_>,
         #[pyo3(from_py_with = mean_motion)] mean_motion: f64,
         #[pyo3(from_py_with = eccentricity)] eccentricity: f64,
         #[pyo3(from_py_with = time_of_pericentre)] time_of_pericentre: f64,
@@ -63,12 +73,13 @@ impl Orbit {
         #[pyo3(from_py_with = argument_of_pericentre)] argument_of_pericentre: f64,
         #[pyo3(from_py_with = mass_fraction)] mass_fraction: f64,
     ) -> PyResult<Self> {
-        andoyer_propagate::Orbit::new(mean_motion, eccentricity)
+        let orbit = andoyer_propagate::Orbit::new(mean_motion, eccentricity)
             .and_then(|orbit| orbit.time_of_pericentre(time_of_pericentre))
             .and_then(|orbit| orbit.plane(inclination, node, argument_of_pericentre))
             .and_then(|orbit| orbit.mass_fraction(mass_fraction))
-            .map(Self)
-            .map_err(error::propagation)
+            .map_err(error::propagation)?;
+        doubt(py, &orbit)?;
+        Ok(Self(orbit))
     }
 
     /// Mean motion n, in rad per unit of time.
@@ -139,6 +150,17 @@ impl Orbit {
         }
         ((mean_motion, eccentricity), keywords).into_pyobject(py)
     }
+}
+
+/// Warns of angles beyond a whole turn, which are often degrees.
+pub(crate) fn doubt(py: Python<'_>, orbit: &andoyer_propagate::Orbit) -> PyResult<()> {
+    for (argument, angle) in orbit.beyond_a_turn() {
+        let said =
+            format!("orbit.{argument} = {angle:?} is more than a whole turn: angles are in radians, not in degrees");
+        let said = CString::new(said)?;
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &said, 1)?;
+    }
+    Ok(())
 }
 
 // PyO3 leaves the name of an argument out of the message of its own `TypeError`.

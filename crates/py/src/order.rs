@@ -1,23 +1,26 @@
 //! Whole numbers from Python: anything with `__index__` but a boolean, of any size and sign.
 
-use pyo3::PyTypeInfo;
+use andoyer_series::error::{Kind, Value};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyBool;
+use pyo3::types::{PyBool, PyInt};
 
-use crate::error::OrderError;
+use crate::error;
 
 /// `value` as an order.
 pub(crate) fn order(argument: &str, value: &Bound<'_, PyAny>, minimum: usize, maximum: usize) -> PyResult<usize> {
-    whole_number::<OrderError>(argument, value, minimum, maximum)
+    let above = if argument == "order" { Kind::Representation } else { Kind::Input };
+    whole_number(argument, value, minimum, maximum, above)
 }
 
-/// `value` as a number. Whether it is within `minimum..=maximum` the Rust side says; here only what no `usize` can hold is refused.
-pub(crate) fn whole_number<E: PyTypeInfo>(
+/// `value` as a number. Whether it is within `minimum..=maximum` the Rust side says; here only what no `usize` can hold is refused, with an error of the kind
+/// `above` where it is too large.
+pub(crate) fn whole_number(
     argument: &str,
     value: &Bound<'_, PyAny>,
     minimum: usize,
     maximum: usize,
+    above: Kind,
 ) -> PyResult<usize> {
     if value.is_instance_of::<PyBool>() {
         return Err(PyTypeError::new_err(format!("{argument} must be a whole number, not bool")));
@@ -25,6 +28,11 @@ pub(crate) fn whole_number<E: PyTypeInfo>(
     value.extract().map_err(|_| {
         // Python refuses to print integers of thousands of digits.
         let shown = value.repr().map_or_else(|_| "(too long to print)".to_owned(), |text| text.to_string());
-        PyErr::new::<E, _>(format!("{argument} = {shown}: it must be a whole number from {minimum} to {maximum}"))
+        let message = format!("{argument} = {shown}: it must be a whole number from {minimum} to {maximum}");
+        let whole = value.is_instance_of::<PyInt>() && value.gt(maximum).unwrap_or(false);
+        let bound = Value::Integers(vec![minimum as i64, maximum as i64]);
+        let exception =
+            error::exception(if whole { above } else { Kind::Input }, Some(argument), None, Some(bound), message);
+        error::with_attribute(exception, "value", value.clone().unbind())
     })
 }

@@ -1,6 +1,9 @@
 //! `andoyer.Plan`.
 
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+
+use crate::error::InternalError;
 
 /// What is evaluated for a motion, and why: see `Motion.plan`; ``str(plan)`` is a table of it.
 ///
@@ -48,6 +51,24 @@ impl Plan {
         self.0.error_bound()
     }
 
+    /// The attitude error asked for over the span, in rad.
+    #[getter]
+    fn tolerance(&self) -> f64 {
+        self.0.tolerance()
+    }
+
+    /// Whether the error bound is within the tolerance, or within 2e-14 rad where the tolerance is less than double precision holds.
+    #[getter]
+    fn meets_tolerance(&self) -> bool {
+        self.0.meets_tolerance()
+    }
+
+    /// The sentence of the `ToleranceWarning` where the tolerance is not met, or None.
+    #[getter]
+    fn missed_tolerance(&self) -> Option<String> {
+        self.0.missed_tolerance()
+    }
+
     /// σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5).
     #[getter]
     fn separatrix_ratio(&self) -> f64 {
@@ -72,10 +93,37 @@ impl Plan {
         self.0.first_neglected()
     }
 
+    /// How `Motion.partials` computes: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; None on the separatrix, where there are none.
+    #[getter]
+    fn partials(&self) -> Option<&'static str> {
+        self.0.partials()
+    }
+
     /// What this scene did not need, and why: a list of str.
     #[getter]
     fn skipped(&self) -> Vec<String> {
         self.0.skipped().to_vec()
+    }
+
+    /// The plan in the text that pickles hold.
+    #[staticmethod]
+    fn _restored(text: &str) -> PyResult<Self> {
+        toml::from_str(text)
+            .map(Self)
+            .map_err(|error| PyValueError::new_err(format!("not the text of a plan: {error}")))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        let text = toml::to_string(&self.0).map_err(|error| InternalError::new_err(error.to_string()))?;
+        Ok((py.get_type::<Self>().getattr("_restored")?, (text,)))
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
     }
 
     fn __str__(&self) -> String {

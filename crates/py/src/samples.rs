@@ -1,12 +1,14 @@
 //! `andoyer.Samples`.
 
+use std::collections::BTreeMap;
+
 use numpy::{PyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyType;
+use pyo3::types::{PyDict, PyType};
 
 type Array = Py<PyArrayDyn<f64>>;
-type Parts = (Array, Array, Array, bool);
+type Parts = (Array, Array, Array, bool, Option<Py<PyAny>>, Py<PyDict>);
 
 /// Attitudes and angular velocities at some times, of a motion or of the members of an ensemble: what `Motion.at` and `Ensemble.at` return.
 ///
@@ -24,9 +26,11 @@ type Parts = (Array, Array, Array, bool);
 /// (2, (3,), (2, 3, 4), (2, 3, 3))
 #[pyclass(frozen, module = "andoyer")]
 pub(crate) struct Samples {
-    /// The times, float64, shape (n,); of an ensemble whose members have their own times (m, n).
-    #[pyo3(get)]
     times: Array,
+    /// Times of astropy, as they were given.
+    given: Option<Py<PyAny>>,
+    /// Why members of an ensemble have no samples, by index.
+    refused: Vec<(usize, Py<PyAny>)>,
     /// Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4) or (m, n, 4).
     /// With `scalar_first` they are [w, x, y, z].
     #[pyo3(get)]
@@ -40,13 +44,47 @@ pub(crate) struct Samples {
 }
 
 impl Samples {
+    /// The shape of the times as they were given.
+    fn given_shape(&self, py: Python<'_>) -> PyResult<Vec<usize>> {
+        match &self.given {
+            Some(given) => given.bind(py).getattr("shape")?.extract(),
+            None => Ok(self.times.bind(py).shape().to_vec()),
+        }
+    }
+
     pub(crate) fn new(times: Array, attitude: Array, angular_velocity: Array, scalar_first: bool) -> Self {
-        Self { times, attitude, angular_velocity, scalar_first }
+        Self { times, attitude, angular_velocity, scalar_first, given: None, refused: Vec::new() }
+    }
+
+    /// At times of another package.
+    pub(crate) fn given(self, given: Option<Py<PyAny>>) -> Self {
+        Self { given, ..self }
+    }
+
+    /// With the errors of members that have no samples.
+    pub(crate) fn refused(self, refused: Vec<(usize, Py<PyAny>)>) -> Self {
+        Self { refused, ..self }
     }
 }
 
 #[pymethods]
 impl Samples {
+    /// The times, float64, shape (n,); of an ensemble whose members have their own times (m, n). Times of astropy are given back as they are.
+    #[getter]
+    fn times(&self, py: Python<'_>) -> Py<PyAny> {
+        self.given.as_ref().map_or_else(|| self.times.clone_ref(py).into_any(), |given| given.clone_ref(py))
+    }
+
+    /// Why members have no samples but NaN: errors by index, of an ensemble with ``errors="nan"``; else empty.
+    #[getter]
+    fn errors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let errors = PyDict::new(py);
+        for (index, error) in &self.refused {
+            errors.set_item(index, error)?;
+        }
+        Ok(errors)
+    }
+
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
         match self.attitude.bind(py).shape() {
             [first, _, ..] => Ok(*first),
@@ -54,32 +92,35 @@ impl Samples {
         }
     }
 
-    fn __repr__(&self, py: Python<'_>) -> String {
-        let (times, rows) = (self.times.bind(py).shape(), self.attitude.bind(py).shape());
-        let at = match times {
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let (times, rows) = (self.given_shape(py)?, self.attitude.bind(py).shape());
+        let at = match &times[..] {
             [] => "a scalar time".to_owned(),
             [n] => counted(*n, "time"),
             [_, n, ..] => format!("{} each", counted(*n, "time")),
         };
-        match rows {
+        Ok(match rows {
             [members, ..] if rows.len() > times.len() + 1 || times.len() > 1 => {
                 format!("<Samples of {} at {at}>", counted(*members, "member"))
             }
             _ => format!("<Samples at {at}>"),
-        }
+        })
     }
 
     /// Puts together what `pickle` took apart.
     #[classmethod]
-    #[pyo3(signature = (times, attitude, angular_velocity, scalar_first=false))]
+    #[pyo3(signature = (times, attitude, angular_velocity, scalar_first=false, given=None, errors=None))]
     fn _restored(
         _class: &Bound<'_, PyType>,
         times: Array,
         attitude: Array,
         angular_velocity: Array,
         scalar_first: bool,
+        given: Option<Py<PyAny>>,
+        errors: Option<BTreeMap<usize, Py<PyAny>>>,
     ) -> Self {
-        Self::new(times, attitude, angular_velocity, scalar_first)
+        let refused = errors.into_iter().flatten().collect();
+        Self::new(times, attitude, angular_velocity, scalar_first).given(given).refused(refused)
     }
 
     /// A table of pandas, indexed by time, or by member and time: qx, qy, qz, qw, wx, wy, wz. pandas is imported here and nowhere else.
@@ -116,7 +157,9 @@ impl Samples {
         let (py, samples) = (slf.py(), slf.get());
         let [times, attitude, rates] =
             [&samples.times, &samples.attitude, &samples.angular_velocity].map(|array| array.clone_ref(py));
-        Ok((slf.get_type().getattr("_restored")?, (times, attitude, rates, samples.scalar_first)))
+        let given = samples.given.as_ref().map(|given| given.clone_ref(py));
+        let errors = samples.errors(py)?.unbind();
+        Ok((slf.get_type().getattr("_restored")?, (times, attitude, rates, samples.scalar_first, given, errors)))
     }
 }
 

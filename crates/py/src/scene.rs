@@ -2,101 +2,37 @@
 
 use std::path::PathBuf;
 
-use andoyer_propagate::{MAX_ORDER, State};
+use andoyer_propagate::{MAX_ORDER, ObservedPeriods, State};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
+use crate::array::TwoOrThree;
 use crate::body::Body;
 use crate::computing::detached;
+use crate::foreign::{self, Calendar};
 use crate::motion::Motion;
-use crate::orbit::Orbit;
-use crate::{array, error, foreign};
-
-/// A body, its state at an epoch, and the accuracy asked of the solution.
-///
-/// No unit is built in: time, moments and angular velocity in any consistent set, angles in rad.
-///
-/// Parameters
-/// ----------
-/// body : Body
-/// attitude : array_like, shape (4,), or scipy.spatial.transform.Rotation
-///     Unit quaternion [x, y, z, w], scalar last (Hamilton product), that rotates body components into inertial ones; a norm within 1e-6
-///     of 1 is normalized.
-/// angular_velocity : array_like, shape (3,)
-///     Body components, in rad per unit of time; zero is a body at rest. A Quantity of astropy is taken in SI units, here and wherever
-///     numbers are taken; a Time in TDB seconds since J2000.
-/// scalar_first : bool, optional
-///     Whether `attitude` is [w, x, y, z]. The property `attitude` has the scalar last all the same.
-/// epoch : float, optional
-///     Time of the state.
-/// orbit : Orbit, optional
-///     Relative orbit of a body whose gravity gradient acts (theory §9); by default none, and the motion is free.
-/// tolerance : float, optional
-///     Attitude error asked for over the span, in rad. Below about 1e-14 it means the best that double precision holds
-///     (`Plan.error_bound` says what that is).
-/// method : {"auto", "series", "closed"}, optional
-///     Perturbation series or closed form; "auto" is the closed form, or the series if an order is fixed.
-/// order : int, optional
-///     Fixed order of the series, of the secular part too (theory §7), 0 to 60; by default, with ``method="series"``, the one that the tolerance needs (theory §5).
-///     A fixed order is not raised for the tolerance: where it is too low, `Plan.error_bound` exceeds the tolerance and ``str(plan)``
-///     says that it "is not met", and over what.
-/// span : (float, float), optional
-///     Times over which the tolerance is asked for; by default any within 1e9 rotations. A motion can be evaluated outside it, up to
-///     1e15 rotations from the epoch; farther away is a `TimesError` of the motion.
-/// averaging : {"auto", "orbit", "spin"}, optional
-///     How far the equations of a scene with an orbit are averaged: over rotation and orbit, which leaves formulas; over the rotation alone; by
-///     default the first where it meets the tolerance.
-/// level : {"full", "moving", "paper"}, optional
-///     Terms of the short-period corrections: to all orders in J; at J = 0 alone; those with the disturbing body held fixed, as in the paper.
-/// name, source : str, optional
-///     What the scene is and where its figures come from: kept, printed, and nothing else.
-///
-/// Raises
-/// ------
-/// AttitudeError
-///     ``[0, 0, 0, 0]``, ``[0, 0, 0, 1.1]``, or not finite.
-/// AngularVelocityError, EpochError
-///     Not finite.
-/// ToleranceError
-///     ``0``, ``-1``, not finite.
-/// MethodError
-///     ``"taylor"``.
-/// OrderError
-///     ``-1``, ``61``, ``2.5``.
-/// SpanError
-///     ``(1, 0)``, or not finite.
-/// AveragingError, LevelError
-///     ``"moon"``.
-/// ShapeError
-///     An attitude of 3 numbers, an angular velocity of 4.
-/// TypeError
-///     A body that is a list, an orbit that is a number, a tolerance or an epoch that is a text, an order that is a boolean.
-///
-/// Examples
-/// --------
-/// >>> import numpy as np
-/// >>> scene = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0])
-/// >>> motion = scene.solve()
-/// >>> bool(abs(np.linalg.norm(motion.attitude(100.0)) - 1) < 1e-14)
-/// True
-#[pyclass(frozen, eq, module = "andoyer")]
-#[derive(PartialEq)]
-pub(crate) struct Scene(pub(crate) andoyer_propagate::Scene);
+use crate::orbit::{self, Orbit};
+use crate::scene_class::Scene;
+use crate::{array, error};
 
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(signature = (
-        body, attitude, angular_velocity, *, epoch=0.0, orbit=None, tolerance=1e-12, method="auto", order=None, span=None,
-        averaging="auto", level="full", name=None, source=None, scalar_first=false
-    ))]
+    #[pyo3(
+        signature = (
+            body, attitude, angular_velocity, *, epoch=None, orbit=None, tolerance=1e-12, method="auto", order=None, span=None,
+            averaging="auto", level="full", name=None, source=None, scalar_first=false
+        ),
+        text_signature = "(body, attitude, angular_velocity, *, epoch=0.0, orbit=None, tolerance=1e-12, method='auto', order=None, span=None, \
+                          averaging='auto', level='full', name=None, source=None, scalar_first=False)"
+    )]
     #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn new(
         body: &Bound<'_, PyAny>,
         attitude: &Bound<'_, PyAny>,
         angular_velocity: &Bound<'_, PyAny>,
-        #[pyo3(from_py_with = epoch)] epoch: f64,
+        epoch: Option<&Bound<'_, PyAny>>,
         orbit: Option<&Bound<'_, PyAny>>,
         #[pyo3(from_py_with = tolerance)] tolerance: f64,
         method: &str,
@@ -113,9 +49,10 @@ impl Scene {
         let mut attitude = array::fixed("attitude", attitude)?;
         foreign::scalar_last(&mut attitude, scalar_first);
         let angular_velocity = array::fixed("angular_velocity", angular_velocity)?;
+        let (epoch, calendar) = self::epoch(epoch)?;
         let state = State::new(epoch, attitude, angular_velocity).map_err(error::propagation)?;
         let method = method.parse().map_err(error::propagation)?;
-        let mut scene = andoyer_propagate::Scene::new(body.0.clone(), state)
+        let mut scene = andoyer_propagate::Scene::new(body.body.clone(), state)
             .tolerance(tolerance)
             .method(method)
             .averaging(averaging.parse().map_err(error::propagation)?)
@@ -127,7 +64,7 @@ impl Scene {
             scene = scene.order(crate::order::order("order", value, 0, MAX_ORDER)?);
         }
         if let Some(value) = span {
-            let [start, stop] = array::fixed("span", value)?;
+            let [start, stop] = array::span(value, epoch, calendar)?;
             scene = scene.span(start, stop);
         }
         if let Some(name) = name {
@@ -137,7 +74,120 @@ impl Scene {
             scene = scene.source(source);
         }
         scene.validate().map_err(error::propagation)?;
-        Ok(Self(scene))
+        Ok(Self { scene, tables: body.tables.clone(), calendar })
+    }
+
+    /// The torque-free state of a body that tumbles with these periods (theory §7): for a mode there is one.
+    ///
+    /// Parameters
+    /// ----------
+    /// body : Body
+    /// precession : float
+    ///     P_φ, of the precession of an axis about the angular momentum.
+    /// rotation : float
+    ///     P_ψ, of the rotation about this axis, or of its oscillation.
+    /// mode : {"short-axis", "long-axis"}, optional
+    ///     The axis that the angular momentum circles.
+    /// convention : {"extremal-axis", "long-axis", "short-axis"}, optional
+    ///     Whose periods they are: by default those of the mode's own axis, as light-curve papers give them; radar papers give those of the long axis.
+    /// momentum_direction : array_like, shape (3,) or (2,), optional
+    ///     Direction of the angular momentum: inertial components of any length, or (longitude, latitude) in rad; by default inertial axis 3.
+    /// phases : (float, float), optional
+    ///     Parts of P_ψ and P_φ, in turns, that have gone by at the epoch. At (0, 0) the mode's axis is nearest to the angular momentum, tilted towards
+    ///     (inertial axis 3) × momentum, or towards inertial axis 1 where the momentum is along axis 3.
+    /// epoch : float, optional
+    ///     Time of the state.
+    /// **options
+    ///     The other keyword arguments of `Scene`: orbit, tolerance, method, order, span, averaging, level, name, source.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A ratio P_ψ/P_φ that the body cannot have; the message has the interval that it can, as `Body.period_ratios`. A mode that a round body does not have; a period,
+    ///     a direction or phases that are none.
+    ///
+    /// Examples
+    /// --------
+    /// Apophis, in hours (Pravec et al. 2014):
+    ///
+    /// >>> scene = Scene.from_periods(Body([0.61, 0.965, 1.0]), 27.38, 263.0)
+    /// >>> motion = scene.solve()
+    /// >>> round(motion.energy_ratio, 5), round(motion.periods["long-axis"].precession, 2)
+    /// (1.02364, 30.56)
+    #[classmethod]
+    #[pyo3(signature = (
+        body, precession, rotation, *, mode="short-axis", convention="extremal-axis", momentum_direction=None, phases=None, epoch=None,
+        **options
+    ), text_signature = "(body, precession, rotation, *, mode='short-axis', convention='extremal-axis', momentum_direction=None, phases=None, epoch=0.0, **options)")]
+    #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
+    fn from_periods<'py>(
+        class: &Bound<'py, PyType>,
+        body: &Bound<'py, PyAny>,
+        #[pyo3(from_py_with = precession)] precession: f64,
+        #[pyo3(from_py_with = rotation)] rotation: f64,
+        mode: &str,
+        convention: &str,
+        momentum_direction: Option<&Bound<'py, PyAny>>,
+        phases: Option<&Bound<'py, PyAny>>,
+        epoch: Option<&Bound<'py, PyAny>>,
+        options: Option<Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (time, _) = self::epoch(epoch)?;
+        let mut periods = ObservedPeriods { epoch: time, ..ObservedPeriods::new(precession, rotation) };
+        periods.mode = mode.parse().map_err(error::propagation)?;
+        periods.convention = convention.parse().map_err(error::propagation)?;
+        if let Some(phases) = phases {
+            periods.phases = array::fixed("phases", phases)?;
+        }
+        if let Some(direction) = momentum_direction {
+            periods = match array::two_or_three("momentum_direction", direction)? {
+                TwoOrThree::Two([longitude, latitude]) => periods.towards(longitude, latitude),
+                TwoOrThree::Three(vector) => ObservedPeriods { momentum_direction: vector.into(), ..periods },
+            };
+        }
+        let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
+        let solve = || andoyer_propagate::Scene::from_periods(of_body, &periods);
+        let scene = detached(class.py(), error::propagation, solve)?;
+        with_options(class, body, (&scene, epoch), options)
+    }
+
+    /// The scene whose Andoyer variables at the epoch are these: the inverse of `Motion.andoyer` (theory §1).
+    ///
+    /// Parameters
+    /// ----------
+    /// body : Body
+    /// andoyer : array_like, shape (6,)
+    ///     (λ, μ, ν, Λ, M, N): angles in rad, momenta in the unit of moment × rate; M > 0, |Λ| ≤ M, |N| ≤ M. Small inclinations I and J, which Λ and N give by
+    ///     differences from M, are known to 1e-8 rad.
+    /// epoch : float, optional
+    ///     Time of the state.
+    /// **options
+    ///     The other keyword arguments of `Scene`.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A variable that is not finite or out of its bounds; the message has its index.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = Scene.from_andoyer(Body([1, 1.5, 2]), [0.1, 0.2, 0.3, 0.5, 1.0, 0.9])
+    /// >>> scene.solve().andoyer(0.0).round(12)
+    /// array([0.1, 0.2, 0.3, 0.5, 1. , 0.9])
+    #[classmethod]
+    #[pyo3(signature = (body, andoyer, *, epoch=None, **options), text_signature = "(body, andoyer, *, epoch=0.0, **options)")]
+    fn from_andoyer<'py>(
+        class: &Bound<'py, PyType>,
+        body: &Bound<'py, PyAny>,
+        andoyer: &Bound<'py, PyAny>,
+        epoch: Option<&Bound<'py, PyAny>>,
+        options: Option<Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
+        let variables = array::fixed("andoyer", andoyer)?;
+        let (time, _) = self::epoch(epoch)?;
+        let scene = andoyer_propagate::Scene::from_andoyer(of_body, variables, time).map_err(error::propagation)?;
+        with_options(class, body, (&scene, epoch), options)
     }
 
     /// The scene of a TOML file.
@@ -148,113 +198,119 @@ impl Scene {
     ///
     /// Raises
     /// ------
-    /// SceneFileError
+    /// FileError
     ///     No such file, no TOML, an unknown or missing key, a value that no scene has; the message names file, key and bound.
     #[classmethod]
-    fn from_toml(_class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
-        andoyer_propagate::Scene::from_toml(path).map(Self).map_err(error::propagation)
+    fn from_toml(class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
+        let scene = andoyer_propagate::Scene::from_toml(path).map_err(error::propagation)?;
+        scene.asked_orbit().map_or(Ok(()), |orbit| orbit::doubt(class.py(), orbit))?;
+        Ok(Self::from(scene))
     }
 
     /// The scene as TOML text, which `from_toml` reads back from a file to an equal scene.
     fn to_toml(&self) -> String {
-        self.0.to_toml()
+        self.scene.to_toml()
     }
 
     /// The motion: everything that does not depend on time is done here, once.
     ///
+    /// Warns
+    /// -----
+    /// ToleranceWarning
+    ///     Once, with both numbers, where the error bound exceeds the tolerance over the span (`Plan.meets_tolerance`).
+    ///
     /// Raises
     /// ------
-    /// SeparatrixError
+    /// TheoryError
     ///     ``method="series"`` where the tolerance needs an order above 60, so near is the separatrix, or on it.
-    /// SpinResonanceError
     ///     An orbit that is in resonance with the rotation, or not much slower: the Moon, Dimorphos. The message names the pair (k−j, m).
-    /// TorqueError
     ///     An orbit whose torque is too strong for an expansion in it.
-    /// AveragingError
     ///     An orbit, and a motion too near the separatrix, a body at rest or on its middle axis, or a round one that turns about an axis across; or more orbits
     ///     than `averaging="spin"` solves.
-    /// UnitsError
+    /// RepresentationError
     ///     The angular momentum, moment × rate, is no normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {
-        detached(py, error::propagation, || self.0.solve()).map(Motion)
+        let motion = detached(py, error::propagation, || self.scene.solve_with(&self.tables))?;
+        error::warn_of_tolerance(py, motion.plan().missed_tolerance())?;
+        Ok(Motion(motion, self.calendar))
     }
 
     /// The body.
     #[getter]
     fn body(&self) -> Body {
-        Body(self.0.body().clone())
+        Body { body: self.scene.body().clone(), tables: self.tables.clone() }
     }
 
     /// The attitude at the epoch: unit quaternion [x, y, z, w], normalized, a read-only array of shape (4,).
     #[getter]
     fn attitude<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
-        array::constant(py, self.0.state().attitude.coords.as_slice()).into_any()
+        array::constant(py, self.scene.state().attitude.coords.as_slice()).into_any()
     }
 
     /// The angular velocity at the epoch, in body components, in rad per unit of time: a read-only array of shape (3,).
     #[getter]
     fn angular_velocity<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
-        array::constant(py, self.0.state().angular_velocity.as_slice()).into_any()
+        array::constant(py, self.scene.state().angular_velocity.as_slice()).into_any()
     }
 
     /// The time of the state.
     #[getter]
     fn epoch(&self) -> f64 {
-        self.0.state().epoch
+        self.scene.state().epoch
     }
 
     /// The attitude error asked for, in rad.
     #[getter]
     fn tolerance(&self) -> f64 {
-        self.0.asked_tolerance()
+        self.scene.asked_tolerance()
     }
 
     /// The method: "auto", "series" or "closed".
     #[getter]
     fn method(&self) -> String {
-        self.0.asked_method().to_string()
+        self.scene.asked_method().to_string()
     }
 
     /// The fixed order of the series, or None.
     #[getter]
     fn order(&self) -> Option<usize> {
-        self.0.asked_order()
+        self.scene.asked_order()
     }
 
     /// The times over which the tolerance is asked for: (start, stop), or None.
     #[getter]
     fn span(&self) -> Option<(f64, f64)> {
-        self.0.asked_span()
+        self.scene.asked_span()
     }
 
     /// The orbit of the disturbing body, or None.
     #[getter]
     fn orbit(&self) -> Option<Orbit> {
-        self.0.asked_orbit().copied().map(Orbit)
+        self.scene.asked_orbit().copied().map(Orbit)
     }
 
     /// The averaging: "auto", "orbit" or "spin".
     #[getter]
     fn averaging(&self) -> String {
-        self.0.asked_averaging().to_string()
+        self.scene.asked_averaging().to_string()
     }
 
     /// The level: "full", "moving" or "paper".
     #[getter]
     fn level(&self) -> String {
-        self.0.asked_level().to_string()
+        self.scene.asked_level().to_string()
     }
 
     /// The name, or None.
     #[getter]
     fn name(&self) -> Option<&str> {
-        self.0.asked_name()
+        self.scene.asked_name()
     }
 
     /// Where the figures come from, or None.
     #[getter]
     fn source(&self) -> Option<&str> {
-        self.0.asked_source()
+        self.scene.asked_source()
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
@@ -262,15 +318,16 @@ impl Scene {
         for (key, value) in self.keywords(py)?.iter() {
             keywords += &format!(", {key}={}", value.repr()?);
         }
-        let state = self.0.state();
+        let state = self.scene.state();
         let [attitude, rates] = [state.attitude.coords.as_slice(), state.angular_velocity.as_slice()];
         Ok(format!("Scene({}, {attitude:?}, {rates:?}{keywords})", self.body().__repr__(py)?))
     }
 
     fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
-        let state = self.0.state();
+        let state = self.scene.state();
         let numbers: ([f64; 4], [f64; 3]) = (state.attitude.coords.into(), state.angular_velocity.into());
-        let keywords = PyTuple::new(py, self.keywords(py)?.values())?;
+        let keywords = Self::from(self.scene.clone()).keywords(py)?.values();
+        let keywords = PyTuple::new(py, keywords)?;
         let [attitude, rates] = [PyTuple::new(py, numbers.0)?, PyTuple::new(py, numbers.1)?];
         (self.body().__hash__(py)?, attitude, rates, keywords).into_pyobject(py)?.hash()
     }
@@ -284,19 +341,48 @@ impl Scene {
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let state = self.0.state();
+        let state = self.scene.state();
         let [attitude, rates] = [state.attitude.coords.as_slice(), state.angular_velocity.as_slice()];
         ((self.body(), attitude, rates), self.keywords(py)?).into_pyobject(py)
     }
 }
 
 // PyO3 leaves the name of an argument out of the message of its own `TypeError`.
-fn epoch(value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    array::number("epoch", value)
+fn epoch(value: Option<&Bound<'_, PyAny>>) -> PyResult<(f64, Option<Calendar>)> {
+    let Some(value) = value else { return Ok((0.0, None)) };
+    let (numbers, calendar) = foreign::epochs("epoch", value)?;
+    Ok((array::number("epoch", &numbers)?, calendar.first().copied()))
 }
 
 fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
     array::number("tolerance", value)
+}
+
+fn precession(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    array::number("precession", value)
+}
+
+fn rotation(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    array::number("rotation", value)
+}
+
+/// The scene of this state, at the epoch as it was given, with the keyword arguments of `Scene`.
+fn with_options<'py>(
+    class: &Bound<'py, PyType>,
+    body: &Bound<'py, PyAny>,
+    (scene, epoch): (&andoyer_propagate::Scene, Option<&Bound<'py, PyAny>>),
+    options: Option<Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let keywords = options.unwrap_or_else(|| PyDict::new(class.py()));
+    if keywords.contains("scalar_first")? {
+        return Err(PyTypeError::new_err("scalar_first says how an attitude is given, and none is given here"));
+    }
+    let State { attitude, angular_velocity, .. } = scene.state();
+    if let Some(epoch) = epoch {
+        keywords.set_item("epoch", epoch)?;
+    }
+    let (attitude, rates): ([f64; 4], [f64; 3]) = (attitude.coords.into(), (*angular_velocity).into());
+    class.call((body, attitude, rates), Some(&keywords))
 }
 
 /// What is said of a body that is none.
@@ -318,7 +404,10 @@ impl Scene {
     /// The keyword arguments that make this scene.
     fn keywords<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let keywords = PyDict::new(py);
-        keywords.set_item("epoch", self.epoch())?;
+        match self.calendar {
+            Some(calendar) => keywords.set_item("epoch", foreign::calendar(py, &[calendar])?.get_item(0)?)?,
+            None => keywords.set_item("epoch", self.epoch())?,
+        }
         keywords.set_item("orbit", self.orbit())?;
         keywords.set_item("tolerance", self.tolerance())?;
         keywords.set_item("method", self.method())?;

@@ -26,10 +26,27 @@ def test_catalogue_knows_its_bodies_in_any_case():
     assert "Ceres" in Body.catalogue()
     assert Body.named("ceres") == Body.named("CERES")
     assert Body.named("ceres").name == "Ceres"
-    assert all(Body.source(name) for name in Body.catalogue())
+    for name in Body.catalogue():
+        assert "read" in Body.source(name) or "derived" in Body.source(name)
+        assert not [word for word in ("recalled", "memory") if word in Body.source(name)]
     for lookup in [Body.named, Body.source]:
-        with pytest.raises(andoyer.UnknownBodyError, match='"vulcan".*Ceres'):
+        with pytest.raises(andoyer.InputError, match='"vulcan".*Ceres'):
             lookup("vulcan")
+
+
+@pytest.mark.parametrize("misspelt, known", [("ceers", "Ceres"), ("toutatos", "Toutatis"), ("Aphopis", "Apophis"), ("hyperyon", "Hyperion")])
+def test_misspelt_name_is_answered_with_the_nearest_one(misspelt, known):
+    with pytest.raises(andoyer.InputError, match=f'did you mean "{known}"'):
+        Body.named(misspelt)
+    with pytest.raises(andoyer.InputError, match="^(?!.*did you mean)"):
+        Body.named("vulcan")
+
+
+def test_quaternion_that_is_not_normalized_is_told_how_and_reminded_of_the_order(body):
+    with pytest.raises(andoyer.InputError, match=r"it is 2\); to normalize it, divide it by its norm; .*scalar_first=True"):
+        Scene(body, [0, 0, 0, 2], RATES)
+    with pytest.raises(andoyer.InputError, match=r"it is 0\)$"):
+        Scene(body, [0, 0, 0, 0], RATES)
 
 
 @pytest.mark.parametrize("name", ["earth", "ceres", "vesta", "eros", "apophis"])
@@ -82,35 +99,35 @@ def test_attitude_near_unit_norm_is_normalized_and_read_only(body):
 
 @pytest.mark.parametrize("moments", [[0, 1, 1], [1, -1, 1], [1, NAN, 1], [1, 1, INF], [1, 1, 2.1], [1e-101, 1, 1]])
 def test_moments_that_no_body_has_are_refused(moments):
-    with pytest.raises(andoyer.MomentsError, match="moments"):
+    with pytest.raises(andoyer.InputError, match="moments"):
         Body(moments)
 
 
 BAD_SCENES = {
-    "zero attitude": (andoyer.AttitudeError, {"attitude": [0, 0, 0, 0]}),
-    "NaN attitude": (andoyer.AttitudeError, {"attitude": [NAN, 0, 0, 1]}),
-    "infinite attitude": (andoyer.AttitudeError, {"attitude": [INF, 0, 0, 1]}),
-    "long attitude": (andoyer.AttitudeError, {"attitude": [0, 0, 0, 1.1]}),
-    "NaN rate": (andoyer.AngularVelocityError, {"angular_velocity": [0, NAN, 1]}),
-    "infinite rate": (andoyer.AngularVelocityError, {"angular_velocity": [0, 0, -INF]}),
-    "NaN epoch": (andoyer.EpochError, {"epoch": NAN}),
-    "zero tolerance": (andoyer.ToleranceError, {"tolerance": 0}),
-    "negative tolerance": (andoyer.ToleranceError, {"tolerance": -1e-9}),
-    "NaN tolerance": (andoyer.ToleranceError, {"tolerance": NAN}),
-    "infinite tolerance": (andoyer.ToleranceError, {"tolerance": INF}),
-    "unknown method": (andoyer.MethodError, {"method": "magic"}),
-    "negative order": (andoyer.OrderError, {"order": -1}),
-    "high order": (andoyer.OrderError, {"order": 61}),
-    "huge order": (andoyer.OrderError, {"order": 10**30}),
-    "half an order": (andoyer.OrderError, {"order": 2.5}),
-    "backward span": (andoyer.SpanError, {"span": (1, 0)}),
-    "infinite span": (andoyer.SpanError, {"span": (0, INF)}),
-    "span of three": (andoyer.ShapeError, {"span": (0, 1, 2)}),
-    "attitude of three": (andoyer.ShapeError, {"attitude": [0, 0, 1]}),
-    "matrix of attitudes": (andoyer.ShapeError, {"attitude": [[0, 0, 0, 1]]}),
-    "ragged attitude": (andoyer.ShapeError, {"attitude": [[0, 0], 0, 1, 0]}),
-    "scalar rate": (andoyer.ShapeError, {"angular_velocity": 1.0}),
-    "empty rates": (andoyer.ShapeError, {"angular_velocity": []}),
+    "zero attitude": (andoyer.InputError, {"attitude": [0, 0, 0, 0]}),
+    "NaN attitude": (andoyer.InputError, {"attitude": [NAN, 0, 0, 1]}),
+    "infinite attitude": (andoyer.InputError, {"attitude": [INF, 0, 0, 1]}),
+    "long attitude": (andoyer.InputError, {"attitude": [0, 0, 0, 1.1]}),
+    "NaN rate": (andoyer.InputError, {"angular_velocity": [0, NAN, 1]}),
+    "infinite rate": (andoyer.InputError, {"angular_velocity": [0, 0, -INF]}),
+    "NaN epoch": (andoyer.InputError, {"epoch": NAN}),
+    "zero tolerance": (andoyer.InputError, {"tolerance": 0}),
+    "negative tolerance": (andoyer.InputError, {"tolerance": -1e-9}),
+    "NaN tolerance": (andoyer.InputError, {"tolerance": NAN}),
+    "infinite tolerance": (andoyer.InputError, {"tolerance": INF}),
+    "unknown method": (andoyer.InputError, {"method": "magic"}),
+    "negative order": (andoyer.InputError, {"order": -1}),
+    "high order": (andoyer.RepresentationError, {"order": 61}),
+    "huge order": (andoyer.RepresentationError, {"order": 10**30}),
+    "half an order": (andoyer.InputError, {"order": 2.5}),
+    "backward span": (andoyer.InputError, {"span": (1, 0)}),
+    "infinite span": (andoyer.InputError, {"span": (0, INF)}),
+    "span of three": (andoyer.InputError, {"span": (0, 1, 2)}),
+    "attitude of three": (andoyer.InputError, {"attitude": [0, 0, 1]}),
+    "matrix of attitudes": (andoyer.InputError, {"attitude": [[0, 0, 0, 1]]}),
+    "ragged attitude": (andoyer.InputError, {"attitude": [[0, 0], 0, 1, 0]}),
+    "scalar rate": (andoyer.InputError, {"angular_velocity": 1.0}),
+    "empty rates": (andoyer.InputError, {"angular_velocity": []}),
     "text attitude": (TypeError, {"attitude": "up"}),
     "texts in attitude": (TypeError, {"attitude": ["0", "0", "0", "1"]}),
     "no attitude": (TypeError, {"attitude": None}),
@@ -158,17 +175,17 @@ def test_scalars_that_are_numbers_are_taken(body):
 
 def test_momentum_without_a_double_is_a_units_error():
     scene = Scene(Body([1e-200, 1.5e-200, 2e-200]), ATTITUDE, [1e-200, 0, 1e-199])
-    with pytest.raises(andoyer.UnitsError, match="momentum.*units"):
+    with pytest.raises(andoyer.RepresentationError, match="momentum.*units"):
         scene.solve()
 
 
 def test_shape_error_has_both_shapes(body):
-    with pytest.raises(andoyer.ShapeError, match=r"attitude has shape \(2, 4\): it must be \(4,\)"):
+    with pytest.raises(andoyer.InputError, match=r"attitude has shape \(2, 4\): it must be \(4,\)"):
         Scene(body, np.zeros((2, 4)), RATES)
 
 
 def test_unknown_method_is_refused(body):
-    with pytest.raises(andoyer.MethodError, match='"taylor"'):
+    with pytest.raises(andoyer.InputError, match='"taylor"'):
         Scene(body, ATTITUDE, RATES, method="taylor")
     assert Scene(body, ATTITUDE, RATES, method="closed").method == "closed"
 
@@ -204,12 +221,12 @@ def test_bad_scene_file_is_named_with_key_and_bound(scene, tmp_path, line, messa
     path = tmp_path / "bad.toml"
     lines = [old for old in scene.to_toml().splitlines() if old.split(" ")[0] != line.split(" ")[0]]
     path.write_text("\n".join([line, *lines]), encoding="utf-8")
-    with pytest.raises(andoyer.SceneFileError, match=rf"bad\.toml.*{message}"):
+    with pytest.raises(andoyer.FileError, match=rf"bad\.toml.*{message}"):
         Scene.from_toml(path)
 
 
 def test_missing_scene_file_is_a_scene_file_error(tmp_path):
-    with pytest.raises(andoyer.SceneFileError, match="absent.toml"):
+    with pytest.raises(andoyer.FileError, match="absent.toml"):
         Scene.from_toml(tmp_path / "absent.toml")
     with pytest.raises(TypeError):
         Scene.from_toml(3)

@@ -30,13 +30,13 @@ def test_times_that_cannot_fit_are_refused_with_their_size(motion):
 
 @pytest.mark.parametrize("order", [16_382, 10**9, 2**70])
 def test_an_order_beyond_every_form_is_refused_with_its_bound(order):
-    refused(lambda: andoyer.NormalForm(order), andoyer.OrderError, "16381")
+    refused(lambda: andoyer.NormalForm(order), andoyer.RepresentationError, "16381")
 
 
 @pytest.mark.parametrize("order", [2_000, 16_381])
 def test_an_order_beyond_the_memory_is_refused_with_its_size(order):
-    refused(lambda: andoyer.NormalForm(order), andoyer.OrderError, rf"order {order} would take some \d+ GiB of memory: the bound is 8 GiB")
+    refused(lambda: andoyer.NormalForm(order), andoyer.RepresentationError, rf"order {order} would take some \d+ GiB of memory: the bound is 8 GiB")
 
 
 def test_an_order_beyond_the_series_of_a_scene_is_refused_with_its_bound(body):
-    refused(lambda: andoyer.Scene(body, [0, 0, 0, 1], [0.1, 0.2, 1.0], method="series", order=61).solve(), andoyer.OrderError, "60")
+    refused(lambda: andoyer.Scene(body, [0, 0, 0, 1], [0.1, 0.2, 1.0], method="series", order=61).solve(), andoyer.RepresentationError, "60")

@@ -73,7 +73,7 @@ def test_samples_more_than_half_a_rotation_apart_are_noted(scene_file, motion, t
     assert done.returncode == 0 and done.stdout == "" and done.stderr.count("\n") == 1
     found = re.match(r"andoyer: note: samples are (\S+) rotations apart; --step (\S+) ", done.stderr)
     assert float(found[1]) == pytest.approx(apart, rel=5e-3)
-    assert run("propagate", scene_file, "-o", tmp_path / "out.csv", "--stop", "1000", "--step", found[2]).stderr == ""
+    assert run("propagate", scene_file, "-o", tmp_path / "out.csv", "--stop", "1000", "--step", found[2], "--force").stderr == ""
     assert len(read(tmp_path / "out.csv")) > 10_000
 
 
@@ -81,7 +81,7 @@ def test_npz_holds_the_motion(scene_file, motion, tmp_path):
     output = tmp_path / "out.NPZ"
     assert run("propagate", scene_file, "-o", output, "--samples", "5").returncode == 0
     with np.load(output) as file:
-        assert sorted(file) == ["angular_velocity", "attitude", "convention", "times"]
+        assert sorted(file) == ["angular_velocity", "attitude", "convention", "scene", "times", "units"]
         assert np.array_equal(file["attitude"], motion.attitude(file["times"]))
         assert np.array_equal(file["angular_velocity"], motion.angular_velocity(file["times"]))
 
@@ -100,7 +100,7 @@ def test_span_of_the_scene_is_the_default_if_there_is_one(scene, tmp_path):
     path.write_text(given.to_toml(), encoding="utf-8")
     assert main(["propagate", str(path), "-o", str(output), "--samples", "4"]) == 0
     assert read(output)[:, 0].tolist() == [1, 2, 3, 4]
-    assert main(["propagate", str(path), "-o", str(output), "--samples", "1", "--start", "3"]) == 0
+    assert main(["propagate", str(path), "-o", str(output), "--samples", "1", "--start", "3", "--force"]) == 0
     assert read(output)[:, 0].tolist() == [3]
 
 
@@ -140,8 +140,8 @@ BAD_LINES = {
     "unknown command": (["dance"], "dance"),
     "missing scene": (["plan", "absent.toml"], "absent.toml"),
     "missing output": (["propagate", "SCENE"], "--output"),
-    "unknown ending": (["propagate", "SCENE", "-o", "out.txt"], r"out\.txt.*\.csv, \.npz, \.parquet or \.aem"),
-    "no ending": (["propagate", "SCENE", "-o", "out"], r"\.csv, \.npz, \.parquet or \.aem"),
+    "unknown ending": (["propagate", "SCENE", "-o", "out.txt"], r"out\.txt.*\.csv, \.npz, \.parquet, \.aem or \.bc"),
+    "no ending": (["propagate", "SCENE", "-o", "out"], r"\.csv, \.npz, \.parquet, \.aem or \.bc"),
     "no directory": (["propagate", "SCENE", "-o", "absent/out.csv"], "absent"),
     "NaN start": (["propagate", "SCENE", "-o", "out.csv", "--start", "nan"], "--start: must be a finite number: got 'nan'"),
     "text start": (["propagate", "SCENE", "-o", "out.csv", "--start", "noon"], "argument --start: must be a finite number: got 'noon'"),
@@ -155,14 +155,26 @@ BAD_LINES = {
     "NaN step": (["propagate", "SCENE", "-o", "out.csv", "--step", "nan"], "--step.*finite"),
     "tiny step": (["propagate", "SCENE", "-o", "out.csv", "--step", "1e-300"], "--step.*at most 1000000000 samples"),
     "samples and step": (["propagate", "SCENE", "-o", "out.csv", "--samples", "3", "--step", "1"], "--samples.*--step|--step.*--samples"),
-    "date of a table": (["propagate", "SCENE", "-o", "out.csv", "--date", "2026-01-01"], "--date: goes with a .aem alone"),
+    "date of a table": (["propagate", "SCENE", "-o", "out.csv", "--date", "2026-01-01"], "--date: goes with a .aem or .bc alone"),
     "no date": (["propagate", "SCENE", "-o", "out.aem", "--date", "noon"], "--date: must be a date like .*: got 'noon'"),
     "date in a zone": (["propagate", "SCENE", "-o", "out.aem", "--date", "2026-01-01T00:00:00+01:00"], "--date.*without a zone"),
-    "leap seconds": (["propagate", "SCENE", "-o", "out.aem", "--time-system", "UTC"], "--time-system.*UTC"),
+    "unknown time system": (["propagate", "SCENE", "-o", "out.aem", "--time-system", "UT1"], "--time-system.*UT1"),
+    "Z beside a time system": (["propagate", "SCENE", "-o", "out.aem", "--date", "2026-01-01T00:00:00Z", "--time-system", "TT"], "--date: Z is UTC, but --time-system is TT"),
+    "UTC of old": (["propagate", "SCENE", "-o", "out.aem", "--date", "1969-01-01T00:00:00Z"], "whole leap seconds from 1972-01-01 on"),
+    "steps of a kernel": (["propagate", "SCENE", "-o", "out.bc", "--step", "1"], "--step: a .bc chooses its times itself"),
+    "clock of a message": (["propagate", "SCENE", "-o", "out.aem", "--clock", "x.tsc"], "--clock: goes with a .bc alone, not with out.aem"),
+    "object of a kernel": (["propagate", "SCENE", "-o", "out.bc", "--object-id", "x"], "--object-id: goes with a .aem alone, not with out.bc"),
+    "degree of text": (["propagate", "SCENE", "-o", "out.aem", "--interpolation", "HERMITE"], "--interpolation: must be METHOD:DEGREE"),
+    "degree above the samples": (["propagate", "SCENE", "-o", "out.aem", "--samples", "3", "--interpolation", "HERMITE:3"], "degree 1 to 2"),
+    "rates of version 1": (["propagate", "SCENE", "-o", "out.aem", "--aem-version", "1", "--attitude-type", "QUATERNION/ANGVEL"], "attitude_type.*version 1"),
+    "nutation of a triaxial body": (["propagate", "SCENE", "-o", "out.aem", "--attitude-type", "SPIN/NUTATION_MOM"], "equal moments about axes 1 and 2"),
+    "spin that wobbles": (["propagate", "SCENE", "-o", "out.aem", "--attitude-type", "SPIN"], "about body axis 3 alone"),
+    "picture of a missing file": (["plot", "absent.aem", "-o", "out.png"], "absent.aem"),
+    "scene against a scene": (["plot", "SCENE", "-o", "out.png", "--against", "SCENE"], "--against: goes with a file of attitudes alone"),
     "two words": (["propagate", "SCENE", "-o", "out.aem", "--frame", "my frame"], "--frame: must be one word"),
     "year 10000": (["propagate", "SCENE", "-o", "out.aem", "--stop", "1e12"], "years from 1 to 9999"),
     "time stands still": (["propagate", "SCENE", "-o", "out.aem", "--start", "3", "--stop", "3", "--samples", "2"], "ascending times"),
-    "picture of text": (["plot", "SCENE", "-o", "out.txt"], r"\.png, \.svg, \.pdf"),
+    "picture of text": (["plot", "SCENE", "-o", "out.txt"], r"\.png, \.svg, \.pdf, \.html"),
     "time without a phase": (["propagate", "SCENE", "-o", "out.csv", "--stop", "1e308"], r"times\[\d+\]"),
     "negative order": (["series", "--order", "-1"], "order"),
     "huge order": (["series", "--order", "100000"], "order.*16381"),

@@ -6,6 +6,9 @@ import inspect
 import pytest
 
 import andoyer
+from andoyer import output
+
+NEEDS = {"output.write_ck": "spiceypy"}
 
 
 def documented():
@@ -15,13 +18,16 @@ def documented():
         yield name, value
         if inspect.isclass(value):
             yield from ((f"{name}.{member}", getattr(value, member)) for member in vars(value) if not member.startswith("_"))
+    yield from ((f"output.{name}", getattr(output, name)) for name in output.__all__ if callable(getattr(output, name)) and name != "Progress")
 
 
 EXAMPLES = {name: value for name, value in documented() if ">>>" in (inspect.getdoc(value) or "")}
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_example_of_the_docstring_holds(name):
+def test_example_of_the_docstring_holds(name, tmp_path, monkeypatch):
+    pytest.importorskip(NEEDS.get(name, "numpy"))
+    monkeypatch.chdir(tmp_path)
     text = inspect.getdoc(EXAMPLES[name])
     test = doctest.DocTestParser().get_doctest(text, vars(andoyer).copy(), name, None, None)
     results = doctest.DocTestRunner().run(test)

@@ -1,5 +1,6 @@
 """docs/scene.md held against the package: its example is solved, its keys, columns and names are those there are."""
 
+import builtins
 import re
 
 import numpy as np
@@ -32,14 +33,14 @@ def test_lines_that_the_example_comments_out_are_keys_too(example):
     example.write_text(UNCOMMENTED, encoding="utf-8")
     scene = andoyer.Scene.from_toml(example)
     assert scene.order == 8 and scene.body == andoyer.Body.named("ceres")
-    assert scene.orbit == andoyer.Orbit(4.323e-8, 0.0785, argument_of_pericentre=1.0)
+    assert scene.orbit == andoyer.Orbit(4.329e-8, 0.0797, argument_of_pericentre=1.0)
     assert scene.solve().plan.averaging == "spin"
 
 
 def known(path, line):
     """The keys that the error for an unknown one lists, in the table of `line`."""
     path.write_text(UNCOMMENTED.replace(line, f"{line}\ncolour = 1") if line else f"colour = 1\n{EXAMPLE}", encoding="utf-8")
-    with pytest.raises(andoyer.SceneFileError, match="colour") as caught:
+    with pytest.raises(andoyer.FileError, match="colour") as caught:
         andoyer.Scene.from_toml(path)
     return str(caught.value).partition("known here: ")[2].split(", ")
 
@@ -62,3 +63,20 @@ def test_columns_and_keys_of_what_is_written_are_listed(example):
     with np.load(output) as file:
         assert [f"`{key}`" for key in file] == npz
         assert len(file["times"]) == 61
+
+
+def test_no_symbol_stands_twice_in_the_table_of_symbols():
+    rows = re.findall(r"^\| (.+?) \|", (REPOSITORY / "docs/symbols.md").read_text(encoding="utf-8"), re.MULTILINE)[2:]
+    symbols = [symbol for row in rows for symbol in re.split(r", | ≤ ", row)]
+    assert len(symbols) > 60 and sorted(symbols) == sorted(set(symbols))
+
+
+def test_errors_that_the_pages_name_exist_and_are_raised_for_what_they_say():
+    pages = [REPOSITORY / "README.md", REPOSITORY / "CHANGELOG.md", *(REPOSITORY / "docs").glob("*.md")]
+    named = {(page.name, name) for page in pages for name in re.findall(r"`(?:andoyer\.)?(\w+Error)`", page.read_text(encoding="utf-8"))}
+    assert ("gravity-gradient.md", "TheoryError") in named
+    assert not [(page, name) for page, name in named if not (hasattr(andoyer, name) or name in dir(builtins))]
+    # A synchronous moon, which gravity-gradient.md gives as an example.
+    moon = andoyer.Scene(andoyer.Body.named("moon"), [0, 0, 0, 1], [0, 0, 1], orbit=andoyer.Orbit(1.0, 0.0554))
+    with pytest.raises(andoyer.TheoryError):
+        moon.solve()

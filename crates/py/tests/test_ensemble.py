@@ -100,7 +100,7 @@ def test_one_row_stands_for_every_member():
     expected = Ensemble(*([row] * 3 for row in rows.values()))
     for many in itertools.chain.from_iterable(itertools.combinations(rows, size) for size in (1, 2)):
         assert Ensemble(**{name: [row] * 3 if name in many else row for name, row in rows.items()}) == expected
-    with pytest.raises(andoyer.ShapeError, match="one row each"):
+    with pytest.raises(andoyer.InputError, match="one row each"):
         Ensemble(**rows)
 
 
@@ -181,10 +181,10 @@ def test_copies_are_itself(ensemble):
 
 
 BAD_MEMBERS = {
-    "moments": ("moments", [1.0, 1.0, 2.5], andoyer.MomentsError, r"moments = \[1.0, 1.0, 2.5\]"),
-    "moment": ("moments", [1.0, math.nan, 1.0], andoyer.MomentsError, r"moments\[1\] = NaN"),
-    "attitude": ("attitudes", [0.0] * 4, andoyer.AttitudeError, "attitude = "),
-    "rates": ("angular_velocities", [0.0, 0.0, math.inf], andoyer.AngularVelocityError, r"angular_velocity\[2\] = inf"),
+    "moments": ("moments", [1.0, 1.0, 2.5], andoyer.InputError, r"moments = \[1.0, 1.0, 2.5\]"),
+    "moment": ("moments", [1.0, math.nan, 1.0], andoyer.InputError, r"moments\[1\] = NaN"),
+    "attitude": ("attitudes", [0.0] * 4, andoyer.InputError, "attitude = "),
+    "rates": ("angular_velocities", [0.0, 0.0, math.inf], andoyer.InputError, r"angular_velocity\[2\] = inf"),
 }
 
 
@@ -202,7 +202,7 @@ def test_bad_members_are_named_and_counted(members, name, row, error, message, b
 
 
 def test_a_single_body_has_an_error_without_index():
-    with pytest.raises(andoyer.MomentsError) as caught:
+    with pytest.raises(andoyer.InputError) as caught:
         Body([1.0, 1.0, 2.5])
     assert not hasattr(caught.value, "index")
 
@@ -212,7 +212,7 @@ def test_members_without_a_solution_are_named(members, call):
     moments, attitudes, rates = (array[:12].copy() for array in members)
     moments[9], rates[9] = 1e-200, 1e-200
     ensemble = Ensemble(moments, attitudes, rates)
-    with pytest.raises(andoyer.UnitsError, match="^member 9: moments and angular_velocity") as caught:
+    with pytest.raises(andoyer.RepresentationError, match="^member 9: moments and angular_velocity") as caught:
         call(ensemble)
     assert caught.value.index == 9
 
@@ -220,16 +220,16 @@ def test_members_without_a_solution_are_named(members, call):
 @pytest.mark.parametrize("method", ["at", "attitude"])
 def test_bad_times_are_refused(ensemble, method):
     evaluate = getattr(ensemble, method)
-    with pytest.raises(andoyer.TimesError, match=r"^member 0: times\[1\] = NaN") as caught:
+    with pytest.raises(andoyer.InputError, match=r"^member 0: times\[1\] = NaN") as caught:
         evaluate([0.0, math.nan])
     assert caught.value.index == 0
     own = np.zeros((MEMBERS, 2))
     own[130, 1] = math.inf
-    with pytest.raises(andoyer.TimesError, match=r"^member 130: times\[1\] = inf") as caught:
+    with pytest.raises(andoyer.InputError, match=r"^member 130: times\[1\] = inf") as caught:
         evaluate(own)
     assert caught.value.index == 130
     for shape in [(MEMBERS + 1, 2), (2, MEMBERS), (1, 2), (MEMBERS, 2, 1)]:
-        with pytest.raises(andoyer.ShapeError, match=rf"times has shape .*: it must be \(\), \(n,\) or \({MEMBERS}, n\)"):
+        with pytest.raises(andoyer.InputError, match=rf"times has shape .*: it must be \(\), \(n,\) or \({MEMBERS}, n\)"):
             evaluate(np.zeros(shape))
     for times in ["now", None, [1j], [True]]:
         with pytest.raises(TypeError, match="times"):
@@ -242,7 +242,7 @@ def test_out_receives_the_result_itself(ensemble):
         assert ensemble.attitude(times, out=out) is out
         assert np.array_equal(out, ensemble.attitude(times))
     for bad in [np.empty((2, MEMBERS, 4)), np.empty((2 * MEMBERS, 4)), np.empty((MEMBERS, 2, 4), order="F")]:
-        with pytest.raises(andoyer.ShapeError, match="out"):
+        with pytest.raises(andoyer.InputError, match="out"):
             ensemble.attitude([0.0, 1.0], out=bad)
     with pytest.raises(TypeError, match="float64"):
         ensemble.attitude([0.0, 1.0], out=np.empty((MEMBERS, 2, 4), np.float32))
@@ -252,24 +252,24 @@ def test_out_receives_the_result_itself(ensemble):
 
 
 BAD_ARGUMENTS = {
-    "two bodies": (([[1, 1, 1]] * 2, [LEVEL] * 3, [[0, 0, 1]] * 3), {}, andoyer.ShapeError, "attitudes has 3 entries: it must have 2"),
-    "two rates": (([1, 1, 1], [LEVEL] * 3, [[0, 0, 1]] * 2), {}, andoyer.ShapeError, "angular_velocities has 2"),
-    "flat": ((np.ones(6), LEVEL, [[0, 0, 1]]), {}, andoyer.ShapeError, r"moments has shape \(6,\): it must be \(m, 3\) or \(3,\)"),
-    "wide": (([1, 1, 1], [[0, 0, 1]], [0, 0, 1]), {}, andoyer.ShapeError, r"attitudes has shape \(1, 3\)"),
-    "deep": (([1, 1, 1], LEVEL, np.ones((1, 1, 3))), {}, andoyer.ShapeError, r"angular_velocities has shape \(1, 1, 3\)"),
+    "two bodies": (([[1, 1, 1]] * 2, [LEVEL] * 3, [[0, 0, 1]] * 3), {}, andoyer.InputError, "attitudes has 3 entries: it must have 2"),
+    "two rates": (([1, 1, 1], [LEVEL] * 3, [[0, 0, 1]] * 2), {}, andoyer.InputError, "angular_velocities has 2"),
+    "flat": ((np.ones(6), LEVEL, [[0, 0, 1]]), {}, andoyer.InputError, r"moments has shape \(6,\): it must be \(m, 3\) or \(3,\)"),
+    "wide": (([1, 1, 1], [[0, 0, 1]], [0, 0, 1]), {}, andoyer.InputError, r"attitudes has shape \(1, 3\)"),
+    "deep": (([1, 1, 1], LEVEL, np.ones((1, 1, 3))), {}, andoyer.InputError, r"angular_velocities has shape \(1, 1, 3\)"),
     "text": (("eros", [LEVEL], [0, 0, 1]), {}, TypeError, "moments"),
-    "zero tolerance": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"tolerance": 0}, andoyer.ToleranceError, "^tolerance = 0"),
-    "tolerance of none": ((np.empty((0, 3)), LEVEL, [0, 0, 1]), {"tolerance": math.nan}, andoyer.ToleranceError, "NaN"),
+    "zero tolerance": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"tolerance": 0}, andoyer.InputError, "^tolerance = 0"),
+    "tolerance of none": ((np.empty((0, 3)), LEVEL, [0, 0, 1]), {"tolerance": math.nan}, andoyer.InputError, "NaN"),
     "text for a tolerance": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"tolerance": "small"}, TypeError, "tolerance"),
-    "no threads": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": 0}, andoyer.ThreadsError, "threads = 0: it must be from 1 to 1024"),
-    "many threads": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": 1025}, andoyer.ThreadsError, "threads = 1025"),
-    "negative threads": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": -1}, andoyer.ThreadsError, "threads = -1"),
-    "half a thread": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": 0.5}, andoyer.ThreadsError, "threads = 0.5"),
+    "no threads": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": 0}, andoyer.InputError, "threads = 0: it must be from 1 to 1024"),
+    "many threads": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": 1025}, andoyer.InputError, "threads = 1025"),
+    "negative threads": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": -1}, andoyer.InputError, "threads = -1"),
+    "half a thread": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": 0.5}, andoyer.InputError, "threads = 0.5"),
     "boolean threads": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"threads": True}, TypeError, "threads"),
-    "three orbits": (([1, 1, 1], [LEVEL] * 2, [0, 0, 1]), {"orbits": [None] * 3}, andoyer.ShapeError, "orbits has 3 entries: it must have 2"),
+    "three orbits": (([1, 1, 1], [LEVEL] * 2, [0, 0, 1]), {"orbits": [None] * 3}, andoyer.InputError, "orbits has 3 entries: it must have 2"),
     "a mean motion": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"orbits": [1e-3]}, TypeError, r"orbits\[0\] must be an Orbit or None, not float"),
     "one mean motion": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"orbits": 1e-3}, TypeError, "orbits must be an Orbit or a sequence"),
-    "a span that runs backwards": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"span": (1, 0)}, andoyer.SpanError, "span"),
+    "a span that runs backwards": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"span": (1, 0)}, andoyer.InputError, "span"),
     "a method": (([1, 1, 1], [LEVEL], [0, 0, 1]), {"method": "series"}, TypeError, "method"),
 }
 
@@ -292,7 +292,7 @@ def test_no_members_give_empty_results():
 
 
 def test_empty_list_is_refused_with_the_shape_of_no_members():
-    with pytest.raises(andoyer.ShapeError, match=r"moments is empty: it must be \(m, 3\) or \(3,\), and for no members \(0, 3\)"):
+    with pytest.raises(andoyer.InputError, match=r"moments is empty: it must be \(m, 3\) or \(3,\), and for no members \(0, 3\)"):
         Ensemble([], LEVEL, [0, 0, 1])
 
 
@@ -328,6 +328,47 @@ def test_orbits_are_part_of_slices_equality_text_and_pickles():
 
 def test_a_member_that_its_orbit_does_not_let_be_averaged_is_named():
     ensemble = Ensemble(*FAST, orbits=[None, SUN, andoyer.Orbit(0.9)])
-    with pytest.raises((andoyer.TorqueError, andoyer.SpinResonanceError), match="^member 2: ") as caught:
+    with pytest.raises(andoyer.TheoryError, match="^member 2: ") as caught:
         ensemble.at(0.0)
     assert caught.value.index == 2
+
+
+def test_refused_member_names_itself_or_is_nan_with_its_reason(body):
+    moments = [[1, 1.5, 2], [1, 1, 2.5], [1, 1.5, 2], [1, 1.5, 2]]
+    rates = [[0.1, 0.2, 1.0], [0, 0, 1], [0.1, 0.2, 1.0], [0, np.nan, 0]]
+    with pytest.raises(andoyer.InputError, match=r"^member 1: moments = .* \(and 1 more bad members\)$") as caught:
+        andoyer.Ensemble(moments, [0, 0, 0, 1], rates)
+    assert caught.value.index == 1
+    ensemble = andoyer.Ensemble(moments, [0, 0, 0, 1], rates, errors="nan")
+    samples = ensemble.at([0.0, 5.0])
+    expected = andoyer.Scene(body, [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    for good in (0, 2):
+        assert np.array_equal(samples.attitude[good], expected.attitude([0.0, 5.0]))
+    for bad in (1, 3):
+        assert np.isnan(samples.attitude[bad]).all() and np.isnan(samples.angular_velocity[bad]).all()
+    for errors in (samples.errors, ensemble.errors):
+        assert list(errors) == [1, 3] and isinstance(errors[1], andoyer.InputError) and isinstance(errors[3], andoyer.InputError)
+        assert str(errors[3]).startswith("member 3: angular_velocity[1] = NaN") and errors[3].index == 3
+    assert [plan is None for plan in ensemble.plans] == [False, True, False, True]
+    assert np.isnan(ensemble.attitude(1.0)[[1, 3]]).all() and pickle.loads(pickle.dumps(ensemble)).errors.keys() == {1, 3}
+    assert list(pickle.loads(pickle.dumps(samples)).errors) == [1, 3]
+    with pytest.raises(andoyer.InputError, match="^member 1: "):
+        ensemble[1]
+
+
+def test_member_without_a_motion_names_itself_or_is_nan_with_its_reason():
+    options = {"orbits": andoyer.Orbit(2e-3), "span": (0, 1e3), "tolerance": 1.0}
+    rates = [[0, 0.01, 1], [0, 1, 0.001], [0, 0.02, 1]]  # the second turns about the middle axis
+    with pytest.raises(andoyer.TheoryError, match="^member 1: ") as caught:
+        andoyer.Ensemble([1, 1.02, 1.05], [0, 0, 0, 1], rates, **options).at([0.0])
+    assert caught.value.index == 1
+    ensemble = andoyer.Ensemble([1, 1.02, 1.05], [0, 0, 0, 1], rates, errors="nan", **options)
+    assert np.isnan(ensemble.attitude([0.0]))[:, 0, 0].tolist() == [False, True, False]
+    assert {index: type(error) for index, error in ensemble.at([0.0]).errors.items()} == {1: andoyer.TheoryError}
+
+
+def test_ensemble_without_refusals_has_no_errors_and_another_word_is_refused():
+    ensemble = andoyer.Ensemble([1, 1.5, 2], [[0, 0, 0, 1]] * 2, [0.1, 0.2, 1.0], errors="nan")
+    assert ensemble.errors == {} and ensemble.at(0.0).errors == {}
+    with pytest.raises(andoyer.InputError, match='errors = "ignore": it must be "raise" or "nan"'):
+        andoyer.Ensemble([1, 1.5, 2], [[0, 0, 0, 1]] * 2, [0.1, 0.2, 1.0], errors="ignore")

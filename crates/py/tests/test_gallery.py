@@ -14,8 +14,8 @@ SCRIPTS = sorted((REPOSITORY / "examples/gallery").glob("*.py"))
 PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
 
 
-def test_there_are_the_six_of_them():
-    assert [path.stem[7:] for path in SCRIPTS] == ["earth_wobble", "eros_separatrix", "apophis", "box_satellite", "normal_form", "ensemble"]
+def test_there_are_the_seven_of_them():
+    assert [path.stem[7:] for path in SCRIPTS] == ["earth_wobble", "eros_separatrix", "apophis", "box_satellite", "normal_form", "ensemble", "kernel"]
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
@@ -26,11 +26,11 @@ def test_script_runs_and_says_something(script, tmp_path):
     assert "Warning" not in done.stderr.replace("UserWarning: FigureCanvasAgg", "")
 
 
-def test_tables_of_the_readme_are_those_of_the_files(monkeypatch):
+def test_the_table_of_the_readme_is_that_of_the_files(monkeypatch):
     monkeypatch.syspath_prepend(REPOSITORY / "benches")
     import report
 
-    written = report.summary(*map(report.read, ("bench", "work-precision", "stress", "scenes")))
+    written = report.summary(*map(report.read, ("bench", "work-precision", "stress")))
     assert f"{report.MARKS[0]}\n\n{written}\n\n{report.MARKS[1]}" in PAGES[0].read_text(encoding="utf-8")
 
 

@@ -81,7 +81,7 @@ def test_pendulum_is_the_published_one_and_its_frequency_that_of_the_elliptic_in
 def test_irrational_frequencies_and_floats_are_floats_unless_told():
     exact, rational = normalize("x^2 + X^2/2 + x^4", 2, [("x", "X")]), normalize("x^2 + X^2 + x^4", 2, [("x", "X")])
     assert not exact.exact and exact.frequencies == (math.sqrt(2),) and rational.exact and rational.frequencies == (2,)
-    with pytest.raises(andoyer.HamiltonianError, match="square root of 2, which is not rational"):
+    with pytest.raises(andoyer.RepresentationError, match="square root of 2, which is not rational"):
         normalize("x^2 + X^2/2 + x^4", 2, [("x", "X")], exact=True)
     terms = {(2, 0): 0.5, (0, 2): F(1, 2), (4, 0): np.float64(0.1)}
     assert not normalize(terms, 2, [("x", "X")]).exact
@@ -144,7 +144,7 @@ def test_direct_and_inverse_take_functions_and_names():
     generator = normal_form.generator(1)
     assert {(j, k - 1): k * c for (j, k), c in generator.items() if k} == {(2, 0): -1, (0, 2): -2}
     for m in [0, 2, -1, True]:
-        with pytest.raises((andoyer.OrderError, TypeError)):
+        with pytest.raises((andoyer.InputError, TypeError)):
             normal_form.generator(m)
 
 
@@ -157,7 +157,7 @@ def test_parameters_are_symbols_and_then_numbers():
     assert np.allclose(symbolic.to_normal([0.1, 0.2], values), numeric.to_normal([0.1, 0.2]), rtol=1e-14)
     assert symbolic.frequency_map([0.1], {"a": 0, "b": 1})[0] == pytest.approx(1.3, rel=1e-15)
     for wrong in [None, {"a": 1}, {"a": 1, "b": 2, "c": 3}]:
-        with pytest.raises(andoyer.UnknownNameError, match=r"they are \[a, b\]"):
+        with pytest.raises(andoyer.InputError, match=r"they are \[a, b\]"):
             symbolic.to_normal([0.1, 0.2], wrong)
 
 
@@ -171,11 +171,9 @@ def test_complex_form_has_real_and_imaginary_parts():
 @pytest.mark.parametrize(
     "hamiltonian, message",
     [
-        ("x^2 + X^2 + x*X/3", r"not diagonal: the term x\*X has the coefficient 1/3"),
-        ("x^2 + X^2 + y^2 + Y^2 + 2*x*y", r"the term x\*y has the coefficient 2"),
+        ("x^2 + X^2 + y^2 + Y^2 + 2*x*y", r"in \(x, X\), \(y, Y\) has a zero frequency, along the direction with the components x 1.000, y 1.000"),
         ("x^2 + X^2 + y^2 + Y^2 - Y", "no equilibrium: the linear term Y has the coefficient -1"),
-        ("x^2 + X^2 + y^2 - Y^2", r"mode \(y, Y\) is not elliptic: Y\^2 and y\^2 have the coefficients -1 and 1"),
-        ("x^2 + X^2 + y^4 + Y^2", r"mode \(y, Y\) is not elliptic"),
+        ("x^2 + X^2 + y^4 + Y^2", r"in \(y, Y\) has a zero frequency"),
         ("x^2 +", "at byte 5"),
         ("sin(x)", "at byte"),
         ({(2, 0): 1}, r"tuple of exponents of x, X, y, Y"),
@@ -186,59 +184,59 @@ def test_complex_form_has_real_and_imaginary_parts():
     ],
 )
 def test_hamiltonian_that_is_none_is_refused(hamiltonian, message):
-    with pytest.raises((andoyer.HamiltonianError, andoyer.UnknownNameError), match=message):
+    with pytest.raises(andoyer.InputError, match=message):
         normalize(hamiltonian, 2, PLANE)
 
 
 def test_unknown_variables_are_refused_by_name():
     for hamiltonian in ["x^2 + X^2 + z^3", sympy.Symbol("x") ** 2 + sympy.Symbol("z") ** 3]:
-        with pytest.raises(andoyer.UnknownNameError, match='"z"'):
+        with pytest.raises(andoyer.InputError, match='"z"'):
             normalize(hamiltonian, 2, [("x", "X")])
-    with pytest.raises(andoyer.UnknownNameError, match='"z"'):
+    with pytest.raises(andoyer.InputError, match='"z"'):
         normalize("x^2 + X^2", 2, [("x", "X")]).direct("z")
 
 
 def test_resonances_not_asked_for_and_none_are_refused():
-    with pytest.raises(andoyer.ResonanceError, match=r"order 2: the term u_x\^2\*U_y\^2, k = \[-2, 2\]"):
+    with pytest.raises(andoyer.TheoryError, match=r"order 2: the term u_x\^2\*U_y\^2, k = \[-2, 2\]"):
         normalize(HENON_HEILES, 4, PLANE)
-    with pytest.raises(andoyer.ResonanceError, match=r"k = \[2, -1\] is no resonance"):
+    with pytest.raises(andoyer.InputError, match=r"k = \[2, -1\] is no resonance"):
         normalize(HENON_HEILES, 4, PLANE, resonances=[(2, -1)])
     for wrong in [[(0, 0)], [(1, -1, 0)], [(1,)]]:
-        with pytest.raises(andoyer.ResonanceError, match="no resonance vector"):
+        with pytest.raises(andoyer.InputError, match="no resonance vector"):
             normalize(HENON_HEILES, 4, PLANE, resonances=wrong)
     resonant = normalize(HENON_HEILES, 4, PLANE, resonances=[(1, -1)])
-    for ask in [resonant.in_actions, lambda: resonant.frequency_map([0.1, 0.1]), lambda: resonant.trajectory([0.1, 0, 0, 0], 1.0)]:
-        with pytest.raises(andoyer.ResonanceError, match=r"contains u_x\^2\*U_y\^2"):
+    for ask in [resonant.in_actions, lambda: resonant.frequency_map([0.1, 0.1])]:
+        with pytest.raises(andoyer.TheoryError, match=r"contains u_x\^2\*U_y\^2"):
             ask()
     assert resonant.to_normal([0.1, 0, 0, 0.1]).shape == (4,)
     # 1 and 1.999 are 2:-1 within the wider bound only.
     near = "(x^2 + X^2)/2 + 0.9995*(y^2 + Y^2) + x^2*y"
     assert len(normalize(near, 1, PLANE, resonances=[(2, -1)], smallest_divisor=0.01).in_complex()) == 4
-    with pytest.raises(andoyer.ResonanceError, match="bound 0.0198"):
+    with pytest.raises(andoyer.TheoryError, match="bound 0.0198"):
         normalize(near, 1, PLANE, smallest_divisor=0.01 - 5e-5)
     for bound in [-1.0, 2.0, math.nan]:
-        with pytest.raises(andoyer.IntervalError, match="smallest_divisor"):
+        with pytest.raises(andoyer.InputError, match="smallest_divisor"):
             normalize(near, 1, PLANE, smallest_divisor=bound)
 
 
 def test_sizes_and_orders_out_of_bounds_are_refused():
-    for order in [-1, 2.5, 32764, "4"]:
-        with pytest.raises(andoyer.OrderError, match="order"):
+    for order, error in [(-1, andoyer.InputError), (2.5, andoyer.InputError), ("4", andoyer.InputError), (32764, andoyer.RepresentationError)]:
+        with pytest.raises(error, match="order"):
             normalize("x^2 + X^2", order, [("x", "X")])
-    with pytest.raises(andoyer.OrderError, match="170"):
+    with pytest.raises(andoyer.RepresentationError, match="170"):
         normalize("x^2 + X^2", 171, [("x", "X")], exact=False)
     pairs = [(name, name.upper()) for name in "abcde"]
     for variables, parameters in [(pairs, []), ([], []), (pairs[:3], ["r", "s", "t"])]:
-        with pytest.raises(andoyer.HamiltonianError, match="8 variables at most"):
+        with pytest.raises(andoyer.InputError, match="8 variables at most"):
             normalize("1", 2, variables, parameters=parameters)
-    with pytest.raises(andoyer.HamiltonianError, match="cannot hold"):
+    with pytest.raises(andoyer.InputError, match="cannot hold"):
         normalize("x^2", 2, [("x", "x")])
     normal_form = pendulum(2)
     for wrong in [[0.1], [[[0.1, 0.0]]], 0.1, [0.1, 0.0, 0.0]]:
-        with pytest.raises(andoyer.ShapeError, match="states has shape"):
+        with pytest.raises(andoyer.InputError, match="states has shape"):
             normal_form.to_normal(wrong)
     for wrong in [[math.nan, 0.0], [math.inf, 0.0], [1e200, 0.0]]:
-        with pytest.raises(andoyer.IntervalError, match="not finite"):
+        with pytest.raises(andoyer.InputError, match="not finite"):
             normal_form.to_normal(wrong)
     for wrong in [3, None, b"x^2", [("x", 1)]]:
         with pytest.raises(TypeError, match="must be a text, a dict or a SymPy expression"):
@@ -264,7 +262,7 @@ def test_progress_hears_of_every_order_and_stops():
 def test_normal_form_is_a_value():
     normal_form = pendulum(4)
     assert normal_form == pendulum(4) and normal_form != pendulum(6) and str(normal_form) == "I_q - 1/16*I_q^2 - 1/256*I_q^3"
-    assert repr(normal_form) == "<BirkhoffNormalForm of order 4 in q, p, exact>"
+    assert repr(normal_form) == "<BirkhoffNormalForm of order 4 in q, p, exact, radius 3.119>"
     with pytest.raises(AttributeError):
         normal_form.order = 3
 
@@ -281,10 +279,10 @@ def test_refusals_name_the_argument():
     for wrong in [(2, -1), [(1.0,)], [(2**70,)], ["11"], 1]:
         with pytest.raises(TypeError, match="resonances must be a sequence of vectors of integers"):
             normalize(h, 2, [("x", "X")], resonances=wrong)
-    for wrong, kind in [("x^2 +", andoyer.HamiltonianError), ("cos(x)", andoyer.UnknownNameError), ({(70000, 0): 1}, andoyer.SeriesError)]:
+    for wrong, kind in [("x^2 +", andoyer.InputError), ("cos(x)", andoyer.InputError), ({(70000, 0): 1}, andoyer.RepresentationError)]:
         with pytest.raises(kind, match="^hamiltonian: "):
             normalize(wrong, 2, [("x", "X")])
-    with pytest.raises(andoyer.HamiltonianError, match="^function: at byte 3"):
+    with pytest.raises(andoyer.InputError, match="^function: at byte 3"):
         normalize(h, 2, [("x", "X")]).direct("x +")
-    with pytest.raises(andoyer.HamiltonianError, match="^variables: .*2y"):
+    with pytest.raises(andoyer.InputError, match="^variables: .*2y"):
         normalize(h, 2, [("x", "2y")])

@@ -10,7 +10,8 @@ import pytest
 
 import andoyer
 from andoyer.cli import main
-from andoyer.output import COLUMNS, CONVENTION, epoch
+from andoyer.output import COLUMNS, CONVENTION
+from andoyer.output.calendar import count, written
 
 TIMES = ["--start", "-3.5", "--stop", "7.25", "--samples", "44"]
 MANDATORY = "OBJECT_NAME OBJECT_ID REF_FRAME_A REF_FRAME_B TIME_SYSTEM START_TIME STOP_TIME ATTITUDE_TYPE".split()
@@ -71,8 +72,8 @@ def test_epochs_are_exact_to_their_last_decimal(message):
         whole, decimals = text.split(".")
         since = Fraction((datetime.fromisoformat(whole) - date).total_seconds()) + Fraction(int(decimals), 10**12)
         assert abs(since - Fraction(1, 2) - Fraction(time)) <= Fraction(1, 2 * 10**12)
-    assert epoch(datetime(2000, 1, 1), -1e-12) == "1999-12-31T23:59:59.999999999999"
-    assert epoch(datetime(2000, 2, 28), 86400.0) == "2000-02-29T00:00:00.000000000000"
+    assert written(count(datetime(2000, 1, 1), "TDB") - Fraction(1, 10**12), "TDB") == "1999-12-31T23:59:59.999999999999"
+    assert written(count(datetime(2000, 2, 28), "TDB") + 86400, "TDB") == "2000-02-29T00:00:00.000000000000"
 
 
 def test_what_was_not_given_of_a_message_is_said(scene_file, tmp_path, capfd):
@@ -98,6 +99,7 @@ def test_parquet_holds_the_motion_to_the_last_bit(scene_file, motion, tmp_path):
     samples = motion.at(np.linspace(-3.5, 7.25, 44))
     expected = np.column_stack([samples.times, samples.attitude, samples.angular_velocity])
     assert table.column_names == COLUMNS.split(",") and table.schema.metadata[b"convention"].decode() == CONVENTION
+    assert andoyer.output.read_table(output).scene == motion.scene
     assert np.array_equal(np.column_stack([column.to_numpy() for column in table.columns]), expected)
 
 

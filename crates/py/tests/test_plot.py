@@ -1,5 +1,9 @@
 """Pictures: each is rendered, labelled with units, inside its figure, and shows the motion that it is given."""
 
+import importlib.util
+import re
+from datetime import datetime
+
 import numpy as np
 import pytest
 
@@ -10,9 +14,12 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
 
 import andoyer  # noqa: E402
-from andoyer import plot  # noqa: E402
+from andoyer import output, plot  # noqa: E402
 from andoyer.cli import main  # noqa: E402
+from andoyer.output.rows import samples_of  # noqa: E402
 from conftest import REPOSITORY  # noqa: E402
+
+Rotation = pytest.importorskip("scipy.spatial.transform").Rotation
 
 BODY = andoyer.Body([1.0, 1.5, 2.0])
 ORBIT = andoyer.Orbit(1e-3, 0.1, inclination=0.5)
@@ -179,3 +186,82 @@ def test_path_of_the_pole_says_over_what():
     axes = plot.pole_path(MOTIONS["torque"])
     assert axes.get_title() == "Path of the angular momentum over one orbit"
     assert plot.pole_path(MOTIONS["torque"], [0.0, 1.0, 2.0]).get_title().endswith("under the gravity gradient")
+
+
+@pytest.fixture
+def files(tmp_path, motion):
+    """A motion as files of every kind, and its scene."""
+    samples = motion.at(np.linspace(2, 12, 200))
+    (tmp_path / "scene.toml").write_text(motion.scene.to_toml(), encoding="utf-8")
+    output.write_aem(tmp_path / "motion.aem", samples)
+    output.write_npz(tmp_path / "motion.npz", samples)
+    output.write_csv(tmp_path / "motion.csv", samples)
+    if importlib.util.find_spec("pyarrow"):
+        output.write_parquet(tmp_path / "motion.parquet", samples)
+    return tmp_path
+
+
+@pytest.mark.parametrize("ending", ["aem", "npz", "csv", "parquet"])
+def test_command_draws_a_file_of_attitudes_against_a_scene(files, ending):
+    if ending == "parquet":
+        pytest.importorskip("pyarrow")
+    arguments = ["plot", str(files / f"motion.{ending}"), "-o", str(files / "out.png")]
+    assert main(arguments) == 0
+    assert main([*arguments, "--against", str(files / "scene.toml"), "--force"]) == 0
+    assert (files / "out.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_time_0_of_the_scene_is_moved_by_the_date(files, motion, capfd):
+    samples = motion.at(np.linspace(2, 12, 200))
+    output.write_aem(files / "dated.aem", samples, output.Heading(date=datetime(2026, 1, 1), time_system="TAI"))
+    arguments = ["plot", str(files / "dated.aem"), "-o", str(files / "out.svg"), "--against", str(files / "scene.toml"), "--date", "2026-01-01T00:00:00"]
+    assert main(arguments) == 0
+    # matplotlib draws texts as outlines; the title is a comment in the picture.
+    title = re.search(r"Angle between the file and the scene: (\S+) rad at most", (files / "out.svg").read_text(encoding="utf-8"))
+    # Epochs have twelve decimals of the second; the body turns by 1.02 rad in one.
+    assert float(title[1]) < 1e-12
+    assert main([*arguments[:-1], "2026-01-01T00:00:01", "--force"]) == 0
+    title = re.search(r"Angle between the file and the scene: (\S+) rad at most", (files / "out.svg").read_text(encoding="utf-8"))
+    assert float(title[1]) > 0.5
+
+
+def test_angle_between_is_that_of_the_rotation(motion):
+    times = np.linspace(0, 5, 50)
+    samples = motion.at(times)
+    turned = motion.rotation(times) * Rotation.from_rotvec([0, 3e-9, 4e-9])
+    other = samples_of(times, turned.as_quat() * -1, samples.angular_velocity)
+    axes = plot.difference(other, motion)
+    assert axes.lines[0].get_ydata() == pytest.approx(5e-9, rel=1e-6)
+    with pytest.raises(ValueError, match="same times"):
+        plot.difference(other, motion.at(times + 1))
+
+
+def test_components_go_on_where_the_sign_of_the_quaternion_changes(motion):
+    times = np.linspace(0, 20, 500)
+    samples = motion.at(times)
+    signs = np.where(np.arange(500) % 3 == 0, -1.0, 1.0)[:, None]
+    axes = plot.components(samples_of(times, samples.attitude * signs, samples.angular_velocity))
+    drawn = np.array([line.get_ydata() for line in axes.lines])
+    assert np.abs(np.diff(drawn, axis=1)).max() < 0.05 and outside(axes.figure) < 0.01
+
+
+def test_rates_that_a_file_does_not_have_are_said(motion):
+    samples = motion.at([0.0, 1.0])
+    axes = plot.sampled_rates(samples_of([0, 1], samples.attitude, np.full((2, 3), np.nan)))
+    assert axes.get_title("left") == "Body rates: the file has none"
+
+
+def test_summary_of_samples_has_its_panels_and_nothing_cut_off(motion):
+    samples = motion.at(np.linspace(0, 20, 300))
+    assert len(plot.samples_summary(samples).axes) == 2
+    figure = plot.samples_summary(samples, motion, name="wobble.aem")
+    assert len(figure.axes) == 3 and outside(figure) < 0.01
+    assert all("[" in axes.get_ylabel() for axes in figure.axes)
+
+
+def test_pictures_of_a_tensor_are_about_its_principal_axes():
+    tensor = np.array([[1.4, 0.2, -0.1], [0.2, 1.6, 0.15], [-0.1, 0.15, 1.2]])
+    motion = solved([0.3, 0.5, 1.0], andoyer.Body.from_inertia(tensor))
+    start = plot.phase_portrait(motion).lines[1].get_xydata()[0]
+    variables = motion.andoyer(motion.scene.epoch)
+    assert start == pytest.approx([np.degrees(variables[2]), variables[5] / variables[4]], abs=1e-9)

@@ -15,7 +15,7 @@ from conftest import REPOSITORY  # noqa: E402
 SETTINGS = """
 [mypy]
 strict = true
-[mypy-pyarrow.*,scipy.*,matplotlib.*,mpmath.*,pandas.*,sympy.*,xarray.*,gravity_gradient,torque_free]
+[mypy-erfa.*,spiceypy.*,pyarrow.*,scipy.*,matplotlib.*,mpmath.*,pandas.*,sympy.*,xarray.*,gravity_gradient,torque_free]
 ignore_missing_imports = true
 [mypy-cluster]
 disallow_untyped_calls = false

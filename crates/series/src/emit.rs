@@ -9,10 +9,10 @@
 mod c;
 mod coefficients;
 mod computation;
-mod program;
+pub(crate) mod program;
 mod python;
 mod rust;
-mod text;
+pub(crate) mod text;
 
 use crate::{Error, NormalForm, separatrix_action};
 use coefficients::Coefficients;

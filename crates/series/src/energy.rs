@@ -37,37 +37,61 @@ pub(crate) struct Generator {
     pub(crate) divisor: BigInt,
 }
 
-/// Kernel and generators of the quartic, orders 0 to N.
+/// Kernel and generators of the quartic, orders 0 to N, computed one order after the other.
 #[derive(Clone, Debug)]
 pub(crate) struct EnergyNormalization {
-    /// 4^n k_n.
-    pub(crate) kernel: Vec<Row>,
-    /// τ_1 … τ_N.
-    pub(crate) generators: Vec<Generator>,
+    /// 4^n c_n.
+    slopes: Vec<Row>,
+    /// τ_1 … τ_m, m the last order computed.
+    generators: Vec<Generator>,
+    powers: Powers,
 }
 
 impl EnergyNormalization {
+    /// Order 0 of a normal form that is to reach `order`.
+    pub(crate) fn starting(order: usize) -> Self {
+        Self { slopes: vec![Vec::new()], generators: Vec::new(), powers: Powers::new(order) }
+    }
+
     /// The normal form to `order`; `progress` is called before each order with the number done, and with (order, order) last.
     ///
     /// # Errors
     /// - a callback that returns `Break`: [`Error::Interrupted`].
     pub(crate) fn new(order: usize, progress: &mut Progress<'_>) -> Result<Self, Error> {
-        let mut slopes: Vec<Row> = vec![Vec::new()]; // 4^n c_n
-        let mut generators: Vec<Generator> = Vec::with_capacity(order);
-        let mut powers = Powers::new(order);
+        let mut computed = Self::starting(order);
         for m in 1..=order {
             tell(progress, m - 1, order)?;
-            let (slope, generator) = solve(&forcing(&slopes, m), generators.last(), m);
-            slopes.push(slope);
-            generators.push(generator);
-            powers.extend(&slopes, m);
+            computed.extend();
         }
         tell(progress, order, order)?;
-        Ok(Self { kernel: powers.of_the_first(), generators })
+        Ok(computed)
+    }
+
+    /// Computes the next order, which must not exceed that of `starting`.
+    pub(crate) fn extend(&mut self) {
+        let m = self.slopes.len();
+        let (slope, generator) = solve(&forcing(&self.slopes, m), self.generators.last(), m);
+        self.slopes.push(slope);
+        self.generators.push(generator);
+        self.powers.extend(&self.slopes, m);
+    }
+
+    /// 4^n k_n for n = 0, 1, … up to the last order computed.
+    pub(crate) fn kernel(&self) -> &[Row] {
+        &self.powers.rows[0]
+    }
+
+    /// τ_1, τ_2, … up to the last order computed.
+    pub(crate) fn generators(&self) -> &[Generator] {
+        &self.generators
+    }
+
+    pub(crate) fn into_generators(self) -> Vec<Generator> {
+        self.generators
     }
 }
 
-fn tell(progress: &mut Progress<'_>, done: usize, of: usize) -> Result<(), Error> {
+pub(crate) fn tell(progress: &mut Progress<'_>, done: usize, of: usize) -> Result<(), Error> {
     if progress(done, of).is_break() { Err(Error::Interrupted { done, of }) } else { Ok(()) }
 }
 
@@ -190,6 +214,7 @@ fn small_remainder(c: &BigInt, modulus: u64) -> u64 {
 }
 
 /// The powers of E = Σ k_i ε^i J^(i+1) that the recursion for k_n needs: 4^i times coefficient i of (E/J)^(p+1), in row p at i, i + p ≤ order.
+#[derive(Clone, Debug)]
 struct Powers {
     rows: Vec<Vec<Row>>,
     order: usize,
@@ -214,10 +239,6 @@ impl Powers {
             }
             self.rows[p].push(sum);
         }
-    }
-
-    fn of_the_first(mut self) -> Vec<Row> {
-        self.rows.swap_remove(0)
     }
 }
 

@@ -4,10 +4,14 @@
 //! input: an exponent that does not fit its field, a name nobody knows, a text that is not a polynomial, a file that is
 //! not a normal form.
 
+mod facts;
+
 use thiserror::Error;
 
+pub use facts::{Kind, Value};
+
 /// What can go wrong, with the offending value and its bound.
-#[derive(Debug, Error)]
+#[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
     /// An exponent does not fit its field of the packed monomial.
@@ -77,29 +81,65 @@ pub enum Error {
         /// Its coefficient.
         coefficient: String,
     },
-    /// A quadratic part that is not Σ (a p² + b q²)/2 with numbers a, b.
+    /// A term whose parameters count too little: it would belong to the quadratic part, which has numbers for coefficients.
     #[error(
-        "the quadratic part is not diagonal: the term {term} has the coefficient {coefficient}; only squares with numbers for coefficients are read"
+        "the term {term} would be of order 0: give a parameter in it a degree of at least {bound}, to make it a detuning, or a number for its value"
     )]
-    QuadraticNotDiagonal {
+    ParameterDegree {
         /// The term.
         term: String,
-        /// Its coefficient.
-        coefficient: String,
+        /// The smallest degree that serves.
+        bound: u32,
     },
-    /// A mode (a p² + b q²)/2 that is hyperbolic or degenerate: a b ≤ 0.
+    /// A name that is no parameter of the space.
+    #[error("{name:?} is no parameter: they are [{known}]")]
+    ParameterUnknown {
+        /// The name given.
+        name: String,
+        /// The parameters.
+        known: String,
+    },
+    /// A quadratic part with an eigenvalue 0: a direction along which nothing oscillates, grows or decays.
     #[error(
-        "the mode ({coordinate}, {momentum}) is not elliptic: {momentum}^2 and {coordinate}^2 have the coefficients {momentum_square} and {coordinate_square}, whose product must be positive"
+        "the quadratic part in {pairs} has a zero frequency, along the direction with the components {direction}: no normal form of this kind exists there"
     )]
-    NotElliptic {
-        /// Name of q.
-        coordinate: String,
-        /// Name of p.
-        momentum: String,
-        /// Coefficient of q².
-        coordinate_square: String,
-        /// Coefficient of p².
-        momentum_square: String,
+    ZeroFrequency {
+        /// The pairs of the block.
+        pairs: String,
+        /// Sizes of the components of the null vector.
+        direction: String,
+    },
+    /// A quadratic part that has a frequency only through its parameters.
+    #[error(
+        "the quadratic part in {pairs} has a zero frequency where its parameters are 0, in the term {term}: write the parameter as a number and a detuning, w = w0 + d, or scale q -> q/sqrt(w), p -> p sqrt(w), t -> t/w, so that the frequency is a number"
+    )]
+    FrequencyParameter {
+        /// The pairs of the block.
+        pairs: String,
+        /// A quadratic term with a parameter.
+        term: String,
+    },
+    /// A quadratic part that cannot be diagonalized.
+    #[error(
+        "the quadratic part in {pairs} cannot be diagonalized: the eigenvalues {eigenvalue} have a Jordan block, with the eigenvector of components {direction}"
+    )]
+    Defective {
+        /// The pairs of the block.
+        pairs: String,
+        /// The eigenvalues.
+        eigenvalue: String,
+        /// Sizes of the components of the eigenvector.
+        direction: String,
+    },
+    /// Eigenvalues of a quadratic part with rational coefficients that are not rational.
+    #[error(
+        "the eigenvalues {eigenvalue} of the quadratic part in {pairs} are not rational (with a denominator below 1e7): use floats"
+    )]
+    SpectrumIrrational {
+        /// The pairs of the block.
+        pairs: String,
+        /// The eigenvalues.
+        eigenvalue: String,
     },
     /// A frequency √(ab) that is no rational number where the coefficients are rational.
     #[error(
@@ -232,8 +272,15 @@ pub enum Error {
         problem: ParseProblem,
     },
     /// A text that is not JSON, or JSON of another shape.
-    #[error("not the JSON of a normal form: {0}")]
-    Json(#[from] serde_json::Error),
+    #[error("not the JSON of a normal form: {message} at line {line} column {column}")]
+    Json {
+        /// Line of the text, from 1; 0 where the text has none.
+        line: usize,
+        /// Column of the line, from 1.
+        column: usize,
+        /// What is wrong there.
+        message: String,
+    },
     /// A JSON document of another format or version.
     #[error("format {format:?} version {version} is unknown: {known_format:?} version {known_version} is read")]
     FormatUnknown {
@@ -262,7 +309,17 @@ pub enum Error {
         /// Entries expected.
         expected: usize,
     },
-    /// A term that no normal form of the rigid body contains.
+    /// A matrix read from a file that is not symplectic: Mᵀ J M ≠ J.
+    #[error("the linear change is not symplectic: entry ({row}, {column}) of MᵀJM − J is {error:?}")]
+    NotSymplectic {
+        /// Row of MᵀJM − J.
+        row: usize,
+        /// Its column.
+        column: usize,
+        /// The entry.
+        error: f64,
+    },
+    /// A term that no normal form of this kind contains.
     #[error("term {exponents:?} of the {what} of order {order}: {problem}")]
     TermInconsistent {
         /// The series that holds it.
@@ -274,6 +331,31 @@ pub enum Error {
         /// What is wrong with it.
         problem: TermProblem,
     },
+    /// A coefficient read from a file that is not that of the rigid body.
+    #[error(
+        "the {what} of order {order} has the coefficient {found} at the exponents {exponents:?}: it must be {expected}"
+    )]
+    CoefficientWrong {
+        /// The series that holds it.
+        what: &'static str,
+        /// Order in the small parameter.
+        order: usize,
+        /// Exponents (u, U, β), or (β) alone.
+        exponents: Vec<u32>,
+        /// The coefficient read, 0 where there is none.
+        found: String,
+        /// That of the rigid body, 0 where it has none.
+        expected: String,
+    },
+}
+
+impl Error {
+    /// The error of a text that is not the JSON expected.
+    pub(crate) fn json(error: serde_json::Error) -> Self {
+        let (line, column, text) = (error.line(), error.column(), error.to_string());
+        let place = format!(" at line {line} column {column}");
+        Self::Json { line, column, message: text.strip_suffix(&place).unwrap_or(&text).to_owned() }
+    }
 }
 
 /// What is wrong with a text that should be a polynomial.
@@ -289,6 +371,14 @@ pub enum ParseProblem {
     /// A name that is no variable.
     #[error("unknown name {0:?}")]
     UnknownName(String),
+    /// A name before a bracket: a function.
+    #[error(
+        "{0:?} is a function, and only polynomials are read: expand it as a Taylor polynomial, for a normal form of order N to degree N + 2"
+    )]
+    Function(String),
+    /// A bracket after an operand: a product without its sign.
+    #[error("a factor in brackets needs * before it")]
+    ProductWithoutSign,
     /// The list of names is longer than the number of slots, or holds a name twice or one that is no identifier.
     #[error("the list of variable names cannot hold {0:?}")]
     UnusableName(String),

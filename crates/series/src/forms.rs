@@ -10,7 +10,8 @@
 //! The sums are benign as well: a coefficient of order n, times the n-th power of the radius of convergence κσ_sep, is within 5e-17 of the exact
 //! one to order 16 for β from 0 to 15/16 (tests/tests/numeric.rs), where the triangle in `f64` subtracts large numbers.
 
-use crate::{Coefficient, DoubleDouble};
+use crate::Coefficient;
+use andoyer_double::DoubleDouble;
 use std::ops::{Add, Div, Mul, Sub};
 
 /// A real floating-point number that a form can have for coefficients: `f64` or [`DoubleDouble`].

@@ -2,7 +2,7 @@
 //!
 //! The algebra: [`Polynomial`]s in up to eight variables over any [`Coefficient`], their [`Poisson`] bracket, the [`Homological`] equation
 //! of a diagonal quadratic part and Deprit's triangle ([`deprit_triangle`], [`LieTransform`]), to any order. Any Hamiltonian about an
-//! elliptic point: [`normalize`] gives its [`BirkhoffNormalForm`], [`BirkhoffMap`] evaluates it. The rigid body: [`NormalForm`],
+//! equilibrium: [`normalize`] gives its [`BirkhoffNormalForm`], [`BirkhoffMap`] evaluates it. The rigid body: [`NormalForm`],
 //! exact and symbolic in the triaxiality β. [`NumericNormalForm`] is the same in floating point at a given β, for the propagation.
 //!
 //! Contract: what is exact stays exact; overflow of an exponent is an error; iteration, printing and summation follow the canonical
@@ -16,10 +16,9 @@ mod bracket;
 mod calculus;
 mod coefficient;
 mod display;
-mod double_double;
 mod emit;
 mod energy;
-mod error;
+pub mod error;
 mod forms;
 mod homological;
 mod json;
@@ -37,11 +36,10 @@ mod terms;
 mod triangle;
 mod words;
 
-pub use birkhoff::{BirkhoffMap, BirkhoffNormalForm, PhaseSpace, Resonances, normalize, normalize_with};
+pub use birkhoff::{BirkhoffMap, BirkhoffNormalForm, Domain, Mode, PhaseSpace, Resonances, normalize, normalize_with};
 pub use bracket::Poisson;
 pub use coefficient::Coefficient;
 pub use display::Named;
-pub use double_double::{DoubleDouble, arithmetic_geometric_mean, two_product, two_sum};
 pub use emit::{Language, MAXIMUM_CODE_ORDER};
 pub use error::{Error, ParseProblem, TermProblem};
 pub use forms::{Form, Real};

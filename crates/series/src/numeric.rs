@@ -1,7 +1,7 @@
 //! The rigid-body normal form at a given β, in `f64` or in double-double: what a propagator evaluates.
 //!
 //! The Hamiltonian is that of the exact normal form with a number for β; the engine is that of the binary forms. Cost about N⁴/2 multiply-adds: in
-//! `f64` 16 µs at order 12, 0.33 ms at 30, 4 ms at 60, transformation included; in [`DoubleDouble`](crate::DoubleDouble) 0.12, 2.6 and 34 ms. Loss of accuracy
+//! `f64` 16 µs at order 12, 0.33 ms at 30, 4 ms at 60, transformation included; in [`DoubleDouble`](andoyer_double::DoubleDouble) 0.12, 2.6 and 34 ms. Loss of accuracy
 //! against the exact polynomials, β from 1/16 to 1 − 2^−10 (tests/tests/numeric.rs):
 //!
 //! ```text

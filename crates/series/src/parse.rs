@@ -58,7 +58,7 @@ impl<C: Coefficient> Polynomial<C> {
         match parser.peek() {
             None if value.terms().all(|(_, c)| c.is_finite()) => Ok(value),
             None => Err(parser.fail(ParseProblem::TooLarge)),
-            Some(other) => Err(parser.fail(ParseProblem::UnexpectedCharacter(other))),
+            Some(other) => Err(parser.unexpected(other)),
         }
     }
 }
@@ -103,6 +103,15 @@ impl Parser<'_> {
         let length = self.rest().find(|letter| !keep(letter)).unwrap_or(self.rest().len());
         self.position += length;
         &self.text[start..self.position]
+    }
+
+    /// A character that stands where an operator is due.
+    fn unexpected(&self, letter: char) -> Error {
+        self.fail(if letter == '(' {
+            ParseProblem::ProductWithoutSign
+        } else {
+            ParseProblem::UnexpectedCharacter(letter)
+        })
     }
 
     fn fail(&self, problem: ParseProblem) -> Error {
@@ -208,7 +217,7 @@ impl Parser<'_> {
                 let value = self.sum()?;
                 match self.peek() {
                     Some(')') => self.take(')'),
-                    Some(other) => return Err(self.fail(ParseProblem::UnexpectedCharacter(other))),
+                    Some(other) => return Err(self.unexpected(other)),
                     None => return Err(self.fail(ParseProblem::UnexpectedEnd)),
                 }
                 self.depth -= 1;
@@ -217,11 +226,13 @@ impl Parser<'_> {
             Some(letter) if is_name_start(letter) => {
                 let names = self.names;
                 let position = self.position;
-                let name = self.take_while(is_name_part);
+                let name = self.take_while(is_name_part).to_owned();
+                let called = self.peek() == Some('(');
                 let polynomial = match (names.iter().position(|known| *known == name), C::imaginary_unit()) {
                     (Some(slot), _) => Polynomial::variable(slot)?,
                     (None, Some(unit)) if name == "i" => Polynomial::constant(unit),
-                    _ => return Err(Error::Parse { position, problem: ParseProblem::UnknownName(name.to_owned()) }),
+                    _ if called => return Err(Error::Parse { position, problem: ParseProblem::Function(name) }),
+                    _ => return Err(Error::Parse { position, problem: ParseProblem::UnknownName(name) }),
                 };
                 Ok(polynomial)
             }

@@ -7,7 +7,7 @@ use crate::{Coefficient, MAXIMUM_EXPONENT};
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;
-use num_traits::{Signed, ToPrimitive};
+use num_traits::{FromPrimitive, Signed, ToPrimitive};
 
 /// A field of real numbers with its complex extension: `BigRational`, exact, or `f64`.
 ///
@@ -38,6 +38,12 @@ pub trait RealField: Coefficient + Send + Sync {
 
     /// The nearest `f64`, infinite where it overflows.
     fn to_float(&self) -> f64;
+
+    /// Relative size of rounding: 0 where numbers are exact.
+    const EPSILON: f64;
+
+    /// The numbers that a finite approximation may stand for: the float itself, or the convergents of its continued fraction.
+    fn candidates(approximation: f64) -> Vec<Self>;
 }
 
 impl RealField for BigRational {
@@ -65,6 +71,23 @@ impl RealField for BigRational {
 
     fn to_float(&self) -> f64 {
         ToPrimitive::to_f64(self).unwrap_or(if self.is_negative() { f64::NEG_INFINITY } else { f64::INFINITY })
+    }
+
+    const EPSILON: f64 = 0.0;
+
+    fn candidates(approximation: f64) -> Vec<Self> {
+        let (mut rest, mut before, mut last) =
+            (approximation, (BigInt::ZERO, BigInt::from(1)), (BigInt::from(1), BigInt::ZERO));
+        let mut convergents = Vec::new();
+        // A fraction with a denominator below 1e7 is a convergent of its float; twenty steps reach it.
+        for _ in 0..20 {
+            let Some(quotient) = BigInt::from_f64(rest.floor()) else { break };
+            let next = (&quotient * &last.0 + &before.0, &quotient * &last.1 + &before.1);
+            before = std::mem::replace(&mut last, next);
+            convergents.push(BigRational::new(last.0.clone(), last.1.clone()));
+            rest = (rest - rest.floor()).recip();
+        }
+        convergents
     }
 }
 
@@ -94,5 +117,11 @@ impl RealField for f64 {
 
     fn to_float(&self) -> f64 {
         *self
+    }
+
+    const EPSILON: f64 = f64::EPSILON;
+
+    fn candidates(approximation: f64) -> Vec<Self> {
+        vec![approximation]
     }
 }

@@ -1,4 +1,4 @@
-//! The free rigid body: the one file that knows it.
+//! The free rigid body: its Hamiltonian, and the two faces of its series. [`crate::energy`] computes them.
 //!
 //! Convention, with w = √L e^{iℓ}, u = i w̄, U = w, S = i s, τ = α/(√γ V) and the time unit C/(√γ V) (theory §1, §2):
 //!
@@ -181,29 +181,20 @@ fn faces(form: &Polynomial<BigRational>, turns: usize) -> PublicForm {
     form.terms().map(face).collect()
 }
 
-/// The form s in w̄, w, τ of order m whose public face is i s.
+/// Refuses the public face i s of a function that is complex on real motions.
 ///
-/// S is real on real motions where s has real coefficients and changes its sign under the exchange of w̄ and w.
-pub(crate) fn private_form(m: u32, face: &PublicForm) -> Result<Polynomial<BigRational>, Error> {
-    let complex = |j, k, l| Error::TermInconsistent {
-        what: "generating function",
-        order: m as usize,
-        exponents: vec![j, k, l],
-        problem: TermProblem::NotReal,
-    };
-    let mut form = Polynomial::zero();
+/// S is real there if s has real coefficients in w̄, w and changes its sign under the exchange of the two.
+pub(crate) fn check_real(m: usize, face: &PublicForm) -> Result<(), Error> {
+    let private = |j: u32, c: &Complex<BigRational>| turned_complex(c, j as usize + 3);
     for (&(j, k, l), c) in face {
-        let c = turned_complex(c, j as usize + 3);
-        if !c.im.is_zero() {
-            return Err(complex(j, k, l));
+        let c = private(j, c);
+        let opposite = face.get(&(k, j, l)).map(|c| -private(k, c));
+        if !c.im.is_zero() || opposite.as_ref() != Some(&c) {
+            let (what, exponents) = ("generating function", vec![j, k, l]);
+            return Err(Error::TermInconsistent { what, order: m, exponents, problem: TermProblem::NotReal });
         }
-        form.add_term(Monomial::new(&[j, k, m, l])?, &c.re);
     }
-    let defect = &form + &form.exchange(W_BAR, W)?;
-    match defect.terms().next() {
-        None => Ok(form),
-        Some((at, _)) => Err(complex(at.exponent(W_BAR), at.exponent(W), at.exponent(BETA))),
-    }
+    Ok(())
 }
 
 /// iⁿ c.

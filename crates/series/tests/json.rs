@@ -46,15 +46,15 @@ fn what_is_not_json_or_has_another_shape_is_refused() {
         r#"{"format":"andoyer-normal-form"}"#,
         r#"{"format":"andoyer-normal-form","version":1}"#,
     ] {
-        assert!(matches!(NormalForm::from_json(text), Err(Error::Json(_))), "{text}");
+        assert!(matches!(NormalForm::from_json(text), Err(Error::Json { .. })), "{text}");
     }
-    assert!(matches!(document("-1", P, S), Err(Error::Json(_))));
-    assert!(matches!(document("1", "{}", S), Err(Error::Json(_))));
-    assert!(matches!(document("1", r#"[[[0,2]],[]]"#, S), Err(Error::Json(_))));
-    assert!(matches!(document("1", P, r#"[[[1,3,"1/8","0"]]]"#), Err(Error::Json(_))));
-    assert!(matches!(document("1,\"extra\":0", P, S), Err(Error::Json(_))));
+    assert!(matches!(document("-1", P, S), Err(Error::Json { .. })));
+    assert!(matches!(document("1", "{}", S), Err(Error::Json { .. })));
+    assert!(matches!(document("1", r#"[[[0,2]],[]]"#, S), Err(Error::Json { .. })));
+    assert!(matches!(document("1", P, r#"[[[1,3,"1/8","0"]]]"#), Err(Error::Json { .. })));
+    assert!(matches!(document("1,\"extra\":0", P, S), Err(Error::Json { .. })));
     let nested = "[".repeat(100_000);
-    assert!(matches!(NormalForm::from_json(&nested), Err(Error::Json(_))));
+    assert!(matches!(NormalForm::from_json(&nested), Err(Error::Json { .. })));
 }
 
 #[test]
@@ -110,7 +110,7 @@ fn terms_that_no_normal_form_contains_are_refused() {
     assert_inconsistent(P, r#"[[[0,4,1,"1","0"]]]"#, &[0, 4, 1], TermProblem::Harmonic);
     assert_inconsistent(P, r#"[[[1,3,1,"1","0"],[1,3,1,"1","0"]]]"#, &[1, 3, 1], TermProblem::Repeated);
     assert_inconsistent(P, r#"[[[1,3,1,"0","1"]]]"#, &[1, 3, 1], TermProblem::NotReal);
-    assert_inconsistent(P, r#"[[[1,3,1,"1/8","0"],[3,1,1,"-1/8","0"]]]"#, &[3, 1, 1], TermProblem::NotReal);
+    assert_inconsistent(P, r#"[[[1,3,1,"1/8","0"],[3,1,1,"-1/8","0"]]]"#, &[1, 3, 1], TermProblem::NotReal);
 }
 
 #[test]
@@ -130,16 +130,16 @@ fn every_field_that_is_missing_twice_there_or_of_another_type_is_refused() {
     for at in 0..fields.len() {
         let mut spoilt = fields.to_vec();
         spoilt.remove(at);
-        assert!(matches!(written(&spoilt), Err(Error::Json(_))), "without {}", fields[at].0);
+        assert!(matches!(written(&spoilt), Err(Error::Json { .. })), "without {}", fields[at].0);
         spoilt.insert(at, fields[at]);
         spoilt.push(fields[at]);
-        assert!(matches!(written(&spoilt), Err(Error::Json(_))), "{} twice", fields[at].0);
+        assert!(matches!(written(&spoilt), Err(Error::Json { .. })), "{} twice", fields[at].0);
         spoilt.pop();
         for wrong in
             ["null", "true", "-1", "1.5", "1e400", "{}", "[1]", "[[1]]", "[[[\"1\"]]]", "[[[-1,\"1\"]]]", "NaN"]
         {
             spoilt[at].1 = wrong;
-            assert!(matches!(written(&spoilt), Err(Error::Json(_))), "{}: {wrong}", fields[at].0);
+            assert!(matches!(written(&spoilt), Err(Error::Json { .. })), "{}: {wrong}", fields[at].0);
         }
     }
 }
@@ -148,14 +148,14 @@ fn every_field_that_is_missing_twice_there_or_of_another_type_is_refused() {
 fn exponents_are_whole_numbers_that_are_not_negative_and_fit() {
     for bad in ["-2", "0.5", "4294967296", "\"0\"", "null"] {
         let refused = document("1", &format!(r#"[[[{bad},"2"]],[[0,"-1"]]]"#), S);
-        assert!(matches!(refused, Err(Error::Json(_))), "β^{bad}: {refused:?}");
+        assert!(matches!(refused, Err(Error::Json { .. })), "β^{bad}: {refused:?}");
         for [j, k, l] in [[bad, "3", "1"], ["1", bad, "1"], ["1", "3", bad]] {
             let refused = document("1", P, &format!(r#"[[[{j},{k},{l},"1/8","0"]]]"#));
-            assert!(matches!(refused, Err(Error::Json(_))), "({j}, {k}, {l}): {refused:?}");
+            assert!(matches!(refused, Err(Error::Json { .. })), "({j}, {k}, {l}): {refused:?}");
         }
     }
     for text in [r#"{"order":1"#, "1 1", &format!("{} ", r#"{"format":"#)] {
-        assert!(matches!(NormalForm::from_json(text), Err(Error::Json(_))), "{text}");
+        assert!(matches!(NormalForm::from_json(text), Err(Error::Json { .. })), "{text}");
     }
 }
 
@@ -177,15 +177,54 @@ fn an_order_that_is_only_claimed_costs_nothing() {
     let refused = document("16381", P, S);
     assert!(matches!(refused, Err(Error::CountMismatch { what: "triaxiality", found: 2, expected: 16382 })));
     let refused = document("18446744073709551616", P, S); // beyond 64 bits
-    assert!(matches!(refused, Err(Error::Json(_))));
+    assert!(matches!(refused, Err(Error::Json { .. })));
 }
 
 #[test]
-fn order_30_is_written_and_read_in_less_than_a_second() -> Result<(), Error> {
-    // P_n and the generators are what is written; the direct transformation of order 30 alone would take longer. Measured: 20 ms.
-    let normal_form = NormalForm::new(30)?;
-    let start = std::time::Instant::now();
+fn order_50_is_written_and_read() -> Result<(), Error> {
+    // P_n and the generators are what is written, and what is computed again to verify them; nothing else is.
+    let normal_form = NormalForm::new(50)?;
     assert_eq!(NormalForm::from_json(&normal_form.to_json()?)?, normal_form);
-    assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
     Ok(())
+}
+
+/// The document of order 4 with one text replaced by another.
+fn tampered(from: &str, to: &str) -> Result<NormalForm, Error> {
+    let text = NormalForm::new(4)?.to_json()?;
+    assert_eq!(text.matches(from).count(), 1, "{from} in {text}");
+    NormalForm::from_json(&text.replace(from, to))
+}
+
+#[test]
+fn a_coefficient_that_is_not_that_of_the_rigid_body_is_refused_with_its_order() {
+    // P_2 = −¾β² with the right generators was accepted, and was then two different normal forms.
+    match tampered(r#"[[2,"-1/2"]]"#, r#"[[2,"-3/4"]]"#) {
+        Err(error @ Error::CoefficientWrong { what: "triaxiality polynomial", order: 2, .. }) => assert_eq!(
+            error.to_string(),
+            "the triaxiality polynomial of order 2 has the coefficient -3/4 at the exponents [2]: it must be -1/2"
+        ),
+        other => panic!("{other:?}"),
+    }
+    // S_2 = β(u² + U²) (−i/4) u²U²: both terms, so that it stays real.
+    match tampered(r#"[[2,4,1,"0","-1/4"],[4,2,1,"0","-1/4"]]"#, r#"[[2,4,1,"0","-1/2"],[4,2,1,"0","-1/2"]]"#) {
+        Err(Error::CoefficientWrong { what: "generating function", order: 2, exponents, found, expected }) => {
+            assert_eq!((&exponents[..], &found[..], &expected[..]), (&[2, 4, 1][..], "0-1/2i", "0-1/4i"));
+        }
+        other => panic!("{other:?}"),
+    }
+    assert!(matches!(
+        tampered(r#"[[2,"-5/8"]]"#, "[]"),
+        Err(Error::CoefficientWrong { order: 3, found, expected, .. }) if (&found[..], &expected[..]) == ("0", "-5/8")
+    ));
+    assert!(matches!(document("1", r#"[[[0,"3"]],[[0,"-1"]]]"#, S), Err(Error::CoefficientWrong { order: 0, .. })));
+}
+
+#[test]
+fn a_document_without_terms_ends_at_its_first_order() {
+    let lists = |count: usize| vec!["[]"; count].join(",");
+    let refused = document("16381", &format!("[{}]", lists(16382)), &format!("[{}]", lists(16381)));
+    assert!(matches!(refused, Err(Error::CoefficientWrong { order: 0, .. })));
+    let claimed = format!(r#"[[[0,"2"]],[[0,"-1"]],{}]"#, lists(16380));
+    let refused = document("16381", &claimed, &format!("[{},{}]", &S[1..S.len() - 1], lists(16380)));
+    assert!(matches!(refused, Err(Error::CoefficientWrong { order: 2, .. })), "{refused:?}");
 }

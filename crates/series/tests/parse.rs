@@ -134,3 +134,19 @@ fn hostile_text_neither_hangs_nor_overflows_the_stack() {
         Err(Error::Parse { problem: ParseProblem::UnexpectedCharacter('^'), .. })
     ));
 }
+
+#[test]
+fn a_function_and_a_product_without_its_sign_are_named() {
+    let problem = |text: &str| match Polynomial::<BigRational>::parse(text, &["x"]) {
+        Err(Error::Parse { position, problem }) => Some((position, problem)),
+        _ => None,
+    };
+    let cosine = problem("1 - cos(x)");
+    assert!(matches!(&cosine, Some((4, ParseProblem::Function(name))) if name == "cos"), "{cosine:?}");
+    let text = cosine.map(|(_, problem)| problem.to_string()).unwrap_or_default();
+    assert!(text.contains("expand it as a Taylor polynomial") && text.contains("degree N + 2"), "{text}");
+    for text in ["0.5(x + 1)", "(1 + 0.5(x))", "x (x)", "(x)(x)"] {
+        assert!(matches!(problem(text), Some((_, ParseProblem::ProductWithoutSign))), "{text}: {:?}", problem(text));
+    }
+    assert_eq!(ParseProblem::ProductWithoutSign.to_string(), "a factor in brackets needs * before it");
+}

@@ -2,11 +2,14 @@
 //!
 //! `cases`: the share of the torque's effect on the attitude that each level leaves in the reference cases.
 //! `levels`: the share of the torque's effect on the attitude that each level leaves, against J, n/spin, e and B − A, one of them varied at a time.
+//! `climb STARTS STEPS SEED`: the largest error over its bound that hill climbing finds, by family, mode and averaging.
 //! `bounds N`: the error of N random scenes over the bound that the plan states, for both averagings.
 
 use std::io::{self, Write};
 
 use andoyer_propagate::{Averaging, Body, Error, Level, Motion, Orbit, Scene, State};
+use andoyer_tests::climb::{FAMILIES, Summit, Uniform, climb};
+use andoyer_tests::disturbed::Disturbed;
 use andoyer_tests::integration::Problem;
 use andoyer_tests::{attitude_error, cases, orbits};
 
@@ -126,20 +129,6 @@ fn levels(out: &mut impl Write) -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Uniform numbers in [0, 1) from a linear congruential generator (Knuth's multiplier): the same on every machine.
-struct Uniform(u64);
-
-impl Uniform {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-}
-
 fn setting(random: &mut Uniform) -> Setting {
     // A homogeneous ellipsoid, axes ordered.
     let first = random.between(0.4, 1.0);
@@ -190,6 +179,54 @@ fn bounds(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn s
     Ok(())
 }
 
+fn climbs(out: &mut impl Write, starts: u64, steps: usize, seed: u64) -> Result<(), Box<dyn std::error::Error>> {
+    writeln!(out, "family,mode,averaging,starts,solved,error,bound,ratio,scene")?;
+    let mut tasks = Vec::new();
+    for family in FAMILIES {
+        for long_axis in [false, true] {
+            for averaging in [Averaging::Spin, Averaging::Orbit] {
+                tasks.push((family, long_axis, averaging));
+            }
+        }
+    }
+    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(tasks.len());
+    let run = |&(family, long_axis, averaging): &(_, _, _)| -> Vec<Summit> {
+        let climbs = (0..starts).map(|start| climb(family, long_axis, averaging, steps, &mut Uniform(seed + start)));
+        climbs.flatten().collect()
+    };
+    // Results go in the order of the tasks, whatever thread has them.
+    let mut summits: Vec<Vec<Summit>> = vec![Vec::new(); tasks.len()];
+    std::thread::scope(|scope| {
+        let mut handles = Vec::new();
+        for thread in 0..threads {
+            let (tasks, run) = (&tasks, &run);
+            handles.push(scope.spawn(move || -> Vec<(usize, Vec<Summit>)> {
+                (thread..tasks.len()).step_by(threads).map(|k| (k, run(&tasks[k]))).collect()
+            }));
+        }
+        for handle in handles {
+            for (k, found) in handle.join().unwrap_or_default() {
+                summits[k] = found;
+            }
+        }
+    });
+    for ((family, long_axis, averaging), found) in tasks.into_iter().zip(summits) {
+        let solved: usize = found.iter().map(|summit| summit.solved).sum();
+        let Some(worst) = found.into_iter().max_by(|a, b| a.ratio().total_cmp(&b.ratio())) else { continue };
+        let mode = if long_axis { "long" } else { "short" };
+        let Disturbed { moments, attitude, rates, orbit, span, .. } = worst.scene;
+        writeln!(
+            out,
+            "{},{mode},{averaging},{starts},{solved},{:.3e},{:.3e},{:.3},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {span}\"",
+            family.name(),
+            worst.measured.error,
+            worst.measured.bound,
+            worst.ratio(),
+        )?;
+    }
+    Ok(())
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut out = io::BufWriter::new(io::stdout().lock());
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -197,7 +234,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     match words[..] {
         ["cases"] => reference_cases(&mut out),
         ["levels"] => levels(&mut out),
+        ["climb", starts, steps, seed] => climbs(&mut out, starts.parse()?, steps.parse()?, seed.parse()?),
         ["bounds", count, seed] => bounds(&mut out, count.parse()?, seed.parse()?),
-        _ => Err("usage: gradient cases | gradient levels | gradient bounds COUNT SEED".into()),
+        _ => Err(
+            "usage: gradient cases | gradient levels | gradient bounds COUNT SEED | gradient climb STARTS STEPS SEED"
+                .into(),
+        ),
     }
 }

@@ -1,7 +1,7 @@
 """Rotation of rigid bodies by perturbation series in complex variables.
 
 The exact side is `NormalForm`: the normal form of the free rigid body to any order; `normalize` finds that of any other polynomial
-Hamiltonian about an elliptic point. The numerical side is `Scene`, a `Body` with its state,
+Hamiltonian about an equilibrium. The numerical side is `Scene`, a `Body` with its state,
 which is solved into a `Motion` and evaluated at any time; with an `Orbit`, under the gravity gradient of another body; an `Ensemble` is many of
 them. No unit is built in; angles are in rad. Attitudes are unit quaternions
 [x, y, z, w] that rotate body components into inertial ones.
@@ -18,89 +18,80 @@ In every docstring "theory §n" is section n of docs/theory.md, and the scene fi
 """
 
 from andoyer._core import (
-    AngularVelocityError,
-    AttitudeError,
-    AveragingError,
     BirkhoffNormalForm,
     Body,
+    Domain,
     Ensemble,
-    EpochError,
     Error,
-    FormatError,
-    HamiltonianError,
+    FileError,
+    InputError,
     InternalError,
-    IntervalError,
-    LevelError,
-    MethodError,
-    MomentsError,
     Motion,
     NormalForm,
     Orbit,
-    OrbitError,
-    OrderError,
+    Partials,
     Plan,
-    ResonanceError,
+    RepresentationError,
     Samples,
     Scene,
-    SceneFileError,
-    SeparatrixError,
-    SeriesError,
-    ShapeError,
-    SpanError,
-    SpinResonanceError,
-    ThreadsError,
-    TimesError,
-    ToleranceError,
-    TorqueError,
-    UnitsError,
-    UnknownBodyError,
-    UnknownNameError,
+    TheoryError,
+    ToleranceWarning,
     __version__,
     normalize,
     separatrix_action,
 )
 from andoyer.mean import Frequencies, Periods
 
+# Names of the errors before this release. They go in the next one; the base stands where an old class held errors of several new ones.
+AngularVelocityError = InputError
+AttitudeError = InputError
+AveragingError = Error
+EpochError = InputError
+FormatError = FileError
+HamiltonianError = Error
+IntervalError = InputError
+LevelError = InputError
+MethodError = InputError
+MomentsError = InputError
+OrbitError = InputError
+OrderError = Error
+PeriodsError = InputError
+ResonanceError = Error
+SceneFileError = FileError
+SeparatrixError = TheoryError
+SeriesError = Error
+ShapeError = InputError
+SpanError = InputError
+SpinResonanceError = TheoryError
+ThreadsError = InputError
+TimesError = Error
+ToleranceError = InputError
+TorqueError = TheoryError
+UnitsError = RepresentationError
+UnknownBodyError = InputError
+UnknownNameError = InputError
+
 __all__ = [
-    "AngularVelocityError",
-    "AttitudeError",
-    "AveragingError",
     "BirkhoffNormalForm",
     "Body",
+    "Domain",
     "Ensemble",
-    "EpochError",
     "Error",
-    "FormatError",
+    "FileError",
     "Frequencies",
-    "HamiltonianError",
+    "InputError",
     "InternalError",
-    "IntervalError",
-    "LevelError",
-    "MethodError",
-    "MomentsError",
     "Motion",
     "NormalForm",
     "Orbit",
-    "OrbitError",
-    "OrderError",
+    "Partials",
     "Periods",
     "Plan",
-    "ResonanceError",
+    "RepresentationError",
     "Samples",
     "Scene",
-    "SceneFileError",
-    "SeparatrixError",
-    "SeriesError",
-    "ShapeError",
-    "SpanError",
-    "SpinResonanceError",
-    "ThreadsError",
-    "TimesError",
-    "ToleranceError",
-    "TorqueError",
-    "UnitsError",
-    "UnknownBodyError",
-    "UnknownNameError",
+    "TheoryError",
+    "ToleranceWarning",
     "__version__",
     "normalize",
     "separatrix_action",

@@ -1,6 +1,6 @@
 # Types of the compiled core. Docstrings here are the first lines of those at run time, which say the rest; a test holds the two together.
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any, Literal, TypeAlias, final, overload
 
@@ -23,96 +23,51 @@ _Expression: TypeAlias = str | dict[tuple[int, ...], Any] | Any
 __version__: str
 
 class Error(ValueError):
-    """Bad input, or a motion that is not served; the base of every error of this package."""
+    """The base of every error of this package."""
 
+    argument: str | None
+    value: Any
+    bound: Any
     index: int  # only of a member of an ensemble: its place among the members
 
-class AngularVelocityError(Error):
-    """An angular velocity that is not finite."""
+class FileError(Error):
+    """A scene file or a JSON text that cannot be read."""
 
-class AttitudeError(Error):
-    """An attitude that is no unit quaternion."""
-
-class AveragingError(Error):
-    """An averaging that is unknown, or a motion that has no averaged theory."""
-
-class EpochError(Error):
-    """An epoch that is not finite."""
-
-class FormatError(Error):
-    """A text that is not the JSON of a normal form."""
-
-class HamiltonianError(Error):
-    """A polynomial that cannot be read, or a Hamiltonian whose origin is no elliptic point with a diagonal quadratic part."""
+class InputError(Error):
+    """An argument that is wrong."""
 
 class InternalError(Error):
     """A fault of this package: no input should lead to it."""
 
-class IntervalError(Error):
-    """A number outside its interval."""
+class RepresentationError(Error):
+    """Units, times or orders that doubles, exact rationals or memory cannot hold."""
 
-class LevelError(Error):
-    """A level of the theory of the gravity gradient that is unknown."""
+class TheoryError(Error):
+    """No theory holds: the series near the separatrix, a spin resonance, a torque too strong, a motion without averaging, a small divisor or a Hamiltonian that cannot be diagonalized."""
 
-class MethodError(Error):
-    """A method that is unknown."""
+class ToleranceWarning(UserWarning):
+    """A motion, or members of an ensemble, whose error bound exceeds the tolerance over the span."""
 
-class MomentsError(Error):
-    """Moments of inertia that no body has."""
-
-class OrbitError(Error):
-    """An element of an orbit that is none."""
-
-class OrderError(Error):
-    """An order that is no whole number within its bounds."""
-
-class ResonanceError(Error):
-    """A resonance or small divisor not asked for, or one asked for that is none."""
-
-class SceneFileError(Error):
-    """A scene file that cannot be read or says something wrong."""
-
-class SeparatrixError(Error):
-    """The series asked for on the separatrix, or too near it for the tolerance."""
-
-class SeriesError(Error):
-    """Any other error of the exact algebra."""
-
-class ShapeError(Error):
-    """An array of the wrong shape or memory layout."""
-
-class SpanError(Error):
-    """A span that is not finite or runs backwards."""
-
-class SpinResonanceError(Error):
-    """A rotation so slow, or so near a resonance with its orbit, that no averaging holds."""
-
-class ThreadsError(Error):
-    """A number of threads that is none, or that the system does not give."""
-
-class TimesError(Error):
-    """A time that is not finite, or too far from the epoch to have a phase."""
-
-class ToleranceError(Error):
-    """A tolerance that is not positive and finite."""
-
-class TorqueError(Error):
-    """A torque too strong for an expansion in it."""
-
-class UnitsError(Error):
-    """Units in which the angular momentum, or a rate that belongs to it, over- or underflows."""
-
-class UnknownBodyError(Error):
-    """A name that the catalogue of bodies does not have."""
-
-class UnknownNameError(Error):
-    """A name that is none of the known ones: of a variable, or of a part of the normal form."""
-
-@final
 class Body:
     """Principal moments of inertia of a rigid body."""
 
     def __new__(cls, moments: ArrayLike, *, name: str | None = None) -> Body: ...
+    @staticmethod
+    def from_inertia(tensor: ArrayLike, *, name: str | None = None) -> Body:
+        """A body from its inertia tensor about axes of your own: attitudes, rates, momenta and derivatives of its scenes are about these axes."""
+    @staticmethod
+    def ellipsoid(a: float, b: float, c: float, *, mass: float = 1.0, name: str | None = None) -> Body:
+        """A homogeneous ellipsoid with semi-axes a, b, c along body axes 1, 2, 3: moments m (b² + c²)/5 and so on."""
+    @staticmethod
+    def box(x: float, y: float, z: float, *, mass: float = 1.0, name: str | None = None) -> Body:
+        """A homogeneous box with edges x, y, z along body axes 1, 2, 3: moments m (y² + z²)/12 and so on."""
+    def period_ratios(
+        self,
+        mode: Literal["short-axis", "long-axis"] = "short-axis",
+        *,
+        convention: Literal["extremal-axis", "long-axis", "short-axis"] = "extremal-axis",
+    ) -> tuple[float, float]:
+        """The ratios P_ψ/P_φ that this body can have in a mode: an interval, of which each number belongs to one motion."""
     @staticmethod
     def named(name: str) -> Body:
         """A body of the catalogue, by its name in any case."""
@@ -125,6 +80,12 @@ class Body:
     @property
     def moments(self) -> _Array:
         """The moments about body axes 1, 2, 3 as given: a read-only array, shape (3,)."""
+    @property
+    def inertia(self) -> _Array:
+        """The inertia tensor about the user's axes: a read-only array, shape (3, 3), diagonal unless `from_inertia` was given another."""
+    @property
+    def principal_axes(self) -> _Array:
+        """The principal axes, the columns of a proper rotation in the order of `moments`, in the user's components: a read-only array, shape (3, 3)."""
     @property
     def alpha(self) -> float:
         """Oblateness α = [(C/A − 1) + (C/B − 1)]/2 of the sorted moments A ≤ B ≤ C (theory §1); 0 for a sphere."""
@@ -142,7 +103,6 @@ class Body:
         """The name, or None."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
     def __copy__(self) -> Body: ...
     def __deepcopy__(self, _memo: Any) -> Body: ...
 
@@ -198,7 +158,7 @@ class Scene:
         attitude: ArrayLike | Rotation,
         angular_velocity: ArrayLike,
         *,
-        epoch: float = 0.0,
+        epoch: float | Any = 0.0,
         orbit: Orbit | None = None,
         tolerance: float = 1e-12,
         method: Literal["auto", "series", "closed"] = "auto",
@@ -210,6 +170,24 @@ class Scene:
         source: str | None = None,
         scalar_first: bool = False,
     ) -> Scene: ...
+    @classmethod
+    def from_periods(
+        cls,
+        body: Body,
+        precession: float,
+        rotation: float,
+        *,
+        mode: Literal["short-axis", "long-axis"] = "short-axis",
+        convention: Literal["extremal-axis", "long-axis", "short-axis"] = "extremal-axis",
+        momentum_direction: ArrayLike | None = None,
+        phases: ArrayLike | None = None,
+        epoch: float = 0.0,
+        **options: Any,
+    ) -> Scene:
+        """The torque-free state of a body that tumbles with these periods (theory §7): for a mode there is one."""
+    @classmethod
+    def from_andoyer(cls, body: Body, andoyer: ArrayLike, *, epoch: float = 0.0, **options: Any) -> Scene:
+        """The scene whose Andoyer variables at the epoch are these: the inverse of `Motion.andoyer` (theory §1)."""
     @classmethod
     def from_toml(cls, path: str | os.PathLike[str]) -> Scene:
         """The scene of a TOML file."""
@@ -278,6 +256,8 @@ class Motion:
         """Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1)."""
     def rotation(self, times: ArrayLike) -> Rotation:
         """Attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else."""
+    def partials(self, times: ArrayLike) -> Partials:
+        """Derivatives of attitude and angular velocity with respect to the state at the epoch and the moments (theory §12)."""
     @property
     def plan(self) -> Plan:
         """What is evaluated, and why."""
@@ -288,8 +268,8 @@ class Motion:
     def frequencies(self) -> Frequencies:
         """Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time; 0 where there is none."""
     @property
-    def periods(self) -> dict[Literal["long-axis", "short-axis"], Periods]:
-        """Mean periods (P_φ, P_ψ) in both conventions: ``{"long-axis": (precession, rotation), "short-axis": (precession, rotation)}``."""
+    def periods(self) -> dict[Literal["long-axis", "short-axis", "extremal-axis"], Periods]:
+        """Mean periods (P_φ, P_ψ) in three conventions: a dict with the keys "long-axis", "short-axis" and "extremal-axis"."""
     @property
     def energy_ratio(self) -> float:
         """E/E0: rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum (theory §5)."""
@@ -319,6 +299,15 @@ class Plan:
     def error_bound(self) -> float:
         """Estimate from above of the attitude error over the span, in rad: truncation, dropped harmonics, rounding."""
     @property
+    def tolerance(self) -> float:
+        """The attitude error asked for over the span, in rad."""
+    @property
+    def meets_tolerance(self) -> bool:
+        """Whether the error bound is within the tolerance, or within 2e-14 rad where the tolerance is less than double precision holds."""
+    @property
+    def missed_tolerance(self) -> str | None:
+        """The sentence of the `ToleranceWarning` where the tolerance is not met, or None."""
+    @property
     def separatrix_ratio(self) -> float:
         """σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5)."""
     @property
@@ -331,18 +320,26 @@ class Plan:
     def first_neglected(self) -> float:
         """First neglected term under a gravity gradient, in rad: of second order in the torque, or a short-period one that was dropped; 0 without an orbit."""
     @property
+    def partials(self) -> Literal["closed", "differences"] | None:
+        """How `Motion.partials` computes: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; None on the separatrix, where there are none."""
+    @property
     def skipped(self) -> list[str]:
         """What this scene did not need, and why: a list of str."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: None  # type: ignore[assignment]
+    def __copy__(self) -> Plan: ...
+    def __deepcopy__(self, _memo: Any) -> Plan: ...
 
 @final
 class Samples:
     """Attitudes and angular velocities at some times, of a motion or of the members of an ensemble: what `Motion.at` and `Ensemble.at` return."""
 
     @property
-    def times(self) -> _Array:
-        """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n)."""
+    def times(self) -> Any:
+        """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n). Times of astropy are given back as they are."""
+    @property
+    def errors(self) -> dict[int, Error]:
+        """Why members have no samples but NaN: errors by index, of an ensemble with ``errors="nan"``; else empty."""
     @property
     def attitude(self) -> _Array:
         """Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4) or (m, n, 4)."""
@@ -359,8 +356,23 @@ class Samples:
     def __len__(self) -> int: ...
 
 @final
+class Partials:
+    """Derivatives of attitude and angular velocity at some times: what `Motion.partials` returns."""
+
+    @property
+    def times(self) -> _Array:
+        """The times, float64, shape (n,)."""
+    @property
+    def attitude(self) -> _Array:
+        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9)."""
+    @property
+    def angular_velocity(self) -> _Array:
+        """Derivatives of the angular velocity in body components, shape (n, 3, 9)."""
+    def __len__(self) -> int: ...
+
+@final
 class Ensemble:
-    """Many bodies with their states at time 0, solved and evaluated member by member on all cores, in memory proportional to the result."""
+    """Many bodies with their states, solved and evaluated member by member on all cores, in memory proportional to the result."""
 
     def __new__(
         cls,
@@ -368,10 +380,12 @@ class Ensemble:
         attitudes: ArrayLike | Rotation,
         angular_velocities: ArrayLike,
         *,
+        epochs: ArrayLike | Any | None = None,
         orbits: Orbit | Iterable[Orbit | None] | None = None,
         tolerance: float = 1e-12,
-        span: tuple[float, float] | None = None,
+        span: ArrayLike | Any | None = None,
         threads: int | None = None,
+        errors: Literal["raise", "nan"] = "raise",
         scalar_first: bool = False,
     ) -> Ensemble: ...
     def at(self, times: ArrayLike, *, scalar_first: bool = False) -> Samples:
@@ -379,8 +393,14 @@ class Ensemble:
     def attitude(self, times: ArrayLike, out: _Array | None = None, *, scalar_first: bool = False) -> _Array:
         """Attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones."""
     @property
-    def plans(self) -> list[Plan]:
-        """The plan of every member: a list of `Plan`."""
+    def plans(self) -> list[Any]:
+        """The plan of every member: a list of `Plan`; with ``errors="nan"`` None for a member that is refused."""
+    @property
+    def errors(self) -> dict[int, Error]:
+        """Why members have no motion: errors by index. All members are solved for it; empty where every member has one."""
+    @property
+    def epochs(self) -> Any:
+        """The times of the states: a float for all members, or a read-only array, shape (m,)."""
     @property
     def moments(self) -> _Array:
         """The moments about body axes 1, 2, 3: a read-only array, shape (m, 3)."""
@@ -403,6 +423,7 @@ class Ensemble:
     def threads(self) -> int | None:
         """The number of threads asked for, or None."""
     def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[Motion]: ...
     @overload
     def __getitem__(self, index: int, /) -> Motion: ...
     @overload
@@ -470,17 +491,28 @@ class BirkhoffNormalForm:
     def parameters(self) -> tuple[str, ...]:
         """The parameters."""
     @property
-    def frequencies(self) -> tuple[_Number, ...]:
-        """The frequencies ω = ±√(ab) at the origin, negative where a and b are."""
+    def frequencies(self) -> tuple[_Number | complex, ...]:
+        """The frequencies ω at the origin: of a centre real, and negative where its energy is; of a saddle iλ; of a quartet iσ − ν and iσ + ν."""
     @property
-    def ratios(self) -> tuple[_Number, ...]:
-        """The ratios r = √(a/b)."""
+    def kinds(self) -> tuple[Literal["elliptic", "hyperbolic", "complex"], ...]:
+        """The kind of every mode: "elliptic", "hyperbolic" or "complex"."""
+    @property
+    def ratios(self) -> tuple[_Number | None, ...]:
+        """The ratios r = √(a/b) of the centres, None for other modes."""
+    @property
+    def linear_change(self) -> tuple[tuple[_Number, ...], ...]:
+        """The symplectic matrix M of the linear change z = M z′ that diagonalizes the quadratic part, by rows; the unit matrix where it is diagonal already."""
+    @property
+    def resonances(self) -> tuple[tuple[int, ...], ...]:
+        """The resonances that were kept: vectors k with k·ω = 0, whose terms turn with the resonant angles k·φ."""
     def in_actions(self) -> _Polynomial:
         """K in the actions: exponents of I₁, I₂, …, parameters. The constant term of H is in it."""
     def in_complex(self) -> dict[tuple[int, ...], tuple[_Number, _Number]]:
         """K in the complex variables: (re, im) by exponents of u₁, U₁, u₂, U₂, …, parameters."""
     def in_real(self) -> _Polynomial:
         """K in the new real variables."""
+    def centre_manifold(self) -> _Polynomial:
+        """The Hamiltonian on the centre manifold: K in the new real variables of the centres, where the saddles rest at q = p = 0."""
     def generator(self, m: int) -> _Polynomial:
         """Generating function S_m in the real variables, of degree m + 2."""
     def direct(self, function: _Expression) -> _Polynomial:
@@ -493,15 +525,47 @@ class BirkhoffNormalForm:
         """The states of new variables; errors are those of `to_normal`."""
     def actions(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The actions of states, which hardly change along a motion unless a resonance exchanges them."""
+    def from_centre_manifold(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+        """The states of points of the centre manifold, given by the new variables of the centres alone."""
+    def energy(self, normal: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+        """The value of K at new variables: the energy."""
+    def rates(self, normal: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+        """The rates of new variables, by Hamilton's equations of K."""
+    def domain(self, parameters: dict[str, float] | None = None) -> Domain:
+        """How far the form is good: the sizes of its orders, and the best order at an amplitude."""
     def frequency_map(self, actions: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The frequencies Ω = ∂K/∂I at actions."""
+        """The frequencies Ω = ∂K/∂I at actions: of a saddle the rate, of a quartet rate and frequency."""
     def trajectory(self, state: ArrayLike, times: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The states at times after that of `state`: the angles move uniformly with the frequencies at its actions."""
+        """The states at times after that of `state`, by the motion of the normal form."""
+    def to_json(self) -> str:
+        """This normal form as JSON text, with a format version: exact numbers as "p/q" strings, floats with all their digits."""
+    @classmethod
+    def from_json(cls, text: str, symbols: dict[str, Any] | None = None) -> BirkhoffNormalForm:
+        """Reads what `to_json` wrote."""
+    def to_latex(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> str:
+        """A part of this normal form as LaTeX, for a document that uses amsmath."""
+    def to_code(self, language: Literal["c", "rust", "python"] = "c") -> str:
+        """Functions that evaluate this normal form, as the text of a file of source that needs nothing but its language."""
     def to_sympy(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> Any:
         """A part of this normal form as SymPy expressions. SymPy is imported here and nowhere else."""
     def __eq__(self, other: object, /) -> bool: ...
     def __copy__(self) -> BirkhoffNormalForm: ...
     def __deepcopy__(self, _memo: Any) -> BirkhoffNormalForm: ...
+
+class Domain:
+    """How far a normal form is good, from `BirkhoffNormalForm.domain`: an estimate by the sizes of its orders."""
+
+    @property
+    def norms(self) -> list[float]:
+        """‖T_1‖ … ‖T_N‖: norms of the generating functions S_m/(m−1)! at the amplitude 1."""
+    @property
+    def radii(self) -> list[float]:
+        """ρ_m = (‖T_{m−2}‖/‖T_m‖)^½, m = 3 … N: the amplitude at which order m is as large as order m − 2."""
+    def sizes(self, amplitude: float) -> list[float]:
+        """The sizes (m + 2) ‖T_m‖ a^(m+1) of the orders of the transformation at an amplitude."""
+    def best_order(self, amplitude: float) -> int:
+        """The order whose size is least at an amplitude."""
+    def __eq__(self, other: object, /) -> bool: ...
 
 def normalize(
     hamiltonian: _Expression,
@@ -509,9 +573,11 @@ def normalize(
     variables: Sequence[tuple[Any, Any]],
     *,
     parameters: Sequence[Any] | None = None,
+    degrees: dict[str, int] | None = None,
     resonances: Sequence[Sequence[int]] | None = None,
+    keep: Literal["hyperbolic"] | None = None,
     smallest_divisor: float = 1e-6,
     exact: bool | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> BirkhoffNormalForm:
-    """Birkhoff normal form of a polynomial Hamiltonian about an elliptic point at the origin."""
+    """Birkhoff normal form of a polynomial Hamiltonian about an equilibrium at the origin."""

@@ -1,12 +1,15 @@
-"""Diagrams of accuracy: error by order of the series, and what accuracy costs. They measure while they are drawn, against the closed form at its best."""
+"""Diagrams of accuracy: error by order of the series, what accuracy costs, the domain of a normal form. The first two measure while they are drawn, against the closed form at its best."""
 
 import time
-from collections.abc import Iterable
+import warnings
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from andoyer._core import Motion, Scene, SeparatrixError
+from andoyer._core import BirkhoffNormalForm, Motion, Scene, TheoryError, ToleranceWarning
 from andoyer._extra import extra
 from andoyer._style import BLUE, GREY, VERMILION, Array
 
@@ -19,6 +22,15 @@ ROTATIONS = 20
 """Rotations over which errors are taken, where the scene has no span: those of a fixed order grow with time."""
 
 
+@contextmanager
+def missed_on_purpose() -> Iterator[None]:
+    """What a low order misses is what is drawn: no warning."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ToleranceWarning)
+        yield
+
+
+@missed_on_purpose()
 def error_by_order(scene: Scene, orders: Iterable[int] = range(0, 31, 2), axes: "Axes | None" = None) -> "Axes":
     """Largest attitude error of the series over 20 rotations by order, beside (σ/σ_sep)^(N+1) and the closed form's bound.
 
@@ -33,7 +45,7 @@ def error_by_order(scene: Scene, orders: Iterable[int] = range(0, 31, 2), axes: 
 
     Raises
     ------
-    SeparatrixError
+    TheoryError
         A scene on the separatrix: there are no series.
     """
     axes = axes_or_new(axes)
@@ -50,6 +62,7 @@ def error_by_order(scene: Scene, orders: Iterable[int] = range(0, 31, 2), axes: 
     return axes
 
 
+@missed_on_purpose()
 def work_precision(scene: Scene, orders: Iterable[int] = range(0, 21, 2), axes: "Axes | None" = None) -> "Axes":
     """Time of solving against the error reached: the series by order, the closed form by tolerance. Accuracy grows to the right.
 
@@ -71,7 +84,7 @@ def work_precision(scene: Scene, orders: Iterable[int] = range(0, 21, 2), axes: 
         for variant in variants:
             try:
                 seconds, motion = _timed(variant)
-            except SeparatrixError:
+            except TheoryError:
                 continue
             error = max(_largest_angle(truth, motion.attitude(times)), best.plan.error_bound)
             points.append((error, 1e6 * seconds))
@@ -79,6 +92,38 @@ def work_precision(scene: Scene, orders: Iterable[int] = range(0, 21, 2), axes: 
             axes.loglog(*zip(*points), style[0], color=style[1], markersize=5, label=label)
     axes.set(xlabel="largest attitude error [rad]", ylabel="time of solving [μs]", title="What accuracy costs")
     axes.set_xlim(*sorted(axes.get_xlim(), reverse=True))
+    axes.legend(frameon=False)
+    return axes
+
+
+def domain(
+    normal_form: BirkhoffNormalForm,
+    amplitudes: Iterable[float] = (0.05, 0.1, 0.2, 0.5),
+    axes: "Axes | None" = None,
+    *,
+    parameters: dict[str, float] | None = None,
+) -> "Axes":
+    """Sizes of the orders of a normal form at some amplitudes, the best order of each marked with a star.
+
+    Parameters
+    ----------
+    normal_form : BirkhoffNormalForm
+    amplitudes : iterable of float, optional
+        √(2|I|) of all modes.
+    axes : matplotlib.axes.Axes, optional
+    parameters : dict of {str: float}, optional
+        Numbers for the parameters of the form.
+    """
+    axes, estimate = axes_or_new(axes), normal_form.domain(parameters)
+    for amplitude, style in zip(amplitudes, cycle(("-", "--", "-.", ":"))):
+        sizes = estimate.sizes(amplitude)
+        drawn = [(order, size) for order, size in enumerate(sizes, 1) if size > 0]
+        if not drawn:
+            continue
+        (line,) = axes.semilogy(*zip(*drawn), style, marker=".", label=f"amplitude {amplitude:g}")
+        best = estimate.best_order(amplitude)
+        axes.semilogy(best, sizes[best - 1], "*", markersize=11, color=line.get_color())
+    axes.set(xlabel="order", ylabel="size of the order", title="How far the normal form is good")
     axes.legend(frameon=False)
     return axes
 

@@ -1,5 +1,7 @@
 """Values of astropy and SciPy as plain numbers. Quantities are taken in SI units, times in TDB seconds since J2000, 2000-01-01T12:00:00 TDB.
 
+Times of a motion are differences from its epoch, formed in the two doubles of astropy: seconds since J2000 are good to 1e-7 s alone.
+
 Neither package is imported before a value of it is given.
 """
 
@@ -8,9 +10,15 @@ from __future__ import annotations
 import sys
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from andoyer._core import InputError
+
 UNITS = {
     "times": "s",
     "epoch": "s",
+    "epochs": "s",
     "span": "s",
     "time_of_pericentre": "s",
     "angular_velocity": "rad / s",
@@ -25,6 +33,7 @@ UNITS = {
 """Unit of each argument; of the others none."""
 
 J2000 = 2451545.0
+DAY = 86400.0
 
 
 def plain(argument: str, value: Any) -> Any:
@@ -33,20 +42,128 @@ def plain(argument: str, value: Any) -> Any:
     Raises
     ------
     TypeError
-        A quantity of another kind: metres for times.
+        A quantity of another kind: metres for times. An array with a mask.
     """
     if hasattr(value, "as_quat"):
         return value.as_quat()
+    value = joined(argument, value)
+    unmasked(argument, value)
     units, time = sys.modules.get("astropy.units"), sys.modules.get("astropy.time")
     if time is not None and isinstance(value, time.Time):
         if UNITS.get(argument) != "s":
             raise TypeError(f"{argument} must be no astropy Time: got {value!r}")
-        moment = value.tdb
-        return ((moment.jd1 - J2000) + moment.jd2) * 86400.0
+        return seconds(value.tdb)
+    if time is not None and isinstance(value, time.TimeDelta):
+        if UNITS.get(argument) != "s":
+            raise TypeError(f"{argument} must be no astropy TimeDelta: got {value!r}")
+        return value.jd1 * DAY + value.jd2 * DAY
     if units is not None and isinstance(value, units.Quantity):
         unit = UNITS.get(argument, "")
         try:
             return value.to_value(unit)
         except units.UnitConversionError:
-            raise TypeError(f"{argument} must be in {unit or 'no unit'}, or what converts to it: got {value.unit}") from None
+            # 1 Hz is no rad/s in astropy, since a frequency may count turns or radians.
+            advice = "; rates in turns per second have the unit u.cycle / u.s" if unit == "rad / s" and value.unit.is_equivalent("Hz") else ""
+            raise TypeError(f"{argument} must be in {unit or 'no unit'}, or what converts to it: got {value.unit}{advice}") from None
     return value
+
+
+def seconds(moment: Any) -> Any:
+    """A TDB time in seconds since J2000."""
+    return ((moment.jd1 - J2000) + moment.jd2) * DAY
+
+
+def joined(argument: str, value: Any) -> Any:
+    """A list of times or quantities as one; anything else as it is.
+
+    Raises
+    ------
+    TypeError
+        A list of both, or with plain numbers among them.
+    """
+    if not isinstance(value, (list, tuple)):
+        return value
+    first = value[0]
+    while isinstance(first, (list, tuple)):
+        first = first[0]
+    unit = getattr(first, "unit", None)
+    kind = type(first)
+    try:
+        if unit is not None:
+            return sys.modules["astropy.units"].Quantity(value)
+        if not isinstance(first, sys.modules["astropy.time"].TimeDelta):
+            return kind(value)
+        # Durations do not join by themselves.
+        return kind([part.jd1 for part in value], [part.jd2 for part in value], format="jd", scale=first.scale)
+    except Exception as error:
+        raise TypeError(f"{argument} must hold values of one kind, here {kind.__name__}: {str(error).splitlines()[0]}") from error
+
+
+def unmasked(argument: str, value: Any) -> None:
+    """Refuse an array that has a mask, and a time or quantity with a masked entry.
+
+    Raises
+    ------
+    TypeError
+        A mask.
+    """
+    masked = bool(value.masked) if hasattr(value, "jd1") else isinstance(value, np.ma.MaskedArray) or hasattr(value, "unmasked")
+    if masked:
+        raise TypeError(f"{argument} is a masked array: give the entries that count, such as values[~mask]")
+
+
+def since(argument: str, value: Any, first: list[float], second: list[float]) -> tuple[Any, Any, tuple[int, ...]]:
+    """Seconds from epochs to times: the seconds, the times as one object, and their shape.
+
+    `first` and `second` are the epochs' TDB Julian dates in two doubles: none if the epoch is a number, one, or one for each member, which leads the
+    axes of the seconds.
+
+    Raises
+    ------
+    InputError
+        A calendar time where the epoch is a number.
+    """
+    value = joined(argument, value)
+    unmasked(argument, value)
+    if isinstance(value, sys.modules["astropy.time"].TimeDelta):
+        return np.asarray(value.jd1 * DAY + value.jd2 * DAY, dtype=float), value, value.shape
+    if not first:
+        error = InputError(f"{argument} is a calendar time, and the epoch of the state is a number: give the epoch as a Time too, or a TimeDelta from the epoch")
+        error.argument, error.value, error.bound = argument, value, "numbers or a TimeDelta"
+        raise error
+    moment, epoch = value.tdb, calendar(first, second)
+    if len(first) == 1:
+        epoch = epoch[0]
+    elif value.ndim < 2:
+        # A row for each member.
+        moment, epoch = moment.reshape(1, -1), epoch.reshape(-1, 1)
+    else:
+        epoch = epoch.reshape(-1, 1)
+    delta = moment - epoch
+    return np.asarray(delta.jd1 * DAY + delta.jd2 * DAY, dtype=float), value, value.shape
+
+
+def epochs(argument: str, value: Any) -> tuple[Any, list[tuple[float, float]]]:
+    """Calendar times as TDB seconds since J2000, and as the two doubles of their TDB Julian dates; durations as seconds."""
+    value = joined(argument, value)
+    unmasked(argument, value)
+    if isinstance(value, sys.modules["astropy.time"].TimeDelta):
+        return plain(argument, value), []
+    moment = value.tdb
+    return seconds(moment), list(zip(np.ravel(moment.jd1).tolist(), np.ravel(moment.jd2).tolist()))
+
+
+def calendar(first: list[float], second: list[float]) -> Any:
+    """The times of TDB Julian dates in two doubles."""
+    import astropy.time  # type: ignore[import-untyped, import-not-found, unused-ignore]
+
+    return astropy.time.Time(np.array(first), np.array(second), format="jd", scale="tdb")
+
+
+def numbers(times: Any) -> NDArray[Any]:
+    """Times of samples as an array: of astropy as datetime64 in their own scale, durations in seconds."""
+    if isinstance(times, np.ndarray):
+        return times
+    if isinstance(times, sys.modules["astropy.time"].TimeDelta):
+        return np.asarray(times.jd1 * DAY + times.jd2 * DAY)
+    return np.asarray(times.to_value("datetime64"))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from andoyer._extra import extra
+from andoyer._foreign import numbers
 
 if TYPE_CHECKING:
     from andoyer import Samples
@@ -19,7 +20,7 @@ def pandas(samples: Samples) -> Any:
     pd = extra("pandas", "Samples.to_pandas")
     columns = [*_quaternion(samples, "q"), *RATES]
     rows = np.concatenate([samples.attitude, samples.angular_velocity], axis=-1).reshape(-1, 7)
-    times = np.atleast_1d(samples.times)
+    times = np.atleast_1d(numbers(samples.times))
     if not _ensemble(samples):
         return pd.DataFrame(rows, index=pd.Index(times, name="t"), columns=columns)
     members = np.arange(samples.attitude.shape[0])
@@ -31,15 +32,16 @@ def pandas(samples: Samples) -> Any:
 def xarray(samples: Samples) -> Any:
     """A data set with the dimensions member (of an ensemble), time (unless it is a scalar), quaternion, axis."""
     xr = extra("xarray", "Samples.to_xarray")
-    before = ["member"] * _ensemble(samples) + ["time"] * (samples.times.ndim > 0)
-    own = samples.times.ndim == 2
+    times = numbers(samples.times)
+    before = ["member"] * _ensemble(samples) + ["time"] * (times.ndim > 0)
+    own = times.ndim == 2
     return xr.Dataset(
         {
             "attitude": ([*before, "quaternion"], samples.attitude),
             "angular_velocity": ([*before, "axis"], samples.angular_velocity),
         },
         coords={
-            "t" if own else "time": (before if own else before[-1:] if samples.times.ndim else [], samples.times),
+            "t" if own else "time": (before if own else before[-1:] if times.ndim else [], times),
             "quaternion": _quaternion(samples, ""),
             "axis": [1, 2, 3],
         },

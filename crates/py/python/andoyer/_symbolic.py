@@ -1,13 +1,14 @@
 """Normal forms as SymPy expressions: what the methods `to_sympy` return. SymPy is imported in `_sympy` and nowhere else.
 
-All coefficients are exact, `Rational` and `I`. The symbols carry no assumptions, so that ``sympy.Symbol("beta")`` is the one in the expression.
+All coefficients of `NormalForm` are exact, `Rational` and `I`, and its symbols carry no assumptions, so that ``sympy.Symbol("beta")`` is the one in the
+expression. `BirkhoffNormalForm` puts the caller's symbols, where it was given symbols, for the names.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from andoyer._core import ResonanceError
+from andoyer._core import TheoryError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -27,20 +28,20 @@ def expressions(normal_form: NormalForm, what: str) -> Any:
     return {name: _transformation(sympy, series, name, normal_form.order) for name in ("u", "U", "y")}
 
 
-def birkhoff(normal_form: BirkhoffNormalForm, what: str) -> Any:
-    """A part of a Birkhoff normal form; `what` as in `expressions`."""
+def birkhoff(normal_form: BirkhoffNormalForm, what: str, symbols: Mapping[str, Any]) -> Any:
+    """A part of a Birkhoff normal form; `what` as in `expressions`, `symbols` those of the caller by name."""
     sympy = _sympy()
     variables = [name for pair in normal_form.variables for name in pair]
     names = [*variables, *normal_form.parameters]
     if what == "hamiltonian":
         try:
-            return _polynomial(sympy, normal_form.in_actions(), [f"I_{q}" for q, _ in normal_form.variables] + names[len(variables) :])
-        except ResonanceError:
-            return _polynomial(sympy, normal_form.in_real(), names)
+            return _polynomial(sympy, normal_form.in_actions(), [f"I_{q}" for q, _ in normal_form.variables] + names[len(variables) :], symbols)
+        except TheoryError:
+            return _polynomial(sympy, normal_form.in_real(), names, symbols)
     if what == "generator":
-        return [_polynomial(sympy, normal_form.generator(m), names) for m in range(1, normal_form.order + 1)]
+        return [_polynomial(sympy, normal_form.generator(m), names, symbols) for m in range(1, normal_form.order + 1)]
     series = normal_form.direct if what == "direct" else normal_form.inverse
-    return {name: _polynomial(sympy, series(name), names) for name in variables}
+    return {name: _polynomial(sympy, series(name), names, symbols) for name in variables}
 
 
 def _sympy() -> Any:
@@ -51,9 +52,9 @@ def _sympy() -> Any:
     return sympy
 
 
-def _polynomial(sympy: Any, terms: Mapping[tuple[int, ...], Fraction | float], names: Sequence[str]) -> Any:
+def _polynomial(sympy: Any, terms: Mapping[tuple[int, ...], Fraction | float], names: Sequence[str], known: Mapping[str, Any]) -> Any:
     """Σ c x₁^e₁ x₂^e₂ …, floats as SymPy's of 53 bits."""
-    symbols = [sympy.Symbol(name) for name in names]
+    symbols = [known.get(name, sympy.Symbol(name)) for name in names]
 
     def term(exponents: tuple[int, ...], c: Fraction | float) -> Any:
         number = sympy.Float(c) if isinstance(c, float) else _rational(sympy, c)

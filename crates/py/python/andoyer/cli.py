@@ -1,7 +1,7 @@
 """The command line: `andoyer propagate`, `plan`, `plot`, `bodies`, `series`.
 
 Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion that is not served,
-no command.
+no command. A tolerance that is not met is one line on stderr, and exit status 3 under `--strict`. After Ctrl-C it is 130, and no file is left half written.
 """
 
 import argparse
@@ -10,23 +10,25 @@ import os
 import shutil
 import sys
 import textwrap
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from datetime import datetime
+import warnings
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, Literal, NoReturn, TypeVar, get_args
+from typing import Any, Literal, NoReturn, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 import andoyer
+from andoyer import _reading as reading
+from andoyer import _writing as writing
 from andoyer import output
+from andoyer._arguments import MOST_SAMPLES, InputError, count, number, step, whole
 from andoyer._extra import extra
+from andoyer._page import page
 from andoyer._terminal import Progress, named
-from andoyer.output import COLUMNS, CONVENTION, TIME_SYSTEMS, Heading
-
-Value = TypeVar("Value")
+from andoyer._writing import ENDINGS
+from andoyer.output import COLUMNS, CONVENTION
+from andoyer.output.files import whole_file
 
 ROTATIONS = 10
 """Rotations from the epoch that are propagated if neither the scene nor the command line has a span."""
@@ -34,20 +36,23 @@ ROTATIONS = 10
 SAMPLES = 1000
 """Samples if the command line gives neither their number nor a step."""
 
-MOST_SAMPLES = 10**9
-"""More would not fit a file that anyone reads."""
+MISSED = 3
+"""Exit status of a tolerance that is not met, under --strict."""
 
-ENDINGS = ".csv, .npz, .parquet or .aem"
-PICTURES = [".png", ".svg", ".pdf"]
+PICTURES = [".png", ".svg", ".pdf", ".html"]
 COMMANDS = ["propagate", "plot", "plan", "bodies", "series"]
 LANGUAGES = ["c", "rust", "python"]
 EXAMPLES = {
     "propagate": """\
 andoyer propagate eros.toml -o eros.csv
 andoyer propagate eros.toml -o eros.npz --start 0 --stop 86400 --step 60
-andoyer propagate eros.toml -o eros.aem --date 2026-01-01T00:00:00 --frame ICRF""",
+andoyer propagate eros.toml -o eros.aem --date 2026-01-01T00:00:00 --frame ICRF
+andoyer propagate eros.toml -o eros.bc --stop 86400 --interpolation-error 1e-6 --frame ECLIPJ2000""",
     "plan": "andoyer plan eros.toml",
-    "plot": "andoyer plot eros.toml -o eros.png",
+    "plot": """\
+andoyer plot eros.toml -o eros.png
+andoyer plot eros.toml -o eros.html
+andoyer plot eros.aem -o difference.png --against eros.toml --date 2026-01-01T00:00:00""",
     "bodies": "andoyer bodies",
     "series": """\
 andoyer series --order 10
@@ -56,10 +61,6 @@ andoyer series --order 10 --to c --beta 0.3 > rotation.c""",
 }
 Part = Literal["hamiltonian", "generator", "direct", "inverse"]
 PARTS: tuple[Part, ...] = get_args(Part)
-
-
-class InputError(Exception):
-    """What the command line was given cannot be done."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -80,7 +81,7 @@ def main(argv: list[str] | None = None) -> int:
         arguments = top.parse_args(argv)
         if arguments.run is None:
             raise InputError(f"a command is missing: {', '.join(COMMANDS)} (--help says more)")
-        arguments.run(arguments)
+        status: int = arguments.run(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
         # The reader of a pipe has seen enough; nothing may be flushed into it at exit.
@@ -92,7 +93,7 @@ def main(argv: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("andoyer: interrupted", file=sys.stderr)
         return 130
-    return 0
+    return status
 
 
 def examples(said: str, *lines: str) -> dict[str, Any]:
@@ -119,21 +120,22 @@ def parser() -> Parser:
     spacing = command.add_mutually_exclusive_group()
     spacing.add_argument("--samples", type=count, metavar="N", help=f"number of times, the last one included (default: {SAMPLES})")
     spacing.add_argument("--step", type=step, metavar="DT", help="time from one sample to the next, from the first time on")
-    message = command.add_argument_group("the message of a .aem (CCSDS AEM version 2, times in seconds)")
-    default = Heading()
-    message.add_argument("--date", type=date, metavar="DATE", help=f"calendar date of time 0 (default: {default.date.isoformat()})")
-    message.add_argument("--time-system", choices=TIME_SYSTEMS, metavar="SYSTEM", help=f"of that date: {', '.join(TIME_SYSTEMS)} (default: {default.time_system})")
-    message.add_argument("--frame", type=word, metavar="NAME", help=f"name of the inertial frame (default: {default.frame})")
+    writing.add_options(command)
+    strictly(command)
     command.set_defaults(run=propagate)
 
     pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole"
     command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"]))
-    command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
-    command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .png, .svg or .pdf by its ending")
+    command.add_argument("scene", metavar="SCENE", help="scene file (TOML), or a file of attitudes")
+    command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .png, .svg, .pdf, or a page that turns, .html, by its ending")
+    command.add_argument("--force", action="store_true", help="replace a file that is there already")
+    reading.add_options(command)
+    strictly(command)
     command.set_defaults(run=plot)
 
     command = commands.add_parser("plan", help="print what would be evaluated, and why", **examples("", EXAMPLES["plan"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
+    strictly(command)
     command.set_defaults(run=plan)
 
     command = commands.add_parser("bodies", help="print the catalogue of bodies, each with its source", **examples("", EXAMPLES["bodies"]))
@@ -149,123 +151,97 @@ def parser() -> Parser:
     return top
 
 
-def number(text: str) -> float:
-    """A finite number."""
-    return checked(text, float, math.isfinite, "a finite number")
+def strictly(command: argparse.ArgumentParser) -> None:
+    """Add the option that makes a missed tolerance a failure."""
+    command.add_argument("--strict", action="store_true", help=f"exit with status {MISSED} if the tolerance is not met")
 
 
-def step(text: str) -> float:
-    """A step of time."""
-    return checked(text, float, lambda value: 0 < value < math.inf, "a finite number above 0")
-
-
-def whole(text: str) -> int:
-    """A whole number."""
-    return checked(text, int, lambda _: True, "a whole number")
-
-
-def count(text: str) -> int:
-    """A number of samples."""
-    return checked(text, int, lambda value: 1 <= value <= MOST_SAMPLES, f"a whole number from 1 to {MOST_SAMPLES}")
-
-
-def date(text: str) -> datetime:
-    """A calendar date without a zone."""
-    return checked(text, datetime.fromisoformat, lambda value: value.tzinfo is None, "a date like 2000-01-01T12:00:00, without a zone")
-
-
-def word(text: str) -> str:
-    """A word of printable ASCII characters."""
-    return checked(text, str, lambda value: value.isascii() and value.isprintable() and value.split() == [value], "one word in ASCII")
-
-
-def checked(text: str, read: Callable[[str], Value], accepts: Callable[[Value], bool], expected: str) -> Value:
-    """`text` as `read` reads it, if that is accepted; argparse puts the name of the argument before the message."""
-    refusal = argparse.ArgumentTypeError(f"must be {expected}: got {text!r}")
-    try:
-        value = read(text)
-    except ValueError:
-        raise refusal from None
-    if not accepts(value):
-        raise refusal
-    return value
-
-
-def propagate(arguments: argparse.Namespace) -> None:
-    """Write a motion at equal steps of time."""
+def propagate(arguments: argparse.Namespace) -> int:
+    """Write a motion at equal steps of time, or as a C-kernel."""
     path = Path(arguments.output)
-    to_stdout = arguments.output == "-"
-    ending = path.suffix.lower()
-    writers = {".npz": output.write_npz, ".parquet": output.write_parquet}
-    if not (to_stdout or ending in writers or ending in (".csv", ".aem")):
-        raise InputError(f"argument -o/--output: {arguments.output}: the name must end in {ENDINGS}, or be - for CSV on stdout")
-    given = {key: getattr(arguments, key) for key in ("date", "time_system", "frame") if getattr(arguments, key) is not None}
-    if given and ending != ".aem":
-        raise InputError(f"argument --{next(iter(given)).replace('_', '-')}: goes with a .aem alone, not with {arguments.output}")
+    given = writing.check(arguments)
     motion = solved(arguments.scene)
+    if arguments.output != "-" and path.suffix.lower() == ".bc":
+        writing.write_kernel(path, motion, interval(motion, arguments.start, arguments.stop), given, arguments.force)
+        return status(arguments, motion)
     samples = motion.at(instants(arguments, motion))
-    progress = Progress("writing, lines")
-    try:
-        if to_stdout:
+    if arguments.output == "-":
+        progress = Progress("writing, lines")
+        try:
             output.write_table(sys.stdout, samples, progress)
-        else:
-            with written_to(path):
-                if ending == ".aem":
-                    write_message(path, motion, samples, given)
-                elif ending == ".csv":
-                    output.write_csv(path, samples, progress)
-                else:
-                    writers[ending](path, samples)
-    finally:
-        progress.close()
+        finally:
+            progress.close()
+    else:
+        writing.write_samples(path, motion, samples, given, arguments.force)
     note_sparse(motion, samples.times)
+    return status(arguments, motion)
 
 
-def write_message(path: Path, motion: andoyer.Motion, samples: andoyer.Samples, given: dict[str, Any]) -> None:
-    """Write an AEM; what was not given of its heading is said on stderr."""
-    name = motion.scene.name or motion.scene.body.name or Heading.name
-    heading = Heading(name=name, **given)
-    try:
-        output.write_aem(path, samples, heading)
-    except ValueError as error:
-        raise InputError(f"argument -o/--output: {path}: {error}") from error
-    if "date" not in given or "frame" not in given:
-        said = f"time 0 is {heading.date.isoformat()} {heading.time_system}, the inertial frame {heading.frame}"
-        print(f"andoyer: note: {said}; --date and --frame name others", file=sys.stderr)
-
-
-def plot(arguments: argparse.Namespace) -> None:
-    """Draw the pictures of a motion."""
+def plot(arguments: argparse.Namespace) -> int:
+    """Draw the pictures of a motion, or those of a file of attitudes."""
     path = Path(arguments.output)
     if path.suffix.lower() not in PICTURES:
         raise InputError(f"argument -o/--output: {arguments.output}: the name must end in {', '.join(PICTURES)}")
+    if not arguments.force:
+        writing.refuse_existing(path)
+    if path.suffix.lower() == ".html":
+        return turning(arguments, path)
     extra("matplotlib", "drawing").use("Agg")
     from andoyer import plot as pictures
 
-    figure = pictures.summary(solved(arguments.scene))
-    with written_to(path):
-        figure.savefig(path, dpi=130)
+    if reading.is_attitude_file(arguments.scene):
+        samples = reading.read(arguments)
+        motion = solved(arguments.against) if arguments.against else None
+        figure = pictures.samples_summary(samples, motion, name=Path(arguments.scene).name)
+    else:
+        reading.refuse_options(arguments)
+        motion = solved(arguments.scene)
+        figure = pictures.summary(motion)
+    with writing.written_to(path), whole_file(path, arguments.force) as temporary:
+        figure.savefig(temporary, dpi=130, format=path.suffix.lower()[1:])
+    return 0 if motion is None else status(arguments, motion)
 
 
-@contextmanager
-def written_to(path: Path) -> Iterator[None]:
-    """What the system says against `path` is an error of the argument, in its own words whoever writes."""
-    try:
-        yield
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        said = os.strerror(error.errno) if error.errno else str(error)
-        raise InputError(f"argument -o/--output: {path}: {said}") from error
+def turning(arguments: argparse.Namespace, path: Path) -> int:
+    """Write the page in which a scene turns."""
+    reading.refuse_options(arguments)
+    if reading.is_attitude_file(arguments.scene):
+        raise InputError(f"argument -o/--output: {arguments.output}: a page is of a scene, not of a file of attitudes")
+    motion = solved(arguments.scene)
+    with writing.written_to(path):
+        page(motion, path, force=arguments.force)
+    return status(arguments, motion)
+
+
+def read(path: str) -> andoyer.Scene:
+    """The scene of a file; what is doubtful in it is said on stderr."""
+    with warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always")
+        scene = andoyer.Scene.from_toml(path)
+    for doubt in doubts:
+        print(f"andoyer: warning: {path}: {doubt.message}", file=sys.stderr)
+    return scene
 
 
 def solved(path: str) -> andoyer.Motion:
     """The motion of a scene file; that it has none is an error of the file."""
-    scene = andoyer.Scene.from_toml(path)
-    try:
-        return scene.solve()
-    except andoyer.Error as error:
-        raise InputError(f"{path}: {error}") from error
+    scene = read(path)
+    with warnings.catch_warnings():
+        # `status` says it in one line.
+        warnings.simplefilter("ignore", andoyer.ToleranceWarning)
+        try:
+            return scene.solve()
+        except andoyer.Error as error:
+            raise InputError(f"{path}: {error}") from error
+
+
+def status(arguments: argparse.Namespace, motion: andoyer.Motion) -> int:
+    """The exit status of a command about this motion; a tolerance that is not met is said on stderr."""
+    missed = motion.plan.missed_tolerance
+    if missed is None:
+        return 0
+    print(f"andoyer: warning: {missed}", file=sys.stderr)
+    return MISSED if arguments.strict else 0
 
 
 def instants(arguments: argparse.Namespace, motion: andoyer.Motion) -> NDArray[np.float64]:
@@ -307,7 +283,7 @@ def interval(motion: andoyer.Motion, start: float | None, stop: float | None) ->
     return start, stop
 
 
-def plan(arguments: argparse.Namespace) -> None:
+def plan(arguments: argparse.Namespace) -> int:
     """Print the plan of a scene, and the periods of its motion."""
     motion = solved(arguments.scene)
     scene = motion.scene
@@ -318,18 +294,20 @@ def plan(arguments: argparse.Namespace) -> None:
     print(named("energy"), f"E/E0 {motion.energy_ratio:.8g}, k^2 {motion.elliptic_parameter:.8g}")
     for convention, (precession, rotation) in motion.periods.items():
         print(named("periods"), f"{convention}: P_phi {precession:.10g}, P_psi {rotation:.10g}")
+    return status(arguments, motion)
 
 
-def bodies(_arguments: argparse.Namespace) -> None:
+def bodies(_arguments: argparse.Namespace) -> int:
     """Print the catalogue."""
     print(f"{'name':10} {'A/C':>10} {'B/C':>10} {'beta':>10}  source")
     for name in andoyer.Body.catalogue():
         body = andoyer.Body.named(name)
         a, b, c = np.sort(body.moments)
         print(f"{name:10} {a / c:10.8f} {b / c:10.8f} {body.beta:10.8f}  {andoyer.Body.source(name)}")
+    return 0
 
 
-def series(arguments: argparse.Namespace) -> None:
+def series(arguments: argparse.Namespace) -> int:
     """Print the normal form: its triaxiality polynomials, or all of it in another form."""
     for option, value, served in [("--part", arguments.part, ["latex"]), ("--beta", arguments.beta, LANGUAGES)]:
         if value is not None and arguments.to not in served:
@@ -340,6 +318,7 @@ def series(arguments: argparse.Namespace) -> None:
     finally:
         progress.close()
     sys.stdout.write(written(normal_form, arguments))
+    return 0
 
 
 def written(normal_form: andoyer.NormalForm, arguments: argparse.Namespace) -> str:

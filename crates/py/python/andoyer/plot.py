@@ -11,13 +11,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from andoyer._core import Motion
-from andoyer._diagrams import axes_or_new as _axes, error_by_order, work_precision
+from andoyer._compared import clock as _clock, components, difference, sampled_rates
+from andoyer._core import Motion, Samples
+from andoyer._diagrams import axes_or_new as _axes, domain, error_by_order, work_precision
 from andoyer._drawing import near_pole, on_ellipsoid, plane, surface as draw_surface
 from andoyer._extra import extra
+from andoyer._film import film
+from andoyer._page import page
 from andoyer._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION, Array
 
 if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -30,7 +34,7 @@ STEADY = 1e-11
 TURNS, SAMPLES = 3, 3000
 """Periods of the polhode that are drawn if no times are given, and how many times."""
 
-__all__ = ["angles", "error_by_order", "nutation", "phase_portrait", "polhode", "polhode_near_pole", "pole_path", "rates", "summary", "whole_turns", "work_precision"]
+__all__ = ["angles", "animate", "components", "difference", "domain", "error_by_order", "nutation", "page", "phase_portrait", "polhode", "polhode_near_pole", "pole_path", "rates", "sampled_rates", "samples_summary", "summary", "whole_turns", "work_precision"]
 
 
 def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> Array:
@@ -213,8 +217,54 @@ def summary(motion: Motion, times: ArrayLike | None = None) -> "Figure":
             panel.set_xlabel("")
             panel.tick_params(labelbottom=False)
         figure.align_ylabels(panels)
+    return figure
+
+
+def samples_summary(samples: Samples, motion: Motion | None = None, *, name: str = "") -> "Figure":
+    """A figure of samples as a file has them: quaternions, rates and, where a motion is given, the angle between them and it.
+
+    Parameters
+    ----------
+    samples : Samples
+        Times are taken to be in seconds.
+    motion : Motion, optional
+        What the samples are compared with.
+    name : str, optional
+        Title of the figure.
+    """
+    with plt.rc_context(STYLE):
+        figure: "Figure" = plt.figure(figsize=(11, 9 if motion else 6), layout="constrained")
+        figure.suptitle(name, fontsize=15, fontweight="bold")
+        panels = figure.subplots(3 if motion else 2, 1, sharex=True)
+        components(samples, panels[0])
+        sampled_rates(samples, panels[1])
+        if motion is not None:
+            difference(samples, motion, panels[2])
+        for panel in panels[:-1]:
+            panel.set_xlabel("")
+        figure.align_ylabels(panels)
         plt.close(figure)
     return figure
+
+
+def animate(motion: Motion, times: ArrayLike | None = None, *, interval: float = 40.0) -> "FuncAnimation":
+    """An animation of a motion: body axes, angular momentum upwards, angular velocity, polhode and herpolhode; ``.save`` writes a film.
+
+    Parameters
+    ----------
+    motion : Motion
+    times : array_like, shape (n,), optional
+        One frame each. By default 300 over one period of the polhode.
+    interval : float, optional
+        Time between frames [ms].
+
+    Examples
+    --------
+    >>> from andoyer import plot
+    >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    >>> plot.animate(motion, [0.0, 0.1, 0.2]).save("motion.gif", writer="pillow")
+    """
+    return film(motion, whole_turns(motion, 1, 300) if times is None else np.atleast_1d(np.asarray(times, dtype=float)), interval)
 
 
 def _times(motion: Motion, times: ArrayLike | None) -> Array:
@@ -226,9 +276,10 @@ def _sorted(motion: Motion, times: Array) -> tuple[list[int], Array, Array]:
 
     A body at rest has no direction: NaN, which matplotlib leaves out.
     """
-    moments = motion.scene.body.moments
+    body = motion.scene.body
+    moments = body.moments
     order = np.argsort(moments, kind="stable")
-    momentum = (moments * motion.angular_velocity(times))[:, order]
+    momentum = (moments * (motion.angular_velocity(times) @ body.principal_axes))[:, order]
     if _left_handed(order):
         momentum[:, 0] *= -1
     sizes = np.linalg.norm(momentum, axis=1, keepdims=True)
@@ -249,13 +300,6 @@ def _nutation(directions: Array) -> Array:
     """J from the components across axis 3: the arccosine of N/M would lose a small one."""
     angle: Array = np.arctan2(np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2])
     return angle
-
-
-def _clock(times: Array) -> tuple[Array, str, tuple[str, float]]:
-    """Times since the first one in seconds, hours or days, the axis label, and the unit of time of rates with its seconds."""
-    elapsed = times - times[0]
-    unit, seconds = ("d", 86400) if elapsed[-1] > 30 * 86400 else ("h", 3600) if elapsed[-1] > 7200 else ("s", 1)
-    return elapsed / seconds, f"time [{unit}]", ("s", 1.0) if unit == "s" else ("h", 3600.0)
 
 
 def _without_mean(angle: Array, times: Array) -> tuple[Array, float, Array]:

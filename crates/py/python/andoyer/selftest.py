@@ -94,7 +94,7 @@ def refused() -> bool:
     """What no body has is refused by name."""
     try:
         andoyer.Body([1.0, 1.0, 2.5])
-    except andoyer.MomentsError as error:
+    except andoyer.InputError as error:
         return "moments" in str(error)
     return False
 

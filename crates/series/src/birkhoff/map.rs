@@ -1,10 +1,14 @@
 //! The truncated series of a normal form in `f64`: states to normal coordinates and back, actions, frequencies, motion.
 //!
-//! States are q₁, p₁, q₂, p₂, …, of the old variables or of the new ones. Only the images of Uᵢ are needed: at real
-//! points q = Im U and p = Re U / r. Exact generators are rounded to floats once, and the series are composed from them.
+//! States are q₁, p₁, q₂, p₂, …, of the old variables or of the new ones. Of a centre only the image of U is needed: at real
+//! points q = Im U and p = Re U / r; of a saddle or a quartet those of u and U. Exact generators are rounded to floats once, and the series
+//! are composed from them.
 //! Cost: that of the two transformations once, then one pass over their terms for each state. The error of a state of
 //! amplitude ε is of the order ε^(N+2).
 
+use super::flow::{self, Flow};
+use super::matrix::{Matrix, dot, symplectic_inverse};
+use super::mode::Mode;
 use super::{BirkhoffNormalForm, turns};
 use crate::{Error, Monomial, Polynomial, Progress, RealField, SLOTS, quiet};
 use num_complex::Complex;
@@ -26,11 +30,12 @@ use num_complex::Complex;
 /// ```
 #[derive(Debug, Clone)]
 pub struct BirkhoffMap {
-    ratios: Vec<f64>,
+    modes: Vec<Mode<f64>>,
+    /// The linear change z = M z′ and its inverse.
+    linear: [Matrix<f64>; 2],
     direct: Vec<Series>,
     inverse: Vec<Series>,
-    /// ∂K/∂Iᵢ in the actions, or the term that keeps K from being a function of them.
-    frequencies: Result<Vec<Polynomial<f64>>, String>,
+    flow: Flow,
 }
 
 /// A polynomial in the complex variables with numbers for the parameters, its terms in canonical order.
@@ -57,7 +62,7 @@ impl BirkhoffMap {
         parameters: &[f64],
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
-        let modes = normal_form.space().degrees_of_freedom();
+        let slots = 2 * normal_form.space().degrees_of_freedom();
         check("parameters", parameters, normal_form.space().parameters())?;
         let transform = normal_form.transform().map(|c| {
             let (re, im) = R::parts(c);
@@ -68,16 +73,20 @@ impl BirkhoffMap {
             for term in &terms {
                 sum += term;
             }
-            Series::new(&sum, 2 * modes, parameters)
+            Series::new(&sum, slots, parameters)
         };
+        let modes: Vec<Mode<f64>> = normal_form.modes().iter().map(|mode| mode.map(R::to_float)).collect();
         let (mut direct, mut inverse) = (Vec::new(), Vec::new());
-        for mode in 0..modes {
-            let variable = Polynomial::variable(2 * mode + 1)?;
+        for slot in modes.iter().enumerate().flat_map(|(mode, kind)| needed(mode, kind)) {
+            let variable = Polynomial::variable(slot)?;
             direct.push(series(transform.direct_with(&variable, progress)?)?);
             inverse.push(series(transform.inverse_with(&variable, progress)?)?);
         }
-        let ratios = normal_form.ratios().iter().map(R::to_float).collect();
-        Ok(BirkhoffMap { ratios, direct, inverse, frequencies: frequencies(normal_form, parameters)? })
+        let matrix: Matrix<f64> =
+            normal_form.linear_change().iter().map(|row| row.iter().map(R::to_float).collect()).collect();
+        let back = symplectic_inverse(&matrix);
+        let flow = Flow::new(normal_form, parameters)?;
+        Ok(BirkhoffMap { modes, linear: [matrix, back], direct, inverse, flow })
     }
 
     /// The normal coordinates of a state.
@@ -85,7 +94,8 @@ impl BirkhoffMap {
     /// # Errors
     /// - a state of another length: [`Error::CountMismatch`]; a NaN, or a result that overflows: [`Error::NotFinite`].
     pub fn to_normal(&self, state: &[f64]) -> Result<Vec<f64>, Error> {
-        self.transformed(&self.inverse, state)
+        check("state", state, 2 * self.modes.len())?;
+        self.transformed(&self.inverse, &self.linear(1, state))
     }
 
     /// The state of normal coordinates.
@@ -93,7 +103,28 @@ impl BirkhoffMap {
     /// # Errors
     /// - as [`to_normal`](Self::to_normal).
     pub fn from_normal(&self, normal: &[f64]) -> Result<Vec<f64>, Error> {
-        self.transformed(&self.direct, normal)
+        check("state", normal, 2 * self.modes.len())?;
+        finite("transformed state", self.linear(0, &self.transformed(&self.direct, normal)?))
+    }
+
+    /// The state of a point of the centre manifold, given by q and p of the centres alone.
+    ///
+    /// # Errors
+    /// - as [`to_normal`](Self::to_normal).
+    pub fn from_centre(&self, centre: &[f64]) -> Result<Vec<f64>, Error> {
+        let centres = self.modes.iter().filter(|mode| mode.is_elliptic()).count();
+        check("state", centre, 2 * centres)?;
+        let mut pairs = centre.chunks(2);
+        let pair =
+            |mode: &Mode<f64>| if mode.is_elliptic() { pairs.next().unwrap_or(&[0.0, 0.0]) } else { &[0.0, 0.0] };
+        let normal: Vec<f64> = self.modes.iter().flat_map(pair).copied().collect();
+        self.from_normal(&normal)
+    }
+
+    /// Whether K is a function of the actions.
+    #[must_use]
+    pub fn is_integrable(&self) -> bool {
+        self.flow.is_integrable()
     }
 
     /// The actions of a state, constant along its motion to the order of the normal form if there is no resonance.
@@ -101,77 +132,80 @@ impl BirkhoffMap {
     /// # Errors
     /// - as [`to_normal`](Self::to_normal).
     pub fn actions(&self, state: &[f64]) -> Result<Vec<f64>, Error> {
-        let momenta = self.momenta(&self.to_normal(state)?)?;
-        Ok(momenta.iter().zip(&self.ratios).map(|(momentum, ratio)| momentum.norm_sqr() / (2.0 * ratio)).collect())
+        Ok(flow::actions(&self.modes, &self.to_normal(state)?))
     }
 
-    /// The frequencies Ωᵢ = ∂K/∂Iᵢ at given actions.
+    /// The frequencies Ωᵢ = ∂K/∂Iᵢ at given actions: of a saddle the rate, of a quartet the rate and the frequency.
     ///
     /// # Errors
-    /// - another number of actions: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`];
+    /// - another number of actions: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`]; −1 of a
+    ///   centre: [`Error::OutsideInterval`], since I = (q²/r + r p²)/2 is never negative;
     /// - a resonant normal form: [`Error::ResonantTerm`].
     pub fn frequencies(&self, actions: &[f64]) -> Result<Vec<f64>, Error> {
-        check("actions", actions, self.ratios.len())?;
-        let map = self.frequencies.as_ref().map_err(|term| Error::ResonantTerm { term: term.clone() })?;
-        let values = map.iter().map(|frequency| frequency.evaluate(actions)).collect::<Result<Vec<_>, _>>()?;
-        finite("frequencies", values)
+        check("actions", actions, self.modes.len())?;
+        let negative = self.modes.iter().zip(actions).find(|(mode, action)| mode.is_elliptic() && **action < 0.0);
+        if let Some((_, &value)) = negative {
+            return Err(Error::OutsideInterval { argument: "actions", value, lower: 0.0, upper: f64::INFINITY });
+        }
+        finite("frequencies", self.flow.frequencies(actions)?)
     }
 
-    /// The states at times after that of `state`, by the uniform motion of the angles of the normal form.
+    /// The value of the normal form at normal coordinates.
+    ///
+    /// # Errors
+    /// - as [`to_normal`](Self::to_normal).
+    pub fn energy(&self, normal: &[f64]) -> Result<f64, Error> {
+        check("state", normal, 2 * self.modes.len())?;
+        self.flow.energy(normal)
+    }
+
+    /// The rates of normal coordinates, by Hamilton's equations of the normal form.
+    ///
+    /// # Errors
+    /// - as [`to_normal`](Self::to_normal).
+    pub fn rates(&self, normal: &[f64]) -> Result<Vec<f64>, Error> {
+        check("state", normal, 2 * self.modes.len())?;
+        finite("rates", self.flow.rates(normal)?)
+    }
+
+    /// The states at times after that of `state`, by the motion of the normal form, in which the actions are constant.
     ///
     /// # Errors
     /// - as [`to_normal`](Self::to_normal) and [`frequencies`](Self::frequencies); a NaN among the times: [`Error::NotFinite`].
     pub fn trajectory(&self, state: &[f64], times: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
         check("times", times, times.len())?;
-        let momenta = self.momenta(&self.to_normal(state)?)?;
-        let frequencies = self.frequencies(&self.actions(state)?)?;
-        let at = |&time: &f64| {
-            let turned = momenta.iter().zip(&frequencies).zip(&self.ratios);
-            let turned = turned.flat_map(|((momentum, frequency), ratio)| {
-                let momentum = momentum * Complex::cis(frequency * time);
-                [momentum.im, momentum.re / ratio]
-            });
-            self.from_normal(&turned.collect::<Vec<_>>())
-        };
+        let normal = self.to_normal(state)?;
+        let frequencies = self.frequencies(&flow::actions(&self.modes, &normal))?;
+        let at = |&time: &f64| self.from_normal(&flow::advanced(&self.modes, &normal, &frequencies, time));
         times.iter().map(at).collect()
     }
 
-    /// U = r p + i q of every mode.
-    fn momenta(&self, state: &[f64]) -> Result<Vec<Complex<f64>>, Error> {
-        check("state", state, 2 * self.ratios.len())?;
-        Ok(state.chunks(2).zip(&self.ratios).map(|(pair, ratio)| Complex::new(ratio * pair[1], pair[0])).collect())
+    /// M z or M⁻¹ z.
+    fn linear(&self, which: usize, state: &[f64]) -> Vec<f64> {
+        self.linear[which].iter().map(|row| dot(row, state)).collect()
     }
 
+    /// The images of real normal variables by one of the two transformations.
     fn transformed(&self, images: &[Series], state: &[f64]) -> Result<Vec<f64>, Error> {
-        let momenta = self.momenta(state)?;
-        let pairs = momenta.iter().zip(&self.ratios);
-        let point =
-            pairs.flat_map(|(momentum, ratio)| [Complex::new(momentum.im, momentum.re) / (2.0 * ratio), *momentum]);
-        let mut powers: Vec<Vec<Complex<f64>>> = point.map(|value| vec![Complex::new(1.0, 0.0), value]).collect();
-        let values = images.iter().zip(&self.ratios).flat_map(|(series, ratio)| {
-            let image = series.evaluate(&mut powers);
-            [image.im, image.re / ratio]
-        });
-        let values = values.collect();
-        finite("transformed state", values)
+        let point = flow::complex_point(&self.modes, state);
+        let mut powers: Vec<Vec<Complex<f64>>> =
+            point.into_iter().map(|value| vec![Complex::new(1.0, 0.0), value]).collect();
+        let slots = self.modes.iter().enumerate().flat_map(|(mode, kind)| needed(mode, kind));
+        let mut values = vec![Complex::default(); state.len()];
+        for (slot, series) in slots.zip(images) {
+            values[slot] = series.evaluate(&mut powers);
+        }
+        finite("transformed state", flow::real_point(&self.modes, &values))
     }
 }
 
-/// ∂K/∂Iᵢ at numbers for the parameters, or the first term that is no function of the actions.
-fn frequencies<R: RealField>(
-    normal_form: &BirkhoffNormalForm<R>,
-    parameters: &[f64],
-) -> Result<Result<Vec<Polynomial<f64>>, String>, Error> {
-    let modes = normal_form.space().degrees_of_freedom();
-    let mut actions = match normal_form.in_actions() {
-        Ok(actions) => actions.map(R::to_float),
-        Err(Error::ResonantTerm { term }) => return Ok(Err(term)),
-        Err(other) => return Err(other),
-    };
-    for (slot, value) in (modes..).zip(parameters) {
-        actions = actions.evaluate_partial(slot, value)?;
+/// The complex variables whose images give the real ones of a mode.
+fn needed(mode: usize, kind: &Mode<f64>) -> Vec<usize> {
+    match kind {
+        Mode::Elliptic { .. } => vec![2 * mode + 1],
+        Mode::Complex { frequency, .. } if *frequency < 0.0 => Vec::new(),
+        _ => vec![2 * mode, 2 * mode + 1],
     }
-    (0..modes).map(|mode| actions.derivative(mode)).collect::<Result<Vec<_>, _>>().map(Ok)
 }
 
 impl Series {
@@ -211,7 +245,7 @@ impl Series {
     }
 }
 
-fn check(what: &'static str, values: &[f64], expected: usize) -> Result<(), Error> {
+pub(super) fn check(what: &'static str, values: &[f64], expected: usize) -> Result<(), Error> {
     if values.len() != expected {
         return Err(Error::CountMismatch { what, found: values.len(), expected });
     }

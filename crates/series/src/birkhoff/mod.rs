@@ -1,51 +1,57 @@
-//! The Birkhoff normal form of any polynomial Hamiltonian about an elliptic point.
+//! The Birkhoff normal form of any polynomial Hamiltonian about an equilibrium.
 //!
-//! H(q₁, p₁, …, qₙ, pₙ) = constant + Σ (aᵢ pᵢ² + bᵢ qᵢ²)/2 + terms of higher degree, aᵢ bᵢ > 0, {q; p} = 1. Graded by degree:
-//! the terms of degree 2 + n are of order n. Order N removes by Deprit's triangle (theory §4), in the complex variables of
-//! [`elliptic`], every term of degree 2 + N at most that the angles turn, but those that [`Resonances`] keeps: the Gustavson
-//! form where there are any. Generators have no kernel part, which makes the normal form unique.
+//! H(q₁, p₁, …, qₙ, pₙ) = constant + H₂ + terms of higher degree, {q; p} = 1. A linear symplectic change makes H₂ a sum of modes ([`quadratic`], [`williamson`],
+//! [`mode`]): centres, saddles, quartets. Graded by degree, parameters by the degrees they are given: the terms of degree 2 + n are of order n. Order N removes by
+//! Deprit's triangle (theory §4), in the complex variables (u, U) of the modes, every term of degree 2 + N at most but those that [`Resonances`] keeps: the Gustavson
+//! form where there are resonances, the centre manifold where all terms of the centres are kept. Generators have no kernel part, which makes the normal form unique.
 //!
-//! Exact over the rationals where the frequencies √(aᵢ bᵢ) are rational, else in `f64`. The series diverge in general: at
-//! fixed amplitude there is a best order. Cost: the triangle's, N³/6 brackets of ever larger polynomials.
-//! Sources: G. D. Birkhoff, *Dynamical Systems* (1927), ch. III; F. G. Gustavson, Astron. J. 71 (1966) 670; A. Deprit,
-//! Celest. Mech. 1 (1969) 12.
+//! Exact over the rationals where the eigenvalues are rational, else in `f64`. The series diverge in general: at fixed amplitude there is a best order ([`domain`]).
+//! Cost: the triangle's, N³/6 brackets of ever larger polynomials.
+//! Sources: G. D. Birkhoff, *Dynamical Systems* (1927), ch. III; J. Williamson, Amer. J. Math. 58 (1936) 141; F. G. Gustavson, Astron. J. 71 (1966) 670; A. Deprit,
+//! Celest. Mech. 1 (1969) 12; A. Jorba and J. Masdemont, Physica D 132 (1999) 189.
 
-mod elliptic;
+mod code;
+mod diagonal;
+mod domain;
+mod flow;
+mod json;
 mod map;
+mod matrix;
+mod mode;
 mod phase_space;
+mod quadratic;
 mod resonances;
+mod spectrum;
+mod text;
+mod transformation;
+mod williamson;
 
+pub use domain::Domain;
 pub use map::BirkhoffMap;
+pub use mode::Mode;
 pub use phase_space::PhaseSpace;
 pub use resonances::Resonances;
 
 use crate::triangle::{Removal, normalize_by};
 use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, Progress, RealField, quiet};
-use elliptic::Mode;
+use diagonal::Diagonal;
+use mode::{modulus, substitute};
 use resonances::{divisor, is_small};
+use transformation::{changed, to_complex, to_real};
 
-/// The normal form of a Hamiltonian about an elliptic point, and the transformation to it.
+/// The normal form of a Hamiltonian about an equilibrium, and the transformation to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BirkhoffNormalForm<R: RealField> {
     space: PhaseSpace,
-    modes: Vec<Mode<R>>,
+    diagonal: Diagonal<R>,
+    resonances: Resonances,
     offset: Polynomial<R>,
     normalization: Normalization<R::Complex>,
 }
 
-/// The normal form as text: in the actions `I_q`, or with resonant terms in the complex variables `u_q`, `U_q`.
-impl<R: RealField> std::fmt::Display for BirkhoffNormalForm<R> {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(&match self.in_actions() {
-            Ok(actions) => PhaseSpace::text(&actions, &self.space.action_names()),
-            Err(_) => PhaseSpace::text(&self.in_complex(), &self.space.complex_names()),
-        })
-    }
-}
-
 /// The normal form of `hamiltonian` to `order`, of degree `order` + 2, without resonances.
 ///
-/// Terms of a higher degree do not matter. Parameters count as degree 0.
+/// Terms of a higher degree do not matter. Parameters count as [`PhaseSpace::with_parameters`] says.
 ///
 /// ```
 /// use andoyer_series::{PhaseSpace, normalize};
@@ -58,8 +64,9 @@ impl<R: RealField> std::fmt::Display for BirkhoffNormalForm<R> {
 /// ```
 ///
 /// # Errors
-/// - q + p²/2: [`Error::LinearTerm`]; p²/2 + q²/2 + q p: [`Error::QuadraticNotDiagonal`]; p² − q²: [`Error::NotElliptic`];
-/// - p²/2 + q² over the rationals: [`Error::FrequencyIrrational`]; a NaN: [`Error::NotFinite`];
+/// - q + p²/2: [`Error::LinearTerm`]; p²/2: [`Error::ZeroFrequency`]; x X + y Y + x Y: [`Error::Defective`]; d q² + p² with d of degree 0:
+///   [`Error::ParameterDegree`], and else [`Error::FrequencyParameter`];
+/// - p²/2 + q² over the rationals: [`Error::FrequencyIrrational`], of coupled pairs [`Error::SpectrumIrrational`]; a NaN: [`Error::NotFinite`];
 /// - two modes of one frequency, coupled: [`Error::SmallDivisor`];
 /// - order 171 in `f64`, 32764 over the rationals: [`Error::OrderTooLarge`];
 /// - a variable beyond those of `space`: [`Error::ValueMissing`].
@@ -102,14 +109,14 @@ pub fn normalize_with<R: RealField>(
     if order > R::MAXIMUM_ORDER {
         return Err(Error::OrderTooLarge { order, bound: R::MAXIMUM_ORDER });
     }
-    let modes = elliptic::modes(hamiltonian, space)?;
-    let frequencies: Vec<R> = modes.iter().map(|mode| mode.frequency.clone()).collect();
-    resonances.check(&frequencies)?;
-    let series = graded(hamiltonian, order, space, &modes)?;
-    let removal = |n, known: &Polynomial<_>| remove(n, known, &frequencies, resonances, space);
+    let space = space.settled(hamiltonian);
+    let diagonal = Diagonal::of(hamiltonian, &space)?;
+    resonances.check(&diagonal.modes)?;
+    let series = graded(hamiltonian, order, &space, &diagonal)?;
+    let removal = |n, known: &Polynomial<_>| remove(n, known, &diagonal.modes, resonances, &space);
     let normalization = normalize_by(&series, &space.poisson()?, order, &removal, progress)?;
     let offset = hamiltonian.filter(|monomial, _| monomial.degree_in(&space.phase_slots()) == 0);
-    let normal_form = BirkhoffNormalForm { space: space.clone(), modes, offset, normalization };
+    let normal_form = BirkhoffNormalForm { space, diagonal, resonances: resonances.clone(), offset, normalization };
     normal_form.check_finite()?;
     Ok(normal_form)
 }
@@ -119,20 +126,24 @@ fn graded<R: RealField>(
     hamiltonian: &Polynomial<R>,
     order: usize,
     space: &PhaseSpace,
-    modes: &[Mode<R>],
+    diagonal: &Diagonal<R>,
 ) -> Result<Vec<Polynomial<R::Complex>>, Error> {
     let phase = space.phase_slots();
     let mut parts = vec![Polynomial::zero(); order + 1];
-    for (monomial, c) in hamiltonian.terms() {
-        // Exponents are below 2¹⁵, and there are eight of them.
-        if let Some(n) = (monomial.degree_in(&phase) as usize).checked_sub(2).filter(|&n| n > 0 && n <= order) {
+    for (monomial, c) in hamiltonian.terms().filter(|(monomial, _)| monomial.degree_in(&phase) > 0) {
+        if let Some(n) = (space.degree(monomial) as usize).checked_sub(2).filter(|&n| n > 0 && n <= order) {
             parts[n].add_term(monomial, c);
         }
     }
-    let mut series = parts.iter().map(|part| elliptic::to_complex(part, modes)).collect::<Result<Vec<_>, _>>()?;
-    for (mode, Mode { frequency, .. }) in modes.iter().enumerate() {
+    let change = diagonal.forms()?;
+    let mut series = Vec::new();
+    for part in &parts {
+        series.push(to_complex(&changed(part, change.as_deref())?, &diagonal.modes)?);
+    }
+    for (mode, kind) in diagonal.modes.iter().enumerate() {
         let action = Monomial::ONE.with(2 * mode, 1)?.with(2 * mode + 1, 1)?;
-        series[0].add_term(action, &R::complex(R::zero(), -frequency.clone()));
+        let (re, im) = R::parts(&kind.frequency());
+        series[0].add_term(action, &R::complex(im, -re));
     }
     Ok(series)
 }
@@ -147,24 +158,25 @@ fn turns(monomial: Monomial, modes: usize) -> Vec<i64> {
 fn remove<R: RealField>(
     order: usize,
     known: &Polynomial<R::Complex>,
-    frequencies: &[R],
+    modes: &[Mode<R>],
     resonances: &Resonances,
     space: &PhaseSpace,
 ) -> Result<Removal<R::Complex>, Error> {
-    let bound = resonances.bound(frequencies);
+    let bound = resonances.bound(modes);
     let mut removal = Removal { image: Polynomial::zero(), solution: Polynomial::zero() };
     for (monomial, c) in known.terms() {
-        let k = turns(monomial, frequencies.len());
-        if resonances.keeps(&k) {
+        let k = turns(monomial, modes.len());
+        if resonances.keeps_of(&k, modes) {
             continue;
         }
-        let divisor = divisor(&k, frequencies);
-        if is_small(&divisor, bound) {
+        let divisor = divisor(&k, modes);
+        if is_small::<R>(&divisor, bound) {
             let term = Polynomial::from_terms([(monomial, 1.0)]);
             let term = PhaseSpace::text(&term, &space.complex_names());
-            return Err(Error::SmallDivisor { order, term, k, divisor: divisor.to_float().abs(), bound });
+            return Err(Error::SmallDivisor { order, term, k, divisor: modulus::<R>(&divisor), bound });
         }
-        let solution = c.divide(&R::complex(R::zero(), divisor)).ok_or(Error::DivisionByZero)?;
+        let (re, im) = R::parts(&divisor);
+        let solution = c.divide(&R::complex(-im, re)).ok_or(Error::DivisionByZero)?;
         removal.image.add_term(monomial, c);
         removal.solution.add_term(monomial, &solution);
     }
@@ -184,19 +196,31 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         &self.space
     }
 
-    /// The frequencies ωᵢ at the elliptic point, negative for a mode whose energy is.
+    /// The modes of the quadratic part.
     #[must_use]
-    pub fn frequencies(&self) -> Vec<R> {
-        self.modes.iter().map(|mode| mode.frequency.clone()).collect()
+    pub fn modes(&self) -> &[Mode<R>] {
+        &self.diagonal.modes
     }
 
-    /// The ratios rᵢ = √(aᵢ/bᵢ): Iᵢ = (qᵢ²/rᵢ + rᵢ pᵢ²)/2, Uᵢ = rᵢ pᵢ + i qᵢ, uᵢ = (qᵢ + i rᵢ pᵢ)/(2 rᵢ).
+    /// The frequencies ωᵢ: real for centres, negative where the energy of a centre is, iλ for saddles, iσ ∓ ν for quartets.
     #[must_use]
-    pub fn ratios(&self) -> Vec<R> {
-        self.modes.iter().map(|mode| mode.ratio.clone()).collect()
+    pub fn frequencies(&self) -> Vec<R::Complex> {
+        self.modes().iter().map(Mode::frequency).collect()
     }
 
-    /// The energy of the elliptic point: the constant term, with parameters where they occur in it.
+    /// The symplectic matrix M by rows, z = M z′, of the linear change that diagonalizes the quadratic part; z = (q₁, p₁, q₂, …).
+    #[must_use]
+    pub fn linear_change(&self) -> &[Vec<R>] {
+        &self.diagonal.matrix
+    }
+
+    /// The resonances that were kept.
+    #[must_use]
+    pub fn resonances(&self) -> &Resonances {
+        &self.resonances
+    }
+
+    /// The energy of the equilibrium: the constant term, with parameters where they occur in it.
     #[must_use]
     pub fn offset(&self) -> &Polynomial<R> {
         &self.offset
@@ -223,31 +247,66 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// # Errors
     /// - none for a normal form that exists: degrees stay as they are.
     pub fn in_real(&self) -> Result<Polynomial<R>, Error> {
-        elliptic::to_real(&self.in_complex(), &self.modes)
+        to_real(&self.in_complex(), self.modes())
     }
 
     /// The normal form in the actions, offset included: Iᵢ in slot i, the parameters after them.
     ///
+    /// I is (q²/r + r p²)/2 of a centre, q p of a saddle, q p + Q P and q P − Q p of the two modes (q, p), (Q, P) of a quartet.
+    ///
     /// # Errors
     /// - resonant terms: [`Error::ResonantTerm`].
     pub fn in_actions(&self) -> Result<Polynomial<R>, Error> {
-        let mut actions = Polynomial::zero();
-        let modes = self.modes.len();
+        let modes = self.modes().len();
+        let mut products = Polynomial::zero();
         for (monomial, c) in self.in_complex().terms() {
             if turns(monomial, modes).iter().any(|&k| k != 0) {
                 let term = Polynomial::from_terms([(monomial, 1.0)]);
                 return Err(Error::ResonantTerm { term: PhaseSpace::text(&term, &self.space.complex_names()) });
             }
-            let exponents: Vec<u32> = (0..modes).map(|mode| monomial.exponent(2 * mode)).collect();
+            let exponents = (0..modes).map(|mode| monomial.exponent(2 * mode));
             let parameters = (0..self.space.parameters()).map(|j| monomial.exponent(2 * modes + j));
-            let target = Monomial::new(&exponents.iter().copied().chain(parameters).collect::<Vec<_>>())?;
-            // uU = iI, and K is real.
-            let (re, im) = R::parts(c);
-            let power = exponents.iter().sum::<u32>() % 4;
-            let real = [re.clone(), -im.clone(), -re, im];
-            actions.add_term(target, &real[power as usize]);
+            let target = Monomial::new(&exponents.chain(parameters).collect::<Vec<_>>())?;
+            products.add_term(target, c);
         }
-        Ok(actions)
+        let images = self.modes().iter().enumerate().map(|(mode, kind)| self.action_form(mode, kind));
+        let images = images.collect::<Result<Vec<_>, Error>>()?;
+        Ok(substitute(&products, &images)?.map(|c| R::parts(c).0))
+    }
+
+    /// uU of a mode in the actions.
+    fn action_form(&self, mode: usize, kind: &Mode<R>) -> Result<Polynomial<R::Complex>, Error> {
+        let action = |mode: usize, re, im| Ok::<_, Error>((Monomial::ONE.with(mode, 1)?, R::complex(re, im)));
+        let terms = match kind {
+            Mode::Elliptic { .. } => vec![action(mode, R::zero(), R::one())?],
+            Mode::Hyperbolic { .. } => vec![action(mode, R::one(), R::zero())?],
+            Mode::Complex { frequency, partner, .. } => {
+                let half = R::ratio(1, 2).ok_or(Error::DivisionByZero)?;
+                if frequency.sign() > 0 {
+                    vec![action(mode, half.clone(), R::zero())?, action(*partner, R::zero(), half)?]
+                } else {
+                    vec![action(*partner, half.clone(), R::zero())?, action(mode, R::zero(), -half)?]
+                }
+            }
+        };
+        Ok(Polynomial::from_terms(terms))
+    }
+
+    /// The Hamiltonian on the centre manifold, where the saddles and quartets rest at q = p = 0, in the new real variables of the centres.
+    ///
+    /// Its points are those of [`BirkhoffMap::from_normal`] with zeros for the saddles.
+    ///
+    /// # Errors
+    /// - none for a normal form that exists.
+    pub fn centre_manifold(&self) -> Result<Polynomial<R>, Error> {
+        let outside: Vec<usize> = self.saddle_slots();
+        to_real(&self.in_complex().filter(|monomial, _| monomial.degree_in(&outside) == 0), self.modes())
+    }
+
+    /// The slots of saddles and quartets.
+    fn saddle_slots(&self) -> Vec<usize> {
+        let modes = self.modes().iter().enumerate().filter(|(_, mode)| !mode.is_elliptic());
+        modes.flat_map(|(mode, _)| [2 * mode, 2 * mode + 1]).collect()
     }
 
     /// The generating function S_m in real variables, of degree m + 2; orders as theory §4 numbers them, 1 to N.
@@ -257,77 +316,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     pub fn generator(&self, m: usize) -> Result<Polynomial<R>, Error> {
         let range =
             || Error::OrderOutOfRange { what: "generating function", order: m, minimum: 1, maximum: self.order() };
-        elliptic::to_real(&self.transform().generator(m).ok_or_else(range)?, &self.modes)
-    }
-
-    /// A function f of the old variables in the new ones, complete to degree d + N, d the lowest positive degree of f.
-    ///
-    /// ```
-    /// use andoyer_series::{PhaseSpace, normalize};
-    /// use num_rational::BigRational;
-    /// let space = PhaseSpace::new(&[("q", "p")])?;
-    /// let hamiltonian = space.parse::<BigRational>("(p^2 + q^2)/2 + q^3")?;
-    /// let normal_form = normalize(&hamiltonian, 1, &space)?;
-    /// assert_eq!(normal_form.direct(&space.parse("q")?)?, space.parse("q - q^2 - 2*p^2")?);
-    /// assert_eq!(normal_form.inverse(&space.parse("q")?)?, space.parse("q + q^2 + 2*p^2")?);
-    /// # Ok::<(), andoyer_series::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// - degrees that outgrow the packed exponents: [`Error::ExponentOverflow`].
-    pub fn direct(&self, f: &Polynomial<R>) -> Result<Polynomial<R>, Error> {
-        self.direct_with(f, &mut quiet)
-    }
-
-    /// As [`direct`](Self::direct), with a callback as that of [`normalize_with`], for every homogeneous part of f anew.
-    ///
-    /// # Errors
-    /// - as [`direct`](Self::direct); a callback that returns `Break`: [`Error::Interrupted`].
-    pub fn direct_with(&self, f: &Polynomial<R>, progress: &mut Progress<'_>) -> Result<Polynomial<R>, Error> {
-        self.transported(f, |transform, part| transform.direct_with(part, progress))
-    }
-
-    /// A function f of the new variables in the old ones, complete to degree d + N, d the lowest positive degree of f.
-    ///
-    /// # Errors
-    /// - as [`direct`](Self::direct).
-    pub fn inverse(&self, f: &Polynomial<R>) -> Result<Polynomial<R>, Error> {
-        self.inverse_with(f, &mut quiet)
-    }
-
-    /// As [`inverse`](Self::inverse), with a callback as that of [`normalize_with`], for every homogeneous part of f anew.
-    ///
-    /// # Errors
-    /// - as [`direct_with`](Self::direct_with).
-    pub fn inverse_with(&self, f: &Polynomial<R>, progress: &mut Progress<'_>) -> Result<Polynomial<R>, Error> {
-        self.transported(f, |transform, part| transform.inverse_with(part, progress))
-    }
-
-    /// The sum of the series of the homogeneous parts of f, each only as far as all of them are known.
-    fn transported(
-        &self,
-        f: &Polynomial<R>,
-        mut apply: impl FnMut(
-            &LieTransform<R::Complex>,
-            &Polynomial<R::Complex>,
-        ) -> Result<Vec<Polynomial<R::Complex>>, Error>,
-    ) -> Result<Polynomial<R>, Error> {
-        let phase = self.space.phase_slots();
-        let degrees = || f.terms().map(|(monomial, _)| monomial.degree_in(&phase)).filter(|&degree| degree > 0);
-        let mut sum = f.filter(|monomial, _| monomial.degree_in(&phase) == 0);
-        let Some(lowest) = degrees().min() else { return Ok(sum) };
-        // Degrees are below 8 · 2¹⁵, orders below 2¹⁵.
-        let highest = lowest + self.order() as u32;
-        for degree in lowest..=degrees().max().unwrap_or(lowest).min(highest) {
-            let part = f.filter(|monomial, _| monomial.degree_in(&phase) == degree);
-            let transform = self.transform().truncated((highest - degree) as usize);
-            let mut image = Polynomial::zero();
-            for term in apply(&transform, &elliptic::to_complex(&part, &self.modes)?)? {
-                image += &term;
-            }
-            sum += &elliptic::to_real(&image, &self.modes)?;
-        }
-        Ok(sum)
+        to_real(&self.transform().generator(m).ok_or_else(range)?, self.modes())
     }
 
     /// Floats that overflowed on the way are an error.

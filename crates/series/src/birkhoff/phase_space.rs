@@ -6,7 +6,7 @@
 //! The same slots hold the complex variables (u, U) of a normal form, printed as `u_q`, `U_q` for the pair (q, p).
 
 use crate::parse::check_names;
-use crate::{Coefficient, Error, Poisson, Polynomial, SLOTS};
+use crate::{Coefficient, Error, Monomial, Poisson, Polynomial, SLOTS};
 
 /// The named variables of a Hamiltonian.
 ///
@@ -23,6 +23,8 @@ use crate::{Coefficient, Error, Poisson, Polynomial, SLOTS};
 pub struct PhaseSpace {
     names: Vec<String>,
     degrees_of_freedom: usize,
+    /// Degrees of the parameters where they were given.
+    degrees: Vec<Option<u32>>,
 }
 
 impl PhaseSpace {
@@ -33,17 +35,73 @@ impl PhaseSpace {
     /// - ("x", "x"), ("x", "2y"): [`Error::Parse`], the name is taken or no identifier.
     pub fn new(pairs: &[(&str, &str)]) -> Result<Self, Error> {
         let names = pairs.iter().flat_map(|&(q, p)| [q.to_owned(), p.to_owned()]).collect();
-        PhaseSpace { names, degrees_of_freedom: pairs.len() }.checked()
+        PhaseSpace { names, degrees_of_freedom: pairs.len(), degrees: Vec::new() }.checked()
     }
 
-    /// This space with parameters more: symbols in the coefficients, of degree 0.
+    /// This space with parameters more: symbols in the coefficients.
+    ///
+    /// A parameter counts as degree 2 where it occurs in the quadratic part (a detuning, like d in d y²), else as degree 0, unless
+    /// [`with_degree`](Self::with_degree) says otherwise.
     ///
     /// # Errors
     /// - three of them beside three pairs: [`Error::PhaseSpaceSize`];
     /// - a name that is taken or no identifier: [`Error::Parse`].
     pub fn with_parameters(mut self, names: &[&str]) -> Result<Self, Error> {
         self.names.extend(names.iter().map(|&name| name.to_owned()));
+        self.degrees.extend(names.iter().map(|_| None));
         self.checked()
+    }
+
+    /// This space with a degree for a parameter: how small it is beside the variables, for the order in which terms are removed.
+    ///
+    /// ```
+    /// use andoyer_series::{PhaseSpace, Resonances, normalize_with, quiet};
+    /// use num_rational::BigRational;
+    /// // Near the 1:1 resonance: frequencies 1 and 1 + d, the detuning d of degree 1.
+    /// let space = PhaseSpace::new(&[("x", "X"), ("y", "Y")])?.with_parameters(&["d"])?.with_degree("d", 1)?;
+    /// let h = space.parse::<BigRational>("(x^2 + X^2)/2 + (1 + d)*(y^2 + Y^2)/2 + x^2*y^2")?;
+    /// let resonant = normalize_with(&h, 2, &space, &Resonances::new(&[&[1, -1]])?, &mut quiet)?;
+    /// let detuning = resonant.in_real()?.filter(|monomial, _| monomial.exponent(4) > 0);
+    /// assert_eq!(detuning, space.parse("d*(y^2 + Y^2)/2")?);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - a name that is no parameter: [`Error::ParameterUnknown`].
+    pub fn with_degree(mut self, parameter: &str, degree: u32) -> Result<Self, Error> {
+        let first = 2 * self.degrees_of_freedom;
+        match self.names[first..].iter().position(|name| name == parameter) {
+            Some(at) => self.degrees[at] = Some(degree),
+            None => {
+                let known = self.names[first..].join(", ");
+                return Err(Error::ParameterUnknown { name: parameter.to_owned(), known });
+            }
+        }
+        Ok(self)
+    }
+
+    /// This space with the degrees of all parameters settled, those not given by whether they occur in the quadratic part of `hamiltonian`.
+    pub(crate) fn settled<C: Coefficient>(&self, hamiltonian: &Polynomial<C>) -> Self {
+        let phase = self.phase_slots();
+        let detunes = |slot| hamiltonian.terms().any(|(m, _)| m.degree_in(&phase) == 2 && m.exponent(slot) > 0);
+        let mut settled = self.clone();
+        for (slot, degree) in (2 * self.degrees_of_freedom..).zip(&mut settled.degrees) {
+            degree.get_or_insert_with(|| if detunes(slot) { 2 } else { 0 });
+        }
+        settled
+    }
+
+    /// The degree of a monomial: that in the pairs, and the degrees of the parameters in it.
+    pub(crate) fn degree(&self, monomial: Monomial) -> u32 {
+        let parameters = (2 * self.degrees_of_freedom..).zip(&self.degrees);
+        let parameters = parameters.map(|(slot, degree)| monomial.exponent(slot).saturating_mul(degree.unwrap_or(0)));
+        parameters.fold(monomial.degree_in(&self.phase_slots()), u32::saturating_add)
+    }
+
+    /// Degrees of the parameters, `None` where they are not settled.
+    #[must_use]
+    pub fn parameter_degrees(&self) -> &[Option<u32>] {
+        &self.degrees
     }
 
     fn checked(self) -> Result<Self, Error> {

@@ -9,7 +9,9 @@
 //! In floats, terms that cancel may leave a residue of rounding, which counts as a term.
 //! Membership is decided on an echelon basis of the module by Euclid's algorithm, exactly.
 
-use crate::{Error, MAXIMUM_EXPONENT, RealField};
+use super::mode::{Mode, modulus};
+use crate::{Coefficient, Error, MAXIMUM_EXPONENT, RealField};
+use num_traits::Zero;
 
 /// The default of the smallest divisor, relative to the largest frequency.
 const SMALLEST_DIVISOR: f64 = 1e-6;
@@ -28,12 +30,13 @@ pub struct Resonances {
     /// Echelon form: each row starts with zeros, one more than the row before at least.
     basis: Vec<Vec<i128>>,
     smallest_divisor: f64,
+    centre: bool,
 }
 
 impl Default for Resonances {
     /// No resonance.
     fn default() -> Self {
-        Resonances { vectors: Vec::new(), basis: Vec::new(), smallest_divisor: SMALLEST_DIVISOR }
+        Resonances { vectors: Vec::new(), basis: Vec::new(), smallest_divisor: SMALLEST_DIVISOR, centre: false }
     }
 }
 
@@ -72,6 +75,35 @@ impl Resonances {
         Ok(self)
     }
 
+    /// These resonances, and all terms of the centres: only what couples saddles and quartets to them is removed (Jorba and Masdemont,
+    /// Physica D 132 (1999) 189). Divisors are then never smaller than the rate of a saddle.
+    ///
+    /// ```
+    /// use andoyer_series::{PhaseSpace, Resonances, normalize_with, quiet};
+    /// let space = PhaseSpace::new(&[("x", "X"), ("y", "Y")])?;
+    /// let h = space.parse::<f64>("x*X + (y^2 + Y^2)/2 + x*y^2 + X^2*y/2 + y^3")?;
+    /// let reduced = normalize_with(&h, 1, &space, &Resonances::default().with_centre(), &mut quiet)?.centre_manifold()?;
+    /// assert_eq!(reduced, space.parse("(y^2 + Y^2)/2 + y^3")?);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    #[must_use]
+    pub fn with_centre(mut self) -> Self {
+        self.centre = true;
+        self
+    }
+
+    /// Whether all terms of the centres are kept.
+    #[must_use]
+    pub fn keeps_centre(&self) -> bool {
+        self.centre
+    }
+
+    /// The smallest divisor, relative to the largest frequency.
+    #[must_use]
+    pub fn smallest_divisor(&self) -> f64 {
+        self.smallest_divisor
+    }
+
     /// The vectors given.
     #[must_use]
     pub fn vectors(&self) -> &[Vec<i64>] {
@@ -92,21 +124,30 @@ impl Resonances {
         rest.iter().all(|&entry| entry == 0)
     }
 
-    /// The bound on |k·ω| for these frequencies.
-    pub(crate) fn bound<R: RealField>(&self, frequencies: &[R]) -> f64 {
-        self.smallest_divisor * frequencies.iter().map(|frequency| frequency.to_float().abs()).fold(0.0, f64::max)
+    /// Whether terms that turn with e^{i k·φ} are kept in a form with these modes.
+    pub(crate) fn keeps_of<R: RealField>(&self, k: &[i64], modes: &[Mode<R>]) -> bool {
+        let centre = || k.iter().zip(modes).all(|(&k, mode)| k == 0 || mode.is_elliptic());
+        self.keeps(k) || (self.centre && centre())
     }
 
-    /// Refuses vectors of another length, and those that are no resonance of these frequencies.
-    pub(crate) fn check<R: RealField>(&self, frequencies: &[R]) -> Result<(), Error> {
-        let bound = self.bound(frequencies);
+    /// The bound on |k·ω| for these modes.
+    pub(crate) fn bound<R: RealField>(&self, modes: &[Mode<R>]) -> f64 {
+        let largest = modes.iter().map(|mode| modulus::<R>(&mode.frequency())).fold(0.0, f64::max);
+        self.smallest_divisor * largest
+    }
+
+    /// Refuses vectors of another length, and those that are no resonance of these modes.
+    pub(crate) fn check<R: RealField>(&self, modes: &[Mode<R>]) -> Result<(), Error> {
+        let bound = self.bound(modes);
         for vector in &self.vectors {
-            if vector.len() != frequencies.len() {
+            if vector.len() != modes.len() {
                 return Err(Error::ResonanceMalformed { vector: vector.clone(), bound: MAXIMUM_EXPONENT });
             }
-            let divisor = divisor(vector, frequencies);
-            if !is_small(&divisor, bound) {
-                return Err(Error::NotResonant { vector: vector.clone(), divisor: divisor.to_float(), bound });
+            let divisor = divisor(vector, modes);
+            if !is_small::<R>(&divisor, bound) {
+                let (re, im) = R::parts(&divisor);
+                let divisor = if im.is_zero() { re.to_float() } else { modulus::<R>(&divisor) };
+                return Err(Error::NotResonant { vector: vector.clone(), divisor, bound });
             }
         }
         Ok(())
@@ -114,17 +155,17 @@ impl Resonances {
 }
 
 /// k·ω.
-pub(crate) fn divisor<R: RealField>(k: &[i64], frequencies: &[R]) -> R {
-    let mut sum = R::zero();
-    for (&k, frequency) in k.iter().zip(frequencies) {
-        sum += &frequency.times(k);
+pub(crate) fn divisor<R: RealField>(k: &[i64], modes: &[Mode<R>]) -> R::Complex {
+    let mut sum = R::Complex::zero();
+    for (&k, mode) in k.iter().zip(modes) {
+        sum += &mode.frequency().times(k);
     }
     sum
 }
 
 /// Whether a divisor is zero or below the bound.
-pub(crate) fn is_small<R: RealField>(divisor: &R, bound: f64) -> bool {
-    divisor.is_zero() || divisor.to_float().abs() < bound
+pub(crate) fn is_small<R: RealField>(divisor: &R::Complex, bound: f64) -> bool {
+    divisor.is_zero() || modulus::<R>(divisor) < bound
 }
 
 fn pivot(row: &[i128]) -> Option<usize> {

@@ -1,7 +1,7 @@
 //! Floating-point coefficients: lifted values are the values themselves.
 
 use super::Coefficient;
-use crate::DoubleDouble;
+use andoyer_double::DoubleDouble;
 use num_complex::Complex;
 
 impl Coefficient for f64 {

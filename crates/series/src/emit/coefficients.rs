@@ -9,7 +9,8 @@
 //! At a given β the coefficients are those of [`NumericNormalForm`] in double-double, otherwise the exact polynomials in β²: each number is rounded once.
 
 use crate::rigid_body::{Variable, turned_complex as turned};
-use crate::{DoubleDouble, Error, NormalForm, NumericNormalForm};
+use crate::{Error, NormalForm, NumericNormalForm};
+use andoyer_double::DoubleDouble;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};

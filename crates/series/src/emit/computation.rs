@@ -11,7 +11,7 @@
 
 use super::coefficients::{Coefficients, Series};
 use super::program::{Expression, Function, Program, call, name};
-use crate::DoubleDouble;
+use andoyer_double::DoubleDouble;
 use std::ops::{Add, Sub};
 
 /// The names of the results, in their order.

@@ -11,7 +11,7 @@ const COEFFICIENTS_PER_STATEMENT: usize = 3;
 
 /// A function of one argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Function {
+pub(crate) enum Function {
     Sine,
     Cosine,
     SquareRoot,
@@ -19,7 +19,7 @@ pub(super) enum Function {
 
 /// An operation on two values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Operator {
+pub(crate) enum Operator {
     Sum,
     Difference,
     Product,
@@ -28,7 +28,7 @@ pub(super) enum Operator {
 
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Expression {
+pub(crate) enum Expression {
     Number(f64),
     Name(String),
     Operation(Operator, Box<Expression>, Box<Expression>),
@@ -36,12 +36,12 @@ pub(super) enum Expression {
 }
 
 /// The value of a name.
-pub(super) fn name(name: &str) -> Expression {
+pub(crate) fn name(name: &str) -> Expression {
     Expression::Name(name.to_owned())
 }
 
 /// A function of a value.
-pub(super) fn call(function: Function, argument: Expression) -> Expression {
+pub(crate) fn call(function: Function, argument: Expression) -> Expression {
     Expression::Call(function, Box::new(argument))
 }
 
@@ -70,7 +70,7 @@ impl From<f64> for Expression {
 
 impl Expression {
     /// Calls `visit` for this value and every one inside it.
-    fn walk(&self, visit: &mut dyn FnMut(&Expression)) {
+    pub(crate) fn walk(&self, visit: &mut dyn FnMut(&Expression)) {
         visit(self);
         match self {
             Expression::Number(_) | Expression::Name(_) => {}
@@ -85,42 +85,42 @@ impl Expression {
 
 /// One line of a program.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Statement {
+pub(crate) enum Statement {
     Comment(String),
     Assignment(String, Expression),
 }
 
 /// How many operations of each kind a program has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Cost {
+pub(crate) struct Cost {
     /// Additions and subtractions.
-    pub(super) additions: usize,
-    pub(super) multiplications: usize,
-    pub(super) divisions: usize,
-    pub(super) square_roots: usize,
+    pub(crate) additions: usize,
+    pub(crate) multiplications: usize,
+    pub(crate) divisions: usize,
+    pub(crate) square_roots: usize,
     /// Sines and cosines.
-    pub(super) trigonometric: usize,
+    pub(crate) trigonometric: usize,
 }
 
 /// A list of statements.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Program {
-    pub(super) statements: Vec<Statement>,
+pub(crate) struct Program {
+    pub(crate) statements: Vec<Statement>,
 }
 
 impl Program {
     /// A remark about what follows.
-    pub(super) fn comment(&mut self, text: &str) {
+    pub(crate) fn comment(&mut self, text: &str) {
         self.statements.push(Statement::Comment(text.to_owned()));
     }
 
     /// Gives `target` a value.
-    pub(super) fn assign(&mut self, target: &str, value: Expression) {
+    pub(crate) fn assign(&mut self, target: &str, value: Expression) {
         self.statements.push(Statement::Assignment(target.to_owned(), value));
     }
 
     /// Gives `target` the value of Σ cᵢ `variable`ⁱ, lowest power first, where cᵢ is itself a polynomial in `inner`; false if there is no term.
-    pub(super) fn horner(&mut self, target: &str, variable: &str, inner: &str, coefficients: &[Vec<f64>]) -> bool {
+    pub(crate) fn horner(&mut self, target: &str, variable: &str, inner: &str, coefficients: &[Vec<f64>]) -> bool {
         let mut pending: Option<Expression> = None;
         let mut length = 0;
         for (power, coefficient) in coefficients.iter().enumerate().rev() {
@@ -151,7 +151,7 @@ impl Program {
     }
 
     /// Takes out the assignments that no result needs.
-    pub(super) fn keep_what_gives(&mut self, results: &[&str]) {
+    pub(crate) fn keep_what_gives(&mut self, results: &[&str]) {
         let mut needed: BTreeSet<String> = results.iter().map(|&name| name.to_owned()).collect();
         let mut kept = Vec::new();
         for statement in self.statements.drain(..).rev() {
@@ -172,7 +172,7 @@ impl Program {
     }
 
     /// The operations, counted.
-    pub(super) fn cost(&self) -> Cost {
+    pub(crate) fn cost(&self) -> Cost {
         let mut cost = Cost::default();
         for statement in &self.statements {
             if let Statement::Assignment(_, value) = statement {

@@ -6,10 +6,10 @@
 use super::program::{Expression, Function, Operator};
 
 /// How a language writes the call of a function.
-pub(super) type Call = fn(Function, &str) -> String;
+pub(crate) type Call = fn(Function, &str) -> String;
 
 /// A value as text.
-pub(super) fn expression(value: &Expression, call: Call) -> String {
+pub(crate) fn expression(value: &Expression, call: Call) -> String {
     match value {
         Expression::Number(number) => format!("{number:?}"),
         Expression::Name(name) => name.clone(),

@@ -1,0 +1,26 @@
+//! Gauss's arithmetic-geometric mean.
+
+use crate::real::Real;
+
+/// The arithmetic-geometric mean of two numbers ≥ 0, not both 0; it is 0 where `b` is.
+///
+/// (1/2π) ∮ dφ/√(a² cos²φ + b² sin²φ) = 1/agm(a, b) (Gauss). The relative error is below 4·2^−53 in `f64` and 2^−99 in double-double, for b/a down to 1e-300.
+///
+/// ```
+/// use andoyer_double::arithmetic_geometric_mean;
+/// assert!((1.0 / arithmetic_geometric_mean(1.0, 2.0_f64.sqrt()) - 0.834_626_841_674_073_2).abs() < 4e-16); // Gauss's constant
+/// ```
+#[must_use]
+pub fn arithmetic_geometric_mean<R: Real>(mut a: R, mut b: R) -> R {
+    if b.to_f64() == 0.0 {
+        return R::from(0.0);
+    }
+    // Each step halves the logarithm of b/a, then doubles the digits: 1e-300 takes 15 steps.
+    for _ in 0..24 {
+        if (a.to_f64() - b.to_f64()).abs() <= R::EQUAL_MEANS * a.to_f64() {
+            break;
+        }
+        (a, b) = ((a + b).times_double(0.5), (a * b).sqrt());
+    }
+    (a + b).times_double(0.5)
+}

@@ -1,0 +1,166 @@
+//! The facts of an error as data: its kind, the argument, the value given and the bound that it breaks.
+
+use super::Error;
+pub use andoyer_series::error::{Kind, Value};
+
+const POSITIVE: &str = "positive and finite";
+
+/// The argument, the value and the bound of an error.
+type Facts<'a> = (Option<&'a str>, Option<Value>, Option<Value>);
+
+fn facts<'a>(argument: &'a str, value: impl Into<Value>, bound: impl Into<Value>) -> Facts<'a> {
+    (Some(argument), Some(value.into()), Some(bound.into()))
+}
+
+impl Error {
+    /// What a caller can do about it. Of a member of an ensemble it is that of its problem.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        match self {
+            Self::SceneFile { .. } => Kind::File,
+            Self::Units { .. } | Self::Order { .. } => Kind::Representation,
+            Self::Time { value, .. } if value.is_finite() => Kind::Representation,
+            Self::NearSeparatrix { .. }
+            | Self::Separatrix
+            | Self::SeparatrixPartials
+            | Self::Resonance { .. }
+            | Self::TorqueTooStrong { .. }
+            | Self::TooManyOrbits { .. }
+            | Self::Unaveraged { .. } => Kind::Theory,
+            Self::Stopped => Kind::Internal,
+            Self::Series(error) => error.kind(),
+            Self::Member { problem, .. } => problem.kind(),
+            Self::Moment { .. }
+            | Self::InertiaSymmetry { .. }
+            | Self::InertiaMoments { .. }
+            | Self::Positive { .. }
+            | Self::MomentsTriangle { .. }
+            | Self::MomentsRatio { .. }
+            | Self::Attitude { .. }
+            | Self::AngularVelocity { .. }
+            | Self::Epoch { .. }
+            | Self::Tolerance { .. }
+            | Self::Span { .. }
+            | Self::Method { .. }
+            | Self::Time { .. }
+            | Self::Length { .. }
+            | Self::Convention { .. }
+            | Self::ModeName { .. }
+            | Self::NoSuchMode { .. }
+            | Self::PeriodRatio { .. }
+            | Self::Direction { .. }
+            | Self::Andoyer { .. }
+            | Self::Orbit { .. }
+            | Self::Level { .. }
+            | Self::Averaging { .. }
+            | Self::OnError { .. }
+            | Self::Index { .. }
+            | Self::Threads { .. }
+            | Self::UnknownBody { .. } => Kind::Input,
+        }
+    }
+
+    /// The argument that is wrong, without an index; of a file the key, with its table.
+    #[must_use]
+    pub fn argument(&self) -> Option<&str> {
+        self.facts().0
+    }
+
+    /// The value that was given, or the number computed from it that breaks the bound.
+    #[must_use]
+    pub fn value(&self) -> Option<Value> {
+        self.facts().1
+    }
+
+    /// What the value must be: a number, an interval or words.
+    #[must_use]
+    pub fn bound(&self) -> Option<Value> {
+        self.facts().2
+    }
+
+    fn facts(&self) -> Facts<'_> {
+        match self {
+            Self::Series(error) => (error.argument(), error.value(), error.bound()),
+            Self::Member { problem, .. } => problem.facts(),
+            Self::SceneFile { key, value, bound, .. } => {
+                (Some(key), value.as_deref().cloned(), bound.as_deref().cloned())
+            }
+            Self::Stopped => (None, None, None),
+            other => other
+                .facts_of_body()
+                .or_else(|| other.facts_of_state())
+                .or_else(|| other.facts_of_choice())
+                .unwrap_or_else(|| other.facts_of_motion()),
+        }
+    }
+
+    fn facts_of_body(&self) -> Option<Facts<'_>> {
+        Some(match self {
+            Self::Moment { value, .. } => facts("moments", *value, POSITIVE),
+            Self::InertiaSymmetry { value, .. } => {
+                facts("tensor", *value, "finite and symmetric to 1e-12 of its largest entry")
+            }
+            Self::InertiaMoments { moments } => facts("tensor", *moments, "positive principal moments"),
+            Self::Positive { argument, value } => facts(argument, *value, POSITIVE),
+            Self::MomentsTriangle { moments, .. } => {
+                facts("moments", *moments, "the largest at most the sum of the other two")
+            }
+            Self::MomentsRatio { ratio, bound, .. } => facts("moments", *ratio, *bound),
+            Self::UnknownBody { name, known } => facts("name", name, known.join(", ")),
+            _ => return None,
+        })
+    }
+
+    fn facts_of_state(&self) -> Option<Facts<'_>> {
+        Some(match self {
+            Self::Units { exponent, .. } => {
+                let exponents = Value::Integers(vec![-1021, 1021]);
+                facts("moments and angular_velocity", Value::Integer((*exponent).into()), exponents)
+            }
+            Self::Attitude { value, .. } => facts("attitude", *value, "finite with a norm within 1e-6 of 1"),
+            Self::AngularVelocity { value, .. } => facts("angular_velocity", *value, "finite"),
+            Self::Epoch { value } => facts("epoch", *value, "finite"),
+            Self::PeriodRatio { ratio, lower, upper, .. } => facts("rotation/precession", *ratio, [*lower, *upper]),
+            Self::NoSuchMode { mode, .. } => facts("mode", mode, "a mode that the body has"),
+            Self::Direction { argument, value } => {
+                let zero = value.iter().all(|x| *x == 0.0);
+                facts(argument, Value::Numbers(value.clone()), if zero { "finite and not 0" } else { "finite" })
+            }
+            Self::Andoyer { value, bound, .. } => facts("andoyer", *value, *bound),
+            Self::Orbit { argument, value, bound } => facts(argument, *value, *bound),
+            _ => return None,
+        })
+    }
+
+    fn facts_of_choice(&self) -> Option<Facts<'_>> {
+        Some(match self {
+            Self::Tolerance { value } => facts("tolerance", *value, POSITIVE),
+            Self::Span { start, stop } => facts("span", [*start, *stop], "finite with start <= stop"),
+            Self::Order { value, bound } => facts("order", *value, *bound),
+            Self::Method { value } => facts("method", value, "auto, series, closed"),
+            Self::Convention { value } => facts("convention", value, "extremal-axis, long-axis, short-axis"),
+            Self::ModeName { value } => facts("mode", value, "short-axis, long-axis"),
+            Self::Level { value } => facts("level", value, "paper, moving, full"),
+            Self::Averaging { value } => facts("averaging", value, "auto, orbit, spin"),
+            Self::OnError { value } => facts("errors", value, "raise, nan"),
+            Self::Threads { value, problem } => facts("threads", *value, problem),
+            Self::Index { index, members } => facts("index", *index, members.saturating_sub(1)),
+            Self::Length { argument, found, expected } => facts(argument, *found, *expected),
+            _ => return None,
+        })
+    }
+
+    fn facts_of_motion(&self) -> Facts<'_> {
+        match self {
+            Self::Time { value, bound, .. } => facts("times", *value, *bound),
+            Self::NearSeparatrix { tolerance, attainable, .. } => facts("tolerance", *tolerance, *attainable),
+            Self::Separatrix => facts("method", "series", "closed"),
+            Self::SeparatrixPartials => facts("angular_velocity", 1.0, "sigma/sigma_sep other than 1"),
+            Self::Resonance { divisor, bound, .. } => facts("orbit", *divisor, *bound),
+            Self::TorqueTooStrong { size, bound } => facts("orbit", *size, *bound),
+            Self::TooManyOrbits { orbits, bound } => facts("span", *orbits, *bound),
+            Self::Unaveraged { ratio, bound, .. } => facts("orbit", *ratio, *bound),
+            _ => (None, None, None),
+        }
+    }
+}

@@ -1,0 +1,398 @@
+//! The averaged motion of the angular momentum under the gravity gradient (theory §9), with an invariable frame that does not turn about it.
+//!
+//! With k the unit angular momentum, Δ(σ) = (3 T33 − A − B − C)/2 averaged over ℓ′ and y′, and κ = 3n Δ/(M η³) times the mass fraction,
+//!
+//! ```text
+//! dk/df = κ (1 + e cos f) (k·r̂) (r̂ × k)          dJ/df = n η^(−3) (1 + e cos f) (1 − 3 (k·r̂)²)
+//! ```
+//!
+//! where J is what Δ is multiplied by in the phases. `Slow::Spin` solves this on quarters of an orbit by Picard's iteration on Chebyshev points: the right-hand side is
+//! a trigonometric polynomial of f and κ is small, so that a few iterations converge to rounding and the result is its own dense output. Quarters are solved when a time
+//! first needs them and kept. `Slow::Orbit` is the orbit average, first order in κ: steady precession about the orbit's normal, with the periodic part in closed form in f, no expansion in e.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+use std::sync::{Arc, RwLock};
+
+use andoyer_double::DoubleDouble;
+use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
+
+use crate::input::orbit::Orbit;
+use crate::numerics::phase::Phase;
+use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
+use crate::simd::instruction_set::InstructionSet;
+use crate::simd::kepler::Place;
+use crate::simd::lanes::{Lanes, WIDEST};
+
+/// Chebyshev points of a quarter: what a degree of 17 leaves of cos 3f is 1e-15 of κ.
+const POINTS: usize = 18;
+/// Picard's iterations: each multiplies the error by κ, which [`super::disturbed::STRONGEST`] bounds, so that a dozen do.
+const MOST_ITERATIONS: usize = 40;
+/// Quarters that are kept on each side of the epoch; 0.7 kB each.
+pub(crate) const MOST_QUARTERS: usize = 1 << 18;
+
+/// Coefficients that change nothing.
+const NEGLIGIBLE: f64 = 1e-17;
+
+/// Frame (quaternion x, y, z, w) and J.
+type Column = [f64; 5];
+
+/// An orbit as the averaged motion sees it.
+#[derive(Clone, Debug)]
+pub(crate) struct AveragedOrbit {
+    pub(crate) eccentricity: f64,
+    eta_cubed: f64,
+    /// n in the units of the motion.
+    mean_motion: f64,
+    axes: [Vector3<f64>; 3],
+    /// κ.
+    strength: f64,
+}
+
+/// Where the disturbing body is at some times: whole turns since the epoch's pericentre, and its place.
+#[derive(Clone, Copy)]
+pub(crate) struct When<S: InstructionSet> {
+    pub(crate) turns: Lanes<S>,
+    pub(crate) place: Place<S>,
+}
+
+/// Time since the epoch, with its rounding error.
+pub(super) type Elapsed<S> = (Lanes<S>, Lanes<S>);
+
+/// Where the disturbing body is at times after the epoch.
+#[inline(always)]
+pub(super) fn when<S: InstructionSet>(mean_anomaly: &Phase, elapsed: Elapsed<S>, eccentricity: f64) -> When<S> {
+    let (turns, angle) = mean_anomaly.turns_and_angle(elapsed);
+    When { turns, place: Place::of(angle, eccentricity) }
+}
+
+/// The averaged motion.
+#[derive(Clone, Debug)]
+pub(crate) enum Slow {
+    /// Averaged over the rotation alone.
+    Spin(Box<Spin>),
+    /// Averaged over the orbit too.
+    Orbit(Box<Precession>),
+}
+
+impl Slow {
+    /// The frame and J at times after the epoch.
+    #[inline(always)]
+    pub(crate) fn at<S: InstructionSet>(
+        &self,
+        when: &When<S>,
+        elapsed: (Lanes<S>, Lanes<S>),
+    ) -> (QuaternionLanes<S>, Lanes<S>) {
+        match self {
+            Self::Spin(spin) => spin.at(when),
+            Self::Orbit(precession) => precession.at(&when.place, elapsed),
+        }
+    }
+}
+
+impl AveragedOrbit {
+    /// `delta` is Δ times the mass fraction over M.
+    pub(crate) fn new(orbit: &Orbit, mean_motion: f64, delta: f64) -> Self {
+        let eccentricity = orbit.eccentricity();
+        let eta = (1.0 - eccentricity * eccentricity).sqrt();
+        let eta_cubed = eta * eta * eta;
+        let strength = 3.0 * mean_motion * delta / eta_cubed;
+        Self { eccentricity, eta_cubed, mean_motion, axes: orbit.axes(), strength }
+    }
+
+    /// κ.
+    pub(crate) fn strength(&self) -> f64 {
+        self.strength
+    }
+
+    /// η³.
+    pub(crate) fn eta_cubed(&self) -> f64 {
+        self.eta_cubed
+    }
+
+    /// The orbit's normal.
+    pub(crate) fn normal(&self) -> Unit<Vector3<f64>> {
+        Unit::new_unchecked(self.axes[2])
+    }
+
+    /// dJ/dt averaged over the orbit, for an angular momentum along an axis.
+    pub(crate) fn secular(&self, axis: &Vector3<f64>) -> f64 {
+        // 1 − (3/2) sin² I without cancellation at I = 0.
+        let sine_square = axis.cross(&self.axes[2]).norm_squared();
+        self.mean_motion * self.mean_motion * (1.0 - 1.5 * sine_square) / self.eta_cubed
+    }
+
+    fn slope(&self, frame: &Quaternion<f64>, sine: f64, cosine: f64) -> Column {
+        let direction = self.axes[0] * cosine + self.axes[1] * sine;
+        let weight = 1.0 + self.eccentricity * cosine;
+        let axis = (frame * Quaternion::new(0.0, 0.0, 0.0, 1.0) * frame.conjugate()).imag();
+        let along = axis.dot(&direction);
+        // k × dk: it turns k and not about k.
+        let turning = (direction - axis * along) * (self.strength * weight * along);
+        let change = Quaternion::from_parts(0.0, turning * 0.5) * frame;
+        let phase = self.mean_motion / self.eta_cubed * weight * (1.0 - 3.0 * along * along);
+        [change.i, change.j, change.k, change.w, phase]
+    }
+}
+
+/// The averaged motion by quarters of the orbit.
+#[derive(Clone, Debug)]
+pub(crate) struct Spin {
+    ellipse: AveragedOrbit,
+    /// The quarter of the epoch, counted from the pericentre before it.
+    first: i64,
+    epoch: Quarter,
+    /// The quarters after it and before it.
+    kept: Arc<[RwLock<Vec<Quarter>>; 2]>,
+}
+
+/// Chebyshev coefficients over a quarter.
+#[derive(Clone, Copy, Debug)]
+struct Quarter {
+    coefficients: [Column; POINTS],
+    terms: usize,
+}
+
+impl Spin {
+    /// From the frame at a place of the orbit, where J is 0.
+    pub(crate) fn new(ellipse: AveragedOrbit, frame: UnitQuaternion<f64>, when: &When<pulp::Scalar>) -> Self {
+        let (first, inside) = quarter(when.turns.values()[0], when.place.angle.values()[0]);
+        let start: Column = [frame.i, frame.j, frame.k, frame.w, 0.0];
+        let epoch = Quarter::solved(&ellipse, first, inside, &start);
+        Self { ellipse, first, epoch, kept: Arc::default() }
+    }
+
+    /// Neighbours in one quarter are computed together.
+    #[inline(always)]
+    fn at<S: InstructionSet>(&self, when: &When<S>) -> (QuaternionLanes<S>, Lanes<S>) {
+        let (turns, angles) = (when.turns.values(), when.place.angle.values());
+        let (mut quarters, mut insides) = ([0_i64; WIDEST], [0.0; WIDEST]);
+        for (lane, (turns, angle)) in turns.iter().zip(angles).enumerate() {
+            (quarters[lane], insides[lane]) = quarter(*turns, *angle);
+        }
+        let inside = when.turns.like(&insides);
+        let mut rows = [[0.0; WIDEST]; 5];
+        let mut lane = 0;
+        while lane < turns.len() {
+            let next = lane + quarters[lane..turns.len()].iter().take_while(|other| **other == quarters[lane]).count();
+            let columns = self.quarter(quarters[lane] - self.first).sums(inside);
+            if next - lane == turns.len() {
+                let [x, y, z, w, phase] = columns;
+                return (QuaternionLanes([x, y, z, w]), phase);
+            }
+            for (row, column) in rows.iter_mut().zip(&columns) {
+                row[lane..next].copy_from_slice(&column.values()[lane..next]);
+            }
+            lane = next;
+        }
+        let mut columns = [inside; 5];
+        for (column, row) in columns.iter_mut().zip(&rows) {
+            *column = inside.like(row);
+        }
+        let [x, y, z, w, phase] = columns;
+        (QuaternionLanes([x, y, z, w]), phase)
+    }
+
+    /// The quarter so many after the epoch's: solved, with all between, if it was not needed yet.
+    fn quarter(&self, distance: i64) -> Quarter {
+        let (side, index) = match distance {
+            0 => return self.epoch,
+            later if later > 0 => (0, later as usize - 1),
+            earlier => (1, earlier.unsigned_abs() as usize - 1),
+        };
+        // A thread that panicked while it held the lock left whole quarters behind.
+        let known = self.kept[side].read().unwrap_or_else(|poisoned| poisoned.into_inner()).get(index).copied();
+        known.unwrap_or_else(|| self.solved(side, index))
+    }
+
+    fn solved(&self, side: usize, index: usize) -> Quarter {
+        let mut quarters = self.kept[side].write().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let (step, end) = if side == 0 { (1, 1.0) } else { (-1, -1.0) };
+        while quarters.len() <= index {
+            let start = quarters.last().unwrap_or(&self.epoch).at(end);
+            let number = self.first + step * (quarters.len() as i64 + 1);
+            quarters.push(Quarter::solved(&self.ellipse, number, -end, &start));
+        }
+        quarters[index]
+    }
+}
+
+/// The quarter, counted from the epoch's pericentre, and the place in it from −1 to 1.
+#[inline(always)]
+fn quarter(turns: f64, angle: f64) -> (i64, f64) {
+    let quarters = angle / FRAC_PI_2;
+    let part = quarters.floor().clamp(-2.0, 1.0);
+    let inside = (2.0 * (quarters - part) - 1.0).clamp(-1.0, 1.0);
+    // Within MOST_QUARTERS, by the motion's bound.
+    (4 * turns as i64 + part as i64, inside)
+}
+
+impl Quarter {
+    /// The solution through `start` at a place of the quarter.
+    fn solved(ellipse: &AveragedOrbit, number: i64, place: f64, start: &Column) -> Self {
+        let middle = (number.rem_euclid(4) as f64 + 0.5) * FRAC_PI_2;
+        let nodes: [f64; POINTS] = std::array::from_fn(|i| (PI * (i as f64 + 0.5) / POINTS as f64).cos());
+        let circles = nodes.map(|x| (middle + FRAC_PI_4 * x).sin_cos());
+        let mut values = [*start; POINTS];
+        let mut quarter = Self { coefficients: [[0.0; 5]; POINTS], terms: POINTS };
+        for _ in 0..MOST_ITERATIONS {
+            let slopes: [Column; POINTS] = std::array::from_fn(|i| {
+                let [x, y, z, w, _] = values[i];
+                ellipse.slope(&Quaternion::new(w, x, y, z), circles[i].0, circles[i].1)
+            });
+            quarter = Self::integral(&slopes);
+            let offset = quarter.at(place);
+            for c in 0..5 {
+                quarter.coefficients[0][c] += start[c] - offset[c];
+            }
+            let mut change = 0.0_f64;
+            for (value, &x) in values.iter_mut().zip(&nodes) {
+                let next = quarter.at(x);
+                change = (0..4).fold(change, |most, c| most.max((next[c] - value[c]).abs()));
+                *value = next;
+            }
+            if change <= 4.0 * f64::EPSILON {
+                break;
+            }
+        }
+        quarter.trimmed()
+    }
+
+    /// The primitive of what has these values at the points, up to a constant.
+    fn integral(slopes: &[Column; POINTS]) -> Self {
+        let count = POINTS as f64;
+        let mut series = [[0.0; 5]; POINTS + 1];
+        for (k, sum) in series.iter_mut().enumerate().take(POINTS) {
+            let scale = if k == 0 { 1.0 } else { 2.0 } / count * FRAC_PI_4;
+            for (i, slope) in slopes.iter().enumerate() {
+                let weight = scale * (PI * k as f64 * (i as f64 + 0.5) / count).cos();
+                for c in 0..5 {
+                    sum[c] += weight * slope[c];
+                }
+            }
+        }
+        let mut coefficients = [[0.0; 5]; POINTS];
+        for k in 1..POINTS {
+            let lower = if k == 1 { 2.0 } else { 1.0 };
+            for c in 0..5 {
+                coefficients[k][c] = (lower * series[k - 1][c] - series[k + 1][c]) / (2.0 * k as f64);
+            }
+        }
+        Self { coefficients, terms: POINTS }
+    }
+
+    /// Clenshaw's sums.
+    #[inline(always)]
+    fn sums<S: InstructionSet>(&self, x: Lanes<S>) -> [Lanes<S>; 5] {
+        let twice = x + x;
+        let (mut next, mut after) = ([x.all(0.0); 5], [x.all(0.0); 5]);
+        for coefficient in self.coefficients[1..self.terms].iter().rev() {
+            for c in 0..5 {
+                (next[c], after[c]) = (twice.mul_add(next[c], x.all(coefficient[c]) - after[c]), next[c]);
+            }
+        }
+        for c in 0..5 {
+            next[c] = x.mul_add(next[c], x.all(self.coefficients[0][c]) - after[c]);
+        }
+        next
+    }
+
+    fn at(&self, x: f64) -> Column {
+        self.sums(Lanes::splat(pulp::Scalar, x)).map(|lanes| lanes.values()[0])
+    }
+
+    /// Without the last terms that are nothing.
+    fn trimmed(mut self) -> Self {
+        let something = |column: &Column| column.iter().any(|c| c.abs() > NEGLIGIBLE);
+        self.terms = self.coefficients.iter().rposition(something).map_or(1, |last| last + 1);
+        self
+    }
+}
+
+/// Steady precession and the periodic part of one orbit.
+#[derive(Clone, Debug)]
+pub(crate) struct Precession {
+    ellipse: AveragedOrbit,
+    /// The mean frame at the epoch.
+    frame: UnitQuaternion<f64>,
+    /// Half the angle about the orbit's normal, and half that about the angular momentum which keeps the frame from turning about it.
+    half: Phase,
+    half_back: Phase,
+    /// dJ/dt of the average.
+    secular: f64,
+    /// J of the periodic part at the epoch.
+    phase: f64,
+}
+
+impl Precession {
+    /// From the frame at a place of the orbit, where J is 0; `unit` is the user's unit of time in the motion's.
+    pub(crate) fn new(
+        ellipse: AveragedOrbit,
+        frame: UnitQuaternion<f64>,
+        place: &Place<pulp::Scalar>,
+        unit: f64,
+    ) -> Self {
+        let still = Phase::new(DoubleDouble::ZERO, 0.0);
+        let mut precession = Self { ellipse, frame, half: still, half_back: still, secular: 0.0, phase: 0.0 };
+        let one = Lanes::splat(pulp::Scalar, 1.0);
+        // The mean axis to first order, then once more with the periodic part at itself.
+        let mut phase = one;
+        for _ in 0..3 {
+            let (rotation, next) = precession.periodic(QuaternionLanes::all(one, &precession.frame), place);
+            let [x, y, z] = rotation.map(|lanes| -0.5 * lanes.values()[0]);
+            precession.frame = UnitQuaternion::new_normalize(Quaternion::new(1.0, x, y, z)) * frame;
+            phase = next;
+        }
+        let axis = precession.frame * Vector3::z();
+        let cosine = axis.dot(&precession.ellipse.axes[2]);
+        // dλ/dt = −(3/2) n² Δ cos I/(M η³): κ is 3 n Δ/(M η³).
+        let precessing = -0.5 * precession.ellipse.strength * cosine * precession.ellipse.mean_motion * unit;
+        precession.half = Phase::new((0.5 * precessing).into(), 0.0);
+        precession.half_back = Phase::new((-0.5 * cosine * precessing).into(), 0.0);
+        precession.secular = precession.ellipse.secular(&axis) * unit;
+        precession.phase = phase.values()[0];
+        precession
+    }
+
+    #[inline(always)]
+    fn at<S: InstructionSet>(&self, place: &Place<S>, elapsed: (Lanes<S>, Lanes<S>)) -> (QuaternionLanes<S>, Lanes<S>) {
+        let turn = QuaternionLanes::about(&self.ellipse.axes[2], self.half.sin_cos(elapsed));
+        let back = QuaternionLanes::about(&Vector3::z(), self.half_back.sin_cos(elapsed));
+        let mean = turn * QuaternionLanes::all(elapsed.0, &self.frame) * back;
+        let ([x, y, z], phase) = self.periodic(mean, place);
+        let (half, one) = (x.all(0.5), x.all(1.0));
+        let frame = QuaternionLanes([half * x, half * y, half * z, one]) * mean;
+        (frame.normalized(), elapsed.0.mul_add(x.all(self.secular), phase - x.all(self.phase)))
+    }
+
+    /// What the orbit average leaves out: a rotation (inertial) and J, by the integrals of theory §9.
+    #[inline(always)]
+    fn periodic<S: InstructionSet>(&self, frame: QuaternionLanes<S>, place: &Place<S>) -> ([Lanes<S>; 3], Lanes<S>) {
+        let AveragedOrbit { eccentricity, eta_cubed, mean_motion, axes, strength } = &self.ellipse;
+        let Place { centre, sine, cosine, .. } = *place;
+        let all = |value: f64| sine.all(value);
+        let double = ComplexLanes { re: cosine, im: sine } * ComplexLanes { re: cosine, im: sine };
+        let triple = double * ComplexLanes { re: cosine, im: sine };
+        let (half, first, third) = (all(0.5), all(0.5 * eccentricity), all(eccentricity / 6.0));
+        let constant = sine.mul_add(all(*eccentricity), centre);
+        let by_cosine = triple.im.mul_add(third, sine.mul_add(first, half * double.im));
+        let by_sine = -triple.re.mul_add(third, cosine.mul_add(first, half * double.re));
+        // The tensor ½ [(PP + QQ) constant + (PP − QQ) by_cosine + (PQ + QP) by_sine] times the axis.
+        let rows = frame.rows();
+        let axis = [rows[0][2], rows[1][2], rows[2][2]];
+        let along = |direction: &Vector3<f64>| {
+            let part = axis[0].mul_add(all(direction.x), axis[1] * all(direction.y));
+            axis[2].mul_add(all(direction.z), part)
+        };
+        let (p, q) = (along(&axes[0]), along(&axes[1]));
+        let to_p = half * p.mul_add(constant + by_cosine, q * by_sine);
+        let to_q = half * q.mul_add(constant - by_cosine, p * by_sine);
+        let sum = p.mul_add(to_p, q * to_q);
+        let scale = all(*strength);
+        let mut turned = [sum; 3];
+        for (c, component) in turned.iter_mut().enumerate() {
+            let inside = to_p.mul_add(all(axes[0][c]), to_q * all(axes[1][c]));
+            *component = scale * axis[c].negate_mul_add(sum, inside);
+        }
+        (turned, all(mean_motion / eta_cubed) * sum.negate_mul_add(all(3.0), constant))
+    }
+}

@@ -1,0 +1,156 @@
+//! What is left of the attitude: the parts of the error bound.
+//!
+//! The largest first-order change ε is sampled over ℓ′, y′, the place of the disturbing body within the span, and the precession. Second order leaves ε times the derivatives of the
+//! change, which are of the size of all terms together, and lets the phases drift by what it does to σ and M. To that come the terms that are dropped, what the sums for G leave, what the level leaves out, the average over the orbit, and rounding.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::UnitQuaternion;
+use num_complex::Complex;
+
+use super::averaged::{AveragedOrbit, MOST_QUARTERS};
+use super::corrections::{Corrections, Mean};
+use super::inertia::Inertia;
+use super::request::Request;
+use super::response::Response;
+use crate::error::Error;
+use crate::input::options::Averaging;
+use crate::simd::kepler::Place;
+use crate::simd::lanes::Lanes;
+
+/// Samples of the first-order change.
+const SAMPLES: usize = 48;
+/// What the largest change may be beyond the largest sample, squared, and the factor of second order: with it the worst of the climbs (docs/gravity-gradient.md) is below its bound.
+const MARGIN: f64 = 2.0;
+/// Size of the derivatives of the change over the sum of the largest sizes of all terms.
+const SLOPE_SHARE: f64 = 0.25;
+/// Orbits on each side of the epoch that quarters are kept for.
+pub(super) const MOST_ORBITS: f64 = (MOST_QUARTERS / 4 - 2) as f64;
+
+/// What is left of the attitude \[rad\].
+pub(super) struct Budget {
+    /// By the average over the rotation.
+    spin: f64,
+    /// By the average over the orbit.
+    orbit: f64,
+    /// By dropped terms.
+    dropped: f64,
+    /// By the level.
+    omitted: f64,
+    /// By σ as a double in the phases.
+    rounding: f64,
+    /// Orbits from the epoch.
+    orbits: f64,
+}
+
+/// One mean motion, about which the budget is made.
+pub(super) struct Subject<'a> {
+    pub(super) mean: &'a Mean,
+    pub(super) inertia: &'a Inertia,
+    pub(super) corrections: &'a Corrections,
+    pub(super) response: &'a Response,
+    pub(super) ellipse: &'a AveragedOrbit,
+    /// Mean anomaly at the epoch.
+    pub(super) anomaly: f64,
+    /// d⟨T33⟩/dσ times −3/4 of the mass fraction over M.
+    pub(super) drift: f64,
+}
+
+impl Budget {
+    pub(super) fn new(subject: &Subject<'_>, mean_motion: f64, duration: f64) -> Self {
+        let Subject { inertia, corrections, response, ellipse, .. } = *subject;
+        let orbital = mean_motion * duration;
+        let [size, p] = subject.largest_change(orbital);
+        // Where the angular momentum is along the line to the disturbing body, or across it, the change vanishes and its derivatives do not.
+        let slope = size.max(SLOPE_SHARE * corrections.size);
+        let [anomaly, longitude] = inertia.rate_slopes;
+        let strength = ellipse.strength().abs();
+        // Of the phases as κ is of the axis: Δ(σ) may vanish where its slope does not.
+        let by_phase = subject.phase() * mean_motion / ellipse.eta_cubed();
+        Self {
+            spin: MARGIN * response.second_order([size, slope], p, duration),
+            orbit: strength * (strength + 6.0 * by_phase) * (1.0 + orbital),
+            dropped: corrections.dropped + 2.0 * corrections.rest,
+            omitted: corrections.omitted + subject.omitted(mean_motion) * (1.0 + orbital),
+            rounding: 4.0 * f64::EPSILON * inertia.sigma * (anomaly.abs() + longitude.abs()) * duration,
+            orbits: orbital / TAU,
+        }
+    }
+
+    /// Whether the equations are averaged over the orbit too.
+    pub(super) fn by_orbit(&self, request: &Request<'_>) -> Result<bool, Error> {
+        let too_far = request.spanned && self.orbits > MOST_ORBITS;
+        match request.averaging {
+            Averaging::Orbit => Ok(true),
+            Averaging::Auto => Ok(self.orbit <= request.tolerance || too_far),
+            Averaging::Spin if too_far => Err(Error::TooManyOrbits { orbits: self.orbits, bound: MOST_ORBITS }),
+            Averaging::Spin => Ok(false),
+        }
+    }
+
+    pub(super) fn error(&self, by_orbit: bool) -> f64 {
+        let averaged = self.spin + if by_orbit { self.orbit } else { 0.0 };
+        averaged + self.dropped + self.omitted + self.rounding
+    }
+}
+
+impl Subject<'_> {
+    /// Turn of the attitude by a J of 1.
+    fn phase(&self) -> f64 {
+        self.drift.abs() * (self.response.visible + self.inertia.sigma)
+    }
+
+    /// What the averages lack where a level has them at J = 0, in one radian of the orbit.
+    fn omitted(&self, mean_motion: f64) -> f64 {
+        let [axial, slope] = self.corrections.axial_omitted;
+        let scale = mean_motion / self.ellipse.eta_cubed();
+        let phase = slope * (self.response.visible + self.inertia.sigma);
+        scale * (4.5 * axial + 2.0 * phase)
+    }
+
+    /// The largest first-order change of the attitude, and of p.
+    fn largest_change(&self, orbital: f64) -> [f64; 2] {
+        let precession = (0.5 * self.ellipse.strength().abs() * orbital).min(PI);
+        let (mut largest, mut largest_p) = (0.0_f64, 0.0_f64);
+        for k in 0..SAMPLES {
+            let [first, second, third, fourth] = kronecker(k);
+            let anomaly = self.place(k, third, orbital);
+            let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), self.ellipse.eccentricity);
+            let turn = UnitQuaternion::from_axis_angle(&self.ellipse.normal(), precession * (2.0 * fourth - 1.0));
+            let mean = Mean {
+                p: Complex::from_polar(self.mean.p.norm(), TAU * first),
+                longitude: TAU * second,
+                momentum: self.mean.momentum,
+                frame: turn * self.mean.frame,
+            };
+            let change = self.corrections.at(&mean, &place);
+            let p = change.p.norm();
+            let [x, y] = change.rotation;
+            let parts = [self.response.gain * p, change.longitude, x, y, change.momentum / self.mean.momentum];
+            largest = largest.max(parts.iter().map(|part| part * part).sum::<f64>().sqrt());
+            largest_p = largest_p.max(p);
+        }
+        [largest, largest_p]
+    }
+
+    /// A mean anomaly within the span: of two samples one is uniform in the mean anomaly, one in the true anomaly.
+    fn place(&self, k: usize, part: f64, orbital: f64) -> f64 {
+        let wrapped = |angle: f64| angle - TAU * (angle / TAU).round();
+        let reach = orbital.min(PI);
+        let uniform = wrapped(self.anomaly + reach * (2.0 * part - 1.0));
+        if k % 2 == 0 {
+            return uniform;
+        }
+        let e = self.ellipse.eccentricity;
+        let (sine, cosine) = (PI * (part - 0.5)).sin_cos();
+        let eccentric = 2.0 * ((1.0 - e).sqrt() * sine).atan2((1.0 + e).sqrt() * cosine);
+        let anomaly = eccentric - e * eccentric.sin();
+        if wrapped(anomaly - self.anomaly).abs() <= reach { anomaly } else { uniform }
+    }
+}
+
+/// A point of the sequence that fills the unit cube of four dimensions evenly: multiples of the powers of the root of x⁵ = x + 1.
+fn kronecker(k: usize) -> [f64; 4] {
+    const ROOT: f64 = 1.167_303_978_261_418_7;
+    std::array::from_fn(|i| ((k as f64 + 0.5) / ROOT.powi(i as i32 + 1)).fract())
+}

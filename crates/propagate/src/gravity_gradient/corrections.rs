@@ -1,0 +1,277 @@
+//! Short-period corrections by the gravity gradient, to first order in the torque and to all orders in J (theory §9).
+//!
+//! D less its mean is a sum of e^(i(hℓ′+my′)) g(f), m = 0, ±1, ±2, with g = (a/r)³ times 1, cos 2f or sin 2f. With the frequency Ω = h dℓ′/dt + m dy′/dt,
+//!
+//! ```text
+//! W = Σ e^(i(hℓ′+my′)) G(f),   G = g/(iΩ) − ġ/(iΩ)² + g̈/(iΩ)³ − …,   d/dt = n η^(−3) (1 + e cos f)² d/df
+//! ```
+//!
+//! solves dW/dt = D − ⟨D⟩ with the disturbing body on its way; the first term alone holds it fixed, as the paper does. G is a Fourier polynomial in f. The corrections are
+//! brackets with W in variables that are regular at J = 0 and at any inclination: p = √σ e^(iℓ′), M, y′ and rotations of the invariable frame,
+//!
+//! ```text
+//! δp = (i/M) ∂W/∂p̄ − (p/2M) δM,   δM = −∂W/∂y′,   δy′ = −(p ∂W/∂p + p̄ ∂W/∂p̄)/2M + ∂W/∂M|p,   δ(M k) = −∂W/∂θ
+//! ```
+//!
+//! with y′ counted from an axis that turns with k and not about it. Terms, and derivatives of g, that are smaller than what second order leaves or the tolerance allows are
+//! dropped here. So is a term in resonance, whose effect over the span is no larger; any other is an error ([`super::resonance`]).
+
+use nalgebra::{Quaternion, UnitQuaternion};
+use num_complex::Complex;
+
+use super::candidate::{Candidate, SMALLEST_RATIO};
+use super::generator::{self, Generator, Harmonic, ORDERS, Orbital};
+use super::inertia::{HIGHEST, Inertia};
+use super::resonance::Commensurability;
+use super::response::Response;
+use crate::error::Error;
+use crate::input::options::Level;
+use crate::input::orbit::Orbit;
+use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
+use crate::simd::kepler::Place;
+use crate::simd::lanes::Lanes;
+
+type C64 = Complex<f64>;
+
+/// Sum of the corrections above which they are no first order.
+const LARGEST_SIZE: f64 = 0.05;
+/// [`Demand::share`] of a motion: what second order leaves is 0.003 of its bound in the median, and a few tens of terms may be dropped.
+pub(crate) const SHARE: f64 = 1e-5;
+
+/// What a moment of time has of the mean motion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mean {
+    /// √σ e^(iℓ′).
+    pub(crate) p: C64,
+    pub(crate) longitude: f64,
+    pub(crate) momentum: f64,
+    /// The invariable frame, axis 3 along k.
+    pub(crate) frame: UnitQuaternion<f64>,
+}
+
+/// First-order changes of it; `rotation` is about axes 1 and 2 of the frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Change {
+    pub(crate) p: C64,
+    pub(crate) longitude: f64,
+    pub(crate) momentum: f64,
+    pub(crate) rotation: [f64; 2],
+}
+
+impl Mean {
+    /// This with a change added, or taken away for a factor of −1.
+    pub(crate) fn changed(&self, change: &Change, factor: f64) -> Self {
+        let [x, y] = change.rotation.map(|angle| 0.5 * factor * angle);
+        Self {
+            p: self.p + change.p * factor,
+            longitude: self.longitude + factor * change.longitude,
+            momentum: self.momentum + factor * change.momentum,
+            frame: self.frame * UnitQuaternion::new_normalize(Quaternion::new(1.0, x, y, 0.0)),
+        }
+    }
+}
+
+/// What the corrections are asked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Demand<'a> {
+    pub(crate) orbit: &'a Orbit,
+    /// In the units of the tables.
+    pub(crate) mean_motion: f64,
+    pub(crate) level: Level,
+    /// Attitude error that is allowed \[rad\].
+    pub(crate) tolerance: f64,
+    /// In the units of the tables.
+    pub(crate) duration: f64,
+    /// Part that a dropped term may have of what is left anyway.
+    pub(crate) share: f64,
+}
+
+/// The generating function of one mean motion.
+#[derive(Clone, Debug)]
+pub(crate) struct Corrections {
+    pub(crate) generator: Generator,
+    /// Sum of what was dropped, over the span \[rad\].
+    pub(crate) dropped: f64,
+    /// Sum of the terms that the level leaves out, over the span \[rad\].
+    pub(crate) omitted: f64,
+    /// What it leaves out of ⟨T33⟩ and of its slope, times the mass fraction over M.
+    pub(crate) axial_omitted: [f64; 2],
+    /// What the sums for G leave \[rad\].
+    pub(crate) rest: f64,
+    /// Sum of all terms \[rad\].
+    pub(crate) size: f64,
+    /// Number of terms that are kept.
+    pub(crate) count: usize,
+    /// The largest that is not, or what is left of one that is \[rad\].
+    pub(crate) neglected: f64,
+}
+
+impl Corrections {
+    /// The corrections of a mean motion.
+    ///
+    /// # Errors
+    /// - [`Error::Resonance`] where a term that no correction serves has an effect.
+    /// - [`Error::TorqueTooStrong`] where the corrections are no small ones.
+    pub(crate) fn new(inertia: &Inertia, demand: &Demand<'_>) -> Result<Self, Error> {
+        let Demand { orbit, mean_motion, level, duration, .. } = *demand;
+        let eccentricity = orbit.eccentricity();
+        let eta_cubed = (1.0 - eccentricity * eccentricity).powf(1.5);
+        // The disturbing body's fastest: twice the true anomaly at the pericentre.
+        let fastest = 2.0 * mean_motion * (1.0 + eccentricity).powi(2) / eta_cubed;
+        let strength = 1.5 * mean_motion * mean_motion * orbit.disturbing_fraction();
+        let pericentre = strength * ((1.0 + eccentricity) / eta_cubed.powf(2.0 / 3.0)).powi(3);
+        let response = Response::new(inertia);
+        let scale = 4.0 * pericentre / inertia.momentum;
+        let all = candidates(inertia, &response, scale, |m, h| level.tensor(inertia, m, h));
+        let commensurability = Commensurability { response: &response, mean_motion, eccentricity, fastest, duration };
+        let regular = |candidate: &Candidate| candidate.frequency.abs() > SMALLEST_RATIO * fastest;
+        let size: f64 = all.iter().filter(|candidate| regular(candidate)).map(Candidate::size).sum();
+        if size > LARGEST_SIZE {
+            return Err(Error::TorqueTooStrong { size, bound: LARGEST_SIZE });
+        }
+        let mut dropped = commensurability.left(&all, demand.tolerance.max(second_order(size, &response, duration)))?;
+        let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
+        let omitted = omitted.iter().map(|term| commensurability.whole(term)).sum();
+        let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * size * size);
+        let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
+        let mut orbital = Orbital::new(eccentricity, mean_motion);
+        let most = if level == Level::Paper { 1 } else { ORDERS };
+        let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
+        for candidate in all.into_iter().filter(regular) {
+            let growth = response.growth(candidate.multiple, duration);
+            if candidate.size() <= nothing {
+                dropped += growth * candidate.size();
+                neglected = neglected.max(candidate.size());
+                continue;
+            }
+            // The sum is asymptotic: it ends where it is good enough, or else where the rest is least.
+            let left = |orders: usize| {
+                candidate.size() * orbital.norms[orders]
+                    / orbital.norms[0]
+                    / candidate.frequency.abs().powi(orders as i32)
+            };
+            let enough = (1..most).find(|&orders| left(orders) <= nothing);
+            let least = (1..=most).min_by(|&a, &b| left(a).total_cmp(&left(b)));
+            let orders = enough.or(least).unwrap_or(most);
+            rest += growth * left(orders);
+            neglected = neglected.max(left(orders));
+            count += 1;
+            most_orders = most_orders.max(orders);
+            candidate.join(&mut harmonics[candidate.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2
+        }
+        orbital.keep(most_orders);
+        let [first, second, _] = orbit.axes();
+        let per_momentum = orbit.disturbing_fraction() / inertia.momentum;
+        let (level_axial, full_axial) = (level.axial(inertia), Level::Full.axial(inertia));
+        let axial_omitted = [full_axial.0 - level_axial.0, full_axial.1 - level_axial.1];
+        let axial_omitted = axial_omitted.map(|part| part.abs() * per_momentum);
+        let generator = Generator {
+            harmonics,
+            orbital,
+            axes: [first, second],
+            strength,
+            root: inertia.sigma.sqrt(),
+            momentum: inertia.momentum,
+        };
+        Ok(Self { generator, dropped, omitted, axial_omitted, rest, size, count, neglected })
+    }
+
+    /// The changes from mean to osculating variables, for |p| = √σ.
+    pub(crate) fn at(&self, mean: &Mean, place: &Place<pulp::Scalar>) -> Change {
+        let one = |value: f64| Lanes::splat(pulp::Scalar, value);
+        let turn = if mean.p == C64::default() { C64::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
+        let spin = C64::from_polar(1.0, mean.longitude);
+        let point = |c: C64| ComplexLanes { re: one(c.re), im: one(c.im) };
+        let frame = QuaternionLanes::all(one(0.0), &mean.frame);
+        let change = self.generator.at(&generator::MeanLanes { turn: point(turn), spin: point(spin), frame }, place);
+        let value = |lanes: Lanes<pulp::Scalar>| lanes.values()[0];
+        Change {
+            p: turn * C64::new(value(change.p.re), value(change.p.im)),
+            longitude: value(change.longitude),
+            momentum: value(change.momentum),
+            rotation: change.rotation.map(value),
+        }
+    }
+}
+
+/// What the terms of second order do to the attitude over a time, at the least.
+fn second_order(size: f64, response: &Response, duration: f64) -> f64 {
+    size * size * (1.0 + 0.1 * response.by_momentum * duration)
+}
+
+/// Every (h, m) that is there, of functions (value, slope) of (m, h); `scale` is four times the strength of the torque at the pericentre over M.
+fn candidates(
+    inertia: &Inertia,
+    response: &Response,
+    scale: f64,
+    function: impl Fn(i32, i32) -> (f64, f64),
+) -> Vec<Candidate> {
+    let highest = HIGHEST as i32;
+    let root = inertia.sigma.sqrt();
+    let mut candidates = Vec::new();
+    for multiple in 0..=2_i32 {
+        let lowest = if multiple == 0 { 1 } else { -highest };
+        // ℓ′ → ℓ′ + π turns the body half about axis 3: h and m are even or odd together.
+        for harmonic in (lowest..=highest).filter(|h| (h + multiple) % 2 == 0) {
+            let (value, slope) = function(multiple, harmonic);
+            let (value_size, slope_size) = (value.abs(), slope.abs());
+            let degree = harmonic.abs();
+            let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value_size };
+            let further = root.powi(degree + 1);
+            let by_p = 0.5 * response.gain * (falling + 2.0 * further * slope_size);
+            let rate = scale * (root.powi(degree) * value_size + by_p);
+            if rate > 0.0 {
+                let frequency = frequency(inertia, harmonic, multiple);
+                let [anomaly, longitude] = inertia.rate_slopes;
+                let by_sigma = f64::from(harmonic) * anomaly + f64::from(multiple) * longitude;
+                let shift = scale * 0.5 * response.gain * further * value_size * by_sigma.abs();
+                candidates.push(Candidate { harmonic, multiple, value, slope, frequency, rate, shift });
+            }
+        }
+    }
+    candidates
+}
+
+impl Candidate {
+    /// Largest change of the attitude \[rad\].
+    fn size(&self) -> f64 {
+        let frequency = self.frequency.abs();
+        (self.rate + self.shift / frequency) / frequency
+    }
+
+    /// Joins the others of its |h|, with as many derivatives of g as `orders`.
+    fn join(&self, harmonics: &mut Vec<Harmonic>, inertia: &Inertia, orders: usize) {
+        let Self { harmonic, multiple, value, slope, frequency, .. } = *self;
+        let [anomaly, longitude] = inertia.rate_slopes;
+        let by_sigma = f64::from(harmonic) * anomaly + f64::from(multiple) * longitude;
+        let (root, degree) = (inertia.sigma.sqrt(), harmonic.abs());
+        let inverse = 1.0 / frequency;
+        let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value };
+        let further = root.powi(degree + 1);
+        let [by_p, by_p_bar] = if harmonic > 0 { [falling, 0.0] } else { [0.0, falling] };
+        let by_frequency = -inverse * inverse * further * value * by_sigma;
+        let whole = inverse * root.powi(degree) * value;
+        let [by_p, by_p_bar] = [by_p, by_p_bar].map(|part| inverse * (part + further * slope));
+        let factors: Vec<_> = (0..orders)
+            .map(|j| {
+                // (iε)^j without i for odd j, and the same times j + 1.
+                let weight = if j / 2 % 2 == 0 { 1.0 } else { -1.0 } * inverse.powi(j as i32); // j < ORDERS
+                let slope = (j as f64 + 1.0) * weight;
+                let common = by_frequency * slope;
+                [whole * weight, whole * slope, by_p * weight + common, by_p_bar * weight + common]
+            })
+            .collect();
+        let degree = harmonic.unsigned_abs() as usize;
+        let place = harmonics.iter().position(|other| other.degree == degree).unwrap_or_else(|| {
+            harmonics.push(Harmonic { degree, factors: Vec::new() });
+            harmonics.len() - 1
+        });
+        harmonics[place].add(harmonic < 0, &factors);
+    }
+}
+
+/// Ω of a term.
+fn frequency(inertia: &Inertia, harmonic: i32, multiple: i32) -> f64 {
+    let [anomaly, longitude] = inertia.rates.map(|rate| rate.to_f64());
+    f64::from(harmonic) * anomaly + f64::from(multiple) * longitude
+}

@@ -1,0 +1,78 @@
+//! The motion goes through the state that is given.
+//!
+//! First-order corrections lead from the mean variables to the state up to terms of second order. Their value at the epoch is a constant of the motion here: of p, beside its
+//! circle; of M; and of the frame that the averaged motion starts from. Mean σ and M, and with them all rates, stay those of the theory. So the error is 0 at the epoch,
+//! grows from there in either sense of time, and is continuous.
+
+use nalgebra::{Matrix2, Quaternion, UnitQuaternion, Vector2, Vector3};
+use num_complex::Complex;
+
+use super::averaged::Slow;
+use super::disturbed::Gradient;
+use super::evaluate::Osculating;
+use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
+use crate::simd::lanes::Lanes;
+use crate::torque_free::polhode::Polhode;
+
+/// Steps to the constants: each gains the size of the torque, or the step of the differences.
+const MOST_STEPS: usize = 10;
+/// Changes below this are rounding.
+const CONVERGED: f64 = 1.5e-16;
+/// Step of the differences, over √σ_sep.
+const STEP: f64 = 1e-4;
+
+impl Gradient {
+    /// Finds the constants with which the motion has this attitude and the polhode's angular momentum at the epoch; `slow` solves the averaged motion from a frame.
+    pub(super) fn start_at(
+        &mut self,
+        polhode: &Polhode,
+        attitude: UnitQuaternion<f64>,
+        mut frame: UnitQuaternion<f64>,
+        slow: impl Fn(UnitQuaternion<f64>) -> Slow,
+    ) {
+        let none = Lanes::splat(pulp::Scalar, 0.0);
+        let momentum = polhode.momentum.to_f64();
+        let direction = Vector3::from(polhode.direction);
+        let step = STEP * polhode.separatrix_action().sqrt();
+        for _ in 0..MOST_STEPS {
+            let state = self.state((none, none));
+            let missing = self.missing(&state, &direction, step);
+            let lacking = momentum - value(state.momentum);
+            let turned = state.frame * self.relative(&state) * QuaternionLanes::all(none, &self.frame.quaternion);
+            let [x, y, z, w] = turned.0.map(value);
+            let back = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)).inverse();
+            let rotation = attitude * back;
+            self.offset.p += missing;
+            self.offset.momentum += lacking;
+            frame = UnitQuaternion::new_normalize((rotation * frame).into_inner());
+            self.slow = slow(frame);
+            let moved = missing.norm() / step * STEP + lacking.abs() / momentum + rotation.vector().norm();
+            if moved <= CONVERGED {
+                break;
+            }
+        }
+    }
+
+    /// The change of p e^(−iℓ′) that brings the direction of the angular momentum in the body to this one: a step of Newton's method.
+    fn missing(&self, state: &Osculating<pulp::Scalar>, direction: &Vector3<f64>, step: f64) -> Complex<f64> {
+        let none = Lanes::splat(pulp::Scalar, 0.0);
+        let (sine, cosine) = self.anomaly.sin_cos((none, none));
+        let turn = ComplexLanes { re: cosine, im: sine };
+        let axis = |re: f64, im: f64| {
+            let small = ComplexLanes { re: none.all(re), im: none.all(im) };
+            let state = Osculating { p: state.p + turn * small, ..*state };
+            Vector3::from(self.relative(&state).rows()[2].map(value))
+        };
+        let columns = [(step, 0.0), (0.0, step)].map(|(re, im)| (axis(re, im) - axis(-re, -im)) / (2.0 * step));
+        let residual = direction - axis(0.0, 0.0);
+        let [first, second] = columns;
+        let normal = Matrix2::new(first.norm_squared(), first.dot(&second), first.dot(&second), second.norm_squared());
+        let side = Vector2::new(first.dot(&residual), second.dot(&residual));
+        let solution = normal.lu().solve(&side).unwrap_or_default();
+        Complex::new(solution.x, solution.y)
+    }
+}
+
+fn value(lanes: Lanes<pulp::Scalar>) -> f64 {
+    lanes.values()[0]
+}

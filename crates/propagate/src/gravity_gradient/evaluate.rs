@@ -1,0 +1,149 @@
+//! From the mean motion to attitudes and rates, several times at once: phases, the averaged motion of the frame, corrections, and the harmonics of a and b (theory §8).
+
+use std::f64::consts::TAU;
+
+use pulp::NullaryFnOnce;
+
+use super::averaged::{Elapsed, when};
+use super::disturbed::Gradient;
+use super::generator;
+use super::offset::Offset;
+use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
+use crate::simd::lanes::Lanes;
+use crate::simd::phase::elapsed;
+
+/// Osculating variables at some times: p, the circle of y′/2, M, and the invariable frame, but for its norm.
+#[derive(Clone, Copy)]
+pub(super) struct Osculating<S: InstructionSet> {
+    pub(super) p: ComplexLanes<S>,
+    pub(super) half: ComplexLanes<S>,
+    pub(super) momentum: Lanes<S>,
+    pub(super) frame: QuaternionLanes<S>,
+}
+
+impl Gradient {
+    /// The motion at times after the epoch, in osculating variables: compiled by itself, once for each instruction set.
+    #[inline(always)]
+    pub(super) fn state<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
+        elapsed.0.simd().vectorize(At { gradient: self, elapsed })
+    }
+
+    #[inline(always)]
+    fn osculating<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
+        let all = |value: f64| elapsed.0.all(value);
+        let when = when(&self.mean_anomaly, elapsed, self.eccentricity);
+        let (frame, phase) = self.slow.at(&when, elapsed);
+        let plane = |(im, re): (Lanes<S>, Lanes<S>)| ComplexLanes { re, im };
+        let turn = plane(self.anomaly.sin_cos_beyond(elapsed, phase * all(self.drifts[0] / TAU)));
+        let half = plane(self.half_longitude.sin_cos_beyond(elapsed, phase * all(0.5 * self.drifts[1] / TAU)));
+        let change =
+            self.corrections.generator.at(&generator::MeanLanes { turn, spin: half * half, frame }, &when.place);
+        let Offset { p, momentum } = self.offset;
+        let relative = ComplexLanes { re: change.p.re + all(self.root + p.re), im: change.p.im + all(p.im) };
+        let [x, y] = change.rotation;
+        let zero = all(0.0);
+        Osculating {
+            p: turn * relative,
+            half: half * small_turn(all(0.5) * change.longitude),
+            momentum: change.momentum + all(self.inertia.momentum + momentum),
+            frame: frame * QuaternionLanes([all(0.5) * x, all(0.5) * y, zero, all(1.0)]),
+        }
+    }
+
+    /// Attitude and rates at times after the epoch, as far as they are asked for.
+    #[inline(always)]
+    pub(crate) fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
+        &self,
+        elapsed: Elapsed<S>,
+    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
+        let state = self.state(elapsed);
+        let relative = self.relative(&state);
+        let zero = elapsed.0.all(0.0);
+        let mut rates = [zero; 3];
+        if RATES {
+            let body = relative.rows()[2];
+            for i in 0..3 {
+                let factor = self.frame.signs[i] * self.units[0] / self.moments[i];
+                rates[self.frame.axes[i]] = state.momentum * body[i] * zero.all(factor);
+            }
+        }
+        let mut attitude = [zero; 4];
+        if ATTITUDE {
+            let turned = state.frame * relative * QuaternionLanes::all(zero, &self.frame.quaternion);
+            attitude = turned.normalized().0;
+        }
+        (attitude, rates)
+    }
+
+    /// The angular momenta, inertial components, at times from an epoch.
+    pub(crate) fn angular_momenta(&self, times: &[f64], epoch: f64, out: &mut [[f64; 3]]) {
+        dispatch(pulp::Arch::new(), Momenta { gradient: self, times, epoch, out });
+    }
+
+    /// The quaternion of theory §8 of a state near the mean one.
+    #[inline(always)]
+    pub(super) fn relative<S: InstructionSet>(&self, state: &Osculating<S>) -> QuaternionLanes<S> {
+        let Osculating { p, half, .. } = *state;
+        let beyond = p.re.mul_add(p.re, p.im.mul_add(p.im, p.re.all(-self.inertia.sigma)));
+        let square = p * p;
+        let [[a, a_bar], [b, b_bar]] = [self.pair[0].at(square, beyond), self.pair[1].at(square, beyond)];
+        let a = a.plus(a_bar, square.conjugate()) * half;
+        let b = (b * p).plus(b_bar, p.conjugate()) * half;
+        QuaternionLanes([b.re, b.im, a.im, a.re]).normalized()
+    }
+}
+
+/// [`Gradient::state`] as a function of its own.
+struct At<'a, S: InstructionSet> {
+    gradient: &'a Gradient,
+    elapsed: Elapsed<S>,
+}
+
+impl<S: InstructionSet> NullaryFnOnce for At<'_, S> {
+    type Output = Osculating<S>;
+
+    #[inline(always)]
+    fn call(self) -> Osculating<S> {
+        self.gradient.osculating(self.elapsed)
+    }
+}
+
+/// e^(ix) for |x| ≤ 0.05, to 2e-17.
+#[inline(always)]
+fn small_turn<S: InstructionSet>(x: Lanes<S>) -> ComplexLanes<S> {
+    let square = x * x;
+    let series = |coefficients: &[f64]| square.polynomial(coefficients);
+    ComplexLanes {
+        re: series(&[1.0, -1.0 / 2.0, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40320.0]),
+        im: x * series(&[1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0]),
+    }
+}
+
+/// Angular momenta at many times.
+struct Momenta<'a> {
+    gradient: &'a Gradient,
+    times: &'a [f64],
+    epoch: f64,
+    out: &'a mut [[f64; 3]],
+}
+
+impl Task for Momenta<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, simd: S) {
+        let epoch = Lanes::splat(simd, self.epoch);
+        let width = Lanes::<S>::WIDTH;
+        for (times, rows) in self.times.chunks(width).zip(self.out.chunks_mut(width)) {
+            let state = self.gradient.state(elapsed(Lanes::load(simd, times), epoch));
+            let matrix = state.frame.normalized().rows();
+            let size = state.momentum * epoch.all(self.gradient.units[1]);
+            for c in 0..3 {
+                for (row, value) in rows.iter_mut().zip((matrix[c][2] * size).values()) {
+                    row[c] = *value;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! The inertia tensor in the invariable frame as Fourier series in ℓ′ and y′, to all orders in J (theory §9).
+//!
+//! T = Q diag(A, B, C) Qᵀ is sampled over a quarter of a turn of ℓ′ on the closed form at y′ = 0: T33, i t1 e^(−iy′), t2 e^(−2iy′). a and b of theory §8, whose norm is free, are
+//! the theta series themselves, with a few harmonics where the tensor has tens.
+//! Time reversal makes all coefficients real, and ℓ′ → ℓ′ + π leaves the odd or the even ones. A harmonic h is σ^(|h|/2) times a function that is analytic in σ at 0; that
+//! function and its slope are tabulated, so that with p = √σ e^(iℓ′) everything is regular at J = 0. Slopes are differences of fourth order over 0.4 % of sin²J (relative error
+//! 1e-10, of a correction that is small itself).
+
+use std::f64::consts::{PI, TAU};
+
+use andoyer_double::DoubleDouble;
+use num_complex::Complex;
+
+use crate::torque_free::closed_form::ClosedForm;
+use crate::torque_free::frequencies::Secular;
+use crate::torque_free::polhode::Polhode;
+
+type C64 = Complex<f64>;
+
+/// Samples of a period of ℓ′.
+const SAMPLES: [usize; 2] = [64, 128];
+/// Highest harmonic: at σ/σ_sep = 0.9 the tensor has 1e-14 of itself left beyond it.
+pub(crate) const HIGHEST: usize = 32;
+/// Nome below which half of them, and of the samples, leave as little.
+const SMALL_NOME: f64 = 0.12;
+/// Harmonics from −[`HIGHEST`] on.
+const COUNT: usize = 2 * HIGHEST + 1;
+/// Whether T33, t1, t2 have the odd harmonics.
+const ODD: [bool; 3] = [false, true, false];
+/// sin²J below which functions are taken from their tangent at this value.
+const SMALLEST_SQUARE: f64 = 1e-6;
+/// Step of the differences, over sin²J.
+const STEP: f64 = 2e-3;
+
+/// Σ_h f_h(σ) P_h, P_h = p^h for h ≥ 0 and p̄^(−h) below.
+#[derive(Clone, Debug)]
+pub(crate) struct Harmonics {
+    /// f_h at h + [`HIGHEST`].
+    pub(crate) values: Vec<f64>,
+    /// df_h/dσ.
+    pub(crate) slopes: Vec<f64>,
+}
+
+impl Harmonics {
+    /// f_h and its slope.
+    pub(crate) fn at(&self, harmonic: i32) -> (f64, f64) {
+        let index = (harmonic + HIGHEST as i32) as usize; // −HIGHEST ≤ h ≤ HIGHEST
+        (self.values[index], self.slopes[index])
+    }
+}
+
+/// Everything of the free motion with one σ and M.
+#[derive(Clone, Debug)]
+pub(crate) struct Inertia {
+    pub(crate) momentum: f64,
+    pub(crate) sigma: f64,
+    /// σ_sep.
+    pub(crate) separatrix: f64,
+    /// dℓ′/dt and dy′/dt.
+    pub(crate) rates: [DoubleDouble; 2],
+    /// Their derivatives with respect to σ, at fixed M.
+    pub(crate) rate_slopes: [f64; 2],
+    /// T33, i t1 e^(−iy′), t2 e^(−2iy′).
+    pub(crate) tensor: [Harmonics; 3],
+    /// a and b, but for their norm.
+    pub(crate) pair: [Harmonics; 2],
+    /// T33 and t2 e^(−2iy′) at J = 0.
+    pub(crate) untilted: [f64; 2],
+}
+
+/// σ, rates and harmonics of one member of the family.
+struct Member {
+    sigma: f64,
+    rates: [DoubleDouble; 2],
+    harmonics: Vec<f64>,
+}
+
+impl Inertia {
+    /// The tables at σ and M, for the body, the units and the mode of a polhode.
+    pub(crate) fn new(polhode: &Polhode, sigma: f64, momentum: f64) -> Self {
+        let square = square_of(polhode, sigma);
+        let base = square.max(SMALLEST_SQUARE);
+        let step = STEP * base;
+        let members = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| member(polhode, base + k * step, momentum));
+        let slope = |part: &dyn Fn(&Member) -> f64| {
+            let [a, b, _, c, d] = members.each_ref().map(part);
+            (8.0 * (c - b) - (d - a)) / (12.0 * step)
+        };
+        let sigma_slope = slope(&|m| m.sigma);
+        let mut values = members[2].harmonics.clone();
+        let mut slopes = vec![0.0; values.len()];
+        for (index, (value, tangent)) in values.iter_mut().zip(&mut slopes).enumerate() {
+            *tangent = slope(&|m| m.harmonics[index]) / sigma_slope;
+            *value += *tangent * (sigma - members[2].sigma);
+        }
+        let rate_slopes = [0, 1].map(|i| slope(&|m| (m.rates[i] - members[2].rates[i]).to_f64()) / sigma_slope);
+        let exact = rates(&polhode.tilted(square, momentum));
+        let part = |index: usize| {
+            let range = index * COUNT..(index + 1) * COUNT;
+            Harmonics { values: values[range.clone()].to_vec(), slopes: slopes[range].to_vec() }
+        };
+        Self {
+            momentum,
+            sigma,
+            separatrix: polhode.separatrix_action(),
+            rates: exact.1,
+            rate_slopes,
+            tensor: [part(0), part(1), part(2)],
+            pair: [part(3), part(4)],
+            untilted: [polhode.moments[2], 0.25 * (polhode.moments[0] - polhode.moments[1])],
+        }
+    }
+
+    /// T33 averaged over ℓ′, and its slope.
+    pub(crate) fn mean_axial(&self) -> (f64, f64) {
+        self.tensor[0].at(0)
+    }
+}
+
+/// σ and the two rates; for J = 0 those of its limit.
+fn rates(polhode: &Polhode) -> (f64, [DoubleDouble; 2]) {
+    let secular = Secular::exact(polhode);
+    (secular.kappa_sigma / polhode.kappa(), [secular.anomaly_rate, secular.longitude_rate])
+}
+
+/// sin²J at ℓ = 0 for a given σ, by Newton's method: σ is nearly linear in it, and convex.
+fn square_of(polhode: &Polhode, sigma: f64) -> f64 {
+    let value = |square: f64| rates(&polhode.tilted(square, 1.0)).0;
+    if sigma == 0.0 {
+        return 0.0;
+    }
+    let linear = value(SMALLEST_SQUARE) / SMALLEST_SQUARE;
+    let mut square = (sigma / linear).min(0.9);
+    for _ in 0..20 {
+        let found = value(square);
+        let step = 1e-5 * square;
+        let slope = (value(square + step) - value(square - step)) / (2.0 * step);
+        let next = (square + (sigma - found) / slope).clamp(0.25 * square, 0.5 * (1.0 + square));
+        let done = (next - square).abs() <= 4.0 * f64::EPSILON * square;
+        square = next;
+        if done {
+            break;
+        }
+    }
+    square
+}
+
+fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
+    let tilted = polhode.tilted(square, momentum);
+    let (sigma, rates) = rates(&tilted);
+    let theta = tilted.theta();
+    let closed = ClosedForm::new(&tilted, &theta);
+    let [few, many] = SAMPLES;
+    let samples = if (-PI * theta.conjugate / theta.quarter).exp() < SMALL_NOME { few } else { many };
+    let circle: Vec<(f64, f64)> = (0..samples).map(|k| (TAU * k as f64 / samples as f64).sin_cos()).collect();
+    let mut sums = vec![0.0; 5 * COUNT];
+    for k in 0..=samples / 4 {
+        // A period holds an end point twice and an inner one four times.
+        let weight = if k == 0 || k == samples / 4 { 2.0 } else { 4.0 } / samples as f64;
+        let functions = sample(&closed, TAU * k as f64 / samples as f64, tilted.moments).map(|f| f * weight);
+        for ((function, series), odd) in functions.iter().zip(sums.chunks_exact_mut(COUNT)).zip(ODD) {
+            for h in (usize::from(odd)..=samples / 4).step_by(2) {
+                let (sine, cosine) = circle[h * k % samples];
+                let (even, odd) = (function.re * cosine, function.im * sine);
+                series[HIGHEST + h] += even + odd;
+                if h > 0 {
+                    series[HIGHEST - h] += even - odd;
+                }
+            }
+        }
+    }
+    for (k, (even, odd)) in closed.series.terms().iter().enumerate() {
+        for (part, h, [plus, minus]) in [(3, 2 * k, even), (4, 2 * k + 1, odd)] {
+            let middle = part * COUNT + HIGHEST;
+            sums[middle + h] = if h == 0 { *plus } else { 0.5 * (plus + minus) };
+            if h > 0 {
+                sums[middle - h] = 0.5 * (plus - minus);
+            }
+        }
+    }
+    // Samples end at 1e-16 of the largest, which is of the size of 1; what is smaller is nothing. σ^(h/2) may be: near B = C the rest grows like σ_sep^(−h/2).
+    let noise = 4.0 * f64::EPSILON;
+    let root = sigma.sqrt();
+    for (index, sum) in sums.iter_mut().enumerate() {
+        let h = (index % COUNT) as i32 - HIGHEST as i32; // small
+        let power = root.powi(h.abs());
+        *sum = if sum.abs() < noise { 0.0 } else { *sum / power };
+    }
+    Member { sigma, rates, harmonics: sums }
+}
+
+/// T33, i t1, t2 at ℓ′ and y′ = 0.
+fn sample(closed: &ClosedForm, angle: f64, moments: [f64; 3]) -> [C64; 3] {
+    let [a, b] = closed.series.pair(angle);
+    // Rows of Q are the invariable axes in the body, from the quaternion (x, y, z, w) = (Re b, Im b, Im a, Re a).
+    let (x, y, z, w) = (b.re, b.im, a.im, a.re);
+    let rows = [
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
+        [2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)],
+        [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)],
+    ];
+    let entry = |i: usize, j: usize| (0..3).map(|k| rows[i][k] * moments[k] * rows[j][k]).sum::<f64>();
+    let turned = C64::new(-entry(1, 2), entry(0, 2));
+    let t2 = C64::new(entry(0, 0) - entry(1, 1), 2.0 * entry(0, 1)) / 4.0;
+    [entry(2, 2).into(), turned, t2]
+}

@@ -1,0 +1,20 @@
+//! Rotation under the gravity gradient of a body on an orbit (theory §9): torque, mean motion, averaged motion, short-period corrections, resonances, evaluation.
+//!
+//! Imports errors, numerics, simd, input and torque_free.
+
+mod averaged;
+mod budget;
+mod candidate;
+mod corrections;
+pub(crate) mod disturbed;
+mod epoch;
+mod evaluate;
+mod generator;
+mod inertia;
+mod offset;
+pub(crate) mod osculating;
+mod powers;
+pub(crate) mod request;
+mod resonance;
+mod response;
+mod torque;

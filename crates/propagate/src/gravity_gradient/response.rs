@@ -1,0 +1,69 @@
+//! How errors of the mean variables turn the attitude: at once, and by the rates.
+
+use super::inertia::{HIGHEST, Inertia};
+
+/// Factors of one mean motion.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Response {
+    /// Largest turn of the attitude by a change of p \[rad\]: √2 for a round body at J = 0, and √(2ω) near B = C.
+    pub(super) gain: f64,
+    /// Turn by a change of ℓ′.
+    pub(super) visible: f64,
+    /// Rate of the turn by a change of σ.
+    pub(super) by_sigma: f64,
+    /// Rate of the turn by a relative change of M.
+    pub(super) by_momentum: f64,
+    /// σ, and how far it is from the separatrix's.
+    pub(super) sigma: f64,
+    distance: f64,
+}
+
+impl Response {
+    /// From the series of a and b.
+    pub(super) fn new(inertia: &Inertia) -> Self {
+        let Inertia { sigma, separatrix, .. } = *inertia;
+        let root = sigma.sqrt();
+        let highest = HIGHEST as i32;
+        let mut slope = 0.0;
+        for series in &inertia.pair {
+            for harmonic in -highest..=highest {
+                let (value, by_sigma) = series.at(harmonic);
+                let degree = harmonic.abs();
+                let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value.abs() };
+                slope += falling + 2.0 * root.powi(degree + 1) * by_sigma.abs();
+            }
+        }
+        let gain = 2.0 * slope / inertia.pair[0].at(0).0.abs();
+        let visible = gain * root;
+        let [anomaly, longitude] = inertia.rates.map(|rate| rate.to_f64().abs());
+        let [anomaly_slope, longitude_slope] = inertia.rate_slopes.map(f64::abs);
+        Self {
+            gain,
+            visible,
+            by_sigma: visible * anomaly_slope + longitude_slope,
+            by_momentum: visible * anomaly + longitude,
+            sigma,
+            distance: (separatrix - sigma).max(0.1 * separatrix),
+        }
+    }
+
+    /// What a change of p does to σ.
+    pub(super) fn of_sigma(&self, p: f64) -> f64 {
+        p * (2.0 * self.sigma.sqrt() + p)
+    }
+
+    /// Attitude error of second order over a time, for first-order changes of this size and with derivatives of that one \[rad\]; of the change p has `p` \[1\].
+    pub(super) fn second_order(&self, [size, slope]: [f64; 2], p: f64, duration: f64) -> f64 {
+        let of_sigma = self.of_sigma(p);
+        // The bracket of two changes of p, and the curvature of the functions of σ, which the separatrix bounds.
+        let sigma = of_sigma * (slope + p / self.distance.sqrt() + of_sigma / self.distance);
+        size * slope * (1.0 + self.by_momentum * duration) + self.by_sigma * sigma * duration
+    }
+
+    /// How much a change of the attitude by a term grows over a time: by σ, and by M for m ≠ 0.
+    pub(super) fn growth(&self, multiple: i32, duration: f64) -> f64 {
+        let by_momentum = if multiple == 0 { 0.0 } else { self.by_momentum };
+        let by_sigma = 2.0 * self.sigma.sqrt() / self.gain * self.by_sigma;
+        1.0 + duration * (by_sigma + by_momentum)
+    }
+}

@@ -1,0 +1,98 @@
+//! Two numbers by which tumblers are compared: the energy over its least, and the parameter of the elliptic functions.
+//!
+//! With g the direction of the angular momentum in the body, a = C/A − 1, b = C/B − 1 (theory §5, §10):
+//!
+//! ```text
+//! E/E0 = 1 + a g1² + b g2²,   E0 = M²/(2C)
+//! k² = (a − b)(g1²/b + g2²/a) / (g3² + g2² (a − b)/a),   in the long-axis mode with the axes in the opposite order
+//! ```
+//!
+//! Sums of positive terms: no digits are lost near the axes. The numbers are those of the state; a gravity gradient changes them with time.
+
+use super::solved::Motion;
+
+impl Motion {
+    /// E/E0: rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum; 1 at least, C/B on the separatrix,
+    /// C/A at most, and 1 for a body at rest.
+    pub fn energy_ratio(&self) -> f64 {
+        let (first, second) = self.scene.body().excesses();
+        let [g1, g2, _] = self.direction();
+        1.0 + first * g1 * g1 + second * g2 * g2
+    }
+
+    /// k², the parameter of the elliptic functions of the polhode, k their modulus: 0 on a principal axis and for an axisymmetric body, 1 on the separatrix.
+    pub fn elliptic_parameter(&self) -> f64 {
+        let [a, b, c] = self.scene.body().sorted();
+        let [g1, g2, g3] = self.direction();
+        if a == b || b == c {
+            return 0.0;
+        }
+        let short = parameter([a, b, c], [g1, g2, g3]);
+        if short <= 1.0 { short } else { parameter([c, b, a], [g3, g2, g1]).min(1.0) }
+    }
+
+    /// The direction of the angular momentum on the axes of A ≤ B ≤ C, without their senses; 0 at rest.
+    fn direction(&self) -> [f64; 3] {
+        let moments = self.scene.body().moments();
+        let rates = self.scene.state().angular_velocity;
+        let largest = rates.amax();
+        let mut pairs: [(f64, f64); 3] = std::array::from_fn(|i| (moments[i], rates[i]));
+        pairs.sort_by(|one, other| one.0.total_cmp(&other.0));
+        if largest == 0.0 {
+            return [0.0; 3];
+        }
+        let momentum = pairs.map(|(moment, rate)| moment / pairs[2].0 * (rate / largest));
+        let norm = momentum.iter().map(|x| x * x).sum::<f64>().sqrt();
+        momentum.map(|x| x / norm)
+    }
+}
+
+/// 1 − Q1/Q2 of theory §5 for moments in either order; above 1 in the other mode.
+fn parameter([a, b, c]: [f64; 3], [g1, g2, g3]: [f64; 3]) -> f64 {
+    let (first, second) = ((c - a) / a, (c - b) / b);
+    let difference = (c / b) * ((b - a) / a);
+    let swing = difference * (g1 * g1 / second + g2 * g2 / first);
+    let greatest = g3 * g3 + g2 * g2 * difference / first;
+    if swing == 0.0 { 0.0 } else { swing / greatest }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Body, Scene, State};
+
+    fn motion(moments: [f64; 3], rates: [f64; 3]) -> crate::Motion {
+        let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], rates).expect("a state");
+        Scene::new(Body::new(moments).expect("a body"), state).solve().expect("a motion")
+    }
+
+    #[test]
+    fn energy_is_that_of_the_axes_on_the_axes_and_does_not_know_their_order() {
+        assert_eq!(motion([1.0, 1.5, 2.0], [0.0, 0.0, 1.0]).energy_ratio(), 1.0);
+        assert!((motion([1.0, 1.5, 2.0], [1.0, 0.0, 0.0]).energy_ratio() - 2.0).abs() < 1e-15);
+        assert!((motion([2.0, 1.0, 1.5], [0.0, 0.0, 1e-9]).energy_ratio() - 2.0 / 1.5).abs() < 1e-15);
+        assert_eq!(motion([1.0, 1.5, 2.0], [0.0; 3]).energy_ratio(), 1.0);
+    }
+
+    #[test]
+    fn parameter_is_that_of_the_energy_integral_in_either_mode() {
+        let moments: [f64; 3] = [1.0, 1.5, 2.0];
+        for rates in [[0.1, 0.2, 1.0], [1.0, 0.3, 0.2], [0.3, 0.5, -0.4]] {
+            let square = |power: i32| (0..3).map(|i| moments[i].powi(power) * rates[i] * rates[i]).sum::<f64>();
+            let (energy, momentum) = (square(1), square(2));
+            let [a, b, c] = moments;
+            // Landau and Lifshitz, Mechanics, §37.
+            let ratio = (b - a) * (energy * c - momentum) / ((c - b) * (momentum - energy * a));
+            let expected = if ratio < 1.0 { ratio } else { 1.0 / ratio };
+            assert!((motion(moments, rates).elliptic_parameter() - expected).abs() < 1e-14, "{rates:?}");
+        }
+    }
+
+    #[test]
+    fn parameter_is_zero_without_a_polhode() {
+        for (moments, rates) in
+            [([1.0, 1.0, 2.0], [0.1, 0.2, 1.0]), ([1.0, 1.5, 2.0], [0.0, 0.0, 1.0]), ([1.0, 1.5, 2.0], [0.0; 3])]
+        {
+            assert_eq!(motion(moments, rates).elliptic_parameter(), 0.0);
+        }
+    }
+}

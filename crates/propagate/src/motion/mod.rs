@@ -1,0 +1,10 @@
+//! A solved motion: its trajectory (which of the theories runs), plan, evaluation at times, Andoyer variables and energy.
+//!
+//! Imports errors, numerics, simd, input, torque_free and gravity_gradient.
+
+mod andoyer;
+pub(crate) mod batch;
+mod energy;
+pub(crate) mod plan;
+pub(crate) mod solved;
+pub(crate) mod trajectory;

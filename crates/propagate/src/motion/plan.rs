@@ -1,0 +1,182 @@
+//! The evaluation plan of a motion: mode, method, order, harmonics, error bound, and the parts of the theory that were not needed.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::gravity_gradient::disturbed::GradientPlan;
+use crate::input::options::{Averaging, Method};
+use crate::input::scene::Scene;
+use crate::torque_free::mode::Mode;
+
+/// σ/σ_sep above which its distance from 1 is printed.
+const NEAR_ONE: f64 = 0.999;
+
+/// A tolerance below this is met as well as rounding allows \[rad\].
+const ROUNDED_TOLERANCE: f64 = 2e-14;
+
+/// The evaluation plan of a motion. It is printed in ASCII, and can be serialized.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Plan {
+    pub(crate) mode: Mode,
+    pub(crate) method: Method,
+    pub(crate) order: usize,
+    pub(crate) harmonics: usize,
+    pub(crate) error_bound: f64,
+    pub(crate) tolerance: f64,
+    /// Whether the scene has a span.
+    pub(crate) spanned: bool,
+    pub(crate) separatrix_ratio: f64,
+    pub(crate) gradient: Option<GradientPlan>,
+    pub(crate) skipped: Vec<String>,
+}
+
+impl Plan {
+    /// The plan of a scene by the closed form, without a sum, to which the rest is added.
+    pub(crate) fn new(scene: &Scene, mode: Mode, separatrix_ratio: f64, error_bound: f64) -> Self {
+        Self {
+            mode,
+            method: Method::Closed,
+            order: 0,
+            harmonics: 0,
+            error_bound: error_bound.min(std::f64::consts::PI),
+            tolerance: scene.asked_tolerance(),
+            spanned: scene.asked_span().is_some(),
+            separatrix_ratio,
+            gradient: None,
+            skipped: Vec::new(),
+        }
+    }
+
+    /// The kind of motion.
+    pub fn mode(&self) -> Mode {
+        self.mode
+    }
+
+    /// The method of evaluation: the series, or the closed form (which includes the formulas of steady rotation).
+    pub fn method(&self) -> Method {
+        self.method
+    }
+
+    /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance.
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// The highest multiple of ℓ′ that is evaluated; 0 where none is.
+    pub fn harmonics(&self) -> usize {
+        self.harmonics
+    }
+
+    /// Estimate from above of the attitude error over the span \[rad\]: truncation, dropped harmonics, rounding.
+    pub fn error_bound(&self) -> f64 {
+        self.error_bound
+    }
+
+    /// The attitude error asked for over the span \[rad\].
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Whether the error bound is within the tolerance, or within 2e-14 rad where the tolerance is less than double precision holds.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Body, Orbit, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.01, 1.0])?;
+    /// let free = Scene::new(Body::new([1.0, 1.02, 1.05])?, state);
+    /// assert!(free.solve()?.plan().meets_tolerance());
+    /// let disturbed = free.orbit(Orbit::new(2e-3, 0.1)?).span(0.0, 1e5).solve()?;
+    /// assert!(!disturbed.plan().meets_tolerance() && disturbed.plan().error_bound() > 1e-12);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    pub fn meets_tolerance(&self) -> bool {
+        self.error_bound <= self.tolerance.max(ROUNDED_TOLERANCE)
+    }
+
+    /// One sentence with the error bound and the tolerance where the tolerance is not met.
+    pub fn missed_tolerance(&self) -> Option<String> {
+        (!self.meets_tolerance()).then(|| missed(self.error_bound, self.tolerance, self.spanned))
+    }
+
+    /// σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5).
+    pub fn separatrix_ratio(&self) -> f64 {
+        self.separatrix_ratio
+    }
+
+    /// How far the equations of a scene with an orbit are averaged; `None` without one.
+    pub fn averaging(&self) -> Option<Averaging> {
+        self.gradient.map(|gradient| gradient.averaging)
+    }
+
+    /// Sum of the short-period corrections by the gravity gradient, which is the size of the torque; 0 without an orbit \[rad\].
+    pub fn torque(&self) -> f64 {
+        self.gradient.map_or(0.0, |gradient| gradient.size)
+    }
+
+    /// The first neglected term under a gravity gradient: of second order in the torque, or a short-period one that was dropped; 0 without an orbit \[rad\].
+    pub fn first_neglected(&self) -> f64 {
+        self.gradient.map_or(0.0, |gradient| gradient.neglected)
+    }
+
+    /// How derivatives with respect to the state and the moments are computed: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; `None` on the separatrix,
+    /// where the frequencies have none.
+    pub fn partials(&self) -> Option<&'static str> {
+        match (self.mode, self.gradient) {
+            (_, Some(_)) => Some("differences"),
+            (Mode::Separatrix, None) => None,
+            _ => Some("closed"),
+        }
+    }
+
+    /// The parts of the theory that this scene did not need, each with its reason.
+    pub fn skipped(&self) -> &[String] {
+        &self.skipped
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "mode          {}", self.mode)?;
+        writeln!(f, "method        {}", self.method())?;
+        match self.separatrix_ratio {
+            ratio if ratio > NEAR_ONE && ratio < 1.0 => {
+                writeln!(f, "separatrix    1 - {:.3e} (sigma/sigma_sep)", 1.0 - ratio)?;
+            }
+            ratio => writeln!(f, "separatrix    {ratio:.3e} (sigma/sigma_sep)")?,
+        }
+        match self.method {
+            Method::Series => writeln!(f, "order         {}", self.order)?,
+            _ => writeln!(f, "order         -")?,
+        }
+        match self.harmonics {
+            0 => writeln!(f, "harmonics     -")?,
+            harmonics => writeln!(f, "harmonics     {harmonics}")?,
+        }
+        if let Some(GradientPlan { averaging, level, terms, size, neglected }) = self.gradient {
+            writeln!(
+                f,
+                "gradient      {level}, averaged over the {averaging}; {terms} short-period terms, together {size:.1e} rad, \
+                 first neglected {neglected:.1e}"
+            )?;
+        }
+        write!(f, "error bound   {:.1e} rad", self.error_bound)?;
+        if !self.meets_tolerance() {
+            write!(f, "\ntolerance     {:e} rad is not met over {}", self.tolerance, asked_span(self.spanned))?;
+        }
+        for reason in &self.skipped {
+            write!(f, "\nskipped       {reason}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The times over which the tolerance is asked for, in words.
+fn asked_span(spanned: bool) -> &'static str {
+    if spanned { "the span" } else { "1e9 rotations (no span given)" }
+}
+
+/// The sentence of a tolerance that is not met.
+pub(crate) fn missed(bound: f64, tolerance: f64, spanned: bool) -> String {
+    let over = asked_span(spanned);
+    format!("the error bound of the attitude, {bound:.1e} rad, exceeds the tolerance, {tolerance:e} rad, over {over}")
+}

@@ -1,0 +1,64 @@
+//! A scene from Andoyer variables (theory §1): the inverse of [`crate::Motion::andoyer`].
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::scene_about_principal_axes;
+use crate::error::Error;
+use crate::input::body::Body;
+use crate::input::scene::Scene;
+use crate::torque_free::polhode::Frame;
+
+/// How much |Λ| and |N| may exceed M by rounding, relative to it.
+const SLACK: f64 = 8.0 * f64::EPSILON;
+
+impl Scene {
+    /// The scene whose Andoyer variables at the epoch are (λ, μ, ν, Λ, M, N): angles \[rad\], momenta in the unit of moment × rate.
+    ///
+    /// R = Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν), cos I = Λ/M, cos J = N/M, about the principal axes in the order of [`crate::Motion::andoyer`]. J is known from M − N to 1e-8 only where it
+    /// is small.
+    ///
+    /// # Errors
+    /// - [`Error::Andoyer`] for a variable that is not finite, M ≤ 0, |Λ| or |N| above M.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Body, Scene, State};
+    /// let body = Body::new([1.0, 1.5, 2.0])?;
+    /// let motion = Scene::from_andoyer(body, [0.1, 0.2, 0.3, 0.5, 1.0, 0.9], 0.0)?.solve()?;
+    /// let found = motion.andoyer(0.0)?;
+    /// assert!(found.iter().zip([0.1, 0.2, 0.3, 0.5, 1.0, 0.9]).all(|(found, given)| (found - given).abs() < 4e-15));
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    pub fn from_andoyer(body: Body, variables: [f64; 6], epoch: f64) -> Result<Self, Error> {
+        let refused = |index: usize, bound| Error::Andoyer { index, value: variables[index], bound };
+        if let Some(index) = variables.iter().position(|value| !value.is_finite()) {
+            return Err(refused(index, "it must be finite"));
+        }
+        if !epoch.is_finite() {
+            return Err(Error::Epoch { value: epoch });
+        }
+        let [node, angle, spin, vertical, momentum, axial] = variables;
+        if momentum <= 0.0 {
+            return Err(refused(4, "M must be positive; a body at rest has no such variables"));
+        }
+        for (index, part) in [(3, vertical), (5, axial)] {
+            if part.abs() > momentum * (1.0 + SLACK) {
+                return Err(refused(index, "its size must not exceed M"));
+            }
+        }
+        // Sine and cosine of an inclination from M and a component of it.
+        let inclined = |part: f64| {
+            let cosine = part / momentum;
+            let sine = ((momentum - part) / momentum * ((momentum + part) / momentum)).max(0.0).sqrt();
+            (sine, cosine, UnitQuaternion::from_axis_angle(&Vector3::x_axis(), sine.atan2(cosine)))
+        };
+        let about = |angle: f64| UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle);
+        let (_, _, inclination) = inclined(vertical);
+        let (sine, cosine, tilt) = inclined(axial);
+        let moments = body.moments();
+        let frame = Frame::new(moments, [0.0; 3], false);
+        let attitude = about(node) * inclination * about(angle) * tilt * about(spin) * frame.quaternion;
+        let direction = frame.user([sine * spin.sin(), sine * spin.cos(), cosine]);
+        let rates = Vector3::from_fn(|axis, _| momentum * direction[axis] / moments[axis]);
+        Ok(scene_about_principal_axes(body, epoch, attitude, rates))
+    }
+}

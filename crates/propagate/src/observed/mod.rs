@@ -1,0 +1,24 @@
+//! Scenes from what is published: a pair of periods, or Andoyer variables.
+//!
+//! Imports errors, numerics, input, torque_free, motion and solve.
+
+mod andoyer;
+pub(crate) mod periods;
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::input::body::Body;
+use crate::input::scene::Scene;
+use crate::input::state::State;
+
+/// The scene of a state about the principal axes of the body.
+fn scene_about_principal_axes(
+    body: Body,
+    epoch: f64,
+    attitude: UnitQuaternion<f64>,
+    angular_velocity: Vector3<f64>,
+) -> Scene {
+    let turn = body.turn().unwrap_or_else(UnitQuaternion::identity);
+    let state = State { epoch, attitude: attitude * turn.inverse(), angular_velocity: turn * angular_velocity };
+    Scene::new(body, state)
+}

@@ -1,0 +1,246 @@
+//! A scene from the periods of a tumbler (theory §7): what light curves and radar give.
+//!
+//! In each mode P_ψ/P_φ is a function of sin²J alone that grows from its value on the axis to infinity on the separatrix: its root is bracketed in ln(sin²J/cos²J) and halved. The size of the
+//! angular momentum follows from either period. Frequencies are those of the quadrature in double-double, so that a scene has the periods that it was made from to rounding
+//! of its state: 1e-16, over cos²J next to the separatrix.
+
+use std::f64::consts::TAU;
+
+use andoyer_double::DoubleDouble;
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+
+use super::scene_about_principal_axes;
+use crate::error::Error;
+use crate::input::body::Body;
+use crate::input::options::Convention;
+use crate::input::scene::Scene;
+use crate::input::state::State;
+use crate::torque_free::frequencies::Secular;
+use crate::torque_free::mode::Mode;
+use crate::torque_free::polhode::Polhode;
+
+/// ln(sin²J/cos²J) at ℓ = 0 between which roots are sought: J = 1e-17 rad, and cos²J = 1e-290.
+const RANGE: [f64; 2] = [-78.0, 667.0];
+/// A ratio this near to that on the axis is it.
+const RATIO_ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// The periods of a tumbler, as they are published.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ObservedPeriods {
+    /// P_φ, of the precession of an axis about the angular momentum.
+    pub precession: f64,
+    /// P_ψ, of the rotation about this axis or of its oscillation.
+    pub rotation: f64,
+    /// [`Mode::ShortAxis`] or [`Mode::LongAxis`].
+    pub mode: Mode,
+    /// Whose periods they are.
+    pub convention: Convention,
+    /// Direction of the angular momentum, inertial components, of any length.
+    pub momentum_direction: Vector3<f64>,
+    /// Parts of P_ψ and P_φ that have gone by at the epoch \[turns\]. At \[0, 0\] the axis that the angular momentum circles is nearest to it, tilted towards z × momentum
+    /// (towards x where the momentum is along z).
+    pub phases: [f64; 2],
+    /// Time of the state.
+    pub epoch: f64,
+}
+
+impl ObservedPeriods {
+    /// A short-axis mode in the extremal-axis convention, the angular momentum along z, phases and epoch 0.
+    pub fn new(precession: f64, rotation: f64) -> Self {
+        Self {
+            precession,
+            rotation,
+            mode: Mode::ShortAxis,
+            convention: Convention::default(),
+            momentum_direction: Vector3::z(),
+            phases: [0.0; 2],
+            epoch: 0.0,
+        }
+    }
+
+    /// The same with the angular momentum towards a longitude and a latitude \[rad\].
+    #[must_use]
+    pub fn towards(self, longitude: f64, latitude: f64) -> Self {
+        let (sine, cosine) = latitude.sin_cos();
+        let direction = Vector3::new(cosine * longitude.cos(), cosine * longitude.sin(), sine);
+        Self { momentum_direction: direction, ..self }
+    }
+}
+
+impl Body {
+    /// The smallest P_ψ/P_φ of a mode, that of rotation about its axis, and the largest that doubles hold next to the separatrix; every ratio between them belongs to one motion.
+    ///
+    /// # Errors
+    /// - [`Error::ModeName`] for a mode other than the short-axis and the long-axis one.
+    /// - [`Error::NoSuchMode`] for the short-axis mode of a body with B = C, the long-axis mode of one with A = B.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Body, Convention, Mode};
+    /// let body = Body::new([1.0, 1.5, 2.0])?;
+    /// let [lower, _] = body.period_ratios(Mode::ShortAxis, Convention::ExtremalAxis)?;
+    /// // 1 + 1/γ, γ² = (C/A − 1)(C/B − 1) = 1/3.
+    /// assert!((lower - (1.0 + 3.0_f64.sqrt())).abs() < 1e-15);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    pub fn period_ratios(&self, mode: Mode, convention: Convention) -> Result<[f64; 2], Error> {
+        let family = Family::new(self, mode, convention)?;
+        Ok([family.lowest(), family.ratio(RANGE[1])])
+    }
+}
+
+impl Scene {
+    /// The scene of a body that tumbles with these periods, torque-free; for a mode there is one.
+    ///
+    /// # Errors
+    /// - [`Error::Positive`] for a period that is zero, negative or not finite.
+    /// - [`Error::PeriodRatio`] for periods that the body cannot have, with the interval that it can; [`Error::ModeName`], [`Error::NoSuchMode`] as for [`Body::period_ratios`].
+    /// - [`Error::Direction`] for a direction of the angular momentum of length 0, or phases that are not finite; [`Error::Epoch`].
+    /// - [`Error::Units`] for periods whose angular momentum has no double.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Body, ObservedPeriods, Scene};
+    /// // Apophis, in hours (Pravec et al. 2014): E/E0 = 1.024 ± 0.013.
+    /// let motion = Scene::from_periods(Body::new([0.61, 0.965, 1.0])?, &ObservedPeriods::new(27.38, 263.0))?.solve()?;
+    /// assert!((motion.energy_ratio() - 1.02364).abs() < 5e-6);
+    /// assert!((motion.long_axis_periods().precession - 30.56).abs() < 0.005);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    pub fn from_periods(body: Body, periods: &ObservedPeriods) -> Result<Self, Error> {
+        periods.validate()?;
+        let family = Family::new(&body, periods.mode, periods.convention)?;
+        let principal = body.about_principal_axes();
+        let start = family.state(periods)?;
+        let passed = Scene::new(principal, start).solve()?.at(periods.phases[0].rem_euclid(1.0) * periods.rotation)?;
+        // The precession that has gone by with the phase along the polhode is taken back.
+        let turns = periods.phases[1] - periods.phases[0].rem_euclid(1.0) * periods.rotation / periods.precession;
+        let axis = nalgebra::Unit::new_normalize(periods.momentum_direction);
+        let turned = UnitQuaternion::from_axis_angle(&axis, TAU * (turns - turns.round()));
+        Ok(scene_about_principal_axes(body, periods.epoch, turned * passed.attitude, passed.angular_velocity))
+    }
+}
+
+impl ObservedPeriods {
+    fn validate(&self) -> Result<(), Error> {
+        for (argument, value) in [("precession", self.precession), ("rotation", self.rotation)] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(Error::Positive { argument, value });
+            }
+        }
+        let direction = self.momentum_direction;
+        if !(direction.iter().all(|x| x.is_finite()) && direction.amax() > 0.0) {
+            return Err(Error::Direction { argument: "momentum_direction", value: direction.as_slice().to_vec() });
+        }
+        if self.phases.iter().any(|phase| !phase.is_finite()) {
+            return Err(Error::Direction { argument: "phases", value: self.phases.to_vec() });
+        }
+        if !self.epoch.is_finite() {
+            return Err(Error::Epoch { value: self.epoch });
+        }
+        Ok(())
+    }
+}
+
+/// The motions of a body in one mode, M = 1 and moments scaled.
+struct Family {
+    /// Rotation about the axis of the mode.
+    axial: Polhode,
+    mode: Mode,
+    convention: Convention,
+    /// Whether the periods are those of the axis that the angular momentum circles.
+    own: bool,
+}
+
+impl Family {
+    fn new(body: &Body, mode: Mode, convention: Convention) -> Result<Self, Error> {
+        let (axis, pair) = match mode {
+            Mode::ShortAxis => (2, "two largest"),
+            Mode::LongAxis => (0, "two smallest"),
+            _ => return Err(Error::ModeName { value: mode.to_string() }),
+        };
+        let moments = body.moments();
+        let mut order = [0, 1, 2];
+        order.sort_by(|&i, &j| moments[i].total_cmp(&moments[j]));
+        let mut rates = Vector3::zeros();
+        rates[order[axis]] = 1.0;
+        let state = State { epoch: 0.0, attitude: UnitQuaternion::identity(), angular_velocity: rates };
+        let none = || Error::NoSuchMode { mode: mode.to_string(), moments, pair };
+        if moments[order[1]] == moments[order[axis]] {
+            return Err(none());
+        }
+        let axial = Polhode::new(&body.about_principal_axes(), &state).ok_or_else(none)?;
+        let own = match convention {
+            Convention::ExtremalAxis => true,
+            Convention::LongAxis => mode == Mode::LongAxis,
+            Convention::ShortAxis => mode == Mode::ShortAxis,
+        };
+        Ok(Self { axial, mode, convention, own })
+    }
+
+    /// The polhode with this ln(sin²J/cos²J) at ℓ = 0, M = 1.
+    fn polhode(&self, logarithm: f64) -> Polhode {
+        // The smaller of the two squares is exact.
+        let smaller = DoubleDouble::from(1.0 / (1.0 + logarithm.abs().exp()));
+        let larger = DoubleDouble::ONE - smaller;
+        let squares = if logarithm < 0.0 { [smaller, larger] } else { [larger, smaller] };
+        self.axial.with_squares(squares, 1.0)
+    }
+
+    /// Rates of precession and rotation for M = 1.
+    fn rates(&self, polhode: &Polhode) -> [DoubleDouble; 2] {
+        let Secular { anomaly_rate, longitude_rate, .. } = Secular::exact(polhode);
+        let precession = if self.own { longitude_rate + anomaly_rate } else { longitude_rate };
+        [precession, if anomaly_rate.to_f64() < 0.0 { -anomaly_rate } else { anomaly_rate }]
+    }
+
+    fn ratio(&self, logarithm: f64) -> f64 {
+        let [precession, rotation] = self.rates(&self.polhode(logarithm));
+        (precession / rotation).to_f64()
+    }
+
+    /// The ratio on the axis: dℓ′/dt = γ M/C, dy′/dt = M/C.
+    fn lowest(&self) -> f64 {
+        let gamma = self.axial.gamma();
+        let own = if self.own { DoubleDouble::ONE + gamma } else { DoubleDouble::ONE };
+        (own / gamma).to_f64().abs()
+    }
+
+    /// The polhode, M = 1, with a ratio of periods.
+    fn with_ratio(&self, ratio: f64) -> Result<Polhode, Error> {
+        let [mut low, mut high] = RANGE;
+        let (lower, upper) = (self.lowest(), self.ratio(high));
+        // Written so that NaN fails it.
+        let within = ratio >= lower * (1.0 - RATIO_ROUNDING) && ratio <= upper;
+        if !within {
+            let (mode, convention) = (self.mode.to_string(), self.convention.to_string());
+            return Err(Error::PeriodRatio { ratio, mode, convention, lower, upper });
+        }
+        if ratio <= lower * (1.0 + RATIO_ROUNDING) {
+            return Ok(self.axial.with_squares([DoubleDouble::ZERO, DoubleDouble::ONE], 1.0));
+        }
+        loop {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                return Ok(self.polhode(middle));
+            }
+            if self.ratio(middle) < ratio { low = middle } else { high = middle }
+        }
+    }
+
+    /// The state at time 0 with phases 0: ℓ = π/2, where cos J is greatest.
+    fn state(&self, periods: &ObservedPeriods) -> Result<State, Error> {
+        let polhode = self.with_ratio(periods.rotation / periods.precession)?;
+        let [precession, _] = self.rates(&polhode);
+        let momentum = TAU / (precession.to_f64() * periods.precession);
+        let [_, sine] = polhode.sine_squares().map(|square| square.to_f64().sqrt());
+        let [_, cosine] = polhode.cosine_squares().map(|square| square.to_f64().sqrt());
+        let direction = [-sine, 0.0, cosine];
+        let rates = self.axial.frame.user(std::array::from_fn(|i| momentum * direction[i] / polhode.moments[i]));
+        let pole = periods.momentum_direction.normalize();
+        let node = Vector3::z().cross(&pole);
+        let node = if node.amax() == 0.0 { Vector3::x() } else { node.normalize() };
+        let columns = [pole * -sine + node * cosine, pole.cross(&node), pole * cosine + node * sine];
+        let sorted = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&columns));
+        let attitude = UnitQuaternion::from_rotation_matrix(&sorted) * self.axial.frame.quaternion;
+        Ok(State { epoch: 0.0, attitude, angular_velocity: rates.into() })
+    }
+}

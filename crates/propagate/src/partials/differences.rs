@@ -1,0 +1,105 @@
+//! Derivatives of a motion under a gravity gradient, by differences of solved motions.
+//!
+//! Central differences of fourth order with steps that turn the body by [`STEP`] at the farthest time: their truncation is STEP⁴/30 of the largest derivative, 3e-10, and rounding of a
+//! solution, 1e-13, over the step as much. Derivatives of the mean motion alone would lack those of the short-period corrections, which are of the size of the torque. One call
+//! solves 37 motions, however many times it has.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::error::Error;
+use crate::input::scene::Scene;
+use crate::input::state::State;
+use crate::motion::solved::Motion;
+
+use super::{Derivatives, PARAMETERS};
+
+/// Angle by which a step turns the body at the farthest time \[rad\].
+const STEP: f64 = 1e-2;
+/// Largest step relative to the angular velocity or the moment.
+const LARGEST: f64 = 1e-3;
+/// Tolerance at which steps are solved, so that dropped terms are nothing beside a step \[rad\].
+const TOLERANCE: f64 = 1e-13;
+/// Places and weights of the differences: [8 f(h) − 8 f(−h) − f(2h) + f(−2h)]/12h.
+const STENCIL: [(f64, f64); 4] = [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)];
+
+/// Derivatives at times that are valid for the motion.
+pub(super) fn fill(
+    motion: &Motion,
+    times: &[f64],
+    attitudes: &mut [Derivatives],
+    rates: &mut [Derivatives],
+) -> Result<(), Error> {
+    let Some(averaging) = motion.plan.averaging() else { return Ok(()) };
+    let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance())).averaging(averaging);
+    let steps = steps(&scene, times);
+    let mut samples = Samples::new(times.len());
+    samples.evaluate(&scene, times)?;
+    let origins = samples.attitudes.clone();
+    attitudes.fill([[0.0; PARAMETERS]; 3]);
+    rates.fill([[0.0; PARAMETERS]; 3]);
+    for (parameter, step) in steps.into_iter().enumerate() {
+        for (place, weight) in STENCIL {
+            samples.evaluate(&changed(&scene, parameter, place * step), times)?;
+            let factor = weight / (12.0 * step);
+            for (index, origin) in origins.iter().enumerate() {
+                let turned = rotation_vector(*origin, samples.attitudes[index]);
+                for row in 0..3 {
+                    attitudes[index][row][parameter] += factor * turned[row];
+                    rates[index][row][parameter] += factor * samples.rates[index][row];
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Attitudes and rates of one motion.
+struct Samples {
+    attitudes: Vec<[f64; 4]>,
+    rates: Vec<[f64; 3]>,
+}
+
+impl Samples {
+    fn new(times: usize) -> Self {
+        Self { attitudes: vec![[0.0; 4]; times], rates: vec![[0.0; 3]; times] }
+    }
+
+    fn evaluate(&mut self, scene: &Scene, times: &[f64]) -> Result<(), Error> {
+        scene.solve()?.samples_into(times, &mut self.attitudes, &mut self.rates)
+    }
+}
+
+/// The step of each parameter.
+fn steps(scene: &Scene, times: &[f64]) -> [f64; PARAMETERS] {
+    let State { epoch, angular_velocity, .. } = *scene.state();
+    let farthest = times.iter().fold(0.0_f64, |most, time| most.max((time - epoch).abs()));
+    let rate = angular_velocity.norm();
+    let part = LARGEST.min(STEP / (rate * farthest));
+    let moments = scene.body().moments();
+    std::array::from_fn(|parameter| match parameter {
+        0..3 => STEP,
+        3..6 => part * rate,
+        _ => part * moments[parameter - 6],
+    })
+}
+
+/// The scene with one parameter changed.
+fn changed(scene: &Scene, parameter: usize, step: f64) -> Scene {
+    let (mut state, mut moments) = (*scene.state(), scene.body().moments());
+    match parameter {
+        0..3 => {
+            let mut axis = Vector3::zeros();
+            axis[parameter] = step;
+            state.attitude *= UnitQuaternion::from_scaled_axis(axis);
+        }
+        3..6 => state.angular_velocity[parameter - 3] += step,
+        _ => moments[parameter - 6] += step,
+    }
+    scene.starting_from(scene.body().with_moments(moments), state)
+}
+
+/// The rotation vector from one attitude to a neighbouring one, body components.
+fn rotation_vector(start: [f64; 4], end: [f64; 4]) -> Vector3<f64> {
+    let [start, end] = [start, end].map(|attitude| UnitQuaternion::new_unchecked(attitude.into()));
+    (start.inverse() * end).scaled_axis()
+}

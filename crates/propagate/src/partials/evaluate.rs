@@ -1,0 +1,195 @@
+//! Derivatives at many times, several at once (theory §12).
+//!
+//! The attitude's follow from those of g by the conservation of the angular momentum, δL = R0 δG0, but for the component along g, which grows with twice the energy's
+//! change:
+//!
+//! ```text
+//! δθ = g × (RᵀR0 δg0 − δg) + g (g·δθ)
+//! ```
+//!
+//! All is computed in units of M = 1 and of the scaled time.
+
+use nalgebra::UnitQuaternion;
+use pulp::Arch;
+
+use crate::error::Error;
+use crate::input::scene::Scene;
+use crate::motion::trajectory::Trajectory;
+use crate::numerics::scaling::scaled;
+use crate::simd::circles::Evaluate;
+use crate::simd::complex_quaternion::QuaternionLanes;
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
+use crate::simd::lanes::{Lanes, WIDEST};
+use crate::simd::phase::elapsed;
+use crate::solve::untruncated;
+use crate::torque_free::mode::Mode;
+use crate::torque_free::polhode::Polhode;
+
+use super::constants::{CHANGES, Change, Constants, Setting};
+use super::integral::Integral;
+use super::sources::{Amplitudes, Passing, Place, Source, Wobbling};
+use super::{Derivatives, PARAMETERS};
+
+/// Samples for each thread below which one more thread costs more than it saves.
+const SAMPLES_PER_THREAD: usize = 1024;
+
+/// Times and the state that derivatives are wanted at.
+#[derive(Clone, Copy)]
+pub(super) struct Target<'a> {
+    pub(super) times: &'a [f64],
+    pub(super) epoch: f64,
+    /// Attitude at the epoch.
+    pub(super) initial: UnitQuaternion<f64>,
+    pub(super) setting: &'a Setting,
+}
+
+impl Target<'_> {
+    /// By the best instruction set of the machine, on as many threads as pay; parts begin where lanes do, so that no bit depends on their number.
+    pub(super) fn fill<T: Source + Sync>(self, source: &T, attitudes: &mut [Derivatives], rates: &mut [Derivatives]) {
+        let length = self.times.len();
+        if length < 2 * SAMPLES_PER_THREAD || rayon::current_num_threads() == 1 {
+            dispatch(Arch::new(), Run { target: self, source, attitudes, rates });
+            return;
+        }
+        let threads = (length / SAMPLES_PER_THREAD).min(rayon::current_num_threads());
+        let part = length.div_ceil(threads).next_multiple_of(WIDEST);
+        rayon::scope(|scope| {
+            let outputs = attitudes.chunks_mut(part).zip(rates.chunks_mut(part));
+            for (times, (attitudes, rates)) in self.times.chunks(part).zip(outputs) {
+                let target = Target { times, ..self };
+                scope.spawn(move |_| dispatch(Arch::new(), Run { target, source, attitudes, rates }));
+            }
+        });
+    }
+
+    /// On a polhode, with every harmonic that the closed form has.
+    pub(super) fn wobbling(
+        self,
+        scene: &Scene,
+        polhode: &Polhode,
+        mode: Mode,
+        (attitudes, rates): (&mut [Derivatives], &mut [Derivatives]),
+    ) -> Result<(), Error> {
+        let exact = untruncated(scene, polhode, mode)?;
+        let theta = polhode.theta();
+        let integral = Integral::new(&theta);
+        let constants = Constants::all(self.setting, &theta, &integral);
+        let anomaly_rate = scaled(exact.frequencies.anomaly, -polhode.scales.1);
+        let amplitudes = |start| Amplitudes::new(self.setting, constants, anomaly_rate, theta.quarter, start);
+        match &exact.trajectory {
+            Trajectory::Wobble(tables) => {
+                let (sine, cosine) = (2.0 * tables.phases()[0].angle((0.0, 0.0))).sin_cos();
+                let amplitudes = &amplitudes(integral.zeta((sine, cosine)));
+                self.fill(&Wobbling { tables, integral: &integral, amplitudes }, attitudes, rates);
+            }
+            Trajectory::Passage(flip) => {
+                let start = integral.zeta_of_passages(flip.passage.angle((0.0, 0.0)));
+                let amplitudes = &amplitudes(start);
+                self.fill(&Passing { flip, integral: &integral, amplitudes }, attitudes, rates);
+            }
+            Trajectory::Steady(_) | Trajectory::Gradient(_) => {}
+        }
+        Ok(())
+    }
+}
+
+/// The loop over times, compiled for each instruction set.
+struct Run<'a, T> {
+    target: Target<'a>,
+    source: &'a T,
+    attitudes: &'a mut [Derivatives],
+    rates: &'a mut [Derivatives],
+}
+
+impl<T: Source> Task for Run<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, simd: S) {
+        let Self { target: Target { times, epoch, initial, setting }, source, attitudes, rates } = self;
+        let width = if T::VECTORS { Lanes::<S>::WIDTH } else { 1 };
+        let origin = Lanes::splat(simd, epoch);
+        let initial = QuaternionLanes::all(origin, &initial);
+        let mut start = 0;
+        while start < times.len() {
+            let stop = times.len().min(start + width);
+            let mut block = [times[start]; WIDEST];
+            block[..stop - start].copy_from_slice(&times[start..stop]);
+            let elapsed = elapsed(Lanes::load(simd, &block), origin);
+            let place = source.place(simd, setting, elapsed);
+            let [attitude, rate] = columns(&place, source, setting, initial);
+            store(&attitude, &mut attitudes[start..stop]);
+            store(&rate, &mut rates[start..stop]);
+            start = stop;
+        }
+    }
+}
+
+/// Derivatives of one vector in lanes: row by row, as they lie in memory.
+type Entries<S> = [Lanes<S>; 3 * PARAMETERS];
+
+/// Derivatives of attitude and rates at some times.
+#[inline(always)]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "iterators that carry vectors are not inlined into the code of an instruction set"
+)]
+fn columns<S: InstructionSet, T: Source>(
+    place: &Place<S, T::Rest<S>>,
+    source: &T,
+    setting: &Setting,
+    initial: QuaternionLanes<S>,
+) -> [Entries<S>; 2] {
+    let Place { attitude: [x, y, z, w], rates: rate, rest } = place;
+    let one = x.all(1.0);
+    let carried = (QuaternionLanes([-*x, -*y, -*z, *w]) * initial).rows();
+    let nu = setting.user_rates;
+    let [g, h, k] = [rate[0] * one.all(1.0 / nu[0]), rate[1] * one.all(1.0 / nu[1]), rate[2] * one.all(1.0 / nu[2])];
+    let mut attitudes = [one.all(0.0); 3 * PARAMETERS];
+    let mut rates = attitudes;
+    for row in 0..3 {
+        for axis in 0..3 {
+            attitudes[PARAMETERS * row + axis] = carried[row][axis];
+        }
+    }
+    for parameter in 0..CHANGES {
+        let Change { axis, lever, inverse_moment, .. } = setting.changes[parameter];
+        let (change, along) = source.change(rest, parameter);
+        let lever = one.all(lever);
+        let [a, b, c] = [
+            lever.mul_add(carried[0][axis], -change[0]),
+            lever.mul_add(carried[1][axis], -change[1]),
+            lever.mul_add(carried[2][axis], -change[2]),
+        ];
+        let turned = [
+            along.mul_add(g, k.negate_mul_add(b, h * c)),
+            along.mul_add(h, g.negate_mul_add(c, k * a)),
+            along.mul_add(k, h.negate_mul_add(a, g * b)),
+        ];
+        for row in 0..3 {
+            attitudes[PARAMETERS * row + 3 + parameter] = turned[row];
+            rates[PARAMETERS * row + 3 + parameter] = change[row] * one.all(nu[row]);
+        }
+        let entry = PARAMETERS * axis + 3 + parameter;
+        rates[entry] = rate[axis].mul_add(one.all(inverse_moment), rates[entry]);
+    }
+    [attitudes, rates]
+}
+
+/// As many matrices as there are, four entries at a time; the last four overlap those before them.
+#[inline(always)]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "iterators that carry vectors are not inlined into the code of an instruction set"
+)]
+fn store<S: InstructionSet>(entries: &Entries<S>, matrices: &mut [Derivatives]) {
+    const FIRSTS: [usize; 7] = [0, 4, 8, 12, 16, 20, 23];
+    let mut rows = [[0.0; 4]; WIDEST];
+    for first in FIRSTS {
+        let four = [entries[first], entries[first + 1], entries[first + 2], entries[first + 3]];
+        Lanes::store_fours(four, &mut rows);
+        for lane in 0..matrices.len() {
+            matrices[lane].as_flattened_mut()[first..first + 4].copy_from_slice(&rows[lane]);
+        }
+    }
+}

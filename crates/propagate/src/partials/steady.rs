@@ -1,0 +1,116 @@
+//! Derivatives about a steady rotation: rest, a sphere, a principal axis, an axis across the equal ones of a round body (theory §12).
+//!
+//! g is constant, so that δġ = A δg + f with A δg = δg × ω + g × ν δg, f = g × δν g, both constant. A³ = λ² A and A² f = 0:
+//!
+//! ```text
+//! δg = δg0 + S A δg0 + C A² δg0 + t f + C A f      S = sinh λt/λ      C = (cosh λt − 1)/λ²
+//! ```
+//!
+//! sin and cos about an axis of extreme inertia, where λ² = −(dℓ′/dt)², t and t²/2 where λ = 0. About the middle axis S grows until it has no double.
+
+use andoyer_double::{DoubleDouble, two_sum};
+
+use crate::numerics::phase::Phase;
+use crate::numerics::scaling::user_rate;
+use crate::torque_free::mode::Mode;
+use crate::torque_free::polhode::Polhode;
+
+use super::constants::{CHANGES, Setting};
+use super::{Derivatives, PARAMETERS};
+
+/// λt beyond which e^(λt), times what it is multiplied by, may have no double.
+const LONGEST_GROWTH: f64 = 300.0;
+
+/// How a change grows.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Growth {
+    /// Half of ℓ′, and dℓ′/dt scaled.
+    Oscillation(Phase, f64),
+    /// λ scaled.
+    Exponential(f64),
+    /// λ = 0.
+    Polynomial,
+}
+
+/// The vectors of one parameter, user components.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Vectors {
+    /// Factors of 1, S, C and t in δg.
+    pub(super) change: [[f64; 3]; 4],
+    /// Growth of g·δθ.
+    pub(super) turn: f64,
+}
+
+/// What derivatives about a steady rotation are computed from.
+#[derive(Clone, Debug)]
+pub(super) struct Varied {
+    pub(super) growth: Growth,
+    pub(super) vectors: [Vectors; CHANGES],
+    /// Largest distance from the epoch, in the user's unit.
+    bound: f64,
+}
+
+impl Varied {
+    pub(super) fn new(polhode: &Polhode, setting: &Setting, mode: Mode) -> Self {
+        let (g, d) = (setting.direction, setting.slopes);
+        // A δg: rows of the linearized ġ_i = d_i g_j g_k.
+        let apply =
+            |v: [f64; 3]| [0, 1, 2].map(|i| d[i] * (g[(i + 1) % 3] * v[(i + 2) % 3] + v[(i + 1) % 3] * g[(i + 2) % 3]));
+        let signs = polhode.frame.signs;
+        let vectors = setting.changes.map(|change| {
+            let [step, rate] = change.vectors();
+            let force = [0, 1, 2].map(|i| (rate[(i + 2) % 3] - rate[(i + 1) % 3]) * g[(i + 1) % 3] * g[(i + 2) % 3]);
+            let first = apply(step);
+            let (second, pushed) = (apply(first), apply(force));
+            let curved = std::array::from_fn(|i| second[i] + pushed[i]);
+            let user = |v: [f64; 3]| {
+                let mut user = [0.0; 3];
+                for i in 0..3 {
+                    user[setting.axes[i]] = change.unit * signs[i] * v[i];
+                }
+                user
+            };
+            let turn: f64 = (0..3).map(|i| g[i] * (setting.rates[i] * step[i] + rate[i] * g[i])).sum();
+            Vectors { change: [user(step), user(first), user(curved), user(force)], turn: change.unit * turn }
+        });
+        let growth = growth(polhode, setting, mode);
+        let bound = match growth {
+            Growth::Exponential(rate) => LONGEST_GROWTH / (rate * setting.unit),
+            _ => f64::INFINITY,
+        };
+        Self { growth, vectors, bound }
+    }
+
+    /// Largest distance from the epoch, in the user's unit.
+    pub(super) fn bound(&self) -> f64 {
+        self.bound
+    }
+}
+
+fn growth(polhode: &Polhode, setting: &Setting, mode: Mode) -> Growth {
+    // λ² = ½ tr A², of which one term is not 0 on a principal axis.
+    let (g, d) = (setting.direction, setting.slopes);
+    let square: f64 = (0..3).map(|i| d[(i + 1) % 3] * d[(i + 2) % 3] * g[i] * g[i]).sum();
+    if mode == Mode::Spherical || square == 0.0 {
+        Growth::Polynomial
+    } else if square > 0.0 {
+        Growth::Exponential(square.sqrt())
+    } else {
+        let rate = polhode.mean_rate() * polhode.gamma();
+        let half = user_rate(rate * DoubleDouble::from(0.5), polhode.scales.1);
+        Growth::Oscillation(Phase::new(half, 0.0), rate.to_f64())
+    }
+}
+
+/// Derivatives of a body at rest: it turns by the rate times the time.
+pub(super) fn at_rest(times: &[f64], epoch: f64, attitudes: &mut [Derivatives], rates: &mut [Derivatives]) {
+    for ((time, attitude), rate) in times.iter().zip(attitudes).zip(rates) {
+        let (elapsed, _) = two_sum(*time, -epoch);
+        (*attitude, *rate) = ([[0.0; PARAMETERS]; 3], [[0.0; PARAMETERS]; 3]);
+        for axis in 0..3 {
+            attitude[axis][axis] = 1.0;
+            attitude[axis][3 + axis] = elapsed;
+            rate[axis][3 + axis] = 1.0;
+        }
+    }
+}

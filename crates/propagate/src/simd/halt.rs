@@ -1,0 +1,30 @@
+//! Why an evaluation ends before its last time: a time without a phase, or a flag that another thread sets.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A flag that nobody sets.
+pub(crate) static GOING: AtomicBool = AtomicBool::new(false);
+
+/// Why an evaluation ends before its last time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Halt {
+    /// The index of a time at which the motion has no phase.
+    Time(usize),
+    /// The flag was set.
+    Stopped,
+}
+
+impl Halt {
+    /// The same of times that begin later.
+    pub(crate) fn later(self, place: usize) -> Self {
+        match self {
+            Self::Time(index) => Self::Time(place + index),
+            Self::Stopped => Self::Stopped,
+        }
+    }
+}
+
+/// Whether to go on. Asked once for each group of times, which takes a microsecond or more.
+pub(crate) fn going(stop: &AtomicBool) -> Result<(), Halt> {
+    if stop.load(Ordering::Relaxed) { Err(Halt::Stopped) } else { Ok(()) }
+}

@@ -1,0 +1,16 @@
+//! Evaluation at several times at once with the best instruction set of the machine: lanes, instruction sets, sines and cosines, complex numbers and quaternions in lanes, phases and
+//! Kepler's equation in lanes, the table of a uniform grid, and the loop over times, which is generic over what it evaluates.
+//!
+//! Imports errors and numerics.
+
+pub(crate) mod circles;
+pub(crate) mod complex_quaternion;
+pub(crate) mod grid;
+pub(crate) mod halt;
+pub(crate) mod instruction_set;
+pub(crate) mod kepler;
+pub(crate) mod lanes;
+pub(crate) mod outputs;
+pub(crate) mod phase;
+pub(crate) mod run;
+pub(crate) mod sincos;

@@ -1,0 +1,328 @@
+//! From a scene to its motion: mode, method, secular part, series, initial phases (theory §5 to §8, §10).
+
+use crate::error::Error;
+use crate::gravity_gradient::disturbed::Gradient;
+use crate::gravity_gradient::osculating::{LARGEST_SEPARATRIX_RATIO, osculating};
+use crate::gravity_gradient::request::Request;
+use crate::input::options::{Averaging, Level, Method};
+use crate::input::orbit::Orbit;
+use crate::input::scene::Scene;
+use crate::motion::plan::Plan;
+use crate::motion::solved::{Frequencies, Given, Motion};
+use crate::motion::trajectory::Trajectory;
+use crate::numerics::scaling::{exponent, half, scaled, user_rate};
+use crate::torque_free::error_budget::{ROUNDING, duration, phase_rounding};
+use crate::torque_free::frequencies::Secular;
+use crate::torque_free::mode::Mode;
+use crate::torque_free::polhode::{Polhode, UserFrame};
+use crate::torque_free::separatrix::Passage;
+use crate::torque_free::series::solution::by_the_series;
+use crate::torque_free::series::tables::SeriesTables;
+use crate::torque_free::solution::{CayleyKlein, Solution, by_theta_functions, on_the_separatrix};
+use crate::torque_free::steady::SteadyRotation;
+use crate::torque_free::wobble::{Wobble, WobbleEvaluator};
+
+/// Error bound below which the corrections are not held against their own effect \[rad\].
+const WORTH: f64 = 1e-3;
+/// Intervals of a span at whose ends they are.
+const EFFECT_SAMPLES: u32 = 16;
+
+impl Scene {
+    /// The motion: everything that does not depend on time is done here, once.
+    ///
+    /// # Errors
+    /// - Those of [`Scene::validate`].
+    /// - [`Error::Units`] where the angular momentum over- or underflows, or a rate that belongs to it does.
+    /// - [`Error::NearSeparatrix`] where the series is asked for and the tolerance needs an order above [`MAX_ORDER`](crate::MAX_ORDER).
+    /// - [`Error::Separatrix`] where the series is asked for on the separatrix itself.
+    /// - [`Error::Resonance`], [`Error::TorqueTooStrong`], [`Error::Unaveraged`] for an orbit whose gravity gradient cannot be averaged.
+    pub fn solve(&self) -> Result<Motion, Error> {
+        self.solve_with(&SeriesTables::default())
+    }
+
+    /// The same motion, to the same bits, with tables of the series that serve the scenes of the same body after it: a second solution by the series costs a fraction
+    /// of the first.
+    ///
+    /// # Errors
+    /// As [`Scene::solve`].
+    ///
+    /// ```
+    /// use andoyer_propagate::{Body, Method, Scene, SeriesTables, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?;
+    /// let scene = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).method(Method::Series);
+    /// let tables = SeriesTables::default();
+    /// for tolerance in [1e-12, 1e-6] {
+    ///     assert!(scene.clone().tolerance(tolerance).solve_with(&tables)?.plan().error_bound() <= tolerance);
+    /// }
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    pub fn solve_with(&self, tables: &SeriesTables) -> Result<Motion, Error> {
+        let scene = self.validated()?;
+        let Some(turn) = scene.body().turn() else { return scene.solve_about_principal_axes(tables) };
+        let mut motion = scene.about_principal_axes(turn).solve_about_principal_axes(tables)?;
+        motion.given = Some(Box::new(Given { scene, turn }));
+        Ok(motion)
+    }
+
+    fn solve_about_principal_axes(self, tables: &SeriesTables) -> Result<Motion, Error> {
+        let scene = self;
+        let Some(polhode) = Polhode::new(scene.body(), scene.state()) else {
+            return match scene.asked_orbit() {
+                Some(_) => Err(Error::Unaveraged {
+                    mode: Mode::AtRest.to_string(),
+                    ratio: 0.0,
+                    bound: LARGEST_SEPARATRIX_RATIO,
+                }),
+                None => Ok(with_unused(at_rest(scene))),
+            };
+        };
+        representable(&polhode)?;
+        let mode = Mode::of(&polhode);
+        match (mode, scene.asked_orbit().copied()) {
+            (mode, Some(orbit)) if mode != Mode::Spherical => disturbed(scene, &polhode, mode, &orbit),
+            (Mode::Spherical | Mode::PrincipalAxis, _) => Ok(with_unused(steadily_rotating(scene, &polhode, mode))),
+            _ => wobbling((scene, tables), &polhode, mode).map(with_unused),
+        }
+    }
+}
+
+/// Whether the angular momentum and every rate of a motion are normal doubles in the user's units.
+fn representable(polhode: &Polhode) -> Result<(), Error> {
+    let (moment, rate) = polhode.scales;
+    if !polhode.user_momentum().is_normal() {
+        return Err(Error::Units { quantity: "the angular momentum", exponent: moment + rate });
+    }
+    // No rate or frequency of the motion is more than twice M over the smallest moment.
+    let smallest = polhode.moments.iter().copied().fold(f64::INFINITY, f64::min);
+    let fastest = polhode.momentum.to_f64() / smallest;
+    if !scaled(4.0 * fastest, rate).is_finite() {
+        let exponent = exponent(fastest) + rate;
+        return Err(Error::Units { quantity: "the rate that belongs to the smallest moment", exponent });
+    }
+    Ok(())
+}
+
+/// The motion of a body at rest.
+fn at_rest(scene: Scene) -> Motion {
+    let rotation = SteadyRotation::none();
+    let mut plan = Plan::new(&scene, Mode::AtRest, rotation.separatrix_ratio, rotation.error_bound);
+    plan.skipped.push(format!("series: {}", rotation.reason));
+    Motion {
+        plan,
+        trajectory: Trajectory::Steady(Box::new(rotation.evaluator(scene.state(), 0))),
+        frequencies: Frequencies { anomaly: 0.0, longitude: 0.0 },
+        given: None,
+        precession: 0.0,
+        angular_momentum: [0.0; 3].into(),
+        long_axis: false,
+        scene,
+    }
+}
+
+/// The motion about an axis that keeps its place in the body.
+fn steadily_rotating(scene: Scene, polhode: &Polhode, mode: Mode) -> Motion {
+    let rotation = SteadyRotation::new(&scene, polhode, mode);
+    let mut plan = Plan::new(&scene, mode, rotation.separatrix_ratio, rotation.error_bound);
+    plan.skipped.push(format!("series: {}", rotation.reason));
+    let (_, exponent) = polhode.scales;
+    let SteadyRotation { rate, anomaly_rate, .. } = rotation;
+    let [anomaly, longitude, precession] =
+        [anomaly_rate, rate, rate + anomaly_rate].map(|rate| scaled(rate.to_f64(), exponent));
+    Motion {
+        plan,
+        trajectory: Trajectory::Steady(Box::new(rotation.evaluator(scene.state(), exponent))),
+        frequencies: Frequencies { anomaly, longitude },
+        given: None,
+        precession,
+        angular_momentum: polhode.angular_momentum(scene.state().attitude),
+        long_axis: polhode.long_axis,
+        scene,
+    }
+}
+
+/// The motion of a wobbling body, or of one on the separatrix.
+fn wobbling((scene, tables): (Scene, &SeriesTables), polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
+    if mode == Mode::Separatrix {
+        return match scene.asked_method() {
+            Method::Series => Err(Error::Separatrix),
+            _ => {
+                let solution = on_the_separatrix(&scene, polhode);
+                let plan = Plan::new(&scene, mode, 1.0, solution.error_bound);
+                Ok(assembled(scene, polhode, plan, solution))
+            }
+        };
+    }
+    let exact = Secular::exact(polhode);
+    let ratio = (exact.kappa_sigma / polhode.kappa() / polhode.separatrix_action()).min(1.0);
+    let by_series = match scene.asked_method() {
+        Method::Series => true,
+        Method::Closed => false,
+        // A fixed order is one of the series.
+        Method::Auto => scene.asked_order().is_some() && mode != Mode::Axisymmetric,
+    };
+    let solution = if by_series {
+        by_the_series((&scene, tables), polhode, exact, ratio, mode)?
+    } else {
+        by_theta_functions(&scene, polhode, exact, ratio, mode)
+    };
+    let phases = phase_rounding(&scene, exact.longitude_rate, polhode.scales.1);
+    let mut plan = Plan::new(&scene, mode, ratio, solution.error_bound + phases);
+    plan.method = if by_series { Method::Series } else { Method::Closed };
+    Ok(assembled(scene, polhode, plan, solution))
+}
+
+/// The motion of a wobbling body by the closed form, with every harmonic that rounding leaves: what derivatives are taken of.
+pub(crate) fn untruncated(scene: &Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
+    wobbling((scene.clone().method(Method::Closed).tolerance(0.0), &SeriesTables::default()), polhode, mode)
+}
+
+fn assembled(scene: Scene, polhode: &Polhode, mut plan: Plan, solution: Solution) -> Motion {
+    let Solution { parameters, longitude, rates, order, harmonics, skipped, .. } = solution;
+    (plan.order, plan.harmonics, plan.skipped) = (order, harmonics, skipped);
+    let exponent = polhode.scales.1;
+    let longitude_rate = user_rate(rates.longitude_rate, exponent);
+    let [anomaly, precession] =
+        [rates.anomaly_rate, rates.longitude_rate + rates.anomaly_rate].map(|rate| scaled(rate.to_f64(), exponent));
+    let half_longitude = half(longitude_rate, longitude);
+    let place = UserFrame {
+        inertial: polhode.invariable_frame(scene.state().attitude),
+        frame: polhode.frame.clone(),
+        rates: polhode.user_rates(),
+    };
+    let trajectory = match parameters {
+        CayleyKlein::Fourier(anomaly, series) => {
+            let wobble = Wobble { anomaly, series, half_longitude, place };
+            Trajectory::Wobble(Box::new(WobbleEvaluator::new(&wobble)))
+        }
+        CayleyKlein::Passage(passage) => Trajectory::Passage(Box::new(Passage { passage, half_longitude, place })),
+    };
+    Motion {
+        plan,
+        trajectory,
+        frequencies: Frequencies { anomaly, longitude: longitude_rate.to_f64() },
+        given: None,
+        precession,
+        angular_momentum: polhode.angular_momentum(scene.state().attitude),
+        long_axis: polhode.long_axis,
+        scene,
+    }
+}
+
+/// The motion under a gravity gradient.
+fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Result<Motion, Error> {
+    let (ratio, osculating) = osculating(polhode)?;
+    let exponent = polhode.scales.1;
+    let rotation = polhode.mean_rate();
+    let request = Request {
+        orbit,
+        averaging: scene.asked_averaging(),
+        level: scene.asked_level(),
+        tolerance: scene.asked_tolerance(),
+        epoch: scene.state().epoch,
+        duration: scaled(duration(&scene, rotation, exponent), -exponent),
+        spanned: scene.asked_span().is_some(),
+    };
+    let gradient = Gradient::new(polhode, scene.state().attitude, osculating, &request)?;
+    let [anomaly, longitude] = gradient.frequencies();
+    let mut skipped: Vec<String> = unused_order(&scene).into_iter().collect();
+    if scene.asked_method() == Method::Series {
+        skipped.push("series: a scene with an orbit is solved about the closed form".to_owned());
+    }
+    skipped.extend(gradient.skipped());
+    let mut plan = Plan::new(&scene, mode, ratio, gradient.error + 4.0 * ROUNDING);
+    (plan.gradient, plan.skipped) = (Some(gradient.plan()), skipped);
+    let error = gradient.error;
+    let motion = Motion {
+        plan,
+        frequencies: Frequencies { anomaly, longitude },
+        given: None,
+        precession: longitude + anomaly,
+        angular_momentum: polhode.angular_momentum(scene.state().attitude),
+        long_axis: polhode.long_axis,
+        trajectory: Trajectory::Gradient(Box::new(gradient)),
+        scene,
+    };
+    let orbits = request.duration * orbit.mean_motion() / std::f64::consts::TAU;
+    if request.level == Level::Full && orbits < 1.0 && error > WORTH.max(request.tolerance) {
+        let effect = effect(&motion)?;
+        if error > effect {
+            return Err(Error::TorqueTooStrong { size: error, bound: effect });
+        }
+    }
+    Ok(motion)
+}
+
+/// Largest turn between a motion under a torque and the free one over the span.
+fn effect(motion: &Motion) -> Result<f64, Error> {
+    let scene = &motion.scene;
+    let (start, stop) = scene.asked_span().unwrap_or((scene.state().epoch, scene.state().epoch));
+    let free = Scene::new(scene.body().clone(), *scene.state()).span(start, stop).solve()?;
+    (0..=EFFECT_SAMPLES).try_fold(0.0_f64, |largest, k| {
+        let time = start + (stop - start) * f64::from(k) / f64::from(EFFECT_SAMPLES);
+        Ok(largest.max(free.at(time)?.attitude.angle_to(&motion.at(time)?.attitude)))
+    })
+}
+
+/// The motion with what its scene asked for and did not need among what was skipped.
+fn with_unused(mut motion: Motion) -> Motion {
+    let scene = &motion.scene;
+    let mut unused: Vec<String> = match (motion.plan.method, motion.plan.mode) {
+        (Method::Series, Mode::ShortAxis | Mode::LongAxis) => None,
+        (_, Mode::ShortAxis | Mode::LongAxis) => {
+            scene.asked_order().map(|order| format!("order {order}, which was asked for: the closed form has none"))
+        }
+        _ => unused_order(scene),
+    }
+    .into_iter()
+    .collect();
+    if scene.asked_orbit().is_some() {
+        unused.push("gravity gradient: it exerts no torque on a sphere".to_owned());
+    } else {
+        let (averaging, level) = (scene.asked_averaging(), scene.asked_level());
+        if averaging != Averaging::default() {
+            unused.push(format!("averaging {averaging}, which was asked for: there is no orbit"));
+        }
+        if level != Level::default() {
+            unused.push(format!("level {level}, which was asked for: there is no orbit"));
+        }
+    }
+    motion.plan.skipped.extend(unused);
+    motion
+}
+
+fn unused_order(scene: &Scene) -> Option<String> {
+    scene.asked_order().map(|order| format!("order {order}, which was asked for: this motion has no series"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Body, State};
+
+    fn rates_at(tables: &SeriesTables, order: usize, angular_velocity: [f64; 3]) -> [f64; 3] {
+        let body = Body::new([0.5, 0.75, 1.0]).expect("a body");
+        let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], angular_velocity).expect("a state");
+        let motion = Scene::new(body, state).method(Method::Series).order(order).solve_with(tables).expect("a wobble");
+        motion.at(123.4).expect("a finite time").angular_velocity.into()
+    }
+
+    #[test]
+    fn what_was_solved_before_changes_no_bit() {
+        let new = SeriesTables::default;
+        for angular_velocity in [[0.2, 0.3, 0.9], [1.6, 0.35, 0.5]] {
+            let expected = [2, 7, 20].map(|order| rates_at(&new(), order, angular_velocity));
+            assert!(expected[0] != expected[1] && expected[1] != expected[2]);
+            let seen = new();
+            rates_at(&seen, 30, [0.2, 0.3, 0.9]);
+            rates_at(&seen, 5, [1.6, 0.35, 0.5]);
+            assert_eq!([2, 7, 20].map(|order| rates_at(&seen, order, angular_velocity)), expected);
+        }
+    }
+
+    #[test]
+    fn tables_and_bodies_go_to_other_threads() {
+        fn shared<T: Send + Sync + std::panic::UnwindSafe + std::panic::RefUnwindSafe>() {}
+        shared::<SeriesTables>();
+        shared::<Body>();
+    }
+}

@@ -1,0 +1,17 @@
+//! The Euler–Poinsot problem, theory §1 to §8 and §10: polhode, mode, frequencies, harmonics, the closed form, the separatrix, steady rotation and the error budget;
+//! [`series`] is the route of the paper.
+//!
+//! Imports errors, numerics, simd and input.
+
+pub(crate) mod closed_form;
+pub(crate) mod error_budget;
+pub(crate) mod frequencies;
+pub(crate) mod harmonics;
+pub(crate) mod mode;
+pub(crate) mod polhode;
+pub(crate) mod separatrix;
+pub(crate) mod series;
+pub(crate) mod solution;
+pub(crate) mod steady;
+pub(crate) mod sums;
+pub(crate) mod wobble;

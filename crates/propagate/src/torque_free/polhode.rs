@@ -1,0 +1,299 @@
+//! The polhode of a state: its place among the motions of the body, formed without cancellation.
+//!
+//! The state is turned into the theory's frame (axes sorted, N ≥ 0) and scaled by powers of two, so that any unit gives the same bits.
+//! With g = G/M the unit angular momentum in the body, a = C/A − 1, b = C/B − 1 and ℓ the angle of theory §1,
+//!
+//! ```text
+//! cos²J = Q(ℓ) = Q1 cos²ℓ + Q2 sin²ℓ,   Q1 = g3² − g1² (a−b)/b,   Q2 = g3² + g2² (a−b)/a
+//! γE = a g1² + b g2²,                  κE = α (g1²/b + g2²/a)
+//! ```
+//!
+//! Q1 > 0 is the short-axis mode, Q1 = 0 the separatrix: no difference of energies is formed (theory §5, §7). The long-axis mode is the same with the axes in
+//! the opposite order: A ≥ B ≥ C, a and b negative, and γ taken negative with them, so that ℓ′ runs backwards (theory §10).
+
+use std::f64::consts::FRAC_2_PI;
+
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
+
+use andoyer_double::DoubleDouble;
+
+use crate::input::body::Body;
+use crate::input::state::State;
+use crate::numerics::scaling::{exponent, scaled};
+use crate::numerics::theta::Theta;
+
+/// The body axes in the theory's order, C along the user's axis or, for N < 0, against it; A is reversed where that makes them right-handed.
+#[derive(Clone, Debug)]
+pub(crate) struct Frame {
+    /// User axis of each sorted axis.
+    pub(crate) axes: [usize; 3],
+    /// Sense of each sorted axis along the user's.
+    pub(crate) signs: [f64; 3],
+    /// Rotation of user body components into sorted ones.
+    pub(crate) quaternion: UnitQuaternion<f64>,
+}
+
+impl Frame {
+    /// The frame of moments and a body vector whose component on axis 3 shall not be negative; axis 3 is that of C, or of A for the long-axis mode.
+    pub(crate) fn new(moments: [f64; 3], momentum: [f64; 3], long_axis: bool) -> Self {
+        let mut axes = [0, 1, 2];
+        axes.sort_by(|&i, &j| moments[i].total_cmp(&moments[j]));
+        if long_axis {
+            axes.reverse();
+        }
+        let even = (axes[0] + 1) % 3 == axes[1];
+        let first = if even { 1.0 } else { -1.0 };
+        let upright = if momentum[axes[2]] < 0.0 { -1.0 } else { 1.0 };
+        let signs = [first, upright, upright];
+        let mut matrix = Matrix3::zeros();
+        for i in 0..3 {
+            matrix[(i, axes[i])] = signs[i];
+        }
+        let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix));
+        Self { axes, signs, quaternion }
+    }
+
+    /// Components on the sorted axes.
+    pub(crate) fn sorted(&self, vector: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|i| self.signs[i] * vector[self.axes[i]])
+    }
+
+    /// Components on the user's axes.
+    pub(crate) fn user(&self, sorted: [f64; 3]) -> [f64; 3] {
+        let mut vector = [0.0; 3];
+        for i in 0..3 {
+            vector[self.axes[i]] = self.signs[i] * sorted[i];
+        }
+        vector
+    }
+}
+
+/// The rotations around the Cayley–Klein parameters: the attitude is inertial · (a, b) · frame.
+#[derive(Clone, Debug)]
+pub(crate) struct UserFrame {
+    pub(crate) inertial: UnitQuaternion<f64>,
+    pub(crate) frame: Frame,
+    /// M over each moment, on the sorted axes.
+    pub(crate) rates: Vector3<f64>,
+}
+
+/// sin J below which the wobble is neglected: its square is not a normal double.
+pub(crate) const SMALLEST_TILT: f64 = 1e-150;
+
+/// A state reduced to the quantities of theory §1, §5 and §7.
+#[derive(Clone, Debug)]
+pub(crate) struct Polhode {
+    pub(crate) frame: Frame,
+    /// Whether the axes are in the opposite order.
+    pub(crate) long_axis: bool,
+    /// A, B, C over a power of two; C, B, A in the long-axis mode.
+    pub(crate) moments: [f64; 3],
+    /// M in scaled units.
+    pub(crate) momentum: DoubleDouble,
+    /// Binary exponents taken out of the moments and of the rates.
+    pub(crate) scales: (i32, i32),
+    /// g on the sorted axes.
+    pub(crate) direction: [f64; 3],
+    /// G in scaled units.
+    parts: [DoubleDouble; 3],
+    squares: [DoubleDouble; 3],
+    /// a = C/A − 1 and b = C/B − 1.
+    pub(crate) excesses: [DoubleDouble; 2],
+    /// a − b = (C/B)(B/A − 1).
+    pub(crate) difference: DoubleDouble,
+}
+
+impl Polhode {
+    /// The polhode of a valid state; `None` for a body at rest.
+    ///
+    /// Long-axis mode where Q1 < 0, or B = C and the rotation is not about an axis across axis 1.
+    pub(crate) fn new(body: &Body, state: &State) -> Option<Self> {
+        let short = Self::in_order(body, state, false)?;
+        let [first, second] = short.excesses;
+        let round = first == DoubleDouble::ZERO;
+        let beyond = if second == DoubleDouble::ZERO {
+            !round && short.direction[0].abs() >= SMALLEST_TILT
+        } else {
+            short.cosine_squares()[0].high < 0.0
+        };
+        if beyond { Self::in_order(body, state, true) } else { Some(short) }
+    }
+
+    fn in_order(body: &Body, state: &State, long_axis: bool) -> Option<Self> {
+        let rates: [f64; 3] = state.angular_velocity.into();
+        let largest = rates.iter().fold(0.0_f64, |m, w| m.max(w.abs()));
+        if largest == 0.0 {
+            return None;
+        }
+        let scales = (exponent(body.sorted()[2]), exponent(largest));
+        let frame = Frame::new(body.moments(), rates, long_axis);
+        let moments = frame.axes.map(|axis| scaled(body.moments()[axis], -scales.0));
+        let rates = frame.sorted(rates).map(|w| scaled(w, -scales.1));
+        let parts: [_; 3] = std::array::from_fn(|i| DoubleDouble::product(moments[i], rates[i]));
+        let total = parts[0] * parts[0] + parts[1] * parts[1] + parts[2] * parts[2];
+        let momentum = total.sqrt();
+        let [a, b, c] = moments;
+        Some(Self {
+            frame,
+            long_axis,
+            moments,
+            momentum,
+            scales,
+            direction: parts.map(|g| (g / momentum).to_f64()),
+            parts,
+            squares: parts.map(|g| g * g / total),
+            excesses: [DoubleDouble::sum(c, -a) / a.into(), DoubleDouble::sum(c, -b) / b.into()],
+            difference: DoubleDouble::from(c) * DoubleDouble::sum(b, -a) / DoubleDouble::product(a, b),
+        })
+    }
+
+    /// The same body turning with sin²J = `square` at ℓ = 0, and M.
+    pub(crate) fn tilted(&self, square: f64, momentum: f64) -> Self {
+        self.with_squares([square.into(), DoubleDouble::ONE - square.into()], momentum)
+    }
+
+    /// The same body turning with these sin²J and cos²J at ℓ = 0, and M.
+    pub(crate) fn with_squares(&self, squares: [DoubleDouble; 2], momentum: f64) -> Self {
+        let [sine, cosine] = squares.map(|square| square.to_f64().sqrt());
+        let direction = [0.0, sine, cosine];
+        let momentum = DoubleDouble::from(momentum);
+        let squares = [DoubleDouble::ZERO, squares[0], squares[1]];
+        let parts = squares.map(|g| g.sqrt() * momentum);
+        Self { direction, squares, parts, momentum, ..self.clone() }
+    }
+
+    /// Q1 and Q2 for B < C.
+    ///
+    /// Q1 = [G3² A (C−B) − G1² C (B−A)]/(A (C−B) M²): nothing is divided before the difference is taken, so that it is zero on the separatrix wherever the
+    /// terms have a double-double.
+    pub(crate) fn cosine_squares(&self) -> [DoubleDouble; 2] {
+        let (terms, divisor) = self.separatrix_terms();
+        let [_, second, third] = self.parts.map(|part| part * part);
+        let square = self.momentum * self.momentum;
+        [(terms[0] - terms[1]) / (divisor * square), (third + second * (self.difference / self.excesses[0])) / square]
+    }
+
+    /// The two terms of Q1 and their common denominator, without M².
+    fn separatrix_terms(&self) -> ([DoubleDouble; 2], DoubleDouble) {
+        let [a, b, c] = self.moments;
+        let [first, _, third] = self.parts.map(|part| part * part);
+        let divisor = DoubleDouble::from(a) * DoubleDouble::sum(c, -b);
+        ([third * divisor, first * (DoubleDouble::from(c) * DoubleDouble::sum(b, -a))], divisor)
+    }
+
+    /// The terms of Q1 over Q1: the factor by which its relative error grows. Infinite on the separatrix.
+    pub(crate) fn cancellation(&self) -> f64 {
+        let ([third, first], _) = self.separatrix_terms();
+        ((third + first) / (third - first)).to_f64().abs()
+    }
+
+    /// Q2 − Q1, a sum of two terms of one sign.
+    pub(crate) fn spread(&self) -> DoubleDouble {
+        self.difference * (self.squares[0] / self.excesses[1] + self.squares[1] / self.excesses[0])
+    }
+
+    /// 1 − Q1 and 1 − Q2: sin²J where it is greatest and where it is least.
+    pub(crate) fn sine_squares(&self) -> [DoubleDouble; 2] {
+        let [g1, g2, _] = self.squares;
+        let [a, b] = self.excesses;
+        [g1 * a / b + g2, g1 + g2 * b / a]
+    }
+
+    /// β of theory §1 to 32 digits, of the axes in this order.
+    pub(crate) fn precise_beta(&self) -> DoubleDouble {
+        let beta = self.difference / (self.excesses[0] + self.excesses[1]);
+        if beta.to_f64() >= 1.0 { DoubleDouble::ONE } else { beta }
+    }
+
+    /// σ_sep(β) of the axes in this order, 1 for A = B and 0 for B = C (theory §5).
+    ///
+    /// (1−β)/2β = b/(a−b): from the moments, so that it keeps its digits where β is next to 1.
+    pub(crate) fn separatrix_action(&self) -> f64 {
+        let [second, difference] = [self.excesses[1], self.difference].map(|x| x.to_f64().abs().sqrt());
+        FRAC_2_PI * second.atan2(difference)
+    }
+
+    /// γE of theory §5.
+    pub(crate) fn gamma_energy(&self) -> DoubleDouble {
+        self.squares[0] * self.excesses[0] + self.squares[1] * self.excesses[1]
+    }
+
+    /// κE of theory §5, for B < C.
+    pub(crate) fn kappa_energy(&self) -> DoubleDouble {
+        self.alpha() * (self.squares[0] / self.excesses[1] + self.squares[1] / self.excesses[0])
+    }
+
+    /// α of theory §1.
+    pub(crate) fn alpha(&self) -> DoubleDouble {
+        (self.excesses[0] + self.excesses[1]) * DoubleDouble::from(0.5)
+    }
+
+    /// γ of theory §1, with the sign of α.
+    pub(crate) fn gamma(&self) -> DoubleDouble {
+        let root = (self.excesses[0] * self.excesses[1]).sqrt();
+        if self.long_axis { -root } else { root }
+    }
+
+    /// κ = α/γ of theory §1, for B < C.
+    pub(crate) fn kappa(&self) -> f64 {
+        (self.alpha() / self.gamma()).to_f64()
+    }
+
+    /// M/C in scaled units of rate.
+    pub(crate) fn mean_rate(&self) -> DoubleDouble {
+        self.momentum / self.moments[2].into()
+    }
+
+    /// M/B in scaled units of rate.
+    pub(crate) fn middle_rate(&self) -> DoubleDouble {
+        self.momentum / self.moments[1].into()
+    }
+
+    /// ζ = (X + ix)/√M of theory §8: (g2 − i g1)/cos(J/2), real and imaginary part.
+    pub(crate) fn zeta(&self) -> [f64; 2] {
+        let [g1, g2, g3] = self.direction;
+        let half_cosine = (0.5 * (1.0 + g3)).sqrt();
+        [g2 / half_cosine, -g1 / half_cosine]
+    }
+
+    /// M in the user's units.
+    pub(crate) fn user_momentum(&self) -> f64 {
+        scaled(self.momentum.to_f64(), self.scales.0 + self.scales.1)
+    }
+
+    /// M/A, M/B, M/C in the user's units: the rates are these times g.
+    pub(crate) fn user_rates(&self) -> Vector3<f64> {
+        let rates = self.moments.map(|m| scaled((self.momentum / m.into()).to_f64(), self.scales.1));
+        Vector3::from(rates)
+    }
+
+    /// The frame of theory §8 at a state: axis 3 along the angular momentum, y = 0.
+    pub(crate) fn invariable_frame(&self, attitude: UnitQuaternion<f64>) -> UnitQuaternion<f64> {
+        let zeta = self.zeta();
+        let half_z = 0.25 * (zeta[0] * zeta[0] + zeta[1] * zeta[1]);
+        let relative = Quaternion::new((1.0 - half_z).max(0.0).sqrt(), 0.5 * zeta[0], 0.5 * zeta[1], 0.0);
+        attitude * (UnitQuaternion::new_normalize(relative) * self.frame.quaternion).inverse()
+    }
+
+    /// The angular momentum at an attitude, inertial components, in the user's units.
+    pub(crate) fn angular_momentum(&self, attitude: UnitQuaternion<f64>) -> Vector3<f64> {
+        attitude * Vector3::from(self.frame.user(self.direction)) * self.user_momentum()
+    }
+
+    /// The theta quantities of theory §10.
+    pub(crate) fn theta(&self) -> Theta {
+        Theta::new(self.excesses, self.difference, self.cosine_squares(), self.spread(), self.sine_squares())
+    }
+
+    /// (cos ℓ, sin ℓ) of the state, in the first quadrant, and the signs that were taken out (theory §1: G2 ~ cos ℓ, −G1 ~ sin ℓ).
+    pub(crate) fn quadrant(&self) -> ([f64; 2], [f64; 2]) {
+        let [g1, g2, _] = self.direction;
+        let [first, second]: [DoubleDouble; 2] = self.excesses;
+        let (cosine, sine) = (g2, -g1 * (first / second).to_f64().sqrt());
+        // Scaled first: squares of a small wobble have no double.
+        let largest = cosine.abs().max(sine.abs());
+        let (x, y) = (cosine.abs() / largest, sine.abs() / largest);
+        let length = x.hypot(y);
+        ([x / length, y / length], [1.0_f64.copysign(cosine), 1.0_f64.copysign(sine)])
+    }
+}

@@ -1,0 +1,8 @@
+//! The route of the paper: tables of the normal form at a body's β, their Fourier coefficients for one motion, and the order that a tolerance needs.
+//!
+//! Imports what [`super`] imports, and its siblings there. It alone knows the series crate.
+
+pub(crate) mod composition;
+pub(crate) mod order;
+pub(crate) mod solution;
+pub(crate) mod tables;

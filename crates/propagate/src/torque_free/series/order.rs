@@ -1,0 +1,128 @@
+//! The order of the series: the lowest that leaves the tolerance its share, known before anything is expanded (theory §5).
+
+use super::composition::{Ellipse, oscillator_and_longitude};
+use super::tables::{Expansion, SeriesTables};
+use crate::error::Error;
+use crate::input::options::MAX_ORDER;
+use crate::input::scene::Scene;
+use crate::torque_free::frequencies::Secular;
+use crate::torque_free::mode::Mode;
+use crate::torque_free::polhode::Polhode;
+
+/// Part of the tolerance that truncation may use.
+const TRUNCATION_SHARE: f64 = 0.75;
+/// Truncation below this is lost in rounding \[rad\].
+const SMALLEST_TOLERANCE: f64 = 1e-15;
+
+/// The first order worth trying: that at which (σ/σ_sep)^(N+1)/(N+1), theory §5 and a share that was measured, is below the tolerance.
+pub(crate) fn first_order(ratio: f64, tolerance: f64) -> Option<usize> {
+    (0..=MAX_ORDER)
+        .find(|&order| ratio.powi(order as i32 + 1) <= tolerance.max(SMALLEST_TOLERANCE) * (order as f64 + 1.0))
+}
+
+/// The series of one order with its truncation error.
+pub(crate) struct Expanded {
+    pub(crate) order: usize,
+    pub(crate) expansion: Expansion,
+    pub(crate) secular: Secular,
+    pub(crate) ellipse: Ellipse,
+    /// \[rad\]
+    pub(crate) truncation: f64,
+}
+
+/// The series at the order asked for, or at the lowest whose truncation leaves the tolerance its share.
+///
+/// # Errors
+/// - [`Error::NearSeparatrix`] where no order does.
+pub(crate) fn expanded(
+    (scene, tables): (&Scene, &SeriesTables),
+    polhode: &Polhode,
+    exact: &Secular,
+    ratio: f64,
+    mode: Mode,
+) -> Result<Expanded, Error> {
+    let target = scene.asked_tolerance().max(SMALLEST_TOLERANCE);
+    let first = match (mode, scene.asked_order()) {
+        (Mode::Axisymmetric, _) => Some(0), // the series ends with the quadratic part
+        (_, Some(order)) if ratio < 1.0 => Some(order),
+        _ => first_order(ratio, target),
+    };
+    for order in first.unwrap_or(MAX_ORDER)..=MAX_ORDER {
+        let tables = tables.reaching(order, polhode.precise_beta())?;
+        let fixed = mode != Mode::Axisymmetric && scene.asked_order().is_some();
+        let secular = if fixed { Secular::truncated(polhode, tables.polynomials(order)?) } else { *exact };
+        let expansion = tables.expand(order, secular.kappa_sigma, polhode.kappa());
+        let [first, second] = polhode.excesses;
+        let ellipse = Ellipse::new((first / second).to_f64());
+        let truncation = truncation(&expansion, ellipse, ratio, mode);
+        if (fixed && ratio < 1.0) || truncation <= TRUNCATION_SHARE * target {
+            return Ok(Expanded { order, expansion, secular, ellipse, truncation });
+        }
+        if order == MAX_ORDER {
+            let attainable = truncation / TRUNCATION_SHARE;
+            return Err(Error::NearSeparatrix {
+                ratio,
+                tolerance: scene.asked_tolerance(),
+                attainable,
+                highest: MAX_ORDER,
+            });
+        }
+    }
+    Err(Error::Order { value: scene.asked_order().unwrap_or(MAX_ORDER), bound: MAX_ORDER })
+}
+
+/// What the orders left out turn the attitude by \[rad\]: a geometric tail of the last one kept, at the time asked for and in both initial phases.
+///
+/// Hence the factor 4 (with 2 some errors at orders 1 and 2 pass the bound by up to a fifth). Terms grow at most linearly before they fall, as those of S do for β → 0:
+/// Σ_{n>N} n rⁿ = N rᴺ [r/(1−r) + r/(N(1−r)²)].
+fn truncation(expansion: &Expansion, ellipse: Ellipse, ratio: f64, mode: Mode) -> f64 {
+    match mode {
+        Mode::Axisymmetric => 0.0,
+        _ => {
+            let order = expansion.longitude.len().max(1) as f64;
+            let rest = 1.0 - ratio;
+            4.0 * ellipse.long * expansion.last_order * ratio / rest * (1.0 + 1.0 / (order * rest))
+        }
+    }
+}
+
+/// ℓ′ whose transformed w has the direction of `target`.
+///
+/// ℓ = 0, π/2, … are fixed points by symmetry, so the root is in the quadrant of the target. Regula falsi on the cross product, which
+/// stays within its bracket; the end that stays twice has its value halved (the Illinois rule), so that both ends move.
+pub(crate) fn initial_anomaly(expansion: &Expansion, target: [f64; 2]) -> f64 {
+    let folded = [target[0].abs(), target[1].abs()];
+    let cross = |angle: f64| {
+        let (w, _) = oscillator_and_longitude(expansion, |h| (h as f64 * angle).sin_cos());
+        (w[1] * folded[0] - w[0] * folded[1]) / (w[0].hypot(w[1]) * folded[0].hypot(folded[1]))
+    };
+    let (mut low, mut high) = (0.0, std::f64::consts::FRAC_PI_2);
+    let (mut low_value, mut high_value) = (cross(low), cross(high));
+    let mut angle = folded[1].atan2(folded[0]);
+    let mut last = 0.0_f64;
+    // Superlinear; 200 steps are past any convergence.
+    for _ in 0..200 {
+        let value = cross(angle);
+        if value == 0.0 || high - low <= f64::EPSILON {
+            break;
+        }
+        let again = value * last > 0.0;
+        if value < 0.0 {
+            (low, low_value) = (angle, value);
+            high_value *= if again { 0.5 } else { 1.0 };
+        } else {
+            (high, high_value) = (angle, value);
+            low_value *= if again { 0.5 } else { 1.0 };
+        }
+        last = value;
+        let next = (low * high_value - high * low_value) / (high_value - low_value);
+        // A bracket that has closed on an axis of symmetry gives 0/0, which moves nothing.
+        let moves = (next - angle).abs() > 0.5 * f64::EPSILON;
+        if !moves {
+            break;
+        }
+        angle = next;
+    }
+    let upper = if target[0] < 0.0 { std::f64::consts::PI - angle } else { angle };
+    if target[1] < 0.0 { -upper } else { upper }
+}

@@ -1,0 +1,173 @@
+//! The series of one motion: from β, an order and κσ to Fourier coefficients in ℓ′.
+//!
+//! With s = κσ (theory §6, §7) order n of w/√M is √σ s^n times a form of degree 2n + 1, and order n of y − y′ is s^(n+1)/κ times one of
+//! degree 2n + 2. A form becomes harmonics by w^j w̄^k → e^(i(j−k)ℓ′). Sums run from the lowest order to the highest.
+//!
+//! An order is computed from lower ones alone, so that tables cut off at an order have the bits of tables that end there: what was computed for one scene
+//! of a body serves the next ([`SeriesTables`]).
+
+use std::collections::HashMap;
+use std::fmt;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use andoyer_double::DoubleDouble;
+use andoyer_series::{Form, NumericNormalForm};
+
+use crate::error::Error;
+
+/// The series of one body: forms and triaxiality polynomials at its β, orders 0 to N.
+#[derive(Clone, Debug)]
+pub(crate) struct Tables {
+    /// To 32 digits.
+    beta: DoubleDouble,
+    oscillator: Vec<Form>,
+    longitude: Vec<Form>,
+    /// The polynomials to 32 digits, for who asked for an order: their frequencies are multiplied with time.
+    precise: OnceLock<Vec<DoubleDouble>>,
+}
+
+/// Fourier coefficients in ℓ′ for one motion.
+#[derive(Clone, Debug)]
+pub(crate) struct Expansion {
+    /// Coefficient of e^(ihℓ′) of w/√M, h = −(2N+1), −(2N−1), … 2N+1.
+    pub(crate) oscillator: Vec<f64>,
+    /// Coefficient of sin 2kℓ′ of y − y′, k = 1 … N, at k − 1.
+    pub(crate) longitude: Vec<f64>,
+    /// Sum of the magnitudes that the highest order added, w/√M and y − y′ together.
+    pub(crate) last_order: f64,
+}
+
+impl Tables {
+    /// The tables of a body's β, 0 ≤ β ≤ 1, to `order`.
+    pub(crate) fn new(beta: DoubleDouble, order: usize) -> Result<Self, Error> {
+        let normal_form = NumericNormalForm::new(beta.to_f64().min(1.0), order)?;
+        Ok(Self {
+            beta,
+            oscillator: normal_form.direct(),
+            longitude: normal_form.direct_longitude(),
+            precise: OnceLock::new(),
+        })
+    }
+
+    /// The highest order that they reach.
+    fn order(&self) -> usize {
+        self.longitude.len()
+    }
+
+    /// P_0 … P_N at this β to 32 digits (theory §4), N = `order`, which the tables reach.
+    ///
+    /// Computed when they are first asked for, in 0.1 ms at order 12 and 2 ms at 30.
+    pub(crate) fn polynomials(&self, order: usize) -> Result<&[DoubleDouble], Error> {
+        let precise = match self.precise.get() {
+            Some(precise) => precise,
+            None => {
+                let computed = NumericNormalForm::new(self.beta, self.order())?.triaxiality_polynomials();
+                self.precise.get_or_init(|| computed)
+            }
+        };
+        Ok(&precise[..=order])
+    }
+
+    /// The Fourier coefficients of orders 0 to `order`, which the tables reach, at s = κσ.
+    pub(crate) fn expand(&self, order: usize, kappa_sigma: f64, kappa: f64) -> Expansion {
+        let root = (kappa_sigma / kappa).sqrt();
+        let mut oscillator = vec![0.0; 2 * order + 2];
+        let mut longitude = vec![0.0; order];
+        let mut last_order = 0.0;
+        let mut power = root;
+        for (n, form) in self.oscillator[..=order].iter().enumerate() {
+            last_order = 0.0;
+            for (j, &c) in form.coefficients().iter().enumerate() {
+                oscillator[order - n + j] += c * power;
+                last_order += (c * power).abs();
+            }
+            power *= kappa_sigma;
+        }
+        let mut power = kappa_sigma / kappa;
+        for (index, form) in self.longitude[..order].iter().enumerate() {
+            let n = index + 1;
+            power *= kappa_sigma;
+            // The forms are odd in w ↔ w̄: iŷ = Σ 2i·i c sin hℓ′ over the upper half, h = 2(j − n − 1).
+            for k in 1..=n {
+                let c = -2.0 * form.coefficients()[n + 1 + k] * power;
+                longitude[k - 1] += c;
+                last_order += if n == order { c.abs() } else { 0.0 };
+            }
+        }
+        Expansion { oscillator, longitude, last_order }
+    }
+}
+
+/// Tables of the perturbation series, kept for the scenes that are solved with them ([`Scene::solve_with`](crate::Scene::solve_with)).
+///
+/// There is one table for each β, that of a body in one of its modes. Clones share their tables. Nothing but time depends on what is there.
+#[derive(Clone, Default)]
+pub struct SeriesTables(Arc<Mutex<HashMap<[u64; 2], Slot>>>);
+
+/// The longest table of one β that was asked for.
+type Slot = Arc<Mutex<Option<Arc<Tables>>>>;
+
+impl SeriesTables {
+    /// Tables of β that reach `order`. A thread that asks while they are computed waits for them.
+    pub(crate) fn reaching(&self, order: usize, beta: DoubleDouble) -> Result<Arc<Tables>, Error> {
+        // A panic elsewhere leaves what was there before.
+        let slot = {
+            let mut slots = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            Arc::clone(slots.entry([beta.high, beta.low].map(f64::to_bits)).or_default())
+        };
+        let mut slot = slot.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(tables) = slot.as_ref().filter(|tables| tables.order() >= order) {
+            return Ok(Arc::clone(tables));
+        }
+        let tables = Arc::new(Tables::new(beta, order)?);
+        *slot = Some(Arc::clone(&tables));
+        Ok(tables)
+    }
+}
+
+impl fmt::Debug for SeriesTables {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("SeriesTables")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_cut_off_have_the_bits_of_tables_that_end_there() {
+        for beta in [0.0, 0.01, 0.5, 0.99] {
+            let long = Tables::new(beta.into(), 40).expect("tables");
+            for order in [0, 1, 2, 8, 20, 39] {
+                let short = Tables::new(beta.into(), order).expect("tables");
+                let [one, two] = [&short, &long].map(|tables| tables.polynomials(order).expect("a β"));
+                assert_eq!(one, two, "β = {beta}, order {order}");
+                assert_eq!(short.oscillator, long.oscillator[..=order], "β = {beta}, order {order}");
+                assert_eq!(short.longitude, long.longitude[..order], "β = {beta}, order {order}");
+            }
+        }
+    }
+
+    #[test]
+    fn tables_are_computed_once_for_a_body_and_again_only_for_a_higher_order() {
+        let (shared, beta) = (SeriesTables::default(), 0.5.into());
+        let ask = |tables: &SeriesTables, order| tables.reaching(order, beta).expect("tables");
+        let first = ask(&shared, 8);
+        assert!([8, 5].iter().all(|&order| Arc::ptr_eq(&first, &ask(&shared.clone(), order))));
+        let higher = ask(&shared, 9);
+        assert!(!Arc::ptr_eq(&first, &higher) && higher.order() >= 9);
+        assert!(Arc::ptr_eq(&higher, &ask(&shared, 8)));
+    }
+
+    #[test]
+    fn each_beta_has_tables_of_its_own_to_its_last_digit() {
+        let shared = SeriesTables::default();
+        let short = shared.reaching(4, 0.25.into()).expect("tables");
+        let long = shared.reaching(4, 0.75.into()).expect("tables");
+        let beside = shared.reaching(4, DoubleDouble::sum(0.25, 1e-25)).expect("tables");
+        assert_ne!(short.oscillator, long.oscillator);
+        assert_ne!(short.polynomials(4).expect("a β"), beside.polynomials(4).expect("a β"));
+        assert!(Arc::ptr_eq(&short, &shared.reaching(4, 0.25.into()).expect("tables")));
+    }
+}

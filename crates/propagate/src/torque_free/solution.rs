@@ -1,0 +1,123 @@
+//! The Cayley–Klein parameters (a, b) of theory §8 as functions of time, by theta functions: away from the separatrix, next to it, and on it.
+
+use andoyer_double::DoubleDouble;
+
+use super::closed_form::{ClosedForm, NEAREST_COMPLEMENT};
+use super::error_budget::{COSINE_ROUNDING, ROUNDING, conditioning, duration, phase_rounding, rounding};
+use super::frequencies::Secular;
+use super::harmonics::CayleyKleinSeries;
+use super::mode::Mode;
+use super::polhode::Polhode;
+use super::separatrix::{Clock, PassageTheta};
+use super::series::order::first_order;
+use crate::input::scene::Scene;
+use crate::numerics::phase::Phase;
+use crate::numerics::scaling::user_rate;
+use crate::numerics::theta::Theta;
+
+/// Part of the tolerance that dropped harmonics may use.
+pub(crate) const HARMONICS_SHARE: f64 = 0.125;
+
+/// a e^(−iy′/2) and b e^(−iy′/2), up to their norm.
+pub(crate) enum CayleyKlein {
+    /// ℓ′ and the harmonics of it.
+    Fourier(Phase, CayleyKleinSeries),
+    /// Near the separatrix and on it.
+    Passage(PassageTheta),
+}
+
+/// The parameters of one motion, and what its plan says of them.
+pub(crate) struct Solution {
+    pub(crate) parameters: CayleyKlein,
+    /// y′ at the epoch, where y is 0.
+    pub(crate) longitude: f64,
+    pub(crate) rates: Secular,
+    /// Order of the series; 0 for the closed form.
+    pub(crate) order: usize,
+    /// Highest multiple of ℓ′; 0 where there is no sum.
+    pub(crate) harmonics: usize,
+    /// \[rad\]
+    pub(crate) error_bound: f64,
+    pub(crate) skipped: Vec<String>,
+}
+
+/// By theta functions, for any polhode beside the separatrix, whose σ/σ_sep is `ratio`.
+pub(crate) fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secular, ratio: f64, mode: Mode) -> Solution {
+    let theta = polhode.theta();
+    if theta.complement < NEAREST_COMPLEMENT {
+        return beside_the_separatrix(scene, polhode, rates, &theta);
+    }
+    let closed = ClosedForm::new(polhode, &theta);
+    let all = closed.series.harmonics();
+    // What is dropped is missing at the epoch and at the time.
+    let budget = 0.5 * HARMONICS_SHARE * scene.asked_tolerance() * closed.least_norm;
+    let (series, dropped) = if budget == 0.0 { (closed.series, 0.0) } else { closed.series.truncated(budget) };
+    let error_bound =
+        (2.0 * dropped + rounding(&series)) / closed.least_norm.min(1.0) + conditioning(scene, polhode, &rates);
+    let skipped = if mode == Mode::Axisymmetric {
+        round_body()
+    } else {
+        let reason = match first_order(ratio, scene.asked_tolerance()) {
+            Some(order) => format!("series: it would need order {order} or more, and no fewer harmonics"),
+            None => "series: too near the separatrix for its highest order".to_owned(),
+        };
+        std::iter::once(reason).chain(dropped_harmonics(&series, all)).collect()
+    };
+    let longitude = -2.0 * series.pair(closed.anomaly)[0].arg();
+    let harmonics = series.harmonics();
+    let anomaly = Phase::new(user_rate(rates.anomaly_rate, polhode.scales.1), closed.anomaly);
+    let parameters = CayleyKlein::Fourier(anomaly, series);
+    Solution { parameters, longitude, rates, order: 0, harmonics, error_bound, skipped }
+}
+
+fn beside_the_separatrix(scene: &Scene, polhode: &Polhode, rates: Secular, theta: &Theta) -> Solution {
+    let (place, quarter, turned) = PassageTheta::place(polhode);
+    let anomaly_rate = user_rate(rates.anomaly_rate, polhode.scales.1);
+    let clock = Clock::repeating(anomaly_rate, place, quarter, theta.conjugate);
+    Solution {
+        error_bound: 2.0 * ROUNDING + conditioning(scene, polhode, &rates),
+        ..passage(PassageTheta::new(theta, clock).turned(turned), rates, "series: too near the separatrix")
+    }
+}
+
+/// The motion on the separatrix: one passage, from and to rotation about the axis of middle inertia.
+pub(crate) fn on_the_separatrix(scene: &Scene, polhode: &Polhode) -> Solution {
+    let (place, _, turned) = PassageTheta::place(polhode);
+    // K is infinite there, however far from 0 rounding has left Q1.
+    let theta = Theta { quarter: f64::INFINITY, ..polhode.theta() };
+    let [least, greatest] = polhode.cosine_squares();
+    let rate = polhode.mean_rate() * polhode.gamma() * greatest.sqrt();
+    let clock = Clock::Once(place.times_double(0.5), user_rate(rate.times_double(0.5), polhode.scales.1));
+    let rates = Secular { kappa_sigma: 0.0, anomaly_rate: DoubleDouble::ZERO, longitude_rate: polhode.middle_rate() };
+    // A distance from the separatrix that double-double does not see grows like e^u.
+    let growth = (rate.to_f64().abs() * duration(scene, rates.longitude_rate, polhode.scales.1)).exp();
+    let unseen = if least == DoubleDouble::ZERO { 0.0 } else { COSINE_ROUNDING * growth };
+    Solution {
+        error_bound: 4.0 * ROUNDING + phase_rounding(scene, rates.longitude_rate, polhode.scales.1) + unseen,
+        ..passage(PassageTheta::new(&theta, clock).turned(turned), rates, "series: on the separatrix")
+    }
+}
+
+fn passage(passage: PassageTheta, rates: Secular, reason: &str) -> Solution {
+    Solution {
+        longitude: -2.0 * passage.phase((0.0, 0.0)),
+        parameters: CayleyKlein::Passage(passage),
+        rates,
+        order: 0,
+        harmonics: 0,
+        error_bound: 0.0,
+        skipped: vec![reason.to_owned()],
+    }
+}
+
+/// Why a round body needs no series.
+pub(crate) fn round_body() -> Vec<String> {
+    vec!["series: two moments are equal, the wobble is a circle and the precession regular".to_owned()]
+}
+
+/// What to say of the harmonics that were dropped, if any were.
+pub(crate) fn dropped_harmonics(series: &CayleyKleinSeries, all: usize) -> Vec<String> {
+    let kept = series.harmonics();
+    let reason = (kept < all).then(|| format!("harmonics above {kept}: together below an eighth of the tolerance"));
+    reason.into_iter().collect()
+}

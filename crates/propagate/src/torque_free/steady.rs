@@ -1,0 +1,127 @@
+//! Rotation about an axis that keeps its place in the body (theory §5): a sphere, a principal axis, any axis across the equal ones of a round body.
+//!
+//! The attitude turns about the constant angular velocity, at M over the moment about it: the half angle's sine and cosine, and constant rates.
+
+use andoyer_double::DoubleDouble;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+use super::error_budget::{ROUNDING, departure, phase_rounding};
+use super::mode::Mode;
+use super::polhode::{Polhode, SMALLEST_TILT};
+use crate::input::scene::Scene;
+use crate::input::state::State;
+use crate::numerics::phase::Phase;
+use crate::numerics::scaling::{half, user_rate};
+use crate::simd::circles::{Circles, Evaluate};
+use crate::simd::instruction_set::InstructionSet;
+use crate::simd::lanes::Lanes;
+
+/// A rotation about an axis that keeps its place in the body.
+pub(crate) struct SteadyRotation {
+    /// Unit axis, or the zero vector at rest; user's body components.
+    pub(crate) axis: Vector3<f64>,
+    /// Angular rate, in scaled units.
+    pub(crate) rate: DoubleDouble,
+    /// dℓ′/dt of the limit of small wobbles; 0 across the axes of a round body.
+    pub(crate) anomaly_rate: DoubleDouble,
+    /// σ/σ_sep.
+    pub(crate) separatrix_ratio: f64,
+    /// \[rad\]
+    pub(crate) error_bound: f64,
+    /// Why there is no wobble.
+    pub(crate) reason: &'static str,
+}
+
+impl SteadyRotation {
+    /// A body at rest.
+    pub(crate) fn none() -> Self {
+        Self {
+            axis: Vector3::zeros(),
+            rate: DoubleDouble::ZERO,
+            anomaly_rate: DoubleDouble::ZERO,
+            separatrix_ratio: 0.0,
+            error_bound: ROUNDING,
+            reason: "the body is at rest",
+        }
+    }
+
+    /// The rotation of a spherical body, or about a principal axis.
+    pub(crate) fn new(scene: &Scene, polhode: &Polhode, mode: Mode) -> Self {
+        let [_, g2, g3] = polhode.direction;
+        let [_, second] = polhode.excesses;
+        // With A = B every axis across axis 3 is a principal one, and M over their moment the rate; of three unequal moments only the middle one is across.
+        let across = mode == Mode::PrincipalAxis && second != DoubleDouble::ZERO && g3.abs() < SMALLEST_TILT;
+        let middle = across && polhode.difference != DoubleDouble::ZERO;
+        let reason = match mode {
+            Mode::Spherical => "every axis of a sphere is a principal axis",
+            _ if middle => "the rotation is about the axis of middle inertia, its unstable equilibrium",
+            _ if across => "A = B and the rotation is about one of their axes",
+            _ if g2.abs() < SMALLEST_TILT && polhode.long_axis => "the rotation is about the axis of least inertia",
+            _ if g2.abs() < SMALLEST_TILT => "the rotation is about the axis of greatest inertia (J = 0)",
+            _ => "B = C and the rotation is about one of their axes",
+        };
+        let rate = if across { polhode.middle_rate() } else { polhode.mean_rate() };
+        let error_bound = ROUNDING + phase_rounding(scene, rate, polhode.scales.1);
+        let departure = if middle { departure(scene, polhode) } else { 0.0 };
+        Self {
+            axis: Vector3::from(polhode.frame.user(polhode.direction)),
+            rate,
+            anomaly_rate: if across { DoubleDouble::ZERO } else { rate * polhode.gamma() },
+            separatrix_ratio: if across { 1.0 } else { 0.0 },
+            error_bound: (error_bound + departure).min(std::f64::consts::PI),
+            reason,
+        }
+    }
+
+    /// What it is evaluated from, for a state in the user's units; `exponent` is that of the polhode's rates.
+    pub(crate) fn evaluator(&self, state: &State, exponent: i32) -> Steady {
+        let half_angle = half(user_rate(self.rate, exponent), 0.0);
+        Steady::new(self.axis, half_angle, state.attitude, state.angular_velocity)
+    }
+}
+
+/// What such a motion is evaluated from.
+#[derive(Clone, Debug)]
+pub(crate) struct Steady {
+    half_angle: Phase,
+    /// The attitude is the first times the cosine and the second times the sine.
+    attitudes: [[f64; 4]; 2],
+    rates: [f64; 3],
+}
+
+impl Steady {
+    /// From the unit axis, the phase of half the angle, and attitude and rates at the epoch.
+    pub(crate) fn new(
+        axis: Vector3<f64>,
+        half_angle: Phase,
+        attitude: UnitQuaternion<f64>,
+        rates: Vector3<f64>,
+    ) -> Self {
+        let attitude = attitude.into_inner();
+        let quarter = attitude * Quaternion::from_parts(0.0, axis);
+        Self { half_angle, attitudes: [attitude.coords.into(), quarter.coords.into()], rates: rates.into() }
+    }
+}
+
+impl Evaluate for Steady {
+    fn phases(&self) -> [&Phase; 2] {
+        [&self.half_angle; 2]
+    }
+
+    #[inline(always)]
+    fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
+        &self,
+        simd: S,
+        circles: impl Circles<S>,
+    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
+        let mut attitude = [Lanes::splat(simd, 0.0); 4];
+        if ATTITUDE {
+            let (sine, cosine) = circles.half_longitude();
+            for (row, place) in attitude.iter_mut().enumerate() {
+                let [start, quarter] = Lanes::splats(simd, [self.attitudes[0][row], self.attitudes[1][row]]);
+                *place = quarter.mul_add(sine, start * cosine);
+            }
+        }
+        (attitude, Lanes::splats(simd, self.rates))
+    }
+}

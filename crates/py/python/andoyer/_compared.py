@@ -1,0 +1,118 @@
+"""Pictures of samples as a file has them, and of the angle between them and a motion."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from andoyer._core import InputError, Motion, Samples
+from andoyer._diagrams import axes_or_new
+from andoyer._quaternions import angle_between
+from andoyer._style import BLACK, BLUE, GREEN, VERMILION, Array
+from andoyer.output.rows import rows
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+LINES = [(BLUE, "-"), (VERMILION, "--"), (GREEN, "-."), (BLACK, ":")]
+"""Colour and dash of each component: no line is told from another by colour alone."""
+
+LEAST_ANGLE = 1e-17
+"""An angle of zero [rad] is drawn here on the logarithmic axis."""
+
+
+def components(samples: Samples, axes: "Axes | None" = None) -> "Axes":
+    """The components of the quaternions over time; between neighbours the sign is the one that makes them continuous.
+
+    Parameters
+    ----------
+    samples : Samples
+        Of one motion, or of a file.
+    axes : matplotlib.axes.Axes, optional
+        By default those of a new figure.
+    """
+    axes = axes_or_new(axes)
+    table = rows(samples)
+    elapsed, label, _ = clock(table[:, 0])
+    attitude = table[:, 1:5]
+    turned = np.sum(attitude[1:] * attitude[:-1], axis=1) < 0
+    attitude = attitude * np.where(np.concatenate([[False], np.cumsum(turned) % 2 == 1]), -1.0, 1.0)[:, None]
+    for name, values, (color, dash) in zip("xyzw", attitude.T, LINES):
+        axes.plot(elapsed, values, color=color, linestyle=dash, label=f"q{name}")
+    axes.set(xlabel=label, ylabel="quaternion [1]")
+    axes.set_title("Attitude: quaternion, body to inertial", loc="left")
+    return _finished(axes)
+
+
+def sampled_rates(samples: Samples, axes: "Axes | None" = None) -> "Axes":
+    """The angular velocities over time, about the body's axes.
+
+    Parameters
+    ----------
+    samples, axes
+        As in `components`.
+    """
+    axes = axes_or_new(axes)
+    table = rows(samples)
+    elapsed, label, (unit, seconds) = clock(table[:, 0])
+    missing = bool(np.isnan(table[:, 5:]).any())
+    for axis, (color, dash) in enumerate(LINES[:3]):
+        axes.plot(elapsed, np.degrees(table[:, 5 + axis]) * seconds, color=color, linestyle=dash, label=f"ω{axis + 1}")
+    axes.set(xlabel=label, ylabel=f"[deg/{unit}]")
+    axes.set_title("Body rates: the file has none" if missing else "Body rates", loc="left")
+    return _finished(axes)
+
+
+def difference(samples: Samples, motion: Motion | Samples, axes: "Axes | None" = None) -> "Axes":
+    """The angle between samples and a motion at their times, or other samples of the same times, on a logarithmic axis.
+
+    Parameters
+    ----------
+    samples : Samples
+    motion : Motion or Samples
+    axes : matplotlib.axes.Axes, optional
+        By default those of a new figure.
+
+    Raises
+    ------
+    ValueError
+        Samples of other times.
+    """
+    axes = axes_or_new(axes)
+    table = rows(samples)
+    elapsed, label, _ = clock(table[:, 0])
+    angle = angles_between(samples, motion)
+    axes.semilogy(elapsed, np.maximum(angle, LEAST_ANGLE), color=BLUE)
+    axes.set(xlabel=label, ylabel="angle between [rad]")
+    axes.set_title(f"Angle between the file and the scene: {angle.max():.3g} rad at most, median {np.median(angle):.3g}", loc="left")
+    axes.margins(x=0)
+    return axes
+
+
+def angles_between(samples: Samples, motion: Motion | Samples) -> Array:
+    """The angles [rad] between samples and a motion at their times, or other samples of the same times."""
+    table = rows(samples)
+    other = rows(_at(motion, samples, table[:, 0]) if isinstance(motion, Motion) else motion)
+    if not np.array_equal(other[:, 0], table[:, 0]):
+        raise ValueError("samples that are compared must have the same times")
+    return angle_between(table[:, 1:5], other[:, 1:5])
+
+
+def _at(motion: Motion, samples: Samples, times: Array) -> Samples:
+    """The motion at the times of samples: at calendar times as they are, if the epoch of its state is one, else at the seconds since J2000."""
+    try:
+        return motion.at(samples.times)
+    except InputError:
+        return motion.at(times)
+
+
+def clock(times: Array) -> tuple[Array, str, tuple[str, float]]:
+    """Times since the first one in seconds, hours or days, the axis label, and the unit of time of rates with its seconds."""
+    elapsed = times - times[0]
+    unit, seconds = ("d", 86400) if elapsed[-1] > 30 * 86400 else ("h", 3600) if elapsed[-1] > 7200 else ("s", 1)
+    return elapsed / seconds, f"time [{unit}]", ("s", 1.0) if unit == "s" else ("h", 3600.0)
+
+
+def _finished(axes: "Axes") -> "Axes":
+    axes.margins(x=0)
+    axes.legend(loc="lower right", bbox_to_anchor=(1, 0.98), ncols=4, fontsize=9, frameon=False)
+    return axes

@@ -1,0 +1,44 @@
+"""Quaternions [x, y, z, w] in arrays of shape (n, 4): Hamilton product, scalar last, as everywhere in this package."""
+
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array: TypeAlias = NDArray[np.float64]
+
+
+def conjugate(q: Array) -> Array:
+    """The inverse rotations."""
+    inverse: Array = q * np.array([-1.0, -1.0, -1.0, 1.0])
+    return inverse
+
+
+def product(p: Array, q: Array) -> Array:
+    """The rotation q followed by p."""
+    u, a, v, b = p[..., :3], p[..., 3:], q[..., :3], q[..., 3:]
+    return np.concatenate([a * v + b * u + np.cross(u, v), a * b - np.sum(u * v, axis=-1, keepdims=True)], axis=-1)
+
+
+def rotate(q: Array, vectors: Array) -> Array:
+    """The vectors as q rotates them: body components to inertial ones for an attitude."""
+    twice = 2 * np.cross(q[..., :3], vectors)
+    rotated: Array = vectors + q[..., 3:] * twice + np.cross(q[..., :3], twice)
+    return rotated
+
+
+def angle_between(p: Array, q: Array) -> Array:
+    """The angle [rad] from 0 to π of the rotation from p to q, exact for small ones too."""
+    difference = product(conjugate(p), q)
+    angle: Array = 2 * np.arctan2(np.linalg.norm(difference[..., :3], axis=-1), np.abs(difference[..., 3]))
+    return angle
+
+
+def between(p: Array, q: Array, fraction: float) -> Array:
+    """The rotation that is `fraction` of the way from p to q, about one axis at one rate by the shorter way."""
+    difference = product(conjugate(p), q)
+    difference *= np.where(difference[..., 3:] < 0, -1.0, 1.0)
+    size = np.linalg.norm(difference[..., :3], axis=-1, keepdims=True)
+    half = fraction * np.arctan2(size, difference[..., 3:])
+    part = np.concatenate([np.sin(half) * difference[..., :3] / np.where(size > 0, size, 1.0), np.cos(half)], axis=-1)
+    return product(p, part)

@@ -1,0 +1,47 @@
+"""What `andoyer plot` draws: a scene, or a file of attitudes beside one."""
+
+import argparse
+from pathlib import Path
+
+import andoyer
+from andoyer import output
+from andoyer._arguments import InputError, date
+from andoyer._writing import zoned
+from andoyer.output.table import ENDINGS
+
+ATTITUDE_FILES = [".aem", ".xml", *ENDINGS]
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """The options of a file of attitudes."""
+    group = command.add_argument_group(f"a file of attitudes ({', '.join(ATTITUDE_FILES)}) in the place of SCENE")
+    group.add_argument("--against", metavar="SCENE", help="scene file whose motion it is compared with: the angle between them over time")
+    group.add_argument("--segment", type=int, metavar="N", help="segment of an AEM, from 0; needed where it has several")
+    group.add_argument("--date", type=date, metavar="DATE", help="calendar date of time 0 of the scene, in the time system of an AEM (default: 2000-01-01T12:00:00 TDB)")
+
+
+def is_attitude_file(path: str) -> bool:
+    """Whether a name ends as files of attitudes do."""
+    return Path(path).suffix.lower() in ATTITUDE_FILES
+
+
+def refuse_options(arguments: argparse.Namespace) -> None:
+    """The options of a file of attitudes do not go with a scene."""
+    for key in ("against", "segment", "date"):
+        if getattr(arguments, key) is not None:
+            raise InputError(f"argument --{key}: goes with a file of attitudes alone ({', '.join(ATTITUDE_FILES)}), not with {arguments.scene}")
+
+
+def read(arguments: argparse.Namespace) -> andoyer.Samples:
+    """The samples of the file."""
+    path = Path(arguments.scene)
+    given = zoned({"date": arguments.date} if arguments.date else {})
+    try:
+        if path.suffix.lower() in ENDINGS:
+            for key in ("segment", "date"):
+                if getattr(arguments, key) is not None:
+                    raise InputError(f"argument --{key}: goes with an AEM alone, not with {path}")
+            return output.read_table(path).samples
+        return output.read_aem(path, arguments.segment, date=given.get("date"))
+    except ValueError as error:
+        raise InputError(str(error)) from error

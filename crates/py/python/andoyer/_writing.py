@@ -1,0 +1,161 @@
+"""What `andoyer propagate` writes: the options of each format, and the writer that the ending of the file chooses."""
+
+import argparse
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import andoyer
+from andoyer import output
+from andoyer._arguments import InputError, date, interpolation, step, whole, word, words
+from andoyer._terminal import Progress
+from andoyer.output import Heading, Kernel
+from andoyer.output.attitude_types import FROM_SAMPLES
+from andoyer.output.calendar import TIME_SYSTEMS
+from andoyer.output.files import is_stream
+
+ENDINGS = ".csv, .npz, .parquet, .aem or .bc"
+
+OF_MESSAGE = {"date", "time_system", "frame", "body_frame", "name", "object_id", "originator", "center", "attitude_type", "interpolation", "version"}
+OF_KERNEL = {"date", "time_system", "frame", "body_frame", "instrument", "segment", "clock", "clock_id", "interpolation_error"}
+OPTIONS = {"version": "aem-version", "segment": "segment-name", "name": "object-name"}
+"""Options with other names than the fields that they set."""
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """The options of the formats that have a heading: AEM and CK."""
+    command.add_argument("--force", action="store_true", help="replace a file that is there already")
+    both = command.add_argument_group("headings of a .aem (CCSDS attitude ephemeris message) and a .bc (SPICE C-kernel), times in seconds")
+    default = Heading()
+    both.add_argument("--date", type=date, metavar="DATE", help=f"calendar date of time 0 (default: {default.date.isoformat()}); Z at its end is UTC")
+    both.add_argument("--time-system", choices=TIME_SYSTEMS, metavar="SYSTEM", help=f"of that date: {', '.join(TIME_SYSTEMS)} (default: {default.time_system})")
+    both.add_argument("--frame", type=word, metavar="NAME", help=f"name of the inertial frame (default: {default.frame} in a .aem, {Kernel.frame} in a .bc)")
+    both.add_argument("--body-frame", type=word, metavar="NAME", help=f"name of the body's axes (default: {default.body_frame}, {Kernel.body_frame})")
+    message = command.add_argument_group("a .aem")
+    message.add_argument("--object-name", dest="name", type=words, metavar="NAME", help="name of the object (default: that of the scene)")
+    message.add_argument("--object-id", type=words, metavar="ID", help=f"identifier of the object, such as 2000-052A (default: {default.object_id})")
+    message.add_argument("--originator", type=words, metavar="NAME", help=f"who writes the message (default: {default.originator})")
+    message.add_argument("--center", type=words, metavar="NAME", help="body that the object orbits (default: none is named)")
+    message.add_argument("--attitude-type", type=str.upper, choices=FROM_SAMPLES, metavar="TYPE", help=f"{', '.join(FROM_SAMPLES)} (default: QUATERNION/ANGVEL)")
+    message.add_argument("--interpolation", type=interpolation, metavar="METHOD:DEGREE", help="recommended interpolation, such as HERMITE:3 (default: none)")
+    message.add_argument("--aem-version", dest="version", type=int, choices=[1, 2], metavar="N", help="version of the message, 1 or 2 (default: 2)")
+    kernel = command.add_argument_group("a .bc, which chooses its times itself; beside it a .tsc is written")
+    kernel.add_argument("--interpolation-error", type=step, metavar="ANGLE", help="largest error of SPICE's interpolation [rad] (default: 1e-8)")
+    kernel.add_argument("--instrument", type=whole, metavar="CODE", help=f"code of the body's axes (default: {Kernel.instrument})")
+    kernel.add_argument("--segment-name", dest="segment", type=words, metavar="NAME", help=f"name of the segments (default: {Kernel.segment})")
+    kernel.add_argument("--clock", metavar="FILE", help="clock kernel (default: a clock of ephemeris seconds is written)")
+    kernel.add_argument("--clock-id", type=whole, metavar="CODE", help="code of the clock (default: from that of the body's axes)")
+
+
+def check(arguments: argparse.Namespace) -> dict[str, Any]:
+    """The options that were given for a heading, if they go with the file that is written and nothing is lost by it."""
+    path = Path(arguments.output)
+    ending = path.suffix.lower()
+    to_stdout = arguments.output == "-"
+    if not (to_stdout or ending in (".csv", ".npz", ".parquet", ".aem", ".bc")):
+        raise InputError(f"argument -o/--output: {arguments.output}: the name must end in {ENDINGS}, or be - for CSV on stdout")
+    allowed = {".aem": OF_MESSAGE, ".bc": OF_KERNEL}.get(ending, set())
+    given = {key: getattr(arguments, key) for key in sorted(OF_MESSAGE | OF_KERNEL) if getattr(arguments, key) is not None}
+    for key in given:
+        if key not in allowed:
+            goes = " or ".join(name for name, keys in ((".aem", OF_MESSAGE), (".bc", OF_KERNEL)) if key in keys)
+            raise InputError(f"argument --{option(key)}: goes with a {goes} alone, not with {arguments.output}")
+    if ending == ".bc":
+        for key in ("samples", "step"):
+            if getattr(arguments, key) is not None:
+                raise InputError(f"argument --{key}: a .bc chooses its times itself, by --interpolation-error")
+    if not (to_stdout or arguments.force):
+        refuse_existing(path)
+        if ending == ".bc":
+            refuse_existing(path.with_suffix(".tsc"))
+    return zoned(given)
+
+
+def option(field: str) -> str:
+    """The option that sets a field."""
+    return OPTIONS.get(field, field).replace("_", "-")
+
+
+def zoned(given: dict[str, Any]) -> dict[str, Any]:
+    """The options with a date without a zone: Z is UTC."""
+    when = given.get("date")
+    if when is None or when.tzinfo is None:
+        return given
+    if given.get("time_system", "UTC") != "UTC":
+        raise InputError(f"argument --date: Z is UTC, but --time-system is {given['time_system']}")
+    return given | {"date": when.replace(tzinfo=None), "time_system": "UTC"}
+
+
+def refuse_existing(path: Path) -> None:
+    """A file that is there is an error of the argument."""
+    if path.exists() and not is_stream(path) and not path.is_dir():
+        raise InputError(f"argument -o/--output: {path}: File exists; --force replaces it")
+
+
+def write_samples(path: Path, motion: andoyer.Motion, samples: andoyer.Samples, given: dict[str, Any], force: bool) -> None:
+    """Write samples in the format of the ending."""
+    progress = Progress("writing, lines")
+    ending = path.suffix.lower()
+    remark = motion.plan.missed_tolerance
+    try:
+        with written_to(path):
+            if ending == ".aem":
+                heading = Heading(**({"name": _name(motion), "comments": _comments(motion)} | given))
+                output.write_aem(path, samples, heading, body=motion.scene.body, force=force)
+                _note(heading, given)
+            elif ending == ".csv":
+                output.write_csv(path, samples, progress, force=force)
+            elif ending == ".npz":
+                output.write_npz(path, samples, scene=motion.scene, remark=remark, force=force)
+            else:
+                output.write_parquet(path, samples, scene=motion.scene, remark=remark, force=force)
+    finally:
+        progress.close()
+
+
+def write_kernel(path: Path, motion: andoyer.Motion, interval: tuple[float, float], given: dict[str, Any], force: bool) -> None:
+    """Write a C-kernel, and say how many records it has."""
+    names = {field.name for field in fields(Kernel)}
+    kernel = Kernel(comments=_comments(motion), **{key: value for key, value in given.items() if key in names})
+    progress = Progress("writing, windows")
+    try:
+        with written_to(path):
+            output.write_ck(path, motion, interval, kernel, interpolation_error=given.get("interpolation_error", 1e-8), progress=progress, force=force)
+    finally:
+        progress.close()
+    _note(kernel, given)
+
+
+def _comments(motion: andoyer.Motion) -> tuple[str, ...]:
+    """That the tolerance is not met, where it is not."""
+    missed = motion.plan.missed_tolerance
+    return () if missed is None else (missed,)
+
+
+def _name(motion: andoyer.Motion) -> str:
+    return motion.scene.name or motion.scene.body.name or Heading.name
+
+
+def _note(heading: Heading | Kernel, given: dict[str, Any]) -> None:
+    """What was not given of a heading is said on stderr."""
+    if "date" not in given or "frame" not in given:
+        said = f"time 0 is {heading.date.isoformat()} {heading.time_system}, the inertial frame {heading.frame}"
+        print(f"andoyer: note: {said}; --date and --frame name others", file=sys.stderr)
+
+
+@contextmanager
+def written_to(path: Path) -> Iterator[None]:
+    """What the system or a writer says against `path` is an error of the argument, in its own words whoever writes."""
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        said = os.strerror(error.errno) if error.errno else str(error)
+        raise InputError(f"argument -o/--output: {path}: {said}") from error
+    except ValueError as error:
+        raise InputError(f"argument -o/--output: {path}: {error}") from error

@@ -1,0 +1,177 @@
+"""The attitude ephemeris message of the CCSDS in keyword = value notation, written: version 2 (504.0-B-2, January 2024), or 1.
+
+Its quaternion from frame A to frame B turns the axes of A into those of B (annex F2), so with A the inertial frame and B the body's axes it is the
+attitude as it stands, scalar last. Version 2 has neither ATTITUDE_DIR nor QUATERNION_TYPE; version 1 has both, A2B and LAST here, and its rates are
+those of the quaternion, since it does not say of which frame RATE is.
+"""
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import datetime, timezone
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+
+from andoyer._core import Body, Samples
+from andoyer.output.attitude_types import FROM_SAMPLES, VERSION_1, columns_of
+from andoyer.output.calendar import J2000, count, counts, written
+from andoyer.output.files import whole_file
+from andoyer.output.rows import Array, calendar_times, rows
+
+REAL = "%.15e"
+"""Sixteen digits, the most that section 6.8 of the standard lets a number have."""
+
+LONGEST_LINE = 254
+
+METHODS = ["LINEAR", "HERMITE", "LAGRANGE"]
+
+
+@dataclass(frozen=True)
+class Heading:
+    """What an AEM says beside the samples. Texts are of ASCII; the standard has names in capitals."""
+
+    name: str = "UNKNOWN"
+    """OBJECT_NAME."""
+    frame: str = "INERTIAL"
+    """REF_FRAME_A, the inertial frame of the scene."""
+    date: datetime = J2000
+    """Calendar date of time 0 in `time_system`, for samples whose times are numbers."""
+    time_system: str = "TDB"
+    """TDB, TT, TAI, GPS or UTC; for UTC the leap seconds of astropy are counted."""
+    object_id: str = "UNKNOWN"
+    """OBJECT_ID, by custom year, number and part of the launch: 2000-052A."""
+    originator: str = "ANDOYER"
+    """ORIGINATOR."""
+    center: str | None = None
+    """CENTER_NAME, the body that the object orbits."""
+    body_frame: str = "SC_BODY_1"
+    """REF_FRAME_B, the body's axes."""
+    attitude_type: str | None = None
+    """One of `FROM_SAMPLES`; by default QUATERNION/ANGVEL, in version 1 QUATERNION/DERIVATIVE."""
+    interpolation: tuple[str, int] | None = None
+    """INTERPOLATION_METHOD (LINEAR, HERMITE or LAGRANGE) and INTERPOLATION_DEGREE."""
+    version: int = 2
+    """Version of the message, 1 or 2."""
+    comments: tuple[str, ...] = ()
+    """Lines for the comments of the metadata."""
+
+    @property
+    def type(self) -> str:
+        """The attitude type, given or not."""
+        return self.attitude_type or ("QUATERNION/ANGVEL" if self.version == 2 else "QUATERNION/DERIVATIVE")
+
+
+def write_aem(path: str | os.PathLike[str], samples: Samples, heading: Heading = Heading(), *, body: Body | None = None, force: bool = True) -> None:
+    """Samples as an attitude ephemeris message (AEM) of one segment, times in seconds.
+
+    Parameters
+    ----------
+    path : path-like
+    samples : Samples
+        Of one motion, at ascending times.
+    heading : Heading, optional
+        Names, frames, date of time 0, type, version.
+    body : Body, optional
+        For the types with nutation: it must have equal moments about body axes 1 and 2.
+    force : bool, optional
+        Whether a file that is there already is replaced.
+
+    Raises
+    ------
+    FileExistsError
+        There is such a file, and ``force=False``.
+    ImportError
+        UTC without astropy.
+    ValueError
+        Samples of an ensemble; times that do not ascend by 1e-12 s at least; years outside 1 to 9999; a type, version or interpolation that the
+        standard does not have, or that this motion does not allow.
+
+    Examples
+    --------
+    >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    >>> output.write_aem("wobble.aem", motion.at([0.0, 1.0]), output.Heading(name="WOBBLE", frame="ICRF"))
+    >>> output.read_aem("wobble.aem").times
+    array([0., 1.])
+    """
+    _check(heading, samples)
+    table = rows(samples)
+    numbers = columns_of(heading.type, table[:, 1:5], table[:, 5:], body)
+    if not np.isfinite(numbers).all():
+        raise ValueError(f"samples must be finite for attitude_type {heading.type}: without angular velocities QUATERNION can be written")
+    epochs = [written(moment, heading.time_system) for moment in _moments(samples, table[:, 0], heading)]
+    if any(first >= second for first, second in pairwise(epochs)):
+        raise ValueError("an AEM must have ascending times, 1e-12 s apart at least")
+    with whole_file(path, force) as temporary, temporary.open("w", encoding="ascii", newline="\n") as file:
+        file.writelines(f"{line}\n" for line in heading_lines(heading, epochs))
+        file.write("DATA_START\n")
+        # The standard has no -0.
+        for start, row in zip(epochs, numbers + 0.0):
+            file.write(" ".join([start, *(REAL % number for number in row)]) + "\n")
+        file.write("DATA_STOP\n")
+
+
+def _moments(samples: Samples, times: Array, heading: Heading) -> list[Fraction]:
+    """The times of the samples as the calendar counts them: numbers from the date of time 0, calendar times as they are."""
+    calendar = calendar_times(samples)
+    if calendar is not None:
+        return counts(calendar, heading.time_system)
+    zero = count(heading.date, heading.time_system)
+    return [zero + Fraction(float(time)) for time in times]
+
+
+def _check(heading: Heading, samples: Samples) -> None:
+    if heading.version not in (1, 2):
+        raise ValueError(f"version must be 1 or 2: got {heading.version!r}")
+    types = [name for name in FROM_SAMPLES if heading.version == 2 or name in VERSION_1]
+    if heading.type not in types:
+        raise ValueError(f"attitude_type must be one of {', '.join(types)} in version {heading.version}: got {heading.type!r}")
+    if heading.interpolation is not None:
+        method, degree = heading.interpolation
+        most = len(np.atleast_2d(samples.attitude)) - 1
+        if method not in METHODS or not 1 <= degree <= most:
+            raise ValueError(f"interpolation must be {', '.join(METHODS)} of degree 1 to {most}, which these samples allow: got {heading.interpolation!r}")
+
+
+def heading_lines(heading: Heading, epochs: list[str]) -> Iterator[str]:
+    """The header and the metadata of an AEM."""
+    old = heading.version == 1
+    yield f"CCSDS_AEM_VERS = {heading.version}.0"
+    yield f"CREATION_DATE = {datetime.now(timezone.utc):%Y-%m-%dT%H:%M:%S}"
+    yield f"ORIGINATOR = {_text(heading.originator)}"
+    yield "META_START"
+    yield f"COMMENT Time 0 of the scene is {heading.date.isoformat()} {heading.time_system}; its unit of time is taken as the second."
+    yield "COMMENT REF_FRAME_A is the inertial frame of the scene, REF_FRAME_B the axes of the body."
+    yield from (_ascii(f"COMMENT {line}") for line in heading.comments)
+    yield f"OBJECT_NAME = {_text(heading.name)}"[:LONGEST_LINE]
+    yield f"OBJECT_ID = {_text(heading.object_id)}"[:LONGEST_LINE]
+    if heading.center is not None:
+        yield f"CENTER_NAME = {_text(heading.center)}"[:LONGEST_LINE]
+    yield f"REF_FRAME_A = {_text(heading.frame)}"
+    yield f"REF_FRAME_B = {_text(heading.body_frame)}"
+    if old:
+        yield "ATTITUDE_DIR = A2B"
+    yield f"TIME_SYSTEM = {heading.time_system}"
+    yield f"START_TIME = {epochs[0]}"
+    yield f"STOP_TIME = {epochs[-1]}"
+    yield f"ATTITUDE_TYPE = {heading.type}"
+    if old and heading.type.startswith("QUATERNION"):
+        yield "QUATERNION_TYPE = LAST"
+    if heading.type == "QUATERNION/ANGVEL":
+        yield f"ANGVEL_FRAME = {_text(heading.body_frame)}"
+    if heading.interpolation is not None:
+        yield f"INTERPOLATION_METHOD = {heading.interpolation[0]}"
+        yield f"INTERPOLATION_DEGREE = {heading.interpolation[1]}"
+    yield "META_STOP"
+
+
+def _ascii(line: str) -> str:
+    """A line in printable ASCII of the length that the standard lets it have."""
+    text = line.encode("ascii", "replace").decode()
+    return "".join(letter if letter.isprintable() else " " for letter in text)[:LONGEST_LINE]
+
+
+def _text(value: str) -> str:
+    """A value as the standard has texts: of one case, in ASCII, with single blanks."""
+    return " ".join(_ascii(value).upper().split()) or "UNKNOWN"

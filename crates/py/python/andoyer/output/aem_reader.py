@@ -1,0 +1,260 @@
+"""Attitude ephemeris messages (AEM) of the CCSDS, read: versions 1 and 2, in keyword = value notation and in XML.
+
+Whatever the type of a message and the direction in which it is given, attitudes come out as everywhere in this package: from body components to
+those of the other frame, with the angular velocity of the body in body components.
+"""
+
+import os
+import re
+from dataclasses import dataclass
+from datetime import datetime
+from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from andoyer._core import Samples
+from andoyer._quaternions import Array, conjugate, rotate
+from andoyer.output.aem import METHODS, Heading
+from andoyer.output.attitude_types import FIELDS, VERSION_1, VERSION_2, attitudes_of
+from andoyer.output.calendar import J2000, READABLE, count, parse, tdb
+from andoyer.output.kvn import parse_kvn
+from andoyer.output.raw import RawMessage, RawSegment, Record
+from andoyer.output.rows import samples_of
+from andoyer.output.xml import parse_xml
+
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+
+ON_BODY = re.compile(r"(SC BODY|INSTRUMENT|ACC|ACTUATOR|AST|CSS|DSS|ESA|GYRO FRAME|IMU FRAME|MTA|PX|RW|SA|SENSOR|STARR?TT?RACKER|TAM)( \w+)?")
+"""Frames of a spacecraft, as the registry of the CCSDS names them; every other frame is one that it turns against."""
+
+WITHOUT_RATES = ["QUATERNION", "QUATERNION/RATE", "EULER_ANGLE", "EULER_ANGLE/RATE"]
+"""Types without an angular velocity, or with one of which the standard does not say in which frame it is."""
+
+AXES = str.maketrans("123", "XYZ")
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A segment of an AEM: what it says of itself, and its samples.
+
+    Angular velocities are NaN where the message has none.
+    """
+
+    heading: Heading
+    samples: Samples
+
+
+def read_aem(path: str | os.PathLike[str], segment: int | None = None, *, date: datetime | None = None) -> Samples:
+    """The samples of a segment of an AEM, version 1 or 2, KVN or XML.
+
+    Parameters
+    ----------
+    path : path-like
+    segment : int, optional
+        Its number from 0; needed where the message has several.
+    date : datetime, optional
+        Time 0 of the samples, in the time system of the message: times are then exact seconds of that system. By default times are in TDB
+        seconds since J2000, as everywhere where calendar times are taken, for which systems other than TDB need astropy.
+
+    Returns
+    -------
+    Samples
+        Attitudes from body components to those of the frame that the body turns against; angular velocities in body components [rad/s], NaN
+        where the message has none (type QUATERNION or EULER_ANGLE) or does not say of which frame they are (the types RATE of version 1).
+
+    Raises
+    ------
+    ImportError
+        UTC, or the conversion to TDB, without astropy.
+    ValueError
+        What the standard does not have, with the line; a segment that is not there; a time system that does not count seconds.
+
+    Examples
+    --------
+    >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    >>> output.write_aem("motion.aem", motion.at([0.0, 1.0, 2.0]))
+    >>> samples = output.read_aem("motion.aem")
+    >>> bool(abs(samples.attitude - motion.attitude(samples.times)).max() < 1e-15)
+    True
+    """
+    found = read_aem_segments(path, date=date)
+    if segment is None and len(found) > 1:
+        raise ValueError(f"{path}: segment must be given, from 0 to {len(found) - 1}: the message has {len(found)}")
+    if not 0 <= (segment or 0) < len(found):
+        raise ValueError(f"{path}: segment must be from 0 to {len(found) - 1}: got {segment}")
+    return found[segment or 0].samples
+
+
+def read_aem_segments(path: str | os.PathLike[str], *, date: datetime | None = None) -> list[Segment]:
+    """All segments of an AEM with what they say of themselves.
+
+    Parameters
+    ----------
+    path : path-like
+    date : datetime, optional
+        As in `read_aem`.
+
+    Returns
+    -------
+    list of Segment
+
+    Raises
+    ------
+    ImportError, ValueError
+        As in `read_aem`.
+    """
+    data = Path(path).read_bytes()
+    try:
+        messages = parse_xml(data) if data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<") else [parse_kvn(_decoded(data))]
+        return [_segment(message, segment, date) for message in messages for segment in message.segments]
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from error
+
+
+def _decoded(data: bytes) -> str:
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data[: error.start].count(b"\n") + 1
+        raise ValueError(f"line {line}: must be text") from error
+
+
+def _segment(message: RawMessage, raw: RawSegment, date: datetime | None) -> Segment:
+    metadata = raw.metadata
+    name = _choice(raw, "ATTITUDE_TYPE", VERSION_1 if message.version == "1.0" else VERSION_2)
+    system = _choice(raw, "TIME_SYSTEM", READABLE)
+    if not raw.records:
+        raise ValueError(f"{raw.where}: a segment must have data")
+    fields = FIELDS[name]
+    if message.version == "1.0" and name.startswith("QUATERNION") and _choice(raw, "QUATERNION_TYPE", ["FIRST", "LAST"]) == "FIRST":
+        fields = _scalar_first(fields)
+    table = np.array([_numbers(record, fields) for record in raw.records])[:, [fields.index(field) for field in FIELDS[name]]]
+    sequence = _sequence(raw, name)
+    times = _times(raw, system, date)
+    backwards = message.version == "1.0" and _choice(raw, "ATTITUDE_DIR", ["A2B", "B2A"]) == "B2A"
+    try:
+        with np.errstate(over="ignore", invalid="ignore"):
+            attitude, rates = attitudes_of(name, table, sequence)
+            if name.endswith("/ANGVEL"):
+                rates = _of_second(raw, attitude, rates)
+            samples, swapped = _of_body(raw, backwards, times, attitude, rates)
+    except ValueError as error:
+        raise ValueError(f"{raw.where}: {error}") from error
+    if name not in WITHOUT_RATES and not np.isfinite(samples.angular_velocity).all():
+        raise ValueError(f"{raw.where}: angular velocities must be finite: the numbers are too large")
+    frames = [metadata["REF_FRAME_A"], metadata["REF_FRAME_B"]]
+    heading = Heading(
+        name=metadata["OBJECT_NAME"],
+        frame=frames[swapped],
+        date=J2000 if date is None else date,
+        time_system="TDB" if date is None else system,
+        object_id=metadata["OBJECT_ID"],
+        originator=message.header["ORIGINATOR"],
+        center=metadata.get("CENTER_NAME"),
+        body_frame=frames[not swapped],
+        attitude_type=name,
+        interpolation=_interpolation(raw),
+        version=int(message.version[0]),
+        comments=tuple(raw.comments),
+    )
+    return Segment(heading, samples)
+
+
+def _choice(raw: RawSegment, key: str, allowed: list[str]) -> str:
+    """A value that must be one of a few, in any case, with blanks for underscores."""
+    value = raw.metadata.get(key)
+    if value is None:
+        raise ValueError(f"{raw.where}: {key} must be given")
+    for choice in allowed:
+        if _plain(value) == _plain(choice):
+            return choice
+    raise ValueError(f"{raw.where}: {key} must be {', '.join(allowed)}: got {value!r}")
+
+
+def _plain(text: str) -> str:
+    """A text without the differences that the standard does not count (6.8.6, 6.8.8)."""
+    return " ".join(text.replace("_", " ").upper().split())
+
+
+def _numbers(record: Record, fields: list[str]) -> list[float]:
+    values = record.values
+    if isinstance(values, dict):
+        if set(values) != set(fields):
+            raise ValueError(f"{record.where}: a record of this type must have {', '.join(fields)}: got {', '.join(values)}")
+        values = [values[field] for field in fields]
+    if len(values) != len(fields):
+        raise ValueError(f"{record.where}: a record of this type must have {len(fields)} numbers, {', '.join(fields)}: got {len(values)}")
+    for field, value in zip(fields, values):
+        if not NUMBER.fullmatch(value) or not np.isfinite(float(value)):
+            raise ValueError(f"{record.where}: {field} must be a finite number: got {value!r}")
+    return [float(value) for value in values]
+
+
+def _scalar_first(fields: list[str]) -> list[str]:
+    """The order of QUATERNION_TYPE = FIRST: QC before the others, its derivative before theirs."""
+    moved = ["QC", *fields[:3], *fields[4:]]
+    return [*moved[:4], "QC_DOT", *moved[4:7]] if "QC_DOT" in fields else moved
+
+
+def _sequence(raw: RawSegment, name: str) -> str:
+    if not name.startswith("EULER"):
+        return ""
+    sequence = raw.metadata.get("EULER_ROT_SEQ", "").upper().translate(AXES)
+    if len(sequence) != 3 or set(sequence) - set("XYZ") or any(first == second for first, second in pairwise(sequence)):
+        raise ValueError(f"{raw.where}: EULER_ROT_SEQ must be three axes such as ZXZ or 321, no two alike in a row: got {raw.metadata.get('EULER_ROT_SEQ')!r}")
+    return sequence
+
+
+def _times(raw: RawSegment, system: str, date: datetime | None) -> Array:
+    moments: list[Fraction] = []
+    for record in raw.records:
+        try:
+            moments.append(parse(record.epoch, system))
+        except ValueError as error:
+            raise ValueError(f"{record.where}: {error}") from error
+        if len(moments) > 1 and moments[-2] >= moments[-1]:
+            raise ValueError(f"{record.where}: times must ascend: got {record.epoch} after one that is not before it")
+    if date is None:
+        return tdb(moments, system)
+    zero = count(date, system)
+    return np.array([float(moment - zero) for moment in moments])
+
+
+def _of_second(raw: RawSegment, attitude: Array, rates: Array) -> Array:
+    """An angular velocity in components of frame B."""
+    frame = _plain(raw.metadata.get("ANGVEL_FRAME", ""))
+    # The standard's own figure G-13 has the keyword in the place of the name.
+    if frame in (_plain(raw.metadata["REF_FRAME_B"]), "REF FRAME B"):
+        return rates
+    if frame in (_plain(raw.metadata["REF_FRAME_A"]), "REF FRAME A"):
+        return rotate(conjugate(attitude), rates)
+    raise ValueError(f"ANGVEL_FRAME must be REF_FRAME_A or REF_FRAME_B: got {raw.metadata.get('ANGVEL_FRAME')!r}")
+
+
+def _given(raw: RawSegment, key: str) -> str:
+    if key not in raw.metadata:
+        raise ValueError(f"{raw.where}: {key} must be given with this ATTITUDE_TYPE")
+    return raw.metadata[key]
+
+
+def _of_body(raw: RawSegment, backwards: bool, times: Array, attitude: Array, rates: Array) -> tuple[Samples, bool]:
+    """Samples of the body against the other frame, and whether the body is frame A.
+
+    `attitude` takes components of the second frame to those of the first; in the direction B2A of version 1 the second frame is A.
+    """
+    first, second = (bool(ON_BODY.fullmatch(_plain(raw.metadata[key]))) for key in ("REF_FRAME_A", "REF_FRAME_B"))
+    body_is_a = first and not second
+    if body_is_a != backwards:
+        return samples_of(times, conjugate(attitude), -rotate(attitude, rates)), body_is_a
+    return samples_of(times, attitude, rates), body_is_a
+
+
+def _interpolation(raw: RawSegment) -> tuple[str, int] | None:
+    if "INTERPOLATION_METHOD" not in raw.metadata:
+        return None
+    method, degree = _choice(raw, "INTERPOLATION_METHOD", METHODS), _given(raw, "INTERPOLATION_DEGREE")
+    if not re.fullmatch(r"\+?\d{1,9}", degree, re.ASCII):
+        raise ValueError(f"{raw.where}: INTERPOLATION_DEGREE must be a whole number: got {degree!r}")
+    return method, int(degree)

@@ -1,0 +1,323 @@
+"""A motion as a C-kernel of SPICE, by SpiceyPy: type 3, or type 2 where the body turns uniformly.
+
+A C-kernel gives the matrix from an inertial frame to the body's axes and the angular velocity in inertial components at times of a spacecraft clock.
+SPICE's quaternion of that matrix is [w, -x, -y, -z] of the attitude here. Type 3 turns uniformly between its records (`andoyer.output.nodes` says
+how many are needed), type 2 keeps one angular velocity for each record. Without a clock kernel one is written beside: its ticks are
+the seconds of ephemeris time (TDB) less a whole number, so that no digit is lost.
+"""
+
+import math
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from andoyer._core import Motion, __version__
+from andoyer._extra import extra
+from andoyer._quaternions import Array, rotate
+from andoyer.output.calendar import J2000, seconds_of_tdb
+from andoyer.output.files import whole_file
+from andoyer.output.nodes import SMALLEST_ERROR, estimate, nodes, windows
+from andoyer.output.table import Progress, silent
+
+STEADY = ("principal-axis", "spherical", "at-rest")
+"""Modes of uniform rotation, if there is no torque."""
+
+MOST_RECORDS = 50_000_000
+"""64 bytes each: more would not fit a file that anyone loads."""
+
+LONGEST_SEGMENT = 200_000
+"""Records of a segment, and those of a window more: SPICE looks for a segment one after the other."""
+
+LONGEST_NAME = 255
+"""Characters of a path that SPICE opens."""
+
+LONGEST_LINE = 80
+ROUNDING = 2.0**-51
+"""Part of a rotation angle by which its sine may be off, with room."""
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """What a C-kernel says beside the attitudes."""
+
+    instrument: int = -999000
+    """Code of the body's axes: the class ID of their frame."""
+    body_frame: str = "ANDOYER_BODY"
+    """Name of that frame, in the text kernel that is written beside."""
+    frame: str = "J2000"
+    """Inertial frame of the scene, by a name that SPICE knows."""
+    segment: str = "ANDOYER"
+    """Name of the segments."""
+    clock: str | os.PathLike[str] | None = None
+    """A clock kernel (SCLK); without one, a clock of ephemeris seconds is written beside."""
+    clock_id: int | None = None
+    """Code of the clock: by default the thousands of a negative instrument code, else -999."""
+    date: datetime = J2000
+    """Calendar date of time 0 in `time_system`; the scene's seconds are those of TDB."""
+    time_system: str = "TDB"
+    comments: tuple[str, ...] = ()
+    """Lines for the comment area, after those on the scene."""
+
+    @property
+    def clock_code(self) -> int:
+        """The code of the clock, given or not."""
+        if self.clock_id is not None:
+            return self.clock_id
+        return -(-self.instrument // 1000) if self.instrument <= -1000 else -999
+
+
+class Written(NamedTuple):
+    """What was written."""
+
+    type: int
+    """Type of the C-kernel: 2 or 3."""
+    records: int
+    """Records in all segments."""
+
+
+def write_ck(
+    path: str | os.PathLike[str],
+    motion: Motion,
+    interval: tuple[float, float],
+    kernel: Kernel = Kernel(),
+    *,
+    interpolation_error: float = 1e-8,
+    progress: Progress = silent,
+    force: bool = True,
+) -> Written:
+    """A motion as a C-kernel whose pointing, as SPICE interpolates it, is that of the motion within a given angle.
+
+    Beside FILE.bc the text kernel FILE.tsc is written: the frame of the body and, where none is given, the clock.
+
+    Parameters
+    ----------
+    path : path-like
+        Of the C-kernel, by custom with the ending .bc.
+    motion : Motion
+        In seconds, the unit of SPICE.
+    interval : pair of float
+        First and last time [s], as the scene counts them.
+    kernel : Kernel, optional
+        Codes, frames, clock, date of time 0, comments.
+    interpolation_error : float, optional
+        Largest angle [rad] between SPICE's attitude and that of the motion.
+    progress : callable, optional
+        Called with the windows written and their number.
+    force : bool, optional
+        Whether files that are there already are replaced.
+
+    Returns
+    -------
+    Written
+        Type of the segments and number of their records.
+
+    Raises
+    ------
+    ImportError
+        SpiceyPy is not installed: the extra ``andoyer[spice]`` brings it.
+    FileExistsError
+        There is such a file, and ``force=False``.
+    ValueError
+        An interval of no length; an error below 1e-13 rad, or one that asks for more than 5e7 records; a frame that SPICE does not know; a
+        name longer than SPICE takes.
+
+    Examples
+    --------
+    >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    >>> written = output.write_ck("wobble.bc", motion, (0.0, 60.0), interpolation_error=1e-6)
+    >>> written.type, 7500 < written.records < 7600
+    (3, True)
+    """
+    spice = extra("spiceypy", "writing a C-kernel")
+    begin, end = (float(time) for time in interval)
+    path = Path(os.path.realpath(path))
+    _check(path, begin, end, interpolation_error)
+    zero = seconds_of_tdb(kernel.date, kernel.time_system)
+    steady = motion.plan.mode in STEADY and motion.scene.orbit is None
+    segments = _uniform(motion, begin, end, interpolation_error, zero) if steady else _tabulated(motion, begin, end, interpolation_error, zero, progress)
+    text = path.with_suffix(".tsc")
+    with whole_file(path, force) as binary, whole_file(text, force) as beside, _plain_errors(spice), _clock(spice, kernel, zero + begin) as ticks:
+        if not spice.namfrm(kernel.frame):
+            raise ValueError(f"frame must be one that SPICE knows, such as J2000 or ECLIPJ2000: got {kernel.frame!r}")
+        beside.write_text(_text_kernel(kernel, zero + begin), encoding="ascii", errors="replace")
+        binary.unlink()
+        written = _write(spice, binary, segments, kernel, ticks, zero, _comments(motion, kernel, interpolation_error))
+    return written
+
+
+class _Segment(NamedTuple):
+    """Records of one segment: times [s] as the scene counts them, attitudes, angular velocities in inertial components."""
+
+    times: Array
+    attitude: Array
+    angular_velocity: Array
+    uniform: bool
+
+
+def _check(path: Path, begin: float, end: float, error: float) -> None:
+    if not (math.isfinite(begin) and math.isfinite(end) and begin < end):
+        raise ValueError(f"interval must be two finite times, the first below the second: got {(begin, end)!r}")
+    if not SMALLEST_ERROR <= error < math.inf:
+        raise ValueError(f"interpolation_error must be finite and at least {SMALLEST_ERROR:g} rad: got {error!r}")
+    if len(os.fsencode(path)) + 16 > LONGEST_NAME:
+        raise ValueError(f"path must have fewer than {LONGEST_NAME - 16} characters for SPICE: got {len(os.fsencode(path))}")
+
+
+def _segment(motion: Motion, times: Array, zero: float, uniform: bool) -> _Segment:
+    """The motion at times that ephemeris time has exactly: after `zero` seconds they are rounded, and the motion is taken there."""
+    times = (zero + times) - zero
+    samples = motion.at(times)
+    return _Segment(times, samples.attitude, rotate(samples.attitude, samples.angular_velocity), uniform)
+
+
+def _uniform(motion: Motion, begin: float, end: float, error: float, zero: float) -> Iterator[_Segment]:
+    """One record, or as many as keep the rounding of a record's angle below the error."""
+    angle = float(np.linalg.norm(motion.angular_velocity(begin))) * (end - begin)
+    count = max(1, math.ceil(angle * ROUNDING / error))
+    _limit(count, error)
+    yield _segment(motion, np.linspace(begin, end, count + 1), zero, True)
+
+
+def _tabulated(motion: Motion, begin: float, end: float, error: float, zero: float, progress: Progress) -> Iterator[_Segment]:
+    """Segments of type 3, each of whole windows; neighbours share a node, so that there is no gap."""
+    borders = windows(motion, begin, end)
+    _limit(round(estimate(motion, borders, error)), error)
+    parts: list[Array] = []
+    try:
+        for done, times in enumerate(nodes(motion, borders, error), 1):
+            parts.append(times[1:] if parts else times)
+            if done == len(borders) - 1 or sum(map(len, parts)) > LONGEST_SEGMENT:
+                yield _segment(motion, np.concatenate(parts), zero, False)
+                parts = []
+            progress(done, len(borders) - 1)
+    except ArithmeticError as left:
+        raise ValueError(f"interpolation_error must be above what rounding leaves of this motion: got {error!r}, but {left}") from left
+
+
+def _limit(records: int, error: float) -> None:
+    if records > MOST_RECORDS:
+        raise ValueError(
+            f"interpolation_error = {error:g} rad needs about {records} records over this interval, more than {MOST_RECORDS}: ask for a larger error or a shorter interval"
+        )
+
+
+@contextmanager
+def _clock(spice: Any, kernel: Kernel, begin: float) -> Iterator[Any]:
+    """From ephemeris times to ticks: by the clock that is given, loaded for so long, or by that which is written."""
+    if kernel.clock is None:
+        yield lambda times: times - math.floor(begin)
+        return
+    spice.furnsh(os.fspath(kernel.clock))
+    try:
+        yield lambda times: np.array([spice.sce2c(kernel.clock_code, float(time)) for time in times])
+    finally:
+        spice.unload(os.fspath(kernel.clock))
+
+
+@contextmanager
+def _plain_errors(spice: Any) -> Iterator[None]:
+    """What SPICE says is an error of the system with its short message and its explanation."""
+    try:
+        yield
+    except spice.exceptions.SpiceyError as error:
+        spice.reset()
+        raise OSError(f"SPICE: {error.short} {' '.join((error.long or error.explain or '').split())}") from error
+
+
+def _write(spice: Any, path: Path, segments: Iterator[_Segment], kernel: Kernel, ticks: Any, zero: float, comments: Sequence[str]) -> Written:
+    handle = spice.ckopn(str(path), "ANDOYER", 0)
+    try:
+        spice.dafac(handle, list(comments))
+        written = Written(3, 0)
+        for segment in segments:
+            times = ticks(zero + segment.times)
+            if np.any(np.diff(times) <= 0):
+                raise ValueError(f"interpolation_error must leave records that the clock tells apart: some are less than {np.spacing(times[-1]):.2g} ticks apart")
+            quaternions = np.ascontiguousarray(segment.attitude[:, [3, 0, 1, 2]] * np.array([1.0, -1.0, -1.0, -1.0]))
+            head = (handle, times[0], times[-1], kernel.instrument, kernel.frame)
+            if segment.uniform:
+                rates = np.diff(segment.times) / np.diff(times)
+                spice.ckw02(*head, kernel.segment, len(times) - 1, times[:-1], times[1:], quaternions[:-1], segment.angular_velocity[:-1], rates)
+                written = Written(2, len(times) - 1)
+            else:
+                spice.ckw03(*head, True, kernel.segment, len(times), times, quaternions, segment.angular_velocity, 1, times[:1])
+                written = Written(3, written.records + len(times))
+    except BaseException:
+        # A file with no segment cannot be closed as a C-kernel, one on a full disk not at all.
+        spice.reset()
+        try:
+            spice.dafcls(handle)
+        except Exception:
+            spice.reset()
+        raise
+    spice.ckcls(handle)
+    return written
+
+
+def _comments(motion: Motion, kernel: Kernel, error: float) -> list[str]:
+    """The comment area: what the kernel is, its error, the scene."""
+    plan = motion.plan
+    lines = [
+        f"Attitude of {motion.scene.name or motion.scene.body.name or 'a rigid body'}, written by andoyer {__version__}.",
+        "",
+        f"Frame {kernel.body_frame} (class ID {kernel.instrument}) against {kernel.frame}; clock {kernel.clock_code}.",
+        f"Time 0 of the scene is {kernel.date.isoformat()} {kernel.time_system}.",
+        f"Error bound of the motion: {plan.error_bound:.3g} rad; of SPICE's interpolation: {error:.3g} rad.",
+        "The bound of the interpolation is on the attitude. Angular velocities are those of the motion at the",
+        "records and interpolated linearly between them.",
+        *kernel.comments,
+        "",
+        "The scene:",
+        "",
+        *motion.scene.to_toml().splitlines(),
+    ]
+    return [piece for line in lines for piece in _pieces(line)]
+
+
+def _pieces(line: str) -> list[str]:
+    """A line in printable ASCII, in pieces that SPICE takes."""
+    text = "".join(letter if letter.isprintable() else " " for letter in line.encode("ascii", "replace").decode())
+    return [text[start : start + LONGEST_LINE] for start in range(0, len(text), LONGEST_LINE)] or [" "]
+
+
+def _text_kernel(kernel: Kernel, begin: float) -> str:
+    """The frame of the body and, unless one is given, a clock whose ticks are seconds of TDB."""
+    code, name, clock = kernel.instrument, kernel.body_frame, kernel.clock_code
+    lines = [
+        "KPL/SCLK" if kernel.clock is None else "KPL/FK",
+        "",
+        f"Written by andoyer {__version__} beside a C-kernel.",
+        "",
+        r"\begindata",
+        "",
+        f"FRAME_{name} = {code}",
+        f"FRAME_{code}_NAME = '{name}'",
+        f"FRAME_{code}_CLASS = 3",
+        f"FRAME_{code}_CLASS_ID = {code}",
+        f"FRAME_{code}_CENTER = {clock}",
+        f"CK_{code}_SCLK = {clock}",
+        f"CK_{code}_SPK = {clock}",
+        "",
+    ]
+    if kernel.clock is None:
+        number, zero = -clock, math.floor(begin)
+        lines += [
+            "SCLK_KERNEL_ID = ( @2000-01-01 )",
+            f"SCLK_DATA_TYPE_{number} = ( 1 )",
+            f"SCLK01_TIME_SYSTEM_{number} = ( 1 )",
+            f"SCLK01_N_FIELDS_{number} = ( 2 )",
+            f"SCLK01_MODULI_{number} = ( 1000000000000 1 )",
+            f"SCLK01_OFFSETS_{number} = ( 0 0 )",
+            f"SCLK01_OUTPUT_DELIM_{number} = ( 1 )",
+            f"SCLK_PARTITION_START_{number} = ( 0.0 )",
+            f"SCLK_PARTITION_END_{number} = ( 1000000000000.0 )",
+            f"SCLK01_COEFFICIENTS_{number} = ( 0.0 {zero:d} 1.0 )",
+            "",
+        ]
+    return "\n".join([*lines, r"\begintext", ""])

@@ -1,0 +1,123 @@
+"""The keyword = value notation of an AEM (504.0-B-2, section 6), read."""
+
+import re
+
+from andoyer.output.raw import RawMessage, RawSegment, Record, version_of
+
+LINE_END = re.compile(r"\r\n|\n\r|\r|\n")
+ASSIGNMENT = re.compile(r"([A-Z][A-Z0-9_]*)\s*=\s*(.*)", re.ASCII)
+
+
+def parse_kvn(text: str) -> RawMessage:
+    """The message in a text.
+
+    Raises
+    ------
+    ValueError
+        A line that is not as the standard has it, with its number.
+    """
+    lines = [(number, line.strip()) for number, line in enumerate(LINE_END.split(text), 1) if line.strip()]
+    if not lines:
+        raise ValueError("line 1: the file is empty")
+    key, value = _assignment(*lines[0])
+    if key != "CCSDS_AEM_VERS":
+        raise ValueError(f"line {lines[0][0]}: an AEM must start with CCSDS_AEM_VERS: got {key}")
+    message = RawMessage(version_of(value, f"line {lines[0][0]}"))
+    state: _State = _Header(message)
+    for number, line in lines[1:]:
+        state = state.take(number, line)
+    state.end(lines[-1][0])
+    return message
+
+
+class _State:
+    """A part of the message: it takes a line and says which part the next is in."""
+
+    def __init__(self, message: RawMessage):
+        self.message = message
+
+    def take(self, number: int, line: str) -> "_State":
+        """The state after a line."""
+        raise NotImplementedError
+
+    def end(self, number: int) -> None:
+        """The file ends after line `number`: an error but for the state after a whole segment."""
+        raise ValueError(f"line {number}: the message ends here, in {self.named}")
+
+    named = ""
+
+
+class _Header(_State):
+    named = "the header"
+
+    def take(self, number: int, line: str) -> _State:
+        if line == "META_START":
+            self.message.complete(self.message.header, f"line {number}, header")
+            return _Metadata(self.message, number)
+        if not _is_comment(line):
+            self.message.put(self.message.header, *_assignment(number, line), f"line {number}")
+        return self
+
+
+class _Metadata(_State):
+    named = "the metadata"
+
+    def __init__(self, message: RawMessage, number: int):
+        super().__init__(message)
+        self.segment = RawSegment(f"line {number}")
+        message.segments.append(self.segment)
+
+    def take(self, number: int, line: str) -> _State:
+        if line == "META_STOP":
+            self.message.complete(self.segment.metadata, f"line {number}, metadata")
+            return _Before(self.message)
+        if _is_comment(line):
+            self.segment.comments.append(line[len("COMMENT") :].strip())
+        else:
+            self.message.put(self.segment.metadata, *_assignment(number, line), f"line {number}")
+        return self
+
+
+class _Before(_State):
+    named = "a segment without data"
+
+    def take(self, number: int, line: str) -> _State:
+        if line != "DATA_START":
+            raise ValueError(f"line {number}: DATA_START must follow META_STOP: got {line[:40]!r}")
+        return _Data(self.message)
+
+
+class _Data(_State):
+    named = "the data"
+
+    def take(self, number: int, line: str) -> _State:
+        segment = self.message.segments[-1]
+        if line == "DATA_STOP":
+            return _After(self.message)
+        if _is_comment(line):
+            segment.comments.append(line[len("COMMENT") :].strip())
+        else:
+            epoch, *values = line.split()
+            segment.records.append(Record(f"line {number}", epoch, values))
+        return self
+
+
+class _After(_State):
+    def take(self, number: int, line: str) -> _State:
+        if line != "META_START":
+            raise ValueError(f"line {number}: META_START or the end must follow DATA_STOP: got {line[:40]!r}")
+        return _Metadata(self.message, number)
+
+    def end(self, number: int) -> None:
+        pass
+
+
+def _is_comment(line: str) -> bool:
+    return line == "COMMENT" or line.startswith("COMMENT ")
+
+
+def _assignment(number: int, line: str) -> tuple[str, str]:
+    match = ASSIGNMENT.fullmatch(line)
+    if match is None:
+        raise ValueError(f"line {number}: must be KEYWORD = value: got {line[:40]!r}")
+    return match[1], " ".join(match[2].split())

@@ -1,0 +1,48 @@
+"""Samples of one motion as rows of numbers, and back."""
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from andoyer._core import Samples
+from andoyer._foreign import plain
+
+Array: TypeAlias = NDArray[np.float64]
+
+COLUMNS = "t,qx,qy,qz,qw,wx,wy,wz"
+CONVENTION = (
+    "t in the scene's unit of time; attitude [qx, qy, qz, qw]: unit quaternion, Hamilton product, scalar last, "
+    "body components to inertial ones; angular velocity [wx, wy, wz]: body components, rad per unit of time"
+)
+
+
+def rows(samples: Samples) -> Array:
+    """The samples as an array of shape (n, 8), its columns in the order of `COLUMNS` whatever the order of the quaternions is.
+
+    Calendar times are in TDB seconds since J2000.
+
+    Raises
+    ------
+    ValueError
+        Samples of an ensemble.
+    """
+    times = plain("times", samples.times)
+    if samples.times.ndim > 1 or samples.attitude.ndim > samples.times.ndim + 1:
+        raise ValueError(f"samples must be of one motion: got {samples!r}; a file holds one member of an ensemble")
+    attitude = np.atleast_2d(samples.attitude)
+    if samples.scalar_first:
+        attitude = np.roll(attitude, -1, axis=1)
+    return np.column_stack([np.atleast_1d(times), attitude, np.atleast_2d(samples.angular_velocity)])
+
+
+def calendar_times(samples: Samples) -> Any:
+    """The times of the samples if they are an astropy Time, or None."""
+    return samples.times if hasattr(samples.times, "tdb") else None
+
+
+def samples_of(times: ArrayLike, attitude: ArrayLike, angular_velocity: ArrayLike, calendar: Any = None) -> Samples:
+    """Samples with the arrays of their own: shapes (n,), (n, 4) scalar last, (n, 3); `calendar` are the times as an astropy Time."""
+    arrays = [np.array(value, dtype=np.float64) for value in (times, attitude, angular_velocity)]
+    restored: Samples = Samples._restored(*arrays, False, calendar)  # type: ignore[attr-defined]
+    return restored

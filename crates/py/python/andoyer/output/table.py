@@ -1,0 +1,256 @@
+"""Tables of samples: CSV, NPZ and Parquet, written and read back to the same bits.
+
+NPZ and Parquet carry the convention, the units, the scene and, where the samples have times of astropy, these times.
+"""
+
+import json
+import os
+import tempfile
+import zipfile
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TextIO, TypeAlias
+
+import numpy as np
+
+from andoyer._core import Samples, Scene
+from andoyer._extra import extra
+from andoyer.output.files import whole_file
+from andoyer.output.rows import COLUMNS, CONVENTION, Array, calendar_times, rows, samples_of
+
+ROWS_AT_ONCE = 2**20
+"""Rows of a group of Parquet, which takes some 0.1 s."""
+
+LINES_AT_ONCE = 10_000
+"""Lines between two words on how far the writing is."""
+
+JULIAN = ["jd1", "jd2"]
+"""Columns of a calendar time: its Julian date in two doubles, as astropy has it."""
+
+ENDINGS = [".csv", ".npz", ".parquet"]
+
+Progress: TypeAlias = Callable[[int, int], None]
+"""Called with how much is done, and of how much."""
+
+
+def silent(_done: int, _of: int) -> None:
+    """A progress that nobody sees."""
+
+
+@dataclass(frozen=True)
+class Table:
+    """What a table of samples holds: see `read_table`."""
+
+    samples: Samples
+    """The samples; their times are an astropy Time where such times were written."""
+    scene: Scene | None = None
+    """The scene that the samples are of, where the file has it."""
+    units: dict[str, str] = field(default_factory=dict)
+    """Unit of each column, where the file has them."""
+
+
+def write_csv(path: str | os.PathLike[str], samples: Samples, progress: Progress = silent, *, force: bool = True) -> None:
+    """Samples as a CSV file.
+
+    Parameters
+    ----------
+    path : path-like
+    samples : Samples
+        Of one motion.
+    progress : callable, optional
+        Called with the lines written and their number.
+    force : bool, optional
+        Whether a file that is there already is replaced.
+
+    Raises
+    ------
+    FileExistsError
+        There is such a file, and ``force=False``.
+    ValueError
+        Samples of an ensemble.
+
+    Examples
+    --------
+    >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    >>> output.write_csv("wobble.csv", motion.at([0.0, 1.0]))
+    >>> open("wobble.csv").readline()
+    't,qx,qy,qz,qw,wx,wy,wz\\n'
+    """
+    with whole_file(path, force) as temporary, temporary.open("w", encoding="utf-8", newline="\n") as file:
+        write_table(file, samples, progress)
+
+
+def write_table(file: TextIO, samples: Samples, progress: Progress = silent) -> None:
+    """Samples as CSV into an open text file: the names of the columns, one line a time with all 17 digits; `progress` hears of the lines that are written."""
+    table = rows(samples)
+    file.write(f"{COLUMNS}\n")
+    for start in range(0, len(table), LINES_AT_ONCE):
+        np.savetxt(file, table[start : start + LINES_AT_ONCE], fmt="%.17g", delimiter=",")
+        progress(min(start + LINES_AT_ONCE, len(table)), len(table))
+
+
+def write_npz(
+    path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, remark: str | None = None, force: bool = True
+) -> None:
+    """Samples as NPZ: arrays times, attitude (scalar last), angular_velocity, and texts: convention, units, scene.
+
+    Parameters
+    ----------
+    path : path-like
+    samples : Samples
+        Of one motion.
+    scene : Scene, optional
+        The scene of the samples: it is kept as its TOML.
+    remark : str, optional
+        What is to be said of the samples: that they miss the tolerance.
+    force : bool, optional
+        Whether a file that is there already is replaced.
+
+    Raises
+    ------
+    FileExistsError
+        There is such a file, and ``force=False``.
+    ValueError
+        Samples of an ensemble.
+    """
+    table = rows(samples)
+    texts, julian = _about(scene, calendar_times(samples))
+    texts |= {"remark": remark} if remark else {}
+    arrays: dict[str, Any] = {"times": table[:, 0], "attitude": table[:, 1:5], "angular_velocity": table[:, 5:]}
+    arrays |= julian | {key: np.array(text) for key, text in texts.items()}
+    with whole_file(path, force) as temporary, temporary.open("wb") as file:
+        np.savez(file, **arrays)
+
+
+def write_parquet(
+    path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, remark: str | None = None, force: bool = True
+) -> None:
+    """Samples as Parquet: the columns of the CSV as float64; convention, units and scene in the metadata of the schema.
+
+    Parameters
+    ----------
+    path, samples, scene, remark, force
+        As in `write_npz`.
+
+    Raises
+    ------
+    ImportError
+        pyarrow is not installed: the extra ``andoyer[parquet]`` brings it.
+    FileExistsError, ValueError
+        As in `write_npz`.
+    """
+    arrow, parquet = (extra(module, "writing Parquet") for module in ("pyarrow", "pyarrow.parquet"))
+    table = rows(samples)
+    texts, julian = _about(scene, calendar_times(samples))
+    texts |= {"remark": remark} if remark else {}
+    columns = dict(zip(COLUMNS.split(","), np.ascontiguousarray(table.T))) | julian
+    schema = arrow.schema([(name, arrow.float64()) for name in columns], metadata=texts)
+    with whole_file(path, force) as temporary, parquet.ParquetWriter(temporary, schema) as writer:
+        # One group of rows after the other: Python looks for Ctrl-C between them. A table of no rows has a group too.
+        for start in range(0, max(len(table), 1), ROWS_AT_ONCE):
+            part = [column[start : start + ROWS_AT_ONCE] for column in columns.values()]
+            writer.write_table(arrow.table(part, schema=schema))
+
+
+def read_table(path: str | os.PathLike[str]) -> Table:
+    """The samples of a CSV, NPZ or Parquet file, by its ending, and what else it says.
+
+    Columns are found by their names, so that they may stand in any order and among others.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    Table
+
+    Raises
+    ------
+    ImportError
+        A Parquet file without pyarrow; calendar times without astropy.
+    ValueError
+        Another ending; a column that is missing or not of finite numbers; a file that is none of its kind.
+
+    Examples
+    --------
+    >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0], name="wobble").solve()
+    >>> output.write_npz("wobble.npz", motion.at([0.0, 1.0]), scene=motion.scene)
+    >>> table = output.read_table("wobble.npz")
+    >>> table.scene == motion.scene, table.samples.attitude.shape
+    (True, (2, 4))
+    """
+    path = Path(path)
+    readers = {".csv": _read_csv, ".npz": _read_npz, ".parquet": _read_parquet}
+    if path.suffix.lower() not in readers:
+        raise ValueError(f"{path}: the name must end in {', '.join(ENDINGS)}")
+    columns, texts = readers[path.suffix.lower()](path)
+    missing = [name for name in COLUMNS.split(",") if name not in columns]
+    if missing:
+        raise ValueError(f"{path}: must have the columns {COLUMNS}: {', '.join(missing)} missing")
+    table = np.column_stack([columns[name] for name in COLUMNS.split(",")])
+    if not np.isfinite(table).all():
+        raise ValueError(f"{path}: must hold finite numbers: row {np.flatnonzero(~np.isfinite(table).all(axis=1))[0] + 1} does not")
+    times = None
+    if texts.get("time_scale"):
+        time = extra("astropy.time", f"reading calendar times of {path}")
+        times = time.Time(columns["jd1"], columns["jd2"], format="jd", scale=texts["time_scale"])
+    samples = samples_of(table[:, 0], table[:, 1:5], table[:, 5:], times)
+    scene = _scene(texts["scene"]) if texts.get("scene") else None
+    return Table(samples, scene, json.loads(texts.get("units", "{}")))
+
+
+def _about(scene: Scene | None, times: Any) -> tuple[dict[str, str], dict[str, Array]]:
+    """What is said of a table beside its numbers: texts, and the columns of calendar times."""
+    unit = "unit of time of the scene" if times is None else "s"
+    units = {"t": unit} | dict.fromkeys(["qx", "qy", "qz", "qw"], "1") | dict.fromkeys(["wx", "wy", "wz"], "rad/s" if times is not None else f"rad per {unit}")
+    texts = {"convention": CONVENTION, "units": json.dumps(units)}
+    if scene is not None:
+        texts["scene"] = scene.to_toml()
+    if times is None:
+        return texts, {}
+    texts["time_scale"] = times.scale
+    return texts, {name: np.atleast_1d(np.asarray(getattr(times, name), dtype=np.float64)) for name in JULIAN}
+
+
+def _read_csv(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
+    try:
+        with path.open(encoding="utf-8") as file:
+            names = file.readline().strip().split(",")
+            table = np.loadtxt(file, delimiter=",", ndmin=2, comments=None)
+    except ValueError as error:
+        raise ValueError(f"{path}: must be a table in CSV: {error}") from error
+    if table.size and table.shape[1] != len(names):
+        raise ValueError(f"{path}: must have as many numbers in a line as names in the first: {table.shape[1]} and {len(names)}")
+    return dict(zip(names, table.reshape(-1, len(names)).T)), {}
+
+
+def _read_npz(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            arrays = {key: file[key] for key in file.files}
+            numbers = [arrays[key].astype(np.float64).reshape(len(arrays["times"]), -1) for key in ("times", "attitude", "angular_velocity")]
+    except (KeyError, ValueError, TypeError, EOFError, AttributeError, zipfile.BadZipFile) as error:
+        raise ValueError(f"{path}: must be an NPZ with the arrays times, attitude, angular_velocity: {error}") from error
+    table = np.column_stack(numbers)
+    texts = {key: str(value) for key, value in arrays.items() if value.dtype.kind == "U"}
+    return dict(zip(COLUMNS.split(","), table.T)) | {name: arrays[name] for name in JULIAN if name in arrays}, texts
+
+
+def _read_parquet(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
+    arrow, parquet = (extra(module, "reading Parquet") for module in ("pyarrow", "pyarrow.parquet"))
+    try:
+        table = parquet.read_table(path)
+        columns = {name: table.column(name).to_numpy().astype(np.float64) for name in table.column_names if name in [*COLUMNS.split(","), *JULIAN]}
+    except (arrow.ArrowInvalid, ValueError, TypeError) as error:
+        raise ValueError(f"{path}: must be a Parquet table of numbers: {error}") from error
+    return columns, {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items() if not key.startswith(b"ARROW:")}
+
+
+def _scene(text: str) -> Scene:
+    """A scene from its TOML, which `Scene.from_toml` reads from a file."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "scene.toml"
+        path.write_text(text, encoding="utf-8")
+        return Scene.from_toml(path)

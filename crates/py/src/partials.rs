@@ -1,0 +1,72 @@
+//! `andoyer.Partials`.
+
+use numpy::{PyArrayDyn, PyUntypedArrayMethods};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyType;
+
+type Array = Py<PyArrayDyn<f64>>;
+
+/// Derivatives of attitude and angular velocity at some times: what `Motion.partials` returns.
+///
+/// The last axis has nine parameters: initial attitude (3), initial angular velocity (3), moments as given (3). The arrays belong to the object alone; for a scalar time the axis
+/// of times is missing, and there is no `len`.
+///
+/// Examples
+/// --------
+/// >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+/// >>> partials = motion.partials([0.0, 10.0])
+/// >>> len(partials), partials.attitude.shape, partials.angular_velocity.shape
+/// (2, (2, 3, 9), (2, 3, 9))
+/// >>> partials.angular_velocity[0, :, 3:6].round(12) + 0.0
+/// array([[1., 0., 0.],
+///        [0., 1., 0.],
+///        [0., 0., 1.]])
+#[pyclass(frozen, module = "andoyer")]
+pub(crate) struct Partials {
+    /// The times, float64, shape (n,).
+    #[pyo3(get)]
+    times: Array,
+    /// Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9).
+    #[pyo3(get)]
+    attitude: Array,
+    /// Derivatives of the angular velocity in body components, shape (n, 3, 9).
+    #[pyo3(get)]
+    angular_velocity: Array,
+}
+
+impl Partials {
+    pub(crate) fn new(times: Array, attitude: Array, angular_velocity: Array) -> Self {
+        Self { times, attitude, angular_velocity }
+    }
+}
+
+#[pymethods]
+impl Partials {
+    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
+        match self.times.bind(py).shape() {
+            [n] => Ok(*n),
+            _ => Err(PyTypeError::new_err("partials at a scalar time have no len()")),
+        }
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> String {
+        match self.times.bind(py).shape() {
+            [] => "<Partials at a scalar time>".to_owned(),
+            [n, ..] => format!("<Partials at {n} time{}>", if *n == 1 { "" } else { "s" }),
+        }
+    }
+
+    /// Puts together what `pickle` took apart.
+    #[classmethod]
+    fn _restored(_class: &Bound<'_, PyType>, times: Array, attitude: Array, angular_velocity: Array) -> Self {
+        Self::new(times, attitude, angular_velocity)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Array, Array, Array))> {
+        let (py, partials) = (slf.py(), slf.get());
+        let [times, attitude, rates] =
+            [&partials.times, &partials.attitude, &partials.angular_velocity].map(|array| array.clone_ref(py));
+        Ok((slf.get_type().getattr("_restored")?, (times, attitude, rates)))
+    }
+}

@@ -1,0 +1,122 @@
+"""Ctrl-C: every long call ends within a second of the signal, the interpreter goes on, and no file is left half written.
+
+A call would last half a minute or more; the deadline is five seconds, since other programs may keep the machine busy. The child sets its own handler:
+a parent may have told it to ignore the signal.
+"""
+
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+import andoyer
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to a child there")
+
+DEADLINE = 5.0
+
+START = """
+import signal, sys, time
+import numpy as np
+import andoyer
+signal.signal(signal.SIGINT, signal.default_int_handler)
+body, level, sun = andoyer.Body([1, 1.02, 1.05]), [0, 0, 0, 1], andoyer.Orbit(2e-3, 0.1)
+few = np.zeros((400_000, 3)) + [0, 0.01, 1]
+"""
+
+AGAIN = """
+def work():
+    while True:
+        once()
+print("started", flush=True)
+try:
+    work()
+except KeyboardInterrupt:
+    assert andoyer.Scene(body, level, [0, 0, 1]).solve().attitude([0.0, 1.0]).shape == (2, 4)
+    print("interrupted", flush=True)
+"""
+
+
+def interrupted(code, cwd=None):
+    """Runs `code` in a child, interrupts it after half a second: what it printed, its status, seconds from the signal to the end."""
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=cwd)
+    try:
+        assert child.stdout.readline() == "started\n", child.stderr.read()
+        time.sleep(0.5)
+        assert child.poll() is None, child.stderr.read()
+        sent = time.monotonic()
+        child.send_signal(signal.SIGINT)
+        printed, errors = child.communicate(timeout=60)
+        return printed + errors, child.returncode, time.monotonic() - sent
+    finally:
+        child.kill()
+
+
+# One call each, that would last half a minute on one core of a fast machine.
+CALLS = {
+    "ensemble under an orbit": "andoyer.Ensemble(body.moments, level, few, orbits=sun, span=(0, 1e5)).attitude([0.0])",
+    "plans of an ensemble under an orbit": "andoyer.Ensemble(body.moments, level, few, orbits=sun, span=(0, 1e5)).plans",
+    "members at many times": "andoyer.Ensemble(body.moments, level, few[:2], orbits=sun, span=(0, 1e5)).at(np.linspace(0, 1e5, 6_000_000))",
+}
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_ctrl_c_ends_a_call_and_leaves_the_interpreter_usable(call):
+    code = START + "import warnings; warnings.simplefilter('ignore')\n" + f"def once(): {CALLS[call]}\n" + AGAIN
+    printed, status, seconds = interrupted(code)
+    assert printed == "interrupted\n" and status == 0
+    assert seconds < DEADLINE
+
+
+@pytest.mark.parametrize("method", ["at", "attitude", "angular_velocity", "angular_momentum", "andoyer", "partials"])
+def test_ctrl_c_ends_the_evaluation_of_a_motion(method):
+    code = START + "import warnings; warnings.simplefilter('ignore')\n"
+    number = 200_000 if method == "partials" else 6_000_000
+    code += "motion = andoyer.Scene(body, level, [0, 0.01, 1], orbit=sun, span=(0, 1e5)).solve()\n"
+    code += f"times = np.linspace(0, 1e5, {number})\n"
+    code += f"def once(): motion.{method}(times)\n" + AGAIN
+    printed, status, seconds = interrupted(code)
+    assert printed == "interrupted\n" and status == 0
+    assert seconds < DEADLINE
+
+
+@pytest.mark.parametrize("ending", ["csv", "npz", "parquet", "aem"])
+def test_ctrl_c_leaves_no_partial_file_and_the_old_one_as_it_was(tmp_path, ending):
+    if ending == "parquet":
+        pytest.importorskip("pyarrow")
+    scene = andoyer.Scene(andoyer.Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1])
+    (tmp_path / "scene.toml").write_text(scene.to_toml(), encoding="utf-8")
+    (tmp_path / f"out.{ending}").write_text("old", encoding="utf-8")
+    # Writing does not end: the last step waits.
+    code = f"""
+import signal, sys, time
+import os
+import andoyer.cli
+signal.signal(signal.SIGINT, signal.default_int_handler)
+def slow(*arguments):
+    print("started", flush=True)
+    time.sleep(60)
+os.replace = slow
+sys.exit(andoyer.cli.main(["propagate", "scene.toml", "-o", "out.{ending}", "--samples", "2000", "--force"]))
+"""
+    printed, status, seconds = interrupted(code, tmp_path)
+    assert status == 130 and printed.endswith("andoyer: interrupted\n") and seconds < DEADLINE
+    assert sorted(path.name for path in tmp_path.iterdir()) == [f"out.{ending}", "scene.toml"]
+    assert (tmp_path / f"out.{ending}").read_text(encoding="utf-8") == "old"
+
+
+def test_long_calls_give_the_bits_of_short_ones(body):
+    motion = andoyer.Scene(body, [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    times = np.cumsum(np.random.default_rng(1).exponential(1.0, 600_000))  # above the length from which a thread of its own computes
+    parts = np.concatenate([motion.attitude(part) for part in np.split(times, 6)])
+    assert np.array_equal(motion.attitude(times), parts)
+
+
+def test_errors_of_long_calls_are_those_of_short_ones(motion):
+    times = np.zeros(600_000)
+    times[599_999] = np.nan
+    with pytest.raises(andoyer.InputError, match=r"times\[599999\] = NaN"):
+        motion.attitude(times)

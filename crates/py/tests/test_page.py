@@ -1,0 +1,108 @@
+"""The page that turns without a browser: what is in it, what is refused, and its evaluator run by node; and the film."""
+
+import json
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+import andoyer
+from andoyer._page import MOST_NODES, NODES, evaluator, page
+from andoyer._quaternions import angle_between, rotate
+from andoyer.cli import main
+from conftest import REPOSITORY
+
+BODY = andoyer.Body([1.0, 1.5, 2.0])
+
+
+def solved(rates, body=BODY, **options):
+    return andoyer.Scene(body, [0.1, -0.2, 0.3, 0.9273618495495703], rates, **options).solve()
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no node on this machine")
+@pytest.mark.parametrize("rates", [[0.1, 0.2, 1.0], [1.0, 0.1, 0.2], [0.0, 0.0, 0.0]])
+def test_evaluator_has_the_attitude_within_its_error(rates, tmp_path):
+    motion = solved(rates)
+    source, error = evaluator(motion, -5.0, 60.0)
+    times = np.random.default_rng(1).uniform(-5, 60, 1000)
+    program = tmp_path / "evaluator.js"
+    program.write_text(f'"use strict";\n{source}\nconsole.log(JSON.stringify({json.dumps(times.tolist())}.map(evaluate)))', encoding="utf-8")
+    done = subprocess.run(["node", program], capture_output=True, text=True, check=True)
+    values = np.array(json.loads(done.stdout))
+    assert angle_between(values[:, :4], motion.attitude(times)).max() <= 1.2 * error + 1e-14 < 1e-8
+    assert values[:, 4:] == pytest.approx(motion.angular_velocity(times), abs=1e-4)
+
+
+def test_error_of_the_page_is_of_fourth_order_in_its_step(monkeypatch):
+    motion = solved([0.1, 0.2, 1.0])
+    _, fine = evaluator(motion, 0.0, 60.0)
+    monkeypatch.setattr(andoyer._page, "NODES", NODES // 2)
+    _, coarse = evaluator(motion, 0.0, 60.0)
+    assert coarse / fine == pytest.approx(16, rel=0.05)
+
+
+def test_page_fetches_nothing_and_no_name_ends_its_elements(tmp_path):
+    path = tmp_path / "page.html"
+    page(solved([0.1, 0.2, 1.0], name="</script><script>alert(1)</script>"), path)
+    text = path.read_text(encoding="utf-8")
+    assert text.count("<script") == text.count("</script>") == 3
+    assert "default-src 'none'" in text and not re.search(r"(src|href)=.(?!data:)", text) and "@" not in re.sub(r"@media", "", text.split("<body>")[0])
+    data = json.loads(re.search(r'application/json">(.*?)</script>', text)[1])
+    assert data["moments"] == [1.0, 1.5, 2.0] and data["rotations"] <= 60.001
+
+
+def test_default_is_three_periods_of_the_polhode_and_sixty_rotations_at_most(tmp_path):
+    for rates, body in (([0.1, 0.2, 1.0], BODY), ([1e-5, 0, 1.0], andoyer.Body([1, 1.001, 1.003]))):
+        motion = solved(rates, body)
+        page(motion, tmp_path / "page.html")
+        data = json.loads(re.search(r'application/json">(.*?)</script>', (tmp_path / "page.html").read_text(encoding="utf-8"))[1])
+        expected = min(3 * motion.periods["long-axis"].rotation, 60 * 2 * np.pi / np.linalg.norm(rates))
+        assert data["stop"] - data["start"] == pytest.approx(expected, rel=1e-6)
+
+
+REFUSED = {
+    "no length": ({"interval": (1.0, 1.0)}, "interval must be two finite times"),
+    "not finite": ({"interval": (0.0, float("inf"))}, "interval must be two finite times"),
+    "too long": ({"interval": (0.0, 1e6)}, rf"interval must have at most {MOST_NODES // NODES} rotations: got 1.6"),
+    "flat vertices": ({"mesh": ([[0, 0]], [[0, 0, 0]])}, r"finite vertices of shape \(n, 3\): got \(1, 2\)"),
+    "vertex that is not there": ({"mesh": ([[0, 0, 0]], [[0, 0, 1]])}, "whole numbers from 0 to 0"),
+    "faces of floats": ({"mesh": ([[0, 0, 0]], [[0.0, 0.0, 0.0]])}, "whole numbers from 0 to 0"),
+}
+
+
+@pytest.mark.parametrize("options, message", REFUSED.values(), ids=REFUSED)
+def test_page_that_cannot_be_is_refused_and_not_written(options, message, tmp_path):
+    with pytest.raises(ValueError, match=message):
+        page(solved([0.1, 0.2, 1.0]), tmp_path / "page.html", **options)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_command_writes_the_page_and_keeps_the_one_that_is_there(tmp_path, capfd):
+    path = tmp_path / "eros.html"
+    line = ["plot", str(REPOSITORY / "examples/scenes/eros.toml"), "-o", str(path)]
+    assert main(line) == 0 and path.stat().st_size > 10_000
+    assert main(line) == 2 and "File exists; --force replaces it" in capfd.readouterr().err
+    assert main([*line, "--force"]) == 0
+    (tmp_path / "x.aem").write_text("")
+    assert main(["plot", str(tmp_path / "x.aem"), "-o", str(tmp_path / "y.html")]) == 2
+    assert "a page is of a scene, not of a file of attitudes" in capfd.readouterr().err
+
+
+def test_film_shows_the_axes_of_the_body_with_the_momentum_upwards():
+    pytest.importorskip("matplotlib").use("Agg")
+    from andoyer import plot
+
+    motion = solved([0.1, 0.2, 1.0])
+    times = np.linspace(0, 5, 7)
+    film = plot.animate(motion, times)
+    axes = film._fig.axes[0]
+    film._func(3)
+    momentum = motion.angular_momentum(times[3])
+    for number, line in enumerate(axes.lines[1:4]):
+        tip = np.array(line.get_data_3d())[:, 1]
+        expected = rotate(motion.attitude(times[3]), np.eye(3)[number]) @ momentum / np.linalg.norm(momentum)
+        assert np.linalg.norm(tip) == pytest.approx(1) and tip[2] == pytest.approx(expected, abs=1e-12)
+    assert axes.texts[0].get_text() == "t = 2.5"
+    film._draw_was_started = True

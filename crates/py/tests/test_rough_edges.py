@@ -1,0 +1,68 @@
+"""Input that is no error but surely a mistake, and output where letters are few."""
+
+import os
+import subprocess
+import sys
+import warnings
+
+import pytest
+
+import andoyer
+from andoyer import Body, Ensemble, Orbit, Scene
+from andoyer.cli import main
+
+
+@pytest.mark.parametrize("element", ["inclination", "node", "argument_of_pericentre"])
+def test_angle_beyond_a_turn_warns_and_is_taken(element):
+    with pytest.warns(UserWarning, match=rf"orbit\.{element} = 23\.4 is more than a whole turn: angles are in radians"):
+        orbit = Orbit(1e-3, 0.1, **{element: 23.4})
+    assert getattr(orbit, element) == 23.4
+
+
+def test_angles_within_a_turn_do_not_warn():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Orbit(1e-3, 0.1, inclination=3.1, node=-6.28, argument_of_pericentre=6.28)
+
+
+def test_scene_file_in_degrees_warns_from_python_and_from_the_shell(tmp_path, capsys):
+    path = tmp_path / "degrees.toml"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        orbit = Orbit(1e-3, 0.1, inclination=10.0)
+    path.write_text(Scene(Body([1, 1.02, 1.05]), [0, 0, 0, 1], [0, 0, 1], orbit=orbit, span=(0, 100)).to_toml(), encoding="utf-8")
+    with pytest.warns(UserWarning, match="orbit.inclination = 10.0"):
+        Scene.from_toml(path)
+    assert main(["plan", str(path)]) == 0
+    said = capsys.readouterr().err.splitlines()
+    assert [line for line in said if "orbit.inclination" in line] == [
+        f"andoyer: warning: {path}: orbit.inclination = 10.0 is more than a whole turn: angles are in radians, not in degrees"
+    ]
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1"])
+def test_plan_is_printed_on_a_terminal_of_few_letters(encoding):
+    code = """
+import andoyer
+for rates in [[0.1, 0.2, 1.0], [0.0, 1.0, 1e-3], [0.0, 1.0, 0.0]]:
+    print(andoyer.Scene(andoyer.Body([1, 1.5, 2]), [0, 0, 0, 1], rates).solve().plan)
+"""
+    environment = os.environ | {"PYTHONIOENCODING": f"{encoding}:strict"}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, env=environment)
+    assert done.returncode == 0, done.stderr.decode()
+    assert done.stdout.decode("ascii").count("mode          ") == 3
+
+
+def test_ensemble_is_iterated_member_by_member():
+    ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [[0.1, 0.2, 1], [1, 0.2, 0.1]])
+    assert [motion.plan.mode for motion in ensemble] == ["short-axis", "long-axis"]
+    members = iter(ensemble)
+    assert iter(members) is members and next(members).scene == ensemble[0].scene
+    assert [motion.scene == ensemble[1].scene for motion in members] == [True]
+
+
+def test_negative_actions_are_refused():
+    form = andoyer.normalize("(x**2 + X**2)/2 + x**3", 2, [("x", "X")])
+    with pytest.raises(andoyer.InputError, match="actions = -1"):
+        form.frequency_map([-1.0])
+    assert form.frequency_map([0.0]).tolist() == [1.0]

@@ -1,0 +1,115 @@
+//! How far a normal form is good: the sizes of its orders, and what they say at an amplitude.
+//!
+//! The amplitude of a mode is a = √(2|I|); with all amplitudes at most a, a term c Π u^j U^k of degree d is at most |c| Π s^j… a^d, where
+//! |u| = a/(2√r) and |U| = a √r for a centre, and |u| = |U| = a for a saddle or a quartet. The norm ‖T_m‖ of a generating function T_m = S_m/(m−1)! is the
+//! sum of these bounds at a = 1; its part of the transformation is of the size ‖T_m‖ a^(m+1) (m+2).
+//!
+//! Such series behave like a^m/ρ_m^m with ρ_m = (‖T_{m−2}‖/‖T_m‖)^{1/2}, which falls with the order: the series diverge. At a given amplitude
+//! the sizes first fall and then rise; the best order is where they are least. That is an estimate and no bound: what it is worth is seen from the formal
+//! integrals along an integrated orbit, [`BirkhoffMap::actions`](crate::BirkhoffMap::actions).
+
+use super::BirkhoffNormalForm;
+use super::mode::{Mode, modulus};
+use crate::{Error, Polynomial, RealField};
+
+/// The sizes of the orders of a normal form.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Domain {
+    norms: Vec<f64>,
+}
+
+impl<R: RealField> BirkhoffNormalForm<R> {
+    /// The sizes of the orders, with numbers for the parameters in the order of their names.
+    ///
+    /// ```
+    /// use andoyer_series::{PhaseSpace, normalize};
+    /// let space = PhaseSpace::new(&[("q", "p")])?;
+    /// let form = normalize(&space.parse::<f64>("(p^2 + q^2)/2 - q^3/3")?, 12, &space)?;
+    /// let domain = form.domain(&[])?;
+    /// // Far inside the highest order is best; beyond the separatrix through q = 1 a low one is.
+    /// assert_eq!((domain.best_order(0.05)?, domain.best_order(1.5)?), (12, 2));
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - one number for two parameters: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`].
+    pub fn domain(&self, parameters: &[f64]) -> Result<Domain, Error> {
+        super::map::check("parameters", parameters, self.space().parameters())?;
+        let mut sizes: Vec<f64> = self.modes().iter().flat_map(size).collect();
+        sizes.extend(parameters.iter().map(|value| value.abs()));
+        let norm = |generator: &Polynomial<R::Complex>| {
+            let bound = |(monomial, c): (crate::Monomial, &R::Complex)| {
+                let powers = sizes.iter().enumerate().map(|(slot, size)| size.powi(monomial.exponent(slot) as i32));
+                modulus::<R>(c) * powers.product::<f64>()
+            };
+            generator.terms().map(bound).sum::<f64>()
+        };
+        let generators = (1..=self.order()).filter_map(|m| self.transform().scaled_generator(m));
+        Ok(Domain { norms: generators.map(norm).collect() })
+    }
+}
+
+/// |u| and |U| at the amplitude 1.
+fn size<R: RealField>(mode: &Mode<R>) -> [f64; 2] {
+    match mode {
+        Mode::Elliptic { ratio, .. } => [0.5 / ratio.to_float().sqrt(), ratio.to_float().sqrt()],
+        _ => [1.0, 1.0],
+    }
+}
+
+impl Domain {
+    /// ‖T_1‖, …, ‖T_N‖.
+    #[must_use]
+    pub fn norms(&self) -> &[f64] {
+        &self.norms
+    }
+
+    /// ρ_m = (‖T_{m−2}‖/‖T_m‖)^{1/2} for m = 3, …, N: the amplitude at which order m is as large as order m − 2. Infinite where T_m is 0.
+    #[must_use]
+    pub fn radii(&self) -> Vec<f64> {
+        self.norms
+            .windows(3)
+            .map(|norms| if norms[2] > 0.0 { (norms[0] / norms[2]).sqrt() } else { f64::INFINITY })
+            .collect()
+    }
+
+    /// The sizes (m + 2) ‖T_m‖ a^(m+1), m = 1, …, N, of the orders of the transformation where all amplitudes √(2|I|) are a.
+    ///
+    /// # Errors
+    /// - −1, NaN, an infinity: [`Error::OutsideInterval`].
+    pub fn sizes(&self, amplitude: f64) -> Result<Vec<f64>, Error> {
+        if !(0.0..=f64::MAX).contains(&amplitude) {
+            let (argument, value) = ("amplitude", amplitude);
+            return Err(Error::OutsideInterval { argument, value, lower: 0.0, upper: f64::MAX });
+        }
+        let size = |(m, norm): (i32, &f64)| f64::from(m + 2) * norm * amplitude.powi(m + 1);
+        Ok((1..).zip(&self.norms).map(size).collect())
+    }
+
+    /// The order at which the sizes are least, of those that are not 0 by symmetry; 0 for a normal form of order 0.
+    ///
+    /// # Errors
+    /// - as [`sizes`](Self::sizes).
+    pub fn best_order(&self, amplitude: f64) -> Result<usize, Error> {
+        let sizes = self.sizes(amplitude)?;
+        let nonzero = sizes.iter().enumerate().filter(|(_, size)| **size > 0.0);
+        // Orders that a symmetry leaves out, and those at amplitude 0, do no harm.
+        Ok(nonzero.min_by(|a, b| a.1.total_cmp(b.1)).map_or(self.norms.len(), |(at, _)| at + 1))
+    }
+}
+
+/// A table of orders, norms and radii.
+impl std::fmt::Display for Domain {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        writeln!(formatter, "order        norm      radius")?;
+        let radii = self.radii();
+        for (at, norm) in self.norms.iter().enumerate() {
+            write!(formatter, "{:>5} {norm:>11.3e}", at + 1)?;
+            match at.checked_sub(2).map(|at| radii[at]) {
+                Some(radius) if radius.is_finite() => writeln!(formatter, " {radius:>11.4}")?,
+                _ => writeln!(formatter)?,
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,141 @@
+//! The motion of a normal form in numbers: its actions, frequencies, rates and energy in the real normal variables.
+
+use super::BirkhoffNormalForm;
+use super::mode::Mode;
+use crate::{Error, Polynomial, RealField};
+use num_complex::Complex;
+
+/// K and its derivatives, with numbers for the parameters.
+#[derive(Debug, Clone)]
+pub(crate) struct Flow {
+    energy: Polynomial<f64>,
+    gradient: Vec<Polynomial<f64>>,
+    /// ∂K/∂Iᵢ in the actions, or the term that keeps K from being a function of them.
+    frequencies: Result<Vec<Polynomial<f64>>, String>,
+}
+
+impl Flow {
+    pub(crate) fn new<R: RealField>(normal_form: &BirkhoffNormalForm<R>, parameters: &[f64]) -> Result<Self, Error> {
+        let modes = normal_form.modes().len();
+        let energy = at(normal_form.in_real()?.map(R::to_float), 2 * modes, parameters)?;
+        let gradient = (0..2 * modes).map(|slot| energy.derivative(slot)).collect::<Result<_, _>>()?;
+        let frequencies = match normal_form.in_actions() {
+            Ok(actions) => {
+                let actions = at(actions.map(R::to_float), modes, parameters)?;
+                Ok((0..modes).map(|mode| actions.derivative(mode)).collect::<Result<_, _>>()?)
+            }
+            Err(Error::ResonantTerm { term }) => Err(term),
+            Err(other) => return Err(other),
+        };
+        Ok(Flow { energy, gradient, frequencies })
+    }
+
+    pub(crate) fn frequencies(&self, actions: &[f64]) -> Result<Vec<f64>, Error> {
+        let map = self.frequencies.as_ref().map_err(|term| Error::ResonantTerm { term: term.clone() })?;
+        map.iter().map(|frequency| frequency.evaluate(actions)).collect()
+    }
+
+    pub(crate) fn is_integrable(&self) -> bool {
+        self.frequencies.is_ok()
+    }
+
+    pub(crate) fn energy(&self, normal: &[f64]) -> Result<f64, Error> {
+        self.energy.evaluate(normal)
+    }
+
+    pub(crate) fn rates(&self, normal: &[f64]) -> Result<Vec<f64>, Error> {
+        let gradient = self.gradient.iter().map(|slope| slope.evaluate(normal)).collect::<Result<Vec<_>, _>>()?;
+        Ok(super::matrix::turned(&gradient))
+    }
+}
+
+/// A polynomial with numbers for the parameters, which follow `first` variables.
+fn at(mut polynomial: Polynomial<f64>, first: usize, parameters: &[f64]) -> Result<Polynomial<f64>, Error> {
+    for (slot, value) in (first..).zip(parameters) {
+        polynomial = polynomial.evaluate_partial(slot, value)?;
+    }
+    Ok(polynomial)
+}
+
+/// The actions of real normal variables.
+pub(crate) fn actions(modes: &[Mode<f64>], normal: &[f64]) -> Vec<f64> {
+    let action = |(mode, kind): (usize, &Mode<f64>)| {
+        let (q, p) = (normal[2 * mode], normal[2 * mode + 1]);
+        match kind {
+            Mode::Elliptic { ratio, .. } => (q * q / ratio + ratio * p * p) / 2.0,
+            Mode::Hyperbolic { .. } => q * p,
+            Mode::Complex { frequency, partner, .. } => {
+                let (other, other_p) = (normal[2 * partner], normal[2 * partner + 1]);
+                if *frequency > 0.0 { q * p + other * other_p } else { other * p - q * other_p }
+            }
+        }
+    };
+    modes.iter().enumerate().map(action).collect()
+}
+
+/// Real normal variables after a time, each mode moving with its frequency.
+pub(crate) fn advanced(modes: &[Mode<f64>], normal: &[f64], frequencies: &[f64], time: f64) -> Vec<f64> {
+    let mut moved = normal.to_vec();
+    for (mode, kind) in modes.iter().enumerate() {
+        let (q, p) = (2 * mode, 2 * mode + 1);
+        match kind {
+            Mode::Elliptic { ratio, .. } => {
+                let turned = Complex::new(ratio * normal[p], normal[q]) * Complex::cis(frequencies[mode] * time);
+                (moved[q], moved[p]) = (turned.im, turned.re / ratio);
+            }
+            Mode::Hyperbolic { .. } => {
+                let growth = (frequencies[mode] * time).exp();
+                (moved[q], moved[p]) = (normal[q] * growth, normal[p] / growth);
+            }
+            Mode::Complex { frequency, partner, .. } if *frequency > 0.0 => {
+                let growth = (frequencies[mode] * time).exp();
+                let turn = Complex::cis(frequencies[*partner] * time);
+                let pair = |first: usize, second: usize| Complex::new(normal[first], normal[second]) * turn;
+                let (place, momentum) = (pair(q, 2 * partner) * growth, pair(p, 2 * partner + 1) / growth);
+                (moved[q], moved[2 * partner]) = (place.re, place.im);
+                (moved[p], moved[2 * partner + 1]) = (momentum.re, momentum.im);
+            }
+            Mode::Complex { .. } => {}
+        }
+    }
+    moved
+}
+
+/// The complex variables u₁, U₁, u₂, … of real normal variables.
+pub(crate) fn complex_point(modes: &[Mode<f64>], normal: &[f64]) -> Vec<Complex<f64>> {
+    let pair = |(mode, kind): (usize, &Mode<f64>)| {
+        let (q, p) = (normal[2 * mode], normal[2 * mode + 1]);
+        match kind {
+            Mode::Elliptic { ratio, .. } => [Complex::new(q, ratio * p) / (2.0 * ratio), Complex::new(ratio * p, q)],
+            Mode::Hyperbolic { .. } => [q.into(), p.into()],
+            Mode::Complex { frequency, partner, .. } => {
+                let (other, other_p) = (normal[2 * partner], normal[2 * partner + 1]);
+                if *frequency > 0.0 {
+                    [Complex::new(q, -other) / 2.0, Complex::new(p, other_p)]
+                } else {
+                    [Complex::new(other, q) / 2.0, Complex::new(other_p, -p)]
+                }
+            }
+        }
+    };
+    modes.iter().enumerate().flat_map(pair).collect()
+}
+
+/// Real normal variables of the complex ones: of a centre from U, of a quartet from its first mode.
+pub(crate) fn real_point(modes: &[Mode<f64>], values: &[Complex<f64>]) -> Vec<f64> {
+    let mut normal = vec![0.0; values.len()];
+    for (mode, kind) in modes.iter().enumerate() {
+        let (q, p) = (2 * mode, 2 * mode + 1);
+        let (u, momentum) = (values[q], values[p]);
+        match kind {
+            Mode::Elliptic { ratio, .. } => (normal[q], normal[p]) = (momentum.im, momentum.re / ratio),
+            Mode::Hyperbolic { .. } => (normal[q], normal[p]) = (u.re, momentum.re),
+            Mode::Complex { frequency, partner, .. } if *frequency > 0.0 => {
+                (normal[q], normal[2 * partner]) = (2.0 * u.re, -2.0 * u.im);
+                (normal[p], normal[2 * partner + 1]) = (momentum.re, momentum.im);
+            }
+            Mode::Complex { .. } => {}
+        }
+    }
+    normal
+}

@@ -1,0 +1,297 @@
+//! A normal form as JSON: exact numbers as "p/q", floats as numbers with all their digits.
+//!
+//! ```text
+//! { "format": "andoyer-birkhoff-exact" or "andoyer-birkhoff-float", "version": 1, "order": N,
+//!   "variables": [["q", "p"], …], "parameters": [["d", degree], …],
+//!   "resonances": [[k₁, …], …], "smallest_divisor": 1e-6, "centre": false,
+//!   "modes": [["elliptic", ω, r] or ["hyperbolic", λ] or ["complex", σ, ν, partner], …],
+//!   "linear_change": [[…], …],                                 M by rows
+//!   "offset": [[[exponents], c], …],                           the constant term
+//!   "hamiltonian": [ [[[exponents], re, im], …], … ],          K_n/n! in u₁, U₁, …, parameters, n = 0 … N
+//!   "generators":  [ [[[exponents], re, im], …], … ] }         S_m/(m−1)!, m = 1 … N
+//! ```
+//!
+//! Reading verifies format, version, names, counts, degrees, that numbers are finite, that M is symplectic, that K has only terms that are kept and S none of
+//! them. It does *not* verify that K is the normal form of some Hamiltonian.
+
+use super::diagonal::Diagonal;
+use super::matrix::{Matrix, form_entry, pairing, transposed};
+use super::mode::Mode;
+use super::{BirkhoffNormalForm, PhaseSpace, Resonances, turns};
+use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, RealField, TermProblem};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+const VERSION: u64 = 1;
+
+#[derive(Deserialize)]
+struct Header {
+    format: String,
+    version: u64,
+}
+
+type Term = (Vec<u32>, Value, Value);
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    format: String,
+    version: u64,
+    order: usize,
+    variables: Vec<(String, String)>,
+    parameters: Vec<(String, u32)>,
+    resonances: Vec<Vec<i64>>,
+    smallest_divisor: f64,
+    centre: bool,
+    modes: Vec<Vec<Value>>,
+    linear_change: Vec<Vec<Value>>,
+    offset: Vec<(Vec<u32>, Value)>,
+    hamiltonian: Vec<Vec<Term>>,
+    generators: Vec<Vec<Term>>,
+}
+
+fn format<R: RealField>() -> &'static str {
+    if R::EPSILON == 0.0 { "andoyer-birkhoff-exact" } else { "andoyer-birkhoff-float" }
+}
+
+impl<R: RealField> BirkhoffNormalForm<R> {
+    /// This normal form as JSON text.
+    ///
+    /// # Errors
+    /// - none for a normal form that exists; JSON itself could not be written only if memory ran out.
+    pub fn to_json(&self) -> Result<String, Error> {
+        let space = self.space();
+        let names = space.names();
+        let slots = names.len();
+        let (pairs, parameters) = names.split_at(2 * space.degrees_of_freedom());
+        let terms = |f: &Polynomial<R::Complex>| {
+            let term = |(monomial, c): (Monomial, &R::Complex)| {
+                let (re, im) = R::parts(c);
+                (monomial.exponents()[..slots].to_vec(), value(&re), value(&im))
+            };
+            f.terms().map(term).collect::<Vec<_>>()
+        };
+        let generators = (1..=self.order()).filter_map(|m| self.transform().scaled_generator(m));
+        let degrees = space.parameter_degrees().iter().map(|degree| degree.unwrap_or(0));
+        let document = Document {
+            format: format::<R>().to_owned(),
+            version: VERSION,
+            order: self.order(),
+            variables: pairs.chunks(2).map(|pair| (pair[0].to_owned(), pair[1].to_owned())).collect(),
+            parameters: parameters.iter().map(|&name| name.to_owned()).zip(degrees).collect(),
+            resonances: self.resonances.vectors().to_vec(),
+            smallest_divisor: self.resonances.smallest_divisor(),
+            centre: self.resonances.keeps_centre(),
+            modes: self.modes().iter().map(mode_values).collect(),
+            linear_change: self.linear_change().iter().map(|row| row.iter().map(value).collect()).collect(),
+            offset: self.offset.terms().map(|(m, c)| (m.exponents()[..slots].to_vec(), value(c))).collect(),
+            hamiltonian: self.normalization.hamiltonian.iter().map(terms).collect(),
+            generators: generators.map(terms).collect(),
+        };
+        serde_json::to_string(&document).map_err(Error::json)
+    }
+
+    /// Reads what [`to_json`](Self::to_json) wrote from a normal form in the same kind of numbers.
+    ///
+    /// ```
+    /// use andoyer_series::{BigRational, BirkhoffNormalForm, PhaseSpace, normalize};
+    /// let space = PhaseSpace::new(&[("q", "p")])?;
+    /// let form = normalize(&space.parse::<BigRational>("(p^2 + q^2)/2 + q^4/4")?, 4, &space)?;
+    /// assert_eq!(BirkhoffNormalForm::<BigRational>::from_json(&form.to_json()?)?, form);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - `"[]"`, a missing field, a number of the other kind: [`Error::Json`] or [`Error::RationalMalformed`];
+    /// - another format, exact for float among them, or version: [`Error::FormatUnknown`];
+    /// - lists of the wrong length: [`Error::CountMismatch`]; terms that no such normal form has: [`Error::TermInconsistent`];
+    /// - M not symplectic: [`Error::NotSymplectic`]; names and resonances as their constructors.
+    pub fn from_json(text: &str) -> Result<Self, Error> {
+        let header: Header = serde_json::from_str(text).map_err(Error::json)?;
+        if header.format != format::<R>() || header.version != VERSION {
+            let (format, version) = (header.format, header.version);
+            return Err(Error::FormatUnknown {
+                format,
+                version,
+                known_format: self::format::<R>(),
+                known_version: VERSION,
+            });
+        }
+        let document: Document = serde_json::from_str(text).map_err(Error::json)?;
+        if document.order > R::MAXIMUM_ORDER {
+            return Err(Error::OrderTooLarge { order: document.order, bound: R::MAXIMUM_ORDER });
+        }
+        let space = space(&document)?;
+        let vectors: Vec<&[i64]> = document.resonances.iter().map(Vec::as_slice).collect();
+        let mut resonances = Resonances::new(&vectors)?.with_smallest_divisor(document.smallest_divisor)?;
+        if document.centre {
+            resonances = resonances.with_centre();
+        }
+        let diagonal = diagonal::<R>(&document, space.degrees_of_freedom())?;
+        resonances.check(&diagonal.modes)?;
+        let mut offset = Polynomial::zero();
+        for (exponents, c) in &document.offset {
+            let fits = exponents.len() == space.names().len()
+                && exponents[..2 * space.degrees_of_freedom()].iter().all(|&e| e == 0);
+            if !fits {
+                return Err(inconsistent("constant term", 0, exponents, TermProblem::Degree));
+            }
+            offset.add_term(Monomial::new(exponents)?, &number(c)?);
+        }
+        let mut form = BirkhoffNormalForm {
+            space,
+            diagonal,
+            resonances,
+            offset,
+            normalization: Normalization {
+                hamiltonian: Vec::new(),
+                transform: LieTransform::new(crate::Poisson::new(&[])?, Vec::new()),
+            },
+        };
+        count("hamiltonian", document.hamiltonian.len(), document.order + 1)?;
+        count("generators", document.generators.len(), document.order)?;
+        let series = |what, first, lists: &[Vec<Term>], kept| {
+            let lists = (first..).zip(lists).map(|(n, terms)| form.series(what, n, terms, kept));
+            lists.collect::<Result<Vec<_>, Error>>()
+        };
+        let hamiltonian = series("hamiltonian", 0, &document.hamiltonian, true)?;
+        let generators = series("generating function", 1, &document.generators, false)?;
+        let transform = LieTransform::new(form.space.poisson()?, generators);
+        form.normalization = Normalization { hamiltonian, transform };
+        Ok(form)
+    }
+
+    /// A polynomial of order n, checked term by term.
+    fn series(
+        &self,
+        what: &'static str,
+        n: usize,
+        terms: &[Term],
+        kept: bool,
+    ) -> Result<Polynomial<R::Complex>, Error> {
+        let mut polynomial = Polynomial::zero();
+        for (exponents, re, im) in terms {
+            let fail = |problem| inconsistent(what, n, exponents, problem);
+            let monomial = Monomial::new(exponents)?;
+            if exponents.len() != self.space.names().len() || self.space.degree(monomial) as usize != n + 2 {
+                return Err(fail(TermProblem::Degree));
+            }
+            if self.resonances.keeps_of(&turns(monomial, self.modes().len()), self.modes()) != kept {
+                return Err(fail(TermProblem::Kernel));
+            }
+            if polynomial.coefficient(&monomial).is_some() {
+                return Err(fail(TermProblem::Repeated));
+            }
+            polynomial.add_term(monomial, &R::complex(number(re)?, number(im)?));
+        }
+        Ok(polynomial)
+    }
+}
+
+fn inconsistent(what: &'static str, order: usize, exponents: &[u32], problem: TermProblem) -> Error {
+    Error::TermInconsistent { what, order, exponents: exponents.to_vec(), problem }
+}
+
+fn count(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
+    if found == expected { Ok(()) } else { Err(Error::CountMismatch { what, found, expected }) }
+}
+
+fn value<R: RealField>(c: &R) -> Value {
+    if R::EPSILON == 0.0 { super::quadratic::literal(c).into() } else { c.to_float().into() }
+}
+
+/// A number in the notation of its kind.
+fn number<R: RealField>(value: &Value) -> Result<R, Error> {
+    let malformed = || Error::RationalMalformed { text: value.to_string() };
+    if R::EPSILON > 0.0 {
+        let float = value.as_f64().filter(|float| float.is_finite()).ok_or_else(malformed)?;
+        return R::candidates(float).pop().ok_or_else(malformed);
+    }
+    let text = value.as_str().ok_or_else(malformed)?;
+    let constant = Polynomial::<R>::parse(text, &[]).ok().and_then(|constant| constant.as_constant());
+    constant.filter(|c| super::quadratic::literal(c) == text).ok_or_else(malformed)
+}
+
+fn mode_values<R: RealField>(mode: &Mode<R>) -> Vec<Value> {
+    match mode {
+        Mode::Elliptic { frequency, ratio } => vec!["elliptic".into(), value(frequency), value(ratio)],
+        Mode::Hyperbolic { rate } => vec!["hyperbolic".into(), value(rate)],
+        Mode::Complex { rate, frequency, partner } => {
+            vec!["complex".into(), value(rate), value(frequency), (*partner).into()]
+        }
+    }
+}
+
+fn space(document: &Document) -> Result<PhaseSpace, Error> {
+    let pairs: Vec<(&str, &str)> = document.variables.iter().map(|(q, p)| (q.as_str(), p.as_str())).collect();
+    let names: Vec<&str> = document.parameters.iter().map(|(name, _)| name.as_str()).collect();
+    let space = PhaseSpace::new(&pairs)?.with_parameters(&names)?;
+    document.parameters.iter().try_fold(space, |space, (name, degree)| space.with_degree(name, *degree))
+}
+
+fn diagonal<R: RealField>(document: &Document, pairs: usize) -> Result<Diagonal<R>, Error> {
+    count("modes", document.modes.len(), pairs)?;
+    count("linear_change", document.linear_change.len(), 2 * pairs)?;
+    let mut modes: Vec<Mode<R>> = Vec::new();
+    for values in &document.modes {
+        let malformed = || Error::NameUnknown {
+            what: "mode",
+            name: values.iter().map(Value::to_string).collect::<Vec<_>>().join(", "),
+            known: "[\"elliptic\", ω, r], [\"hyperbolic\", λ], [\"complex\", σ, ν, partner]",
+        };
+        modes.push(match &values[..] {
+            [kind, frequency, ratio] if kind == "elliptic" => {
+                Mode::Elliptic { frequency: number(frequency)?, ratio: number(ratio)? }
+            }
+            [kind, rate] if kind == "hyperbolic" => Mode::Hyperbolic { rate: number(rate)? },
+            [kind, rate, frequency, partner] if kind == "complex" => {
+                let partner = partner.as_u64().map(|partner| partner as usize).filter(|&partner| partner < pairs);
+                Mode::Complex {
+                    rate: number(rate)?,
+                    frequency: number(frequency)?,
+                    partner: partner.ok_or_else(malformed)?,
+                }
+            }
+            _ => return Err(malformed()),
+        });
+        if let Some(Mode::Elliptic { ratio, .. }) = modes.last()
+            && ratio.sign() <= 0
+        {
+            return Err(malformed());
+        }
+    }
+    let mutual = |(mode, kind): (usize, &Mode<R>)| match kind {
+        Mode::Complex { partner, frequency, .. } => {
+            matches!(&modes[*partner], Mode::Complex { partner: back, frequency: other, .. } if *back == mode && frequency.sign() * other.sign() < 0)
+        }
+        _ => true,
+    };
+    if !modes.iter().enumerate().all(mutual) {
+        return Err(Error::NameUnknown {
+            what: "mode",
+            name: "complex".to_owned(),
+            known: "two modes that name each other",
+        });
+    }
+    let mut matrix: Matrix<R> = Vec::new();
+    for row in &document.linear_change {
+        count("linear_change", row.len(), 2 * pairs)?;
+        matrix.push(row.iter().map(number).collect::<Result<_, _>>()?);
+    }
+    symplectic(&matrix)?;
+    Ok(Diagonal { modes, matrix })
+}
+
+/// Refuses a matrix that is not symplectic, among floats to rounding.
+fn symplectic<R: RealField>(matrix: &Matrix<R>) -> Result<(), Error> {
+    let columns = transposed(matrix);
+    let largest = matrix.iter().flatten().map(|entry| entry.to_float().abs()).fold(1.0, f64::max);
+    for (i, j) in (0..columns.len()).flat_map(|i| (0..columns.len()).map(move |j| (i, j))) {
+        let mut error = pairing(&columns[i], &columns[j]);
+        error -= &R::integer(form_entry(i, j));
+        if error.to_float().abs() > 1e4 * R::EPSILON * largest * largest || (R::EPSILON == 0.0 && !error.is_zero()) {
+            return Err(Error::NotSymplectic { row: i, column: j, error: error.to_float() });
+        }
+    }
+    Ok(())
+}

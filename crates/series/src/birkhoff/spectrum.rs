@@ -1,0 +1,162 @@
+//! The eigenvalues of the linear motion J A and their null vectors.
+//!
+//! Eigenvalues come in floats, by the real Schur form; over the rationals each must be one of the fractions near it, which elimination then proves. An
+//! eigenvalue of multiplicity m has m null vectors of J A − λ, or a Jordan block, which is an error that names it.
+
+use super::matrix::{Matrix, null_space};
+use super::mode::modulus;
+use crate::{Error, RealField};
+
+/// Eigenvalues of this size count as zero, and eigenvalues as close as this to an axis lie on it: relative to the largest entry of A, the root of rounding,
+/// by which a Jordan block splits.
+pub(super) const ROOT: f64 = 1e-7;
+/// Eigenvalues as close as this are one of a higher multiplicity; where they are two, their vectors are told apart to 1e-5 and made symplectic afterwards.
+const EQUAL: f64 = 1e-11;
+/// An eigenvalue in the first quadrant, with its multiplicity and its null vectors.
+pub(super) struct Eigenspace<R: RealField> {
+    pub(super) re: R,
+    pub(super) im: R,
+    pub(super) vectors: Vec<Vec<R::Complex>>,
+    /// Null vectors of −λ, of saddles and quartets.
+    pub(super) opposite: Vec<Vec<R::Complex>>,
+}
+
+/// What an error says about the block.
+pub(super) struct Names<'a> {
+    pub(super) names: &'a dyn Fn(usize) -> String,
+    pub(super) slots: usize,
+}
+
+impl Names<'_> {
+    pub(super) fn pairs(&self) -> String {
+        let pair = |slot| format!("({}, {})", (self.names)(slot), (self.names)(slot + 1));
+        (0..self.slots).step_by(2).map(pair).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The largest components of a vector, relative to the largest of all.
+    pub(super) fn direction<R: RealField>(&self, vector: &[R::Complex]) -> String {
+        let largest = vector.iter().map(modulus::<R>).fold(0.0, f64::max);
+        let part = |(slot, value): (usize, &R::Complex)| {
+            let share = modulus::<R>(value) / largest;
+            (share > 1e-6).then(|| format!("{} {share:.3}", (self.names)(slot)))
+        };
+        vector.iter().enumerate().filter_map(part).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The eigenvalues of J A with Re ≥ 0, Im ≥ 0 and their multiplicities: real ones first, then complex ones, then imaginary ones, by descending size.
+pub(super) fn spectrum<R: RealField>(
+    motion: &Matrix<R>,
+    scale: f64,
+    names: &Names,
+) -> Result<Vec<(f64, f64, usize)>, Error> {
+    let n = motion.len();
+    let floats = nalgebra::DMatrix::from_fn(n, n, |i, j| motion[i][j].to_float() / scale);
+    let not_finite = || Error::NotFinite { what: "quadratic part", term: names.pairs() };
+    if scale == 0.0 || floats.iter().any(|entry| !entry.is_finite()) {
+        return if scale == 0.0 { Err(zero::<R>(motion, names)) } else { Err(not_finite()) };
+    }
+    let schur = nalgebra::linalg::Schur::try_new(floats, f64::EPSILON, 10_000).ok_or_else(not_finite)?;
+    let mut found: Vec<(f64, f64, usize)> = Vec::new();
+    for value in schur.complex_eigenvalues().iter() {
+        if value.norm() < ROOT {
+            return Err(zero::<R>(motion, names));
+        }
+        // Each eigenvalue stands for ±λ, ±λ̄: what lies off the axis by less than the root of rounding is on it.
+        let re = if value.re.abs() < ROOT { 0.0 } else { value.re.abs() };
+        let im = if value.im.abs() < ROOT { 0.0 } else { value.im.abs() };
+        let weight = if re > 0.0 && im > 0.0 { 1 } else { 2 };
+        let known = found.iter_mut().find(|known| (known.0 - re).hypot(known.1 - im) < known_radius(value, re, im));
+        match known {
+            Some(known) => known.2 += weight,
+            None => found.push((re, im, weight)),
+        }
+    }
+    let rank = |(re, im, _): &(f64, f64, usize)| {
+        if *im == 0.0 {
+            0
+        } else if *re > 0.0 {
+            1
+        } else {
+            2
+        }
+    };
+    found.sort_by(|a, b| rank(a).cmp(&rank(b)).then((b.0.hypot(b.1)).total_cmp(&a.0.hypot(a.1))));
+    // Counted four times: ±λ, ±λ̄, or two of them twice.
+    Ok(found.into_iter().map(|(re, im, count)| (re * scale, im * scale, count.div_ceil(4))).collect())
+}
+
+/// How far apart two computed values of one eigenvalue can lie: by the root of rounding where they were off the axis, else by rounding.
+fn known_radius(value: &nalgebra::Complex<f64>, re: f64, im: f64) -> f64 {
+    let moved = (value.re.abs() - re).abs().max((value.im.abs() - im).abs());
+    if moved > EQUAL { ROOT } else { EQUAL }
+}
+
+fn zero<R: RealField>(motion: &Matrix<R>, names: &Names) -> Error {
+    let nulls =
+        |dimension| null_space::<R>(complexified(motion, &R::complex(R::zero(), R::zero())), dimension, f64::INFINITY);
+    let vectors = (1..=motion.len()).find_map(nulls).unwrap_or_default();
+    let direction = vectors.first().map(|vector| names.direction::<R>(vector)).unwrap_or_default();
+    Error::ZeroFrequency { pairs: names.pairs(), direction }
+}
+
+/// J A − λ.
+fn complexified<R: RealField>(motion: &Matrix<R>, eigenvalue: &R::Complex) -> Matrix<R::Complex> {
+    let complex = |i: usize, j: usize| {
+        let mut entry = R::complex(motion[i][j].clone(), R::zero());
+        if i == j {
+            entry -= eigenvalue;
+        }
+        entry
+    };
+    (0..motion.len()).map(|i| (0..motion.len()).map(|j| complex(i, j)).collect()).collect()
+}
+
+/// The null vectors of λ and of −λ.
+pub(super) fn eigenspace<R: RealField>(
+    motion: &Matrix<R>,
+    (re, im): (f64, f64),
+    multiplicity: usize,
+    scale: f64,
+    names: &Names,
+) -> Result<Eigenspace<R>, Error> {
+    let candidates = |value: f64| {
+        let near = |candidate: &R| (candidate.to_float() - value).abs() < 1e-9 * scale;
+        if value == 0.0 { vec![R::zero()] } else { R::candidates(value).into_iter().filter(near).collect() }
+    };
+    let defective = |vector: Option<&Vec<R::Complex>>| Error::Defective {
+        pairs: names.pairs(),
+        eigenvalue: shown(re, im),
+        direction: vector.map(|vector| names.direction::<R>(vector)).unwrap_or_default(),
+    };
+    let nulls = |re: &R, im: &R, dimension| {
+        null_space::<R>(complexified(motion, &R::complex(re.clone(), im.clone())), dimension, ROOT * scale)
+    };
+    for (a, b) in candidates(re).iter().flat_map(|a| candidates(im).into_iter().map(move |b| (a.clone(), b))) {
+        if let Some(vectors) = nulls(&a, &b, multiplicity) {
+            let opposite = if re == 0.0 { None } else { nulls(&-a.clone(), &-b.clone(), multiplicity) };
+            if re > 0.0 && opposite.is_none() {
+                return Err(defective(vectors.first()));
+            }
+            return Ok(Eigenspace { re: a, im: b, vectors, opposite: opposite.unwrap_or_default() });
+        }
+        // Fewer vectors than the multiplicity.
+        for fewer in (1..multiplicity).rev() {
+            if let Some(vectors) = nulls(&a, &b, fewer) {
+                return Err(defective(vectors.first()));
+            }
+        }
+    }
+    if R::EPSILON > 0.0 {
+        return Err(defective(None));
+    }
+    Err(Error::SpectrumIrrational { pairs: names.pairs(), eigenvalue: shown(re, im) })
+}
+
+pub(super) fn shown(re: f64, im: f64) -> String {
+    match (re > 0.0, im > 0.0) {
+        (true, true) => format!("±{re:.9} ± {im:.9}i"),
+        (true, false) => format!("±{re:.9}"),
+        _ => format!("±{im:.9}i"),
+    }
+}

@@ -1,0 +1,198 @@
+//! A normal form as text and as LaTeX, floats rounded to what is significant.
+//!
+//! Rounding of a sum of terms is relative to the largest of them: of each degree twelve digits of the largest coefficient are printed, and a
+//! coefficient below that is left out. Exact numbers are printed as they are.
+
+use super::{BirkhoffNormalForm, PhaseSpace};
+use crate::{Error, Part, Polynomial, RealField, SLOTS};
+use std::collections::BTreeMap;
+
+/// Digits of the largest coefficient of a degree.
+const DIGITS: i32 = 12;
+/// Terms in one line of LaTeX.
+const TERMS: usize = 6;
+
+/// The normal form as text: in the actions `I_q`, or with resonant terms in the complex variables `u_q`, `U_q`.
+impl<R: RealField> std::fmt::Display for BirkhoffNormalForm<R> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let space = self.space();
+        formatter.write_str(&match self.in_actions() {
+            Ok(actions) => {
+                let actions = significant::<R>(&actions.map(|c| R::complex(c.clone(), R::zero())));
+                PhaseSpace::text::<R::Complex>(&actions, &space.action_names())
+            }
+            Err(_) => PhaseSpace::text(&significant::<R>(&self.in_complex()), &space.complex_names()),
+        })
+    }
+}
+
+/// The coefficients rounded, degree by degree.
+pub(super) fn significant<R: RealField>(polynomial: &Polynomial<R::Complex>) -> Polynomial<R::Complex> {
+    if R::EPSILON == 0.0 {
+        return polynomial.clone();
+    }
+    let mut largest = BTreeMap::<u32, f64>::new();
+    for (monomial, c) in polynomial.terms() {
+        let size = largest.entry(monomial.total_degree()).or_default();
+        *size = size.max(super::mode::modulus::<R>(c));
+    }
+    let terms = polynomial.terms().map(|(monomial, c)| {
+        let (re, im) = R::parts(c);
+        let size = largest.get(&monomial.total_degree()).copied().unwrap_or_default();
+        let rounded = |part: R| R::candidates(rounded(part.to_float(), size)).pop().unwrap_or_else(R::zero);
+        (monomial, R::complex(rounded(re), rounded(im)))
+    });
+    Polynomial::from_terms(terms)
+}
+
+/// A float to twelve digits of `largest`.
+fn rounded(value: f64, largest: f64) -> f64 {
+    let decimals = DIGITS - 1 - largest.log10().floor() as i32;
+    if !value.is_finite() || !(-300..=300).contains(&decimals) {
+        return value;
+    }
+    // Decimal text rounds correctly, and its nearest float prints as the same decimal.
+    let text = if decimals >= 0 {
+        format!("{value:.*}", decimals as usize)
+    } else {
+        let unit = 10.0_f64.powi(-decimals);
+        ((value / unit).round() * unit).to_string()
+    };
+    text.parse::<f64>().map_or(value, |value| if value == 0.0 { 0.0 } else { value })
+}
+
+impl<R: RealField> BirkhoffNormalForm<R> {
+    /// A part of this normal form as LaTeX, for a document with `\usepackage{amsmath}`.
+    ///
+    /// The Hamiltonian K in the actions, or with resonant terms in u and U; the generating functions S_m; the old variables in the new ones, with a
+    /// prime, or the new in the old.
+    ///
+    /// ```
+    /// use andoyer_series::{BigRational, Part, PhaseSpace, normalize};
+    /// let space = PhaseSpace::new(&[("q", "p")])?;
+    /// let form = normalize(&space.parse::<BigRational>("(p^2 + q^2)/2 + q^4/4")?, 2, &space)?;
+    /// assert!(form.to_latex(Part::Hamiltonian)?.contains("K &= I_{q} + \\frac{3}{8}I_{q}^{2}"));
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - degrees of a transformation that outgrow the packed exponents: [`Error::ExponentOverflow`].
+    pub fn to_latex(&self, what: Part) -> Result<String, Error> {
+        let space = self.space();
+        let names: Vec<String> = space.names().iter().map(|&name| name.to_owned()).collect();
+        let complex = |f: &Polynomial<R>| f.map(|c| R::complex(c.clone(), R::zero()));
+        let mut text = "\\begingroup\\allowdisplaybreaks\n".to_owned();
+        match what {
+            Part::Hamiltonian => match self.in_actions() {
+                Ok(actions) => align::<R>(&mut text, "K", &complex(&actions), &space.action_names(), false),
+                Err(Error::ResonantTerm { .. }) => {
+                    align::<R>(&mut text, "K", &self.in_complex(), &space.complex_names(), false);
+                }
+                Err(other) => return Err(other),
+            },
+            Part::Generator => {
+                for m in 1..=self.order() {
+                    align::<R>(&mut text, &format!("S_{{{m}}}"), &complex(&self.generator(m)?), &names, true);
+                }
+            }
+            Part::Direct | Part::Inverse => {
+                let direct = what == Part::Direct;
+                for (slot, name) in names.iter().enumerate().take(2 * space.degrees_of_freedom()) {
+                    let variable = Polynomial::variable(slot)?;
+                    let image = if direct { self.direct(&variable) } else { self.inverse(&variable) }?;
+                    let left = if direct { symbol(name, "") } else { symbol(name, "'") };
+                    align::<R>(&mut text, &left, &complex(&image), &names, direct);
+                }
+            }
+        }
+        Ok(text + "\\endgroup\n")
+    }
+}
+
+/// One series, `name &= …`, in an `align*` of its own; `primed` for the new variables.
+fn align<R: RealField>(
+    text: &mut String,
+    name: &str,
+    polynomial: &Polynomial<R::Complex>,
+    names: &[String],
+    primed: bool,
+) {
+    *text += &format!("\\begin{{align*}}\n{name} &=");
+    let polynomial = significant::<R>(polynomial);
+    for (position, (monomial, c)) in polynomial.terms().enumerate() {
+        if position > 0 && position % TERMS == 0 {
+            text.push_str(" \\\\\n&\\quad {}");
+        }
+        let (negative, magnitude) = coefficient::<R>(c);
+        text.push_str(match (position, negative) {
+            (0, false) => " ",
+            (0, true) => " -",
+            (_, false) => " + ",
+            (_, true) => " - ",
+        });
+        let mut factors = String::new();
+        for slot in (0..SLOTS.min(names.len())).filter(|&slot| monomial.exponent(slot) > 0) {
+            let base = symbol(&names[slot], if primed { "'" } else { "" });
+            factors += &match monomial.exponent(slot) {
+                1 => base,
+                exponent if primed => format!("{{{base}}}^{{{exponent}}}"),
+                exponent => format!("{base}^{{{exponent}}}"),
+            };
+        }
+        text.push_str(if magnitude == "1" && !factors.is_empty() { "" } else { &magnitude });
+        text.push_str(&factors);
+    }
+    text.push_str(if polynomial.is_zero() { " 0\n\\end{align*}\n" } else { "\n\\end{align*}\n" });
+}
+
+/// A name as a symbol: Greek letters by name, what follows an underscore or the digits at the end as an index.
+fn symbol(name: &str, prime: &str) -> String {
+    const GREEK: [&str; 24] = [
+        "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu",
+        "xi", "pi", "rho", "sigma", "tau", "phi", "chi", "psi", "omega", "Gamma", "Omega",
+    ];
+    let stem = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
+    let (stem, index) = match name.split_once('_') {
+        Some((stem, index)) if !stem.is_empty() => (stem, index),
+        _ => (stem, &name[stem.len()..]),
+    };
+    let stem = match stem {
+        greek if GREEK.contains(&greek) => format!("\\{greek}{{}}"),
+        single if single.chars().count() == 1 => single.to_owned(),
+        word => format!("\\mathrm{{{}}}", word.replace('_', "\\_")),
+    };
+    let index = if index.is_empty() { String::new() } else { format!("_{{{}}}", index.replace('_', "\\_")) };
+    format!("{stem}{index}{prime}")
+}
+
+/// Sign and magnitude of a complex number.
+fn coefficient<R: RealField>(c: &R::Complex) -> (bool, String) {
+    let (re, im) = R::parts(c);
+    let imaginary = || {
+        let size = number(&im);
+        if size == "1" { "\\mathrm{i}\\,".to_owned() } else { format!("{size}\\mathrm{{i}}\\,") }
+    };
+    if im.is_zero() {
+        (re.sign() < 0, number(&re))
+    } else if re.is_zero() {
+        (im.sign() < 0, imaginary())
+    } else {
+        let (sign, join) = (if re.sign() < 0 { "-" } else { "" }, if im.sign() < 0 { "-" } else { "+" });
+        (false, format!("\\bigl({sign}{} {join} {}\\bigr)", number(&re), imaginary()))
+    }
+}
+
+/// The magnitude of a number: a fraction, or a float with a power of ten.
+fn number<R: RealField>(value: &R) -> String {
+    let (_, text) = value.literal();
+    if let Some((above, below)) = text.split_once('/') {
+        return format!("\\frac{{{above}}}{{{below}}}");
+    }
+    let size = value.to_float().abs();
+    if R::EPSILON == 0.0 || size == 0.0 || (1e-3..1e6).contains(&size) {
+        return text;
+    }
+    let text = format!("{size:e}");
+    let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+    format!("{digits}\\cdot 10^{{{power}}}")
+}

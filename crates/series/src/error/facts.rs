@@ -1,0 +1,254 @@
+//! The facts of an error as data: its kind, the argument, the value given and the bound that it breaks.
+
+use super::{Error, ParseProblem};
+
+/// What a caller can do about an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Kind {
+    /// An argument is wrong: give another one.
+    Input,
+    /// A file, or a text that should be JSON, cannot be read: mend it.
+    File,
+    /// Doubles, exact rationals or memory cannot hold the problem: choose other units, nearer times, a lower order or floats.
+    Representation,
+    /// No theory holds for the problem: choose another method.
+    Theory,
+    /// A fault of this library, or a computation that was stopped.
+    Internal,
+}
+
+/// A value that was given, or a bound.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Value {
+    /// A whole number.
+    Integer(i64),
+    /// A real number.
+    Number(f64),
+    /// A name, a term, or a bound in words.
+    Text(String),
+    /// A vector of whole numbers.
+    Integers(Vec<i64>),
+    /// A vector of real numbers; as a bound, the lower and the upper end of an interval.
+    Numbers(Vec<f64>),
+}
+
+impl From<f64> for Value {
+    fn from(value: f64) -> Self {
+        Self::Number(value)
+    }
+}
+
+impl From<u64> for Value {
+    fn from(value: u64) -> Self {
+        i64::try_from(value).map_or_else(|_| Self::Text(value.to_string()), Self::Integer)
+    }
+}
+
+impl From<usize> for Value {
+    fn from(value: usize) -> Self {
+        Self::from(value as u64)
+    }
+}
+
+impl From<u32> for Value {
+    fn from(value: u32) -> Self {
+        Self::Integer(value.into())
+    }
+}
+
+impl From<&str> for Value {
+    fn from(value: &str) -> Self {
+        Self::Text(value.to_owned())
+    }
+}
+
+impl From<&String> for Value {
+    fn from(value: &String) -> Self {
+        Self::Text(value.clone())
+    }
+}
+
+impl From<String> for Value {
+    fn from(value: String) -> Self {
+        Self::Text(value)
+    }
+}
+
+impl<const N: usize> From<[f64; N]> for Value {
+    fn from(value: [f64; N]) -> Self {
+        Self::Numbers(value.to_vec())
+    }
+}
+
+impl From<&[i64]> for Value {
+    fn from(value: &[i64]) -> Self {
+        Self::Integers(value.to_vec())
+    }
+}
+
+impl From<&[u32]> for Value {
+    fn from(value: &[u32]) -> Self {
+        Self::Integers(value.iter().map(|&entry| entry.into()).collect())
+    }
+}
+
+/// The argument, the value and the bound of an error.
+type Facts<'a> = (Option<&'a str>, Option<Value>, Option<Value>);
+
+fn facts<'a>(argument: &'a str, value: impl Into<Value>, bound: impl Into<Value>) -> Facts<'a> {
+    (Some(argument), Some(value.into()), Some(bound.into()))
+}
+
+/// The facts of something that is no argument of its own.
+fn nameless<'a>(value: impl Into<Value>, bound: impl Into<Value>) -> Facts<'a> {
+    (None, Some(value.into()), Some(bound.into()))
+}
+
+impl Error {
+    /// What a caller can do about it.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        match self {
+            Self::Json { .. }
+            | Self::FormatUnknown { .. }
+            | Self::RationalMalformed { .. }
+            | Self::CountMismatch { .. }
+            | Self::NotSymplectic { .. }
+            | Self::TermInconsistent { .. }
+            | Self::CoefficientWrong { .. }
+            | Self::NameUnknown { what: "mode", .. } => Kind::File,
+            Self::ExponentOverflow { .. }
+            | Self::OrderTooLarge { .. }
+            | Self::MemoryTooLarge { .. }
+            | Self::SpectrumIrrational { .. }
+            | Self::FrequencyIrrational { .. }
+            | Self::Parse { problem: ParseProblem::ExponentTooLarge { .. } | ParseProblem::TooLarge, .. } => {
+                Kind::Representation
+            }
+            Self::Resonant { .. }
+            | Self::ZeroFrequency { .. }
+            | Self::Defective { .. }
+            | Self::SmallDivisor { .. }
+            | Self::ResonantTerm { .. } => Kind::Theory,
+            Self::Interrupted { .. } => Kind::Internal,
+            Self::SlotOutOfRange { .. }
+            | Self::SlotRepeated { .. }
+            | Self::DivisionByZero
+            | Self::ValueMissing { .. }
+            | Self::UnperturbedMismatch { .. }
+            | Self::PhaseSpaceSize { .. }
+            | Self::LinearTerm { .. }
+            | Self::ParameterDegree { .. }
+            | Self::ParameterUnknown { .. }
+            | Self::FrequencyParameter { .. }
+            | Self::NotFinite { .. }
+            | Self::NotResonant { .. }
+            | Self::ResonanceMalformed { .. }
+            | Self::OrderOutOfRange { .. }
+            | Self::NameUnknown { .. }
+            | Self::OutsideInterval { .. }
+            | Self::Parse { .. } => Kind::Input,
+        }
+    }
+
+    /// The argument that is wrong. None if only the caller knows its name, as with the text of a polynomial.
+    #[must_use]
+    pub fn argument(&self) -> Option<&str> {
+        self.facts().0
+    }
+
+    /// The value that was given, or the number computed from it that breaks the bound.
+    #[must_use]
+    pub fn value(&self) -> Option<Value> {
+        self.facts().1
+    }
+
+    /// What the value must be: a number, an interval or words.
+    #[must_use]
+    pub fn bound(&self) -> Option<Value> {
+        self.facts().2
+    }
+
+    fn facts(&self) -> Facts<'_> {
+        match self {
+            Self::ExponentOverflow { exponent, bound, .. } => nameless(*exponent, *bound),
+            Self::SlotOutOfRange { slot, count } => facts("slot", *slot, count.saturating_sub(1)),
+            Self::SlotRepeated { slot } => facts("slot", *slot, "once"),
+            Self::DivisionByZero => nameless(0.0, "not 0"),
+            Self::ValueMissing { slot, given } => facts("values", *given, slot + 1),
+            Self::Resonant { exponents } => nameless(exponents.as_slice(), "outside the kernel"),
+            Self::UnperturbedMismatch { terms } => facts("hamiltonian", *terms, "the sum of eigenvalue * q * p"),
+            Self::PhaseSpaceSize { degrees_of_freedom, parameters, slots } => {
+                facts("variables", 2 * degrees_of_freedom + parameters, *slots)
+            }
+            Self::ParameterDegree { term, bound } => facts("degrees", term, *bound),
+            Self::ParameterUnknown { name, known } => facts("degrees", name, known),
+            Self::NotFinite { what, term } => facts(what, term, "finite"),
+            Self::SmallDivisor { divisor, bound, .. } => facts("resonances", *divisor, *bound),
+            Self::NotResonant { vector, bound, .. } => facts("resonances", vector.as_slice(), *bound),
+            Self::ResonanceMalformed { vector, bound } => facts("resonances", vector.as_slice(), *bound),
+            Self::ResonantTerm { term } => nameless(term, "a function of the actions alone"),
+            Self::Interrupted { done, of } => facts("progress", *done, *of),
+            Self::OrderTooLarge { order, bound } => facts("order", *order, *bound),
+            Self::MemoryTooLarge { order, bound_gib, .. } => {
+                facts("order", *order, format!("{bound_gib} GiB of memory"))
+            }
+            Self::OrderOutOfRange { what, order, minimum, maximum } => {
+                let argument = if *what == "generating function" { "m" } else { "n" };
+                facts(argument, *order, Value::Integers(vec![*minimum as i64, *maximum as i64]))
+            }
+            Self::NameUnknown { what, name, known } => facts(what, name, *known),
+            Self::OutsideInterval { argument, value, lower, upper } => facts(argument, *value, [*lower, *upper]),
+            Self::Parse { position, problem } => problem.facts(*position),
+            other => other.facts_of_hamiltonian().unwrap_or_else(|| other.facts_of_text()),
+        }
+    }
+
+    /// Of a Hamiltonian that has no normal form of this kind.
+    fn facts_of_hamiltonian(&self) -> Option<Facts<'_>> {
+        let (value, bound) = match self {
+            Self::LinearTerm { term, .. } => (term, "no linear term"),
+            Self::ZeroFrequency { pairs, .. } => (pairs, "no frequency 0"),
+            Self::FrequencyParameter { term, .. } => (term, "a number for the frequency"),
+            Self::Defective { eigenvalue, .. } => (eigenvalue, "no Jordan block"),
+            Self::SpectrumIrrational { eigenvalue, .. } => (eigenvalue, "rational eigenvalues, or floats"),
+            Self::FrequencyIrrational { square, .. } => (square, "the square of a rational number, or floats"),
+            _ => return None,
+        };
+        Some(facts("hamiltonian", value, bound))
+    }
+
+    /// Of a text that should be a normal form as JSON.
+    fn facts_of_text(&self) -> Facts<'_> {
+        match self {
+            Self::Json { line, column, message } => facts("text", format!("line {line} column {column}"), message),
+            Self::FormatUnknown { format, version, known_format, known_version } => {
+                facts("text", format!("{format} version {version}"), format!("{known_format} version {known_version}"))
+            }
+            Self::RationalMalformed { text } => facts("text", text, "a reduced rational \"p/q\""),
+            Self::CountMismatch { found, expected, .. } => facts("text", *found, *expected),
+            Self::NotSymplectic { error, .. } => facts("text", *error, 0.0),
+            Self::TermInconsistent { exponents, problem, .. } => {
+                facts("text", exponents.as_slice(), problem.to_string())
+            }
+            Self::CoefficientWrong { found, expected, .. } => facts("text", found, expected),
+            _ => (None, None, None),
+        }
+    }
+}
+
+impl ParseProblem {
+    /// Its facts, and the offset of the byte where nothing else can be named.
+    fn facts<'a>(&self, position: usize) -> Facts<'a> {
+        match self {
+            Self::UnexpectedCharacter(found) => nameless(found.to_string(), "a polynomial"),
+            Self::UnknownName(name) => nameless(name, "a variable or parameter"),
+            Self::Function(name) => nameless(name, "a polynomial"),
+            Self::UnusableName(name) => nameless(name, "an identifier, once"),
+            Self::ExponentTooLarge { bound } | Self::TooDeep { bound } => nameless(position, *bound),
+            _ => nameless(position, "a polynomial"),
+        }
+    }
+}

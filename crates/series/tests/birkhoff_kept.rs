@@ -1,0 +1,168 @@
+//! Normal forms with a detuning, and forms that are written, read and printed.
+
+use andoyer_series::{
+    BigRational, BirkhoffMap, BirkhoffNormalForm, Error, Language, Part, PhaseSpace, Polynomial, Resonances, normalize,
+    normalize_with, quiet,
+};
+
+mod hamiltonians;
+use hamiltonians::{collinear, space, triangular};
+
+fn plane() -> Result<PhaseSpace, Error> {
+    PhaseSpace::new(&[("x", "X"), ("y", "Y")])
+}
+
+/// The elastic pendulum near its 2:1 resonance: frequencies 1 and 2 + d.
+fn elastic(order: usize) -> Result<BirkhoffNormalForm<BigRational>, Error> {
+    let space = plane()?.with_parameters(&["d"])?;
+    let h = space.parse("(x^2 + X^2)/2 + (2 + d)*(y^2 + Y^2)/2 + x^2*y + x^4/8")?;
+    normalize_with(&h, order, &space, &Resonances::new(&[&[2, -1]])?, &mut quiet)
+}
+
+#[test]
+fn a_detuned_resonance_at_a_number_is_the_resonance_with_another_frequency_to_its_order() -> Result<(), Error> {
+    // K(d) at d = 0 is K of the exact resonance, and K commutes with the quadratic part of it.
+    let detuned = elastic(4)?;
+    assert_eq!(detuned.space().parameter_degrees(), [Some(2)]);
+    let exact = plane()?.parse::<BigRational>("(x^2 + X^2)/2 + (y^2 + Y^2) + x^2*y + x^4/8")?;
+    let exact = normalize_with(&exact, 4, &plane()?, &Resonances::new(&[&[2, -1]])?, &mut quiet)?.in_real()?;
+    let k = detuned.in_real()?;
+    assert_eq!(k.evaluate_partial(4, &BigRational::from_integer(0.into()))?, exact);
+    let poisson = detuned.space().poisson()?;
+    let quadratic = detuned.space().parse("(x^2 + X^2)/2 + y^2 + Y^2")?;
+    assert!(poisson.bracket(&quadratic, &k)?.is_zero());
+    assert!(k.terms().any(|(m, _)| m.exponent(4) == 1 && m.total_degree() > 3), "the detuning is in higher terms");
+    // The transformed Hamiltonian is K.
+    let h = detuned.space().parse("(x^2 + X^2)/2 + (2 + d)*(y^2 + Y^2)/2 + x^2*y + x^4/8")?;
+    assert_eq!(detuned.direct(&h)?, k);
+    Ok(())
+}
+
+#[test]
+fn a_detuned_form_at_a_number_agrees_with_the_form_of_that_frequency() -> Result<(), Error> {
+    // One mode: frequency 1 + d as a detuning of degree 1 against a number, K of both to d⁶ I and d⁴ I².
+    let space = PhaseSpace::new(&[("q", "p")])?.with_parameters(&["d"])?.with_degree("d", 1)?;
+    let h = space.parse::<f64>("p^2/2 + q^2/2 + d*q^2 + q^4/4")?;
+    let detuned = normalize(&h, 12, &space)?.in_actions()?.evaluate_partial(1, &0.01)?;
+    let plain = PhaseSpace::new(&[("q", "p")])?;
+    let exact = normalize(&plain.parse::<f64>("p^2/2 + 0.51*q^2 + q^4/4")?, 12, &plain)?.in_actions()?;
+    let value = |k: &Polynomial<f64>, action: f64| k.evaluate(&[action, 0.0]);
+    // Left out: d¹³ and I²d¹¹ …, 1e-22.
+    assert!((value(&detuned, 1e-3)? - value(&exact, 1e-3)?).abs() < 1e-17);
+    assert!((value(&detuned, 1e-3)? - 1e-3).abs() > 1e-6);
+    Ok(())
+}
+
+#[test]
+fn a_linear_term_with_a_parameter_of_degree_two_moves_the_equilibrium() -> Result<(), Error> {
+    // (q² + p²)/2 + c q = ((q + c)² + p²)/2 − c²/2.
+    let space = PhaseSpace::new(&[("q", "p")])?.with_parameters(&["c"])?.with_degree("c", 2)?;
+    let form = normalize(&space.parse::<BigRational>("(q^2 + p^2)/2 + c*q")?, 4, &space)?;
+    assert_eq!(form.in_actions()?, Polynomial::parse("I - c^2/2", &["I", "c"])?);
+    assert_eq!(form.inverse(&space.parse("q")?)?, space.parse("q + c")?);
+    let refused = space.clone().with_degree("c", 1)?;
+    let refused = normalize(&refused.parse::<BigRational>("(q^2 + p^2)/2 + c*q")?, 4, &refused);
+    assert!(matches!(refused, Err(Error::ParameterDegree { bound: 2, .. })));
+    assert!(matches!(space.with_degree("e", 1), Err(Error::ParameterUnknown { .. })));
+    Ok(())
+}
+
+/// Forms of every kind: resonant with a parameter, a quartet, a centre manifold.
+fn floats() -> Result<Vec<BirkhoffNormalForm<f64>>, Error> {
+    let h = triangular(0.1, 5)?;
+    let quartet = normalize(&h, 3, &space()?)?;
+    let centre = Resonances::default().with_centre();
+    let manifold = normalize_with(&collinear(0.01, false, 5)?, 3, &space()?, &centre, &mut quiet)?;
+    Ok(vec![quartet, manifold])
+}
+
+#[test]
+fn a_form_written_and_read_is_the_same_to_the_bit() -> Result<(), Error> {
+    let exact = elastic(3)?;
+    assert_eq!(BirkhoffNormalForm::<BigRational>::from_json(&exact.to_json()?)?, exact);
+    for form in floats()? {
+        assert_eq!(BirkhoffNormalForm::<f64>::from_json(&form.to_json()?)?, form);
+    }
+    Ok(())
+}
+
+#[test]
+fn json_that_is_no_normal_form_is_refused() -> Result<(), Error> {
+    let text = elastic(2)?.to_json()?;
+    let read = |text: &str| BirkhoffNormalForm::<BigRational>::from_json(text).err();
+    let changed = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from} in {text}");
+        read(&text.replacen(from, to, 1))
+    };
+    assert!(matches!(read("[]"), Some(Error::Json { .. })));
+    assert!(matches!(changed("exact", "float"), Some(Error::FormatUnknown { .. })));
+    assert!(matches!(changed("\"version\":1", "\"version\":2"), Some(Error::FormatUnknown { version: 2, .. })));
+    assert!(matches!(changed("\"order\":2", "\"order\":3"), Some(Error::CountMismatch { .. })));
+    assert!(matches!(changed("\"order\":2", "\"order\":99999"), Some(Error::OrderTooLarge { .. })));
+    assert!(matches!(changed("[[\"1\",\"0\"", "[[\"2\",\"0\""), Some(Error::NotSymplectic { .. })));
+    assert!(matches!(changed("[[\"1\",\"0\"", "[[\"2/2\",\"0\""), Some(Error::RationalMalformed { .. })));
+    assert!(matches!(changed("[[2,-1]]", "[[1,-1]]"), Some(Error::NotResonant { .. })));
+    assert!(matches!(changed("[[2,-1]]", "[]"), Some(Error::TermInconsistent { what: "hamiltonian", .. })));
+    assert!(matches!(
+        changed("\"elliptic\",\"1\",\"1\"", "\"elliptic\",\"1\",\"-1\""),
+        Some(Error::NameUnknown { .. })
+    ));
+    assert!(matches!(BirkhoffNormalForm::<f64>::from_json(&text), Err(Error::FormatUnknown { .. })));
+    Ok(())
+}
+
+#[test]
+fn maps_about_quartets_and_saddles_come_back_and_move_as_their_equations() -> Result<(), Error> {
+    for form in floats()? {
+        let map = BirkhoffMap::new(&form, &[])?;
+        let normal = [0.01, -0.004, 0.006, 0.01, 0.003, -0.008];
+        let back = map.to_normal(&map.from_normal(&normal)?)?;
+        // Order 3: left out are terms of degree 5, 1e-10 times coefficients of some 10².
+        assert!(back.iter().zip(&normal).all(|(a, b)| (a - b).abs() < 1e-7), "{back:?}");
+        // Along the trajectory K is constant, and its slope at the start is that of Hamilton's equations.
+        let rates = map.rates(&normal)?;
+        let Ok(frequencies) = map.frequencies(&map.actions(&map.from_normal(&normal)?)?) else { continue };
+        assert_eq!(frequencies.len(), 3);
+        let start = map.from_normal(&normal)?;
+        let step = 1e-4;
+        let states = map.trajectory(&start, &[-step, step])?;
+        let moved: Vec<Vec<f64>> = states.iter().map(|state| map.to_normal(state)).collect::<Result<_, _>>()?;
+        for (slot, rate) in rates.iter().enumerate() {
+            let slope = (moved[1][slot] - moved[0][slot]) / (2.0 * step);
+            assert!((slope - rate).abs() < 1e-6, "{slot}: {slope} {rate}");
+        }
+        assert!((map.energy(&moved[1])? - map.energy(&normal)?).abs() < 1e-8);
+    }
+    Ok(())
+}
+
+#[test]
+fn floats_print_what_is_significant() -> Result<(), Error> {
+    let space = plane()?;
+    let third = normalize(&space.parse::<f64>("(x^2 + X^2)/2 + (y^2 + Y^2)/6 + 0.1*x^4")?, 2, &space)?;
+    assert_eq!(third.to_string(), "I_x + 0.33333333333*I_y + 0.15*I_x^2");
+    let coupled = normalize(&space.parse::<f64>("(X^2 + Y^2)/2 + x^2 - x*y + y^2 + x^4/4")?, 2, &space)?;
+    assert!(coupled.to_string().starts_with("1.73205080757*I_x + I_y + "), "{coupled}");
+    assert!(!coupled.to_string().contains('e'), "{coupled}");
+    assert!(third.to_latex(Part::Hamiltonian)?.contains("K &= I_{x} + 0.33333333333I_{y} + 0.15I_{x}^{2}"));
+    let text = elastic(2)?.to_latex(Part::Direct)?;
+    assert!(text.contains("x &= x'") && text.contains("{x'}^{2}") && text.contains("\\frac{"), "{text}");
+    assert!(elastic(2)?.to_latex(Part::Generator)?.contains("S_{2} &="));
+    assert!(elastic(2)?.to_latex(Part::Inverse)?.contains("x' &= x"));
+    Ok(())
+}
+
+#[test]
+fn code_has_a_function_for_each_task_in_each_language() -> Result<(), Error> {
+    for (language, signature) in [
+        (Language::C, "void to_normal(const double state[4], const double parameters[1], double normal[4])"),
+        (Language::Rust, "pub fn to_normal(state: &[f64; 4], parameters: &[f64; 1]) -> [f64; 4] {"),
+        (Language::Python, "def to_normal(state, parameters):"),
+    ] {
+        let text = elastic(2)?.to_code(language)?;
+        assert!(text.contains(signature), "{text}");
+        assert!(text.contains("K has resonant terms") && text.is_ascii());
+    }
+    assert!(floats()?[0].to_code(Language::C)?.contains("void frequencies(const double actions[3], double rates[3])"));
+    Ok(())
+}

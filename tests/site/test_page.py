@@ -1,0 +1,134 @@
+"""Pages in which a motion turns, in a headless Chromium: no word on the console, nothing fetched, the library's attitude, and a picture that moves."""
+
+import andoyer
+import numpy as np
+import pytest
+from andoyer import plot
+from andoyer._quaternions import angle_between
+
+BODY = andoyer.Body([1.0, 1.5, 2.0])
+ORBIT = andoyer.Orbit(1e-3, 0.1, inclination=0.5)
+
+
+def solved(rates, body=BODY, **options):
+    return andoyer.Scene(body, [0.1, -0.2, 0.3, 0.9273618495495703], rates, **options).solve()
+
+
+MOTIONS = {
+    "short-axis": solved([0.1, 0.2, 1.0], name="</script><b>& a name"),
+    "long-axis": solved([1.0, 0.1, 0.2], epoch=100.0),
+    "beside the separatrix": solved([0.01, 1.0, 0.01]),
+    "left-handed": solved([0.3, 1.0, 0.1], andoyer.Body([1.0, 2.0, 1.5])),
+    "oblate": solved([0.1, 0.2, 1.0], andoyer.Body([1, 1, 2])),
+    "gravity gradient": solved([0.01, 0.02, 1.0], orbit=ORBIT, tolerance=1e-3, span=(0.0, 1000.0)),
+    "tensor": solved([0.3, 0.5, 1.0], andoyer.Body.from_inertia([[1.4, 0.2, -0.1], [0.2, 1.6, 0.15], [-0.1, 0.15, 1.2]])),
+    "principal-axis": solved([0.0, 0.0, 1.0]),
+    "at rest": solved([0.0, 0.0, 0.0]),
+}
+
+
+class Window:
+    """A page of a motion, with what its console says and what it fetches."""
+
+    def __init__(self, browser, path, scheme="light"):
+        self.page = browser.new_page(viewport={"width": 1000, "height": 700}, color_scheme=scheme)
+        self.said, self.fetched = [], []
+        self.page.on("console", lambda message: self.said.append(message.text))
+        self.page.on("pageerror", lambda error: self.said.append(str(error)))
+        self.page.on("request", lambda request: self.fetched.append(request.url))
+        self.page.goto(path.as_uri(), wait_until="load")
+
+    def run(self, script):
+        return self.page.evaluate(script)
+
+
+@pytest.fixture
+def opened(browser, tmp_path):
+    windows = []
+
+    def open_page(motion, **options):
+        path = tmp_path / "page.html"
+        error = plot.page(motion, path, **options)
+        windows.append(Window(browser, path))
+        return windows[-1], path, error
+
+    yield open_page
+    for window in windows:
+        window.page.close()
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_page_has_the_attitude_of_the_library(opened, name):
+    motion = MOTIONS[name]
+    window, path, error = opened(motion)
+    start, stop = window.run("[data.start, data.stop]")
+    times = start + (stop - start) * np.array([0.0, 0.3, 0.71234, 1.0])
+    values = np.array([window.run(f"andoyer.evaluate({time!r})") for time in times.tolist()])
+    assert error < 1e-8
+    # The error was found at three places between each two nodes; the largest may lie beside them.
+    assert angle_between(values[:, :4], motion.attitude(times)).max() < 1.2 * error + 1e-14
+    assert values[:, 4:] == pytest.approx(motion.angular_velocity(times), abs=1e-4)
+    assert window.said == [] and window.fetched == [path.as_uri()]
+    assert window.run("document.querySelectorAll('b, script').length") == 3  # no element by the name of the scene
+
+
+@pytest.mark.parametrize("name", ["short-axis", "long-axis", "beside the separatrix", "left-handed", "tensor", "gravity gradient"])
+def test_page_has_the_andoyer_variables_of_the_library(opened, name):
+    motion = MOTIONS[name]
+    window, _, _ = opened(motion)
+    start, stop = window.run("[data.start, data.stop]")
+    for time in (start, start + 0.37 * (stop - start)):
+        lambda_, mu, nu, node, size, short = motion.andoyer(time)
+        shown = window.run(f"andoyer.variables({time!r})")
+        for angle, expected in (("lambda", lambda_), ("mu", mu), ("nu", nu)):
+            assert abs(np.angle(np.exp(1j * (shown[angle] - expected)))) < 1e-5
+        assert [shown["Lambda"], shown["M"], shown["N"]] == pytest.approx([node, size, short], rel=1e-5, abs=1e-5)
+        assert np.cos(shown["J"]) == pytest.approx(short / size, abs=1e-5)
+
+
+def test_picture_moves_with_time_and_the_slider_shows_it(opened):
+    window, _, _ = opened(MOTIONS["short-axis"])
+    pictures = []
+    for part in (0.1, 0.2, 0.1):
+        window.run(f"andoyer.show(data.start + {part} * (data.stop - data.start))")
+        pictures.append(window.page.screenshot(clip={"x": 0, "y": 60, "width": 700, "height": 560}))
+    assert pictures[0] == pictures[2] != pictures[1]
+    assert window.page.inner_text("#play") == "play"
+    assert float(window.run("slider.value")) == pytest.approx(window.run("data.start + 0.1 * (data.stop - data.start)"))
+    window.page.click("#play")
+    window.page.wait_for_function("time > data.start + 0.1 * (data.stop - data.start)")
+    assert window.said == []
+
+
+def test_drag_turns_the_view_and_a_button_resets_it(opened):
+    window, _, _ = opened(MOTIONS["short-axis"])
+    window.run("andoyer.show(data.start)")
+    before = window.page.screenshot()
+    window.page.mouse.move(300, 300)
+    window.page.mouse.down()
+    window.page.mouse.move(420, 340, steps=3)
+    window.page.mouse.up()
+    assert window.page.screenshot() != before and window.run("view.yaw") != window.run("home.yaw")
+    window.page.click("#view")
+    assert window.run("[view.yaw, view.pitch]") == window.run("[home.yaw, home.pitch]") and window.said == []
+
+
+def test_mesh_is_drawn_in_the_place_of_the_ellipsoid(opened):
+    vertices = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]
+    window, _, _ = opened(MOTIONS["short-axis"], mesh=(vertices, [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]), interval=(0.0, 10.0))
+    assert window.run("body.faces.length") == 4 and window.run("data.stop") == 10
+    # Seen from outside, two or three of its faces are in sight and drawn.
+    assert window.said == []
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [400, 1300])
+def test_nothing_is_wider_than_the_window(browser, tmp_path, width, scheme):
+    path = tmp_path / "page.html"
+    plot.page(MOTIONS["short-axis"], path)
+    window = Window(browser, path, scheme)
+    window.page.set_viewport_size({"width": width, "height": 800})
+    assert window.run("document.documentElement.scrollWidth") <= width
+    box = window.run("(({width, height}) => [width, height])(canvas.getBoundingClientRect())")
+    assert min(box) > 200 and window.said == []
+    window.page.close()

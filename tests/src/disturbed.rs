@@ -1,0 +1,103 @@
+//! Scenes under a gravity gradient, written as numbers, and the error of their solution beside its bound.
+//!
+//! The truth is [`Problem`], which integrates the full equations and shares no formula with the averaged theory.
+
+use andoyer_propagate::{Averaging, Body, Error, Level, Motion, Orbit, Scene, State};
+
+use crate::attitude_error;
+use crate::integration::Problem;
+
+/// Times of a span at which an error is measured.
+const SAMPLES: usize = 40;
+
+/// A scene: a state at t = 0 and the span (0, `span`).
+#[derive(Clone, Copy, Debug)]
+pub struct Disturbed {
+    /// Moments about body axes 1, 2, 3.
+    pub moments: [f64; 3],
+    /// [x, y, z, w].
+    pub attitude: [f64; 4],
+    /// Body components.
+    pub rates: [f64; 3],
+    /// Mean motion, eccentricity, time of the pericentre, inclination, node, argument of the pericentre.
+    pub orbit: [f64; 6],
+    /// End of the span; negative for times before the state.
+    pub span: f64,
+    /// How far the equations are averaged.
+    pub averaging: Averaging,
+    /// Which terms the corrections have.
+    pub level: Level,
+    /// Tolerance of the scene [rad].
+    pub tolerance: f64,
+}
+
+/// What the solution of a scene is worth.
+#[derive(Clone, Copy, Debug)]
+pub struct Measured {
+    /// Largest attitude error over the span [rad].
+    pub error: f64,
+    /// What the plan says of it [rad].
+    pub bound: f64,
+    /// Largest error of the free motion, which is the effect of the torque [rad].
+    pub effect: f64,
+}
+
+impl Measured {
+    /// Error over bound; what the integration loses over a span, 1e-12, is no error.
+    pub fn ratio(&self) -> f64 {
+        (self.error - 1e-12) / self.bound
+    }
+}
+
+impl Disturbed {
+    /// The full level, either averaging, tolerance 1e-8.
+    pub fn new(moments: [f64; 3], attitude: [f64; 4], rates: [f64; 3], orbit: [f64; 6], span: f64) -> Self {
+        let (averaging, level) = (Averaging::Auto, Level::Full);
+        Self { moments, attitude, rates, orbit, span, averaging, level, tolerance: 1e-8 }
+    }
+
+    /// The orbit of the disturbing body.
+    ///
+    /// # Errors
+    /// That of the element that is out of range.
+    pub fn disturber(&self) -> Result<Orbit, Error> {
+        let [mean_motion, eccentricity, pericentre, inclination, node, argument] = self.orbit;
+        Orbit::new(mean_motion, eccentricity)?.plane(inclination, node, argument)?.time_of_pericentre(pericentre)
+    }
+
+    /// The scene without the orbit.
+    ///
+    /// # Errors
+    /// Those of [`Body::new`] and [`State::new`].
+    pub fn free(&self) -> Result<Scene, Error> {
+        let state = State::new(0.0, self.attitude, self.rates)?;
+        let [start, stop] = [self.span.min(0.0), self.span.max(0.0)];
+        Ok(Scene::new(Body::new(self.moments)?, state).span(start, stop).tolerance(self.tolerance))
+    }
+
+    /// The motion under the torque.
+    ///
+    /// # Errors
+    /// Those of [`Scene::solve`].
+    pub fn solve(&self) -> Result<Motion, Error> {
+        self.free()?.orbit(self.disturber()?).averaging(self.averaging).level(self.level).solve()
+    }
+
+    /// Error, bound and effect over the span.
+    ///
+    /// # Errors
+    /// Those of [`Scene::solve`].
+    pub fn measured(&self) -> Result<Measured, Error> {
+        let motion = self.solve()?;
+        let free = self.free()?.solve()?;
+        let times: Vec<f64> = (1..=SAMPLES).map(|k| self.span * k as f64 / SAMPLES as f64).collect();
+        let problem = Problem { moments: self.moments, orbit: Some(self.disturber()?) };
+        let truth = problem.integrate(0.0, self.attitude, self.rates, &times);
+        let worst = |motion: &Motion| -> Result<f64, Error> {
+            times.iter().zip(&truth).try_fold(0.0_f64, |worst, (&time, &(attitude, _))| {
+                Ok(worst.max(attitude_error(motion.at(time)?.attitude.coords.into(), attitude)))
+            })
+        };
+        Ok(Measured { error: worst(&motion)?, bound: motion.plan().error_bound(), effect: worst(&free)? })
+    }
+}
