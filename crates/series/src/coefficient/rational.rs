@@ -91,7 +91,12 @@ impl Coefficient for BigRational {
     }
 
     fn raw_accumulate(sum: &mut BigInt, product: &BigInt, weight: i64) {
-        *sum += product * weight;
+        // Most sums are of plain products, and another multiplication is another allocation.
+        if weight == 1 {
+            *sum += product;
+        } else {
+            *sum += product * weight;
+        }
     }
 
     fn bits(&self) -> u64 {

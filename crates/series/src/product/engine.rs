@@ -24,8 +24,8 @@ const ARRAY_PRODUCTS: i128 = 1 << 22;
 const FEWEST_CELLS: i128 = 1 << 8;
 /// An array may have so many cells for each product.
 pub(super) const CELLS_PER_PRODUCT: i128 = 4;
-/// Bytes of a window's table that has a slot for every other product.
-const TABLE_BYTES: usize = 1 << 19;
+/// Bytes of a window's table that has a slot for every other product; twice or four times as many take a tenth to a third longer.
+const TABLE_BYTES: usize = 1 << 18;
 /// The same for sums that own memory, each product of which takes tenths of a microsecond.
 const HEAVY_TABLE_PRODUCTS: usize = 1 << 13;
 /// Sums drawn for each boundary of the windows.
@@ -115,8 +115,12 @@ impl<K: Key, F> Part<'_, K, F> {
         count: &mut Count<'_>,
     ) -> Result<(), Error> {
         let (codes, factors) = (&self.inner.codes, &self.inner.factors);
+        let mut done = 0;
         self.rows(window, |position, base, range| {
-            count(range.len())?;
+            done += range.len();
+            if done >= PRODUCTS_PER_PAUSE {
+                count(std::mem::take(&mut done))?;
+            }
             let first = &self.outer.factors[position];
             let inner = codes[range.clone()].iter().zip(&factors[range.clone()]);
             match &self.weights {
@@ -144,7 +148,8 @@ impl<K: Key, F> Part<'_, K, F> {
                 }
             }
             Ok(())
-        })
+        })?;
+        count(done)
     }
 }
 
