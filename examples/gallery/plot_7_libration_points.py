@@ -3,7 +3,7 @@ The Moon's L1
 =============
 
 Beside the collinear point L1 of Earth and Moon most motions leave along a saddle. The normal form that separates the saddle leaves the centre manifold: the bounded
-motions, planar and vertical Lyapunov orbits, and the halo orbits that branch off. Here a Poincaré section of it, computed from the Hamiltonian of two degrees of freedom.
+motions: planar and vertical Lyapunov orbits and the tori round them. Here a Poincaré section of it, computed from the Hamiltonian of two degrees of freedom.
 """
 
 import math
@@ -48,8 +48,8 @@ form = andoyer.normalize(terms, ORDER, [("x", "X"), ("y", "Y"), ("z", "Z")], kee
 print(form.kinds, [complex(frequency) for frequency in form.frequencies])
 
 # %%
-# The Hamiltonian on the manifold has two pairs, (y, Y) horizontal and (z, Z) vertical. The section z = 0, Z > 0 at one energy: closed curves are tori round a periodic orbit, the
-# two islands those round the halo orbits.
+# The Hamiltonian on the manifold has two pairs, (y, Y) horizontal and (z, Z) vertical. The section z = 0, Z > 0 at one energy: the closed curves are tori round
+# the vertical Lyapunov orbit.
 
 reduced = form.centre_manifold()
 exponents, coefficients = np.array([key[2:] for key in reduced]), np.array(list(reduced.values()))
@@ -60,10 +60,19 @@ def energy(state):
     return float(coefficients @ np.prod(np.asarray(state) ** exponents, axis=1))
 
 
+def slope(slot):
+    """Exponents and coefficients of ∂K by one variable."""
+    lowered = exponents - np.eye(4, dtype=int)[slot]
+    return np.maximum(lowered, 0), coefficients * exponents[:, slot]
+
+
+slopes = [slope(slot) for slot in range(4)]
+
+
 def rates(_, state):
     """Hamilton's equations of K."""
-    full = np.concatenate([[0.0, 0.0], state])
-    return form.rates(full)[2:]
+    y, Y, z, Z = (float(c @ np.prod(state**powers, axis=1)) for powers, c in slopes)
+    return [Y, -y, Z, -z]
 
 
 def section(y, momentum, level, crossings):
@@ -77,13 +86,13 @@ def section(y, momentum, level, crossings):
 
     crossed.direction = 1.0
     period = 2 * math.pi / abs(form.frequencies[2])
-    found = solve_ivp(rates, (1e-9, crossings * period), [y, momentum, 0.0, vertical], method="DOP853", rtol=1e-8, atol=1e-10, events=crossed)
+    found = solve_ivp(rates, (1e-9, crossings * period), [y, momentum, 0.0, vertical], method="DOP853", rtol=1e-7, atol=1e-9, events=crossed)
     return found.y_events[0][:, :2]
 
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(11, 5), layout="constrained")
-for y in np.linspace(-0.5, 0.5, 9):
-    points = section(y, 0.0, 0.35, 40)
+for y in np.linspace(-0.5, 0.5, 7):
+    points = section(y, 0.0, 0.35, 25)
     left.plot(points[:, 0], points[:, 1], ".", markersize=3)
 left.set(xlabel="y", ylabel="Y", title="Centre manifold of L1: z = 0 at energy 0.35", aspect="equal")
 

@@ -36,6 +36,7 @@ def read(path, data):
         assert np.isfinite(samples.times).all() and np.all(np.diff(samples.times) >= 0)
         assert np.abs(np.linalg.norm(samples.attitude, axis=1) - 1).max() < 1e-14
         assert samples.angular_velocity.shape == (len(samples), 3)
+        assert np.isfinite(samples.angular_velocity).all() or np.isnan(samples.angular_velocity).all()
     return segments
 
 

@@ -9,9 +9,9 @@
 //! j₁ k₂ − k₁ j₂; no derivative is ever formed. Cost: one coefficient product for each pair of terms with a weight that
 //! is not 0.
 
-use crate::lifted::{Accumulator, Pause, Rule};
 use crate::monomial::{check_slot, unit};
-use crate::{Coefficient, Error, Polynomial};
+use crate::product::{Accumulator, Rule};
+use crate::{Coefficient, Error, Polynomial, Truncation};
 
 /// A Poisson structure on the variable slots.
 ///
@@ -76,9 +76,40 @@ impl Poisson {
     /// # Errors
     /// - {q^20000 p; q^20000 p^2}: [`Error::ExponentOverflow`].
     pub fn bracket<C: Coefficient>(&self, f: &Polynomial<C>, g: &Polynomial<C>) -> Result<Polynomial<C>, Error> {
-        let mut sum = Accumulator::new(&[f], &[g]);
-        self.accumulate(&mut sum, (0, 0), &mut || Ok(()))?;
-        Ok(sum.finish())
+        self.bracket_within(f, g, None)
+    }
+
+    /// The bracket without the terms that `truncation` drops.
+    ///
+    /// ```
+    /// use andoyer_series::{Poisson, Polynomial, Truncation};
+    /// let poisson = Poisson::new(&[(0, 1)])?;
+    /// let parse = |text| Polynomial::<f64>::parse(text, &["q", "p"]);
+    /// let bracket = poisson.bracket_truncated(&parse("q^2 + q^3")?, &parse("p^2")?, &Truncation::total(2))?;
+    /// assert_eq!(bracket, parse("4*q*p")?);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - as [`bracket`](Self::bracket), for terms that are dropped as well.
+    pub fn bracket_truncated<C: Coefficient>(
+        &self,
+        f: &Polynomial<C>,
+        g: &Polynomial<C>,
+        truncation: &Truncation,
+    ) -> Result<Polynomial<C>, Error> {
+        self.bracket_within(f, g, Some(truncation))
+    }
+
+    fn bracket_within<C: Coefficient>(
+        &self,
+        f: &Polynomial<C>,
+        g: &Polynomial<C>,
+        truncation: Option<&Truncation>,
+    ) -> Result<Polynomial<C>, Error> {
+        let mut sum = Accumulator::new(&[f], &[g]).within(truncation);
+        sum.add_bracket((0, 0), &self.rules);
+        sum.finish(&mut || Ok(()))
     }
 
     /// The Lie derivative of `f` along the flow of `hamiltonian`: L_h f = {f; h}, so that df/dt = L_h f (theory §3).
@@ -93,13 +124,8 @@ impl Poisson {
         self.bracket(f, hamiltonian)
     }
 
-    /// Adds the bracket of a left with a right polynomial of `sum`, both named by position; `pause` is called now and then.
-    pub(crate) fn accumulate<C: Coefficient>(
-        &self,
-        sum: &mut Accumulator<C>,
-        pair: (usize, usize),
-        pause: &mut Pause<'_>,
-    ) -> Result<(), Error> {
-        sum.add_bracket(pair, &self.rules, pause)
+    /// Adds the bracket of a left with a right polynomial of `sum`, both named by position.
+    pub(crate) fn accumulate<C: Coefficient>(&self, sum: &mut Accumulator<'_, C>, pair: (usize, usize)) {
+        sum.add_bracket(pair, &self.rules);
     }
 }

@@ -13,7 +13,7 @@ impl<C: Coefficient> Polynomial<C> {
     /// - slot 8: [`Error::SlotOutOfRange`].
     pub fn derivative(&self, slot: usize) -> Result<Self, Error> {
         check_slot(slot)?;
-        let terms = self.terms.iter().filter_map(|(&monomial, c)| {
+        let terms = self.terms().filter_map(|(monomial, c)| {
             let exponent = monomial.exponent(slot);
             let lowered = monomial.with(slot, exponent.checked_sub(1)?);
             Some(lowered.map(|lowered| (lowered, c.times(exponent.into()))))
@@ -54,7 +54,7 @@ impl<C: Coefficient> Polynomial<C> {
         }
         // Terms that agree in the exponents replaced share one product of powers.
         let mut groups = BTreeMap::<Vec<u32>, Self>::new();
-        for (&monomial, c) in &self.terms {
+        for (monomial, c) in self.terms() {
             let exponents = slots.iter().map(|&slot| monomial.exponent(slot)).collect();
             groups.entry(exponents).or_default().add_term(monomial.without(slots.iter().copied()), c);
         }
@@ -134,7 +134,7 @@ impl<C: Coefficient> Polynomial<C> {
     pub fn exchange(&self, first: usize, second: usize) -> Result<Self, Error> {
         check_slot(first)?;
         check_slot(second)?;
-        let exchanged = self.terms.iter().map(|(&monomial, c)| {
+        let exchanged = self.terms().map(|(monomial, c)| {
             let (j, k) = (monomial.exponent(first), monomial.exponent(second));
             Ok((monomial.with(first, k)?.with(second, j)?, c.clone()))
         });

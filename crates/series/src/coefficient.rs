@@ -13,6 +13,7 @@
 mod float;
 mod rational;
 
+use crate::words::MachineWords;
 use num_traits::{One, Zero};
 use std::fmt::Debug;
 use std::ops::{AddAssign, MulAssign, Neg, SubAssign};
@@ -30,6 +31,8 @@ pub trait Coefficient:
     Clone
     + PartialEq
     + Debug
+    + Send
+    + Sync
     + Zero
     + One
     + Neg<Output = Self>
@@ -38,9 +41,13 @@ pub trait Coefficient:
     + for<'a> MulAssign<&'a Self>
 {
     /// An unreduced value over a common denominator; `default()` is zero.
-    type Raw: Clone + Default;
+    type Raw: Clone + Default + Send + Sync;
     /// The common denominator of a set of lifted values.
-    type Scale;
+    type Scale: Send + Sync;
+
+    /// How values turn into machine words, for the exact types of this crate.
+    #[doc(hidden)]
+    const MACHINE_WORDS: Option<MachineWords<Self>> = None;
 
     /// The element `value` · 1.
     fn integer(value: i64) -> Self;

@@ -32,7 +32,8 @@ const GUARDS: u128 = 0x8000_8000_8000_8000_8000_8000_8000_8000;
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Monomial(u128);
 
-const fn shift(slot: usize) -> u32 {
+#[inline]
+pub(crate) const fn shift(slot: usize) -> u32 {
     FIELD * (SLOTS - 1 - slot) as u32
 }
 
@@ -129,6 +130,11 @@ impl Monomial {
 
     fn guarded(key: u128) -> Result<Self, Error> {
         if key & GUARDS == 0 { Ok(Monomial(key)) } else { Err(overflow(key)) }
+    }
+
+    /// The monomial with these packed exponents, which hold no guard bit.
+    pub(crate) const fn from_key(key: u128) -> Self {
+        Monomial(key)
     }
 
     /// Sort key of the canonical order.

@@ -1,17 +1,13 @@
-//! Sparse polynomials in up to eight variables: storage, constructors, parts.
+//! Sparse polynomials in up to eight variables: constructors, parts.
 //!
-//! A hash map from [`Monomial`] to coefficient; a zero coefficient is never stored. The order of the map is never seen:
-//! iteration, printing and summation follow the canonical order of the monomials, so that floats come out with the same
-//! bits in every run. Looking up a term is O(1), iterating in order O(n log n).
+//! Distinct [`Monomial`]s with coefficients that are not zero, in canonical order: iteration, printing and summation follow it, so that floats come out with the same
+//! bits in every run. Products leave their terms sorted. Looking up a term is a binary search; where terms are added one by one out of order a hash
+//! index serves instead, and iterating sorts.
 
 use crate::monomial::check_slot;
+use crate::terms::Terms;
 use crate::{Coefficient, Error, Monomial};
-use rustc_hash::FxBuildHasher;
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 use std::hash::{Hash, Hasher};
-
-pub(crate) type Terms<C> = HashMap<Monomial, C, FxBuildHasher>;
 
 /// A polynomial with coefficients `C`.
 ///
@@ -22,7 +18,7 @@ pub(crate) type Terms<C> = HashMap<Monomial, C, FxBuildHasher>;
 /// assert_eq!(p.display(&["x", "y"]).to_string(), "x^2 + y^2");
 /// # Ok::<(), andoyer_series::Error>(())
 /// ```
-#[derive(Clone, PartialEq)]
+#[derive(Clone)]
 pub struct Polynomial<C> {
     pub(crate) terms: Terms<C>,
 }
@@ -51,28 +47,12 @@ impl<C: Coefficient> Polynomial<C> {
     /// The sum of the given terms; equal monomials are added in the order given.
     #[must_use]
     pub fn from_terms(terms: impl IntoIterator<Item = (Monomial, C)>) -> Self {
-        let mut sum = Self::zero();
-        for (monomial, coefficient) in terms {
-            sum.add_term(monomial, &coefficient);
-        }
-        sum
+        Polynomial { terms: Terms::from_unordered(terms.into_iter().collect()) }
     }
 
     /// Adds one term in place.
     pub fn add_term(&mut self, monomial: Monomial, coefficient: &C) {
-        match self.terms.entry(monomial) {
-            Entry::Occupied(mut held) => {
-                *held.get_mut() += coefficient;
-                if held.get().is_zero() {
-                    held.remove();
-                }
-            }
-            Entry::Vacant(free) => {
-                if !coefficient.is_zero() {
-                    free.insert(coefficient.clone());
-                }
-            }
-        }
+        self.terms.add(monomial, coefficient);
     }
 
     /// The terms in canonical order.
@@ -81,33 +61,35 @@ impl<C: Coefficient> Polynomial<C> {
     }
 
     pub(crate) fn sorted(&self) -> Vec<(Monomial, &C)> {
-        let mut terms: Vec<_> = self.terms.iter().map(|(&m, c)| (m.rank(), m, c)).collect();
-        terms.sort_unstable_by_key(|&(rank, ..)| rank);
-        terms.into_iter().map(|(_, m, c)| (m, c)).collect()
+        let mut terms: Vec<_> = self.terms.iter().collect();
+        if !self.terms.is_ordered() {
+            terms.sort_by_cached_key(|(monomial, _)| monomial.rank());
+        }
+        terms
     }
 
     /// The coefficient of `monomial`, `None` where it does not occur.
     #[must_use]
     pub fn coefficient(&self, monomial: &Monomial) -> Option<&C> {
-        self.terms.get(monomial)
+        self.terms.position(*monomial).map(|at| &self.terms.values()[at])
     }
 
     /// Number of terms.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.terms.len()
+        self.terms.monomials().len()
     }
 
     /// Whether this is the polynomial 0, which has no terms.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.terms.is_empty()
+        self.terms.monomials().is_empty()
     }
 
     /// Whether this is the polynomial 0.
     #[must_use]
     pub fn is_zero(&self) -> bool {
-        self.terms.is_empty()
+        self.terms.monomials().is_empty()
     }
 
     /// The value of a constant polynomial (0 for the polynomial 0), `None` where a variable occurs.
@@ -129,8 +111,7 @@ impl<C: Coefficient> Polynomial<C> {
     /// The terms for which `keep` holds.
     #[must_use]
     pub fn filter(&self, mut keep: impl FnMut(Monomial, &C) -> bool) -> Self {
-        let kept = self.terms.iter().filter(|&(&monomial, c)| keep(monomial, c));
-        Polynomial { terms: kept.map(|(&monomial, c)| (monomial, c.clone())).collect() }
+        Self::from_terms(self.terms().filter(|&(monomial, c)| keep(monomial, c)).map(|(m, c)| (m, c.clone())))
     }
 
     /// The terms that `truncation` keeps.
@@ -157,13 +138,19 @@ impl<C: Coefficient> Polynomial<C> {
     /// Largest total degree of a term, `None` for the polynomial 0.
     #[must_use]
     pub fn degree(&self) -> Option<u32> {
-        self.terms.keys().map(|monomial| monomial.total_degree()).max()
+        self.terms.monomials().iter().map(|monomial| monomial.total_degree()).max()
     }
 }
 
-impl<C: Coefficient> Default for Polynomial<C> {
+impl<C> Default for Polynomial<C> {
     fn default() -> Self {
-        Self::zero()
+        Polynomial { terms: Terms::default() }
+    }
+}
+
+impl<C: Coefficient> PartialEq for Polynomial<C> {
+    fn eq(&self, other: &Self) -> bool {
+        self.len() == other.len() && self.terms().eq(other.terms())
     }
 }
 
@@ -205,6 +192,14 @@ impl Truncation {
     pub fn partial(slots: &[usize], degree: u32) -> Result<Self, Error> {
         slots.iter().try_for_each(|&slot| check_slot(slot))?;
         Ok(Truncation { slots: slots.to_vec(), degree })
+    }
+
+    pub(crate) fn slots(&self) -> &[usize] {
+        &self.slots
+    }
+
+    pub(crate) fn degree(&self) -> u32 {
+        self.degree
     }
 
     /// Whether a monomial is kept.

@@ -4,23 +4,20 @@
 //! exponent and that is an error. Sums cost O(n), products one multiplication for each pair of terms and one reduction
 //! for each resulting term.
 
-use crate::lifted::Accumulator;
+use crate::product::Accumulator;
+use crate::terms::Terms;
 use crate::{Coefficient, Error, Polynomial, Truncation};
 use std::ops::{Add, AddAssign, Neg, Sub, SubAssign};
 
 impl<C: Coefficient> AddAssign<&Polynomial<C>> for Polynomial<C> {
     fn add_assign(&mut self, other: &Polynomial<C>) {
-        for (&monomial, c) in &other.terms {
-            self.add_term(monomial, c);
-        }
+        self.merge(other, |sum, c| *sum += c, C::clone);
     }
 }
 
 impl<C: Coefficient> SubAssign<&Polynomial<C>> for Polynomial<C> {
     fn sub_assign(&mut self, other: &Polynomial<C>) {
-        for (&monomial, c) in &other.terms {
-            self.add_term(monomial, &-c.clone());
-        }
+        self.merge(other, |sum, c| *sum -= c, |c| -c.clone());
     }
 }
 
@@ -48,7 +45,7 @@ impl<C: Coefficient> Neg for &Polynomial<C> {
     type Output = Polynomial<C>;
 
     fn neg(self) -> Polynomial<C> {
-        Polynomial { terms: self.terms.iter().map(|(&monomial, c)| (monomial, -c.clone())).collect() }
+        self.each(|c| -c.clone())
     }
 }
 
@@ -56,12 +53,11 @@ impl<C: Coefficient> Polynomial<C> {
     /// This polynomial times a number.
     #[must_use]
     pub fn scale(&self, factor: &C) -> Self {
-        let scaled = self.terms.iter().map(|(&monomial, c)| {
+        self.each(|c| {
             let mut product = c.clone();
             product *= factor;
-            (monomial, product)
-        });
-        Polynomial { terms: scaled.filter(|(_, c)| !c.is_zero()).collect() }
+            product
+        })
     }
 
     /// This polynomial divided by an integer.
@@ -100,9 +96,9 @@ impl<C: Coefficient> Polynomial<C> {
     }
 
     pub(crate) fn product(&self, other: &Self, truncation: Option<&Truncation>) -> Result<Self, Error> {
-        let mut sum = Accumulator::new(&[self], &[other]);
-        sum.add_product((0, 0), 1, truncation)?;
-        Ok(sum.finish())
+        let mut sum = Accumulator::new(&[self], &[other]).within(truncation);
+        sum.add_product((0, 0), 1);
+        sum.finish(&mut || Ok(()))
     }
 
     /// This polynomial to a power, by repeated squaring; the power 0 is 1, of the polynomial 0 as well.
@@ -122,5 +118,41 @@ impl<C: Coefficient> Polynomial<C> {
             }
         }
         Ok(power)
+    }
+
+    /// The same monomials with other coefficients.
+    fn each(&self, mut function: impl FnMut(&C) -> C) -> Self {
+        Self::from_terms(self.terms().map(|(monomial, c)| (monomial, function(c))))
+    }
+
+    /// Merges the terms of `other` into these: `both` where a monomial is in both, `alone` where it is only in `other`.
+    fn merge(&mut self, other: &Self, both: impl Fn(&mut C, &C), alone: impl Fn(&C) -> C) {
+        if other.is_zero() {
+            return;
+        }
+        self.terms.settle();
+        let (monomials, values) = std::mem::take(&mut self.terms).into_values();
+        let mut merged = (Vec::with_capacity(monomials.len() + other.len()), Vec::new());
+        let mut push = |monomial, value: C| {
+            if !value.is_zero() {
+                merged.0.push(monomial);
+                merged.1.push(value);
+            }
+        };
+        let mut own = monomials.into_iter().zip(values).peekable();
+        for (monomial, c) in other.terms() {
+            while let Some((before, value)) = own.next_if(|&(held, _)| held < monomial) {
+                push(before, value);
+            }
+            match own.next_if(|&(held, _)| held == monomial) {
+                Some((_, mut value)) => {
+                    both(&mut value, c);
+                    push(monomial, value);
+                }
+                None => push(monomial, alone(c)),
+            }
+        }
+        own.for_each(|(monomial, value)| push(monomial, value));
+        self.terms = Terms::ordered(merged.0, merged.1);
     }
 }

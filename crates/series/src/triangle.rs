@@ -11,7 +11,7 @@
 //! transformed function f_{0,n}/n!. Order N costs N(N+1)(N+2)/6 brackets; each inner sum is accumulated unreduced. The
 //! inverse transformation obeys (n+1) G_{n+1} = −Σ {G_{n−m}; T_{m+1}}, G_0 = f, and costs N(N+1)/2 brackets.
 
-use crate::lifted::{Accumulator, Pause};
+use crate::product::{Accumulator, Pause};
 use crate::{Coefficient, Error, Homological, Poisson, Polynomial};
 use std::ops::ControlFlow;
 
@@ -218,9 +218,9 @@ impl<C: Coefficient> LieTransform<C> {
             let right: Vec<_> = self.scaled[..=n].iter().collect();
             let mut sum = Accumulator::new(&left, &right);
             for m in 0..=n {
-                self.poisson.accumulate(&mut sum, (m, m), pause)?;
+                self.poisson.accumulate(&mut sum, (m, m));
             }
-            series.push(sum.finish().over(-(n as i64) - 1)?);
+            series.push(sum.finish(pause)?.over(-(n as i64) - 1)?);
         }
         stop(progress(order, order), order, order)?;
         Ok(series)
@@ -278,10 +278,10 @@ impl<C: Coefficient> Triangle<C> {
         right.push(&one);
         let mut sum = Accumulator::new(&left, &right);
         for pair in 0..pairs.len() {
-            transform.poisson.accumulate(&mut sum, (pair, pair), pause)?;
+            transform.poisson.accumulate(&mut sum, (pair, pair));
         }
-        sum.add_product((pairs.len(), pairs.len()), n as i64 + 1, None)?;
-        Ok(sum.finish())
+        sum.add_product((pairs.len(), pairs.len()), n as i64 + 1);
+        sum.finish(pause)
     }
 
     /// The last cell computed: g_{0,N} = f_{0,N}.
@@ -302,9 +302,9 @@ impl<C: Coefficient> Triangle<C> {
             }
             let cell = &mut self.columns[order - n][n];
             let mut sum = Accumulator::new(&[cell, image], &[&one, &share]);
-            sum.add_product((0, 0), 1, None)?;
-            sum.add_product((1, 1), -1, None)?;
-            *cell = sum.finish();
+            sum.add_product((0, 0), 1);
+            sum.add_product((1, 1), -1);
+            *cell = sum.finish(&mut || Ok(()))?;
         }
         Ok(())
     }

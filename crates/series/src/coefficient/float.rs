@@ -24,14 +24,17 @@ impl Coefficient for f64 {
         (values.iter().map(|&&value| value).collect(), ())
     }
 
+    #[inline]
     fn lower(raw: f64, (): &(), (): &()) -> Self {
         raw
     }
 
+    #[inline]
     fn raw_product(first: &f64, second: &f64) -> f64 {
         first * second
     }
 
+    #[inline]
     fn raw_accumulate(sum: &mut f64, product: &f64, weight: i64) {
         *sum += product * weight as f64;
     }
@@ -71,14 +74,17 @@ impl Coefficient for DoubleDouble {
         (values.iter().map(|&&value| value).collect(), ())
     }
 
+    #[inline]
     fn lower(raw: DoubleDouble, (): &(), (): &()) -> Self {
         raw
     }
 
+    #[inline]
     fn raw_product(first: &DoubleDouble, second: &DoubleDouble) -> DoubleDouble {
         *first * *second
     }
 
+    #[inline]
     fn raw_accumulate(sum: &mut DoubleDouble, product: &DoubleDouble, weight: i64) {
         *sum += &(*product * Self::integer(weight));
     }
@@ -112,14 +118,17 @@ impl Coefficient for Complex<f64> {
         (values.iter().map(|&&value| value).collect(), ())
     }
 
+    #[inline]
     fn lower(raw: Complex<f64>, (): &(), (): &()) -> Self {
         raw
     }
 
+    #[inline]
     fn raw_product(first: &Complex<f64>, second: &Complex<f64>) -> Complex<f64> {
         first * second
     }
 
+    #[inline]
     fn raw_accumulate(sum: &mut Complex<f64>, product: &Complex<f64>, weight: i64) {
         *sum += product * weight as f64;
     }

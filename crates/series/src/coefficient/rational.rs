@@ -1,11 +1,12 @@
 //! Exact coefficients: rationals and Gaussian rationals, lifted to integers over the least common denominator.
 
 use super::Coefficient;
+use crate::words::{MachineWords, Numerators, Words};
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 /// Least common multiple of denominators. Most of them divide the multiple found so far, and a remainder is cheaper
 /// than a gcd.
@@ -27,9 +28,42 @@ fn lowered(raw: BigInt, scale: BigInt) -> BigRational {
     if raw.is_zero() { BigRational::zero() } else { BigRational::new(raw, scale) }
 }
 
+/// Rationals as integers over their common denominator, where all of them fit.
+fn words<'a>(values: impl Iterator<Item = &'a BigRational> + Clone) -> Option<(Vec<i128>, i128)> {
+    let mut common = 1_i128;
+    for value in values.clone() {
+        let denominator = value.denom().to_i128()?;
+        if common % denominator != 0 {
+            common = common.checked_mul(denominator / common.gcd(&denominator))?;
+        }
+    }
+    let numerators = values.map(|value| value.numer().to_i128()?.checked_mul(common / value.denom().to_i128()?));
+    Some((numerators.collect::<Option<_>>()?, common))
+}
+
+/// The reduced fraction.
+fn fraction(numerator: i128, denominator: i128) -> BigRational {
+    if denominator == 1 || numerator == 0 {
+        return BigRational::from_integer(numerator.into());
+    }
+    let shared = numerator.gcd(&denominator);
+    BigRational::new_raw((numerator / shared).into(), (denominator / shared).into())
+}
+
 impl Coefficient for BigRational {
     type Raw = BigInt;
     type Scale = BigInt;
+
+    const MACHINE_WORDS: Option<MachineWords<Self>> = Some(MachineWords {
+        lift: |values| {
+            let (numerators, denominator) = words(values.iter())?;
+            Some(Words { numerators: Numerators::Real(numerators), denominator })
+        },
+        lower: |words| match &words.numerators {
+            Numerators::Real(values) => values.iter().map(|&re| fraction(re, words.denominator)).collect(),
+            Numerators::Complex(values) => values.iter().map(|&[re, _]| fraction(re, words.denominator)).collect(),
+        },
+    });
 
     fn integer(value: i64) -> Self {
         BigRational::from_integer(value.into())
@@ -72,6 +106,22 @@ impl Coefficient for BigRational {
 impl Coefficient for Complex<BigRational> {
     type Raw = Complex<BigInt>;
     type Scale = BigInt;
+
+    const MACHINE_WORDS: Option<MachineWords<Self>> = Some(MachineWords {
+        lift: |values| {
+            let (parts, denominator) = words(values.iter().flat_map(|value| [&value.re, &value.im]))?;
+            let numerators = parts.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+            Some(Words { numerators: Numerators::Complex(numerators), denominator })
+        },
+        lower: |words| {
+            let complex =
+                |[re, im]: [i128; 2]| Complex::new(fraction(re, words.denominator), fraction(im, words.denominator));
+            match &words.numerators {
+                Numerators::Real(values) => values.iter().map(|&re| complex([re, 0])).collect(),
+                Numerators::Complex(values) => values.iter().map(|&pair| complex(pair)).collect(),
+            }
+        },
+    });
 
     fn integer(value: i64) -> Self {
         Complex::new(BigRational::integer(value), BigRational::zero())

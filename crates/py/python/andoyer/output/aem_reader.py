@@ -29,6 +29,9 @@ NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 ON_BODY = re.compile(r"(SC BODY|INSTRUMENT|ACC|ACTUATOR|AST|CSS|DSS|ESA|GYRO FRAME|IMU FRAME|MTA|PX|RW|SA|SENSOR|STARR?TT?RACKER|TAM)( \w+)?")
 """Frames of a spacecraft, as the registry of the CCSDS names them; every other frame is one that it turns against."""
 
+WITHOUT_RATES = ["QUATERNION", "QUATERNION/RATE", "EULER_ANGLE", "EULER_ANGLE/RATE"]
+"""Types without an angular velocity, or with one of which the standard does not say in which frame it is."""
+
 AXES = str.maketrans("123", "XYZ")
 
 
@@ -129,14 +132,18 @@ def _segment(message: RawMessage, raw: RawSegment, date: datetime | None) -> Seg
         fields = _scalar_first(fields)
     table = np.array([_numbers(record, fields) for record in raw.records])[:, [fields.index(field) for field in FIELDS[name]]]
     sequence = _sequence(raw, name)
+    times = _times(raw, system, date)
+    backwards = message.version == "1.0" and _choice(raw, "ATTITUDE_DIR", ["A2B", "B2A"]) == "B2A"
     try:
-        attitude, rates = attitudes_of(name, table, sequence)
+        with np.errstate(over="ignore", invalid="ignore"):
+            attitude, rates = attitudes_of(name, table, sequence)
+            if name.endswith("/ANGVEL"):
+                rates = _of_second(raw, attitude, rates)
+            samples, swapped = _of_body(raw, backwards, times, attitude, rates)
     except ValueError as error:
         raise ValueError(f"{raw.where}: {error}") from error
-    if name.endswith("/ANGVEL"):
-        rates = _of_second(raw, attitude, rates)
-    times = _times(raw, system, date)
-    samples, swapped = _of_body(message, raw, times, attitude, rates)
+    if name not in WITHOUT_RATES and not np.isfinite(samples.angular_velocity).all():
+        raise ValueError(f"{raw.where}: angular velocities must be finite: the numbers are too large")
     frames = [metadata["REF_FRAME_A"], metadata["REF_FRAME_B"]]
     heading = Heading(
         name=metadata["OBJECT_NAME"],
@@ -217,13 +224,13 @@ def _times(raw: RawSegment, system: str, date: datetime | None) -> Array:
 
 def _of_second(raw: RawSegment, attitude: Array, rates: Array) -> Array:
     """An angular velocity in components of frame B."""
-    frame = _plain(_given(raw, "ANGVEL_FRAME"))
+    frame = _plain(raw.metadata.get("ANGVEL_FRAME", ""))
     # The standard's own figure G-13 has the keyword in the place of the name.
     if frame in (_plain(raw.metadata["REF_FRAME_B"]), "REF FRAME B"):
         return rates
     if frame in (_plain(raw.metadata["REF_FRAME_A"]), "REF FRAME A"):
         return rotate(conjugate(attitude), rates)
-    raise ValueError(f"{raw.where}: ANGVEL_FRAME must be REF_FRAME_A or REF_FRAME_B: got {raw.metadata['ANGVEL_FRAME']!r}")
+    raise ValueError(f"ANGVEL_FRAME must be REF_FRAME_A or REF_FRAME_B: got {raw.metadata.get('ANGVEL_FRAME')!r}")
 
 
 def _given(raw: RawSegment, key: str) -> str:
@@ -232,12 +239,11 @@ def _given(raw: RawSegment, key: str) -> str:
     return raw.metadata[key]
 
 
-def _of_body(message: RawMessage, raw: RawSegment, times: Array, attitude: Array, rates: Array) -> tuple[Samples, bool]:
+def _of_body(raw: RawSegment, backwards: bool, times: Array, attitude: Array, rates: Array) -> tuple[Samples, bool]:
     """Samples of the body against the other frame, and whether the body is frame A.
 
     `attitude` takes components of the second frame to those of the first; in the direction B2A of version 1 the second frame is A.
     """
-    backwards = message.version == "1.0" and _choice(raw, "ATTITUDE_DIR", ["A2B", "B2A"]) == "B2A"
     first, second = (bool(ON_BODY.fullmatch(_plain(raw.metadata[key]))) for key in ("REF_FRAME_A", "REF_FRAME_B"))
     body_is_a = first and not second
     if body_is_a != backwards:

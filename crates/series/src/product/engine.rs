@@ -1,0 +1,288 @@
+//! The sum of many products, window by window.
+//!
+//! The codes of a result are cut into windows, each so small that its sums stay in the cache of a core (after F. Biscani, *Parallel sparse
+//! polynomial multiplication on modern hardware architectures*, ISSAC 2012, whose segments are those of a hash table). Both factors are sorted
+//! by code, so the products that fall into a window are found by walking along a staircase. A window holds its sums in an array where most codes are in use,
+//! else in a table sized before it is filled. It is drained in the order of the codes: the result is sorted, windows are independent, and one thread or
+//! many add the same numbers in the same order.
+
+use super::arithmetic::Arithmetic;
+use super::code::{Key, Layout};
+use super::store::{Array, Store, Table};
+use super::{PRODUCTS_PER_PAUSE, Pause};
+use crate::Error;
+use rayon::prelude::*;
+
+/// Products on which another thread is worth its start.
+const PARALLEL_PRODUCTS: usize = 1 << 18;
+/// Windows for each thread from one pause to the next.
+const WINDOWS_PER_BATCH: usize = 16;
+/// Cells of a window's array: a megabyte of 16-byte sums.
+const ARRAY_CELLS: i128 = 1 << 16;
+/// Products in a window's array: some milliseconds.
+const ARRAY_PRODUCTS: i128 = 1 << 22;
+const FEWEST_CELLS: i128 = 1 << 8;
+/// An array may have so many cells for each product.
+pub(super) const CELLS_PER_PRODUCT: i128 = 4;
+/// Bytes of a window's table that has a slot for every other product.
+const TABLE_BYTES: usize = 1 << 19;
+/// The same for sums that own memory, each product of which takes tenths of a microsecond.
+const HEAVY_TABLE_PRODUCTS: usize = 1 << 13;
+/// Sums drawn for each boundary of the windows.
+const SAMPLES_PER_WINDOW: usize = 32;
+
+/// A polynomial ready for products: codes in ascending order, exponents and lifted coefficients.
+pub(super) struct Operand<K, F> {
+    pub(super) codes: Vec<K>,
+    pub(super) factors: Vec<F>,
+}
+
+/// What a pair of terms is multiplied by.
+pub(super) enum Weights {
+    Constant(i64),
+    /// j₁ k₂ − k₁ j₂, (j, k) being given for every term of both sides.
+    Bracket {
+        outer: Vec<[i64; 2]>,
+        inner: Vec<[i64; 2]>,
+    },
+}
+
+/// One product: every outer term with every inner one.
+pub(super) struct Part<'a, K, F> {
+    pub(super) outer: &'a Operand<K, F>,
+    pub(super) inner: &'a Operand<K, F>,
+    /// Added to every code.
+    pub(super) shift: K,
+    pub(super) weights: Weights,
+}
+
+/// Takes numbers of products; an error ends the sum.
+type Count<'a> = dyn FnMut(usize) -> Result<(), Error> + 'a;
+
+/// The codes from `low` on, below `high`.
+#[derive(Clone, Copy)]
+struct Window<K> {
+    low: K,
+    high: K,
+}
+
+impl<K: Key, F> Part<'_, K, F> {
+    pub(super) fn pairs(&self) -> usize {
+        self.outer.codes.len().saturating_mul(self.inner.codes.len())
+    }
+
+    /// Smallest and largest code, `None` without a pair.
+    fn range(&self) -> Option<(K, K)> {
+        let low = self.outer.codes.first()?.plus(self.shift).plus(*self.inner.codes.first()?);
+        let high = self.outer.codes.last()?.plus(self.shift).plus(*self.inner.codes.last()?);
+        Some((low, high))
+    }
+
+    /// Calls `row` with each outer position and the range of inner positions whose products are in the window.
+    #[inline(always)]
+    fn rows(
+        &self,
+        window: Window<K>,
+        mut row: impl FnMut(usize, K, std::ops::Range<usize>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let inner = &self.inner.codes;
+        let Some(&top) = inner.last() else { return Ok(()) };
+        let start = self.outer.codes.partition_point(|code| code.plus(self.shift).plus(top) < window.low);
+        let (mut first, mut last) = (inner.len(), inner.len());
+        for (position, code) in self.outer.codes.iter().enumerate().skip(start) {
+            let base = code.plus(self.shift);
+            while first > 0 && base.plus(inner[first - 1]) >= window.low {
+                first -= 1;
+            }
+            while last > 0 && base.plus(inner[last - 1]) >= window.high {
+                last -= 1;
+            }
+            if last == 0 {
+                break;
+            }
+            if first < last {
+                row(position, base, first..last)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the products that are in the window, and tells `count` of those of each row.
+    fn add<A: Arithmetic<Factor = F>, S: Store<K, A::Sum>>(
+        &self,
+        window: Window<K>,
+        store: &mut S,
+        count: &mut Count<'_>,
+    ) -> Result<(), Error> {
+        let (codes, factors) = (&self.inner.codes, &self.inner.factors);
+        self.rows(window, |position, base, range| {
+            count(range.len())?;
+            let first = &self.outer.factors[position];
+            let inner = codes[range.clone()].iter().zip(&factors[range.clone()]);
+            match &self.weights {
+                Weights::Constant(1) => {
+                    for (&code, second) in inner {
+                        A::add(store.cell(base.plus(code)), first, second, 1);
+                    }
+                }
+                Weights::Constant(weight) => {
+                    for (&code, second) in inner {
+                        A::add(store.cell(base.plus(code)), first, second, *weight);
+                    }
+                }
+                Weights::Bracket { outer, inner: exponents } => {
+                    let [j, k] = outer[position];
+                    if [j, k] == [0, 0] {
+                        return Ok(());
+                    }
+                    for ((&code, second), exponents) in inner.zip(&exponents[range]) {
+                        let weight = j * exponents[1] - k * exponents[0];
+                        if weight != 0 {
+                            A::add(store.cell(base.plus(code)), first, second, weight);
+                        }
+                    }
+                }
+            }
+            Ok(())
+        })
+    }
+}
+
+/// The terms of a stretch of the result, in the order of their codes.
+pub(super) struct Piece<V> {
+    pub(super) keys: Vec<u128>,
+    pub(super) values: Vec<V>,
+}
+
+impl<V> Piece<V> {
+    fn new() -> Self {
+        Piece { keys: Vec::new(), values: Vec::new() }
+    }
+}
+
+/// A sum of products that is ready to be formed.
+pub(super) struct Sum<'a, K, A: Arithmetic> {
+    pub(super) arithmetic: &'a A,
+    pub(super) parts: &'a [Part<'a, K, A::Factor>],
+    pub(super) layout: &'a Layout,
+    /// The largest code that is kept.
+    pub(super) last_kept: Option<i128>,
+}
+
+impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
+    /// All terms of the sum, in pieces.
+    pub(super) fn form(&self, pause: &mut Pause<'_>) -> Result<Vec<Piece<A::Value>>, Error> {
+        let ranges = || self.parts.iter().filter_map(Part::range);
+        let (Some(low), Some(high)) = (ranges().map(|r| r.0).min(), ranges().map(|r| r.1).max()) else {
+            return Ok(Vec::new());
+        };
+        let high = self.last_kept.map_or(high.widened(), |last| high.widened().min(last)) + 1;
+        if low.widened() >= high {
+            return Ok(Vec::new());
+        }
+        let whole = Window { low, high: K::narrowed(high) };
+        let pairs = self.parts.iter().fold(0_usize, |pairs, part| pairs.saturating_add(part.pairs()));
+        if A::LIGHT && high - low.widened() <= CELLS_PER_PRODUCT * pairs as i128 {
+            self.windows::<Array<K, A::Sum>>(Array::new, &even(whole, pairs), pairs, pause)
+        } else {
+            self.windows::<Table<K, A::Sum>>(Table::new, &self.quantiles(whole, pairs), pairs, pause)
+        }
+    }
+
+    /// Windows on each of which about as many products fall.
+    fn quantiles(&self, whole: Window<K>, pairs: usize) -> Vec<Window<K>> {
+        let products = if A::LIGHT { 2 * TABLE_BYTES / size_of::<(K, A::Sum)>() } else { HEAVY_TABLE_PRODUCTS };
+        // Walking along the staircases must cost less than the products themselves.
+        let steps: usize = self.parts.iter().map(|part| part.outer.codes.len() + 2 * part.inner.codes.len()).sum();
+        let count = (pairs / products).min(pairs / (2 * steps + 1)).max(1);
+        let wanted = SAMPLES_PER_WINDOW * count;
+        let mut sums = Vec::new();
+        for part in self.parts.iter().filter(|_| count > 1) {
+            let (outer, inner) = (&part.outer.codes, &part.inner.codes);
+            let share = (wanted as f64 * part.pairs() as f64 / pairs as f64).sqrt() as usize + 1;
+            let (across, along) = (outer.len().div_ceil(share), inner.len().div_ceil(share));
+            for code in outer.iter().step_by(across.max(1)) {
+                let base = code.plus(part.shift);
+                sums.extend(inner.iter().step_by(along.max(1)).map(|&code| base.plus(code)));
+            }
+        }
+        sums.retain(|&code| code > whole.low && code < whole.high);
+        sums.sort_unstable();
+        let mut boundaries = vec![whole.low];
+        boundaries.extend((1..count).filter_map(|at| sums.get(at * sums.len() / count)));
+        boundaries.push(whole.high);
+        boundaries.dedup();
+        boundaries.windows(2).map(|pair| Window { low: pair[0], high: pair[1] }).collect()
+    }
+
+    /// Forms the windows in order, by several threads where there is enough to do.
+    fn windows<S: Store<K, A::Sum>>(
+        &self,
+        store: impl Fn() -> S + Sync,
+        windows: &[Window<K>],
+        pairs: usize,
+        pause: &mut Pause<'_>,
+    ) -> Result<Vec<Piece<A::Value>>, Error> {
+        let threads = if pairs < PARALLEL_PRODUCTS { 1 } else { rayon::current_num_threads().min(windows.len()) };
+        let expected = pairs / windows.len().max(1);
+        if threads > 1 {
+            let mut pieces = Vec::new();
+            for batch in windows.chunks(threads * WINDOWS_PER_BATCH) {
+                pause()?;
+                let stretches: Vec<Piece<A::Value>> = batch
+                    .par_iter()
+                    .map_init(&store, |store, &window| {
+                        let mut piece = Piece::new();
+                        self.window(window, expected, store, &mut piece, &mut |_| Ok(()))?;
+                        Ok(piece)
+                    })
+                    .collect::<Result<_, Error>>()?;
+                pieces.extend(stretches);
+            }
+            return Ok(pieces);
+        }
+        let (mut piece, mut store, mut done) = (Piece::new(), store(), 0);
+        let mut count = |products| {
+            done += products;
+            if done < PRODUCTS_PER_PAUSE {
+                return Ok(());
+            }
+            done = 0;
+            pause()
+        };
+        for &window in windows {
+            self.window(window, expected, &mut store, &mut piece, &mut count)?;
+        }
+        Ok(vec![piece])
+    }
+
+    /// Forms the sums of one window, on which about `expected` products fall.
+    fn window<S: Store<K, A::Sum>>(
+        &self,
+        window: Window<K>,
+        expected: usize,
+        store: &mut S,
+        piece: &mut Piece<A::Value>,
+        count: &mut Count<'_>,
+    ) -> Result<(), Error> {
+        store.open(window.low, window.high.offset(window.low), expected);
+        for part in self.parts {
+            part.add::<A, S>(window, store, count)?;
+        }
+        store.drain(&mut |key: K, sum| {
+            if let Some(value) = self.arithmetic.value(sum) {
+                piece.keys.push(key.decoded(self.layout));
+                piece.values.push(value);
+            }
+        });
+        Ok(())
+    }
+}
+
+/// Windows of as many codes as an array has cells, or of fewer where very many products fall on a cell.
+fn even<K: Key>(whole: Window<K>, pairs: usize) -> Vec<Window<K>> {
+    let (low, high) = (whole.low.widened(), whole.high.widened());
+    let cells = ((high - low) * ARRAY_PRODUCTS / pairs.max(1) as i128).clamp(FEWEST_CELLS, ARRAY_CELLS);
+    let bounds = (low..high).step_by(cells as usize);
+    bounds.map(|start| Window { low: K::narrowed(start), high: K::narrowed(high.min(start + cells)) }).collect()
+}

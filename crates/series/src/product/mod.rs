@@ -1,0 +1,330 @@
+//! Sums of products and of brackets: the one place where polynomials are multiplied.
+//!
+//! Left factors are lifted together to one scale and so are right factors; then every product of a left with a right
+//! has the same denominator, and a whole sum (the inner sum of Deprit's triangle, for one) costs one gcd for each
+//! resulting term at most. Exact factors run in 64-bit integers with 128-bit sums where a bound on the sums, taken beforehand, allows it, else in big integers.
+//! Products are added in canonical order of the factor with fewer terms, then of the other one: a floating-point sum has the same bits in every run and
+//! with any number of threads.
+
+mod arithmetic;
+mod code;
+mod engine;
+mod operands;
+mod store;
+
+use crate::monomial::Monomial;
+use crate::terms::Terms;
+use crate::words::{FactorList, Factors, Numerators, Words};
+use crate::{Coefficient, Error, MAXIMUM_EXPONENT, Polynomial, SLOTS, Truncation};
+use arithmetic::{Arithmetic, GaussianIntegers, Integers, Lifted};
+use code::{Key, Layout};
+use engine::{CELLS_PER_PRODUCT, Part, Piece, Sum};
+use operands::Sides;
+use rayon::prelude::*;
+
+/// Products from one call of `pause` to the next: some tens of milliseconds of large rationals.
+const PRODUCTS_PER_PAUSE: usize = 1 << 14;
+/// Sums of 128 bits are safe below this.
+const LARGEST_SUM: f64 = (1_u128 << 126) as f64;
+
+/// What a long sum calls now and then; an error ends it.
+pub(crate) type Pause<'a> = dyn FnMut() -> Result<(), Error> + 'a;
+
+/// A weighted sum of products of some left polynomials with some right ones.
+pub(crate) struct Accumulator<'a, C> {
+    left: Vec<&'a Polynomial<C>>,
+    right: Vec<&'a Polynomial<C>>,
+    products: Vec<Product>,
+    truncation: Option<&'a Truncation>,
+}
+
+/// One product of the sum: factors by position, and what it is multiplied by.
+#[derive(Debug, Clone, Copy)]
+struct Product {
+    left: usize,
+    right: usize,
+    weight: Weight,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Weight {
+    Constant(i64),
+    Rule(Rule),
+}
+
+/// What one pair of variables makes of a pair of terms: an integer weight and a shift of the exponents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct Rule {
+    pub(crate) first: usize,
+    pub(crate) second: usize,
+    pub(crate) sign: i64,
+    pub(crate) raised: u128,
+    pub(crate) lowered: u128,
+}
+
+impl Rule {
+    /// ± (j₁ k₂ − k₁ j₂), with j, k the exponents of the first and the second variable of the pair.
+    fn weigh(&self, left: Monomial, right: Monomial) -> i64 {
+        let exponent = |m: Monomial, slot| i64::from(m.exponent(slot));
+        let (j1, k1) = (exponent(left, self.first), exponent(left, self.second));
+        let (j2, k2) = (exponent(right, self.first), exponent(right, self.second));
+        self.sign * (j1 * k2 - k1 * j2)
+    }
+}
+
+impl<'a, C: Coefficient> Accumulator<'a, C> {
+    /// Takes the factors; they are named by their position from here on.
+    pub(crate) fn new(left: &[&'a Polynomial<C>], right: &[&'a Polynomial<C>]) -> Self {
+        Accumulator { left: left.to_vec(), right: right.to_vec(), products: Vec::new(), truncation: None }
+    }
+
+    /// The same sum without what `truncation` drops.
+    pub(crate) fn within(mut self, truncation: Option<&'a Truncation>) -> Self {
+        self.truncation = truncation;
+        self
+    }
+
+    /// Adds `weight` · left · right.
+    pub(crate) fn add_product(&mut self, (left, right): (usize, usize), weight: i64) {
+        self.products.push(Product { left, right, weight: Weight::Constant(weight) });
+    }
+
+    /// Adds one term for each pair of terms and each of its weights: `weigh(left, right)` for every rule.
+    pub(crate) fn add_bracket(&mut self, (left, right): (usize, usize), rules: &[Rule]) {
+        self.products.extend(rules.iter().map(|&rule| Product { left, right, weight: Weight::Rule(rule) }));
+    }
+
+    /// Forms the sum. Exponents that overflow in a product that is dropped are an error, too.
+    pub(crate) fn finish(mut self, pause: &mut Pause<'_>) -> Result<Polynomial<C>, Error> {
+        self.products.retain(|product| !self.left[product.left].is_zero() && !self.right[product.right].is_zero());
+        if self.products.is_empty() {
+            return Ok(Polynomial::zero());
+        }
+        let bounds = self.exponent_bounds()?;
+        match self.in_words() {
+            Some(words) => self.sum_of_words(&words, &bounds, pause),
+            None => self.sum_of_lifted(&bounds, pause),
+        }
+    }
+
+    /// The largest exponents of the result.
+    fn exponent_bounds(&self) -> Result<[u32; SLOTS], Error> {
+        let most = |p: &&Polynomial<C>| largest(p.terms.monomials());
+        let (left, right): (Vec<_>, Vec<_>) =
+            (self.left.iter().map(most).collect(), self.right.iter().map(most).collect());
+        let mut bounds = [0; SLOTS];
+        for product in &self.products {
+            let raised = match product.weight {
+                Weight::Constant(_) => [0; SLOTS],
+                Weight::Rule(rule) => Monomial::from_key(rule.raised).exponents(),
+            };
+            let mut reached = [0; SLOTS];
+            for slot in 0..SLOTS {
+                reached[slot] = left[product.left][slot] + right[product.right][slot] + raised[slot];
+            }
+            if reached.iter().any(|&exponent| exponent > MAXIMUM_EXPONENT) {
+                self.check_exponents(product)?;
+            }
+            for (bound, reached) in bounds.iter_mut().zip(reached) {
+                *bound = reached.min(MAXIMUM_EXPONENT).max(*bound);
+            }
+        }
+        Ok(bounds)
+    }
+
+    /// Looks at every pair of a product for one that overflows.
+    fn check_exponents(&self, product: &Product) -> Result<(), Error> {
+        for (m, _) in self.left[product.left].sorted() {
+            for (n, _) in self.right[product.right].sorted() {
+                match product.weight {
+                    Weight::Constant(_) => drop(m.checked_mul(n)?),
+                    Weight::Rule(rule) if rule.weigh(m, n) != 0 => drop(m.bracket_mul(n, rule.raised, rule.lowered)?),
+                    Weight::Rule(_) => {}
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Both sides in machine words, if the sums fit into 128 bits.
+    fn in_words(&self) -> Option<[Factors; 2]> {
+        C::MACHINE_WORDS?;
+        let side = |polynomials: &[&Polynomial<C>]| {
+            let words = polynomials.iter().map(|p| p.terms.words()).collect::<Option<Vec<_>>>()?;
+            Factors::new(&words.iter().map(AsRef::as_ref).collect::<Vec<_>>())
+        };
+        let sides = [side(&self.left)?, side(&self.right)?];
+        sides[0].denominator.checked_mul(sides[1].denominator)?;
+        let norms = sides.each_ref().map(|side| side.lists.iter().map(FactorList::norms).collect::<Vec<_>>());
+        let bound = |product: &Product| {
+            let ([sum1, most1], [sum2, most2]) = (norms[0][product.left], norms[1][product.right]);
+            let weight = match product.weight {
+                Weight::Constant(weight) => weight.unsigned_abs() as f64,
+                Weight::Rule(rule) => {
+                    let most = |p: &Polynomial<C>, slot| f64::from(largest(p.terms.monomials())[slot]);
+                    let (left, right) = (self.left[product.left], self.right[product.right]);
+                    most(left, rule.first) * most(right, rule.second)
+                        + most(left, rule.second) * most(right, rule.first)
+                }
+            };
+            weight * (sum1 * most2).min(sum2 * most1)
+        };
+        (self.products.iter().map(bound).sum::<f64>() < LARGEST_SUM).then_some(sides)
+    }
+
+    fn sum_of_words(
+        &self,
+        [left, right]: &[Factors; 2],
+        bounds: &[u32; SLOTS],
+        pause: &mut Pause<'_>,
+    ) -> Result<Polynomial<C>, Error> {
+        let real = |factors: &Factors| -> Option<Vec<Vec<i64>>> {
+            let list =
+                |list: &FactorList| if let FactorList::Real(values) = list { Some(values.clone()) } else { None };
+            factors.lists.iter().map(list).collect()
+        };
+        let complex = |factors: &Factors| -> Vec<Vec<[i64; 2]>> {
+            let list = |list: &FactorList| match list {
+                FactorList::Real(values) => values.iter().map(|&value| [value, 0]).collect(),
+                FactorList::Complex(values) => values.clone(),
+            };
+            factors.lists.iter().map(list).collect()
+        };
+        let (monomials, numerators) = match (real(left), real(right)) {
+            (Some(left), Some(right)) => {
+                let (monomials, values) = self.sum(&Integers, (left, right), bounds, pause)?;
+                (monomials, Numerators::Real(values))
+            }
+            _ => {
+                let factors = (complex(left), complex(right));
+                let (monomials, values) = self.sum(&GaussianIntegers, factors, bounds, pause)?;
+                (monomials, Numerators::Complex(values))
+            }
+        };
+        let words = Words { numerators, denominator: left.denominator * right.denominator };
+        Ok(Polynomial { terms: Terms::ordered_words(monomials, words.reduced()) })
+    }
+
+    fn sum_of_lifted(&self, bounds: &[u32; SLOTS], pause: &mut Pause<'_>) -> Result<Polynomial<C>, Error> {
+        let (left, first) = lift_together(&self.left);
+        let (right, second) = lift_together(&self.right);
+        let arithmetic = Lifted::<C> { scales: (&first, &second) };
+        let (monomials, values) = self.sum(&arithmetic, (left, right), bounds, pause)?;
+        Ok(Polynomial { terms: Terms::ordered(monomials, values) })
+    }
+
+    /// The terms of the sum in canonical order.
+    fn sum<A: Arithmetic>(
+        &self,
+        arithmetic: &A,
+        factors: (Vec<Vec<A::Factor>>, Vec<Vec<A::Factor>>),
+        bounds: &[u32; SLOTS],
+        pause: &mut Pause<'_>,
+    ) -> Result<(Vec<Monomial>, Vec<A::Value>), Error>
+    where
+        A::Factor: Clone,
+    {
+        let layout = self.layout(bounds, A::LIGHT);
+        if layout.bits(bounds.iter().sum()) <= <i64 as Key>::BITS {
+            self.sum_coded::<i64, A>(arithmetic, factors, &layout, pause)
+        } else {
+            self.sum_coded::<i128, A>(arithmetic, factors, &layout, pause)
+        }
+    }
+
+    /// Radices as small as can be where an array will hold the sums, else powers of two where their codes fit into a word.
+    fn layout(&self, bounds: &[u32; SLOTS], light: bool) -> Layout {
+        let layout = Layout::new(bounds, self.truncation, false);
+        let pairs = |product: &Product| self.left[product.left].len() * self.right[product.right].len();
+        let pairs: usize = self.products.iter().map(pairs).sum();
+        let degree = |polynomials: &[&Polynomial<C>], least: bool| {
+            let degrees = polynomials.iter().flat_map(|p| p.terms.monomials()).map(|m| m.total_degree());
+            (if least { degrees.min() } else { degrees.max() }).unwrap_or(0)
+        };
+        let [low, high] = [true, false].map(|least| degree(&self.left, least) + degree(&self.right, least));
+        if light && layout.codes(low, high) <= CELLS_PER_PRODUCT * pairs as i128 {
+            return layout;
+        }
+        let wide = Layout::new(bounds, self.truncation, true);
+        if wide.bits(bounds.iter().sum()) <= <i64 as Key>::BITS { wide } else { layout }
+    }
+
+    fn sum_coded<K: Key, A: Arithmetic>(
+        &self,
+        arithmetic: &A,
+        factors: (Vec<Vec<A::Factor>>, Vec<Vec<A::Factor>>),
+        layout: &Layout,
+        pause: &mut Pause<'_>,
+    ) -> Result<(Vec<Monomial>, Vec<A::Value>), Error>
+    where
+        A::Factor: Clone,
+    {
+        let sides = Sides::<K, A::Factor>::new((&self.left, &self.right), factors, layout);
+        let parts: Vec<Part<'_, K, A::Factor>> =
+            self.products.iter().map(|product| sides.part(product, layout)).collect();
+        let last_kept = self.truncation.map(|truncation| layout.last_of_degree(truncation.degree()));
+        let pieces = Sum { arithmetic, parts: &parts, layout, last_kept }.form(pause)?;
+        Ok(gather(pieces, &A::zero(), layout.canonical))
+    }
+}
+
+/// The terms of all pieces, one after the other, in canonical order.
+fn gather<V: Clone + Send + Sync>(pieces: Vec<Piece<V>>, zero: &V, ordered: bool) -> (Vec<Monomial>, Vec<V>) {
+    let Piece { keys, values } = join(pieces, zero);
+    // The conversion is done in place.
+    let monomials: Vec<_> = keys.into_iter().map(Monomial::from_key).collect();
+    if ordered {
+        return (monomials, values);
+    }
+    let mut terms: Vec<_> = monomials.into_iter().zip(values).collect();
+    terms.sort_by_cached_key(|(monomial, _)| monomial.rank());
+    terms.into_iter().unzip()
+}
+
+/// One piece of many: numbers are copied by all threads, what owns memory is moved.
+fn join<V: Clone + Send + Sync>(pieces: Vec<Piece<V>>, zero: &V) -> Piece<V> {
+    if pieces.len() < 2 || std::mem::needs_drop::<V>() {
+        let mut whole = Piece { keys: Vec::new(), values: Vec::new() };
+        for mut piece in pieces {
+            if whole.keys.is_empty() {
+                whole = piece;
+            } else {
+                whole.keys.append(&mut piece.keys);
+                whole.values.append(&mut piece.values);
+            }
+        }
+        return whole;
+    }
+    let length = pieces.iter().map(|piece| piece.keys.len()).sum();
+    let (mut keys, mut values) = (vec![0; length], vec![zero.clone(); length]);
+    let (mut free_keys, mut free_values, mut places) = (&mut keys[..], &mut values[..], Vec::new());
+    for piece in &pieces {
+        let (keys, rest_of_keys) = free_keys.split_at_mut(piece.keys.len());
+        let (values, rest_of_values) = free_values.split_at_mut(piece.keys.len());
+        places.push((piece, keys, values));
+        (free_keys, free_values) = (rest_of_keys, rest_of_values);
+    }
+    places.into_par_iter().for_each(|(piece, keys, values)| {
+        keys.copy_from_slice(&piece.keys);
+        values.clone_from_slice(&piece.values);
+    });
+    Piece { keys, values }
+}
+
+/// The largest exponent in each slot.
+fn largest(monomials: &[Monomial]) -> [u32; SLOTS] {
+    let mut most = [0; SLOTS];
+    for monomial in monomials {
+        for (most, exponent) in most.iter_mut().zip(monomial.exponents()) {
+            *most = exponent.max(*most);
+        }
+    }
+    most
+}
+
+fn lift_together<C: Coefficient>(polynomials: &[&Polynomial<C>]) -> (Vec<Vec<C::Raw>>, C::Scale) {
+    let values: Vec<&C> = polynomials.iter().flat_map(|p| p.terms.values()).collect();
+    let (raws, scale) = C::lift(&values);
+    let mut raws = raws.into_iter();
+    (polynomials.iter().map(|p| raws.by_ref().take(p.len()).collect()).collect(), scale)
+}

@@ -1,0 +1,172 @@
+//! The terms of a polynomial in memory.
+//!
+//! Packed monomials and coefficients in two arrays: in canonical order as products, sums and constructors leave them. Terms that are added one by one out of order are
+//! found by a hash index, which is made when it is needed. Exact coefficients that come out of a product are kept as [`Words`] until somebody looks at them.
+
+use crate::words::Words;
+use crate::{Coefficient, Monomial};
+use rustc_hash::FxBuildHasher;
+use std::collections::HashMap;
+use std::sync::OnceLock;
+
+/// Distinct monomials with coefficients that are not zero.
+#[derive(Clone)]
+pub(crate) struct Terms<C> {
+    monomials: Vec<Monomial>,
+    /// Made from `words` when looked at.
+    values: OnceLock<Vec<C>>,
+    words: Option<Words>,
+    /// Positions of all terms; there is one only where the terms are out of order.
+    index: Option<HashMap<Monomial, usize, FxBuildHasher>>,
+}
+
+impl<C> Default for Terms<C> {
+    fn default() -> Self {
+        Terms { monomials: Vec::new(), values: OnceLock::from(Vec::new()), words: None, index: None }
+    }
+}
+
+impl<C> Terms<C> {
+    /// The monomials, in the order of the values.
+    pub(crate) fn monomials(&self) -> &[Monomial] {
+        &self.monomials
+    }
+
+    /// Whether the terms are in canonical order.
+    pub(crate) fn is_ordered(&self) -> bool {
+        self.index.is_none()
+    }
+}
+
+impl<C: Coefficient> Terms<C> {
+    /// Terms in canonical order, without a zero.
+    pub(crate) fn ordered(monomials: Vec<Monomial>, values: Vec<C>) -> Self {
+        debug_assert!(monomials.is_sorted() && monomials.len() == values.len());
+        Terms { monomials, values: OnceLock::from(values), words: None, index: None }
+    }
+
+    /// As [`ordered`](Self::ordered), with the coefficients in machine words.
+    pub(crate) fn ordered_words(monomials: Vec<Monomial>, words: Words) -> Self {
+        debug_assert!(monomials.is_sorted() && monomials.len() == words.numerators.len());
+        Terms { monomials, values: OnceLock::new(), words: Some(words), index: None }
+    }
+
+    /// The sum of any terms; equal monomials are added in the order given.
+    pub(crate) fn from_unordered(mut terms: Vec<(Monomial, C)>) -> Self {
+        if !terms.is_sorted_by(|(m, _), (n, _)| m < n) {
+            terms.sort_by_cached_key(|(monomial, _)| monomial.rank());
+        }
+        let (mut monomials, mut values) = (Vec::with_capacity(terms.len()), Vec::<C>::with_capacity(terms.len()));
+        for (monomial, value) in terms {
+            match values.last_mut() {
+                Some(held) if monomials.last() == Some(&monomial) => *held += &value,
+                _ => {
+                    if values.last().is_some_and(C::is_zero) {
+                        monomials.pop();
+                        values.pop();
+                    }
+                    monomials.push(monomial);
+                    values.push(value);
+                }
+            }
+        }
+        if values.last().is_some_and(C::is_zero) {
+            monomials.pop();
+            values.pop();
+        }
+        Self::ordered(monomials, values)
+    }
+
+    /// The coefficients, in the order of the monomials.
+    pub(crate) fn values(&self) -> &[C] {
+        self.values.get_or_init(|| match (&self.words, C::MACHINE_WORDS) {
+            (Some(words), Some(face)) => (face.lower)(words),
+            _ => Vec::new(), // Without words there are values from the start.
+        })
+    }
+
+    /// The coefficients in machine words, where they are, or fit.
+    pub(crate) fn words(&self) -> Option<std::borrow::Cow<'_, Words>> {
+        match &self.words {
+            Some(words) => Some(std::borrow::Cow::Borrowed(words)),
+            None => (C::MACHINE_WORDS?.lift)(self.values()).map(std::borrow::Cow::Owned),
+        }
+    }
+
+    /// The terms as they lie.
+    pub(crate) fn iter(&self) -> impl ExactSizeIterator<Item = (Monomial, &C)> {
+        self.monomials.iter().copied().zip(self.values())
+    }
+
+    pub(crate) fn into_values(self) -> (Vec<Monomial>, Vec<C>) {
+        self.values();
+        (self.monomials, self.values.into_inner().unwrap_or_default())
+    }
+
+    /// Position of a monomial.
+    pub(crate) fn position(&self, monomial: Monomial) -> Option<usize> {
+        match &self.index {
+            Some(index) => index.get(&monomial).copied(),
+            None => {
+                let rank = monomial.rank();
+                self.monomials.binary_search_by_key(&rank, |held| held.rank()).ok()
+            }
+        }
+    }
+
+    /// Adds one term.
+    pub(crate) fn add(&mut self, monomial: Monomial, coefficient: &C) {
+        if coefficient.is_zero() {
+            return;
+        }
+        self.values();
+        self.words = None;
+        let last = self.monomials.last().copied();
+        if self.index.is_none() && last.is_none_or(|last| last < monomial) {
+            self.push(monomial, coefficient.clone());
+        } else if let Some(at) = self.position(monomial) {
+            let Some(values) = self.values.get_mut() else { return };
+            values[at] += coefficient;
+            if values[at].is_zero() {
+                self.remove(at);
+            }
+        } else {
+            let monomials = &self.monomials;
+            let index = self.index.get_or_insert_with(|| monomials.iter().copied().zip(0..).collect());
+            index.insert(monomial, monomials.len());
+            self.push(monomial, coefficient.clone());
+        }
+    }
+
+    fn push(&mut self, monomial: Monomial, value: C) {
+        self.monomials.push(monomial);
+        if let Some(values) = self.values.get_mut() {
+            values.push(value);
+        }
+    }
+
+    fn remove(&mut self, at: usize) {
+        let Some(values) = self.values.get_mut() else { return };
+        match &mut self.index {
+            None => {
+                self.monomials.remove(at);
+                values.remove(at);
+            }
+            Some(index) => {
+                index.remove(&self.monomials.swap_remove(at));
+                values.swap_remove(at);
+                if let Some(&moved) = self.monomials.get(at) {
+                    index.insert(moved, at);
+                }
+            }
+        }
+    }
+
+    /// Brings the terms into canonical order.
+    pub(crate) fn settle(&mut self) {
+        if !self.is_ordered() {
+            let (monomials, values) = std::mem::take(self).into_values();
+            *self = Self::from_unordered(monomials.into_iter().zip(values).collect());
+        }
+    }
+}
