@@ -46,7 +46,7 @@ times.sort()
 matrices = np.array([spiceypy.pxform("APOPHIS_TUMBLING", "ECLIPJ2000", time) for time in times])
 
 # %%
-# From matrices, the angle between both attitudes: |R − S| = 2√2 |sin(angle/2)|.
+# From matrices, the angle between both attitudes: the Frobenius norm of R − S is 2√2 sin(angle/2).
 
 expected = motion.rotation(times).as_matrix()
 angle = 2 * np.arcsin(np.linalg.norm(matrices - expected, axis=(1, 2)) / np.sqrt(8))

@@ -157,7 +157,7 @@ impl Scene {
     /// ----------
     /// body : Body
     /// andoyer : array_like, shape (6,)
-    ///     (λ, μ, ν, Λ, M, N): angles in rad, momenta in the unit of moment × rate; M > 0, |Λ| ≤ M, |N| ≤ M. Small inclinations I and J, which Λ and N give by
+    ///     (λ, μ, ν, Λ, M, N): angles in rad, momenta in the unit of moment × rate; M > 0, −M ≤ Λ ≤ M, −M ≤ N ≤ M. Small inclinations I and J, which Λ and N give by
     ///     differences from M, are known to 1e-8 rad.
     /// epoch : float, optional
     ///     Time of the state.

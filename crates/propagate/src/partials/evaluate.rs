@@ -110,6 +110,8 @@ impl<T: Source> Task for Run<'_, T> {
         let width = if T::VECTORS { Lanes::<S>::WIDTH } else { 1 };
         let origin = Lanes::splat(simd, epoch);
         let initial = QuaternionLanes::all(origin, &initial);
+        // Rates do not depend on the initial attitude: these entries stay 0.
+        let mut entries = [[Lanes::splat(simd, 0.0); 3 * PARAMETERS]; 2];
         let mut start = 0;
         while start < times.len() {
             let stop = times.len().min(start + width);
@@ -117,9 +119,9 @@ impl<T: Source> Task for Run<'_, T> {
             block[..stop - start].copy_from_slice(&times[start..stop]);
             let elapsed = elapsed(Lanes::load(simd, &block), origin);
             let place = source.place(simd, setting, elapsed);
-            let [attitude, rate] = columns(&place, source, setting, initial);
-            store(&attitude, &mut attitudes[start..stop]);
-            store(&rate, &mut rates[start..stop]);
+            compute(&place, source, setting, initial, &mut entries);
+            store(&entries[0], &mut attitudes[start..stop]);
+            store(&entries[1], &mut rates[start..stop]);
             start = stop;
         }
     }
@@ -130,19 +132,22 @@ type Entries<S> = [Lanes<S>; 3 * PARAMETERS];
 
 /// Derivatives of attitude and rates at some times.
 #[inline(always)]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "iterators that carry vectors are not inlined into the code of an instruction set"
+)]
 fn columns<S: InstructionSet, T: Source>(
     place: &Place<S, T::Rest<S>>,
     source: &T,
     setting: &Setting,
     initial: QuaternionLanes<S>,
-) -> [Entries<S>; 2] {
+    [attitudes, rates]: &mut [Entries<S>; 2],
+) {
     let Place { attitude: [x, y, z, w], rates: rate, rest } = place;
     let one = x.all(1.0);
     let carried = (QuaternionLanes([-*x, -*y, -*z, *w]) * initial).rows();
     let nu = setting.user_rates;
     let [g, h, k] = [rate[0] * one.all(1.0 / nu[0]), rate[1] * one.all(1.0 / nu[1]), rate[2] * one.all(1.0 / nu[2])];
-    let mut attitudes = [one.all(0.0); 3 * PARAMETERS];
-    let mut rates = attitudes;
     for row in 0..3 {
         for axis in 0..3 {
             attitudes[PARAMETERS * row + axis] = carried[row][axis];
@@ -169,7 +174,6 @@ fn columns<S: InstructionSet, T: Source>(
         let entry = PARAMETERS * axis + 3 + parameter;
         rates[entry] = rate[axis].mul_add(one.all(inverse_moment), rates[entry]);
     }
-    [attitudes, rates]
 }
 
 /// As many matrices as there are, four entries at a time; the last four overlap those before them.
@@ -177,11 +181,16 @@ fn columns<S: InstructionSet, T: Source>(
 fn store<S: InstructionSet>(entries: &Entries<S>, matrices: &mut [Derivatives]) {
     const FIRSTS: [usize; 7] = [0, 4, 8, 12, 16, 20, 23];
     let mut rows = [[0.0; 4]; WIDEST];
+    let matrices = matrices.as_flattened_mut().as_flattened_mut();
     for first in FIRSTS {
         let four = [entries[first], entries[first + 1], entries[first + 2], entries[first + 3]];
         Lanes::store_fours(four, &mut rows);
-        for lane in 0..matrices.len() {
-            matrices[lane].as_flattened_mut()[first..first + 4].copy_from_slice(&rows[lane]);
+        let mut place = first;
+        for lane in 0..WIDEST {
+            // A chunk of four is one store; a slice would be a call.
+            let Some(chunk) = matrices.get_mut(place..).and_then(|rest| rest.first_chunk_mut()) else { break };
+            *chunk = rows[lane];
+            place += 3 * PARAMETERS;
         }
     }
 }
