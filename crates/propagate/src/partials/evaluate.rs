@@ -119,7 +119,7 @@ impl<T: Source> Task for Run<'_, T> {
             block[..stop - start].copy_from_slice(&times[start..stop]);
             let elapsed = elapsed(Lanes::load(simd, &block), origin);
             let place = source.place(simd, setting, elapsed);
-            compute(&place, source, setting, initial, &mut entries);
+            columns(&place, source, setting, initial, &mut entries);
             store(&entries[0], &mut attitudes[start..stop]);
             store(&entries[1], &mut rates[start..stop]);
             start = stop;
