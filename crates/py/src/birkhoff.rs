@@ -2,7 +2,11 @@
 
 use std::sync::{Arc, Mutex};
 
-use andoyer_series::{BirkhoffMap, Mode, Part, PhaseSpace, Progress, RealField};
+use andoyer_series::birkhoff::Mode;
+use andoyer_series::print::Part;
+use andoyer_series::progress::Progress;
+use andoyer_series::real_field::RealField;
+use andoyer_series::{BirkhoffMap, PhaseSpace};
 use num_complex::Complex;
 use num_rational::BigRational;
 use numpy::PyArrayDyn;
