@@ -1,6 +1,7 @@
 //! What a plan says, and what errors say, in the words that a user reads.
 
-use andoyer_propagate::{Averaging, Body, Ensemble, Error, Level, Method, Orbit, Scene, State};
+use andoyer_propagate::options::{Averaging, Level};
+use andoyer_propagate::{Body, Ensemble, Error, Method, Orbit, Scene, State};
 
 const LEVEL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
