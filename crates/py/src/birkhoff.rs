@@ -1,5 +1,6 @@
 //! `andoyer.BirkhoffNormalForm`.
 
+use std::convert::Infallible;
 use std::sync::{Arc, Mutex};
 
 use andoyer_series::birkhoff::Mode;
@@ -533,8 +534,8 @@ impl BirkhoffNormalForm {
     }
 
     /// K as text, in the actions or, with resonant terms, in the complex variables.
-    fn __str__(&self, py: Python<'_>) -> String {
-        py.detach(|| either!(&self.form, form => form.to_string()))
+    fn __str__(&self, py: Python<'_>) -> PyResult<String> {
+        detached(py, |never: Infallible| match never {}, || Ok(either!(&self.form, form => form.to_string())))
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {
