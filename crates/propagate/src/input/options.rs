@@ -91,6 +91,8 @@ pub enum Level {
     /// To all orders in J.
     #[default]
     Full,
+    /// To all orders in J, and the averaged motion to second order in the torque.
+    SecondOrder,
 }
 
 impl FromStr for Level {
@@ -101,6 +103,7 @@ impl FromStr for Level {
             "paper" => Ok(Self::Paper),
             "moving" => Ok(Self::Moving),
             "full" => Ok(Self::Full),
+            "second-order" => Ok(Self::SecondOrder),
             _ => Err(Error::Level { value: text.to_owned() }),
         }
     }
@@ -112,6 +115,7 @@ impl fmt::Display for Level {
             Self::Paper => "paper",
             Self::Moving => "moving",
             Self::Full => "full",
+            Self::SecondOrder => "second-order",
         })
     }
 }
