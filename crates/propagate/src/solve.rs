@@ -243,7 +243,7 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
         scene,
     };
     let orbits = request.duration * orbit.mean_motion() / std::f64::consts::TAU;
-    if request.level == Level::Full && orbits < 1.0 && error > WORTH.max(request.tolerance) {
+    if matches!(request.level, Level::Full | Level::SecondOrder) && orbits < 1.0 && error > WORTH.max(request.tolerance) {
         let effect = effect(&motion)?;
         if error > effect {
             return Err(Error::TorqueTooStrong { size: error, bound: effect });

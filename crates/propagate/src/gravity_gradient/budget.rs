@@ -14,7 +14,7 @@ use super::inertia::Inertia;
 use super::request::Request;
 use super::response::Response;
 use crate::error::Error;
-use crate::input::options::Averaging;
+use crate::input::options::{Averaging, Level};
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
@@ -22,6 +22,8 @@ use crate::simd::lanes::Lanes;
 const SAMPLES: usize = 48;
 /// What the largest change may be beyond the largest sample, squared, and the factor of second order: with it the worst of the climbs (docs/gravity-gradient.md) is below its bound.
 const MARGIN: f64 = 2.0;
+/// The same for an averaged motion of second order.
+const THIRD_MARGIN: f64 = 3.0;
 /// Size of the derivatives of the change over the sum of the largest sizes of all terms.
 const SLOPE_SHARE: f64 = 0.25;
 /// Orbits on each side of the epoch that quarters are kept for.
@@ -52,6 +54,10 @@ pub(super) struct Subject<'a> {
     pub(super) ellipse: &'a AveragedOrbit,
     /// Mean anomaly at the epoch.
     pub(super) anomaly: f64,
+    /// What the mean M and L of second order lack, over M; `None` in first order.
+    pub(super) left: Option<[f64; 2]>,
+    /// The part of the drifts of second order that K2 lacks.
+    pub(super) cut: f64,
     /// d⟨T33⟩/dσ times −3/4 of the mass fraction over M.
     pub(super) drift: f64,
 }
@@ -68,7 +74,10 @@ impl Budget {
         // Of the phases as κ is of the axis: Δ(σ) may vanish where its slope does not.
         let by_phase = subject.phase() * mean_motion / ellipse.eta_cubed();
         Self {
-            spin: MARGIN * response.second_order([size, slope], p, duration),
+            spin: match subject.left {
+                None => MARGIN * response.second_order([size, slope], p, duration),
+                Some(left) => THIRD_MARGIN * response.third_order([size, slope], p, duration, (subject.cut, left)),
+            },
             orbit: strength * (strength + 6.0 * by_phase) * (1.0 + orbital),
             dropped: corrections.dropped + 2.0 * corrections.rest,
             omitted: corrections.omitted + subject.omitted(mean_motion) * (1.0 + orbital),
@@ -79,12 +88,14 @@ impl Budget {
 
     /// Whether the equations are averaged over the orbit too.
     pub(super) fn by_orbit(&self, request: &Request<'_>) -> Result<bool, Error> {
+        let second = request.level == Level::SecondOrder;
         let too_far = request.spanned && self.orbits > MOST_ORBITS;
         match request.averaging {
+            Averaging::Orbit if second => Err(Error::LevelOfOrbit),
             Averaging::Orbit => Ok(true),
-            Averaging::Auto => Ok(self.orbit <= request.tolerance || too_far),
-            Averaging::Spin if too_far => Err(Error::TooManyOrbits { orbits: self.orbits, bound: MOST_ORBITS }),
-            Averaging::Spin => Ok(false),
+            Averaging::Auto if !second => Ok(self.orbit <= request.tolerance || too_far),
+            Averaging::Auto | Averaging::Spin if too_far => Err(Error::TooManyOrbits { orbits: self.orbits, bound: MOST_ORBITS }),
+            Averaging::Auto | Averaging::Spin => Ok(false),
         }
     }
 

@@ -37,6 +37,8 @@ type C64 = Complex<f64>;
 const LARGEST_SIZE: f64 = 0.05;
 /// [`Demand::share`] of a motion: what second order leaves is 0.003 of its bound in the median, and a few tens of terms may be dropped.
 pub(crate) const SHARE: f64 = 1e-5;
+/// The same for a motion of second order, whose mean variables are better by the size of the corrections.
+pub(crate) const SECOND_SHARE: f64 = 1e-9;
 
 /// What a moment of time has of the mean motion.
 #[derive(Clone, Copy, Debug)]
