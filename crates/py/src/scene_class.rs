@@ -40,8 +40,9 @@ use crate::foreign::Calendar;
 /// averaging : {"auto", "orbit", "spin"}, optional
 ///     How far the equations of a scene with an orbit are averaged: over rotation and orbit, which leaves formulas; over the rotation alone; by
 ///     default the first where it meets the tolerance.
-/// level : {"full", "moving", "paper"}, optional
-///     Terms of the short-period corrections: to all orders in J; at J = 0 alone; those with the disturbing body held fixed, as in the paper.
+/// level : {"full", "second-order", "moving", "paper"}, optional
+///     Terms of the gravity gradient. "full": short-period corrections to all orders in J. "second-order": those, and the averaged motion to second
+///     order in the torque, averaged over the rotation only (theory, section 9). "moving": corrections at J = 0 alone. "paper": those with the disturbing body held fixed.
 /// name, source : str, optional
 ///     What the scene is and where its figures come from: kept, printed, and nothing else.
 ///
@@ -50,6 +51,7 @@ use crate::foreign::Calendar;
 /// InputError
 ///     The attitudes ``[0, 0, 0, 0]`` and ``[0, 0, 0, 1.1]``, a tolerance of ``0`` or ``-1``, the span ``(1, 0)``, and any of them that is not finite.
 ///     An attitude of 3 numbers, an angular velocity of 4. The orders ``-1`` and ``2.5``. A method, an averaging or a level of another name.
+///     When the scene is solved: the level "second-order" with the averaging "orbit".
 /// RepresentationError
 ///     The order ``61``.
 /// TypeError

@@ -267,7 +267,7 @@ fn table(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn st
                     values
                 };
                 let shares = sorted(|m| m.error / m.effect);
-                let ratios = sorted(|m| m.bound / (m.error - 1e-12).max(f64::MIN_POSITIVE));
+                let ratios = sorted(|m| m.bound / m.error.max(1e-12));
                 let quantile = |values: &[f64], part: f64| {
                     values.get((part * values.len() as f64) as usize).copied().unwrap_or(f64::NAN)
                 };

@@ -139,7 +139,7 @@ impl Gradient {
             anomaly,
             drift: slope,
             left,
-            cut: second_order::cut(&inertia, &demand),
+            cut: left.map_or(0.0, |_| second_order::cut(&inertia, &demand)),
         };
         let budget = Budget::new(&subject, mean_motion, duration);
         let by_orbit = budget.by_orbit(request)?;

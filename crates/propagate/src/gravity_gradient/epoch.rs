@@ -15,7 +15,7 @@ use crate::simd::lanes::Lanes;
 use crate::torque_free::polhode::Polhode;
 
 /// Steps to the constants: each gains the size of the torque, or the step of the differences.
-const MOST_STEPS: usize = 10;
+const MOST_STEPS: usize = 16;
 /// Changes below this are rounding.
 const CONVERGED: f64 = 1.5e-16;
 /// Step of the differences, over √σ_sep.

@@ -3,8 +3,8 @@
 //! T = Q diag(A, B, C) Qᵀ is sampled over a quarter of a turn of ℓ′ on the closed form at y′ = 0: T33, i t1 e^(−iy′), t2 e^(−2iy′). a and b of theory §8, whose norm is free, are
 //! the theta series themselves, with a few harmonics where the tensor has tens.
 //! Time reversal makes all coefficients real, and ℓ′ → ℓ′ + π leaves the odd or the even ones. A harmonic h is σ^(|h|/2) times a function that is analytic in σ at 0; that
-//! function and its slope are tabulated, so that with p = √σ e^(iℓ′) everything is regular at J = 0. Slopes are differences of fourth order over 0.4 % of sin²J (relative error
-//! 1e-10, of a correction that is small itself).
+//! function and its slope are tabulated, so that with p = √σ e^(iℓ′) everything is regular at J = 0. Slopes are differences of fourth order in sin²J, with steps of
+//! 0.2 % of its distance to that of the separatrix, and of 40 % of sin²J at most: a smaller step at small J would leave rounding over it (relative error 1e-10).
 
 use std::f64::consts::{PI, TAU};
 
@@ -29,8 +29,10 @@ const COUNT: usize = 2 * HIGHEST + 1;
 const ODD: [bool; 3] = [false, true, false];
 /// sin²J below which functions are taken from their tangent at this value.
 const SMALLEST_SQUARE: f64 = 1e-6;
-/// Step of the differences, over sin²J.
+/// Step of the differences in sin²J, over its distance to that of the separatrix.
 const STEP: f64 = 2e-3;
+/// Largest step, over sin²J: two of them leave it positive.
+const LARGEST_STEP: f64 = 0.4;
 
 /// Σ_h f_h(σ) P_h, P_h = p^h for h ≥ 0 and p̄^(−h) below.
 #[derive(Clone, Debug)]
@@ -90,7 +92,8 @@ impl Inertia {
     pub(crate) fn new(polhode: &Polhode, sigma: f64, momentum: f64) -> Self {
         let square = square_of(polhode, sigma);
         let base = square.max(SMALLEST_SQUARE);
-        let step = STEP * base;
+        // Functions vary over the distance to the separatrix, where sin²J is 1. At small J a step that is a fixed share of sin²J would leave rounding over it.
+        let step = (STEP * (1.0 - base)).min(LARGEST_STEP * base);
         let members = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| member(polhode, base + k * step, momentum));
         let slope = |part: &dyn Fn(&Member) -> f64| {
             let [a, b, _, c, d] = members.each_ref().map(part);
