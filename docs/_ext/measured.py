@@ -89,27 +89,27 @@ def ensemble() -> list[str]:
 
 def gravity_cases() -> list[str]:
     """What each level leaves of the torque's effect in the reference cases."""
-    header = ["case", "n/spin", "e", "effect of the torque [rad]", "paper", "moving", "full", "error of full [rad]", "bound [rad]"]
-    names = ["case", "n_over_spin", "e", "effect_rad", "paper", "moving", "full", "full_error_rad", "bound_rad"]
+    header = ["case", "n/spin", "e", "effect of the torque [rad]", "paper", "moving", "full", "second-order", "error of full [rad]", "bound [rad]", "error of second-order [rad]", "its bound [rad]"]
+    names = ["case", "n_over_spin", "e", "effect_rad", "paper", "moving", "full", "second_order", "full_error_rad", "bound_rad", "second_error_rad", "second_bound_rad"]
     return markdown(header, ([row[name] for name in names] for row in read("gravity-cases.csv")))
 
 
 def gravity_bounds() -> list[str]:
     """Error over bound in random scenes, by averaging."""
     rows = []
-    for averaging in ("spin", "orbit"):
-        motions = [row for row in read("gravity-bounds.csv") if row["averaging"] == averaging]
+    for averaging, level in (("spin", "full"), ("orbit", "full"), ("spin", "second-order")):
+        motions = [row for row in read("gravity-bounds.csv") if (row["averaging"], row["level"]) == (averaging, level)]
         shares = sorted(float(row["error"]) / float(row["bound"]) for row in motions)
         errors = [float(row["error"]) / float(row["torque"]) for row in motions]
         figures = [f"{statistics.median(shares):.4f}", f"{shares[-1]:.2f}", f"{statistics.median(errors):.1e}"]
-        rows.append([averaging, str(len(motions)), *figures])
-    return markdown(["averaged over", "motions", "error / bound, median", "largest", "error / torque, median"], rows)
+        rows.append([averaging, level, str(len(motions)), *figures])
+    return markdown(["averaged over", "level", "motions", "error / bound, median", "largest", "error / torque, median"], rows)
 
 
 def gravity_climb() -> list[str]:
     """The largest error over bound that hill climbing finds, by family of scenes."""
-    header = ["scenes", "mode", "averaged over", "climbs", "scenes solved", "error [rad]", "bound [rad]", "largest error / bound"]
-    names = ["family", "mode", "averaging", "starts", "solved", "error", "bound", "ratio"]
+    header = ["scenes", "mode", "averaged over", "level", "climbs", "scenes solved", "error [rad]", "bound [rad]", "largest error / bound"]
+    names = ["family", "mode", "averaging", "level", "starts", "solved", "error", "bound", "ratio"]
     return markdown(header, ([row[name] for name in names] for row in read("gravity-climb.csv")))
 
 

@@ -243,7 +243,7 @@ pub enum Error {
         bound: &'static str,
     },
     /// A level of the gravity-gradient theory that is unknown.
-    #[error("level = {value:?}: it must be \"paper\", \"moving\", \"full\" or \"second-order\"")]
+    #[error("level = {value:?}: it must be \"auto\", \"paper\", \"moving\", \"full\" or \"second-order\"")]
     Level {
         /// The level as given.
         value: String,

@@ -24,10 +24,10 @@ impl Scene {
     #[pyo3(
         signature = (
             body, attitude, angular_velocity, *, epoch=None, orbit=None, tolerance=1e-12, method="auto", order=None, span=None,
-            averaging="auto", level="full", name=None, source=None, scalar_first=false
+            averaging="auto", level="auto", name=None, source=None, scalar_first=false
         ),
         text_signature = "(body, attitude, angular_velocity, *, epoch=0.0, orbit=None, tolerance=1e-12, method='auto', order=None, span=None, \
-                          averaging='auto', level='full', name=None, source=None, scalar_first=False)"
+                          averaging='auto', level='auto', name=None, source=None, scalar_first=False)"
     )]
     #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn new(
@@ -297,7 +297,7 @@ impl Scene {
         self.scene.asked_averaging().to_string()
     }
 
-    /// The level: "full", "second-order", "moving" or "paper".
+    /// The level: "auto", "full", "second-order", "moving" or "paper".
     #[getter]
     fn level(&self) -> String {
         self.scene.asked_level().to_string()

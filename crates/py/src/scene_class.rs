@@ -40,9 +40,10 @@ use crate::foreign::Calendar;
 /// averaging : {"auto", "orbit", "spin"}, optional
 ///     How far the equations of a scene with an orbit are averaged: over rotation and orbit, which leaves formulas; over the rotation alone; by
 ///     default the first where it meets the tolerance.
-/// level : {"full", "second-order", "moving", "paper"}, optional
-///     Terms of the gravity gradient. "full": short-period corrections to all orders in J. "second-order": those, and the averaged motion to second
-///     order in the torque, averaged over the rotation only (theory, section 9). "moving": corrections at J = 0 alone. "paper": those with the disturbing body held fixed.
+/// level : {"auto", "full", "second-order", "moving", "paper"}, optional
+///     How much of the theory of the gravity gradient is used. "full": first order in the torque, to all orders in J. "second-order": the
+///     averaged motion to second order too, averaged over the rotation only (theory, section 9). "auto": "full" where it meets the tolerance, else
+///     "second-order" where its error bound is smaller. "moving": corrections at J = 0 alone. "paper": those with the disturbing body held fixed.
 /// name, source : str, optional
 ///     What the scene is and where its figures come from: kept, printed, and nothing else.
 ///

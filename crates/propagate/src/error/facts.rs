@@ -141,7 +141,7 @@ impl Error {
             Self::Method { value } => facts("method", value, "auto, series, closed"),
             Self::Convention { value } => facts("convention", value, "extremal-axis, long-axis, short-axis"),
             Self::ModeName { value } => facts("mode", value, "short-axis, long-axis"),
-            Self::Level { value } => facts("level", value, "paper, moving, full, second-order"),
+            Self::Level { value } => facts("level", value, "auto, paper, moving, full, second-order"),
             Self::LevelOfOrbit => facts("averaging", "orbit", "auto, spin"),
             Self::Averaging { value } => facts("averaging", value, "auto, orbit, spin"),
             Self::OnError { value } => facts("errors", value, "raise, nan"),

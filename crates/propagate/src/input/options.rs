@@ -80,18 +80,20 @@ impl fmt::Display for Convention {
     }
 }
 
-/// Which terms the corrections by the gravity gradient have.
+/// How much of the theory of the gravity gradient is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub enum Level {
-    /// Those of Lara (2017): the potential at J = 0, the disturbing body held fixed in the divisors.
+    /// [`Level::Full`] where it meets the tolerance, else [`Level::SecondOrder`] where its error bound is smaller.
+    #[default]
+    Auto,
+    /// The corrections of Lara (2017): the potential at J = 0, the disturbing body held fixed in the divisors.
     Paper,
     /// The potential at J = 0, the disturbing body on its way.
     Moving,
-    /// To all orders in J.
-    #[default]
+    /// First order in the torque, to all orders in J.
     Full,
-    /// To all orders in J, and the averaged motion to second order in the torque.
+    /// To all orders in J, and the averaged motion to second order in the torque: not with [`Averaging::Orbit`].
     SecondOrder,
 }
 
@@ -100,6 +102,7 @@ impl FromStr for Level {
 
     fn from_str(text: &str) -> Result<Self, Error> {
         match text {
+            "auto" => Ok(Self::Auto),
             "paper" => Ok(Self::Paper),
             "moving" => Ok(Self::Moving),
             "full" => Ok(Self::Full),
@@ -112,6 +115,7 @@ impl FromStr for Level {
 impl fmt::Display for Level {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Self::Auto => "auto",
             Self::Paper => "paper",
             Self::Moving => "moving",
             Self::Full => "full",

@@ -45,7 +45,7 @@ impl Scene {
             order: None,
             orbit: None,
             averaging: Averaging::Auto,
-            level: Level::Full,
+            level: Level::Auto,
             span: None,
             name: None,
             source: None,
@@ -87,7 +87,7 @@ impl Scene {
         self
     }
 
-    /// Which terms the corrections of a scene with an orbit have; [`Level::Full`] if this is not called.
+    /// How much of the theory a scene with an orbit uses; [`Level::Auto`] if this is not called.
     #[must_use]
     pub fn level(mut self, level: Level) -> Self {
         self.level = level;

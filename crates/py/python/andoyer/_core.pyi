@@ -166,7 +166,7 @@ class Scene:
         order: int | None = None,
         span: ArrayLike | None = None,
         averaging: Literal["auto", "orbit", "spin"] = "auto",
-        level: Literal["full", "second-order", "moving", "paper"] = "full",
+        level: Literal["auto", "full", "second-order", "moving", "paper"] = "auto",
         name: str | None = None,
         source: str | None = None,
         scalar_first: bool = False,
@@ -227,8 +227,8 @@ class Scene:
     def averaging(self) -> Literal["auto", "orbit", "spin"]:
         """The averaging: "auto", "orbit" or "spin"."""
     @property
-    def level(self) -> Literal["full", "second-order", "moving", "paper"]:
-        """The level: "full", "second-order", "moving" or "paper"."""
+    def level(self) -> Literal["auto", "full", "second-order", "moving", "paper"]:
+        """The level: "auto", "full", "second-order", "moving" or "paper"."""
     @property
     def name(self) -> str | None:
         """The name, or None."""
