@@ -19,7 +19,7 @@ use crate::input::state::State;
 use crate::motion::batch::Batch;
 use crate::motion::plan::Plan;
 use crate::motion::solved::{Motion, length};
-use crate::outcome::Outcome;
+pub use crate::outcome::Outcome;
 use crate::simd::halt::GOING;
 
 /// Members that a thread takes at least: 64 of them are some 300 µs.
@@ -109,7 +109,8 @@ impl Ensemble {
     ///
     /// ```
     /// use std::sync::atomic::AtomicBool;
-    /// use andoyer_propagate::{Ensemble, OnError};
+    /// use andoyer_propagate::Ensemble;
+    /// use andoyer_propagate::ensemble::OnError;
     /// let moments = vec![[1.0, 1.5, 2.0], [1.0, 1.0, 2.5]]; // the second is no body
     /// let (level, rates) = (vec![[0.0, 0.0, 0.0, 1.0]; 2], vec![[0.1, 0.2, 1.0]; 2]);
     /// let ensemble = Ensemble::new_or(moments, level, rates, OnError::Nan, &AtomicBool::new(false))?;
@@ -454,7 +455,7 @@ pub struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// Times are counted from the epoch of each member, as by [`crate::Batch::since_epoch`].
+    /// Times are counted from the epoch of each member, as by [`crate::batch::Batch::since_epoch`].
     #[must_use]
     pub fn since_epoch(self) -> Self {
         Self { since_epoch: true, ..self }

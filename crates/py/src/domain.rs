@@ -1,6 +1,6 @@
 //! `andoyer.Domain`.
 
-use andoyer_series::Domain as Inner;
+use andoyer_series::birkhoff::Domain as Inner;
 use pyo3::prelude::*;
 
 use crate::error;

@@ -2,8 +2,8 @@
 
 use std::sync::atomic::AtomicBool;
 
+use andoyer_propagate::ensemble::{MAX_THREADS, OnError, Outcome};
 use andoyer_propagate::error::Kind;
-use andoyer_propagate::{MAX_THREADS, OnError, Outcome};
 use numpy::PyArrayDyn;
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
@@ -388,7 +388,7 @@ impl Ensemble {
     }
 
     /// How the members are evaluated at these times.
-    fn run<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> andoyer_propagate::Run<'a> {
+    fn run<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> andoyer_propagate::ensemble::Run<'a> {
         let run = self.0.run().until(stop);
         if since_epoch { run.since_epoch() } else { run }
     }

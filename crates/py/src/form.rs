@@ -1,6 +1,7 @@
 //! A Birkhoff normal form in one kind of numbers or the other, exact or floats.
 
-use andoyer_series::{BirkhoffNormalForm as Inner, Error as Algebra, Polynomial, RealField};
+use andoyer_series::real_field::RealField;
+use andoyer_series::{BirkhoffNormalForm as Inner, Error as Algebra, Polynomial};
 use num_rational::BigRational;
 use pyo3::prelude::*;
 

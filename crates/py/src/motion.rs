@@ -2,7 +2,8 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use andoyer_propagate::{Error as Propagation, PARAMETERS};
+use andoyer_propagate::Error as Propagation;
+use andoyer_propagate::partials::PARAMETERS;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -363,7 +364,7 @@ impl Motion {
     }
 
     /// How these times are evaluated.
-    fn batch<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> andoyer_propagate::Batch<'a> {
+    fn batch<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> andoyer_propagate::batch::Batch<'a> {
         let batch = self.0.batch().until(stop);
         if since_epoch { batch.since_epoch() } else { batch }
     }

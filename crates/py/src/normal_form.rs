@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use andoyer_series::{MAXIMUM_CODE_ORDER, MAXIMUM_ORDER, Part, Progress, PublicForm, Variable};
+use andoyer_series::print::{MAX_CODE_ORDER, Part};
+use andoyer_series::progress::Progress;
+use andoyer_series::rigid_body::{MAX_ORDER, PublicForm, Variable};
 use num_complex::Complex;
 use num_rational::BigRational;
 use pyo3::prelude::*;
@@ -50,7 +52,7 @@ impl NormalForm {
     #[new]
     #[pyo3(signature = (order, *, progress=None))]
     fn new(py: Python<'_>, order: &Bound<'_, PyAny>, progress: Option<Py<PyAny>>) -> PyResult<Self> {
-        let order = self::order("order", order, 0, MAXIMUM_ORDER)?;
+        let order = self::order("order", order, 0, MAX_ORDER)?;
         let compute = |tell: &mut Progress<'_>| andoyer_series::NormalForm::with_progress(order, tell);
         progress::reported(py, progress, compute).map(Self)
     }
@@ -281,7 +283,7 @@ impl NormalForm {
     #[pyo3(signature = (language="c", beta=None))]
     fn to_code(&self, py: Python<'_>, language: &str, beta: Option<f64>) -> PyResult<String> {
         let language = language.parse().map_err(error::algebra)?;
-        if beta.is_none() && self.0.order() <= MAXIMUM_CODE_ORDER {
+        if beta.is_none() && self.0.order() <= MAX_CODE_ORDER {
             self.prepare(py, Part::Direct)?;
         }
         detached(py, error::algebra, || self.0.to_code(language, beta))
@@ -358,5 +360,5 @@ fn gaussian<'py, K: IntoPyObject<'py>>(
 /// 0.39183
 #[pyfunction]
 pub(crate) fn separatrix_action(beta: f64) -> PyResult<f64> {
-    andoyer_series::separatrix_action(beta).map_err(error::algebra)
+    andoyer_series::rigid_body::separatrix_action(beta).map_err(error::algebra)
 }

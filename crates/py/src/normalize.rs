@@ -1,6 +1,9 @@
 //! `andoyer.normalize`.
 
-use andoyer_series::{Error as Algebra, MAXIMUM_EXPONENT, PhaseSpace, Progress, RealField, Resonances, normalize_with};
+use andoyer_series::birkhoff::Resonances;
+use andoyer_series::progress::Progress;
+use andoyer_series::real_field::RealField;
+use andoyer_series::{Error as Algebra, MAX_EXPONENT, PhaseSpace, normalize_with};
 use num_rational::BigRational;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -87,7 +90,7 @@ pub(crate) fn normalize(
 ) -> PyResult<BirkhoffNormalForm> {
     let space = space(variables, parameters, degrees)?;
     let symbols = symbols(py, hamiltonian, variables, parameters)?;
-    let order = self::order("order", order, 0, <BigRational as RealField>::MAXIMUM_ORDER)?;
+    let order = self::order("order", order, 0, <BigRational as RealField>::MAX_ORDER)?;
     let Expression { polynomial, float } = Expression::new("hamiltonian", hamiltonian, &space)?;
     let vectors = resonances.map_or(Ok(Vec::new()), vectors)?;
     let resonances = Resonances::new(&vectors.iter().map(Vec::as_slice).collect::<Vec<_>>());
@@ -165,7 +168,7 @@ fn space(
     let space = PhaseSpace::new(&pairs).map_err(|problem| error::algebra_of("variables", problem))?;
     let mut space = space.with_parameters(&names).map_err(|problem| error::algebra_of("parameters", problem))?;
     for (name, degree) in degrees.into_iter().flatten() {
-        let degree = self::order("degrees", &degree, 0, MAXIMUM_EXPONENT as usize)? as u32;
+        let degree = self::order("degrees", &degree, 0, MAX_EXPONENT as usize)? as u32;
         let name = name.str()?.to_string();
         space = space.with_degree(&name, degree).map_err(|problem| error::algebra_of("degrees", problem))?;
     }

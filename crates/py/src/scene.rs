@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use andoyer_propagate::{MAX_ORDER, ObservedPeriods, State};
+use andoyer_propagate::State;
+use andoyer_propagate::options::MAX_ORDER;
+use andoyer_propagate::periods::ObservedPeriods;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};

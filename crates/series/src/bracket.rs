@@ -16,7 +16,8 @@ use crate::{Coefficient, Error, Polynomial, Truncation};
 /// A Poisson structure on the variable slots.
 ///
 /// ```
-/// use andoyer_series::{Poisson, Polynomial};
+/// use andoyer_series::Polynomial;
+/// use andoyer_series::lie::Poisson;
 /// let poisson = Poisson::new(&[(0, 1)])?;
 /// let [q, p] = ["q", "p"].map(|name| Polynomial::<f64>::parse(name, &["q", "p"]));
 /// assert_eq!(poisson.bracket(&q?, &p?)?, Polynomial::constant(1.0));
@@ -45,7 +46,8 @@ impl Poisson {
     /// This structure with one reciprocal pair (q, r) more, r = 1/P with P conjugate to q: {q; r} = −r².
     ///
     /// ```
-    /// use andoyer_series::{Poisson, Polynomial};
+    /// use andoyer_series::Polynomial;
+    /// use andoyer_series::lie::Poisson;
     /// let poisson = Poisson::new(&[])?.with_reciprocal(0, 1)?;
     /// let parse = |text| Polynomial::<f64>::parse(text, &["q", "r"]);
     /// assert_eq!(poisson.bracket(&parse("q")?, &parse("r")?)?, parse("-r^2")?);
@@ -82,7 +84,8 @@ impl Poisson {
     /// The bracket without the terms that `truncation` drops.
     ///
     /// ```
-    /// use andoyer_series::{Poisson, Polynomial, Truncation};
+    /// use andoyer_series::{Polynomial, Truncation};
+    /// use andoyer_series::lie::Poisson;
     /// let poisson = Poisson::new(&[(0, 1)])?;
     /// let parse = |text| Polynomial::<f64>::parse(text, &["q", "p"]);
     /// let bracket = poisson.bracket_truncated(&parse("q^2 + q^3")?, &parse("p^2")?, &Truncation::total(2))?;

@@ -14,13 +14,14 @@ mod python;
 mod rust;
 pub(crate) mod text;
 
-use crate::{Error, NormalForm, separatrix_action};
+use crate::rigid_body::separatrix_action;
+use crate::{Error, NormalForm};
 use coefficients::Coefficients;
 use program::{Cost, Program};
 use std::str::FromStr;
 
 /// Largest order that [`NormalForm::to_code`] writes: half a second and 0.7 MB at a number for β, far more without one.
-pub const MAXIMUM_CODE_ORDER: usize = 100;
+pub const MAX_CODE_ORDER: usize = 100;
 
 /// A language that [`NormalForm::to_code`] writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -78,7 +79,8 @@ impl NormalForm {
     /// normal form only the order is used.
     ///
     /// ```
-    /// use andoyer_series::{Language, NormalForm};
+    /// use andoyer_series::NormalForm;
+    /// use andoyer_series::print::Language;
     /// let text = NormalForm::new(3)?.to_code(Language::C, Some(0.5))?;
     /// assert!(text.contains("struct short_axis_rotation short_axis_rotation(double sigma, double anomaly)"));
     /// assert!(text.contains("rate = (-0.3125 * s - 0.1875) * s - 1.0;")); // P_3 = -5β²/8, 3P_2/2 = -3β²/4
@@ -90,7 +92,7 @@ impl NormalForm {
     /// - order 101: [`Error::OrderTooLarge`].
     pub fn to_code(&self, language: Language, beta: Option<f64>) -> Result<String, Error> {
         let beta = beta.map(checked).transpose()?;
-        let (order, bound) = (self.order(), MAXIMUM_CODE_ORDER);
+        let (order, bound) = (self.order(), MAX_CODE_ORDER);
         if order > bound {
             return Err(Error::OrderTooLarge { order, bound });
         }

@@ -1,6 +1,6 @@
 //! The homological equation of a diagonal quadratic part.
 //!
-//! Convention: h₀ = Σ λᵢ qᵢ pᵢ with the bracket of [`Poisson`](crate::Poisson), {q; p} = 1. Then S = q^j p^k is an
+//! Convention: h₀ = Σ λᵢ qᵢ pᵢ with the bracket of [`Poisson`](crate::bracket::Poisson), {q; p} = 1. Then S = q^j p^k is an
 //! eigenvector of S → {h₀; S} with the eigenvalue Σ λᵢ (kᵢ − jᵢ). The kernel holds the terms with eigenvalue zero
 //! (tested exactly: with floating-point λ a resonance must be exact to be seen), the image all others.
 //! [`solve`](Homological::solve) returns S with {h₀; S} = −image: what Deprit's triangle asks for, K_n = H̃_n + {h₀;
@@ -12,7 +12,8 @@ use crate::{Coefficient, Error, Monomial, Polynomial};
 /// The eigenvalues λᵢ of the unperturbed motion and the slots (qᵢ, pᵢ) they belong to.
 ///
 /// ```
-/// use andoyer_series::{Homological, Poisson, Polynomial};
+/// use andoyer_series::Polynomial;
+/// use andoyer_series::lie::{Homological, Poisson};
 /// let parse = |text| Polynomial::<f64>::parse(text, &["q", "p"]);
 /// let (homological, poisson) = (Homological::new(&[(0, 1, 2.0)])?, Poisson::new(&[(0, 1)])?);
 /// let (kernel, image) = homological.split(&parse("q^2*p^2 + q^3*p")?);

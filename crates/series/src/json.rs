@@ -12,9 +12,11 @@
 //! difference ends the reading. Computing costs about as much as reading the text: at order 50 both together take 0.1 s.
 
 use crate::energy::{EnergyNormalization, tell};
+use crate::error::TermProblem;
 use crate::normal_form::check_order;
 use crate::rigid_body::{self, PublicForm};
-use crate::{Error, NormalForm, Progress, TermProblem, quiet};
+use crate::triangle::{Progress, quiet};
+use crate::{Error, NormalForm};
 use num_complex::Complex;
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -193,7 +195,7 @@ fn triaxiality(n: usize, entries: &[(u32, String)]) -> Result<BTreeMap<u32, BigR
 
 /// The public face of the generating function of order m, checked term by term.
 fn generator(m: usize, entries: &[GeneratorEntry]) -> Result<PublicForm, Error> {
-    let order = m as u32; // m ≤ MAXIMUM_ORDER
+    let order = m as u32; // m ≤ MAX_ORDER
     let fail = |(j, k, l), problem| Error::TermInconsistent {
         what: "generating function",
         order: m,

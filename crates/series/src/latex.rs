@@ -56,7 +56,8 @@ impl NormalForm {
     /// A part of this normal form as LaTeX.
     ///
     /// ```
-    /// use andoyer_series::{NormalForm, Part};
+    /// use andoyer_series::NormalForm;
+    /// use andoyer_series::print::Part;
     /// let text = NormalForm::new(3)?.to_latex(Part::Hamiltonian)?;
     /// assert!(text.contains("P_{3} &= -\\frac{5}{8}\\beta^{2}"));
     /// # Ok::<(), andoyer_series::Error>(())

@@ -14,7 +14,7 @@ use std::hash::{Hash, Hasher};
 /// Number of variable slots in a monomial.
 pub const SLOTS: usize = 8;
 /// Largest exponent of a variable.
-pub const MAXIMUM_EXPONENT: u32 = 0x7fff;
+pub const MAX_EXPONENT: u32 = 0x7fff;
 
 const FIELD: u32 = 16;
 const MASK: u128 = 0xffff;
@@ -86,8 +86,8 @@ impl Monomial {
     /// - slot 8: [`Error::SlotOutOfRange`].
     pub fn with(self, slot: usize, exponent: u32) -> Result<Self, Error> {
         check_slot(slot)?;
-        if exponent > MAXIMUM_EXPONENT {
-            return Err(Error::ExponentOverflow { slot, exponent: exponent.into(), bound: MAXIMUM_EXPONENT });
+        if exponent > MAX_EXPONENT {
+            return Err(Error::ExponentOverflow { slot, exponent: exponent.into(), bound: MAX_EXPONENT });
         }
         let cleared = self.0 & !(MASK << shift(slot));
         Ok(Monomial(cleared | (u128::from(exponent) << shift(slot))))
@@ -156,8 +156,8 @@ pub(crate) fn check_slot(slot: usize) -> Result<(), Error> {
 #[cold]
 fn overflow(key: u128) -> Error {
     let raised = Monomial(key);
-    let slot = (0..SLOTS).find(|&slot| raised.exponent(slot) > MAXIMUM_EXPONENT).unwrap_or(0);
-    Error::ExponentOverflow { slot, exponent: raised.exponent(slot).into(), bound: MAXIMUM_EXPONENT }
+    let slot = (0..SLOTS).find(|&slot| raised.exponent(slot) > MAX_EXPONENT).unwrap_or(0);
+    Error::ExponentOverflow { slot, exponent: raised.exponent(slot).into(), bound: MAX_EXPONENT }
 }
 
 impl PartialOrd for Monomial {

@@ -8,8 +8,9 @@
 //! Source: theory §4 and §6; Lara (2017).
 
 use crate::energy::{EnergyNormalization, Generator};
-use crate::rigid_body::{self, MAXIMUM_ORDER, PublicForm, Variable};
-use crate::{Error, LieTransform, Polynomial, Progress, quiet};
+use crate::rigid_body::{self, MAX_ORDER, PublicForm, Variable};
+use crate::triangle::{LieTransform, Progress, quiet};
+use crate::{Error, Polynomial};
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;
@@ -143,7 +144,8 @@ impl NormalForm {
     /// of y) · (√γ V/α)ⁿ, since ∂S_m/∂M = −(m/M) S_m (theory §6).
     ///
     /// ```
-    /// use andoyer_series::{NormalForm, Variable};
+    /// use andoyer_series::NormalForm;
+    /// use andoyer_series::rigid_body::Variable;
     /// let y = NormalForm::new(1)?.direct(Variable::Angle, 1)?; // {y; S_1} = −S_1/M
     /// assert_eq!(y[&(3, 1, 1)].to_string(), "-1/8+0i");
     /// # Ok::<(), andoyer_series::Error>(())
@@ -167,7 +169,8 @@ impl NormalForm {
     /// Order `n` of the transformation of a new variable to the old ones, scaled as [`direct`](Self::direct).
     ///
     /// ```
-    /// use andoyer_series::{NormalForm, Variable};
+    /// use andoyer_series::NormalForm;
+    /// use andoyer_series::rigid_body::Variable;
     /// let normal_form = NormalForm::new(1)?;
     /// let [direct, inverse] = [normal_form.direct(Variable::Momentum, 1)?, normal_form.inverse(Variable::Momentum, 1)?];
     /// assert!(direct.iter().all(|(exponents, c)| inverse[exponents] == -c)); // to first order
@@ -188,7 +191,7 @@ impl NormalForm {
         self.transformation(variable, n, Direction::Inverse, progress)
     }
 
-    /// The transformation in the rational variables of [`hamiltonian`](crate::hamiltonian), S = i s.
+    /// The transformation in the rational variables of [`hamiltonian`](crate::rigid_body::hamiltonian), S = i s.
     ///
     /// # Errors
     /// - none for an order that was accepted.
@@ -238,11 +241,11 @@ impl NormalForm {
 
 /// Refuses an order whose exponents do not fit.
 pub(crate) fn check_order(order: usize) -> Result<(), Error> {
-    if order > MAXIMUM_ORDER { Err(Error::OrderTooLarge { order, bound: MAXIMUM_ORDER }) } else { Ok(()) }
+    if order > MAX_ORDER { Err(Error::OrderTooLarge { order, bound: MAX_ORDER }) } else { Ok(()) }
 }
 
 /// The most memory that a normal form may take by its estimate, 8 GiB: order 594. Its time is then days.
-pub const MAXIMUM_MEMORY: f64 = 8.0 * GIBIBYTE;
+pub const MAX_MEMORY: f64 = 8.0 * GIBIBYTE;
 /// Bytes.
 const GIBIBYTE: f64 = 1024.0 * 1024.0 * 1024.0;
 
@@ -255,8 +258,8 @@ fn estimated_memory(order: usize) -> f64 {
 /// Refuses an order that would not fit in memory.
 fn check_memory(order: usize) -> Result<(), Error> {
     let estimate = estimated_memory(order);
-    let [estimate_gib, bound_gib] = [estimate, MAXIMUM_MEMORY].map(|bytes| bytes / GIBIBYTE);
-    if estimate > MAXIMUM_MEMORY { Err(Error::MemoryTooLarge { order, estimate_gib, bound_gib }) } else { Ok(()) }
+    let [estimate_gib, bound_gib] = [estimate, MAX_MEMORY].map(|bytes| bytes / GIBIBYTE);
+    if estimate > MAX_MEMORY { Err(Error::MemoryTooLarge { order, estimate_gib, bound_gib }) } else { Ok(()) }
 }
 
 impl PartialEq for NormalForm {

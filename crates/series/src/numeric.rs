@@ -16,8 +16,9 @@
 //! So nothing that a motion feels is lost in `f64` by this route, at any order: it is the recommended one, and what the propagation crate uses. Double-double
 //! is for checks, and for who wants the coefficients themselves to more than 13 digits.
 
+use crate::Error;
 use crate::forms::{Form, FormNormalization, Real};
-use crate::{BETA, Error, W, W_BAR, hamiltonian};
+use crate::rigid_body::{BETA, W, W_BAR, hamiltonian};
 
 /// Largest order: its coefficients, 3.2^N at most, and the work, a second in `f64` and some seconds in double-double, stay within reason.
 const MAXIMUM_NUMERIC_ORDER: usize = 200;

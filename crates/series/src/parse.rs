@@ -15,7 +15,8 @@
 //! operation on coefficients is charged, before it is done, by their sizes. Products are therefore the schoolbook's,
 //! reduced term by term: a common denominator could be huge.
 
-use crate::{Coefficient, Error, Monomial, ParseProblem, Polynomial, SLOTS};
+use crate::error::ParseProblem;
+use crate::{Coefficient, Error, Monomial, Polynomial, SLOTS};
 
 const DEEPEST: u32 = 100;
 const LARGEST_EXPONENT: u32 = 1000;

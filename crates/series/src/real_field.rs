@@ -3,7 +3,7 @@
 //! A Hamiltonian has real coefficients; its normalization runs over the complex numbers of the same kind: rationals in
 //! Gaussian rationals, `f64` in `Complex<f64>`. What is a square root is exact or is not there.
 
-use crate::{Coefficient, MAXIMUM_EXPONENT};
+use crate::{Coefficient, MAX_EXPONENT};
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;
@@ -12,7 +12,8 @@ use num_traits::{FromPrimitive, Signed, ToPrimitive};
 /// A field of real numbers with its complex extension: `BigRational`, exact, or `f64`.
 ///
 /// ```
-/// use andoyer_series::{Coefficient, RealField};
+/// use andoyer_series::Coefficient;
+/// use andoyer_series::real_field::RealField;
 /// use num_rational::BigRational;
 /// let [two, eight] = [2, 8].map(BigRational::integer);
 /// assert_eq!(two.geometric_mean(&eight), Some(BigRational::integer(4)));
@@ -22,7 +23,7 @@ pub trait RealField: Coefficient + Send + Sync {
     /// The complex numbers over this field.
     type Complex: Coefficient + Send + Sync;
     /// Largest order of a normal form in these numbers.
-    const MAXIMUM_ORDER: usize;
+    const MAX_ORDER: usize;
 
     /// The complex number re + i im.
     fn complex(re: Self, im: Self) -> Self::Complex;
@@ -49,7 +50,7 @@ pub trait RealField: Coefficient + Send + Sync {
 impl RealField for BigRational {
     type Complex = Complex<BigRational>;
     /// A product of two parts of orders a + b = N has degree N + 4 before a pair of variables is taken out.
-    const MAXIMUM_ORDER: usize = MAXIMUM_EXPONENT as usize - 4;
+    const MAX_ORDER: usize = MAX_EXPONENT as usize - 4;
 
     fn complex(re: Self, im: Self) -> Self::Complex {
         Complex::new(re, im)
@@ -94,7 +95,7 @@ impl RealField for BigRational {
 impl RealField for f64 {
     type Complex = Complex<f64>;
     /// The triangle's cells of order N carry the factor N!, and 171! is no `f64`.
-    const MAXIMUM_ORDER: usize = 170;
+    const MAX_ORDER: usize = 170;
 
     fn complex(re: Self, im: Self) -> Self::Complex {
         Complex::new(re, im)

@@ -1,4 +1,4 @@
-//! The free rigid body: its Hamiltonian, and the two faces of its series. [`crate::energy`] computes them.
+//! The free rigid body: its Hamiltonian, and the two faces of its series. `energy` computes them.
 //!
 //! Convention, with w = √L e^{iℓ}, u = i w̄, U = w, S = i s, τ = α/(√γ V) and the time unit C/(√γ V) (theory §1, §2):
 //!
@@ -12,8 +12,11 @@
 //! K = Σ k_n τⁿ (w w̄)^{n+1}, P_n = 2 k_n and p_n = (−i)^{n+1} P_n (theory §4).
 //! Source: Lara (2017) with the errata of theory §11. Cost: that of [`NormalForm::new`](crate::NormalForm::new).
 
+use crate::bracket::Poisson;
 use crate::energy::Generator;
-use crate::{Coefficient, Error, Homological, Monomial, Poisson, Polynomial, TermProblem};
+use crate::error::TermProblem;
+use crate::homological::Homological;
+use crate::{Coefficient, Error, Monomial, Polynomial};
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;
@@ -35,7 +38,7 @@ pub const Y_HAT: usize = 4;
 
 /// Largest order whose exponents fit the packed monomials: a product of two parts of orders a + b = N has degree 2N + 4
 /// at most.
-pub const MAXIMUM_ORDER: usize = (crate::MAXIMUM_EXPONENT as usize - 4) / 2;
+pub const MAX_ORDER: usize = (crate::MAX_EXPONENT as usize - 4) / 2;
 
 /// Coefficients of a form by its exponents (j, k, l): Σ c u^j U^k β^l.
 pub type PublicForm = BTreeMap<(u32, u32, u32), Complex<BigRational>>;
@@ -81,7 +84,7 @@ impl Variable {
 /// [`BETA`].
 ///
 /// ```
-/// let [main, perturbation] = andoyer_series::hamiltonian::<f64>()?;
+/// let [main, perturbation] = andoyer_series::rigid_body::hamiltonian::<f64>()?;
 /// assert_eq!(main.display(&["v", "w"]).to_string(), "v*w");
 /// assert_eq!(perturbation.evaluate(&[1.0, 1.0, 1.0, 0.5])?, -0.75);
 /// # Ok::<(), andoyer_series::Error>(())
@@ -119,7 +122,7 @@ pub fn homological<C: Coefficient>() -> Result<Homological<C>, Error> {
 /// / √(1−β+2β sin²ν) and the primitive an arcsine of cos ν. It falls from 1 at `beta` = 0 to 0 at `beta` = 1.
 ///
 /// ```
-/// let action = andoyer_series::separatrix_action(0.5)?;
+/// let action = andoyer_series::rigid_body::separatrix_action(0.5)?;
 /// assert!((action - 0.39183).abs() < 5e-6); // table of theory §5
 /// # Ok::<(), andoyer_series::Error>(())
 /// ```
@@ -136,14 +139,14 @@ pub fn separatrix_action(beta: f64) -> Result<f64, Error> {
 
 /// P_n = 2 k_n from 4^n k_n, a polynomial in β².
 pub(crate) fn triaxiality(n: usize, row: &[BigInt]) -> BTreeMap<u32, BigRational> {
-    let divisor = BigInt::from(4).pow(n as u32); // n ≤ MAXIMUM_ORDER
+    let divisor = BigInt::from(4).pow(n as u32); // n ≤ MAX_ORDER
     let terms = (0u32..).zip(row).filter(|(_, c)| !c.is_zero());
     terms.map(|(i, c)| (2 * i, BigRational::new(c * 2, divisor.clone()))).collect()
 }
 
 /// T_m in the slots of this file: z^j of the table is w^(m+1+j) w̄^(m+1−j).
 pub(crate) fn scaled_generator(m: usize, table: &Generator) -> Result<Polynomial<BigRational>, Error> {
-    let order = m as u32; // m ≤ MAXIMUM_ORDER
+    let order = m as u32; // m ≤ MAX_ORDER
     let divisor = (&table.divisor << 1u32) * BigInt::from(4).pow(order);
     let mut form = Polynomial::zero();
     for (j, row) in (1u32..).zip(&table.rows) {

@@ -11,8 +11,10 @@
 //! transformed function f_{0,n}/n!. Order N costs N(N+1)(N+2)/6 brackets; each inner sum is accumulated unreduced. The
 //! inverse transformation obeys (n+1) G_{n+1} = −Σ {G_{n−m}; T_{m+1}}, G_0 = f, and costs N(N+1)/2 brackets.
 
+use crate::bracket::Poisson;
+use crate::homological::Homological;
 use crate::product::{Accumulator, Pause};
-use crate::{Coefficient, Error, Homological, Poisson, Polynomial};
+use crate::{Coefficient, Error, Polynomial};
 use std::ops::ControlFlow;
 
 /// What a progress callback receives: orders done, orders asked for. Returning `Break` stops the computation.
@@ -21,7 +23,9 @@ pub type Progress<'a> = dyn FnMut(usize, usize) -> ControlFlow<()> + 'a;
 /// A progress callback that tells nobody and never stops.
 ///
 /// ```
-/// use andoyer_series::{PhaseSpace, Resonances, normalize_with, quiet};
+/// use andoyer_series::{PhaseSpace, normalize_with};
+/// use andoyer_series::birkhoff::Resonances;
+/// use andoyer_series::progress::quiet;
 /// let space = PhaseSpace::new(&[("q", "p")])?;
 /// let h = space.parse::<f64>("(p^2 + q^2)/2 + q^4/4")?;
 /// let normal_form = normalize_with(&h, 2, &space, &Resonances::default(), &mut quiet)?;
@@ -54,7 +58,9 @@ pub struct Normalization<C: Coefficient> {
 /// within long ones, with the number of orders done (so a number comes more than once), and with (order, order) at the end.
 ///
 /// ```
-/// use andoyer_series::{Homological, Poisson, Polynomial, deprit_triangle, quiet};
+/// use andoyer_series::Polynomial;
+/// use andoyer_series::lie::{Homological, Poisson, deprit_triangle};
+/// use andoyer_series::progress::quiet;
 /// use num_rational::BigRational;
 /// let parse = |text| Polynomial::<BigRational>::parse(text, &["q", "p"]);
 /// let homological = Homological::new(&[(0, 1, BigRational::from_integer(1.into()))])?;

@@ -1,8 +1,11 @@
 //! Every public type is `Send + Sync`, and errors read as one line with their figures.
 
+use andoyer_series::birkhoff::Resonances;
+use andoyer_series::forms::Form;
+use andoyer_series::lie::{Homological, LieTransform, Normalization, Poisson};
+use andoyer_series::rigid_body::separatrix_action;
 use andoyer_series::{
-    BirkhoffMap, BirkhoffNormalForm, Error, Form, Homological, LieTransform, Monomial, NormalForm, Normalization,
-    PhaseSpace, Poisson, Polynomial, Resonances, Truncation, separatrix_action,
+    BirkhoffMap, BirkhoffNormalForm, Error, Monomial, NormalForm, PhaseSpace, Polynomial, Truncation,
 };
 use num_rational::BigRational;
 

@@ -1,8 +1,10 @@
 //! The Birkhoff normal form, exact: published coefficients, independent series, and the laws of the transformation.
 
+use andoyer_series::birkhoff::{Mode, Resonances};
+use andoyer_series::progress::quiet;
 use andoyer_series::{
-    BirkhoffNormalForm, Coefficient, Error, Mode, Monomial, NormalForm, PhaseSpace, Polynomial, Resonances, Truncation,
-    normalize, normalize_with, quiet,
+    BirkhoffNormalForm, Coefficient, Error, Monomial, NormalForm, PhaseSpace, Polynomial, Truncation, normalize,
+    normalize_with,
 };
 use num_complex::Complex;
 use num_rational::BigRational;

@@ -1,8 +1,8 @@
 //! What is no equilibrium with a quadratic part that can be diagonalized, and what no order can normalize, is refused by name.
 
-use andoyer_series::{
-    BirkhoffMap, Error, Monomial, PhaseSpace, Polynomial, Resonances, SLOTS, normalize, normalize_with, quiet,
-};
+use andoyer_series::birkhoff::Resonances;
+use andoyer_series::progress::quiet;
+use andoyer_series::{BirkhoffMap, Error, Monomial, PhaseSpace, Polynomial, SLOTS, normalize, normalize_with};
 use num_rational::BigRational;
 use std::ops::ControlFlow;
 

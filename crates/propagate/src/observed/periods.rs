@@ -75,7 +75,8 @@ impl Body {
     /// - [`Error::NoSuchMode`] for the short-axis mode of a body with B = C, the long-axis mode of one with A = B.
     ///
     /// ```
-    /// use andoyer_propagate::{Body, Convention, Mode};
+    /// use andoyer_propagate::{Body, Mode};
+    /// use andoyer_propagate::options::Convention;
     /// let body = Body::new([1.0, 1.5, 2.0])?;
     /// let [lower, _] = body.period_ratios(Mode::ShortAxis, Convention::ExtremalAxis)?;
     /// // 1 + 1/γ, γ² = (C/A − 1)(C/B − 1) = 1/3.
@@ -98,7 +99,8 @@ impl Scene {
     /// - [`Error::Units`] for periods whose angular momentum has no double.
     ///
     /// ```
-    /// use andoyer_propagate::{Body, ObservedPeriods, Scene};
+    /// use andoyer_propagate::{Body, Scene};
+    /// use andoyer_propagate::periods::ObservedPeriods;
     /// // Apophis, in hours (Pravec et al. 2014): E/E0 = 1.024 ± 0.013.
     /// let motion = Scene::from_periods(Body::new([0.61, 0.965, 1.0])?, &ObservedPeriods::new(27.38, 263.0))?.solve()?;
     /// assert!((motion.energy_ratio() - 1.02364).abs() < 5e-6);

@@ -95,40 +95,32 @@ impl<S: InstructionSet, C: Evaluate> Stretch<'_, S, C> {
             let start = index * GROUP;
             going(self.stop)?;
             all_within(group, self.epoch, self.bound).map_err(|halt| halt.later(start))?;
-            let rows = part::<ATTITUDE, RATES>(&mut rows, start, group.len());
-            match self.grid {
-                Some(grid) => self.uniform::<ATTITUDE, RATES>(grid, group, rows),
-                None => self.direct::<ATTITUDE, RATES>(group, rows),
-            }
+            self.group::<ATTITUDE, RATES>(group, part::<ATTITUDE, RATES>(&mut rows, start, group.len()));
         }
         Ok(())
     }
 
-    /// Evaluates the uniform blocks of a group by the table, and the other times directly.
+    /// Evaluates the uniform blocks of a group by the table, and the other times by their own phases.
+    ///
+    /// Each of the two is inlined once, because a copy for each instruction set and each set of outputs is compiled.
     #[inline(always)]
-    fn uniform<const ATTITUDE: bool, const RATES: bool>(&self, grid: &Grid, times: &[f64], mut rows: Rows<'_>) {
-        let seeds = grid.seeds(self.simd, self.course.phases(), times, self.epoch);
-        for (index, block) in times.chunks(BLOCK).enumerate() {
-            let rows = part::<ATTITUDE, RATES>(&mut rows, index * BLOCK, block.len());
-            if grid.holds(self.simd, block) {
-                let tabled = grid.tabled(self.simd, block[0], &seeds[index]);
-                each::<S, ATTITUDE, RATES>(
-                    self.simd,
-                    block,
-                    rows,
-                    Blocks { course: self.course, simd: self.simd, tabled },
-                );
-            } else {
-                self.direct::<ATTITUDE, RATES>(block, rows);
+    fn group<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], mut rows: Rows<'_>) {
+        let simd = self.simd;
+        let seeds = self.grid.map(|grid| (grid, grid.seeds(simd, self.course.phases(), times, self.epoch)));
+        let length = if seeds.is_some() { BLOCK } else { GROUP };
+        for (index, block) in times.chunks(length).enumerate() {
+            let rows = part::<ATTITUDE, RATES>(&mut rows, index * length, block.len());
+            match &seeds {
+                Some((grid, seeds)) if grid.holds(simd, block) => {
+                    let tabled = grid.tabled(simd, block[0], &seeds[index]);
+                    each::<S, ATTITUDE, RATES>(simd, block, rows, Blocks { course: self.course, simd, tabled });
+                }
+                _ => {
+                    let direct = Direct { course: self.course, simd, epoch: Lanes::splat(simd, self.epoch) };
+                    each::<S, ATTITUDE, RATES>(simd, block, rows, direct);
+                }
             }
         }
-    }
-
-    /// Evaluates each time by its own phases.
-    #[inline(always)]
-    fn direct<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], rows: Rows<'_>) {
-        let source = Direct { course: self.course, simd: self.simd, epoch: Lanes::splat(self.simd, self.epoch) };
-        each::<S, ATTITUDE, RATES>(self.simd, times, rows, source);
     }
 }
 
@@ -159,7 +151,7 @@ fn groups<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     Ok(())
 }
 
-/// Evaluates all lanes at once; for the last times the missing lanes are filled up.
+/// Evaluates all lanes at once. Where fewer times are left than lanes, the last ones come from a copy that is filled up, and go to copies of the rows.
 #[inline(always)]
 fn each<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     simd: S,
@@ -168,29 +160,30 @@ fn each<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     source: impl Source<S>,
 ) {
     let width = Lanes::<S>::WIDTH;
-    let whole = times.len() / width * width;
-    for place in (0..whole).step_by(width) {
-        let (attitude, rate) = source.at::<ATTITUDE, RATES>(place, Lanes::load(simd, &times[place..]));
+    let mut last = [0.0; WIDEST];
+    let (mut last_attitudes, mut last_rates) = ([[0.0; 4]; WIDEST], [[0.0; 3]; WIDEST]);
+    for place in (0..times.len()).step_by(width) {
+        let rest = (times.len() - place).min(width);
+        let whole = rest == width;
+        if !whole {
+            last = [times[place]; WIDEST];
+            last[..rest].copy_from_slice(&times[place..]);
+        }
+        let lanes = Lanes::load(simd, if whole { &times[place..] } else { &last });
+        let (attitude, rate) = source.at::<ATTITUDE, RATES>(place, lanes);
         if ATTITUDE {
-            Lanes::store_fours(attitude, &mut attitudes[place..place + width]);
+            let rows = if whole { &mut attitudes[place..place + width] } else { &mut last_attitudes[..width] };
+            Lanes::store_fours(attitude, rows);
         }
         if RATES {
-            Lanes::store_threes(rate, &mut rates[place..place + width]);
+            let rows = if whole { &mut rates[place..place + width] } else { &mut last_rates[..width] };
+            Lanes::store_threes(rate, rows);
         }
-    }
-    if whole < times.len() {
-        let rest = times.len() - whole;
-        let mut last = [times[whole]; WIDEST];
-        last[..rest].copy_from_slice(&times[whole..]);
-        let (attitude, rate) = source.at::<ATTITUDE, RATES>(whole, Lanes::load(simd, &last));
-        let (mut last_attitudes, mut last_rates) = ([[0.0; 4]; WIDEST], [[0.0; 3]; WIDEST]);
-        Lanes::store_fours(attitude, &mut last_attitudes[..width]);
-        Lanes::store_threes(rate, &mut last_rates[..width]);
-        if ATTITUDE {
-            attitudes[whole..].copy_from_slice(&last_attitudes[..rest]);
+        if !whole && ATTITUDE {
+            attitudes[place..].copy_from_slice(&last_attitudes[..rest]);
         }
-        if RATES {
-            rates[whole..].copy_from_slice(&last_rates[..rest]);
+        if !whole && RATES {
+            rates[place..].copy_from_slice(&last_rates[..rest]);
         }
     }
 }

@@ -7,9 +7,11 @@
 use super::BirkhoffNormalForm;
 use super::matrix::{Matrix, symplectic_inverse};
 use super::mode::Mode;
+use crate::emit::Language;
 use crate::emit::program::{Expression, Program, Statement, name};
 use crate::emit::text::expression;
-use crate::{Error, Language, Monomial, Polynomial, RealField};
+use crate::real_field::RealField;
+use crate::{Error, Monomial, Polynomial};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A function from arrays to an array.
@@ -29,7 +31,8 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// `frequencies(actions)` follow a motion; the last is left out where K has resonant terms. Parameters are an array after the first argument.
     ///
     /// ```
-    /// use andoyer_series::{Language, PhaseSpace, normalize};
+    /// use andoyer_series::{PhaseSpace, normalize};
+    /// use andoyer_series::print::Language;
     /// let space = PhaseSpace::new(&[("q", "p")])?;
     /// let form = normalize(&space.parse::<f64>("(p^2 + q^2)/2 + q^4/4")?, 2, &space)?;
     /// let text = form.to_code(Language::Python)?;

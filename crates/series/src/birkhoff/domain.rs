@@ -10,7 +10,8 @@
 
 use super::BirkhoffNormalForm;
 use super::mode::{Mode, modulus};
-use crate::{Error, Polynomial, RealField};
+use crate::real_field::RealField;
+use crate::{Error, Polynomial};
 
 /// The sizes of the orders of a normal form.
 #[derive(Debug, Clone, PartialEq)]

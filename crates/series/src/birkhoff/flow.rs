@@ -2,7 +2,8 @@
 
 use super::BirkhoffNormalForm;
 use super::mode::Mode;
-use crate::{Error, Polynomial, RealField};
+use crate::real_field::RealField;
+use crate::{Error, Polynomial};
 use num_complex::Complex;
 
 /// K and its derivatives, with numbers for the parameters.

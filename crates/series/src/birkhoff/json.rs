@@ -18,7 +18,10 @@ use super::diagonal::Diagonal;
 use super::matrix::{Matrix, form_entry, pairing, transposed};
 use super::mode::Mode;
 use super::{BirkhoffNormalForm, PhaseSpace, Resonances, turns};
-use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, RealField, TermProblem};
+use crate::error::TermProblem;
+use crate::real_field::RealField;
+use crate::triangle::{LieTransform, Normalization};
+use crate::{Coefficient, Error, Monomial, Polynomial};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -94,7 +97,8 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// Reads what [`to_json`](Self::to_json) wrote from a normal form in the same kind of numbers.
     ///
     /// ```
-    /// use andoyer_series::{BigRational, BirkhoffNormalForm, PhaseSpace, normalize};
+    /// use andoyer_series::{BirkhoffNormalForm, PhaseSpace, normalize};
+    /// use andoyer_series::num_rational::BigRational;
     /// let space = PhaseSpace::new(&[("q", "p")])?;
     /// let form = normalize(&space.parse::<BigRational>("(p^2 + q^2)/2 + q^4/4")?, 4, &space)?;
     /// assert_eq!(BirkhoffNormalForm::<BigRational>::from_json(&form.to_json()?)?, form);
@@ -118,8 +122,8 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             });
         }
         let document: Document = serde_json::from_str(text).map_err(Error::json)?;
-        if document.order > R::MAXIMUM_ORDER {
-            return Err(Error::OrderTooLarge { order: document.order, bound: R::MAXIMUM_ORDER });
+        if document.order > R::MAX_ORDER {
+            return Err(Error::OrderTooLarge { order: document.order, bound: R::MAX_ORDER });
         }
         let space = space(&document)?;
         let vectors: Vec<&[i64]> = document.resonances.iter().map(Vec::as_slice).collect();
@@ -145,7 +149,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             offset,
             normalization: Normalization {
                 hamiltonian: Vec::new(),
-                transform: LieTransform::new(crate::Poisson::new(&[])?, Vec::new()),
+                transform: LieTransform::new(crate::bracket::Poisson::new(&[])?, Vec::new()),
             },
         };
         count("hamiltonian", document.hamiltonian.len(), document.order + 1)?;

@@ -10,7 +10,9 @@ use super::flow::{self, Flow};
 use super::matrix::{Matrix, dot, symplectic_inverse};
 use super::mode::Mode;
 use super::{BirkhoffNormalForm, turns};
-use crate::{Error, Monomial, Polynomial, Progress, RealField, SLOTS, quiet};
+use crate::real_field::RealField;
+use crate::triangle::{Progress, quiet};
+use crate::{Error, Monomial, Polynomial, SLOTS};
 use num_complex::Complex;
 
 /// A normal form ready for numbers: the transformation of states and the motion in the normal form.

@@ -1,7 +1,8 @@
 //! Small matrices over a field, and the symplectic form in the order q₁, p₁, q₂, p₂, …
 
 use super::mode::modulus;
-use crate::{Coefficient, RealField};
+use crate::Coefficient;
+use crate::real_field::RealField;
 use num_traits::{One, Zero};
 
 pub(crate) type Matrix<C> = Vec<Vec<C>>;

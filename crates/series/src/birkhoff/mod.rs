@@ -1,11 +1,11 @@
 //! The Birkhoff normal form of any polynomial Hamiltonian about an equilibrium.
 //!
-//! H(q₁, p₁, …, qₙ, pₙ) = constant + H₂ + terms of higher degree, {q; p} = 1. A linear symplectic change makes H₂ a sum of modes ([`quadratic`], [`williamson`],
-//! [`mode`]): centres, saddles, quartets. Graded by degree, parameters by the degrees they are given: the terms of degree 2 + n are of order n. Order N removes by
+//! H(q₁, p₁, …, qₙ, pₙ) = constant + H₂ + terms of higher degree, {q; p} = 1. A linear symplectic change makes H₂ a sum of modes (`quadratic`, `williamson`,
+//! `mode`): centres, saddles, quartets. Graded by degree, parameters by the degrees they are given: the terms of degree 2 + n are of order n. Order N removes by
 //! Deprit's triangle (theory §4), in the complex variables (u, U) of the modes, every term of degree 2 + N at most but those that [`Resonances`] keeps: the Gustavson
 //! form where there are resonances, the centre manifold where all terms of the centres are kept. Generators have no kernel part, which makes the normal form unique.
 //!
-//! Exact over the rationals where the eigenvalues are rational, else in `f64`. The series diverge in general: at fixed amplitude there is a best order ([`domain`]).
+//! Exact over the rationals where the eigenvalues are rational, else in `f64`. The series diverge in general: at fixed amplitude there is a best order (`domain`).
 //! Cost: the triangle's, N³/6 brackets of ever larger polynomials.
 //! Sources: G. D. Birkhoff, *Dynamical Systems* (1927), ch. III; J. Williamson, Amer. J. Math. 58 (1936) 141; F. G. Gustavson, Astron. J. 71 (1966) 670; A. Deprit,
 //! Celest. Mech. 1 (1969) 12; A. Jorba and J. Masdemont, Physica D 132 (1999) 189.
@@ -32,8 +32,10 @@ pub use mode::Mode;
 pub use phase_space::PhaseSpace;
 pub use resonances::Resonances;
 
+use crate::real_field::RealField;
+use crate::triangle::{LieTransform, Normalization, Progress, quiet};
 use crate::triangle::{Removal, normalize_by};
-use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, Progress, RealField, quiet};
+use crate::{Coefficient, Error, Monomial, Polynomial};
 use diagonal::Diagonal;
 use mode::{modulus, substitute};
 use resonances::{divisor, is_small};
@@ -83,7 +85,9 @@ pub fn normalize<R: RealField>(
 /// `progress` is called before every cell of the triangle, and within long ones, with (orders done, `order`).
 ///
 /// ```
-/// use andoyer_series::{PhaseSpace, Resonances, normalize_with, quiet};
+/// use andoyer_series::{PhaseSpace, normalize_with};
+/// use andoyer_series::birkhoff::Resonances;
+/// use andoyer_series::progress::quiet;
 /// use num_rational::BigRational;
 /// let space = PhaseSpace::new(&[("x", "X"), ("y", "Y")])?;
 /// let henon_heiles = space.parse::<BigRational>("(x^2 + X^2 + y^2 + Y^2)/2 + x^2*y - y^3/3")?;
@@ -106,8 +110,8 @@ pub fn normalize_with<R: RealField>(
     resonances: &Resonances,
     progress: &mut Progress<'_>,
 ) -> Result<BirkhoffNormalForm<R>, Error> {
-    if order > R::MAXIMUM_ORDER {
-        return Err(Error::OrderTooLarge { order, bound: R::MAXIMUM_ORDER });
+    if order > R::MAX_ORDER {
+        return Err(Error::OrderTooLarge { order, bound: R::MAX_ORDER });
     }
     let space = space.settled(hamiltonian);
     let diagonal = Diagonal::of(hamiltonian, &space)?;

@@ -12,12 +12,14 @@
 //! An elliptic mode has q = √(2rI) sin φ, p = √(2I/r) cos φ, dφ/dt = ω. A hyperbolic one has q ~ e^{λt}, p ~ e^{−λt}: q is the unstable direction.
 //! Real scales r keep square roots out, so that all is rational where the frequencies are.
 
-use crate::{Coefficient, Error, Monomial, Polynomial, RealField};
+use crate::real_field::RealField;
+use crate::{Coefficient, Error, Monomial, Polynomial};
 
 /// One mode of the quadratic part.
 ///
 /// ```
-/// use andoyer_series::{Mode, PhaseSpace, normalize};
+/// use andoyer_series::{PhaseSpace, normalize};
+/// use andoyer_series::birkhoff::Mode;
 /// let space = PhaseSpace::new(&[("x", "X"), ("y", "Y")])?;
 /// let saddle_and_centre = normalize(&space.parse::<f64>("(X^2 - 4*x^2)/2 + (Y^2 + y^2)/2")?, 0, &space)?;
 /// let [Mode::Hyperbolic { rate }, centre] = saddle_and_centre.modes() else { panic!("{saddle_and_centre}") };
@@ -217,7 +219,7 @@ fn replace<C: Coefficient>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Poisson;
+    use crate::bracket::Poisson;
     use num_complex::Complex;
     use num_rational::BigRational;
 

@@ -5,8 +5,9 @@
 //! slots: up to four degrees of freedom, or three with two parameters.
 //! The same slots hold the complex variables (u, U) of a normal form, printed as `u_q`, `U_q` for the pair (q, p).
 
+use crate::bracket::Poisson;
 use crate::parse::check_names;
-use crate::{Coefficient, Error, Monomial, Poisson, Polynomial, SLOTS};
+use crate::{Coefficient, Error, Monomial, Polynomial, SLOTS};
 
 /// The named variables of a Hamiltonian.
 ///
@@ -55,7 +56,9 @@ impl PhaseSpace {
     /// This space with a degree for a parameter: how small it is beside the variables, for the order in which terms are removed.
     ///
     /// ```
-    /// use andoyer_series::{PhaseSpace, Resonances, normalize_with, quiet};
+    /// use andoyer_series::{PhaseSpace, normalize_with};
+    /// use andoyer_series::birkhoff::Resonances;
+    /// use andoyer_series::progress::quiet;
     /// use num_rational::BigRational;
     /// // Near the 1:1 resonance: frequencies 1 and 1 + d, the detuning d of degree 1.
     /// let space = PhaseSpace::new(&[("x", "X"), ("y", "Y")])?.with_parameters(&["d"])?.with_degree("d", 1)?;

@@ -12,7 +12,8 @@ use super::diagonal::Diagonal;
 use super::matrix::{Matrix, product, symplectic_inverse, transposed, unit};
 use super::mode::Mode;
 use super::williamson;
-use crate::{Error, Monomial, Polynomial, RealField};
+use crate::real_field::RealField;
+use crate::{Error, Monomial, Polynomial};
 
 impl<R: RealField> Diagonal<R> {
     /// The modes of the quadratic part of `hamiltonian`, whose terms are checked first.

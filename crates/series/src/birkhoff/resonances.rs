@@ -10,7 +10,8 @@
 //! Membership is decided on an echelon basis of the module by Euclid's algorithm, exactly.
 
 use super::mode::{Mode, modulus};
-use crate::{Coefficient, Error, MAXIMUM_EXPONENT, RealField};
+use crate::real_field::RealField;
+use crate::{Coefficient, Error, MAX_EXPONENT};
 use num_traits::Zero;
 
 /// The default of the smallest divisor, relative to the largest frequency.
@@ -19,7 +20,7 @@ const SMALLEST_DIVISOR: f64 = 1e-6;
 /// The resonances asked for, and the smallest divisor allowed.
 ///
 /// ```
-/// use andoyer_series::Resonances;
+/// use andoyer_series::birkhoff::Resonances;
 /// let one_to_one = Resonances::new(&[&[1, -1]])?;
 /// assert!(one_to_one.keeps(&[2, -2]) && !one_to_one.keeps(&[2, -1]));
 /// # Ok::<(), andoyer_series::Error>(())
@@ -48,9 +49,9 @@ impl Resonances {
     pub fn new(vectors: &[&[i64]]) -> Result<Self, Error> {
         let mut resonances = Self::default();
         for &vector in vectors {
-            let malformed = || Error::ResonanceMalformed { vector: vector.to_vec(), bound: MAXIMUM_EXPONENT };
+            let malformed = || Error::ResonanceMalformed { vector: vector.to_vec(), bound: MAX_EXPONENT };
             let length = resonances.vectors.first().map_or(vector.len(), Vec::len);
-            let fits = vector.iter().all(|entry| entry.unsigned_abs() <= MAXIMUM_EXPONENT.into());
+            let fits = vector.iter().all(|entry| entry.unsigned_abs() <= MAX_EXPONENT.into());
             if vector.len() != length || !fits || vector.iter().all(|&entry| entry == 0) {
                 return Err(malformed());
             }
@@ -79,7 +80,9 @@ impl Resonances {
     /// Physica D 132 (1999) 189). Divisors are then never smaller than the rate of a saddle.
     ///
     /// ```
-    /// use andoyer_series::{PhaseSpace, Resonances, normalize_with, quiet};
+    /// use andoyer_series::{PhaseSpace, normalize_with};
+    /// use andoyer_series::birkhoff::Resonances;
+    /// use andoyer_series::progress::quiet;
     /// let space = PhaseSpace::new(&[("x", "X"), ("y", "Y")])?;
     /// let h = space.parse::<f64>("x*X + (y^2 + Y^2)/2 + x*y^2 + X^2*y/2 + y^3")?;
     /// let reduced = normalize_with(&h, 1, &space, &Resonances::default().with_centre(), &mut quiet)?.centre_manifold()?;
@@ -141,7 +144,7 @@ impl Resonances {
         let bound = self.bound(modes);
         for vector in &self.vectors {
             if vector.len() != modes.len() {
-                return Err(Error::ResonanceMalformed { vector: vector.clone(), bound: MAXIMUM_EXPONENT });
+                return Err(Error::ResonanceMalformed { vector: vector.clone(), bound: MAX_EXPONENT });
             }
             let divisor = divisor(vector, modes);
             if !is_small::<R>(&divisor, bound) {

@@ -5,7 +5,8 @@
 
 use super::matrix::{Matrix, null_space};
 use super::mode::modulus;
-use crate::{Error, RealField};
+use crate::Error;
+use crate::real_field::RealField;
 
 /// Eigenvalues of this size count as zero, and eigenvalues as close as this to an axis lie on it: relative to the largest entry of A, the root of rounding,
 /// by which a Jordan block splits.

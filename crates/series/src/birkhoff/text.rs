@@ -4,7 +4,9 @@
 //! coefficient below that is left out. Exact numbers are printed as they are.
 
 use super::{BirkhoffNormalForm, PhaseSpace};
-use crate::{Error, Part, Polynomial, RealField, SLOTS};
+use crate::latex::Part;
+use crate::real_field::RealField;
+use crate::{Error, Polynomial, SLOTS};
 use std::collections::BTreeMap;
 
 /// Digits of the largest coefficient of a degree.
@@ -68,7 +70,9 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// prime, or the new in the old.
     ///
     /// ```
-    /// use andoyer_series::{BigRational, Part, PhaseSpace, normalize};
+    /// use andoyer_series::{PhaseSpace, normalize};
+    /// use andoyer_series::print::Part;
+    /// use andoyer_series::num_rational::BigRational;
     /// let space = PhaseSpace::new(&[("q", "p")])?;
     /// let form = normalize(&space.parse::<BigRational>("(p^2 + q^2)/2 + q^4/4")?, 2, &space)?;
     /// assert!(form.to_latex(Part::Hamiltonian)?.contains("K &= I_{q} + \\frac{3}{8}I_{q}^{2}"));

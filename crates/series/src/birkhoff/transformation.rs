@@ -2,7 +2,9 @@
 
 use super::BirkhoffNormalForm;
 use super::mode::{Mode, complex_in_real, real_in_complex, substitute};
-use crate::{Error, LieTransform, Polynomial, Progress, RealField, quiet};
+use crate::real_field::RealField;
+use crate::triangle::{LieTransform, Progress, quiet};
+use crate::{Error, Polynomial};
 
 /// A real function in the complex variables.
 pub(super) fn to_complex<R: RealField>(f: &Polynomial<R>, modes: &[Mode<R>]) -> Result<Polynomial<R::Complex>, Error> {

@@ -8,7 +8,8 @@ use super::diagonal::Diagonal;
 use super::matrix::{Matrix, dot, form_entry, pairing, product, transposed, turned, turned_rows};
 use super::mode::{Mode, modulus};
 use super::spectrum::{Eigenspace, Names, ROOT, eigenspace, shown, spectrum};
-use crate::{Coefficient, Error, RealField};
+use crate::real_field::RealField;
+use crate::{Coefficient, Error};
 use num_traits::{One, Zero};
 
 /// What is left off the diagonal of Mᵀ A M by rounding.

@@ -15,7 +15,7 @@ mod store;
 use crate::monomial::Monomial;
 use crate::terms::Terms;
 use crate::words::{FactorList, Factors, Numerators, Words};
-use crate::{Coefficient, Error, MAXIMUM_EXPONENT, Polynomial, SLOTS, Truncation};
+use crate::{Coefficient, Error, MAX_EXPONENT, Polynomial, SLOTS, Truncation};
 use arithmetic::{Arithmetic, GaussianIntegers, Integers, Lifted};
 use code::{Key, Layout};
 use engine::{CELLS_PER_PRODUCT, Part, Piece, Sum};
@@ -125,11 +125,11 @@ impl<'a, C: Coefficient> Accumulator<'a, C> {
             for slot in 0..SLOTS {
                 reached[slot] = left[product.left][slot] + right[product.right][slot] + raised[slot];
             }
-            if reached.iter().any(|&exponent| exponent > MAXIMUM_EXPONENT) {
+            if reached.iter().any(|&exponent| exponent > MAX_EXPONENT) {
                 self.check_exponents(product)?;
             }
             for (bound, reached) in bounds.iter_mut().zip(reached) {
-                *bound = reached.min(MAXIMUM_EXPONENT).max(*bound);
+                *bound = reached.min(MAX_EXPONENT).max(*bound);
             }
         }
         Ok(bounds)

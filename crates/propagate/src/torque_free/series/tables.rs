@@ -11,7 +11,8 @@ use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use andoyer_double::DoubleDouble;
-use andoyer_series::{Form, NumericNormalForm};
+use andoyer_series::NumericNormalForm;
+use andoyer_series::forms::Form;
 
 use crate::error::Error;
 
