@@ -19,6 +19,8 @@ mod torque_free;
 
 mod gravity_gradient;
 
+mod integration;
+
 mod motion;
 
 mod solve;
@@ -36,10 +38,12 @@ mod ensemble;
 pub use ensemble::{Ensemble, MAX_THREADS, OnError, Run};
 pub use error::Error;
 pub use input::body::Body;
+pub use input::disturbing_body::DisturbingBody;
 pub use input::options::{Averaging, Convention, Level, MAX_ORDER, Method};
-pub use input::orbit::Orbit;
+pub use input::orbit::{Oblateness, Orbit};
 pub use input::scene::Scene;
 pub use input::state::State;
+pub use input::tabulated::TabulatedOrbit;
 pub use motion::batch::Batch;
 pub use motion::plan::Plan;
 pub use motion::solved::{Frequencies, Motion, Periods, Sample};
