@@ -7,13 +7,14 @@ use serde::{Deserialize, Serialize};
 use crate::gravity_gradient::disturbed::GradientPlan;
 use crate::input::options::{Averaging, Method};
 use crate::input::scene::Scene;
+use crate::integration::integrated::IntegrationPlan;
 use crate::torque_free::mode::Mode;
 
 /// σ/σ_sep above which its distance from 1 is printed.
 const NEAR_ONE: f64 = 0.999;
 
 /// A tolerance below this is met as well as rounding allows \[rad\].
-const ROUNDED_TOLERANCE: f64 = 2e-14;
+pub(crate) const ROUNDED_TOLERANCE: f64 = 2e-14;
 
 /// The evaluation plan of a motion. It is printed in ASCII, and can be serialized.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,6 +29,7 @@ pub struct Plan {
     pub(crate) spanned: bool,
     pub(crate) separatrix_ratio: f64,
     pub(crate) gradient: Option<GradientPlan>,
+    pub(crate) integration: Option<IntegrationPlan>,
     pub(crate) skipped: Vec<String>,
 }
 
@@ -44,6 +46,7 @@ impl Plan {
             spanned: scene.asked_span().is_some(),
             separatrix_ratio,
             gradient: None,
+            integration: None,
             skipped: Vec::new(),
         }
     }
@@ -53,14 +56,19 @@ impl Plan {
         self.mode
     }
 
-    /// The method of evaluation: the series, or the closed form (which includes the formulas of steady rotation).
+    /// The method of evaluation: the series, the closed form (which includes the formulas of steady rotation), or the integration.
     pub fn method(&self) -> Method {
         self.method
     }
 
-    /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance.
+    /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance. Of an integration the order of the steps.
     pub fn order(&self) -> usize {
         self.order
+    }
+
+    /// Steps of the integration; 0 without one.
+    pub fn steps(&self) -> usize {
+        self.integration.map_or(0, |integration| integration.steps)
     }
 
     /// The highest multiple of ℓ′ that is evaluated; 0 where none is.
@@ -118,12 +126,12 @@ impl Plan {
         self.gradient.map_or(0.0, |gradient| gradient.neglected)
     }
 
-    /// How derivatives with respect to the state and the moments are computed: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; `None` on the separatrix,
+    /// How derivatives with respect to the state and the moments are computed: "closed" (theory §12); "differences" of fourth order for a scene with an orbit or an integrated motion; `None` on the separatrix,
     /// where the frequencies have none.
     pub fn partials(&self) -> Option<&'static str> {
-        match (self.mode, self.gradient) {
-            (_, Some(_)) => Some("differences"),
-            (Mode::Separatrix, None) => None,
+        match (self.mode, self.method, self.gradient) {
+            (_, Method::Integrated, _) | (_, _, Some(_)) => Some("differences"),
+            (Mode::Separatrix, _, None) => None,
             _ => Some("closed"),
         }
     }
@@ -145,12 +153,16 @@ impl fmt::Display for Plan {
             ratio => writeln!(f, "separatrix    {ratio:.3e} (sigma/sigma_sep)")?,
         }
         match self.method {
-            Method::Series => writeln!(f, "order         {}", self.order)?,
+            Method::Series | Method::Integrated => writeln!(f, "order         {}", self.order)?,
             _ => writeln!(f, "order         -")?,
         }
         match self.harmonics {
             0 => writeln!(f, "harmonics     -")?,
             harmonics => writeln!(f, "harmonics     {harmonics}")?,
+        }
+        if let Some(IntegrationPlan { steps, bodies }) = self.integration {
+            let plural = if bodies == 1 { "body" } else { "bodies" };
+            writeln!(f, "steps         {steps} over the span, under {bodies} disturbing {plural}")?;
         }
         if let Some(GradientPlan { averaging, level, terms, size, neglected }) = self.gradient {
             writeln!(

@@ -16,8 +16,8 @@ use crate::numerics::phase::Phase;
 /// The times of one thread.
 pub(crate) struct Run<'a> {
     pub(crate) epoch: f64,
-    /// Largest distance from the epoch.
-    pub(crate) bound: f64,
+    /// Largest distances before and after the epoch, the first negative.
+    pub(crate) reach: [f64; 2],
     pub(crate) times: &'a [f64],
     pub(crate) outputs: Outputs<'a>,
     pub(crate) grid: Option<&'a Grid>,
@@ -27,14 +27,15 @@ pub(crate) struct Run<'a> {
 
 impl Run<'_> {
     /// Evaluates each time by itself, without vectors.
-    pub(crate) fn one_by_one(self, evaluate: impl Fn((f64, f64)) -> ([f64; 4], [f64; 3])) -> Result<(), Halt> {
-        let Self { epoch, bound, times, outputs, stop, .. } = self;
+    #[inline(always)]
+    pub(crate) fn one_by_one(self, mut evaluate: impl FnMut((f64, f64)) -> ([f64; 4], [f64; 3])) -> Result<(), Halt> {
+        let Self { epoch, reach, times, outputs, stop, .. } = self;
         let (mut attitudes, mut rates) = match outputs {
             Outputs::Attitudes(attitudes) => (Some(attitudes), None),
             Outputs::Rates(rates) => (None, Some(rates)),
             Outputs::Both(attitudes, rates) => (Some(attitudes), Some(rates)),
         };
-        all_within(times, epoch, bound)?;
+        all_within(times, epoch, reach)?;
         for (index, &time) in times.iter().enumerate() {
             if index % GROUP == 0 {
                 going(stop)?;
@@ -53,8 +54,8 @@ impl Run<'_> {
     /// Evaluates a source that has neither circles nor a grid.
     #[inline(always)]
     pub(crate) fn by_source<S: InstructionSet>(self, simd: S, source: impl Source<S> + Copy) -> Result<(), Halt> {
-        let Self { epoch, bound, times, outputs, stop, .. } = self;
-        all_within(times, epoch, bound)?;
+        let Self { epoch, reach, times, outputs, stop, .. } = self;
+        all_within(times, epoch, reach)?;
         match outputs {
             Outputs::Attitudes(attitudes) => groups::<S, true, false>(simd, times, (attitudes, &mut []), source, stop),
             Outputs::Rates(rates) => groups::<S, false, true>(simd, times, (&mut [], rates), source, stop),
@@ -65,8 +66,8 @@ impl Run<'_> {
     /// Evaluates a motion by sines and cosines of its phases.
     #[inline(always)]
     pub(crate) fn by_circles<S: InstructionSet, C: Evaluate>(self, simd: S, course: &C) -> Result<(), Halt> {
-        let Self { epoch, bound, times, outputs, grid, stop } = self;
-        let stretch = Stretch { simd, epoch, bound, course, grid, stop };
+        let Self { epoch, reach, times, outputs, grid, stop } = self;
+        let stretch = Stretch { simd, epoch, reach, course, grid, stop };
         match outputs {
             Outputs::Attitudes(attitudes) => stretch.fill::<true, false>(times, (attitudes, &mut [])),
             Outputs::Rates(rates) => stretch.fill::<false, true>(times, (&mut [], rates)),
@@ -81,7 +82,7 @@ type Rows<'a> = (&'a mut [[f64; 4]], &'a mut [[f64; 3]]);
 struct Stretch<'a, S, C> {
     simd: S,
     epoch: f64,
-    bound: f64,
+    reach: [f64; 2],
     course: &'a C,
     grid: Option<&'a Grid>,
     stop: &'a AtomicBool,
@@ -94,7 +95,7 @@ impl<S: InstructionSet, C: Evaluate> Stretch<'_, S, C> {
         for (index, group) in times.chunks(GROUP).enumerate() {
             let start = index * GROUP;
             going(self.stop)?;
-            all_within(group, self.epoch, self.bound).map_err(|halt| halt.later(start))?;
+            all_within(group, self.epoch, self.reach).map_err(|halt| halt.later(start))?;
             self.group::<ATTITUDE, RATES>(group, part::<ATTITUDE, RATES>(&mut rows, start, group.len()));
         }
         Ok(())
@@ -126,8 +127,8 @@ impl<S: InstructionSet, C: Evaluate> Stretch<'_, S, C> {
 
 /// Whether all times are within the bound, or the first that is not. NaN is not.
 #[inline(always)]
-fn all_within(times: &[f64], epoch: f64, bound: f64) -> Result<(), Halt> {
-    let valid = |time: &f64| (time - epoch).abs() <= bound;
+fn all_within(times: &[f64], epoch: f64, [least, most]: [f64; 2]) -> Result<(), Halt> {
+    let valid = |time: &f64| (least <= time - epoch) & (time - epoch <= most);
     if times.iter().fold(true, |all, time| all & valid(time)) {
         return Ok(());
     }
