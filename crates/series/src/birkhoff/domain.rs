@@ -1,6 +1,6 @@
 //! The range of a normal form: the sizes of its orders, and the best order at a given amplitude.
 //!
-//! The amplitude of a mode is a = √(2|I|). If all amplitudes are at most a, a term c Π u^j U^k of degree d is at most |c| Π s^j… a^d, with |u| = a/(2√r) and
+//! The amplitude of a mode is a = √(2|I|). If all amplitudes are at most a, a term c Π u^j U^k of degree d is at most |c| Π |u|^j |U|^k, with |u| = a/(2√r) and
 //! |U| = a √r for a centre, and |u| = |U| = a for a saddle or a quartet. The norm ‖T_m‖ of a generating function T_m = S_m/(m−1)! is the sum of these bounds at
 //! a = 1. Its contribution to the transformation has the size ‖T_m‖ a^(m+1) (m+2).
 //!
