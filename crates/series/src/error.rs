@@ -62,7 +62,7 @@ pub enum Error {
     },
     /// A phase space with more variables than the slots of a monomial, or without a pair.
     #[error(
-        "{degrees_of_freedom} degrees of freedom and {parameters} parameters: one pair at least, and {slots} variables at most"
+        "{degrees_of_freedom} degrees of freedom and {parameters} parameters: a phase space has at least one pair and at most {slots} variables"
     )]
     PhaseSpaceSize {
         /// Pairs (q, p) given.
@@ -73,7 +73,7 @@ pub enum Error {
         slots: usize,
     },
     /// A Hamiltonian with a linear term: the origin is not an equilibrium.
-    #[error("the origin is no equilibrium: the linear term {term} has the coefficient {coefficient}")]
+    #[error("the origin is not an equilibrium: the linear term {term} has the coefficient {coefficient}")]
     LinearTerm {
         /// The term.
         term: String,
@@ -91,7 +91,7 @@ pub enum Error {
         bound: u32,
     },
     /// A name that is not a parameter of the space.
-    #[error("{name:?} is no parameter: they are [{known}]")]
+    #[error("{name:?} is not a parameter: the parameters are [{known}]")]
     ParameterUnknown {
         /// The name given.
         name: String,
@@ -177,7 +177,7 @@ pub enum Error {
         bound: f64,
     },
     /// A requested resonance that the frequencies do not satisfy.
-    #[error("k = {vector:?} is no resonance: k·ω = {divisor:?} is not below the bound {bound:?}")]
+    #[error("k = {vector:?} is not a resonance: k·ω = {divisor:?} is not below the bound {bound:?}")]
     NotResonant {
         /// The vector given.
         vector: Vec<i64>,
@@ -188,7 +188,7 @@ pub enum Error {
     },
     /// A vector that cannot be a resonance.
     #[error(
-        "k = {vector:?} is no resonance vector: one integer of at most {bound} for each degree of freedom, not all 0"
+        "k = {vector:?} is not a resonance vector: it has one integer of at most {bound} for each degree of freedom, and not all are 0"
     )]
     ResonanceMalformed {
         /// The vector given.
@@ -197,7 +197,7 @@ pub enum Error {
         bound: u32,
     },
     /// A normal form with a resonant term, where a function of the actions alone is required.
-    #[error("the normal form is no function of the actions alone: it contains {term}")]
+    #[error("the normal form is not a function of the actions alone: it contains {term}")]
     ResonantTerm {
         /// The term in the complex variables.
         term: String,
@@ -299,7 +299,7 @@ pub enum Error {
         text: String,
     },
     /// A list whose length is not the required one.
-    #[error("{found} entries under {what:?}, {expected} expected")]
+    #[error("{what} has {found} entries: it must have {expected}")]
     CountMismatch {
         /// Name of the list.
         what: &'static str,
@@ -362,7 +362,7 @@ impl Error {
 #[non_exhaustive]
 pub enum ParseProblem {
     /// The text ends where an operand is required.
-    #[error("the text ends where an operand or a bracket is due")]
+    #[error("the text ends where an operand or a bracket is required")]
     UnexpectedEnd,
     /// A character that cannot stand there.
     #[error("unexpected character {0:?}")]

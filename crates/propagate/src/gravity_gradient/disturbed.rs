@@ -199,8 +199,7 @@ impl Gradient {
     pub(crate) fn skipped(&self) -> Vec<String> {
         let mut skipped = Vec::new();
         if self.corrections.dropped > 0.0 {
-            skipped
-                .push(format!("short-period terms: those dropped are {:.1e} rad together", self.corrections.dropped));
+            skipped.push(format!("short-period terms: the dropped terms sum to {:.1e} rad", self.corrections.dropped));
         }
         if self.eccentricity == 0.0 {
             skipped.push("Kepler's equation: the orbit is a circle".to_owned());

@@ -42,7 +42,7 @@ impl Scene {
         }
         for (index, part) in [(3, vertical), (5, axial)] {
             if part.abs() > momentum * (1.0 + SLACK) {
-                return Err(refused(index, "its size must not exceed M"));
+                return Err(refused(index, "its magnitude must not exceed M"));
             }
         }
         // Sine and cosine of an inclination, and the rotation by it, from M and one of its components.
