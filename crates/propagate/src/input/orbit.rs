@@ -12,7 +12,7 @@ use crate::numerics::phase::Phase;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
-/// Radians of the mean anomaly beyond which a double has no phase.
+/// Largest mean anomaly from the pericentre \[rad\]. Beyond it a double has no phase.
 const MOST_TURNS: f64 = TAU * 1e15;
 
 const POSITIVE: &str = "positive and finite";
@@ -54,10 +54,10 @@ pub struct Orbit {
 impl Orbit {
     /// An orbit from its mean motion n [rad per unit of time] and eccentricity e, in the inertial x, y plane, with its pericentre on the x axis at time 0.
     ///
-    /// n²a³ is G times the sum of the two masses; the disturbing one is all of it until [`Orbit::mass_fraction`] says otherwise.
+    /// n²a³ is G times the sum of the two masses. The disturbing body has the whole mass unless [`Orbit::mass_fraction`] gives its share.
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for a mean motion of 0, −1, NaN, or an eccentricity of −0.1, 1, NaN.
+    /// - [`Error::Orbit`] for a mean motion of 0, −1 or NaN, and for an eccentricity of −0.1, 1 or NaN.
     pub fn new(mean_motion: f64, eccentricity: f64) -> Result<Self, Error> {
         check("mean_motion", mean_motion, mean_motion > 0.0 && mean_motion.is_finite(), POSITIVE)?;
         check("eccentricity", eccentricity, (0.0..1.0).contains(&eccentricity), "0 or more and less than 1")?;
@@ -125,16 +125,16 @@ impl Orbit {
     /// A time of a passage of the pericentre.
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for NaN or infinite.
+    /// - [`Error::Orbit`] for a time that is NaN or infinite.
     pub fn time_of_pericentre(self, time: f64) -> Result<Self, Error> {
         finite("time_of_pericentre", time)?;
         Ok(Self { time_of_pericentre: time, ..self })
     }
 
-    /// Inclination, longitude of the node and argument of the pericentre \[rad\].
+    /// Sets inclination, longitude of the node and argument of the pericentre \[rad\].
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for NaN or infinite.
+    /// - [`Error::Orbit`] for an angle that is NaN or infinite.
     pub fn plane(self, inclination: f64, node: f64, argument_of_pericentre: f64) -> Result<Self, Error> {
         finite("inclination", inclination)?;
         finite("node", node)?;
@@ -142,10 +142,10 @@ impl Orbit {
         Ok(Self { inclination, node, argument_of_pericentre, ..self })
     }
 
-    /// The disturbing mass over the sum of both: 1 for the Sun on an asteroid, 1/82.3 for the Moon on the Earth.
+    /// Sets the disturbing mass as a fraction of the sum of both masses: 1 for the Sun and an asteroid, 1/82.3 for the Moon and the Earth.
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for 0, −1, 1.1, NaN.
+    /// - [`Error::Orbit`] for 0, −1, 1.1 or NaN.
     pub fn mass_fraction(self, fraction: f64) -> Result<Self, Error> {
         check("mass_fraction", fraction, fraction > 0.0 && fraction <= 1.0, "greater than 0 and at most 1")?;
         Ok(Self { mass_fraction: fraction, ..self })
@@ -212,7 +212,7 @@ impl Orbit {
         ]
     }
 
-    /// Angles of the elements beyond a whole turn, by name \[rad\]: they are taken as they are, but are often degrees given by mistake.
+    /// The angles of the elements that exceed a whole turn, with their names \[rad\]. They are accepted, but they are often degrees given by mistake.
     ///
     /// ```
     /// let orbit = andoyer_propagate::Orbit::new(1e-3, 0.1)?.plane(23.4, 0.0, 6.0)?;
@@ -241,7 +241,7 @@ impl Orbit {
         }
     }
 
-    /// Unit vectors to the pericentre, across it in the direction of motion, and along the orbital angular momentum; inertial components.
+    /// Unit vectors in inertial components: to the pericentre, perpendicular to it in the direction of motion, and along the orbital angular momentum.
     pub(crate) fn axes(&self) -> [Vector3<f64>; 3] {
         let about = UnitQuaternion::from_axis_angle;
         let turn = about(&Vector3::z_axis(), self.node)
@@ -250,7 +250,7 @@ impl Orbit {
         [turn * Vector3::x(), turn * Vector3::y(), turn * Vector3::z()]
     }
 
-    /// The mean anomaly as a phase from an epoch on.
+    /// The mean anomaly as a phase that starts at an epoch.
     pub(crate) fn mean_anomaly(&self, epoch: f64) -> Phase {
         self.angle(epoch, 0.0, self.mean_motion)
     }
@@ -277,7 +277,7 @@ impl Orbit {
         Phase::new(rate.into(), TAU * rest.to_f64())
     }
 
-    /// Whether there is a mean anomaly at an epoch.
+    /// Checks that the mean anomaly can be computed at an epoch.
     pub(crate) fn within_reach(&self, epoch: f64) -> Result<(), Error> {
         let fastest = self.mean_motion.max(self.node_rate.abs()).max(self.pericentre_rate.abs());
         let bounded = (epoch - self.time_of_pericentre).abs() * fastest <= MOST_TURNS;
@@ -287,12 +287,12 @@ impl Orbit {
     /// The true anomaly at a time, in (−π, π] \[rad\].
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for a time that is NaN, infinite, or more than 1e15 periods from the epoch of the elements.
+    /// - [`Error::Orbit`] for a time that is NaN, infinite, or more than 1e15 periods from the time of pericentre.
     pub fn true_anomaly(&self, time: f64) -> Result<f64, Error> {
         let bounded = (time - self.time_of_pericentre).abs() * self.mean_motion <= MOST_TURNS;
         check("time", time, bounded, "finite and within 1e15 periods of the pericentre")?;
         let anomaly = self.mean_anomaly(self.time_of_pericentre).angle((time - self.time_of_pericentre, 0.0));
-        // Half a turn may come out on either side.
+        // The angle of half a turn may have either sign.
         let anomaly = if anomaly == -PI { PI } else { anomaly };
         Ok(Place::of(Lanes::splat(pulp::Scalar, anomaly), self.eccentricity).angle.values()[0])
     }

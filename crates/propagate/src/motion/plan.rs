@@ -10,7 +10,7 @@ use crate::input::scene::Scene;
 use crate::integration::integrated::IntegrationPlan;
 use crate::torque_free::mode::Mode;
 
-/// σ/σ_sep above which its distance from 1 is printed.
+/// If σ/σ_sep exceeds this, its distance from 1 is printed.
 const NEAR_ONE: f64 = 0.999;
 
 /// A tolerance below this is met as well as rounding allows \[rad\].
@@ -34,7 +34,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan of a scene by the closed form, without a sum, to which the rest is added.
+    /// The plan of a scene that uses the closed form without a sum. The caller adds the other entries.
     pub(crate) fn new(scene: &Scene, mode: Mode, separatrix_ratio: f64, error_bound: f64) -> Self {
         Self {
             mode,
@@ -51,7 +51,7 @@ impl Plan {
         }
     }
 
-    /// The kind of motion.
+    /// The mode of the motion.
     pub fn mode(&self) -> Mode {
         self.mode
     }
@@ -76,17 +76,17 @@ impl Plan {
         self.harmonics
     }
 
-    /// Estimate from above of the attitude error over the span \[rad\]: truncation, dropped harmonics, rounding.
+    /// Upper estimate of the attitude error over the span \[rad\]: truncation, dropped harmonics, rounding.
     pub fn error_bound(&self) -> f64 {
         self.error_bound
     }
 
-    /// The attitude error asked for over the span \[rad\].
+    /// The requested attitude error over the span \[rad\].
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// Whether the error bound is within the tolerance, or within 2e-14 rad where the tolerance is less than double precision holds.
+    /// Whether the error bound is within the tolerance. If the tolerance is below the limit of double precision, 2e-14 rad counts instead.
     ///
     /// ```
     /// use andoyer_propagate::{Body, Orbit, Scene, State};
@@ -101,7 +101,7 @@ impl Plan {
         self.error_bound <= self.tolerance.max(ROUNDED_TOLERANCE)
     }
 
-    /// One sentence with the error bound and the tolerance where the tolerance is not met.
+    /// A sentence with the error bound and the tolerance if the tolerance is not met, otherwise `None`.
     pub fn missed_tolerance(&self) -> Option<String> {
         (!self.meets_tolerance()).then(|| missed(self.error_bound, self.tolerance, self.spanned))
     }
@@ -111,17 +111,18 @@ impl Plan {
         self.separatrix_ratio
     }
 
-    /// How far the equations of a scene with an orbit are averaged; `None` without one.
+    /// The averaging of a scene with an orbit; `None` without an orbit.
     pub fn averaging(&self) -> Option<Averaging> {
         self.gradient.map(|gradient| gradient.averaging)
     }
 
-    /// Sum of the short-period corrections by the gravity gradient, which is the size of the torque; 0 without an orbit \[rad\].
+    /// Sum of the short-period corrections for the gravity gradient \[rad\], which measures the torque; 0 without an orbit.
     pub fn torque(&self) -> f64 {
         self.gradient.map_or(0.0, |gradient| gradient.size)
     }
 
-    /// The first neglected term under a gravity gradient: of second order in the torque, or a short-period one that was dropped; 0 without an orbit \[rad\].
+    /// The first neglected term under a gravity gradient \[rad\]: a term of second order in the torque, or a short-period term that was dropped; 0 without an
+    /// orbit.
     pub fn first_neglected(&self) -> f64 {
         self.gradient.map_or(0.0, |gradient| gradient.neglected)
     }
@@ -182,12 +183,12 @@ impl fmt::Display for Plan {
     }
 }
 
-/// The times over which the tolerance is asked for, in words.
+/// The times over which the tolerance must hold, in words.
 fn asked_span(spanned: bool) -> &'static str {
     if spanned { "the span" } else { "1e9 rotations (no span given)" }
 }
 
-/// The sentence of a tolerance that is not met.
+/// The sentence for a tolerance that is not met.
 pub(crate) fn missed(bound: f64, tolerance: f64, spanned: bool) -> String {
     let over = asked_span(spanned);
     format!("the error bound of the attitude, {bound:.1e} rad, exceeds the tolerance, {tolerance:e} rad, over {over}")

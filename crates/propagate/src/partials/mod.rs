@@ -1,9 +1,9 @@
 //! Derivatives of attitude and rates with respect to the state at the epoch and the moments, in closed form (theory §12).
 //!
-//! Nine parameters: a small rotation of the initial attitude about the three body axes, the initial angular velocity, the three moments as given. A change of attitude,
-//! at the epoch and at the time, is a rotation vector about body axes, R → R exp(\[δθ\]×). With g = G/M, ν_i = M/(A, B, C)_i and the invariants of the polhode, every
-//! derivative is an algebraic function of attitude and rates at the time and of one elliptic integral of the second kind, ∫g2² dt. Set-up takes some microseconds.
-//! Accuracy: 1e-14 of the largest derivative over Q1, which is cos²J where it is least and small next to the separatrix.
+//! There are nine parameters: a small rotation of the initial attitude about the three body axes, the initial angular velocity, and the three moments as given.
+//! A change of attitude, at the epoch and at the time, is a rotation vector about body axes, R → R exp(\[δθ\]×). With g = G/M, ν_i = M/(A, B, C)_i and the
+//! invariants of the polhode, every derivative is an algebraic function of attitude and rates at the time and of one elliptic integral of the second kind, ∫g2²
+//! dt. Set-up takes some microseconds. Accuracy: 1e-14 of the largest derivative over Q1, where Q1 is the minimum of cos²J, which is small near the separatrix.
 //!
 //! Imports errors, numerics, simd, input, torque_free, motion and solve.
 
@@ -27,10 +27,10 @@ use evaluate::Target;
 use sources::Steadily;
 use steady::Varied;
 
-/// Parameters with respect to which derivatives are taken.
+/// Number of parameters of the derivatives.
 pub const PARAMETERS: usize = 9;
 
-/// Derivatives of one vector: rows are its components, columns the parameters.
+/// Derivatives of one vector. The rows are its components, the columns the parameters.
 pub type Derivatives = [[f64; PARAMETERS]; 3];
 
 /// Derivatives of attitude and rates at one time.
@@ -38,10 +38,11 @@ pub type Derivatives = [[f64; PARAMETERS]; 3];
 pub struct Partials {
     /// The time.
     pub time: f64,
-    /// Of the attitude, as a rotation vector about body axes: three columns for the initial attitude \[1\], three for the initial angular velocity \[unit of time\], three for
-    /// the moments [1/unit of moment]; of a body with an inertia tensor the principal moments, with the principal axes kept.
+    /// Derivatives of the attitude, as a rotation vector about body axes. Three columns are for the initial attitude \[1\], three for the initial angular
+    /// velocity \[unit of time\], three for the moments [1/unit of moment]. For a body with an inertia tensor the last three are for the principal moments,
+    /// with fixed principal axes.
     pub attitude: Derivatives,
-    /// Of the angular velocity, body components, in the same order [rate, 1, rate/unit of moment].
+    /// Derivatives of the angular velocity in body components, in the same order [rate, 1, rate/unit of moment].
     pub angular_velocity: Derivatives,
 }
 
@@ -58,18 +59,18 @@ impl Motion {
     /// ```
     ///
     /// # Errors
-    /// As [`Motion::partials_into`].
+    /// The errors of [`Motion::partials_into`].
     pub fn partials(&self, time: f64) -> Result<Partials, Error> {
         let (mut attitude, mut rates) = ([[[0.0; PARAMETERS]; 3]], [[[0.0; PARAMETERS]; 3]]);
         self.partials_into(&[time], &mut attitude, &mut rates)?;
         Ok(Partials { time, attitude: attitude[0], angular_velocity: rates[0] })
     }
 
-    /// Derivatives at many times, without an allocation for each.
+    /// Writes the derivatives at many times to `attitudes` and `rates`, without an allocation for each time.
     ///
     /// # Errors
-    /// - [`Error::Length`] for an output shorter or longer than `times`.
-    /// - [`Error::Time`] as for [`Motion::at`]; beside the middle axis also for times at which e^(λt) has no double.
+    /// - [`Error::Length`] if an output and `times` have different lengths.
+    /// - [`Error::Time`] as for [`Motion::at`]; for rotation about the middle axis also for times at which e^(λt) overflows.
     /// - [`Error::SeparatrixPartials`] on the separatrix.
     pub fn partials_into(
         &self,
@@ -125,7 +126,7 @@ impl Motion {
     }
 }
 
-/// From principal axes to the user's: the vector, and the parameters that are vectors.
+/// Transforms derivatives from the principal axes to the user's: the vector, and the parameters that are vectors.
 fn turn(axes: &Matrix3<f64>, derivatives: &mut Derivatives) {
     let matrix = SMatrix::<f64, 3, PARAMETERS>::from_fn(|row, column| derivatives[row][column]);
     let mut turned = axes * matrix;

@@ -21,7 +21,7 @@ pub(crate) struct Run<'a> {
     pub(crate) times: &'a [f64],
     pub(crate) outputs: Outputs<'a>,
     pub(crate) grid: Option<&'a Grid>,
-    /// Set by another thread to end the evaluation.
+    /// A flag that another thread sets to end the evaluation.
     pub(crate) stop: &'a AtomicBool,
 }
 
@@ -76,7 +76,7 @@ impl Run<'_> {
     }
 }
 
-/// Attitudes and rates; an output that is not requested is empty.
+/// Attitudes and rates; an output that was not requested is empty.
 type Rows<'a> = (&'a mut [[f64; 4]], &'a mut [[f64; 3]]);
 
 struct Stretch<'a, S, C> {
@@ -125,7 +125,7 @@ impl<S: InstructionSet, C: Evaluate> Stretch<'_, S, C> {
     }
 }
 
-/// Whether all times are within the bound, or the first that is not. NaN is not.
+/// Checks that all times are within the bound; the error names the first time that is not. NaN is outside.
 #[inline(always)]
 fn all_within(times: &[f64], epoch: f64, [least, most]: [f64; 2]) -> Result<(), Halt> {
     let valid = |time: &f64| (least <= time - epoch) & (time - epoch <= most);
@@ -135,7 +135,7 @@ fn all_within(times: &[f64], epoch: f64, [least, most]: [f64; 2]) -> Result<(), 
     Err(Halt::Time(times.iter().position(|time| !valid(time)).unwrap_or(0)))
 }
 
-/// Group by group, as long as the flag is not set.
+/// Evaluates group by group while the flag is not set.
 #[inline(always)]
 fn groups<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     simd: S,
@@ -189,7 +189,7 @@ fn each<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     }
 }
 
-/// A part of the rows, if the output is requested.
+/// The rows of a part of the times, if the output is requested.
 #[inline(always)]
 fn part<'a, const ATTITUDE: bool, const RATES: bool>(rows: &'a mut Rows<'_>, start: usize, length: usize) -> Rows<'a> {
     (
@@ -198,7 +198,7 @@ fn part<'a, const ATTITUDE: bool, const RATES: bool>(rows: &'a mut Rows<'_>, sta
     )
 }
 
-/// By the phases of each time.
+/// Evaluates times with their own phases.
 struct Direct<'a, S: InstructionSet, C> {
     course: &'a C,
     simd: S,
@@ -235,7 +235,7 @@ impl<S: InstructionSet> Circles<S> for DirectCircles<'_, S> {
     }
 }
 
-/// By the table of a grid.
+/// Evaluates times with the table of a grid.
 struct Blocks<'a, S: InstructionSet, C> {
     course: &'a C,
     simd: S,

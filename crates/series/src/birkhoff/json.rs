@@ -1,4 +1,4 @@
-//! A normal form as JSON: exact numbers as "p/q", floats as numbers with all their digits.
+//! A Birkhoff normal form as JSON. Exact numbers are written as "p/q", floats as numbers with all their digits.
 //!
 //! ```text
 //! { "format": "andoyer-birkhoff-exact" or "andoyer-birkhoff-float", "version": 1, "order": N,
@@ -11,8 +11,8 @@
 //!   "generators":  [ [[[exponents], re, im], …], … ] }         S_m/(m−1)!, m = 1 … N
 //! ```
 //!
-//! Reading verifies format, version, names, counts, degrees, that numbers are finite, that M is symplectic, that K has only terms that are kept and S none of
-//! them. It does *not* verify that K is the normal form of some Hamiltonian.
+//! Reading verifies format, version, names, counts and degrees, that numbers are finite, that M is symplectic, that K has only terms that are kept, and that S
+//! has none of these terms. It does *not* verify that K is the normal form of some Hamiltonian.
 
 use super::diagonal::Diagonal;
 use super::matrix::{Matrix, form_entry, pairing, transposed};
@@ -61,7 +61,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// This normal form as JSON text.
     ///
     /// # Errors
-    /// - none for a normal form that exists; JSON itself could not be written only if memory ran out.
+    /// - None for an existing normal form; writing JSON fails only if memory runs out.
     pub fn to_json(&self) -> Result<String, Error> {
         let space = self.space();
         let names = space.names();
@@ -94,7 +94,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         serde_json::to_string(&document).map_err(Error::json)
     }
 
-    /// Reads what [`to_json`](Self::to_json) wrote from a normal form in the same kind of numbers.
+    /// Reads the text that [`to_json`](Self::to_json) wrote from a normal form in the same kind of numbers.
     ///
     /// ```
     /// use andoyer_series::{BirkhoffNormalForm, PhaseSpace, normalize};
@@ -107,9 +107,9 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     ///
     /// # Errors
     /// - `"[]"`, a missing field, a number of the other kind: [`Error::Json`] or [`Error::RationalMalformed`];
-    /// - another format, exact for float among them, or version: [`Error::FormatUnknown`];
-    /// - lists of the wrong length: [`Error::CountMismatch`]; terms that no such normal form has: [`Error::TermInconsistent`];
-    /// - M not symplectic: [`Error::NotSymplectic`]; names and resonances as their constructors.
+    /// - another format (for example exact instead of float) or version: [`Error::FormatUnknown`];
+    /// - lists of the wrong length: [`Error::CountMismatch`]; terms that such a normal form cannot have: [`Error::TermInconsistent`];
+    /// - M not symplectic: [`Error::NotSymplectic`]; names and resonances: the errors of their constructors.
     pub fn from_json(text: &str) -> Result<Self, Error> {
         let header: Header = serde_json::from_str(text).map_err(Error::json)?;
         if header.format != format::<R>() || header.version != VERSION {
@@ -286,7 +286,7 @@ fn diagonal<R: RealField>(document: &Document, pairs: usize) -> Result<Diagonal<
     Ok(Diagonal { modes, matrix })
 }
 
-/// Refuses a matrix that is not symplectic, among floats to rounding.
+/// Refuses a matrix that is not symplectic (for floats: beyond rounding error).
 fn symplectic<R: RealField>(matrix: &Matrix<R>) -> Result<(), Error> {
     let columns = transposed(matrix);
     let largest = matrix.iter().flatten().map(|entry| entry.to_float().abs()).fold(1.0, f64::max);
