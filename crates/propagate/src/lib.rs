@@ -25,6 +25,8 @@ mod solve;
 
 mod partials;
 
+mod motion_code;
+
 mod observed;
 
 mod scene_file;
@@ -43,6 +45,7 @@ pub use input::state::State;
 pub use motion::batch::Batch;
 pub use motion::plan::Plan;
 pub use motion::solved::{Frequencies, Motion, Periods, Sample};
+pub use motion_code::{CodeLanguage, MotionCode};
 pub use observed::periods::ObservedPeriods;
 pub use outcome::Outcome;
 pub use partials::{Derivatives, PARAMETERS, Partials};

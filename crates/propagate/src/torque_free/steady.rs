@@ -83,10 +83,10 @@ impl SteadyRotation {
 /// What such a motion is evaluated from.
 #[derive(Clone, Debug)]
 pub(crate) struct Steady {
-    half_angle: Phase,
+    pub(crate) half_angle: Phase,
     /// The attitude is the first times the cosine and the second times the sine.
-    attitudes: [[f64; 4]; 2],
-    rates: [f64; 3],
+    pub(crate) attitudes: [[f64; 4]; 2],
+    pub(crate) rates: [f64; 3],
 }
 
 impl Steady {
