@@ -331,7 +331,7 @@ pub enum Error {
         /// What is wrong with it.
         problem: TermProblem,
     },
-    /// A coefficient read from a file that is not that of the rigid body.
+    /// A coefficient read from a file that is not that of the rigid body, or of the Hamiltonian beside it.
     #[error(
         "the {what} of order {order} has the coefficient {found} at the exponents {exponents:?}: it must be {expected}"
     )]
@@ -340,11 +340,11 @@ pub enum Error {
         what: &'static str,
         /// Order in the small parameter.
         order: usize,
-        /// Exponents (u, U, β), or (β) alone.
+        /// Exponents (u, U, β), or (β) alone; of a Birkhoff form those of its variables, of its linear change the column.
         exponents: Vec<u32>,
         /// The coefficient read, 0 where there is none.
         found: String,
-        /// That of the rigid body, 0 where it has none.
+        /// That of the normal form, 0 where it has none.
         expected: String,
     },
 }
