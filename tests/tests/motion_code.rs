@@ -106,7 +106,10 @@ fn motions() -> Result<Vec<(&'static str, Motion)>, Error> {
         ("needle", scene(Body::new([1e-3, 1.0, 1.0]), [0.4, 0.1, 0.05])?),
         ("round", scene(Body::new([1.0, 1.0, 2.0]), [0.1, 0.2, 1.0])?),
         ("tensor", scene(Body::from_inertia(tensor), [0.3, 0.5, 1.0])?),
-        ("steady, tensor", scene(Body::from_inertia([[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]]), [0.3, 0.5, 1.0])?),
+        (
+            "steady, tensor",
+            scene(Body::from_inertia([[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]]), [0.3, 0.5, 1.0])?,
+        ),
         ("sphere", scene(Body::new([2.0, 2.0, 2.0]), [0.3, 0.5, 1.0])?),
         ("principal axis", scene(body(), [0.0, 0.0, -1.0])?),
         ("at rest", scene(body(), [0.0, 0.0, 0.0])?),

@@ -111,13 +111,25 @@ pub enum Error {
     },
     /// A quadratic part that has a frequency only through its parameters.
     #[error(
-        "the quadratic part in {pairs} has a zero frequency where its parameters are 0, in the term {term}: write the parameter as a number and a detuning, w = w0 + d, or scale q -> q/sqrt(w), p -> p sqrt(w), t -> t/w, so that the frequency is a number"
+        "the quadratic part in {pairs} has a zero frequency where its parameters are 0, in the term {term}: write the parameter as a number and a detuning, w = w0 + d, or scale q -> q/sqrt(w), p -> p sqrt(w), t -> t/w, so that the frequency is a number (PhaseSpace::scaled; in Python the argument frequency)"
     )]
     FrequencyParameter {
         /// The pairs of the block.
         pairs: String,
         /// A quadratic term with a parameter.
         term: String,
+    },
+    /// A letter that cannot be scaled away.
+    #[error(
+        "in the variables q sqrt({letter}), p/sqrt({letter}) the term {term} has the power {power} of 1/sqrt({letter}): it must be 0 in the quadratic part, so that every frequency is a number times {letter}, and not negative elsewhere"
+    )]
+    FrequencyLetter {
+        /// The parameter.
+        letter: String,
+        /// The term as given.
+        term: String,
+        /// Its power of 1/√w.
+        power: i64,
     },
     /// A quadratic part that cannot be diagonalized.
     #[error(

@@ -67,6 +67,32 @@ fn a_linear_term_with_a_parameter_of_degree_two_moves_the_equilibrium() -> Resul
     Ok(())
 }
 
+#[test]
+fn a_letter_that_all_frequencies_are_proportional_to_gives_the_form_at_every_number() -> Result<(), Error> {
+    // Coupled by a gyroscopic term: frequencies (5/2 ± 1) w; at w = 4, s = 1/2.
+    let letters = plane()?.with_parameters(&["w"])?;
+    let text = |w: &str| {
+        format!("(X^2 + Y^2)/2 + 25/8*{w}^2*(x^2 + y^2) + {w}*(y*X - x*Y) + {w}*x^3 - x*y^2/3 + {w}*x*X*y + y^4")
+    };
+    let (scaled, space) = letters.scaled(&letters.parse::<BigRational>(&text("w"))?, "w", "s")?;
+    let of_letter = normalize(&scaled, 2, &space)?.in_actions()?;
+    let plain = plane()?;
+    let of_number = normalize(&plain.parse::<BigRational>(&text("4"))?, 2, &plain)?.in_actions()?;
+    let half = BigRational::new(1.into(), 2.into());
+    let at_number = of_letter.evaluate_partial(2, &half)?.scale(&BigRational::from_integer(4.into()));
+    assert_eq!(at_number, of_number);
+    assert!(of_letter.terms().any(|(monomial, _)| monomial.exponent(2) > 0));
+    let refused = |text: &str| letters.scaled(&letters.parse::<BigRational>(text)?, "w", "s").map(|_| ());
+    let bad = [("(x^2 + X^2)/2 + Y^2/2 + w^2*y^2/2", 4), ("X^2/2 + w^2*x^2/2 + w*X^4", -4)];
+    for (text, power) in bad {
+        let problem = refused(text);
+        assert!(matches!(problem, Err(Error::FrequencyLetter { power: found, .. }) if found == power), "{problem:?}");
+    }
+    assert!(matches!(letters.scaled(&scaled, "d", "s"), Err(Error::ParameterUnknown { .. })));
+    assert!(matches!(letters.scaled(&scaled, "w", "x"), Err(Error::Parse { .. })));
+    Ok(())
+}
+
 /// Forms of every kind: resonant with a parameter, a quartet, a centre manifold.
 fn floats() -> Result<Vec<BirkhoffNormalForm<f64>>, Error> {
     let h = triangular(0.1, 5)?;

@@ -580,6 +580,7 @@ def normalize(
     *,
     parameters: Sequence[Any] | None = None,
     degrees: dict[str, int] | None = None,
+    frequency: tuple[str, str] | None = None,
     resonances: Sequence[Sequence[int]] | None = None,
     keep: Literal["hyperbolic"] | None = None,
     smallest_divisor: float = 1e-6,

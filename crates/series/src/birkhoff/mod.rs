@@ -21,6 +21,7 @@ mod mode;
 mod phase_space;
 mod quadratic;
 mod resonances;
+mod scaled;
 mod spectrum;
 mod text;
 mod transformation;
