@@ -179,6 +179,20 @@ pub enum Error {
         "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it) the frequencies have no derivatives: a state beside it has"
     )]
     SeparatrixPartials,
+    /// A language that no code is written in.
+    #[error("language = {value:?}: it must be \"c\", \"rust\", \"python\" or \"javascript\"")]
+    CodeLanguage {
+        /// The language as given.
+        value: String,
+    },
+    /// A motion that is not written as code.
+    #[error(
+        "no code is written of {motion}: rest, steady rotation and torque-free wobbles of both modes have code; a C-kernel or an attitude file holds any motion"
+    )]
+    NoCode {
+        /// What kind of motion it is.
+        motion: &'static str,
+    },
     /// A convention of periods that is unknown.
     #[error("convention = {value:?}: it must be \"extremal-axis\", \"long-axis\" or \"short-axis\"")]
     Convention {
