@@ -129,11 +129,11 @@ impl<'a> Batch<'a> {
     fn turn(&self, attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
         let Some(given) = &self.motion.given else { return Ok(()) };
         for part in attitudes.chunks_mut(GROUP) {
-            going(self.stop).map_err(|_| Error::Stopped)?;
+            self.going()?;
             given.turn(part, &mut []);
         }
         for part in rates.chunks_mut(GROUP) {
-            going(self.stop).map_err(|_| Error::Stopped)?;
+            self.going()?;
             given.turn(&mut [], part);
         }
         Ok(())
@@ -147,7 +147,7 @@ impl<'a> Batch<'a> {
     }
 
     /// The epoch as the times count it.
-    fn epoch(&self) -> f64 {
+    pub(crate) fn epoch(&self) -> f64 {
         if self.since_epoch { 0.0 } else { self.motion.scene.state().epoch }
     }
 
@@ -156,6 +156,12 @@ impl<'a> Batch<'a> {
             Halt::Time(index) => self.motion.no_phase(index, times),
             Halt::Stopped => Error::Stopped,
         }
+    }
+
+    /// # Errors
+    /// - [`Error::Stopped`] where the flag is set.
+    pub(crate) fn going(&self) -> Result<(), Error> {
+        going(self.stop).map_err(|_| Error::Stopped)
     }
 
     pub(crate) fn motion(&self) -> &'a Motion {

@@ -7,6 +7,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::plan::Plan;
 use super::trajectory::Trajectory;
 use crate::error::Error;
+use crate::input::options::Convention;
 use crate::input::scene::Scene;
 
 /// Rotations from the epoch within which phases are good to 1e-14 rad; not far beyond, a double no longer tells one turn from the next.
@@ -120,6 +121,15 @@ impl Motion {
     /// long axis in the long-axis mode. The body turns all the way round this axis.
     pub fn extremal_axis_periods(&self) -> Periods {
         self.periods(true)
+    }
+
+    /// Mean periods in a convention.
+    pub fn periods_of(&self, convention: Convention) -> Periods {
+        match convention {
+            Convention::ExtremalAxis => self.extremal_axis_periods(),
+            Convention::LongAxis => self.long_axis_periods(),
+            Convention::ShortAxis => self.short_axis_periods(),
+        }
     }
 
     /// Periods of the theory's axis 3, or of its axis 1, which is carried around by y′.

@@ -3,22 +3,29 @@
 use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::error::Kind;
-use andoyer_propagate::{MAX_THREADS, OnError, Outcome};
-use numpy::PyArrayDyn;
-use pyo3::exceptions::{PyIndexError, PyTypeError};
+use andoyer_propagate::{Convention, Error as Propagation, MAX_THREADS, OnError, Outcome, PARAMETERS, Periods, Run};
+use numpy::{IntoPyArray, PyArray1, PyArrayDyn};
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice, PyTuple};
 
-use crate::array::{MemberRows, Times, chunks, constant, constant_rows, number, numbers_of, span as span_of, write};
+use crate::array::{MemberRows, Times, chunks, constant, constant_rows, matrices, span as span_of, write};
 use crate::computing::{detached, interruptible};
 use crate::error;
 use crate::foreign::{self, Calendar};
+use crate::mean;
 use crate::members::Members;
 use crate::motion::Motion;
 use crate::orbit::Orbit;
 use crate::order::whole_number;
+use crate::partials::Partials;
 use crate::plan::Plan;
 use crate::samples::Samples;
+
+mod arguments;
+mod slice;
+
+use arguments::{asked, epochs_of, orbits_of, tolerance};
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
@@ -198,16 +205,153 @@ impl Ensemble {
         out: Option<&Bound<'py, PyAny>>,
         scalar_first: bool,
     ) -> PyResult<Array<'py>> {
-        let times = self.times(times)?;
-        let since_epoch = times.since_epoch();
-        let evaluate = |values: &[f64], rows: &mut [[f64; 4]], stop: &AtomicBool| {
-            let outcome = self.run(since_epoch, stop).attitudes_into(values, rows)?;
+        self.rows(times, out, |run, values, rows, stop| {
+            let outcome = run.attitudes_into(values, rows)?;
             foreign::scalar_first(rows, scalar_first, stop);
             Ok(outcome)
+        })
+    }
+
+    /// Angular momenta of all members in inertial components, in the unit of moment × rate: the same at all times unless a member has an orbit.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,) or (m, n)
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (m, n, 3)
+    ///
+    /// Examples
+    /// --------
+    /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [0.1, 0.2, 1.0])
+    /// >>> ensemble.angular_momentum(10.0)
+    /// array([[0.1, 0.3, 2. ],
+    ///        [0.1, 0.4, 2.5]])
+    fn angular_momentum<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
+        self.rows(times, None, |run, values, rows, _| run.angular_momenta_into(values, rows))
+    }
+
+    /// Andoyer variables (λ, μ, ν, Λ, M, N) of all members, as `Motion.andoyer` defines them (theory §1).
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,) or (m, n)
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (m, n, 6)
+    ///     Angles in rad, momenta in the unit of moment × rate.
+    ///
+    /// Examples
+    /// --------
+    /// The last of them, N, is the component of the angular momentum on axis 3.
+    ///
+    /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [0.1, 0.2, 1.0])
+    /// >>> ensemble.andoyer(0.0)[:, 5].round(12)
+    /// array([2. , 2.5])
+    fn andoyer<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
+        self.rows(times, None, |run, values, rows, _| run.andoyer_into(values, rows))
+    }
+
+    /// Attitudes of all members as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,) or (m, n)
+    ///
+    /// Returns
+    /// -------
+    /// scipy.spatial.transform.Rotation
+    ///     Of shape (m, n); for a scalar time (m,).
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     SciPy is not installed: the extra ``andoyer[scipy]`` brings it.
+    /// ValueError
+    ///     Several times with a SciPy before 1.17, whose rotations have one axis.
+    ///
+    /// Examples
+    /// --------
+    /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [[0, 0, 0.5], [0, 0, 1]])
+    /// >>> ensemble.rotation(1.0).magnitude().round(12)
+    /// array([0.5, 1. ])
+    fn rotation<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        foreign::rotation(&self.attitude(times, None, false)?)
+    }
+
+    /// Derivatives of attitude and angular velocity of all members, as `Motion.partials` defines them (theory §12).
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,) or (m, n)
+    ///
+    /// Returns
+    /// -------
+    /// Partials
+    ///     With a leading axis of members: arrays of shape (m, n, 3, 9), for a scalar time (m, 3, 9); with ``errors="nan"`` NaN for a member that has none.
+    ///
+    /// Raises
+    /// ------
+    /// TheoryError
+    ///     A member on the separatrix, whose frequencies have no derivatives.
+    ///
+    /// Examples
+    /// --------
+    /// Rotation about axis 3 for 10 units of time: the angle grows by 10 for each unit of its rate.
+    ///
+    /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [0, 0, 2.0])
+    /// >>> ensemble.partials(10.0).attitude[:, 2, 5]
+    /// array([10., 10.])
+    fn partials(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Partials> {
+        let times = self.times(times)?;
+        let since_epoch = times.since_epoch();
+        let [copy, attitude, rates] = times.matrices(PARAMETERS)?;
+        let outcome = {
+            let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
+            let (values, attitude, rates) = (times.values()?, matrices(&mut attitude)?, matrices(&mut rates)?);
+            let evaluate = |stop: &AtomicBool| self.run(since_epoch, stop).partials_into(values, attitude, rates);
+            interruptible(py, times.long_partials(), error::propagation, evaluate)?
         };
-        let (rows, outcome) = times.evaluate(out, evaluate)?;
-        error::warn_of_tolerance(rows.py(), outcome.missed_tolerance())?;
-        Ok(rows)
+        error::warn_of_tolerance(py, outcome.missed_tolerance())?;
+        Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
+    }
+
+    /// Mean periods (P_φ, P_ψ) of all members in three conventions, as `Motion.periods` defines them.
+    ///
+    /// A dict with the keys "long-axis", "short-axis" and "extremal-axis"; values are named tuples (precession, rotation) of arrays, shape (m,), infinite where a member has no
+    /// such period.
+    ///
+    /// Examples
+    /// --------
+    /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [[0.1, 0.2, 1.0], [1.0, 0.2, 0.1]])
+    /// >>> [periods.precession.round(3).tolist() for periods in ensemble.periods.values()]
+    /// [[6.176, 12.558], [3.936, 5.984], [3.936, 12.558]]
+    #[getter]
+    fn periods<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let mut rows = vec![[Periods { precession: 0.0, rotation: 0.0 }; 3]; self.0.len()];
+        self.values(py, |run| run.periods_into(&mut rows))?;
+        mean::periods(
+            py,
+            Convention::ALL.iter().enumerate().map(|(place, convention)| {
+                let column = |of: fn(&Periods) -> f64| PyArray1::from_iter(py, rows.iter().map(|row| of(&row[place])));
+                (*convention, (column(|pair| pair.precession), column(|pair| pair.rotation)))
+            }),
+        )
+    }
+
+    /// E/E0 of all members, shape (m,): rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum (theory §5).
+    ///
+    /// Examples
+    /// --------
+    /// >>> Ensemble([1, 1.5, 2], [0, 0, 0, 1], [[1, 0, 0], [0, 0, 1]]).energy_ratio
+    /// array([2., 1.])
+    #[getter]
+    fn energy_ratio<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let mut ratios = vec![0.0; self.0.len()];
+        self.values(py, |run| run.energy_ratios_into(&mut ratios))?;
+        Ok(ratios.into_pyarray(py))
     }
 
     /// The plan of every member: a list of `Plan`; with ``errors="nan"`` None for a member that is refused.
@@ -351,52 +495,44 @@ impl Ensemble {
 }
 
 impl Ensemble {
-    /// The members of a slice.
-    fn part(&self, slice: &Bound<'_, PySlice>) -> PyResult<Self> {
-        let range = slice.indices(self.0.len() as isize)?;
-        let chosen: Vec<usize> =
-            (0..range.slicelength as isize).map(|k| (range.start + k * range.step) as usize).collect();
-        let moments = chosen.iter().map(|&member| self.0.moments()[member]).collect();
-        let attitudes = chosen.iter().map(|&member| self.0.attitudes()[member]).collect();
-        let rates = chosen.iter().map(|&member| self.0.angular_velocities()[member]).collect();
-        let (on_error, going) = (self.0.asked_on_error(), AtomicBool::new(false));
-        let part = andoyer_propagate::Ensemble::new_or(moments, attitudes, rates, on_error, &going)
-            .map_err(error::propagation)?
-            .tolerance(self.0.asked_tolerance());
-        let part = match self.0.asked_epochs() {
-            [] => Ok(part),
-            [of_all] => part.epochs(vec![*of_all]),
-            each => part.epochs(chosen.iter().map(|&member| each[member]).collect()),
-        }
-        .map_err(error::propagation)?;
-        let calendar = match &self.1[..] {
-            [] | [_] => self.1.clone(),
-            each => chosen.iter().map(|&member| each[member]).collect(),
-        };
-        let orbits = match self.0.asked_orbits() {
-            [] => None,
-            [of_all] => Some(vec![*of_all]),
-            each => Some(chosen.iter().map(|&member| each[member]).collect()),
-        };
-        asked(part, orbits, self.0.asked_span(), self.0.asked_threads())
-            .map(|part| Self(part, calendar))
-            .map_err(error::propagation)
-    }
-
     fn times<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Times<'py>> {
         Times::of_members(value, self.0.len(), &self.1, !self.0.asked_orbits().is_empty())
     }
 
     /// How the members are evaluated at these times.
-    fn run<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> andoyer_propagate::Run<'a> {
+    fn run<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> Run<'a> {
         let run = self.0.run().until(stop);
         if since_epoch { run.since_epoch() } else { run }
     }
 
-    /// The plan of every member, or why it has none.
-    fn solved(&self, py: Python<'_>) -> PyResult<Vec<Result<andoyer_propagate::Plan, andoyer_propagate::Error>>> {
+    /// Rows of N numbers for each time of each member, into `out` or a new array.
+    fn rows<'py, const N: usize>(
+        &self,
+        times: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        evaluate: impl FnOnce(Run<'_>, &[f64], &mut [[f64; N]], &AtomicBool) -> Result<Outcome, Propagation> + Send,
+    ) -> PyResult<Array<'py>> {
+        let times = self.times(times)?;
+        let since_epoch = times.since_epoch();
+        let (rows, outcome) =
+            times.evaluate(out, |values, rows, stop| evaluate(self.run(since_epoch, stop), values, rows, stop))?;
+        error::warn_of_tolerance(rows.py(), outcome.missed_tolerance())?;
+        Ok(rows)
+    }
+
+    /// What is found for every member when all are solved.
+    fn values<T: Send>(
+        &self,
+        py: Python<'_>,
+        find: impl FnOnce(Run<'_>) -> Result<T, Propagation> + Send,
+    ) -> PyResult<T> {
         let long = self.0.len() >= if self.0.asked_orbits().is_empty() { LONG } else { 32 };
-        interruptible(py, long, error::propagation, |stop| self.0.run().until(stop).plans())
+        interruptible(py, long, error::propagation, |stop| find(self.0.run().until(stop)))
+    }
+
+    /// The plan of every member, or why it has none.
+    fn solved(&self, py: Python<'_>) -> PyResult<Vec<Result<andoyer_propagate::Plan, Propagation>>> {
+        self.values(py, |run| run.plans())
     }
 
     /// The calendar epoch of a member.
@@ -409,50 +545,4 @@ impl Ensemble {
 fn refused(py: Python<'_>, outcome: Outcome) -> Vec<(usize, Py<PyAny>)> {
     let value = |problem| error::propagation(problem).into_value(py).into_any();
     outcome.into_errors().into_iter().map(|(index, problem)| (index, value(problem))).collect()
-}
-
-/// Epochs as seconds: one, or one for each member; and as calendar times where they are some.
-fn epochs_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<Calendar>)> {
-    let (seconds, calendar) = foreign::epochs("epochs", value)?;
-    Ok((numbers_of("epochs", &seconds)?, calendar))
-}
-
-/// The ensemble with what was asked for besides.
-fn asked(
-    ensemble: andoyer_propagate::Ensemble,
-    orbits: Option<Vec<Option<andoyer_propagate::Orbit>>>,
-    span: Option<(f64, f64)>,
-    threads: Option<usize>,
-) -> Result<andoyer_propagate::Ensemble, andoyer_propagate::Error> {
-    let ensemble = match orbits {
-        Some(orbits) => ensemble.orbits(orbits)?,
-        None => ensemble,
-    };
-    let ensemble = span.into_iter().fold(ensemble, |ensemble, (start, stop)| ensemble.span(start, stop));
-    Ok(threads.into_iter().fold(ensemble, andoyer_propagate::Ensemble::threads))
-}
-
-/// One orbit for all, or one or None for each.
-fn orbits_of(value: &Bound<'_, PyAny>) -> PyResult<Vec<Option<andoyer_propagate::Orbit>>> {
-    let kind = |name: &str, value: &Bound<'_, PyAny>, or: &str| -> PyErr {
-        let found = value.get_type().name().map_or_else(|_| "something else".to_owned(), |name| name.to_string());
-        PyTypeError::new_err(format!("{name} must be an Orbit or {or}, not {found}"))
-    };
-    if let Ok(orbit) = value.cast::<Orbit>() {
-        return Ok(vec![Some(orbit.get().0)]);
-    }
-    let members = value.try_iter().map_err(|_| kind("orbits", value, "a sequence of one or None for each member"))?;
-    let orbit = |(index, member): (usize, PyResult<Bound<'_, PyAny>>)| {
-        let member = member?;
-        match member.cast::<Orbit>() {
-            Ok(orbit) => Ok(Some(orbit.get().0)),
-            Err(_) if member.is_none() => Ok(None),
-            Err(_) => Err(kind(&format!("orbits[{index}]"), &member, "None")),
-        }
-    };
-    members.enumerate().map(orbit).collect()
-}
-
-fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    number("tolerance", value)
 }
