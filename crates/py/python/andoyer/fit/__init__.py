@@ -4,7 +4,8 @@ Needs SciPy: the extra ``andoyer[fit]``; pictures need matplotlib.
 """
 
 from andoyer.fit._attitudes import attitudes
+from andoyer.fit._light_curve import light_curve
 from andoyer.fit._result import Fit, Optimum
 from andoyer.fit._scattering import brightness
 
-__all__ = ["Fit", "Optimum", "attitudes", "brightness"]
+__all__ = ["Fit", "Optimum", "attitudes", "brightness", "light_curve"]

@@ -28,8 +28,6 @@ class Optimum:
     """The mode of its motion, such as "short-axis"."""
     chi_square: float
     """χ² there."""
-    starts: int
-    """How many starts led to it."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -161,24 +161,26 @@ def forms(axes: Array, sun: Array, observer: Array) -> tuple[Array, Array, Array
     return x, y, z
 
 
-def with_derivatives(axes: Array, sun: Array, observer: Array, scattering: str, *, shape: bool = False) -> Brightness:
+def with_derivatives(axes: Array, sun: Array, observer: Array, scattering: str, *, derivatives: bool = True, shape: bool = False) -> Brightness:
     """Brightnesses of directions about body axes, components in the leading axis, divided by (π/2) a³; `axes` too may have further axes."""
     lit = [axis**-2 for axis in axes]
     sun_weighted = [weight * s for weight, s in zip(lit, sun)]
     observer_weighted = [weight * e for weight, e in zip(lit, observer)]
     x, y, z = (sum(a * b for a, b in zip(*pair)) for pair in ((sun_weighted, sun), (observer_weighted, observer), (sun_weighted, observer)))
     found = LAWS[scattering](x, y, z)
+    scale = axes[1] * axes[2] / axes[0] ** 2
+    value = scale * found.value
+    if not derivatives:
+        return Brightness(value, np.zeros((0, *value.shape)), np.zeros((0, *value.shape)))
     # Under R → R exp([θ]×) a direction about body axes turns by s × θ: dx = 2 θ·(Qs × s), dz = θ·(Qs × e + Qe × s).
     along_sun = [2 * found.by_x * s + found.by_z * e for s, e in zip(sun, observer)]
     along_observer = [2 * found.by_y * e + found.by_z * s for s, e in zip(sun, observer)]
-    scale = axes[1] * axes[2] / axes[0] ** 2
     by_turn = np.stack(
         [
             scale * (sun_weighted[i] * along_sun[j] - sun_weighted[j] * along_sun[i] + observer_weighted[i] * along_observer[j] - observer_weighted[j] * along_observer[i])
             for i, j in ((1, 2), (2, 0), (0, 1))
         ]
     )
-    value = scale * found.value
     if not shape:
         return Brightness(value, by_turn, np.zeros((0, *value.shape)))
     by_shape = [
