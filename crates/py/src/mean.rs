@@ -2,16 +2,15 @@
 
 use andoyer_propagate::Convention;
 use pyo3::prelude::*;
-use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyDict, PyType};
+use pyo3::types::PyDict;
 
-/// A dict of `Periods` (precession, rotation) by convention.
+/// A dict of pairs (precession, rotation) by convention, of this class of `andoyer.mean`.
 pub(crate) fn periods<'py, T: IntoPyObject<'py>>(
     py: Python<'py>,
+    class: &str,
     pairs: impl IntoIterator<Item = (Convention, (T, T))>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    static PERIODS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
-    let class = PERIODS.import(py, "andoyer.mean", "Periods")?;
+    let class = py.import("andoyer.mean")?.getattr(class)?;
     let periods = PyDict::new(py);
     for (convention, (precession, rotation)) in pairs {
         periods.set_item(convention.to_string(), class.call1((precession, rotation))?)?;

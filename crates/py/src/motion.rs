@@ -291,6 +291,7 @@ impl Motion {
     fn periods<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         mean::periods(
             py,
+            "Periods",
             Convention::ALL.into_iter().map(|convention| {
                 let pair = self.0.periods_of(convention);
                 (convention, (pair.precession, pair.rotation))

@@ -334,6 +334,7 @@ impl Ensemble {
         self.values(py, |run| run.periods_into(&mut rows))?;
         mean::periods(
             py,
+            "PeriodsOfMembers",
             Convention::ALL.iter().enumerate().map(|(place, convention)| {
                 let column = |of: fn(&Periods) -> f64| PyArray1::from_iter(py, rows.iter().map(|row| of(&row[place])));
                 (*convention, (column(|pair| pair.precession), column(|pair| pair.rotation)))
