@@ -132,10 +132,6 @@ type Entries<S> = [Lanes<S>; 3 * PARAMETERS];
 
 /// Derivatives of attitude and rates at some times.
 #[inline(always)]
-#[expect(
-    clippy::needless_range_loop,
-    reason = "iterators that carry vectors are not inlined into the code of an instruction set"
-)]
 fn columns<S: InstructionSet, T: Source>(
     place: &Place<S, T::Rest<S>>,
     source: &T,
@@ -186,10 +182,10 @@ fn store<S: InstructionSet>(entries: &Entries<S>, matrices: &mut [Derivatives]) 
         let four = [entries[first], entries[first + 1], entries[first + 2], entries[first + 3]];
         Lanes::store_fours(four, &mut rows);
         let mut place = first;
-        for lane in 0..WIDEST {
+        for row in rows {
             // A chunk of four is one store; a slice would be a call.
             let Some(chunk) = matrices.get_mut(place..).and_then(|rest| rest.first_chunk_mut()) else { break };
-            *chunk = rows[lane];
+            *chunk = row;
             place += 3 * PARAMETERS;
         }
     }
