@@ -3,19 +3,17 @@
 use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::error::Kind;
-use andoyer_propagate::{Convention, Error as Propagation, MAX_THREADS, OnError, Outcome, PARAMETERS, Periods, Run};
+use andoyer_propagate::{Convention, MAX_THREADS, OnError, PARAMETERS, Periods};
 use numpy::{IntoPyArray, PyArray1, PyArrayDyn};
-use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PySlice, PyTuple};
+use pyo3::types::{PyDict, PyTuple};
 
-use crate::array::{MemberRows, Times, chunks, constant, constant_rows, matrices, span as span_of, write};
-use crate::computing::{detached, interruptible};
+use crate::array::{MemberRows, chunks, constant, constant_rows, matrices, span as span_of, write};
+use crate::computing::interruptible;
 use crate::error;
 use crate::foreign::{self, Calendar};
 use crate::mean;
 use crate::members::Members;
-use crate::motion::Motion;
 use crate::orbit::Orbit;
 use crate::order::whole_number;
 use crate::partials::Partials;
@@ -23,72 +21,19 @@ use crate::plan::Plan;
 use crate::samples::Samples;
 
 mod arguments;
-mod slice;
+mod copies;
+mod evaluate;
 
-use arguments::{asked, epochs_of, orbits_of, tolerance};
+use arguments::{asked, epochs_of, members_of, orbits_of, tolerance};
+use evaluate::refused;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
 /// Members from which on building an ensemble, which checks each of them, is a long call.
 const LONG: usize = 1 << 16;
 
-/// Many bodies with their states, solved and evaluated member by member on all cores, in memory proportional to the result.
-///
-/// Each member gives the bits that `Scene` and `Motion` give for it alone, whatever the number of threads. ``ensemble[i]`` is the motion
-/// of member i, ``ensemble[i:j]`` the ensemble of some members.
-///
-/// Parameters
-/// ----------
-/// moments : array_like, shape (m, 3) or (3,)
-///     Moments about body axes 1, 2, 3, as `Body` takes them. Of this and the next two, one row stands for m equal ones; one at least
-///     has m rows.
-/// attitudes : array_like, shape (m, 4) or (4,), or scipy.spatial.transform.Rotation
-///     Unit quaternions [x, y, z, w] at time 0, as `Scene` takes them.
-/// angular_velocities : array_like, shape (m, 3) or (3,)
-///     Body components at time 0, in rad per unit of time.
-/// epochs : float or array_like, shape (m,), or astropy.time.Time of these shapes, optional
-///     Times of the states: one for all, or one for each; by default 0.
-/// orbits : Orbit or sequence of m Orbit or None, optional
-///     The orbit of a body whose gravity gradient acts on all members, or one or None for each. A member under an orbit takes some 200 µs to
-///     solve, others 5.
-/// tolerance : float, optional
-///     Attitude error asked for within `span`, in rad.
-/// span : (float, float), optional
-///     The times over which `tolerance` is asked for and error bounds hold; by default 1e9 rotations, over which little is known of a motion under an
-///     orbit.
-/// threads : int, optional
-///     How many threads work, 1 to 1024; by default one for each core.
-/// errors : {"raise", "nan"}, optional
-///     A member that is no body or no state, or has no motion, is an error that names it; or its rows are NaN, its plan is None, and the reason is in
-///     `Ensemble.errors` and `Samples.errors`.
-/// scalar_first : bool, optional
-///     Whether `attitudes` are [w, x, y, z]. The property `attitudes` has the scalar last all the same.
-///
-/// Raises
-/// ------
-/// InputError
-///     A member that is no body or no state: the error of a single one, with its place among the members in the message and as the
-///     attribute ``index`` of the exception; the message also says how many other members are bad.
-///     An epoch, a tolerance or a span that is not finite; a tolerance of ``0`` or ``-1``, the span ``(1, 0)``, ``errors="ignore"``.
-///     Threads ``0``, ``-1``, ``2.5``; or, when it evaluates, a number that the system does not give.
-///     Two moments, five attitudes and three orbits; or one row of each.
-///
-/// Examples
-/// --------
-/// >>> moments = [[1.0, 1.5, 2.0], [1.0, 2.0, 2.5]]
-/// >>> ensemble = Ensemble(moments, [0, 0, 0, 1], [[0.1, 0.2, 1.0], [1.0, 0.2, 0.1]])
-/// >>> ensemble.at([0.0, 10.0, 20.0]).attitude.shape
-/// (2, 3, 4)
-/// >>> [plan.mode for plan in ensemble.plans]
-/// ['short-axis', 'long-axis']
-/// >>> sun = Orbit(2e-3, 0.1)
-/// >>> under_the_sun = Ensemble([1, 1.02, 1.05], [0, 0, 0, 1], [[0, 0, 1], [0, 0.1, 1]], orbits=[sun, None], tolerance=1e-6, span=(0, 1e5))
-/// >>> [plan.torque > 0 for plan in under_the_sun.plans]
-/// [True, False]
-/// >>> Ensemble([[1.0, 1.5, 2.0], [1.0, 1.0, 2.5]], [0, 0, 0, 1], [0, 0, 1])
-/// Traceback (most recent call last):
-///     ...
-/// andoyer.InputError: member 1: moments = [1.0, 1.0, 2.5]: the largest must not exceed the sum of the other two (it is 1.25 times that sum)
+#[doc = include_str!("ensemble.md")]
+#[expect(clippy::doc_lazy_continuation, reason = "lines after >>> are what Python prints")]
 #[pyclass(frozen, eq, module = "andoyer")]
 #[derive(PartialEq)]
 pub(crate) struct Ensemble(andoyer_propagate::Ensemble, Vec<Calendar>);
@@ -122,11 +67,7 @@ impl Ensemble {
         let (epochs, calendar) = epochs.map(epochs_of).transpose()?.unwrap_or_default();
         let first = epochs.first().copied().unwrap_or(0.0);
         let span = span.map(|value| span_of(value, first, calendar.first().copied())).transpose()?;
-        let Some(members) = moments.members().or(attitudes.members()).or(rates.members()) else {
-            let text =
-                "moments, attitudes and angular_velocities are one row each: one of them must have an axis of members";
-            return Err(error::input("moments", "one row", "(m, 3)", text.to_owned()));
-        };
+        let members = members_of(&moments, &attitudes, &rates)?;
         let new = |stop: &AtomicBool| {
             let [moments, rates] = [moments, rates].map(|rows| rows.repeated(members));
             let attitudes = attitudes.repeated(members);
@@ -414,12 +355,7 @@ impl Ensemble {
     /// The orbits: an Orbit for all members, a list of one or None for each, or None.
     #[getter]
     fn orbits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let orbits: Vec<_> = self.0.asked_orbits().iter().map(|orbit| orbit.map(Orbit)).collect();
-        match self.0.asked_orbits() {
-            [] => Ok(py.None().into_bound(py)),
-            [Some(orbit)] => Ok(Bound::new(py, Orbit(*orbit))?.into_any()),
-            _ => Ok(orbits.into_pyobject(py)?.into_any()),
-        }
+        self.orbits_as_given(py)
     }
 
     /// The times over which `tolerance` is asked for, or None.
@@ -443,31 +379,11 @@ impl Ensemble {
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        if let Ok(slice) = index.cast::<PySlice>() {
-            return Ok(Bound::new(py, self.part(slice)?)?.into_any());
-        }
-        let index: isize = index.extract()?;
-        let members = self.0.len();
-        let counted = if index < 0 { index.checked_add_unsigned(members) } else { Some(index) };
-        match counted.and_then(|index| usize::try_from(index).ok()).filter(|&index| index < members) {
-            Some(index) => {
-                let motion = detached(py, error::propagation, || self.0.motion(index))?;
-                error::warn_of_tolerance(py, motion.plan().missed_tolerance())?;
-                Ok(Bound::new(py, Motion(motion, self.calendar(index)))?.into_any())
-            }
-            None => Err(PyIndexError::new_err(format!("member {index} of an ensemble of {members}"))),
-        }
+        self.member_or_part(py, index)
     }
 
     fn __repr__(&self) -> String {
-        let bodies = if self.0.len() == 1 { "body" } else { "bodies" };
-        let threads = self.0.asked_threads().map_or_else(String::new, |threads| format!(", threads={threads}"));
-        let disturbed = (0..self.0.len()).filter(|&member| self.0.orbit(member).is_some()).count();
-        let orbits = if disturbed > 0 { format!(", {disturbed} under an orbit") } else { String::new() };
-        let span =
-            self.0.asked_span().map_or_else(String::new, |(start, stop)| format!(", span=({start:?}, {stop:?})"));
-        let tolerance = self.0.asked_tolerance();
-        format!("<Ensemble of {} {bodies}{orbits}, tolerance={tolerance:?}{span}{threads}>", self.0.len())
+        self.text()
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {
@@ -479,71 +395,6 @@ impl Ensemble {
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let arrays = (self.moments(py)?, self.attitudes(py)?, self.angular_velocities(py)?);
-        let keywords = PyDict::new(py);
-        match &self.1[..] {
-            [] => keywords.set_item("epochs", self.epochs(py)?)?,
-            [of_all] => keywords.set_item("epochs", foreign::calendar(py, &[*of_all])?.get_item(0)?)?,
-            each => keywords.set_item("epochs", foreign::calendar(py, each)?)?,
-        }
-        keywords.set_item("errors", self.0.asked_on_error().to_string())?;
-        keywords.set_item("orbits", self.orbits(py)?)?;
-        keywords.set_item("tolerance", self.tolerance())?;
-        keywords.set_item("span", self.span())?;
-        keywords.set_item("threads", self.threads())?;
-        (arrays, keywords).into_pyobject(py)
+        self.arguments(py)
     }
-}
-
-impl Ensemble {
-    fn times<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Times<'py>> {
-        Times::of_members(value, self.0.len(), &self.1, !self.0.asked_orbits().is_empty())
-    }
-
-    /// How the members are evaluated at these times.
-    fn run<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> Run<'a> {
-        let run = self.0.run().until(stop);
-        if since_epoch { run.since_epoch() } else { run }
-    }
-
-    /// Rows of N numbers for each time of each member, into `out` or a new array.
-    fn rows<'py, const N: usize>(
-        &self,
-        times: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-        evaluate: impl FnOnce(Run<'_>, &[f64], &mut [[f64; N]], &AtomicBool) -> Result<Outcome, Propagation> + Send,
-    ) -> PyResult<Array<'py>> {
-        let times = self.times(times)?;
-        let since_epoch = times.since_epoch();
-        let (rows, outcome) =
-            times.evaluate(out, |values, rows, stop| evaluate(self.run(since_epoch, stop), values, rows, stop))?;
-        error::warn_of_tolerance(rows.py(), outcome.missed_tolerance())?;
-        Ok(rows)
-    }
-
-    /// What is found for every member when all are solved.
-    fn values<T: Send>(
-        &self,
-        py: Python<'_>,
-        find: impl FnOnce(Run<'_>) -> Result<T, Propagation> + Send,
-    ) -> PyResult<T> {
-        let long = self.0.len() >= if self.0.asked_orbits().is_empty() { LONG } else { 32 };
-        interruptible(py, long, error::propagation, |stop| find(self.0.run().until(stop)))
-    }
-
-    /// The plan of every member, or why it has none.
-    fn solved(&self, py: Python<'_>) -> PyResult<Vec<Result<andoyer_propagate::Plan, Propagation>>> {
-        self.values(py, |run| run.plans())
-    }
-
-    /// The calendar epoch of a member.
-    fn calendar(&self, index: usize) -> Option<Calendar> {
-        self.1.get(if self.1.len() == 1 { 0 } else { index }).copied()
-    }
-}
-
-/// The errors of members that were refused, as Python has them.
-fn refused(py: Python<'_>, outcome: Outcome) -> Vec<(usize, Py<PyAny>)> {
-    let value = |problem| error::propagation(problem).into_value(py).into_any();
-    outcome.into_errors().into_iter().map(|(index, problem)| (index, value(problem))).collect()
 }
