@@ -14,7 +14,6 @@ use crate::error;
 use crate::foreign::{self, Calendar};
 use crate::mean;
 use crate::members::Members;
-use crate::orbit::Orbit;
 use crate::order::whole_number;
 use crate::partials::Partials;
 use crate::plan::Plan;
