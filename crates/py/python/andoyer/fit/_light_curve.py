@@ -104,7 +104,8 @@ def light_curve(
     """
     extra("scipy.optimize", "andoyer.fit")
     semi_axes = positive("axes", axes, (3,))
-    curve, epoch = _curve(times, brightness, sun, observer, sigma, curves, law(scattering) and scattering, shape)
+    law(scattering)
+    curve, epoch = _curve(times, brightness, (sun, observer), sigma, curves, (scattering, shape))
     enough(len(curve.times), 6 + 2 * shape + curve.members.shape[1], "times", "more points")
     if scene is not None:
         first = _state_of(scene, semi_axes, epoch)
@@ -116,21 +117,22 @@ def light_curve(
     return _result(curve, _polished(curve, population), epoch, times, delta_chi_square)
 
 
-def _curve(times: ArrayLike, brightness: ArrayLike, sun: ArrayLike, observer: ArrayLike, sigma: ArrayLike, curves: ArrayLike | None, scattering: str, shape: bool) -> tuple[Curve, float]:
+def _curve(
+    times: ArrayLike, brightness: ArrayLike, seen: tuple[ArrayLike, ArrayLike], sigma: ArrayLike, curves: ArrayLike | None, model: tuple[str, bool]
+) -> tuple[Curve, float]:
     """The data, and the epoch."""
-    moments = numbers("times", times)
-    if moments.ndim != 1 or not len(moments):
-        raise refusal("times", moments.shape, "(n,)", f"has shape {moments.shape}: it must be (n,) with n above 0")
-    count = len(moments)
+    at = numbers("times", times)
+    if at.ndim != 1 or not len(at):
+        raise refusal("times", at.shape, "(n,)", f"has shape {at.shape}: it must be (n,) with n above 0")
+    count = len(at)
     values = positive("brightness", brightness, (count,))
     deviations = np.broadcast_to(positive("sigma", sigma, (), (count,)), (count,))
-    seen = []
-    for argument, vectors in zip(("sun", "observer"), directions(sun, observer)):
+    for argument, vectors in zip(("sun", "observer"), seen):
         shaped(argument, vectors, (3,), (count, 3))
-        seen.append(vectors.T if vectors.ndim == 2 else vectors[:, None])
+    sun, observer = (np.atleast_2d(vectors).T for vectors in directions(*seen))
     labels = np.zeros(count) if curves is None else shaped("curves", curves, (count,))
     members = (labels[:, None] == np.unique(labels)).astype(float)
-    return Curve(moments - moments[0], values, deviations**-2.0, seen[0], seen[1], members, scattering, shape), float(moments[0])
+    return Curve(at - at[0], values, deviations**-2.0, sun, observer, members, *model), float(at[0])
 
 
 def _range(periods: tuple[float, float] | None) -> tuple[float, float]:

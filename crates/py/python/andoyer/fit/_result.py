@@ -167,7 +167,7 @@ def _about_principal_axes(scene: Scene, attitudes: Array) -> Array:
         return attitudes
     from scipy.spatial.transform import Rotation
 
-    turned: Array = (Rotation.from_quat(attitudes) * Rotation.from_matrix(axes)).as_quat()
+    turned: Array = (Rotation.from_quat(attitudes) * Rotation.from_matrix(np.array(axes))).as_quat()
     return turned
 
 

@@ -113,10 +113,12 @@ def brightness(axes: ArrayLike, attitudes: ArrayLike, sun: ArrayLike, observer: 
     """
     semi_axes = positive("axes", axes, (3,))
     to_sun, to_observer = directions(sun, observer)
-    law(scattering)
+    formula = law(scattering)
     turn = conjugate(numbers("attitudes", attitudes))
+    if turn.shape[-1:] != (4,):
+        raise refusal("attitudes", turn.shape, "(…, 4)", f"has shape {turn.shape}: it must be (…, 4)")
     lit = forms(semi_axes, np.moveaxis(rotate(turn, to_sun), -1, 0), np.moveaxis(rotate(turn, to_observer), -1, 0))
-    return size(semi_axes) * LAWS[scattering](*lit).value
+    return size(semi_axes) * formula(*lit).value
 
 
 def law(scattering: str) -> Callable[[Array, Array, Array], Law]:
@@ -141,6 +143,8 @@ def directions(sun: ArrayLike, observer: ArrayLike) -> tuple[Array, Array]:
         if not np.all(length > 0):
             raise refusal(argument, 0.0, "above 0", "has a direction of length 0")
         units.append(vector / length)
+    if units[0].ndim > 1 and units[1].ndim > 1 and units[0].shape != units[1].shape:
+        raise refusal("observer", units[1].shape, units[0].shape, f"has shape {units[1].shape}: it must be (3,) or as sun has, {units[0].shape}")
     cosine = float(np.min(np.sum(units[0] * units[1], axis=-1)))
     if cosine < FARTHEST:
         raise refusal("sun", cosine, FARTHEST, f"is opposite to the observer: the cosine of the phase angle is {cosine:.6f} and must be {FARTHEST} at least")
