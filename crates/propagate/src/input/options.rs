@@ -62,6 +62,11 @@ pub enum Convention {
     ShortAxis,
 }
 
+impl Convention {
+    /// The three, in the order in which an ensemble gives its periods.
+    pub const ALL: [Self; 3] = [Self::LongAxis, Self::ShortAxis, Self::ExtremalAxis];
+}
+
 impl FromStr for Convention {
     type Err = Error;
 
