@@ -101,6 +101,8 @@ pub enum Level {
     /// The potential to all orders in J, and a disturbing body that moves along its orbit.
     #[default]
     Full,
+    /// To all orders in J, and the averaged motion to second order in the torque.
+    SecondOrder,
 }
 
 impl FromStr for Level {
@@ -111,6 +113,7 @@ impl FromStr for Level {
             "paper" => Ok(Self::Paper),
             "moving" => Ok(Self::Moving),
             "full" => Ok(Self::Full),
+            "second-order" => Ok(Self::SecondOrder),
             _ => Err(Error::Level { value: text.to_owned() }),
         }
     }
@@ -122,6 +125,7 @@ impl fmt::Display for Level {
             Self::Paper => "paper",
             Self::Moving => "moving",
             Self::Full => "full",
+            Self::SecondOrder => "second-order",
         })
     }
 }
