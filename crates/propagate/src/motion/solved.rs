@@ -137,6 +137,15 @@ impl Motion {
 
     /// Attitude and rates at a time.
     ///
+    /// ```
+    /// use andoyer_propagate::{Body, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 2.0])?;
+    /// let motion = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).solve()?;
+    /// // Rotation about axis 3 with 2 rad per unit of time.
+    /// assert!((motion.at(0.5)?.attitude.angle() - 1.0).abs() < 1e-14);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// - [`Error::Time`] for a time that is NaN, infinite, or more than 1e15 rotations from the epoch. For a scene averaged over the spin, also for a time more
     ///   than 65,534 orbits from the epoch.
