@@ -4,6 +4,9 @@ mod facts;
 
 pub use facts::{Kind, Value};
 
+/// Bytes of a step of an integration.
+pub(crate) const STEP_BYTES: f64 = 72.0;
+
 /// The error of this crate: what was given, and what would have been accepted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -124,7 +127,7 @@ pub enum Error {
         bound: usize,
     },
     /// A method that is unknown.
-    #[error("method = {value:?}: it must be \"auto\", \"series\" or \"closed\"")]
+    #[error("method = {value:?}: it must be \"auto\", \"series\", \"closed\" or \"integrated\"")]
     Method {
         /// The method as given.
         value: String,
@@ -301,6 +304,69 @@ pub enum Error {
         /// The largest that is served.
         bound: f64,
     },
+    /// A table of positions that is none, or does not reach as far as the span.
+    #[error("orbit.{argument}[{index}] = {value}: it must be {bound}")]
+    Table {
+        /// The argument.
+        argument: &'static str,
+        /// The index in it.
+        index: usize,
+        /// The value; for too few times how many there are.
+        value: f64,
+        /// What it must be.
+        bound: &'static str,
+    },
+    /// A span that a table of positions does not cover.
+    #[error(
+        "span: the integration goes from {start} to {stop}, and the table of positions only from {first} to {last}"
+    )]
+    TableSpan {
+        /// The first time that is needed.
+        start: f64,
+        /// The last time that is needed.
+        stop: f64,
+        /// The first time of the table.
+        first: f64,
+        /// The last time of the table.
+        last: f64,
+    },
+    /// An integration without a span.
+    #[error("span: none is given, and the integrated method needs one{}", because(reason))]
+    NoSpan {
+        /// Why the motion is integrated; empty where the method was asked for.
+        reason: String,
+    },
+    /// A scene that only the integrated method serves, with another method.
+    #[error("method = \"{method}\": {reason}; use method = \"integrated\" or \"auto\" with a span")]
+    OnlyIntegrated {
+        /// The method as asked for.
+        method: String,
+        /// What in the scene needs the integration.
+        reason: String,
+    },
+    /// An integration with too many steps.
+    #[error(
+        "span: the integration needs about {steps:.1e} steps, which take {:.1} GB; at most {bound} are kept: a span shorter by a factor of {:.1} is served",
+        memory(*steps), steps / *bound as f64
+    )]
+    TooManySteps {
+        /// Steps over the span, estimated.
+        steps: f64,
+        /// The most that are kept.
+        bound: usize,
+    },
+    /// A motion whose nearby states separate so fast that nothing is known at the end of the span.
+    #[error(
+        "tolerance = {tolerance:e}: nearby states separate so fast that the attitude is unknown at the end of the span; {tolerance:e} rad holds from {start} to {stop}"
+    )]
+    Unpredictable {
+        /// The tolerance \[rad\].
+        tolerance: f64,
+        /// The earliest time to which it can be had.
+        start: f64,
+        /// The latest time to which it can be had.
+        stop: f64,
+    },
     /// A member of an ensemble that is none, or could not be evaluated.
     #[error("member {index}: {problem}{}", and_others(*others))]
     Member {
@@ -370,6 +436,16 @@ fn did_you_mean(name: &str, known: &[&str]) -> String {
     let best = known.iter().max_by(|one, two| likeness(one).total_cmp(&likeness(two)));
     let near = best.filter(|best| likeness(best) >= 2.0 / 3.0);
     near.map_or_else(String::new, |best| format!("; did you mean {best:?}?"))
+}
+
+/// Why a motion is integrated, as the end of a sentence.
+fn because(reason: &str) -> String {
+    if reason.is_empty() { String::new() } else { format!(", by which this scene is solved: {reason}") }
+}
+
+/// Memory that so many steps take, in units of 1e9 bytes.
+fn memory(steps: f64) -> f64 {
+    steps * STEP_BYTES * 1e-9
 }
 
 fn and_others(others: usize) -> String {

@@ -32,6 +32,7 @@ mod progress;
 mod samples;
 mod scene;
 mod scene_class;
+mod tabulated;
 
 /// Compiled core of the package `andoyer`, which re-exports all of it.
 #[pyo3::pymodule]
@@ -66,6 +67,8 @@ mod _core {
     use super::samples::Samples;
     #[pymodule_export]
     use super::scene_class::Scene;
+    #[pymodule_export]
+    use super::tabulated::TabulatedOrbit;
 
     #[pymodule_init]
     fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {

@@ -10,7 +10,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 
 use crate::array::{Times, chunks, matrices, write};
-use crate::computing::{detached, interruptible};
+use crate::computing::interruptible;
 use crate::error;
 use crate::foreign::{self, Calendar};
 use crate::partials::Partials;
@@ -32,7 +32,8 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// Raises
 /// ------
 /// RepresentationError
-///     A time more than 1e15 rotations from the epoch, or under ``averaging="spin"`` more than 65,534 orbits from it; the message has its index and says which.
+///     A time more than 1e15 rotations from the epoch, under ``averaging="spin"`` more than 65,534 orbits from it, or of an integrated motion outside the span; the message has its
+///     index and says which.
 /// InputError
 ///     A time that is NaN or infinite. A calendar time (a Time) where the epoch is a number; a Quantity where the epoch is a calendar time.
 ///     Times with two axes.
@@ -273,6 +274,8 @@ impl Motion {
 
     /// Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time; 0 where there is none.
     ///
+    /// Of an integrated motion they are those of the free motion at the epoch, as `periods`.
+    ///
     /// Neither is ever negative. y = μ + ν; for N < 0, where axis 3 points away from the angular momentum, y = μ − ν (see `andoyer`).
     #[getter]
     fn frequencies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -353,14 +356,13 @@ impl Motion {
 
     #[staticmethod]
     fn _restored(py: Python<'_>, scene: PyRef<'_, Scene>) -> PyResult<Self> {
-        let (scene, tables, epoch) = (&scene.scene, &scene.tables, scene.calendar);
-        detached(py, error::propagation, || scene.solve_with(tables)).map(|motion| Self(motion, epoch))
+        scene.solved(py).map(|motion| Self(motion, scene.calendar))
     }
 }
 
 impl Motion {
     fn times<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Times<'py>> {
-        Times::new(value, self.1, self.0.scene().asked_orbit().is_some())
+        Times::new(value, self.1, self.0.plan().steps() > 0 || !self.0.scene().asked_disturbing().is_empty())
     }
 
     /// How these times are evaluated.

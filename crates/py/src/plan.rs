@@ -27,16 +27,22 @@ impl Plan {
         self.0.mode().to_string()
     }
 
-    /// How it is evaluated: "series", or "closed" for theta functions and the formulas that need no sum at all.
+    /// How it is evaluated: "series", "closed" for theta functions and the formulas that need no sum at all, or "integrated".
     #[getter]
     fn method(&self) -> String {
         self.0.method().to_string()
     }
 
-    /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance.
+    /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance. Of an integration the order of its steps.
     #[getter]
     fn order(&self) -> usize {
         self.0.order()
+    }
+
+    /// Steps of the integration; 0 without one.
+    #[getter]
+    fn steps(&self) -> usize {
+        self.0.steps()
     }
 
     /// The highest multiple of the anomaly ℓ′ that is evaluated; 0 where none is.
@@ -93,7 +99,7 @@ impl Plan {
         self.0.first_neglected()
     }
 
-    /// How `Motion.partials` computes: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; None on the separatrix, where there are none.
+    /// How `Motion.partials` computes: "closed" (theory §12); "differences" of fourth order for a scene with an orbit or an integrated motion; None on the separatrix, where there are none.
     #[getter]
     fn partials(&self) -> Option<&'static str> {
         self.0.partials()

@@ -22,13 +22,15 @@ use crate::foreign::Calendar;
 ///     Whether `attitude` is [w, x, y, z]. The property `attitude` has the scalar last all the same.
 /// epoch : float or astropy.time.Time, optional
 ///     Time of the state. Of a Time the two doubles are kept, in TDB, and times of the motion may be Time; numbers are then seconds since J2000.
-/// orbit : Orbit, optional
-///     Relative orbit of a body whose gravity gradient acts (theory §9); by default none, and the motion is free.
+/// orbit : Orbit or TabulatedOrbit, or a sequence of them, optional
+///     Relative orbits of bodies whose gravity gradients act (theory §9); by default none, and the motion is free.
 /// tolerance : float, optional
 ///     Attitude error asked for over the span, in rad. Below about 1e-14 it means the best that double precision holds
 ///     (`Plan.error_bound` says what that is).
-/// method : {"auto", "series", "closed"}, optional
-///     Perturbation series or closed form; "auto" is the closed form, or the series if an order is fixed.
+/// method : {"auto", "series", "closed", "integrated"}, optional
+///     Perturbation series, closed form (with an orbit the averaged theory about it), or numerical integration of the full equations over the span. "auto" is the closed
+///     form, or the series if an order is fixed; with an orbit and a span it is the integration where the theory does not hold or misses the tolerance and the integration meets it,
+///     and for several orbits, a table or an orbit with secular rates. `Plan.skipped` says why.
 /// order : int, optional
 ///     Fixed order of the series, of the secular part too (theory §7), 0 to 60; by default, with ``method="series"``, the one that the tolerance needs (theory §5).
 ///     A fixed order is not raised for the tolerance: where it is too low, `Plan.error_bound` exceeds the tolerance and ``str(plan)``
@@ -36,7 +38,8 @@ use crate::foreign::Calendar;
 /// span : (float, float), optional
 ///     Two numbers, or two Time, or two TimeDelta from the epoch.
 ///     Times over which the tolerance is asked for; by default any within 1e9 rotations. A motion can be evaluated outside it, up to
-///     1e15 rotations from the epoch; farther away is a `RepresentationError` of the motion.
+///     1e15 rotations from the epoch; farther away is a `RepresentationError` of the motion. An integrated motion needs a span and can be evaluated within it alone,
+///     with the epoch.
 /// averaging : {"auto", "orbit", "spin"}, optional
 ///     How far the equations of a scene with an orbit are averaged: over rotation and orbit, which leaves formulas; over the rotation alone; by
 ///     default the first where it meets the tolerance.

@@ -26,6 +26,9 @@ impl Error {
             | Self::Resonance { .. }
             | Self::TorqueTooStrong { .. }
             | Self::TooManyOrbits { .. }
+            | Self::OnlyIntegrated { .. }
+            | Self::TooManySteps { .. }
+            | Self::Unpredictable { .. }
             | Self::Unaveraged { .. } => Kind::Theory,
             Self::Stopped => Kind::Internal,
             Self::Series(error) => error.kind(),
@@ -51,6 +54,9 @@ impl Error {
             | Self::Direction { .. }
             | Self::Andoyer { .. }
             | Self::Orbit { .. }
+            | Self::Table { .. }
+            | Self::TableSpan { .. }
+            | Self::NoSpan { .. }
             | Self::Level { .. }
             | Self::Averaging { .. }
             | Self::OnError { .. }
@@ -128,6 +134,7 @@ impl Error {
             }
             Self::Andoyer { value, bound, .. } => facts("andoyer", *value, *bound),
             Self::Orbit { argument, value, bound } => facts(argument, *value, *bound),
+            Self::Table { argument, value, bound, .. } => facts(argument, *value, *bound),
             _ => return None,
         })
     }
@@ -137,7 +144,7 @@ impl Error {
             Self::Tolerance { value } => facts("tolerance", *value, POSITIVE),
             Self::Span { start, stop } => facts("span", [*start, *stop], "finite with start <= stop"),
             Self::Order { value, bound } => facts("order", *value, *bound),
-            Self::Method { value } => facts("method", value, "auto, series, closed"),
+            Self::Method { value } => facts("method", value, "auto, series, closed, integrated"),
             Self::Convention { value } => facts("convention", value, "extremal-axis, long-axis, short-axis"),
             Self::ModeName { value } => facts("mode", value, "short-axis, long-axis"),
             Self::Level { value } => facts("level", value, "paper, moving, full"),
@@ -160,6 +167,11 @@ impl Error {
             Self::TorqueTooStrong { size, bound } => facts("orbit", *size, *bound),
             Self::TooManyOrbits { orbits, bound } => facts("span", *orbits, *bound),
             Self::Unaveraged { ratio, bound, .. } => facts("orbit", *ratio, *bound),
+            Self::TableSpan { start, stop, first, last } => facts("span", [*start, *stop], [*first, *last]),
+            Self::NoSpan { .. } => facts("span", "none", "start <= stop"),
+            Self::OnlyIntegrated { method, .. } => facts("method", method, "integrated"),
+            Self::TooManySteps { steps, bound } => facts("span", *steps, *bound as f64),
+            Self::Unpredictable { tolerance, start, stop } => facts("tolerance", *tolerance, [*start, *stop]),
             _ => (None, None, None),
         }
     }

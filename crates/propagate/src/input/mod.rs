@@ -4,8 +4,10 @@
 
 pub(crate) mod body;
 mod catalogue;
+pub(crate) mod disturbing_body;
 pub(crate) mod options;
 pub(crate) mod orbit;
 mod principal_axes;
 pub(crate) mod scene;
 pub(crate) mod state;
+pub(crate) mod tabulated;

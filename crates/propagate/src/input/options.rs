@@ -19,6 +19,8 @@ pub enum Method {
     Series,
     /// The closed form with theta functions.
     Closed,
+    /// Numerical integration of the full equations over the span.
+    Integrated,
 }
 
 impl FromStr for Method {
@@ -29,6 +31,7 @@ impl FromStr for Method {
             "auto" => Ok(Self::Auto),
             "series" => Ok(Self::Series),
             "closed" => Ok(Self::Closed),
+            "integrated" => Ok(Self::Integrated),
             _ => Err(Error::Method { value: text.to_owned() }),
         }
     }
@@ -40,6 +43,7 @@ impl fmt::Display for Method {
             Self::Auto => "auto",
             Self::Series => "series",
             Self::Closed => "closed",
+            Self::Integrated => "integrated",
         })
     }
 }

@@ -1,6 +1,6 @@
-//! The relative orbit of a disturbing body: a Keplerian ellipse in any plane.
+//! The relative orbit of a disturbing body: Kepler's, any ellipse, in any plane, fixed or with secular rates of node and pericentre.
 //!
-//! The elements refer to the inertial frame of the scene. Kepler's equation is solved in lanes ([`crate::simd::kepler`]).
+//! Elements are those of the inertial frame of the scene; node and argument of the pericentre are those at the time of pericentre. The equation of Kepler is solved in lanes ([`crate::simd::kepler`]).
 
 use std::f64::consts::{PI, TAU};
 
@@ -14,6 +14,19 @@ use crate::simd::lanes::Lanes;
 
 /// Largest mean anomaly from the pericentre \[rad\]. Beyond it a double has no phase.
 const MOST_TURNS: f64 = TAU * 1e15;
+
+const POSITIVE: &str = "positive and finite";
+
+/// An oblate primary.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Oblateness {
+    /// G × its mass.
+    pub gm: f64,
+    /// J2, for the reference radius.
+    pub j2: f64,
+    /// The reference radius of J2.
+    pub radius: f64,
+}
 
 /// A Keplerian orbit of the disturbing body about the rotating one.
 ///
@@ -33,6 +46,9 @@ pub struct Orbit {
     node: f64,
     argument_of_pericentre: f64,
     mass_fraction: f64,
+    node_rate: f64,
+    pericentre_rate: f64,
+    attraction: Option<f64>,
 }
 
 impl Orbit {
@@ -43,7 +59,7 @@ impl Orbit {
     /// # Errors
     /// - [`Error::Orbit`] for a mean motion of 0, −1 or NaN, and for an eccentricity of −0.1, 1 or NaN.
     pub fn new(mean_motion: f64, eccentricity: f64) -> Result<Self, Error> {
-        check("mean_motion", mean_motion, mean_motion > 0.0 && mean_motion.is_finite(), "positive and finite")?;
+        check("mean_motion", mean_motion, mean_motion > 0.0 && mean_motion.is_finite(), POSITIVE)?;
         check("eccentricity", eccentricity, (0.0..1.0).contains(&eccentricity), "0 or more and less than 1")?;
         Ok(Self {
             mean_motion,
@@ -53,10 +69,60 @@ impl Orbit {
             node: 0.0,
             argument_of_pericentre: 0.0,
             mass_fraction: 1.0,
+            node_rate: 0.0,
+            pericentre_rate: 0.0,
+            attraction: None,
         })
     }
 
-    /// Sets a time of pericentre passage [unit of time].
+    /// The orbit about an oblate primary with its secular rates of first order in J2 (Kaula 1966, eqs. 3.74; Vallado 2013, eqs. 9-38 to 9-41), the rotating body being the
+    /// satellite and the primary the disturbing body.
+    ///
+    /// With n0² = GM/a³, p = a(1 − e²) and k = (3/2) n0 J2 (R/p)²: node rate −k cos i, pericentre rate k (2 − (5/2) sin² i), mean motion
+    /// n0 + k √(1 − e²) (1 − (3/2) sin² i), which is the rate of the mean anomaly; the attraction is GM/a³. `semi_major_axis` is the mean one. Periodic terms, of relative size J2 (R/p)²,
+    /// are left out.
+    ///
+    /// ```
+    /// use andoyer_propagate::Orbit;
+    /// use andoyer_propagate::disturbers::Oblateness;
+    /// let earth = Oblateness { gm: 3.986004415e14, j2: 1.08262668e-3, radius: 6378136.3 };
+    /// let orbit = Orbit::around_oblate(&earth, 6878136.3, 0.001, 51.6_f64.to_radians())?;
+    /// let per_day = orbit.rates()[0].to_degrees() * 86400.0;
+    /// assert!((per_day + 4.75).abs() < 0.01);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for a gm, a semi-major axis or a radius of 0, a J2 of NaN, an eccentricity of 1, or rates that leave no positive mean motion.
+    pub fn around_oblate(
+        primary: &Oblateness,
+        semi_major_axis: f64,
+        eccentricity: f64,
+        inclination: f64,
+    ) -> Result<Self, Error> {
+        let Oblateness { gm, j2, radius } = *primary;
+        let positive = |argument, value: f64| check(argument, value, value > 0.0 && value.is_finite(), POSITIVE);
+        positive("gm", gm)?;
+        positive("semi_major_axis", semi_major_axis)?;
+        positive("radius", radius)?;
+        finite("j2", j2)?;
+        finite("inclination", inclination)?;
+        check("eccentricity", eccentricity, (0.0..1.0).contains(&eccentricity), "0 or more and less than 1")?;
+        let attraction = gm / semi_major_axis / semi_major_axis / semi_major_axis;
+        positive("attraction", attraction)?;
+        let mean_motion = attraction.sqrt();
+        let square = (1.0 - eccentricity) * (1.0 + eccentricity);
+        let shape = radius / (semi_major_axis * square);
+        let k = 1.5 * mean_motion * j2 * shape * shape;
+        let (sine, cosine) = inclination.sin_cos();
+        let anomaly = mean_motion + k * square.sqrt() * (1.0 - 1.5 * sine * sine);
+        Self::new(anomaly, eccentricity)?
+            .plane(inclination, 0.0, 0.0)?
+            .secular_rates(-k * cosine, k * (2.0 - 2.5 * sine * sine))?
+            .attraction(attraction)
+    }
+
+    /// A time of a passage of the pericentre.
     ///
     /// # Errors
     /// - [`Error::Orbit`] for a time that is NaN or infinite.
@@ -85,7 +151,55 @@ impl Orbit {
         Ok(Self { mass_fraction: fraction, ..self })
     }
 
-    /// The elements: mean motion n, eccentricity, time of pericentre, inclination, node, argument of pericentre, mass fraction.
+    /// Secular rates of the node, about inertial axis 3, and of the argument of the pericentre, about the normal of the orbit [rad per unit of time]. Node and argument are then
+    /// those at the time of pericentre, and the mean motion is the rate of the mean anomaly.
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for NaN or infinite.
+    pub fn secular_rates(self, node: f64, pericentre: f64) -> Result<Self, Error> {
+        finite("node_rate", node)?;
+        finite("pericentre_rate", pericentre)?;
+        Ok(Self { node_rate: node, pericentre_rate: pericentre, ..self })
+    }
+
+    /// G × disturbing mass / a³ [1/time²], instead of mean_motion² × mass_fraction.
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for 0, −1, NaN.
+    pub fn attraction(self, attraction: f64) -> Result<Self, Error> {
+        check("attraction", attraction, attraction > 0.0 && attraction.is_finite(), POSITIVE)?;
+        Ok(Self { attraction: Some(attraction), ..self })
+    }
+
+    /// Node and argument of the pericentre at the time of pericentre, in place of those of [`Orbit::plane`] \[rad\].
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for NaN or infinite.
+    pub fn node_and_pericentre(self, node: f64, argument_of_pericentre: f64) -> Result<Self, Error> {
+        self.plane(self.inclination, node, argument_of_pericentre)
+    }
+
+    /// Secular rates of the node and of the argument of the pericentre [rad per unit of time].
+    pub fn rates(&self) -> [f64; 2] {
+        [self.node_rate, self.pericentre_rate]
+    }
+
+    /// Whether node and pericentre stand still.
+    pub(crate) fn is_fixed(&self) -> bool {
+        self.rates() == [0.0; 2]
+    }
+
+    /// G × disturbing mass / a³ as given, if it was.
+    pub fn asked_attraction(&self) -> Option<f64> {
+        self.attraction
+    }
+
+    /// G × disturbing mass / a³ [1/time²]: by default mean_motion² × mass_fraction.
+    pub fn strength(&self) -> f64 {
+        self.attraction.unwrap_or(self.mean_motion * self.mean_motion * self.mass_fraction)
+    }
+
+    /// Mean motion n, eccentricity, time of pericentre, inclination, node, argument of pericentre, mass fraction.
     pub fn elements(&self) -> [f64; 7] {
         [
             self.mean_motion,
@@ -119,8 +233,12 @@ impl Orbit {
         self.mean_motion
     }
 
+    /// The attraction over n²: the mass fraction, unless an attraction is given.
     pub(crate) fn disturbing_fraction(&self) -> f64 {
-        self.mass_fraction
+        match self.attraction {
+            Some(attraction) => attraction / self.mean_motion / self.mean_motion,
+            None => self.mass_fraction,
+        }
     }
 
     /// Unit vectors in inertial components: to the pericentre, perpendicular to it in the direction of motion, and along the orbital angular momentum.
@@ -134,16 +252,35 @@ impl Orbit {
 
     /// The mean anomaly as a phase that starts at an epoch.
     pub(crate) fn mean_anomaly(&self, epoch: f64) -> Phase {
+        self.angle(epoch, 0.0, self.mean_motion)
+    }
+
+    /// The node and the argument of the pericentre as phases from an epoch on.
+    pub(crate) fn node_and_argument(&self, epoch: f64) -> [Phase; 2] {
+        [
+            self.angle(epoch, self.node, self.node_rate),
+            self.angle(epoch, self.argument_of_pericentre, self.pericentre_rate),
+        ]
+    }
+
+    /// Sine and cosine of the inclination.
+    pub(crate) fn tilt(&self) -> (f64, f64) {
+        self.inclination.sin_cos()
+    }
+
+    /// An angle with a rate and its value at the time of pericentre, as a phase from an epoch on.
+    fn angle(&self, epoch: f64, start: f64, rate: f64) -> Phase {
         let since = DoubleDouble::sum(epoch, -self.time_of_pericentre);
-        let angle = since * DoubleDouble::from(self.mean_motion);
+        let angle = since * DoubleDouble::from(rate) + DoubleDouble::from(start);
         let turns = angle / (DoubleDouble::PI * DoubleDouble::from(2.0));
         let rest = turns - DoubleDouble::from(turns.high.round());
-        Phase::new(self.mean_motion.into(), TAU * rest.to_f64())
+        Phase::new(rate.into(), TAU * rest.to_f64())
     }
 
     /// Checks that the mean anomaly can be computed at an epoch.
     pub(crate) fn within_reach(&self, epoch: f64) -> Result<(), Error> {
-        let bounded = (epoch - self.time_of_pericentre).abs() * self.mean_motion <= MOST_TURNS;
+        let fastest = self.mean_motion.max(self.node_rate.abs()).max(self.pericentre_rate.abs());
+        let bounded = (epoch - self.time_of_pericentre).abs() * fastest <= MOST_TURNS;
         check("time_of_pericentre", self.time_of_pericentre, bounded, "within 1e15 periods of the epoch of the state")
     }
 

@@ -3,6 +3,7 @@
 use nalgebra::UnitQuaternion;
 
 use super::body::Body;
+use super::disturbing_body::DisturbingBody;
 use super::options::{Averaging, Level, MAX_ORDER, Method};
 use super::orbit::Orbit;
 use super::state::State;
@@ -26,7 +27,7 @@ pub struct Scene {
     tolerance: f64,
     method: Method,
     order: Option<usize>,
-    orbit: Option<Orbit>,
+    disturbing: Vec<DisturbingBody>,
     averaging: Averaging,
     level: Level,
     span: Option<(f64, f64)>,
@@ -43,7 +44,7 @@ impl Scene {
             tolerance: 1e-12,
             method: Method::Auto,
             order: None,
-            orbit: None,
+            disturbing: Vec::new(),
             averaging: Averaging::Auto,
             level: Level::Full,
             span: None,
@@ -75,8 +76,24 @@ impl Scene {
 
     /// Sets the orbit of a body whose gravity gradient acts. The default is no such body.
     #[must_use]
-    pub fn orbit(mut self, orbit: Orbit) -> Self {
-        self.orbit = Some(orbit);
+    pub fn orbit(self, orbit: Orbit) -> Self {
+        self.disturbing([orbit])
+    }
+
+    /// The bodies whose gravity gradients act, instead of those that the scene had. Several of them, a table, and an orbit with secular rates are integrated.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Body, Method, Orbit, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.01, 1.0])?;
+    /// let bodies = [Orbit::new(2e-3, 0.1)?, Orbit::new(5e-3, 0.0)?.mass_fraction(0.01)?];
+    /// let motion = Scene::new(Body::new([1.0, 1.02, 1.05])?, state).disturbing(bodies).span(0.0, 100.0).solve()?;
+    /// assert_eq!(motion.plan().method(), Method::Integrated);
+    /// assert!(motion.plan().error_bound() < 1e-12);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    #[must_use]
+    pub fn disturbing(mut self, bodies: impl IntoIterator<Item = impl Into<DisturbingBody>>) -> Self {
+        self.disturbing = bodies.into_iter().map(Into::into).collect();
         self
     }
 
@@ -152,9 +169,17 @@ impl Scene {
         self.order
     }
 
-    /// The orbit, or `None`.
+    /// The orbit of the disturbing body, if there is one such body and it has an orbit.
     pub fn asked_orbit(&self) -> Option<&Orbit> {
-        self.orbit.as_ref()
+        match &self.disturbing[..] {
+            [DisturbingBody::Orbit(orbit)] => Some(orbit),
+            _ => None,
+        }
+    }
+
+    /// The bodies whose gravity gradients act.
+    pub fn asked_disturbing(&self) -> &[DisturbingBody] {
+        &self.disturbing
     }
 
     /// The requested averaging.

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
+use nalgebra::{UnitQuaternion, Vector3};
 use pulp::Arch;
 
 use super::solved::{Motion, length};
@@ -120,13 +121,26 @@ impl<'a> Batch<'a> {
             going(self.stop).map_err(|halt| self.halted(halt, times))?;
             match &motion.trajectory {
                 Trajectory::Gradient(gradient) => gradient.angular_momenta(part, epoch, out),
+                Trajectory::Integrated(_) => self.momenta_of_samples(part, out)?,
                 _ => out.fill(motion.angular_momentum.into()),
             }
         }
         Ok(())
     }
 
-    /// Transforms attitudes and rates from the principal axes to the user's axes.
+    /// R I ω of attitudes and rates.
+    fn momenta_of_samples(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
+        let mut attitudes = vec![[0.0; 4]; times.len()];
+        self.about_principal_axes(times, &mut attitudes, out)?;
+        let moments = self.motion.scene.body().moments();
+        for (momentum, attitude) in out.iter_mut().zip(attitudes) {
+            let about_axes = Vector3::from_fn(|i, _| moments[i] * momentum[i]);
+            *momentum = (UnitQuaternion::new_unchecked(attitude.into()) * about_axes).into();
+        }
+        Ok(())
+    }
+
+    /// To the user's axes.
     fn turn(&self, attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
         let Some(given) = &self.motion.given else { return Ok(()) };
         for part in attitudes.chunks_mut(GROUP) {
@@ -142,8 +156,8 @@ impl<'a> Batch<'a> {
 
     fn fill(&self, times: &[f64], outputs: Outputs<'_>) -> Result<(), Error> {
         let Self { motion, threads, stop, .. } = *self;
-        let (epoch, bound, arch) = (self.epoch(), motion.bound(), Arch::new());
-        let evaluation = Evaluation { trajectory: &motion.trajectory, epoch, bound, arch, stop };
+        let (epoch, reach, arch) = (self.epoch(), motion.reach(), Arch::new());
+        let evaluation = Evaluation { trajectory: &motion.trajectory, epoch, reach, arch, stop };
         evaluation.fill(times, outputs, threads).map_err(|halt| self.halted(halt, times))
     }
 
@@ -154,7 +168,7 @@ impl<'a> Batch<'a> {
 
     fn halted(&self, halt: Halt, times: &[f64]) -> Error {
         match halt {
-            Halt::Time(index) => self.motion.no_phase(index, times),
+            Halt::Time(index) => self.motion.no_phase(index, times, self.epoch()),
             Halt::Stopped => Error::Stopped,
         }
     }

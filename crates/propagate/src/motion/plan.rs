@@ -7,13 +7,14 @@ use serde::{Deserialize, Serialize};
 use crate::gravity_gradient::disturbed::GradientPlan;
 use crate::input::options::{Averaging, Method};
 use crate::input::scene::Scene;
+use crate::integration::integrated::IntegrationPlan;
 use crate::torque_free::mode::Mode;
 
 /// If σ/σ_sep exceeds this, its distance from 1 is printed.
 const NEAR_ONE: f64 = 0.999;
 
-/// A smaller tolerance counts as met if the error bound is within this limit, which rounding sets \[rad\].
-const ROUNDED_TOLERANCE: f64 = 2e-14;
+/// A tolerance below this is met as well as rounding allows \[rad\].
+pub(crate) const ROUNDED_TOLERANCE: f64 = 2e-14;
 
 /// The evaluation plan of a motion. It is printed in ASCII, and can be serialized.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,6 +29,7 @@ pub struct Plan {
     pub(crate) spanned: bool,
     pub(crate) separatrix_ratio: f64,
     pub(crate) gradient: Option<GradientPlan>,
+    pub(crate) integration: Option<IntegrationPlan>,
     pub(crate) skipped: Vec<String>,
 }
 
@@ -44,6 +46,7 @@ impl Plan {
             spanned: scene.asked_span().is_some(),
             separatrix_ratio,
             gradient: None,
+            integration: None,
             skipped: Vec::new(),
         }
     }
@@ -53,17 +56,22 @@ impl Plan {
         self.mode
     }
 
-    /// The method of evaluation: the series, or the closed form (which includes the formulas of steady rotation).
+    /// The method of evaluation: the series, the closed form (which includes the formulas of steady rotation), or the integration.
     pub fn method(&self) -> Method {
         self.method
     }
 
-    /// Order N of the series. It is 0 if no series is used, or if the harmonic oscillator alone meets the tolerance.
+    /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance. Of an integration the order of the steps.
     pub fn order(&self) -> usize {
         self.order
     }
 
-    /// The highest multiple of ℓ′ that is evaluated; 0 if there is none.
+    /// Steps of the integration; 0 without one.
+    pub fn steps(&self) -> usize {
+        self.integration.map_or(0, |integration| integration.steps)
+    }
+
+    /// The highest multiple of ℓ′ that is evaluated; 0 where none is.
     pub fn harmonics(&self) -> usize {
         self.harmonics
     }
@@ -119,12 +127,12 @@ impl Plan {
         self.gradient.map_or(0.0, |gradient| gradient.neglected)
     }
 
-    /// The method for derivatives with respect to the state and the moments: "closed" (theory §12), or "differences" of fourth order for a scene with an orbit.
-    /// It is `None` on the separatrix, where the frequencies have no derivatives.
+    /// How derivatives with respect to the state and the moments are computed: "closed" (theory §12); "differences" of fourth order for a scene with an orbit or an integrated motion; `None` on the separatrix,
+    /// where the frequencies have none.
     pub fn partials(&self) -> Option<&'static str> {
-        match (self.mode, self.gradient) {
-            (_, Some(_)) => Some("differences"),
-            (Mode::Separatrix, None) => None,
+        match (self.mode, self.method, self.gradient) {
+            (_, Method::Integrated, _) | (_, _, Some(_)) => Some("differences"),
+            (Mode::Separatrix, _, None) => None,
             _ => Some("closed"),
         }
     }
@@ -146,12 +154,16 @@ impl fmt::Display for Plan {
             ratio => writeln!(f, "separatrix    {ratio:.3e} (sigma/sigma_sep)")?,
         }
         match self.method {
-            Method::Series => writeln!(f, "order         {}", self.order)?,
+            Method::Series | Method::Integrated => writeln!(f, "order         {}", self.order)?,
             _ => writeln!(f, "order         -")?,
         }
         match self.harmonics {
             0 => writeln!(f, "harmonics     -")?,
             harmonics => writeln!(f, "harmonics     {harmonics}")?,
+        }
+        if let Some(IntegrationPlan { steps, bodies }) = self.integration {
+            let plural = if bodies == 1 { "body" } else { "bodies" };
+            writeln!(f, "steps         {steps} over the span, under {bodies} disturbing {plural}")?;
         }
         if let Some(GradientPlan { averaging, level, terms, size, neglected }) = self.gradient {
             writeln!(

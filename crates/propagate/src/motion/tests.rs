@@ -184,7 +184,7 @@ impl Case {
 }
 
 fn evaluation(trajectory: &Trajectory, arch: Arch) -> Evaluation<'_> {
-    Evaluation { trajectory, epoch: 0.0, bound: 1e15, arch, stop: &GOING }
+    Evaluation { trajectory, epoch: 0.0, reach: [-1e15, 1e15], arch, stop: &GOING }
 }
 
 type Both = (Vec<[f64; 4]>, Vec<[f64; 3]>);

@@ -15,6 +15,8 @@ use std::sync::atomic::AtomicBool;
 use pulp::Arch;
 
 use crate::gravity_gradient::disturbed::Gradient;
+use crate::integration::dense::Cursor;
+use crate::integration::integrated::Integrated;
 use crate::numerics::phase::Phase;
 use crate::simd::circles::{Evaluate, Source};
 use crate::simd::grid::{GROUP, Grid};
@@ -46,6 +48,8 @@ pub(crate) enum Trajectory {
     Passage(Box<Passage>),
     /// Rotation under a gravity gradient.
     Gradient(Box<Gradient>),
+    /// By numerical integration.
+    Integrated(Box<Integrated>),
 }
 
 impl Trajectory {
@@ -54,7 +58,7 @@ impl Trajectory {
         match self {
             Self::Steady(steady) => Some(steady.phases()),
             Self::Wobble(tables) => Some(tables.phases()),
-            Self::Passage(_) | Self::Gradient(_) => None,
+            Self::Passage(_) | Self::Gradient(_) | Self::Integrated(_) => None,
         }
     }
 }
@@ -64,8 +68,8 @@ impl Trajectory {
 pub(crate) struct Evaluation<'a> {
     pub(crate) trajectory: &'a Trajectory,
     pub(crate) epoch: f64,
-    /// Largest time from the epoch.
-    pub(crate) bound: f64,
+    /// Largest distances before and after the epoch, the first negative.
+    pub(crate) reach: [f64; 2],
     pub(crate) arch: Arch,
     /// A flag that another thread sets to end the evaluation.
     pub(crate) stop: &'a AtomicBool,
@@ -84,8 +88,8 @@ impl Evaluation<'_> {
     /// Gives each half to a thread. A half begins where a group begins, so that each sample is computed as with one thread.
     fn spread(&self, times: &[f64], outputs: Outputs<'_>, grid: Option<&Grid>, threads: usize) -> Result<(), Halt> {
         if threads <= 1 {
-            let Self { trajectory, epoch, bound, arch, stop } = *self;
-            return dispatch(arch, Dispatch { trajectory, run: Run { epoch, bound, times, outputs, grid, stop } });
+            let Self { trajectory, epoch, reach, arch, stop } = *self;
+            return dispatch(arch, Dispatch { trajectory, run: Run { epoch, reach, times, outputs, grid, stop } });
         }
         let half = threads / 2;
         let place = (times.len() / threads * half).next_multiple_of(GROUP).min(times.len());
@@ -115,6 +119,10 @@ impl Task for Dispatch<'_> {
             Trajectory::Steady(steady) => run.by_circles(simd, steady.as_ref()),
             Trajectory::Wobble(tables) => run.by_circles(simd, tables.as_ref()),
             Trajectory::Passage(passage) => run.one_by_one(|elapsed| passage.evaluate(elapsed)),
+            Trajectory::Integrated(motion) => {
+                let mut cursor = Cursor::new(motion);
+                run.one_by_one(|elapsed| cursor.at(elapsed))
+            }
             Trajectory::Gradient(gradient) => {
                 let epoch = Lanes::splat(simd, run.epoch);
                 run.by_source(simd, Disturbed { gradient, epoch })

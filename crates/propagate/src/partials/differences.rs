@@ -1,4 +1,4 @@
-//! Derivatives of a motion under a gravity gradient, from differences of solved motions.
+//! Derivatives of a motion under a gravity gradient or an integrated one, by differences of solved motions.
 //!
 //! They are central differences of fourth order. A step turns the body by [`STEP`] at the most distant time. The truncation error is STEP⁴/30 of the largest
 //! derivative, 3e-10. The rounding error of a solution, 1e-13, divided by the step is as large. Derivatives of the mean motion alone would lack those of the
@@ -7,6 +7,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::Error;
+use crate::input::options::Method;
 use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::motion::solved::Motion;
@@ -29,8 +30,11 @@ pub(super) fn fill(
     attitudes: &mut [Derivatives],
     rates: &mut [Derivatives],
 ) -> Result<(), Error> {
-    let Some(averaging) = motion.plan.averaging() else { return Ok(()) };
-    let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance())).averaging(averaging);
+    let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance()));
+    let scene = match motion.plan.averaging() {
+        Some(averaging) => scene.averaging(averaging).method(Method::Closed),
+        None => scene.method(Method::Integrated),
+    };
     let steps = steps(&scene, times);
     let mut samples = Samples::new(times.len());
     samples.evaluate(&scene, times)?;
@@ -73,7 +77,11 @@ impl Samples {
 fn steps(scene: &Scene, times: &[f64]) -> [f64; PARAMETERS] {
     let State { epoch, angular_velocity, .. } = *scene.state();
     let farthest = times.iter().fold(0.0_f64, |most, time| most.max((time - epoch).abs()));
-    let rate = angular_velocity.norm();
+    // A body at rest has a step of the rates all the same.
+    let rate = match angular_velocity.norm() {
+        0.0 => STEP / farthest.max(f64::MIN_POSITIVE),
+        rate => rate,
+    };
     let part = LARGEST.min(STEP / (rate * farthest));
     let moments = scene.body().moments();
     std::array::from_fn(|parameter| match parameter {

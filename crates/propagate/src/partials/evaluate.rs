@@ -88,7 +88,7 @@ impl Target<'_> {
                 let amplitudes = &amplitudes(start);
                 self.fill(&Passing { flip, integral: &integral, amplitudes }, attitudes, rates);
             }
-            Trajectory::Steady(_) | Trajectory::Gradient(_) => {}
+            Trajectory::Steady(_) | Trajectory::Gradient(_) | Trajectory::Integrated(_) => {}
         }
         Ok(())
     }

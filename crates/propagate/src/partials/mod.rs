@@ -96,6 +96,9 @@ impl Motion {
         rates: &mut [Derivatives],
     ) -> Result<(), Error> {
         let epoch = self.scene.state().epoch;
+        if matches!(self.trajectory, Trajectory::Integrated(_)) {
+            return differences::fill(self, times, attitudes, rates);
+        }
         let Some(polhode) = Polhode::new(self.scene.body(), self.scene.state()) else {
             steady::at_rest(times, epoch, attitudes, rates);
             return Ok(());
@@ -115,7 +118,7 @@ impl Motion {
                 target.fill(&Steadily { course, varied: &varied }, attitudes, rates);
                 Ok(())
             }
-            Trajectory::Gradient(_) => differences::fill(self, times, attitudes, rates),
+            Trajectory::Gradient(_) | Trajectory::Integrated(_) => differences::fill(self, times, attitudes, rates),
             Trajectory::Wobble(_) | Trajectory::Passage(_) => {
                 target.wobbling(&self.scene, &polhode, mode, (attitudes, rates))
             }

@@ -121,7 +121,24 @@ class Orbit:
         node: float = 0.0,
         argument_of_pericentre: float = 0.0,
         mass_fraction: float = 1.0,
+        node_rate: float = 0.0,
+        pericentre_rate: float = 0.0,
+        attraction: float | None = None,
     ) -> Orbit: ...
+    @staticmethod
+    def around_oblate(
+        gm: float,
+        semi_major_axis: float,
+        eccentricity: float,
+        inclination: float,
+        *,
+        j2: float,
+        radius: float,
+        node: float = 0.0,
+        argument_of_pericentre: float = 0.0,
+        time_of_pericentre: float = 0.0,
+    ) -> Orbit:
+        """The orbit of a satellite about an oblate primary, with its secular rates of first order in J2 (Vallado 2013, eqs. 9-38 to 9-41)."""
     @property
     def mean_motion(self) -> float:
         """Mean motion n, in rad per unit of time."""
@@ -143,11 +160,42 @@ class Orbit:
     @property
     def mass_fraction(self) -> float:
         """Disturbing mass over the sum of both."""
+    @property
+    def node_rate(self) -> float:
+        """Secular rate of the node, in rad per unit of time."""
+    @property
+    def pericentre_rate(self) -> float:
+        """Secular rate of the argument of the pericentre, in rad per unit of time."""
+    @property
+    def attraction(self) -> float:
+        """G × disturbing mass / a³, in 1/time²: by default mean_motion² × mass_fraction."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
     def __copy__(self) -> Orbit: ...
     def __deepcopy__(self, _memo: Any) -> Orbit: ...
+
+@final
+class TabulatedOrbit:
+    """Position of a disturbing body relative to the rotating one, as a table; only for the integrated method."""
+
+    def __new__(cls, times: ArrayLike | Any, positions: ArrayLike, gm: float) -> TabulatedOrbit: ...
+    @property
+    def times(self) -> _Array:
+        """The times, a read-only array of shape (n,)."""
+    @property
+    def positions(self) -> _Array:
+        """The positions, a read-only array of shape (n, 3)."""
+    @property
+    def gm(self) -> float:
+        """G × mass of the disturbing body."""
+    def position(self, time: float) -> _Array:
+        """The position at a time within the table: an array of shape (3,)."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __getnewargs__(self) -> tuple[Any, ...]: ...
+    def __copy__(self) -> TabulatedOrbit: ...
+    def __deepcopy__(self, _memo: Any) -> TabulatedOrbit: ...
 
 @final
 class Scene:
@@ -160,9 +208,9 @@ class Scene:
         angular_velocity: ArrayLike,
         *,
         epoch: float | Any = 0.0,
-        orbit: Orbit | None = None,
+        orbit: Orbit | TabulatedOrbit | Sequence[Orbit | TabulatedOrbit] | None = None,
         tolerance: float = 1e-12,
-        method: Literal["auto", "series", "closed"] = "auto",
+        method: Literal["auto", "series", "closed", "integrated"] = "auto",
         order: int | None = None,
         span: ArrayLike | None = None,
         averaging: Literal["auto", "orbit", "spin"] = "auto",
@@ -212,8 +260,8 @@ class Scene:
     def tolerance(self) -> float:
         """The attitude error asked for, in rad."""
     @property
-    def method(self) -> Literal["auto", "series", "closed"]:
-        """The method: "auto", "series" or "closed"."""
+    def method(self) -> Literal["auto", "series", "closed", "integrated"]:
+        """The method: "auto", "series", "closed" or "integrated"."""
     @property
     def order(self) -> int | None:
         """The fixed order of the series, or None."""
@@ -221,8 +269,8 @@ class Scene:
     def span(self) -> tuple[float, float] | None:
         """The times over which the tolerance is asked for: (start, stop), or None."""
     @property
-    def orbit(self) -> Orbit | None:
-        """The orbit of the disturbing body, or None."""
+    def orbit(self) -> Orbit | TabulatedOrbit | tuple[Orbit | TabulatedOrbit, ...] | None:
+        """The orbit of the disturbing body, an `Orbit` or a `TabulatedOrbit`; of several a tuple of them; or None."""
     @property
     def averaging(self) -> Literal["auto", "orbit", "spin"]:
         """The averaging: "auto", "orbit" or "spin"."""
@@ -288,11 +336,14 @@ class Plan:
     def mode(self) -> Literal["short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis", "at-rest"]:
         """The kind of motion: "short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis" or "at-rest"."""
     @property
-    def method(self) -> Literal["series", "closed"]:
-        """How it is evaluated: "series", or "closed" for theta functions and the formulas that need no sum at all."""
+    def method(self) -> Literal["series", "closed", "integrated"]:
+        """How it is evaluated: "series", "closed" for theta functions and the formulas that need no sum at all, or "integrated"."""
     @property
     def order(self) -> int:
-        """Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance."""
+        """Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance. Of an integration the order of its steps."""
+    @property
+    def steps(self) -> int:
+        """Steps of the integration; 0 without one."""
     @property
     def harmonics(self) -> int:
         """The highest multiple of the anomaly ℓ′ that is evaluated; 0 where none is."""
@@ -322,7 +373,7 @@ class Plan:
         """First neglected term under a gravity gradient, in rad: of second order in the torque, or a short-period one that was dropped; 0 without an orbit."""
     @property
     def partials(self) -> Literal["closed", "differences"] | None:
-        """How `Motion.partials` computes: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; None on the separatrix, where there are none."""
+        """How `Motion.partials` computes: "closed" (theory §12); "differences" of fourth order for a scene with an orbit or an integrated motion; None on the separatrix, where there are none."""
     @property
     def skipped(self) -> list[str]:
         """What this scene did not need, and why: a list of str."""
