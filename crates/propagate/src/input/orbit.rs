@@ -25,7 +25,7 @@ pub struct Oblateness {
     pub gm: f64,
     /// J2 for the reference radius.
     pub j2: f64,
-    /// The reference radius of J2 [length].
+    /// The reference radius of J2 \[length\].
     pub radius: f64,
 }
 
