@@ -179,6 +179,20 @@ pub enum Error {
         "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it) the frequencies have no derivatives; choose a state beside the separatrix"
     )]
     SeparatrixPartials,
+    /// A language for which no code can be written.
+    #[error("language = {value:?}: it must be \"c\", \"rust\", \"python\" or \"javascript\"")]
+    CodeLanguage {
+        /// The language as given.
+        value: String,
+    },
+    /// A motion for which no code can be written.
+    #[error(
+        "no code is written of {motion}: rest, steady rotation and torque-free wobbles of both modes have code; a C-kernel or an attitude file holds any motion"
+    )]
+    NoCode {
+        /// The kind of the motion.
+        motion: &'static str,
+    },
     /// An unknown convention of periods.
     #[error("convention = {value:?}: it must be \"extremal-axis\", \"long-axis\" or \"short-axis\"")]
     Convention {

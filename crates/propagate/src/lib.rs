@@ -27,6 +27,8 @@ mod solve;
 
 pub mod partials;
 
+pub mod motion_code;
+
 mod observed;
 
 mod scene_file;

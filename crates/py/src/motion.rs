@@ -260,6 +260,48 @@ impl Motion {
         Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
     }
 
+    /// A self-contained function `rotation(time)` that evaluates this motion, as the text of a file of source (theory §8).
+    ///
+    /// It returns the attitude [x, y, z, w] and the angular velocity in body components, from the constants in the file and the language alone: C99 with math.h, Rust of `core`,
+    /// Python with math, JavaScript. C and Rust allocate nothing. Phases are kept in two doubles, so that they hold after 1e9 rotations. The head of the file names the scene,
+    /// the mode, the validity interval and the largest difference from the library. Times count as those of the scene; for an epoch of astropy in TDB seconds since J2000.
+    ///
+    /// Parameters
+    /// ----------
+    /// language : {"c", "rust", "python", "javascript"}, optional
+    ///
+    /// Returns
+    /// -------
+    /// str
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     The language ``"fortran"``.
+    /// RepresentationError
+    ///     A passage along the separatrix, or a motion under a torque.
+    ///
+    /// Examples
+    /// --------
+    /// >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    /// >>> namespace = {}
+    /// >>> exec(motion.to_code("python"), namespace)
+    /// >>> attitude, rates = namespace["rotation"](1e9)
+    /// >>> bool(abs(motion.attitude(1e9) - attitude).max() < 1e-14)
+    /// True
+    #[pyo3(signature = (language="c"))]
+    fn to_code(&self, py: Python<'_>, language: &str) -> PyResult<String> {
+        let language = language.parse().map_err(error::propagation)?;
+        detached(py, error::propagation, || self.0.to_code(language))
+    }
+
+    /// The same with the bounds of its differences that its head states: of the attitude [rad], of the angular velocity over its length.
+    fn _code(&self, py: Python<'_>, language: &str) -> PyResult<(String, f64, f64)> {
+        let language = language.parse().map_err(error::propagation)?;
+        let code = detached(py, error::propagation, || self.0.code(language))?;
+        Ok((code.text().to_owned(), code.attitude_error(), code.rate_error()))
+    }
+
     /// What is evaluated, and why.
     #[getter]
     fn plan(&self) -> Plan {

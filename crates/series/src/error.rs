@@ -110,13 +110,25 @@ pub enum Error {
     },
     /// A quadratic part whose frequency is 0 when its parameters are 0.
     #[error(
-        "the quadratic part in {pairs} has a zero frequency where its parameters are 0, in the term {term}: write the parameter as a number and a detuning, w = w0 + d, or scale q -> q/sqrt(w), p -> p sqrt(w), t -> t/w, so that the frequency is a number"
+        "the quadratic part in {pairs} has a zero frequency where its parameters are 0, in the term {term}: write the parameter as a number and a detuning, w = w0 + d, or scale q -> q/sqrt(w), p -> p sqrt(w), t -> t/w, so that the frequency is a number (PhaseSpace::scaled; in Python the argument frequency)"
     )]
     FrequencyParameter {
         /// The pairs of the coupled block.
         pairs: String,
         /// A quadratic term with a parameter.
         term: String,
+    },
+    /// A letter that cannot be scaled away.
+    #[error(
+        "in the variables q sqrt({letter}), p/sqrt({letter}) the term {term} has the power {power} of 1/sqrt({letter}): it must be 0 in the quadratic part, so that every frequency is a number times {letter}, and not negative elsewhere"
+    )]
+    FrequencyLetter {
+        /// The parameter.
+        letter: String,
+        /// The term as given.
+        term: String,
+        /// Its power of 1/√w.
+        power: i64,
     },
     /// A quadratic part that cannot be diagonalized.
     #[error(
@@ -330,7 +342,7 @@ pub enum Error {
         /// The reason.
         problem: TermProblem,
     },
-    /// A coefficient from a file that differs from that of the rigid body.
+    /// A coefficient from a file that differs from that of the rigid body, or of the Hamiltonian in the same file.
     #[error(
         "the {what} of order {order} has the coefficient {found} at the exponents {exponents:?}: it must be {expected}"
     )]
@@ -339,11 +351,11 @@ pub enum Error {
         what: &'static str,
         /// Order in the small parameter.
         order: usize,
-        /// Exponents (u, U, β), or (β) alone.
+        /// Exponents (u, U, β), or (β) alone; of a Birkhoff form those of its variables, of its linear change the column.
         exponents: Vec<u32>,
         /// The coefficient read, or 0 if the file has none.
         found: String,
-        /// The coefficient of the rigid body, or 0 if there is none.
+        /// The coefficient of the normal form, or 0 if there is none.
         expected: String,
     },
 }

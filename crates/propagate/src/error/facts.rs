@@ -18,7 +18,7 @@ impl Error {
     pub fn kind(&self) -> Kind {
         match self {
             Self::SceneFile { .. } => Kind::File,
-            Self::Units { .. } | Self::Order { .. } => Kind::Representation,
+            Self::Units { .. } | Self::Order { .. } | Self::NoCode { .. } => Kind::Representation,
             Self::Time { value, .. } if value.is_finite() => Kind::Representation,
             Self::NearSeparatrix { .. }
             | Self::Separatrix
@@ -45,6 +45,7 @@ impl Error {
             | Self::Tolerance { .. }
             | Self::Span { .. }
             | Self::Method { .. }
+            | Self::CodeLanguage { .. }
             | Self::Time { .. }
             | Self::Length { .. }
             | Self::Convention { .. }
@@ -145,6 +146,7 @@ impl Error {
             Self::Span { start, stop } => facts("span", [*start, *stop], "finite with start <= stop"),
             Self::Order { value, bound } => facts("order", *value, *bound),
             Self::Method { value } => facts("method", value, "auto, series, closed, integrated"),
+            Self::CodeLanguage { value } => facts("language", value, "c, rust, python, javascript"),
             Self::Convention { value } => facts("convention", value, "extremal-axis, long-axis, short-axis"),
             Self::ModeName { value } => facts("mode", value, "short-axis, long-axis"),
             Self::Level { value } => facts("level", value, "paper, moving, full"),
@@ -162,6 +164,7 @@ impl Error {
             Self::Time { value, bound, .. } => facts("times", *value, *bound),
             Self::NearSeparatrix { tolerance, attainable, .. } => facts("tolerance", *tolerance, *attainable),
             Self::Separatrix => facts("method", "series", "closed"),
+            Self::NoCode { motion } => facts("motion", *motion, "rest, steady rotation or a torque-free wobble"),
             Self::SeparatrixPartials => facts("angular_velocity", 1.0, "sigma/sigma_sep other than 1"),
             Self::Resonance { divisor, bound, .. } => facts("orbit", *divisor, *bound),
             Self::TorqueTooStrong { size, bound } => facts("orbit", *size, *bound),

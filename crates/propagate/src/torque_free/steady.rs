@@ -85,10 +85,10 @@ impl SteadyRotation {
 /// The constants from which a steady rotation is evaluated.
 #[derive(Clone, Debug)]
 pub(crate) struct Steady {
-    half_angle: Phase,
+    pub(crate) half_angle: Phase,
     /// The attitude is the first quaternion times the cosine plus the second times the sine.
-    attitudes: [[f64; 4]; 2],
-    rates: [f64; 3],
+    pub(crate) attitudes: [[f64; 4]; 2],
+    pub(crate) rates: [f64; 3],
 }
 
 impl Steady {

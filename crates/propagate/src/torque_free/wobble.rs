@@ -25,13 +25,13 @@ pub(crate) struct Wobble {
 /// The constants from which a wobbling motion is evaluated.
 #[derive(Clone, Debug)]
 pub(crate) struct WobbleEvaluator {
-    anomaly: Phase,
-    half_longitude: Phase,
-    sums: Sums,
+    pub(crate) anomaly: Phase,
+    pub(crate) half_longitude: Phase,
+    pub(crate) sums: Sums,
     /// Rows x, y, z, w of the attitude, columns Re b, Im b, Im a, Re a.
-    map: [[f64; 4]; 4],
+    pub(crate) map: [[f64; 4]; 4],
     /// For each body axis, the index of its sorted axis and the factor of g: ±M over the moment.
-    rates: [(usize, f64); 3],
+    pub(crate) rates: [(usize, f64); 3],
 }
 
 impl WobbleEvaluator {

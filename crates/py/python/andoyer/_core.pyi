@@ -307,6 +307,10 @@ class Motion:
         """Attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else."""
     def partials(self, times: ArrayLike) -> Partials:
         """Derivatives of attitude and angular velocity with respect to the state at the epoch and the moments (theory §12)."""
+    def to_code(self, language: Literal["c", "rust", "python", "javascript"] = "c") -> str:
+        """A self-contained function `rotation(time)` that evaluates this motion, as the text of a file of source (theory §8)."""
+    def _code(self, language: Literal["c", "rust", "python", "javascript"]) -> tuple[str, float, float]:
+        """The same with the bounds of its differences that its head states: of the attitude [rad], of the angular velocity over its length."""
     @property
     def plan(self) -> Plan:
         """What is evaluated, and why."""
@@ -627,6 +631,7 @@ def normalize(
     *,
     parameters: Sequence[Any] | None = None,
     degrees: dict[str, int] | None = None,
+    frequency: tuple[str, str] | None = None,
     resonances: Sequence[Sequence[int]] | None = None,
     keep: Literal["hyperbolic"] | None = None,
     smallest_divisor: float = 1e-6,

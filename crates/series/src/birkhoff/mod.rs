@@ -22,9 +22,11 @@ mod mode;
 mod phase_space;
 mod quadratic;
 mod resonances;
+mod scaled;
 mod spectrum;
 mod text;
 mod transformation;
+mod verify;
 mod williamson;
 
 pub use domain::Domain;
@@ -49,6 +51,8 @@ pub struct BirkhoffNormalForm<R: RealField> {
     diagonal: Diagonal<R>,
     resonances: Resonances,
     offset: Polynomial<R>,
+    /// What was normalized, without the constant term and what its order does not reach.
+    hamiltonian: Polynomial<R>,
     normalization: Normalization<R::Complex>,
 }
 
@@ -121,7 +125,12 @@ pub fn normalize_with<R: RealField>(
     let removal = |n, known: &Polynomial<_>| remove(n, known, &diagonal.modes, resonances, &space);
     let normalization = normalize_by(&series, &space.poisson()?, order, &removal, progress)?;
     let offset = hamiltonian.filter(|monomial, _| monomial.degree_in(&space.phase_slots()) == 0);
-    let normal_form = BirkhoffNormalForm { space, diagonal, resonances: resonances.clone(), offset, normalization };
+    let within = |monomial: Monomial| {
+        monomial.degree_in(&space.phase_slots()) > 0 && space.degree(monomial) as usize <= order + 2
+    };
+    let hamiltonian = hamiltonian.filter(|monomial, _| within(monomial));
+    let resonances = resonances.clone();
+    let normal_form = BirkhoffNormalForm { space, diagonal, resonances, offset, hamiltonian, normalization };
     normal_form.check_finite()?;
     Ok(normal_form)
 }
@@ -229,6 +238,12 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     #[must_use]
     pub fn offset(&self) -> &Polynomial<R> {
         &self.offset
+    }
+
+    /// The Hamiltonian that was normalized, to the degree that its order reaches and without the constant term.
+    #[must_use]
+    pub fn hamiltonian(&self) -> &Polynomial<R> {
+        &self.hamiltonian
     }
 
     /// The transformation in the complex variables. Order n of its series is degree n + 2.

@@ -83,6 +83,22 @@ impl PhaseSpace {
         Ok(self)
     }
 
+    /// This space with another name for a parameter.
+    pub(super) fn with_renamed(&self, parameter: &str, name: &str) -> Result<Self, Error> {
+        let mut renamed = self.clone().with_degree(parameter, 0)?;
+        for known in &mut renamed.names[2 * self.degrees_of_freedom..] {
+            if known == parameter {
+                name.clone_into(known);
+            }
+        }
+        renamed.checked()
+    }
+
+    /// The names as texts of their own.
+    pub(super) fn owned_names(&self) -> Vec<String> {
+        self.names.clone()
+    }
+
     /// This space with degrees for all parameters. A missing degree follows from the quadratic part of `hamiltonian`: 2 if the parameter occurs in it,
     /// otherwise 0.
     pub(crate) fn settled<C: Coefficient>(&self, hamiltonian: &Polynomial<C>) -> Self {

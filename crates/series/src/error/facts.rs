@@ -143,6 +143,7 @@ impl Error {
             | Self::ParameterDegree { .. }
             | Self::ParameterUnknown { .. }
             | Self::FrequencyParameter { .. }
+            | Self::FrequencyLetter { .. }
             | Self::NotFinite { .. }
             | Self::NotResonant { .. }
             | Self::ResonanceMalformed { .. }
@@ -211,6 +212,9 @@ impl Error {
         let (value, bound) = match self {
             Self::LinearTerm { term, .. } => (term, "no linear term"),
             Self::ZeroFrequency { pairs, .. } => (pairs, "no frequency 0"),
+            Self::FrequencyLetter { term, .. } => {
+                (term, "1/sqrt(w) to the power 0 in the quadratic part, not negative elsewhere")
+            }
             Self::FrequencyParameter { term, .. } => (term, "a number for the frequency"),
             Self::Defective { eigenvalue, .. } => (eigenvalue, "no Jordan block"),
             Self::SpectrumIrrational { eigenvalue, .. } => (eigenvalue, "rational eigenvalues, or floats"),
