@@ -22,6 +22,10 @@ pub struct DoubleDouble {
 }
 
 /// a + b and its rounding error, for any a and b.
+///
+/// ```
+/// assert_eq!(andoyer_double::two_sum(1.0, 1e-20), (1.0, 1e-20));
+/// ```
 #[must_use]
 #[inline]
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
@@ -31,6 +35,12 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// a·b and its rounding error.
+///
+/// ```
+/// let near_one = 1.0 + f64::EPSILON;
+/// let exact = (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON);
+/// assert_eq!(andoyer_double::two_product(near_one, near_one), exact);
+/// ```
 #[must_use]
 #[inline]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {

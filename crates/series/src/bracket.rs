@@ -115,6 +115,15 @@ impl Poisson {
 
     /// The Lie derivative of `f` along the flow of `hamiltonian`: L_h f = {f; h}, so that df/dt = L_h f (theory §3).
     ///
+    /// ```
+    /// use andoyer_series::Polynomial;
+    /// use andoyer_series::lie::Poisson;
+    /// let parse = |text| Polynomial::<f64>::parse(text, &["q", "p"]);
+    /// let poisson = Poisson::new(&[(0, 1)])?;
+    /// assert_eq!(poisson.lie_derivative(&parse("q*p")?, &parse("p")?)?, parse("-p")?);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// - The errors of [`bracket`](Self::bracket).
     pub fn lie_derivative<C: Coefficient>(

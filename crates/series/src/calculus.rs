@@ -9,6 +9,13 @@ use std::collections::BTreeMap;
 impl<C: Coefficient> Polynomial<C> {
     /// The partial derivative with respect to the variable of `slot`.
     ///
+    /// ```
+    /// use andoyer_series::Polynomial;
+    /// let parse = |text| Polynomial::<f64>::parse(text, &["x", "y"]);
+    /// assert_eq!(parse("x^3*y")?.derivative(0)?, parse("3*x^2*y")?);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// - slot 8: [`Error::SlotOutOfRange`].
     pub fn derivative(&self, slot: usize) -> Result<Self, Error> {

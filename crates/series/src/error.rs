@@ -118,7 +118,7 @@ pub enum Error {
         /// A quadratic term with a parameter.
         term: String,
     },
-    /// A letter that cannot be scaled away.
+    /// A parameter that cannot be removed by scaling.
     #[error(
         "in the variables q sqrt({letter}), p/sqrt({letter}) the term {term} has the power {power} of 1/sqrt({letter}): it must be 0 in the quadratic part, so that every frequency is a number times {letter}, and not negative elsewhere"
     )]
@@ -127,7 +127,7 @@ pub enum Error {
         letter: String,
         /// The term as given.
         term: String,
-        /// Its power of 1/√w.
+        /// The power of 1/√w in the scaled term.
         power: i64,
     },
     /// A quadratic part that cannot be diagonalized.
@@ -342,7 +342,7 @@ pub enum Error {
         /// The reason.
         problem: TermProblem,
     },
-    /// A coefficient from a file that differs from that of the rigid body, or of the Hamiltonian in the same file.
+    /// A coefficient from a file that differs from that of the rigid body, or from that of the Hamiltonian in the same file.
     #[error(
         "the {what} of order {order} has the coefficient {found} at the exponents {exponents:?}: it must be {expected}"
     )]
@@ -351,7 +351,7 @@ pub enum Error {
         what: &'static str,
         /// Order in the small parameter.
         order: usize,
-        /// Exponents (u, U, β), or (β) alone; of a Birkhoff form those of its variables, of its linear change the column.
+        /// Exponents (u, U, β), or (β) alone. For a Birkhoff normal form they are those of its variables; for its linear change, the column.
         exponents: Vec<u32>,
         /// The coefficient read, or 0 if the file has none.
         found: String,

@@ -102,6 +102,13 @@ impl<C: Coefficient> Polynomial<C> {
 
     /// This polynomial to the power `exponent`, by repeated squaring. The power 0 is 1, also of the polynomial 0.
     ///
+    /// ```
+    /// use andoyer_series::Polynomial;
+    /// let parse = |text| Polynomial::<f64>::parse(text, &["x"]);
+    /// assert_eq!(parse("1 + x")?.power(2)?, parse("1 + 2*x + x^2")?);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// - x to the power 32768: [`Error::ExponentOverflow`].
     pub fn power(&self, exponent: u32) -> Result<Self, Error> {

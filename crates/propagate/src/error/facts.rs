@@ -1,4 +1,4 @@
-//! The facts of an error as data: its kind, the argument, the value given and the bound that it breaks.
+//! The facts of an error as data: its kind, the argument, the given value and the bound that it breaks.
 
 use super::Error;
 pub use andoyer_series::error::{Kind, Value};
@@ -13,7 +13,7 @@ fn facts<'a>(argument: &'a str, value: impl Into<Value>, bound: impl Into<Value>
 }
 
 impl Error {
-    /// What a caller can do about it. Of a member of an ensemble it is that of its problem.
+    /// What a caller can do about this error. For a member of an ensemble it is that of the member's error.
     #[must_use]
     pub fn kind(&self) -> Kind {
         match self {
@@ -67,19 +67,19 @@ impl Error {
         }
     }
 
-    /// The argument that is wrong, without an index; of a file the key, with its table.
+    /// The argument that is wrong, without an index. For a file it is the key with its table.
     #[must_use]
     pub fn argument(&self) -> Option<&str> {
         self.facts().0
     }
 
-    /// The value that was given, or the number computed from it that breaks the bound.
+    /// The given value, or the number computed from it that breaks the bound.
     #[must_use]
     pub fn value(&self) -> Option<Value> {
         self.facts().1
     }
 
-    /// What the value must be: a number, an interval or words.
+    /// The requirement on the value: a number, an interval or words.
     #[must_use]
     pub fn bound(&self) -> Option<Value> {
         self.facts().2

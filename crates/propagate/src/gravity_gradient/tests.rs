@@ -1,4 +1,4 @@
-//! Tests of the corrections with the mean variables, which are not public: M is constant, and the brackets are preserved.
+//! Tests of the corrections with the mean variables, which are not public: the mean M is nearly constant, and the brackets are preserved.
 
 use super::*;
 use crate::simd::kepler::Place;

@@ -177,6 +177,12 @@ impl Body {
 
     /// A body of the catalogue by its name, in upper or lower case: "earth", "ceres", … ([`Body::catalogue`] lists the names).
     ///
+    /// ```
+    /// let eros = andoyer_propagate::Body::named("eros")?;
+    /// assert_eq!(eros.moments(), [0.210_078_32, 0.983_109_82, 1.0]);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// - [`Error::UnknownBody`] for `"vulcan"`.
     pub fn named(name: &str) -> Result<Self, Error> {
@@ -260,6 +266,12 @@ impl Body {
     /// σ_sep(β) = (2/π) atan √((1−β)/2β), the action of the separatrix in units of M (theory §5); 1 for A = B, 0 for B = C.
     ///
     /// It is computed from the moments, so that it keeps its relative accuracy when β is close to 1.
+    ///
+    /// ```
+    /// let action = andoyer_propagate::Body::new([1.0, 1.5, 2.0])?.separatrix_action();
+    /// assert!((action - 0.39183).abs() < 5e-6); // β = ½: table of theory §5
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
     pub fn separatrix_action(&self) -> f64 {
         let (_, second) = self.excesses();
         let difference = self.excess_difference();

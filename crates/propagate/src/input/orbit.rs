@@ -1,6 +1,7 @@
-//! The relative orbit of a disturbing body: Kepler's, any ellipse, in any plane, fixed or with secular rates of node and pericentre.
+//! The relative orbit of a disturbing body: a Keplerian ellipse in any plane, fixed or with secular rates of node and pericentre.
 //!
-//! Elements are those of the inertial frame of the scene; node and argument of the pericentre are those at the time of pericentre. The equation of Kepler is solved in lanes ([`crate::simd::kepler`]).
+//! The elements refer to the inertial frame of the scene. Node and argument of the pericentre are those at the time of pericentre. Kepler's equation is solved
+//! in lanes ([`crate::simd::kepler`]).
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,14 +18,14 @@ const MOST_TURNS: f64 = TAU * 1e15;
 
 const POSITIVE: &str = "positive and finite";
 
-/// An oblate primary.
+/// An oblate primary body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Oblateness {
-    /// G × its mass.
+    /// G × the mass of the primary [length³/time²].
     pub gm: f64,
-    /// J2, for the reference radius.
+    /// J2 for the reference radius.
     pub j2: f64,
-    /// The reference radius of J2.
+    /// The reference radius of J2 \[length\].
     pub radius: f64,
 }
 
@@ -75,12 +76,12 @@ impl Orbit {
         })
     }
 
-    /// The orbit about an oblate primary with its secular rates of first order in J2 (Kaula 1966, eqs. 3.74; Vallado 2013, eqs. 9-38 to 9-41), the rotating body being the
-    /// satellite and the primary the disturbing body.
+    /// The orbit about an oblate primary, with its secular rates of first order in J2 (Kaula 1966, eqs. 3.74; Vallado 2013, eqs. 9-38 to 9-41). The rotating
+    /// body is the satellite and the primary is the disturbing body.
     ///
-    /// With n0² = GM/a³, p = a(1 − e²) and k = (3/2) n0 J2 (R/p)²: node rate −k cos i, pericentre rate k (2 − (5/2) sin² i), mean motion
-    /// n0 + k √(1 − e²) (1 − (3/2) sin² i), which is the rate of the mean anomaly; the attraction is GM/a³. `semi_major_axis` is the mean one. Periodic terms, of relative size J2 (R/p)²,
-    /// are left out.
+    /// Let n0² = GM/a³, p = a(1 − e²) and k = (3/2) n0 J2 (R/p)². The node rate is −k cos i, the pericentre rate k (2 − (5/2) sin² i), and the mean motion n0 +
+    /// k √(1 − e²) (1 − (3/2) sin² i), which is the rate of the mean anomaly. The attraction is GM/a³. `semi_major_axis` is the mean semi-major axis. Periodic
+    /// terms, of relative size J2 (R/p)², are omitted.
     ///
     /// ```
     /// use andoyer_propagate::Orbit;
@@ -93,7 +94,7 @@ impl Orbit {
     /// ```
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for a gm, a semi-major axis or a radius of 0, a J2 of NaN, an eccentricity of 1, or rates that leave no positive mean motion.
+    /// - [`Error::Orbit`] for a gm, a semi-major axis or a radius of 0, a J2 of NaN, an eccentricity of 1, or rates that make the mean motion 0 or negative.
     pub fn around_oblate(
         primary: &Oblateness,
         semi_major_axis: f64,
@@ -122,7 +123,7 @@ impl Orbit {
             .attraction(attraction)
     }
 
-    /// A time of a passage of the pericentre.
+    /// Sets a time of pericentre passage [unit of time].
     ///
     /// # Errors
     /// - [`Error::Orbit`] for a time that is NaN or infinite.
@@ -151,30 +152,30 @@ impl Orbit {
         Ok(Self { mass_fraction: fraction, ..self })
     }
 
-    /// Secular rates of the node, about inertial axis 3, and of the argument of the pericentre, about the normal of the orbit [rad per unit of time]. Node and argument are then
-    /// those at the time of pericentre, and the mean motion is the rate of the mean anomaly.
+    /// Sets the secular rates of the node, about inertial axis 3, and of the argument of the pericentre, about the normal of the orbit [rad per unit of time].
+    /// Node and argument are then those at the time of pericentre, and the mean motion is the rate of the mean anomaly.
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for NaN or infinite.
+    /// - [`Error::Orbit`] for a rate that is NaN or infinite.
     pub fn secular_rates(self, node: f64, pericentre: f64) -> Result<Self, Error> {
         finite("node_rate", node)?;
         finite("pericentre_rate", pericentre)?;
         Ok(Self { node_rate: node, pericentre_rate: pericentre, ..self })
     }
 
-    /// G × disturbing mass / a³ [1/time²], instead of mean_motion² × mass_fraction.
+    /// Sets the attraction G × disturbing mass / a³ [1/time²]. The default is mean_motion² × mass_fraction.
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for 0, −1, NaN.
+    /// - [`Error::Orbit`] for 0, −1 or NaN.
     pub fn attraction(self, attraction: f64) -> Result<Self, Error> {
         check("attraction", attraction, attraction > 0.0 && attraction.is_finite(), POSITIVE)?;
         Ok(Self { attraction: Some(attraction), ..self })
     }
 
-    /// Node and argument of the pericentre at the time of pericentre, in place of those of [`Orbit::plane`] \[rad\].
+    /// Sets node and argument of the pericentre at the time of pericentre, which replace those of [`Orbit::plane`] \[rad\].
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for NaN or infinite.
+    /// - [`Error::Orbit`] for an angle that is NaN or infinite.
     pub fn node_and_pericentre(self, node: f64, argument_of_pericentre: f64) -> Result<Self, Error> {
         self.plane(self.inclination, node, argument_of_pericentre)
     }
@@ -184,22 +185,22 @@ impl Orbit {
         [self.node_rate, self.pericentre_rate]
     }
 
-    /// Whether node and pericentre stand still.
+    /// Whether node and pericentre are fixed.
     pub(crate) fn is_fixed(&self) -> bool {
         self.rates() == [0.0; 2]
     }
 
-    /// G × disturbing mass / a³ as given, if it was.
+    /// The given attraction G × disturbing mass / a³ [1/time²], or `None`.
     pub fn asked_attraction(&self) -> Option<f64> {
         self.attraction
     }
 
-    /// G × disturbing mass / a³ [1/time²]: by default mean_motion² × mass_fraction.
+    /// The attraction G × disturbing mass / a³ [1/time²]. The default is mean_motion² × mass_fraction.
     pub fn strength(&self) -> f64 {
         self.attraction.unwrap_or(self.mean_motion * self.mean_motion * self.mass_fraction)
     }
 
-    /// Mean motion n, eccentricity, time of pericentre, inclination, node, argument of pericentre, mass fraction.
+    /// The elements: mean motion n, eccentricity, time of pericentre, inclination, node, argument of pericentre, mass fraction.
     pub fn elements(&self) -> [f64; 7] {
         [
             self.mean_motion,
@@ -233,7 +234,7 @@ impl Orbit {
         self.mean_motion
     }
 
-    /// The attraction over n²: the mass fraction, unless an attraction is given.
+    /// The attraction over n². It is the mass fraction unless an attraction is given.
     pub(crate) fn disturbing_fraction(&self) -> f64 {
         match self.attraction {
             Some(attraction) => attraction / self.mean_motion / self.mean_motion,
@@ -255,7 +256,7 @@ impl Orbit {
         self.angle(epoch, 0.0, self.mean_motion)
     }
 
-    /// The node and the argument of the pericentre as phases from an epoch on.
+    /// The node and the argument of the pericentre as phases that start at an epoch.
     pub(crate) fn node_and_argument(&self, epoch: f64) -> [Phase; 2] {
         [
             self.angle(epoch, self.node, self.node_rate),
@@ -268,7 +269,7 @@ impl Orbit {
         self.inclination.sin_cos()
     }
 
-    /// An angle with a rate and its value at the time of pericentre, as a phase from an epoch on.
+    /// A phase that starts at an epoch, from an angle at the time of pericentre and its rate.
     fn angle(&self, epoch: f64, start: f64, rate: f64) -> Phase {
         let since = DoubleDouble::sum(epoch, -self.time_of_pericentre);
         let angle = since * DoubleDouble::from(rate) + DoubleDouble::from(start);

@@ -80,7 +80,8 @@ impl Scene {
         self.disturbing([orbit])
     }
 
-    /// The bodies whose gravity gradients act, instead of those that the scene had. Several of them, a table, and an orbit with secular rates are integrated.
+    /// Sets the bodies whose gravity gradients act, in place of those that the scene had. A scene with several bodies, a table, or an orbit with secular rates
+    /// is integrated.
     ///
     /// ```
     /// use andoyer_propagate::{Body, Method, Orbit, Scene, State};
@@ -169,7 +170,7 @@ impl Scene {
         self.order
     }
 
-    /// The orbit of the disturbing body, if there is one such body and it has an orbit.
+    /// The orbit of the disturbing body, or `None` if there is not exactly one body or it has no orbit.
     pub fn asked_orbit(&self) -> Option<&Orbit> {
         match &self.disturbing[..] {
             [DisturbingBody::Orbit(orbit)] => Some(orbit),

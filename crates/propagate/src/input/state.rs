@@ -24,6 +24,12 @@ pub struct State {
 impl State {
     /// A state from plain numbers. `attitude` is [x, y, z, w] with a norm within 1e-6 of 1; it is normalized unless its norm is 1 to rounding.
     ///
+    /// ```
+    /// let state = andoyer_propagate::State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?;
+    /// assert_eq!(state.angular_velocity.z, 1.0);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// - [`Error::Epoch`] for `f64::NAN`.
     /// - [`Error::Attitude`] for `[0.0; 4]`, `[f64::NAN, 0.0, 0.0, 1.0]`, `[0.0, 0.0, 0.0, 1.1]`.

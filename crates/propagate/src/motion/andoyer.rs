@@ -17,6 +17,16 @@ const AT_ONCE: usize = 64;
 impl Motion {
     /// [λ, μ, ν, Λ, M, N] at a time: angles in (−π, π] \[rad\], momenta in units of moment × rate. All are 0 for a body at rest.
     ///
+    /// ```
+    /// use andoyer_propagate::{Body, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 2.0])?;
+    /// let motion = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).solve()?;
+    /// // At I = J = 0 the angle of rotation is μ, and Λ = M = N = C ω.
+    /// let [_, mu, _, _, momentum, _] = motion.andoyer(0.5)?;
+    /// assert!((mu - 1.0).abs() < 1e-14 && (momentum - 4.0).abs() < 1e-14);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// The errors of [`Motion::at`].
     pub fn andoyer(&self, time: f64) -> Result<[f64; 6], Error> {

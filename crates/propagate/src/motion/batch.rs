@@ -128,7 +128,7 @@ impl<'a> Batch<'a> {
         Ok(())
     }
 
-    /// R I ω of attitudes and rates.
+    /// The angular momenta R I ω from attitudes and rates.
     fn momenta_of_samples(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
         let mut attitudes = vec![[0.0; 4]; times.len()];
         self.about_principal_axes(times, &mut attitudes, out)?;
@@ -140,7 +140,7 @@ impl<'a> Batch<'a> {
         Ok(())
     }
 
-    /// To the user's axes.
+    /// Transforms attitudes and rates from the principal axes to the user's axes.
     fn turn(&self, attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
         let Some(given) = &self.motion.given else { return Ok(()) };
         for part in attitudes.chunks_mut(GROUP) {

@@ -13,7 +13,7 @@ use crate::torque_free::mode::Mode;
 /// If σ/σ_sep exceeds this, its distance from 1 is printed.
 const NEAR_ONE: f64 = 0.999;
 
-/// A tolerance below this is met as well as rounding allows \[rad\].
+/// A smaller tolerance counts as met if the error bound is within this limit, which rounding sets \[rad\].
 pub(crate) const ROUNDED_TOLERANCE: f64 = 2e-14;
 
 /// The evaluation plan of a motion. It is printed in ASCII, and can be serialized.
@@ -61,17 +61,18 @@ impl Plan {
         self.method
     }
 
-    /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance. Of an integration the order of the steps.
+    /// Order N of the series. It is 0 if no series is used, or if the harmonic oscillator alone meets the tolerance. For an integration it is the order of the
+    /// steps.
     pub fn order(&self) -> usize {
         self.order
     }
 
-    /// Steps of the integration; 0 without one.
+    /// Number of steps of the integration; 0 if there is none.
     pub fn steps(&self) -> usize {
         self.integration.map_or(0, |integration| integration.steps)
     }
 
-    /// The highest multiple of ℓ′ that is evaluated; 0 where none is.
+    /// The highest multiple of ℓ′ that is evaluated; 0 if there is none.
     pub fn harmonics(&self) -> usize {
         self.harmonics
     }
@@ -127,8 +128,8 @@ impl Plan {
         self.gradient.map_or(0.0, |gradient| gradient.neglected)
     }
 
-    /// How derivatives with respect to the state and the moments are computed: "closed" (theory §12); "differences" of fourth order for a scene with an orbit or an integrated motion; `None` on the separatrix,
-    /// where the frequencies have none.
+    /// The method for derivatives with respect to the state and the moments: "closed" (theory §12), or "differences" of fourth order for a scene with an orbit
+    /// and for an integrated motion. It is `None` on the separatrix, where the frequencies have no derivatives.
     pub fn partials(&self) -> Option<&'static str> {
         match (self.mode, self.method, self.gradient) {
             (_, Method::Integrated, _) | (_, _, Some(_)) => Some("differences"),

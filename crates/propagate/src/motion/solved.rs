@@ -21,7 +21,7 @@ const LONGEST: f64 = 1e300;
 const SOLVED: &str =
     ": averaging = spin solves the averaged equations no farther; averaging over the orbit has no such bound";
 
-/// Why an integrated motion ends.
+/// The reasons why the times of an integrated motion are bounded.
 const BEFORE: &str = ": the motion is integrated over its span, and this is the part before the epoch";
 const AFTER: &str = ": the motion is integrated over its span, and this is the part after the epoch";
 
@@ -151,9 +151,18 @@ impl Motion {
 
     /// Attitude and rates at a time.
     ///
+    /// ```
+    /// use andoyer_propagate::{Body, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 2.0])?;
+    /// let motion = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).solve()?;
+    /// // Rotation about axis 3 with 2 rad per unit of time.
+    /// assert!((motion.at(0.5)?.attitude.angle() - 1.0).abs() < 1e-14);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// - [`Error::Time`] for NaN, infinite, more than 1e15 rotations from the epoch, or where the scene is averaged over the spin more than 65,534 orbits from it; of an
-    ///   integrated motion outside the span.
+    /// - [`Error::Time`] for a time that is NaN, infinite, or more than 1e15 rotations from the epoch. For a scene averaged over the spin, also for a time more
+    ///   than 65,534 orbits from the epoch; for an integrated motion, also for a time outside the span.
     pub fn at(&self, time: f64) -> Result<Sample, Error> {
         let (mut attitude, mut rates) = ([[0.0; 4]], [[0.0; 3]]);
         self.batch().samples_into(&[time], &mut attitude, &mut rates)?;
@@ -194,7 +203,7 @@ impl Motion {
         self.batch().samples_into(times, attitudes, rates)
     }
 
-    /// The largest distances before (negative) and after the epoch that are evaluated.
+    /// The largest times before (negative) and after the epoch that can be evaluated.
     pub(crate) fn reach(&self) -> [f64; 2] {
         match &self.trajectory {
             Trajectory::Integrated(motion) => motion.reach,
@@ -202,9 +211,9 @@ impl Motion {
         }
     }
 
-    /// The largest distance from the epoch that is evaluated, and why there is one.
+    /// The largest time from the epoch that can be evaluated, and the reason for the bound.
     fn distance(&self) -> (f64, &'static str) {
-        // A body at rest, or one that turns once in 1e285 units, is still bounded, so that no sum of two times overflows.
+        // The time is also bounded for a body at rest, or for one that turns once in 1e285 units, so that no sum of two times overflows.
         let phases = MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude;
         let phases = if phases < LONGEST { (phases, ": farther away the motion has no phase") } else { (LONGEST, "") };
         match &self.trajectory {
@@ -216,7 +225,7 @@ impl Motion {
     /// Checks that all times have a phase; `epoch` is in the same scale as the times.
     pub(crate) fn valid(&self, times: &[f64], epoch: f64) -> Result<(), Error> {
         let [least, most] = self.reach();
-        // Written so that NaN fails it.
+        // This condition is false for NaN.
         let valid = |time: &f64| least <= time - epoch && time - epoch <= most;
         match times.iter().position(|time| !valid(time)) {
             Some(index) => Err(self.no_phase(index, times, epoch)),

@@ -48,7 +48,7 @@ pub(crate) enum Trajectory {
     Passage(Box<Passage>),
     /// Rotation under a gravity gradient.
     Gradient(Box<Gradient>),
-    /// By numerical integration.
+    /// A numerical integration.
     Integrated(Box<Integrated>),
 }
 
@@ -68,7 +68,7 @@ impl Trajectory {
 pub(crate) struct Evaluation<'a> {
     pub(crate) trajectory: &'a Trajectory,
     pub(crate) epoch: f64,
-    /// Largest distances before and after the epoch, the first negative.
+    /// Largest times before and after the epoch; the first is negative.
     pub(crate) reach: [f64; 2],
     pub(crate) arch: Arch,
     /// A flag that another thread sets to end the evaluation.

@@ -1,4 +1,4 @@
-//! Derivatives of a motion under a gravity gradient or an integrated one, by differences of solved motions.
+//! Derivatives of a motion under a gravity gradient, or of an integrated motion, from differences of solved motions.
 //!
 //! They are central differences of fourth order. A step turns the body by [`STEP`] at the most distant time. The truncation error is STEP⁴/30 of the largest
 //! derivative, 3e-10. The rounding error of a solution, 1e-13, divided by the step is as large. Derivatives of the mean motion alone would lack those of the
@@ -77,7 +77,7 @@ impl Samples {
 fn steps(scene: &Scene, times: &[f64]) -> [f64; PARAMETERS] {
     let State { epoch, angular_velocity, .. } = *scene.state();
     let farthest = times.iter().fold(0.0_f64, |most, time| most.max((time - epoch).abs()));
-    // A body at rest has a step of the rates all the same.
+    // The rates of a body at rest need a step that is not 0.
     let rate = match angular_velocity.norm() {
         0.0 => STEP / farthest.max(f64::MIN_POSITIVE),
         rate => rate,

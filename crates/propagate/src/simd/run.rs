@@ -16,7 +16,7 @@ use crate::numerics::phase::Phase;
 /// The times of one thread.
 pub(crate) struct Run<'a> {
     pub(crate) epoch: f64,
-    /// Largest distances before and after the epoch, the first negative.
+    /// Largest times before and after the epoch; the first is negative.
     pub(crate) reach: [f64; 2],
     pub(crate) times: &'a [f64],
     pub(crate) outputs: Outputs<'a>,
@@ -101,9 +101,9 @@ impl<S: InstructionSet, C: Evaluate> Stretch<'_, S, C> {
         Ok(())
     }
 
-    /// Evaluates the uniform blocks of a group by the table, and the other times by their own phases.
+    /// Evaluates the uniform blocks of a group with the table, and the other times with their own phases.
     ///
-    /// Each of the two is inlined once, because a copy for each instruction set and each set of outputs is compiled.
+    /// Each of the two is inlined only once, because it is compiled for each instruction set and each set of outputs.
     #[inline(always)]
     fn group<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], mut rows: Rows<'_>) {
         let simd = self.simd;
@@ -152,7 +152,7 @@ fn groups<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     Ok(())
 }
 
-/// Evaluates all lanes at once. Where fewer times are left than lanes, the last ones come from a copy that is filled up, and go to copies of the rows.
+/// Evaluates all lanes at once. If fewer times than lanes remain, they are read from a copy that is filled up, and the results go to copies of the rows.
 #[inline(always)]
 fn each<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     simd: S,

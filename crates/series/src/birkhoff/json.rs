@@ -7,7 +7,7 @@
 //!   "modes": [["elliptic", ω, r] or ["hyperbolic", λ] or ["complex", σ, ν, partner], …],
 //!   "linear_change": [[…], …],                                 M by rows
 //!   "offset": [[[exponents], c], …],                           the constant term
-//!   "original": [[[exponents], c], …],                         what was normalized
+//!   "original": [[[exponents], c], …],                         the normalized Hamiltonian
 //!   "hamiltonian": [ [[[exponents], re, im], …], … ],          K_n/n! in u₁, U₁, …, parameters, n = 0 … N
 //!   "generators":  [ [[[exponents], re, im], …], … ] }         S_m/(m−1)!, m = 1 … N
 //! ```
@@ -99,7 +99,8 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         serde_json::to_string(&document).map_err(Error::json)
     }
 
-    /// Reads the text that [`to_json`](Self::to_json) wrote from a normal form in the same kind of numbers, computes it again and compares every coefficient.
+    /// Reads the text that [`to_json`](Self::to_json) wrote from a normal form in the same kind of numbers. The normal form is computed again and every
+    /// coefficient is compared.
     ///
     /// ```
     /// use andoyer_series::{BirkhoffNormalForm, PhaseSpace, normalize};
@@ -115,26 +116,27 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// - another format (for example exact instead of float) or version: [`Error::FormatUnknown`];
     /// - lists of the wrong length: [`Error::CountMismatch`]; terms that such a normal form cannot have: [`Error::TermInconsistent`];
     /// - M not symplectic: [`Error::NotSymplectic`]; names and resonances: the errors of their constructors;
-    /// - a coefficient of K, S or M that the normal form of the Hamiltonian in the text does not have, among floats by 1e-8 of the largest of its order:
-    ///   [`Error::CoefficientWrong`].
+    /// - a coefficient of K, S or M that differs from the normal form of the Hamiltonian in the text (for floats: by more than 1e-8 of the largest coefficient
+    ///   of its order): [`Error::CoefficientWrong`].
     pub fn from_json(text: &str) -> Result<Self, Error> {
         Self::from_json_with(text, &mut quiet)
     }
 
-    /// The same; `progress` is called as in [`normalize_with`](crate::normalize_with), which takes all the time.
+    /// The same as [`from_json`](Self::from_json), with a callback as in [`normalize_with`](crate::normalize_with), which takes most of the time.
     ///
     /// # Errors
-    /// - as [`from_json`](Self::from_json); a callback that returns `Break`: [`Error::Interrupted`].
+    /// - The errors of [`from_json`](Self::from_json); a callback that returns `Break`: [`Error::Interrupted`].
     pub fn from_json_with(text: &str, progress: &mut Progress<'_>) -> Result<Self, Error> {
         let form = Self::from_json_unverified(text)?;
         verified(&form, progress)?;
         Ok(form)
     }
 
-    /// The same without the computation, for a text that comes from this program itself: what is malformed is refused, a changed coefficient is not seen.
+    /// The same as [`from_json`](Self::from_json) without the computation, for a text that this program wrote. Malformed text is refused, but a changed
+    /// coefficient is not found.
     ///
     /// # Errors
-    /// - as [`from_json`](Self::from_json), but for the last.
+    /// - The errors of [`from_json`](Self::from_json), except [`Error::CoefficientWrong`].
     pub fn from_json_unverified(text: &str) -> Result<Self, Error> {
         let header: Header = serde_json::from_str(text).map_err(Error::json)?;
         if header.format != format::<R>() || header.version != VERSION {
@@ -225,7 +227,7 @@ fn value<R: RealField>(c: &R) -> Value {
     if R::EPSILON == 0.0 { super::quadratic::literal(c).into() } else { c.to_float().into() }
 }
 
-/// A polynomial in real variables, each of whose terms has a degree in the variables and a degree with the parameters that fit.
+/// A polynomial in real variables. Each term must have a valid degree in the variables, and a valid degree including the parameters.
 fn reals<R: RealField>(
     what: &'static str,
     terms: &[(Vec<u32>, Value)],

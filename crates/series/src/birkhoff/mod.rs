@@ -51,7 +51,7 @@ pub struct BirkhoffNormalForm<R: RealField> {
     diagonal: Diagonal<R>,
     resonances: Resonances,
     offset: Polynomial<R>,
-    /// What was normalized, without the constant term and what its order does not reach.
+    /// The normalized Hamiltonian, without the constant term and without the terms above its order.
     hamiltonian: Polynomial<R>,
     normalization: Normalization<R::Complex>,
 }
@@ -240,7 +240,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         &self.offset
     }
 
-    /// The Hamiltonian that was normalized, to the degree that its order reaches and without the constant term.
+    /// The Hamiltonian that was normalized, to the degree of its order and without the constant term.
     #[must_use]
     pub fn hamiltonian(&self) -> &Polynomial<R> {
         &self.hamiltonian

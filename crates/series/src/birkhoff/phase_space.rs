@@ -83,7 +83,7 @@ impl PhaseSpace {
         Ok(self)
     }
 
-    /// This space with another name for a parameter.
+    /// This space with a new name for a parameter.
     pub(super) fn with_renamed(&self, parameter: &str, name: &str) -> Result<Self, Error> {
         let mut renamed = self.clone().with_degree(parameter, 0)?;
         for known in &mut renamed.names[2 * self.degrees_of_freedom..] {
@@ -94,7 +94,7 @@ impl PhaseSpace {
         renamed.checked()
     }
 
-    /// The names as texts of their own.
+    /// The names as `String`s.
     pub(super) fn owned_names(&self) -> Vec<String> {
         self.names.clone()
     }
