@@ -7,10 +7,10 @@ use pyo3::types::PyType;
 
 type Array = Py<PyArrayDyn<f64>>;
 
-/// Derivatives of attitude and angular velocity at some times: what `Motion.partials` returns.
+/// Derivatives of attitude and angular velocity at given times, from `Motion.partials`.
 ///
-/// The last axis has nine parameters: initial attitude (3), initial angular velocity (3), moments as given (3). The arrays belong to the object alone; for a scalar time the axis
-/// of times is missing, and there is no `len`.
+/// The last axis has nine parameters: initial attitude (3), initial angular velocity (3), moments as given (3). The object owns its arrays. For a scalar time there is no axis
+/// of times and no `len`.
 ///
 /// Examples
 /// --------
@@ -57,7 +57,7 @@ impl Partials {
         }
     }
 
-    /// Puts together what `pickle` took apart.
+    /// Rebuilds derivatives for `pickle`.
     #[classmethod]
     fn _restored(_class: &Bound<'_, PyType>, times: Array, attitude: Array, angular_velocity: Array) -> Self {
         Self::new(times, attitude, angular_velocity)
