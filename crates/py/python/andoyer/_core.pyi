@@ -437,40 +437,40 @@ class Ensemble:
 
 @final
 class NormalForm:
-    """The normal form of the free rigid body, exact, symbolic in the triaxiality β, to any order (theory §4, §6)."""
+    """The normal form of the free rigid body to any order: exact, and symbolic in the triaxiality β (theory §4, §6)."""
 
     def __new__(cls, order: int, *, progress: Callable[[int, int], object] | None = None) -> NormalForm: ...
     @property
     def order(self) -> int:
         """The order."""
     def triaxiality_polynomial(self, n: int) -> dict[int, Fraction]:
-        """Triaxiality polynomial P_n, real form: K = M²/(2C) [1 + γ Σ P_n κⁿ σⁿ⁺¹] (theory §4)."""
+        """The triaxiality polynomial P_n in real form: K = M²/(2C) [1 + γ Σ P_n κⁿ σⁿ⁺¹] (theory §4)."""
     def paper_polynomial(self, n: int) -> dict[int, _Gaussian]:
-        """Triaxiality polynomial p_n = (−i)ⁿ⁺¹ P_n in the paper's form (theory §4, and §11 for the misprint)."""
+        """The triaxiality polynomial p_n = (−i)ⁿ⁺¹ P_n in the form of the paper (theory §4; §11 for the misprint)."""
     def generator(self, m: int) -> _Form:
-        """Generating function S_m · (√γ V/α)ᵐ = Σ c uʲ Uᵏ βˡ, the factor (m−1)! included (theory §4)."""
+        """The generating function S_m · (√γ V/α)ᵐ = Σ c uʲ Uᵏ βˡ, including the factor (m−1)! (theory §4)."""
     def direct(self, name: Literal["u", "U", "y"], n: int) -> _Form:
-        """Order n of the transformation of a variable to the new ones, 1/n! included (theory §6)."""
+        """Order n of an old variable as a function of the new variables, including the factor 1/n! (theory §6)."""
     def inverse(self, name: Literal["u", "U", "y"], n: int) -> _Form:
-        """Order n of the transformation of a new variable to the old ones, scaled as `direct`."""
+        """Order n of a new variable as a function of the old variables, scaled as in `direct` (theory §6)."""
     def to_json(self) -> str:
-        """This normal form as JSON text: exact, "p/q" strings, with a format version."""
+        """Writes this normal form as JSON text with a format version; numbers are exact "p/q" strings."""
     @classmethod
     def from_json(cls, text: str) -> NormalForm:
-        """Reads what `to_json` wrote."""
+        """Reads a normal form from the text of `to_json`. Each order is computed again and compared."""
     def to_latex(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> str:
-        """A part of this normal form as LaTeX, for a document that uses amsmath."""
+        """Writes a part of this normal form as LaTeX, for a document that uses amsmath."""
     def to_sympy(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> Any:
-        """A part of this normal form as exact SymPy expressions. SymPy is imported here and nowhere else."""
+        """Converts a part of this normal form to exact SymPy expressions. This method imports SymPy."""
     def to_code(self, language: Literal["c", "rust", "python"] = "c", beta: float | None = None) -> str:
-        """A function that evaluates the direct transformation and the frequencies to this order, as the text of a file of source."""
+        """Writes a source file with a function that evaluates the direct transformation and the frequencies to this order."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __copy__(self) -> NormalForm: ...
     def __deepcopy__(self, _memo: Any) -> NormalForm: ...
 
 def separatrix_action(beta: float) -> float:
-    """Action σ_sep(β) = (2/π) atan √((1−β)/2β) of the separatrix, in units of M: the radius of convergence of the series (theory §5)."""
+    """The action σ_sep(β) = (2/π) atan √((1−β)/2β) of the separatrix, in units of M. It is the radius of convergence of the series (theory §5)."""
 
 @final
 class BirkhoffNormalForm:
@@ -542,9 +542,9 @@ class BirkhoffNormalForm:
         """This normal form as JSON text, with a format version: exact numbers as "p/q" strings, floats with all their digits."""
     @classmethod
     def from_json(cls, text: str, symbols: dict[str, Any] | None = None) -> BirkhoffNormalForm:
-        """Reads what `to_json` wrote."""
+        """Reads a normal form from the text of `to_json`. Each order is computed again and compared."""
     def to_latex(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> str:
-        """A part of this normal form as LaTeX, for a document that uses amsmath."""
+        """Writes a part of this normal form as LaTeX, for a document that uses amsmath."""
     def to_code(self, language: Literal["c", "rust", "python"] = "c") -> str:
         """Functions that evaluate this normal form, as the text of a file of source that needs nothing but its language."""
     def to_sympy(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> Any:
@@ -582,4 +582,4 @@ def normalize(
     exact: bool | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> BirkhoffNormalForm:
-    """Birkhoff normal form of a polynomial Hamiltonian about an equilibrium at the origin."""
+    """Computes the Birkhoff normal form of a polynomial Hamiltonian about an equilibrium at the origin."""
