@@ -159,7 +159,7 @@ def cost(scene, times, exact, rounds=7):
     chosen = None
     for tolerance in GRID:
         clock = time.process_time()
-        integrator = hy.taylor_adaptive(equations(bodies, lambda k: float(numbers[k])), start, tol=tolerance)
+        integrator = hy.taylor_adaptive(equations(bodies, lambda k: hy.expression(float(numbers[k]))), start, tol=tolerance)
         compiled = time.process_time() - clock
 
         def by_heyoka(integrator=integrator):

@@ -478,6 +478,11 @@ fn advice(norm: f64) -> &'static str {
 }
 
 impl Error {
+    /// The error of one member of an ensemble.
+    pub(crate) fn of_member(index: usize, problem: Self) -> Self {
+        Self::Member { index, others: 0, problem: Box::new(problem) }
+    }
+
     /// The same error for times that begin at the index `start` of an array.
     #[must_use]
     pub fn later(self, start: usize) -> Self {

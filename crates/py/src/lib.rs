@@ -20,6 +20,7 @@ mod error;
 mod expression;
 mod foreign;
 mod form;
+mod mean;
 mod members;
 mod motion;
 mod normal_form;

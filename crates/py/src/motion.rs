@@ -1,25 +1,23 @@
 //! `andoyer.Motion`.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
-use andoyer_propagate::Error as Propagation;
 use andoyer_propagate::partials::PARAMETERS;
+use andoyer_propagate::periods::Convention;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::PyType;
+use pyo3::types::{PyDict, PyType};
 
 use crate::array::{Times, chunks, matrices, write};
-use crate::computing::interruptible;
+use crate::computing::{detached, interruptible};
 use crate::error;
 use crate::foreign::{self, Calendar};
+use crate::mean;
 use crate::partials::Partials;
 use crate::plan::Plan;
 use crate::samples::Samples;
 use crate::scene_class::Scene;
-
-/// Times between two looks for Ctrl-C while derivatives are computed.
-const AT_ONCE: usize = 1 << 13;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
@@ -206,8 +204,7 @@ impl Motion {
     /// ImportError
     ///     SciPy is not installed: the extra ``andoyer[scipy]`` brings it.
     fn rotation<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let rotation = times.py().import("scipy.spatial.transform")?.getattr("Rotation")?;
-        rotation.call_method1("from_quat", (self.attitude(times, None, false)?,))
+        foreign::rotation(&self.attitude(times, None, false)?)
     }
 
     /// Derivatives of attitude and angular velocity with respect to the state at the epoch and the moments (theory §12).
@@ -238,23 +235,12 @@ impl Motion {
     /// 10.0
     fn partials(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Partials> {
         let times = self.times(times)?;
-        let since = if times.since_epoch() { self.0.scene().state().epoch } else { 0.0 };
+        let since_epoch = times.since_epoch();
         let [copy, attitude, rates] = times.matrices(PARAMETERS)?;
         {
             let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
             let (values, attitude, rates) = (times.values()?, matrices(&mut attitude)?, matrices(&mut rates)?);
-            let evaluate = |stop: &AtomicBool| {
-                let parts = values.chunks(AT_ONCE).zip(attitude.chunks_mut(AT_ONCE)).zip(rates.chunks_mut(AT_ONCE));
-                for (index, ((values, attitude), rates)) in parts.enumerate() {
-                    if stop.load(Ordering::Relaxed) {
-                        return Err(Propagation::Stopped);
-                    }
-                    let values: Vec<f64> = values.iter().map(|time| since + time).collect();
-                    let done = self.0.partials_into(&values, attitude, rates);
-                    done.map_err(|problem| problem.later(index * AT_ONCE))?;
-                }
-                Ok(())
-            };
+            let evaluate = |stop: &AtomicBool| self.batch(since_epoch, stop).partials_into(values, attitude, rates);
             interruptible(py, times.long_partials(), error::propagation, evaluate)?;
         }
         Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
@@ -348,19 +334,15 @@ impl Motion {
     /// >>> abs(1 / precession - 1 / rotation - 1 / long) < 1e-15
     /// True
     #[getter]
-    fn periods<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, pyo3::types::PyDict>> {
-        static PERIODS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
-        let class = PERIODS.import(py, "andoyer.mean", "Periods")?;
-        let periods = pyo3::types::PyDict::new(py);
-        let conventions = [
-            ("long-axis", self.0.long_axis_periods()),
-            ("short-axis", self.0.short_axis_periods()),
-            ("extremal-axis", self.0.extremal_axis_periods()),
-        ];
-        for (convention, pair) in conventions {
-            periods.set_item(convention, class.call1((pair.precession, pair.rotation))?)?;
-        }
-        Ok(periods)
+    fn periods<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        mean::periods(
+            py,
+            "Periods",
+            Convention::ALL.into_iter().map(|convention| {
+                let pair = self.0.periods_of(convention);
+                (convention, (pair.precession, pair.rotation))
+            }),
+        )
     }
 
     /// E/E0: rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum (theory §5).

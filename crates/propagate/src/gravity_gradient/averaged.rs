@@ -18,6 +18,7 @@ use std::sync::{Arc, RwLock};
 use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 
+use super::second_order::hamiltonian::{Disturber, Hamiltonian};
 use crate::input::orbit::Orbit;
 use crate::numerics::phase::Phase;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
@@ -35,8 +36,10 @@ pub(crate) const MOST_QUARTERS: usize = 1 << 18;
 /// Smaller coefficients are dropped.
 const NEGLIGIBLE: f64 = 1e-17;
 
-/// The frame (quaternion x, y, z, w) and J.
-type Column = [f64; 5];
+/// Frame (quaternion x, y, z, w), and what the drifts of ℓ′ and y′ are multiples of: J twice, or the drifts themselves.
+type Column = [f64; COLUMNS];
+/// Components of a column.
+const COLUMNS: usize = 6;
 
 /// The orbit and the strength of its torque, in the units of the averaged motion.
 #[derive(Clone, Debug)]
@@ -48,6 +51,8 @@ pub(crate) struct AveragedOrbit {
     axes: [Vector3<f64>; 3],
     /// κ.
     strength: f64,
+    /// ⟨D⟩ + K2, if the averaged equations are those of second order.
+    second: Option<Box<Hamiltonian>>,
 }
 
 /// The position of the disturbing body at some times: whole turns since the pericentre before the epoch, and its place on the ellipse.
@@ -77,16 +82,19 @@ pub(crate) enum Slow {
 }
 
 impl Slow {
-    /// The frame and J at times after the epoch.
+    /// The frame, and what the drifts of ℓ′ and y′ are multiples of, at times after the epoch.
     #[inline(always)]
     pub(crate) fn at<S: InstructionSet>(
         &self,
         when: &When<S>,
         elapsed: (Lanes<S>, Lanes<S>),
-    ) -> (QuaternionLanes<S>, Lanes<S>) {
+    ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         match self {
             Self::Spin(spin) => spin.at(when),
-            Self::Orbit(precession) => precession.at(&when.place, elapsed),
+            Self::Orbit(precession) => {
+                let (frame, phase) = precession.at(&when.place, elapsed);
+                (frame, [phase; 2])
+            }
         }
     }
 }
@@ -98,7 +106,12 @@ impl AveragedOrbit {
         let eta = (1.0 - eccentricity * eccentricity).sqrt();
         let eta_cubed = eta * eta * eta;
         let strength = 3.0 * mean_motion * delta / eta_cubed;
-        Self { eccentricity, eta_cubed, mean_motion, axes: orbit.axes(), strength }
+        Self { eccentricity, eta_cubed, mean_motion, axes: orbit.axes(), strength, second: None }
+    }
+
+    /// With the averaged equations of second order.
+    pub(crate) fn with_second(self, hamiltonian: Hamiltonian) -> Self {
+        Self { second: Some(Box::new(hamiltonian)), ..self }
     }
 
     /// κ.
@@ -128,11 +141,31 @@ impl AveragedOrbit {
         let weight = 1.0 + self.eccentricity * cosine;
         let axis = (frame * Quaternion::new(0.0, 0.0, 0.0, 1.0) * frame.conjugate()).imag();
         let along = axis.dot(&direction);
+        if let Some(hamiltonian) = &self.second {
+            return self.second_slope(hamiltonian, (frame, &axis), &direction, weight);
+        }
         // k × dk turns k, without a component about k.
         let turning = (direction - axis * along) * (self.strength * weight * along);
         let change = Quaternion::from_parts(0.0, turning * 0.5) * frame;
         let phase = self.mean_motion / self.eta_cubed * weight * (1.0 - 3.0 * along * along);
-        [change.i, change.j, change.k, change.w, phase]
+        [change.i, change.j, change.k, change.w, phase, phase]
+    }
+
+    /// The same to second order in the torque; `weight` is 1 + e cos f.
+    fn second_slope(
+        &self,
+        hamiltonian: &Hamiltonian,
+        (frame, axis): (&Quaternion<f64>, &Vector3<f64>),
+        direction: &Vector3<f64>,
+        weight: f64,
+    ) -> Column {
+        let rate = self.mean_motion * weight * weight / self.eta_cubed;
+        let cube = weight * weight * weight / (self.eta_cubed * self.eta_cubed);
+        let disturber = Disturber { direction: *direction, normal: self.axes[2], cube, rate };
+        let slopes = hamiltonian.slopes(axis, &disturber);
+        let change = Quaternion::from_parts(0.0, slopes.turning * (0.5 / rate)) * frame;
+        let [anomaly, longitude] = slopes.phases.map(|slope| slope / rate);
+        [change.i, change.j, change.k, change.w, anomaly, longitude]
     }
 }
 
@@ -155,43 +188,43 @@ struct Quarter {
 }
 
 impl Spin {
-    /// The motion from the frame at one place of the orbit, where J is 0.
+    /// From the frame at a place of the orbit, where J and the drifts are 0.
     pub(crate) fn new(ellipse: AveragedOrbit, frame: UnitQuaternion<f64>, when: &When<pulp::Scalar>) -> Self {
         let (first, inside) = quarter(when.turns.values()[0], when.place.angle.values()[0]);
-        let start: Column = [frame.i, frame.j, frame.k, frame.w, 0.0];
+        let start: Column = [frame.i, frame.j, frame.k, frame.w, 0.0, 0.0];
         let epoch = Quarter::solved(&ellipse, first, inside, &start);
         Self { ellipse, first, epoch, kept: Arc::default() }
     }
 
     /// Consecutive times in the same quarter are evaluated together.
     #[inline(always)]
-    fn at<S: InstructionSet>(&self, when: &When<S>) -> (QuaternionLanes<S>, Lanes<S>) {
+    fn at<S: InstructionSet>(&self, when: &When<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         let (turns, angles) = (when.turns.values(), when.place.angle.values());
         let (mut quarters, mut insides) = ([0_i64; WIDEST], [0.0; WIDEST]);
         for (lane, (turns, angle)) in turns.iter().zip(angles).enumerate() {
             (quarters[lane], insides[lane]) = quarter(*turns, *angle);
         }
         let inside = when.turns.like(&insides);
-        let mut rows = [[0.0; WIDEST]; 5];
+        let mut rows = [[0.0; WIDEST]; COLUMNS];
         let mut lane = 0;
         while lane < turns.len() {
             let next = lane + quarters[lane..turns.len()].iter().take_while(|other| **other == quarters[lane]).count();
             let columns = self.quarter(quarters[lane] - self.first).sums(inside);
             if next - lane == turns.len() {
-                let [x, y, z, w, phase] = columns;
-                return (QuaternionLanes([x, y, z, w]), phase);
+                let [x, y, z, w, anomaly, longitude] = columns;
+                return (QuaternionLanes([x, y, z, w]), [anomaly, longitude]);
             }
             for (row, column) in rows.iter_mut().zip(&columns) {
                 row[lane..next].copy_from_slice(&column.values()[lane..next]);
             }
             lane = next;
         }
-        let mut columns = [inside; 5];
+        let mut columns = [inside; COLUMNS];
         for (column, row) in columns.iter_mut().zip(&rows) {
             *column = inside.like(row);
         }
-        let [x, y, z, w, phase] = columns;
-        (QuaternionLanes([x, y, z, w]), phase)
+        let [x, y, z, w, anomaly, longitude] = columns;
+        (QuaternionLanes([x, y, z, w]), [anomaly, longitude])
     }
 
     /// The quarter at a distance from the epoch's quarter. If it is not known yet, it is solved together with all quarters between.
@@ -235,15 +268,15 @@ impl Quarter {
         let nodes: [f64; POINTS] = std::array::from_fn(|i| (PI * (i as f64 + 0.5) / POINTS as f64).cos());
         let circles = nodes.map(|x| (middle + FRAC_PI_4 * x).sin_cos());
         let mut values = [*start; POINTS];
-        let mut quarter = Self { coefficients: [[0.0; 5]; POINTS], terms: POINTS };
+        let mut quarter = Self { coefficients: [[0.0; COLUMNS]; POINTS], terms: POINTS };
         for _ in 0..MOST_ITERATIONS {
             let slopes: [Column; POINTS] = std::array::from_fn(|i| {
-                let [x, y, z, w, _] = values[i];
+                let [x, y, z, w, ..] = values[i];
                 ellipse.slope(&Quaternion::new(w, x, y, z), circles[i].0, circles[i].1)
             });
             quarter = Self::integral(&slopes);
             let offset = quarter.at(place);
-            for c in 0..5 {
+            for c in 0..COLUMNS {
                 quarter.coefficients[0][c] += start[c] - offset[c];
             }
             let mut change = 0.0_f64;
@@ -262,20 +295,20 @@ impl Quarter {
     /// The primitive, up to a constant, of a function with the given values at the points.
     fn integral(slopes: &[Column; POINTS]) -> Self {
         let count = POINTS as f64;
-        let mut series = [[0.0; 5]; POINTS + 1];
+        let mut series = [[0.0; COLUMNS]; POINTS + 1];
         for (k, sum) in series.iter_mut().enumerate().take(POINTS) {
             let scale = if k == 0 { 1.0 } else { 2.0 } / count * FRAC_PI_4;
             for (i, slope) in slopes.iter().enumerate() {
                 let weight = scale * (PI * k as f64 * (i as f64 + 0.5) / count).cos();
-                for c in 0..5 {
+                for c in 0..COLUMNS {
                     sum[c] += weight * slope[c];
                 }
             }
         }
-        let mut coefficients = [[0.0; 5]; POINTS];
+        let mut coefficients = [[0.0; COLUMNS]; POINTS];
         for k in 1..POINTS {
             let lower = if k == 1 { 2.0 } else { 1.0 };
-            for c in 0..5 {
+            for c in 0..COLUMNS {
                 coefficients[k][c] = (lower * series[k - 1][c] - series[k + 1][c]) / (2.0 * k as f64);
             }
         }
@@ -284,15 +317,15 @@ impl Quarter {
 
     /// The sums of the Chebyshev series, by Clenshaw's rule.
     #[inline(always)]
-    fn sums<S: InstructionSet>(&self, x: Lanes<S>) -> [Lanes<S>; 5] {
+    fn sums<S: InstructionSet>(&self, x: Lanes<S>) -> [Lanes<S>; COLUMNS] {
         let twice = x + x;
-        let (mut next, mut after) = ([x.all(0.0); 5], [x.all(0.0); 5]);
+        let (mut next, mut after) = ([x.all(0.0); COLUMNS], [x.all(0.0); COLUMNS]);
         for coefficient in self.coefficients[1..self.terms].iter().rev() {
-            for c in 0..5 {
+            for c in 0..COLUMNS {
                 (next[c], after[c]) = (twice.mul_add(next[c], x.all(coefficient[c]) - after[c]), next[c]);
             }
         }
-        for c in 0..5 {
+        for c in 0..COLUMNS {
             next[c] = x.mul_add(next[c], x.all(self.coefficients[0][c]) - after[c]);
         }
         next
@@ -369,7 +402,7 @@ impl Precession {
     /// The periodic part of one orbit: a rotation in inertial components, and J, by the integrals of theory §9.
     #[inline(always)]
     fn periodic<S: InstructionSet>(&self, frame: QuaternionLanes<S>, place: &Place<S>) -> ([Lanes<S>; 3], Lanes<S>) {
-        let AveragedOrbit { eccentricity, eta_cubed, mean_motion, axes, strength } = &self.ellipse;
+        let AveragedOrbit { eccentricity, eta_cubed, mean_motion, axes, strength, .. } = &self.ellipse;
         let Place { centre, sine, cosine, .. } = *place;
         let all = |value: f64| sine.all(value);
         let double = ComplexLanes { re: cosine, im: sine } * ComplexLanes { re: cosine, im: sine };

@@ -22,6 +22,7 @@ use super::offset::Offset;
 use super::powers::Powers;
 use super::request::Request;
 use super::response::Response;
+use super::second_order;
 use crate::error::Error;
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
@@ -68,7 +69,7 @@ pub(crate) struct Gradient {
     pub(super) mean_anomaly: Phase,
     pub(super) eccentricity: f64,
     pub(super) root: f64,
-    /// J times these slopes is added to ℓ′ and y′.
+    /// These times J, or in second order times the drifts, are added to ℓ′ and y′.
     pub(super) drifts: [f64; 2],
     /// The rates that they add to ℓ′ and y′ in the orbit average, in the user's unit.
     secular: [f64; 2],
@@ -108,11 +109,19 @@ impl Gradient {
         let (sigma, [anomaly, longitude]) = osculating;
         let p = C64::from_polar(sigma.sqrt(), anomaly);
         let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
-        let MeanMotion { mean, change, inertia, corrections } = mean_motion_of(polhode, &state, &start, &demand)?;
+        let first = mean_motion_of(polhode, &state, &start, &demand)?;
+        let MeanMotion { mean, change, inertia, corrections } = if request.level == Level::SecondOrder {
+            second_order_of(polhode, first, &state, &start, &demand)?
+        } else {
+            first
+        };
         let (axial, axial_slope) = request.level.axial(&inertia);
         let fraction = orbit.disturbing_fraction();
         let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) * fraction;
-        let ellipse = AveragedOrbit::new(orbit, mean_motion, delta / mean.momentum);
+        let mut ellipse = AveragedOrbit::new(orbit, mean_motion, delta / mean.momentum);
+        if request.level == Level::SecondOrder {
+            ellipse = ellipse.with_second(second_order::epoch::hamiltonian(&inertia, &demand, polhode.moments));
+        }
         // Rates are proportional to M. M rounded to a double would cause an error of 1e-16 of the phases.
         let precise = (polhode.momentum - change.momentum.into()) / mean.momentum.into();
         let rates = inertia.rates.map(|rate| rate * precise);
@@ -143,7 +152,8 @@ impl Gradient {
         };
         let [anomaly_rate, longitude_rate] =
             rates.map(|rate| DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) });
-        let drifts = [slope, -slope * inertia.sigma];
+        let secular_drifts = [slope, -slope * inertia.sigma];
+        let drifts = if request.level == Level::SecondOrder { [1.0; 2] } else { secular_drifts };
         let mut gradient = Self {
             anomaly: Phase::new(anomaly_rate, mean.p.arg()),
             half_longitude: Phase::new(longitude_rate * 0.5.into(), 0.5 * mean.longitude),
@@ -151,7 +161,7 @@ impl Gradient {
             eccentricity: orbit.eccentricity(),
             root: mean.p.norm(),
             drifts,
-            secular: drifts.map(|drift| drift * secular),
+            secular: secular_drifts.map(|drift| drift * secular),
             pair: inertia.pair.each_ref().map(|series| Powers::new(series, inertia.sigma.sqrt())),
             inertia,
             corrections,
@@ -214,6 +224,26 @@ struct MeanMotion {
     change: Change,
     inertia: Inertia,
     corrections: Corrections,
+}
+
+/// The mean motion of second order from that of first order of a state.
+fn second_order_of(
+    polhode: &Polhode,
+    first: MeanMotion,
+    state: &Mean,
+    start: &When<pulp::Scalar>,
+    demand: &Demand<'_>,
+) -> Result<MeanMotion, Error> {
+    let (mean, momentum) = second_order::epoch::refined(
+        (&first.mean, &first.change),
+        state,
+        &first.inertia,
+        &start.place,
+        (demand, polhode.moments),
+    );
+    let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
+    let corrections = Corrections::new(&inertia, demand)?;
+    Ok(MeanMotion { mean, change: Change { momentum, ..first.change }, inertia, corrections })
 }
 
 /// The mean variables whose corrections give a state, by fixed-point iteration.

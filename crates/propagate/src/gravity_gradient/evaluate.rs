@@ -34,10 +34,10 @@ impl Gradient {
     fn osculating<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
         let all = |value: f64| elapsed.0.all(value);
         let when = when(&self.mean_anomaly, elapsed, self.eccentricity);
-        let (frame, phase) = self.slow.at(&when, elapsed);
+        let (frame, [by_anomaly, by_longitude]) = self.slow.at(&when, elapsed);
         let plane = |(im, re): (Lanes<S>, Lanes<S>)| ComplexLanes { re, im };
-        let turn = plane(self.anomaly.sin_cos_beyond(elapsed, phase * all(self.drifts[0] / TAU)));
-        let half = plane(self.half_longitude.sin_cos_beyond(elapsed, phase * all(0.5 * self.drifts[1] / TAU)));
+        let turn = plane(self.anomaly.sin_cos_beyond(elapsed, by_anomaly * all(self.drifts[0] / TAU)));
+        let half = plane(self.half_longitude.sin_cos_beyond(elapsed, by_longitude * all(0.5 * self.drifts[1] / TAU)));
         let change =
             self.corrections.generator.at(&generator::MeanLanes { turn, spin: half * half, frame }, &when.place);
         let Offset { p, momentum } = self.offset;

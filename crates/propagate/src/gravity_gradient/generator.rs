@@ -186,7 +186,11 @@ impl Generator {
 
     /// r̂r̂ (a/r)³ and its time derivatives in the frame, as components 11, 22, 33, 12, 13, 23.
     #[inline(always)]
-    fn tensors<S: InstructionSet>(&self, frame: QuaternionLanes<S>, place: &Place<S>) -> [[Lanes<S>; 6]; ORDERS] {
+    pub(crate) fn tensors<S: InstructionSet>(
+        &self,
+        frame: QuaternionLanes<S>,
+        place: &Place<S>,
+    ) -> [[Lanes<S>; 6]; ORDERS] {
         let none = place.sine.all(0.0);
         let rows = frame.rows();
         let mut axes = [[none; 3]; 2];

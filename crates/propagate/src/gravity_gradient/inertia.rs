@@ -39,6 +39,8 @@ pub(crate) struct Harmonics {
     pub(crate) values: Vec<f64>,
     /// df_h/dσ.
     pub(crate) slopes: Vec<f64>,
+    /// d²f_h/dσ².
+    pub(crate) curvatures: Vec<f64>,
 }
 
 impl Harmonics {
@@ -46,6 +48,12 @@ impl Harmonics {
     pub(crate) fn at(&self, harmonic: i32) -> (f64, f64) {
         let index = (harmonic + HIGHEST as i32) as usize; // −HIGHEST ≤ h ≤ HIGHEST
         (self.values[index], self.slopes[index])
+    }
+
+    /// f_h, df_h/dσ and d²f_h/dσ².
+    pub(crate) fn jet(&self, harmonic: i32) -> [f64; 3] {
+        let index = (harmonic + HIGHEST as i32) as usize; // −HIGHEST ≤ h ≤ HIGHEST
+        [self.values[index], self.slopes[index], self.curvatures[index]]
     }
 }
 
@@ -60,6 +68,8 @@ pub(crate) struct Inertia {
     pub(crate) rates: [DoubleDouble; 2],
     /// The derivatives of the two rates with respect to σ, at fixed M.
     pub(crate) rate_slopes: [f64; 2],
+    /// Their second derivatives.
+    pub(crate) rate_curvatures: [f64; 2],
     /// T33, i t1 e^(−iy′), t2 e^(−2iy′).
     pub(crate) tensor: [Harmonics; 3],
     /// The series of a and b, up to a common factor.
@@ -86,18 +96,32 @@ impl Inertia {
             let [a, b, _, c, d] = members.each_ref().map(part);
             (8.0 * (c - b) - (d - a)) / (12.0 * step)
         };
+        let curvature = |part: &dyn Fn(&Member) -> f64| {
+            let [a, b, middle, c, d] = members.each_ref().map(part);
+            (16.0 * (b - middle + c - middle) - (a - middle + d - middle)) / (12.0 * step * step)
+        };
         let sigma_slope = slope(&|m| m.sigma);
+        let sigma_curvature = curvature(&|m| m.sigma);
+        // d²f/dσ² from the derivatives with respect to sin²J.
+        let by_sigma = |tangent: f64, second: f64| (second - tangent * sigma_curvature) / (sigma_slope * sigma_slope);
         let mut values = members[2].harmonics.clone();
-        let mut slopes = vec![0.0; values.len()];
+        let (mut slopes, mut curvatures) = (vec![0.0; values.len()], vec![0.0; values.len()]);
         for (index, (value, tangent)) in values.iter_mut().zip(&mut slopes).enumerate() {
             *tangent = slope(&|m| m.harmonics[index]) / sigma_slope;
+            curvatures[index] = by_sigma(*tangent, curvature(&|m| m.harmonics[index]));
             *value += *tangent * (sigma - members[2].sigma);
         }
         let rate_slopes = [0, 1].map(|i| slope(&|m| (m.rates[i] - members[2].rates[i]).to_f64()) / sigma_slope);
+        let rate_curvatures =
+            [0, 1].map(|i| by_sigma(rate_slopes[i], curvature(&|m| (m.rates[i] - members[2].rates[i]).to_f64())));
         let exact = rates(&polhode.tilted(square, momentum));
         let part = |index: usize| {
             let range = index * COUNT..(index + 1) * COUNT;
-            Harmonics { values: values[range.clone()].to_vec(), slopes: slopes[range].to_vec() }
+            Harmonics {
+                values: values[range.clone()].to_vec(),
+                slopes: slopes[range.clone()].to_vec(),
+                curvatures: curvatures[range].to_vec(),
+            }
         };
         Self {
             momentum,
@@ -105,6 +129,7 @@ impl Inertia {
             separatrix: polhode.separatrix_action(),
             rates: exact.1,
             rate_slopes,
+            rate_curvatures,
             tensor: [part(0), part(1), part(2)],
             pair: [part(3), part(4)],
             untilted: [polhode.moments[2], 0.25 * (polhode.moments[0] - polhode.moments[1])],

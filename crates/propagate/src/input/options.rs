@@ -62,6 +62,11 @@ pub enum Convention {
     ShortAxis,
 }
 
+impl Convention {
+    /// The three conventions, in the order of the periods of an ensemble.
+    pub const ALL: [Self; 3] = [Self::LongAxis, Self::ShortAxis, Self::ExtremalAxis];
+}
+
 impl FromStr for Convention {
     type Err = Error;
 
@@ -96,6 +101,8 @@ pub enum Level {
     /// The potential to all orders in J, and a disturbing body that moves along its orbit.
     #[default]
     Full,
+    /// To all orders in J, and the averaged motion to second order in the torque.
+    SecondOrder,
 }
 
 impl FromStr for Level {
@@ -106,6 +113,7 @@ impl FromStr for Level {
             "paper" => Ok(Self::Paper),
             "moving" => Ok(Self::Moving),
             "full" => Ok(Self::Full),
+            "second-order" => Ok(Self::SecondOrder),
             _ => Err(Error::Level { value: text.to_owned() }),
         }
     }
@@ -117,6 +125,7 @@ impl fmt::Display for Level {
             Self::Paper => "paper",
             Self::Moving => "moving",
             Self::Full => "full",
+            Self::SecondOrder => "second-order",
         })
     }
 }

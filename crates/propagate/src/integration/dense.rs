@@ -1,9 +1,11 @@
 //! Evaluation at any time by the series of the step that contains it.
 //!
-//! A step is expanded again when a time falls into it, which takes as long as the step took; times in order share the expansion. Keeping the coefficients would take 1 kB a step.
+//! Of an integration whose coefficients are not kept a step is expanded again when a time falls into it, which takes as long as the step took and gives the same bits; times in
+//! order share the expansion.
 
 use super::expansion::Workspace;
 use super::integrated::Integrated;
+use super::integrator::{Side, Step};
 use crate::numerics::scaling::scaled;
 
 /// Where the last time was.
@@ -25,7 +27,7 @@ impl<'a> Cursor<'a> {
         let Integrated { equations, order, sides, exponent, .. } = self.motion;
         let time = (scaled(high, *exponent), scaled(low, *exponent));
         let side = usize::from(time.0 >= 0.0);
-        let steps = &sides[side];
+        let Side { steps, coefficients } = &sides[side];
         // The end of the last step begins none.
         let last = steps.len().saturating_sub(2);
         let place = match self.expanded {
@@ -34,7 +36,11 @@ impl<'a> Cursor<'a> {
         };
         let start = &steps[place];
         if self.expanded != Some((side, place)) {
-            self.workspace.expand(equations, &start.start(side == 0), *order);
+            let rows = *order + 1;
+            match coefficients.get(place * rows..(place + 1) * rows) {
+                Some(kept) => self.workspace.restore(kept),
+                None => self.workspace.expand(equations, &start.start(side == 0), *order),
+            }
             self.expanded = Some((side, place));
         }
         let since = (time.0 - start.time.0) + (time.1 - start.time.1);
@@ -46,7 +52,7 @@ impl<'a> Cursor<'a> {
 }
 
 /// Whether a time lies in the first of some steps.
-fn within(time: f64, steps: &[super::integrator::Step]) -> bool {
+fn within(time: f64, steps: &[Step]) -> bool {
     match steps {
         [start, end, ..] => start.time.0.abs() <= time.abs() && time.abs() < end.time.0.abs(),
         _ => false,

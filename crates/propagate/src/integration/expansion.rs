@@ -10,7 +10,7 @@
 //! that rounding of the norm is a relative rounding error of the torque.
 
 use super::disturber::Disturber;
-use super::series::{Row, Series, ZERO, add_product, add_scaled};
+use super::series::{Coefficients, Row, Series, ZERO, add_product, add_scaled};
 use crate::input::scene::Scene;
 
 /// The equations, in the unit of the integration.
@@ -154,6 +154,23 @@ impl Workspace {
             }
         }
         torque
+    }
+
+    /// The coefficients of the motion up to an order.
+    pub(super) fn coefficients(&self, order: usize) -> impl Iterator<Item = Coefficients> + '_ {
+        self.attitude
+            .iter()
+            .zip(&self.rates)
+            .take(order + 1)
+            .map(|([x, y, z, w], [p, q, r, _])| [*x, *y, *z, *w, *p, *q, *r])
+    }
+
+    /// Takes the coefficients of the motion from those that were kept.
+    pub(super) fn restore(&mut self, coefficients: &[Coefficients]) {
+        for (k, [x, y, z, w, p, q, r]) in coefficients.iter().enumerate() {
+            self.attitude[k] = [*x, *y, *z, *w];
+            self.rates[k] = [*p, *q, *r, 0.0];
+        }
     }
 
     /// Attitude and rates a time after the start of the step.

@@ -7,8 +7,9 @@ use andoyer_double::two_sum;
 use pulp::Arch;
 
 use super::bound::{Measured, Profile};
+use super::disturber::Disturber;
 use super::expansion::Equations;
-use super::integrator::{Kept, Precision, Runner, Step};
+use super::integrator::{Kept, Precision, Runner, Side, Step};
 use super::series::Row;
 use crate::error::Error;
 use crate::input::disturbing_body::DisturbingBody;
@@ -22,6 +23,8 @@ use crate::simd::instruction_set::dispatch;
 const FINEST: f64 = 1e-19;
 /// The largest one that is used.
 const COARSEST: f64 = 1e-6;
+/// Error at the end that the steps of an enlarged displacement may leave, before its division by the square of the phase \[rad\].
+const ENLARGED_ERROR: f64 = 1e-4;
 /// Relative rounding error of the rates that a step of about half a radian leaves.
 const STEP_ROUNDING: f64 = 1e-16;
 
@@ -37,8 +40,8 @@ pub(crate) struct IntegrationPlan {
 pub(crate) struct Integrated {
     pub(super) equations: Equations,
     pub(super) order: usize,
-    /// Before and after the epoch; the start of each step, and the end of the last.
-    pub(super) sides: [Vec<Step>; 2],
+    /// Before and after the epoch.
+    pub(super) sides: [Side; 2],
     pub(super) exponent: i32,
     /// The first and the last time from the epoch, in the user's unit.
     pub(crate) reach: [f64; 2],
@@ -51,7 +54,8 @@ impl Integrated {
         let problem = Problem::new(scene, reason)?;
         let tolerance = scene.asked_tolerance();
         let phase = problem.phase();
-        let first = (tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST);
+        // Truncation errors of the rates add up over the steps, and their effect on the angle over time.
+        let first = (10.0 * tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST);
         let (mut motion, mut profiles) = problem.solved(first, stop)?;
         if motion.error > tolerance && first > FINEST {
             (motion, profiles) = problem.solved(FINEST, stop)?;
@@ -68,7 +72,7 @@ impl Integrated {
 
     /// What the plan says of it.
     pub(crate) fn plan(&self) -> IntegrationPlan {
-        let steps = self.sides.iter().map(|side| side.len() - 1).sum();
+        let steps = self.sides.iter().map(|side| side.steps.len() - 1).sum();
         IntegrationPlan { steps, bodies: self.equations.bodies.len() }
     }
 
@@ -146,24 +150,45 @@ impl Problem {
 
     fn solved(&self, error: f64, stop: &AtomicBool) -> Result<(Integrated, [Profile; 2]), Error> {
         let (arch, precision, equations) = (Arch::new(), Precision::of(error), &self.equations);
-        let coarser = equations.coarser();
-        let mut sides = [Vec::new(), Vec::new()];
+        let mut sides = [Side::default(), Side::default()];
         let mut profiles = [Profile::new(), Profile::new()];
         let mut bound = 0.0_f64;
         for (side, target) in self.ends.into_iter().enumerate() {
             let backward = side == 0;
             let runner = Runner::new(self.attitude, self.rates, backward);
-            let (steps, runner) = dispatch(arch, Kept { equations, precision, runner, target, stop })?;
-            let errors = runner.errors();
-            let measured = Measured { equations: &coarser, precision, steps: &steps, errors, backward, stop };
-            profiles[side] = dispatch(arch, measured)?;
+            let (kept, runner) = dispatch(arch, Kept { equations, precision, runner, target, stop })?;
+            profiles[side] = self.measured(&kept.steps, (precision, runner.errors()), backward, stop)?;
             bound = profiles[side].last().map_or(bound, |(_, error)| bound.max(*error));
-            sides[side] = steps;
+            sides[side] = kept;
         }
         let Self { exponent, reach, .. } = *self;
         let equations = equations.clone();
         let motion = Integrated { equations, order: precision.order, sides, exponent, reach, error: bound };
         Ok((motion, profiles))
+    }
+
+    /// The error bound of the steps in one direction.
+    fn measured(
+        &self,
+        steps: &[Step],
+        (precision, errors): (Precision, [f64; 2]),
+        backward: bool,
+        stop: &AtomicBool,
+    ) -> Result<Profile, Error> {
+        let arch = Arch::new();
+        let phase = self.phase();
+        let coarse = Precision::of((ENLARGED_ERROR / (10.0 + phase * phase)).clamp(FINEST, COARSEST));
+        let tabulated = self.equations.bodies.iter().any(|body| matches!(body, Disturber::Tabulated(_)));
+        if !tabulated && coarse.order < precision.order {
+            let equations = &self.equations;
+            let task = Measured { equations, precision: coarse, steps, errors, backward, enlarged: true, stop };
+            if let Some(profile) = dispatch(arch, task)? {
+                return Ok(profile);
+            }
+        }
+        let equations = &self.equations.coarser();
+        let task = Measured { equations, precision, steps, errors, backward, enlarged: false, stop };
+        Ok(dispatch(arch, task)?.unwrap_or_default())
     }
 }
 

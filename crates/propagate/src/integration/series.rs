@@ -12,6 +12,9 @@ pub(super) type Series = [Row; ROWS];
 /// The coefficients of one function.
 pub(super) type Scalars = [f64; ROWS];
 
+/// Coefficients of attitude and rates of one order.
+pub(super) type Coefficients = [f64; 7];
+
 /// A series of zeros.
 pub(super) const ZERO: Series = [[0.0; 4]; ROWS];
 

@@ -144,11 +144,11 @@ impl<'a> Batch<'a> {
     fn turn(&self, attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
         let Some(given) = &self.motion.given else { return Ok(()) };
         for part in attitudes.chunks_mut(GROUP) {
-            going(self.stop).map_err(|_| Error::Stopped)?;
+            self.going()?;
             given.turn(part, &mut []);
         }
         for part in rates.chunks_mut(GROUP) {
-            going(self.stop).map_err(|_| Error::Stopped)?;
+            self.going()?;
             given.turn(&mut [], part);
         }
         Ok(())
@@ -162,7 +162,7 @@ impl<'a> Batch<'a> {
     }
 
     /// The epoch in the scale of the times.
-    fn epoch(&self) -> f64 {
+    pub(crate) fn epoch(&self) -> f64 {
         if self.since_epoch { 0.0 } else { self.motion.scene.state().epoch }
     }
 
@@ -171,6 +171,12 @@ impl<'a> Batch<'a> {
             Halt::Time(index) => self.motion.no_phase(index, times, self.epoch()),
             Halt::Stopped => Error::Stopped,
         }
+    }
+
+    /// # Errors
+    /// - [`Error::Stopped`] if the flag is set.
+    pub(crate) fn going(&self) -> Result<(), Error> {
+        going(self.stop).map_err(|_| Error::Stopped)
     }
 
     pub(crate) fn motion(&self) -> &'a Motion {

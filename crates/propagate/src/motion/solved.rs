@@ -7,6 +7,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::plan::Plan;
 use super::trajectory::Trajectory;
 use crate::error::Error;
+use crate::input::options::Convention;
 use crate::input::scene::Scene;
 
 /// Largest number of rotations from the epoch, within which phases are accurate to 1e-14 rad. Not far beyond, a double no longer distinguishes one turn from
@@ -125,6 +126,15 @@ impl Motion {
     /// axis in the long-axis mode. The body makes complete turns about this axis.
     pub fn extremal_axis_periods(&self) -> Periods {
         self.periods(true)
+    }
+
+    /// Mean periods in one of the three conventions.
+    pub fn periods_of(&self, convention: Convention) -> Periods {
+        match convention {
+            Convention::ExtremalAxis => self.extremal_axis_periods(),
+            Convention::LongAxis => self.long_axis_periods(),
+            Convention::ShortAxis => self.short_axis_periods(),
+        }
     }
 
     /// The periods of axis 3 of the theory if `own`, otherwise those of axis 1, whose precession is y′.

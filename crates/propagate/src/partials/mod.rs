@@ -17,6 +17,7 @@ mod steady;
 use nalgebra::{Matrix3, SMatrix};
 
 use crate::error::Error;
+use crate::motion::batch::Batch;
 use crate::motion::solved::{Motion, length};
 use crate::motion::trajectory::Trajectory;
 use crate::torque_free::mode::Mode;
@@ -78,10 +79,19 @@ impl Motion {
         attitudes: &mut [Derivatives],
         rates: &mut [Derivatives],
     ) -> Result<(), Error> {
-        length("attitudes", attitudes.len(), times.len())?;
-        length("rates", rates.len(), times.len())?;
-        self.valid(times, self.scene.state().epoch)?;
-        self.partials_about_principal_axes(times, attitudes, rates)?;
+        self.batch().partials_into(times, attitudes, rates)
+    }
+
+    /// Computes the derivatives for times counted from `epoch`.
+    fn partials_since(
+        &self,
+        epoch: f64,
+        times: &[f64],
+        attitudes: &mut [Derivatives],
+        rates: &mut [Derivatives],
+    ) -> Result<(), Error> {
+        self.valid(times, epoch)?;
+        self.partials_about_principal_axes(epoch, times, attitudes, rates)?;
         if let Some(given) = &self.given {
             let axes = given.turn.to_rotation_matrix().into_inner();
             attitudes.iter_mut().chain(rates).for_each(|derivatives| turn(&axes, derivatives));
@@ -91,13 +101,17 @@ impl Motion {
 
     fn partials_about_principal_axes(
         &self,
+        epoch: f64,
         times: &[f64],
         attitudes: &mut [Derivatives],
         rates: &mut [Derivatives],
     ) -> Result<(), Error> {
-        let epoch = self.scene.state().epoch;
+        let disturbed = || {
+            let start = self.scene.state().epoch - epoch;
+            times.iter().map(|time| start + time).collect::<Vec<f64>>()
+        };
         if matches!(self.trajectory, Trajectory::Integrated(_)) {
-            return differences::fill(self, times, attitudes, rates);
+            return differences::fill(self, &disturbed(), attitudes, rates);
         }
         let Some(polhode) = Polhode::new(self.scene.body(), self.scene.state()) else {
             steady::at_rest(times, epoch, attitudes, rates);
@@ -118,11 +132,39 @@ impl Motion {
                 target.fill(&Steadily { course, varied: &varied }, attitudes, rates);
                 Ok(())
             }
-            Trajectory::Gradient(_) | Trajectory::Integrated(_) => differences::fill(self, times, attitudes, rates),
+            Trajectory::Gradient(_) | Trajectory::Integrated(_) => {
+                differences::fill(self, &disturbed(), attitudes, rates)
+            }
             Trajectory::Wobble(_) | Trajectory::Passage(_) => {
                 target.wobbling(&self.scene, &polhode, mode, (attitudes, rates))
             }
         }
+    }
+}
+
+/// Number of times between two checks of the flag that ends a call.
+const AT_ONCE: usize = 1 << 13;
+
+impl Batch<'_> {
+    /// Writes the derivatives of attitude and angular velocity, as [`Motion::partials_into`] does.
+    ///
+    /// # Errors
+    /// The errors of [`Motion::partials_into`], and [`Error::Stopped`] if the flag is set.
+    pub fn partials_into(
+        &self,
+        times: &[f64],
+        attitudes: &mut [Derivatives],
+        rates: &mut [Derivatives],
+    ) -> Result<(), Error> {
+        length("attitudes", attitudes.len(), times.len())?;
+        length("rates", rates.len(), times.len())?;
+        let parts = times.chunks(AT_ONCE).zip(attitudes.chunks_mut(AT_ONCE)).zip(rates.chunks_mut(AT_ONCE));
+        for (index, ((times, attitudes), rates)) in parts.enumerate() {
+            self.going()?;
+            let done = self.motion().partials_since(self.epoch(), times, attitudes, rates);
+            done.map_err(|problem| problem.later(index * AT_ONCE))?;
+        }
+        Ok(())
     }
 }
 

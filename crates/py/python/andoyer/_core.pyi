@@ -10,7 +10,7 @@ from pandas import DataFrame  # type: ignore[import-untyped, import-not-found, u
 from scipy.spatial.transform import Rotation  # type: ignore[import-untyped, import-not-found, unused-ignore]
 from xarray import Dataset  # type: ignore[import-untyped, import-not-found, unused-ignore]
 
-from andoyer.mean import Frequencies, Periods
+from andoyer.mean import Frequencies, Periods, PeriodsOfMembers
 
 _Array: TypeAlias = NDArray[np.float64]
 _Gaussian: TypeAlias = tuple[Fraction, Fraction]
@@ -413,17 +413,17 @@ class Samples:
 
 @final
 class Partials:
-    """Derivatives of attitude and angular velocity at some times: what `Motion.partials` returns."""
+    """Derivatives of attitude and angular velocity at some times, of a motion or of the members of an ensemble: what `Motion.partials` and `Ensemble.partials` return."""
 
     @property
     def times(self) -> _Array:
-        """The times, float64, shape (n,)."""
+        """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n)."""
     @property
     def attitude(self) -> _Array:
-        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9)."""
+        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9) or (m, n, 3, 9)."""
     @property
     def angular_velocity(self) -> _Array:
-        """Derivatives of the angular velocity in body components, shape (n, 3, 9)."""
+        """Derivatives of the angular velocity in body components, shape (n, 3, 9) or (m, n, 3, 9)."""
     def __len__(self) -> int: ...
 
 @final
@@ -448,6 +448,20 @@ class Ensemble:
         """Attitudes and angular velocities of all members, in one pass."""
     def attitude(self, times: ArrayLike, out: _Array | None = None, *, scalar_first: bool = False) -> _Array:
         """Attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones."""
+    def angular_momentum(self, times: ArrayLike) -> _Array:
+        """Angular momenta of all members in inertial components, in the unit of moment × rate: the same at all times unless a member has an orbit."""
+    def andoyer(self, times: ArrayLike) -> _Array:
+        """Andoyer variables (λ, μ, ν, Λ, M, N) of all members, as `Motion.andoyer` defines them (theory §1)."""
+    def rotation(self, times: ArrayLike) -> Rotation:
+        """Attitudes of all members as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else."""
+    def partials(self, times: ArrayLike) -> Partials:
+        """Derivatives of attitude and angular velocity of all members, as `Motion.partials` defines them (theory §12)."""
+    @property
+    def periods(self) -> dict[Literal["long-axis", "short-axis", "extremal-axis"], PeriodsOfMembers]:
+        """Mean periods (P_φ, P_ψ) of all members in three conventions, as `Motion.periods` defines them."""
+    @property
+    def energy_ratio(self) -> _Array:
+        """E/E0 of all members, shape (m,): rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum (theory §5)."""
     @property
     def plans(self) -> list[Any]:
         """The plan of every member: a list of `Plan`; with ``errors="nan"`` None for a member that is refused."""
