@@ -1,9 +1,9 @@
 //! The exact normal form from conservation of energy. The result equals that of Deprit's triangle; the cost is that of the powers of one series.
 //!
 //! In one degree of freedom with H = I + ε I² h(ℓ), every quantity that depends on ε is a function of energy and angle. Let J(H, ε) be the action. It obeys
-//! J_ε + {J; S} = 0 (theory §6, the inverse transformation of L′). Then H_ε + {H; S} = R, where R(H, ε) = ∂H/∂ε at fixed J is the slope of the normal form. R is a
-//! function of the energy alone: R = Σ c_n ε^(n−1) H^(n+1). Let h = −½(1 + β cos 2ℓ), z = e^(2iℓ), S = i Σ ε^(m−1) I^(m+1) τ_m(z), and D = 2z d/dz. Order m of
-//! that equation is
+//! the equation J_ε + {J; S} = 0 (theory §6, the inverse transformation of L′). Then H_ε + {H; S} = R, where R(H, ε) = ∂H/∂ε at fixed J is the slope of the
+//! normal form. R is a function of the energy alone: R = Σ c_n ε^(n−1) H^(n+1). Let h = −½(1 + β cos 2ℓ), z = e^(2iℓ), S = i Σ ε^(m−1) I^(m+1) τ_m(z), and D
+//! = 2z d/dz. Order m of that equation is
 //!
 //! ```text
 //! D τ_m = Σ_{k≥1} c_{m−k} C(m−k+1, k) h^k + c_m − h [m = 1] + m (D h) τ_{m−1} − 2 h D τ_{m−1}

@@ -1,10 +1,10 @@
 """`attitudes`: a state from measured attitudes."""
 
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from andoyer._core import InputError, Motion, Scene
 from andoyer._extra import extra
@@ -13,6 +13,8 @@ from andoyer.fit._given import enough, freed, quaternions, whitening
 from andoyer.fit._result import Fit, judged
 from andoyer.fit._rotations import inverse_left_jacobian, logarithm
 from andoyer.fit._steps import Steps
+
+Places: TypeAlias = NDArray[np.intp]
 
 KNOWN = ("attitude", "angular_velocity", "moments")
 LEANING = 0.5
@@ -94,17 +96,17 @@ class _Problem:
         self.basis = _without_factor(self.steps.labels)
         enough(3 * count, self.basis.shape[1], "attitudes", "more attitudes")
 
-    def windows(self) -> list[Array]:
+    def windows(self) -> list[Places]:
         """The data next to the epoch, twice as many each time, and not all of them: what a poor state still predicts comes first."""
         nearest = np.argsort(self.elapsed, kind="stable")
         sizes = [len(nearest) >> halvings for halvings in range(1, len(nearest).bit_length())]
         return [nearest[:size] for size in reversed(sizes) if 3 * size >= self.basis.shape[1]]
 
-    def leaning(self, reduced: Array, window: Array) -> Array:
+    def leaning(self, reduced: Array, window: Places) -> Array:
         """Residuals of some data, and how far the step leads: what they do not determine stays near the first state."""
         return np.append(self.whitened(reduced).reshape(-1, 3)[window].ravel(), reduced / LEANING)
 
-    def leaning_jacobian(self, reduced: Array, window: Array) -> Array:
+    def leaning_jacobian(self, reduced: Array, window: Places) -> Array:
         jacobian = self.jacobian(reduced)
         of_window = jacobian.reshape(-1, 3, len(reduced))[window].reshape(-1, len(reduced))
         return np.concatenate([of_window, np.eye(len(reduced)) / LEANING])
@@ -120,7 +122,8 @@ class _Problem:
             residuals = self.residuals(self.motion(reduced))
         except InputError:  # moments of no body: the step is too long
             return np.full(3 * len(self.measured), np.inf)
-        return np.einsum("nij,nj->ni", self.whiten, residuals).ravel()
+        whitened: Array = np.einsum("nij,nj->ni", self.whiten, residuals).ravel()
+        return whitened
 
     def full_jacobian(self, step: Array) -> Array:
         scene = self.steps.scene(step)

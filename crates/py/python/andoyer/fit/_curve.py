@@ -4,12 +4,14 @@ The model is s B: brightness B of an ellipsoid and a factor s for each curve, wh
 along B, times s (Kaufman, BIT 15, 1975): what the factors take up is no part of the fit.
 """
 
+import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from andoyer._core import Ensemble
 from andoyer._quaternions import Array
@@ -23,6 +25,7 @@ TOLERANCE = 1e-9
 """Attitude error [rad] of the states that are tried."""
 
 T = TypeVar("T")
+Places: TypeAlias = NDArray[np.intp]
 
 
 class States(NamedTuple):
@@ -32,7 +35,7 @@ class States(NamedTuple):
     attitudes: Array
     rates: Array
 
-    def part(self, rows: "slice | Array") -> "States":
+    def part(self, rows: "slice | Places") -> "States":
         """Some of them."""
         return States(*(array[rows] for array in self))
 
@@ -64,10 +67,10 @@ class Curve:
     """Whether the axis ratios are free."""
 
     def in_chunks(self, states: States, task: Callable[[States], T]) -> list[T]:
-        """What a task makes of the states, some at a time, on two threads."""
+        """What a task makes of the states, some at a time, on one thread for each core."""
         count = max(1, CHUNK // len(self.times))
         parts = [states.part(slice(start, start + count)) for start in range(0, len(states.axes), count)]
-        with ThreadPoolExecutor() as pool:
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
             return list(pool.map(task, parts))
 
     def chi_squares(self, states: States) -> Array:

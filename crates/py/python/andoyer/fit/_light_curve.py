@@ -196,13 +196,14 @@ def _polished(curve: Curve, population: Population) -> Population:
 
 def _residuals(step: Array, curve: Curve, state: States) -> Array:
     residuals, _ = curve.residuals(moved(state, step[None]))
-    return np.nan_to_num(residuals[0], nan=np.inf)
+    finite: Array = np.nan_to_num(residuals[0], nan=np.inf)
+    return finite
 
 
 def _jacobian(step: Array, curve: Curve, state: States) -> Array:
     """Of the residuals, measured minus model, with respect to a step from `state`."""
     there = moved(state, step[None])
-    jacobian = -curve.residuals(there)[1][0].T
+    jacobian: Array = -curve.residuals(there)[1][0].T
     jacobian[:, :3] = jacobian[:, :3] @ right_jacobian(step[:3])
     jacobian[:, 3:6] *= np.linalg.norm(state.rates) / np.linalg.norm(there.rates)
     return jacobian

@@ -109,7 +109,7 @@ def brightness(axes: ArrayLike, attitudes: ArrayLike, sun: ArrayLike, observer: 
 
     >>> from andoyer.fit import brightness
     >>> float(brightness([1, 1, 1], [0, 0, 0, 1], [1, 0, 0], [1, 0, 0], scattering="geometric").round(12))
-    3.141592653590
+    3.14159265359
     """
     semi_axes = positive("axes", axes, (3,))
     to_sun, to_observer = directions(sun, observer)

@@ -6,6 +6,7 @@ Every start is evaluated once. Then rounds follow, each of which takes the best 
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from andoyer._core import Ensemble
 from andoyer._quaternions import Array, product
@@ -14,7 +15,7 @@ from andoyer.fit._rotations import exponential
 from andoyer.fit._steps import moments_of_ellipsoid
 
 ROUNDS = ((0.1, 4), (0.25, 8), (0.2, 40))
-"""Of each round the part of the states that it takes, and its steps. Tried on simulated light curves: see the figures in docs/fits.md."""
+"""Of each round the part of the states that it takes, and its steps. Tried on simulated light curves, of which docs/fits.md has the figures."""
 FEWEST = 64
 """States that a round takes at least."""
 LONGEST_STEP = 0.3
@@ -64,12 +65,12 @@ def _momenta(moments: Array, count: int, generator: np.random.Generator) -> Arra
     return chosen[:count]
 
 
-def short_axis(moments: Array, rates: Array) -> Array:
+def short_axis(moments: Array, rates: Array) -> NDArray[np.bool_]:
     """Whether motions are of the short-axis mode: 2TB > M²."""
     momentum = moments * rates
     middle = np.sort(moments, axis=-1)[..., 1]
     energy, square = np.sum(momentum * rates, axis=-1), np.sum(momentum**2, axis=-1)
-    short: Array = energy * middle < square
+    short: NDArray[np.bool_] = energy * middle < square
     return short
 
 
