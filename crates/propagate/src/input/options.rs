@@ -63,7 +63,7 @@ pub enum Convention {
 }
 
 impl Convention {
-    /// The three, in the order in which an ensemble gives its periods.
+    /// The three conventions, in the order of the periods of an ensemble.
     pub const ALL: [Self; 3] = [Self::LongAxis, Self::ShortAxis, Self::ExtremalAxis];
 }
 
