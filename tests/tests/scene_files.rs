@@ -118,7 +118,7 @@ fn bad_values_are_named_with_their_bound() {
         ("order = 12", "order = 61", "order", "from 0 to 60"),
         ("order = 12", "order = -1", "order", "from 0 to 60"),
         ("order = 12", "order = 1.5", "order", "from 0 to 60"),
-        ("\"series\"", "\"magic\"", "method", "must be \"auto\", \"series\" or \"closed\""),
+        ("\"series\"", "\"magic\"", "method", "must be \"auto\", \"series\", \"closed\" or \"integrated\""),
         ("span = [0, 1e3]", "span = [1, 0]", "span", "start ≤ stop"),
         ("span = [0, 1e3]", "span = [1]", "span", "a list of 2 numbers"),
         ("epoch = 5", "epoch = nan", "epoch", "must be finite"),

@@ -38,7 +38,7 @@ SCENES = {
 def test_motion_is_that_of_another_integration(moments, rates, orbit, span, direction):
     full_equations = pytest.importorskip("full_equations")
     ends = (2.0, 2.0 + span) if direction > 0 else (2.0 - span, 2.0)
-    scene = Scene(Body(moments), ATTITUDE, rates, epoch=2.0, orbit=orbit, span=ends, tolerance=1e-11, method="integrated")
+    scene = Scene(Body(moments), ATTITUDE, rates, epoch=2.0, orbit=orbit, span=ends, tolerance=1e-10, method="integrated")
     motion = scene.solve()
     assert motion.plan.method == "integrated" and motion.plan.meets_tolerance
     times = 2.0 + direction * np.linspace(0, span, 30)
@@ -71,7 +71,7 @@ def test_motion_runs_back_to_where_it_came_from():
 
 def test_table_of_a_circle_gives_the_motion_of_the_orbit_within_the_bound():
     body, span = Body([0.5, 0.8, 1.0]), (0.0, 10.0)
-    by_orbit = Scene(body, ATTITUDE, [0.5, 1.5, 2.0], orbit=Orbit(1.0), span=span, tolerance=1e-11, method="integrated").solve()
+    by_orbit = Scene(body, ATTITUDE, [0.5, 1.5, 2.0], orbit=Orbit(1.0), span=span, tolerance=1e-10, method="integrated").solve()
     errors = []
     for count in (101, 201):
         times = np.linspace(-1, 11, count)
@@ -115,8 +115,8 @@ def test_integration_needs_a_span_and_ends_with_it():
 
 
 def test_integration_of_1e9_rotations_is_refused_with_the_figure():
-    with pytest.raises(andoyer.TheoryError, match=r"about 1\.\de\+?10 steps, which take .* GB|about [\d.]+e\+?\d+ steps") as caught:
-        Scene(Body([1, 1.02, 1.05]), ATTITUDE, [0, 0.1, 1], orbit=Orbit(0.5), span=(0, 6.3e9)).solve()
+    with pytest.raises(andoyer.TheoryError, match=r"about \d\.\de9 steps, which take \d+\.\d GB; at most 8388608 are kept") as caught:
+        Scene(Body([1, 1.02, 1.05]), ATTITUDE, [0, 0.1, 1], orbit=Orbit(0.5), span=(0, 6.3e9), method="integrated").solve()
     assert caught.value.argument == "span" and caught.value.value > 1e9
 
 
@@ -211,8 +211,8 @@ def test_phobos_librates_by_the_amplitude_of_the_linear_formula():
     assert motion.plan.method == "integrated"
     times = np.linspace(0, 300, 4000)
     sines = fitted(longitudes(motion, times) - times, [times, 2 * times, math.sqrt(free) * times])
-    # The formula leaves terms of relative size e, and of the third power of the angle 3 % of which the restoring torque departs from a straight line.
-    assert sines[0] == pytest.approx(amplitude, rel=2e-3)
+    # The long axis swings by 0.049 rad about the direction of the planet: the torque, sin 2x, is weaker than 2x by (3/4)(2x)²/6 = 1.2e-3, and the amplitude by 1.63 times that.
+    assert sines[0] == pytest.approx(amplitude, rel=4e-3)
     assert math.degrees(sines[0]) == pytest.approx(-1.143, abs=0.05)
 
 

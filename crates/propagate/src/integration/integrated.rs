@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use andoyer_double::two_sum;
 use pulp::Arch;
 
-use super::bound::{Measured, Profile};
+use super::bound::{FLOOR, Measured, Profile};
 use super::disturber::Disturber;
 use super::expansion::Equations;
 use super::integrator::{Kept, Precision, Runner, Side, Step};
@@ -152,7 +152,7 @@ impl Problem {
         let (arch, precision, equations) = (Arch::new(), Precision::of(error), &self.equations);
         let mut sides = [Side::default(), Side::default()];
         let mut profiles = [Profile::new(), Profile::new()];
-        let mut bound = 0.0_f64;
+        let mut bound = FLOOR;
         for (side, target) in self.ends.into_iter().enumerate() {
             let backward = side == 0;
             let runner = Runner::new(self.attitude, self.rates, backward);
