@@ -37,7 +37,7 @@ print(motion.plan)
 assert motion.plan.method == "integrated" and motion.plan.meets_tolerance
 
 # %%
-# The same satellite in the orbit that stands still. The angle between the two angular momenta grows to tens of degrees.
+# The same satellite in the orbit that stands still. The two angular momenta are 6° apart after a day, and more than 90° within the month.
 
 still = andoyer.Orbit(orbit.mean_motion, orbit.eccentricity, inclination=inclination, attraction=orbit.attraction)
 fixed = andoyer.Scene(box, *state, orbit=still, span=month, tolerance=1e-6, method="integrated").solve()
@@ -45,7 +45,7 @@ times = np.linspace(*month, 3000)
 poles = [momentum / np.linalg.norm(momentum, axis=1, keepdims=True) for momentum in (motion.angular_momentum(times), fixed.angular_momentum(times))]
 apart = np.degrees(np.arctan2(np.linalg.norm(np.cross(*poles), axis=1), np.sum(poles[0] * poles[1], axis=1)))
 print(f"after a day {apart[100]:.2f}°, after a week {apart[700]:.1f}°, the most in the month {apart.max():.0f}°")
-assert apart[100] < 5 < apart.max()
+assert 5 < apart[100] < 7 and apart.max() > 90
 
 figure, axes = plt.subplots(figsize=(9, 4), layout="constrained")
 axes.plot(times / DAY, apart, color="#0072B2")

@@ -75,7 +75,7 @@ impl Orbit {
         })
     }
 
-    /// The orbit about an oblate primary with its secular rates of first order in J2 (Kaula 1966, eqs. 3.74; Vallado 2013, eqs. 9-38 to 9-41), the rotating body being the
+    /// The orbit about an oblate primary with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3), the rotating body being the
     /// satellite and the primary the disturbing body.
     ///
     /// With n0² = GM/a³, p = a(1 − e²) and k = (3/2) n0 J2 (R/p)²: node rate −k cos i, pericentre rate k (2 − (5/2) sin² i), mean motion
