@@ -39,7 +39,7 @@ impl Scene {
     /// # Errors
     /// - Those of [`Scene::validate`].
     /// - [`Error::Units`] where the angular momentum over- or underflows, or a rate that belongs to it does.
-    /// - [`Error::NearSeparatrix`] where the series is asked for and the tolerance needs an order above [`MAX_ORDER`](crate::MAX_ORDER).
+    /// - [`Error::NearSeparatrix`] where the series is asked for and the tolerance needs an order above [`MAX_ORDER`](crate::options::MAX_ORDER).
     /// - [`Error::Separatrix`] where the series is asked for on the separatrix itself.
     /// - [`Error::Resonance`], [`Error::TorqueTooStrong`], [`Error::Unaveraged`] for an orbit whose gravity gradient cannot be averaged, without a span or with a method other than
     ///   [`Method::Auto`] and [`Method::Integrated`].

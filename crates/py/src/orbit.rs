@@ -153,7 +153,7 @@ impl Orbit {
         #[pyo3(from_py_with = argument_of_pericentre)] argument_of_pericentre: f64,
         #[pyo3(from_py_with = time_of_pericentre)] time_of_pericentre: f64,
     ) -> PyResult<Self> {
-        let primary = andoyer_propagate::Oblateness { gm, j2, radius };
+        let primary = andoyer_propagate::disturbers::Oblateness { gm, j2, radius };
         let orbit = andoyer_propagate::Orbit::around_oblate(&primary, semi_major_axis, eccentricity, inclination)
             .and_then(|orbit| orbit.node_and_pericentre(node, argument_of_pericentre))
             .and_then(|orbit| orbit.time_of_pericentre(time_of_pericentre))

@@ -2,7 +2,10 @@
 
 use std::path::PathBuf;
 
-use andoyer_propagate::{DisturbingBody, MAX_ORDER, Method, ObservedPeriods, State};
+use andoyer_propagate::disturbers::DisturbingBody;
+use andoyer_propagate::options::MAX_ORDER;
+use andoyer_propagate::periods::ObservedPeriods;
+use andoyer_propagate::{Method, State};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};

@@ -1,4 +1,4 @@
-//! A body whose gravity gradient acts: on an orbit, or by a table of positions.
+//! A disturbing body: its gravity gradient acts on the rotating body. Its position comes from an orbit or from a table.
 
 use std::sync::Arc;
 
@@ -9,9 +9,9 @@ use super::tabulated::TabulatedOrbit;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum DisturbingBody {
-    /// On a Keplerian orbit, fixed or with secular rates.
+    /// A body on a Keplerian orbit, fixed or with secular rates.
     Orbit(Orbit),
-    /// By a table of positions.
+    /// A body with a table of positions.
     Tabulated(Arc<TabulatedOrbit>),
 }
 

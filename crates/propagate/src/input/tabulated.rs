@@ -1,16 +1,16 @@
 //! The position of a disturbing body as a table of times and vectors.
 //!
-//! Between two times the position is the polynomial of degree seven through the eight nearest ones. The error bound of a motion contains the effect of the interpolation, which is
-//! measured with the polynomial of degree five.
+//! Between two times the position is the polynomial of degree seven through the eight nearest times. The error bound of a motion contains the interpolation
+//! error, which is estimated with the polynomial of degree five.
 
 use nalgebra::Vector3;
 
 use crate::error::Error;
 
-/// Times through whose positions a polynomial is drawn.
+/// Number of times through whose positions a polynomial passes.
 pub(crate) const NODES: usize = 8;
 
-/// Positions of the disturbing body relative to the rotating one, inertial components; only for the integrated method.
+/// Positions of the disturbing body relative to the rotating body, in inertial components. Only the integrated method uses them.
 ///
 /// ```
 /// use andoyer_propagate::TabulatedOrbit;
@@ -28,12 +28,12 @@ pub struct TabulatedOrbit {
 }
 
 impl TabulatedOrbit {
-    /// A table of times, which increase, with a position for each, and G × the mass of the disturbing body [length³/time²].
+    /// A table of increasing times with a position for each, and G × the mass of the disturbing body [length³/time²].
     ///
     /// # Errors
     /// - [`Error::Length`] for times and positions of different lengths.
     /// - [`Error::Table`] for fewer than eight times, a time that is not after the one before it, a number that is not finite, or a position at the origin.
-    /// - [`Error::Orbit`] for a gm of 0, −1, NaN.
+    /// - [`Error::Orbit`] for a gm of 0, −1 or NaN.
     pub fn new(times: Vec<f64>, positions: Vec<[f64; 3]>, gm: f64) -> Result<Self, Error> {
         if positions.len() != times.len() {
             return Err(Error::Length { argument: "positions", found: positions.len(), expected: times.len() });
@@ -79,10 +79,10 @@ impl TabulatedOrbit {
         self.gm
     }
 
-    /// The position at a time within the table.
+    /// The position at a time within the table, in inertial components.
     ///
     /// # Errors
-    /// - [`Error::Table`] for a time outside the table, or NaN.
+    /// - [`Error::Table`] for a time that is outside the table or NaN.
     pub fn position(&self, time: f64) -> Result<[f64; 3], Error> {
         let (first, last) = self.ends();
         if !(first <= time && time <= last) {
@@ -91,7 +91,7 @@ impl TabulatedOrbit {
         let start = self.first_node(self.interval(time), NODES);
         let nodes: [f64; NODES] = std::array::from_fn(|i| self.times[start + i] - time);
         let mut table: [[f64; 3]; NODES] = std::array::from_fn(|i| self.positions[start + i]);
-        // Neville's scheme at 0.
+        // Neville's scheme, evaluated at 0.
         for level in 1..NODES {
             for i in 0..NODES - level {
                 let (left, right) = (nodes[i], nodes[i + level]);
@@ -103,17 +103,17 @@ impl TabulatedOrbit {
         Ok(table[0])
     }
 
-    /// The first and the last time.
+    /// The first and the last time of the table.
     pub(crate) fn ends(&self) -> (f64, f64) {
         (self.times[0], self.times[self.times.len() - 1])
     }
 
-    /// The index of the time that begins the interval of a time.
+    /// The index of the time at which the interval of a time begins.
     pub(crate) fn interval(&self, time: f64) -> usize {
         self.times.partition_point(|knot| *knot <= time).clamp(1, self.times.len() - 1) - 1
     }
 
-    /// The index of the first of `count` times about an interval.
+    /// The index of the first of `count` times around an interval.
     pub(crate) fn first_node(&self, interval: usize, count: usize) -> usize {
         (interval + 1).saturating_sub(count / 2).min(self.times.len() - count)
     }

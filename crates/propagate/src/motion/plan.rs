@@ -10,10 +10,10 @@ use crate::input::scene::Scene;
 use crate::integration::integrated::IntegrationPlan;
 use crate::torque_free::mode::Mode;
 
-/// σ/σ_sep above which its distance from 1 is printed.
+/// If σ/σ_sep exceeds this, its distance from 1 is printed.
 const NEAR_ONE: f64 = 0.999;
 
-/// A tolerance below this is met as well as rounding allows \[rad\].
+/// A smaller tolerance counts as met if the error bound is within this limit, which rounding sets \[rad\].
 pub(crate) const ROUNDED_TOLERANCE: f64 = 2e-14;
 
 /// The evaluation plan of a motion. It is printed in ASCII, and can be serialized.
@@ -34,7 +34,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan of a scene by the closed form, without a sum, to which the rest is added.
+    /// The plan of a scene that uses the closed form without a sum. The caller adds the other entries.
     pub(crate) fn new(scene: &Scene, mode: Mode, separatrix_ratio: f64, error_bound: f64) -> Self {
         Self {
             mode,
@@ -51,7 +51,7 @@ impl Plan {
         }
     }
 
-    /// The kind of motion.
+    /// The mode of the motion.
     pub fn mode(&self) -> Mode {
         self.mode
     }
@@ -61,32 +61,33 @@ impl Plan {
         self.method
     }
 
-    /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance. Of an integration the order of the steps.
+    /// Order N of the series. It is 0 if no series is used, or if the harmonic oscillator alone meets the tolerance. For an integration it is the order of the
+    /// steps.
     pub fn order(&self) -> usize {
         self.order
     }
 
-    /// Steps of the integration; 0 without one.
+    /// Number of steps of the integration; 0 if there is none.
     pub fn steps(&self) -> usize {
         self.integration.map_or(0, |integration| integration.steps)
     }
 
-    /// The highest multiple of ℓ′ that is evaluated; 0 where none is.
+    /// The highest multiple of ℓ′ that is evaluated; 0 if there is none.
     pub fn harmonics(&self) -> usize {
         self.harmonics
     }
 
-    /// Estimate from above of the attitude error over the span \[rad\]: truncation, dropped harmonics, rounding.
+    /// Upper estimate of the attitude error over the span \[rad\]: truncation, dropped harmonics, rounding.
     pub fn error_bound(&self) -> f64 {
         self.error_bound
     }
 
-    /// The attitude error asked for over the span \[rad\].
+    /// The requested attitude error over the span \[rad\].
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// Whether the error bound is within the tolerance, or within 2e-14 rad where the tolerance is less than double precision holds.
+    /// Whether the error bound is within the tolerance. If the tolerance is below the limit of double precision, 2e-14 rad counts instead.
     ///
     /// ```
     /// use andoyer_propagate::{Body, Orbit, Scene, State};
@@ -101,7 +102,7 @@ impl Plan {
         self.error_bound <= self.tolerance.max(ROUNDED_TOLERANCE)
     }
 
-    /// One sentence with the error bound and the tolerance where the tolerance is not met.
+    /// A sentence with the error bound and the tolerance if the tolerance is not met, otherwise `None`.
     pub fn missed_tolerance(&self) -> Option<String> {
         (!self.meets_tolerance()).then(|| missed(self.error_bound, self.tolerance, self.spanned))
     }
@@ -111,23 +112,24 @@ impl Plan {
         self.separatrix_ratio
     }
 
-    /// How far the equations of a scene with an orbit are averaged; `None` without one.
+    /// The averaging of a scene with an orbit; `None` without an orbit.
     pub fn averaging(&self) -> Option<Averaging> {
         self.gradient.map(|gradient| gradient.averaging)
     }
 
-    /// Sum of the short-period corrections by the gravity gradient, which is the size of the torque; 0 without an orbit \[rad\].
+    /// Sum of the short-period corrections for the gravity gradient \[rad\], which measures the torque; 0 without an orbit.
     pub fn torque(&self) -> f64 {
         self.gradient.map_or(0.0, |gradient| gradient.size)
     }
 
-    /// The first neglected term under a gravity gradient: of second order in the torque, or a short-period one that was dropped; 0 without an orbit \[rad\].
+    /// The first neglected term under a gravity gradient \[rad\]: a term of second order in the torque, or a short-period term that was dropped; 0 without an
+    /// orbit.
     pub fn first_neglected(&self) -> f64 {
         self.gradient.map_or(0.0, |gradient| gradient.neglected)
     }
 
-    /// How derivatives with respect to the state and the moments are computed: "closed" (theory §12); "differences" of fourth order for a scene with an orbit or an integrated motion; `None` on the separatrix,
-    /// where the frequencies have none.
+    /// The method for derivatives with respect to the state and the moments: "closed" (theory §12), or "differences" of fourth order for a scene with an orbit
+    /// and for an integrated motion. It is `None` on the separatrix, where the frequencies have no derivatives.
     pub fn partials(&self) -> Option<&'static str> {
         match (self.mode, self.method, self.gradient) {
             (_, Method::Integrated, _) | (_, _, Some(_)) => Some("differences"),
@@ -182,12 +184,12 @@ impl fmt::Display for Plan {
     }
 }
 
-/// The times over which the tolerance is asked for, in words.
+/// The times over which the tolerance must hold, in words.
 fn asked_span(spanned: bool) -> &'static str {
     if spanned { "the span" } else { "1e9 rotations (no span given)" }
 }
 
-/// The sentence of a tolerance that is not met.
+/// The sentence for a tolerance that is not met.
 pub(crate) fn missed(bound: f64, tolerance: f64, spanned: bool) -> String {
     let over = asked_span(spanned);
     format!("the error bound of the attitude, {bound:.1e} rad, exceeds the tolerance, {tolerance:e} rad, over {over}")

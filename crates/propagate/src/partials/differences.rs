@@ -1,8 +1,8 @@
-//! Derivatives of a motion under a gravity gradient or an integrated one, by differences of solved motions.
+//! Derivatives of a motion under a gravity gradient, or of an integrated motion, from differences of solved motions.
 //!
-//! Central differences of fourth order with steps that turn the body by [`STEP`] at the farthest time: their truncation is STEP⁴/30 of the largest derivative, 3e-10, and rounding of a
-//! solution, 1e-13, over the step as much. Derivatives of the mean motion alone would lack those of the short-period corrections, which are of the size of the torque. One call
-//! solves 37 motions, however many times it has.
+//! They are central differences of fourth order. A step turns the body by [`STEP`] at the most distant time. The truncation error is STEP⁴/30 of the largest
+//! derivative, 3e-10. The rounding error of a solution, 1e-13, divided by the step is as large. Derivatives of the mean motion alone would lack those of the
+//! short-period corrections, which have the size of the torque. One call solves 37 motions for any number of times.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -14,16 +14,16 @@ use crate::motion::solved::Motion;
 
 use super::{Derivatives, PARAMETERS};
 
-/// Angle by which a step turns the body at the farthest time \[rad\].
+/// Angle by which a step turns the body at the most distant time \[rad\].
 const STEP: f64 = 1e-2;
 /// Largest step relative to the angular velocity or the moment.
 const LARGEST: f64 = 1e-3;
-/// Tolerance at which steps are solved, so that dropped terms are nothing beside a step \[rad\].
+/// Tolerance of the solved motions, so that dropped terms are negligible relative to a step \[rad\].
 const TOLERANCE: f64 = 1e-13;
-/// Places and weights of the differences: [8 f(h) − 8 f(−h) − f(2h) + f(−2h)]/12h.
+/// Positions and weights of the differences: [8 f(h) − 8 f(−h) − f(2h) + f(−2h)]/12h.
 const STENCIL: [(f64, f64); 4] = [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)];
 
-/// Derivatives at times that are valid for the motion.
+/// Computes derivatives at times that are valid for the motion.
 pub(super) fn fill(
     motion: &Motion,
     times: &[f64],
@@ -77,7 +77,7 @@ impl Samples {
 fn steps(scene: &Scene, times: &[f64]) -> [f64; PARAMETERS] {
     let State { epoch, angular_velocity, .. } = *scene.state();
     let farthest = times.iter().fold(0.0_f64, |most, time| most.max((time - epoch).abs()));
-    // A body at rest has a step of the rates all the same.
+    // The rates of a body at rest need a step that is not 0.
     let rate = match angular_velocity.norm() {
         0.0 => STEP / farthest.max(f64::MIN_POSITIVE),
         rate => rate,
@@ -106,7 +106,7 @@ fn changed(scene: &Scene, parameter: usize, step: f64) -> Scene {
     scene.starting_from(scene.body().with_moments(moments), state)
 }
 
-/// The rotation vector from one attitude to a neighbouring one, body components.
+/// The rotation vector from one attitude to a nearby one, in body components.
 fn rotation_vector(start: [f64; 4], end: [f64; 4]) -> Vector3<f64> {
     let [start, end] = [start, end].map(|attitude| UnitQuaternion::new_unchecked(attitude.into()));
     (start.inverse() * end).scaled_axis()

@@ -247,7 +247,6 @@ def samples_summary(samples: Samples, motion: Motion | None = None, *, name: str
         for panel in panels[:-1]:
             panel.set_xlabel("")
         figure.align_ylabels(panels)
-        plt.close(figure)
     return figure
 
 
