@@ -118,7 +118,7 @@ impl Task for Measured<'_> {
             let distance = angle(&target.attitude, &runner.step().attitude);
             let linear = displacement[0] + displacement[1] * target.time.0.abs();
             let safety = (distance / linear).clamp(1.0, SAFETY);
-            if enlarged && !(distance < UNSCALED) {
+            if enlarged && (distance >= UNSCALED || distance.is_nan()) {
                 return Ok(None);
             }
             bound = if distance < LOST { bound.max(safety * distance / scale + FLOOR) } else { PI };
