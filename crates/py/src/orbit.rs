@@ -94,7 +94,7 @@ impl Orbit {
         Ok(Self(orbit))
     }
 
-    /// The orbit of a satellite about an oblate primary, with its secular rates of first order in J2 (Vallado 2013, eqs. 9-38 to 9-41).
+    /// The orbit of a satellite about an oblate primary, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3).
     ///
     /// With n0² = GM/a³, p = a (1 − e²) and k = (3/2) n0 J2 (R/p)² the node turns by −k cos i, the argument of the pericentre by k (2 − (5/2) sin² i), and the mean anomaly by
     /// n0 + k √(1 − e²) (1 − (3/2) sin² i), which is `mean_motion`. Periodic terms, of relative size J2 (R/p)², are left out. Nothing here knows whether the orbit meets the

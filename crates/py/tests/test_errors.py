@@ -53,7 +53,7 @@ BAD = {
     "epoch": (lambda: scene(epoch=-INF), InputError, "epoch", -INF, "finite"),
     "tolerance": (lambda: scene(tolerance=0.0), InputError, "tolerance", 0.0, "positive and finite"),
     "span": (lambda: scene(span=(1, 0)), InputError, "span", (1.0, 0.0), "finite with start <= stop"),
-    "method": (lambda: scene(method="magic"), InputError, "method", "magic", "auto, series, closed"),
+    "method": (lambda: scene(method="magic"), InputError, "method", "magic", "auto, series, closed, integrated"),
     "averaging": (lambda: scene(averaging="moon"), InputError, "averaging", "moon", "auto, orbit, spin"),
     "level": (lambda: scene(level="moon"), InputError, "level", "moon", "paper, moving, full"),
     "negative order": (lambda: scene(order=-1), InputError, "order", -1, (0, 60)),

@@ -138,7 +138,7 @@ class Orbit:
         argument_of_pericentre: float = 0.0,
         time_of_pericentre: float = 0.0,
     ) -> Orbit:
-        """The orbit of a satellite about an oblate primary, with its secular rates of first order in J2 (Vallado 2013, eqs. 9-38 to 9-41)."""
+        """The orbit of a satellite about an oblate primary, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3)."""
     @property
     def mean_motion(self) -> float:
         """Mean motion n, in rad per unit of time."""
