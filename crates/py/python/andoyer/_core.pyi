@@ -546,7 +546,7 @@ class BirkhoffNormalForm:
         """This normal form as JSON text, with a format version: exact numbers as "p/q" strings, floats with all their digits."""
     @classmethod
     def from_json(cls, text: str, symbols: dict[str, Any] | None = None) -> BirkhoffNormalForm:
-        """Reads what `to_json` wrote."""
+        """Reads what `to_json` wrote, and computes it anew to compare every coefficient."""
     def to_latex(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> str:
         """A part of this normal form as LaTeX, for a document that uses amsmath."""
     def to_code(self, language: Literal["c", "rust", "python"] = "c") -> str:
