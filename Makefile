@@ -15,7 +15,7 @@ test: lint supply $(VENV)/installed $(VENV)/tested docs-test  ## everything that
 	cargo test --workspace --quiet
 	$(BIN)/python tests/reference/torque_free.py tests/data/torque_free.json
 	$(BIN)/python examples/scenes/make_scenes.py --check
-	$(BIN)/python examples/bounds.py --scenes 120
+	$(BIN)/python tests/stress/bounds.py --scenes 120
 	$(BIN)/python -m pytest -q crates/py/tests
 	mkdir -p out
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
@@ -68,7 +68,7 @@ supply:  ## licences, bans and sources of every locked dependency, by cargo alon
 
 deny:  ## the same rules by cargo-deny, which is installed if it is not there
 	command -v cargo-deny >/dev/null || cargo install --locked --quiet cargo-deny
-	cargo deny --offline check licenses bans sources
+	cargo deny --offline check --config tests/deny.toml licenses bans sources
 
 msrv:  ## the oldest compiler that Cargo.toml promises
 	cargo +$$(sed -n 's/^rust-version = "\(.*\)"/\1.0/p' Cargo.toml) check --workspace --all-targets --locked --quiet --target-dir target/msrv
@@ -86,7 +86,7 @@ parallel: $(VENV)/installed  ## the wheel's tests of objects, each on eight thre
 	$(BIN)/python -m pytest -q --parallel-threads=8 $(PARALLEL:%=crates/py/tests/test_%.py)
 
 sweep: $(VENV)/installed  ## series against closed form by order, σ/σ_sep and β: docs/data/sweep.csv, picture and table of its page; a minute
-	$(BIN)/python examples/sweep.py
+	$(BIN)/python benches/sweep.py
 
 gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory leaves, against integrations: docs/data/gravity-*.csv and their picture; some minutes
 	cargo build --release --quiet --package andoyer-tests --bin gradient
@@ -94,12 +94,12 @@ gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory le
 	target/release/gradient levels > docs/data/gravity-levels.csv
 	target/release/gradient bounds 300 1 > docs/data/gravity-bounds.csv
 	target/release/gradient climb 1 45 11 > docs/data/gravity-climb.csv
-	$(BIN)/python examples/gravity.py
+	$(BIN)/python benches/gravity.py
 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes
-	$(BIN)/python examples/bounds.py
+	$(BIN)/python tests/stress/bounds.py
 
-rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-partials rivals-messages  ## the tables of ratios, in out/ too
+rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-integration rivals-partials rivals-messages  ## the tables of ratios, in out/ too
 
 rivals-normal-form: $(RIVALS)/normal-form $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine
 	$(RIVALS)/bin/python benches/rivals/normal_form.py
@@ -114,6 +114,9 @@ rivals-propagation: $(RIVALS)/propagation $(RIVALS)/installed $(RIVALS)/orekit/r
 
 rivals-gradient: $(RIVALS)/propagation $(RIVALS)/installed  ## the gravity gradient against heyoka
 	$(RIVALS)/bin/python benches/rivals/gradient.py
+
+rivals-integration: $(RIVALS)/propagation $(RIVALS)/installed  ## the integrated method against heyoka, in nine regimes
+	$(RIVALS)/bin/python benches/rivals/integration.py --output out
 
 rivals-partials: $(RIVALS)/propagation $(RIVALS)/installed  ## derivatives against heyoka's variational equations
 	$(RIVALS)/bin/python benches/rivals/partials.py

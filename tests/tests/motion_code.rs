@@ -1,6 +1,7 @@
 //! What `Motion::to_code` writes is compiled and run, in C, Rust, Python and JavaScript, against the library over 1e9 rotations.
 
-use andoyer_propagate::{Body, CodeLanguage, Error, Method, Motion, Orbit, Scene, State};
+use andoyer_propagate::motion_code::CodeLanguage;
+use andoyer_propagate::{Body, Error, Method, Motion, Orbit, Scene, State};
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};

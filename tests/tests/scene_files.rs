@@ -1,6 +1,7 @@
 //! Scene files: what is read back, and what is refused with file, key and bound.
 
-use andoyer_propagate::{Averaging, Error, Level, Scene};
+use andoyer_propagate::options::{Averaging, Level};
+use andoyer_propagate::{Error, Scene};
 
 const GOOD: &str = "name = \"A body\"
 source = \"made up\"

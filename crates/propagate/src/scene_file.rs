@@ -20,6 +20,11 @@
 //! [orbit]                          # optional: of the disturbing body, for the gravity gradient
 //! mean_motion = 1e-3               # the only element without a default
 //! eccentricity = 0.1               # 0, as time_of_pericentre, inclination, node, argument_of_pericentre; mass_fraction is 1
+//! node_rate = 0.0                  # 0, as pericentre_rate: secular rates; attraction = 1e-6 instead of mean_motion² × mass_fraction
+//! # [[orbit]]                      # instead, once for each of several disturbing bodies; or of one by a table of positions:
+//! # times = [0.0, 60.0]            # eight at least
+//! # positions = [[…], […]]         # from the rotating body, inertial components
+//! # gm = 4.0e14                    # G × mass of the disturbing body
 //! ```
 //!
 //! Any other key is an error. Numbers are written so that they are read back to the same bits.
@@ -32,10 +37,12 @@ use toml::{Table, Value};
 
 use crate::error::{Error, Value as Fact};
 use crate::input::body::Body;
+use crate::input::disturbing_body::DisturbingBody;
 use crate::input::options::{Averaging, Level, MAX_ORDER};
 use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
 use crate::input::state::State;
+use crate::input::tabulated::TabulatedOrbit;
 use crate::observed::periods::ObservedPeriods;
 
 const SCENE_KEYS: &[&str] = &[
@@ -65,6 +72,23 @@ const ORBIT_KEYS: &[&str; 7] = &[
     "node",
     "argument_of_pericentre",
     "mass_fraction",
+];
+const MORE_ORBIT_KEYS: &[&str] = &["node_rate", "pericentre_rate", "attraction"];
+const TABLE_KEYS: &[&str] = &["times", "positions", "gm"];
+const ANY_ORBIT_KEYS: &[&str] = &[
+    "mean_motion",
+    "eccentricity",
+    "time_of_pericentre",
+    "inclination",
+    "node",
+    "argument_of_pericentre",
+    "mass_fraction",
+    "node_rate",
+    "pericentre_rate",
+    "attraction",
+    "times",
+    "positions",
+    "gm",
 ];
 
 impl Scene {
@@ -138,19 +162,21 @@ impl Scene {
         }
         // What only a scene with an orbit needs is left out of the others.
         let averaging = (self.asked_averaging(), Averaging::default());
-        if self.asked_orbit().is_some() || averaging.0 != averaging.1 {
+        let disturbed = !self.asked_disturbing().is_empty();
+        if disturbed || averaging.0 != averaging.1 {
             table.insert("averaging".to_owned(), Value::from(averaging.0.to_string()));
         }
-        if self.asked_orbit().is_some() || self.asked_level() != Level::default() {
+        if disturbed || self.asked_level() != Level::default() {
             table.insert("level".to_owned(), Value::from(self.asked_level().to_string()));
         }
         table.insert("body".to_owned(), Value::Table(self.body_table()));
         table.insert("state".to_owned(), Value::Table(self.state_table()));
-        if let Some(orbit) = self.asked_orbit() {
-            let elements = ORBIT_KEYS.iter().zip(orbit.elements());
-            let orbit: Table = elements.map(|(key, element)| ((*key).to_owned(), Value::from(element))).collect();
-            table.insert("orbit".to_owned(), Value::Table(orbit));
-        }
+        let mut bodies: Vec<Value> = self.asked_disturbing().iter().map(|body| Value::Table(body_of(body))).collect();
+        match bodies.len() {
+            0 => None,
+            1 => table.insert("orbit".to_owned(), bodies.remove(0)),
+            _ => table.insert("orbit".to_owned(), Value::Array(bodies)),
+        };
         table.to_string()
     }
 
@@ -178,6 +204,23 @@ impl Scene {
     }
 }
 
+/// A disturbing body as a table.
+fn body_of(body: &DisturbingBody) -> Table {
+    match body {
+        DisturbingBody::Orbit(orbit) => {
+            let rates = MORE_ORBIT_KEYS.iter().zip(orbit.rates()).filter(|(_, rate)| *rate != 0.0);
+            let attraction = MORE_ORBIT_KEYS.last().zip(orbit.asked_attraction());
+            let elements = ORBIT_KEYS.iter().zip(orbit.elements()).chain(rates).chain(attraction);
+            elements.map(|(key, element)| ((*key).to_owned(), Value::from(element))).collect()
+        }
+        DisturbingBody::Tabulated(table) => {
+            let rows: Vec<Value> = table.positions().iter().map(|row| Value::from(row.to_vec())).collect();
+            let values = [Value::from(table.times().to_vec()), Value::from(rows), Value::from(table.gm())];
+            TABLE_KEYS.iter().zip(values).map(|(key, value)| ((*key).to_owned(), value)).collect()
+        }
+    }
+}
+
 /// A table of the file, with what is needed to say where something is wrong.
 struct Keys<'a> {
     file: &'a str,
@@ -196,7 +239,8 @@ impl<'a> Keys<'a> {
     /// What a constructor has against a value, under the key that the value came from.
     fn refused(&self, error: Error) -> Error {
         let key = match &error {
-            Error::Orbit { argument, .. } => &format!("orbit.{argument}"),
+            Error::Orbit { argument, .. } | Error::Table { argument, .. } => &format!("orbit.{argument}"),
+            Error::Length { argument, .. } => &format!("orbit.{argument}"),
             Error::Averaging { .. } => "averaging",
             Error::Level { .. } => "level",
             Error::Moment { .. } | Error::MomentsTriangle { .. } | Error::MomentsRatio { .. } => "body.moments",
@@ -238,6 +282,17 @@ impl<'a> Keys<'a> {
         let keys = Keys { file: self.file, table, path: key, known };
         keys.check()?;
         Ok(keys)
+    }
+
+    /// One table, or each of an array of them.
+    fn tables(&self, key: &'a str, known: &'a [&'a str]) -> Result<Vec<Self>, Error> {
+        let Some(Value::Array(bodies)) = self.table.get(key) else { return Ok(vec![self.table(key, known)?]) };
+        let each = |value: &'a Value| {
+            let table = value.as_table().ok_or_else(|| self.wrong(key, value, "a table"))?;
+            let keys = Keys { file: self.file, table, path: key, known };
+            keys.check().map(|()| keys)
+        };
+        bodies.iter().map(each).collect()
     }
 
     fn wrong(&self, key: &str, value: &Value, expected: &str) -> Error {
@@ -293,7 +348,8 @@ impl<'a> Keys<'a> {
             scene = scene.level(level);
         }
         if self.table.contains_key("orbit") {
-            scene = scene.orbit(self.table("orbit", ORBIT_KEYS)?.orbit()?);
+            let bodies = self.tables("orbit", ANY_ORBIT_KEYS)?;
+            scene = scene.disturbing(bodies.iter().map(Keys::disturbing_body).collect::<Result<Vec<_>, _>>()?);
         }
         if let Some(name) = self.text("name")? {
             scene = scene.name(name);
@@ -309,15 +365,43 @@ impl<'a> Keys<'a> {
         self.text(key)?.map(|text| text.parse().map_err(|error| self.refused(error))).transpose()
     }
 
+    /// An orbit, or a table of positions.
+    fn disturbing_body(&self) -> Result<DisturbingBody, Error> {
+        if !TABLE_KEYS.iter().any(|key| self.table.contains_key(*key)) {
+            return self.orbit().map(DisturbingBody::from);
+        }
+        if let Some(key) = self.table.keys().find(|key| !TABLE_KEYS.contains(&key.as_str())) {
+            return Err(self.error(
+                key,
+                "stands beside a table of positions, which has times, positions and gm",
+                "alone",
+            ));
+        }
+        let expected = "a list of numbers";
+        let times = self.table.get("times").ok_or_else(|| self.missing("times"))?;
+        let numbers = |list: &Value| list.as_array()?.iter().map(as_number).collect::<Option<Vec<f64>>>();
+        let times = numbers(times).ok_or_else(|| self.wrong("times", times, expected))?;
+        let rows = self.table.get("positions").ok_or_else(|| self.missing("positions"))?;
+        let row = |row: &Value| numbers(row)?.try_into().ok();
+        let positions = rows.as_array().and_then(|rows| rows.iter().map(row).collect::<Option<Vec<[f64; 3]>>>());
+        let positions = positions
+            .ok_or_else(|| self.error("positions", "must be rows of three numbers", "rows of three numbers"))?;
+        let gm = self.number("gm")?.ok_or_else(|| self.missing("gm"))?;
+        TabulatedOrbit::new(times, positions, gm).map(DisturbingBody::from).map_err(|error| self.refused(error))
+    }
+
     fn orbit(&self) -> Result<Orbit, Error> {
         let or = |key, default| Ok::<f64, Error>(self.number(key)?.unwrap_or(default));
         let mean_motion = self.number("mean_motion")?.ok_or_else(|| self.missing("mean_motion"))?;
         let (time, fraction) = (or("time_of_pericentre", 0.0)?, or("mass_fraction", 1.0)?);
         let plane = [or("inclination", 0.0)?, or("node", 0.0)?, or("argument_of_pericentre", 0.0)?];
+        let (rates, attraction) = ([or("node_rate", 0.0)?, or("pericentre_rate", 0.0)?], self.number("attraction")?);
         Orbit::new(mean_motion, or("eccentricity", 0.0)?)
             .and_then(|orbit| orbit.time_of_pericentre(time))
             .and_then(|orbit| orbit.plane(plane[0], plane[1], plane[2]))
             .and_then(|orbit| orbit.mass_fraction(fraction))
+            .and_then(|orbit| orbit.secular_rates(rates[0], rates[1]))
+            .and_then(|orbit| attraction.map_or(Ok(orbit), |attraction| orbit.attraction(attraction)))
             .map_err(|error| self.refused(error))
     }
 

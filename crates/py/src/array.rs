@@ -154,6 +154,15 @@ pub(crate) fn numbers_of(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<V
     Ok(read(argument, &array)?.as_slice()?.to_vec())
 }
 
+/// `value` as vectors: an array_like of shape (n, 3).
+pub(crate) fn vectors(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; 3]>> {
+    let array = numbers(argument, value)?;
+    match array.shape() {
+        &[_, 3] => Ok(read(argument, &array)?.as_slice()?.as_chunks().0.to_vec()),
+        shape => Err(error::shape(argument, shape, "(n, 3)")),
+    }
+}
+
 /// `value` as `length` numbers.
 pub(crate) fn fixed_length(argument: &str, value: &Bound<'_, PyAny>, length: usize) -> PyResult<Vec<f64>> {
     let array = numbers(argument, value)?;

@@ -1,8 +1,13 @@
 //! `andoyer.BirkhoffNormalForm`.
 
+use std::convert::Infallible;
 use std::sync::{Arc, Mutex};
 
-use andoyer_series::{BirkhoffMap, Mode, Part, PhaseSpace, Progress, RealField};
+use andoyer_series::birkhoff::Mode;
+use andoyer_series::print::Part;
+use andoyer_series::progress::Progress;
+use andoyer_series::real_field::RealField;
+use andoyer_series::{BirkhoffMap, PhaseSpace};
 use num_complex::Complex;
 use num_rational::BigRational;
 use numpy::PyArrayDyn;
@@ -543,8 +548,8 @@ impl BirkhoffNormalForm {
     }
 
     /// K as text, in the actions or, with resonant terms, in the complex variables.
-    fn __str__(&self, py: Python<'_>) -> String {
-        py.detach(|| either!(&self.form, form => form.to_string()))
+    fn __str__(&self, py: Python<'_>) -> PyResult<String> {
+        detached(py, |never: Infallible| match never {}, || Ok(either!(&self.form, form => form.to_string())))
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {

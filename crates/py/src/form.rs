@@ -1,6 +1,8 @@
 //! A Birkhoff normal form in one kind of numbers or the other, exact or floats.
 
-use andoyer_series::{BirkhoffNormalForm as Inner, Error as Algebra, Polynomial, Progress, RealField};
+use andoyer_series::progress::Progress;
+use andoyer_series::real_field::RealField;
+use andoyer_series::{BirkhoffNormalForm as Inner, Error as Algebra, Polynomial};
 use num_rational::BigRational;
 use pyo3::prelude::*;
 

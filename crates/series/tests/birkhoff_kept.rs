@@ -1,9 +1,10 @@
 //! Normal forms with a detuning, and forms that are written, read and printed.
 
-use andoyer_series::{
-    BigRational, BirkhoffMap, BirkhoffNormalForm, Error, Language, Part, PhaseSpace, Polynomial, Resonances, normalize,
-    normalize_with, quiet,
-};
+use andoyer_series::birkhoff::Resonances;
+use andoyer_series::num_rational::BigRational;
+use andoyer_series::print::{Language, Part};
+use andoyer_series::progress::quiet;
+use andoyer_series::{BirkhoffMap, BirkhoffNormalForm, Error, PhaseSpace, Polynomial, normalize, normalize_with};
 
 mod hamiltonians;
 use hamiltonians::{collinear, space, triangular};

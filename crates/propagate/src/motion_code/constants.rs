@@ -40,12 +40,13 @@ impl Constants {
     /// # Errors
     /// - [`Error::NoCode`] for a motion that is neither steady nor a wobble.
     pub(super) fn new(motion: &Motion) -> Result<Self, Error> {
-        let (epoch, bound) = (motion.scene.state().epoch, motion.bound());
+        let (epoch, bound) = (motion.scene.state().epoch, motion.reach()[1]);
         let mut constants = match &motion.trajectory {
             Trajectory::Steady(steady) => Self::of_steady(steady, epoch, bound),
             Trajectory::Wobble(wobble) => Self::of_wobble(wobble, epoch, bound),
             Trajectory::Passage(_) => return Err(Error::NoCode { motion: "a passage along the separatrix" }),
-            _ => return Err(Error::NoCode { motion: "a motion under a torque" }),
+            Trajectory::Integrated(_) => return Err(Error::NoCode { motion: "an integrated motion" }),
+            Trajectory::Gradient(_) => return Err(Error::NoCode { motion: "a motion under a torque" }),
         };
         if let Some(given) = &motion.given {
             let back = given.turn.inverse().into_inner();

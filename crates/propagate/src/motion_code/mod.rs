@@ -77,7 +77,8 @@ impl Motion {
     /// difference from the library. The caller compiles C without `-ffast-math`.
     ///
     /// ```
-    /// use andoyer_propagate::{Body, CodeLanguage, Scene, State};
+    /// use andoyer_propagate::{Body, Scene, State};
+    /// use andoyer_propagate::motion_code::CodeLanguage;
     /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?;
     /// let motion = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).solve()?;
     /// assert!(motion.to_code(CodeLanguage::C)?.contains("int rotation(double time, double attitude[4], double angular_velocity[3])"));

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from andoyer._core import Motion, RepresentationError
 from andoyer._quaternions import angle_between
+from andoyer._span import within_span
 from andoyer.output.attitude_types import derivative
 from andoyer.output.files import whole_file
 
@@ -147,10 +148,10 @@ def _interval(motion: Motion) -> tuple[float, float]:
     """Three periods of the polhode, at most sixty rotations; a unit of time at rest."""
     start = motion.scene.epoch
     precession, rotation = motion.periods["long-axis"]
-    rate = _largest_rate(motion, start, start + 1e-9)
+    rate = float(np.linalg.norm(motion.scene.angular_velocity))
     spans = [PERIODS * rotation, MOST_ROTATIONS * 2 * math.pi / rate if rate > 0 else math.inf, MOST_ROTATIONS * precession]
     span = min(span for span in [*spans, math.inf])
-    return start, start + (span if math.isfinite(span) else 1.0)
+    return within_span(motion, start, start + (span if math.isfinite(span) else 1.0))
 
 
 def _largest_rate(motion: Motion, start: float, stop: float) -> float:

@@ -1,4 +1,4 @@
-//! A normal form as JSON: exact numbers as "p/q", floats as numbers with all their digits.
+//! A Birkhoff normal form as JSON. Exact numbers are written as "p/q", floats as numbers with all their digits.
 //!
 //! ```text
 //! { "format": "andoyer-birkhoff-exact" or "andoyer-birkhoff-float", "version": 1, "order": N,
@@ -7,22 +7,23 @@
 //!   "modes": [["elliptic", ω, r] or ["hyperbolic", λ] or ["complex", σ, ν, partner], …],
 //!   "linear_change": [[…], …],                                 M by rows
 //!   "offset": [[[exponents], c], …],                           the constant term
-//!   "original": [[[exponents], c], …],                         what was normalized
+//!   "original": [[[exponents], c], …],                         the normalized Hamiltonian
 //!   "hamiltonian": [ [[[exponents], re, im], …], … ],          K_n/n! in u₁, U₁, …, parameters, n = 0 … N
 //!   "generators":  [ [[[exponents], re, im], …], … ] }         S_m/(m−1)!, m = 1 … N
 //! ```
 //!
-//! Reading verifies format, version, names, counts, degrees, that numbers are finite, that M is symplectic, that K has only terms that are kept and S none of
-//! them; then the normal form of the original is computed anew, and every coefficient compared.
+//! Reading verifies format, version, names, counts and degrees, that numbers are finite, that M is symplectic, that K has only terms that are kept, and that S
+//! has none of these terms. Then it computes the normal form of the original Hamiltonian again and compares every coefficient.
 
 use super::diagonal::Diagonal;
 use super::matrix::{Matrix, form_entry, pairing, transposed};
 use super::mode::Mode;
 use super::verify::verified;
 use super::{BirkhoffNormalForm, PhaseSpace, Resonances, turns};
-use crate::{
-    Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, Progress, RealField, TermProblem, quiet,
-};
+use crate::error::TermProblem;
+use crate::real_field::RealField;
+use crate::triangle::{LieTransform, Normalization, Progress, quiet};
+use crate::{Coefficient, Error, Monomial, Polynomial};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -63,7 +64,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// This normal form as JSON text.
     ///
     /// # Errors
-    /// - none for a normal form that exists; JSON itself could not be written only if memory ran out.
+    /// - None for an existing normal form; writing JSON fails only if memory runs out.
     pub fn to_json(&self) -> Result<String, Error> {
         let space = self.space();
         let names = space.names();
@@ -98,10 +99,12 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         serde_json::to_string(&document).map_err(Error::json)
     }
 
-    /// Reads what [`to_json`](Self::to_json) wrote from a normal form in the same kind of numbers, and computes it anew to compare every coefficient.
+    /// Reads the text that [`to_json`](Self::to_json) wrote from a normal form in the same kind of numbers. The normal form is computed again and every
+    /// coefficient is compared.
     ///
     /// ```
-    /// use andoyer_series::{BigRational, BirkhoffNormalForm, PhaseSpace, normalize};
+    /// use andoyer_series::{BirkhoffNormalForm, PhaseSpace, normalize};
+    /// use andoyer_series::num_rational::BigRational;
     /// let space = PhaseSpace::new(&[("q", "p")])?;
     /// let form = normalize(&space.parse::<BigRational>("(p^2 + q^2)/2 + q^4/4")?, 4, &space)?;
     /// assert_eq!(BirkhoffNormalForm::<BigRational>::from_json(&form.to_json()?)?, form);
@@ -110,29 +113,30 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     ///
     /// # Errors
     /// - `"[]"`, a missing field, a number of the other kind: [`Error::Json`] or [`Error::RationalMalformed`];
-    /// - another format, exact for float among them, or version: [`Error::FormatUnknown`];
-    /// - lists of the wrong length: [`Error::CountMismatch`]; terms that no such normal form has: [`Error::TermInconsistent`];
-    /// - M not symplectic: [`Error::NotSymplectic`]; names and resonances as their constructors;
-    /// - a coefficient of K, S or M that the normal form of the Hamiltonian in the text does not have, among floats by 1e-8 of the largest of its order:
-    ///   [`Error::CoefficientWrong`].
+    /// - another format (for example exact instead of float) or version: [`Error::FormatUnknown`];
+    /// - lists of the wrong length: [`Error::CountMismatch`]; terms that such a normal form cannot have: [`Error::TermInconsistent`];
+    /// - M not symplectic: [`Error::NotSymplectic`]; names and resonances: the errors of their constructors;
+    /// - a coefficient of K, S or M that differs from the normal form of the Hamiltonian in the text (for floats: by more than 1e-8 of the largest coefficient
+    ///   of its order): [`Error::CoefficientWrong`].
     pub fn from_json(text: &str) -> Result<Self, Error> {
         Self::from_json_with(text, &mut quiet)
     }
 
-    /// The same; `progress` is called as in [`normalize_with`](crate::normalize_with), which takes all the time.
+    /// The same as [`from_json`](Self::from_json), with a callback as in [`normalize_with`](crate::normalize_with), which takes most of the time.
     ///
     /// # Errors
-    /// - as [`from_json`](Self::from_json); a callback that returns `Break`: [`Error::Interrupted`].
+    /// - The errors of [`from_json`](Self::from_json); a callback that returns `Break`: [`Error::Interrupted`].
     pub fn from_json_with(text: &str, progress: &mut Progress<'_>) -> Result<Self, Error> {
         let form = Self::from_json_unverified(text)?;
         verified(&form, progress)?;
         Ok(form)
     }
 
-    /// The same without the computation, for a text that comes from this program itself: what is malformed is refused, a changed coefficient is not seen.
+    /// The same as [`from_json`](Self::from_json) without the computation, for a text that this program wrote. Malformed text is refused, but a changed
+    /// coefficient is not found.
     ///
     /// # Errors
-    /// - as [`from_json`](Self::from_json), but for the last.
+    /// - The errors of [`from_json`](Self::from_json), except [`Error::CoefficientWrong`].
     pub fn from_json_unverified(text: &str) -> Result<Self, Error> {
         let header: Header = serde_json::from_str(text).map_err(Error::json)?;
         if header.format != format::<R>() || header.version != VERSION {
@@ -145,8 +149,8 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             });
         }
         let document: Document = serde_json::from_str(text).map_err(Error::json)?;
-        if document.order > R::MAXIMUM_ORDER {
-            return Err(Error::OrderTooLarge { order: document.order, bound: R::MAXIMUM_ORDER });
+        if document.order > R::MAX_ORDER {
+            return Err(Error::OrderTooLarge { order: document.order, bound: R::MAX_ORDER });
         }
         let space = space(&document)?;
         let vectors: Vec<&[i64]> = document.resonances.iter().map(Vec::as_slice).collect();
@@ -168,7 +172,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             hamiltonian,
             normalization: Normalization {
                 hamiltonian: Vec::new(),
-                transform: LieTransform::new(crate::Poisson::new(&[])?, Vec::new()),
+                transform: LieTransform::new(crate::bracket::Poisson::new(&[])?, Vec::new()),
             },
         };
         count("hamiltonian", document.hamiltonian.len(), document.order + 1)?;
@@ -223,7 +227,7 @@ fn value<R: RealField>(c: &R) -> Value {
     if R::EPSILON == 0.0 { super::quadratic::literal(c).into() } else { c.to_float().into() }
 }
 
-/// A polynomial in real variables, each of whose terms has a degree in the variables and a degree with the parameters that fit.
+/// A polynomial in real variables. Each term must have a valid degree in the variables, and a valid degree including the parameters.
 fn reals<R: RealField>(
     what: &'static str,
     terms: &[(Vec<u32>, Value)],
@@ -328,7 +332,7 @@ fn diagonal<R: RealField>(document: &Document, pairs: usize) -> Result<Diagonal<
     Ok(Diagonal { modes, matrix })
 }
 
-/// Refuses a matrix that is not symplectic, among floats to rounding.
+/// Refuses a matrix that is not symplectic (for floats: beyond rounding error).
 fn symplectic<R: RealField>(matrix: &Matrix<R>) -> Result<(), Error> {
     let columns = transposed(matrix);
     let largest = matrix.iter().flatten().map(|entry| entry.to_float().abs()).fold(1.0, f64::max);

@@ -1,16 +1,17 @@
-//! A letter that all frequencies are proportional to: scaled away, so that the quadratic part has numbers.
+//! Scaling by a parameter to which all frequencies are proportional. The quadratic part then has numbers as coefficients.
 
 use super::PhaseSpace;
 use crate::{Coefficient, Error, Monomial, Polynomial};
 
 impl PhaseSpace {
-    /// H/w in the variables x = q√w, y = p/√w, with the letter s = 1/√w in place of the parameter w, and their space.
+    /// Returns H/w in the variables x = q√w, y = p/√w, with the parameter s = 1/√w in place of the parameter w, and the space of these variables.
     ///
-    /// `letter` is w, `root` the name of s. Divisors k·ω would leave the polynomials in w; here frequencies are numbers. A term c qᵃ pᵇ wᵐ becomes c xᵃ yᵇ s^(a−b−2m+2). The
-    /// motion is that of H in the time wt, and K of H is w times that of H/w.
+    /// `letter` is the name of w, `root` the name of s. Divisors k·ω with the parameter w are not polynomials; after the scaling the frequencies are numbers. A
+    /// term c qᵃ pᵇ wᵐ becomes c xᵃ yᵇ s^(a−b−2m+2). The motion is that of H in the time wt, and K of H is w times K of H/w.
     ///
     /// ```
-    /// use andoyer_series::{BigRational, PhaseSpace, normalize};
+    /// use andoyer_series::{PhaseSpace, normalize};
+    /// use andoyer_series::num_rational::BigRational;
     /// let space = PhaseSpace::new(&[("q", "p")])?.with_parameters(&["w"])?;
     /// let (scaled, space) = space.scaled(&space.parse::<BigRational>("p^2/2 + w^2*q^2/2 + q^4/4")?, "w", "s")?;
     /// assert_eq!(scaled, space.parse("(p^2 + q^2)/2 + s^6*q^4/4")?);
@@ -19,8 +20,8 @@ impl PhaseSpace {
     /// ```
     ///
     /// # Errors
-    /// - `letter` no parameter: [`Error::ParameterUnknown`]; a `root` that is taken or no identifier: [`Error::Parse`];
-    /// - p²/2 + q²/2 + w² y²/2 …, where other frequencies are not proportional to w, and w² p⁴, which has s^(−6): [`Error::FrequencyLetter`].
+    /// - `letter` is not a parameter: [`Error::ParameterUnknown`]; `root` is taken or is not an identifier: [`Error::Parse`];
+    /// - p²/2 + q²/2 + w² y²/2 …, whose other frequencies are not proportional to w, and w² p⁴, which has s^(−6): [`Error::FrequencyLetter`].
     pub fn scaled<C: Coefficient>(
         &self,
         hamiltonian: &Polynomial<C>,

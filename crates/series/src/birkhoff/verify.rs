@@ -1,14 +1,18 @@
-//! Whether a normal form that was read is that of the Hamiltonian beside it: the form is computed anew, and every coefficient compared.
+//! Verifies that a normal form from a file belongs to the Hamiltonian in the same file. The normal form is computed again, and every coefficient is compared.
 //!
-//! K and S alone cannot tell: any K of terms that are kept and S of terms that are not are the normal form of some Hamiltonian.
+//! K and S alone cannot be verified: any K with only kept terms and any S without kept terms are the normal form of some Hamiltonian.
 
 use super::quadratic::literal;
 use super::{BirkhoffNormalForm, normalize_with};
-use crate::{Error, Monomial, Polynomial, Progress, RealField};
+use crate::real_field::RealField;
+use crate::triangle::Progress;
+use crate::{Error, Monomial, Polynomial};
 
-/// Part of the largest coefficient of an order by which a float may be off: another machine may round otherwise.
+/// Largest error of a float, relative to the largest coefficient of its order. Another machine may round differently.
 const FLOAT_TOLERANCE: f64 = 1e-8;
 
+/// Compares a normal form with the computed one.
+///
 /// # Errors
 /// - the first coefficient that differs: [`Error::CoefficientWrong`]; the errors of [`normalize_with`].
 pub(super) fn verified<R: RealField>(form: &BirkhoffNormalForm<R>, progress: &mut Progress<'_>) -> Result<(), Error> {
@@ -49,7 +53,7 @@ fn number<R: RealField>(c: &R) -> String {
     if R::EPSILON == 0.0 { literal(c) } else { format!("{:?}", c.to_float()) }
 }
 
-/// Refuses the first coefficient that is another one.
+/// Refuses two polynomials that differ, and names the first coefficient that does.
 fn same<R: RealField>(
     what: &'static str,
     order: usize,
