@@ -42,7 +42,8 @@ MISSED = 3
 PICTURES = [".png", ".svg", ".pdf", ".html"]
 COMMANDS = ["propagate", "plot", "code", "plan", "bodies", "series"]
 LANGUAGES = ["c", "rust", "python"]
-CODES = {".c": "c", ".rs": "rust", ".py": "python", ".js": "javascript"}
+Code = Literal["c", "rust", "python", "javascript"]
+CODES: dict[str, Code] = {".c": "c", ".rs": "rust", ".py": "python", ".js": "javascript"}
 """Languages of the code of a motion, each by the ending of its files."""
 EXAMPLES = {
     "propagate": """\
@@ -231,7 +232,7 @@ def code(arguments: argparse.Namespace) -> int:
     """Write a motion as source code."""
     path = Path(arguments.output)
     of_ending = CODES.get(path.suffix.lower())
-    language = arguments.language or of_ending or ("c" if arguments.output == "-" else None)
+    language: Code | None = arguments.language or of_ending or ("c" if arguments.output == "-" else None)
     if language is None:
         raise InputError(f"argument -o/--output: {path}: the name must end in {', '.join(CODES)}, or --language must be given")
     if of_ending not in (None, language):
