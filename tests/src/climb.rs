@@ -142,13 +142,7 @@ impl Summit {
 }
 
 /// Climbs from one random scene of a family; `None` where no scene was served.
-pub fn climb(
-    family: Family,
-    long_axis: bool,
-    theory: Theory,
-    steps: usize,
-    random: &mut Uniform,
-) -> Option<Summit> {
+pub fn climb(family: Family, long_axis: bool, theory: Theory, steps: usize, random: &mut Uniform) -> Option<Summit> {
     let mut best: Option<(Point, Summit)> = None;
     let mut solved = 0;
     for _ in 0..steps {

@@ -205,8 +205,7 @@ fn hill_climbing_finds_no_error_above_its_bound() {
     for (k, family) in FAMILIES.into_iter().enumerate() {
         for (j, theory) in THEORIES.into_iter().enumerate() {
             let long_axis = (k + j) % 2 == 1;
-            let summit =
-                climb(family, long_axis, theory, 12, &mut Uniform(7 * k as u64 + j as u64)).expect("served");
+            let summit = climb(family, long_axis, theory, 12, &mut Uniform(7 * k as u64 + j as u64)).expect("served");
             assert!(summit.ratio() <= 1.0, "{}: {summit:?}", family.name());
         }
     }

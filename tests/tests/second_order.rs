@@ -21,7 +21,8 @@ fn worst(motion: &Motion, case: &Case) -> f64 {
 
 /// Largest distance to the truth, over that of the free motion.
 fn share(case: &Case, orbit: &Orbit, level: Level) -> f64 {
-    let motion = free(case).orbit(*orbit).level(level).averaging(Averaging::Spin).tolerance(1e-15).solve().expect("solved");
+    let motion =
+        free(case).orbit(*orbit).level(level).averaging(Averaging::Spin).tolerance(1e-15).solve().expect("solved");
     worst(&motion, case) / worst(&free(case).solve().expect("solved"), case)
 }
 

@@ -72,7 +72,10 @@ impl Run {
 
 fn reference_cases(out: &mut impl Write) -> Result<(), Box<dyn std::error::Error>> {
     const REFERENCE: &str = include_str!("../../data/gravity_gradient.json");
-    writeln!(out, "case,n_over_spin,e,paper,moving,full,second_order,effect_rad,full_error_rad,bound_rad,second_error_rad,second_bound_rad")?;
+    writeln!(
+        out,
+        "case,n_over_spin,e,paper,moving,full,second_order,effect_rad,full_error_rad,bound_rad,second_error_rad,second_bound_rad"
+    )?;
     for (case, orbit) in cases(REFERENCE).iter().zip(orbits(REFERENCE)) {
         let body = Body::new(case.moments)?;
         let span = case.states.iter().map(|&(time, ..)| time).fold(0.0, f64::max);
@@ -249,7 +252,10 @@ const ROTATIONS: f64 = 200.0;
 
 /// What is accepted and what it is worth, by n/spin and e: random ellipsoids with J up to 0.5 over some rotations, tolerance 1e-8.
 fn table(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn std::error::Error>> {
-    writeln!(out, "level,n,e,scenes,accepted,median_share,median_bound_over_error,q90_bound_over_error,least_bound_over_error")?;
+    writeln!(
+        out,
+        "level,n,e,scenes,accepted,median_share,median_bound_over_error,q90_bound_over_error,least_bound_over_error"
+    )?;
     for mean_motion in MEAN_MOTIONS {
         for eccentricity in ECCENTRICITIES {
             let mut random = Uniform(seed);

@@ -17,6 +17,9 @@ In every docstring "theory §n" is section n of docs/theory.md, and the scene fi
 (2, 4)
 """
 
+import importlib as _importlib
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
 from andoyer._core import (
     BirkhoffNormalForm,
     Body,
@@ -34,13 +37,14 @@ from andoyer._core import (
     RepresentationError,
     Samples,
     Scene,
+    TabulatedOrbit,
     TheoryError,
     ToleranceWarning,
     __version__,
     normalize,
     separatrix_action,
 )
-from andoyer.mean import Frequencies, Periods
+from andoyer.mean import Frequencies, Periods, PeriodsOfMembers
 
 # Names of the errors before this release. They go in the next one; the base stands where an old class held errors of several new ones.
 AngularVelocityError = InputError
@@ -86,13 +90,23 @@ __all__ = [
     "Orbit",
     "Partials",
     "Periods",
+    "PeriodsOfMembers",
     "Plan",
     "RepresentationError",
     "Samples",
     "Scene",
+    "TabulatedOrbit",
     "TheoryError",
     "ToleranceWarning",
     "__version__",
     "normalize",
     "separatrix_action",
 ]
+
+if not _TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        """`andoyer.fit` and `andoyer.output` are imported when they are first used; type checkers want the import written."""
+        if name in ("fit", "output"):
+            return _importlib.import_module(f"andoyer.{name}")
+        raise AttributeError(f"module 'andoyer' has no attribute {name!r}")

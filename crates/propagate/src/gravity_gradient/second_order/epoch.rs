@@ -86,11 +86,7 @@ fn closest(place: &Place<pulp::Scalar>, eccentricity: f64) -> f64 {
 }
 
 /// (a/r)³ r̂r̂ in the frame of a mean state, its time derivatives, and their largest sizes.
-pub(super) fn tensors(
-    mean: &Mean,
-    place: &Place<pulp::Scalar>,
-    demand: &Demand<'_>,
-) -> ([Tensor; ORDERS], Vec<f64>) {
+pub(super) fn tensors(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<'_>) -> ([Tensor; ORDERS], Vec<f64>) {
     let [first, second, _] = demand.orbit.axes();
     let generator = Generator {
         harmonics: Default::default(),

@@ -1,6 +1,6 @@
 //! The changes of M and L = Mσ of second order, as one sum over pairs of terms.
 //!
-//! With D = Σ D_a e^(iaθ), a = (h, m), θ = (ℓ′, y′), dW/dt = D − ⟨D⟩ and the bracket [ , ] of two amplitudes (theory §9),
+//! With D = Σ D_a e^(iaθ), a = (h, m), θ = (ℓ′, y′), dW/dt = D − ⟨D⟩ and the bracket \[ , \] of two amplitudes (theory §9),
 //!
 //! ```text
 //! δ₂M = Re Σ_ab e^(i(a+b)θ) {−(i/2) m_a [W_a, W_b] − i (m_a + m_b) χ_ab}
@@ -217,10 +217,8 @@ impl Row {
     }
 
     fn conjugate(&self) -> Self {
-        let conjugated = |part: &Part, sign: f64| Part {
-            value: part.value.map(|c| c.conj()),
-            slope: part.slope.conj() * sign,
-        };
+        let conjugated =
+            |part: &Part, sign: f64| Part { value: part.value.map(|c| c.conj()), slope: part.slope.conj() * sign };
         let [whole, slope, lowered] = self.amplitude;
         Self {
             harmonic: -self.harmonic,

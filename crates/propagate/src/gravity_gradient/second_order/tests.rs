@@ -176,8 +176,10 @@ fn drifts_and_turning_are_the_derivatives_of_the_hamiltonian() {
         let slopes = scene.closed(&inertia, 1.0).slopes(&axis, &disturber);
         let action = sigma * momentum;
         let (small, step) = (1e-3 * action, 1e-4 * momentum);
-        let by_action = (value(action + small, momentum, &axis) - value(action - small, momentum, &axis)) / (2.0 * small);
-        let by_momentum = (value(action, momentum + step, &axis) - value(action, momentum - step, &axis)) / (2.0 * step);
+        let by_action =
+            (value(action + small, momentum, &axis) - value(action - small, momentum, &axis)) / (2.0 * small);
+        let by_momentum =
+            (value(action, momentum + step, &axis) - value(action, momentum - step, &axis)) / (2.0 * step);
         for (exact, difference) in slopes.phases.into_iter().zip([by_action, by_momentum]) {
             // The square of the step, and 1e-9 of the tables over it.
             assert!((exact / difference - 1.0).abs() <= 1e-5, "{exact:e} {difference:e}");
