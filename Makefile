@@ -94,6 +94,7 @@ gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory le
 	target/release/gradient levels > docs/data/gravity-levels.csv
 	target/release/gradient bounds 300 1 > docs/data/gravity-bounds.csv
 	target/release/gradient climb 1 45 11 > docs/data/gravity-climb.csv
+	target/release/gradient table 40 1 > docs/data/gravity-table.csv
 	$(BIN)/python benches/gravity.py
 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes

@@ -113,6 +113,19 @@ def gravity_climb() -> list[str]:
     return markdown(header, ([row[name] for name in names] for row in read("gravity-climb.csv")))
 
 
+def gravity_table() -> list[str]:
+    """Scenes served, what is left of the torque's effect, and bound over error, by n/spin and e, in first and second order."""
+    groups: dict[tuple[str, str], dict[str, Row]] = {}
+    for row in read("gravity-table.csv"):
+        groups.setdefault((row["n"], row["e"]), {})[row["level"]] = row
+    rows = []
+    for (motion, eccentricity), levels in groups.items():
+        first, second = levels["full"], levels["second-order"]
+        figures = [level[name] for name in ("median_share", "median_bound_over_error") for level in (first, second)]
+        rows.append([motion, eccentricity, f"{first['accepted']} of {first['scenes']}", *(figure.replace("NaN", "–") for figure in figures)])
+    return markdown(["n/spin", "e", "scenes", "error / effect, full", "second-order", "bound / error, full", "second-order"], rows)
+
+
 def light_curves() -> list[str]:
     """Light curves with known answers, found from random starts."""
     rows = read("light-curves.csv")
@@ -124,6 +137,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "gravity-bounds": gravity_bounds,
     "gravity-cases": gravity_cases,
     "gravity-climb": gravity_climb,
+    "gravity-table": gravity_table,
     "light-curves": light_curves,
     "scenes-accuracy": scenes_accuracy,
     "scenes-speed": scenes_speed,
