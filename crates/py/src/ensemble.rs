@@ -22,49 +22,49 @@ use crate::samples::Samples;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
-/// Members from which on building an ensemble, which checks each of them, is a long call.
+/// Number of members above which the construction of an ensemble, which checks each member, counts as a long call.
 const LONG: usize = 1 << 16;
 
-/// Many bodies with their states, solved and evaluated member by member on all cores, in memory proportional to the result.
+/// Many bodies with their states. They are solved and evaluated member by member on all cores, in memory proportional to the result.
 ///
-/// Each member gives the bits that `Scene` and `Motion` give for it alone, whatever the number of threads. ``ensemble[i]`` is the motion
-/// of member i, ``ensemble[i:j]`` the ensemble of some members.
+/// The result of a member is equal to that of `Scene` and `Motion`, to the last bit and for any number of threads. ``ensemble[i]`` is the motion
+/// of member i, and ``ensemble[i:j]`` is the ensemble of the members i to j − 1.
 ///
 /// Parameters
 /// ----------
 /// moments : array_like, shape (m, 3) or (3,)
-///     Moments about body axes 1, 2, 3, as `Body` takes them. Of this and the next two, one row stands for m equal ones; one at least
+///     Moments about body axes 1, 2, 3, as for `Body`. In this and the next two arguments a single row is used for all members; at least one argument
 ///     has m rows.
 /// attitudes : array_like, shape (m, 4) or (4,), or scipy.spatial.transform.Rotation
-///     Unit quaternions [x, y, z, w] at time 0, as `Scene` takes them.
+///     Unit quaternions [x, y, z, w] at the epoch, as for `Scene`.
 /// angular_velocities : array_like, shape (m, 3) or (3,)
-///     Body components at time 0, in rad per unit of time.
+///     Body components at the epoch, in rad per unit of time.
 /// epochs : float or array_like, shape (m,), or astropy.time.Time of these shapes, optional
-///     Times of the states: one for all, or one for each; by default 0.
+///     Times of the states: one for all members, or one for each; by default 0.
 /// orbits : Orbit or sequence of m Orbit or None, optional
-///     The orbit of a body whose gravity gradient acts on all members, or one or None for each. A member under an orbit takes some 200 µs to
-///     solve, others 5.
+///     The orbit of a body whose gravity gradient acts on all members, or a sequence with an orbit or None for each member. Solving a member with an orbit takes
+///     0.2 to 0.3 ms, other members about 5 µs.
 /// tolerance : float, optional
-///     Attitude error asked for within `span`, in rad.
+///     Requested attitude error within `span`, in rad.
 /// span : (float, float), optional
-///     The times over which `tolerance` is asked for and error bounds hold; by default 1e9 rotations, over which little is known of a motion under an
-///     orbit.
+///     The times over which `tolerance` is requested and error bounds hold; by default 1e9 rotations. Give a span if there is an orbit, since its error bound grows with
+///     time.
 /// threads : int, optional
-///     How many threads work, 1 to 1024; by default one for each core.
+///     Number of threads, 1 to 1024; by default one for each core.
 /// errors : {"raise", "nan"}, optional
-///     A member that is no body or no state, or has no motion, is an error that names it; or its rows are NaN, its plan is None, and the reason is in
+///     With "raise", a member that is not a valid body or state, or cannot be solved, raises an error that names it. With "nan", its rows are NaN, its plan is None, and the error is in
 ///     `Ensemble.errors` and `Samples.errors`.
 /// scalar_first : bool, optional
-///     Whether `attitudes` are [w, x, y, z]. The property `attitudes` has the scalar last all the same.
+///     If True, the argument `attitudes` has [w, x, y, z]. The property `attitudes` always has [x, y, z, w].
 ///
 /// Raises
 /// ------
 /// InputError
-///     A member that is no body or no state: the error of a single one, with its place among the members in the message and as the
-///     attribute ``index`` of the exception; the message also says how many other members are bad.
-///     An epoch, a tolerance or a span that is not finite; a tolerance of ``0`` or ``-1``, the span ``(1, 0)``, ``errors="ignore"``.
-///     Threads ``0``, ``-1``, ``2.5``; or, when it evaluates, a number that the system does not give.
-///     Two moments, five attitudes and three orbits; or one row of each.
+///     A member that is not a valid body or state. The message and the attribute ``index`` of the exception state the number of the
+///     member; the message also states how many other members are invalid.
+///     An epoch, a tolerance or a span that is not finite; a tolerance that is not positive; the span ``(1, 0)``; an unknown `errors`.
+///     A number of threads outside 1 to 1024 or not whole; on evaluation, more threads than the system provides.
+///     Arrays with different numbers of rows, or three arrays without an axis of members.
 ///
 /// Examples
 /// --------
@@ -132,14 +132,14 @@ impl Ensemble {
         interruptible(py, members >= LONG, error::propagation, new).map(|ensemble| Self(ensemble, calendar))
     }
 
-    /// Attitudes and angular velocities of all members, in one pass.
+    /// Evaluates attitudes and angular velocities of all members in one pass.
     ///
     /// Parameters
     /// ----------
     /// times : float or array_like, shape (n,) or (m, n)
-    ///     The times of all members, or a row for each.
+    ///     Times for all members, or a row of times for each member.
     /// scalar_first : bool, optional
-    ///     Attitudes as [w, x, y, z].
+    ///     If True, quaternions are [w, x, y, z]; by default [x, y, z, w].
     ///
     /// Returns
     /// -------
@@ -149,14 +149,14 @@ impl Ensemble {
     /// Warns
     /// -----
     /// ToleranceWarning
-    ///     How many members miss the tolerance, and which is the worst.
+    ///     Some members miss the tolerance; the warning states their number and the worst member.
     ///
     /// Raises
     /// ------
     /// RepresentationError
-    ///     Times as of a motion and units as of a scene, with the attribute ``index`` of the first member that has it.
+    ///     Errors of times as for a motion and of units as for a scene; the attribute ``index`` is the first member with the error.
     /// InputError
-    ///     Rows for another number of members.
+    ///     Another number of rows than members.
     #[pyo3(signature = (times, *, scalar_first=false))]
     fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>, scalar_first: bool) -> PyResult<Samples> {
         let times = self.times(times)?;
@@ -177,20 +177,20 @@ impl Ensemble {
         Ok(samples.given(times.given()).refused(refused(py, outcome)))
     }
 
-    /// Attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones.
+    /// Evaluates attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones.
     ///
     /// Parameters
     /// ----------
     /// times : float or array_like, shape (n,) or (m, n)
     /// out : ndarray, float64, C-contiguous, shape (m, n, 4), optional
-    ///     Where the result is written. After an error it holds what had been computed.
+    ///     Array for the result. After an error it contains the values computed so far.
     /// scalar_first : bool, optional
-    ///     [w, x, y, z] instead.
+    ///     If True, quaternions are [w, x, y, z].
     ///
     /// Returns
     /// -------
     /// ndarray, shape (m, n, 4)
-    ///     `out`, if given.
+    ///     Unit quaternions; this is `out` if `out` was given.
     #[pyo3(signature = (times, out=None, *, scalar_first=false))]
     fn attitude<'py>(
         &self,
@@ -210,7 +210,7 @@ impl Ensemble {
         Ok(rows)
     }
 
-    /// The plan of every member: a list of `Plan`; with ``errors="nan"`` None for a member that is refused.
+    /// The plan of every member: a list of `Plan`. With ``errors="nan"`` the plan of an invalid member is None.
     #[getter]
     fn plans(&self, py: Python<'_>) -> PyResult<Vec<Option<Plan>>> {
         let plans = self.solved(py)?.into_iter();
@@ -220,7 +220,7 @@ impl Ensemble {
         }
     }
 
-    /// Why members have no motion: errors by index. All members are solved for it; empty where every member has one.
+    /// The errors of members that have no motion, by index. This property solves all members; it is empty if every member has a motion.
     #[getter]
     fn errors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let errors = PyDict::new(py);
@@ -248,19 +248,19 @@ impl Ensemble {
         constant_rows(py, self.0.moments())
     }
 
-    /// The attitudes at time 0 as given: unit quaternions [x, y, z, w], a read-only array, shape (m, 4).
+    /// The attitudes at the epoch as given: unit quaternions [x, y, z, w], a read-only array, shape (m, 4).
     #[getter]
     fn attitudes<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
         constant_rows(py, self.0.attitudes())
     }
 
-    /// The angular velocities at time 0, in body components, in rad per unit of time: a read-only array, shape (m, 3).
+    /// The angular velocities at the epoch in body components, in rad per unit of time: a read-only array, shape (m, 3).
     #[getter]
     fn angular_velocities<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
         constant_rows(py, self.0.angular_velocities())
     }
 
-    /// The attitude error asked for, in rad.
+    /// The requested attitude error, in rad.
     #[getter]
     fn tolerance(&self) -> f64 {
         self.0.asked_tolerance()
@@ -277,13 +277,13 @@ impl Ensemble {
         }
     }
 
-    /// The times over which `tolerance` is asked for, or None.
+    /// The span, the times over which `tolerance` is requested, or None.
     #[getter]
     fn span(&self) -> Option<(f64, f64)> {
         self.0.asked_span()
     }
 
-    /// The number of threads asked for, or None.
+    /// The requested number of threads, or None.
     #[getter]
     fn threads(&self) -> Option<usize> {
         self.0.asked_threads()
@@ -393,7 +393,7 @@ impl Ensemble {
         if since_epoch { run.since_epoch() } else { run }
     }
 
-    /// The plan of every member, or why it has none.
+    /// The plan of every member, or its error.
     fn solved(&self, py: Python<'_>) -> PyResult<Vec<Result<andoyer_propagate::Plan, andoyer_propagate::Error>>> {
         let long = self.0.len() >= if self.0.asked_orbits().is_empty() { LONG } else { 32 };
         interruptible(py, long, error::propagation, |stop| self.0.run().until(stop).plans())
@@ -405,19 +405,19 @@ impl Ensemble {
     }
 }
 
-/// The errors of members that were refused, as Python has them.
+/// The errors of refused members, as Python exceptions.
 fn refused(py: Python<'_>, outcome: Outcome) -> Vec<(usize, Py<PyAny>)> {
     let value = |problem| error::propagation(problem).into_value(py).into_any();
     outcome.into_errors().into_iter().map(|(index, problem)| (index, value(problem))).collect()
 }
 
-/// Epochs as seconds: one, or one for each member; and as calendar times where they are some.
+/// Epochs as numbers, one or one for each member, and as calendar times if they are Time objects.
 fn epochs_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<Calendar>)> {
     let (seconds, calendar) = foreign::epochs("epochs", value)?;
     Ok((numbers_of("epochs", &seconds)?, calendar))
 }
 
-/// The ensemble with what was asked for besides.
+/// The ensemble with its options.
 fn asked(
     ensemble: andoyer_propagate::Ensemble,
     orbits: Option<Vec<Option<andoyer_propagate::Orbit>>>,
@@ -432,7 +432,7 @@ fn asked(
     Ok(threads.into_iter().fold(ensemble, andoyer_propagate::Ensemble::threads))
 }
 
-/// One orbit for all, or one or None for each.
+/// One orbit for all members, or an orbit or None for each.
 fn orbits_of(value: &Bound<'_, PyAny>) -> PyResult<Vec<Option<andoyer_propagate::Orbit>>> {
     let kind = |name: &str, value: &Bound<'_, PyAny>, or: &str| -> PyErr {
         let found = value.get_type().name().map_or_else(|_| "something else".to_owned(), |name| name.to_string());

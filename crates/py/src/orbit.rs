@@ -11,33 +11,33 @@ use crate::{array, error};
 /// The names of the elements after the mean motion and the eccentricity, in the order of the core's.
 const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argument_of_pericentre", "mass_fraction"];
 
-/// Relative Keplerian orbit of a body whose gravity gradient acts on the rotating one (theory §9).
+/// The relative Keplerian orbit of a body whose gravity gradient acts on the rotating body (theory §9).
 ///
-/// Elements are those of the inertial frame that attitudes lead to. With none but the mean motion: a circle in the x, y plane, the disturbing body on
+/// The elements refer to the inertial frame of the attitudes. With the mean motion alone, the orbit is a circle in the x, y plane with the disturbing body on
 /// the x axis at time 0.
 ///
 /// Parameters
 /// ----------
 /// mean_motion : float
-///     n, in rad per unit of time; n²a³ is G times the sum of both masses.
+///     Mean motion n, in rad per unit of time; n²a³ is G times the sum of both masses.
 /// eccentricity : float, optional
-///     0 or more and less than 1.
+///     Eccentricity e, 0 ≤ e < 1.
 /// time_of_pericentre : float, optional
-///     A time at which the pericentre is passed.
+///     A time of passage through the pericentre.
 /// inclination, node, argument_of_pericentre : float, optional
-///     Of the orbit plane and in it, in rad.
+///     Inclination of the orbit plane, longitude of the ascending node, and argument of the pericentre from the node, in rad.
 /// mass_fraction : float, optional
-///     Disturbing mass over the sum of both: 1 for the Sun on an asteroid, 1/82.3 for the Moon on the Earth.
+///     Disturbing mass divided by the sum of both masses: 1 for the Sun on an asteroid, 1/82.3 for the Moon on the Earth.
 ///
 /// Warns
 /// -----
 /// UserWarning
-///     An inclination, node or argument beyond 2π: degrees by mistake.
+///     An inclination, node or argument beyond 2π, which is probably in degrees.
 ///
 /// Raises
 /// ------
 /// InputError
-///     A mean motion of 0 or -1, an eccentricity of 1 or -0.1, a mass fraction of 0 or 1.1, or what is not finite.
+///     A mean motion that is not positive; an eccentricity outside 0 ≤ e < 1; a mass fraction that is not positive or is above 1; a value that is not finite.
 /// TypeError
 ///     A text.
 ///
@@ -94,7 +94,7 @@ impl Orbit {
         self.0.elements()[1]
     }
 
-    /// A time at which the pericentre is passed.
+    /// A time of passage through the pericentre.
     #[getter]
     fn time_of_pericentre(&self) -> f64 {
         self.0.elements()[2]
@@ -118,7 +118,7 @@ impl Orbit {
         self.0.elements()[5]
     }
 
-    /// Disturbing mass over the sum of both.
+    /// Disturbing mass divided by the sum of both masses.
     #[getter]
     fn mass_fraction(&self) -> f64 {
         self.0.elements()[6]
@@ -152,7 +152,7 @@ impl Orbit {
     }
 }
 
-/// Warns of angles beyond a whole turn, which are often degrees.
+/// Warns of angles beyond a whole turn, which are probably in degrees.
 pub(crate) fn doubt(py: Python<'_>, orbit: &andoyer_propagate::Orbit) -> PyResult<()> {
     for (argument, angle) in orbit.beyond_a_turn() {
         let said =

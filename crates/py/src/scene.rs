@@ -79,24 +79,24 @@ impl Scene {
         Ok(Self { scene, tables: body.tables.clone(), calendar })
     }
 
-    /// The torque-free state of a body that tumbles with these periods (theory §7): for a mode there is one.
+    /// The scene of a torque-free body that tumbles with these periods (theory §7). In each mode there is one such motion.
     ///
     /// Parameters
     /// ----------
     /// body : Body
     /// precession : float
-    ///     P_φ, of the precession of an axis about the angular momentum.
+    ///     P_φ, the mean period with which an axis precesses about the angular momentum, in units of time.
     /// rotation : float
-    ///     P_ψ, of the rotation about this axis, or of its oscillation.
+    ///     P_ψ, the mean period of the rotation about this axis, or of the oscillation about it, in units of time.
     /// mode : {"short-axis", "long-axis"}, optional
     ///     The axis that the angular momentum circles.
     /// convention : {"extremal-axis", "long-axis", "short-axis"}, optional
-    ///     Whose periods they are: by default those of the mode's own axis, as light-curve papers give them; radar papers give those of the long axis.
+    ///     The axis of the periods. The default is the axis of the mode, as in light-curve papers; radar papers use the long axis.
     /// momentum_direction : array_like, shape (3,) or (2,), optional
     ///     Direction of the angular momentum: inertial components of any length, or (longitude, latitude) in rad; by default inertial axis 3.
     /// phases : (float, float), optional
-    ///     Parts of P_ψ and P_φ, in turns, that have gone by at the epoch. At (0, 0) the mode's axis is nearest to the angular momentum, tilted towards
-    ///     (inertial axis 3) × momentum, or towards inertial axis 1 where the momentum is along axis 3.
+    ///     Phases of P_ψ and P_φ at the epoch, in turns. At (0, 0) the axis of the mode is nearest to the angular momentum, tilted towards
+    ///     (inertial axis 3) × momentum, or towards inertial axis 1 if the momentum is along axis 3.
     /// epoch : float, optional
     ///     Time of the state.
     /// **options
@@ -105,8 +105,8 @@ impl Scene {
     /// Raises
     /// ------
     /// InputError
-    ///     A ratio P_ψ/P_φ that the body cannot have; the message has the interval that it can, as `Body.period_ratios`. A mode that a round body does not have; a period,
-    ///     a direction or phases that are none.
+    ///     A ratio P_ψ/P_φ that the body cannot have; the message states the interval of `Body.period_ratios`. A mode that an axisymmetric body does not
+    ///     have. A period that is not positive, a direction of length 0, a value that is not finite.
     ///
     /// Examples
     /// --------
@@ -153,7 +153,7 @@ impl Scene {
         with_options(class, body, (&scene, epoch), options)
     }
 
-    /// The scene whose Andoyer variables at the epoch are these: the inverse of `Motion.andoyer` (theory §1).
+    /// The scene with given Andoyer variables at the epoch (theory §1). It is the inverse of `Motion.andoyer`.
     ///
     /// Parameters
     /// ----------
@@ -192,7 +192,7 @@ impl Scene {
         with_options(class, body, (&scene, epoch), options)
     }
 
-    /// The scene of a TOML file.
+    /// Reads a scene from a TOML file.
     ///
     /// Parameters
     /// ----------
@@ -201,7 +201,7 @@ impl Scene {
     /// Raises
     /// ------
     /// FileError
-    ///     No such file, no TOML, an unknown or missing key, a value that no scene has; the message names file, key and bound.
+    ///     A missing file, a file that is not TOML, an unknown or missing key, a value outside its bound. The message names file, key and bound.
     #[classmethod]
     fn from_toml(class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
         let scene = andoyer_propagate::Scene::from_toml(path).map_err(error::propagation)?;
@@ -209,28 +209,28 @@ impl Scene {
         Ok(Self::from(scene))
     }
 
-    /// The scene as TOML text, which `from_toml` reads back from a file to an equal scene.
+    /// Writes the scene as TOML text. `from_toml` reads this text from a file as an equal scene.
     fn to_toml(&self) -> String {
         self.scene.to_toml()
     }
 
-    /// The motion: everything that does not depend on time is done here, once.
+    /// Solves the scene: computes everything that does not depend on time, and returns the motion.
     ///
     /// Warns
     /// -----
     /// ToleranceWarning
-    ///     Once, with both numbers, where the error bound exceeds the tolerance over the span (`Plan.meets_tolerance`).
+    ///     The error bound exceeds the tolerance over the span (`Plan.meets_tolerance`); the warning has both numbers.
     ///
     /// Raises
     /// ------
     /// TheoryError
-    ///     ``method="series"`` where the tolerance needs an order above 60, so near is the separatrix, or on it.
+    ///     ``method="series"`` if the motion is on the separatrix, or so near it that the tolerance needs an order above 60.
     ///     An orbit that is in resonance with the rotation, or not much slower: the Moon, Dimorphos. The message names the pair (k−j, m).
     ///     An orbit whose torque is too strong for an expansion in it.
-    ///     An orbit, and a motion too near the separatrix, a body at rest or on its middle axis, or a round one that turns about an axis across; or more orbits
-    ///     than `averaging="spin"` solves.
+    ///     An orbit with a motion too near the separatrix, a body at rest or rotating about its middle axis, or an axisymmetric body that rotates about a perpendicular axis;
+    ///     more orbits than ``averaging="spin"`` can solve.
     /// RepresentationError
-    ///     The angular momentum, moment × rate, is no normal double: ``1e-200 * 1e-200``.
+    ///     The angular momentum, moment × rate, is not a normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {
         let motion = detached(py, error::propagation, || self.scene.solve_with(&self.tables))?;
         error::warn_of_tolerance(py, motion.plan().missed_tolerance())?;
@@ -261,7 +261,7 @@ impl Scene {
         self.scene.state().epoch
     }
 
-    /// The attitude error asked for, in rad.
+    /// The requested attitude error, in rad.
     #[getter]
     fn tolerance(&self) -> f64 {
         self.scene.asked_tolerance()
@@ -279,7 +279,7 @@ impl Scene {
         self.scene.asked_order()
     }
 
-    /// The times over which the tolerance is asked for: (start, stop), or None.
+    /// The span, the times over which the tolerance is requested: (start, stop), or None.
     #[getter]
     fn span(&self) -> Option<(f64, f64)> {
         self.scene.asked_span()
@@ -309,7 +309,7 @@ impl Scene {
         self.scene.asked_name()
     }
 
-    /// Where the figures come from, or None.
+    /// The source of the figures, or None.
     #[getter]
     fn source(&self) -> Option<&str> {
         self.scene.asked_source()
@@ -387,12 +387,12 @@ fn with_options<'py>(
     class.call((body, attitude, rates), Some(&keywords))
 }
 
-/// What is said of a body that is none.
+/// The message for an argument that is not a `Body`.
 fn not_a_body(value: &Bound<'_, PyAny>) -> PyErr {
     PyTypeError::new_err(format!("body must be an andoyer.Body: got {}; use Body([A, B, C])", kind(value)))
 }
 
-/// What is said of an orbit that is none.
+/// The message for an argument that is not an `Orbit`.
 fn not_an_orbit(value: &Bound<'_, PyAny>) -> PyErr {
     PyTypeError::new_err(format!("orbit must be an andoyer.Orbit or None: got {}; use Orbit(mean_motion)", kind(value)))
 }
