@@ -1,7 +1,7 @@
-"""One HTML file in which a motion turns: body, axes, angular momentum, polhode and herpolhode, with a slider of time. Nothing is fetched.
+"""One HTML file with an animation of a motion: body, axes, angular momentum, polhode and herpolhode, with a slider of time. The page needs no network.
 
-The page calls `evaluate(t)`, which returns the attitude and the angular velocity at a time; `evaluator` gives its source and its error. Everything else that
-is shown, the Andoyer variables included, the page computes from these seven numbers and the moments.
+The page calls `evaluate(t)`, which returns the attitude and the angular velocity at a time; `evaluator` writes its source and finds its error. The page computes
+everything else, including the Andoyer variables, from these seven numbers and the moments.
 """
 
 import base64
@@ -44,23 +44,25 @@ def page(
     unit: str = "s",
     force: bool = True,
 ) -> float:
-    """Write one self-contained HTML page in which the motion turns.
+    """Write one self-contained HTML page with an animation of the motion.
 
-    It shows the body (the homogeneous ellipsoid of its moments, or a mesh), its axes, the angular momentum M upwards, the angular velocity ω, the
-    polhode on the body and the herpolhode among the stars; the Andoyer angles, J and the rates as numbers. Time runs, or is set with a slider.
+    The page shows the body (the homogeneous ellipsoid of its moments, or a mesh), its axes, the angular momentum M upwards, the angular velocity ω, the
+    polhode on the body and the herpolhode in inertial space. It shows the Andoyer angles, J and the rates as numbers. The animation runs, or the user sets the time with a slider.
 
     Parameters
     ----------
     motion : Motion
+        The motion to show.
     path : path-like
+        File to write.
     interval : pair of float, optional
         First and last time. By default three periods of the polhode from the epoch, at most 60 rotations.
     mesh : pair of array_like, optional
-        Vertices (n, 3) in body components, of any unit of length, and faces (m, 3), indices of vertices, counterclockwise from outside.
+        Vertices (n, 3) in body components, in any unit of length, and faces (m, 3), as indices of vertices, counterclockwise from outside.
     unit : str, optional
         Name of the unit of time.
     force : bool, optional
-        Whether a file that is there already is replaced.
+        If True, an existing file is replaced.
 
     Returns
     -------
@@ -70,9 +72,9 @@ def page(
     Raises
     ------
     FileExistsError
-        There is such a file, and ``force=False``.
+        The file exists, and ``force=False``.
     ValueError
-        An interval of no length or of more than 208 rotations; a mesh of another shape.
+        An interval of zero length or of more than 208 rotations; a mesh of another shape.
 
     Examples
     --------
@@ -104,7 +106,7 @@ def page(
 def evaluator(motion: Motion, start: float, stop: float) -> tuple[str, float]:
     """JavaScript that defines `evaluate(t)` between two times, and the largest angle [rad] between its attitude and that of the motion.
 
-    It is a table with cubic Hermite interpolation of the quaternion: between nodes a 192th of a rotation apart it leaves some 1e-9 rad.
+    The evaluator is a table with cubic Hermite interpolation of the quaternion. With 192 nodes a rotation its error is about 1e-9 rad.
     """
     rate = _largest_rate(motion, start, stop)
     count = max(LEAST_NODES, math.ceil(rate * (stop - start) / (2 * math.pi) * NODES))
@@ -149,7 +151,7 @@ def _largest_rate(motion: Motion, start: float, stop: float) -> float:
 
 
 def _data(motion: Motion, start: float, stop: float, unit: str, error: float, mesh: tuple[ArrayLike, ArrayLike] | None) -> dict[str, Any]:
-    """What the page knows of the motion beside its evaluator."""
+    """The data of the motion in the page, except the evaluator."""
     moments = motion.scene.body.moments
     order = np.argsort(moments, kind="stable")
     rate = _largest_rate(motion, start, stop)
@@ -196,5 +198,5 @@ def _part(name: str) -> str:
 
 
 def _script(value: Any) -> str:
-    """JSON that no text in it can end the element around."""
+    """JSON for a script element, escaped so that no text in it can end the element."""
     return json.dumps(value, ensure_ascii=True, allow_nan=False).replace("<", "\\u003c")
