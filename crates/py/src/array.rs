@@ -1,7 +1,7 @@
-//! Arrays in and out: array-likes of numbers to float64 slices, results straight into NumPy's memory.
+//! Conversion of array-likes to float64 slices, and results that are written directly into NumPy arrays.
 //!
-//! Numbers are what NumPy calls integers and floats, and objects with `__float__`; strings, booleans and complex numbers are a
-//! `TypeError`. A scalar time gives results without the leading axis. Nothing is copied that is float64, aligned and in C order already.
+//! Numbers are integers and floats of NumPy, and objects with `__float__`. Strings, booleans and complex numbers are a
+//! `TypeError`. A scalar time gives results without the leading axis. An array that is float64, aligned and in C order is not copied.
 
 use std::sync::atomic::AtomicBool;
 
@@ -20,7 +20,7 @@ use crate::computing::{detached, interruptible};
 use crate::error;
 use crate::foreign::{self, Calendar};
 
-/// Numbers that fill 128 KiB, from where on glibc asks the system for memory.
+/// Number of doubles in 128 KiB. For larger blocks glibc requests memory from the system.
 const FEWEST_SHARED: usize = 16_384;
 
 /// `value` as a float64 array, aligned and in C order.
@@ -29,7 +29,7 @@ fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py
     let value = foreign::plain(argument, value)?;
     let numpy = py.import(intern!(py, "numpy"))?;
     let array = numpy.getattr(intern!(py, "asarray"))?.call1((value,)).map_err(|problem| {
-        // NumPy says so of nested lists of unequal length.
+        // The error of NumPy for nested lists of unequal length.
         let ragged = problem.is_instance_of::<PyValueError>(py);
         if !ragged {
             return problem;
@@ -52,7 +52,7 @@ fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py
     }
 }
 
-/// An array of Python objects as numbers, one by one: NumPy would read None as NaN, and texts as what they spell.
+/// An array of Python objects as numbers, one by one. NumPy would convert None to NaN, and texts to numbers.
 fn objects<'py>(argument: &str, array: &Bound<'py, PyUntypedArray>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let refused = |problem: PyErr| {
         let first = array.getattr("flat").and_then(|flat| flat.get_item(0)).ok();
@@ -97,7 +97,7 @@ pub(crate) fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> 
     }
 }
 
-/// N numbers for each member of an ensemble: an array_like of shape (m, N), or (N,) for all of them.
+/// N numbers for each member of an ensemble: an array_like of shape (m, N), or (N,) for all members.
 pub(crate) enum MemberRows<const N: usize> {
     One([f64; N]),
     Many(Vec<[f64; N]>),
@@ -118,7 +118,7 @@ impl<const N: usize> MemberRows<N> {
         }
     }
 
-    /// The number of rows, unless one row stands for any number of them.
+    /// The number of rows, or None if a single row is used for all members.
     pub(crate) fn members(&self) -> Option<usize> {
         match self {
             Self::One(_) => None,
@@ -136,7 +136,7 @@ impl<const N: usize> MemberRows<N> {
         .for_each(change);
     }
 
-    /// As many rows as there are, or `members` times the one.
+    /// All rows, or the single row repeated `members` times.
     pub(crate) fn repeated(self, members: usize) -> Vec<[f64; N]> {
         match self {
             Self::One(row) => vec![row; members],
@@ -145,7 +145,7 @@ impl<const N: usize> MemberRows<N> {
     }
 }
 
-/// `value` as one number, or as one axis of them.
+/// `value` as one number or one axis of numbers.
 pub(crate) fn numbers_of(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let array = numbers(argument, value)?;
     if array.ndim() > 1 {
@@ -173,7 +173,7 @@ pub(crate) fn fixed<const N: usize>(argument: &str, value: &Bound<'_, PyAny>) ->
     read(argument, &array)?.as_slice()?.try_into().map_err(|_| wrong())
 }
 
-/// First and last time of a span, of a state at an epoch.
+/// First and last time of a span, for a state at an epoch.
 pub(crate) fn span(value: &Bound<'_, PyAny>, epoch: f64, calendar: Option<Calendar>) -> PyResult<[f64; 2]> {
     match foreign::since("span", value, calendar.as_slice())? {
         Some((seconds, ..)) => Ok(fixed("span", &seconds)?.map(|seconds: f64| epoch + seconds)),
@@ -197,7 +197,7 @@ pub(crate) fn two_or_three(argument: &str, value: &Bound<'_, PyAny>) -> PyResult
     }
 }
 
-/// Whether `value` is an array_like of shape (3, 3).
+/// True if `value` is an array_like of shape (3, 3).
 pub(crate) fn is_matrix(value: &Bound<'_, PyAny>) -> bool {
     numbers("moments", value).is_ok_and(|array| array.shape() == [3, 3])
 }
@@ -228,7 +228,7 @@ impl<'py> Rows<'py> {
         Ok(Self { array: read(argument, &array)?, columns })
     }
 
-    /// What `evaluate` makes of each row, `columns` numbers, computed without the interpreter lock.
+    /// The result of `evaluate` for each row, `columns` numbers, computed without the interpreter lock.
     pub(crate) fn map(
         &self,
         columns: usize,
@@ -242,10 +242,10 @@ impl<'py> Rows<'py> {
     }
 }
 
-/// Rows between two looks for Ctrl-C: long series take some milliseconds each.
+/// Number of rows between two checks for Ctrl-C; for long series a row takes some milliseconds.
 const ROWS_AT_ONCE: usize = 64;
 
-/// What `evaluate` makes of rows of `width` numbers, part by part, without the interpreter lock; Ctrl-C is noticed in between.
+/// The results of `evaluate` for rows of `width` numbers, computed in parts without the interpreter lock. Ctrl-C is checked between the parts.
 pub(crate) fn row_by_row(
     py: Python<'_>,
     values: &[f64],
@@ -277,22 +277,22 @@ pub(crate) fn constant_rows<'py, const N: usize>(
     Ok(array)
 }
 
-/// Times of a motion from which on evaluating them is a long call: 1 to 200 ms.
+/// Number of times of a motion above which an evaluation counts as a long call; it takes 1 to 200 ms.
 const LONG: usize = 1 << 19;
-/// The same under a gravity gradient, 3 to 20 ms.
+/// The same number under a gravity gradient; it takes 3 to 20 ms.
 const LONG_DISTURBED: usize = 1 << 14;
-/// Members of an ensemble from which on solving them is a long call: 20 ms.
+/// Number of members of an ensemble above which solving counts as a long call; it takes 20 ms.
 const LONG_MEMBERS: usize = 1 << 12;
-/// The same under a gravity gradient, at 200 µs each.
+/// The same number under a gravity gradient, with 0.2 to 0.3 ms for each member.
 const LONG_DISTURBED_MEMBERS: usize = 32;
 
-/// Times: a scalar, or one axis of them; for the members of an ensemble also an axis of each.
+/// Times: a scalar or one axis; for an ensemble also one row for each member.
 pub(crate) struct Times<'py> {
     array: PyReadonlyArrayDyn<'py, f64>,
     members: Option<usize>,
     /// Axes of the result before its last.
     leading: Vec<usize>,
-    /// Times of another package, as they were given: the numbers are then seconds since the epoch.
+    /// Times of another package as given; the numbers are then seconds since the epoch.
     given: Option<Bound<'py, PyAny>>,
     disturbed: bool,
 }
@@ -307,7 +307,7 @@ impl<'py> Times<'py> {
         Ok(Self { array: read("times", &array)?, members: None, leading: shape, given, disturbed })
     }
 
-    /// Numbers, the times of another package if they are some, and the shape as given.
+    /// The numbers, the times of another package if such times were given, and the shape as given.
     #[expect(clippy::type_complexity, reason = "taken apart at once")]
     fn read(
         value: &Bound<'py, PyAny>,
@@ -336,22 +336,22 @@ impl<'py> Times<'py> {
         Ok(Self { array: read("times", &array)?, members: Some(members), leading, given, disturbed })
     }
 
-    /// Whether the numbers are seconds since the epoch.
+    /// True if the numbers are seconds since the epoch.
     pub(crate) fn since_epoch(&self) -> bool {
         self.given.is_some()
     }
 
-    /// Times of another package, as they were given.
+    /// The times of another package as given.
     pub(crate) fn given(&self) -> Option<Py<PyAny>> {
         self.given.clone().map(Bound::unbind)
     }
 
-    /// The same for derivatives, which take some microseconds a time.
+    /// The same for derivatives, which take some microseconds for each time.
     pub(crate) fn long_partials(&self) -> bool {
         self.array.len() > LONG_DISTURBED
     }
 
-    /// Whether evaluating at these times may take so long that Ctrl-C must end it.
+    /// True if the evaluation at these times may be a long call, which Ctrl-C must end.
     pub(crate) fn long(&self) -> bool {
         let (times, members) =
             if self.disturbed { (LONG_DISTURBED, LONG_DISTURBED_MEMBERS) } else { (LONG, LONG_MEMBERS) };
@@ -374,8 +374,8 @@ impl<'py> Times<'py> {
 
     /// A copy of the times, and two arrays to be filled, of these shapes for each time.
     ///
-    /// Many times share one block of memory. In three blocks it is given back to the system with each call, and every page of the next one is a fault:
-    /// 25 ns a sample for 100,000 of them, against 1.0 in one block.
+    /// For many times the arrays share one block of memory. Three blocks would be returned to the system after each call, and the page faults of the next call
+    /// would take 25 ns a sample for 100,000 samples; with one block it is 1.0 ns.
     fn with_outputs(&self, [first, second]: [&[usize]; 2]) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
         let shapes = [self.array.shape().to_vec(), self.shape(first), self.shape(second)];
         let numbers = shapes.iter().map(|shape| shape.iter().product::<usize>()).sum::<usize>();
@@ -400,7 +400,7 @@ impl<'py> Times<'py> {
         Ok([part(0, 0)?, part(sizes[0], 1)?, part(sizes[0] + sizes[1], 2)?])
     }
 
-    /// An array to be filled: zeros would be written twice.
+    /// An uninitialized array to be filled; writing zeros first would write it twice.
     fn empty(&self, shape: &[usize]) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         static EMPTY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
         let py = self.array.py();
@@ -435,7 +435,7 @@ impl<'py> Times<'py> {
     }
 }
 
-/// `out`, if it is an array that results of this shape can be written into.
+/// `out`, checked to be an array for results of this shape.
 fn output<'py>(out: &Bound<'py, PyAny>, shape: &[usize]) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let Ok(array) = out.cast::<PyUntypedArray>() else {
         return Err(PyTypeError::new_err(format!("out must be a NumPy array, not {}", out.get_type().name()?)));

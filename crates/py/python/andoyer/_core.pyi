@@ -28,13 +28,13 @@ class Error(ValueError):
     argument: str | None
     value: Any
     bound: Any
-    index: int  # only of a member of an ensemble: its place among the members
+    index: int  # only for a member of an ensemble: its number
 
 class FileError(Error):
     """A scene file or a JSON text that cannot be read."""
 
 class InputError(Error):
-    """An argument that is wrong."""
+    """An invalid argument."""
 
 class InternalError(Error):
     """A fault of this package: no input should lead to it."""
@@ -43,10 +43,10 @@ class RepresentationError(Error):
     """Units, times or orders that doubles, exact rationals or memory cannot hold."""
 
 class TheoryError(Error):
-    """No theory holds: the series near the separatrix, a spin resonance, a torque too strong, a motion without averaging, a small divisor or a Hamiltonian that cannot be diagonalized."""
+    """No theory holds: series near the separatrix, a spin resonance, a torque that is too strong, a motion that cannot be averaged, a small divisor, or a Hamiltonian that cannot be diagonalized."""
 
 class ToleranceWarning(UserWarning):
-    """A motion, or members of an ensemble, whose error bound exceeds the tolerance over the span."""
+    """The error bound of a motion, or of members of an ensemble, exceeds the tolerance over the span."""
 
 @final
 class Body:
