@@ -1,7 +1,7 @@
-"""One random scene against its enclosure, and what must hold of it whatever the reference says.
+"""Compare one random scene with its enclosure, and check its invariants, which need no reference.
 
-Errors are those of doubles against balls of 40 digits: the angle between attitudes [rad], and the differences of the rates w_i in units of M/I_i. The invariants need no
-reference: none of them is enforced by construction of the code under test.
+Errors are differences between doubles and balls of 40 digits: the angle between attitudes [rad], and the differences of the rates w_i in units of M/I_i. The tested code does not enforce
+the invariants by construction.
 """
 
 import sys
@@ -36,14 +36,14 @@ STATE_ROUNDING = 2e-15
 
 
 def angle(p, q, low=0.0):
-    """The angles [rad] between attitudes (n, 4), the second q + low, small ones too."""
+    """The angles [rad] between attitudes (n, 4); the second attitude is q + low. Small angles are accurate."""
     sign = np.sign(np.sum(p * q, axis=-1, keepdims=True))
     difference = (sign * p - q) - low
     return 2 * np.linalg.norm(difference, axis=-1)
 
 
 def span(one, unit=1.0):
-    """From the first to the last of the epoch and the times."""
+    """The interval from the first to the last of the epoch and the times."""
     return min(one.epoch, *one.times) * unit, max(one.epoch, *one.times) * unit
 
 
@@ -81,7 +81,7 @@ def measured(seed, number):
 
 
 def of_block(seed, numbers):
-    """What `measured` returns, of many; members of one ensemble, those with epoch 0 must have the same bits."""
+    """The results of `measured` for many scenes. Scenes with epoch 0 are also evaluated as members of one ensemble and must have the same bits."""
     found = [measured(seed, number) for number in numbers]
     members = [one for one in (case(seed, number) for number in numbers) if one.epoch == 0.0]
     fields = zip(*((one.moments, one.attitude, one.rates) for one in members))
@@ -94,7 +94,7 @@ def of_block(seed, numbers):
 
 
 def invariants(one, body, motion, samples):
-    """What the equations of motion keep, and what their symmetries say."""
+    """Violations of the conservation laws and symmetries of the equations of motion."""
     moments = np.array(one.moments) / max(one.moments)
     rates = samples.angular_velocity / np.max(np.abs(one.rates)) if np.any(one.rates) else samples.angular_velocity
     first = np.array(one.rates) / (np.max(np.abs(one.rates)) or 1.0)
@@ -118,7 +118,7 @@ def invariants(one, body, motion, samples):
 
 
 def powers_of_two(one, samples):
-    """Moments times 2^37 and time times 2^-9: the same bits, where nothing becomes a denormal."""
+    """The scene with moments times 2^37 and time times 2^-9, which must have the same bits if no number becomes a denormal."""
     if min(abs(x) for x in (*one.rates, *one.times) if x) < 1e-290:
         return 0.0
     body = andoyer.Body([x * 2.0**37 for x in one.moments])
@@ -128,7 +128,7 @@ def powers_of_two(one, samples):
 
 
 def group(one, body, motion, samples):
-    """at(t1 + t2) by way of a new scene from the state at t1, in units of what the rounding of that state makes of it."""
+    """Error of the state at t1 + t2 from a new scene that starts from the state at t1, in units of the effect of rounding that state."""
     middle, end = one.times[1], one.times[2]
     state = motion.at([middle])
     again = andoyer.Scene(body, state.attitude[0], state.angular_velocity[0], epoch=middle, tolerance=TOLERANCE).solve()
@@ -141,7 +141,7 @@ def group(one, body, motion, samples):
 
 
 def rotated(quaternions, vectors):
-    """Vectors turned by quaternions [x, y, z, w]."""
+    """Vectors rotated by quaternions [x, y, z, w]."""
     axis, scalar = quaternions[:, :3], quaternions[:, 3:]
     across = 2 * np.cross(axis, vectors)
     return vectors + scalar * across + np.cross(axis, across)
