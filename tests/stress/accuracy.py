@@ -15,8 +15,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reference"))
 
 import enclosures  # noqa: E402
 
-# Error budget. An attitude is a product of two quaternions whose four numbers are sums of up to some ten harmonics, each rounded to 2^-53 of the whole: 4 · 12 · 1.1e-16 at
-# most, doubled as an angle. A rate is one such sum; near the separatrix the sum holds terms larger than itself. Energy is quadratic in rates; a reversed motion is a second one.
+# Error budget. An attitude is a product of two quaternions whose four numbers are sums of up to some ten harmonics, each rounded to 2^-53 of the sum: at most 4 · 12 · 1.1e-16,
+# doubled as an angle. A rate is one such sum; near the separatrix the terms are larger than the sum. The energy is quadratic in the rates; time reversal compares two motions.
 BUDGETS = {
     "attitude": 1e-14,
     "rates": 1e-14,
@@ -31,7 +31,7 @@ BUDGETS = {
     "group": 1.0,
 }
 TOLERANCE = 1e-15
-# Relative rounding of a state that is taken as the start of a new motion, and of the quaternion.
+# Relative rounding of a state that starts a new motion, and of the quaternion.
 STATE_ROUNDING = 2e-15
 
 
@@ -58,17 +58,17 @@ def measured(seed, number):
     """(regime, {check: value}, case) of one scene: errors over the times, invariants over more of them."""
     one = case(seed, number)
     body = andoyer.Body(one.moments)
-    # The bound is one over a span: without it, nothing is said of the times that are looked at.
+    # The error bound holds over the span, so the span must contain the times.
     motion = andoyer.Scene(body, one.attitude, one.rates, epoch=one.epoch, tolerance=TOLERANCE, span=span(one)).solve()
     samples = motion.at(one.times)
     found = {}
     try:
         (attitude, attitude_low), (rates, rates_low) = truth(one)
-    except ValueError:  # on the separatrix to the bit: the invariants alone
+    except ValueError:  # exactly on the separatrix there is no reference, only invariants
         pass
     else:
         found["attitude"] = float(angle(samples.attitude, attitude, attitude_low).max())
-        # By axis in units of M/I: a needle turns fastest about its thin axis, later if not at first.
+        # For each axis in units of M/I, since a needle rotates fastest about its thin axis.
         momentum = np.linalg.norm(np.multiply(one.moments, one.rates) / max(one.moments)) or 1.0
         apart = np.abs((samples.angular_velocity - rates) - rates_low) * one.moments / max(one.moments)
         found["rates"] = float(np.max(apart) / momentum)
@@ -133,7 +133,7 @@ def group(one, body, motion, samples):
     state = motion.at([middle])
     again = andoyer.Scene(body, state.attitude[0], state.angular_velocity[0], epoch=middle, tolerance=TOLERANCE).solve()
     apart = angle(again.attitude([end]), samples.attitude[2:3])[0]
-    # Relative changes of the frequencies are those of the state, near the separatrix those of 1−m over it (σ/σ_sep below 0.9 here).
+    # The relative change of the frequencies is that of the state; near the separatrix it is that of 1−m divided by 1−m (σ/σ_sep is below 0.9 here).
     phase = abs(end - middle) * np.max(np.abs(one.rates))
     near = 1 / (1 - motion.plan.separatrix_ratio) ** 2
     spread = max(one.moments) / min(one.moments)

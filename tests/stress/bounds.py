@@ -82,7 +82,7 @@ KINDS: dict[str, Callable[[Generator], list[float]]] = {
     "β → 0": lambda r: (lambda b: [b * (1 - decades(r, 1, 12)), b, 1.0])(r.uniform(0.6, 0.95)),
     "β → 1": lambda r: [r.uniform(0.1, 0.95), 1 - 0.05 * decades(r, 0, 12), 1.0],
 }
-# The part of the separatrix's energy excess, counted from rotation about the axis that the momentum circles; whether that is the long axis.
+# The excess of energy as a part of that of the separatrix, from rotation about the circled axis; True if that is the long axis.
 MOTIONS: dict[str, tuple[Callable[[Generator], float], bool]] = {
     "small wobble": (lambda r: decades(r, 1, 24), False),
     "short-axis": (lambda r: r.uniform(0, 0.95), False),

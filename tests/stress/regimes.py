@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-# Smallest tilt from the middle axis: the code takes one below 1e-150 for none, and its error bound is π then. From other axes tilts go down to denormals.
+# Smallest tilt from the middle axis. The code treats a tilt below 1e-150 as 0, with an error bound of π. From other axes tilts may be denormal.
 SMALLEST_TILT = 1e-145
 
 
@@ -22,7 +22,7 @@ class Case:
     rates: tuple
     epoch: float
     times: tuple
-    complement: float  # 1 − m of the elliptic functions as it was asked for, 0 where nothing was
+    complement: float  # requested 1 − m of the elliptic functions, or 0
     tags: dict = field(default_factory=dict)
 
 
@@ -41,7 +41,7 @@ def turned(random, moments, part, long_axis):
     """A direction of the angular momentum whose excess of energy is this part of that of the separatrix; A ≤ B ≤ C."""
     a, b, c = moments
     circled, other = (0, 2) if long_axis else (2, 0)
-    # 1/I differences without cancellation; those of two equal moments vanish.
+    # Differences of 1/I without cancellation; they vanish for equal moments.
     most = abs(moments[circled] - moments[other]) / (moments[other] * moments[circled])
     least = abs(moments[circled] - b) / (b * moments[circled])
     angle = random.uniform(0, 2 * np.pi)

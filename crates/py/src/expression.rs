@@ -72,7 +72,7 @@ impl Expression {
             let name = symbol.str()?.to_string();
             let Some(slot) = names.iter().position(|known| *known == name) else {
                 let known = names.join(", ");
-                let message = format!("{argument} contains {name:?}, which is none of {known}");
+                let message = format!("{argument} contains {name:?}, which is not one of {known}");
                 return Err(error::input(argument, name, known, message));
             };
             present.push((slot, symbol));
