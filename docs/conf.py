@@ -43,7 +43,7 @@ plot_formats = [("png", 110)]
 sphinx_gallery_conf = {
     "examples_dirs": "../examples/gallery",
     "gallery_dirs": "gallery",
-    "within_subsection_order": "FileNameSortKey",
+    "within_subsection_order": "by_number.ByNumber",
     "filename_pattern": "/plot_",
     "image_scrapers": ("matplotlib",),
     "abort_on_example_error": True,

@@ -113,11 +113,18 @@ def gravity_climb() -> list[str]:
     return markdown(header, ([row[name] for name in names] for row in read("gravity-climb.csv")))
 
 
+def light_curves() -> list[str]:
+    """Light curves with known answers, found from random starts."""
+    rows = read("light-curves.csv")
+    return markdown(rows[0], (row.values() for row in rows))
+
+
 TABLES: dict[str, Callable[[], list[str]]] = {
     "ensemble": ensemble,
     "gravity-bounds": gravity_bounds,
     "gravity-cases": gravity_cases,
     "gravity-climb": gravity_climb,
+    "light-curves": light_curves,
     "scenes-accuracy": scenes_accuracy,
     "scenes-speed": scenes_speed,
     "sweep-accuracy": sweep_accuracy,

@@ -96,8 +96,7 @@ fn an_index_beyond_an_ensemble_is_named_with_the_number_of_members() {
 #[test]
 fn refusals_are_sentences() {
     let error = scene([1.0, 1.5, 2.0], [0.0; 3]).orbit(orbit()).solve().expect_err("at rest");
-    let text =
-        "orbit: no averaged theory serves this motion (mode at-rest, σ/σ_sep = 0.000000, which must be at most 0.9)";
+    let text = "orbit: no averaged theory is valid for this motion (mode at-rest, σ/σ_sep = 0.000000, which must be at most 0.9)";
     assert_eq!(error.to_string(), text);
     let motion = scene([1.0, 1.5, 2.0], [0.0; 3]).solve().expect("rest");
     let text = "times[0] = 2e300: a time must be finite and within 1.000e300 of the epoch";

@@ -19,11 +19,15 @@ mod torque_free;
 
 mod gravity_gradient;
 
+mod integration;
+
 mod motion;
 
 mod solve;
 
 pub mod partials;
+
+pub mod motion_code;
 
 mod observed;
 
@@ -40,6 +44,7 @@ pub use input::options::Method;
 pub use input::orbit::Orbit;
 pub use input::scene::Scene;
 pub use input::state::State;
+pub use input::tabulated::TabulatedOrbit;
 pub use motion::plan::Plan;
 pub use motion::solved::{Motion, Sample};
 pub use torque_free::mode::Mode;
@@ -55,6 +60,13 @@ pub mod periods {
     pub use crate::input::options::Convention;
     pub use crate::motion::solved::{Frequencies, Periods};
     pub use crate::observed::periods::ObservedPeriods;
+}
+
+pub mod disturbers {
+    //! Bodies whose gravity gradient acts: by elements of an orbit or by a table of positions.
+    pub use crate::input::disturbing_body::DisturbingBody;
+    pub use crate::input::orbit::{Oblateness, Orbit};
+    pub use crate::input::tabulated::TabulatedOrbit;
 }
 
 pub mod batch {

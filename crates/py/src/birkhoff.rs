@@ -455,7 +455,7 @@ impl BirkhoffNormalForm {
         detached(py, error::algebra, || either!(&self.form, form => form.to_json()))
     }
 
-    /// Reads a normal form from the text of `to_json`.
+    /// Reads a normal form from the text of `to_json`, and computes the form again to compare every coefficient.
     ///
     /// Parameters
     /// ----------
@@ -466,13 +466,27 @@ impl BirkhoffNormalForm {
     /// Raises
     /// ------
     /// FileError
-    ///     A text that is not JSON, another format or version, a term that a normal form cannot have. The coefficients are not computed again.
+    ///     A text that is not JSON; another format or version; a term that a normal form cannot have; a coefficient that differs from the computed one (for floats by more than
+    ///     1e-8 of the largest of its order).
+    ///
+    /// Examples
+    /// --------
+    /// >>> text = normalize("(x**2 + X**2)/2 + x**3", 2, [("x", "X")]).to_json()
+    /// >>> BirkhoffNormalForm.from_json(text).to_json() == text
+    /// True
     #[classmethod]
     #[pyo3(signature = (text, symbols=None))]
     fn from_json(class: &Bound<'_, PyType>, text: &str, symbols: Option<Bound<'_, PyDict>>) -> PyResult<Self> {
         let py = class.py();
-        let form = detached(py, error::algebra, || Form::from_json(text))?;
+        let form = progress::reported(py, None, |tell| Form::from_json(text, tell))?;
         Ok(Self::new(form, symbols.unwrap_or_else(|| PyDict::new(py)).unbind()))
+    }
+
+    /// Rebuilds a form from a pickle, whose text this program wrote.
+    #[staticmethod]
+    fn _restored(py: Python<'_>, text: &str, symbols: Bound<'_, PyDict>) -> PyResult<Self> {
+        let form = detached(py, error::algebra, || Form::restored(text))?;
+        Ok(Self::new(form, symbols.unbind()))
     }
 
     /// Writes a part of this normal form as LaTeX, for a document that uses amsmath.
@@ -521,7 +535,7 @@ impl BirkhoffNormalForm {
     /// Pickled as its JSON text, with the symbols of SymPy.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let (py, form) = (slf.py(), slf.get());
-        Ok((slf.get_type().getattr("from_json")?, (form.to_json(py)?, form.symbols.clone_ref(py))))
+        Ok((slf.get_type().getattr("_restored")?, (form.to_json(py)?, form.symbols.clone_ref(py))))
     }
 
     /// Order, variables, kind of numbers and, if there are no parameters, the last radius of the domain.

@@ -5,7 +5,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use numpy::PyUntypedArray;
+use numpy::{PyArrayDyn, PyUntypedArray};
 use pyo3::exceptions::PyTypeError;
 use pyo3::intern;
 use pyo3::prelude::*;
@@ -153,4 +153,11 @@ pub(crate) fn scalar_first(quaternions: &mut [[f64; 4]], asked: bool, stop: &Ato
             part.iter_mut().for_each(|quaternion| quaternion.rotate_right(1));
         }
     }
+}
+
+/// Attitudes as rotations of SciPy.
+pub(crate) fn rotation<'py>(attitudes: &Bound<'py, PyArrayDyn<f64>>) -> PyResult<Bound<'py, PyAny>> {
+    let py = attitudes.py();
+    let rotation = py.import(intern!(py, "scipy.spatial.transform"))?.getattr(intern!(py, "Rotation"))?;
+    rotation.call_method1(intern!(py, "from_quat"), (attitudes,))
 }

@@ -20,6 +20,7 @@ mod error;
 mod expression;
 mod foreign;
 mod form;
+mod mean;
 mod members;
 mod motion;
 mod normal_form;
@@ -32,6 +33,7 @@ mod progress;
 mod samples;
 mod scene;
 mod scene_class;
+mod tabulated;
 
 /// The compiled core of the package `andoyer`, which re-exports all its names.
 #[pyo3::pymodule]
@@ -66,6 +68,8 @@ mod _core {
     use super::samples::Samples;
     #[pymodule_export]
     use super::scene_class::Scene;
+    #[pymodule_export]
+    use super::tabulated::TabulatedOrbit;
 
     #[pymodule_init]
     fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {

@@ -1,25 +1,23 @@
 //! `andoyer.Motion`.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
-use andoyer_propagate::Error as Propagation;
 use andoyer_propagate::partials::PARAMETERS;
+use andoyer_propagate::periods::Convention;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::PyType;
+use pyo3::types::{PyDict, PyType};
 
 use crate::array::{Times, chunks, matrices, write};
 use crate::computing::{detached, interruptible};
 use crate::error;
 use crate::foreign::{self, Calendar};
+use crate::mean;
 use crate::partials::Partials;
 use crate::plan::Plan;
 use crate::samples::Samples;
 use crate::scene_class::Scene;
-
-/// Number of times between two checks for Ctrl-C while derivatives are computed.
-const AT_ONCE: usize = 1 << 13;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
@@ -32,7 +30,8 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// Raises
 /// ------
 /// RepresentationError
-///     A time more than 1e15 rotations from the epoch, or with ``averaging="spin"`` more than 65,534 orbits from it. The message states the index of the time and the limit.
+///     A time more than 1e15 rotations from the epoch, with ``averaging="spin"`` more than 65,534 orbits from it, or outside the span of an integrated motion. The message states
+///     the index of the time and the limit.
 /// InputError
 ///     A time that is NaN or infinite; a Time if the epoch is a number; a Quantity if the epoch is a Time; an array of times with two axes.
 ///
@@ -213,8 +212,7 @@ impl Motion {
     /// ImportError
     ///     SciPy is not installed; the extra ``andoyer[scipy]`` installs it.
     fn rotation<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let rotation = times.py().import("scipy.spatial.transform")?.getattr("Rotation")?;
-        rotation.call_method1("from_quat", (self.attitude(times, None, false)?,))
+        foreign::rotation(&self.attitude(times, None, false)?)
     }
 
     /// Evaluates the derivatives of attitude and angular velocity with respect to the initial state and the moments (theory §12).
@@ -247,26 +245,57 @@ impl Motion {
     /// 10.0
     fn partials(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Partials> {
         let times = self.times(times)?;
-        let since = if times.since_epoch() { self.0.scene().state().epoch } else { 0.0 };
+        let since_epoch = times.since_epoch();
         let [copy, attitude, rates] = times.matrices(PARAMETERS)?;
         {
             let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
             let (values, attitude, rates) = (times.values()?, matrices(&mut attitude)?, matrices(&mut rates)?);
-            let evaluate = |stop: &AtomicBool| {
-                let parts = values.chunks(AT_ONCE).zip(attitude.chunks_mut(AT_ONCE)).zip(rates.chunks_mut(AT_ONCE));
-                for (index, ((values, attitude), rates)) in parts.enumerate() {
-                    if stop.load(Ordering::Relaxed) {
-                        return Err(Propagation::Stopped);
-                    }
-                    let values: Vec<f64> = values.iter().map(|time| since + time).collect();
-                    let done = self.0.partials_into(&values, attitude, rates);
-                    done.map_err(|problem| problem.later(index * AT_ONCE))?;
-                }
-                Ok(())
-            };
+            let evaluate = |stop: &AtomicBool| self.batch(since_epoch, stop).partials_into(values, attitude, rates);
             interruptible(py, times.long_partials(), error::propagation, evaluate)?;
         }
         Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
+    }
+
+    /// A self-contained function `rotation(time)` that evaluates this motion, as the text of a file of source (theory §8).
+    ///
+    /// It returns the attitude [x, y, z, w] and the angular velocity in body components, from the constants in the file and the language alone: C99 with math.h, Rust of `core`,
+    /// Python with math, JavaScript. C and Rust allocate nothing. Phases are kept in two doubles, so that they hold after 1e9 rotations. The head of the file names the scene,
+    /// the mode, the validity interval and the largest difference from the library. Times count as those of the scene; for an epoch of astropy in TDB seconds since J2000.
+    ///
+    /// Parameters
+    /// ----------
+    /// language : {"c", "rust", "python", "javascript"}, optional
+    ///
+    /// Returns
+    /// -------
+    /// str
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     The language ``"fortran"``.
+    /// RepresentationError
+    ///     A passage along the separatrix, or a motion under a torque.
+    ///
+    /// Examples
+    /// --------
+    /// >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    /// >>> namespace = {}
+    /// >>> exec(motion.to_code("python"), namespace)
+    /// >>> attitude, rates = namespace["rotation"](1e9)
+    /// >>> bool(abs(motion.attitude(1e9) - attitude).max() < 1e-14)
+    /// True
+    #[pyo3(signature = (language="c"))]
+    fn to_code(&self, py: Python<'_>, language: &str) -> PyResult<String> {
+        let language = language.parse().map_err(error::propagation)?;
+        detached(py, error::propagation, || self.0.to_code(language))
+    }
+
+    /// The same with the bounds of its differences that its head states: of the attitude [rad], of the angular velocity over its length.
+    fn _code(&self, py: Python<'_>, language: &str) -> PyResult<(String, f64, f64)> {
+        let language = language.parse().map_err(error::propagation)?;
+        let code = detached(py, error::propagation, || self.0.code(language))?;
+        Ok((code.text().to_owned(), code.attitude_error(), code.rate_error()))
     }
 
     /// The plan: method, order, error bound and other facts about this motion.
@@ -282,6 +311,8 @@ impl Motion {
     }
 
     /// Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time.
+    ///
+    /// The frequencies of an integrated motion are those of the free motion at the epoch, as `periods`.
     ///
     /// Both are at least 0; a frequency that does not exist in this mode is 0. y = μ + ν for N ≥ 0. For N < 0 axis 3 points away from the angular momentum, and y = μ − ν (see `andoyer`).
     #[getter]
@@ -313,19 +344,15 @@ impl Motion {
     /// >>> abs(1 / precession - 1 / rotation - 1 / long) < 1e-15
     /// True
     #[getter]
-    fn periods<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, pyo3::types::PyDict>> {
-        static PERIODS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
-        let class = PERIODS.import(py, "andoyer.mean", "Periods")?;
-        let periods = pyo3::types::PyDict::new(py);
-        let conventions = [
-            ("long-axis", self.0.long_axis_periods()),
-            ("short-axis", self.0.short_axis_periods()),
-            ("extremal-axis", self.0.extremal_axis_periods()),
-        ];
-        for (convention, pair) in conventions {
-            periods.set_item(convention, class.call1((pair.precession, pair.rotation))?)?;
-        }
-        Ok(periods)
+    fn periods<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        mean::periods(
+            py,
+            "Periods",
+            Convention::ALL.into_iter().map(|convention| {
+                let pair = self.0.periods_of(convention);
+                (convention, (pair.precession, pair.rotation))
+            }),
+        )
     }
 
     /// E/E0: the rotational energy divided by the energy of rotation about the axis of greatest inertia with the same angular momentum (theory §5).
@@ -363,14 +390,13 @@ impl Motion {
 
     #[staticmethod]
     fn _restored(py: Python<'_>, scene: PyRef<'_, Scene>) -> PyResult<Self> {
-        let (scene, tables, epoch) = (&scene.scene, &scene.tables, scene.calendar);
-        detached(py, error::propagation, || scene.solve_with(tables)).map(|motion| Self(motion, epoch))
+        scene.solved(py).map(|motion| Self(motion, scene.calendar))
     }
 }
 
 impl Motion {
     fn times<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Times<'py>> {
-        Times::new(value, self.1, self.0.scene().asked_orbit().is_some())
+        Times::new(value, self.1, self.0.plan().steps() > 0 || !self.0.scene().asked_disturbing().is_empty())
     }
 
     /// The options of an evaluation at these times.

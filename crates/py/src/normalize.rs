@@ -37,6 +37,9 @@ use crate::progress;
 ///     detuning, like d in ``(1 + d)*y^2/2``.
 /// degrees : dict of {str: int}, optional
 ///     The degree of each parameter in the ordering of the terms; by default 2 for a detuning and 0 for any other parameter.
+/// frequency : (str, str), optional
+///     A parameter w that all frequencies are proportional to, and a name s for 1/√w. The form is that of H/w in the variables q√w, p/√w, under the names of the old ones, with s
+///     in the place of w: K of H is w times it, and its time is wt.
 /// resonances : sequence of sequences of int, optional
 ///     Vectors k with k·ω = 0. Terms proportional to e^{i k·φ} are kept, for k and all integer combinations. Example: ``[(1, -1)]`` for equal frequencies.
 /// keep : {"hyperbolic"}, optional
@@ -66,6 +69,8 @@ use crate::progress;
 /// >>> pendulum = normalize("p**2/2 + q**2/2 - q**4/24 + q**6/720", 4, [("q", "p")])
 /// >>> pendulum.in_actions()
 /// {(1,): Fraction(1, 1), (2,): Fraction(-1, 16), (3,): Fraction(-1, 256)}
+/// >>> print(normalize("p^2/2 + w^2*q^2/2 + q^4/4", 2, [("q", "p")], parameters=["w"], frequency=("w", "s")))
+/// I_q + 3/8*I_q^2*s^6
 /// >>> henon_heiles = "(x^2 + X^2 + y^2 + Y^2)/2 + x^2*y - y^3/3"
 /// >>> normalize(henon_heiles, 2, [("x", "X"), ("y", "Y")], resonances=[(1, -1)]).in_real()[4, 0, 0, 0]
 /// Fraction(-5, 48)
@@ -73,7 +78,7 @@ use crate::progress;
 /// >>> saddle.frequencies
 /// (2j, Fraction(1, 1))
 #[pyfunction]
-#[pyo3(signature = (hamiltonian, order, variables, *, parameters=None, degrees=None, resonances=None, keep=None, smallest_divisor=1e-6, exact=None, progress=None))]
+#[pyo3(signature = (hamiltonian, order, variables, *, parameters=None, degrees=None, frequency=None, resonances=None, keep=None, smallest_divisor=1e-6, exact=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
 pub(crate) fn normalize(
     py: Python<'_>,
@@ -82,6 +87,7 @@ pub(crate) fn normalize(
     variables: &Bound<'_, PyAny>,
     parameters: Option<&Bound<'_, PyAny>>,
     degrees: Option<&Bound<'_, PyDict>>,
+    frequency: Option<(String, String)>,
     resonances: Option<&Bound<'_, PyAny>>,
     keep: Option<&str>,
     smallest_divisor: f64,
@@ -92,6 +98,12 @@ pub(crate) fn normalize(
     let symbols = symbols(py, hamiltonian, variables, parameters)?;
     let order = self::order("order", order, 0, <BigRational as RealField>::MAX_ORDER)?;
     let Expression { polynomial, float } = Expression::new("hamiltonian", hamiltonian, &space)?;
+    let (polynomial, space) = match frequency {
+        None => (polynomial, space),
+        Some((letter, root)) => {
+            space.scaled(&polynomial, &letter, &root).map_err(|problem| error::algebra_of("frequency", problem))?
+        }
+    };
     let vectors = resonances.map_or(Ok(Vec::new()), vectors)?;
     let resonances = Resonances::new(&vectors.iter().map(Vec::as_slice).collect::<Vec<_>>());
     let resonances =

@@ -5,12 +5,15 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
+use crate::samples::counted;
+
 type Array = Py<PyArrayDyn<f64>>;
 
-/// Derivatives of attitude and angular velocity at given times, from `Motion.partials`.
+/// Derivatives of attitude and angular velocity at given times, from `Motion.partials` and `Ensemble.partials`.
 ///
-/// The last axis has nine parameters: initial attitude (3), initial angular velocity (3), moments as given (3). The object owns its arrays. For a scalar time there is no axis
-/// of times and no `len`.
+/// The last axis has nine parameters: initial attitude (3), initial angular velocity (3), moments as given (3). The object owns its arrays. Those of an ensemble have a leading
+/// axis of members, and `len` is the number of members; `len` of a motion's partials is the number of times. For a scalar time there is no axis of times, and a motion's partials
+/// have no `len`.
 ///
 /// Examples
 /// --------
@@ -24,13 +27,13 @@ type Array = Py<PyArrayDyn<f64>>;
 ///        [0., 0., 1.]])
 #[pyclass(frozen, module = "andoyer")]
 pub(crate) struct Partials {
-    /// The times, float64, shape (n,).
+    /// The times, float64, shape (n,); of an ensemble whose members have their own times (m, n).
     #[pyo3(get)]
     times: Array,
-    /// Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9).
+    /// Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9) or (m, n, 3, 9).
     #[pyo3(get)]
     attitude: Array,
-    /// Derivatives of the angular velocity in body components, shape (n, 3, 9).
+    /// Derivatives of the angular velocity in body components, shape (n, 3, 9) or (m, n, 3, 9).
     #[pyo3(get)]
     angular_velocity: Array,
 }
@@ -44,16 +47,24 @@ impl Partials {
 #[pymethods]
 impl Partials {
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
-        match self.times.bind(py).shape() {
-            [n] => Ok(*n),
-            _ => Err(PyTypeError::new_err("partials at a scalar time have no len()")),
+        match self.attitude.bind(py).shape() {
+            [first, _, _, ..] => Ok(*first),
+            _ => Err(PyTypeError::new_err("partials of one motion at a scalar time have no len()")),
         }
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {
-        match self.times.bind(py).shape() {
-            [] => "<Partials at a scalar time>".to_owned(),
-            [n, ..] => format!("<Partials at {n} time{}>", if *n == 1 { "" } else { "s" }),
+        let (times, rows) = (self.times.bind(py).shape().to_vec(), self.attitude.bind(py).shape());
+        let at = match &times[..] {
+            [] => "a scalar time".to_owned(),
+            [n] => counted(*n, "time"),
+            [_, n, ..] => format!("{} each", counted(*n, "time")),
+        };
+        match rows {
+            [members, ..] if rows.len() > times.len() + 2 || times.len() > 1 => {
+                format!("<Partials of {} at {at}>", counted(*members, "member"))
+            }
+            _ => format!("<Partials at {at}>"),
         }
     }
 

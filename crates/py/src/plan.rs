@@ -27,16 +27,22 @@ impl Plan {
         self.0.mode().to_string()
     }
 
-    /// The method of evaluation: "series", or "closed" for theta functions and elementary formulas.
+    /// The method of evaluation: "series", "closed" for theta functions and elementary formulas, or "integrated".
     #[getter]
     fn method(&self) -> String {
         self.0.method().to_string()
     }
 
-    /// Order N of the series. It is 0 if no series is used, or if the harmonic oscillator alone meets the tolerance.
+    /// Order N of the series, or of the steps of an integration. It is 0 if there is no series, or if the harmonic oscillator alone meets the tolerance.
     #[getter]
     fn order(&self) -> usize {
         self.0.order()
+    }
+
+    /// Steps of the integration; 0 without one.
+    #[getter]
+    fn steps(&self) -> usize {
+        self.0.steps()
     }
 
     /// The highest multiple of the anomaly ℓ′ in the evaluation; 0 if the method has no harmonics.
@@ -93,7 +99,7 @@ impl Plan {
         self.0.first_neglected()
     }
 
-    /// The method of `Motion.partials`: "closed" (theory §12), "differences" of fourth order for a scene with an orbit, or None on the separatrix, where the derivatives do not exist.
+    /// The method of `Motion.partials`: "closed" (theory §12), "differences" of fourth order for a scene with an orbit and for an integrated motion, or None on the separatrix, where the derivatives do not exist.
     #[getter]
     fn partials(&self) -> Option<&'static str> {
         self.0.partials()

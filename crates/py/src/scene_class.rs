@@ -23,13 +23,15 @@ use crate::foreign::Calendar;
 ///     If True, the argument `attitude` is [w, x, y, z]. The property `attitude` is always [x, y, z, w].
 /// epoch : float or astropy.time.Time, optional
 ///     Time of the state. The two doubles of a Time are kept, in TDB. The times of the motion may then be Time objects, and numbers are seconds since J2000.
-/// orbit : Orbit, optional
-///     Relative orbit of the body whose gravity gradient acts (theory §9). By default there is no orbit, and the motion is free.
+/// orbit : Orbit or TabulatedOrbit, or a sequence of them, optional
+///     Relative orbits of the bodies whose gravity gradients act (theory §9). By default there is no orbit, and the motion is free.
 /// tolerance : float, optional
 ///     Requested attitude error over the span, in rad. A tolerance below about 1e-14 requests the best accuracy of double precision,
 ///     which `Plan.error_bound` states.
-/// method : {"auto", "series", "closed"}, optional
-///     Perturbation series or closed form. "auto" uses the closed form, or the series if an order is fixed.
+/// method : {"auto", "series", "closed", "integrated"}, optional
+///     Perturbation series, closed form (with an orbit the averaged theory about it), or numerical integration of the full equations over the span. "auto" uses the closed
+///     form, or the series if an order is fixed. With an orbit and a span it uses the integration where the theory does not hold, or where the theory misses the tolerance and the
+///     integration meets it, and for several orbits, a table or an orbit with secular rates. `Plan.skipped` states the reason.
 /// order : int, optional
 ///     Fixed order of the series and of the secular part (theory §7), 0 to 60. By default ``method="series"`` uses the order that the tolerance needs (theory §5).
 ///     A fixed order stays fixed, whatever the tolerance. If it is too low, `Plan.error_bound` exceeds the tolerance, and ``str(plan)``
@@ -37,7 +39,7 @@ use crate::foreign::Calendar;
 /// span : (float, float), optional
 ///     First and last time over which the tolerance is requested: two numbers, two Time objects, or two TimeDelta from the epoch. By default it is
 ///     1e9 rotations. A motion can be evaluated outside the span, up to
-///     1e15 rotations from the epoch; a later time is a `RepresentationError` of the motion.
+///     1e15 rotations from the epoch; a later time is a `RepresentationError` of the motion. An integrated motion needs a span and can be evaluated within the span and at the epoch only.
 /// averaging : {"auto", "orbit", "spin"}, optional
 ///     Averaging of a scene with an orbit: "orbit" averages over rotation and orbit and uses formulas alone; "spin" averages over the rotation alone;
 ///     "auto" uses "orbit" if it meets the tolerance.

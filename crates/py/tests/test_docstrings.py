@@ -6,9 +6,9 @@ import inspect
 import pytest
 
 import andoyer
-from andoyer import output
+from andoyer import fit, output
 
-NEEDS = {"output.write_ck": "spiceypy"}
+NEEDS = {"output.write_ck": "spiceypy"} | dict.fromkeys(("fit.attitudes", "fit.light_curve", "fit.Fit", "fit.Fit.ensemble"), "scipy")
 
 
 def documented():
@@ -18,6 +18,9 @@ def documented():
         yield name, value
         if inspect.isclass(value):
             yield from ((f"{name}.{member}", getattr(value, member)) for member in vars(value) if not member.startswith("_") and getattr(value, member) is not None)
+    for name in fit.__all__:
+        yield f"fit.{name}", getattr(fit, name)
+    yield from ((f"fit.Fit.{member}", value) for member, value in vars(fit.Fit).items() if not member.startswith("_") and callable(value))
     yield from ((f"output.{name}", getattr(output, name)) for name in output.__all__ if callable(getattr(output, name)) and name != "Progress")
 
 

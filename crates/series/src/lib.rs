@@ -1,13 +1,13 @@
 //! Exact polynomial algebra for perturbation theory, and the normal form of the free rigid body.
 //!
-//! The algebra: [`Polynomial`]s in up to eight variables over any [`Coefficient`], their Poisson bracket, the homological equation
-//! of a diagonal quadratic part and Deprit's triangle ([`lie`]), to any order. Any Hamiltonian about an
-//! equilibrium: [`normalize`] gives its [`BirkhoffNormalForm`], [`BirkhoffMap`] evaluates it. The rigid body: [`NormalForm`],
-//! exact and symbolic in the triaxiality β. [`NumericNormalForm`] is the same in floating point at a given β, for the propagation.
+//! The algebra: [`Polynomial`]s in up to eight variables over any [`Coefficient`], their Poisson bracket, the homological equation of a diagonal quadratic part
+//! and Deprit's triangle ([`lie`]), to any order. [`normalize`] computes the [`BirkhoffNormalForm`] of any Hamiltonian about an equilibrium, and
+//! [`BirkhoffMap`] evaluates it. [`NormalForm`] is the normal form of the free rigid body, exact and symbolic in the triaxiality β. [`NumericNormalForm`] is
+//! the same in floating point at a given β, for the propagation.
 //!
-//! Contract: what is exact stays exact; overflow of an exponent is an error; iteration, printing and summation follow the canonical
-//! order of the monomials, so that two runs give the same bits; no I/O, no global state, and every type is `Send + Sync`.
-//! Brackets follow {q; p} = 1. Theory: M. Lara, *Short-axis-mode rotation in complex variables* (2017), with its errata.
+//! Contract: exact input gives exact results. Overflow of an exponent is an error. Iteration, printing and summation follow the canonical order of the
+//! monomials, so two runs give the same bits. The crate does no I/O and has no global state, and every type is `Send + Sync`. Brackets follow {q; p} = 1.
+//! Theory: M. Lara, *Short-axis-mode rotation in complex variables* (2017), with its errata.
 //!
 #![doc = include_str!("../doc/formulas.html")]
 
@@ -52,14 +52,14 @@ pub mod lie {
 }
 
 pub mod print {
-    //! How forms are written: names of the variables, LaTeX, source code.
+    //! Output of normal forms: names of the variables, LaTeX, source code.
     pub use crate::display::Named;
     pub use crate::emit::{Language, MAX_CODE_ORDER};
     pub use crate::latex::Part;
 }
 
 pub mod progress {
-    //! Callbacks that watch a long computation and can end it.
+    //! Callbacks that watch a long computation and can stop it.
     pub use crate::triangle::{Progress, quiet};
 }
 

@@ -26,5 +26,8 @@ fn messages_give_the_argument_its_value_and_the_bound() {
     assert_eq!(message(separatrix_action(1.5).err()), Some("beta = 1.5 is outside [0, 1]".into()));
     assert_eq!(message(NormalForm::new(20_000).err()), Some("order 20000 exceeds the bound 16381".into()));
     let parsed = Polynomial::<f64>::parse("x +", &["x"]);
-    assert_eq!(message(parsed.err()), Some("at byte 3: the text ends where an operand or a bracket is due".into()));
+    assert_eq!(
+        message(parsed.err()),
+        Some("at byte 3: the text ends where an operand or a bracket is required".into())
+    );
 }

@@ -243,7 +243,7 @@ fn the_transformation_takes_the_hamiltonian_to_its_normal_form_and_back() -> Res
     let resonant = normal_form.in_actions().err().map(|error| error.to_string());
     assert_eq!(
         resonant.as_deref(),
-        Some("the normal form is no function of the actions alone: it contains u_x^2*U_x*u_y^3*c")
+        Some("the normal form is not a function of the actions alone: it contains u_x^2*U_x*u_y^3*c")
     );
     Ok(())
 }

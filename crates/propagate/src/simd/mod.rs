@@ -1,10 +1,11 @@
-//! Evaluation at several times at once with the best instruction set of the machine: lanes, instruction sets, sines and cosines, complex numbers and quaternions in lanes, phases and
-//! Kepler's equation in lanes, the table of a uniform grid, and the loop over times, which is generic over what it evaluates.
+//! Evaluation at several times at once with the best instruction set available. The folder has lanes, instruction sets, sines and cosines, complex numbers and
+//! quaternions in lanes, phases and Kepler's equation in lanes, the table of a uniform grid, and the loop over times for any type of motion.
 //!
 //! Imports errors and numerics.
 
 pub(crate) mod circles;
 pub(crate) mod complex_quaternion;
+pub(crate) mod double_double_lanes;
 pub(crate) mod grid;
 pub(crate) mod halt;
 pub(crate) mod instruction_set;

@@ -16,6 +16,9 @@ In every docstring "theory §n" is section n of docs/theory.md. docs/scene.md de
 (2, 4)
 """
 
+import importlib as _importlib
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
 from andoyer._core import (
     BirkhoffNormalForm,
     Body,
@@ -33,13 +36,14 @@ from andoyer._core import (
     RepresentationError,
     Samples,
     Scene,
+    TabulatedOrbit,
     TheoryError,
     ToleranceWarning,
     __version__,
     normalize,
     separatrix_action,
 )
-from andoyer.mean import Frequencies, Periods
+from andoyer.mean import Frequencies, Periods, PeriodsOfMembers
 
 # Old names of the errors, which the next release removes. Where an old class had errors of several new classes, its name now means the base class.
 AngularVelocityError = InputError
@@ -85,13 +89,23 @@ __all__ = [
     "Orbit",
     "Partials",
     "Periods",
+    "PeriodsOfMembers",
     "Plan",
     "RepresentationError",
     "Samples",
     "Scene",
+    "TabulatedOrbit",
     "TheoryError",
     "ToleranceWarning",
     "__version__",
     "normalize",
     "separatrix_action",
 ]
+
+if not _TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        """`andoyer.fit` and `andoyer.output` are imported when they are first used; type checkers want the import written."""
+        if name in ("fit", "output"):
+            return _importlib.import_module(f"andoyer.{name}")
+        raise AttributeError(f"module 'andoyer' has no attribute {name!r}")

@@ -10,7 +10,7 @@ from pandas import DataFrame  # type: ignore[import-untyped, import-not-found, u
 from scipy.spatial.transform import Rotation  # type: ignore[import-untyped, import-not-found, unused-ignore]
 from xarray import Dataset  # type: ignore[import-untyped, import-not-found, unused-ignore]
 
-from andoyer.mean import Frequencies, Periods
+from andoyer.mean import Frequencies, Periods, PeriodsOfMembers
 
 _Array: TypeAlias = NDArray[np.float64]
 _Gaussian: TypeAlias = tuple[Fraction, Fraction]
@@ -121,7 +121,24 @@ class Orbit:
         node: float = 0.0,
         argument_of_pericentre: float = 0.0,
         mass_fraction: float = 1.0,
+        node_rate: float = 0.0,
+        pericentre_rate: float = 0.0,
+        attraction: float | None = None,
     ) -> Orbit: ...
+    @staticmethod
+    def around_oblate(
+        gm: float,
+        semi_major_axis: float,
+        eccentricity: float,
+        inclination: float,
+        *,
+        j2: float,
+        radius: float,
+        node: float = 0.0,
+        argument_of_pericentre: float = 0.0,
+        time_of_pericentre: float = 0.0,
+    ) -> Orbit:
+        """The orbit of a satellite about an oblate primary, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3)."""
     @property
     def mean_motion(self) -> float:
         """Mean motion n, in rad per unit of time."""
@@ -143,11 +160,42 @@ class Orbit:
     @property
     def mass_fraction(self) -> float:
         """Disturbing mass divided by the sum of both masses."""
+    @property
+    def node_rate(self) -> float:
+        """Secular rate of the node, in rad per unit of time."""
+    @property
+    def pericentre_rate(self) -> float:
+        """Secular rate of the argument of the pericentre, in rad per unit of time."""
+    @property
+    def attraction(self) -> float:
+        """G × disturbing mass / a³, in 1/time²: by default mean_motion² × mass_fraction."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
     def __copy__(self) -> Orbit: ...
     def __deepcopy__(self, _memo: Any) -> Orbit: ...
+
+@final
+class TabulatedOrbit:
+    """A table of the position of a disturbing body relative to the rotating body. Only the integrated method uses it."""
+
+    def __new__(cls, times: ArrayLike | Any, positions: ArrayLike, gm: float) -> TabulatedOrbit: ...
+    @property
+    def times(self) -> _Array:
+        """The times, a read-only array of shape (n,)."""
+    @property
+    def positions(self) -> _Array:
+        """The positions, a read-only array of shape (n, 3)."""
+    @property
+    def gm(self) -> float:
+        """G × mass of the disturbing body."""
+    def position(self, time: float) -> _Array:
+        """The position at a time within the table: an array of shape (3,)."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __getnewargs__(self) -> tuple[Any, ...]: ...
+    def __copy__(self) -> TabulatedOrbit: ...
+    def __deepcopy__(self, _memo: Any) -> TabulatedOrbit: ...
 
 @final
 class Scene:
@@ -160,9 +208,9 @@ class Scene:
         angular_velocity: ArrayLike,
         *,
         epoch: float | Any = 0.0,
-        orbit: Orbit | None = None,
+        orbit: Orbit | TabulatedOrbit | Sequence[Orbit | TabulatedOrbit] | None = None,
         tolerance: float = 1e-12,
-        method: Literal["auto", "series", "closed"] = "auto",
+        method: Literal["auto", "series", "closed", "integrated"] = "auto",
         order: int | None = None,
         span: ArrayLike | None = None,
         averaging: Literal["auto", "orbit", "spin"] = "auto",
@@ -212,8 +260,8 @@ class Scene:
     def tolerance(self) -> float:
         """The requested attitude error, in rad."""
     @property
-    def method(self) -> Literal["auto", "series", "closed"]:
-        """The method: "auto", "series" or "closed"."""
+    def method(self) -> Literal["auto", "series", "closed", "integrated"]:
+        """The method: "auto", "series", "closed" or "integrated"."""
     @property
     def order(self) -> int | None:
         """The fixed order of the series, or None."""
@@ -221,8 +269,8 @@ class Scene:
     def span(self) -> tuple[float, float] | None:
         """The span, the times over which the tolerance is requested: (start, stop), or None."""
     @property
-    def orbit(self) -> Orbit | None:
-        """The orbit of the disturbing body, or None."""
+    def orbit(self) -> Orbit | TabulatedOrbit | tuple[Orbit | TabulatedOrbit, ...] | None:
+        """The orbit of the disturbing body, an `Orbit` or a `TabulatedOrbit`; of several a tuple of them; or None."""
     @property
     def averaging(self) -> Literal["auto", "orbit", "spin"]:
         """The averaging: "auto", "orbit" or "spin"."""
@@ -259,6 +307,10 @@ class Motion:
         """Evaluates attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. This method imports SciPy."""
     def partials(self, times: ArrayLike) -> Partials:
         """Evaluates the derivatives of attitude and angular velocity with respect to the initial state and the moments (theory §12)."""
+    def to_code(self, language: Literal["c", "rust", "python", "javascript"] = "c") -> str:
+        """A self-contained function `rotation(time)` that evaluates this motion, as the text of a file of source (theory §8)."""
+    def _code(self, language: Literal["c", "rust", "python", "javascript"]) -> tuple[str, float, float]:
+        """The same with the bounds of its differences that its head states: of the attitude [rad], of the angular velocity over its length."""
     @property
     def plan(self) -> Plan:
         """The plan: method, order, error bound and other facts about this motion."""
@@ -288,11 +340,14 @@ class Plan:
     def mode(self) -> Literal["short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis", "at-rest"]:
         """The kind of motion: "short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis" or "at-rest"."""
     @property
-    def method(self) -> Literal["series", "closed"]:
-        """The method of evaluation: "series", or "closed" for theta functions and elementary formulas."""
+    def method(self) -> Literal["series", "closed", "integrated"]:
+        """The method of evaluation: "series", "closed" for theta functions and elementary formulas, or "integrated"."""
     @property
     def order(self) -> int:
-        """Order N of the series. It is 0 if no series is used, or if the harmonic oscillator alone meets the tolerance."""
+        """Order N of the series, or of the steps of an integration. It is 0 if there is no series, or if the harmonic oscillator alone meets the tolerance."""
+    @property
+    def steps(self) -> int:
+        """Steps of the integration; 0 without one."""
     @property
     def harmonics(self) -> int:
         """The highest multiple of the anomaly ℓ′ in the evaluation; 0 if the method has no harmonics."""
@@ -322,7 +377,7 @@ class Plan:
         """The first neglected term of the gravity gradient, in rad: the second order in the torque, or a dropped short-period term; 0 without an orbit."""
     @property
     def partials(self) -> Literal["closed", "differences"] | None:
-        """The method of `Motion.partials`: "closed" (theory §12), "differences" of fourth order for a scene with an orbit, or None on the separatrix, where the derivatives do not exist."""
+        """The method of `Motion.partials`: "closed" (theory §12), "differences" of fourth order for a scene with an orbit and for an integrated motion, or None on the separatrix, where the derivatives do not exist."""
     @property
     def skipped(self) -> list[str]:
         """The steps that this scene did not need, with the reasons: a list of str."""
@@ -358,17 +413,17 @@ class Samples:
 
 @final
 class Partials:
-    """Derivatives of attitude and angular velocity at given times, from `Motion.partials`."""
+    """Derivatives of attitude and angular velocity at given times, from `Motion.partials` and `Ensemble.partials`."""
 
     @property
     def times(self) -> _Array:
-        """The times, float64, shape (n,)."""
+        """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n)."""
     @property
     def attitude(self) -> _Array:
-        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9)."""
+        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9) or (m, n, 3, 9)."""
     @property
     def angular_velocity(self) -> _Array:
-        """Derivatives of the angular velocity in body components, shape (n, 3, 9)."""
+        """Derivatives of the angular velocity in body components, shape (n, 3, 9) or (m, n, 3, 9)."""
     def __len__(self) -> int: ...
 
 @final
@@ -393,6 +448,20 @@ class Ensemble:
         """Evaluates attitudes and angular velocities of all members in one pass."""
     def attitude(self, times: ArrayLike, out: _Array | None = None, *, scalar_first: bool = False) -> _Array:
         """Evaluates attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones."""
+    def angular_momentum(self, times: ArrayLike) -> _Array:
+        """Evaluates the angular momenta of all members in inertial components, in the unit of moment × rate. They are constant unless a member has an orbit."""
+    def andoyer(self, times: ArrayLike) -> _Array:
+        """Evaluates the Andoyer variables (λ, μ, ν, Λ, M, N) of all members, as defined in `Motion.andoyer` (theory §1)."""
+    def rotation(self, times: ArrayLike) -> Rotation:
+        """Evaluates attitudes of all members as a `scipy.spatial.transform.Rotation`, body to inertial. This method imports SciPy."""
+    def partials(self, times: ArrayLike) -> Partials:
+        """Evaluates the derivatives of attitude and angular velocity of all members, as defined in `Motion.partials` (theory §12)."""
+    @property
+    def periods(self) -> dict[Literal["long-axis", "short-axis", "extremal-axis"], PeriodsOfMembers]:
+        """Mean periods (P_φ, P_ψ) of all members in three conventions, as defined in `Motion.periods`."""
+    @property
+    def energy_ratio(self) -> _Array:
+        """E/E0 of all members, shape (m,): the rotational energy divided by the energy of rotation about the axis of greatest inertia with the same angular momentum (theory §5)."""
     @property
     def plans(self) -> list[Any]:
         """The plan of every member: a list of `Plan`. With ``errors="nan"`` the plan of an invalid member is None."""
@@ -576,6 +645,7 @@ def normalize(
     *,
     parameters: Sequence[Any] | None = None,
     degrees: dict[str, int] | None = None,
+    frequency: tuple[str, str] | None = None,
     resonances: Sequence[Sequence[int]] | None = None,
     keep: Literal["hyperbolic"] | None = None,
     smallest_divisor: float = 1e-6,

@@ -2,6 +2,9 @@
 
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 
 class Frequencies(NamedTuple):
     """Mean frequencies of a motion, in rad per unit of time; 0 if the frequency does not exist (theory §7)."""
@@ -20,4 +23,14 @@ class Periods(NamedTuple):
     """P_φ, of the precession of the axis about the angular momentum."""
 
     rotation: float
+    """P_ψ, of the rotation or oscillation about the axis."""
+
+
+class PeriodsOfMembers(NamedTuple):
+    """Mean periods of the members of an ensemble, arrays of shape (m,), in units of time; infinite where there is none."""
+
+    precession: NDArray[np.float64]
+    """P_φ, of the precession of the axis about the angular momentum."""
+
+    rotation: NDArray[np.float64]
     """P_ψ, of the rotation or oscillation about the axis."""

@@ -1,66 +1,24 @@
-//! Many bodies at a few epochs each: solved and evaluated member by member, in memory proportional to the result.
-//!
-//! A member's motion lives while its rows are written; nothing of it is kept. Each member is computed by one thread alone, so that the bits
-//! do not depend on how many threads there are. A member costs its set-up, 4 to 6 µs, some 200 µs under the gravity gradient of an orbit, and its epochs.
-//! Every bad member is found before any is computed, and the error names the first with its index.
+//! The members of an ensemble: what the user states of them, the check of it, and the motion of one.
 
-use std::fmt;
-use std::str::FromStr;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::error::Error;
 use crate::input::body::Body;
 use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
 use crate::input::state::State;
-use crate::motion::batch::Batch;
-use crate::motion::plan::Plan;
 use crate::motion::solved::{Motion, length};
-pub use crate::outcome::Outcome;
 use crate::simd::halt::GOING;
+
+use super::on_error::OnError;
+use super::pool::{MAX_THREADS, Pool};
 
 /// Members that a thread takes at least: 64 of them are some 300 µs.
 const BLOCK: usize = 64;
 /// The same under a gravity gradient, at 200 µs each.
 const DISTURBED_BLOCK: usize = 2;
-
-/// The largest number of threads that can be asked for.
-pub const MAX_THREADS: usize = 1024;
-
-/// What becomes of a member that is no body or no state, or has no motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum OnError {
-    /// The first one is the error of all.
-    #[default]
-    Raise,
-    /// Its rows are NaN, and the outcome has its error.
-    Nan,
-}
-
-impl FromStr for OnError {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self, Error> {
-        match text {
-            "raise" => Ok(Self::Raise),
-            "nan" => Ok(Self::Nan),
-            _ => Err(Error::OnError { value: text.to_owned() }),
-        }
-    }
-}
-
-impl fmt::Display for OnError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Raise => "raise",
-            Self::Nan => "nan",
-        })
-    }
-}
 
 /// Bodies with their states, at one epoch or each at its own.
 ///
@@ -375,48 +333,11 @@ impl Ensemble {
             return Err(Error::Index { index, members: self.len() });
         }
         let motion = self.scene(index).and_then(|scene| scene.solve());
-        motion.map_err(|problem| in_member(index, problem))
-    }
-
-    /// How its members are evaluated.
-    pub fn run(&self) -> Run<'_> {
-        Run { ensemble: self, since_epoch: false, stop: &GOING }
-    }
-
-    /// The plan of every member.
-    ///
-    /// # Errors
-    /// - As [`Ensemble::motion`], of the first that has one.
-    pub fn plans(&self) -> Result<Vec<Plan>, Error> {
-        self.run().plans()?.into_iter().collect()
-    }
-
-    /// Attitudes [x, y, z, w] of all members, the times of a member next to each other.
-    ///
-    /// `times` is one list for all, or the lists of all members one after the other.
-    ///
-    /// # Errors
-    /// - [`Error::Length`] where neither fits `out`.
-    /// - [`Error::Member`] with what [`Scene::solve`] or [`Motion::at`] says of it, unless such members are to be NaN.
-    pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<Outcome, Error> {
-        self.run().attitudes_into(times, out)
-    }
-
-    /// Attitudes and angular velocities, ordered as by [`Ensemble::attitudes_into`].
-    ///
-    /// # Errors
-    /// As [`Ensemble::attitudes_into`].
-    pub fn samples_into(
-        &self,
-        times: &[f64],
-        attitudes: &mut [[f64; 4]],
-        rates: &mut [[f64; 3]],
-    ) -> Result<Outcome, Error> {
-        self.run().samples_into(times, attitudes, rates)
+        motion.map_err(|problem| Error::of_member(index, problem))
     }
 
     /// The number of times of a member, if that many rows belong to `times`.
-    fn times_of_each(&self, argument: &'static str, times: &[f64], rows: usize) -> Result<usize, Error> {
+    pub(super) fn times_of_each(&self, argument: &'static str, times: &[f64], rows: usize) -> Result<usize, Error> {
         if rows == times.len() * self.len() {
             return Ok(times.len());
         }
@@ -429,154 +350,13 @@ impl Ensemble {
         Ok(each)
     }
 
-    /// Members that a thread takes at least.
-    fn block(&self) -> usize {
-        if self.orbits.is_empty() { BLOCK } else { DISTURBED_BLOCK }
-    }
-
-    fn pool(&self) -> Result<Pool, Error> {
+    pub(super) fn pool(&self) -> Result<Pool, Error> {
         self.validate_threads()?;
-        match self.threads {
-            None => Ok(Pool::Global),
-            Some(threads) => {
-                let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-                pool.map(Pool::Own).map_err(|problem| Error::Threads { value: threads, problem: problem.to_string() })
-            }
-        }
-    }
-}
-
-/// How the members of an ensemble are evaluated.
-#[derive(Clone, Copy, Debug)]
-pub struct Run<'a> {
-    ensemble: &'a Ensemble,
-    since_epoch: bool,
-    stop: &'a AtomicBool,
-}
-
-impl<'a> Run<'a> {
-    /// Times are counted from the epoch of each member, as by [`crate::batch::Batch::since_epoch`].
-    #[must_use]
-    pub fn since_epoch(self) -> Self {
-        Self { since_epoch: true, ..self }
+        Pool::new(self.threads)
     }
 
-    /// Ends early, with [`Error::Stopped`], once another thread has set this flag: after the members that are being solved.
-    #[must_use]
-    pub fn until(self, stop: &'a AtomicBool) -> Self {
-        Self { stop, ..self }
-    }
-
-    /// The plan of every member, or why it has none.
-    ///
-    /// # Errors
-    /// - [`Error::Threads`] for threads that the system does not give.
-    /// - [`Error::Stopped`] where the flag is set.
-    pub fn plans(&self) -> Result<Vec<Result<Plan, Error>>, Error> {
-        let Self { ensemble, .. } = *self;
-        let plan = |index: usize| {
-            self.going()?;
-            ensemble.motion(index).map(|motion| motion.plan().clone())
-        };
-        let members = || (0..ensemble.len()).into_par_iter().with_min_len(ensemble.block()).map(plan).collect();
-        let plans = ensemble.pool()?.install(members);
-        self.going().map(|()| plans)
-    }
-
-    /// As [`Ensemble::attitudes_into`].
-    ///
-    /// # Errors
-    /// As [`Ensemble::attitudes_into`]; [`Error::Stopped`] where the flag is set.
-    pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<Outcome, Error> {
-        let each = self.ensemble.times_of_each("out", times, out.len())?;
-        let evaluate = |motion: &Motion, index: usize, rows: &mut &mut [[f64; 4]]| {
-            self.batch(motion).attitudes_into(of_member(times, index, each), rows)
-        };
-        self.each_member(out.par_chunks_mut(each.max(1)), evaluate, |rows| rows.fill([f64::NAN; 4]))
-    }
-
-    /// As [`Ensemble::samples_into`].
-    ///
-    /// # Errors
-    /// As [`Ensemble::attitudes_into`]; [`Error::Stopped`] where the flag is set.
-    pub fn samples_into(
-        &self,
-        times: &[f64],
-        attitudes: &mut [[f64; 4]],
-        rates: &mut [[f64; 3]],
-    ) -> Result<Outcome, Error> {
-        length("rates", rates.len(), attitudes.len())?;
-        let each = self.ensemble.times_of_each("attitudes", times, attitudes.len())?;
-        let rows = attitudes.par_chunks_mut(each.max(1)).zip(rates.par_chunks_mut(each.max(1)));
-        let evaluate = |motion: &Motion, index: usize, rows: &mut (&mut [[f64; 4]], &mut [[f64; 3]])| {
-            self.batch(motion).samples_into(of_member(times, index, each), rows.0, rows.1)
-        };
-        self.each_member(rows, evaluate, |rows| {
-            rows.0.fill([f64::NAN; 4]);
-            rows.1.fill([f64::NAN; 3]);
-        })
-    }
-
-    fn batch(&self, motion: &'a Motion) -> Batch<'a> {
-        let batch = motion.batch().until(self.stop);
-        if self.since_epoch { batch.since_epoch() } else { batch }
-    }
-
-    fn going(&self) -> Result<(), Error> {
-        if self.stop.load(Ordering::Relaxed) { Err(Error::Stopped) } else { Ok(()) }
-    }
-
-    /// Of several members that cannot be evaluated the first is told, whatever the threads were; or all of them are `blank`.
-    fn each_member<Rows: Send>(
-        &self,
-        rows: impl IndexedParallelIterator<Item = Rows>,
-        evaluate: impl Fn(&Motion, usize, &mut Rows) -> Result<(), Error> + Sync,
-        blank: impl Fn(&mut Rows) + Sync,
-    ) -> Result<Outcome, Error> {
-        let Self { ensemble, .. } = *self;
-        let one = |index: usize, rows: &mut Rows| {
-            self.going()?;
-            let motion = ensemble.motion(index)?;
-            evaluate(&motion, index, rows).map_err(|problem| in_member(index, problem))?;
-            Ok(motion.plan().clone())
-        };
-        let told = |outcome: Outcome, (index, mut rows): (usize, Rows)| match one(index, &mut rows) {
-            Ok(plan) => outcome.solved(index, &plan),
-            Err(error) => {
-                blank(&mut rows);
-                outcome.refused(index, error)
-            }
-        };
-        let members = rows.enumerate().with_min_len(ensemble.block());
-        let outcome =
-            ensemble.pool()?.install(|| members.fold(Outcome::default, told).reduce(Outcome::default, Outcome::and));
-        self.going()?;
-        match ensemble.on_error {
-            OnError::Nan => Ok(outcome),
-            OnError::Raise => outcome.or_first_error(),
-        }
-    }
-}
-
-fn in_member(index: usize, problem: Error) -> Error {
-    Error::Member { index, others: 0, problem: Box::new(problem) }
-}
-
-fn of_member(times: &[f64], index: usize, each: usize) -> &[f64] {
-    if times.len() == each { times } else { &times[index * each..(index + 1) * each] }
-}
-
-/// Threads to work on.
-enum Pool {
-    Global,
-    Own(ThreadPool),
-}
-
-impl Pool {
-    fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        match self {
-            Pool::Global => work(),
-            Pool::Own(pool) => pool.install(work),
-        }
+    /// Members that a thread takes at least.
+    pub(super) fn block(&self) -> usize {
+        if self.orbits.is_empty() { BLOCK } else { DISTURBED_BLOCK }
     }
 }

@@ -1,0 +1,268 @@
+//! Evaluation of the members of an ensemble, each by one thread.
+//!
+//! A member's motion lives while its rows are written; nothing of it is kept.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
+use crate::error::Error;
+use crate::input::options::Convention;
+use crate::motion::batch::Batch;
+use crate::motion::plan::Plan;
+use crate::motion::solved::{Motion, Periods, length};
+use crate::outcome::Outcome;
+use crate::partials::{Derivatives, PARAMETERS};
+use crate::simd::halt::GOING;
+
+use super::members::Ensemble;
+use super::on_error::OnError;
+
+impl Ensemble {
+    /// How its members are evaluated.
+    pub fn run(&self) -> Run<'_> {
+        Run { ensemble: self, since_epoch: false, stop: &GOING }
+    }
+
+    /// The plan of every member.
+    ///
+    /// # Errors
+    /// - As [`Ensemble::motion`], of the first that has one.
+    pub fn plans(&self) -> Result<Vec<Plan>, Error> {
+        self.run().plans()?.into_iter().collect()
+    }
+
+    /// Attitudes [x, y, z, w] of all members, the times of a member next to each other.
+    ///
+    /// `times` is one list for all, or the lists of all members one after the other.
+    ///
+    /// # Errors
+    /// - [`Error::Length`] where neither fits `out`.
+    /// - [`Error::Member`] with what [`crate::Scene::solve`] or [`Motion::at`] says of it, unless such members are to be NaN.
+    pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<Outcome, Error> {
+        self.run().attitudes_into(times, out)
+    }
+
+    /// Attitudes and angular velocities, ordered as by [`Ensemble::attitudes_into`].
+    ///
+    /// # Errors
+    /// As [`Ensemble::attitudes_into`].
+    pub fn samples_into(
+        &self,
+        times: &[f64],
+        attitudes: &mut [[f64; 4]],
+        rates: &mut [[f64; 3]],
+    ) -> Result<Outcome, Error> {
+        self.run().samples_into(times, attitudes, rates)
+    }
+}
+
+/// How the members of an ensemble are evaluated.
+#[derive(Clone, Copy, Debug)]
+pub struct Run<'a> {
+    ensemble: &'a Ensemble,
+    since_epoch: bool,
+    stop: &'a AtomicBool,
+}
+
+impl<'a> Run<'a> {
+    /// Times are counted from the epoch of each member, as by [`crate::Batch::since_epoch`].
+    #[must_use]
+    pub fn since_epoch(self) -> Self {
+        Self { since_epoch: true, ..self }
+    }
+
+    /// Ends early, with [`Error::Stopped`], once another thread has set this flag: after the members that are being solved.
+    #[must_use]
+    pub fn until(self, stop: &'a AtomicBool) -> Self {
+        Self { stop, ..self }
+    }
+
+    /// The plan of every member, or why it has none.
+    ///
+    /// # Errors
+    /// - [`Error::Threads`] for threads that the system does not give.
+    /// - [`Error::Stopped`] where the flag is set.
+    pub fn plans(&self) -> Result<Vec<Result<Plan, Error>>, Error> {
+        let Self { ensemble, .. } = *self;
+        let plan = |index: usize| {
+            self.going()?;
+            ensemble.motion(index).map(|motion| motion.plan().clone())
+        };
+        let members = || (0..ensemble.len()).into_par_iter().with_min_len(ensemble.block()).map(plan).collect();
+        let plans = ensemble.pool()?.install(members);
+        self.going().map(|()| plans)
+    }
+
+    /// As [`Ensemble::attitudes_into`].
+    ///
+    /// # Errors
+    /// As [`Ensemble::attitudes_into`]; [`Error::Stopped`] where the flag is set.
+    pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<Outcome, Error> {
+        self.rows_into(times, out, |batch, times, rows| batch.attitudes_into(times, rows))
+    }
+
+    /// Angular momenta in inertial components, ordered as by [`Ensemble::attitudes_into`].
+    ///
+    /// # Errors
+    /// As [`Run::attitudes_into`].
+    pub fn angular_momenta_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<Outcome, Error> {
+        self.rows_into(times, out, |batch, times, rows| batch.angular_momenta_into(times, rows))
+    }
+
+    /// Andoyer variables [λ, μ, ν, Λ, M, N] as of [`Motion::andoyer_into`], ordered as by [`Ensemble::attitudes_into`].
+    ///
+    /// # Errors
+    /// As [`Run::attitudes_into`].
+    pub fn andoyer_into(&self, times: &[f64], out: &mut [[f64; 6]]) -> Result<Outcome, Error> {
+        self.rows_into(times, out, |batch, times, rows| batch.andoyer_into(times, rows))
+    }
+
+    /// N numbers for each time of each member.
+    fn rows_into<const N: usize>(
+        &self,
+        times: &[f64],
+        out: &mut [[f64; N]],
+        evaluate: impl Fn(&Batch<'_>, &[f64], &mut [[f64; N]]) -> Result<(), Error> + Sync,
+    ) -> Result<Outcome, Error> {
+        let each = self.ensemble.times_of_each("out", times, out.len())?;
+        let evaluate = |motion: &Motion, index: usize, rows: &mut &mut [[f64; N]]| {
+            evaluate(&self.batch(motion), of_member(times, index, each), rows)
+        };
+        self.each_member(out.par_chunks_mut(each.max(1)), evaluate, |rows| rows.fill([f64::NAN; N]))
+    }
+
+    /// As [`Ensemble::samples_into`].
+    ///
+    /// # Errors
+    /// As [`Ensemble::attitudes_into`]; [`Error::Stopped`] where the flag is set.
+    pub fn samples_into(
+        &self,
+        times: &[f64],
+        attitudes: &mut [[f64; 4]],
+        rates: &mut [[f64; 3]],
+    ) -> Result<Outcome, Error> {
+        length("rates", rates.len(), attitudes.len())?;
+        let each = self.ensemble.times_of_each("attitudes", times, attitudes.len())?;
+        let rows = attitudes.par_chunks_mut(each.max(1)).zip(rates.par_chunks_mut(each.max(1)));
+        let evaluate = |motion: &Motion, index: usize, rows: &mut (&mut [[f64; 4]], &mut [[f64; 3]])| {
+            self.batch(motion).samples_into(of_member(times, index, each), rows.0, rows.1)
+        };
+        self.each_member(rows, evaluate, |rows| {
+            rows.0.fill([f64::NAN; 4]);
+            rows.1.fill([f64::NAN; 3]);
+        })
+    }
+
+    /// Derivatives of attitudes and angular velocities as of [`Motion::partials_into`], ordered as by [`Ensemble::attitudes_into`].
+    ///
+    /// ```
+    /// use andoyer_propagate::Ensemble;
+    /// use andoyer_propagate::partials::PARAMETERS;
+    /// let rates = vec![[0.0, 0.0, 2.0], [0.0, 0.0, 3.0]];
+    /// let ensemble = Ensemble::new(vec![[1.0, 1.5, 2.0]; 2], vec![[0.0, 0.0, 0.0, 1.0]; 2], rates)?;
+    /// let (mut attitudes, mut rates) = ([[[0.0; PARAMETERS]; 3]; 2], [[[0.0; PARAMETERS]; 3]; 2]);
+    /// ensemble.run().partials_into(&[10.0], &mut attitudes, &mut rates)?;
+    /// // Rotation about axis 3: the angle grows by the time for each unit of its rate.
+    /// assert!((attitudes[1][2][5] - 10.0).abs() < 1e-14);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Run::attitudes_into`]; [`Error::SeparatrixPartials`] of a member on the separatrix.
+    pub fn partials_into(
+        &self,
+        times: &[f64],
+        attitudes: &mut [Derivatives],
+        rates: &mut [Derivatives],
+    ) -> Result<Outcome, Error> {
+        length("rates", rates.len(), attitudes.len())?;
+        let each = self.ensemble.times_of_each("attitudes", times, attitudes.len())?;
+        let rows = attitudes.par_chunks_mut(each.max(1)).zip(rates.par_chunks_mut(each.max(1)));
+        let evaluate = |motion: &Motion, index: usize, rows: &mut (&mut [Derivatives], &mut [Derivatives])| {
+            self.batch(motion).partials_into(of_member(times, index, each), rows.0, rows.1)
+        };
+        let blank = [[f64::NAN; PARAMETERS]; 3];
+        self.each_member(rows, evaluate, |rows| {
+            rows.0.fill(blank);
+            rows.1.fill(blank);
+        })
+    }
+
+    /// Mean periods of each member, in the conventions of [`Convention::ALL`].
+    ///
+    /// # Errors
+    /// - [`Error::Length`] for an `out` shorter or longer than the members.
+    /// - Else as [`Run::attitudes_into`].
+    pub fn periods_into(&self, out: &mut [[Periods; 3]]) -> Result<Outcome, Error> {
+        let none = Periods { precession: f64::NAN, rotation: f64::NAN };
+        self.values_into(out, [none; 3], |motion| Convention::ALL.map(|convention| motion.periods_of(convention)))
+    }
+
+    /// E/E0 of each member, as [`Motion::energy_ratio`].
+    ///
+    /// # Errors
+    /// As [`Run::periods_into`].
+    pub fn energy_ratios_into(&self, out: &mut [f64]) -> Result<Outcome, Error> {
+        self.values_into(out, f64::NAN, Motion::energy_ratio)
+    }
+
+    /// One value for each member, or `none` for one that has no motion.
+    fn values_into<T: Copy + Send + Sync>(
+        &self,
+        out: &mut [T],
+        none: T,
+        value: impl Fn(&Motion) -> T + Sync,
+    ) -> Result<Outcome, Error> {
+        length("out", out.len(), self.ensemble.len())?;
+        let evaluate = |motion: &Motion, _: usize, slot: &mut &mut T| {
+            **slot = value(motion);
+            Ok(())
+        };
+        self.each_member(out.par_iter_mut(), evaluate, |slot| **slot = none)
+    }
+
+    fn batch(&self, motion: &'a Motion) -> Batch<'a> {
+        let batch = motion.batch().until(self.stop);
+        if self.since_epoch { batch.since_epoch() } else { batch }
+    }
+
+    fn going(&self) -> Result<(), Error> {
+        if self.stop.load(Ordering::Relaxed) { Err(Error::Stopped) } else { Ok(()) }
+    }
+
+    /// Of several members that cannot be evaluated the first is told, whatever the threads were; or all of them are `blank`.
+    fn each_member<Rows: Send>(
+        &self,
+        rows: impl IndexedParallelIterator<Item = Rows>,
+        evaluate: impl Fn(&Motion, usize, &mut Rows) -> Result<(), Error> + Sync,
+        blank: impl Fn(&mut Rows) + Sync,
+    ) -> Result<Outcome, Error> {
+        let Self { ensemble, .. } = *self;
+        let one = |index: usize, rows: &mut Rows| {
+            self.going()?;
+            let motion = ensemble.motion(index)?;
+            evaluate(&motion, index, rows).map_err(|problem| Error::of_member(index, problem))?;
+            Ok(motion.plan().clone())
+        };
+        let told = |outcome: Outcome, (index, mut rows): (usize, Rows)| match one(index, &mut rows) {
+            Ok(plan) => outcome.solved(index, &plan),
+            Err(error) => {
+                blank(&mut rows);
+                outcome.refused(index, error)
+            }
+        };
+        let members = rows.enumerate().with_min_len(ensemble.block());
+        let outcome =
+            ensemble.pool()?.install(|| members.fold(Outcome::default, told).reduce(Outcome::default, Outcome::and));
+        self.going()?;
+        match ensemble.asked_on_error() {
+            OnError::Nan => Ok(outcome),
+            OnError::Raise => outcome.or_first_error(),
+        }
+    }
+}
+
+fn of_member(times: &[f64], index: usize, each: usize) -> &[f64] {
+    if times.len() == each { times } else { &times[index * each..(index + 1) * each] }
+}

@@ -1,0 +1,170 @@
+"""`attitudes`: a state from measured attitudes."""
+
+from collections.abc import Iterable
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from andoyer._core import InputError, Motion, Scene
+from andoyer._extra import extra
+from andoyer._quaternions import Array, conjugate, product
+from andoyer.fit._given import enough, freed, quaternions, whitening
+from andoyer.fit._result import Fit, judged
+from andoyer.fit._rotations import inverse_left_jacobian, logarithm
+from andoyer.fit._steps import Steps
+
+Places: TypeAlias = NDArray[np.intp]
+
+KNOWN = ("attitude", "angular_velocity", "moments")
+LEANING = 0.5
+"""Standard deviation of a step, relative or in rad, that is taken for granted while only a part of the data is fitted."""
+
+
+def attitudes(
+    scene: Scene,
+    times: Any,
+    attitudes: Any,
+    *,
+    sigma: ArrayLike,
+    free: str | Iterable[str] = KNOWN,
+) -> Fit:
+    """Fits the state of a body, and its moments, to measured attitudes.
+
+    Minimizes the sum of squares of the rotation vectors from model to measured attitude, about body axes, over their standard deviations, by `scipy.optimize.least_squares` with
+    the derivatives of `Motion.partials` (theory §12; under an orbit by differences). Attitudes fix the moments only up to a factor: of the moments that fit, those with the product of the
+    given ones are taken. Times may be in any order. Needs SciPy: the extra ``andoyer[fit]``.
+
+    Parameters
+    ----------
+    scene : Scene
+        Where the search begins: a state not more than about a third of a turn from the measured attitudes, and the options that the fitted scene keeps.
+    times : array_like, shape (n,)
+        As of `Motion.attitude`.
+    attitudes : array_like, shape (n, 4), or scipy.spatial.transform.Rotation
+        Measured unit quaternions [x, y, z, w], body to inertial.
+    sigma : float or array_like, shape (n,) or (n, 3, 3)
+        Standard deviation about each body axis [rad], or covariances of the error as a rotation vector about body axes [rad²].
+    free : iterable of {"attitude", "angular_velocity", "moments"}, optional
+        What is fitted; the rest is as in `scene`.
+
+    Returns
+    -------
+    Fit
+
+    Raises
+    ------
+    InputError
+        Fewer data than parameters, such as two attitudes for the nine; quaternions of norm 0.9 or shape (n, 3); a `sigma` of 0; ``free="inertia"``; a time that is not finite.
+    TheoryError
+        A motion on the separatrix, where no derivatives exist.
+
+    Examples
+    --------
+    The rate about the axis of greatest inertia, from a guess that is 1 % off:
+
+    >>> import numpy as np
+    >>> from andoyer import Body, Scene, fit
+    >>> body, times = Body([1, 1.5, 2]), np.linspace(0, 50, 100)
+    >>> measured = Scene(body, [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve().attitude(times)
+    >>> guess = Scene(body, [0, 0, 0, 1], [0.1, 0.2, 1.01])
+    >>> found = fit.attitudes(guess, times, measured, sigma=0.01, free=["attitude", "angular_velocity"])
+    >>> found.scene.angular_velocity.round(9)
+    array([0.1, 0.2, 1. ])
+    """
+    optimize = extra("scipy.optimize", "andoyer.fit")
+    names = freed(free, KNOWN)
+    problem = _Problem(scene, times, attitudes, sigma, names)
+    first = np.zeros(problem.basis.shape[1])
+    problem.motion(first).attitude(times)  # what is wrong with the scene or the times is told here
+    for window in problem.windows():
+        first = optimize.least_squares(problem.leaning, first, problem.leaning_jacobian, args=(window,), method="trf", ftol=1e-3).x
+    solution = optimize.least_squares(problem.whitened, first, problem.jacobian, method="trf", xtol=1e-12, ftol=1e-12, gtol=1e-15)
+    return problem.result(solution.x)
+
+
+class _Problem:
+    """Residuals and their derivatives, by reduced steps: without the common factor of the moments, which attitudes never determine."""
+
+    def __init__(self, scene: Scene, times: Any, measured: Any, sigma: ArrayLike, names: tuple[str, ...]) -> None:
+        count = np.size(times) if np.ndim(times) else 1
+        self.times = times
+        self.measured = quaternions("attitudes", measured, count)
+        self.whiten = whitening(sigma, count)
+        self.elapsed = elapsed(scene, times)
+        self.steps = Steps(scene, names, pace=1 / max(self.elapsed.max(initial=0.0), np.finfo(float).tiny))
+        self.basis = _without_factor(self.steps.labels)
+        enough(3 * count, self.basis.shape[1], "attitudes", "more attitudes")
+
+    def windows(self) -> list[Places]:
+        """The data next to the epoch, twice as many each time, and not all of them: what a poor state still predicts comes first."""
+        nearest = np.argsort(self.elapsed, kind="stable")
+        sizes = [len(nearest) >> halvings for halvings in range(1, len(nearest).bit_length())]
+        return [nearest[:size] for size in reversed(sizes) if 3 * size >= self.basis.shape[1]]
+
+    def leaning(self, reduced: Array, window: Places) -> Array:
+        """Residuals of some data, and how far the step leads: what they do not determine stays near the first state."""
+        return np.append(self.whitened(reduced).reshape(-1, 3)[window].ravel(), reduced / LEANING)
+
+    def leaning_jacobian(self, reduced: Array, window: Places) -> Array:
+        jacobian = self.jacobian(reduced)
+        of_window = jacobian.reshape(-1, 3, len(reduced))[window].reshape(-1, len(reduced))
+        return np.concatenate([of_window, np.eye(len(reduced)) / LEANING])
+
+    def motion(self, reduced: Array) -> Motion:
+        return self.steps.scene(self.basis @ reduced).solve()
+
+    def residuals(self, motion: Motion) -> Array:
+        return logarithm(product(conjugate(motion.attitude(self.times)), self.measured))
+
+    def whitened(self, reduced: Array) -> Array:
+        try:
+            residuals = self.residuals(self.motion(reduced))
+        except InputError:  # moments of no body: the step is too long
+            return np.full(3 * len(self.measured), np.inf)
+        whitened: Array = np.einsum("nij,nj->ni", self.whiten, residuals).ravel()
+        return whitened
+
+    def full_jacobian(self, step: Array) -> Array:
+        scene = self.steps.scene(step)
+        motion = scene.solve()
+        columns = self.steps.columns(motion.partials(self.times).attitude, step, scene.body)
+        whiten = -self.whiten @ inverse_left_jacobian(self.residuals(motion))
+        jacobian: Array = (whiten @ columns).reshape(-1, len(step))
+        return jacobian
+
+    def jacobian(self, reduced: Array) -> Array:
+        return self.full_jacobian(self.basis @ reduced) @ self.basis
+
+    def result(self, reduced: Array) -> Fit:
+        # Derivatives at the solution are taken from there, with a step of 0.
+        scene = self.steps.scene(self.basis @ reduced)
+        self.steps = Steps(scene, self.steps.free, pace=self.steps.pace)
+        step = np.zeros(len(self.basis))
+        covariance, lost, message = judged(self.steps, step, self.full_jacobian(step))
+        chi_square = float(np.sum(self.whitened(np.zeros_like(reduced)) ** 2))
+        degrees = 3 * len(self.measured) - (len(step) - len(lost))
+        residuals = self.residuals(scene.solve())
+        return Fit(scene, self.steps.labels, covariance, lost, residuals, chi_square, degrees, message, self.times)
+
+
+def elapsed(scene: Scene, times: Any) -> Array:
+    """Times from the epoch, without their signs: in units of time, or in days for calendar times, shape (n,)."""
+    since = np.atleast_1d(times) - _epoch(scene)
+    return np.abs(np.asarray(getattr(since, "jd", since), dtype=np.float64))
+
+
+def _epoch(scene: Scene) -> Any:
+    _, options = scene.__getnewargs_ex__()
+    return options.get("epoch", 0.0)
+
+
+def _without_factor(labels: tuple[str, ...]) -> Array:
+    """A basis of the steps that keep the product of the moments."""
+    if "I1" not in labels:
+        return np.eye(len(labels))
+    state = len(labels) - 3
+    basis = np.zeros((len(labels), state + 2))
+    basis[:state, :state] = np.eye(state)
+    basis[state:, state:] = np.array([[1, 1], [-1, 1], [0, -2]]) / np.sqrt([2, 6])
+    return basis

@@ -1,0 +1,138 @@
+"""χ² of light curves, with its gradient, for many states at once.
+
+The model is s B: brightness B of an ellipsoid and a factor s for each curve, which is solved for (variable projection). Derivatives of the residuals are those of B without the part
+along B, times s (Kaufman, BIT 15, 1975): what the factors take up is no part of the fit.
+"""
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import NamedTuple, TypeAlias, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from andoyer._core import Ensemble
+from andoyer._quaternions import Array
+from andoyer.fit._scattering import with_derivatives
+from andoyer.fit._steps import logarithms_by_shape, moments_of_ellipsoid
+
+CHUNK = 8192
+"""Points that are computed together, so that their arrays stay in the cache."""
+
+TOLERANCE = 1e-9
+"""Attitude error [rad] of the states that are tried."""
+
+T = TypeVar("T")
+Places: TypeAlias = NDArray[np.intp]
+
+
+class States(NamedTuple):
+    """States of ellipsoids, one in each row."""
+
+    axes: Array
+    attitudes: Array
+    rates: Array
+
+    def part(self, rows: "slice | Places") -> "States":
+        """Some of them."""
+        return States(*(array[rows] for array in self))
+
+
+class Normal(NamedTuple):
+    """χ² and its normal equations."""
+
+    chi_square: Array
+    gradient: Array
+    matrix: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Brightnesses with what they were seen from."""
+
+    times: Array
+    """Since the epoch."""
+    brightness: Array
+    weights: Array
+    """1/σ², shape (n,)."""
+    sun: Array
+    """Unit vectors, shape (3, 1) or (3, n)."""
+    observer: Array
+    members: Array
+    """Of each curve the points that belong to it: ones and zeros, shape (n, c)."""
+    scattering: str
+    shape: bool
+    """Whether the axis ratios are free."""
+
+    def in_chunks(self, states: States, task: Callable[[States], T]) -> list[T]:
+        """What a task makes of the states, some at a time, on one thread for each core."""
+        count = max(1, CHUNK // len(self.times))
+        parts = [states.part(slice(start, start + count)) for start in range(0, len(states.axes), count)]
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            return list(pool.map(task, parts))
+
+    def chi_squares(self, states: States) -> Array:
+        """χ² of each state."""
+        return np.concatenate(self.in_chunks(states, self._chi_squares))
+
+    def normal_equations(self, states: States) -> Normal:
+        """χ² of each state, half its gradient and the matrix JᵀJ."""
+        parts = self.in_chunks(states, self._normal)
+        return Normal(*(np.concatenate(arrays) for arrays in zip(*parts)))
+
+    def _chi_squares(self, states: States) -> Array:
+        attitudes = self._ensemble(states).attitude(self.times)
+        value = with_derivatives(*self._seen(states, attitudes), self.scattering, derivatives=False).value
+        factors = self.factors(value) @ self.members.T
+        chi_squares: Array = ((self.brightness - factors * value) ** 2) @ self.weights
+        return chi_squares
+
+    def factors(self, value: Array) -> Array:
+        """The factor of each curve, shape (m, c)."""
+        factors: Array = (self.weights * self.brightness * value) @ self.members / ((self.weights * value * value) @ self.members)
+        return factors
+
+    def _normal(self, states: States) -> Normal:
+        residuals, jacobian = self.residuals(states)
+        matrix = jacobian @ np.swapaxes(jacobian, 1, 2)
+        gradient = np.squeeze(jacobian @ residuals[..., None], -1)
+        return Normal(np.sum(residuals**2, axis=1), gradient, matrix)
+
+    def residuals(self, states: States) -> tuple[Array, Array]:
+        """Residuals over σ, shape (m, n), and the derivatives of the model over σ, shape (m, k, n), with respect to steps."""
+        ensemble = self._ensemble(states)
+        found = with_derivatives(*self._seen(states, ensemble.attitude(self.times)), self.scattering, shape=self.shape)
+        by_state = np.einsum("imn,mnij->mjn", found.by_turn, ensemble.partials(self.times).attitude)
+        by_state[:, 3:6] *= np.linalg.norm(states.rates, axis=1)[:, None, None]
+        by_step = by_state[:, :6]
+        if self.shape:
+            by_logarithm = by_state[:, 6:] * moments_of_ellipsoid(states.axes)[:, :, None]
+            by_shape = np.swapaxes(logarithms_by_shape(states.axes), 1, 2) @ by_logarithm + np.moveaxis(found.by_shape, 0, 1)
+            by_step = np.concatenate([by_step, by_shape], axis=1)
+        value, weighted = found.value, self.weights * found.value
+        factors, squares = self.factors(value), (weighted * value) @ self.members
+        along = ((by_step * weighted[:, None]) @ self.members / squares[:, None]) @ self.members.T
+        spread = (factors @ self.members.T) * np.sqrt(self.weights)
+        jacobian = (by_step - along * value[:, None]) * spread[:, None]
+        return self.brightness * np.sqrt(self.weights) - spread * value, jacobian
+
+    def _ensemble(self, states: States) -> Ensemble:
+        span = (self.times.min(), self.times.max())
+        return Ensemble(moments_of_ellipsoid(states.axes), states.attitudes, states.rates, tolerance=TOLERANCE, span=span, threads=1, errors="nan")
+
+    def _seen(self, states: States, attitudes: Array) -> tuple[Array, Array, Array]:
+        """Semi-axes, and the directions of Sun and observer about body axes, components in the leading axis."""
+        x, y, z, w = np.moveaxis(attitudes, -1, 0)
+        turned = [
+            np.stack(
+                [
+                    (1 - 2 * (y * y + z * z)) * a + 2 * (x * y + z * w) * b + 2 * (x * z - y * w) * c,
+                    2 * (x * y - z * w) * a + (1 - 2 * (x * x + z * z)) * b + 2 * (y * z + x * w) * c,
+                    2 * (x * z + y * w) * a + 2 * (y * z - x * w) * b + (1 - 2 * (x * x + y * y)) * c,
+                ]
+            )
+            for a, b, c in (self.sun, self.observer)
+        ]
+        return states.axes.T[:, :, None], turned[0], turned[1]

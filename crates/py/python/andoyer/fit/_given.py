@@ -1,0 +1,96 @@
+"""Arguments of the fits: arrays of the right shapes, or an `InputError` that names the argument, its value and the bound."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from andoyer._core import InputError
+from andoyer._quaternions import Array
+
+NEAR_UNIT = 1e-6
+"""Deviation of the norm of a quaternion from 1 that is rounding."""
+
+
+def refusal(argument: str, value: Any, bound: Any, message: str) -> InputError:
+    """The error of an argument."""
+    error = InputError(f"{argument} {message}")
+    error.argument, error.value, error.bound = argument, value, bound
+    return error
+
+
+def numbers(argument: str, value: ArrayLike) -> Array:
+    """Finite float64 numbers."""
+    try:
+        array = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise refusal(argument, repr(value), "numbers", f"= {value!r}: it must be numbers") from None
+    bad = np.argwhere(~np.isfinite(array))
+    if len(bad):
+        place = "".join(f"[{index}]" for index in bad[0])
+        raise refusal(argument, float(array[tuple(bad[0])]), "finite", f"{place} = {array[tuple(bad[0])]}: it must be finite")
+    return array
+
+
+def shaped(argument: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Array:
+    """Finite numbers of one of these shapes."""
+    array = numbers(argument, value)
+    if array.shape not in shapes:
+        allowed = " or ".join(map(str, shapes))
+        raise refusal(argument, array.shape, allowed, f"has shape {array.shape}: it must be {allowed}")
+    return array
+
+
+def positive(argument: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Array:
+    """Numbers above 0."""
+    array = shaped(argument, value, *shapes)
+    if not np.all(array > 0):
+        worst = float(array.min())
+        raise refusal(argument, worst, "above 0", f"= {worst}: it must be above 0")
+    return array
+
+
+def quaternions(argument: str, value: Any, count: int) -> Array:
+    """Unit quaternions [x, y, z, w], shape (count, 4), from numbers or rotations of SciPy."""
+    array = shaped(argument, value.as_quat() if hasattr(value, "as_quat") else value, (count, 4))
+    norms = np.linalg.norm(array, axis=1)
+    worst = int(np.argmax(np.abs(norms - 1))) if count else 0
+    if count and abs(norms[worst] - 1) > NEAR_UNIT:
+        raise refusal(argument, float(norms[worst]), f"1 ± {NEAR_UNIT}", f"[{worst}] has norm {norms[worst]:.9g}: a unit quaternion has norm 1 within {NEAR_UNIT}")
+    unit: Array = array / norms[:, None]
+    return unit
+
+
+def whitening(sigma: ArrayLike, count: int) -> Array:
+    """Matrices W of shape (count, 3, 3) with WᵀW the inverse covariance of each measurement, from sigma: a number, one for each or 3 × 3 covariances."""
+    array = np.asarray(sigma, dtype=np.float64)
+    if array.ndim < 3:
+        each = np.broadcast_to(positive("sigma", sigma, (), (count,)), (count,))
+        scaled: Array = np.eye(3) / each[:, None, None]
+        return scaled
+    covariances = shaped("sigma", sigma, (count, 3, 3))
+    for index, matrix in enumerate(covariances):
+        if not np.allclose(matrix, matrix.T, rtol=1e-9, atol=0.0):
+            raise refusal("sigma", index, "symmetric", f"[{index}] is not symmetric: it must be a covariance matrix")
+        least = float(np.linalg.eigvalsh(matrix)[0])
+        if not least > 0:
+            raise refusal("sigma", least, "above 0", f"[{index}] has the eigenvalue {least:.3g}: a covariance matrix has eigenvalues above 0")
+    inverse: Array = np.linalg.inv(np.linalg.cholesky(covariances))
+    return inverse
+
+
+def freed(free: Any, known: tuple[str, ...]) -> tuple[str, ...]:
+    """The names of what is fitted, in canonical order."""
+    names = (free,) if isinstance(free, str) else tuple(free)
+    for name in names:
+        if name not in known:
+            raise refusal("free", name, ", ".join(known), f"has {name!r}: it must be of {', '.join(known)}")
+    if not names:
+        raise refusal("free", "()", ", ".join(known), f"is empty: it must name some of {', '.join(known)}")
+    return tuple(name for name in known if name in names)
+
+
+def enough(data: int, parameters: int, argument: str, each: str) -> None:
+    """Refuses fewer data than parameters."""
+    if data < parameters:
+        raise refusal(argument, data, parameters, f"are {data} numbers for {parameters} parameters: give {each}, or name fewer in free")

@@ -1,0 +1,231 @@
+"""`light_curve`: a state from brightnesses."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from andoyer._core import Body, Ensemble, Scene
+from andoyer._extra import extra
+from andoyer._quaternions import Array, angle_between, product
+from andoyer.fit._curve import Curve, States
+from andoyer.fit._given import enough, numbers, positive, refusal, shaped
+from andoyer.fit._result import Fit, Optimum, judged
+from andoyer.fit._rotations import right_jacobian
+from andoyer.fit._scattering import directions, law
+from andoyer.fit._search import Population, best, improve, moved, random_states, search
+from andoyer.fit._steps import LABELS, Steps, moments_of_ellipsoid
+
+POLISHED = 32
+"""States that are improved to the end, of either mode half."""
+SETTLING = 60
+"""Steps of them all before each is polished alone."""
+SAME = 0.02
+"""Largest angle [rad], at three times of the data, between attitudes of one optimum."""
+
+
+def light_curve(
+    axes: ArrayLike,
+    times: ArrayLike,
+    brightness: ArrayLike,
+    *,
+    sun: ArrayLike,
+    observer: ArrayLike,
+    sigma: ArrayLike,
+    periods: tuple[float, float] | None = None,
+    curves: ArrayLike | None = None,
+    scattering: str = "lommel-seeliger",
+    shape: bool = False,
+    scene: Scene | None = None,
+    starts: int = 100_000,
+    delta_chi_square: float = np.inf,
+    rng: Any = 0,
+) -> Fit:
+    """Fits the state of a homogeneous ellipsoid to its brightnesses, from many random starts.
+
+    Starts have any direction of the angular momentum in space and in the body, half of them in either mode, and precession frequencies between those of `periods`. All are
+    evaluated; the best of either mode are improved together by Levenberg and Marquardt's method with the derivatives of `Ensemble.partials` (theory §12) in rounds that keep fewer and fewer;
+    the last few are polished by `scipy.optimize.least_squares`. A factor for each curve is solved for. Half turns about the body's axes change no brightness: of the four
+    states one is returned. Needs SciPy: the extra ``andoyer[fit]``.
+
+    Parameters
+    ----------
+    axes : array_like, shape (3,)
+        Semi-axes along body axes 1, 2, 3; their ratios matter alone.
+    times : array_like, shape (n,)
+        In one unit with `periods`. The first is the epoch of the scene.
+    brightness : array_like, shape (n,)
+        In intensities (not magnitudes), each in the unit of its curve.
+    sun, observer : array_like, shape (3,) or (n, 3)
+        Directions from the body to the Sun and the observer, inertial components.
+    sigma : float or array_like, shape (n,)
+        Standard deviations of the brightnesses.
+    periods : (float, float)
+        The shortest and the longest mean precession period P_φ of the starts, in the convention "extremal-axis" of `Motion.periods`. Not needed with `scene`.
+    curves : array_like of int, shape (n,), optional
+        The curve that each point belongs to, 0, 1, …; by default all belong to one.
+    scattering : {"lommel-seeliger", "geometric"}, optional
+        As of `brightness`.
+    shape : bool, optional
+        Whether the axis ratios b/a and c/a are fitted too.
+    scene : Scene, optional
+        A torque-free state to begin from instead of random ones; its moments are replaced by those of the ellipsoid.
+    starts : int, optional
+        How many random starts.
+    delta_chi_square : float, optional
+        `Fit.optima` are the minima with χ² up to this much above the least; by default all that were found.
+    rng : int or numpy.random.Generator, optional
+        A seed or a generator of the starts.
+
+    Returns
+    -------
+    Fit
+        With `Fit.optima`: the mode and χ² of every minimum, the best first.
+
+    Raises
+    ------
+    InputError
+        Fewer points than parameters; brightnesses or a `sigma` that are not above 0; ``periods=(2, 1)``; a direction of length 0, or Sun and observer on opposite sides.
+
+    Examples
+    --------
+    An ellipsoid that turns about its short axis, seen by the Sun's light from 30° aside:
+
+    >>> import numpy as np
+    >>> from andoyer import Body, Scene, fit
+    >>> axes, times = [1.0, 0.7, 0.5], np.linspace(0, 3, 60)
+    >>> scene = Scene(Body.ellipsoid(*axes), [0, 0, 0, 1], [0.3, 0.1, 6.0])
+    >>> sun, observer = [np.cos(np.pi / 6), np.sin(np.pi / 6), 0], [1, 0, 0]
+    >>> measured = fit.brightness(axes, scene.solve().attitude(times), sun, observer)
+    >>> guess = Scene(scene.body, [0.01, 0, 0, 0.99995], [0.3, 0.1, 6.02])
+    >>> found = fit.light_curve(axes, times, measured, sun=sun, observer=observer, sigma=0.01, scene=guess)
+    >>> found.scene.angular_velocity.round(6)
+    array([0.3, 0.1, 6. ])
+    """
+    extra("scipy.optimize", "andoyer.fit")
+    semi_axes = positive("axes", axes, (3,))
+    law(scattering)
+    curve, epoch = _curve(times, brightness, (sun, observer), sigma, curves, (scattering, shape))
+    enough(len(curve.times), 6 + 2 * shape + curve.members.shape[1], "times", "more points")
+    if scene is not None:
+        first = _state_of(scene, semi_axes, epoch)
+        population = improve(curve, Population(first, curve.chi_squares(first)), SETTLING)
+    else:
+        drawn = random_states(semi_axes, _range(periods), _count(starts), np.random.default_rng(rng))
+        population = search(curve, drawn)
+        population = improve(curve, best(_distinct(curve, population), POLISHED), SETTLING)
+    return _result(curve, _polished(curve, population), epoch, times, delta_chi_square)
+
+
+def _curve(
+    times: ArrayLike, brightness: ArrayLike, seen: tuple[ArrayLike, ArrayLike], sigma: ArrayLike, curves: ArrayLike | None, model: tuple[str, bool]
+) -> tuple[Curve, float]:
+    """The data, and the epoch."""
+    at = numbers("times", times)
+    if at.ndim != 1 or not len(at):
+        raise refusal("times", at.shape, "(n,)", f"has shape {at.shape}: it must be (n,) with n above 0")
+    count = len(at)
+    values = positive("brightness", brightness, (count,))
+    deviations = np.broadcast_to(positive("sigma", sigma, (), (count,)), (count,))
+    for argument, vectors in zip(("sun", "observer"), seen):
+        shaped(argument, vectors, (3,), (count, 3))
+    sun, observer = (np.atleast_2d(vectors).T for vectors in directions(*seen))
+    labels = np.zeros(count) if curves is None else shaped("curves", curves, (count,))
+    members = (labels[:, None] == np.unique(labels)).astype(float)
+    return Curve(at - at[0], values, deviations**-2.0, sun, observer, members, *model), float(at[0])
+
+
+def _range(periods: tuple[float, float] | None) -> tuple[float, float]:
+    if periods is None:
+        raise refusal("periods", None, "(shortest, longest)", "is missing: give the shortest and the longest precession period, or a scene to begin from")
+    shortest, longest = positive("periods", periods, (2,))
+    if not shortest <= longest:
+        raise refusal("periods", (float(shortest), float(longest)), "(shortest, longest)", f"= ({shortest}, {longest}): the first must not exceed the second")
+    return float(shortest), float(longest)
+
+
+def _count(starts: int) -> int:
+    if not isinstance(starts, (int, np.integer)) or starts < 1:
+        raise refusal("starts", starts, 1, f"= {starts!r}: it must be a whole number above 0")
+    return int(starts)
+
+
+def _state_of(scene: Scene, axes: Array, epoch: float) -> States:
+    """The state of a scene at the epoch."""
+    if scene.orbit is not None:
+        raise refusal("scene", "orbit", "none", "has an orbit: light curves are fitted without torques")
+    sample = scene.solve().at(epoch)
+    return States(axes[None].copy(), sample.attitude[None], sample.angular_velocity[None])
+
+
+HALF_TURNS = np.array([[0, 0, 0, 1.0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]])
+"""Turns of the body that leave the ellipsoid as it is."""
+
+
+def _distinct(curve: Curve, population: Population) -> Population:
+    """The best of all states that show the same attitudes, but for half turns of the body."""
+    order = np.argsort(population.chi_squares, kind="stable")
+    states = population.states.part(order)
+    times = curve.times[[0, len(curve.times) // 2, -1]]
+    moments = moments_of_ellipsoid(states.axes)
+    attitudes = Ensemble(moments, states.attitudes, states.rates, tolerance=1e-6, span=(times.min(), times.max()), errors="nan").attitude(times)
+    kept: list[int] = []
+    for place, attitude in enumerate(attitudes):
+        turned = product(attitude[None], HALF_TURNS[:, None, :])
+        apart = angle_between(attitudes[kept][:, None], turned[None]).max(axis=-1).min(axis=-1, initial=np.inf)
+        if np.isfinite(attitude).all() and not np.any(apart < SAME):
+            kept.append(place)
+    chosen = order[kept]
+    return Population(population.states.part(chosen), population.chi_squares[chosen])
+
+
+def _polished(curve: Curve, population: Population) -> Population:
+    """Each state improved alone by SciPy, and those that are the same left out."""
+    optimize = extra("scipy.optimize", "andoyer.fit")
+    found = []
+    for place in range(len(population.chi_squares)):
+        state = population.states.part(slice(place, place + 1))
+        first = np.zeros(6 + 2 * curve.shape)
+        if not np.all(np.isfinite(curve.residuals(state)[1])):
+            continue
+        solution = optimize.least_squares(_residuals, first, _jacobian, args=(curve, state), method="trf", xtol=1e-12, ftol=1e-12, gtol=1e-15)
+        found.append((moved(state, solution.x[None]), 2 * solution.cost))
+    states = States(*(np.concatenate(arrays) for arrays in zip(*(state for state, _ in found))))
+    return _distinct(curve, Population(states, np.array([chi_square for _, chi_square in found])))
+
+
+def _residuals(step: Array, curve: Curve, state: States) -> Array:
+    residuals, _ = curve.residuals(moved(state, step[None]))
+    finite: Array = np.nan_to_num(residuals[0], nan=np.inf)
+    return finite
+
+
+def _jacobian(step: Array, curve: Curve, state: States) -> Array:
+    """Of the residuals, measured minus model, with respect to a step from `state`."""
+    there = moved(state, step[None])
+    jacobian: Array = -curve.residuals(there)[1][0].T
+    jacobian[:, :3] = jacobian[:, :3] @ right_jacobian(step[:3])
+    jacobian[:, 3:6] *= np.linalg.norm(state.rates) / np.linalg.norm(there.rates)
+    return jacobian
+
+
+def _result(curve: Curve, population: Population, epoch: float, times: Any, delta_chi_square: float) -> Fit:
+    optima = tuple(
+        _optimum(population.states.part(slice(place, place + 1)), float(chi_square), epoch)
+        for place, chi_square in enumerate(population.chi_squares)
+        if chi_square <= population.chi_squares[0] + delta_chi_square
+    )
+    state = population.states.part(slice(0, 1))
+    jacobian = _jacobian(np.zeros(6 + 2 * curve.shape), curve, state)
+    names = tuple(name for name in LABELS if name in ("attitude", "angular_velocity") or (name == "shape" and curve.shape))
+    steps = Steps(optima[0].scene, names, state.axes[0])
+    covariance, lost, message = judged(steps, np.zeros(jacobian.shape[1]), jacobian)
+    degrees = len(curve.times) - curve.members.shape[1] - (jacobian.shape[1] - len(lost))
+    residuals = curve.residuals(state)[0][0] / np.sqrt(curve.weights)
+    return Fit(optima[0].scene, steps.labels, covariance, lost, residuals, optima[0].chi_square, degrees, message, times, optima, state.axes[0])
+
+
+def _optimum(state: States, chi_square: float, epoch: float) -> Optimum:
+    body = Body(moments_of_ellipsoid(state.axes)[0])
+    scene = Scene(body, state.attitudes[0], state.rates[0], epoch=epoch)
+    return Optimum(scene, scene.solve().plan.mode, chi_square)

@@ -1,0 +1,142 @@
+"""The parameters of a fit, as dimensionless steps from a first state.
+
+A step has three components for the attitude, R → R exp([s]×) with s in rad about body axes; three for the angular velocity, in units of its size at the first state; three for
+the logarithms of the moments, or two for those of the axis ratios of a homogeneous ellipsoid. So no step leads to a moment below 0, and all have the size of a relative change.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from andoyer._core import Body, Scene
+from andoyer._quaternions import Array, product
+from andoyer.fit._rotations import exponential, right_jacobian
+
+LABELS = {
+    "attitude": ("θ1", "θ2", "θ3"),
+    "angular_velocity": ("ω1", "ω2", "ω3"),
+    "moments": ("I1", "I2", "I3"),
+    "shape": ("b/a", "c/a"),
+}
+"""Names of the components: a rotation vector, body rates, principal moments, ratios of semi-axes."""
+WORDS = {
+    "θ1": "the attitude about axis 1", "θ2": "the attitude about axis 2", "θ3": "the attitude about axis 3",
+    "ω1": "the angular velocity about axis 1", "ω2": "the angular velocity about axis 2", "ω3": "the angular velocity about axis 3",
+    "I1": "the moment about axis 1", "I2": "the moment about axis 2", "I3": "the moment about axis 3",
+    "b/a": "the axis ratio b/a", "c/a": "the axis ratio c/a",
+}  # fmt: skip
+FIXED_MOMENTS = 6
+"""Components of a state before those of the body."""
+
+
+@dataclass(frozen=True, eq=False)
+class Steps:
+    """Steps from the state of a scene, of which some components are free."""
+
+    origin: Scene
+    free: tuple[str, ...]
+    semi_axes: Array | None = None
+    """Of a homogeneous ellipsoid, along principal axes 1, 2, 3; None where moments are parameters."""
+    pace: float = 1.0
+    """Rate that stands for that of a body at rest."""
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Names of the free components."""
+        return tuple(label for name in self.free for label in LABELS[name])
+
+    @property
+    def _body(self) -> str:
+        return "moments" if self.semi_axes is None else "shape"
+
+    @property
+    def _places(self) -> list[int]:
+        """Where the free components are among all."""
+        starts = {"attitude": 0, "angular_velocity": 3, self._body: FIXED_MOMENTS}
+        return [starts[name] + place for name in self.free for place in range(len(LABELS[name]))]
+
+    @property
+    def rate(self) -> float:
+        """Rate in units of which angular velocities step."""
+        size = float(np.linalg.norm(self.origin.angular_velocity))
+        return size if size > 0 else self.pace
+
+    def full(self, steps: ArrayLike) -> Array:
+        """All components, 0 for those that are not free."""
+        steps = np.asarray(steps, dtype=np.float64)
+        full = np.zeros((*steps.shape[:-1], FIXED_MOMENTS + len(LABELS[self._body])))
+        full[..., self._places] = steps
+        return full
+
+    def axes(self, steps: ArrayLike) -> Array:
+        """Semi-axes of the ellipsoid, whose first stays."""
+        assert self.semi_axes is not None
+        logarithms = self.full(steps)[..., FIXED_MOMENTS:]
+        axes: Array = self.semi_axes * np.exp(np.concatenate([np.zeros((*logarithms.shape[:-1], 1)), logarithms], axis=-1))
+        return axes
+
+    def moments(self, steps: ArrayLike) -> Array:
+        """Principal moments."""
+        if self.semi_axes is None:
+            moments: Array = self.origin.body.moments * np.exp(self.full(steps)[..., FIXED_MOMENTS:])
+            return moments
+        return moments_of_ellipsoid(self.axes(steps))
+
+    def states(self, steps: ArrayLike) -> tuple[Array, Array, Array]:
+        """Principal moments, attitudes and angular velocities, each with the leading axes of the steps."""
+        full = self.full(steps)
+        attitudes = product(np.broadcast_to(self.origin.attitude, (*full.shape[:-1], 4)), exponential(full[..., :3]))
+        return self.moments(steps), attitudes, self.origin.angular_velocity + self.rate * full[..., 3:6]
+
+    def scene(self, step: ArrayLike) -> Scene:
+        """The scene that a step leads to, with the options of the first.
+
+        Raises
+        ------
+        InputError
+            Moments that no body has.
+        """
+        moments, attitude, rates = self.states(step)
+        body = self.origin.body
+        if np.any(moments != body.moments):
+            axes = body.principal_axes
+            body = Body(moments, name=body.name) if np.array_equal(axes, np.eye(3)) else Body.from_inertia(axes * moments @ axes.T, name=body.name)
+        _, options = self.origin.__getnewargs_ex__()
+        return Scene(body, attitude, rates, **options)
+
+    def columns(self, partials: Array, step: ArrayLike, body: Body) -> Array:
+        """Derivatives with respect to the free components of what has these derivatives with respect to the nine parameters of `Motion.partials`."""
+        full = self.full(step)
+        moments = self.moments(step)
+        # The body of the step may have its principal axes in another order.
+        order = np.argmax(np.abs(body.principal_axes.T @ self.origin.body.principal_axes), axis=0)
+        by_logarithm = partials[..., FIXED_MOMENTS:][..., order] * moments
+        if self.semi_axes is not None:
+            by_logarithm = by_logarithm @ logarithms_by_shape(self.axes(step))
+        attitude = partials[..., :3] @ right_jacobian(full[:3])
+        columns: Array = np.concatenate([attitude, partials[..., 3:6] * self.rate, by_logarithm], axis=-1)[..., self._places]
+        return columns
+
+    def units(self, step: ArrayLike) -> Array:
+        """The change of each free parameter, in its unit, for a small unit step."""
+        body = self.moments(step) if self.semi_axes is None else self.axes(step)[1:] / self.axes(step)[0]
+        units: Array = np.concatenate([np.ones(3), np.full(3, self.rate), body])[self._places]
+        return units
+
+
+def moments_of_ellipsoid(axes: Array) -> Array:
+    """Moments of homogeneous ellipsoids of mass 5: b² + c², a² + c², a² + b²."""
+    squares = axes**2
+    moments: Array = np.sum(squares, axis=-1, keepdims=True) - squares
+    return moments
+
+
+def logarithms_by_shape(axes: Array) -> Array:
+    """Derivatives of the logarithms of the moments with respect to those of b/a and c/a, shape (…, 3, 2)."""
+    squares = axes**2
+    first, second, third = np.moveaxis(squares, -1, 0)
+    zero = np.zeros_like(first)
+    rows = np.stack([second, third, zero, third, second, zero], axis=-1).reshape(*first.shape, 3, 2)
+    derivatives: Array = 2 * rows / moments_of_ellipsoid(axes)[..., None]
+    return derivatives

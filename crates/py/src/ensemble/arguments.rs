@@ -1,0 +1,64 @@
+//! Arguments of `andoyer.Ensemble`.
+
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+
+use crate::array::{MemberRows, number, numbers_of};
+use crate::error;
+use crate::foreign::{self, Calendar};
+use crate::orbit::Orbit;
+
+/// Epochs as numbers, one or one for each member, and as calendar times if they are Time objects.
+pub(super) fn epochs_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<Calendar>)> {
+    let (seconds, calendar) = foreign::epochs("epochs", value)?;
+    Ok((numbers_of("epochs", &seconds)?, calendar))
+}
+
+/// The ensemble with its options.
+pub(super) fn asked(
+    ensemble: andoyer_propagate::Ensemble,
+    orbits: Option<Vec<Option<andoyer_propagate::Orbit>>>,
+    span: Option<(f64, f64)>,
+    threads: Option<usize>,
+) -> Result<andoyer_propagate::Ensemble, andoyer_propagate::Error> {
+    let ensemble = match orbits {
+        Some(orbits) => ensemble.orbits(orbits)?,
+        None => ensemble,
+    };
+    let ensemble = span.into_iter().fold(ensemble, |ensemble, (start, stop)| ensemble.span(start, stop));
+    Ok(threads.into_iter().fold(ensemble, andoyer_propagate::Ensemble::threads))
+}
+
+/// One orbit for all members, or an orbit or None for each.
+pub(super) fn orbits_of(value: &Bound<'_, PyAny>) -> PyResult<Vec<Option<andoyer_propagate::Orbit>>> {
+    let kind = |name: &str, value: &Bound<'_, PyAny>, or: &str| -> PyErr {
+        let found = value.get_type().name().map_or_else(|_| "something else".to_owned(), |name| name.to_string());
+        PyTypeError::new_err(format!("{name} must be an Orbit or {or}, not {found}"))
+    };
+    if let Ok(orbit) = value.cast::<Orbit>() {
+        return Ok(vec![Some(orbit.get().0)]);
+    }
+    let members = value.try_iter().map_err(|_| kind("orbits", value, "a sequence of one or None for each member"))?;
+    let orbit = |(index, member): (usize, PyResult<Bound<'_, PyAny>>)| {
+        let member = member?;
+        match member.cast::<Orbit>() {
+            Ok(orbit) => Ok(Some(orbit.get().0)),
+            Err(_) if member.is_none() => Ok(None),
+            Err(_) => Err(kind(&format!("orbits[{index}]"), &member, "None")),
+        }
+    };
+    members.enumerate().map(orbit).collect()
+}
+
+pub(super) fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    number("tolerance", value)
+}
+
+/// The number of members: of the arguments that have one row each, one must have more.
+pub(super) fn members_of(moments: &MemberRows<3>, attitudes: &MemberRows<4>, rates: &MemberRows<3>) -> PyResult<usize> {
+    moments.members().or(attitudes.members()).or(rates.members()).ok_or_else(|| {
+        let text =
+            "moments, attitudes and angular_velocities are one row each: one of them must have an axis of members";
+        error::input("moments", "one row", "(m, 3)", text.to_owned())
+    })
+}

@@ -1,0 +1,66 @@
+//! How the members of `andoyer.Ensemble` are evaluated for Python.
+
+use std::sync::atomic::AtomicBool;
+
+use andoyer_propagate::Error as Propagation;
+use andoyer_propagate::ensemble::{Outcome, Run};
+use pyo3::prelude::*;
+
+use super::{Array, Ensemble, LONG};
+use crate::array::Times;
+use crate::computing::interruptible;
+use crate::error;
+use crate::foreign::Calendar;
+
+impl Ensemble {
+    pub(super) fn times<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Times<'py>> {
+        Times::of_members(value, self.0.len(), &self.1, !self.0.asked_orbits().is_empty())
+    }
+
+    /// How the members are evaluated at these times.
+    pub(super) fn run<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> Run<'a> {
+        let run = self.0.run().until(stop);
+        if since_epoch { run.since_epoch() } else { run }
+    }
+
+    /// Rows of N numbers for each time of each member, into `out` or a new array.
+    pub(super) fn rows<'py, const N: usize>(
+        &self,
+        times: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        evaluate: impl FnOnce(Run<'_>, &[f64], &mut [[f64; N]], &AtomicBool) -> Result<Outcome, Propagation> + Send,
+    ) -> PyResult<Array<'py>> {
+        let times = self.times(times)?;
+        let since_epoch = times.since_epoch();
+        let (rows, outcome) =
+            times.evaluate(out, |values, rows, stop| evaluate(self.run(since_epoch, stop), values, rows, stop))?;
+        error::warn_of_tolerance(rows.py(), outcome.missed_tolerance())?;
+        Ok(rows)
+    }
+
+    /// What is found for every member when all are solved.
+    pub(super) fn values<T: Send>(
+        &self,
+        py: Python<'_>,
+        find: impl FnOnce(Run<'_>) -> Result<T, Propagation> + Send,
+    ) -> PyResult<T> {
+        let long = self.0.len() >= if self.0.asked_orbits().is_empty() { LONG } else { 32 };
+        interruptible(py, long, error::propagation, |stop| find(self.0.run().until(stop)))
+    }
+
+    /// The plan of every member, or its error.
+    pub(super) fn solved(&self, py: Python<'_>) -> PyResult<Vec<Result<andoyer_propagate::Plan, Propagation>>> {
+        self.values(py, |run| run.plans())
+    }
+
+    /// The calendar epoch of a member.
+    pub(super) fn calendar(&self, index: usize) -> Option<Calendar> {
+        self.1.get(if self.1.len() == 1 { 0 } else { index }).copied()
+    }
+}
+
+/// The errors of refused members, as Python exceptions.
+pub(super) fn refused(py: Python<'_>, outcome: Outcome) -> Vec<(usize, Py<PyAny>)> {
+    let value = |problem| error::propagation(problem).into_value(py).into_any();
+    outcome.into_errors().into_iter().map(|(index, problem)| (index, value(problem))).collect()
+}

@@ -1,0 +1,402 @@
+//! `andoyer.Ensemble`.
+
+use std::sync::atomic::AtomicBool;
+
+use andoyer_propagate::ensemble::{MAX_THREADS, OnError};
+use andoyer_propagate::error::Kind;
+use andoyer_propagate::options::Convention;
+use andoyer_propagate::partials::PARAMETERS;
+use andoyer_propagate::periods::Periods;
+use numpy::{IntoPyArray, PyArray1, PyArrayDyn};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::array::{MemberRows, chunks, constant, constant_rows, matrices, span as span_of, write};
+use crate::computing::interruptible;
+use crate::error;
+use crate::foreign::{self, Calendar};
+use crate::mean;
+use crate::members::Members;
+use crate::order::whole_number;
+use crate::partials::Partials;
+use crate::plan::Plan;
+use crate::samples::Samples;
+
+mod arguments;
+mod copies;
+mod evaluate;
+
+use arguments::{asked, epochs_of, members_of, orbits_of, tolerance};
+use evaluate::refused;
+
+type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
+
+/// Number of members above which the construction of an ensemble, which checks each member, counts as a long call.
+const LONG: usize = 1 << 16;
+
+#[doc = include_str!("ensemble.md")]
+#[expect(clippy::doc_lazy_continuation, reason = "lines after >>> are what Python prints")]
+#[pyclass(frozen, eq, module = "andoyer")]
+#[derive(PartialEq)]
+pub(crate) struct Ensemble(andoyer_propagate::Ensemble, Vec<Calendar>);
+
+#[pymethods]
+impl Ensemble {
+    #[new]
+    #[pyo3(signature = (moments, attitudes, angular_velocities, *, epochs=None, orbits=None, tolerance=1e-12, span=None, threads=None, errors="raise", scalar_first=false))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn new(
+        py: Python<'_>,
+        moments: &Bound<'_, PyAny>,
+        attitudes: &Bound<'_, PyAny>,
+        angular_velocities: &Bound<'_, PyAny>,
+        epochs: Option<&Bound<'_, PyAny>>,
+        orbits: Option<&Bound<'_, PyAny>>,
+        #[pyo3(from_py_with = tolerance)] tolerance: f64,
+        span: Option<&Bound<'_, PyAny>>,
+        threads: Option<&Bound<'_, PyAny>>,
+        errors: &str,
+        scalar_first: bool,
+    ) -> PyResult<Self> {
+        let moments = MemberRows::new("moments", moments)?;
+        let scalar_first = scalar_first && !foreign::is_rotation(attitudes)?;
+        let mut attitudes = MemberRows::new("attitudes", attitudes)?;
+        attitudes.each(|quaternion| foreign::scalar_last(quaternion, scalar_first));
+        let rates = MemberRows::new("angular_velocities", angular_velocities)?;
+        let threads = threads.map(|value| whole_number("threads", value, 1, MAX_THREADS, Kind::Input)).transpose()?;
+        let orbits = orbits.map(orbits_of).transpose()?;
+        let on_error: OnError = errors.parse().map_err(error::propagation)?;
+        let (epochs, calendar) = epochs.map(epochs_of).transpose()?.unwrap_or_default();
+        let first = epochs.first().copied().unwrap_or(0.0);
+        let span = span.map(|value| span_of(value, first, calendar.first().copied())).transpose()?;
+        let members = members_of(&moments, &attitudes, &rates)?;
+        let new = |stop: &AtomicBool| {
+            let [moments, rates] = [moments, rates].map(|rows| rows.repeated(members));
+            let attitudes = attitudes.repeated(members);
+            let ensemble = andoyer_propagate::Ensemble::new_or(moments, attitudes, rates, on_error, stop)?;
+            let ensemble = if epochs.is_empty() { ensemble } else { ensemble.epochs(epochs)? };
+            let span = span.map(|[start, stop]: [f64; 2]| (start, stop));
+            let ensemble = asked(ensemble.tolerance(tolerance), orbits, span, threads)?;
+            ensemble.validate().map(|()| ensemble)
+        };
+        interruptible(py, members >= LONG, error::propagation, new).map(|ensemble| Self(ensemble, calendar))
+    }
+
+    /// Evaluates attitudes and angular velocities of all members in one pass.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,) or (m, n)
+    ///     Times for all members, or a row of times for each member.
+    /// scalar_first : bool, optional
+    ///     If True, quaternions are [w, x, y, z]; by default [x, y, z, w].
+    ///
+    /// Returns
+    /// -------
+    /// Samples
+    ///     With a leading axis of members: attitudes (m, n, 4), angular velocities (m, n, 3); for a scalar time (m, 4) and (m, 3).
+    ///
+    /// Warns
+    /// -----
+    /// ToleranceWarning
+    ///     Some members miss the tolerance; the warning states their number and the worst member.
+    ///
+    /// Raises
+    /// ------
+    /// RepresentationError
+    ///     Errors of times as for a motion and of units as for a scene; the attribute ``index`` is the first member with the error.
+    /// InputError
+    ///     Another number of rows than members.
+    #[pyo3(signature = (times, *, scalar_first=false))]
+    fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>, scalar_first: bool) -> PyResult<Samples> {
+        let times = self.times(times)?;
+        let since_epoch = times.since_epoch();
+        let [copy, attitude, rates] = times.samples()?;
+        let outcome = {
+            let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
+            let (values, attitude, rates) = (times.values()?, chunks(&mut attitude)?, chunks(&mut rates)?);
+            let evaluate = |stop: &AtomicBool| {
+                let outcome = self.run(since_epoch, stop).samples_into(values, attitude, rates)?;
+                foreign::scalar_first(attitude, scalar_first, stop);
+                Ok(outcome)
+            };
+            interruptible(py, times.long(), error::propagation, evaluate)?
+        };
+        error::warn_of_tolerance(py, outcome.missed_tolerance())?;
+        let samples = Samples::new(copy.unbind(), attitude.unbind(), rates.unbind(), scalar_first);
+        Ok(samples.given(times.given()).refused(refused(py, outcome)))
+    }
+
+    /// Evaluates attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,) or (m, n)
+    /// out : ndarray, float64, C-contiguous, shape (m, n, 4), optional
+    ///     Array for the result. After an error it contains the values computed so far.
+    /// scalar_first : bool, optional
+    ///     If True, quaternions are [w, x, y, z].
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (m, n, 4)
+    ///     Unit quaternions; this is `out` if `out` was given.
+    #[pyo3(signature = (times, out=None, *, scalar_first=false))]
+    fn attitude<'py>(
+        &self,
+        times: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        scalar_first: bool,
+    ) -> PyResult<Array<'py>> {
+        self.rows(times, out, |run, values, rows, stop| {
+            let outcome = run.attitudes_into(values, rows)?;
+            foreign::scalar_first(rows, scalar_first, stop);
+            Ok(outcome)
+        })
+    }
+
+    /// Evaluates the angular momenta of all members in inertial components, in the unit of moment × rate. They are constant unless a member has an orbit.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,) or (m, n)
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (m, n, 3)
+    ///
+    /// Examples
+    /// --------
+    /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [0.1, 0.2, 1.0])
+    /// >>> ensemble.angular_momentum(10.0)
+    /// array([[0.1, 0.3, 2. ],
+    ///        [0.1, 0.4, 2.5]])
+    fn angular_momentum<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
+        self.rows(times, None, |run, values, rows, _| run.angular_momenta_into(values, rows))
+    }
+
+    /// Evaluates the Andoyer variables (λ, μ, ν, Λ, M, N) of all members, as defined in `Motion.andoyer` (theory §1).
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,) or (m, n)
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (m, n, 6)
+    ///     Angles in rad, momenta in the unit of moment × rate.
+    ///
+    /// Examples
+    /// --------
+    /// The last variable, N, is the component of the angular momentum on axis 3.
+    ///
+    /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [0.1, 0.2, 1.0])
+    /// >>> ensemble.andoyer(0.0)[:, 5].round(12)
+    /// array([2. , 2.5])
+    fn andoyer<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
+        self.rows(times, None, |run, values, rows, _| run.andoyer_into(values, rows))
+    }
+
+    /// Evaluates attitudes of all members as a `scipy.spatial.transform.Rotation`, body to inertial. This method imports SciPy.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,) or (m, n)
+    ///
+    /// Returns
+    /// -------
+    /// scipy.spatial.transform.Rotation
+    ///     Of shape (m, n); for a scalar time (m,).
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     SciPy is not installed; the extra ``andoyer[scipy]`` installs it.
+    /// ValueError
+    ///     Several times with SciPy before 1.17, whose rotations have only one axis.
+    ///
+    /// Examples
+    /// --------
+    /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [[0, 0, 0.5], [0, 0, 1]])
+    /// >>> ensemble.rotation(1.0).magnitude().round(12)
+    /// array([0.5, 1. ])
+    fn rotation<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        foreign::rotation(&self.attitude(times, None, false)?)
+    }
+
+    /// Evaluates the derivatives of attitude and angular velocity of all members, as defined in `Motion.partials` (theory §12).
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,) or (m, n)
+    ///
+    /// Returns
+    /// -------
+    /// Partials
+    ///     With a leading axis of members: arrays of shape (m, n, 3, 9), for a scalar time (m, 3, 9); with ``errors="nan"`` they are NaN for a member without derivatives.
+    ///
+    /// Raises
+    /// ------
+    /// TheoryError
+    ///     A member on the separatrix, whose frequencies have no derivatives.
+    ///
+    /// Examples
+    /// --------
+    /// After 10 units of time, the angle of rotation about axis 3 grows by 10 for each unit of the rate.
+    ///
+    /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [0, 0, 2.0])
+    /// >>> ensemble.partials(10.0).attitude[:, 2, 5]
+    /// array([10., 10.])
+    fn partials(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Partials> {
+        let times = self.times(times)?;
+        let since_epoch = times.since_epoch();
+        let [copy, attitude, rates] = times.matrices(PARAMETERS)?;
+        let outcome = {
+            let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
+            let (values, attitude, rates) = (times.values()?, matrices(&mut attitude)?, matrices(&mut rates)?);
+            let evaluate = |stop: &AtomicBool| self.run(since_epoch, stop).partials_into(values, attitude, rates);
+            interruptible(py, times.long_partials(), error::propagation, evaluate)?
+        };
+        error::warn_of_tolerance(py, outcome.missed_tolerance())?;
+        Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
+    }
+
+    /// Mean periods (P_φ, P_ψ) of all members in three conventions, as defined in `Motion.periods`.
+    ///
+    /// A dict with the keys "long-axis", "short-axis" and "extremal-axis"; values are named tuples (precession, rotation) of arrays, shape (m,), infinite if a member has no
+    /// such period.
+    ///
+    /// Examples
+    /// --------
+    /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [[0.1, 0.2, 1.0], [1.0, 0.2, 0.1]])
+    /// >>> [periods.precession.round(3).tolist() for periods in ensemble.periods.values()]
+    /// [[6.176, 12.558], [3.936, 5.984], [3.936, 12.558]]
+    #[getter]
+    fn periods<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let mut rows = vec![[Periods { precession: 0.0, rotation: 0.0 }; 3]; self.0.len()];
+        self.values(py, |run| run.periods_into(&mut rows))?;
+        mean::periods(
+            py,
+            "PeriodsOfMembers",
+            Convention::ALL.iter().enumerate().map(|(place, convention)| {
+                let column = |of: fn(&Periods) -> f64| PyArray1::from_iter(py, rows.iter().map(|row| of(&row[place])));
+                (*convention, (column(|pair| pair.precession), column(|pair| pair.rotation)))
+            }),
+        )
+    }
+
+    /// E/E0 of all members, shape (m,): the rotational energy divided by the energy of rotation about the axis of greatest inertia with the same angular momentum (theory §5).
+    ///
+    /// Examples
+    /// --------
+    /// >>> Ensemble([1, 1.5, 2], [0, 0, 0, 1], [[1, 0, 0], [0, 0, 1]]).energy_ratio
+    /// array([2., 1.])
+    #[getter]
+    fn energy_ratio<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let mut ratios = vec![0.0; self.0.len()];
+        self.values(py, |run| run.energy_ratios_into(&mut ratios))?;
+        Ok(ratios.into_pyarray(py))
+    }
+
+    /// The plan of every member: a list of `Plan`. With ``errors="nan"`` the plan of an invalid member is None.
+    #[getter]
+    fn plans(&self, py: Python<'_>) -> PyResult<Vec<Option<Plan>>> {
+        let plans = self.solved(py)?.into_iter();
+        match self.0.asked_on_error() {
+            OnError::Nan => Ok(plans.map(|plan| plan.ok().map(Plan)).collect()),
+            _ => plans.map(|plan| plan.map(|plan| Some(Plan(plan))).map_err(error::propagation)).collect(),
+        }
+    }
+
+    /// The errors of members that have no motion, by index. This property solves all members; it is empty if every member has a motion.
+    #[getter]
+    fn errors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let errors = PyDict::new(py);
+        for (index, plan) in self.solved(py)?.into_iter().enumerate() {
+            if let Err(problem) = plan {
+                errors.set_item(index, error::propagation(problem).into_value(py))?;
+            }
+        }
+        Ok(errors)
+    }
+
+    /// The times of the states: a float for all members, or a read-only array, shape (m,).
+    #[getter]
+    fn epochs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        match self.0.asked_epochs() {
+            [] => Ok(0.0_f64.into_pyobject(py)?.into_any()),
+            [of_all] => Ok(of_all.into_pyobject(py)?.into_any()),
+            each => Ok(constant(py, each).into_any()),
+        }
+    }
+
+    /// The moments about body axes 1, 2, 3: a read-only array, shape (m, 3).
+    #[getter]
+    fn moments<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        constant_rows(py, self.0.moments())
+    }
+
+    /// The attitudes at the epoch as given: unit quaternions [x, y, z, w], a read-only array, shape (m, 4).
+    #[getter]
+    fn attitudes<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        constant_rows(py, self.0.attitudes())
+    }
+
+    /// The angular velocities at the epoch in body components, in rad per unit of time: a read-only array, shape (m, 3).
+    #[getter]
+    fn angular_velocities<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        constant_rows(py, self.0.angular_velocities())
+    }
+
+    /// The requested attitude error, in rad.
+    #[getter]
+    fn tolerance(&self) -> f64 {
+        self.0.asked_tolerance()
+    }
+
+    /// The orbits: an Orbit for all members, a list of one or None for each, or None.
+    #[getter]
+    fn orbits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.orbits_as_given(py)
+    }
+
+    /// The span, the times over which `tolerance` is requested, or None.
+    #[getter]
+    fn span(&self) -> Option<(f64, f64)> {
+        self.0.asked_span()
+    }
+
+    /// The requested number of threads, or None.
+    #[getter]
+    fn threads(&self) -> Option<usize> {
+        self.0.asked_threads()
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    fn __iter__(slf: Py<Self>) -> Members {
+        Members::of(slf.into_any())
+    }
+
+    fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        self.member_or_part(py, index)
+    }
+
+    fn __repr__(&self) -> String {
+        self.text()
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        self.arguments(py)
+    }
+}
