@@ -6,7 +6,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-partials rivals-messages gravity docs docs-test package wheel clean kernels
+.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -15,7 +15,7 @@ test: lint supply $(VENV)/installed $(VENV)/tested docs-test  ## everything that
 	cargo test --workspace --quiet
 	$(BIN)/python tests/reference/torque_free.py tests/data/torque_free.json
 	$(BIN)/python examples/scenes/make_scenes.py --check
-	$(BIN)/python examples/bounds.py --scenes 120
+	$(BIN)/python tests/stress/bounds.py --scenes 120
 	$(BIN)/python -m pytest -q crates/py/tests
 	mkdir -p out
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
@@ -24,6 +24,7 @@ test: lint supply $(VENV)/installed $(VENV)/tested docs-test  ## everything that
 lint:  ## formatting, clippy, documentation, and the imports between the files of each crate
 	$(PYTHON) tests/layers.py
 	$(PYTHON) tests/layers.py --planted
+	$(PYTHON) tests/release.py
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --quiet -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps --document-private-items --quiet
@@ -67,7 +68,7 @@ supply:  ## licences, bans and sources of every locked dependency, by cargo alon
 
 deny:  ## the same rules by cargo-deny, which is installed if it is not there
 	command -v cargo-deny >/dev/null || cargo install --locked --quiet cargo-deny
-	cargo deny --offline check licenses bans sources
+	cargo deny --offline check --config tests/deny.toml licenses bans sources
 
 msrv:  ## the oldest compiler that Cargo.toml promises
 	cargo +$$(sed -n 's/^rust-version = "\(.*\)"/\1.0/p' Cargo.toml) check --workspace --all-targets --locked --quiet --target-dir target/msrv
@@ -85,7 +86,7 @@ parallel: $(VENV)/installed  ## the wheel's tests of objects, each on eight thre
 	$(BIN)/python -m pytest -q --parallel-threads=8 $(PARALLEL:%=crates/py/tests/test_%.py)
 
 sweep: $(VENV)/installed  ## series against closed form by order, σ/σ_sep and β: docs/data/sweep.csv, picture and table of its page; a minute
-	$(BIN)/python examples/sweep.py
+	$(BIN)/python benches/sweep.py
 
 gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory leaves, against integrations: docs/data/gravity-*.csv and their picture; some minutes
 	cargo build --release --quiet --package andoyer-tests --bin gradient
@@ -93,12 +94,12 @@ gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory le
 	target/release/gradient levels > docs/data/gravity-levels.csv
 	target/release/gradient bounds 300 1 > docs/data/gravity-bounds.csv
 	target/release/gradient climb 1 45 11 > docs/data/gravity-climb.csv
-	$(BIN)/python examples/gravity.py
+	$(BIN)/python benches/gravity.py
 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes
-	$(BIN)/python examples/bounds.py
+	$(BIN)/python tests/stress/bounds.py
 
-rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-partials rivals-messages  ## the tables of ratios, in out/ too
+rivals: rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-integration rivals-partials rivals-messages  ## the tables of ratios, in out/ too
 
 rivals-normal-form: $(RIVALS)/normal-form $(RIVALS)/installed  ## the normal form against python-flint, SymPy and SymEngine
 	$(RIVALS)/bin/python benches/rivals/normal_form.py
@@ -113,6 +114,9 @@ rivals-propagation: $(RIVALS)/propagation $(RIVALS)/installed $(RIVALS)/orekit/r
 
 rivals-gradient: $(RIVALS)/propagation $(RIVALS)/installed  ## the gravity gradient against heyoka
 	$(RIVALS)/bin/python benches/rivals/gradient.py
+
+rivals-integration: $(RIVALS)/propagation $(RIVALS)/installed  ## the integrated method against heyoka, in nine regimes
+	$(RIVALS)/bin/python benches/rivals/integration.py --output out
 
 rivals-partials: $(RIVALS)/propagation $(RIVALS)/installed  ## derivatives against heyoka's variational equations
 	$(RIVALS)/bin/python benches/rivals/partials.py
@@ -170,12 +174,17 @@ package: $(VENV)/installed  ## the sdist and a wheel from it without network, th
 	cd target/package-check/andoyer-* && mkdir .cargo && cargo vendor --quiet > .cargo/config.toml
 	cd target/package-check/andoyer-* && CARGO_NET_OFFLINE=true $(abspath $(BIN))/maturin build --quiet --release --locked --offline --interpreter $(abspath $(BIN))/python --out ..
 	for text in MIT APACHE; do \
-		cmp LICENSE-$$text crates/py/LICENSE-$$text && unzip -p target/package-check/andoyer-*.whl '*.dist-info/licenses/LICENSE-'$$text | cmp - LICENSE-$$text || exit 1; \
+		for crate in double series propagate py; do cmp LICENSE-$$text crates/$$crate/LICENSE-$$text || exit 1; done; \
+		unzip -p target/package-check/andoyer-*.whl '*.dist-info/licenses/LICENSE-'$$text | cmp - LICENSE-$$text || exit 1; \
 	done
 	$(PYTHON) -m venv target/package-check/venv
 	target/package-check/venv/bin/python -m pip install --quiet target/package-check/andoyer-*.whl
 	target/package-check/venv/bin/python -m andoyer.selftest
 	cargo package --quiet -p andoyer-double -p andoyer-series -p andoyer-propagate --target-dir target/package-check/crates
+
+release-check: package  ## versions, addresses and licences agree; public Rust names against the last tag, where there is one and cargo-semver-checks
+	$(PYTHON) tests/release.py
+	$(PYTHON) tests/release.py --semver
 
 wheel: $(VENV)/installed
 

@@ -1,8 +1,8 @@
-"""What was measured, as pages: the end of docs/speed.md, docs/performance.png and the table of the README.
+"""Write the measured figures as text and pictures: the end of docs/speed.md, docs/performance.png and the table of the README.
 
     python benches/report.py          `make report`, from docs/data/bench.csv, work-precision.csv and stress.csv
 
-Nothing is measured here. Where a rival is faster at the same error, the tables say so.
+This script measures nothing. The tables show where a rival is faster at the same error.
 """
 
 import csv
@@ -163,10 +163,10 @@ def main():
         [
             "## Run time against error",
             f"![Run time against error, a panel a scene, a curve an engine](performance.png)\n\n{machine(precision)}",
-            "The cheapest setting of each engine that reaches an error, set-up and 20,000 samples:",
+            "For each engine the table gives the time of its cheapest setting that reaches the error. The time includes set-up and 20,000 samples:",
             at_equal_error(precision),
             "## By order, output and size",
-            f"{machine(bench)} Time of one element where elements are counted, else of the whole; median.",
+            f"{machine(bench)} The times are medians, for one element if the table has a number of elements, otherwise for the whole task.",
             by_task(bench),
         ]
     )

@@ -2,14 +2,13 @@
 
     python examples/demo.py          from the root of the repository, with andoyer, numpy, mpmath and matplotlib installed
 
-For every scene, in closed form (which is what "auto" takes) and by the series where they serve: the plan (mode, σ/σ_sep, order, harmonics), the largest
-attitude error at 25 epochs over the span against tests/reference/torque_free.py (Jacobi's closed form in 40 digits, which shares no formula with either; of a scene with an orbit,
-against a numerical integration, tests/reference/gravity_gradient.py),
-the error bound that the plan promised, and the time of one sample in calls with 100,000 even times. Exit status 1 if a scene fails or its
-error exceeds its bound.
+Every scene is solved in closed form (the choice of "auto") and by the series if they serve the scene. The table has the plan (mode, σ/σ_sep, order, harmonics), the largest
+attitude error at 25 epochs over the span, the error bound of the plan, and the time of one sample in calls with 100,000 uniform times. The reference is
+tests/reference/torque_free.py, Jacobi's closed form in 40 digits, which shares no formula with the two methods. For a scene with an orbit it is a numerical
+integration, tests/reference/gravity_gradient.py. Exit status 1 if a scene fails or its error exceeds its bound.
 
-With --record the figures are also written to docs/data/scenes.csv and, those of a measured `Ensemble`, to docs/data/ensemble.csv, which the pages of the documentation and, by
-`make report`, the tables of the README are made from.
+With --record the figures are also written to docs/data/scenes.csv, and those of a measured `Ensemble` to docs/data/ensemble.csv. The pages of the documentation and
+the tables of the README (`make report`) use these files.
 """
 
 import csv
@@ -47,14 +46,14 @@ ROW = "{:<40} {:<14} {:<7} {:>8} {:>6} {:>10} {:>12} {:>12} {:>10}"
 
 
 def span_of(scene: andoyer.Scene) -> tuple[float, float]:
-    """The span of a scene, which those of examples/scenes have."""
+    """The span of a scene; every scene of examples/scenes has one."""
     if scene.span is None:
         raise ValueError(f"{scene.name} has no span")
     return scene.span
 
 
 def largest_error(motion: andoyer.Motion, reference: Any) -> float:
-    """Largest attitude error [rad] of `motion` at EPOCHS times over its span, against the torque-free `reference` or, with an orbit, an integration."""
+    """Largest attitude error [rad] of `motion` at EPOCHS times over its span, relative to the torque-free `reference` or, with an orbit, to an integration."""
     scene = motion.scene
     times = np.linspace(*span_of(scene), EPOCHS)
     if scene.orbit is None:
@@ -77,7 +76,7 @@ def nanoseconds_per_sample(motion: andoyer.Motion, span: tuple[float, float]) ->
 
 
 def picture_times(reference: Any, span: tuple[float, float]) -> NDArray[np.float64]:
-    """PLOTTED_SAMPLES times over whole turns of the momentum about its body axis: PLOTTED_PERIODS or as many as fit; the span if none does."""
+    """PLOTTED_SAMPLES times over whole turns of the momentum about its body axis: PLOTTED_PERIODS turns, or as many as fit; the whole span if it is shorter than a turn."""
     start, end = span
     if not reference.steady:
         period = 2 * np.pi / abs(float(reference.mean_rates()[1]))
@@ -87,7 +86,7 @@ def picture_times(reference: Any, span: tuple[float, float]) -> NDArray[np.float
 
 
 def label(scene: andoyer.Scene) -> str:
-    """The name of a scene, with its tolerance where that is not the usual one."""
+    """The name of a scene, with its tolerance if it is not USUAL_TOLERANCE."""
     if scene.tolerance == USUAL_TOLERANCE:
         return scene.name or ""
     return f"{scene.name} (tolerance {scene.tolerance:.0e})".replace("e-0", "e-")
@@ -100,7 +99,7 @@ def markdown(table: Sequence[Sequence[str]]) -> str:
 
 
 def with_method(scene: andoyer.Scene, method: Literal["closed", "series"]) -> andoyer.Scene:
-    """The scene with another method."""
+    """The scene, with this method."""
     return andoyer.Scene(
         scene.body,
         scene.attitude,
@@ -118,7 +117,7 @@ def with_method(scene: andoyer.Scene, method: Literal["closed", "series"]) -> an
 
 
 def row(motion: andoyer.Motion, reference: Any) -> tuple[list[str], bool]:
-    """The row of the table for one motion, and whether its error is within its bound."""
+    """The row of the table for one motion, and True if its error is within its bound."""
     scene, plan = motion.scene, motion.plan
     error = largest_error(motion, reference)
     speed = nanoseconds_per_sample(motion, span_of(scene))
@@ -128,7 +127,7 @@ def row(motion: andoyer.Motion, reference: Any) -> tuple[list[str], bool]:
 
 
 def rows(path: Path, out: Path) -> Iterator[tuple[list[str], bool]]:
-    """One scene: draws it into `out`; for each method that serves it the row of the table, and whether its error is within its bound."""
+    """Draw one scene into `out`. For each method that serves it, yield the row of the table, and True if the error is within its bound."""
     scene = andoyer.Scene.from_toml(str(path))
     reference = TorqueFree(scene.body.moments, scene.attitude, scene.angular_velocity, epoch=scene.epoch)
     motion = scene.solve()
@@ -136,17 +135,17 @@ def rows(path: Path, out: Path) -> Iterator[tuple[list[str], bool]]:
     plot.summary(motion, times).savefig(out / f"{path.stem}.png", dpi=130)
     for method in METHODS:
         if scene.orbit is not None and method == "series":
-            continue  # averaged theory, in closed form
+            continue  # a scene with an orbit has no series
         try:
             motion = with_method(scene, method).solve()
         except andoyer.TheoryError:
-            continue  # the series do not reach this tolerance so near the separatrix
+            continue  # near the separatrix the series do not meet this tolerance
         if motion.plan.method == method:
             yield row(motion, reference)
 
 
 def ensemble_seconds(threads: int) -> float:
-    """Least of three times of solving and evaluating ENSEMBLE bodies at their epochs, in seconds."""
+    """The least of three times [s] of solving and evaluating ENSEMBLE bodies at their epochs."""
     bodies, epochs = ENSEMBLE
     generator = np.random.default_rng(1)
     axes = np.sort(generator.uniform(0.4, 1, (bodies, 3)), axis=1) ** 2
@@ -162,7 +161,7 @@ def ensemble_seconds(threads: int) -> float:
 
 
 def record(table: Sequence[Sequence[str]], root: Path = ROOT) -> None:
-    """The figures of the README and of the pages of accuracy and speed."""
+    """Write the figures of the README and of the pages of accuracy and speed."""
     data = root / "docs" / "data"
     with (data / "scenes.csv").open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")

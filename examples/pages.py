@@ -1,4 +1,4 @@
-"""Pages in which a motion turns: Apophis, Toutatis, and a box satellite under the gravity of the Earth.
+"""Write HTML pages with animations of three motions: Apophis, Toutatis, and a box satellite under the gravity of the Earth.
 
     python examples/pages.py [FOLDER]
 
@@ -17,12 +17,12 @@ DAY = 86400.0
 
 
 def apophis() -> andoyer.Motion:
-    """The scene of the repository: short-axis mode, 27.38 h and 263 h."""
+    """The motion of examples/scenes/apophis.toml: short-axis mode with the periods 27.38 h and 263 h."""
     return andoyer.Scene.from_toml(SCENES / "apophis.toml").solve()
 
 
 def toutatis() -> andoyer.Motion:
-    """Long-axis mode: 50.0° between long axis and angular momentum where that is least, which precesses in 7.40 d (Zhao et al. 2015)."""
+    """A long-axis mode. The long axis precesses in 7.40 d, and its least angle to the angular momentum is 50.0° (Zhao et al. 2015)."""
     body = andoyer.Body.named("toutatis")
     tilt, (least, _, greatest) = math.radians(50.005), body.moments
 
@@ -34,7 +34,7 @@ def toutatis() -> andoyer.Motion:
 
 
 def satellite() -> andoyer.Motion:
-    """A box of 1 × 1.2 × 0.6 m that turns once a minute, on an orbit of 96 minutes."""
+    """A box of 1 × 1.2 × 0.6 m that rotates once a minute, on an orbit of 96 minutes."""
     a, b, c = 1.0, 1.2, 0.6
     box = andoyer.Body([(b * b + c * c) / 12, (a * a + c * c) / 12, (a * a + b * b) / 12])
     orbit = andoyer.Orbit(2 * math.pi / 5760.0, inclination=math.radians(30))

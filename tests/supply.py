@@ -52,7 +52,7 @@ def problems(manifest, rules):
 
 
 def main():
-    with open(ROOT / "deny.toml", "rb") as file:
+    with open(ROOT / "tests" / "deny.toml", "rb") as file:
         rules = tomllib.load(file)
     found = [f"{manifest}: {problem}" for manifest in sys.argv[1:] or MANIFESTS for problem in problems(manifest, rules)]
     print("\n".join(found) or "licences, bans and sources: as deny.toml allows")

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use andoyer_benches::{disturbed, short};
-use andoyer_propagate::{Averaging, Level};
+use andoyer_propagate::options::{Averaging, Level};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 const LEVELS: [Level; 3] = [Level::Paper, Level::Moving, Level::Full];

@@ -4,10 +4,11 @@
 use std::hint::black_box;
 
 use andoyer_double::DoubleDouble;
-use andoyer_series::{
-    Monomial, NormalForm, Normalization, NumericNormalForm, Real, deprit_triangle, hamiltonian, homological, poisson,
-    quiet,
-};
+use andoyer_series::forms::Real;
+use andoyer_series::lie::{Normalization, deprit_triangle};
+use andoyer_series::progress::quiet;
+use andoyer_series::rigid_body::{hamiltonian, homological, poisson};
+use andoyer_series::{Monomial, NormalForm, NumericNormalForm};
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};
 use num_rational::BigRational;

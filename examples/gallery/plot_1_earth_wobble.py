@@ -2,8 +2,8 @@
 The Earth's free wobble
 =======================
 
-A rigid Earth whose angular momentum is 0.2 arcseconds from its axis of figure: the axis goes round in Euler's 304 days. (The real Earth is
-not rigid, and takes longer.)
+The example is a rigid Earth whose rotation axis is 0.2 arcseconds from its axis of figure. The rotation axis moves around the axis of figure with Euler's period of 304 days. (The
+period of the real Earth is longer, because the Earth is not rigid.)
 """
 
 import math
@@ -14,8 +14,8 @@ import numpy as np
 from andoyer import plot
 
 # %%
-# A body of the catalogue, in the units of its greatest moment. The state: the axis of figure 3 stands at the inertial z, and the rotation axis is
-# 0.2 arcseconds away. Time in seconds.
+# The catalogue gives the moments of the Earth in units of the greatest moment. In the initial state the axis of figure (body axis 3) points along inertial z, and the rotation axis is
+# 0.2 arcseconds away from it. Time is in seconds.
 
 ARCSECOND = math.pi / 648000
 STELLAR_DAY = 86400 / 1.00273781191135448  # Earth rotation angle of IAU 2000
@@ -27,7 +27,7 @@ motion = scene.solve()
 print(motion.plan)
 
 # %%
-# The period of the wobble is P_ψ; the sample after a whole number of them has the axis where it was.
+# The period of the wobble is P_ψ. After ten periods the angular velocity in the body is the initial one.
 
 wobble = motion.periods["short-axis"].rotation
 print(f"{wobble / 86400:.1f} days")
@@ -36,12 +36,12 @@ start, end = motion.angular_velocity([0.0, 10 * wobble])
 assert np.allclose(start, end, rtol=0, atol=1e-12 * spin)
 
 # %%
-# The path of the angular momentum in the body is an ellipse that is almost a circle: A and B differ by two parts in 100,000.
+# The path of the angular momentum in the body is an ellipse that is almost a circle, because A and B differ by two parts in 100,000 only.
 
 axes = plot.polhode_near_pole(motion)
 plt.show()
 
 # %%
-# A billion rotations are no further than one: attitude and rates are computed, not integrated.
+# The motion is a formula, so an evaluation after a billion rotations takes the same time as one after a single rotation.
 
 print(motion.attitude(1e9 * STELLAR_DAY), motion.plan.error_bound)

@@ -2,8 +2,8 @@
 Eros near its separatrix
 ========================
 
-Eros is so long that the separatrix begins 3.9 degrees from its short axis. Hypothetical states on both sides of it: what the series need, where they
-stop, and what the closed form does there.
+Eros is so elongated that its separatrix passes 3.9 degrees from its short axis. This example compares the series with the closed form for hypothetical states on both sides of the
+separatrix: the order that the series need, the place where they stop, and the error bound of the closed form.
 """
 
 import math
@@ -14,21 +14,21 @@ import matplotlib.pyplot as plt
 from andoyer import plot
 
 # %%
-# States with the momentum tilted from the short axis towards the long one: the shortest way to the separatrix.
+# The angular momentum is tilted from the short axis towards the long axis. In this direction the separatrix is nearest.
 
 eros = andoyer.Body.named("eros")
 moments = eros.moments
 
 
 def tilted(degrees: float, method: Literal["auto", "series"] = "auto") -> andoyer.Motion:
-    """Eros with its angular momentum so far from axis 3 towards axis 1."""
+    """Eros with its angular momentum tilted by this angle from axis 3 towards axis 1."""
     angle = math.radians(degrees)
     rates = [math.sin(angle) / moments[0], 0.0, math.cos(angle) / moments[2]]
     return andoyer.Scene(eros, [0, 0, 0, 1], rates, method=method, name=f"{degrees} degrees off").solve()
 
 
 # %%
-# The order of the series grows towards the separatrix; then there is none, and the error says so.
+# The order of the series grows towards the separatrix. Close to the separatrix no order up to 60 is sufficient, and the error says so.
 
 for degrees in [0.1, 1.0, 2.0, 3.0, 3.8]:
     closed = tilted(degrees)
@@ -42,7 +42,7 @@ for degrees in [0.1, 1.0, 2.0, 3.0, 3.8]:
     print(f"    order of the series: {order}")
 
 # %%
-# Just inside and just outside: the same body, two kinds of motion.
+# The two tilts are just inside and just outside the separatrix. The body is the same, but the motions are of different modes.
 
 inside, outside = tilted(3.8), tilted(5.0)
 print(inside.plan.mode, outside.plan.mode)
@@ -54,7 +54,7 @@ for motion, axes in zip((inside, outside), panels):
 plt.show()
 
 # %%
-# The phase portrait shows how thin the region of the short-axis mode is.
+# The phase portrait shows that the region of the short-axis mode is thin.
 
 plot.phase_portrait(inside)
 plt.show()

@@ -2,8 +2,8 @@
 Apophis and its light curve
 ===========================
 
-Apophis tumbles: its short axis precesses in 27.38 hours and the body turns about it in 263 (Pravec et al. 2014). From the state come the periods in the three
-conventions, the strongest line of the light curve, and a plan; from the series an error at each order.
+Apophis tumbles. Its short axis precesses in 27.38 hours, and the body turns about this axis in 263 hours (Pravec et al. 2014). This example finds the state with these periods. It then computes
+the periods in three conventions, the strongest line of the light curve, and the error of the series at each order.
 """
 
 import andoyer
@@ -12,8 +12,8 @@ import numpy as np
 from andoyer import plot
 
 # %%
-# A state with the two periods and the moments of the catalogue; the angular momentum points to longitude 275°, latitude −85° of the ecliptic (Lee et al. 2022), the phases are chosen.
-# Time in seconds.
+# The state has the two periods and the moments of the catalogue. The angular momentum points to ecliptic longitude 275°, latitude −85° (Lee et al. 2022). The phases are the default ones.
+# Time is in seconds.
 
 HOUR = 3600.0
 apophis = andoyer.Body.named("apophis")
@@ -24,7 +24,7 @@ motion = scene.solve()
 print(motion.plan)
 
 # %%
-# Light-curve papers take the extremal axis: the short axis in a short-axis mode, as here. The long axis precesses more slowly, in 30.56 hours.
+# Light-curve papers use the extremal axis. Here it is the short axis, because the motion is in a short-axis mode. The long axis precesses more slowly, in 30.56 hours.
 
 for convention, (precession, rotation) in motion.periods.items():
     print(f"{convention:13}  P_φ {precession / HOUR:.2f} h   P_ψ {rotation / HOUR:.1f} h")
@@ -33,7 +33,7 @@ long_axis = motion.periods["long-axis"].precession
 assert [round(time / HOUR, 2) for time in (precession, rotation, long_axis)] == [27.38, 263.0, 30.56]
 
 # %%
-# The cross-section of the homogeneous ellipsoid with these moments, seen from the plane of the rotation: it repeats when the long axis has gone half way round, so that the
+# The light curve is the cross-section of the homogeneous ellipsoid with these moments, for an observer perpendicular to the angular momentum. It repeats after half a turn of the long axis, so the
 # strongest line of its spectrum is at half of 30.56 hours.
 
 A, B, C = apophis.moments
@@ -58,20 +58,20 @@ axes.legend(frameon=False)
 plt.show()
 
 # %%
-# Energy over that of the slowest rotation with this momentum, and the parameter of the elliptic functions. Pravec et al. have E/E0 = 1.024 ± 0.013.
+# E/E0 is the energy divided by the least energy for this angular momentum (rotation about the short axis), and k² is the parameter of the elliptic functions. Pravec et al. found E/E0 = 1.024 ± 0.013.
 
 print(f"E/E0 = {motion.energy_ratio:.4f}, k² = {motion.elliptic_parameter:.3f}")
 print(f"σ/σ_sep = {motion.plan.separatrix_ratio:.3f}")
 assert round(motion.energy_ratio, 5) == 1.02364 and round(motion.elliptic_parameter, 3) == 0.638
 
 # %%
-# At σ/σ_sep = 0.57 each order of the series gains a factor 0.57: order 43 reaches 1e-12 rad. The dashed line is the closed form.
+# At σ/σ_sep = 0.57 each order of the series multiplies the error by 0.57, so order 43 reaches 1e-12 rad. The dashed line is the closed form.
 
 axes = plot.error_by_order(scene, orders=range(0, 61, 4))
 plt.show()
 
 # %%
-# Three turns of the polhode.
+# Nutation, angles and rates during three turns of the polhode.
 
 times = np.linspace(0, 3 * rotation, 2000)
 figure, panels = plt.subplots(3, 1, figsize=(9, 8), layout="constrained", sharex=True)

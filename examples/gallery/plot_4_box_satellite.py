@@ -2,8 +2,8 @@
 A box satellite under gravity gradient
 ======================================
 
-A homogeneous box of 1 × 1.2 × 0.6 m that turns once a minute about its shortest side, on a circular orbit of 96 minutes. The Earth's gravity gradient turns
-its axis about the normal of the orbit; the averaged theory gives that path in formulas.
+The satellite is a homogeneous box of 1 × 1.2 × 0.6 m. It rotates once a minute about its shortest side, on a circular orbit of 96 minutes. The gravity gradient of the Earth makes
+its angular momentum precess about the normal of the orbit. The averaged theory gives this precession in formulas.
 """
 
 import math
@@ -14,7 +14,7 @@ import numpy as np
 from andoyer import plot
 
 # %%
-# Moments of a box over its mass, and an orbit inclined by 30 degrees to the plane of rotation.
+# The moments are those of a box divided by its mass. The orbit is inclined by 30 degrees to the plane of rotation.
 
 a, b, c = 1.0, 1.2, 0.6
 box = andoyer.Body([(b * b + c * c) / 12, (a * a + c * c) / 12, (a * a + b * b) / 12], name="box")
@@ -26,13 +26,13 @@ motion = scene.solve()
 print(motion.plan)
 
 # %%
-# The axis of the angular momentum goes about the normal of the orbit at (3/2) n²/ω (C − (A+B)/2)/C cos I; twice an orbit it nods.
+# The angular momentum precesses about the normal of the orbit at the rate (3/2) n²/ω (C − (A+B)/2)/C cos I, with a small oscillation twice an orbit.
 
 axes = plot.pole_path(motion, np.linspace(0, 5 * 5760.0, 2000))
 plt.show()
 
 # %%
-# The rate of the node over twenty orbits, against that formula.
+# The rate of the node over twenty orbits agrees with this formula.
 
 normal = np.array([0.0, -math.sin(math.radians(30)), math.cos(math.radians(30))])
 start, end = motion.angular_momentum([0.0, 20 * 5760.0])
@@ -46,7 +46,7 @@ print(f"turned by {math.degrees(turned):.3f} degrees; the formula gives {math.de
 assert abs(turned / expected - 1) < 0.02
 
 # %%
-# All of it in one figure.
+# `plot.summary` shows the whole motion in one figure.
 
 plot.summary(motion)
 plt.show()

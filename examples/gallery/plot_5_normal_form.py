@@ -2,7 +2,7 @@
 Your own normal form
 ====================
 
-The algebra behind the rigid body serves any Hamiltonian near an elliptic point. Here the pendulum: its frequency against the amplitude, order by order.
+`normalize` finds the normal form of any Hamiltonian near an elliptic equilibrium. This example computes the frequency of a pendulum as a function of its amplitude, for several orders.
 """
 
 import math
@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 # %%
-# H = p²/2 − cos q as a polynomial: exact rationals, written out to degree 14.
+# H = p²/2 − cos q is written as a Taylor polynomial of degree 14 with exact rational coefficients.
 
 terms = [f"{'+' if k % 2 else '-'} q^{2 * k}/{math.factorial(2 * k)}" for k in range(2, 8)]
 pendulum = " ".join(["(p^2 + q^2)/2", *terms])
@@ -21,11 +21,11 @@ form = andoyer.normalize(pendulum, 12, variables=[("q", "p")])
 print(form)
 
 # %%
-# The frequency is the slope of K in the action; the true one comes from the arithmetic-geometric mean.
+# The frequency is the derivative of K with respect to the action. The true frequency follows from the arithmetic-geometric mean.
 
 
 def true_frequency(amplitude: float) -> float:
-    """Of a pendulum that swings to `amplitude` [rad]: the mean of 1 and cos(amplitude/2)."""
+    """The frequency of a pendulum with `amplitude` [rad]: the arithmetic-geometric mean of 1 and cos(amplitude/2)."""
     x, y = 1.0, math.cos(amplitude / 2)
     for _ in range(6):
         x, y = (x + y) / 2, math.sqrt(x * y)
@@ -46,6 +46,6 @@ axes.legend(frameon=False)
 plt.show()
 
 # %%
-# As C for another program: `docs/normalize.md` has SymPy's way; the rigid body's own form has `NormalForm.to_code`.
+# `to_code` writes C for other programs: here the normal form of the rigid body. `docs/normalize.md` shows it for your own Hamiltonian.
 
 print(andoyer.NormalForm(4).to_code("c", beta=0.5)[:600])

@@ -1,9 +1,9 @@
 """
-An ensemble: how well do we know where it points?
-=================================================
+An ensemble: how long can we predict the attitude?
+==================================================
 
-Apophis' moments are known to some percent. A thousand bodies with moments drawn about the published ones, the same state: after how long does nobody know the
-orientation any more? `Ensemble` evaluates them all in one call.
+The moments of Apophis are known to a few percent. This example draws a thousand bodies with moments near the published ones and gives them the same initial state. The spread of their
+attitudes shows for how long the orientation is known. `Ensemble` evaluates all bodies in one call.
 """
 
 import andoyer
@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 # %%
-# The draw: A/C and B/C with a standard deviation of one percent; bodies that cannot be are left out.
+# A/C and B/C have a standard deviation of one percent. Draws that violate the triangle inequality of the moments are left out.
 
 generator = np.random.default_rng(1)
 middle = andoyer.Body.named("apophis").moments
@@ -25,7 +25,7 @@ ensemble = andoyer.Ensemble(moments, attitude, rates, tolerance=1e-8)
 print(ensemble)
 
 # %%
-# Attitudes at two hundred times over thirty days, and the angle between each and that of the published moments.
+# The attitudes are evaluated at two hundred times over thirty days. The picture shows the angle between each attitude and the attitude of the body with the published moments.
 
 times = np.linspace(0, 30 * 86400.0, 200)
 attitudes = ensemble.attitude(times)
@@ -44,7 +44,7 @@ axes.legend(frameon=False, loc="upper left")
 plt.show()
 
 # %%
-# Which of them tumble in which mode.
+# The number of bodies in each mode.
 
 modes, counts = np.unique([plan.mode for plan in ensemble.plans], return_counts=True)
 print(dict(zip(modes.tolist(), counts.tolist())))

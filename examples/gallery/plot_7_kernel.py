@@ -2,8 +2,8 @@
 Apophis as a kernel of SPICE
 ============================
 
-A mission planner reads attitudes with SPICE. Here the tumbling Apophis is written as a C-kernel, with the frame and the clock that belong to it; then
-SpiceyPy reads the attitude back, and the angle between what it reads and the motion stays below what was asked for.
+Mission planners read attitudes with SPICE. This example writes the tumbling Apophis as a C-kernel, with its frame and its clock. SpiceyPy then
+reads the attitude back, and the angle between the kernel and the motion stays below the requested error.
 """
 
 import tempfile
@@ -16,7 +16,7 @@ import spiceypy
 from andoyer.output import Kernel, write_ck
 
 # %%
-# The state of the scene file: seconds, ecliptic frame, time 0 at J2000. Thirty days are enough for a picture.
+# The state is that of the scene file. Time is in seconds with time 0 at J2000, and the frame is the ecliptic. The kernel covers thirty days.
 
 attitude = [0.9936142273587073, 0.039164900723114, -0.09451299087115574, 0.047583319538432894]
 rates = [1.7762925277359764e-05, 0.0, 5.530125462483281e-05]
@@ -26,9 +26,9 @@ DAY = 86400.0
 interval = (0.0, 30 * DAY)
 
 # %%
-# The kernel: codes and names are chosen freely, the inertial frame is one of SPICE's. ECLIPJ2000 is the ecliptic. A C-kernel of type 3 turns uniformly
-# from one record to the next. Where the angular velocity changes by α [rad/s²], an interval of h seconds leaves h²α/8, so the records stand closer
-# where Apophis changes its rotation faster.
+# You can choose the codes and names of the kernel. The inertial frame must be one of SPICE; ECLIPJ2000 is the ecliptic. A C-kernel of type 3 rotates uniformly
+# from one record to the next. If the angular acceleration is α [rad/s²], the error in an interval of h seconds is h²α/8. The records are therefore denser
+# where the angular velocity of Apophis changes faster.
 
 ASKED = 1e-6
 kernel = Kernel(instrument=-99942000, body_frame="APOPHIS_TUMBLING", frame="ECLIPJ2000", clock_id=-99942)
@@ -37,7 +37,7 @@ written = write_ck(folder / "apophis.bc", motion, interval, kernel, interpolatio
 print(f"type {written.type}, {written.records} records, one in {interval[1] / written.records:.0f} s; {(folder / 'apophis.bc').stat().st_size / 1e6:.1f} MB")
 
 # %%
-# Two files are to be loaded: the kernel, and beside it the text kernel with frame and clock. From then on the frame is one like any other.
+# Load two files: the C-kernel and the text kernel with frame and clock. After that SPICE can use the frame like any other frame.
 
 spiceypy.furnsh(str(folder / "apophis.bc"))
 spiceypy.furnsh(str(folder / "apophis.tsc"))
@@ -46,7 +46,7 @@ times.sort()
 matrices = np.array([spiceypy.pxform("APOPHIS_TUMBLING", "ECLIPJ2000", time) for time in times])
 
 # %%
-# From matrices, the angle between both attitudes: the Frobenius norm of R − S is 2√2 sin(angle/2).
+# The angle between two rotation matrices R and S follows from the Frobenius norm: ‖R − S‖ = 2√2 sin(angle/2).
 
 expected = motion.rotation(times).as_matrix()
 angle = 2 * np.arcsin(np.linalg.norm(matrices - expected, axis=(1, 2)) / np.sqrt(8))
@@ -63,6 +63,6 @@ panels[1].legend(loc="lower right")
 plt.show()
 
 # %%
-# SPICE has one pool of kernels for the whole process; what was loaded is given back.
+# SPICE has one pool of kernels for the whole process. `kclear` unloads the kernels.
 
 spiceypy.kclear()

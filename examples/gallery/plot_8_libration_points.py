@@ -2,8 +2,8 @@
 The Moon's L1
 =============
 
-Beside the collinear point L1 of Earth and Moon most motions leave along a saddle. The normal form that separates the saddle leaves the centre manifold: the bounded
-motions: planar and vertical Lyapunov orbits and the tori round them. Here a Poincaré section of it, computed from the Hamiltonian of two degrees of freedom.
+Near the collinear point L1 of Earth and Moon most motions escape along a saddle. The normal form separates the saddle from the centre manifold. The centre manifold contains the bounded
+motions: planar and vertical Lyapunov orbits and the tori around them. This example computes a Poincaré section of it from a Hamiltonian of two degrees of freedom.
 """
 
 import math
@@ -17,14 +17,14 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 # %%
-# H about L1 in units of the distance γ from L1 to the Moon: (X² + Y² + Z²)/2 + yX − xY − Σ c_n ρⁿ P_n(x/ρ), with Legendre's polynomials by their recursion.
+# The Hamiltonian about L1 is H = (X² + Y² + Z²)/2 + yX − xY − Σ c_n ρⁿ P_n(x/ρ) with Legendre polynomials P_n. The unit of length is the distance γ from L1 to the Moon.
 
 MU = 0.012150585609624
 ORDER = 8
 
 
 def gamma(mu: float) -> float:
-    """The distance of L1 to the smaller body."""
+    """The distance from L1 to the smaller body, in units of the distance between the bodies."""
     return brentq(lambda g: ((((g - (3 - mu)) * g + (3 - 2 * mu)) * g - mu) * g + 2 * mu) * g - mu, 1e-3, 0.9, xtol=1e-16)
 
 
@@ -50,7 +50,7 @@ form = andoyer.normalize(terms, ORDER, [("x", "X"), ("y", "Y"), ("z", "Z")], kee
 print(form.kinds, [complex(frequency) for frequency in form.frequencies])
 
 # %%
-# The Hamiltonian on the manifold has two pairs, (y, Y) horizontal and (z, Z) vertical. The section z = 0, Z > 0 at one energy: the closed curves are tori round
+# The Hamiltonian on the manifold has two pairs of variables, (y, Y) horizontal and (z, Z) vertical. In the section z = 0, Z > 0 at one energy, the closed curves are tori around
 # the vertical Lyapunov orbit.
 
 reduced = form.centre_manifold()
@@ -63,7 +63,7 @@ def energy(state: Any) -> float:
 
 
 def slope(slot: int) -> tuple[Any, Any]:
-    """Exponents and coefficients of ∂K by one variable."""
+    """Exponents and coefficients of the derivative of K with respect to one variable."""
     lowered = exponents - np.eye(4, dtype=int)[slot]
     return np.maximum(lowered, 0), coefficients * exponents[:, slot]
 
@@ -78,7 +78,7 @@ def rates(_: float, state: Any) -> list[float]:
 
 
 def section(y: float, momentum: float, level: float, crossings: int) -> Any:
-    """Crossings (y, Y) of z = 0 upwards of the orbit through a point of the section at an energy."""
+    """Points (y, Y) where the orbit through a point of the section, at an energy, crosses z = 0 upwards."""
     if energy([y, momentum, 0.0, 0.0]) >= level:
         return np.empty((0, 2))
     vertical = brentq(lambda Z: energy([y, momentum, 0.0, Z]) - level, 0.0, 3.0)
@@ -100,7 +100,7 @@ for y in np.linspace(-0.5, 0.5, 7):
 left.set(xlabel="y", ylabel="Y", title="Centre manifold of L1: z = 0 at energy 0.35", aspect="equal")
 
 # %%
-# How far the form is good: the sizes of the orders at some amplitudes.
+# The sizes of the orders at three amplitudes show the range of validity of the form.
 
 plot.domain(form, amplitudes=(0.1, 0.2, 0.4), axes=right)
 plt.show()

@@ -2,8 +2,8 @@
 From published periods to motions
 =================================
 
-Observers publish periods, a mode and axis ratios or moments. `Scene.from_periods` finds the one state that belongs to them. Three solutions of Apophis, and Toutatis; of
-2008 TC3, whose moments were not found in print, the periods say what the moments must satisfy.
+Observers publish periods, a mode, and axis ratios or moments. `Scene.from_periods` finds the state that has these periods. This example compares three published solutions of Apophis and
+computes the motion of Toutatis. For 2008 TC3 the authors found no published moments; there the periods give a condition on the moments.
 """
 
 import andoyer
@@ -13,8 +13,8 @@ import numpy as np
 HOUR, DAY = 3600.0, 86400.0
 
 # %%
-# Light-curve papers of short-axis tumblers give the periods of the short axis. Moments over the largest, P_φ and P_ψ in hours, direction of the angular momentum in ecliptic
-# longitude and latitude (of Pravec et al. recalled, not read).
+# Light-curve papers of short-axis tumblers give the periods of the short axis. Each entry has the moments in units of the largest, P_φ and P_ψ in hours, and the ecliptic longitude and
+# latitude of the angular momentum. (The direction of Pravec et al. is from memory and was not checked in the paper.)
 
 solutions = {
     "Pravec et al. 2014": ([0.61, 0.965, 1.0], 27.38, 263.0, (250, -75)),
@@ -35,7 +35,7 @@ for paper, (moments, precession, rotation, pole) in solutions.items():
 assert abs(motions["Pravec et al. 2014"].energy_ratio - 1.02364) < 5e-6  # published: 1.024 ± 0.013
 
 # %%
-# The three agree in the precession of the long axis, which the light curve shows, and differ in the swing of the short axis.
+# The three solutions agree in the precession of the long axis, which determines the light curve. They differ in the nutation of the short axis.
 
 times = np.linspace(0, 263 * HOUR, 2000)
 figure, axes = plt.subplots(figsize=(9, 4), layout="constrained")
@@ -47,7 +47,7 @@ axes.legend(frameon=False)
 plt.show()
 
 # %%
-# Toutatis is in a long-axis mode, and radar papers give the periods of its long axis: 7.40 and 5.38 days (Zhao et al. 2015) with 1 : 3.0836 : 3.235 (Takahashi et al. 2013).
+# Toutatis is in a long-axis mode. Radar papers give the periods of its long axis, 7.40 and 5.38 days (Zhao et al. 2015), and the ratio of its moments, 1 : 3.0836 : 3.235 (Takahashi et al. 2013).
 
 toutatis = andoyer.Scene.from_periods(
     andoyer.Body([1.0, 3.0836, 3.235]), 7.40 * DAY, 5.38 * DAY, mode="long-axis", momentum_direction=np.radians([180.2, -54.75])
@@ -60,7 +60,7 @@ print(f"Toutatis: k² {motion.elliptic_parameter:.3f}, the long axis stays {tilt
 assert round(motion.elliptic_parameter, 3) == 0.032
 
 # %%
-# Not every pair of periods belongs to a body: P_ψ/P_φ begins at its value for rotation about the mode's axis. With the two swapped, the error says where.
+# A body cannot have every pair of periods: P_ψ/P_φ has a smallest value, for rotation about the axis of the mode. Here the two periods are exchanged, and the error states the possible interval.
 
 try:
     andoyer.Scene.from_periods(andoyer.Body([0.61, 0.965, 1.0]), 263 * HOUR, 27.38 * HOUR)
@@ -68,8 +68,8 @@ except andoyer.InputError as problem:
     print(problem)
 
 # %%
-# 2008 TC3 turned about its long axis in 99.20 s, which precessed in 97.00 s (Scheirich et al. 2010, abstract). In a long-axis mode P_ψ/P_φ ≥ 1/g − 1,
-# g² = (1 − A/C)(1 − A/B): so g ≥ 0.4944, which shuts out the bodies below the line.
+# 2008 TC3 turned about its long axis in 99.20 s, and this axis precessed in 97.00 s (Scheirich et al. 2010, abstract). In a long-axis mode P_ψ/P_φ ≥ 1/g − 1 with
+# g² = (1 − A/C)(1 − A/B). Therefore g ≥ 0.4944, which excludes the bodies in the dark region.
 
 ratio = 99.20 / 97.00
 least = 1 / (1 + ratio)

@@ -1,7 +1,9 @@
 //! Any text as a polynomial: an error, or a polynomial that is printed and read back to itself; small ones are normalized too.
 #![no_main]
 
-use andoyer_series::{BigRational, Complex, PhaseSpace, Polynomial, normalize};
+use andoyer_series::{PhaseSpace, Polynomial, normalize};
+use andoyer_series::num_complex::Complex;
+use andoyer_series::num_rational::BigRational;
 use libfuzzer_sys::fuzz_target;
 
 const NAMES: [&str; 4] = ["x", "X", "y", "Y"];

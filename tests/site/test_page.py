@@ -24,7 +24,10 @@ MOTIONS = {
     "tensor": solved([0.3, 0.5, 1.0], andoyer.Body.from_inertia([[1.4, 0.2, -0.1], [0.2, 1.6, 0.15], [-0.1, 0.15, 1.2]])),
     "principal-axis": solved([0.0, 0.0, 1.0]),
     "at rest": solved([0.0, 0.0, 0.0]),
+    "passage": solved([1e-9, 1.0, 1e-9]),
 }
+TABLES = ["gravity gradient", "passage"]
+"""Motions that have no code."""
 
 
 class Window:
@@ -64,10 +67,14 @@ def test_page_has_the_attitude_of_the_library(opened, name):
     start, stop = window.run("[data.start, data.stop]")
     times = start + (stop - start) * np.array([0.0, 0.3, 0.71234, 1.0])
     values = np.array([window.run(f"andoyer.evaluate({time!r})") for time in times.tolist()])
-    assert error < 1e-8
-    # The error was found at three places between each two nodes; the largest may lie beside them.
-    assert angle_between(values[:, :4], motion.attitude(times)).max() < 1.2 * error + 1e-14
-    assert values[:, 4:] == pytest.approx(motion.angular_velocity(times), abs=1e-4)
+    angle = angle_between(values[:, :4], motion.attitude(times)).max()
+    if name in TABLES:
+        # The error was found at three places between each two nodes; the largest may lie beside them.
+        assert angle < 1.2 * error + 1e-14 < 1e-8
+        assert values[:, 4:] == pytest.approx(motion.angular_velocity(times), abs=1e-4)
+    else:
+        assert angle <= error < 1e-12
+        assert values[:, 4:] == pytest.approx(motion.angular_velocity(times), rel=1e-12, abs=1e-12)
     assert window.said == [] and window.fetched == [path.as_uri()]
     assert window.run("document.querySelectorAll('b, script').length") == 3  # no element by the name of the scene
 
@@ -80,10 +87,11 @@ def test_page_has_the_andoyer_variables_of_the_library(opened, name):
     for time in (start, start + 0.37 * (stop - start)):
         lambda_, mu, nu, node, size, short = motion.andoyer(time)
         shown = window.run(f"andoyer.variables({time!r})")
+        bound = 1e-5 if name in TABLES else 1e-12
         for angle, expected in (("lambda", lambda_), ("mu", mu), ("nu", nu)):
-            assert abs(np.angle(np.exp(1j * (shown[angle] - expected)))) < 1e-5
-        assert [shown["Lambda"], shown["M"], shown["N"]] == pytest.approx([node, size, short], rel=1e-5, abs=1e-5)
-        assert np.cos(shown["J"]) == pytest.approx(short / size, abs=1e-5)
+            assert abs(np.angle(np.exp(1j * (shown[angle] - expected)))) < bound
+        assert [shown["Lambda"], shown["M"], shown["N"]] == pytest.approx([node, size, short], rel=bound, abs=bound)
+        assert np.cos(shown["J"]) == pytest.approx(short / size, abs=bound)
 
 
 def test_picture_moves_with_time_and_the_slider_shows_it(opened):

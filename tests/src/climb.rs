@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use andoyer_propagate::nalgebra::UnitQuaternion;
-use andoyer_propagate::{Averaging, Level};
+use andoyer_propagate::options::{Averaging, Level};
 
 use crate::disturbed::{Disturbed, Measured};
 

@@ -2,7 +2,8 @@
 //!
 //! The truth is [`Problem`], which integrates the full equations and shares no formula with the averaged theory.
 
-use andoyer_propagate::{Averaging, Body, Error, Level, Motion, Orbit, Scene, State};
+use andoyer_propagate::options::{Averaging, Level};
+use andoyer_propagate::{Body, Error, Motion, Orbit, Scene, State};
 
 use crate::attitude_error;
 use crate::integration::Problem;

@@ -111,3 +111,8 @@ pub fn equation(document: &str, name: &str) -> String {
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 pub struct Readme;
+
+/// The example of the README of `andoyer-propagate`, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../crates/propagate/README.md")]
+pub struct ReadmeOfPropagate;

@@ -81,18 +81,18 @@ def tables(rows, seed):
     """The tables of the page."""
     cells = {(row["check"], row["regime"]): row for row in rows}
     total = sum(row["scenes"] for row in rows if row["check"] in ("energy", "error / tolerance", "error by order"))
-    lines = [START, "", f"{total:,} scenes, seed {seed}. Error of the attitude [rad] at the worst of four times, of the rates in units of M/I:", ""]
+    lines = [START, "", f"{total:,} scenes, seed {seed}. The table has the error of the attitude [rad] and of the rates [M/I], each at the worst of four times:", ""]
     lines += ["| regime | scenes | median | q99 | q99.9 | max | rates: q99.9 | max | max of error / bound |", "|---|---|---|---|---|---|---|---|---|"]
     for regime in REGIMES:
         attitude, rates, bound = (cells[check, regime] for check in ("attitude", "rates", "attitude / bound"))
         numbers = [attitude[name] for name in QUANTILES] + [rates["q99.9"], rates["max"]]
         lines.append(f"| {regime} | {attitude['scenes']:,} | " + " | ".join(f"{x:.1e}" for x in numbers) + f" | {bound['max']:.2f} |")
-    lines += ["", "The largest of what must vanish, without any reference (`group` in units of its budget):", ""]
+    lines += ["", "These checks need no reference. Each value would be 0 in exact arithmetic; the table has the largest (`group` in units of its budget):", ""]
     lines += ["| regime | " + " | ".join(name.replace("|", r"\|") for name in INVARIANTS) + " |", "|---" * (len(INVARIANTS) + 1) + "|"]
     for regime in REGIMES:
         found = [cells.get((check, regime)) for check in INVARIANTS]
         lines.append(f"| {regime} | " + " | ".join(f"{row['max']:.1e}" if row else "" for row in found) + " |")
-    lines += ["", "The series, in units of the budget of each line:", "", "| check | regime | scenes | median | q99 | q99.9 | max |", "|---|---|---|---|---|---|---|"]
+    lines += ["", "The checks of the series, each in units of its budget:", "", "| check | regime | scenes | median | q99 | q99.9 | max |", "|---|---|---|---|---|---|---|"]
     for row in rows:
         if row["check"] in series.BUDGETS and row["check"] != "brackets":
             lines.append(f"| {row['check']} | {row['regime']} | {row['scenes']:,} | " + " | ".join(f"{row[name]:.1e}" for name in QUANTILES) + " |")
@@ -130,7 +130,7 @@ def main():
     parser.add_argument("--short", action="store_true", help=f"{SHORT} scenes")
     parser.add_argument("--seed", type=int, default=2017)
     parser.add_argument("--processes", type=int, default=min(os.cpu_count() or 1, 8))
-    parser.add_argument("--only", action="append", default=[], metavar="TEXT", help="the regimes alone whose name has this; the rest of the file is kept")
+    parser.add_argument("--only", action="append", default=[], metavar="TEXT", help="only regimes whose name contains TEXT; other rows of the file are kept")
     parser.add_argument("--write", action="store_true", help="docs/data/stress.csv and docs/accuracy.md")
     arguments = parser.parse_args()
     scenes, start = SHORT if arguments.short else arguments.scenes, time.perf_counter()

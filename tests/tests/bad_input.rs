@@ -1,7 +1,8 @@
 //! Bad input is a typed error that names the argument, its value and the bound: never a panic, never NaN.
 
 use andoyer_propagate::error::{Kind, Value};
-use andoyer_propagate::{Body, Error, MAX_ORDER, Method, Motion, Scene, State};
+use andoyer_propagate::options::MAX_ORDER;
+use andoyer_propagate::{Body, Error, Method, Motion, Scene, State};
 
 const NAN: f64 = f64::NAN;
 const INFINITY: f64 = f64::INFINITY;

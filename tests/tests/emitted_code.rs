@@ -1,6 +1,8 @@
 //! What `to_code` writes is compiled and run, in C, Rust and Python, against the exact polynomials.
 
-use andoyer_series::{Error, Language, NormalForm, PublicForm, Variable, separatrix_action};
+use andoyer_series::print::Language;
+use andoyer_series::rigid_body::{PublicForm, Variable, separatrix_action};
+use andoyer_series::{Error, NormalForm};
 use num_complex::Complex;
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};

@@ -1,6 +1,7 @@
 //! Many bodies at once: the same bits as one by one, for any number of threads; bad members are named.
 
-use andoyer_propagate::{Body, Ensemble, Error, MAX_THREADS, Orbit, Scene, State};
+use andoyer_propagate::ensemble::MAX_THREADS;
+use andoyer_propagate::{Body, Ensemble, Error, Orbit, Scene, State};
 
 const MEMBERS: usize = 500;
 const LEVEL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];

@@ -1,6 +1,7 @@
 //! Each misprint that docs/errata.md lists fails as printed and holds as corrected.
 
-use andoyer_series::{LieTransform, Monomial, NormalForm, Poisson, Polynomial};
+use andoyer_series::lie::{LieTransform, Poisson};
+use andoyer_series::{Monomial, NormalForm, Polynomial};
 use andoyer_tests::equation;
 use num_complex::Complex;
 use num_rational::BigRational;

@@ -1,6 +1,7 @@
 //! The error under a gravity gradient is below the bound that the plan states: scenes in which it once was not.
 
-use andoyer_propagate::{Averaging, Error, Level};
+use andoyer_propagate::Error;
+use andoyer_propagate::options::{Averaging, Level};
 use andoyer_tests::climb::{FAMILIES, Uniform, climb};
 use andoyer_tests::disturbed::{Disturbed, Measured};
 use andoyer_tests::{attitude_error, difference};

@@ -1,6 +1,7 @@
 //! How good averaging is where it is hardest, that its bound says so, and the errors where it does not hold.
 
-use andoyer_propagate::{Averaging, Body, Error, Motion, Orbit, Scene, State};
+use andoyer_propagate::options::Averaging;
+use andoyer_propagate::{Body, Error, Motion, Orbit, Scene, State};
 use andoyer_tests::attitude_error;
 use andoyer_tests::integration::Problem;
 

@@ -1,7 +1,8 @@
 //! Secular precession under the gravity gradient of the Sun, "/yr (theory §9), of the bodies of the catalogue, whose moments, spins, poles and orbits were read in their sources.
 
 use andoyer_propagate::nalgebra::{UnitQuaternion, Vector3};
-use andoyer_propagate::{Averaging, Body, Orbit, Scene, State};
+use andoyer_propagate::options::Averaging;
+use andoyer_propagate::{Body, Orbit, Scene, State};
 use std::f64::consts::TAU;
 
 /// Days.

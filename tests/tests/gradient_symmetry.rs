@@ -1,7 +1,8 @@
 //! What no choice of axes, labels, clock or order of evaluation may change under a gravity gradient, and where the theory says that it does not hold.
 
 use andoyer_propagate::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
-use andoyer_propagate::{Averaging, Body, Error, Level, Motion, Orbit, Scene, State};
+use andoyer_propagate::options::{Averaging, Level};
+use andoyer_propagate::{Body, Error, Motion, Orbit, Scene, State};
 use andoyer_tests::attitude_error;
 use andoyer_tests::integration::Problem;
 

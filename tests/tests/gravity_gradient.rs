@@ -1,6 +1,7 @@
 //! Rotation under the gravity gradient against a numerical integration of the full equations in 80-bit reals (tests/data/README.md).
 
-use andoyer_propagate::{Averaging, Body, Error, Level, Motion, Orbit, Scene, State};
+use andoyer_propagate::options::{Averaging, Level};
+use andoyer_propagate::{Body, Error, Motion, Orbit, Scene, State};
 use andoyer_tests::{Case, attitude_error, cases, difference, orbits};
 
 const REFERENCE: &str = include_str!("../data/gravity_gradient.json");

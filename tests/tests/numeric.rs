@@ -1,7 +1,9 @@
 //! The normal form in `f64` against the exact one: two recursions, two representations of a polynomial, two kinds of number.
 
 use andoyer_double::DoubleDouble;
-use andoyer_series::{Form, NormalForm, NumericNormalForm, PublicForm, Variable, separatrix_action};
+use andoyer_series::forms::Form;
+use andoyer_series::rigid_body::{PublicForm, Variable, separatrix_action};
+use andoyer_series::{NormalForm, NumericNormalForm};
 use num_complex::Complex;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};

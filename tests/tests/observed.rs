@@ -1,7 +1,9 @@
 //! Scenes from periods and from Andoyer variables: there and back, published figures, limits, errors.
 
 use andoyer_propagate::nalgebra::{Matrix3, Rotation3, Vector3};
-use andoyer_propagate::{Body, Convention, Error, Mode, Motion, ObservedPeriods, Periods, Scene};
+use andoyer_propagate::options::Convention;
+use andoyer_propagate::periods::{ObservedPeriods, Periods};
+use andoyer_propagate::{Body, Error, Mode, Motion, Scene};
 use andoyer_tests::attitude_error;
 use proptest::prelude::*;
 

@@ -2,7 +2,8 @@
 //!
 //! With F = κE, s = κσ and q = 1 − β²: κ^(−m) Leg_m(κ) = R_m(q) is a polynomial, s = −Σ C(1/2, k) (−1)^k R_{k−1}(q) F^k, and its reversion is F = Σ P_n s^(n+1).
 
-use andoyer_series::{NormalForm, NumericNormalForm, separatrix_action};
+use andoyer_series::rigid_body::separatrix_action;
+use andoyer_series::{NormalForm, NumericNormalForm};
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive, Zero};
 

@@ -1,7 +1,8 @@
 //! Derivatives of attitude and rates against differences of a solution in multiple precision (tests/data/README.md), and what holds of them exactly.
 
 use andoyer_propagate::nalgebra::{SMatrix, UnitQuaternion, Vector3};
-use andoyer_propagate::{Body, Derivatives, Error, Motion, Orbit, Partials, Scene, State};
+use andoyer_propagate::partials::{Derivatives, Partials};
+use andoyer_propagate::{Body, Error, Motion, Orbit, Scene, State};
 use serde_json::Value;
 
 const REFERENCE: &str = include_str!("../data/partials.json");

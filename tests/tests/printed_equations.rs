@@ -1,6 +1,7 @@
 //! Every equation that docs/theory.md prints is what the triangle computes.
 
-use andoyer_series::{BETA, Monomial, NormalForm, Polynomial, TAU, W, W_BAR, hamiltonian};
+use andoyer_series::rigid_body::{BETA, TAU, W, W_BAR, hamiltonian};
+use andoyer_series::{Monomial, NormalForm, Polynomial};
 use andoyer_tests::{equation, equations};
 use num_complex::Complex;
 use num_rational::BigRational;

@@ -2,7 +2,8 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use andoyer_propagate::{Body, Ensemble, Error, Motion, OnError, Orbit, Scene, State};
+use andoyer_propagate::ensemble::OnError;
+use andoyer_propagate::{Body, Ensemble, Error, Motion, Orbit, Scene, State};
 
 fn scene(epoch: f64) -> Scene {
     let state = State::new(epoch, [0.0, 0.0, 0.0, 1.0], [0.0, 0.01, 1.0]).expect("a state");

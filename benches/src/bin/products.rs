@@ -8,7 +8,10 @@ use std::io::{BufRead, Write};
 use std::process::ExitCode;
 use std::time::Instant;
 
-use andoyer_series::{BigRational, Coefficient, Complex, Monomial, Poisson, Polynomial, Truncation};
+use andoyer_series::lie::Poisson;
+use andoyer_series::num_complex::Complex;
+use andoyer_series::num_rational::BigRational;
+use andoyer_series::{Coefficient, Monomial, Polynomial, Truncation};
 
 const NAMES: [&str; 5] = ["x", "y", "z", "t", "u"];
 

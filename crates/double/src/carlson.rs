@@ -2,13 +2,13 @@
 
 use crate::real::Real;
 
-/// Spread of the arguments, over their mean, at which the series serves.
+/// Relative spread of the arguments, max |argument − mean|/mean, below which the series is summed.
 const SPREAD: f64 = 3e-3;
 
-/// R_F(x, y, z) = ½ ∫₀^∞ dt/√((t+x)(t+y)(t+z)) of numbers ≥ 0, of which one at most is 0.
+/// R_F(x, y, z) = ½ ∫₀^∞ dt/√((t+x)(t+y)(t+z)) for arguments ≥ 0, of which at most one is 0.
 ///
-/// The duplication theorem brings the arguments together, and a series in their spread ends it. The relative error is below 6·2^−53 in `f64`. In double-double it is
-/// below 2e-20: the series is summed in doubles, and what it leaves is 3e-3^8.
+/// The duplication theorem makes the arguments nearly equal. A series in their spread then gives the value. The relative error is below 6·2^−53 in `f64`. In
+/// double-double it is below 2e-20, because the series is summed in doubles and truncated at 3e-3^8.
 ///
 /// ```
 /// use andoyer_double::carlson_rf;
@@ -17,7 +17,7 @@ const SPREAD: f64 = 3e-3;
 #[must_use]
 pub fn carlson_rf<R: Real>(mut x: R, mut y: R, mut z: R) -> R {
     let mut mean = (x + y + z).over(3.0);
-    // The spread falls by 4 a step, and from 1e300 it takes some twenty steps before that.
+    // Each step divides the spread by 4. From a ratio of 1e300 about twenty steps come before that.
     for _ in 0..600 {
         let middle = mean.to_f64();
         let [u, v, w] = [x, y, z].map(|value| (value.to_f64() - middle).abs());
@@ -33,7 +33,7 @@ pub fn carlson_rf<R: Real>(mut x: R, mut y: R, mut z: R) -> R {
     (R::from(1.0) + R::from(beyond_one(u, v))) / mean.sqrt()
 }
 
-/// Carlson's series for R_F times the root of the mean, less 1, through order 7 of the spread.
+/// Carlson's series for R_F times the square root of the mean, minus 1, through order 7 in the spread.
 fn beyond_one(u: f64, v: f64) -> f64 {
     let w = -(u + v);
     let (e2, e3) = (u * v - w * w, u * v * w);
@@ -51,7 +51,7 @@ mod tests {
 
     #[test]
     fn carlson_is_the_lemniscate_constant_and_the_elementary_integrals() {
-        // R_F(0, 1, 2) = 1.31102877714605990523…, R_F(x, x, x) = 1/√x, R_F(0, 1, 1) = π/2; and a logarithm at a vast spread.
+        // R_F(0, 1, 2) = 1.31102877714605990523…, R_F(x, x, x) = 1/√x, R_F(0, 1, 1) = π/2; the last case is a logarithm at a very large spread.
         assert!((carlson_rf(0.0, 1.0, 2.0) - 1.311_028_777_146_06).abs() < 4e-16);
         assert!((carlson_rf(4.0, 4.0, 4.0) - 0.5).abs() < 1e-16);
         assert!((carlson_rf(0.0, 1.0, 1.0) - FRAC_PI_2).abs() < 4e-16);

@@ -1,7 +1,7 @@
 //! Double-double arithmetic: an unevaluated sum of two doubles, about 32 digits.
 //!
-//! Error-free sums and products (Dekker 1971; Knuth, TAOCP 2, §4.2.2; products by fused multiply-add). The crate's documentation has the error bound of each
-//! operation. Values are finite; nothing here guards against overflow.
+//! Sums and products are error-free (Dekker 1971; Knuth, TAOCP 2, §4.2.2; products by fused multiply-add). The documentation of the crate lists the error bound
+//! of each operation. Values must be finite. No operation checks for overflow.
 
 use num_traits::{One, Zero};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -17,11 +17,15 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 pub struct DoubleDouble {
     /// The nearest double.
     pub high: f64,
-    /// What the nearest double leaves.
+    /// The remainder: the value minus the nearest double.
     pub low: f64,
 }
 
 /// a + b and its rounding error, for any a and b.
+///
+/// ```
+/// assert_eq!(andoyer_double::two_sum(1.0, 1e-20), (1.0, 1e-20));
+/// ```
 #[must_use]
 #[inline]
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
@@ -31,6 +35,12 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// a·b and its rounding error.
+///
+/// ```
+/// let near_one = 1.0 + f64::EPSILON;
+/// let exact = (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON);
+/// assert_eq!(andoyer_double::two_product(near_one, near_one), exact);
+/// ```
 #[must_use]
 #[inline]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
@@ -68,7 +78,7 @@ impl DoubleDouble {
         Self { high: sum, low: low - (sum - high) }
     }
 
-    /// √self for self ≥ 0, and 0 below: one Newton step of the reciprocal root from the double one.
+    /// √self for self ≥ 0, and 0 for self < 0. The method is one Newton step from the root in `f64`.
     #[must_use]
     pub fn sqrt(self) -> Self {
         if self.high <= 0.0 {
@@ -79,7 +89,7 @@ impl DoubleDouble {
         Self::renormalized(root, residual.high / (2.0 * root))
     }
 
-    /// self/divisor for a double, at a third of the cost of a quotient of two double-doubles.
+    /// self/divisor for a divisor in `f64`. It costs a third of a quotient of two double-doubles.
     #[must_use]
     #[inline]
     pub fn over(self, divisor: f64) -> Self {
@@ -88,7 +98,7 @@ impl DoubleDouble {
         Self::renormalized(first, ((self.high - product) - error + self.low) / divisor)
     }
 
-    /// self·factor for a double, at half the cost of a product of two double-doubles.
+    /// self·factor for a factor in `f64`. It costs half of a product of two double-doubles.
     #[must_use]
     #[inline]
     pub fn times_double(self, factor: f64) -> Self {

@@ -1,6 +1,6 @@
-//! Double-double arithmetic, and two functions over it and over `f64`: the arithmetic-geometric mean and Carlson's R_F.
+//! Double-double arithmetic, and two functions for `f64` and double-double: the arithmetic-geometric mean and Carlson's R_F.
 //!
-//! With u = 2^−53 the relative error of one operation on double-doubles is at most
+//! With u = 2^−53, the relative error of one operation on double-doubles is at most:
 //!
 //! ```text
 //! operation                      bound     source
@@ -13,9 +13,9 @@
 //! a.sqrt()                       4 u²      Lefèvre et al. (2023); measured
 //! ```
 //!
-//! as long as no operand, result or product of parts overflows or is subnormal. tests/bounds.rs holds each line against exact arithmetic.
+//! The bounds hold if no operand, result or product of parts overflows or is subnormal. tests/bounds.rs checks each line against exact arithmetic.
 //!
-//! The crate has no state and does no I/O. Nothing guards against overflow: callers scale their numbers.
+//! The crate has no state and does no I/O. No operation checks for overflow: the caller scales the numbers.
 
 mod carlson;
 mod double_double;

@@ -2,9 +2,9 @@
 
 use crate::real::Real;
 
-/// The arithmetic-geometric mean of two numbers ≥ 0, not both 0; it is 0 where `b` is.
+/// The arithmetic-geometric mean of two numbers a, b ≥ 0 that are not both 0. The result is 0 if `b` is 0.
 ///
-/// (1/2π) ∮ dφ/√(a² cos²φ + b² sin²φ) = 1/agm(a, b) (Gauss). The relative error is below 4·2^−53 in `f64` and 2^−99 in double-double, for b/a down to 1e-300.
+/// Gauss: (1/2π) ∮ dφ/√(a² cos²φ + b² sin²φ) = 1/agm(a, b). The relative error is below 4·2^−53 in `f64` and 2^−99 in double-double, for b/a down to 1e-300.
 ///
 /// ```
 /// use andoyer_double::arithmetic_geometric_mean;
@@ -15,7 +15,7 @@ pub fn arithmetic_geometric_mean<R: Real>(mut a: R, mut b: R) -> R {
     if b.to_f64() == 0.0 {
         return R::from(0.0);
     }
-    // Each step halves the logarithm of b/a, then doubles the digits: 1e-300 takes 15 steps.
+    // A step halves the logarithm of b/a until b/a is near 1, and then doubles the number of correct digits: 1e-300 takes 15 steps.
     for _ in 0..24 {
         if (a.to_f64() - b.to_f64()).abs() <= R::EQUAL_MEANS * a.to_f64() {
             break;

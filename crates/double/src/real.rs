@@ -1,4 +1,4 @@
-//! The real numbers that the functions of this crate are written over.
+//! The trait of the real numbers that this crate computes with.
 
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -16,7 +16,7 @@ use crate::double_double::DoubleDouble;
 pub trait Real:
     Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + sealed::Sealed
 {
-    /// Relative difference of two numbers whose arithmetic mean is their arithmetic-geometric one to rounding.
+    /// Relative difference of two numbers below which their arithmetic and geometric means agree to rounding error.
     const EQUAL_MEANS: f64;
 
     /// √self for self ≥ 0.
@@ -36,7 +36,7 @@ pub trait Real:
 }
 
 mod sealed {
-    /// Keeps the trait to the types of this crate.
+    /// Prevents implementations of the trait outside this crate.
     pub trait Sealed {}
 
     impl Sealed for f64 {}

@@ -1,10 +1,13 @@
-//! What can be wrong with an input, and what the series can't serve: each with its argument, its value and the bound.
+//! The error type of the crate: invalid input, and scenes that a method cannot solve. Each error has its argument, its value and the bound.
 
 mod facts;
 
 pub use facts::{Kind, Value};
 
-/// The error of this crate: what was given, and what would have been accepted.
+/// Memory of one integration step, in bytes.
+pub(crate) const STEP_BYTES: f64 = 72.0;
+
+/// An error of this crate, with the given value and the accepted bound.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -27,7 +30,7 @@ pub enum Error {
         column: usize,
         /// The entry.
         value: f64,
-        /// The entry across the diagonal.
+        /// The opposite entry.
         mirrored: f64,
     },
     /// An inertia tensor with a principal moment that is not positive.
@@ -44,7 +47,7 @@ pub enum Error {
         /// The value as given.
         value: f64,
     },
-    /// Moments that no body has: the largest exceeds the sum of the others.
+    /// Moments that no body can have: the largest exceeds the sum of the other two.
     #[error(
         "moments = {moments:?}: the largest must not exceed the sum of the other two (it is {ratio} times that sum)"
     )]
@@ -54,7 +57,7 @@ pub enum Error {
         /// Largest moment over the sum of the other two.
         ratio: f64,
     },
-    /// Moments so far apart that their differences have no double.
+    /// Moments so different in size that their differences overflow or underflow.
     #[error(
         "moments = {moments:?}: the largest must not exceed {:e} times the smallest (it is {ratio:e} times it)",
         bound
@@ -67,17 +70,17 @@ pub enum Error {
         /// The largest ratio that is accepted.
         bound: f64,
     },
-    /// An angular momentum or a rate that has no double.
+    /// An angular momentum or a rate that overflows or underflows.
     #[error(
-        "moments and angular_velocity: {quantity}, 2^{exponent}, is no normal double, or too near the largest; choose other units"
+        "moments and angular_velocity: {quantity}, 2^{exponent}, is not a normal double, or is too near the largest; choose other units"
     )]
     Units {
-        /// What has no double: the angular momentum, or a rate.
+        /// The quantity that overflows or underflows: the angular momentum, or a rate.
         quantity: &'static str,
         /// Its binary exponent, which must be from −1021 to 1021.
         exponent: i32,
     },
-    /// An attitude quaternion that is zero, not finite, or too far from unit norm.
+    /// An attitude quaternion that is zero, not finite, or whose norm is too far from 1.
     #[error(
         "attitude = {value:?}: a quaternion [x, y, z, w] must be finite with a norm within 1e-6 of 1 (it is {norm}){}", advice(*norm)
     )]
@@ -115,43 +118,43 @@ pub enum Error {
         /// Its last time.
         stop: f64,
     },
-    /// An order that is not served.
+    /// An order above the highest one.
     #[error("order = {value}: it must be at most {bound}")]
     Order {
         /// The order as given.
         value: usize,
-        /// The highest order that is served.
+        /// The highest order.
         bound: usize,
     },
-    /// A method that is unknown.
-    #[error("method = {value:?}: it must be \"auto\", \"series\" or \"closed\"")]
+    /// An unknown method.
+    #[error("method = {value:?}: it must be \"auto\", \"series\", \"closed\" or \"integrated\"")]
     Method {
         /// The method as given.
         value: String,
     },
-    /// A time that is not finite, or so far from the epoch that the motion is not evaluated there.
+    /// A time that is not finite, or too far from the epoch to be evaluated.
     #[error("times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{reason}")]
     Time {
         /// Its index among the times given.
         index: usize,
         /// The time as given.
         value: f64,
-        /// Largest distance from the epoch that is accepted.
+        /// Largest accepted time from the epoch.
         bound: f64,
-        /// What ends there, as the end of a sentence; empty where the number is only the largest that is added without an overflow.
+        /// The reason for the bound, as the end of a sentence; empty if the bound only prevents an overflow.
         reason: &'static str,
     },
-    /// A slice whose length doesn't fit.
+    /// A slice of the wrong length.
     #[error("{argument} has {found} entries: it must have {expected}")]
     Length {
         /// The argument.
         argument: &'static str,
         /// Its length.
         found: usize,
-        /// The length that fits.
+        /// The required length.
         expected: usize,
     },
-    /// The series asked for too near the separatrix for the tolerance.
+    /// The series is requested too near the separatrix for the tolerance.
     #[error(
         "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {highest}, is good to {}, and the tolerance is {tolerance:e} rad",
         rounded_up(*attainable)
@@ -159,43 +162,59 @@ pub enum Error {
     NearSeparatrix {
         /// σ/σ_sep.
         ratio: f64,
-        /// The tolerance asked for \[rad\].
+        /// The requested tolerance \[rad\].
         tolerance: f64,
         /// The smallest tolerance that the highest order meets \[rad\].
         attainable: f64,
         /// The highest order.
         highest: usize,
     },
-    /// The series asked for on the separatrix.
+    /// The series is requested on the separatrix.
     #[error(
-        "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it): no order of the series serves; the closed form does"
+        "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it): no order of the series is valid; use the closed form"
     )]
     Separatrix,
-    /// Derivatives asked for on the separatrix.
+    /// Derivatives are requested on the separatrix.
     #[error(
-        "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it) the frequencies have no derivatives: a state beside it has"
+        "on the separatrix (falling away from rotation about the axis of middle inertia, or towards it) the frequencies have no derivatives; choose a state beside the separatrix"
     )]
     SeparatrixPartials,
-    /// A convention of periods that is unknown.
+    /// A language for which no code can be written.
+    #[error("language = {value:?}: it must be \"c\", \"rust\", \"python\" or \"javascript\"")]
+    CodeLanguage {
+        /// The language as given.
+        value: String,
+    },
+    /// A motion for which no code can be written.
+    #[error(
+        "no code is written of {motion}: rest, steady rotation and torque-free wobbles of both modes have code; a C-kernel or an attitude file holds any motion"
+    )]
+    NoCode {
+        /// The kind of the motion.
+        motion: &'static str,
+    },
+    /// An unknown convention of periods.
     #[error("convention = {value:?}: it must be \"extremal-axis\", \"long-axis\" or \"short-axis\"")]
     Convention {
         /// The convention as given.
         value: String,
     },
-    /// A mode that is unknown, or has no periods.
+    /// An unknown mode, or a mode that has no periods.
     #[error("mode = {value:?}: it must be \"short-axis\" or \"long-axis\"")]
     ModeName {
         /// The mode as given.
         value: String,
     },
-    /// A mode that a body does not have: the two moments on its far side are equal.
-    #[error("mode = {mode:?}: a body with moments {moments:?} has none, since its {pair} moments are equal")]
+    /// A mode that a body does not have, because two of its moments are equal.
+    #[error(
+        "mode = {mode:?}: a body with moments {moments:?} does not have this mode, since its {pair} moments are equal"
+    )]
     NoSuchMode {
         /// The mode.
         mode: String,
         /// The moments.
         moments: [f64; 3],
-        /// Which two of them.
+        /// The two equal moments, in words.
         pair: &'static str,
     },
     /// A pair of periods that a body cannot have in a mode.
@@ -209,9 +228,9 @@ pub enum Error {
         mode: String,
         /// The convention.
         convention: String,
-        /// The smallest ratio, that of rotation about the axis itself.
+        /// The smallest ratio, which is that of rotation about the axis.
         lower: f64,
-        /// The largest, next to the separatrix, that doubles hold.
+        /// The largest ratio near the separatrix that doubles can represent.
         upper: f64,
     },
     /// A vector or a number that is not finite, or a direction of length 0.
@@ -222,121 +241,184 @@ pub enum Error {
         /// The value as given.
         value: Vec<f64>,
     },
-    /// An Andoyer variable out of its bounds.
+    /// An Andoyer variable that is outside its bounds.
     #[error("andoyer[{index}] = {value}: {bound}")]
     Andoyer {
         /// Its index among (λ, μ, ν, Λ, M, N).
         index: usize,
         /// The value as given.
         value: f64,
-        /// What it must be.
+        /// The requirement.
         bound: &'static str,
     },
-    /// An element of an orbit that is none.
+    /// An invalid orbital element.
     #[error("orbit.{argument} = {value}: it must be {bound}")]
     Orbit {
         /// The element.
         argument: &'static str,
         /// The value as given.
         value: f64,
-        /// What it must be.
+        /// The requirement.
         bound: &'static str,
     },
-    /// A level of the gravity-gradient theory that is unknown.
+    /// An unknown level of the gravity-gradient theory.
     #[error("level = {value:?}: it must be \"paper\", \"moving\" or \"full\"")]
     Level {
         /// The level as given.
         value: String,
     },
-    /// An averaging that is unknown.
+    /// An unknown averaging.
     #[error("averaging = {value:?}: it must be \"auto\", \"orbit\" or \"spin\"")]
     Averaging {
         /// The averaging as given.
         value: String,
     },
-    /// A rotation so slow, or so near a resonance with its orbit, that no averaging holds.
+    /// A rotation that is too slow, or too near a resonance with its orbit, for averaging.
     #[error(
         "spin resonance (k−j, m) = ({harmonic}, {multiple}): its frequency is {divisor:.3} times the orbital angular rate at pericentre, and averaging needs more than {bound} or a shorter span"
     )]
     Resonance {
-        /// k − j: the multiple of dℓ′/dt.
+        /// k − j, the multiple of dℓ′/dt.
         harmonic: i32,
-        /// m: that of dy′/dt.
+        /// m, the multiple of dy′/dt.
         multiple: i32,
         /// The frequency over the orbital angular rate at pericentre.
         divisor: f64,
-        /// The least that averaging needs.
+        /// The smallest value that averaging allows.
         bound: f64,
     },
-    /// A torque too strong for an expansion in it.
+    /// A torque that is too strong for an expansion in it.
     #[error(
-        "the torque, or what it does to the motion, measures {size:.3e} at pericentre, and an expansion in it needs less than {bound:.3e}"
+        "the torque, or its effect on the motion, measures {size:.3e} at pericentre, and an expansion in it needs less than {bound:.3e}"
     )]
     TorqueTooStrong {
-        /// Its measure: 3n²C(C − A)/2M² times the mass fraction at the pericentre, the sum of the short-period corrections \[rad\], what a step towards the mean variables leaves of
-        /// the one before, or the error bound of a span below one orbit \[rad\].
+        /// A measure of the torque. It is one of: 3n²C(C − A)/2M² times the mass fraction at the pericentre; the sum of the short-period corrections \[rad\];
+        /// the ratio of the changes of successive iterations for the mean variables; the error bound of a span below one orbit \[rad\].
         size: f64,
-        /// What that measure must be below; of the error bound, the effect of the torque over the span \[rad\].
+        /// Upper limit of the measure. For the error bound it is the effect of the torque over the span \[rad\].
         bound: f64,
     },
-    /// A span with more orbits than the averaged equations are solved for.
+    /// A span with more orbits than the averaged equations can be solved for.
     #[error(
         "averaging = spin: the span has {orbits:.0} orbits on one side of the epoch, and the averaged equations are solved for {bound} at most; averaging over the orbit has no such bound"
     )]
     TooManyOrbits {
         /// Orbits from the epoch to the farther end of the span.
         orbits: f64,
-        /// The most that are served.
+        /// The largest number of orbits.
         bound: f64,
     },
-    /// A mode of motion that the gravity gradient theory does not serve.
+    /// A mode of motion for which the gravity-gradient theory is not valid.
     #[error(
-        "orbit: no averaged theory serves this motion (mode {mode}, σ/σ_sep = {ratio:.6}, which must be at most {bound})"
+        "orbit: no averaged theory is valid for this motion (mode {mode}, σ/σ_sep = {ratio:.6}, which must be at most {bound})"
     )]
     Unaveraged {
         /// The mode.
         mode: String,
         /// σ/σ_sep.
         ratio: f64,
-        /// The largest that is served.
+        /// The largest valid ratio.
         bound: f64,
     },
-    /// A member of an ensemble that is none, or could not be evaluated.
+    /// An invalid table of positions, or a time outside the table.
+    #[error("orbit.{argument}[{index}] = {value}: it must be {bound}")]
+    Table {
+        /// The argument.
+        argument: &'static str,
+        /// The index in it.
+        index: usize,
+        /// The value; if there are too few times, their number.
+        value: f64,
+        /// The requirement.
+        bound: &'static str,
+    },
+    /// A span that a table of positions does not cover.
+    #[error(
+        "span: the integration goes from {start} to {stop}, and the table of positions only from {first} to {last}"
+    )]
+    TableSpan {
+        /// The first time that is needed.
+        start: f64,
+        /// The last time that is needed.
+        stop: f64,
+        /// The first time of the table.
+        first: f64,
+        /// The last time of the table.
+        last: f64,
+    },
+    /// An integration without a span.
+    #[error("span: none is given, and the integrated method needs one{}", because(reason))]
+    NoSpan {
+        /// Why the motion is integrated; empty if the method was requested.
+        reason: String,
+    },
+    /// A scene that only the integrated method can solve, with another method.
+    #[error("method = \"{method}\": {reason}; use method = \"integrated\" or \"auto\" with a span")]
+    OnlyIntegrated {
+        /// The requested method.
+        method: String,
+        /// The part of the scene that needs the integration.
+        reason: String,
+    },
+    /// An integration with too many steps.
+    #[error(
+        "span: the integration needs about {steps:.1e} steps, which take {:.1} GB; at most {bound} are kept: use a span shorter by a factor of {:.1}",
+        memory(*steps), steps / *bound as f64
+    )]
+    TooManySteps {
+        /// Steps over the span, estimated.
+        steps: f64,
+        /// The largest number of steps.
+        bound: usize,
+    },
+    /// A motion whose nearby states separate so fast that the attitude at the end of the span is unknown.
+    #[error(
+        "tolerance = {tolerance:e}: nearby states separate so fast that the attitude is unknown at the end of the span; {tolerance:e} rad holds from {start} to {stop}"
+    )]
+    Unpredictable {
+        /// The tolerance \[rad\].
+        tolerance: f64,
+        /// The earliest time at which the tolerance holds.
+        start: f64,
+        /// The latest time at which the tolerance holds.
+        stop: f64,
+    },
+    /// An invalid member of an ensemble, or a member that could not be evaluated.
     #[error("member {index}: {problem}{}", and_others(*others))]
     Member {
         /// Its index.
         index: usize,
-        /// How many other members are bad, as far as they have been looked at.
+        /// Number of other bad members found so far.
         others: usize,
-        /// What is wrong with it.
+        /// The error of this member.
         problem: Box<Error>,
     },
-    /// What becomes of bad members of an ensemble, in a word that is unknown.
+    /// An unknown word for the treatment of bad members of an ensemble.
     #[error("errors = {value:?}: it must be \"raise\" or \"nan\"")]
     OnError {
         /// The word as given.
         value: String,
     },
-    /// A computation that was stopped by the flag that it was given.
+    /// A computation that was stopped by its flag.
     #[error("stopped before the end")]
     Stopped,
-    /// An index that no member of an ensemble has.
+    /// An index that exceeds the number of members of an ensemble.
     #[error("index = {index}: the ensemble has {members} members, counted from 0")]
     Index {
         /// The index as given.
         index: usize,
-        /// How many members there are.
+        /// Number of members.
         members: usize,
     },
-    /// A number of threads that the system does not give.
+    /// A number of threads that the system cannot provide.
     #[error("threads = {value}: {problem}")]
     Threads {
         /// The number as given.
         value: usize,
-        /// What the system said.
+        /// The message of the system.
         problem: String,
     },
-    /// A body that the catalogue doesn't have.
+    /// A body that is not in the catalogue.
     #[error("body {name:?} is not in the catalogue{}: it has {}", did_you_mean(name, known), known.join(", "))]
     UnknownBody {
         /// The name as given.
@@ -344,26 +426,26 @@ pub enum Error {
         /// The names in the catalogue.
         known: Vec<&'static str>,
     },
-    /// What the series crate has to say; no input that passed the checks of this crate is known to raise it.
+    /// An error of the series crate. No input that passes the checks of this crate is known to cause it.
     #[error(transparent)]
     Series(#[from] andoyer_series::Error),
-    /// A scene file that can't be read or says something wrong.
+    /// A scene file that cannot be read or that contains an error.
     #[error("{file}: {key}: {problem}")]
     SceneFile {
         /// The file.
         file: String,
         /// The key, dotted, or the line.
         key: String,
-        /// What is wrong, with the bound.
+        /// The problem, with the bound.
         problem: String,
-        /// The value of the key, where there is one.
+        /// The value of the key, if it has one.
         value: Option<Box<Value>>,
-        /// What the value must be.
+        /// The requirement on the value.
         bound: Option<Box<Value>>,
     },
 }
 
-/// The name most like an unknown one, if one is: up to a third of the letters wrong, missing, added or exchanged.
+/// The known name most similar to an unknown one, if up to a third of its letters are wrong, missing, added or exchanged.
 fn did_you_mean(name: &str, known: &[&str]) -> String {
     let name = name.to_lowercase();
     let likeness = |known: &str| strsim::normalized_damerau_levenshtein(&known.to_lowercase(), &name);
@@ -372,11 +454,21 @@ fn did_you_mean(name: &str, known: &[&str]) -> String {
     near.map_or_else(String::new, |best| format!("; did you mean {best:?}?"))
 }
 
+/// The reason why a motion is integrated, as the end of a sentence.
+fn because(reason: &str) -> String {
+    if reason.is_empty() { String::new() } else { format!(", by which this scene is solved: {reason}") }
+}
+
+/// Memory of a number of integration steps, in units of 1e9 bytes.
+fn memory(steps: f64) -> f64 {
+    steps * STEP_BYTES * 1e-9
+}
+
 fn and_others(others: usize) -> String {
     if others == 0 { String::new() } else { format!(" (and {others} more bad members)") }
 }
 
-/// What to do with a quaternion that is no attitude.
+/// Advice for a quaternion that is not an attitude.
 fn advice(norm: f64) -> &'static str {
     if norm > 0.0 && norm.is_finite() {
         "; to normalize it, divide it by its norm; a quaternion [w, x, y, z] is read with scalar_first=True in Python"
@@ -391,7 +483,7 @@ impl Error {
         Self::Member { index, others: 0, problem: Box::new(problem) }
     }
 
-    /// The same error of times that begin later in an array.
+    /// The same error for times that begin at the index `start` of an array.
     #[must_use]
     pub fn later(self, start: usize) -> Self {
         match self {
@@ -401,7 +493,7 @@ impl Error {
     }
 }
 
-/// A tolerance that can be asked for: two digits, not rounded down.
+/// The tolerance as text with two digits, not rounded down.
 fn rounded_up(tolerance: f64) -> String {
     if tolerance < 1.0 { format!("{:.1e} rad", tolerance * 1.05) } else { "no tolerance below 1 rad".to_owned() }
 }

@@ -19,11 +19,15 @@ mod torque_free;
 
 mod gravity_gradient;
 
+mod integration;
+
 mod motion;
 
 mod solve;
 
-mod partials;
+pub mod partials;
+
+pub mod motion_code;
 
 mod observed;
 
@@ -31,23 +35,44 @@ mod scene_file;
 
 mod outcome;
 
-mod ensemble;
+pub mod ensemble;
 
-pub use ensemble::{Ensemble, MAX_THREADS, OnError, Run};
+pub use ensemble::Ensemble;
 pub use error::Error;
 pub use input::body::Body;
-pub use input::options::{Averaging, Convention, Level, MAX_ORDER, Method};
+pub use input::options::Method;
 pub use input::orbit::Orbit;
 pub use input::scene::Scene;
 pub use input::state::State;
-pub use motion::batch::Batch;
+pub use input::tabulated::TabulatedOrbit;
 pub use motion::plan::Plan;
-pub use motion::solved::{Frequencies, Motion, Periods, Sample};
-pub use observed::periods::ObservedPeriods;
-pub use outcome::Outcome;
-pub use partials::{Derivatives, PARAMETERS, Partials};
+pub use motion::solved::{Motion, Sample};
 pub use torque_free::mode::Mode;
 pub use torque_free::series::tables::SeriesTables;
+
+pub mod options {
+    //! How a scene is solved, and what its periods belong to.
+    pub use crate::input::options::{Averaging, Convention, Level, MAX_ORDER, Method};
+}
+
+pub mod periods {
+    //! Mean frequencies and periods of a motion, and periods as observers publish them.
+    pub use crate::input::options::Convention;
+    pub use crate::motion::solved::{Frequencies, Periods};
+    pub use crate::observed::periods::ObservedPeriods;
+}
+
+pub mod disturbers {
+    //! Bodies whose gravity gradient acts: by elements of an orbit or by a table of positions.
+    pub use crate::input::disturbing_body::DisturbingBody;
+    pub use crate::input::orbit::{Oblateness, Orbit};
+    pub use crate::input::tabulated::TabulatedOrbit;
+}
+
+pub mod batch {
+    //! A motion at many times at once.
+    pub use crate::motion::batch::Batch;
+}
 
 /// The types of attitudes and vectors.
 pub use nalgebra;

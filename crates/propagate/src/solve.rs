@@ -1,16 +1,22 @@
 //! From a scene to its motion: mode, method, secular part, series, initial phases (theory §5 to §8, §10).
 
-use crate::error::Error;
+use std::sync::atomic::AtomicBool;
+
+use crate::error::{Error, Kind};
 use crate::gravity_gradient::disturbed::Gradient;
 use crate::gravity_gradient::osculating::{LARGEST_SEPARATRIX_RATIO, osculating};
 use crate::gravity_gradient::request::Request;
+use crate::input::disturbing_body::DisturbingBody;
 use crate::input::options::{Averaging, Level, Method};
 use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
-use crate::motion::plan::Plan;
+use crate::integration::integrated::{Integrated, prospect};
+use crate::integration::integrator::MOST_STEPS;
+use crate::motion::plan::{Plan, ROUNDED_TOLERANCE};
 use crate::motion::solved::{Frequencies, Given, Motion};
 use crate::motion::trajectory::Trajectory;
 use crate::numerics::scaling::{exponent, half, scaled, user_rate};
+use crate::simd::halt::GOING;
 use crate::torque_free::error_budget::{ROUNDING, duration, phase_rounding};
 use crate::torque_free::frequencies::Secular;
 use crate::torque_free::mode::Mode;
@@ -33,9 +39,12 @@ impl Scene {
     /// # Errors
     /// - Those of [`Scene::validate`].
     /// - [`Error::Units`] where the angular momentum over- or underflows, or a rate that belongs to it does.
-    /// - [`Error::NearSeparatrix`] where the series is asked for and the tolerance needs an order above [`MAX_ORDER`](crate::MAX_ORDER).
+    /// - [`Error::NearSeparatrix`] where the series is asked for and the tolerance needs an order above [`MAX_ORDER`](crate::options::MAX_ORDER).
     /// - [`Error::Separatrix`] where the series is asked for on the separatrix itself.
-    /// - [`Error::Resonance`], [`Error::TorqueTooStrong`], [`Error::Unaveraged`] for an orbit whose gravity gradient cannot be averaged.
+    /// - [`Error::Resonance`], [`Error::TorqueTooStrong`], [`Error::Unaveraged`] for an orbit whose gravity gradient cannot be averaged, without a span or with a method other than
+    ///   [`Method::Auto`] and [`Method::Integrated`].
+    /// - [`Error::NoSpan`] where the motion is integrated and no span is given; [`Error::OnlyIntegrated`] for several bodies, a table or secular rates with another method.
+    /// - [`Error::TooManySteps`], [`Error::Unpredictable`] where the integration takes too many steps, or nothing is known at its end; [`Error::TableSpan`].
     pub fn solve(&self) -> Result<Motion, Error> {
         self.solve_with(&SeriesTables::default())
     }
@@ -57,14 +66,32 @@ impl Scene {
     /// # Ok::<(), andoyer_propagate::Error>(())
     /// ```
     pub fn solve_with(&self, tables: &SeriesTables) -> Result<Motion, Error> {
+        self.solve_until(tables, &GOING)
+    }
+
+    /// As [`Scene::solve_with`], and ends early, with [`Error::Stopped`], once another thread has set the flag: an integration may take seconds.
+    ///
+    /// # Errors
+    /// As [`Scene::solve`], and [`Error::Stopped`].
+    pub fn solve_until(&self, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
         let scene = self.validated()?;
-        let Some(turn) = scene.body().turn() else { return scene.solve_about_principal_axes(tables) };
-        let mut motion = scene.about_principal_axes(turn).solve_about_principal_axes(tables)?;
+        let Some(turn) = scene.body().turn() else { return scene.solve_about_principal_axes(tables, stop) };
+        let mut motion = scene.about_principal_axes(turn).solve_about_principal_axes(tables, stop)?;
         motion.given = Some(Box::new(Given { scene, turn }));
         Ok(motion)
     }
 
-    fn solve_about_principal_axes(self, tables: &SeriesTables) -> Result<Motion, Error> {
+    fn solve_about_principal_axes(self, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
+        match (self.asked_method(), beyond_theory(&self)) {
+            (Method::Integrated, _) => integrated(self, tables, String::new(), stop),
+            (Method::Auto, Some(reason)) => integrated(self, tables, format!("theory: {reason}"), stop),
+            (method, Some(reason)) => Err(Error::OnlyIntegrated { method: method.to_string(), reason }),
+            (_, None) if may_be_integrated(&self) => cheapest(self, tables, stop),
+            (_, None) => self.solve_by_theory(tables),
+        }
+    }
+
+    fn solve_by_theory(self, tables: &SeriesTables) -> Result<Motion, Error> {
         let scene = self;
         let Some(polhode) = Polhode::new(scene.body(), scene.state()) else {
             return match scene.asked_orbit() {
@@ -84,6 +111,68 @@ impl Scene {
             _ => wobbling((scene, tables), &polhode, mode).map(with_unused),
         }
     }
+}
+
+/// What in a scene no theory has, if there is something.
+fn beyond_theory(scene: &Scene) -> Option<String> {
+    let [a, b, c] = scene.body().moments();
+    match scene.asked_disturbing() {
+        // No body exerts a torque on a sphere.
+        _ if a == b && b == c => None,
+        [] => None,
+        [DisturbingBody::Orbit(orbit)] if orbit.is_fixed() => None,
+        [DisturbingBody::Orbit(_)] => Some("an orbit with a node_rate or a pericentre_rate is integrated".to_owned()),
+        [_] => Some("a table of positions is integrated".to_owned()),
+        bodies => Some(format!("{} disturbing bodies are integrated", bodies.len())),
+    }
+}
+
+/// Whether a scene with one orbit leaves the choice between theory and integration.
+fn may_be_integrated(scene: &Scene) -> bool {
+    scene.asked_method() == Method::Auto
+        && scene.asked_span().is_some()
+        && scene.asked_orbit().is_some()
+        && scene.asked_order().is_none()
+        && scene.asked_averaging() == Averaging::default()
+        && scene.asked_level() == Level::default()
+}
+
+/// The theory where it meets the tolerance, else the integration where that does, else whichever has the smaller error bound.
+fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
+    let by_theory = match scene.clone().solve_by_theory(tables) {
+        Ok(motion) if motion.plan.meets_tolerance() => return Ok(motion),
+        Ok(motion) => motion,
+        Err(error) if error.kind() == Kind::Theory => {
+            return integrated(scene, tables, format!("theory: {error}"), stop);
+        }
+        Err(error) => return Err(error),
+    };
+    let tolerance = scene.asked_tolerance().max(ROUNDED_TOLERANCE);
+    let promising = prospect(&scene).is_some_and(|(bound, steps)| bound <= tolerance && steps <= MOST_STEPS as f64);
+    if !promising {
+        return Ok(by_theory);
+    }
+    let reason = format!("theory: its error bound is {:.1e} rad", by_theory.plan.error_bound);
+    match integrated(scene, tables, reason, stop) {
+        Ok(motion) if motion.plan.error_bound < by_theory.plan.error_bound => Ok(motion),
+        Err(Error::Stopped) => Err(Error::Stopped),
+        _ => Ok(by_theory),
+    }
+}
+
+/// The motion by integration over the span; mode and frequencies are those of the free motion at the epoch.
+fn integrated(scene: Scene, tables: &SeriesTables, reason: String, stop: &AtomicBool) -> Result<Motion, Error> {
+    let free = Scene::new(scene.body().clone(), *scene.state()).solve_by_theory(tables)?;
+    let motion = Integrated::new(&scene, &reason, stop)?;
+    let mut plan = Plan::new(&scene, free.plan.mode, free.plan.separatrix_ratio, motion.error);
+    plan.method = Method::Integrated;
+    plan.order = motion.order();
+    plan.integration = Some(motion.plan());
+    plan.skipped.extend(Some(reason).filter(|reason| !reason.is_empty()));
+    if let Some(order) = scene.asked_order() {
+        plan.skipped.push(format!("order {order}, which was asked for: it is one of the series"));
+    }
+    Ok(Motion { scene, plan, trajectory: Trajectory::Integrated(Box::new(motion)), ..free })
 }
 
 /// Whether the angular momentum and every rate of a motion are normal doubles in the user's units.
@@ -156,7 +245,7 @@ fn wobbling((scene, tables): (Scene, &SeriesTables), polhode: &Polhode, mode: Mo
     let ratio = (exact.kappa_sigma / polhode.kappa() / polhode.separatrix_action()).min(1.0);
     let by_series = match scene.asked_method() {
         Method::Series => true,
-        Method::Closed => false,
+        Method::Closed | Method::Integrated => false,
         // A fixed order is one of the series.
         Method::Auto => scene.asked_order().is_some() && mode != Mode::Axisymmetric,
     };
@@ -275,7 +364,7 @@ fn with_unused(mut motion: Motion) -> Motion {
     }
     .into_iter()
     .collect();
-    if scene.asked_orbit().is_some() {
+    if !scene.asked_disturbing().is_empty() {
         unused.push("gravity gradient: it exerts no torque on a sphere".to_owned());
     } else {
         let (averaging, level) = (scene.asked_averaging(), scene.asked_level());

@@ -1,8 +1,13 @@
 //! `andoyer.BirkhoffNormalForm`.
 
+use std::convert::Infallible;
 use std::sync::{Arc, Mutex};
 
-use andoyer_series::{BirkhoffMap, Mode, Part, PhaseSpace, Progress, RealField};
+use andoyer_series::birkhoff::Mode;
+use andoyer_series::print::Part;
+use andoyer_series::progress::Progress;
+use andoyer_series::real_field::RealField;
+use andoyer_series::{BirkhoffMap, PhaseSpace};
 use num_complex::Complex;
 use num_rational::BigRational;
 use numpy::PyArrayDyn;
@@ -450,7 +455,7 @@ impl BirkhoffNormalForm {
         detached(py, error::algebra, || either!(&self.form, form => form.to_json()))
     }
 
-    /// Reads what `to_json` wrote.
+    /// Reads what `to_json` wrote, and computes it anew to compare every coefficient.
     ///
     /// Parameters
     /// ----------
@@ -461,13 +466,27 @@ impl BirkhoffNormalForm {
     /// Raises
     /// ------
     /// FileError
-    ///     Not JSON, another format or version, a term that no normal form has. The coefficients themselves are not computed again.
+    ///     Not JSON, another format or version, a term that no normal form has; a coefficient that the normal form of the Hamiltonian in the text does not have, among
+    ///     floats by 1e-8 of the largest of its order.
+    ///
+    /// Examples
+    /// --------
+    /// >>> text = normalize("(x**2 + X**2)/2 + x**3", 2, [("x", "X")]).to_json()
+    /// >>> BirkhoffNormalForm.from_json(text).to_json() == text
+    /// True
     #[classmethod]
     #[pyo3(signature = (text, symbols=None))]
     fn from_json(class: &Bound<'_, PyType>, text: &str, symbols: Option<Bound<'_, PyDict>>) -> PyResult<Self> {
         let py = class.py();
-        let form = detached(py, error::algebra, || Form::from_json(text))?;
+        let form = progress::reported(py, None, |tell| Form::from_json(text, tell))?;
         Ok(Self::new(form, symbols.unwrap_or_else(|| PyDict::new(py)).unbind()))
+    }
+
+    /// From a pickle, whose text this program wrote itself.
+    #[staticmethod]
+    fn _restored(py: Python<'_>, text: &str, symbols: Bound<'_, PyDict>) -> PyResult<Self> {
+        let form = detached(py, error::algebra, || Form::restored(text))?;
+        Ok(Self::new(form, symbols.unbind()))
     }
 
     /// A part of this normal form as LaTeX, for a document that uses amsmath.
@@ -516,7 +535,7 @@ impl BirkhoffNormalForm {
     /// Pickled as its JSON text, with the symbols of SymPy.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let (py, form) = (slf.py(), slf.get());
-        Ok((slf.get_type().getattr("from_json")?, (form.to_json(py)?, form.symbols.clone_ref(py))))
+        Ok((slf.get_type().getattr("_restored")?, (form.to_json(py)?, form.symbols.clone_ref(py))))
     }
 
     /// Order, variables, kind of numbers, and where there are no parameters the last radius of the domain.
@@ -529,8 +548,8 @@ impl BirkhoffNormalForm {
     }
 
     /// K as text, in the actions or, with resonant terms, in the complex variables.
-    fn __str__(&self, py: Python<'_>) -> String {
-        py.detach(|| either!(&self.form, form => form.to_string()))
+    fn __str__(&self, py: Python<'_>) -> PyResult<String> {
+        detached(py, |never: Infallible| match never {}, || Ok(either!(&self.form, form => form.to_string())))
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {

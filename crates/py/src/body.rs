@@ -7,23 +7,23 @@ use pyo3::types::PyTuple;
 
 use crate::{array, error};
 
-/// What makes a body with axes of its own again: a function and its arguments.
+/// The arguments of `pickle` for a body with its own axes: a function and its arguments.
 type Reduced<'py, 'a> = (Bound<'py, PyAny>, (Rows, Option<&'a str>));
 
-/// Principal moments of inertia of a rigid body.
+/// A rigid body, given by its principal moments of inertia.
 ///
 /// Parameters
 /// ----------
 /// moments : array_like, shape (3,)
-///     Positive moments about body axes 1, 2, 3, in any order and any unit; the largest at most the sum of the others.
+///     Positive moments of inertia about body axes 1, 2, 3, in any order and any unit. The largest is at most the sum of the other two.
 /// name : str, optional
-///     Printed, and nothing else.
+///     Name of the body, for printing.
 ///
 /// Raises
 /// ------
 /// InputError
-///     ``[0, 1, 1]``, ``[1, -1, 1]``, ``[1, nan, 1]``, ``[1, 1, 2.1]``, which no body has, or ``[1e-101, 1, 1]``.
-///     ``[1, 2]``.
+///     A moment that is not positive or not finite (``[0, 1, 1]``, ``[1, nan, 1]``); a largest moment above the sum of the others (``[1, 1, 2.1]``); a ratio of moments
+///     above 1e100 (``[1e-101, 1, 1]``); another number of moments (``[1, 2]``).
 ///
 /// Examples
 /// --------
@@ -35,7 +35,7 @@ type Reduced<'py, 'a> = (Bound<'py, PyAny>, (Rows, Option<&'a str>));
 #[pyclass(frozen, eq, module = "andoyer")]
 pub(crate) struct Body {
     pub(crate) body: andoyer_propagate::Body,
-    /// What its scenes share of the perturbation series.
+    /// The tables of the perturbation series that all scenes of this body share.
     pub(crate) tables: SeriesTables,
 }
 
@@ -70,23 +70,22 @@ impl Body {
         named(andoyer_propagate::Body::new(array::fixed("moments", moments)?), name)
     }
 
-    /// A body from its inertia tensor about axes of your own: attitudes, rates, momenta and derivatives of its scenes are about these axes.
+    /// A body from its inertia tensor about axes that you choose. Attitudes, rates, momenta and derivatives of its scenes are about these axes.
     ///
-    /// `moments` are then the principal ones and `principal_axes` says about which axes: those nearest to yours. Axes between which the moments are equal, to 1e-12 of the largest,
-    /// and no product of inertia is left stay as they are.
+    /// `moments` has the principal moments, and `principal_axes` the principal axes, each nearest to one of your axes. Two axes with equal moments (to 1e-12 of the largest) and without a
+    /// product of inertia are not changed.
     ///
     /// Parameters
     /// ----------
     /// tensor : array_like, shape (3, 3)
-    ///     Symmetric to 1e-12 of its largest entry, with positive principal moments of which the largest is at most the sum of the others.
+    ///     Symmetric to 1e-12 of its largest entry, with positive principal moments. The largest is at most the sum of the other two.
     /// name : str, optional
-    ///     Printed, and nothing else.
+    ///     Name of the body, for printing.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     A tensor that is not symmetric or not finite, or that no body has.
-    ///     ``[1, 1.5, 2]``.
+    ///     A tensor that is not symmetric or not finite; principal moments that a rigid body cannot have; an array of another shape (``[1, 1.5, 2]``).
     ///
     /// Examples
     /// --------
@@ -103,15 +102,16 @@ impl Body {
         named(andoyer_propagate::Body::from_inertia(array::matrix("tensor", tensor)?), name)
     }
 
-    /// A homogeneous ellipsoid with semi-axes a, b, c along body axes 1, 2, 3: moments m (b² + c²)/5 and so on.
+    /// A homogeneous ellipsoid with semi-axes a, b, c along body axes 1, 2, 3. Its moments are m (b² + c²)/5, m (a² + c²)/5, m (a² + b²)/5.
     ///
     /// Parameters
     /// ----------
     /// a, b, c : float
-    ///     Positive, in any order.
+    ///     Positive lengths, in any order.
     /// mass : float, optional
+    ///     Mass m; by default 1.
     /// name : str, optional
-    ///     Printed, and nothing else.
+    ///     Name of the body, for printing.
     ///
     /// Raises
     /// ------
@@ -128,15 +128,16 @@ impl Body {
         named(andoyer_propagate::Body::ellipsoid([a, b, c], mass), name)
     }
 
-    /// A homogeneous box with edges x, y, z along body axes 1, 2, 3: moments m (y² + z²)/12 and so on.
+    /// A homogeneous box with edges x, y, z along body axes 1, 2, 3. Its moments are m (y² + z²)/12, m (x² + z²)/12, m (x² + y²)/12.
     ///
     /// Parameters
     /// ----------
     /// x, y, z : float
-    ///     Positive, in any order.
+    ///     Positive lengths, in any order.
     /// mass : float, optional
+    ///     Mass m; by default 1.
     /// name : str, optional
-    ///     Printed, and nothing else.
+    ///     Name of the body, for printing.
     ///
     /// Raises
     /// ------
@@ -153,23 +154,24 @@ impl Body {
         named(andoyer_propagate::Body::cuboid([x, y, z], mass), name)
     }
 
-    /// The ratios P_ψ/P_φ that this body can have in a mode: an interval, of which each number belongs to one motion.
+    /// The interval of the ratios P_ψ/P_φ that this body can have in a mode. Each ratio in the interval belongs to one motion.
     ///
     /// Parameters
     /// ----------
     /// mode : {"short-axis", "long-axis"}, optional
+    ///     The mode, as in `Scene.from_periods`.
     /// convention : {"extremal-axis", "long-axis", "short-axis"}, optional
-    ///     As in `Scene.from_periods`.
+    ///     The convention of the periods, as in `Scene.from_periods`.
     ///
     /// Returns
     /// -------
     /// (float, float)
-    ///     The ratio of rotation about the mode's axis, and the largest that doubles hold next to the separatrix, where it has no bound.
+    ///     The ratio for rotation about the axis of the mode, and the largest ratio that doubles can represent. On the separatrix the ratio is infinite.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     ``mode="separatrix"``, ``convention="L"``, or a mode that a round body does not have.
+    ///     An unknown mode or convention (``mode="separatrix"``, ``convention="L"``); a mode that an axisymmetric body does not have.
     ///
     /// Examples
     /// --------
@@ -183,29 +185,29 @@ impl Body {
         self.body.period_ratios(mode, convention).map(Into::into).map_err(error::propagation)
     }
 
-    /// A body of the catalogue, by its name in any case.
+    /// A body of the catalogue.
     ///
     /// Parameters
     /// ----------
     /// name : str
-    ///     One of `Body.catalogue()`.
+    ///     One of `Body.catalogue()`, in lower or upper case.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     ``"vulcan"``; for ``"ceers"`` the message asks for Ceres.
+    ///     An unknown name (``"vulcan"``). The message suggests a similar name: Ceres for ``"ceers"``.
     #[staticmethod]
     fn named(name: &str) -> PyResult<Self> {
         andoyer_propagate::Body::named(name).map(Self::from).map_err(error::propagation)
     }
 
-    /// The names that `Body.named` knows.
+    /// The names of the catalogue, which `Body.named` accepts.
     #[staticmethod]
     fn catalogue() -> Vec<&'static str> {
         andoyer_propagate::Body::catalogue()
     }
 
-    /// Where the figures of a catalogue body come from.
+    /// The source of the figures of a catalogue body.
     ///
     /// Parameters
     /// ----------
@@ -215,27 +217,27 @@ impl Body {
     /// Raises
     /// ------
     /// InputError
-    ///     ``"vulcan"``.
+    ///     An unknown name (``"vulcan"``).
     #[staticmethod]
     fn source(name: &str) -> PyResult<&'static str> {
         andoyer_propagate::Body::source(name).map_err(error::propagation)
     }
 
-    /// The moments about body axes 1, 2, 3 as given: a read-only array, shape (3,).
+    /// The moments of inertia about body axes 1, 2, 3 in the given order: a read-only array, shape (3,).
     #[getter]
     fn moments<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
         array::constant(py, &self.body.moments()).into_any()
     }
 
-    /// The inertia tensor about the user's axes: a read-only array, shape (3, 3), diagonal unless `from_inertia` was given another.
+    /// The inertia tensor about the user's axes: a read-only array, shape (3, 3). It is diagonal unless the body was made by `from_inertia`.
     #[getter]
     fn inertia<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         Ok(array::constant_rows(py, &self.body.inertia())?.into_any())
     }
 
-    /// The principal axes, the columns of a proper rotation in the order of `moments`, in the user's components: a read-only array, shape (3, 3).
+    /// The principal axes in the user's components, as the columns of a rotation matrix in the order of `moments`: a read-only array, shape (3, 3).
     ///
-    /// The unit matrix unless `from_inertia` was given a tensor about other axes.
+    /// It is the unit matrix unless the body was made by `from_inertia` from a tensor about other axes.
     #[getter]
     fn principal_axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let axes = self.body.principal_axes();
@@ -243,7 +245,7 @@ impl Body {
         Ok(array::constant_rows(py, &rows)?.into_any())
     }
 
-    /// Oblateness α = [(C/A − 1) + (C/B − 1)]/2 of the sorted moments A ≤ B ≤ C (theory §1); 0 for a sphere.
+    /// Asphericity α = [(C/A − 1) + (C/B − 1)]/2 of the sorted moments A ≤ B ≤ C (theory §1); 0 for a sphere.
     #[getter]
     fn alpha(&self) -> f64 {
         self.body.alpha()
@@ -299,7 +301,7 @@ impl Body {
         slf
     }
 
-    /// Puts together what `pickle` took apart.
+    /// Rebuilds a body for `pickle`.
     #[staticmethod]
     fn _restored(inertia: [[f64; 3]; 3], name: Option<&str>) -> PyResult<Self> {
         named(andoyer_propagate::Body::from_inertia(inertia), name)

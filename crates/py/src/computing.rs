@@ -20,6 +20,7 @@ pub(crate) fn detached<T: Send, E: Send>(
     compute: impl FnOnce() -> Result<T, E> + Send,
 ) -> PyResult<T> {
     // What a panic leaves half done is dropped with it, or is the caller's output array.
+    #[expect(clippy::disallowed_methods, reason = "this is where panics are caught")]
     let outcome = py.detach(|| catch_unwind(AssertUnwindSafe(compute)));
     outcome.map_err(|panic| internal(&*panic))?.map_err(exception)
 }
@@ -41,6 +42,7 @@ pub(crate) fn interruptible<T: Send, E: Send>(
     }
     let mut work = Some(compute);
     let mut raised = None;
+    #[expect(clippy::disallowed_methods, reason = "this is where panics are caught")]
     let outcome = py.detach(|| {
         scope(|scope| {
             let (sender, receiver) = channel::<()>();

@@ -1,14 +1,14 @@
 //! `andoyer.Domain`.
 
-use andoyer_series::Domain as Inner;
+use andoyer_series::birkhoff::Domain as Inner;
 use pyo3::prelude::*;
 
 use crate::error;
 
-/// How far a normal form is good, from `BirkhoffNormalForm.domain`: an estimate by the sizes of its orders.
+/// An estimate of the range of validity of a normal form by the sizes of its orders, from `BirkhoffNormalForm.domain`.
 ///
-/// The series diverge. At a given amplitude a = √(2|I|) of all modes the sizes of the orders first fall and then rise; the best order is where they are least. That
-/// is no bound: `BirkhoffNormalForm.actions` along an integrated orbit shows what is reached.
+/// The series diverge. At a given amplitude a = √(2|I|) of all modes the sizes of the orders first fall and then rise. The best order is the one with the least size. This is
+/// an estimate, not a bound; `BirkhoffNormalForm.actions` along an integrated orbit shows the true accuracy.
 ///
 /// Examples
 /// --------
@@ -21,13 +21,13 @@ pub(crate) struct Domain(pub(crate) Inner);
 
 #[pymethods]
 impl Domain {
-    /// ‖T_1‖ … ‖T_N‖: norms of the generating functions S_m/(m−1)! at the amplitude 1.
+    /// The norms ‖T_1‖ … ‖T_N‖ of the generating functions T_m = S_m/(m−1)! at the amplitude 1.
     #[getter]
     fn norms(&self) -> Vec<f64> {
         self.0.norms().to_vec()
     }
 
-    /// ρ_m = (‖T_{m−2}‖/‖T_m‖)^½, m = 3 … N: the amplitude at which order m is as large as order m − 2.
+    /// The radii ρ_m = (‖T_{m−2}‖/‖T_m‖)^½, m = 3 … N. At the amplitude ρ_m order m is as large as order m − 2.
     #[getter]
     fn radii(&self) -> Vec<f64> {
         self.0.radii()
@@ -43,7 +43,7 @@ impl Domain {
     /// Raises
     /// ------
     /// InputError
-    ///     ``-1.0``, NaN.
+    ///     An amplitude that is negative or not finite.
     fn sizes(&self, amplitude: f64) -> PyResult<Vec<f64>> {
         self.0.sizes(amplitude).map_err(error::algebra)
     }
@@ -58,7 +58,7 @@ impl Domain {
     /// Raises
     /// ------
     /// InputError
-    ///     ``-1.0``, NaN.
+    ///     An amplitude that is negative or not finite.
     fn best_order(&self, amplitude: f64) -> PyResult<usize> {
         self.0.best_order(amplitude).map_err(error::algebra)
     }

@@ -3,7 +3,8 @@
 //! SymPy is never imported: an expression that the caller made is asked for its terms. Numbers are taken at their exact value;
 //! whether a float was among them is told beside.
 
-use andoyer_series::{Coefficient, Monomial, PhaseSpace, Polynomial, RealField};
+use andoyer_series::real_field::RealField;
+use andoyer_series::{Coefficient, Monomial, PhaseSpace, Polynomial};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use pyo3::exceptions::PyTypeError;

@@ -1,6 +1,8 @@
 //! A Birkhoff normal form in one kind of numbers or the other, exact or floats.
 
-use andoyer_series::{BirkhoffNormalForm as Inner, Error as Algebra, Polynomial, RealField};
+use andoyer_series::progress::Progress;
+use andoyer_series::real_field::RealField;
+use andoyer_series::{BirkhoffNormalForm as Inner, Error as Algebra, Polynomial};
 use num_rational::BigRational;
 use pyo3::prelude::*;
 
@@ -14,10 +16,18 @@ pub(crate) enum Form {
 }
 
 impl Form {
-    /// Reads the JSON of either kind.
-    pub(crate) fn from_json(text: &str) -> Result<Self, Algebra> {
-        match Inner::<BigRational>::from_json(text) {
-            Err(Algebra::FormatUnknown { .. }) => Inner::<f64>::from_json(text).map(Form::Float),
+    /// Reads the JSON of either kind, and computes it anew.
+    pub(crate) fn from_json(text: &str, progress: &mut Progress<'_>) -> Result<Self, Algebra> {
+        match Inner::<BigRational>::from_json_with(text, progress) {
+            Err(Algebra::FormatUnknown { .. }) => Inner::<f64>::from_json_with(text, progress).map(Form::Float),
+            result => result.map(Form::Exact),
+        }
+    }
+
+    /// Reads the JSON of a pickle.
+    pub(crate) fn restored(text: &str) -> Result<Self, Algebra> {
+        match Inner::<BigRational>::from_json_unverified(text) {
+            Err(Algebra::FormatUnknown { .. }) => Inner::<f64>::from_json_unverified(text).map(Form::Float),
             result => result.map(Form::Exact),
         }
     }

@@ -1,11 +1,11 @@
-//! Python's face of andoyer: the extension module `andoyer._core`.
+//! The Python bindings of andoyer: the extension module `andoyer._core`.
 //!
-//! One file for each class of the Python package, each a thin frozen wrapper round the Rust type of the same name; arguments are
-//! converted in `array`, `expression` and `order`, errors in `error`. No mathematics here: what Python can do, Rust can.
+//! There is one file for each class of the Python package. Each class is a thin frozen wrapper of the Rust type of the same name. `array`, `expression` and `order`
+//! convert arguments, and `error` converts errors. The bindings contain no mathematics; every function of the Python package exists in Rust too.
 //! Arrays are float64 in C order: times (n,), attitudes (n, 4) as [x, y, z, w], vectors (n, 3),
-//! ensembles (m, n, …). The interpreter lock is released round
-//! everything that computes. Doc comments of `#[pyclass]` and `#[pymethods]` items are Python's docstrings, in NumPy's style; the stub is
-//! `python/andoyer/_core.pyi`, and a test holds the two together.
+//! ensembles (m, n, …). The interpreter lock is released during
+//! all computations. Doc comments of `#[pyclass]` and `#[pymethods]` items are the Python docstrings, in the style of NumPy. The stub is
+//! `python/andoyer/_core.pyi`; a test compares it with the module.
 
 // Docstrings speak of Python's names and of arrays like [x, y, z, w].
 #![allow(rustdoc::broken_intra_doc_links)]
@@ -33,8 +33,9 @@ mod progress;
 mod samples;
 mod scene;
 mod scene_class;
+mod tabulated;
 
-/// Compiled core of the package `andoyer`, which re-exports all of it.
+/// The compiled core of the package `andoyer`, which re-exports all its names.
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
@@ -67,6 +68,8 @@ mod _core {
     use super::samples::Samples;
     #[pymodule_export]
     use super::scene_class::Scene;
+    #[pymodule_export]
+    use super::tabulated::TabulatedOrbit;
 
     #[pymodule_init]
     fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {

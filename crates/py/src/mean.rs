@@ -1,6 +1,6 @@
 //! Mean periods as named tuples of `andoyer.mean`.
 
-use andoyer_propagate::Convention;
+use andoyer_propagate::options::Convention;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

@@ -2,7 +2,8 @@
 
 use std::sync::atomic::AtomicBool;
 
-use andoyer_propagate::{Convention, PARAMETERS};
+use andoyer_propagate::partials::PARAMETERS;
+use andoyer_propagate::periods::Convention;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -20,19 +21,19 @@ use crate::scene_class::Scene;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
-/// A solved motion, from `Scene.solve`: immutable, and shared between threads, which run in parallel while they evaluate it.
+/// A solved motion, from `Scene.solve`. It is immutable, and several threads can evaluate it in parallel.
 ///
-/// Every method that takes `times` takes a scalar or an array_like of shape (n,), of floats or integers; a scalar gives results without
-/// the leading axis. Where the epoch of the scene is a Time of astropy, times may be Time too; a TimeDelta is a duration from the epoch. The difference
-/// from the epoch is formed in the two doubles of astropy, and `Samples.times` is what was given. Ctrl-C ends every call within a second.
+/// The argument `times` of every method is a scalar or an array_like of shape (n,), of floats or integers, in the unit of time of the scene. For a scalar the results have no
+/// leading axis. If the epoch of the scene is a Time of astropy, the times may be Time objects too. A TimeDelta is a duration from the epoch. The difference
+/// from the epoch is formed in the two doubles of astropy, and `Samples.times` has the times as given. Ctrl-C ends every call within a second.
 ///
 /// Raises
 /// ------
 /// RepresentationError
-///     A time more than 1e15 rotations from the epoch, or under ``averaging="spin"`` more than 65,534 orbits from it; the message has its index and says which.
+///     A time more than 1e15 rotations from the epoch, with ``averaging="spin"`` more than 65,534 orbits from it, or outside the span of an integrated motion. The message states
+///     the index of the time and the limit.
 /// InputError
-///     A time that is NaN or infinite. A calendar time (a Time) where the epoch is a number; a Quantity where the epoch is a calendar time.
-///     Times with two axes.
+///     A time that is NaN or infinite; a Time if the epoch is a number; a Quantity if the epoch is a Time; an array of times with two axes.
 ///
 /// Examples
 /// --------
@@ -46,17 +47,19 @@ pub(crate) struct Motion(pub(crate) andoyer_propagate::Motion, pub(crate) Option
 
 #[pymethods]
 impl Motion {
-    /// Attitudes and angular velocities, in one pass.
+    /// Evaluates attitudes and angular velocities in one pass.
     ///
     /// Parameters
     /// ----------
     /// times : float or array_like, shape (n,)
+    ///     Times, in the unit of time of the scene.
     /// scalar_first : bool, optional
-    ///     Attitudes as [w, x, y, z].
+    ///     If True, quaternions are [w, x, y, z]; by default [x, y, z, w].
     ///
     /// Returns
     /// -------
     /// Samples
+    ///     Attitudes (n, 4) and angular velocities (n, 3) in rad per unit of time.
     #[pyo3(signature = (times, *, scalar_first=false))]
     fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>, scalar_first: bool) -> PyResult<Samples> {
         let times = self.times(times)?;
@@ -75,27 +78,28 @@ impl Motion {
         Ok(Samples::new(copy.unbind(), attitude.unbind(), rates.unbind(), scalar_first).given(times.given()))
     }
 
-    /// Unit quaternions [x, y, z, w] that rotate body components into inertial ones (theory §8).
+    /// Evaluates attitudes: unit quaternions [x, y, z, w] that rotate body components into inertial ones (theory §8).
     ///
     /// Parameters
     /// ----------
     /// times : float or array_like, shape (n,)
+    ///     Times, in the unit of time of the scene.
     /// out : ndarray, float64, C-contiguous, shape (n, 4), optional
-    ///     Where the result is written. After an error it holds what had been computed.
+    ///     Array for the result. After an error it contains the values computed so far.
     /// scalar_first : bool, optional
-    ///     [w, x, y, z] instead.
+    ///     If True, quaternions are [w, x, y, z].
     ///
     /// Returns
     /// -------
     /// ndarray, shape (n, 4)
-    ///     `out`, if given.
+    ///     Unit quaternions; this is `out` if `out` was given.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     An `out` of another shape, or strided.
+    ///     An `out` of another shape, or not contiguous.
     /// TypeError
-    ///     An `out` that is no float64 array, or read-only.
+    ///     An `out` that is not a float64 array, or is read-only.
     ///
     /// Examples
     /// --------
@@ -121,17 +125,19 @@ impl Motion {
         times.evaluate(out, evaluate).map(|(rows, ())| rows)
     }
 
-    /// Angular velocities in body components, in rad per unit of time.
+    /// Evaluates angular velocities in body components, in rad per unit of time.
     ///
     /// Parameters
     /// ----------
     /// times : float or array_like, shape (n,)
+    ///     Times, in the unit of time of the scene.
     /// out : ndarray, float64, C-contiguous, shape (n, 3), optional
-    ///     As in `attitude`.
+    ///     Array for the result, as in `attitude`.
     ///
     /// Returns
     /// -------
     /// ndarray, shape (n, 3)
+    ///     Angular velocities; this is `out` if `out` was given.
     #[pyo3(signature = (times, out=None))]
     fn angular_velocity<'py>(
         &self,
@@ -145,15 +151,17 @@ impl Motion {
             .map(|(rows, ())| rows)
     }
 
-    /// Angular momenta in inertial components, in the unit of moment × rate: the same at all times unless the scene has an orbit.
+    /// Evaluates the angular momentum in inertial components, in the unit of moment × rate. It is constant unless the scene has an orbit.
     ///
     /// Parameters
     /// ----------
     /// times : float or array_like, shape (n,)
+    ///     Times, in the unit of time of the scene.
     ///
     /// Returns
     /// -------
     /// ndarray, shape (n, 3)
+    ///     Angular momenta.
     fn angular_momentum<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
         let times = self.times(times)?;
         let since_epoch = times.since_epoch();
@@ -162,17 +170,18 @@ impl Motion {
             .map(|(rows, ())| rows)
     }
 
-    /// Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1).
+    /// Evaluates the Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1).
     ///
-    /// Attitude = Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν) with cos I = Λ/M, cos J = N/M. Axis 3 is the user's axis of greatest inertia with its
-    /// sense, axis 2 that of B, axis 1 that of A, reversed where the user's order A, B, C is left-handed. So N < 0 is a body that turns
-    /// backwards about its axis 3. For N > 0, y = μ + ν grows with `frequencies.longitude` and ν at −dℓ′/dt; for N < 0, y = μ − ν
-    /// grows with `frequencies.longitude` and ν at +dℓ′/dt; μ grows with the sum of both frequencies in either case. Angles are in
-    /// (−π, π]; where a node is not defined (I or J = 0 or π) its angle is 0 and μ carries the sum. Zeros for a body at rest.
+    /// The attitude is Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν) with cos I = Λ/M, cos J = N/M. Axis 3 is the user's axis of greatest inertia with the same
+    /// direction, axis 2 is the axis of B, and axis 1 is the axis of A. Axis 1 is reversed if the user's order A, B, C is left-handed. N < 0 means that the body rotates
+    /// backwards about its axis 3. For N > 0, y = μ + ν has the mean rate `frequencies.longitude` and ν the mean rate −dℓ′/dt. For N < 0, y = μ − ν
+    /// has the mean rate `frequencies.longitude` and ν the mean rate +dℓ′/dt. In both cases the mean rate of μ is the sum of the two frequencies. Angles are in
+    /// (−π, π]. If a node is not defined (I or J is 0 or π), its angle is 0 and μ is the sum of the angles. All variables are 0 for a body at rest.
     ///
     /// Parameters
     /// ----------
     /// times : float or array_like, shape (n,)
+    ///     Times, in the unit of time of the scene.
     ///
     /// Returns
     /// -------
@@ -186,47 +195,50 @@ impl Motion {
             .map(|(rows, ())| rows)
     }
 
-    /// Attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else.
+    /// Evaluates attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. This method imports SciPy.
     ///
     /// Parameters
     /// ----------
     /// times : float or array_like, shape (n,)
+    ///     Times, in the unit of time of the scene.
     ///
     /// Returns
     /// -------
     /// scipy.spatial.transform.Rotation
-    ///     A single one for a scalar time.
+    ///     n rotations, or a single rotation for a scalar time.
     ///
     /// Raises
     /// ------
     /// ImportError
-    ///     SciPy is not installed: the extra ``andoyer[scipy]`` brings it.
+    ///     SciPy is not installed; the extra ``andoyer[scipy]`` installs it.
     fn rotation<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         foreign::rotation(&self.attitude(times, None, false)?)
     }
 
-    /// Derivatives of attitude and angular velocity with respect to the state at the epoch and the moments (theory §12).
+    /// Evaluates the derivatives of attitude and angular velocity with respect to the initial state and the moments (theory §12).
     ///
-    /// Columns are nine parameters: the initial attitude (a small rotation about body axes 1, 2, 3), the initial angular velocity, the moments as given. A change of attitude,
-    /// at the epoch and at the time, is a rotation vector δθ about body axes, R → R exp([δθ]×); rates are body components. Closed form: no differences and no
-    /// integration, at any time and in every mode; for a scene with an orbit by differences (`Plan.partials` says which).
+    /// The nine columns are the initial attitude (a small rotation about body axes 1, 2, 3), the initial angular velocity, and the moments as given. A change of attitude
+    /// is a rotation vector δθ about body axes, R → R exp([δθ]×); rates are body components. The derivatives are in closed form at any time and in every mode. A scene with an
+    /// orbit uses differences (see `Plan.partials`).
     ///
     /// Parameters
     /// ----------
     /// times : float or array_like, shape (n,)
+    ///     Times, in the unit of time of the scene.
     ///
     /// Returns
     /// -------
     /// Partials
+    ///     Derivatives (n, 3, 9) of attitude and angular velocity.
     ///
     /// Raises
     /// ------
     /// TheoryError
-    ///     A motion on the separatrix, whose frequencies have no derivatives.
+    ///     The motion is on the separatrix, where the frequencies have no derivatives.
     ///
     /// Examples
     /// --------
-    /// Rotation about axis 3 for 10 units of time: the angle grows by 10 for each unit of its rate.
+    /// After 10 units of time, the angle of rotation about axis 3 grows by 10 for each unit of the rate.
     ///
     /// >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0, 0, 2.0]).solve()
     /// >>> float(motion.partials(10.0).attitude[2, 5])
@@ -244,7 +256,49 @@ impl Motion {
         Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
     }
 
-    /// What is evaluated, and why.
+    /// A self-contained function `rotation(time)` that evaluates this motion, as the text of a file of source (theory §8).
+    ///
+    /// It returns the attitude [x, y, z, w] and the angular velocity in body components, from the constants in the file and the language alone: C99 with math.h, Rust of `core`,
+    /// Python with math, JavaScript. C and Rust allocate nothing. Phases are kept in two doubles, so that they hold after 1e9 rotations. The head of the file names the scene,
+    /// the mode, the validity interval and the largest difference from the library. Times count as those of the scene; for an epoch of astropy in TDB seconds since J2000.
+    ///
+    /// Parameters
+    /// ----------
+    /// language : {"c", "rust", "python", "javascript"}, optional
+    ///
+    /// Returns
+    /// -------
+    /// str
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     The language ``"fortran"``.
+    /// RepresentationError
+    ///     A passage along the separatrix, or a motion under a torque.
+    ///
+    /// Examples
+    /// --------
+    /// >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    /// >>> namespace = {}
+    /// >>> exec(motion.to_code("python"), namespace)
+    /// >>> attitude, rates = namespace["rotation"](1e9)
+    /// >>> bool(abs(motion.attitude(1e9) - attitude).max() < 1e-14)
+    /// True
+    #[pyo3(signature = (language="c"))]
+    fn to_code(&self, py: Python<'_>, language: &str) -> PyResult<String> {
+        let language = language.parse().map_err(error::propagation)?;
+        detached(py, error::propagation, || self.0.to_code(language))
+    }
+
+    /// The same with the bounds of its differences that its head states: of the attitude [rad], of the angular velocity over its length.
+    fn _code(&self, py: Python<'_>, language: &str) -> PyResult<(String, f64, f64)> {
+        let language = language.parse().map_err(error::propagation)?;
+        let code = detached(py, error::propagation, || self.0.code(language))?;
+        Ok((code.text().to_owned(), code.attitude_error(), code.rate_error()))
+    }
+
+    /// The plan: method, order, error bound and other facts about this motion.
     #[getter]
     fn plan(&self) -> Plan {
         Plan(self.0.plan().clone())
@@ -256,9 +310,11 @@ impl Motion {
         Scene { calendar: self.1, ..self.0.scene().clone().into() }
     }
 
-    /// Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time; 0 where there is none.
+    /// Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time.
     ///
-    /// Neither is ever negative. y = μ + ν; for N < 0, where axis 3 points away from the angular momentum, y = μ − ν (see `andoyer`).
+    /// The frequencies of an integrated motion are those of the free motion at the epoch, as `periods`.
+    ///
+    /// Both are at least 0; a frequency that does not exist in this mode is 0. y = μ + ν for N ≥ 0. For N < 0 axis 3 points away from the angular momentum, and y = μ − ν (see `andoyer`).
     #[getter]
     fn frequencies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         static FREQUENCIES: PyOnceLock<Py<PyType>> = PyOnceLock::new();
@@ -268,16 +324,16 @@ impl Motion {
 
     /// Mean periods (P_φ, P_ψ) in three conventions: a dict with the keys "long-axis", "short-axis" and "extremal-axis".
     ///
-    /// Values are named tuples (precession, rotation) in units of time, infinite where there is no such period.
+    /// The values are named tuples (precession, rotation) in units of time. A period that does not exist in this mode is infinite.
     ///
-    /// - "short-axis" is the convention of the Andoyer variables. P_φ is the mean precession of the short axis about the angular momentum;
-    ///   P_ψ is the rotation about it, in the long-axis mode its oscillation. In the short-axis mode P_φ = 2π/(dy′/dt + dℓ′/dt), with
-    ///   which μ turns, and P_ψ = 2π/(dℓ′/dt), with which ν turns: backwards, for N < 0 forwards.
-    /// - "long-axis" has the same of the long axis: in the short-axis mode P_φ = 2π/(dy′/dt). Radar papers use it.
-    /// - "extremal-axis" is the convention of light-curve papers (Pravec et al. 2014): the short axis in the short-axis mode, the long axis
-    ///   in the long-axis mode. It is one of the other two.
+    /// - "short-axis" is the convention of the Andoyer variables. P_φ is the mean period with which the short axis precesses about the angular momentum.
+    ///   P_ψ is the mean period of the rotation about the short axis, or of the oscillation about it in the long-axis mode. In the short-axis mode P_φ = 2π/(dy′/dt + dℓ′/dt) is
+    ///   the period of μ, and P_ψ = 2π/(dℓ′/dt) is the period of ν; ν decreases for N > 0 and increases for N < 0.
+    /// - "long-axis" has the periods of the long axis: in the short-axis mode P_φ = 2π/(dy′/dt). Radar papers use this convention.
+    /// - "extremal-axis" is the convention of light-curve papers (Pravec et al. 2014): "short-axis" in the short-axis mode and "long-axis"
+    ///   in the long-axis mode.
     ///
-    /// P_ψ is the same in all three.
+    /// P_ψ is the same in all three conventions.
     ///
     /// Examples
     /// --------
@@ -299,15 +355,15 @@ impl Motion {
         )
     }
 
-    /// E/E0: rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum (theory §5).
+    /// E/E0: the rotational energy divided by the energy of rotation about the axis of greatest inertia with the same angular momentum (theory §5).
     ///
-    /// 1 on that axis, C/B on the separatrix, C/A on the axis of least inertia; with an orbit, of the state at the epoch.
+    /// It is 1 for rotation about this axis, C/B on the separatrix, and C/A for rotation about the axis of least inertia. With an orbit it is the value at the epoch.
     #[getter]
     fn energy_ratio(&self) -> f64 {
         self.0.energy_ratio()
     }
 
-    /// k², the parameter of the elliptic functions of the polhode (theory §10): 0 on a principal axis, 1 on the separatrix.
+    /// k², the parameter of the elliptic functions of the polhode (theory §10): 0 for rotation about a principal axis, 1 on the separatrix.
     #[getter]
     fn elliptic_parameter(&self) -> f64 {
         self.0.elliptic_parameter()
@@ -327,25 +383,24 @@ impl Motion {
         slf
     }
 
-    /// A motion is pickled as its scene, and solved again: without a warning, which was given when it was solved first.
+    /// A motion is pickled as its scene and solved again on loading, without a `ToleranceWarning`.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Scene,))> {
         Ok((py.get_type::<Self>().getattr("_restored")?, (self.scene(),)))
     }
 
     #[staticmethod]
     fn _restored(py: Python<'_>, scene: PyRef<'_, Scene>) -> PyResult<Self> {
-        let (scene, tables, epoch) = (&scene.scene, &scene.tables, scene.calendar);
-        detached(py, error::propagation, || scene.solve_with(tables)).map(|motion| Self(motion, epoch))
+        scene.solved(py).map(|motion| Self(motion, scene.calendar))
     }
 }
 
 impl Motion {
     fn times<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Times<'py>> {
-        Times::new(value, self.1, self.0.scene().asked_orbit().is_some())
+        Times::new(value, self.1, self.0.plan().steps() > 0 || !self.0.scene().asked_disturbing().is_empty())
     }
 
-    /// How these times are evaluated.
-    fn batch<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> andoyer_propagate::Batch<'a> {
+    /// The options of an evaluation at these times.
+    fn batch<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> andoyer_propagate::batch::Batch<'a> {
         let batch = self.0.batch().until(stop);
         if since_epoch { batch.since_epoch() } else { batch }
     }

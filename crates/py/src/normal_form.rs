@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use andoyer_series::{MAXIMUM_CODE_ORDER, MAXIMUM_ORDER, Part, Progress, PublicForm, Variable};
+use andoyer_series::print::{MAX_CODE_ORDER, Part};
+use andoyer_series::progress::Progress;
+use andoyer_series::rigid_body::{MAX_ORDER, PublicForm, Variable};
 use num_complex::Complex;
 use num_rational::BigRational;
 use pyo3::prelude::*;
@@ -13,26 +15,26 @@ use crate::error;
 use crate::order::order;
 use crate::progress;
 
-/// The normal form of the free rigid body, exact, symbolic in the triaxiality β, to any order (theory §4, §6).
+/// The normal form of the free rigid body to any order: exact, and symbolic in the triaxiality β (theory §4, §6).
 ///
-/// Exact numbers are `fractions.Fraction`, Gaussian rationals pairs (re, im) of them.
+/// Exact numbers are `fractions.Fraction`; Gaussian rationals are pairs (re, im) of them.
 ///
 /// Parameters
 /// ----------
 /// order : int
-///     Order in α/(√γ V), ≥ 0.
+///     Order in α/(√γ V), at least 0.
 /// progress : callable, optional
-///     Called as ``progress(done, order)`` with the number of orders done, 0 to `order`. An exception in it stops the work and is raised
-///     here.
+///     Called as ``progress(done, order)`` with the number of completed orders, 0 to `order`. An exception in it stops the computation and is raised
+///     to the caller.
 ///
 /// Raises
 /// ------
 /// InputError
-///     ``-1``, ``2.5``.
+///     An order that is negative or not whole (``-1``, ``2.5``).
 /// RepresentationError
-///     ``2000`` (more than 8 GiB of memory by its estimate), ``16382`` (exponents that would not fit).
+///     An order that would need more than 8 GiB of memory by estimate (``2000``), or exponents that do not fit (``16382``).
 /// KeyboardInterrupt
-///     Ctrl-C is noticed while it works.
+///     Ctrl-C during the computation.
 ///
 /// Examples
 /// --------
@@ -50,7 +52,7 @@ impl NormalForm {
     #[new]
     #[pyo3(signature = (order, *, progress=None))]
     fn new(py: Python<'_>, order: &Bound<'_, PyAny>, progress: Option<Py<PyAny>>) -> PyResult<Self> {
-        let order = self::order("order", order, 0, MAXIMUM_ORDER)?;
+        let order = self::order("order", order, 0, MAX_ORDER)?;
         let compute = |tell: &mut Progress<'_>| andoyer_series::NormalForm::with_progress(order, tell);
         progress::reported(py, progress, compute).map(Self)
     }
@@ -61,7 +63,7 @@ impl NormalForm {
         self.0.order()
     }
 
-    /// Triaxiality polynomial P_n, real form: K = M²/(2C) [1 + γ Σ P_n κⁿ σⁿ⁺¹] (theory §4).
+    /// The triaxiality polynomial P_n in real form: K = M²/(2C) [1 + γ Σ P_n κⁿ σⁿ⁺¹] (theory §4).
     ///
     /// Parameters
     /// ----------
@@ -71,12 +73,12 @@ impl NormalForm {
     /// Returns
     /// -------
     /// dict of {int: Fraction}
-    ///     Coefficient by power of β.
+    ///     The coefficients, by power of β.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     ``-1``, or above the order.
+    ///     An n that is negative or above `order`.
     ///
     /// Examples
     /// --------
@@ -87,7 +89,7 @@ impl NormalForm {
         polynomial.into_pyobject(py)
     }
 
-    /// Triaxiality polynomial p_n = (−i)ⁿ⁺¹ P_n in the paper's form (theory §4, and §11 for the misprint).
+    /// The triaxiality polynomial p_n = (−i)ⁿ⁺¹ P_n in the form of the paper (theory §4; §11 for the misprint).
     ///
     /// Parameters
     /// ----------
@@ -97,18 +99,18 @@ impl NormalForm {
     /// Returns
     /// -------
     /// dict of {int: (Fraction, Fraction)}
-    ///     Real and imaginary part by power of β.
+    ///     Real and imaginary parts of the coefficients, by power of β.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     ``-1``, or above the order.
+    ///     An n that is negative or above `order`.
     fn paper_polynomial<'py>(&self, py: Python<'py>, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let polynomial = self.0.paper_polynomial(order("n", n, 0, self.0.order())?).map_err(error::algebra)?;
         gaussian(py, polynomial)
     }
 
-    /// Generating function S_m · (√γ V/α)ᵐ = Σ c uʲ Uᵏ βˡ, the factor (m−1)! included (theory §4).
+    /// The generating function S_m · (√γ V/α)ᵐ = Σ c uʲ Uᵏ βˡ, including the factor (m−1)! (theory §4).
     ///
     /// Parameters
     /// ----------
@@ -118,81 +120,83 @@ impl NormalForm {
     /// Returns
     /// -------
     /// dict of {(int, int, int): (Fraction, Fraction)}
-    ///     Real and imaginary part of c by exponents (j, k, l).
+    ///     Real and imaginary parts of c, by exponents (j, k, l).
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     ``0``, or above the order.
+    ///     An m that is 0, negative or above `order`.
     fn generator<'py>(&self, py: Python<'py>, m: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let m = order("m", m, 1, self.0.order())?;
         self.face(py, |_| self.0.generator(m))
     }
 
-    /// Order n of the transformation of a variable to the new ones, 1/n! included (theory §6).
+    /// Order n of an old variable as a function of the new variables, including the factor 1/n! (theory §6).
     ///
-    /// u = u′ + Σ τⁿ Σ c u′ʲ U′ᵏ βˡ with τ = α/(√γ V), and the same for U; y = y′ + (1/M) Σ τⁿ Σ c u′ʲ U′ᵏ βˡ.
+    /// With τ = α/(√γ V), u = u′ + Σ τⁿ Σ c u′ʲ U′ᵏ βˡ and the same for U; y = y′ + (1/M) Σ τⁿ Σ c u′ʲ U′ᵏ βˡ.
     ///
     /// Parameters
     /// ----------
     /// name : {"u", "U", "y"}
+    ///     The old variable.
     /// n : int
     ///     1 to `order`.
     ///
     /// Returns
     /// -------
     /// dict of {(int, int, int): (Fraction, Fraction)}
-    ///     Real and imaginary part of c by exponents (j, k, l).
+    ///     Real and imaginary parts of c, by exponents (j, k, l).
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     The name ``"x"``; n ``0``, or above the order.
+    ///     An unknown name (``"x"``); an n that is 0, negative or above `order`.
     fn direct<'py>(&self, py: Python<'py>, name: &str, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let variable = name.parse().map_err(error::algebra_as("name"))?;
         let n = order("n", n, 1, self.0.order())?;
         self.face(py, |tell| self.0.direct_with(variable, n, tell))
     }
 
-    /// Order n of the transformation of a new variable to the old ones, scaled as `direct`.
+    /// Order n of a new variable as a function of the old variables, scaled as in `direct` (theory §6).
     ///
     /// Parameters
     /// ----------
     /// name : {"u", "U", "y"}
+    ///     The new variable.
     /// n : int
     ///     1 to `order`.
     ///
     /// Returns
     /// -------
     /// dict of {(int, int, int): (Fraction, Fraction)}
-    ///     Real and imaginary part of c by exponents (j, k, l).
+    ///     Real and imaginary parts of c, by exponents (j, k, l).
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     The name ``"x"``; n ``0``, or above the order.
+    ///     An unknown name (``"x"``); an n that is 0, negative or above `order`.
     fn inverse<'py>(&self, py: Python<'py>, name: &str, n: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let variable = name.parse().map_err(error::algebra_as("name"))?;
         let n = order("n", n, 1, self.0.order())?;
         self.face(py, |tell| self.0.inverse_with(variable, n, tell))
     }
 
-    /// This normal form as JSON text: exact, "p/q" strings, with a format version.
+    /// Writes this normal form as JSON text with a format version; numbers are exact "p/q" strings.
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {
         detached(py, error::algebra, || self.0.to_json())
     }
 
-    /// Reads what `to_json` wrote.
+    /// Reads a normal form from the text of `to_json`. Each order is computed again and compared.
     ///
     /// Parameters
     /// ----------
     /// text : str
+    ///     JSON text.
     ///
     /// Raises
     /// ------
     /// FileError
-    ///     Not JSON, another format or version, a term that no normal form has, a coefficient that is not that of the rigid body. Each
-    ///     order is computed anew and compared.
+    ///     A text that is not JSON; another format or version; a term that the normal form cannot have; a coefficient that differs from the computed one.
     ///
     /// Examples
     /// --------
@@ -206,16 +210,17 @@ impl NormalForm {
         progress::reported(class.py(), None, |tell| andoyer_series::NormalForm::from_json_with(text, tell)).map(Self)
     }
 
-    /// A part of this normal form as LaTeX, for a document that uses amsmath.
+    /// Writes a part of this normal form as LaTeX, for a document that uses amsmath.
     ///
     /// Parameters
     /// ----------
     /// what : {"hamiltonian", "generator", "direct", "inverse"}, optional
+    ///     The part.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     ``"lagrangian"``.
+    ///     An unknown part (``"lagrangian"``).
     #[pyo3(signature = (what="hamiltonian"))]
     fn to_latex(&self, py: Python<'_>, what: &str) -> PyResult<String> {
         let part = what.parse().map_err(error::algebra_as("what"))?;
@@ -223,10 +228,10 @@ impl NormalForm {
         detached(py, error::algebra, || self.0.to_latex(part))
     }
 
-    /// A part of this normal form as exact SymPy expressions. SymPy is imported here and nowhere else.
+    /// Converts a part of this normal form to exact SymPy expressions. This method imports SymPy.
     ///
-    /// The symbols are ``u, U, V, y, M, C, sigma, alpha, beta, gamma``, without assumptions. In "direct" u, U and y stand for the new
-    /// variables, in "inverse" for the old ones.
+    /// The symbols are ``u, U, V, y, M, C, sigma, alpha, beta, gamma``, without assumptions. In "direct" u, U and y are the new
+    /// variables, in "inverse" the old ones.
     ///
     /// Parameters
     /// ----------
@@ -235,40 +240,40 @@ impl NormalForm {
     /// Returns
     /// -------
     /// sympy.Expr, list of sympy.Expr or dict of {str: sympy.Expr}
-    ///     "hamiltonian": K in M, C, sigma = L/M, alpha, beta, gamma (theory §4). "generator": S_1 … S_N in u, U, V, the list starting with
-    ///     S_1. "direct" and "inverse": the old and the new "u", "U" and "y" (theory §6), sums of all orders.
+    ///     "hamiltonian": K in M, C, sigma = L/M, alpha, beta, gamma (theory §4). "generator": the list S_1 … S_N in u, U, V, alpha, beta, gamma.
+    ///     "direct": the old "u", "U" and "y", summed over all orders. "inverse": the new ones (theory §6).
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     ``"lagrangian"``.
+    ///     An unknown part (``"lagrangian"``).
     /// ImportError
-    ///     SymPy is not installed: the extra ``andoyer[sympy]`` brings it.
+    ///     SymPy is not installed; the extra ``andoyer[sympy]`` installs it.
     #[pyo3(signature = (what="hamiltonian"))]
     fn to_sympy<'py>(slf: &Bound<'py, Self>, what: &str) -> PyResult<Bound<'py, PyAny>> {
         let _: Part = what.parse().map_err(error::algebra_as("what"))?;
         slf.py().import("andoyer._symbolic")?.call_method1("expressions", (slf, what))
     }
 
-    /// A function that evaluates the direct transformation and the frequencies to this order, as the text of a file of source.
+    /// Writes a source file with a function that evaluates the direct transformation and the frequencies to this order.
     ///
-    /// It needs nothing but its language.
-    /// ``short_axis_rotation(sigma, anomaly)``, or ``(beta, sigma, anomaly)`` where `beta` is None, returns ``zeta_real`` = X/√M and
+    /// The file needs only the standard library of its language. The function is ``short_axis_rotation(sigma, anomaly)``, or
+    /// ``short_axis_rotation(beta, sigma, anomaly)`` if `beta` is None. It returns ``zeta_real`` = X/√M and
     /// ``zeta_imaginary`` = x/√M, ``longitude_shift`` = y − y′ in rad, ``anomaly_rate`` = dℓ′/dt in units of Mγ/C, and ``longitude_rate`` = g in
-    /// dy′/dt = (M/C)(1 + γg) (theory §1, §6, §7): a struct in C and Rust, a tuple in Python. The head of the file says it again, with the cost
-    /// and the truncation.
+    /// dy′/dt = (M/C)(1 + γg) (theory §1, §6, §7), as a struct in C and Rust and as a tuple in Python. The head of the file repeats this description and states
+    /// the number of operations and the truncation error.
     ///
     /// Parameters
     /// ----------
     /// language : {"c", "rust", "python"}, optional
-    ///     C99 with math.h; Rust with its standard library; Python with math.
+    ///     C99 with math.h, Rust with its standard library, or Python with math.
     /// beta : float, optional
-    ///     Triaxiality, 0 ≤ beta < 1, to be a number in the file; an argument of the function if None.
+    ///     Triaxiality, 0 ≤ beta < 1, as a number in the file. If None, it is an argument of the function.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     The language ``"fortran"``; β ``-0.1``, ``1.0``, NaN.
+    ///     An unknown language (``"fortran"``); a `beta` outside 0 ≤ beta < 1 or NaN.
     /// RepresentationError
     ///     An order above 100.
     ///
@@ -281,7 +286,7 @@ impl NormalForm {
     #[pyo3(signature = (language="c", beta=None))]
     fn to_code(&self, py: Python<'_>, language: &str, beta: Option<f64>) -> PyResult<String> {
         let language = language.parse().map_err(error::algebra)?;
-        if beta.is_none() && self.0.order() <= MAXIMUM_CODE_ORDER {
+        if beta.is_none() && self.0.order() <= MAX_CODE_ORDER {
             self.prepare(py, Part::Direct)?;
         }
         detached(py, error::algebra, || self.0.to_code(language, beta))
@@ -314,7 +319,7 @@ impl NormalForm {
         gaussian(py, progress::reported(py, None, compute)?)
     }
 
-    /// Computes the series that `part` is written from, which are kept; Ctrl-C is noticed meanwhile.
+    /// Computes and keeps the series of `part`. Ctrl-C ends the computation.
     fn prepare(&self, py: Python<'_>, part: Part) -> PyResult<()> {
         let (form, order) = (&self.0, self.0.order());
         for variable in [Variable::Coordinate, Variable::Angle].into_iter().filter(|_| order > 0) {
@@ -328,7 +333,7 @@ impl NormalForm {
     }
 }
 
-/// A dictionary of pairs (re, im), in the canonical order of the keys.
+/// A dictionary of pairs (re, im), in the canonical order of its keys.
 fn gaussian<'py, K: IntoPyObject<'py>>(
     py: Python<'py>,
     form: BTreeMap<K, Complex<BigRational>>,
@@ -340,7 +345,7 @@ fn gaussian<'py, K: IntoPyObject<'py>>(
     Ok(result)
 }
 
-/// Action σ_sep(β) = (2/π) atan √((1−β)/2β) of the separatrix, in units of M: the radius of convergence of the series (theory §5).
+/// The action σ_sep(β) = (2/π) atan √((1−β)/2β) of the separatrix, in units of M. It is the radius of convergence of the series (theory §5).
 ///
 /// Parameters
 /// ----------
@@ -350,7 +355,7 @@ fn gaussian<'py, K: IntoPyObject<'py>>(
 /// Raises
 /// ------
 /// InputError
-///     ``-0.1``, ``1.1``, NaN.
+///     A `beta` outside 0 to 1, or NaN.
 ///
 /// Examples
 /// --------
@@ -358,5 +363,5 @@ fn gaussian<'py, K: IntoPyObject<'py>>(
 /// 0.39183
 #[pyfunction]
 pub(crate) fn separatrix_action(beta: f64) -> PyResult<f64> {
-    andoyer_series::separatrix_action(beta).map_err(error::algebra)
+    andoyer_series::rigid_body::separatrix_action(beta).map_err(error::algebra)
 }

@@ -1,6 +1,9 @@
 //! `andoyer.normalize`.
 
-use andoyer_series::{Error as Algebra, MAXIMUM_EXPONENT, PhaseSpace, Progress, RealField, Resonances, normalize_with};
+use andoyer_series::birkhoff::Resonances;
+use andoyer_series::progress::Progress;
+use andoyer_series::real_field::RealField;
+use andoyer_series::{Error as Algebra, MAX_EXPONENT, PhaseSpace, normalize_with};
 use num_rational::BigRational;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -13,56 +16,61 @@ use crate::form::{Form, rounded};
 use crate::order::order;
 use crate::progress;
 
-/// Birkhoff normal form of a polynomial Hamiltonian about an equilibrium at the origin.
+/// Computes the Birkhoff normal form of a polynomial Hamiltonian about an equilibrium at the origin.
 ///
-/// The quadratic part may be any that can be diagonalized: oscillators, coupled or not, gyroscopic terms, saddles. A linear symplectic change makes it a
-/// sum of modes: centres ω (q²/r + r p²)/2, saddles λ q p, and quartets of complex eigenvalues. Order N normalizes the terms of degree
-/// N + 2 at most, by Lie transforms (Deprit's triangle).
+/// The quadratic part must be diagonalizable: oscillators, coupled or not, gyroscopic terms, saddles. A linear symplectic change makes it a
+/// sum of modes: centres ω (q²/r + r p²)/2, saddles λ q p, and quartets of complex eigenvalues. Order N normalizes the terms up to degree
+/// N + 2, by Lie transforms (Deprit's triangle).
 ///
 /// Parameters
 /// ----------
 /// hamiltonian : str, dict or SymPy expression
-///     A text like ``"(x**2 + X**2)/2 + 0.1*x**3"`` (``^`` is read too, decimals are exact), a dictionary of coefficients by tuple of
-///     exponents in the order of `variables` and `parameters`, or what SymPy reads as a polynomial. Coefficients: int, Fraction, text
+///     A text like ``"(x**2 + X**2)/2 + 0.1*x**3"`` (``^`` also means a power, and decimals are exact), a dictionary of coefficients by tuple of
+///     exponents in the order of `variables` and `parameters`, or a SymPy polynomial. Coefficients are int, Fraction, text
 ///     or float.
 /// order : int
-///     Order N ≥ 0. Terms beyond degree N + 2 do not matter.
+///     Order N, at least 0. Terms above degree N + 2 are ignored.
 /// variables : sequence of (str, str)
-///     The pairs (q, p), up to four, as names or SymPy symbols: all lists of exponents and states run q₁, p₁, q₂, p₂, …
+///     Up to four pairs (q, p), as names or SymPy symbols. All lists of exponents and states have the order q₁, p₁, q₂, p₂, …
 /// parameters : sequence of str, optional
-///     Symbols in the coefficients, names or SymPy symbols; eight variables and parameters together at most. One that occurs in the quadratic part is a
+///     Symbols in the coefficients, as names or SymPy symbols. Variables and parameters together are at most eight. A parameter in the quadratic part is a
 ///     detuning, like d in ``(1 + d)*y^2/2``.
 /// degrees : dict of {str: int}, optional
-///     The degrees that parameters count in the order of the terms: by default 2 for a detuning and 0 for any other.
+///     The degree of each parameter in the ordering of the terms; by default 2 for a detuning and 0 for any other parameter.
+/// frequency : (str, str), optional
+///     A parameter w that all frequencies are proportional to, and a name s for 1/√w. The form is that of H/w in the variables q√w, p/√w, under the names of the old ones, with s
+///     in the place of w: K of H is w times it, and its time is wt.
 /// resonances : sequence of sequences of int, optional
-///     Vectors k with k·ω = 0: terms that turn with e^{i k·φ} for their integer combinations are kept. ``[(1, -1)]`` for equal frequencies.
+///     Vectors k with k·ω = 0. Terms proportional to e^{i k·φ} are kept, for k and all integer combinations. Example: ``[(1, -1)]`` for equal frequencies.
 /// keep : {"hyperbolic"}, optional
-///     "hyperbolic" removes only what couples the centres to the saddles: the normal form restricts to the centre manifold, see `centre_manifold`.
+///     "hyperbolic" removes only the terms that couple the centres to the saddles. The normal form can then be restricted to the centre manifold; see `centre_manifold`.
 /// smallest_divisor : float, optional
-///     Relative to the largest frequency, 0 to 1: a term with ``|k·ω|`` below it is an error unless it is kept, and the resonances given must
-///     lie below it. 1e-6 costs six digits at worst; a wider bound admits resonances that are not exact.
+///     Bound of the divisors relative to the largest frequency, 0 to 1. A term with ``|k·ω|`` below it is an error unless the term is kept, and the given resonances must
+///     be below it. With 1e-6 a division loses at most six digits. A larger bound admits resonances that are not exact.
 /// exact : bool, optional
-///     True: rational numbers, which needs rational frequencies √(ab); floats count at their exact value. False: floats. By default
-///     exact where no coefficient is a float and the eigenvalues are rational.
+///     If True, numbers are rational; this needs rational frequencies √(ab), and floats have their exact value. If False, numbers are floats. By default
+///     numbers are exact if no coefficient is a float and the eigenvalues are rational.
 /// progress : callable, optional
-///     Called as ``progress(done, order)`` with the number of orders done, 0 to `order`. An exception in it stops the work and is raised
-///     here.
+///     Called as ``progress(done, order)`` with the number of completed orders, 0 to `order`. An exception in it stops the computation and is raised
+///     to the caller.
 ///
 /// Raises
 /// ------
 /// InputError
-///     A text that is no polynomial, a linear term, five pairs, a name that is no variable, a resonance that is none, another `keep`, the order ``-1``, a
-///     smallest divisor outside 0 to 1, numbers that overflow.
+///     A text that is not a polynomial; a linear term; more than four pairs; an unknown variable; a vector that is not a resonance; an unknown `keep`; a negative order; a
+///     smallest divisor outside 0 to 1; numbers that overflow.
 /// TheoryError
-///     A quadratic part with a Jordan block or a zero frequency. A resonant term or small divisor that was not asked for: the message has its monomial.
+///     A quadratic part with a Jordan block or a zero frequency. A resonant term or a small divisor that was not requested; the message has its monomial.
 /// RepresentationError
-///     The orders ``32764``, and ``171`` in floats; irrational frequencies with ``exact=True``.
+///     An order whose exponents or factorials do not fit (``32764``; ``171`` in floats); irrational frequencies with ``exact=True``.
 ///
 /// Examples
 /// --------
 /// >>> pendulum = normalize("p**2/2 + q**2/2 - q**4/24 + q**6/720", 4, [("q", "p")])
 /// >>> pendulum.in_actions()
 /// {(1,): Fraction(1, 1), (2,): Fraction(-1, 16), (3,): Fraction(-1, 256)}
+/// >>> print(normalize("p^2/2 + w^2*q^2/2 + q^4/4", 2, [("q", "p")], parameters=["w"], frequency=("w", "s")))
+/// I_q + 3/8*I_q^2*s^6
 /// >>> henon_heiles = "(x^2 + X^2 + y^2 + Y^2)/2 + x^2*y - y^3/3"
 /// >>> normalize(henon_heiles, 2, [("x", "X"), ("y", "Y")], resonances=[(1, -1)]).in_real()[4, 0, 0, 0]
 /// Fraction(-5, 48)
@@ -70,7 +78,7 @@ use crate::progress;
 /// >>> saddle.frequencies
 /// (2j, Fraction(1, 1))
 #[pyfunction]
-#[pyo3(signature = (hamiltonian, order, variables, *, parameters=None, degrees=None, resonances=None, keep=None, smallest_divisor=1e-6, exact=None, progress=None))]
+#[pyo3(signature = (hamiltonian, order, variables, *, parameters=None, degrees=None, frequency=None, resonances=None, keep=None, smallest_divisor=1e-6, exact=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
 pub(crate) fn normalize(
     py: Python<'_>,
@@ -79,6 +87,7 @@ pub(crate) fn normalize(
     variables: &Bound<'_, PyAny>,
     parameters: Option<&Bound<'_, PyAny>>,
     degrees: Option<&Bound<'_, PyDict>>,
+    frequency: Option<(String, String)>,
     resonances: Option<&Bound<'_, PyAny>>,
     keep: Option<&str>,
     smallest_divisor: f64,
@@ -87,8 +96,14 @@ pub(crate) fn normalize(
 ) -> PyResult<BirkhoffNormalForm> {
     let space = space(variables, parameters, degrees)?;
     let symbols = symbols(py, hamiltonian, variables, parameters)?;
-    let order = self::order("order", order, 0, <BigRational as RealField>::MAXIMUM_ORDER)?;
+    let order = self::order("order", order, 0, <BigRational as RealField>::MAX_ORDER)?;
     let Expression { polynomial, float } = Expression::new("hamiltonian", hamiltonian, &space)?;
+    let (polynomial, space) = match frequency {
+        None => (polynomial, space),
+        Some((letter, root)) => {
+            space.scaled(&polynomial, &letter, &root).map_err(|problem| error::algebra_of("frequency", problem))?
+        }
+    };
     let vectors = resonances.map_or(Ok(Vec::new()), vectors)?;
     let resonances = Resonances::new(&vectors.iter().map(Vec::as_slice).collect::<Vec<_>>());
     let resonances =
@@ -119,7 +134,7 @@ pub(crate) fn normalize(
     Ok(BirkhoffNormalForm::new(form, symbols))
 }
 
-/// The SymPy symbols among the arguments by their names, assumptions and all.
+/// The SymPy symbols among the arguments by their names, with their assumptions.
 fn symbols(
     py: Python<'_>,
     hamiltonian: &Bound<'_, PyAny>,
@@ -141,7 +156,7 @@ fn symbols(
     Ok(symbols.unbind())
 }
 
-/// The phase space of names, or of whatever prints as a name.
+/// The phase space of names, or of objects that print as names.
 fn space(
     variables: &Bound<'_, PyAny>,
     parameters: Option<&Bound<'_, PyAny>>,
@@ -165,14 +180,14 @@ fn space(
     let space = PhaseSpace::new(&pairs).map_err(|problem| error::algebra_of("variables", problem))?;
     let mut space = space.with_parameters(&names).map_err(|problem| error::algebra_of("parameters", problem))?;
     for (name, degree) in degrees.into_iter().flatten() {
-        let degree = self::order("degrees", &degree, 0, MAXIMUM_EXPONENT as usize)? as u32;
+        let degree = self::order("degrees", &degree, 0, MAX_EXPONENT as usize)? as u32;
         let name = name.str()?.to_string();
         space = space.with_degree(&name, degree).map_err(|problem| error::algebra_of("degrees", problem))?;
     }
     Ok(space)
 }
 
-/// The vectors of integers.
+/// The resonances as vectors of integers.
 fn vectors(resonances: &Bound<'_, PyAny>) -> PyResult<Vec<Vec<i64>>> {
     let refused = || refused("resonances", "vectors of integers, such as [(1, -1)]", resonances);
     let vector = |vector: &Bound<'_, PyAny>| {
@@ -182,7 +197,7 @@ fn vectors(resonances: &Bound<'_, PyAny>) -> PyResult<Vec<Vec<i64>>> {
     items(resonances).ok_or_else(refused)?.iter().map(vector).collect()
 }
 
-/// What a sequence holds; a text is none.
+/// The items of a sequence; None for a text.
 fn items<'py>(sequence: &Bound<'py, PyAny>) -> Option<Vec<Bound<'py, PyAny>>> {
     if sequence.is_instance_of::<PyString>() {
         return None;

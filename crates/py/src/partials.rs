@@ -9,10 +9,11 @@ use crate::samples::counted;
 
 type Array = Py<PyArrayDyn<f64>>;
 
-/// Derivatives of attitude and angular velocity at some times, of a motion or of the members of an ensemble: what `Motion.partials` and `Ensemble.partials` return.
+/// Derivatives of attitude and angular velocity at given times, from `Motion.partials` and `Ensemble.partials`.
 ///
-/// The last axis has nine parameters: initial attitude (3), initial angular velocity (3), moments as given (3). The arrays belong to the object alone. Of an ensemble they have a
-/// leading axis of members, which `len` counts; of a motion `len` counts the times. For a scalar time the axis of times is missing, and a motion's partials have no `len`.
+/// The last axis has nine parameters: initial attitude (3), initial angular velocity (3), moments as given (3). The object owns its arrays. Those of an ensemble have a leading
+/// axis of members, and `len` is the number of members; `len` of a motion's partials is the number of times. For a scalar time there is no axis of times, and a motion's partials
+/// have no `len`.
 ///
 /// Examples
 /// --------
@@ -67,7 +68,7 @@ impl Partials {
         }
     }
 
-    /// Puts together what `pickle` took apart.
+    /// Rebuilds derivatives for `pickle`.
     #[classmethod]
     fn _restored(_class: &Bound<'_, PyType>, times: Array, attitude: Array, angular_velocity: Array) -> Self {
         Self::new(times, attitude, angular_velocity)

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 
 use crate::error::InternalError;
 
-/// What is evaluated for a motion, and why: see `Motion.plan`; ``str(plan)`` is a table of it.
+/// The method, order, error bound and other facts about a motion, from `Motion.plan`. ``str(plan)`` is a table.
 ///
 /// Examples
 /// --------
@@ -27,85 +27,91 @@ impl Plan {
         self.0.mode().to_string()
     }
 
-    /// How it is evaluated: "series", or "closed" for theta functions and the formulas that need no sum at all.
+    /// The method of evaluation: "series", "closed" for theta functions and elementary formulas, or "integrated".
     #[getter]
     fn method(&self) -> String {
         self.0.method().to_string()
     }
 
-    /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance.
+    /// Order N of the series, or of the steps of an integration. It is 0 if there is no series, or if the harmonic oscillator alone meets the tolerance.
     #[getter]
     fn order(&self) -> usize {
         self.0.order()
     }
 
-    /// The highest multiple of the anomaly ℓ′ that is evaluated; 0 where none is.
+    /// Steps of the integration; 0 without one.
+    #[getter]
+    fn steps(&self) -> usize {
+        self.0.steps()
+    }
+
+    /// The highest multiple of the anomaly ℓ′ in the evaluation; 0 if the method has no harmonics.
     #[getter]
     fn harmonics(&self) -> usize {
         self.0.harmonics()
     }
 
-    /// Estimate from above of the attitude error over the span, in rad: truncation, dropped harmonics, rounding.
+    /// Upper estimate of the attitude error over the span, in rad. It includes truncation, dropped harmonics and rounding.
     #[getter]
     fn error_bound(&self) -> f64 {
         self.0.error_bound()
     }
 
-    /// The attitude error asked for over the span, in rad.
+    /// The requested attitude error over the span, in rad.
     #[getter]
     fn tolerance(&self) -> f64 {
         self.0.tolerance()
     }
 
-    /// Whether the error bound is within the tolerance, or within 2e-14 rad where the tolerance is less than double precision holds.
+    /// True if the error bound is at most the tolerance. If the tolerance is below the rounding error of doubles, the bound must be at most 2e-14 rad.
     #[getter]
     fn meets_tolerance(&self) -> bool {
         self.0.meets_tolerance()
     }
 
-    /// The sentence of the `ToleranceWarning` where the tolerance is not met, or None.
+    /// The text of the `ToleranceWarning` if the tolerance is not met, otherwise None.
     #[getter]
     fn missed_tolerance(&self) -> Option<String> {
         self.0.missed_tolerance()
     }
 
-    /// σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5).
+    /// σ/σ_sep (theory §5): 0 for rotation about the axis of greatest inertia, 1 on the separatrix.
     #[getter]
     fn separatrix_ratio(&self) -> f64 {
         self.0.separatrix_ratio()
     }
 
-    /// How far the equations of a scene with an orbit are averaged: "orbit", "spin", or None without an orbit (theory §9).
+    /// The averaging of a scene with an orbit: "orbit", "spin", or None without an orbit (theory §9).
     #[getter]
     fn averaging(&self) -> Option<String> {
         self.0.averaging().map(|averaging| averaging.to_string())
     }
 
-    /// Size of the torque: the sum of the short-period corrections by the gravity gradient, in rad; 0 without an orbit.
+    /// The size of the torque: the sum of the short-period corrections of the gravity gradient, in rad; 0 without an orbit.
     #[getter]
     fn torque(&self) -> f64 {
         self.0.torque()
     }
 
-    /// First neglected term under a gravity gradient, in rad: of second order in the torque, or a short-period one that was dropped; 0 without an orbit.
+    /// The first neglected term of the gravity gradient, in rad: the second order in the torque, or a dropped short-period term; 0 without an orbit.
     #[getter]
     fn first_neglected(&self) -> f64 {
         self.0.first_neglected()
     }
 
-    /// How `Motion.partials` computes: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; None on the separatrix, where there are none.
+    /// The method of `Motion.partials`: "closed" (theory §12), "differences" of fourth order for a scene with an orbit and for an integrated motion, or None on the separatrix, where the derivatives do not exist.
     #[getter]
     fn partials(&self) -> Option<&'static str> {
         self.0.partials()
     }
 
-    /// What this scene did not need, and why: a list of str.
+    /// The steps that this scene did not need, with the reasons: a list of str.
     #[getter]
     fn skipped(&self) -> Vec<String> {
         self.0.skipped().to_vec()
     }
 
-    /// The plan in the text that pickles hold.
+    /// The text of the plan for `pickle`.
     #[staticmethod]
     fn _restored(text: &str) -> PyResult<Self> {
         toml::from_str(text)

@@ -2,7 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use andoyer_series::{Error as Algebra, Progress};
+use andoyer_series::Error as Algebra;
+use andoyer_series::progress::Progress;
 use pyo3::prelude::*;
 
 use crate::computing::detached;

@@ -10,10 +10,10 @@ use pyo3::types::{PyDict, PyType};
 type Array = Py<PyArrayDyn<f64>>;
 type Parts = (Array, Array, Array, bool, Option<Py<PyAny>>, Py<PyDict>);
 
-/// Attitudes and angular velocities at some times, of a motion or of the members of an ensemble: what `Motion.at` and `Ensemble.at` return.
+/// Attitudes and angular velocities of a motion or an ensemble at given times, from `Motion.at` or `Ensemble.at`.
 ///
-/// The arrays belong to the samples alone. Of an ensemble they have a leading axis of members, which `len` counts; of a motion `len` counts
-/// the times. For a scalar time the axis of times is missing, and a motion's samples have no `len`.
+/// The samples own their arrays. For an ensemble the arrays have a leading axis of members, and `len` is the number of members. For a motion `len` is
+/// the number of times. For a scalar time there is no axis of times, and the samples of a motion have no `len`.
 ///
 /// Examples
 /// --------
@@ -27,18 +27,18 @@ type Parts = (Array, Array, Array, bool, Option<Py<PyAny>>, Py<PyDict>);
 #[pyclass(frozen, module = "andoyer")]
 pub(crate) struct Samples {
     times: Array,
-    /// Times of astropy, as they were given.
+    /// The times as given, if they are times of astropy.
     given: Option<Py<PyAny>>,
-    /// Why members of an ensemble have no samples, by index.
+    /// The errors of members without samples, by index.
     refused: Vec<(usize, Py<PyAny>)>,
     /// Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4) or (m, n, 4).
-    /// With `scalar_first` they are [w, x, y, z].
+    /// They are [w, x, y, z] if the samples were made with `scalar_first`.
     #[pyo3(get)]
     attitude: Array,
     /// Angular velocities in body components, in rad per unit of time, shape (n, 3) or (m, n, 3).
     #[pyo3(get)]
     angular_velocity: Array,
-    /// Whether the quaternions are [w, x, y, z].
+    /// True if the quaternions are [w, x, y, z].
     #[pyo3(get)]
     scalar_first: bool,
 }
@@ -56,12 +56,12 @@ impl Samples {
         Self { times, attitude, angular_velocity, scalar_first, given: None, refused: Vec::new() }
     }
 
-    /// At times of another package.
+    /// Samples at times of astropy.
     pub(crate) fn given(self, given: Option<Py<PyAny>>) -> Self {
         Self { given, ..self }
     }
 
-    /// With the errors of members that have no samples.
+    /// Adds the errors of members without samples.
     pub(crate) fn refused(self, refused: Vec<(usize, Py<PyAny>)>) -> Self {
         Self { refused, ..self }
     }
@@ -69,13 +69,13 @@ impl Samples {
 
 #[pymethods]
 impl Samples {
-    /// The times, float64, shape (n,); of an ensemble whose members have their own times (m, n). Times of astropy are given back as they are.
+    /// The times, float64, shape (n,), or (m, n) for an ensemble whose members have their own times. Times of astropy are returned as given.
     #[getter]
     fn times(&self, py: Python<'_>) -> Py<PyAny> {
         self.given.as_ref().map_or_else(|| self.times.clone_ref(py).into_any(), |given| given.clone_ref(py))
     }
 
-    /// Why members have no samples but NaN: errors by index, of an ensemble with ``errors="nan"``; else empty.
+    /// The errors of members whose samples are NaN, by index, for an ensemble with ``errors="nan"``; otherwise empty.
     #[getter]
     fn errors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let errors = PyDict::new(py);
@@ -107,7 +107,7 @@ impl Samples {
         })
     }
 
-    /// Puts together what `pickle` took apart.
+    /// Rebuilds samples for `pickle`.
     #[classmethod]
     #[pyo3(signature = (times, attitude, angular_velocity, scalar_first=false, given=None, errors=None))]
     fn _restored(
@@ -123,7 +123,7 @@ impl Samples {
         Self::new(times, attitude, angular_velocity, scalar_first).given(given).refused(refused)
     }
 
-    /// A table of pandas, indexed by time, or by member and time: qx, qy, qz, qw, wx, wy, wz. pandas is imported here and nowhere else.
+    /// Converts the samples to a pandas table with the columns qx, qy, qz, qw, wx, wy, wz, indexed by time or by member and time. This method imports pandas.
     ///
     /// Returns
     /// -------
@@ -132,14 +132,14 @@ impl Samples {
     /// Raises
     /// ------
     /// ImportError
-    ///     pandas is not installed: the extra ``andoyer[pandas]`` brings it.
+    ///     pandas is not installed; the extra ``andoyer[pandas]`` installs it.
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("andoyer._frames")?.call_method1("pandas", (slf,))
     }
 
-    /// A data set of xarray: attitude and angular_velocity by (member,) time, quaternion or axis. xarray is imported here and nowhere else.
+    /// Converts the samples to an xarray data set: attitude and angular_velocity by (member,) time, and quaternion or axis. This method imports xarray.
     ///
-    /// Members that have their own times have them as the coordinate ``t``.
+    /// If the members have their own times, these are the coordinate ``t``.
     ///
     /// Returns
     /// -------
@@ -148,7 +148,7 @@ impl Samples {
     /// Raises
     /// ------
     /// ImportError
-    ///     xarray is not installed: the extra ``andoyer[xarray]`` brings it.
+    ///     xarray is not installed; the extra ``andoyer[xarray]`` installs it.
     fn to_xarray<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("andoyer._frames")?.call_method1("xarray", (slf,))
     }

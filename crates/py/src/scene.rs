@@ -2,18 +2,23 @@
 
 use std::path::PathBuf;
 
-use andoyer_propagate::{MAX_ORDER, ObservedPeriods, State};
+use andoyer_propagate::disturbers::DisturbingBody;
+use andoyer_propagate::options::MAX_ORDER;
+use andoyer_propagate::periods::ObservedPeriods;
+use andoyer_propagate::{Method, State};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::array::TwoOrThree;
 use crate::body::Body;
-use crate::computing::detached;
+use crate::computing::{detached, interruptible};
+use crate::error::InternalError;
 use crate::foreign::{self, Calendar};
 use crate::motion::Motion;
 use crate::orbit::{self, Orbit};
 use crate::scene_class::Scene;
+use crate::tabulated::TabulatedOrbit;
 use crate::{array, error};
 
 #[pymethods]
@@ -58,7 +63,7 @@ impl Scene {
             .averaging(averaging.parse().map_err(error::propagation)?)
             .level(level.parse().map_err(error::propagation)?);
         if let Some(orbit) = orbit {
-            scene = scene.orbit(orbit.cast::<Orbit>().map_err(|_| not_an_orbit(orbit))?.get().0);
+            scene = scene.disturbing(disturbing_bodies(orbit)?);
         }
         if let Some(value) = order {
             scene = scene.order(crate::order::order("order", value, 0, MAX_ORDER)?);
@@ -203,7 +208,11 @@ impl Scene {
     #[classmethod]
     fn from_toml(class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
         let scene = andoyer_propagate::Scene::from_toml(path).map_err(error::propagation)?;
-        scene.asked_orbit().map_or(Ok(()), |orbit| orbit::doubt(class.py(), orbit))?;
+        for body in scene.asked_disturbing() {
+            if let DisturbingBody::Orbit(orbit) = body {
+                orbit::doubt(class.py(), orbit)?;
+            }
+        }
         Ok(Self::from(scene))
     }
 
@@ -223,14 +232,17 @@ impl Scene {
     /// ------
     /// TheoryError
     ///     ``method="series"`` where the tolerance needs an order above 60, so near is the separatrix, or on it.
-    ///     An orbit that is in resonance with the rotation, or not much slower: the Moon, Dimorphos. The message names the pair (k−j, m).
-    ///     An orbit whose torque is too strong for an expansion in it.
-    ///     An orbit, and a motion too near the separatrix, a body at rest or on its middle axis, or a round one that turns about an axis across; or more orbits
-    ///     than `averaging="spin"` solves.
+    ///     Without a span, or with a method, an averaging or a level of the theory: an orbit that is in resonance with the rotation, or not much slower (the message names the
+    ///     pair (k−j, m)); an orbit whose torque is too strong for an expansion in it; an orbit, and a motion too near the separatrix, a body at rest or on its middle axis, or
+    ///     a round one that turns about an axis across; or more orbits than `averaging="spin"` solves. With a span ``method="auto"`` integrates these.
+    ///     ``method="closed"`` or ``"series"`` with several orbits, a table, or an orbit with secular rates.
+    ///     An integration of more than 8,388,608 steps on one side of the epoch; one at whose end nearby states have separated so far that nothing is known.
+    /// InputError
+    ///     An integration without a span, or with one that a `TabulatedOrbit` does not cover.
     /// RepresentationError
     ///     The angular momentum, moment × rate, is no normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {
-        let motion = detached(py, error::propagation, || self.scene.solve_with(&self.tables))?;
+        let motion = self.solved(py)?;
         error::warn_of_tolerance(py, motion.plan().missed_tolerance())?;
         Ok(Motion(motion, self.calendar))
     }
@@ -265,7 +277,7 @@ impl Scene {
         self.scene.asked_tolerance()
     }
 
-    /// The method: "auto", "series" or "closed".
+    /// The method: "auto", "series", "closed" or "integrated".
     #[getter]
     fn method(&self) -> String {
         self.scene.asked_method().to_string()
@@ -283,10 +295,16 @@ impl Scene {
         self.scene.asked_span()
     }
 
-    /// The orbit of the disturbing body, or None.
+    /// The orbit of the disturbing body, an `Orbit` or a `TabulatedOrbit`; of several a tuple of them; or None.
     #[getter]
-    fn orbit(&self) -> Option<Orbit> {
-        self.scene.asked_orbit().copied().map(Orbit)
+    fn orbit<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let bodies: Vec<_> =
+            self.scene.asked_disturbing().iter().map(|body| disturbing_body(py, body)).collect::<PyResult<_>>()?;
+        match bodies.as_slice() {
+            [] => Ok(None),
+            [body] => Ok(Some(body.clone())),
+            bodies => Ok(Some(PyTuple::new(py, bodies)?.into_any())),
+        }
     }
 
     /// The averaging: "auto", "orbit" or "spin".
@@ -390,9 +408,33 @@ fn not_a_body(value: &Bound<'_, PyAny>) -> PyErr {
     PyTypeError::new_err(format!("body must be an andoyer.Body: got {}; use Body([A, B, C])", kind(value)))
 }
 
+/// One disturbing body, or a sequence of them.
+fn disturbing_bodies(value: &Bound<'_, PyAny>) -> PyResult<Vec<DisturbingBody>> {
+    let one = |value: &Bound<'_, PyAny>| -> Option<DisturbingBody> {
+        let orbit = value.cast::<Orbit>().map(|orbit| orbit.get().0.into());
+        orbit
+            .or_else(|_| value.cast::<TabulatedOrbit>().map(|table| DisturbingBody::Tabulated(table.get().0.clone())))
+            .ok()
+    };
+    if let Some(body) = one(value) {
+        return Ok(vec![body]);
+    }
+    let members = value.try_iter().map_err(|_| not_an_orbit(value))?;
+    members.map(|member| member.and_then(|member| one(&member).ok_or_else(|| not_an_orbit(&member)))).collect()
+}
+
+fn disturbing_body<'py>(py: Python<'py>, body: &DisturbingBody) -> PyResult<Bound<'py, PyAny>> {
+    match body {
+        DisturbingBody::Orbit(orbit) => Ok(Bound::new(py, Orbit(*orbit))?.into_any()),
+        DisturbingBody::Tabulated(table) => Ok(Bound::new(py, TabulatedOrbit(table.clone()))?.into_any()),
+        _ => Err(InternalError::new_err("a fault of this package, please report it: an unknown disturbing body")),
+    }
+}
+
 /// What is said of an orbit that is none.
 fn not_an_orbit(value: &Bound<'_, PyAny>) -> PyErr {
-    PyTypeError::new_err(format!("orbit must be an andoyer.Orbit or None: got {}; use Orbit(mean_motion)", kind(value)))
+    let said = "orbit must be an andoyer.Orbit, a TabulatedOrbit, a sequence of them or None: got";
+    PyTypeError::new_err(format!("{said} {}; use Orbit(mean_motion)", kind(value)))
 }
 
 /// The name of the type of a value.
@@ -401,6 +443,13 @@ fn kind(value: &Bound<'_, PyAny>) -> String {
 }
 
 impl Scene {
+    /// The motion; an integration can be interrupted.
+    pub(crate) fn solved(&self, py: Python<'_>) -> PyResult<andoyer_propagate::Motion> {
+        let integrated = !self.scene.asked_disturbing().is_empty() || self.scene.asked_method() == Method::Integrated;
+        let long = integrated && self.scene.asked_span().is_some();
+        interruptible(py, long, error::propagation, |stop| self.scene.solve_until(&self.tables, stop))
+    }
+
     /// The keyword arguments that make this scene.
     fn keywords<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let keywords = PyDict::new(py);
@@ -408,7 +457,7 @@ impl Scene {
             Some(calendar) => keywords.set_item("epoch", foreign::calendar(py, &[calendar])?.get_item(0)?)?,
             None => keywords.set_item("epoch", self.epoch())?,
         }
-        keywords.set_item("orbit", self.orbit())?;
+        keywords.set_item("orbit", self.orbit(py)?)?;
         keywords.set_item("tolerance", self.tolerance())?;
         keywords.set_item("method", self.method())?;
         keywords.set_item("order", self.order())?;

@@ -1,59 +1,62 @@
-//! The class `Scene`; its methods are in [`crate::scene`], since `Scene.solve` gives a `Motion` and `Motion.scene` a `Scene`.
+//! The class `Scene`. Its methods are in [`crate::scene`], because `Scene.solve` returns a `Motion` and `Motion.scene` returns a `Scene`.
 
 use andoyer_propagate::SeriesTables;
 use pyo3::prelude::*;
 
 use crate::foreign::Calendar;
 
-/// A body, its state at an epoch, and the accuracy asked of the solution.
+/// A body, its state at an epoch, and the requested accuracy of the solution.
 ///
-/// No unit is built in: time, moments and angular velocity in any consistent set, angles in rad.
+/// Time, moments and angular velocity are in any consistent set of units; angles are in rad.
 ///
 /// Parameters
 /// ----------
 /// body : Body
+///     The rotating body.
 /// attitude : array_like, shape (4,), or scipy.spatial.transform.Rotation
-///     Unit quaternion [x, y, z, w], scalar last (Hamilton product), that rotates body components into inertial ones; a norm within 1e-6
-///     of 1 is normalized.
+///     Unit quaternion [x, y, z, w], scalar last (Hamilton product), that rotates body components into inertial ones. Its norm must be within 1e-6
+///     of 1; the quaternion is then normalized.
 /// angular_velocity : array_like, shape (3,)
-///     Body components, in rad per unit of time; zero is a body at rest. A Quantity of astropy is taken in SI units, here and wherever
-///     numbers are taken; a Time in TDB seconds since J2000.
+///     Body components, in rad per unit of time; zeros mean a body at rest. Every function converts a Quantity of astropy to SI units, and a Time to
+///     TDB seconds since J2000.
 /// scalar_first : bool, optional
-///     Whether `attitude` is [w, x, y, z]. The property `attitude` has the scalar last all the same.
+///     If True, the argument `attitude` is [w, x, y, z]. The property `attitude` is always [x, y, z, w].
 /// epoch : float or astropy.time.Time, optional
-///     Time of the state. Of a Time the two doubles are kept, in TDB, and times of the motion may be Time; numbers are then seconds since J2000.
-/// orbit : Orbit, optional
-///     Relative orbit of a body whose gravity gradient acts (theory §9); by default none, and the motion is free.
+///     Time of the state. The two doubles of a Time are kept, in TDB. The times of the motion may then be Time objects, and numbers are seconds since J2000.
+/// orbit : Orbit or TabulatedOrbit, or a sequence of them, optional
+///     Relative orbits of the bodies whose gravity gradients act (theory §9). By default there is no orbit, and the motion is free.
 /// tolerance : float, optional
-///     Attitude error asked for over the span, in rad. Below about 1e-14 it means the best that double precision holds
-///     (`Plan.error_bound` says what that is).
-/// method : {"auto", "series", "closed"}, optional
-///     Perturbation series or closed form; "auto" is the closed form, or the series if an order is fixed.
+///     Requested attitude error over the span, in rad. A tolerance below about 1e-14 requests the best accuracy of double precision,
+///     which `Plan.error_bound` states.
+/// method : {"auto", "series", "closed", "integrated"}, optional
+///     Perturbation series, closed form (with an orbit the averaged theory about it), or numerical integration of the full equations over the span. "auto" uses the closed
+///     form, or the series if an order is fixed. With an orbit and a span it uses the integration where the theory does not hold, or where the theory misses the tolerance and the
+///     integration meets it, and for several orbits, a table or an orbit with secular rates. `Plan.skipped` states the reason.
 /// order : int, optional
-///     Fixed order of the series, of the secular part too (theory §7), 0 to 60; by default, with ``method="series"``, the one that the tolerance needs (theory §5).
-///     A fixed order is not raised for the tolerance: where it is too low, `Plan.error_bound` exceeds the tolerance and ``str(plan)``
-///     says that it "is not met", and over what.
+///     Fixed order of the series and of the secular part (theory §7), 0 to 60. By default ``method="series"`` uses the order that the tolerance needs (theory §5).
+///     A fixed order stays fixed, whatever the tolerance. If it is too low, `Plan.error_bound` exceeds the tolerance, and ``str(plan)``
+///     says that the tolerance "is not met over the span".
 /// span : (float, float), optional
-///     Two numbers, or two Time, or two TimeDelta from the epoch.
-///     Times over which the tolerance is asked for; by default any within 1e9 rotations. A motion can be evaluated outside it, up to
-///     1e15 rotations from the epoch; farther away is a `RepresentationError` of the motion.
+///     First and last time over which the tolerance is requested: two numbers, two Time objects, or two TimeDelta from the epoch. By default it is
+///     1e9 rotations. A motion can be evaluated outside the span, up to
+///     1e15 rotations from the epoch; a later time is a `RepresentationError` of the motion. An integrated motion needs a span and can be evaluated within the span and at the epoch only.
 /// averaging : {"auto", "orbit", "spin"}, optional
-///     How far the equations of a scene with an orbit are averaged: over rotation and orbit, which leaves formulas; over the rotation alone; by
-///     default the first where it meets the tolerance.
+///     Averaging of a scene with an orbit: "orbit" averages over rotation and orbit and uses formulas alone; "spin" averages over the rotation alone;
+///     "auto" uses "orbit" if it meets the tolerance.
 /// level : {"full", "moving", "paper"}, optional
-///     Terms of the short-period corrections: to all orders in J; at J = 0 alone; those with the disturbing body held fixed, as in the paper.
+///     Terms of the short-period corrections: "full", all orders in J; "moving", the term at J = 0; "paper", this term with the disturbing body held fixed.
 /// name, source : str, optional
-///     What the scene is and where its figures come from: kept, printed, and nothing else.
+///     A name and a source of the figures, kept with the scene and printed.
 ///
 /// Raises
 /// ------
 /// InputError
-///     The attitudes ``[0, 0, 0, 0]`` and ``[0, 0, 0, 1.1]``, a tolerance of ``0`` or ``-1``, the span ``(1, 0)``, and any of them that is not finite.
-///     An attitude of 3 numbers, an angular velocity of 4. The orders ``-1`` and ``2.5``. A method, an averaging or a level of another name.
+///     An attitude whose norm is not 1 (``[0, 0, 0, 1.1]``); a tolerance that is not positive; a span whose first time is above the second; a value that is not finite;
+///     an array of another shape; an order that is negative or not whole (``-1``, ``2.5``); an unknown method, averaging or level.
 /// RepresentationError
-///     The order ``61``.
+///     An order above 60.
 /// TypeError
-///     A body that is a list, an orbit that is a number, a tolerance or an epoch that is a text, an order that is a boolean.
+///     A body that is not a `Body`, an orbit that is not an `Orbit`, a tolerance or an epoch that is a text, an order that is a boolean.
 ///
 /// Examples
 /// --------
@@ -65,9 +68,9 @@ use crate::foreign::Calendar;
 #[pyclass(frozen, eq, module = "andoyer")]
 pub(crate) struct Scene {
     pub(crate) scene: andoyer_propagate::Scene,
-    /// Those of its body.
+    /// The tables of its body.
     pub(crate) tables: SeriesTables,
-    /// The epoch, where it was given as a calendar time.
+    /// The epoch, if it was given as a calendar time.
     pub(crate) calendar: Option<Calendar>,
 }
 

@@ -13,7 +13,7 @@ from andoyer import output
 from andoyer.cli import main
 from andoyer.output.files import whole_file
 
-FORMATS = ["csv", "npz", "parquet", "aem", "bc", "png", "svg"]
+FORMATS = ["csv", "npz", "parquet", "aem", "bc", "png", "svg", "html", "c", "js"]
 NEEDS = {"parquet": "pyarrow", "bc": "spiceypy", "png": "matplotlib", "svg": "matplotlib"}
 OLD = b"what was there"
 
@@ -28,9 +28,13 @@ def scene_file(scene, tmp_path_factory):
 
 
 def line(scene_file, path):
-    """The command that writes a file of some hundred kilobytes."""
+    """The command that writes a file of some hundred kilobytes; code has five."""
     if path.suffix in (".png", ".svg"):
         return ["plot", str(scene_file), "-o", str(path)]
+    if path.suffix == ".html":
+        return ["plot", str(scene_file), "-o", str(path)]
+    if path.suffix in (".c", ".js"):
+        return ["code", str(scene_file), "-o", str(path)]
     if path.suffix == ".bc":
         return ["propagate", str(scene_file), "-o", str(path), "--start", "0", "--stop", "20", "--interpolation-error", "1e-7"]
     return ["propagate", str(scene_file), "-o", str(path), "--start", "0", "--stop", "20", "--samples", "3000"]
@@ -80,7 +84,8 @@ def test_disk_that_is_full_is_one_line_and_leaves_what_was_there(scene_file, tmp
 
     def limited():
         # A file may grow to 20 kB here and no further: the system fails the next write as it does on a full disk.
-        resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+        most = 1000 if ending in ("c", "js") else 20_000
+        resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
         return main([*line(scene_file, path), "--force"])
 
     if ending == "png":
@@ -88,6 +93,17 @@ def test_disk_that_is_full_is_one_line_and_leaves_what_was_there(scene_file, tmp
     assert child(limited) == 2
     assert str(path) in error_line(capfd)
     assert list(tmp_path.iterdir()) == ([path] if old else []) and (not old or path.read_bytes() == OLD)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
+@pytest.mark.parametrize("ending", ["csv", "npz", "aem", "svg", "html", "c"])
+def test_device_that_is_full_is_one_line_in_the_words_of_the_system(scene_file, tmp_path, capfd, ending):
+    pytest.importorskip(NEEDS.get(ending, "numpy"))
+    path = tmp_path / f"out.{ending}"
+    path.symlink_to("/dev/full")
+    assert main([*line(scene_file, path), "--force"]) == 2
+    assert error_line(capfd) == f"andoyer: error: argument -o/--output: {path}: No space left on device"
+    assert list(tmp_path.iterdir()) == [path] and path.is_symlink()
 
 
 @unix

@@ -200,7 +200,7 @@ def test_unknown_variables_are_refused_by_name():
 def test_resonances_not_asked_for_and_none_are_refused():
     with pytest.raises(andoyer.TheoryError, match=r"order 2: the term u_x\^2\*U_y\^2, k = \[-2, 2\]"):
         normalize(HENON_HEILES, 4, PLANE)
-    with pytest.raises(andoyer.InputError, match=r"k = \[2, -1\] is no resonance"):
+    with pytest.raises(andoyer.InputError, match=r"k = \[2, -1\] is not a resonance"):
         normalize(HENON_HEILES, 4, PLANE, resonances=[(2, -1)])
     for wrong in [[(0, 0)], [(1, -1, 0)], [(1,)]]:
         with pytest.raises(andoyer.InputError, match="no resonance vector"):

@@ -105,5 +105,11 @@ def test_files_that_have_comments_say_so_too(tmp_path):
     for ending in ("aem", "npz", "parquet"):
         assert run(tmp_path, "propagate", "scene.toml", "-o", f"out.{ending}", "--samples", "9", "--stop", "9").returncode == 0
     assert "COMMENT the error bound of the attitude, " in (tmp_path / "out.aem").read_text(encoding="ascii")
+    kernel = pytest.importorskip("spiceypy")
+    assert run(tmp_path, "propagate", "scene.toml", "-o", "out.bc", "--stop", "9", "--interpolation-error", "1e-5").returncode == 0
+    handle = kernel.dafopr(str(tmp_path / "out.bc"))
+    _, lines, _ = kernel.dafec(handle, 200, 200)
+    kernel.dafcls(handle)
+    assert "".join(lines).count("exceeds the tolerance, 1e-9 rad") == 1  # lines of 80
     assert "exceeds the tolerance, 1e-9 rad" in str(np.load(tmp_path / "out.npz")["remark"])
     assert b"exceeds the tolerance, 1e-9 rad" in parquet.read_schema(tmp_path / "out.parquet").metadata[b"remark"]

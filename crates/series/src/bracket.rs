@@ -1,13 +1,11 @@
 //! The Poisson bracket.
 //!
-//! Convention: {f; g} = Σ ∂f/∂q ∂g/∂p − ∂f/∂p ∂g/∂q over the pairs (q, p), so that {q; p} = 1 (theory §1). A
-//! *canonical* pair is a pair of variable slots (q, p). A *reciprocal* pair (q, r) stands for the canonical pair (q, P)
-//! where the momentum P occurs only as r = 1/P: ∂/∂P = −r² ∂/∂r, hence {q; r} = −r². That is how a momentum in
-//! denominators enters polynomials.
+//! Convention: {f; g} = Σ ∂f/∂q ∂g/∂p − ∂f/∂p ∂g/∂q over the pairs (q, p), so that {q; p} = 1 (theory §1). A *canonical* pair is a pair of variable slots (q,
+//! p). A *reciprocal* pair (q, r) represents a canonical pair (q, P) whose momentum P occurs only as r = 1/P. Then ∂/∂P = −r² ∂/∂r, hence {q; r} = −r².
+//! Reciprocal pairs let polynomials contain a momentum in denominators.
 //!
-//! Fused: for terms with exponents (j₁, k₁) and (j₂, k₂) of a pair, one product of coefficients with the integer weight
-//! j₁ k₂ − k₁ j₂; no derivative is ever formed. Cost: one coefficient product for each pair of terms with a weight that
-//! is not 0.
+//! The bracket is computed without derivatives. Two terms with the exponents (j₁, k₁) and (j₂, k₂) of a pair contribute the product of their coefficients times
+//! the integer weight j₁ k₂ − k₁ j₂. Cost: one coefficient product for each pair of terms whose weight is not 0.
 
 use crate::monomial::{check_slot, unit};
 use crate::product::{Accumulator, Rule};
@@ -16,7 +14,8 @@ use crate::{Coefficient, Error, Polynomial, Truncation};
 /// A Poisson structure on the variable slots.
 ///
 /// ```
-/// use andoyer_series::{Poisson, Polynomial};
+/// use andoyer_series::Polynomial;
+/// use andoyer_series::lie::Poisson;
 /// let poisson = Poisson::new(&[(0, 1)])?;
 /// let [q, p] = ["q", "p"].map(|name| Polynomial::<f64>::parse(name, &["q", "p"]));
 /// assert_eq!(poisson.bracket(&q?, &p?)?, Polynomial::constant(1.0));
@@ -42,10 +41,11 @@ impl Poisson {
         Ok(poisson)
     }
 
-    /// This structure with one reciprocal pair (q, r) more, r = 1/P with P conjugate to q: {q; r} = −r².
+    /// This structure with an additional reciprocal pair (q, r): r = 1/P with P conjugate to q, and {q; r} = −r².
     ///
     /// ```
-    /// use andoyer_series::{Poisson, Polynomial};
+    /// use andoyer_series::Polynomial;
+    /// use andoyer_series::lie::Poisson;
     /// let poisson = Poisson::new(&[])?.with_reciprocal(0, 1)?;
     /// let parse = |text| Polynomial::<f64>::parse(text, &["q", "r"]);
     /// assert_eq!(poisson.bracket(&parse("q")?, &parse("r")?)?, parse("-r^2")?);
@@ -54,7 +54,7 @@ impl Poisson {
     ///
     /// # Errors
     /// - (0, 8): [`Error::SlotOutOfRange`];
-    /// - a slot that is in another pair already: [`Error::SlotRepeated`].
+    /// - a slot that another pair already contains: [`Error::SlotRepeated`].
     pub fn with_reciprocal(mut self, q: usize, r: usize) -> Result<Self, Error> {
         check_slot(q).and(check_slot(r))?;
         self.push(Rule { first: q, second: r, sign: -1, raised: unit(r), lowered: unit(q) })?;
@@ -82,7 +82,8 @@ impl Poisson {
     /// The bracket without the terms that `truncation` drops.
     ///
     /// ```
-    /// use andoyer_series::{Poisson, Polynomial, Truncation};
+    /// use andoyer_series::{Polynomial, Truncation};
+    /// use andoyer_series::lie::Poisson;
     /// let poisson = Poisson::new(&[(0, 1)])?;
     /// let parse = |text| Polynomial::<f64>::parse(text, &["q", "p"]);
     /// let bracket = poisson.bracket_truncated(&parse("q^2 + q^3")?, &parse("p^2")?, &Truncation::total(2))?;
@@ -91,7 +92,7 @@ impl Poisson {
     /// ```
     ///
     /// # Errors
-    /// - as [`bracket`](Self::bracket), for terms that are dropped as well.
+    /// - The errors of [`bracket`](Self::bracket), which dropped terms can cause as well.
     pub fn bracket_truncated<C: Coefficient>(
         &self,
         f: &Polynomial<C>,
@@ -114,8 +115,17 @@ impl Poisson {
 
     /// The Lie derivative of `f` along the flow of `hamiltonian`: L_h f = {f; h}, so that df/dt = L_h f (theory §3).
     ///
+    /// ```
+    /// use andoyer_series::Polynomial;
+    /// use andoyer_series::lie::Poisson;
+    /// let parse = |text| Polynomial::<f64>::parse(text, &["q", "p"]);
+    /// let poisson = Poisson::new(&[(0, 1)])?;
+    /// assert_eq!(poisson.lie_derivative(&parse("q*p")?, &parse("p")?)?, parse("-p")?);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// - as [`bracket`](Self::bracket).
+    /// - The errors of [`bracket`](Self::bracket).
     pub fn lie_derivative<C: Coefficient>(
         &self,
         hamiltonian: &Polynomial<C>,
@@ -124,7 +134,7 @@ impl Poisson {
         self.bracket(f, hamiltonian)
     }
 
-    /// Adds the bracket of a left with a right polynomial of `sum`, both named by position.
+    /// Adds the bracket of a left and a right polynomial of `sum`; `pair` holds their positions.
     pub(crate) fn accumulate<C: Coefficient>(&self, sum: &mut Accumulator<'_, C>, pair: (usize, usize)) {
         sum.add_bracket(pair, &self.rules);
     }

@@ -1,13 +1,20 @@
 //! Derivative, substitution and evaluation.
 //!
-//! Powers of what is substituted are computed once and shared by all terms; sums run in canonical order.
+//! The powers of a replacement are computed once and shared by all terms. Sums run in canonical order.
 
 use crate::monomial::check_slot;
 use crate::{Coefficient, Error, Monomial, Polynomial, SLOTS, Truncation};
 use std::collections::BTreeMap;
 
 impl<C: Coefficient> Polynomial<C> {
-    /// The partial derivative by the variable of `slot`.
+    /// The partial derivative with respect to the variable of `slot`.
+    ///
+    /// ```
+    /// use andoyer_series::Polynomial;
+    /// let parse = |text| Polynomial::<f64>::parse(text, &["x", "y"]);
+    /// assert_eq!(parse("x^3*y")?.derivative(0)?, parse("3*x^2*y")?);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
     ///
     /// # Errors
     /// - slot 8: [`Error::SlotOutOfRange`].
@@ -21,16 +28,16 @@ impl<C: Coefficient> Polynomial<C> {
         Ok(Self::from_terms(terms.collect::<Result<Vec<_>, _>>()?))
     }
 
-    /// This polynomial with `replacement` put for the variable of `slot`.
+    /// This polynomial with `replacement` substituted for the variable of `slot`.
     ///
     /// # Errors
     /// - slot 8: [`Error::SlotOutOfRange`];
-    /// - x^200 put for x in x^200: [`Error::ExponentOverflow`].
+    /// - x^200 substituted for x in x^200: [`Error::ExponentOverflow`].
     pub fn substitute(&self, slot: usize, replacement: &Self) -> Result<Self, Error> {
         self.compose(&[(slot, replacement)], None)
     }
 
-    /// This polynomial with all the replacements made at once; what `truncation` drops is never computed.
+    /// This polynomial with all replacements substituted at once. Terms that `truncation` drops are not computed.
     ///
     /// ```
     /// use andoyer_series::Polynomial;
@@ -42,7 +49,7 @@ impl<C: Coefficient> Polynomial<C> {
     ///
     /// # Errors
     /// - slot 8: [`Error::SlotOutOfRange`]; one slot twice: [`Error::SlotRepeated`];
-    /// - x^200 put for x in x^200: [`Error::ExponentOverflow`].
+    /// - x^200 substituted for x in x^200: [`Error::ExponentOverflow`].
     pub fn compose(&self, replacements: &[(usize, &Self)], truncation: Option<&Truncation>) -> Result<Self, Error> {
         let mut slots = Vec::new();
         for &(slot, _) in replacements {
@@ -52,7 +59,7 @@ impl<C: Coefficient> Polynomial<C> {
             }
             slots.push(slot);
         }
-        // Terms that agree in the exponents replaced share one product of powers.
+        // Terms with equal exponents of the replaced variables share one product of powers.
         let mut groups = BTreeMap::<Vec<u32>, Self>::new();
         for (monomial, c) in self.terms() {
             let exponents = slots.iter().map(|&slot| monomial.exponent(slot)).collect();
@@ -73,7 +80,7 @@ impl<C: Coefficient> Polynomial<C> {
         })
     }
 
-    /// The value at a point, `values[slot]` being the value of the variable in `slot`.
+    /// The value at a point: `values[slot]` is the value of the variable in `slot`.
     ///
     /// ```
     /// use andoyer_series::Polynomial;
@@ -83,7 +90,7 @@ impl<C: Coefficient> Polynomial<C> {
     /// ```
     ///
     /// # Errors
-    /// - x*y with one value: [`Error::ValueMissing`].
+    /// - x*y with one value only: [`Error::ValueMissing`].
     pub fn evaluate(&self, values: &[C]) -> Result<C, Error> {
         let mut tables: Vec<Vec<C>> = values.iter().map(|_| vec![C::one()]).collect();
         let mut sum = C::zero();
@@ -105,7 +112,7 @@ impl<C: Coefficient> Polynomial<C> {
         Ok(sum)
     }
 
-    /// This polynomial with a number put for the variable of `slot`.
+    /// This polynomial with a number substituted for the variable of `slot`.
     ///
     /// # Errors
     /// - slot 8: [`Error::SlotOutOfRange`].
@@ -155,8 +162,7 @@ impl<'a, C: Coefficient> Powers<'a, C> {
         Powers { base, truncation, known }
     }
 
-    /// The power `exponent`, from the largest one known below it (exponents come in ascending order for the first
-    /// variable).
+    /// The power `exponent`, computed from the largest known power below it. For the first variable the exponents come in ascending order.
     fn get(&mut self, exponent: u32) -> Result<&Polynomial<C>, Error> {
         if !self.known.contains_key(&exponent) {
             let (start, mut power) = match self.known.range(..exponent).next_back() {

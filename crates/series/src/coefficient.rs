@@ -1,11 +1,10 @@
-//! What a polynomial's coefficients must be able to do.
+//! The trait of the coefficients of a polynomial.
 //!
-//! The ring operations are the standard operators and `num_traits::{Zero, One}`; this trait adds integers, the inverse,
-//! a literal for printing, and *long sums of products*. A reduced rational pays one gcd for each operation (6.6 µs for
-//! a multiply-add); in a product of polynomials, or a bracket, thousands of pairs of terms fall on one resulting term.
-//! So both factors are lifted to [`Raw`] values over one common denominator ([`Scale`]), the pairs are summed there
-//! without a gcd, and each resulting term is lowered once. Types without denominators lift and lower as they are
-//! (floats here; a prime field or a double-double alike).
+//! The ring operations are the standard operators and `num_traits::{Zero, One}`. This trait adds integers, the inverse, a literal for printing, and *long sums
+//! of products*. A reduced rational needs one gcd for each operation (6.6 µs for a multiply-add), and in a product of polynomials or a bracket thousands of
+//! pairs of terms contribute to one resulting term. Therefore both factors are lifted to [`Raw`] values over one common denominator ([`Scale`]). The pairs are
+//! summed there without a gcd, and each resulting term is lowered once. Types without denominators, such as floats, a prime field or double-double, are their
+//! own raw values.
 //!
 //! [`Raw`]: Coefficient::Raw
 //! [`Scale`]: Coefficient::Scale
@@ -45,30 +44,30 @@ pub trait Coefficient:
     /// The common denominator of a set of lifted values.
     type Scale: Send + Sync;
 
-    /// How values turn into machine words, for the exact types of this crate.
+    /// The conversion to machine words and back, for the exact types of this crate.
     #[doc(hidden)]
     const MACHINE_WORDS: Option<MachineWords<Self>> = None;
 
-    /// The element `value` · 1.
+    /// The integer `value` as a coefficient: `value` times 1.
     fn integer(value: i64) -> Self;
 
-    /// The multiplicative inverse, or `None` where there is none.
+    /// The multiplicative inverse, or `None` if there is none.
     fn invert(&self) -> Option<Self>;
 
-    /// The square root of −1 that is written `i`, where the type has one.
+    /// The square root of −1 that is written `i`, or `None` if the type has none.
     #[must_use]
     fn imaginary_unit() -> Option<Self> {
         None
     }
 
-    /// Sign and magnitude for printing; the magnitude is a factor of the grammar of
+    /// The sign (true for negative) and the magnitude for printing. The magnitude is a factor in the grammar of
     /// [`Polynomial::parse`](crate::Polynomial::parse).
     fn literal(&self) -> (bool, String);
 
     /// Lifts values to one common denominator.
     fn lift(values: &[&Self]) -> (Vec<Self::Raw>, Self::Scale);
 
-    /// The reduced value of a sum of products, the scales being those of the first and of the second factors.
+    /// The reduced value of a sum of products. `first` and `second` are the scales of the first and of the second factors.
     fn lower(raw: Self::Raw, first: &Self::Scale, second: &Self::Scale) -> Self;
 
     /// The product of two lifted values.
@@ -82,12 +81,12 @@ pub trait Coefficient:
         64
     }
 
-    /// Whether this is a number: false for an infinity or a NaN.
+    /// Whether the value is finite: false for an infinity or a NaN.
     fn is_finite(&self) -> bool {
         true
     }
 
-    /// `numerator`/`denominator`, or `None` where the denominator has no inverse.
+    /// `numerator`/`denominator`, or `None` if the denominator has no inverse.
     #[must_use]
     fn ratio(numerator: i64, denominator: i64) -> Option<Self> {
         Self::integer(denominator).invert().map(|inverse| inverse.times(numerator))
@@ -101,7 +100,7 @@ pub trait Coefficient:
         product
     }
 
-    /// `self` / `divisor`, or `None` where the divisor has no inverse.
+    /// `self` / `divisor`, or `None` if the divisor has no inverse.
     #[must_use]
     fn divide(&self, divisor: &Self) -> Option<Self> {
         let mut quotient = divisor.invert()?;
@@ -109,7 +108,7 @@ pub trait Coefficient:
         Some(quotient)
     }
 
-    /// `self` / `divisor`, or `None` where the divisor has no inverse.
+    /// `self` / `divisor`, or `None` if the divisor has no inverse.
     #[must_use]
     fn over(&self, divisor: i64) -> Option<Self> {
         self.divide(&Self::integer(divisor))

@@ -1,8 +1,8 @@
 //! Canonical printing.
 //!
-//! Terms in canonical order, `coefficient*variable^exponent*…`, exact coefficients as `p/q`, complex ones as
-//! `(p/q + r/s*i)`. What is printed with names is read back by [`Polynomial::parse`] with the same names, coefficient for
-//! coefficient, where the coefficients are exact. Floats print their shortest decimal, read back but for rounding.
+//! Terms are printed in canonical order as `coefficient*variable^exponent*…`. Exact coefficients are printed as `p/q`, complex ones as `(p/q + r/s*i)`.
+//! [`Polynomial::parse`] with the same names reads the text back. Exact coefficients are read back unchanged. Floats are printed with their shortest decimal,
+//! and are read back with a rounding error at most.
 
 use crate::{Coefficient, Polynomial, SLOTS};
 use std::fmt::{self, Display, Formatter};
@@ -14,7 +14,7 @@ pub struct Named<'a, C> {
 }
 
 impl<C: Coefficient> Polynomial<C> {
-    /// This polynomial with `names[slot]` for the variable of `slot`; a slot without a name prints as `x0` … `x7`.
+    /// This polynomial with `names[slot]` for the variable of `slot`. A slot without a name is printed as `x0` … `x7`.
     ///
     /// ```
     /// use andoyer_series::Polynomial;

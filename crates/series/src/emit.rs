@@ -1,10 +1,12 @@
-//! The normal form as source text: one function in C, Rust or Python that needs nothing but the language.
+//! The normal form as source text: one function in C, Rust or Python that needs only the standard library of the language.
 //!
-//! It evaluates the truncated direct transformation and the frequencies of a short-axis mode, for a β that is a number in the file or an argument.
-//! One description of the computation (`computation`, `program`), three printers (`c`, `rust`, `python`); the numbers are those of `coefficients`.
-//! The text is the same in every run and holds no date. Size and cost grow with N² where β is given, with N³ where it is an argument: order 10 makes 11 kB
-//! and 23 kB (470 and 970 operations), order 30 60 kB and 360 kB. β as an argument takes the exact transformation: order 30 in two seconds.
-//! Accuracy: a few roundings of the sums of magnitudes (tests/tests/emitted_code.rs). Source: theory §4, §6, §7, §8; Lara (2017).
+//! The function evaluates the truncated direct transformation and the frequencies of a short-axis mode. β is either a number in the file or an argument. One
+//! description of the computation (`computation`, `program`) serves three printers (`c`, `rust`, `python`); the numbers come from `coefficients`. The text is
+//! the same in every run and contains no date.
+//!
+//! Size and cost grow with N² if β is given, and with N³ if β is an argument: order 10 takes 11 kB and 23 kB (470 and 970 operations), order 30 takes 60 kB and
+//! 360 kB. With β as an argument the exact transformation is needed, which takes two seconds at order 30. Accuracy: a few rounding errors of the sums of
+//! magnitudes (tests/tests/emitted_code.rs). Source: theory §4, §6, §7, §8; Lara (2017).
 
 mod c;
 mod coefficients;
@@ -14,22 +16,23 @@ mod python;
 mod rust;
 pub(crate) mod text;
 
-use crate::{Error, NormalForm, separatrix_action};
+use crate::rigid_body::separatrix_action;
+use crate::{Error, NormalForm};
 use coefficients::Coefficients;
 use program::{Cost, Program};
 use std::str::FromStr;
 
-/// Largest order that [`NormalForm::to_code`] writes: half a second and 0.7 MB at a number for β, far more without one.
-pub const MAXIMUM_CODE_ORDER: usize = 100;
+/// Largest order that [`NormalForm::to_code`] accepts. With a number for β it takes half a second and 0.7 MB; with β as an argument it takes much more.
+pub const MAX_CODE_ORDER: usize = 100;
 
 /// A language that [`NormalForm::to_code`] writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Language {
     /// C99 with `math.h`.
     C,
-    /// Rust with its standard library alone.
+    /// Rust with its standard library only.
     Rust,
-    /// Python 3.9 or later with its module `math` alone.
+    /// Python 3.9 or later with its module `math` only.
     Python,
 }
 
@@ -51,7 +54,7 @@ impl FromStr for Language {
     }
 }
 
-/// What a printer prints.
+/// The input of a printer.
 struct Source {
     header: Vec<String>,
     arguments: &'static [&'static str],
@@ -69,16 +72,17 @@ const MEANINGS: [&str; 5] = [
 ];
 
 impl NormalForm {
-    /// A function in `language` that evaluates the direct transformation and the frequencies to this order, as the text of a file.
+    /// The source file of a function in `language` that evaluates the direct transformation and the frequencies to this order.
     ///
-    /// The function `short_axis_rotation(sigma, anomaly)`, or `(beta, sigma, anomaly)` where `beta` is `None`, takes σ = L′/M and ℓ′ \[rad\] and returns
-    /// `zeta_real` = X/√M and `zeta_imaginary` = x/√M (theory §1, §8), `longitude_shift` = y − y′ \[rad\], `anomaly_rate` = dℓ′/dt in units of
-    /// Mγ/C and `longitude_rate` = g in dy′/dt = (M/C)(1 + γg) (theory §7): a struct of that name in C and Rust, a tuple in Python. The head of the
-    /// file says it again, with the cost and the truncation. At a number for `beta` the coefficients are computed in double-double at that β; of this
-    /// normal form only the order is used.
+    /// The function is `short_axis_rotation(sigma, anomaly)`, or `short_axis_rotation(beta, sigma, anomaly)` if `beta` is `None`. Its arguments are σ = L′/M
+    /// and ℓ′ \[rad\]. It returns `zeta_real` = X/√M and `zeta_imaginary` = x/√M (theory §1, §8), `longitude_shift` = y − y′ \[rad\], `anomaly_rate` = dℓ′/dt
+    /// in units of Mγ/C and `longitude_rate` = g in dy′/dt = (M/C)(1 + γg) (theory §7). The result is a struct in C and Rust and a tuple in Python. The head of
+    /// the file repeats this description and states the cost and the truncation. If `beta` is a number, the coefficients are computed in double-double at that
+    /// β, and only the order of this normal form is used.
     ///
     /// ```
-    /// use andoyer_series::{Language, NormalForm};
+    /// use andoyer_series::NormalForm;
+    /// use andoyer_series::print::Language;
     /// let text = NormalForm::new(3)?.to_code(Language::C, Some(0.5))?;
     /// assert!(text.contains("struct short_axis_rotation short_axis_rotation(double sigma, double anomaly)"));
     /// assert!(text.contains("rate = (-0.3125 * s - 0.1875) * s - 1.0;")); // P_3 = -5β²/8, 3P_2/2 = -3β²/4
@@ -86,11 +90,11 @@ impl NormalForm {
     /// ```
     ///
     /// # Errors
-    /// - `beta` = `Some(-0.1)`, `Some(1.0)` or `Some(f64::NAN)`: [`Error::OutsideInterval`], at β = 1 there is no short-axis mode;
+    /// - `beta` = `Some(-0.1)`, `Some(1.0)` or `Some(f64::NAN)`: [`Error::OutsideInterval`]; at β = 1 there is no short-axis mode;
     /// - order 101: [`Error::OrderTooLarge`].
     pub fn to_code(&self, language: Language, beta: Option<f64>) -> Result<String, Error> {
         let beta = beta.map(checked).transpose()?;
-        let (order, bound) = (self.order(), MAXIMUM_CODE_ORDER);
+        let (order, bound) = (self.order(), MAX_CODE_ORDER);
         if order > bound {
             return Err(Error::OrderTooLarge { order, bound });
         }
@@ -116,13 +120,13 @@ impl NormalForm {
 
 fn checked(beta: f64) -> Result<f64, Error> {
     if (0.0..1.0).contains(&beta) {
-        Ok(beta.abs()) // no −0
+        Ok(beta.abs()) // −0 becomes 0
     } else {
         Err(Error::OutsideInterval { argument: "beta", value: beta, lower: 0.0, upper: 1.0_f64.next_down() })
     }
 }
 
-/// What the head of the file says, line by line, in ASCII.
+/// The lines of the head of the file, in ASCII.
 fn header(order: usize, beta: Option<f64>, cost: Cost) -> Result<Vec<String>, Error> {
     let (body, argument, separatrix) = match beta {
         Some(beta) => {

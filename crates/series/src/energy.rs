@@ -1,21 +1,22 @@
-//! The exact normal form by conservation of energy: what Deprit's triangle gives, at the cost of the powers of one series.
+//! The exact normal form from conservation of energy. The result equals that of Deprit's triangle; the cost is that of the powers of one series.
 //!
-//! In one degree of freedom with H = I + ε I² h(ℓ) everything that ε moves is a function of energy and angle. Let J(H, ε) be the action,
-//! J_ε + {J; S} = 0 (theory §6, the inverse transformation of L′). Then H_ε + {H; S} = R, where R(H, ε) = ∂H/∂ε at fixed J is the slope
-//! of the normal form: R = Σ c_n ε^(n−1) H^(n+1), a function of the energy alone. With h = −½(1 + β cos 2ℓ), z = e^(2iℓ), S = i Σ ε^(m−1) I^(m+1) τ_m(z)
-//! and D = z d/dz doubled, order m of that equation is
+//! In one degree of freedom with H = I + ε I² h(ℓ), every quantity that depends on ε is a function of energy and angle. Let J(H, ε) be the action. It obeys
+//! the equation J_ε + {J; S} = 0 (theory §6, the inverse transformation of L′). Then H_ε + {H; S} = R, where R(H, ε) = ∂H/∂ε at fixed J is the slope of the
+//! normal form. R is a function of the energy alone: R = Σ c_n ε^(n−1) H^(n+1). Let h = −½(1 + β cos 2ℓ), z = e^(2iℓ), S = i Σ ε^(m−1) I^(m+1) τ_m(z), and D
+//! = 2z d/dz. Order m of that equation is
 //!
 //! ```text
 //! D τ_m = Σ_{k≥1} c_{m−k} C(m−k+1, k) h^k + c_m − h [m = 1] + m (D h) τ_{m−1} − 2 h D τ_{m−1}
 //! ```
 //!
-//! Its mean gives c_m, the rest τ_m = T_m = S_m/(m−1)!: one product of h with a table for each order, and one sum by Horner's rule in h.
-//! K = Σ k_n ε^n J^(n+1) then follows from n k_n = Σ c_j [ε^(n−j)] (K/J)^(j+1).
+//! The mean of this equation gives c_m. The rest gives τ_m = T_m = S_m/(m−1)!. Each order takes one product of h with a table, and one sum by Horner's rule in
+//! h. K = Σ k_n ε^n J^(n+1) then follows from n k_n = Σ c_j [ε^(n−j)] (K/J)^(j+1).
 //!
-//! All of it in integers: g = −4h = 2 + β(z + 1/z) has integer coefficients, 4^n c_n and 4^n k_n are integers in β² (the coefficients of J(H)
-//! are Legendre polynomials times binomials, theory §5), and the harmonic z^j of τ_m is β^j times a polynomial in β², over 2·4^m times a small divisor.
-//! Cost: forcing and τ take O(N⁴) additions, the powers of K/J take N⁵/480 products of integers of O(N) bits: most of the time beyond order 20,
-//! nine tenths of it at 100. Figures by order: [`NormalForm`](crate::NormalForm). tests/prime_field.rs holds the divisions to be exact.
+//! All numbers are integers. g = −4h = 2 + β(z + 1/z) has integer coefficients. 4^n c_n and 4^n k_n are integer polynomials in β² (the coefficients of J(H) are
+//! Legendre polynomials times binomials, theory §5). The harmonic z^j of τ_m is β^j times a polynomial in β², over 2·4^m times a small divisor.
+//!
+//! Cost: the forcing and τ take O(N⁴) additions. The powers of K/J take N⁵/480 products of integers of O(N) bits. They take most of the time above order 20,
+//! and nine tenths of it at order 100. See [`NormalForm`](crate::NormalForm) for times by order. tests/prime_field.rs checks that the divisions are exact.
 
 use num_bigint::BigInt;
 use num_integer::{Integer, binomial};
@@ -26,34 +27,34 @@ use crate::triangle::Progress;
 
 /// A polynomial in β², lowest power first.
 pub(crate) type Row = Vec<BigInt>;
-/// Row j: the polynomial that multiplies β^j (z^j ± z^−j).
+/// Row j holds the polynomial in β² that multiplies β^j (z^j ± z^−j).
 type Table = Vec<Row>;
 
-/// τ_m = Σ_j Σ_i N_ji β^(j+2i) (z^j − z^−j)/(2·4^m·divisor), reduced: no prime of the divisor is in every N.
+/// τ_m = Σ_j Σ_i N_ji β^(j+2i) (z^j − z^−j)/(2·4^m·divisor), reduced: no prime factor of the divisor divides every N_ji.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Generator {
-    /// N_ji, j = 1 … m at j − 1.
+    /// The integers N_ji: row j, for j = 1 … m, is at index j − 1.
     pub(crate) rows: Table,
     pub(crate) divisor: BigInt,
 }
 
-/// Kernel and generators of the quartic, orders 0 to N, computed one order after the other.
+/// Normal form and generators of the quartic Hamiltonian, orders 0 to N, computed one order after the other.
 #[derive(Clone, Debug)]
 pub(crate) struct EnergyNormalization {
-    /// 4^n c_n.
+    /// The polynomials 4^n c_n.
     slopes: Vec<Row>,
-    /// τ_1 … τ_m, m the last order computed.
+    /// τ_1 … τ_m, where m is the last order computed.
     generators: Vec<Generator>,
     powers: Powers,
 }
 
 impl EnergyNormalization {
-    /// Order 0 of a normal form that is to reach `order`.
+    /// Order 0 of a normal form that will be computed up to `order`.
     pub(crate) fn starting(order: usize) -> Self {
         Self { slopes: vec![Vec::new()], generators: Vec::new(), powers: Powers::new(order) }
     }
 
-    /// The normal form to `order`; `progress` is called before each order with the number done, and with (order, order) last.
+    /// The normal form to `order`. `progress` is called before each order with the number of orders done, and with (order, order) at the end.
     ///
     /// # Errors
     /// - a callback that returns `Break`: [`Error::Interrupted`].
@@ -67,7 +68,7 @@ impl EnergyNormalization {
         Ok(computed)
     }
 
-    /// Computes the next order, which must not exceed that of `starting`.
+    /// Computes the next order, which must not exceed the argument of `starting`.
     pub(crate) fn extend(&mut self) {
         let m = self.slopes.len();
         let (slope, generator) = solve(&forcing(&self.slopes, m), self.generators.last(), m);
@@ -76,12 +77,12 @@ impl EnergyNormalization {
         self.powers.extend(&self.slopes, m);
     }
 
-    /// 4^n k_n for n = 0, 1, … up to the last order computed.
+    /// 4^n k_n for n = 0, 1, …, the last order computed.
     pub(crate) fn kernel(&self) -> &[Row] {
         &self.powers.rows[0]
     }
 
-    /// τ_1, τ_2, … up to the last order computed.
+    /// τ_1, τ_2, … to the last order computed.
     pub(crate) fn generators(&self) -> &[Generator] {
         &self.generators
     }
@@ -97,7 +98,7 @@ pub(crate) fn tell(progress: &mut Progress<'_>, done: usize, of: usize) -> Resul
 
 /// 4^m Σ_{k≥1} c_{m−k} C(m−k+1, k) h^k, by Horner's rule in g.
 fn forcing(slopes: &[Row], m: usize) -> Table {
-    let deepest = m.div_ceil(2).min(m - 1); // the binomial ends the sum, c_0 is none
+    let deepest = m.div_ceil(2).min(m - 1); // the binomial is 0 beyond this, and there is no c_0
     let mut table = Table::new();
     for k in (1..=deepest).rev() {
         let weight = binomial(BigInt::from(m - k + 1), BigInt::from(k));
@@ -125,7 +126,7 @@ fn entry(table: &[Row], j: usize, i: usize) -> Option<&BigInt> {
     table.get(j)?.get(i)
 }
 
-/// A symmetric table times g = 2 + β(z + 1/z): from below a row keeps its power of β², from above it takes one more.
+/// A symmetric table times g = 2 + β(z + 1/z). The row below contributes with the same power of β², the row above with one power more.
 fn times_g(table: &Table) -> Table {
     let length = |j: usize| table.get(j).map_or(0, Vec::len);
     let product = |j: usize, i: usize| {
@@ -138,7 +139,7 @@ fn times_g(table: &Table) -> Table {
         if i > 0
             && let Some(c) = entry(table, j + 1, i - 1)
         {
-            // The mean has z^−1 above it too.
+            // Row 0 receives both terms of row 1, z and z^−1.
             if j == 0 { sum += c << 1u32 } else { sum += c }
         }
         sum
@@ -152,14 +153,14 @@ fn times_g(table: &Table) -> Table {
     .collect()
 }
 
-/// 4^m c_m from the mean of order m, and τ_m from the rest.
+/// 4^m c_m from the mean of the equation of order m, and τ_m from the rest.
 fn solve(forcing: &Table, last: Option<&Generator>, m: usize) -> (Row, Generator) {
     let Some(last) = last else {
-        // c_1 = −½ and τ_1 = (β/8)(z − 1/z), from −h alone.
+        // For m = 1 only −h remains: c_1 = −½ and τ_1 = (β/8)(z − 1/z).
         let generator = Generator { rows: vec![vec![BigInt::one()]], divisor: BigInt::one() };
         return (vec![BigInt::from(-2)], generator);
     };
-    // Over 4^m times the last divisor.
+    // Rows are multiplied by 4^m and by the last divisor.
     let row = |j: usize| -> Row { (0..=(m - j) / 2).map(|i| order_m(forcing, last, m, (j, i))).collect() };
     let slope = row(0).into_iter().map(|mean| -mean / &last.divisor).collect();
     (slope, integrated((1..=m).map(row).collect(), &last.divisor))
@@ -180,14 +181,14 @@ fn order_m(forcing: &Table, last: &Generator, m: usize, (j, i): (usize, usize)) 
     if i > 0
         && let Some(c) = tau(j + 1, i - 1)
     {
-        // In the mean the term of z^−1, which is the negative one, doubles it.
+        // In the mean, the products z·z^−1 and z^−1·z contribute equally, which doubles the weight.
         let weight = m + 2 * (j + 1);
         sum += c * if j == 0 { 2 * weight } else { weight };
     }
     sum
 }
 
-/// Row j over 2j, with one common divisor, reduced.
+/// Divides row j by 2j, and reduces all rows to one common divisor.
 fn integrated(mut rows: Table, divisor: &BigInt) -> Generator {
     let common = |j: u64, row: &Row| row.iter().fold(j, |common, c| common.gcd(&small_remainder(c, common)));
     let left: Vec<u64> = (1..).zip(&rows).map(|(j, row)| j / common(j, row)).collect();
@@ -207,13 +208,14 @@ fn integrated(mut rows: Table, divisor: &BigInt) -> Generator {
     Generator { rows, divisor: divisor / shared }
 }
 
-/// |c| mod a small modulus.
+/// |c| modulo a small number.
 fn small_remainder(c: &BigInt, modulus: u64) -> u64 {
     // The remainder is below the modulus and fits.
     (c.magnitude() % modulus).try_into().unwrap_or(0)
 }
 
-/// The powers of E = Σ k_i ε^i J^(i+1) that the recursion for k_n needs: 4^i times coefficient i of (E/J)^(p+1), in row p at i, i + p ≤ order.
+/// The powers of E = Σ k_i ε^i J^(i+1) that the recursion for k_n needs. Row p holds, at index i, 4^i times the coefficient i of (E/J)^(p+1), for i + p ≤
+/// order.
 #[derive(Clone, Debug)]
 struct Powers {
     rows: Vec<Vec<Row>>,
@@ -225,7 +227,7 @@ impl Powers {
         Self { rows: vec![vec![vec![BigInt::one()]]; order + 1], order }
     }
 
-    /// k_n from c_1 … c_n, and coefficient n of the powers.
+    /// Computes k_n from c_1 … c_n, and the coefficient n of every power.
     fn extend(&mut self, slopes: &[Row], n: usize) {
         let mut sum = Row::new();
         for (j, slope) in slopes.iter().enumerate().skip(1) {

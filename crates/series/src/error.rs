@@ -1,8 +1,7 @@
-//! The one error type of the crate.
+//! The error type of the crate.
 //!
-//! Every variant names the argument, its value and the bound that it breaks, in fields. Nothing here is raised by valid
-//! input: an exponent that does not fit its field, a name nobody knows, a text that is not a polynomial, a file that is
-//! not a normal form.
+//! Each variant has fields for the argument, its value and the bound that it breaks. Valid input never causes an error. Examples of invalid input are an
+//! exponent that does not fit its field, an unknown name, a text that is not a polynomial, and a file that is not a normal form.
 
 mod facts;
 
@@ -10,7 +9,7 @@ use thiserror::Error;
 
 pub use facts::{Kind, Value};
 
-/// What can go wrong, with the offending value and its bound.
+/// An error, with the offending value and its bound.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -41,15 +40,15 @@ pub enum Error {
     /// A division by zero, or by an element without an inverse.
     #[error("division by zero in a coefficient")]
     DivisionByZero,
-    /// Evaluation lacks the value of a variable that occurs.
+    /// A point has no value for a variable that occurs in the polynomial.
     #[error("no value for variable slot {slot}: {given} values given")]
     ValueMissing {
-        /// The slot that occurs.
+        /// The slot of the variable.
         slot: usize,
-        /// How many values were given.
+        /// Number of values given.
         given: usize,
     },
-    /// A term in the kernel of the unperturbed motion was handed to the homological equation.
+    /// A term that the homological equation cannot remove: it lies in the kernel of the unperturbed motion.
     #[error("the homological equation has no solution: exponents {exponents:?} lie in the kernel")]
     Resonant {
         /// Exponents of the offending term, one for each slot.
@@ -58,12 +57,12 @@ pub enum Error {
     /// The Hamiltonian of order zero is not the diagonal quadratic form of the homological equation.
     #[error("the Hamiltonian of order 0 ({terms} terms) is not the sum of eigenvalue * q * p")]
     UnperturbedMismatch {
-        /// Number of terms in what was given.
+        /// Number of terms in the given Hamiltonian of order zero.
         terms: usize,
     },
-    /// A phase space that the eight slots of a monomial cannot hold, or one without a pair.
+    /// A phase space with more variables than the slots of a monomial, or without a pair.
     #[error(
-        "{degrees_of_freedom} degrees of freedom and {parameters} parameters: one pair at least, and {slots} variables at most"
+        "{degrees_of_freedom} degrees of freedom and {parameters} parameters: a phase space has at least one pair and at most {slots} variables"
     )]
     PhaseSpaceSize {
         /// Pairs (q, p) given.
@@ -73,75 +72,87 @@ pub enum Error {
         /// Number of variable slots.
         slots: usize,
     },
-    /// A Hamiltonian with a linear term: the origin is no equilibrium.
-    #[error("the origin is no equilibrium: the linear term {term} has the coefficient {coefficient}")]
+    /// A Hamiltonian with a linear term: the origin is not an equilibrium.
+    #[error("the origin is not an equilibrium: the linear term {term} has the coefficient {coefficient}")]
     LinearTerm {
         /// The term.
         term: String,
         /// Its coefficient.
         coefficient: String,
     },
-    /// A term whose parameters count too little: it would belong to the quadratic part, which has numbers for coefficients.
+    /// A term whose parameters have too low a degree. The term would belong to the quadratic part, whose coefficients must be numbers.
     #[error(
         "the term {term} would be of order 0: give a parameter in it a degree of at least {bound}, to make it a detuning, or a number for its value"
     )]
     ParameterDegree {
         /// The term.
         term: String,
-        /// The smallest degree that serves.
+        /// The smallest degree that the parameter may have.
         bound: u32,
     },
-    /// A name that is no parameter of the space.
-    #[error("{name:?} is no parameter: they are [{known}]")]
+    /// A name that is not a parameter of the space.
+    #[error("{name:?} is not a parameter: the parameters are [{known}]")]
     ParameterUnknown {
         /// The name given.
         name: String,
-        /// The parameters.
+        /// The names of the parameters.
         known: String,
     },
-    /// A quadratic part with an eigenvalue 0: a direction along which nothing oscillates, grows or decays.
+    /// A quadratic part with an eigenvalue 0: along one direction the motion neither oscillates nor grows nor decays.
     #[error(
         "the quadratic part in {pairs} has a zero frequency, along the direction with the components {direction}: no normal form of this kind exists there"
     )]
     ZeroFrequency {
-        /// The pairs of the block.
+        /// The pairs of the coupled block.
         pairs: String,
-        /// Sizes of the components of the null vector.
+        /// Magnitudes of the components of the null vector.
         direction: String,
     },
-    /// A quadratic part that has a frequency only through its parameters.
+    /// A quadratic part whose frequency is 0 when its parameters are 0.
     #[error(
-        "the quadratic part in {pairs} has a zero frequency where its parameters are 0, in the term {term}: write the parameter as a number and a detuning, w = w0 + d, or scale q -> q/sqrt(w), p -> p sqrt(w), t -> t/w, so that the frequency is a number"
+        "the quadratic part in {pairs} has a zero frequency where its parameters are 0, in the term {term}: write the parameter as a number and a detuning, w = w0 + d, or scale q -> q/sqrt(w), p -> p sqrt(w), t -> t/w, so that the frequency is a number (PhaseSpace::scaled; in Python the argument frequency)"
     )]
     FrequencyParameter {
-        /// The pairs of the block.
+        /// The pairs of the coupled block.
         pairs: String,
         /// A quadratic term with a parameter.
         term: String,
+    },
+    /// A parameter that cannot be removed by scaling.
+    #[error(
+        "in the variables q sqrt({letter}), p/sqrt({letter}) the term {term} has the power {power} of 1/sqrt({letter}): it must be 0 in the quadratic part, so that every frequency is a number times {letter}, and not negative elsewhere"
+    )]
+    FrequencyLetter {
+        /// The parameter.
+        letter: String,
+        /// The term as given.
+        term: String,
+        /// The power of 1/√w in the scaled term.
+        power: i64,
     },
     /// A quadratic part that cannot be diagonalized.
     #[error(
         "the quadratic part in {pairs} cannot be diagonalized: the eigenvalues {eigenvalue} have a Jordan block, with the eigenvector of components {direction}"
     )]
     Defective {
-        /// The pairs of the block.
+        /// The pairs of the coupled block.
         pairs: String,
         /// The eigenvalues.
         eigenvalue: String,
-        /// Sizes of the components of the eigenvector.
+        /// Magnitudes of the components of the eigenvector.
         direction: String,
     },
-    /// Eigenvalues of a quadratic part with rational coefficients that are not rational.
+    /// A quadratic part with rational coefficients whose eigenvalues are not rational.
     #[error(
         "the eigenvalues {eigenvalue} of the quadratic part in {pairs} are not rational (with a denominator below 1e7): use floats"
     )]
     SpectrumIrrational {
-        /// The pairs of the block.
+        /// The pairs of the coupled block.
         pairs: String,
         /// The eigenvalues.
         eigenvalue: String,
     },
-    /// A frequency √(ab) that is no rational number where the coefficients are rational.
+    /// A frequency √(ab) that is not rational although the coefficients are.
     #[error(
         "the frequency of the mode ({coordinate}, {momentum}) is the square root of {square}, which is not rational: use floats"
     )]
@@ -153,68 +164,68 @@ pub enum Error {
         /// The square of the frequency.
         square: String,
     },
-    /// A number that is infinite or NaN, or that became so.
+    /// A number that is infinite or NaN, in the input or after an overflow.
     #[error("the {what} contains a number that is not finite: {term}")]
     NotFinite {
-        /// What contains it.
+        /// The object that contains the number.
         what: &'static str,
         /// The term or the value.
         term: String,
     },
-    /// A term that is to be removed, but whose divisor is too small.
+    /// A term that must be removed, but whose divisor is too small.
     #[error(
         "small divisor at order {order}: the term {term}, k = {k:?}, has |k·ω| = {divisor:?} below the bound {bound:?}; keep it as a resonance, or lower the bound"
     )]
     SmallDivisor {
-        /// Order of the term: its degree less 2.
+        /// Order of the term: its degree minus 2.
         order: usize,
         /// The term in the complex variables u, U of the pairs.
         term: String,
-        /// Exponents of U less those of u.
+        /// k: the exponents of U minus the exponents of u.
         k: Vec<i64>,
         /// |k·ω|.
         divisor: f64,
-        /// The bound: the smallest divisor times the largest frequency.
+        /// The bound: the relative smallest divisor times the largest frequency.
         bound: f64,
     },
-    /// A resonance asked for that the frequencies do not have.
-    #[error("k = {vector:?} is no resonance: k·ω = {divisor:?} is not below the bound {bound:?}")]
+    /// A requested resonance that the frequencies do not satisfy.
+    #[error("k = {vector:?} is not a resonance: k·ω = {divisor:?} is not below the bound {bound:?}")]
     NotResonant {
         /// The vector given.
         vector: Vec<i64>,
         /// k·ω.
         divisor: f64,
-        /// The bound: the smallest divisor times the largest frequency.
+        /// The bound: the relative smallest divisor times the largest frequency.
         bound: f64,
     },
-    /// A vector that no resonance can be.
+    /// A vector that cannot be a resonance.
     #[error(
-        "k = {vector:?} is no resonance vector: one integer of at most {bound} for each degree of freedom, not all 0"
+        "k = {vector:?} is not a resonance vector: it has one integer of at most {bound} for each degree of freedom, and not all are 0"
     )]
     ResonanceMalformed {
         /// The vector given.
         vector: Vec<i64>,
-        /// Largest entry.
+        /// Largest absolute value of an entry.
         bound: u32,
     },
-    /// Something that only a normal form in the actions alone has was asked of a resonant one.
-    #[error("the normal form is no function of the actions alone: it contains {term}")]
+    /// A normal form with a resonant term, where a function of the actions alone is required.
+    #[error("the normal form is not a function of the actions alone: it contains {term}")]
     ResonantTerm {
         /// The term in the complex variables.
         term: String,
     },
-    /// The progress callback asked to stop.
+    /// The progress callback stopped the computation.
     #[error("interrupted after order {done} of {of}")]
     Interrupted {
-        /// Orders complete.
+        /// Number of orders computed.
         done: usize,
-        /// Orders asked for.
+        /// Number of orders requested.
         of: usize,
     },
     /// An order that the packed exponents cannot hold.
     #[error("order {order} exceeds the bound {bound}")]
     OrderTooLarge {
-        /// The order asked for.
+        /// The order requested.
         order: usize,
         /// The largest order.
         bound: usize,
@@ -224,27 +235,27 @@ pub enum Error {
     MemoryTooLarge {
         /// The order asked for.
         order: usize,
-        /// Memory by its estimate.
+        /// Estimated memory.
         estimate_gib: f64,
-        /// The most that is accepted.
+        /// Largest estimate that is accepted.
         bound_gib: f64,
     },
-    /// An order outside what was computed.
+    /// An order outside the computed range.
     #[error("order {order} of the {what} is outside {minimum}..={maximum}")]
     OrderOutOfRange {
-        /// What was asked for.
+        /// The series requested.
         what: &'static str,
-        /// The order asked for.
+        /// The order requested.
         order: usize,
-        /// The smallest order there is.
+        /// The smallest order available.
         minimum: usize,
-        /// The largest order there is.
+        /// The largest order available.
         maximum: usize,
     },
-    /// A name that is none of the known ones.
-    #[error("{what} {name:?} is none of {known}")]
+    /// An unknown name.
+    #[error("unknown {what} {name:?}; known: {known}")]
     NameUnknown {
-        /// What the name stands for.
+        /// The kind of object that the name stands for.
         what: &'static str,
         /// The name given.
         name: String,
@@ -274,7 +285,7 @@ pub enum Error {
     /// A text that is not JSON, or JSON of another shape.
     #[error("not the JSON of a normal form: {message} at line {line} column {column}")]
     Json {
-        /// Line of the text, from 1; 0 where the text has none.
+        /// Line of the text, from 1; 0 if the error has no line.
         line: usize,
         /// Column of the line, from 1.
         column: usize,
@@ -293,14 +304,14 @@ pub enum Error {
         /// The version that is read.
         known_version: u64,
     },
-    /// A rational number that is not in canonical form: `p` or `p/q`, reduced, q > 1.
+    /// A rational number that is not in canonical form: `p`, or reduced `p/q` with q > 1.
     #[error("{text:?} is not a reduced rational \"p/q\"")]
     RationalMalformed {
         /// The text found.
         text: String,
     },
-    /// A JSON document whose lists do not have the length that its order asks for.
-    #[error("{found} entries under {what:?}, {expected} expected")]
+    /// A list whose length is not the required one.
+    #[error("{what} has {found} entries: it must have {expected}")]
     CountMismatch {
         /// Name of the list.
         what: &'static str,
@@ -309,48 +320,48 @@ pub enum Error {
         /// Entries expected.
         expected: usize,
     },
-    /// A matrix read from a file that is not symplectic: Mᵀ J M ≠ J.
+    /// A matrix from a file that is not symplectic: Mᵀ J M ≠ J.
     #[error("the linear change is not symplectic: entry ({row}, {column}) of MᵀJM − J is {error:?}")]
     NotSymplectic {
         /// Row of MᵀJM − J.
         row: usize,
-        /// Its column.
+        /// Column of MᵀJM − J.
         column: usize,
         /// The entry.
         error: f64,
     },
-    /// A term that no normal form of this kind contains.
+    /// A term that a normal form of this kind cannot contain.
     #[error("term {exponents:?} of the {what} of order {order}: {problem}")]
     TermInconsistent {
-        /// The series that holds it.
+        /// The series that contains the term.
         what: &'static str,
         /// Order in the small parameter.
         order: usize,
         /// Exponents (u, U, β), or (β) alone.
         exponents: Vec<u32>,
-        /// What is wrong with it.
+        /// The reason.
         problem: TermProblem,
     },
-    /// A coefficient read from a file that is not that of the rigid body.
+    /// A coefficient from a file that differs from that of the rigid body, or from that of the Hamiltonian in the same file.
     #[error(
         "the {what} of order {order} has the coefficient {found} at the exponents {exponents:?}: it must be {expected}"
     )]
     CoefficientWrong {
-        /// The series that holds it.
+        /// The series that contains the coefficient.
         what: &'static str,
         /// Order in the small parameter.
         order: usize,
-        /// Exponents (u, U, β), or (β) alone.
+        /// Exponents (u, U, β), or (β) alone. For a Birkhoff normal form they are those of its variables; for its linear change, the column.
         exponents: Vec<u32>,
-        /// The coefficient read, 0 where there is none.
+        /// The coefficient read, or 0 if the file has none.
         found: String,
-        /// That of the rigid body, 0 where it has none.
+        /// The coefficient of the normal form, or 0 if there is none.
         expected: String,
     },
 }
 
 impl Error {
-    /// The error of a text that is not the JSON expected.
+    /// The error for a text that is not the expected JSON.
     pub(crate) fn json(error: serde_json::Error) -> Self {
         let (line, column, text) = (error.line(), error.column(), error.to_string());
         let place = format!(" at line {line} column {column}");
@@ -358,17 +369,17 @@ impl Error {
     }
 }
 
-/// What is wrong with a text that should be a polynomial.
+/// The reason why a text is not a polynomial.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ParseProblem {
-    /// The text ends where an operand is due.
-    #[error("the text ends where an operand or a bracket is due")]
+    /// The text ends where an operand is required.
+    #[error("the text ends where an operand or a bracket is required")]
     UnexpectedEnd,
     /// A character that cannot stand there.
     #[error("unexpected character {0:?}")]
     UnexpectedCharacter(char),
-    /// A name that is no variable.
+    /// A name that is not a variable.
     #[error("unknown name {0:?}")]
     UnknownName(String),
     /// A name before a bracket: a function.
@@ -379,7 +390,7 @@ pub enum ParseProblem {
     /// A bracket after an operand: a product without its sign.
     #[error("a factor in brackets needs * before it")]
     ProductWithoutSign,
-    /// The list of names is longer than the number of slots, or holds a name twice or one that is no identifier.
+    /// The list of names is longer than the number of slots, contains a name twice, or contains a name that is not an identifier.
     #[error("the list of variable names cannot hold {0:?}")]
     UnusableName(String),
     /// A divisor that contains a variable.
@@ -400,22 +411,22 @@ pub enum ParseProblem {
         /// The deepest nesting that is read.
         bound: u32,
     },
-    /// The polynomial that the text stands for takes too much work to expand.
+    /// The expansion of the polynomial would take too much work.
     #[error("expanding the text takes too much work")]
     TooLarge,
 }
 
-/// What is wrong with a term read from a file.
+/// The reason why a term from a file is wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum TermProblem {
-    /// The degree is not the one of that order.
+    /// The degree is not that of the order.
     #[error("its degree is not the one of this order")]
     Degree,
     /// The term lies in the kernel of the unperturbed motion.
     #[error("it lies in the kernel of the unperturbed motion")]
     Kernel,
-    /// The power of β is none that the harmonic k − j has.
+    /// The harmonic k − j does not have this power of β.
     #[error("its power of beta is not |k - j|/2 plus an even number")]
     Harmonic,
     /// The coefficient makes the function complex on real motions.

@@ -1,24 +1,24 @@
 //! Binary forms in (w̄, w) over floating-point numbers, and the normal form at a given β in O(N²) brackets.
 //!
-//! A form of degree d is Σ c_j w^j w̄^(d−j): every part of one order of the rigid-body problem is one (theory §1, §4).
-//! The bracket is that of the exact algebra, `[f; s] = ∂f/∂w̄ ∂s/∂w − ∂f/∂w ∂s/∂w̄`, which on forms is one product for each
-//! pair of coefficients.
+//! A form of degree d is Σ c_j w^j w̄^(d−j). Every part of one order of the rigid-body problem is such a form (theory §1, §4). The bracket is that of the exact
+//! algebra, `[f; s] = ∂f/∂w̄ ∂s/∂w − ∂f/∂w ∂s/∂w̄`. For two forms it takes one product for each pair of coefficients.
 //!
-//! Deprit's triangle writes the generator in the old variables. Written in the new ones, the transformed function
-//! obeys dF/dε = [F; T] with T taken where F is, so that order n costs n brackets and not n²/2. For one degree of freedom that
-//! is reversible (w ↔ w̄) both give the same transformation: it is odd in ℓ and has no secular part, which leaves no freedom.
-//! The sums are benign as well: a coefficient of order n, times the n-th power of the radius of convergence κσ_sep, is within 5e-17 of the exact
-//! one to order 16 for β from 0 to 15/16 (tests/tests/numeric.rs), where the triangle in `f64` subtracts large numbers.
+//! Deprit's triangle writes the generator in the old variables. This module writes it in the new variables. The transformed function then obeys dF/dε = [F; T]
+//! with F and T at the same point, so that order n costs n brackets instead of n²/2. For one degree of freedom with the reversal w ↔ w̄ both methods give the
+//! same transformation, because it is odd in ℓ and has no secular part.
+//!
+//! The sums lose little accuracy. A coefficient of order n, times the n-th power of the radius of convergence κσ_sep, is within 5e-17 of the exact one to order
+//! 16 for β from 0 to 15/16 (tests/tests/numeric.rs). The triangle in `f64` subtracts large numbers instead.
 
 use crate::Coefficient;
 use andoyer_double::DoubleDouble;
 use std::ops::{Add, Div, Mul, Sub};
 
-/// A real floating-point number that a form can have for coefficients: `f64` or [`DoubleDouble`].
+/// A real floating-point number that a form can have as coefficient: `f64` or [`DoubleDouble`].
 pub trait Real:
     Coefficient + Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// The number of a count, which is below 2^53.
+    /// `count` as a number; it must be below 2^53.
     #[must_use]
     fn small(count: usize) -> Self;
 
@@ -60,14 +60,14 @@ impl Real for DoubleDouble {
     }
 }
 
-/// A form Σ c_j w^j w̄^(d−j) of one degree d in the complex variables of theory §1.
+/// A form Σ c_j w^j w̄^(d−j) of degree d in the complex variables of theory §1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Form<C = f64> {
     coefficients: Vec<C>,
 }
 
 impl<C: Real> Form<C> {
-    /// The form with these coefficients, `coefficients[j]` being that of w^j w̄^(d−j), d = length − 1.
+    /// The form with these coefficients: `coefficients[j]` belongs to w^j w̄^(d−j), and d = length − 1.
     pub(crate) fn new(coefficients: Vec<C>) -> Self {
         Self { coefficients }
     }
@@ -82,14 +82,14 @@ impl<C: Real> Form<C> {
         self.coefficients.len().saturating_sub(1)
     }
 
-    /// The coefficients, that of w^j w̄^(d−j) at j.
+    /// The coefficients: index j holds that of w^j w̄^(d−j).
     pub fn coefficients(&self) -> &[C] {
         &self.coefficients
     }
 
     /// Adds `[f; s]`, whose degree must be that of `self`.
     ///
-    /// The weight of w^j w̄^k · w^p w̄^q is k p − j q = d_f p − d_s j; where w or w̄ is missing from the product it is zero.
+    /// The weight of w^j w̄^k · w^p w̄^q is k p − j q = d_f p − d_s j. It is 0 if the product lacks w or w̄.
     fn add_bracket(&mut self, f: &Self, s: &Self) {
         let (f_degree, s_degree) = (f.degree() as f64, s.degree() as f64);
         let last = self.coefficients.len();
@@ -123,7 +123,7 @@ impl<C: Real> Form<C> {
     }
 }
 
-/// Kernel and generator of `w w̄ + Σ τ^n h_n`, the generator in the new variables.
+/// Normal form and generator of `w w̄ + Σ τ^n h_n`, with the generator in the new variables.
 #[derive(Clone, Debug)]
 pub(crate) struct FormNormalization<C> {
     /// k_n of K = Σ k_n τ^n (w w̄)^(n+1), n = 0 … order.
@@ -135,8 +135,8 @@ pub(crate) struct FormNormalization<C> {
 impl<C: Real> FormNormalization<C> {
     /// Normalizes `w w̄ + τ h` to `order`; `perturbation` is h, which must be of degree 4 and symmetric in w ↔ w̄.
     ///
-    /// With A = (w w̄)∘Φ and B = h∘Φ: A_n + B_{n−1} = K_n, n A_n = Σ [A_{n−1−m}; T_{m+1}], and likewise B; the term of T_n
-    /// is [w w̄; T_n] = (p − q) T_n for w^p w̄^q, which is solved for what is not in the kernel.
+    /// Let A = (w w̄)∘Φ and B = h∘Φ. Then A_n + B_{n−1} = K_n and n A_n = Σ [A_{n−1−m}; T_{m+1}], and the same recursion holds for B. The term with T_n is [w
+    /// w̄; T_n] = (p − q) T_n for w^p w̄^q. This determines T_n outside the kernel.
     pub(crate) fn new(perturbation: &Form<C>, order: usize) -> Self {
         let action = Form::new(vec![C::zero(), C::one(), C::zero()]);
         let (mut kernel, mut generators) = (vec![C::one()], Vec::with_capacity(order));
@@ -171,7 +171,7 @@ impl<C: Real> FormNormalization<C> {
         &self.kernel
     }
 
-    /// The transformed w, orders 0 … order: w = Σ τ^n W_n(w̄′, w′), W_n of degree 2n + 1.
+    /// The transformation of w, orders 0 … order: w = Σ τ^n W_n(w̄′, w′), where W_n has degree 2n + 1.
     pub(crate) fn direct(&self) -> Vec<Form<C>> {
         let mut parts = vec![Form::new(vec![C::zero(), C::one()])];
         for n in 1..=self.generators.len() {
@@ -180,9 +180,9 @@ impl<C: Real> FormNormalization<C> {
         parts
     }
 
-    /// The transformed ŷ = y/i less ŷ′, orders 1 … order at index n − 1: forms of degree 2n + 2, times τ^(n+1) in units of κ.
+    /// The transformation ŷ − ŷ′ of ŷ = y/i: order n = 1 … order, at index n − 1, is a form of degree 2n + 2 times τ^(n+1), in units of κ.
     ///
-    /// [ŷ; T_n τ^n] = −n T_n τ^(n+1) (theory §6) starts every order; what is then a form goes on as any other.
+    /// Every order starts with [ŷ; T_n τ^n] = −n T_n τ^(n+1) (theory §6), which is a form. The brackets with the lower orders follow.
     pub(crate) fn direct_longitude(&self) -> Vec<Form<C>> {
         let mut parts: Vec<Form<C>> = Vec::with_capacity(self.generators.len());
         for n in 1..=self.generators.len() {
@@ -198,7 +198,7 @@ impl<C: Real> FormNormalization<C> {
     }
 }
 
-/// Order n of a transported function from its lower orders: (1/n) Σ_{m=1…n} [F_{n−m}; T_m], over the T_m that exist.
+/// Order n of a transformed function from its lower orders: (1/n) Σ_{m=1…n} [F_{n−m}; T_m], over the T_m that exist.
 fn transported<C: Real>(parts: &[Form<C>], generators: &[Form<C>], n: usize) -> Form<C> {
     let mut sum = Form::zero(parts[0].degree() + 2 * n);
     for m in 1..=n.min(generators.len()) {

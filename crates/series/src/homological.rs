@@ -1,18 +1,18 @@
 //! The homological equation of a diagonal quadratic part.
 //!
-//! Convention: h₀ = Σ λᵢ qᵢ pᵢ with the bracket of [`Poisson`](crate::Poisson), {q; p} = 1. Then S = q^j p^k is an
-//! eigenvector of S → {h₀; S} with the eigenvalue Σ λᵢ (kᵢ − jᵢ). The kernel holds the terms with eigenvalue zero
-//! (tested exactly: with floating-point λ a resonance must be exact to be seen), the image all others.
-//! [`solve`](Homological::solve) returns S with {h₀; S} = −image: what Deprit's triangle asks for, K_n = H̃_n + {h₀;
-//! S_n} = kernel of H̃_n, or L_h₀(S_n) = {S_n; h₀} = H̃_n − K_n (theory §3, §4). Cost: one division a term.
+//! Convention: h₀ = Σ λᵢ qᵢ pᵢ with the bracket of [`Poisson`](crate::bracket::Poisson), {q; p} = 1. Then S = q^j p^k is an eigenvector of S → {h₀; S} with the
+//! eigenvalue Σ λᵢ (kᵢ − jᵢ). The kernel holds the terms with eigenvalue 0, and the image holds all other terms. The test for 0 is exact: with floating-point
+//! λ, a resonance counts only if the sum is exactly 0. [`solve`](Homological::solve) returns the S with {h₀; S} = −image that Deprit's triangle needs: K_n =
+//! H̃_n + {h₀; S_n} is the kernel part of H̃_n, or L_h₀(S_n) = {S_n; h₀} = H̃_n − K_n (theory §3, §4). Cost: one division for each term.
 
 use crate::monomial::check_slot;
 use crate::{Coefficient, Error, Monomial, Polynomial};
 
-/// The eigenvalues λᵢ of the unperturbed motion and the slots (qᵢ, pᵢ) they belong to.
+/// The eigenvalues λᵢ of the unperturbed motion and their slots (qᵢ, pᵢ).
 ///
 /// ```
-/// use andoyer_series::{Homological, Poisson, Polynomial};
+/// use andoyer_series::Polynomial;
+/// use andoyer_series::lie::{Homological, Poisson};
 /// let parse = |text| Polynomial::<f64>::parse(text, &["q", "p"]);
 /// let (homological, poisson) = (Homological::new(&[(0, 1, 2.0)])?, Poisson::new(&[(0, 1)])?);
 /// let (kernel, image) = homological.split(&parse("q^2*p^2 + q^3*p")?);
@@ -47,7 +47,7 @@ impl<C: Coefficient> Homological<C> {
     /// The quadratic part h₀ = Σ λᵢ qᵢ pᵢ.
     ///
     /// # Errors
-    /// - none for what [`new`](Self::new) accepts.
+    /// - None for the modes that [`new`](Self::new) accepts.
     pub fn unperturbed(&self) -> Result<Polynomial<C>, Error> {
         let terms =
             self.modes.iter().map(|(q, p, lambda)| Ok((Monomial::ONE.with(*q, 1)?.with(*p, 1)?, lambda.clone())));
@@ -65,14 +65,14 @@ impl<C: Coefficient> Homological<C> {
         sum
     }
 
-    /// The kernel and the image part of a polynomial.
+    /// The kernel part and the image part of a polynomial.
     #[must_use]
     pub fn split(&self, polynomial: &Polynomial<C>) -> (Polynomial<C>, Polynomial<C>) {
         let in_kernel = |monomial: Monomial, _: &C| self.eigenvalue(monomial).is_zero();
         (polynomial.filter(in_kernel), polynomial.filter(|monomial, c| !in_kernel(monomial, c)))
     }
 
-    /// S with {h₀; S} = −`image`, without a kernel part.
+    /// The S without a kernel part that solves {h₀; S} = −`image`.
     ///
     /// # Errors
     /// - `image` = q p: [`Error::Resonant`].

@@ -1,9 +1,8 @@
 //! The normal form as LaTeX.
 //!
-//! A fragment for a document with `\usepackage{amsmath}`: a display that says what is expanded, then one `align*` for
-//! each series, in the canonical order. Lines are broken where the text width of the class article at 10 pt ends, by an
-//! estimate of what the letters take, and displays may break across pages. A single term longer than a line, which
-//! orders above 30 have, stands alone in its line. Order 20 makes pages; the exchange format is JSON.
+//! The text is a fragment for a document with `\usepackage{amsmath}`: first a display that states what is expanded, then one `align*` for each series, in
+//! canonical order. Lines are broken at the text width of the class article at 10 pt, by an estimate of the width of the letters. Displays may break across
+//! pages. A single term longer than a line, which occurs above order 30, has a line of its own. Order 20 fills pages; use JSON to exchange normal forms.
 
 use crate::rigid_body::{PublicForm, Variable};
 use crate::{Error, Monomial, NormalForm, Polynomial};
@@ -12,15 +11,15 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 use std::str::FromStr;
 
-/// Room for the terms of a line, in points at 10 pt: the 345 of the class article less the left side and the indent.
+/// Width available for the terms of a line, in points at 10 pt: the 345 of the class article minus the left side and the indent.
 const LINE: usize = 285;
-/// Widths in points, rounded up: of a digit, of one in an exponent, of a letter, of a sign with the space about it.
+/// Widths in points, rounded up: a digit, a digit in an exponent, a letter, a sign with the space around it.
 const DIGIT: usize = 5;
 const SMALL_DIGIT: usize = 4;
 const LETTER: usize = 7;
 const SIGN: usize = 13;
 
-/// Which part of the normal form is written.
+/// A part of the normal form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Part {
     /// K and its triaxiality polynomials P_n.
@@ -56,7 +55,8 @@ impl NormalForm {
     /// A part of this normal form as LaTeX.
     ///
     /// ```
-    /// use andoyer_series::{NormalForm, Part};
+    /// use andoyer_series::NormalForm;
+    /// use andoyer_series::print::Part;
     /// let text = NormalForm::new(3)?.to_latex(Part::Hamiltonian)?;
     /// assert!(text.contains("P_{3} &= -\\frac{5}{8}\\beta^{2}"));
     /// # Ok::<(), andoyer_series::Error>(())
@@ -148,7 +148,7 @@ fn align(text: &mut String, name: &str, face: &PublicForm, [u, momentum]: [&str;
     Ok(())
 }
 
-/// About how wide a term is set, its sign included, in points.
+/// Estimated width of a term with its sign, in points.
 fn width(monomial: Monomial, c: &Complex<BigRational>, names: &[&str; 3]) -> usize {
     let digits = |value: &BigRational| {
         let [above, below] = [value.numer(), value.denom()].map(|part| part.magnitude().to_string().len());

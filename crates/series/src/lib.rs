@@ -1,17 +1,17 @@
 //! Exact polynomial algebra for perturbation theory, and the normal form of the free rigid body.
 //!
-//! The algebra: [`Polynomial`]s in up to eight variables over any [`Coefficient`], their [`Poisson`] bracket, the [`Homological`] equation
-//! of a diagonal quadratic part and Deprit's triangle ([`deprit_triangle`], [`LieTransform`]), to any order. Any Hamiltonian about an
-//! equilibrium: [`normalize`] gives its [`BirkhoffNormalForm`], [`BirkhoffMap`] evaluates it. The rigid body: [`NormalForm`],
-//! exact and symbolic in the triaxiality β. [`NumericNormalForm`] is the same in floating point at a given β, for the propagation.
+//! The algebra: [`Polynomial`]s in up to eight variables over any [`Coefficient`], their Poisson bracket, the homological equation of a diagonal quadratic part
+//! and Deprit's triangle ([`lie`]), to any order. [`normalize`] computes the [`BirkhoffNormalForm`] of any Hamiltonian about an equilibrium, and
+//! [`BirkhoffMap`] evaluates it. [`NormalForm`] is the normal form of the free rigid body, exact and symbolic in the triaxiality β. [`NumericNormalForm`] is
+//! the same in floating point at a given β, for the propagation.
 //!
-//! Contract: what is exact stays exact; overflow of an exponent is an error; iteration, printing and summation follow the canonical
-//! order of the monomials, so that two runs give the same bits; no I/O, no global state, and every type is `Send + Sync`.
-//! Brackets follow {q; p} = 1. Theory: M. Lara, *Short-axis-mode rotation in complex variables* (2017), with its errata.
+//! Contract: exact input gives exact results. Overflow of an exponent is an error. Iteration, printing and summation follow the canonical order of the
+//! monomials, so two runs give the same bits. The crate does no I/O and has no global state, and every type is `Send + Sync`. Brackets follow {q; p} = 1.
+//! Theory: M. Lara, *Short-axis-mode rotation in complex variables* (2017), with its errata.
 //!
 #![doc = include_str!("../doc/formulas.html")]
 
-mod birkhoff;
+pub mod birkhoff;
 mod bracket;
 mod calculus;
 mod coefficient;
@@ -19,7 +19,7 @@ mod display;
 mod emit;
 mod energy;
 pub mod error;
-mod forms;
+pub mod forms;
 mod homological;
 mod json;
 mod latex;
@@ -29,37 +29,41 @@ mod numeric;
 mod parse;
 mod polynomial;
 mod product;
-mod real_field;
-mod rigid_body;
+pub mod real_field;
+pub mod rigid_body;
 mod ring;
 mod terms;
 mod triangle;
 mod words;
 
-pub use birkhoff::{BirkhoffMap, BirkhoffNormalForm, Domain, Mode, PhaseSpace, Resonances, normalize, normalize_with};
-pub use bracket::Poisson;
+pub use birkhoff::{BirkhoffMap, BirkhoffNormalForm, PhaseSpace, normalize, normalize_with};
 pub use coefficient::Coefficient;
-pub use display::Named;
-pub use emit::{Language, MAXIMUM_CODE_ORDER};
-pub use error::{Error, ParseProblem, TermProblem};
-pub use forms::{Form, Real};
-pub use homological::Homological;
-pub use latex::Part;
-pub use monomial::{MAXIMUM_EXPONENT, Monomial, SLOTS};
-pub use normal_form::{MAXIMUM_MEMORY, NormalForm};
+pub use error::Error;
+pub use monomial::{MAX_EXPONENT, Monomial, SLOTS};
+pub use normal_form::{MAX_MEMORY, NormalForm};
 pub use numeric::NumericNormalForm;
 pub use polynomial::{Polynomial, Truncation};
-pub use real_field::RealField;
-pub use rigid_body::{
-    BETA, MAXIMUM_ORDER, PublicForm, TAU, Variable, W, W_BAR, Y_HAT, hamiltonian, homological, poisson,
-    separatrix_action,
-};
-pub use triangle::{LieTransform, Normalization, Progress, deprit_triangle, quiet};
 
-/// Complex numbers over any of the coefficients, from the crate `num-complex`.
-pub use num_complex::Complex;
-/// Exact rational numbers, from the crate `num-rational`.
-pub use num_rational::BigRational;
+pub mod lie {
+    //! Lie transforms: the bracket, the homological equation, Deprit's triangle.
+    pub use crate::bracket::Poisson;
+    pub use crate::homological::Homological;
+    pub use crate::triangle::{LieTransform, Normalization, deprit_triangle};
+}
+
+pub mod print {
+    //! Output of normal forms: names of the variables, LaTeX, source code.
+    pub use crate::display::Named;
+    pub use crate::emit::{Language, MAX_CODE_ORDER};
+    pub use crate::latex::Part;
+}
+
+pub mod progress {
+    //! Callbacks that watch a long computation and can stop it.
+    pub use crate::triangle::{Progress, quiet};
+}
+
+pub use {num_complex, num_rational};
 
 /// The README, whose examples are compiled and run as doctests.
 #[cfg(doctest)]

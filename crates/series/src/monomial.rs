@@ -1,11 +1,10 @@
-//! Monomials in eight variables, exponents packed in one integer.
+//! Monomials in eight variables, with the exponents packed in one integer.
 //!
-//! Eight fields of 16 bits, slot 0 in the most significant one. The top bit of each field is a guard: exponents go to
-//! 32767, so a product is one addition of integers that never carries into the neighbouring field, followed by one test
-//! of the guard bits. Overflow is an error, never a wrap.
+//! The integer has eight fields of 16 bits; slot 0 is the most significant field. The top bit of each field is a guard bit, so exponents are at most 32767. A
+//! product is one addition of integers, which never carries into the next field, and one test of the guard bits. Overflow of an exponent is an error.
 //!
-//! Canonical order: graded, by ascending total degree; within a degree lexicographic, the larger exponent of the lower
-//! slot first (1, x, y, x², xy, y², …). Every iteration, sum and print of the crate follows it.
+//! Canonical order: by ascending total degree, and within a degree lexicographic, with the larger exponent of the lower slot first (1, x, y, x², xy, y², …).
+//! Iteration, summation and printing follow this order everywhere in the crate.
 
 use crate::Error;
 use std::cmp::Ordering;
@@ -14,7 +13,7 @@ use std::hash::{Hash, Hasher};
 /// Number of variable slots in a monomial.
 pub const SLOTS: usize = 8;
 /// Largest exponent of a variable.
-pub const MAXIMUM_EXPONENT: u32 = 0x7fff;
+pub const MAX_EXPONENT: u32 = 0x7fff;
 
 const FIELD: u32 = 16;
 const MASK: u128 = 0xffff;
@@ -41,7 +40,7 @@ impl Monomial {
     /// The monomial 1.
     pub const ONE: Monomial = Monomial(0);
 
-    /// The monomial with the given exponents, slot 0 first; slots not given have exponent 0.
+    /// The monomial with the given exponents, slot 0 first. Missing slots have exponent 0.
     ///
     /// # Errors
     /// - `[0, 32768]`: [`Error::ExponentOverflow`];
@@ -50,7 +49,7 @@ impl Monomial {
         exponents.iter().enumerate().try_fold(Self::ONE, |monomial, (slot, &e)| monomial.with(slot, e))
     }
 
-    /// The monomial with exponents below 256, which always fit.
+    /// The monomial with exponents below 256, which always fit in the fields.
     ///
     /// ```
     /// use andoyer_series::Monomial;
@@ -67,7 +66,7 @@ impl Monomial {
         Monomial(key)
     }
 
-    /// The exponent of the variable in `slot`; 0 for a slot that does not exist.
+    /// The exponent of the variable in `slot`; 0 if the slot does not exist.
     #[must_use]
     pub const fn exponent(self, slot: usize) -> u32 {
         if slot < SLOTS { ((self.0 >> shift(slot)) & MASK) as u32 } else { 0 }
@@ -79,15 +78,15 @@ impl Monomial {
         std::array::from_fn(|slot| self.exponent(slot))
     }
 
-    /// This monomial with the exponent of `slot` replaced.
+    /// This monomial with `exponent` as the exponent of `slot`.
     ///
     /// # Errors
     /// - exponent 32768: [`Error::ExponentOverflow`];
     /// - slot 8: [`Error::SlotOutOfRange`].
     pub fn with(self, slot: usize, exponent: u32) -> Result<Self, Error> {
         check_slot(slot)?;
-        if exponent > MAXIMUM_EXPONENT {
-            return Err(Error::ExponentOverflow { slot, exponent: exponent.into(), bound: MAXIMUM_EXPONENT });
+        if exponent > MAX_EXPONENT {
+            return Err(Error::ExponentOverflow { slot, exponent: exponent.into(), bound: MAX_EXPONENT });
         }
         let cleared = self.0 & !(MASK << shift(slot));
         Ok(Monomial(cleared | (u128::from(exponent) << shift(slot))))
@@ -112,7 +111,7 @@ impl Monomial {
         slots.iter().map(|&slot| self.exponent(slot)).sum()
     }
 
-    /// The product of two monomials: one addition and one test.
+    /// The product of two monomials. It costs one addition and one test.
     ///
     /// # Errors
     /// - x^20000 times x^20000: [`Error::ExponentOverflow`].
@@ -120,10 +119,9 @@ impl Monomial {
         Self::guarded(self.0 + other.0)
     }
 
-    /// The product times `raised`, divided by `lowered` (both given as keys of `unit`): what a bracket makes of a
-    /// pair of terms.
+    /// The product times `raised`, divided by `lowered` (both are keys from `unit`). It is the monomial that a bracket forms from a pair of terms.
     ///
-    /// The caller knows that the product contains `lowered`; the intermediate sums fit in 16 bits (2 * 32767 + 1).
+    /// The caller ensures that the product contains `lowered`. The intermediate sums fit in 16 bits (2 * 32767 + 1).
     pub(crate) fn bracket_mul(self, other: Self, raised: u128, lowered: u128) -> Result<Self, Error> {
         Self::guarded(self.0 + other.0 + raised - lowered)
     }
@@ -132,7 +130,7 @@ impl Monomial {
         if key & GUARDS == 0 { Ok(Monomial(key)) } else { Err(overflow(key)) }
     }
 
-    /// The monomial with these packed exponents, which hold no guard bit.
+    /// The monomial with these packed exponents, in which no guard bit is set.
     pub(crate) const fn from_key(key: u128) -> Self {
         Monomial(key)
     }
@@ -156,8 +154,8 @@ pub(crate) fn check_slot(slot: usize) -> Result<(), Error> {
 #[cold]
 fn overflow(key: u128) -> Error {
     let raised = Monomial(key);
-    let slot = (0..SLOTS).find(|&slot| raised.exponent(slot) > MAXIMUM_EXPONENT).unwrap_or(0);
-    Error::ExponentOverflow { slot, exponent: raised.exponent(slot).into(), bound: MAXIMUM_EXPONENT }
+    let slot = (0..SLOTS).find(|&slot| raised.exponent(slot) > MAX_EXPONENT).unwrap_or(0);
+    Error::ExponentOverflow { slot, exponent: raised.exponent(slot).into(), bound: MAX_EXPONENT }
 }
 
 impl PartialOrd for Monomial {
@@ -173,8 +171,8 @@ impl Ord for Monomial {
 }
 
 impl Hash for Monomial {
-    /// Folds the 128 bits so that every field reaches the low bits: the Fx hash alone leaves the top field of a word
-    /// out of the bucket index of small tables, and all powers of one variable would collide.
+    /// Mixes the 128 bits so that every field reaches the low bits. The Fx hash alone does not carry the top field of a word into the bucket index of small
+    /// tables, so all powers of one variable would collide.
     fn hash<H: Hasher>(&self, state: &mut H) {
         let (high, low) = ((self.0 >> 64) as u64, self.0 as u64);
         let mixed = high.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(low.wrapping_mul(0xc2b2_ae3d_27d4_eb4f));

@@ -1,15 +1,16 @@
 //! The normal form of the free rigid body, exact and symbolic in β, to any order.
 //!
-//! What is scaled how: orders are those of τ = α/(√γ V), every form is given without its power of τ, and the public
-//! coefficients are those of u^j U^k β^l (Gaussian rationals). The transformations of u, U and y are computed when they
-//! are first asked for, by the triangle of the generic algebra. Cost in release, one core: order 10 in 0.06 ms, 20 in 0.5 ms, 30 in 3 ms, 50 in
-//! 30 ms and 2 MiB, 100 in 0.9 s and 13 MiB (in rationals the triangle takes 53 ms at 20, 0.66 s at 30 and 4.3 s at 40); the direct
-//! transformation of u or y of order 20 in 80 ms, 30 in 1.1 s, an inverse one a tenth of it.
-//! Source: theory §4 and §6; Lara (2017).
+//! Scaling: orders are those of τ = α/(√γ V). Every form is given without its power of τ. The public coefficients are those of u^j U^k β^l (Gaussian
+//! rationals). The generic triangle computes the transformations of u, U and y when they are first requested.
+//!
+//! Cost in release, one core: order 10 takes 0.06 ms, order 20 0.5 ms, order 30 3 ms, order 50 30 ms and 2 MiB, order 100 0.9 s and 13 MiB. The triangle in
+//! rationals takes 53 ms at order 20, 0.66 s at 30 and 4.3 s at 40. The direct transformation of u or y takes 80 ms at order 20 and 1.1 s at order 30; an
+//! inverse transformation takes a tenth of that. Source: theory §4 and §6; Lara (2017).
 
 use crate::energy::{EnergyNormalization, Generator};
-use crate::rigid_body::{self, MAXIMUM_ORDER, PublicForm, Variable};
-use crate::{Error, LieTransform, Polynomial, Progress, quiet};
+use crate::rigid_body::{self, MAX_ORDER, PublicForm, Variable};
+use crate::triangle::{LieTransform, Progress, quiet};
+use crate::{Error, Polynomial};
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;
@@ -19,7 +20,7 @@ use std::sync::OnceLock;
 
 type Series = Vec<Polynomial<BigRational>>;
 
-/// Which way a transformation goes; its position among the series.
+/// The direction of a transformation. Its number is the position of the series in `NormalForm::series`.
 #[derive(Clone, Copy)]
 enum Direction {
     Direct = 0,
@@ -35,7 +36,7 @@ impl Direction {
     }
 }
 
-/// The normal form of the free rigid body to an order in τ.
+/// The normal form of the free rigid body to a given order in τ.
 ///
 /// ```
 /// use andoyer_series::NormalForm;
@@ -58,19 +59,19 @@ impl NormalForm {
     /// The normal form to `order` ≥ 0.
     ///
     /// # Errors
-    /// - order 16382: [`Error::OrderTooLarge`], refused before any work;
-    /// - order 2000: [`Error::MemoryTooLarge`], likewise.
+    /// - Order 16382: [`Error::OrderTooLarge`], before any computation;
+    /// - order 2000: [`Error::MemoryTooLarge`], before any computation.
     pub fn new(order: usize) -> Result<Self, Error> {
         Self::with_progress(order, quiet)
     }
 
-    /// The normal form to `order`, with a callback that is told (orders done, `order`) and may stop the computation.
+    /// The normal form to `order`, with a callback that receives (orders done, `order`) and may stop the computation.
     ///
-    /// It is called before every order, and with (`order`, `order`) last.
+    /// The callback is called before every order, and with (`order`, `order`) at the end.
     ///
     /// # Errors
-    /// - order 16382: [`Error::OrderTooLarge`], refused before any work;
-    /// - order 2000: [`Error::MemoryTooLarge`], likewise;
+    /// - Order 16382: [`Error::OrderTooLarge`], before any computation;
+    /// - order 2000: [`Error::MemoryTooLarge`], before any computation;
     /// - a callback that returns `Break`: [`Error::Interrupted`].
     pub fn with_progress(
         order: usize,
@@ -89,14 +90,13 @@ impl NormalForm {
         NormalForm { triaxiality, generators, transform: OnceLock::new(), series: Default::default() }
     }
 
-    /// The order.
+    /// The order of this normal form.
     #[must_use]
     pub fn order(&self) -> usize {
         self.triaxiality.len() - 1
     }
 
-    /// The triaxiality polynomial P_n as {power of β: coefficient}, real form: K = M²/(2C) [1 + γ Σ P_n κⁿ σ^{n+1}]
-    /// (theory §4).
+    /// The triaxiality polynomial P_n in its real form, as {power of β: coefficient}: K = M²/(2C) [1 + γ Σ P_n κⁿ σ^{n+1}] (theory §4).
     ///
     /// # Errors
     /// - `n` above the order: [`Error::OrderOutOfRange`].
@@ -118,7 +118,7 @@ impl NormalForm {
         Ok(rigid_body::paper(n, self.triaxiality_polynomial(n)?))
     }
 
-    /// The generating function S_m · (√γ V/α)^m = Σ c u^j U^k β^l as {(j, k, l): c}, the factor (m−1)! included.
+    /// The generating function S_m · (√γ V/α)^m = Σ c u^j U^k β^l as {(j, k, l): c}; the factor (m−1)! is included.
     ///
     /// ```
     /// let s1 = andoyer_series::NormalForm::new(1)?.generator(1)?; // β (u² + U²) uU/8
@@ -137,13 +137,14 @@ impl NormalForm {
         Ok(rigid_body::public_face(&scaled.scale(&factorial.into())))
     }
 
-    /// Order `n` of the transformation of a variable to the new ones, as {(j, k, l): c}, 1/n! included.
+    /// Order `n` of the transformation from a variable to the new variables, as {(j, k, l): c}; the factor 1/n! is included.
     ///
-    /// For u and U: u = u′ + Σ τⁿ Σ c u′^j U′^k β^l. For y: y = y′ + (1/M) Σ τⁿ Σ c u′^j U′^k β^l, that is M · (order n
-    /// of y) · (√γ V/α)ⁿ, since ∂S_m/∂M = −(m/M) S_m (theory §6).
+    /// For u and U: u = u′ + Σ τⁿ Σ c u′^j U′^k β^l. For y: y = y′ + (1/M) Σ τⁿ Σ c u′^j U′^k β^l. The form of y is M · (order n of y) · (√γ V/α)ⁿ, because
+    /// ∂S_m/∂M = −(m/M) S_m (theory §6).
     ///
     /// ```
-    /// use andoyer_series::{NormalForm, Variable};
+    /// use andoyer_series::NormalForm;
+    /// use andoyer_series::rigid_body::Variable;
     /// let y = NormalForm::new(1)?.direct(Variable::Angle, 1)?; // {y; S_1} = −S_1/M
     /// assert_eq!(y[&(3, 1, 1)].to_string(), "-1/8+0i");
     /// # Ok::<(), andoyer_series::Error>(())
@@ -155,19 +156,20 @@ impl NormalForm {
         self.direct_with(variable, n, &mut quiet)
     }
 
-    /// As [`direct`](Self::direct), with a callback that is told (orders done, order) while the series of that variable is computed,
-    /// which is once for all n, and may stop it.
+    /// The same as [`direct`](Self::direct), with a callback. It receives (orders done, order) while the series of the variable is computed, and may stop the
+    /// computation. The series is computed once for all n.
     ///
     /// # Errors
-    /// - as [`direct`](Self::direct); a callback that returns `Break`: [`Error::Interrupted`].
+    /// - The errors of [`direct`](Self::direct); a callback that returns `Break`: [`Error::Interrupted`].
     pub fn direct_with(&self, variable: Variable, n: usize, progress: &mut Progress<'_>) -> Result<PublicForm, Error> {
         self.transformation(variable, n, Direction::Direct, progress)
     }
 
-    /// Order `n` of the transformation of a new variable to the old ones, scaled as [`direct`](Self::direct).
+    /// Order `n` of the transformation from a new variable to the old variables, scaled as in [`direct`](Self::direct).
     ///
     /// ```
-    /// use andoyer_series::{NormalForm, Variable};
+    /// use andoyer_series::NormalForm;
+    /// use andoyer_series::rigid_body::Variable;
     /// let normal_form = NormalForm::new(1)?;
     /// let [direct, inverse] = [normal_form.direct(Variable::Momentum, 1)?, normal_form.inverse(Variable::Momentum, 1)?];
     /// assert!(direct.iter().all(|(exponents, c)| inverse[exponents] == -c)); // to first order
@@ -180,18 +182,18 @@ impl NormalForm {
         self.inverse_with(variable, n, &mut quiet)
     }
 
-    /// As [`inverse`](Self::inverse), with a callback as that of [`direct_with`](Self::direct_with).
+    /// The same as [`inverse`](Self::inverse), with the callback of [`direct_with`](Self::direct_with).
     ///
     /// # Errors
-    /// - as [`inverse`](Self::inverse); a callback that returns `Break`: [`Error::Interrupted`].
+    /// - The errors of [`inverse`](Self::inverse); a callback that returns `Break`: [`Error::Interrupted`].
     pub fn inverse_with(&self, variable: Variable, n: usize, progress: &mut Progress<'_>) -> Result<PublicForm, Error> {
         self.transformation(variable, n, Direction::Inverse, progress)
     }
 
-    /// The transformation in the rational variables of [`hamiltonian`](crate::hamiltonian), S = i s.
+    /// The transformation in the rational variables of [`hamiltonian`](crate::rigid_body::hamiltonian), where S = i s.
     ///
     /// # Errors
-    /// - none for an order that was accepted.
+    /// - None: every order that [`new`](Self::new) accepts has a transformation.
     pub fn transform(&self) -> Result<&LieTransform<BigRational>, Error> {
         if let Some(transform) = self.transform.get() {
             return Ok(transform);
@@ -236,31 +238,32 @@ impl NormalForm {
     }
 }
 
-/// Refuses an order whose exponents do not fit.
+/// Refuses an order whose exponents do not fit the packed monomials.
 pub(crate) fn check_order(order: usize) -> Result<(), Error> {
-    if order > MAXIMUM_ORDER { Err(Error::OrderTooLarge { order, bound: MAXIMUM_ORDER }) } else { Ok(()) }
+    if order > MAX_ORDER { Err(Error::OrderTooLarge { order, bound: MAX_ORDER }) } else { Ok(()) }
 }
 
-/// The most memory that a normal form may take by its estimate, 8 GiB: order 594. Its time is then days.
-pub const MAXIMUM_MEMORY: f64 = 8.0 * GIBIBYTE;
-/// Bytes.
+/// Largest estimated memory of a normal form: 8 GiB, which is reached at order 594. Such a computation takes days.
+pub const MAX_MEMORY: f64 = 8.0 * GIBIBYTE;
+/// One gibibyte in bytes.
 const GIBIBYTE: f64 = 1024.0 * 1024.0 * 1024.0;
 
-/// Memory for a normal form to an order in bytes: 5N³/24 integers of N/4 bytes on average, in generators and powers, and what keeps each; 15 MiB for the 13 of order 100.
+/// Estimated memory of a normal form to an order, in bytes. Generators and powers hold 5N³/24 integers of N/4 bytes on average, each with 48 bytes of overhead.
+/// At order 100 the estimate is 15 MiB and the measured value 13 MiB.
 fn estimated_memory(order: usize) -> f64 {
     let order = order as f64;
     5.0 / 24.0 * order.powi(3) * (48.0 + 0.25 * order)
 }
 
-/// Refuses an order that would not fit in memory.
+/// Refuses an order whose normal form would not fit in memory.
 fn check_memory(order: usize) -> Result<(), Error> {
     let estimate = estimated_memory(order);
-    let [estimate_gib, bound_gib] = [estimate, MAXIMUM_MEMORY].map(|bytes| bytes / GIBIBYTE);
-    if estimate > MAXIMUM_MEMORY { Err(Error::MemoryTooLarge { order, estimate_gib, bound_gib }) } else { Ok(()) }
+    let [estimate_gib, bound_gib] = [estimate, MAX_MEMORY].map(|bytes| bytes / GIBIBYTE);
+    if estimate > MAX_MEMORY { Err(Error::MemoryTooLarge { order, estimate_gib, bound_gib }) } else { Ok(()) }
 }
 
 impl PartialEq for NormalForm {
-    /// Compares what defines the normal form; which transformations have been computed already does not matter.
+    /// Compares the polynomials and the generators. The transformations are not compared, since they follow from the generators.
     fn eq(&self, other: &Self) -> bool {
         (&self.triaxiality, &self.generators) == (&other.triaxiality, &other.generators)
     }

@@ -1,4 +1,4 @@
-//! Reading polynomials: recursive descent.
+//! Reads polynomials by recursive descent.
 //!
 //! ```text
 //! sum     = product { ("+" | "-") product }
@@ -9,20 +9,21 @@
 //! number  = digits [ "." [ digits ] ] [ "e" [ "+" | "-" ] digits ]
 //! ```
 //!
-//! Decimals are exact where the coefficients are: `0.1` is 1/10. A divisor is a constant. `i` is the imaginary unit where
-//! the coefficients have one and no variable is called so.
-//! Hostile text cannot hang it or overflow the stack: nesting, exponents and coefficients are bounded, and every
-//! operation on coefficients is charged, before it is done, by their sizes. Products are therefore the schoolbook's,
-//! reduced term by term: a common denominator could be huge.
+//! Decimals are exact if the coefficients are: `0.1` is 1/10. A divisor must be a constant. `i` is the imaginary unit if the coefficients have one and no
+//! variable has this name.
+//!
+//! Hostile text cannot block the parser or overflow the stack. Nesting, exponents and coefficients are bounded, and every operation on coefficients is charged
+//! by their sizes before it is done. Products are therefore computed term by term with reduced fractions, because a common denominator could become huge.
 
-use crate::{Coefficient, Error, Monomial, ParseProblem, Polynomial, SLOTS};
+use crate::error::ParseProblem;
+use crate::{Coefficient, Error, Monomial, Polynomial, SLOTS};
 
 const DEEPEST: u32 = 100;
 const LARGEST_EXPONENT: u32 = 1000;
-/// Bits of a coefficient; 10,000 decimal digits each in numerator and denominator.
+/// Largest size of a coefficient in bits: 10,000 decimal digits each in numerator and denominator.
 const LARGEST_COEFFICIENT: u64 = 1 << 16;
-/// Units of work, each an operation on small fractions or a sixteenth of the square of the words of large ones; about a
-/// second.
+/// Units of work for one text, about a second. An operation on small fractions costs one unit; on large ones it costs a sixteenth of the square of the number
+/// of words.
 const BUDGET: u64 = 1 << 18;
 
 struct Parser<'a> {
@@ -34,7 +35,7 @@ struct Parser<'a> {
 }
 
 impl<C: Coefficient> Polynomial<C> {
-    /// Reads a polynomial in the variables `names`, `names[slot]` being the variable of `slot`.
+    /// Reads a polynomial in the variables `names`: `names[slot]` is the variable of `slot`.
     ///
     /// ```
     /// use andoyer_series::Polynomial;
@@ -46,11 +47,11 @@ impl<C: Coefficient> Polynomial<C> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::ExponentOverflow`] for `"(x^1000)^100"`; all others are [`Error::Parse`] with the byte position:
-    /// - `"x +"`, `"x y"`, `"2z"`: an operand missing, a character too many, an unknown name;
-    /// - `"1/x"`, `"1/(2-2)"`: a divisor that is not constant, or zero;
-    /// - `"x^1001"`, `"1e9999999"`, a hundred and one brackets, `"(a+b+c+d+e+f+g+h)^1000"`: too large, too deep, too much work;
-    /// - `names` with nine entries, or one twice, or one that is no identifier.
+    /// [`Error::ExponentOverflow`] for `"(x^1000)^100"`. All other errors are [`Error::Parse`] with the byte position:
+    /// - `"x +"`, `"x y"`, `"2z"`: a missing operand, an unexpected character, an unknown name;
+    /// - `"1/x"`, `"1/(2-2)"`: a divisor that is not constant, or is 0;
+    /// - `"x^1001"`, `"1e9999999"`, 101 nested brackets, `"(a+b+c+d+e+f+g+h)^1000"`: too large, too deep, too much work;
+    /// - `names` with nine entries, with a name twice, or with a name that is not an identifier.
     pub fn parse(text: &str, names: &[&str]) -> Result<Self, Error> {
         check_names(names)?;
         let mut parser = Parser { text, position: 0, names, depth: 0, budget: BUDGET };
@@ -88,7 +89,7 @@ impl Parser<'_> {
         &self.text[self.position..]
     }
 
-    /// The next character that is not white space, without taking it.
+    /// The next character that is not white space; it is not consumed.
     fn peek(&mut self) -> Option<char> {
         self.position += self.rest().len() - self.rest().trim_start().len();
         self.rest().chars().next()
@@ -105,7 +106,7 @@ impl Parser<'_> {
         &self.text[start..self.position]
     }
 
-    /// A character that stands where an operator is due.
+    /// The error for a character where an operator is required.
     fn unexpected(&self, letter: char) -> Error {
         self.fail(if letter == '(' {
             ParseProblem::ProductWithoutSign
@@ -118,7 +119,7 @@ impl Parser<'_> {
         Error::Parse { position: self.position, problem }
     }
 
-    /// Takes the price of an operation on coefficients of so many bits together; refuses those that are too large.
+    /// Charges an operation on coefficients of `bits` bits in total; refuses coefficients that are too large.
     fn charge(&mut self, bits: u64) -> Result<(), Error> {
         let words = bits / 64;
         let left = if bits > LARGEST_COEFFICIENT { None } else { self.budget.checked_sub(1 + words * words / 16) };
@@ -157,7 +158,7 @@ impl Parser<'_> {
             if operator == '/' {
                 let failure = |problem| Error::Parse { position, problem };
                 let divisor = factor.as_constant().ok_or(failure(ParseProblem::DivisorNotConstant))?;
-                self.charge(2 * divisor.bits())?; // the inverse of a complex number has its squared modulus for denominator
+                self.charge(2 * divisor.bits())?; // the denominator of a complex inverse is the squared modulus
                 factor = Polynomial::constant(divisor.invert().ok_or(failure(ParseProblem::DivisorZero))?);
             }
             product = self.multiply(&product, &factor)?;
@@ -240,7 +241,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A literal: its digits as one integer, times or divided by a power of ten.
+    /// A decimal literal: its digits as one integer, multiplied or divided by a power of ten.
     fn number<C: Coefficient>(&mut self) -> Result<Polynomial<C>, Error> {
         let mut digits = self.take_while(|letter| letter.is_ascii_digit()).to_owned();
         let mut scale = 0_i64;
@@ -251,7 +252,7 @@ impl Parser<'_> {
             digits.push_str(&decimals);
         }
         if let Some(exponent) = self.exponent() {
-            // What is clamped here the bound on coefficients refuses.
+            // A clamped exponent always exceeds the bound on coefficients, which refuses it below.
             let largest = i64::from(u32::MAX);
             scale += exponent.parse::<i64>().map_or(largest, |power| power.clamp(-largest, largest));
         }
@@ -273,7 +274,7 @@ impl Parser<'_> {
         Ok(Polynomial::constant(value))
     }
 
-    /// The exponent of a decimal, taken where digits follow the "e".
+    /// The exponent of a decimal; it is consumed only if digits follow the "e".
     fn exponent(&mut self) -> Option<String> {
         let rest = self.rest().strip_prefix(['e', 'E'])?;
         let digits = rest.strip_prefix(['+', '-']).unwrap_or(rest);
@@ -284,7 +285,7 @@ impl Parser<'_> {
         Some(exponent)
     }
 
-    /// An integer, built in chunks of 18 digits with the ring operations alone.
+    /// An integer, built from chunks of 18 digits by ring operations only.
     fn integer<C: Coefficient>(&self, digits: &str) -> C {
         let mut value = C::zero();
         for chunk in digits.as_bytes().chunks(18) {

@@ -1,8 +1,8 @@
-//! Sparse polynomials in up to eight variables: constructors, parts.
+//! Sparse polynomials in up to eight variables: constructors and parts.
 //!
-//! Distinct [`Monomial`]s with coefficients that are not zero, in canonical order: iteration, printing and summation follow it, so that floats come out with the same
-//! bits in every run. Products leave their terms sorted. Looking up a term is a binary search; where terms are added one by one out of order a hash
-//! index serves instead, and iterating sorts.
+//! A polynomial is a set of distinct [`Monomial`]s with nonzero coefficients in canonical order. Iteration, printing and summation follow this order, so floats
+//! have the same bits in every run. Products leave their terms sorted, and a term is found by binary search. If terms are added one by one out of order, a hash
+//! index finds them, and iteration sorts them.
 
 use crate::monomial::check_slot;
 use crate::terms::Terms;
@@ -30,7 +30,7 @@ impl<C: Coefficient> Polynomial<C> {
         Polynomial { terms: Terms::default() }
     }
 
-    /// A constant.
+    /// The constant polynomial `value`.
     #[must_use]
     pub fn constant(value: C) -> Self {
         Self::from_terms([(Monomial::ONE, value)])
@@ -44,13 +44,13 @@ impl<C: Coefficient> Polynomial<C> {
         Ok(Self::from_terms([(Monomial::ONE.with(slot, 1)?, C::one())]))
     }
 
-    /// The sum of the given terms; equal monomials are added in the order given.
+    /// The sum of the given terms. Coefficients of equal monomials are added in the given order.
     #[must_use]
     pub fn from_terms(terms: impl IntoIterator<Item = (Monomial, C)>) -> Self {
         Polynomial { terms: Terms::from_unordered(terms.into_iter().collect()) }
     }
 
-    /// Adds one term in place.
+    /// Adds one term to this polynomial.
     pub fn add_term(&mut self, monomial: Monomial, coefficient: &C) {
         self.terms.add(monomial, coefficient);
     }
@@ -68,7 +68,7 @@ impl<C: Coefficient> Polynomial<C> {
         terms
     }
 
-    /// The coefficient of `monomial`, `None` where it does not occur.
+    /// The coefficient of `monomial`, or `None` if it does not occur.
     #[must_use]
     pub fn coefficient(&self, monomial: &Monomial) -> Option<&C> {
         self.terms.position(*monomial).map(|at| &self.terms.values()[at])
@@ -80,7 +80,7 @@ impl<C: Coefficient> Polynomial<C> {
         self.terms.monomials().len()
     }
 
-    /// Whether this is the polynomial 0, which has no terms.
+    /// Whether this is the polynomial 0, which has no terms. The same as [`is_zero`](Self::is_zero).
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.terms.monomials().is_empty()
@@ -92,7 +92,7 @@ impl<C: Coefficient> Polynomial<C> {
         self.terms.monomials().is_empty()
     }
 
-    /// The value of a constant polynomial (0 for the polynomial 0), `None` where a variable occurs.
+    /// The value of a constant polynomial (0 for the polynomial 0), or `None` if a variable occurs.
     #[must_use]
     pub fn as_constant(&self) -> Option<C> {
         match self.len() {
@@ -102,13 +102,13 @@ impl<C: Coefficient> Polynomial<C> {
         }
     }
 
-    /// The polynomial with every coefficient mapped, to another type for instance.
+    /// The polynomial with `function` applied to every coefficient, for example to convert it to another type.
     #[must_use]
     pub fn map<D: Coefficient>(&self, mut function: impl FnMut(&C) -> D) -> Polynomial<D> {
         Polynomial::from_terms(self.terms().map(|(monomial, c)| (monomial, function(c))))
     }
 
-    /// The terms for which `keep` holds.
+    /// The terms for which `keep` returns true.
     #[must_use]
     pub fn filter(&self, mut keep: impl FnMut(Monomial, &C) -> bool) -> Self {
         Self::from_terms(self.terms().filter(|&(monomial, c)| keep(monomial, c)).map(|(m, c)| (m, c.clone())))
@@ -135,7 +135,7 @@ impl<C: Coefficient> Polynomial<C> {
         Ok(self.filter(|monomial, _| monomial.exponent(slot) == degree))
     }
 
-    /// Largest total degree of a term, `None` for the polynomial 0.
+    /// Largest total degree of a term, or `None` for the polynomial 0.
     #[must_use]
     pub fn degree(&self) -> Option<u32> {
         self.terms.monomials().iter().map(|monomial| monomial.total_degree()).max()
@@ -164,7 +164,7 @@ impl<C: Coefficient + Hash> Hash for Polynomial<C> {
     }
 }
 
-/// Which terms of a product are kept: those up to a total degree, or up to a degree in some of the variables.
+/// A rule for the terms of a product to keep: those up to a total degree, or up to a degree in some of the variables.
 ///
 /// ```
 /// use andoyer_series::{Polynomial, Truncation};
@@ -179,13 +179,13 @@ pub struct Truncation {
 }
 
 impl Truncation {
-    /// Keeps what is of total degree `degree` at most.
+    /// Keeps the terms of total degree `degree` or less.
     #[must_use]
     pub fn total(degree: u32) -> Self {
         Truncation { slots: (0..crate::SLOTS).collect(), degree }
     }
 
-    /// Keeps what is of degree `degree` at most in the variables of `slots` together.
+    /// Keeps the terms whose degree in the variables of `slots` together is `degree` or less.
     ///
     /// # Errors
     /// - slot 8: [`Error::SlotOutOfRange`].

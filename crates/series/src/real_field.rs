@@ -1,18 +1,19 @@
-//! Real coefficients and the complex ones over them.
+//! Real coefficients, and the complex coefficients over them.
 //!
-//! A Hamiltonian has real coefficients; its normalization runs over the complex numbers of the same kind: rationals in
-//! Gaussian rationals, `f64` in `Complex<f64>`. What is a square root is exact or is not there.
+//! A Hamiltonian has real coefficients. Its normalization uses the complex numbers of the same kind: Gaussian rationals for rationals, `Complex<f64>` for
+//! `f64`. In an exact field a square root is exact or does not exist.
 
-use crate::{Coefficient, MAXIMUM_EXPONENT};
+use crate::{Coefficient, MAX_EXPONENT};
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, Signed, ToPrimitive};
 
-/// A field of real numbers with its complex extension: `BigRational`, exact, or `f64`.
+/// A field of real numbers with its complex extension: `BigRational` (exact) or `f64`.
 ///
 /// ```
-/// use andoyer_series::{Coefficient, RealField};
+/// use andoyer_series::Coefficient;
+/// use andoyer_series::real_field::RealField;
 /// use num_rational::BigRational;
 /// let [two, eight] = [2, 8].map(BigRational::integer);
 /// assert_eq!(two.geometric_mean(&eight), Some(BigRational::integer(4)));
@@ -22,7 +23,7 @@ pub trait RealField: Coefficient + Send + Sync {
     /// The complex numbers over this field.
     type Complex: Coefficient + Send + Sync;
     /// Largest order of a normal form in these numbers.
-    const MAXIMUM_ORDER: usize;
+    const MAX_ORDER: usize;
 
     /// The complex number re + i im.
     fn complex(re: Self, im: Self) -> Self::Complex;
@@ -30,26 +31,26 @@ pub trait RealField: Coefficient + Send + Sync {
     /// Real and imaginary part.
     fn parts(value: &Self::Complex) -> (Self, Self);
 
-    /// √(ab) ≥ 0, `None` where it is not in the field.
+    /// √(ab) ≥ 0, or `None` if it is not in the field.
     fn geometric_mean(&self, other: &Self) -> Option<Self>;
 
-    /// −1, 0 or 1.
+    /// The sign: −1, 0 or 1.
     fn sign(&self) -> i8;
 
-    /// The nearest `f64`, infinite where it overflows.
+    /// The nearest `f64`; infinite on overflow.
     fn to_float(&self) -> f64;
 
-    /// Relative size of rounding: 0 where numbers are exact.
+    /// Relative rounding error; 0 for exact numbers.
     const EPSILON: f64;
 
-    /// The numbers that a finite approximation may stand for: the float itself, or the convergents of its continued fraction.
+    /// The numbers that a finite approximation may represent: the float itself, or the convergents of its continued fraction.
     fn candidates(approximation: f64) -> Vec<Self>;
 }
 
 impl RealField for BigRational {
     type Complex = Complex<BigRational>;
-    /// A product of two parts of orders a + b = N has degree N + 4 before a pair of variables is taken out.
-    const MAXIMUM_ORDER: usize = MAXIMUM_EXPONENT as usize - 4;
+    /// A product of two parts of orders a + b = N has degree N + 4 before a pair of variables is removed.
+    const MAX_ORDER: usize = MAX_EXPONENT as usize - 4;
 
     fn complex(re: Self, im: Self) -> Self::Complex {
         Complex::new(re, im)
@@ -79,7 +80,7 @@ impl RealField for BigRational {
         let (mut rest, mut before, mut last) =
             (approximation, (BigInt::ZERO, BigInt::from(1)), (BigInt::from(1), BigInt::ZERO));
         let mut convergents = Vec::new();
-        // A fraction with a denominator below 1e7 is a convergent of its float; twenty steps reach it.
+        // A fraction with a denominator below 1e7 is a convergent of its float, and occurs among the first twenty.
         for _ in 0..20 {
             let Some(quotient) = BigInt::from_f64(rest.floor()) else { break };
             let next = (&quotient * &last.0 + &before.0, &quotient * &last.1 + &before.1);
@@ -93,8 +94,8 @@ impl RealField for BigRational {
 
 impl RealField for f64 {
     type Complex = Complex<f64>;
-    /// The triangle's cells of order N carry the factor N!, and 171! is no `f64`.
-    const MAXIMUM_ORDER: usize = 170;
+    /// The cells of order N of the triangle contain the factor N!, and 171! overflows an `f64`.
+    const MAX_ORDER: usize = 170;
 
     fn complex(re: Self, im: Self) -> Self::Complex {
         Complex::new(re, im)
@@ -106,7 +107,7 @@ impl RealField for f64 {
 
     fn geometric_mean(&self, other: &Self) -> Option<Self> {
         let product = self * other;
-        // The root of the product is rounded once and exact for squares; that of the factors cannot overflow.
+        // The square root of the product is rounded once, and is exact for squares. The product of the square roots cannot overflow.
         let root = if product.is_normal() { product.sqrt() } else { self.abs().sqrt() * other.abs().sqrt() };
         (self.sign() * other.sign() >= 0).then_some(root)
     }

@@ -1,19 +1,21 @@
-//! The free rigid body: its Hamiltonian, and the two faces of its series. [`crate::energy`] computes them.
+//! The free rigid body: its Hamiltonian, and the real and the complex form of its series. The private module `energy` computes them.
 //!
 //! Convention, with w = √L e^{iℓ}, u = i w̄, U = w, S = i s, τ = α/(√γ V) and the time unit C/(√γ V) (theory §1, §2):
 //!
 //! ```text
-//! H = w w̄ − (τ/4) [ 2 w² w̄² + β (w³ w̄ + w w̄³) ]        (the constant part in V² is dropped; it returns in K)
+//! H = w w̄ − (τ/4) [ 2 w² w̄² + β (w³ w̄ + w w̄³) ]        (without the constant part in V², which K contains)
 //! ```
 //!
-//! [f; s] := {f; i s} is canonical for the pair (q, p) = (w̄, w), [f; s] = ∂f/∂w̄ ∂s/∂w − ∂f/∂w ∂s/∂w̄, and with
-//! y = i ŷ, M in units of κ = α/γ (τ = 1/M), [ŷ; s] = ∂s/∂M is the reciprocal pair (ŷ, τ). So all coefficients are
-//! rational; the Gaussian rationals of the paper's u, U are the public face: w̄^j w^k = (−i)^j u^j U^k. Then
-//! K = Σ k_n τⁿ (w w̄)^{n+1}, P_n = 2 k_n and p_n = (−i)^{n+1} P_n (theory §4).
-//! Source: Lara (2017) with the errata of theory §11. Cost: that of [`NormalForm::new`](crate::NormalForm::new).
+//! The bracket [f; s] := {f; i s} is canonical for the pair (q, p) = (w̄, w): [f; s] = ∂f/∂w̄ ∂s/∂w − ∂f/∂w ∂s/∂w̄. With y = i ŷ and M in units of κ = α/γ (τ =
+//! 1/M), [ŷ; s] = ∂s/∂M, so (ŷ, τ) is a reciprocal pair. All coefficients in w̄, w, ŷ are therefore rational. The public functions give the Gaussian rationals
+//! of the paper's variables u, U: w̄^j w^k = (−i)^j u^j U^k. Then K = Σ k_n τⁿ (w w̄)^{n+1}, P_n = 2 k_n and p_n = (−i)^{n+1} P_n (theory §4). Source: Lara
+//! (2017) with the errata of theory §11. Cost: see [`NormalForm`](crate::NormalForm).
 
+use crate::bracket::Poisson;
 use crate::energy::Generator;
-use crate::{Coefficient, Error, Homological, Monomial, Poisson, Polynomial, TermProblem};
+use crate::error::TermProblem;
+use crate::homological::Homological;
+use crate::{Coefficient, Error, Monomial, Polynomial};
 use num_bigint::BigInt;
 use num_complex::Complex;
 use num_rational::BigRational;
@@ -33,14 +35,13 @@ pub const BETA: usize = 3;
 /// Slot of ŷ = −i y.
 pub const Y_HAT: usize = 4;
 
-/// Largest order whose exponents fit the packed monomials: a product of two parts of orders a + b = N has degree 2N + 4
-/// at most.
-pub const MAXIMUM_ORDER: usize = (crate::MAXIMUM_EXPONENT as usize - 4) / 2;
+/// Largest order whose exponents fit the packed monomials. A product of two parts of orders a + b = N has degree 2N + 4 at most.
+pub const MAX_ORDER: usize = (crate::MAX_EXPONENT as usize - 4) / 2;
 
-/// Coefficients of a form by its exponents (j, k, l): Σ c u^j U^k β^l.
+/// The coefficients c of a form Σ c u^j U^k β^l, with the exponents (j, k, l) as keys.
 pub type PublicForm = BTreeMap<(u32, u32, u32), Complex<BigRational>>;
 
-/// A variable of the paper whose transformation is known.
+/// A variable of the paper that the normal form transforms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Variable {
     /// The coordinate u.
@@ -66,7 +67,7 @@ impl FromStr for Variable {
 }
 
 impl Variable {
-    /// The name, as `from_str` reads it.
+    /// The name that `from_str` reads.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -77,18 +78,17 @@ impl Variable {
     }
 }
 
-/// The scaled Hamiltonian of theory §2, its parts of order 0 and 1 in τ, in the slots [`W_BAR`], [`W`], [`TAU`],
-/// [`BETA`].
+/// The scaled Hamiltonian of theory §2 as its parts of order 0 and 1 in τ. The variables are in the slots [`W_BAR`], [`W`], [`TAU`], [`BETA`].
 ///
 /// ```
-/// let [main, perturbation] = andoyer_series::hamiltonian::<f64>()?;
+/// let [main, perturbation] = andoyer_series::rigid_body::hamiltonian::<f64>()?;
 /// assert_eq!(main.display(&["v", "w"]).to_string(), "v*w");
 /// assert_eq!(perturbation.evaluate(&[1.0, 1.0, 1.0, 0.5])?, -0.75);
 /// # Ok::<(), andoyer_series::Error>(())
 /// ```
 ///
 /// # Errors
-/// - coefficients of characteristic 2, where 4 has no inverse: [`Error::DivisionByZero`].
+/// - Coefficients of characteristic 2, where 4 has no inverse: [`Error::DivisionByZero`].
 pub fn hamiltonian<C: Coefficient>() -> Result<[Polynomial<C>; 2], Error> {
     let term = |w_bar, w, tau, beta| Monomial::small([w_bar, w, tau, beta, 0, 0, 0, 0]);
     let ratio = |numerator| C::ratio(numerator, 4).ok_or(Error::DivisionByZero);
@@ -100,7 +100,7 @@ pub fn hamiltonian<C: Coefficient>() -> Result<[Polynomial<C>; 2], Error> {
 /// The bracket [f; s] = {f; i s} of the rational variables: the pair (w̄, w) and the reciprocal pair (ŷ, τ).
 ///
 /// # Errors
-/// - none: the slots differ.
+/// - None, since the slots differ.
 pub fn poisson() -> Result<Poisson, Error> {
     Poisson::new(&[(W_BAR, W)])?.with_reciprocal(Y_HAT, TAU)
 }
@@ -108,18 +108,18 @@ pub fn poisson() -> Result<Poisson, Error> {
 /// The homological equation of the main part w w̄.
 ///
 /// # Errors
-/// - none: the slots differ.
+/// - None, since the slots differ.
 pub fn homological<C: Coefficient>() -> Result<Homological<C>, Error> {
     Homological::new(&[(W_BAR, W, C::one())])
 }
 
-/// The action σ_sep of the separatrix, in units of M: the radius of convergence of the series in σ = L/M.
+/// The action σ_sep of the separatrix in units of M. It is the radius of convergence of the series in σ = L/M.
 ///
-/// σ_sep = (2/π) atan2(√(1−β), √(2β)): the integral of theory §5 at Eγ/α = 1 − β, where the integrand is √(2β) |sin ν|
-/// / √(1−β+2β sin²ν) and the primitive an arcsine of cos ν. It falls from 1 at `beta` = 0 to 0 at `beta` = 1.
+/// σ_sep = (2/π) atan2(√(1−β), √(2β)). It is the integral of theory §5 at Eγ/α = 1 − β: the integrand is √(2β) |sin ν| / √(1−β+2β sin²ν) and its primitive is
+/// an arcsine of cos ν. σ_sep falls from 1 at `beta` = 0 to 0 at `beta` = 1.
 ///
 /// ```
-/// let action = andoyer_series::separatrix_action(0.5)?;
+/// let action = andoyer_series::rigid_body::separatrix_action(0.5)?;
 /// assert!((action - 0.39183).abs() < 5e-6); // table of theory §5
 /// # Ok::<(), andoyer_series::Error>(())
 /// ```
@@ -134,16 +134,16 @@ pub fn separatrix_action(beta: f64) -> Result<f64, Error> {
     }
 }
 
-/// P_n = 2 k_n from 4^n k_n, a polynomial in β².
+/// P_n = 2 k_n as {power of β: coefficient}, from 4^n k_n, a polynomial in β² with the coefficients `row`.
 pub(crate) fn triaxiality(n: usize, row: &[BigInt]) -> BTreeMap<u32, BigRational> {
-    let divisor = BigInt::from(4).pow(n as u32); // n ≤ MAXIMUM_ORDER
+    let divisor = BigInt::from(4).pow(n as u32); // n ≤ MAX_ORDER
     let terms = (0u32..).zip(row).filter(|(_, c)| !c.is_zero());
     terms.map(|(i, c)| (2 * i, BigRational::new(c * 2, divisor.clone()))).collect()
 }
 
-/// T_m in the slots of this file: z^j of the table is w^(m+1+j) w̄^(m+1−j).
+/// T_m in the slots of this file. The power z^j of the table is w^(m+1+j) w̄^(m+1−j).
 pub(crate) fn scaled_generator(m: usize, table: &Generator) -> Result<Polynomial<BigRational>, Error> {
-    let order = m as u32; // m ≤ MAXIMUM_ORDER
+    let order = m as u32; // m ≤ MAX_ORDER
     let divisor = (&table.divisor << 1u32) * BigInt::from(4).pow(order);
     let mut form = Polynomial::zero();
     for (j, row) in (1u32..).zip(&table.rows) {
@@ -162,13 +162,12 @@ pub(crate) fn paper(n: usize, real: &BTreeMap<u32, BigRational>) -> BTreeMap<u32
     real.iter().map(|(&power, c)| (power, turned(c, 3 * (n + 1)))).collect()
 }
 
-/// The public face i · f of a form f in w̄, w (a generating function, ŷ, or w̄ itself).
+/// The form i · f in the paper's variables u, U, for a form f in w̄, w (a generating function, ŷ, or w̄ itself).
 pub(crate) fn public_face(form: &Polynomial<BigRational>) -> PublicForm {
     faces(form, 1)
 }
 
-/// The public face of U, from the transformation of w̄: that of w is its image under the exchange of w̄ and w, since s
-/// is odd under it.
+/// The transformation of U in the paper's variables, from that of w̄. The exchange of w̄ and w gives the transformation of w, because s is odd under it.
 pub(crate) fn public_momentum(form: &Polynomial<BigRational>) -> Result<PublicForm, Error> {
     Ok(faces(&form.exchange(W_BAR, W)?, 0))
 }
@@ -181,9 +180,9 @@ fn faces(form: &Polynomial<BigRational>, turns: usize) -> PublicForm {
     form.terms().map(face).collect()
 }
 
-/// Refuses the public face i s of a function that is complex on real motions.
+/// Refuses a generating function i s that is complex on real motions.
 ///
-/// S is real there if s has real coefficients in w̄, w and changes its sign under the exchange of the two.
+/// S is real on real motions if s has real coefficients in w̄, w and changes its sign when w̄ and w are exchanged.
 pub(crate) fn check_real(m: usize, face: &PublicForm) -> Result<(), Error> {
     let private = |j: u32, c: &Complex<BigRational>| turned_complex(c, j as usize + 3);
     for (&(j, k, l), c) in face {
@@ -202,7 +201,7 @@ fn turned(c: &BigRational, n: usize) -> Complex<BigRational> {
     turned_complex(&Complex::new(c.clone(), BigRational::zero()), n)
 }
 
-/// iⁿ c: with n = j what a coefficient of u^j is as one of w̄^j.
+/// iⁿ c. With n = j this turns the coefficient of u^j into that of w̄^j.
 pub(crate) fn turned_complex(c: &Complex<BigRational>, n: usize) -> Complex<BigRational> {
     match n % 4 {
         0 => c.clone(),
@@ -212,7 +211,7 @@ pub(crate) fn turned_complex(c: &Complex<BigRational>, n: usize) -> Complex<BigR
     }
 }
 
-/// The variable of the rational pair whose transformation yields that of `variable`.
+/// The variable of the rational pair whose transformation gives that of `variable`.
 pub(crate) fn seed(variable: Variable) -> Polynomial<BigRational> {
     let mut exponents = [0; crate::SLOTS];
     exponents[if variable == Variable::Angle { Y_HAT } else { W_BAR }] = 1;

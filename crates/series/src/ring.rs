@@ -1,8 +1,7 @@
-//! The ring operations.
+//! The ring operations of polynomials.
 //!
-//! `&a + &b`, `&a - &b`, `-&a` and `+=`, `-=` as operators; products are methods, since a product may overflow an
-//! exponent and that is an error. Sums cost O(n), products one multiplication for each pair of terms and one reduction
-//! for each resulting term.
+//! Sums are operators: `&a + &b`, `&a - &b`, `-&a`, `+=`, `-=`. Products are methods, because a product can overflow an exponent, which is an error. A sum
+//! costs O(n). A product costs one multiplication for each pair of terms and one reduction for each resulting term.
 
 use crate::product::Accumulator;
 use crate::terms::Terms;
@@ -63,7 +62,7 @@ impl<C: Coefficient> Polynomial<C> {
     /// This polynomial divided by an integer.
     ///
     /// # Errors
-    /// - divisor 0, or a multiple of the characteristic of a finite field: [`Error::DivisionByZero`].
+    /// - Divisor 0, or a multiple of the characteristic of a finite field: [`Error::DivisionByZero`].
     pub fn over(&self, divisor: i64) -> Result<Self, Error> {
         if divisor == 1 {
             return Ok(self.clone());
@@ -72,7 +71,7 @@ impl<C: Coefficient> Polynomial<C> {
         Ok(self.scale(&inverse))
     }
 
-    /// The product.
+    /// The product of two polynomials.
     ///
     /// ```
     /// use andoyer_series::Polynomial;
@@ -90,7 +89,7 @@ impl<C: Coefficient> Polynomial<C> {
     /// The product without the terms that `truncation` drops.
     ///
     /// # Errors
-    /// - x^20000 times x^20000, kept or not: [`Error::ExponentOverflow`].
+    /// - x^20000 times x^20000, even if the term is dropped: [`Error::ExponentOverflow`].
     pub fn multiply_truncated(&self, other: &Self, truncation: &Truncation) -> Result<Self, Error> {
         self.product(other, Some(truncation))
     }
@@ -101,7 +100,14 @@ impl<C: Coefficient> Polynomial<C> {
         sum.finish(&mut || Ok(()))
     }
 
-    /// This polynomial to a power, by repeated squaring; the power 0 is 1, of the polynomial 0 as well.
+    /// This polynomial to the power `exponent`, by repeated squaring. The power 0 is 1, also of the polynomial 0.
+    ///
+    /// ```
+    /// use andoyer_series::Polynomial;
+    /// let parse = |text| Polynomial::<f64>::parse(text, &["x"]);
+    /// assert_eq!(parse("1 + x")?.power(2)?, parse("1 + 2*x + x^2")?);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
     ///
     /// # Errors
     /// - x to the power 32768: [`Error::ExponentOverflow`].
@@ -120,12 +126,12 @@ impl<C: Coefficient> Polynomial<C> {
         Ok(power)
     }
 
-    /// The same monomials with other coefficients.
+    /// The polynomial with `function` applied to every coefficient.
     fn each(&self, mut function: impl FnMut(&C) -> C) -> Self {
         Self::from_terms(self.terms().map(|(monomial, c)| (monomial, function(c))))
     }
 
-    /// Merges the terms of `other` into these: `both` where a monomial is in both, `alone` where it is only in `other`.
+    /// Merges the terms of `other` into these. `both` handles a monomial in both polynomials, `alone` a monomial that only `other` has.
     fn merge(&mut self, other: &Self, both: impl Fn(&mut C, &C), alone: impl Fn(&C) -> C) {
         if other.is_zero() {
             return;

@@ -1,7 +1,7 @@
 //! The terms of a polynomial in memory.
 //!
-//! Packed monomials and coefficients in two arrays: in canonical order as products, sums and constructors leave them. Terms that are added one by one out of order are
-//! found by a hash index, which is made when it is needed. Exact coefficients that come out of a product are kept as [`Words`] until somebody looks at them.
+//! The packed monomials and the coefficients are two arrays. Products, sums and constructors leave them in canonical order. If terms are added one by one out
+//! of order, a hash index is built to find them. Exact coefficients of a product stay [`Words`] until they are read.
 
 use crate::words::Words;
 use crate::{Coefficient, Monomial};
@@ -9,14 +9,14 @@ use rustc_hash::FxBuildHasher;
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
-/// Distinct monomials with coefficients that are not zero.
+/// Distinct monomials with nonzero coefficients.
 #[derive(Clone)]
 pub(crate) struct Terms<C> {
     monomials: Vec<Monomial>,
-    /// Made from `words` when looked at.
+    /// The coefficients, converted from `words` at the first read.
     values: OnceLock<Vec<C>>,
     words: Option<Words>,
-    /// Positions of all terms; there is one only where the terms are out of order.
+    /// Positions of all terms. The index exists only if the terms are out of order.
     index: Option<HashMap<Monomial, usize, FxBuildHasher>>,
 }
 
@@ -39,19 +39,19 @@ impl<C> Terms<C> {
 }
 
 impl<C: Coefficient> Terms<C> {
-    /// Terms in canonical order, without a zero.
+    /// Terms in canonical order; no coefficient is 0.
     pub(crate) fn ordered(monomials: Vec<Monomial>, values: Vec<C>) -> Self {
         debug_assert!(monomials.is_sorted() && monomials.len() == values.len());
         Terms { monomials, values: OnceLock::from(values), words: None, index: None }
     }
 
-    /// As [`ordered`](Self::ordered), with the coefficients in machine words.
+    /// The same as [`ordered`](Self::ordered), with the coefficients in machine words.
     pub(crate) fn ordered_words(monomials: Vec<Monomial>, words: Words) -> Self {
         debug_assert!(monomials.is_sorted() && monomials.len() == words.numerators.len());
         Terms { monomials, values: OnceLock::new(), words: Some(words), index: None }
     }
 
-    /// The sum of any terms; equal monomials are added in the order given.
+    /// The sum of the given terms in any order. Coefficients of equal monomials are added in the given order.
     pub(crate) fn from_unordered(mut terms: Vec<(Monomial, C)>) -> Self {
         if !terms.is_sorted_by(|(m, _), (n, _)| m < n) {
             terms.sort_by_cached_key(|(monomial, _)| monomial.rank());
@@ -81,11 +81,11 @@ impl<C: Coefficient> Terms<C> {
     pub(crate) fn values(&self) -> &[C] {
         self.values.get_or_init(|| match (&self.words, C::MACHINE_WORDS) {
             (Some(words), Some(face)) => (face.lower)(words),
-            _ => Vec::new(), // Without words there are values from the start.
+            _ => Vec::new(), // Terms without words have their values from the start.
         })
     }
 
-    /// The coefficients in machine words, where they are, or fit.
+    /// The coefficients in machine words, or `None` if they do not fit.
     pub(crate) fn words(&self) -> Option<std::borrow::Cow<'_, Words>> {
         match &self.words {
             Some(words) => Some(std::borrow::Cow::Borrowed(words)),
@@ -93,7 +93,7 @@ impl<C: Coefficient> Terms<C> {
         }
     }
 
-    /// The terms as they lie.
+    /// The terms in the order of the arrays.
     pub(crate) fn iter(&self) -> impl ExactSizeIterator<Item = (Monomial, &C)> {
         self.monomials.iter().copied().zip(self.values())
     }
@@ -103,7 +103,7 @@ impl<C: Coefficient> Terms<C> {
         (self.monomials, self.values.into_inner().unwrap_or_default())
     }
 
-    /// Position of a monomial.
+    /// The position of a monomial in the arrays.
     pub(crate) fn position(&self, monomial: Monomial) -> Option<usize> {
         match &self.index {
             Some(index) => index.get(&monomial).copied(),

@@ -1,27 +1,31 @@
 //! Deprit's triangle: normalization, direct and inverse transformation, to any order.
 //!
-//! Convention (theory §4): f_{n,q} = f_{n+1,q−1} + Σ_{0≤m≤n} C(n,m) {f_{n−m,q−1}; S_{m+1}}. Here it runs without
-//! binomials, on g_{n,q} = f_{n,q}/n! and T_m = S_m/(m−1)!:
+//! Convention (theory §4): f_{n,q} = f_{n+1,q−1} + Σ_{0≤m≤n} C(n,m) {f_{n−m,q−1}; S_{m+1}}. This module computes g_{n,q} = f_{n,q}/n! with T_m = S_m/(m−1)!,
+//! which needs no binomials:
 //!
 //! ```text
 //! g_{n,q} = (n+1) g_{n+1,q−1} + Σ_{0≤m≤n} {g_{n−m,q−1}; T_{m+1}}
 //! ```
 //!
-//! Series are lists of the coefficients of ε⁰, ε¹, …: the Hamiltonian H_{n,0}/n!, the normal form H_{0,n}/n!, a
-//! transformed function f_{0,n}/n!. Order N costs N(N+1)(N+2)/6 brackets; each inner sum is accumulated unreduced. The
-//! inverse transformation obeys (n+1) G_{n+1} = −Σ {G_{n−m}; T_{m+1}}, G_0 = f, and costs N(N+1)/2 brackets.
+//! Series are lists of the coefficients of ε⁰, ε¹, …: the Hamiltonian H_{n,0}/n!, the normal form H_{0,n}/n!, a transformed function f_{0,n}/n!. Order N costs
+//! N(N+1)(N+2)/6 brackets. Each inner sum is accumulated without reduction of the fractions. The inverse transformation obeys (n+1) G_{n+1} = −Σ {G_{n−m};
+//! T_{m+1}}, G_0 = f, and costs N(N+1)/2 brackets.
 
+use crate::bracket::Poisson;
+use crate::homological::Homological;
 use crate::product::{Accumulator, Pause};
-use crate::{Coefficient, Error, Homological, Poisson, Polynomial};
+use crate::{Coefficient, Error, Polynomial};
 use std::ops::ControlFlow;
 
-/// What a progress callback receives: orders done, orders asked for. Returning `Break` stops the computation.
+/// A progress callback. Its arguments are the number of orders done and the number of orders requested. It stops the computation by returning `Break`.
 pub type Progress<'a> = dyn FnMut(usize, usize) -> ControlFlow<()> + 'a;
 
-/// A progress callback that tells nobody and never stops.
+/// A progress callback that does nothing and never stops the computation.
 ///
 /// ```
-/// use andoyer_series::{PhaseSpace, Resonances, normalize_with, quiet};
+/// use andoyer_series::{PhaseSpace, normalize_with};
+/// use andoyer_series::birkhoff::Resonances;
+/// use andoyer_series::progress::quiet;
 /// let space = PhaseSpace::new(&[("q", "p")])?;
 /// let h = space.parse::<f64>("(p^2 + q^2)/2 + q^4/4")?;
 /// let normal_form = normalize_with(&h, 2, &space, &Resonances::default(), &mut quiet)?;
@@ -48,13 +52,15 @@ pub struct Normalization<C: Coefficient> {
     pub transform: LieTransform<C>,
 }
 
-/// Normalizes H = Σ εⁿ `hamiltonian[n]` to order `order` (missing coefficients are 0).
+/// Normalizes H = Σ εⁿ `hamiltonian[n]` to order `order`; missing coefficients are 0.
 ///
-/// `hamiltonian[0]` is the quadratic part of `homological`. `progress` is called before every cell of the triangle, and
-/// within long ones, with the number of orders done (so a number comes more than once), and with (order, order) at the end.
+/// `hamiltonian[0]` is the quadratic part of `homological`. `progress` is called before every cell of the triangle and during long cells, with the number of
+/// orders done, so the same number comes several times. The last call has the arguments (order, order).
 ///
 /// ```
-/// use andoyer_series::{Homological, Poisson, Polynomial, deprit_triangle, quiet};
+/// use andoyer_series::Polynomial;
+/// use andoyer_series::lie::{Homological, Poisson, deprit_triangle};
+/// use andoyer_series::progress::quiet;
 /// use num_rational::BigRational;
 /// let parse = |text| Polynomial::<BigRational>::parse(text, &["q", "p"]);
 /// let homological = Homological::new(&[(0, 1, BigRational::from_integer(1.into()))])?;
@@ -88,16 +94,16 @@ pub fn deprit_triangle<C: Coefficient>(
     normalize_by(hamiltonian, poisson, order, &solve, progress)
 }
 
-/// What is removed from a coefficient of the Hamiltonian, and S with {h₀; S} = −image, which removes it.
+/// The part of a coefficient of the Hamiltonian that is removed (`image`), and the S that removes it: {h₀; S} = −image.
 pub(crate) struct Removal<C> {
     pub(crate) image: Polynomial<C>,
     pub(crate) solution: Polynomial<C>,
 }
 
-/// Solves the homological equation of one order: order and what is known of it go in.
+/// Solves the homological equation of one order. The arguments are the order and the known part of its coefficient.
 pub(crate) type Solve<'a, C> = dyn Fn(usize, &Polynomial<C>) -> Result<Removal<C>, Error> + 'a;
 
-/// The triangle with any rule of what to remove; `hamiltonian[0]` is the h₀ that `solve` knows.
+/// The triangle with a general rule for the part to remove; `hamiltonian[0]` is the h₀ that `solve` uses.
 pub(crate) fn normalize_by<C: Coefficient>(
     hamiltonian: &[Polynomial<C>],
     poisson: &Poisson,
@@ -142,26 +148,26 @@ impl<C: Coefficient> LieTransform<C> {
         self.scaled.len()
     }
 
-    /// This transformation to a lower order; itself where `order` is not lower.
+    /// This transformation to a lower order, or a copy of it if `order` is not lower.
     #[must_use]
     pub fn truncated(&self, order: usize) -> Self {
         LieTransform { poisson: self.poisson.clone(), scaled: self.scaled.iter().take(order).cloned().collect() }
     }
 
-    /// This transformation with every coefficient mapped, to floats for instance.
+    /// This transformation with `function` applied to every coefficient, for example to convert it to floats.
     #[must_use]
     pub fn map<D: Coefficient>(&self, mut function: impl FnMut(&C) -> D) -> LieTransform<D> {
         let scaled = self.scaled.iter().map(|generator| generator.map(&mut function)).collect();
         LieTransform { poisson: self.poisson.clone(), scaled }
     }
 
-    /// T_m = S_m/(m−1)!, `None` beyond the order.
+    /// T_m = S_m/(m−1)!, or `None` if m is 0 or above the order.
     #[must_use]
     pub fn scaled_generator(&self, m: usize) -> Option<&Polynomial<C>> {
         self.scaled.get(m.checked_sub(1)?)
     }
 
-    /// S_m, `None` beyond the order.
+    /// S_m, or `None` if m is 0 or above the order.
     #[must_use]
     pub fn generator(&self, m: usize) -> Option<Polynomial<C>> {
         let factorial = (1..m as i64).fold(C::one(), |product, factor| product.times(factor));
@@ -176,10 +182,10 @@ impl<C: Coefficient> LieTransform<C> {
         self.direct_with(f, &mut quiet)
     }
 
-    /// As [`direct`](Self::direct), with a callback that is called as that of [`deprit_triangle`].
+    /// The same as [`direct`](Self::direct), with a callback that is called as in [`deprit_triangle`].
     ///
     /// # Errors
-    /// - as [`direct`](Self::direct); a callback that returns `Break`: [`Error::Interrupted`].
+    /// - The errors of [`direct`](Self::direct); a callback that returns `Break`: [`Error::Interrupted`].
     pub fn direct_with(&self, f: &Polynomial<C>, progress: &mut Progress<'_>) -> Result<Vec<Polynomial<C>>, Error> {
         let order = self.order();
         let mut triangle = Triangle::new(f.clone());
@@ -196,7 +202,7 @@ impl<C: Coefficient> LieTransform<C> {
         Ok(series)
     }
 
-    /// The coefficients of ε⁰, ε¹, … of f, a function of the new variables, expressed in the old ones.
+    /// The coefficients of ε⁰, ε¹, … of f, a function of the new variables, expressed in the old variables.
     ///
     /// # Errors
     /// - degrees that outgrow the packed exponents: [`Error::ExponentOverflow`].
@@ -204,10 +210,10 @@ impl<C: Coefficient> LieTransform<C> {
         self.inverse_with(f, &mut quiet)
     }
 
-    /// As [`inverse`](Self::inverse), with a callback that is called before every order, within long ones, and with (order, order) last.
+    /// The same as [`inverse`](Self::inverse), with a callback. It is called before every order, during long orders, and with (order, order) at the end.
     ///
     /// # Errors
-    /// - as [`inverse`](Self::inverse); a callback that returns `Break`: [`Error::Interrupted`].
+    /// - The errors of [`inverse`](Self::inverse); a callback that returns `Break`: [`Error::Interrupted`].
     pub fn inverse_with(&self, f: &Polynomial<C>, progress: &mut Progress<'_>) -> Result<Vec<Polynomial<C>>, Error> {
         let order = self.order();
         let mut series = vec![f.clone()];
@@ -227,7 +233,7 @@ impl<C: Coefficient> LieTransform<C> {
     }
 }
 
-/// The triangle, column by column: `columns[q][n]` = g_{n,q}.
+/// The triangle, stored by columns: `columns[q][n]` = g_{n,q}.
 struct Triangle<C> {
     columns: Vec<Vec<Polynomial<C>>>,
 }
@@ -238,8 +244,7 @@ impl<C: Coefficient> Triangle<C> {
         Triangle { columns: vec![vec![apex]] }
     }
 
-    /// Adds the next anti-diagonal n + q = N, from the coefficient `source` of ε^N. A generator T_N that is not known
-    /// counts as 0.
+    /// Adds the next anti-diagonal n + q = N, from the coefficient `source` of ε^N. A generator T_N that is not yet known counts as 0.
     fn extend(
         &mut self,
         source: Polynomial<C>,
@@ -257,7 +262,7 @@ impl<C: Coefficient> Triangle<C> {
         Ok(())
     }
 
-    /// g_{n,q+1} = (n+1) g_{n+1,q} + Σ {g_{n−m,q}; T_{m+1}}, one unreduced sum.
+    /// g_{n,q+1} = (n+1) g_{n+1,q} + Σ {g_{n−m,q}; T_{m+1}}, accumulated in one sum without reduction.
     fn cell(
         &self,
         n: usize,
@@ -290,8 +295,8 @@ impl<C: Coefficient> Triangle<C> {
         &self.columns[self.columns.len() - 1][0]
     }
 
-    /// Completes the last anti-diagonal once T_N is known: {h₀; T_N} = −image/(N−1)! enters g_{N−1,1} and, by the
-    /// recursion, g_{n,q} as −image/n!. No bracket is computed for it.
+    /// Completes the last anti-diagonal once T_N is known. {h₀; T_N} = −image/(N−1)! enters g_{N−1,1} and, by the recursion, g_{n,q} as −image/n!. This needs
+    /// no bracket.
     fn subtract(&mut self, image: &Polynomial<C>) -> Result<(), Error> {
         let order = self.columns.len() - 1;
         let one = Polynomial::constant(C::one());

@@ -1,7 +1,7 @@
 //! Exact coefficients in machine words: integers of 128 bits over one common denominator.
 //!
-//! A product of exact polynomials gives such integers, and the next product takes them. Fractions are reduced when somebody looks at
-//! the terms. Coefficients that do not fit are rationals of big integers throughout.
+//! A product of exact polynomials gives such integers, and the next product uses them. Fractions are reduced when the terms are read. Coefficients that do not
+//! fit are stored as rationals of big integers.
 
 use num_integer::Integer;
 
@@ -10,23 +10,23 @@ use num_integer::Integer;
 #[allow(unreachable_pub, reason = "a public trait names it, hidden")]
 pub struct Words {
     pub(crate) numerators: Numerators,
-    /// Greater than 0.
+    /// The common denominator, greater than 0.
     pub(crate) denominator: i128,
 }
 
-/// Real numerators, or complex ones as (re, im).
+/// Real numerators, or complex numerators as (re, im).
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Numerators {
     Real(Vec<i128>),
     Complex(Vec<[i128; 2]>),
 }
 
-/// How a coefficient type turns into machine words and back.
+/// The conversion of a coefficient type to machine words and back.
 #[derive(Debug)]
 pub struct MachineWords<C> {
-    /// The values over their least common denominator, where they fit.
+    /// The values over their least common denominator, or `None` if they do not fit.
     pub(crate) lift: fn(&[C]) -> Option<Words>,
-    /// The reduced values.
+    /// The reduced values of the words.
     pub(crate) lower: fn(&Words) -> Vec<C>,
 }
 
@@ -48,7 +48,7 @@ impl Numerators {
 }
 
 impl Words {
-    /// These words with the factors that all numerators share with the denominator taken out.
+    /// These words divided by the greatest common divisor of all numerators and the denominator.
     pub(crate) fn reduced(mut self) -> Self {
         let mut shared = self.denominator;
         for &mut numerator in self.numerators.integers() {
@@ -65,13 +65,13 @@ impl Words {
     }
 }
 
-/// The numerators of several polynomials over one denominator, in 64 bits; `None` where they do not fit.
+/// The numerators of several polynomials over one denominator, in 64 bits.
 pub(crate) struct Factors {
     pub(crate) lists: Vec<FactorList>,
     pub(crate) denominator: i128,
 }
 
-/// As [`Numerators`], for factors.
+/// The same as [`Numerators`], in 64 bits.
 pub(crate) enum FactorList {
     Real(Vec<i64>),
     Complex(Vec<[i64; 2]>),
@@ -99,11 +99,11 @@ impl Factors {
 }
 
 impl FactorList {
-    /// Sum and maximum of the magnitudes, |re| + |im| for a complex one, each rounded upwards.
+    /// Sum and maximum of the magnitudes, rounded upwards. The magnitude of a complex value is |re| + |im|.
     pub(crate) fn norms(&self) -> [f64; 2] {
         let norms = |values: &mut dyn Iterator<Item = u128>| {
             let (sum, most) = values.fold((0_u128, 0), |(sum, most), value| (sum + value, most.max(value)));
-            // Half a unit of the last place is added by rounding at most.
+            // Rounding changes a value by half a unit of the last place at most.
             [sum as f64, most as f64].map(|norm| norm * (1.0 + f64::EPSILON))
         };
         let magnitude = |value: i64| u128::from(value.unsigned_abs());

@@ -1,8 +1,10 @@
 //! The Birkhoff normal form, exact: published coefficients, independent series, and the laws of the transformation.
 
+use andoyer_series::birkhoff::{Mode, Resonances};
+use andoyer_series::progress::quiet;
 use andoyer_series::{
-    BirkhoffNormalForm, Coefficient, Error, Mode, Monomial, NormalForm, PhaseSpace, Polynomial, Resonances, Truncation,
-    normalize, normalize_with, quiet,
+    BirkhoffNormalForm, Coefficient, Error, Monomial, NormalForm, PhaseSpace, Polynomial, Truncation, normalize,
+    normalize_with,
 };
 use num_complex::Complex;
 use num_rational::BigRational;
@@ -241,7 +243,7 @@ fn the_transformation_takes_the_hamiltonian_to_its_normal_form_and_back() -> Res
     let resonant = normal_form.in_actions().err().map(|error| error.to_string());
     assert_eq!(
         resonant.as_deref(),
-        Some("the normal form is no function of the actions alone: it contains u_x^2*U_x*u_y^3*c")
+        Some("the normal form is not a function of the actions alone: it contains u_x^2*U_x*u_y^3*c")
     );
     Ok(())
 }

@@ -1,9 +1,10 @@
 //! Normal forms with a detuning, and forms that are written, read and printed.
 
-use andoyer_series::{
-    BigRational, BirkhoffMap, BirkhoffNormalForm, Error, Language, Part, PhaseSpace, Polynomial, Resonances, normalize,
-    normalize_with, quiet,
-};
+use andoyer_series::birkhoff::Resonances;
+use andoyer_series::num_rational::BigRational;
+use andoyer_series::print::{Language, Part};
+use andoyer_series::progress::quiet;
+use andoyer_series::{BirkhoffMap, BirkhoffNormalForm, Error, PhaseSpace, Polynomial, normalize, normalize_with};
 
 mod hamiltonians;
 use hamiltonians::{collinear, space, triangular};
@@ -67,6 +68,32 @@ fn a_linear_term_with_a_parameter_of_degree_two_moves_the_equilibrium() -> Resul
     Ok(())
 }
 
+#[test]
+fn a_letter_that_all_frequencies_are_proportional_to_gives_the_form_at_every_number() -> Result<(), Error> {
+    // Coupled by a gyroscopic term: frequencies (5/2 ± 1) w; at w = 4, s = 1/2.
+    let letters = plane()?.with_parameters(&["w"])?;
+    let text = |w: &str| {
+        format!("(X^2 + Y^2)/2 + 25/8*{w}^2*(x^2 + y^2) + {w}*(y*X - x*Y) + {w}*x^3 - x*y^2/3 + {w}*x*X*y + y^4")
+    };
+    let (scaled, space) = letters.scaled(&letters.parse::<BigRational>(&text("w"))?, "w", "s")?;
+    let of_letter = normalize(&scaled, 2, &space)?.in_actions()?;
+    let plain = plane()?;
+    let of_number = normalize(&plain.parse::<BigRational>(&text("4"))?, 2, &plain)?.in_actions()?;
+    let half = BigRational::new(1.into(), 2.into());
+    let at_number = of_letter.evaluate_partial(2, &half)?.scale(&BigRational::from_integer(4.into()));
+    assert_eq!(at_number, of_number);
+    assert!(of_letter.terms().any(|(monomial, _)| monomial.exponent(2) > 0));
+    let refused = |text: &str| letters.scaled(&letters.parse::<BigRational>(text)?, "w", "s").map(|_| ());
+    let bad = [("(x^2 + X^2)/2 + Y^2/2 + w^2*y^2/2", 4), ("X^2/2 + w^2*x^2/2 + w*X^4", -4)];
+    for (text, power) in bad {
+        let problem = refused(text);
+        assert!(matches!(problem, Err(Error::FrequencyLetter { power: found, .. }) if found == power), "{problem:?}");
+    }
+    assert!(matches!(letters.scaled(&scaled, "d", "s"), Err(Error::ParameterUnknown { .. })));
+    assert!(matches!(letters.scaled(&scaled, "w", "x"), Err(Error::Parse { .. })));
+    Ok(())
+}
+
 /// Forms of every kind: resonant with a parameter, a quartet, a centre manifold.
 fn floats() -> Result<Vec<BirkhoffNormalForm<f64>>, Error> {
     let h = triangular(0.1, 5)?;
@@ -112,6 +139,38 @@ fn json_that_is_no_normal_form_is_refused() -> Result<(), Error> {
 }
 
 #[test]
+fn a_coefficient_that_was_changed_by_hand_is_refused_with_what_it_must_be() -> Result<(), Error> {
+    // A body in x⁴/8: K_2 has 3/64 of I_x², whose terms are kept, so that only a new computation tells.
+    let exact = elastic(2)?;
+    let text = exact.to_json()?;
+    let document: serde_json::Value = serde_json::from_str(&text).map_err(|_| Error::DivisionByZero)?;
+    for part in ["hamiltonian", "generators", "original"] {
+        let mut changed = document.clone();
+        let order = changed[part].as_array_mut().and_then(|orders| orders.last_mut()).ok_or(Error::DivisionByZero)?;
+        let last = if part == "original" { order } else { &mut order[0] };
+        let place = if last[1] == "0" { 2 } else { 1 };
+        last[place] = "17/3".into();
+        let refused = BirkhoffNormalForm::<BigRational>::from_json(&changed.to_string());
+        assert!(matches!(refused, Err(Error::CoefficientWrong { .. })), "{part}: {refused:?}");
+        // Without the computation it is taken for what it says.
+        assert_ne!(BirkhoffNormalForm::<BigRational>::from_json_unverified(&changed.to_string())?, exact);
+    }
+    for form in floats()? {
+        let text = form.to_json()?;
+        let mut changed: serde_json::Value = serde_json::from_str(&text).map_err(|_| Error::DivisionByZero)?;
+        let c = &mut changed["generators"][1][0][1];
+        let value = c.as_f64().filter(|value| *value != 0.0);
+        let place = if value.is_some() { 1 } else { 2 };
+        let c = &mut changed["generators"][1][0][place];
+        *c = (c.as_f64().unwrap_or(0.0) + 1.0).into();
+        let refused = BirkhoffNormalForm::<f64>::from_json(&changed.to_string());
+        let expected = matches!(&refused, Err(Error::CoefficientWrong { what: "generating function", order: 2, .. }));
+        assert!(expected, "{refused:?}");
+    }
+    Ok(())
+}
+
+#[test]
 fn maps_about_quartets_and_saddles_come_back_and_move_as_their_equations() -> Result<(), Error> {
     for form in floats()? {
         let map = BirkhoffMap::new(&form, &[])?;
@@ -149,6 +208,114 @@ fn floats_print_what_is_significant() -> Result<(), Error> {
     assert!(text.contains("x &= x'") && text.contains("{x'}^{2}") && text.contains("\\frac{"), "{text}");
     assert!(elastic(2)?.to_latex(Part::Generator)?.contains("S_{2} &="));
     assert!(elastic(2)?.to_latex(Part::Inverse)?.contains("x' &= x"));
+    Ok(())
+}
+
+// Drivers behind the emitted text: the state, the normal variables again, actions and frequencies, as numbers with all their digits.
+const C_DRIVER: &str = r#"
+#include <stdio.h>
+
+static void print(const double *numbers, int count)
+{
+    int i;
+    for (i = 0; i < count; i++)
+        printf("%.17g ", numbers[i]);
+}
+
+int main(void)
+{
+    const double normal[SIZE] = {NUMBERS};
+    double state[SIZE], back[SIZE], action[HALF], rate[HALF];
+    from_normal(normal, state);
+    to_normal(state, back);
+    actions(normal, action);
+    frequencies(action, rate);
+    print(state, SIZE);
+    print(back, SIZE);
+    print(action, HALF);
+    print(rate, HALF);
+    return 0;
+}
+"#;
+const RUST_DRIVER: &str = r#"
+fn main() {
+    let normal: [f64; SIZE] = [NUMBERS];
+    let state = from_normal(&normal);
+    let action = actions(&normal);
+    for number in state.iter().chain(&to_normal(&state)).chain(&action).chain(&frequencies(&action)) {
+        print!("{number:?} ");
+    }
+}
+"#;
+const PYTHON_DRIVER: &str = r#"
+normal = [NUMBERS]
+state = from_normal(normal)
+print(*state, *to_normal(state), *actions(normal), *frequencies(actions(normal)))
+"#;
+
+/// The emitted text with a driver that prints, of one state of normal variables, what all functions give.
+fn run(language: Language, form: &BirkhoffNormalForm<f64>, normal: &[f64]) -> Vec<f64> {
+    let n = normal.len();
+    let directory = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("birkhoff-{language:?}-{n}"));
+    std::fs::create_dir_all(&directory).expect("a directory to build in");
+    let text = form.to_code(language).expect("code");
+    let numbers = normal.iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(", ");
+    let (source, driver) = match language {
+        Language::C => ("main.c", C_DRIVER),
+        Language::Rust => ("main.rs", RUST_DRIVER),
+        _ => ("main.py", PYTHON_DRIVER),
+    };
+    let driver =
+        driver.replace("SIZE", &n.to_string()).replace("HALF", &(n / 2).to_string()).replace("NUMBERS", &numbers);
+    let (driver, program) = (text + &driver, directory.join("main"));
+    std::fs::write(directory.join(source), driver).expect("a file in the directory of the tests");
+    let mut command = match language {
+        Language::C => std::process::Command::new("cc"),
+        Language::Rust => std::process::Command::new("rustc"),
+        _ => std::process::Command::new(std::env::var("PYTHON").unwrap_or("python3".to_owned())),
+    };
+    command.current_dir(&directory);
+    match language {
+        Language::C => command.args(["-std=c99", "-Wall", "-Wextra", "-Werror", "-o", "main", source, "-lm"]),
+        Language::Rust => command.args(["--edition", "2024", "-D", "warnings", "-o", "main", source]),
+        _ => command.args(["-B", "-W", "error", source]),
+    };
+    let mut output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    if !matches!(language, Language::Python) {
+        output = std::process::Command::new(program).output().expect("it runs");
+    }
+    let text = String::from_utf8(output.stdout).expect("text");
+    text.split_whitespace().map(|number| number.parse().expect("a number")).collect()
+}
+
+#[test]
+fn emitted_code_runs_and_is_the_map_in_each_language() -> Result<(), Error> {
+    let plane = plane()?;
+    let oscillators = normalize(&plane.parse::<f64>("(x^2 + X^2)/2 + (Y^2 + 2*y^2)/2 + x^2*y + y^4/3")?, 4, &plane)?;
+    let quartet = normalize(&triangular(0.1, 5)?, 3, &space()?)?;
+    for form in [oscillators, quartet] {
+        let normal = &[0.01, -0.004, 0.006, 0.01, 0.003, -0.008][..2 * form.modes().len()];
+        let map = BirkhoffMap::new(&form, &[])?;
+        let state = map.from_normal(normal)?;
+        let actions = map.actions(&state)?;
+        // What the functions give: the actions there are those of the normal variables themselves.
+        for language in [Language::C, Language::Rust, Language::Python] {
+            let found = run(language, &form, normal);
+            let n = normal.len();
+            assert_eq!(found.len(), 3 * n);
+            let expected = [&state[..], &map.to_normal(&state)?].concat();
+            for (found, expected) in found.iter().zip(&expected) {
+                assert!((found - expected).abs() < 1e-15, "{language:?}: {found} for {expected}");
+            }
+            for (found, expected) in found[2 * n..].iter().zip(&actions) {
+                assert!((found - expected).abs() < 1e-8, "{language:?}: {found} for {expected}");
+            }
+            for (found, expected) in found[2 * n + n / 2..].iter().zip(map.frequencies(&found[2 * n..2 * n + n / 2])?) {
+                assert!((found - expected).abs() < 1e-14, "{language:?}: {found} for {expected}");
+            }
+        }
+    }
     Ok(())
 }
 

@@ -1,8 +1,8 @@
 //! What is no equilibrium with a quadratic part that can be diagonalized, and what no order can normalize, is refused by name.
 
-use andoyer_series::{
-    BirkhoffMap, Error, Monomial, PhaseSpace, Polynomial, Resonances, SLOTS, normalize, normalize_with, quiet,
-};
+use andoyer_series::birkhoff::Resonances;
+use andoyer_series::progress::quiet;
+use andoyer_series::{BirkhoffMap, Error, Monomial, PhaseSpace, Polynomial, SLOTS, normalize, normalize_with};
 use num_rational::BigRational;
 use std::ops::ControlFlow;
 
@@ -23,11 +23,11 @@ fn assert_message(text: &str, message: &str) {
 fn a_point_without_a_diagonal_form_is_refused_by_term() {
     assert_message(
         "x^2 + X^2 + y^2 + Y^2 - 3/2*Y",
-        "the origin is no equilibrium: the linear term Y has the coefficient -3/2",
+        "the origin is not an equilibrium: the linear term Y has the coefficient -3/2",
     );
     assert_message(
         "x^2 + X^2 + y^2 + Y^2 + c*y",
-        "the origin is no equilibrium: the linear term y*c has the coefficient 1",
+        "the origin is not an equilibrium: the linear term y*c has the coefficient 1",
     );
     for (text, direction) in
         [("Y^2", "y 1.000"), ("0", "y 1.000"), ("y^2/2", "Y 1.000"), ("(y + Y)^2", "y 1.000, Y 1.000")]

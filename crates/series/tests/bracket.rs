@@ -2,7 +2,8 @@
 
 mod strategies;
 
-use andoyer_series::{Coefficient, Error, Monomial, Poisson, Polynomial};
+use andoyer_series::lie::Poisson;
+use andoyer_series::{Coefficient, Error, Monomial, Polynomial};
 use num_rational::BigRational;
 use proptest::prelude::*;
 use strategies::{gaussian_polynomial, rational_polynomial};

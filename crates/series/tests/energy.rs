@@ -1,6 +1,9 @@
 //! The normal form by conservation of energy against Deprit's triangle over rationals: two algorithms, two representations.
 
-use andoyer_series::{BETA, Error, NormalForm, TAU, deprit_triangle, hamiltonian, homological, poisson, quiet};
+use andoyer_series::lie::deprit_triangle;
+use andoyer_series::progress::quiet;
+use andoyer_series::rigid_body::{BETA, TAU, hamiltonian, homological, poisson};
+use andoyer_series::{Error, NormalForm};
 use num_rational::BigRational;
 use num_traits::Zero;
 use std::collections::BTreeMap;

@@ -1,8 +1,9 @@
 //! Normal forms about equilibria with gyroscopic terms and saddles: the triangular and the collinear points of the restricted problem.
 
+use andoyer_series::birkhoff::{Mode, Resonances};
+use andoyer_series::progress::quiet;
 use andoyer_series::{
-    BirkhoffMap, BirkhoffNormalForm, Error, Mode, Monomial, PhaseSpace, Polynomial, Resonances, normalize,
-    normalize_with, quiet,
+    BirkhoffMap, BirkhoffNormalForm, Error, Monomial, PhaseSpace, Polynomial, normalize, normalize_with,
 };
 
 mod hamiltonians;

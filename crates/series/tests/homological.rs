@@ -2,7 +2,8 @@
 
 mod strategies;
 
-use andoyer_series::{Coefficient, Error, Homological, Poisson, Polynomial};
+use andoyer_series::lie::{Homological, Poisson};
+use andoyer_series::{Coefficient, Error, Polynomial};
 use num_complex::Complex;
 use num_rational::BigRational;
 use proptest::prelude::*;

@@ -1,6 +1,8 @@
 //! JSON: what is written is read back, and what is malformed is refused with its reason.
 
-use andoyer_series::{Error, NormalForm, TermProblem, Variable};
+use andoyer_series::error::TermProblem;
+use andoyer_series::rigid_body::Variable;
+use andoyer_series::{Error, NormalForm};
 
 #[test]
 fn what_is_written_is_read_back_to_the_last_digit() -> Result<(), Error> {

@@ -1,6 +1,7 @@
 //! LaTeX: the printed formulas, in canonical order, well formed.
 
-use andoyer_series::{Error, NormalForm, Part};
+use andoyer_series::print::Part;
+use andoyer_series::{Error, NormalForm};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;

@@ -1,19 +1,19 @@
 //! Packed monomials: products add exponents, and what does not fit is an error.
 
-use andoyer_series::{Error, MAXIMUM_EXPONENT, Monomial, Polynomial, SLOTS};
+use andoyer_series::{Error, MAX_EXPONENT, Monomial, Polynomial, SLOTS};
 use proptest::prelude::*;
 
 proptest! {
     #[test]
     fn a_product_adds_exponents_or_reports_the_slot_that_overflows(
-        a in prop::array::uniform8(0..=MAXIMUM_EXPONENT),
-        b in prop::array::uniform8(0..=MAXIMUM_EXPONENT),
+        a in prop::array::uniform8(0..=MAX_EXPONENT),
+        b in prop::array::uniform8(0..=MAX_EXPONENT),
     ) {
         let sums: Vec<u32> = a.iter().zip(&b).map(|(x, y)| x + y).collect();
         match Monomial::new(&a)?.checked_mul(Monomial::new(&b)?) {
             Ok(product) => prop_assert_eq!(product.exponents().to_vec(), sums),
             Err(Error::ExponentOverflow { slot, exponent, .. }) => {
-                prop_assert!(sums[slot] > MAXIMUM_EXPONENT);
+                prop_assert!(sums[slot] > MAX_EXPONENT);
                 prop_assert_eq!(exponent, u64::from(sums[slot]));
             }
             Err(other) => prop_assert!(false, "{}", other),
@@ -30,10 +30,10 @@ proptest! {
 #[test]
 fn the_largest_exponent_fits_every_slot_and_the_next_does_not() -> Result<(), Error> {
     for slot in 0..SLOTS {
-        let largest = Monomial::ONE.with(slot, MAXIMUM_EXPONENT)?;
-        assert_eq!((largest.exponent(slot), largest.total_degree()), (MAXIMUM_EXPONENT, MAXIMUM_EXPONENT));
+        let largest = Monomial::ONE.with(slot, MAX_EXPONENT)?;
+        assert_eq!((largest.exponent(slot), largest.total_degree()), (MAX_EXPONENT, MAX_EXPONENT));
         assert!(
-            matches!(Monomial::ONE.with(slot, MAXIMUM_EXPONENT + 1), Err(Error::ExponentOverflow { slot: s, .. }) if s == slot)
+            matches!(Monomial::ONE.with(slot, MAX_EXPONENT + 1), Err(Error::ExponentOverflow { slot: s, .. }) if s == slot)
         );
         let over = largest.checked_mul(Monomial::ONE.with(slot, 1)?);
         assert!(matches!(over, Err(Error::ExponentOverflow { slot: s, exponent: 32768, bound: 32767 }) if s == slot));

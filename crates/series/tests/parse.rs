@@ -2,7 +2,8 @@
 
 mod strategies;
 
-use andoyer_series::{Error, ParseProblem, Polynomial};
+use andoyer_series::error::ParseProblem;
+use andoyer_series::{Error, Polynomial};
 use num_complex::Complex;
 use num_rational::BigRational;
 use proptest::prelude::*;

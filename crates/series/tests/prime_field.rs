@@ -1,10 +1,10 @@
 //! A prime field as coefficients: what is needed for it from outside, and the exact normal form held against Deprit's triangle modulo
 //! 2⁶¹ − 1 at a number for β, to an order that the triangle in rationals does not reach in a test.
 
-use andoyer_series::{
-    BETA, Coefficient, Error, Monomial, NormalForm, Polynomial, W, W_BAR, deprit_triangle, hamiltonian, homological,
-    poisson, quiet,
-};
+use andoyer_series::lie::deprit_triangle;
+use andoyer_series::progress::quiet;
+use andoyer_series::rigid_body::{BETA, W, W_BAR, hamiltonian, homological, poisson};
+use andoyer_series::{Coefficient, Error, Monomial, NormalForm, Polynomial};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;

@@ -1,9 +1,10 @@
 //! Products against the schoolbook's: arrays and tables, one word and two, machine words and big integers, truncations, threads.
 
 use andoyer_double::DoubleDouble;
-use andoyer_series::{
-    BigRational, Coefficient, Complex, Error, MAXIMUM_EXPONENT, Monomial, Poisson, Polynomial, Truncation,
-};
+use andoyer_series::lie::Poisson;
+use andoyer_series::num_complex::Complex;
+use andoyer_series::num_rational::BigRational;
+use andoyer_series::{Coefficient, Error, MAX_EXPONENT, Monomial, Polynomial, Truncation};
 use num_bigint::BigInt;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -29,7 +30,7 @@ fn monomials(bound: u32) -> impl Strategy<Value = Vec<Monomial>> {
 
 /// Exponents that fill a box, that leave most codes unused, and that need codes of two words.
 fn any_monomials() -> impl Strategy<Value = Vec<Monomial>> {
-    prop_oneof![monomials(2), monomials(9), monomials(MAXIMUM_EXPONENT / 2)]
+    prop_oneof![monomials(2), monomials(9), monomials(MAX_EXPONENT / 2)]
 }
 
 /// A polynomial with integers of up to `bits` bits and denominators up to 12.
@@ -94,7 +95,7 @@ proptest! {
     #[test]
     fn floats_are_added_in_the_order_of_the_factor_with_fewer_terms(a in any_monomials(), b in any_monomials(), seed in any::<i64>()) {
         let (a, b) = (exact(a, 53, seed), exact(b, 53, !seed));
-        let float = |p: &Polynomial<BigRational>| p.map(|c| andoyer_series::RealField::to_float(c) * 1e-9);
+        let float = |p: &Polynomial<BigRational>| p.map(|c| andoyer_series::real_field::RealField::to_float(c) * 1e-9);
         let (a, b) = (float(&a), float(&b));
         let (few, many) = if a.len() <= b.len() { (&a, &b) } else { (&b, &a) };
         let expected = schoolbook(few, many)?;
@@ -214,7 +215,7 @@ fn an_overflow_is_named_although_the_term_would_be_dropped() -> Result<(), Error
     let large = Polynomial::from_terms([(Monomial::new(&[0, 20_000])?, 1.0), (Monomial::ONE, 1.0)]);
     let dropped = large.multiply_truncated(&large, &Truncation::total(3));
     assert!(matches!(dropped, Err(Error::ExponentOverflow { slot: 1, exponent: 40_000, .. })));
-    let high = Polynomial::from_terms([(Monomial::new(&[MAXIMUM_EXPONENT; 8])?, 2.0)]);
+    let high = Polynomial::from_terms([(Monomial::new(&[MAX_EXPONENT; 8])?, 2.0)]);
     assert_eq!(high.multiply(&Polynomial::constant(3.0))?, high.scale(&3.0));
     Ok(())
 }

@@ -1,8 +1,7 @@
 //! The normal form of the rigid body against the formulas of theory §4, parsed as printed.
 
-use andoyer_series::{
-    Coefficient, Error, MAXIMUM_ORDER, Monomial, NormalForm, Polynomial, PublicForm, Variable, separatrix_action,
-};
+use andoyer_series::rigid_body::{MAX_ORDER, PublicForm, Variable, separatrix_action};
+use andoyer_series::{Coefficient, Error, Monomial, NormalForm, Polynomial};
 use num_complex::Complex;
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -140,7 +139,7 @@ fn second_order_of_the_transformation_is_deprit_s_formula_in_u_and_v() -> Result
     // f_{0,2}/2! = ({{f; S_1}; S_1} + {f; S_2})/2 in the paper's own variables, over the Gaussian rationals; for y, {y;
     // S} = ∂S/∂M.
     let normal_form = NormalForm::new(2)?;
-    let poisson = andoyer_series::Poisson::new(&[(0, 1)])?;
+    let poisson = andoyer_series::lie::Poisson::new(&[(0, 1)])?;
     let [first, second] = [polynomial(&normal_form.generator(1)?)?, polynomial(&normal_form.generator(2)?)?];
     let order_2 = |once: &Polynomial<Gaussian>, by_second: &Polynomial<Gaussian>| {
         (&poisson.bracket(once, &first)? + by_second).over(2)
@@ -211,7 +210,7 @@ fn separatrix_action_is_the_table_of_the_theory() -> Result<(), Error> {
 
 #[test]
 fn an_order_beyond_the_memory_is_refused_with_its_size() {
-    for order in [595, MAXIMUM_ORDER] {
+    for order in [595, MAX_ORDER] {
         let refused = NormalForm::new(order).expect_err("too large");
         let Error::MemoryTooLarge { estimate_gib, bound_gib: 8.0, .. } = refused else { panic!("{refused}") };
         assert!(estimate_gib > 8.0 && refused.to_string().starts_with(&format!("order {order} would take some ")));
@@ -237,8 +236,8 @@ fn orders_out_of_range_are_refused_with_their_bounds() -> Result<(), Error> {
     let trivial = NormalForm::new(0)?;
     assert_eq!(trivial.triaxiality_polynomial(0)?.len(), 1);
     refused(trivial.generator(1).err(), 1, 0);
-    for order in [MAXIMUM_ORDER + 1, usize::MAX] {
-        assert!(matches!(NormalForm::new(order), Err(Error::OrderTooLarge { bound, .. }) if bound == MAXIMUM_ORDER));
+    for order in [MAX_ORDER + 1, usize::MAX] {
+        assert!(matches!(NormalForm::new(order), Err(Error::OrderTooLarge { bound, .. }) if bound == MAX_ORDER));
     }
     Ok(())
 }

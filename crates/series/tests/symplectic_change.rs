@@ -1,8 +1,9 @@
 //! The linear symplectic change that diagonalizes a quadratic part, over random matrices.
 
-use andoyer_series::{
-    BigRational, BirkhoffNormalForm, Coefficient, Error, Mode, Monomial, PhaseSpace, Polynomial, RealField, normalize,
-};
+use andoyer_series::birkhoff::Mode;
+use andoyer_series::num_rational::BigRational;
+use andoyer_series::real_field::RealField;
+use andoyer_series::{BirkhoffNormalForm, Coefficient, Error, Monomial, PhaseSpace, Polynomial, normalize};
 use proptest::prelude::*;
 
 const PAIRS: [(&str, &str); 4] = [("a", "A"), ("b", "B"), ("c", "C"), ("d", "D")];

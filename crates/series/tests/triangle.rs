@@ -1,10 +1,10 @@
 //! Deprit's triangle: the transformation is canonical, its inverse undoes it, and it turns the Hamiltonian into the
 //! normal form.
 
-use andoyer_series::{
-    Error, Homological, LieTransform, NormalForm, Normalization, Poisson, Polynomial, TAU, Truncation, Variable, W,
-    W_BAR, Y_HAT, deprit_triangle, quiet,
-};
+use andoyer_series::lie::{Homological, LieTransform, Normalization, Poisson, deprit_triangle};
+use andoyer_series::progress::quiet;
+use andoyer_series::rigid_body::{TAU, Variable, W, W_BAR, Y_HAT};
+use andoyer_series::{Error, NormalForm, Polynomial, Truncation};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 use std::ops::ControlFlow;
@@ -160,7 +160,7 @@ fn direct_after_inverse_is_the_identity_for_the_rigid_body() -> Result<(), Error
 
 #[test]
 fn the_rigid_body_s_transformation_is_canonical_y_included() -> Result<(), Error> {
-    let poisson = andoyer_series::poisson()?;
+    let poisson = andoyer_series::rigid_body::poisson()?;
     for [w_bar, w, y_hat] in [rigid_body(true)?, rigid_body(false)?] {
         let kept = |degree| Truncation::partial(&[TAU], degree as u32);
         assert_eq!(
@@ -181,15 +181,15 @@ fn floats_follow_the_exact_triangle() -> Result<(), Error> {
     // 1e-12.
     let exact = NormalForm::new(6)?;
     let float = deprit_triangle(
-        &andoyer_series::hamiltonian::<f64>()?,
-        &andoyer_series::homological()?,
-        &andoyer_series::poisson()?,
+        &andoyer_series::rigid_body::hamiltonian::<f64>()?,
+        &andoyer_series::rigid_body::homological()?,
+        &andoyer_series::rigid_body::poisson()?,
         6,
         &mut quiet,
     )?;
     for n in 0..=6 {
         for (power, coefficient) in exact.triaxiality_polynomial(n)? {
-            let part = float.hamiltonian[n].part(andoyer_series::BETA, *power)?;
+            let part = float.hamiltonian[n].part(andoyer_series::rigid_body::BETA, *power)?;
             let value = 2.0 * part.evaluate(&[1.0; 4])?;
             let expected = coefficient.to_f64().unwrap_or(f64::NAN);
             assert!((value - expected).abs() < 1e-12, "P_{n}, β^{power}: {value} against {coefficient}");

@@ -7,7 +7,8 @@
 
 use std::io::{self, Write};
 
-use andoyer_propagate::{Averaging, Body, Error, Level, Motion, Orbit, Scene, State};
+use andoyer_propagate::options::{Averaging, Level};
+use andoyer_propagate::{Body, Error, Motion, Orbit, Scene, State};
 use andoyer_tests::climb::{FAMILIES, Summit, Uniform, climb};
 use andoyer_tests::disturbed::Disturbed;
 use andoyer_tests::integration::Problem;

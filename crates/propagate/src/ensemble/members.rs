@@ -67,7 +67,8 @@ impl Ensemble {
     ///
     /// ```
     /// use std::sync::atomic::AtomicBool;
-    /// use andoyer_propagate::{Ensemble, OnError};
+    /// use andoyer_propagate::Ensemble;
+    /// use andoyer_propagate::ensemble::OnError;
     /// let moments = vec![[1.0, 1.5, 2.0], [1.0, 1.0, 2.5]]; // the second is no body
     /// let (level, rates) = (vec![[0.0, 0.0, 0.0, 1.0]; 2], vec![[0.1, 0.2, 1.0]; 2]);
     /// let ensemble = Ensemble::new_or(moments, level, rates, OnError::Nan, &AtomicBool::new(false))?;

@@ -9,6 +9,7 @@ mod on_error;
 mod pool;
 mod run;
 
+pub use crate::outcome::Outcome;
 pub use members::Ensemble;
 pub use on_error::OnError;
 pub use pool::MAX_THREADS;

@@ -157,7 +157,8 @@ impl<'a> Run<'a> {
     /// Derivatives of attitudes and angular velocities as of [`Motion::partials_into`], ordered as by [`Ensemble::attitudes_into`].
     ///
     /// ```
-    /// use andoyer_propagate::{Ensemble, PARAMETERS};
+    /// use andoyer_propagate::Ensemble;
+    /// use andoyer_propagate::partials::PARAMETERS;
     /// let rates = vec![[0.0, 0.0, 2.0], [0.0, 0.0, 3.0]];
     /// let ensemble = Ensemble::new(vec![[1.0, 1.5, 2.0]; 2], vec![[0.0, 0.0, 0.0, 1.0]; 2], rates)?;
     /// let (mut attitudes, mut rates) = ([[[0.0; PARAMETERS]; 3]; 2], [[[0.0; PARAMETERS]; 3]; 2]);

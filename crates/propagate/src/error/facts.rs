@@ -1,4 +1,4 @@
-//! The facts of an error as data: its kind, the argument, the value given and the bound that it breaks.
+//! The facts of an error as data: its kind, the argument, the given value and the bound that it breaks.
 
 use super::Error;
 pub use andoyer_series::error::{Kind, Value};
@@ -13,12 +13,12 @@ fn facts<'a>(argument: &'a str, value: impl Into<Value>, bound: impl Into<Value>
 }
 
 impl Error {
-    /// What a caller can do about it. Of a member of an ensemble it is that of its problem.
+    /// What a caller can do about this error. For a member of an ensemble it is that of the member's error.
     #[must_use]
     pub fn kind(&self) -> Kind {
         match self {
             Self::SceneFile { .. } => Kind::File,
-            Self::Units { .. } | Self::Order { .. } => Kind::Representation,
+            Self::Units { .. } | Self::Order { .. } | Self::NoCode { .. } => Kind::Representation,
             Self::Time { value, .. } if value.is_finite() => Kind::Representation,
             Self::NearSeparatrix { .. }
             | Self::Separatrix
@@ -26,6 +26,9 @@ impl Error {
             | Self::Resonance { .. }
             | Self::TorqueTooStrong { .. }
             | Self::TooManyOrbits { .. }
+            | Self::OnlyIntegrated { .. }
+            | Self::TooManySteps { .. }
+            | Self::Unpredictable { .. }
             | Self::Unaveraged { .. } => Kind::Theory,
             Self::Stopped => Kind::Internal,
             Self::Series(error) => error.kind(),
@@ -42,6 +45,7 @@ impl Error {
             | Self::Tolerance { .. }
             | Self::Span { .. }
             | Self::Method { .. }
+            | Self::CodeLanguage { .. }
             | Self::Time { .. }
             | Self::Length { .. }
             | Self::Convention { .. }
@@ -51,6 +55,9 @@ impl Error {
             | Self::Direction { .. }
             | Self::Andoyer { .. }
             | Self::Orbit { .. }
+            | Self::Table { .. }
+            | Self::TableSpan { .. }
+            | Self::NoSpan { .. }
             | Self::Level { .. }
             | Self::Averaging { .. }
             | Self::OnError { .. }
@@ -60,19 +67,19 @@ impl Error {
         }
     }
 
-    /// The argument that is wrong, without an index; of a file the key, with its table.
+    /// The argument that is wrong, without an index. For a file it is the key with its table.
     #[must_use]
     pub fn argument(&self) -> Option<&str> {
         self.facts().0
     }
 
-    /// The value that was given, or the number computed from it that breaks the bound.
+    /// The given value, or the number computed from it that breaks the bound.
     #[must_use]
     pub fn value(&self) -> Option<Value> {
         self.facts().1
     }
 
-    /// What the value must be: a number, an interval or words.
+    /// The requirement on the value: a number, an interval or words.
     #[must_use]
     pub fn bound(&self) -> Option<Value> {
         self.facts().2
@@ -128,6 +135,7 @@ impl Error {
             }
             Self::Andoyer { value, bound, .. } => facts("andoyer", *value, *bound),
             Self::Orbit { argument, value, bound } => facts(argument, *value, *bound),
+            Self::Table { argument, value, bound, .. } => facts(argument, *value, *bound),
             _ => return None,
         })
     }
@@ -137,7 +145,8 @@ impl Error {
             Self::Tolerance { value } => facts("tolerance", *value, POSITIVE),
             Self::Span { start, stop } => facts("span", [*start, *stop], "finite with start <= stop"),
             Self::Order { value, bound } => facts("order", *value, *bound),
-            Self::Method { value } => facts("method", value, "auto, series, closed"),
+            Self::Method { value } => facts("method", value, "auto, series, closed, integrated"),
+            Self::CodeLanguage { value } => facts("language", value, "c, rust, python, javascript"),
             Self::Convention { value } => facts("convention", value, "extremal-axis, long-axis, short-axis"),
             Self::ModeName { value } => facts("mode", value, "short-axis, long-axis"),
             Self::Level { value } => facts("level", value, "paper, moving, full"),
@@ -155,11 +164,17 @@ impl Error {
             Self::Time { value, bound, .. } => facts("times", *value, *bound),
             Self::NearSeparatrix { tolerance, attainable, .. } => facts("tolerance", *tolerance, *attainable),
             Self::Separatrix => facts("method", "series", "closed"),
+            Self::NoCode { motion } => facts("motion", *motion, "rest, steady rotation or a torque-free wobble"),
             Self::SeparatrixPartials => facts("angular_velocity", 1.0, "sigma/sigma_sep other than 1"),
             Self::Resonance { divisor, bound, .. } => facts("orbit", *divisor, *bound),
             Self::TorqueTooStrong { size, bound } => facts("orbit", *size, *bound),
             Self::TooManyOrbits { orbits, bound } => facts("span", *orbits, *bound),
             Self::Unaveraged { ratio, bound, .. } => facts("orbit", *ratio, *bound),
+            Self::TableSpan { start, stop, first, last } => facts("span", [*start, *stop], [*first, *last]),
+            Self::NoSpan { .. } => facts("span", "none", "start <= stop"),
+            Self::OnlyIntegrated { method, .. } => facts("method", method, "integrated"),
+            Self::TooManySteps { steps, bound } => facts("span", *steps, *bound as f64),
+            Self::Unpredictable { tolerance, start, stop } => facts("tolerance", *tolerance, [*start, *stop]),
             _ => (None, None, None),
         }
     }

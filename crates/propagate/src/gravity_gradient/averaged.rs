@@ -1,14 +1,16 @@
-//! The averaged motion of the angular momentum under the gravity gradient (theory §9), with an invariable frame that does not turn about it.
+//! The averaged motion of the angular momentum under the gravity gradient (theory §9). The invariable frame moves with the angular momentum and does not turn
+//! about it.
 //!
-//! With k the unit angular momentum, Δ(σ) = (3 T33 − A − B − C)/2 averaged over ℓ′ and y′, and κ = 3n Δ/(M η³) times the mass fraction,
+//! Let k be the unit angular momentum, Δ(σ) = (3 T33 − A − B − C)/2 averaged over ℓ′ and y′, and κ = 3n Δ/(M η³) times the mass fraction. Then
 //!
 //! ```text
 //! dk/df = κ (1 + e cos f) (k·r̂) (r̂ × k)          dJ/df = n η^(−3) (1 + e cos f) (1 − 3 (k·r̂)²)
 //! ```
 //!
-//! where J is what Δ is multiplied by in the phases. `Slow::Spin` solves this on quarters of an orbit by Picard's iteration on Chebyshev points: the right-hand side is
-//! a trigonometric polynomial of f and κ is small, so that a few iterations converge to rounding and the result is its own dense output. Quarters are solved when a time
-//! first needs them and kept. `Slow::Orbit` is the orbit average, first order in κ: steady precession about the orbit's normal, with the periodic part in closed form in f, no expansion in e.
+//! where J is the factor of Δ in the phases. `Slow::Spin` solves these equations on quarters of an orbit by Picard's iteration on Chebyshev points. The
+//! right-hand side is a trigonometric polynomial of f and κ is small, so a few iterations converge to rounding error. The result is a polynomial that can be
+//! evaluated at any time of the quarter. A quarter is solved when a time first needs it, and is kept. `Slow::Orbit` is the orbit average to first order in κ:
+//! steady precession about the orbit's normal, with the periodic part in closed form in f, without an expansion in e.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use std::sync::{Arc, RwLock};
@@ -16,6 +18,7 @@ use std::sync::{Arc, RwLock};
 use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 
+use super::second_order::hamiltonian::{Disturber, Hamiltonian};
 use crate::input::orbit::Orbit;
 use crate::numerics::phase::Phase;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
@@ -23,20 +26,22 @@ use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::{Lanes, WIDEST};
 
-/// Chebyshev points of a quarter: what a degree of 17 leaves of cos 3f is 1e-15 of κ.
+/// Chebyshev points in a quarter. With degree 17 the interpolation error of cos 3f is 1e-15 of κ.
 const POINTS: usize = 18;
-/// Picard's iterations: each multiplies the error by κ, which [`super::disturbed::STRONGEST`] bounds, so that a dozen do.
+/// Largest number of Picard iterations. Each one multiplies the error by κ, which [`super::disturbed::STRONGEST`] bounds, so a dozen are enough.
 const MOST_ITERATIONS: usize = 40;
-/// Quarters that are kept on each side of the epoch; 0.7 kB each.
+/// Number of quarters that are kept on each side of the epoch, 0.7 kB each.
 pub(crate) const MOST_QUARTERS: usize = 1 << 18;
 
-/// Coefficients that change nothing.
+/// Smaller coefficients are dropped.
 const NEGLIGIBLE: f64 = 1e-17;
 
-/// Frame (quaternion x, y, z, w) and J.
-type Column = [f64; 5];
+/// Frame (quaternion x, y, z, w), and what the drifts of ℓ′ and y′ are multiples of: J twice, or the drifts themselves.
+type Column = [f64; COLUMNS];
+/// Components of a column.
+const COLUMNS: usize = 6;
 
-/// An orbit as the averaged motion sees it.
+/// The orbit and the strength of its torque, in the units of the averaged motion.
 #[derive(Clone, Debug)]
 pub(crate) struct AveragedOrbit {
     pub(crate) eccentricity: f64,
@@ -46,9 +51,11 @@ pub(crate) struct AveragedOrbit {
     axes: [Vector3<f64>; 3],
     /// κ.
     strength: f64,
+    /// ⟨D⟩ + K2, if the averaged equations are those of second order.
+    second: Option<Box<Hamiltonian>>,
 }
 
-/// Where the disturbing body is at some times: whole turns since the epoch's pericentre, and its place.
+/// The position of the disturbing body at some times: whole turns since the pericentre before the epoch, and its place on the ellipse.
 #[derive(Clone, Copy)]
 pub(crate) struct When<S: InstructionSet> {
     pub(crate) turns: Lanes<S>,
@@ -58,7 +65,7 @@ pub(crate) struct When<S: InstructionSet> {
 /// Time since the epoch, with its rounding error.
 pub(super) type Elapsed<S> = (Lanes<S>, Lanes<S>);
 
-/// Where the disturbing body is at times after the epoch.
+/// The position of the disturbing body at times after the epoch.
 #[inline(always)]
 pub(super) fn when<S: InstructionSet>(mean_anomaly: &Phase, elapsed: Elapsed<S>, eccentricity: f64) -> When<S> {
     let (turns, angle) = mean_anomaly.turns_and_angle(elapsed);
@@ -68,35 +75,43 @@ pub(super) fn when<S: InstructionSet>(mean_anomaly: &Phase, elapsed: Elapsed<S>,
 /// The averaged motion.
 #[derive(Clone, Debug)]
 pub(crate) enum Slow {
-    /// Averaged over the rotation alone.
+    /// Averaged over the rotation only.
     Spin(Box<Spin>),
-    /// Averaged over the orbit too.
+    /// Averaged over the rotation and the orbit.
     Orbit(Box<Precession>),
 }
 
 impl Slow {
-    /// The frame and J at times after the epoch.
+    /// The frame, and what the drifts of ℓ′ and y′ are multiples of, at times after the epoch.
     #[inline(always)]
     pub(crate) fn at<S: InstructionSet>(
         &self,
         when: &When<S>,
         elapsed: (Lanes<S>, Lanes<S>),
-    ) -> (QuaternionLanes<S>, Lanes<S>) {
+    ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         match self {
             Self::Spin(spin) => spin.at(when),
-            Self::Orbit(precession) => precession.at(&when.place, elapsed),
+            Self::Orbit(precession) => {
+                let (frame, phase) = precession.at(&when.place, elapsed);
+                (frame, [phase; 2])
+            }
         }
     }
 }
 
 impl AveragedOrbit {
-    /// `delta` is Δ times the mass fraction over M.
+    /// The averaged orbit; `delta` is Δ times the mass fraction over M.
     pub(crate) fn new(orbit: &Orbit, mean_motion: f64, delta: f64) -> Self {
         let eccentricity = orbit.eccentricity();
         let eta = (1.0 - eccentricity * eccentricity).sqrt();
         let eta_cubed = eta * eta * eta;
         let strength = 3.0 * mean_motion * delta / eta_cubed;
-        Self { eccentricity, eta_cubed, mean_motion, axes: orbit.axes(), strength }
+        Self { eccentricity, eta_cubed, mean_motion, axes: orbit.axes(), strength, second: None }
+    }
+
+    /// With the averaged equations of second order.
+    pub(crate) fn with_second(self, hamiltonian: Hamiltonian) -> Self {
+        Self { second: Some(Box::new(hamiltonian)), ..self }
     }
 
     /// κ.
@@ -116,7 +131,7 @@ impl AveragedOrbit {
 
     /// dJ/dt averaged over the orbit, for an angular momentum along an axis.
     pub(crate) fn secular(&self, axis: &Vector3<f64>) -> f64 {
-        // 1 − (3/2) sin² I without cancellation at I = 0.
+        // 1 − (3/2) sin² I is computed without cancellation at I = 0.
         let sine_square = axis.cross(&self.axes[2]).norm_squared();
         self.mean_motion * self.mean_motion * (1.0 - 1.5 * sine_square) / self.eta_cubed
     }
@@ -126,26 +141,46 @@ impl AveragedOrbit {
         let weight = 1.0 + self.eccentricity * cosine;
         let axis = (frame * Quaternion::new(0.0, 0.0, 0.0, 1.0) * frame.conjugate()).imag();
         let along = axis.dot(&direction);
-        // k × dk: it turns k and not about k.
+        if let Some(hamiltonian) = &self.second {
+            return self.second_slope(hamiltonian, (frame, &axis), &direction, weight);
+        }
+        // k × dk turns k, without a component about k.
         let turning = (direction - axis * along) * (self.strength * weight * along);
         let change = Quaternion::from_parts(0.0, turning * 0.5) * frame;
         let phase = self.mean_motion / self.eta_cubed * weight * (1.0 - 3.0 * along * along);
-        [change.i, change.j, change.k, change.w, phase]
+        [change.i, change.j, change.k, change.w, phase, phase]
+    }
+
+    /// The same to second order in the torque; `weight` is 1 + e cos f.
+    fn second_slope(
+        &self,
+        hamiltonian: &Hamiltonian,
+        (frame, axis): (&Quaternion<f64>, &Vector3<f64>),
+        direction: &Vector3<f64>,
+        weight: f64,
+    ) -> Column {
+        let rate = self.mean_motion * weight * weight / self.eta_cubed;
+        let cube = weight * weight * weight / (self.eta_cubed * self.eta_cubed);
+        let disturber = Disturber { direction: *direction, normal: self.axes[2], cube, rate };
+        let slopes = hamiltonian.slopes(axis, &disturber);
+        let change = Quaternion::from_parts(0.0, slopes.turning * (0.5 / rate)) * frame;
+        let [anomaly, longitude] = slopes.phases.map(|slope| slope / rate);
+        [change.i, change.j, change.k, change.w, anomaly, longitude]
     }
 }
 
-/// The averaged motion by quarters of the orbit.
+/// The averaged motion, solved for each quarter of the orbit.
 #[derive(Clone, Debug)]
 pub(crate) struct Spin {
     ellipse: AveragedOrbit,
-    /// The quarter of the epoch, counted from the pericentre before it.
+    /// The quarter that contains the epoch, counted from the pericentre before the epoch.
     first: i64,
     epoch: Quarter,
-    /// The quarters after it and before it.
+    /// The solved quarters after the epoch's quarter, and before it.
     kept: Arc<[RwLock<Vec<Quarter>>; 2]>,
 }
 
-/// Chebyshev coefficients over a quarter.
+/// Chebyshev coefficients in one quarter.
 #[derive(Clone, Copy, Debug)]
 struct Quarter {
     coefficients: [Column; POINTS],
@@ -153,53 +188,53 @@ struct Quarter {
 }
 
 impl Spin {
-    /// From the frame at a place of the orbit, where J is 0.
+    /// From the frame at a place of the orbit, where J and the drifts are 0.
     pub(crate) fn new(ellipse: AveragedOrbit, frame: UnitQuaternion<f64>, when: &When<pulp::Scalar>) -> Self {
         let (first, inside) = quarter(when.turns.values()[0], when.place.angle.values()[0]);
-        let start: Column = [frame.i, frame.j, frame.k, frame.w, 0.0];
+        let start: Column = [frame.i, frame.j, frame.k, frame.w, 0.0, 0.0];
         let epoch = Quarter::solved(&ellipse, first, inside, &start);
         Self { ellipse, first, epoch, kept: Arc::default() }
     }
 
-    /// Neighbours in one quarter are computed together.
+    /// Consecutive times in the same quarter are evaluated together.
     #[inline(always)]
-    fn at<S: InstructionSet>(&self, when: &When<S>) -> (QuaternionLanes<S>, Lanes<S>) {
+    fn at<S: InstructionSet>(&self, when: &When<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         let (turns, angles) = (when.turns.values(), when.place.angle.values());
         let (mut quarters, mut insides) = ([0_i64; WIDEST], [0.0; WIDEST]);
         for (lane, (turns, angle)) in turns.iter().zip(angles).enumerate() {
             (quarters[lane], insides[lane]) = quarter(*turns, *angle);
         }
         let inside = when.turns.like(&insides);
-        let mut rows = [[0.0; WIDEST]; 5];
+        let mut rows = [[0.0; WIDEST]; COLUMNS];
         let mut lane = 0;
         while lane < turns.len() {
             let next = lane + quarters[lane..turns.len()].iter().take_while(|other| **other == quarters[lane]).count();
             let columns = self.quarter(quarters[lane] - self.first).sums(inside);
             if next - lane == turns.len() {
-                let [x, y, z, w, phase] = columns;
-                return (QuaternionLanes([x, y, z, w]), phase);
+                let [x, y, z, w, anomaly, longitude] = columns;
+                return (QuaternionLanes([x, y, z, w]), [anomaly, longitude]);
             }
             for (row, column) in rows.iter_mut().zip(&columns) {
                 row[lane..next].copy_from_slice(&column.values()[lane..next]);
             }
             lane = next;
         }
-        let mut columns = [inside; 5];
+        let mut columns = [inside; COLUMNS];
         for (column, row) in columns.iter_mut().zip(&rows) {
             *column = inside.like(row);
         }
-        let [x, y, z, w, phase] = columns;
-        (QuaternionLanes([x, y, z, w]), phase)
+        let [x, y, z, w, anomaly, longitude] = columns;
+        (QuaternionLanes([x, y, z, w]), [anomaly, longitude])
     }
 
-    /// The quarter so many after the epoch's: solved, with all between, if it was not needed yet.
+    /// The quarter at a distance from the epoch's quarter. If it is not known yet, it is solved together with all quarters between.
     fn quarter(&self, distance: i64) -> Quarter {
         let (side, index) = match distance {
             0 => return self.epoch,
             later if later > 0 => (0, later as usize - 1),
             earlier => (1, earlier.unsigned_abs() as usize - 1),
         };
-        // A thread that panicked while it held the lock left whole quarters behind.
+        // If a thread panicked while it held the lock, the quarters are still complete.
         let known = self.kept[side].read().unwrap_or_else(|poisoned| poisoned.into_inner()).get(index).copied();
         known.unwrap_or_else(|| self.solved(side, index))
     }
@@ -216,32 +251,32 @@ impl Spin {
     }
 }
 
-/// The quarter, counted from the epoch's pericentre, and the place in it from −1 to 1.
+/// The quarter, counted from the pericentre before the epoch, and the place in it from −1 to 1.
 #[inline(always)]
 fn quarter(turns: f64, angle: f64) -> (i64, f64) {
     let quarters = angle / FRAC_PI_2;
     let part = quarters.floor().clamp(-2.0, 1.0);
     let inside = (2.0 * (quarters - part) - 1.0).clamp(-1.0, 1.0);
-    // Within MOST_QUARTERS, by the motion's bound.
+    // The bound of the motion keeps the number within MOST_QUARTERS.
     (4 * turns as i64 + part as i64, inside)
 }
 
 impl Quarter {
-    /// The solution through `start` at a place of the quarter.
+    /// The solution that passes through `start` at a place of the quarter.
     fn solved(ellipse: &AveragedOrbit, number: i64, place: f64, start: &Column) -> Self {
         let middle = (number.rem_euclid(4) as f64 + 0.5) * FRAC_PI_2;
         let nodes: [f64; POINTS] = std::array::from_fn(|i| (PI * (i as f64 + 0.5) / POINTS as f64).cos());
         let circles = nodes.map(|x| (middle + FRAC_PI_4 * x).sin_cos());
         let mut values = [*start; POINTS];
-        let mut quarter = Self { coefficients: [[0.0; 5]; POINTS], terms: POINTS };
+        let mut quarter = Self { coefficients: [[0.0; COLUMNS]; POINTS], terms: POINTS };
         for _ in 0..MOST_ITERATIONS {
             let slopes: [Column; POINTS] = std::array::from_fn(|i| {
-                let [x, y, z, w, _] = values[i];
+                let [x, y, z, w, ..] = values[i];
                 ellipse.slope(&Quaternion::new(w, x, y, z), circles[i].0, circles[i].1)
             });
             quarter = Self::integral(&slopes);
             let offset = quarter.at(place);
-            for c in 0..5 {
+            for c in 0..COLUMNS {
                 quarter.coefficients[0][c] += start[c] - offset[c];
             }
             let mut change = 0.0_f64;
@@ -257,40 +292,40 @@ impl Quarter {
         quarter.trimmed()
     }
 
-    /// The primitive of what has these values at the points, up to a constant.
+    /// The primitive, up to a constant, of a function with the given values at the points.
     fn integral(slopes: &[Column; POINTS]) -> Self {
         let count = POINTS as f64;
-        let mut series = [[0.0; 5]; POINTS + 1];
+        let mut series = [[0.0; COLUMNS]; POINTS + 1];
         for (k, sum) in series.iter_mut().enumerate().take(POINTS) {
             let scale = if k == 0 { 1.0 } else { 2.0 } / count * FRAC_PI_4;
             for (i, slope) in slopes.iter().enumerate() {
                 let weight = scale * (PI * k as f64 * (i as f64 + 0.5) / count).cos();
-                for c in 0..5 {
+                for c in 0..COLUMNS {
                     sum[c] += weight * slope[c];
                 }
             }
         }
-        let mut coefficients = [[0.0; 5]; POINTS];
+        let mut coefficients = [[0.0; COLUMNS]; POINTS];
         for k in 1..POINTS {
             let lower = if k == 1 { 2.0 } else { 1.0 };
-            for c in 0..5 {
+            for c in 0..COLUMNS {
                 coefficients[k][c] = (lower * series[k - 1][c] - series[k + 1][c]) / (2.0 * k as f64);
             }
         }
         Self { coefficients, terms: POINTS }
     }
 
-    /// Clenshaw's sums.
+    /// The sums of the Chebyshev series, by Clenshaw's rule.
     #[inline(always)]
-    fn sums<S: InstructionSet>(&self, x: Lanes<S>) -> [Lanes<S>; 5] {
+    fn sums<S: InstructionSet>(&self, x: Lanes<S>) -> [Lanes<S>; COLUMNS] {
         let twice = x + x;
-        let (mut next, mut after) = ([x.all(0.0); 5], [x.all(0.0); 5]);
+        let (mut next, mut after) = ([x.all(0.0); COLUMNS], [x.all(0.0); COLUMNS]);
         for coefficient in self.coefficients[1..self.terms].iter().rev() {
-            for c in 0..5 {
+            for c in 0..COLUMNS {
                 (next[c], after[c]) = (twice.mul_add(next[c], x.all(coefficient[c]) - after[c]), next[c]);
             }
         }
-        for c in 0..5 {
+        for c in 0..COLUMNS {
             next[c] = x.mul_add(next[c], x.all(self.coefficients[0][c]) - after[c]);
         }
         next
@@ -300,7 +335,7 @@ impl Quarter {
         self.sums(Lanes::splat(pulp::Scalar, x)).map(|lanes| lanes.values()[0])
     }
 
-    /// Without the last terms that are nothing.
+    /// Drops the last terms if they are negligible.
     fn trimmed(mut self) -> Self {
         let something = |column: &Column| column.iter().any(|c| c.abs() > NEGLIGIBLE);
         self.terms = self.coefficients.iter().rposition(something).map_or(1, |last| last + 1);
@@ -308,23 +343,23 @@ impl Quarter {
     }
 }
 
-/// Steady precession and the periodic part of one orbit.
+/// Steady precession with the periodic part of one orbit.
 #[derive(Clone, Debug)]
 pub(crate) struct Precession {
     ellipse: AveragedOrbit,
     /// The mean frame at the epoch.
     frame: UnitQuaternion<f64>,
-    /// Half the angle about the orbit's normal, and half that about the angular momentum which keeps the frame from turning about it.
+    /// Half the angle about the orbit's normal. `half_back` is half the angle about the angular momentum that keeps the frame from turning about it.
     half: Phase,
     half_back: Phase,
-    /// dJ/dt of the average.
+    /// The orbit average of dJ/dt.
     secular: f64,
     /// J of the periodic part at the epoch.
     phase: f64,
 }
 
 impl Precession {
-    /// From the frame at a place of the orbit, where J is 0; `unit` is the user's unit of time in the motion's.
+    /// The motion from the frame at one place of the orbit, where J is 0. `unit` is the user's unit of time in units of the motion.
     pub(crate) fn new(
         ellipse: AveragedOrbit,
         frame: UnitQuaternion<f64>,
@@ -334,7 +369,7 @@ impl Precession {
         let still = Phase::new(DoubleDouble::ZERO, 0.0);
         let mut precession = Self { ellipse, frame, half: still, half_back: still, secular: 0.0, phase: 0.0 };
         let one = Lanes::splat(pulp::Scalar, 1.0);
-        // The mean axis to first order, then once more with the periodic part at itself.
+        // The mean axis to first order, then again with the periodic part evaluated at the mean axis.
         let mut phase = one;
         for _ in 0..3 {
             let (rotation, next) = precession.periodic(QuaternionLanes::all(one, &precession.frame), place);
@@ -364,10 +399,10 @@ impl Precession {
         (frame.normalized(), elapsed.0.mul_add(x.all(self.secular), phase - x.all(self.phase)))
     }
 
-    /// What the orbit average leaves out: a rotation (inertial) and J, by the integrals of theory §9.
+    /// The periodic part of one orbit: a rotation in inertial components, and J, by the integrals of theory §9.
     #[inline(always)]
     fn periodic<S: InstructionSet>(&self, frame: QuaternionLanes<S>, place: &Place<S>) -> ([Lanes<S>; 3], Lanes<S>) {
-        let AveragedOrbit { eccentricity, eta_cubed, mean_motion, axes, strength } = &self.ellipse;
+        let AveragedOrbit { eccentricity, eta_cubed, mean_motion, axes, strength, .. } = &self.ellipse;
         let Place { centre, sine, cosine, .. } = *place;
         let all = |value: f64| sine.all(value);
         let double = ComplexLanes { re: cosine, im: sine } * ComplexLanes { re: cosine, im: sine };

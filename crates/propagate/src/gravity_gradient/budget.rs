@@ -1,7 +1,8 @@
-//! What is left of the attitude: the parts of the error bound.
+//! The parts of the error bound of a motion under a gravity gradient.
 //!
-//! The largest first-order change ε is sampled over ℓ′, y′, the place of the disturbing body within the span, and the precession. Second order leaves ε times the derivatives of the
-//! change, which are of the size of all terms together, and lets the phases drift by what it does to σ and M. To that come the terms that are dropped, what the sums for G leave, what the level leaves out, the average over the orbit, and rounding.
+//! The largest first-order change ε is sampled over ℓ′, y′, the position of the disturbing body within the span, and the precession. The second-order error is
+//! ε times the derivatives of the change, which have the size of the sum of all terms. It also lets the phases drift, because it changes σ and M. Further parts
+//! are the dropped terms, the truncation of the sums for G, the terms that the level omits, the average over the orbit, and rounding.
 
 use std::f64::consts::{PI, TAU};
 
@@ -18,39 +19,40 @@ use crate::input::options::Averaging;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
-/// Samples of the first-order change.
+/// Number of samples of the first-order change.
 const SAMPLES: usize = 48;
-/// What the largest change may be beyond the largest sample, squared, and the factor of second order: with it the worst of the climbs (docs/gravity-gradient.md) is below its bound.
+/// Safety factor of the second-order error. The largest change may exceed the largest sample, and enters squared; second order has a factor too. With this
+/// margin the worst case found by hill climbing (docs/gravity-gradient.md) is below its bound.
 const MARGIN: f64 = 2.0;
-/// Size of the derivatives of the change over the sum of the largest sizes of all terms.
+/// The derivatives of the change, as a fraction of the sum of the largest sizes of all terms.
 const SLOPE_SHARE: f64 = 0.25;
-/// Orbits on each side of the epoch that quarters are kept for.
+/// Number of orbits on each side of the epoch for which quarters are kept.
 pub(super) const MOST_ORBITS: f64 = (MOST_QUARTERS / 4 - 2) as f64;
 
-/// What is left of the attitude \[rad\].
+/// The parts of the attitude error \[rad\].
 pub(super) struct Budget {
-    /// By the average over the rotation.
+    /// Error from the average over the rotation.
     spin: f64,
-    /// By the average over the orbit.
+    /// Error from the average over the orbit.
     orbit: f64,
-    /// By dropped terms.
+    /// Error from dropped terms.
     dropped: f64,
-    /// By the level.
+    /// Error from the terms that the level omits.
     omitted: f64,
-    /// By σ as a double in the phases.
+    /// Error from the rounding of σ to a double in the phases.
     rounding: f64,
-    /// Orbits from the epoch.
+    /// Number of orbits from the epoch to the end of the span.
     orbits: f64,
 }
 
-/// One mean motion, about which the budget is made.
+/// One mean motion, and the tables from which its error is estimated.
 pub(super) struct Subject<'a> {
     pub(super) mean: &'a Mean,
     pub(super) inertia: &'a Inertia,
     pub(super) corrections: &'a Corrections,
     pub(super) response: &'a Response,
     pub(super) ellipse: &'a AveragedOrbit,
-    /// Mean anomaly at the epoch.
+    /// Mean anomaly of the orbit at the epoch.
     pub(super) anomaly: f64,
     /// d⟨T33⟩/dσ times −3/4 of the mass fraction over M.
     pub(super) drift: f64,
@@ -61,11 +63,11 @@ impl Budget {
         let Subject { inertia, corrections, response, ellipse, .. } = *subject;
         let orbital = mean_motion * duration;
         let [size, p] = subject.largest_change(orbital);
-        // Where the angular momentum is along the line to the disturbing body, or across it, the change vanishes and its derivatives do not.
+        // If the angular momentum is along the line to the disturbing body, or perpendicular to it, the change vanishes but its derivatives do not.
         let slope = size.max(SLOPE_SHARE * corrections.size);
         let [anomaly, longitude] = inertia.rate_slopes;
         let strength = ellipse.strength().abs();
-        // Of the phases as κ is of the axis: Δ(σ) may vanish where its slope does not.
+        // The strength of the effect on the phases, like κ for the axis. Δ(σ) may be 0 where its slope is not.
         let by_phase = subject.phase() * mean_motion / ellipse.eta_cubed();
         Self {
             spin: MARGIN * response.second_order([size, slope], p, duration),
@@ -77,7 +79,7 @@ impl Budget {
         }
     }
 
-    /// Whether the equations are averaged over the orbit too.
+    /// Whether the equations are averaged over the orbit as well.
     pub(super) fn by_orbit(&self, request: &Request<'_>) -> Result<bool, Error> {
         let too_far = request.spanned && self.orbits > MOST_ORBITS;
         match request.averaging {
@@ -95,12 +97,12 @@ impl Budget {
 }
 
 impl Subject<'_> {
-    /// Turn of the attitude by a J of 1.
+    /// The turn of the attitude by J = 1.
     fn phase(&self) -> f64 {
         self.drift.abs() * (self.response.visible + self.inertia.sigma)
     }
 
-    /// What the averages lack where a level has them at J = 0, in one radian of the orbit.
+    /// The error of the averages in one radian of the orbit, if the level takes them at J = 0.
     fn omitted(&self, mean_motion: f64) -> f64 {
         let [axial, slope] = self.corrections.axial_omitted;
         let scale = mean_motion / self.ellipse.eta_cubed();
@@ -108,7 +110,7 @@ impl Subject<'_> {
         scale * (4.5 * axial + 2.0 * phase)
     }
 
-    /// The largest first-order change of the attitude, and of p.
+    /// The largest first-order change of the attitude, and the largest change of p.
     fn largest_change(&self, orbital: f64) -> [f64; 2] {
         let precession = (0.5 * self.ellipse.strength().abs() * orbital).min(PI);
         let (mut largest, mut largest_p) = (0.0_f64, 0.0_f64);
@@ -133,7 +135,7 @@ impl Subject<'_> {
         [largest, largest_p]
     }
 
-    /// A mean anomaly within the span: of two samples one is uniform in the mean anomaly, one in the true anomaly.
+    /// A mean anomaly within the span. Of two samples, one is uniform in the mean anomaly and one in the true anomaly.
     fn place(&self, k: usize, part: f64, orbital: f64) -> f64 {
         let wrapped = |angle: f64| angle - TAU * (angle / TAU).round();
         let reach = orbital.min(PI);
@@ -149,7 +151,7 @@ impl Subject<'_> {
     }
 }
 
-/// A point of the sequence that fills the unit cube of four dimensions evenly: multiples of the powers of the root of x⁵ = x + 1.
+/// A point of a sequence that fills the unit cube of four dimensions evenly: multiples of the powers of the root of x⁵ = x + 1.
 fn kronecker(k: usize) -> [f64; 4] {
     const ROOT: f64 = 1.167_303_978_261_418_7;
     std::array::from_fn(|i| ((k as f64 + 0.5) / ROOT.powi(i as i32 + 1)).fract())

@@ -1,18 +1,19 @@
-//! A term of the generating function before it is known whether it is kept.
+//! A term of the generating function that may be kept or dropped.
 
-/// Ω over the fastest angular rate of twice the true anomaly below which the sum for G does not converge; above it what the sum leaves is part of the error.
+/// Smallest |Ω| over the largest rate of twice the true anomaly for which the sum for G is used. Below this ratio the sum does not converge. Above it the
+/// truncation error of the sum is part of the error bound.
 pub(super) const SMALLEST_RATIO: f64 = 1.5;
 
-/// One (h, m) before it is known whether it is kept.
+/// The term (h, m), which may be kept or dropped.
 pub(super) struct Candidate {
     pub(super) harmonic: i32,
     pub(super) multiple: i32,
-    /// Real f_h and df_h/dσ, of i t1 for m = 1.
+    /// The real f_h and df_h/dσ; for m = 1 those of i t1.
     pub(super) value: f64,
     pub(super) slope: f64,
     pub(super) frequency: f64,
-    /// Rate of the attitude's change \[rad per unit of time\].
+    /// Rate of change of the attitude by the term [rad per unit of time].
     pub(super) rate: f64,
-    /// What Ω's slope adds to it, times Ω.
+    /// The part of the change that comes from the slope of Ω, times Ω.
     pub(super) shift: f64,
 }

@@ -1,20 +1,22 @@
-//! Short-period corrections by the gravity gradient, to first order in the torque and to all orders in J (theory §9).
+//! Short-period corrections for the gravity gradient, to first order in the torque and to all orders in J (theory §9).
 //!
-//! D less its mean is a sum of e^(i(hℓ′+my′)) g(f), m = 0, ±1, ±2, with g = (a/r)³ times 1, cos 2f or sin 2f. With the frequency Ω = h dℓ′/dt + m dy′/dt,
+//! D minus its mean is a sum of e^(i(hℓ′+my′)) g(f), m = 0, ±1, ±2, with g = (a/r)³ times 1, cos 2f or sin 2f. With the frequency Ω = h dℓ′/dt + m dy′/dt,
 //!
 //! ```text
 //! W = Σ e^(i(hℓ′+my′)) G(f),   G = g/(iΩ) − ġ/(iΩ)² + g̈/(iΩ)³ − …,   d/dt = n η^(−3) (1 + e cos f)² d/df
 //! ```
 //!
-//! solves dW/dt = D − ⟨D⟩ with the disturbing body on its way; the first term alone holds it fixed, as the paper does. G is a Fourier polynomial in f. The corrections are
-//! brackets with W in variables that are regular at J = 0 and at any inclination: p = √σ e^(iℓ′), M, y′ and rotations of the invariable frame,
+//! solves dW/dt = D − ⟨D⟩ for a disturbing body that moves on its orbit. The first term of G alone holds the body fixed, as in the paper. G is a Fourier
+//! polynomial in f. The corrections are brackets with W in variables that are regular at J = 0 and at any inclination: p = √σ e^(iℓ′), M, y′ and rotations of
+//! the invariable frame,
 //!
 //! ```text
 //! δp = (i/M) ∂W/∂p̄ − (p/2M) δM,   δM = −∂W/∂y′,   δy′ = −(p ∂W/∂p + p̄ ∂W/∂p̄)/2M + ∂W/∂M|p,   δ(M k) = −∂W/∂θ
 //! ```
 //!
-//! with y′ counted from an axis that turns with k and not about it. Terms, and derivatives of g, that are smaller than what second order leaves or the tolerance allows are
-//! dropped here. So is a term in resonance, whose effect over the span is no larger; any other is an error ([`super::resonance`]).
+//! where y′ is counted from an axis that turns with k and not about it. A term, or a derivative of g, is dropped here if it is smaller than a fraction of the
+//! second-order error or of the tolerance. A resonant term is dropped if its effect over the span is no larger than that; otherwise it is an error
+//! ([`super::resonance`]).
 
 use nalgebra::{Quaternion, UnitQuaternion};
 use num_complex::Complex;
@@ -33,12 +35,12 @@ use crate::simd::lanes::Lanes;
 
 type C64 = Complex<f64>;
 
-/// Sum of the corrections above which they are no first order.
+/// Largest sum of the corrections for which first order is accepted.
 const LARGEST_SIZE: f64 = 0.05;
-/// [`Demand::share`] of a motion: what second order leaves is 0.003 of its bound in the median, and a few tens of terms may be dropped.
+/// [`Demand::share`] of a motion. The second-order error is 0.003 of its bound in the median, and a few tens of terms may be dropped.
 pub(crate) const SHARE: f64 = 1e-5;
 
-/// What a moment of time has of the mean motion.
+/// The mean variables at one time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mean {
     /// √σ e^(iℓ′).
@@ -49,7 +51,7 @@ pub(crate) struct Mean {
     pub(crate) frame: UnitQuaternion<f64>,
 }
 
-/// First-order changes of it; `rotation` is about axes 1 and 2 of the frame.
+/// First-order changes of the mean variables; `rotation` is about axes 1 and 2 of the frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Change {
     pub(crate) p: C64,
@@ -59,7 +61,7 @@ pub(crate) struct Change {
 }
 
 impl Mean {
-    /// This with a change added, or taken away for a factor of −1.
+    /// These variables plus `factor` times a change; a factor of −1 subtracts the change.
     pub(crate) fn changed(&self, change: &Change, factor: f64) -> Self {
         let [x, y] = change.rotation.map(|angle| 0.5 * factor * angle);
         Self {
@@ -71,18 +73,18 @@ impl Mean {
     }
 }
 
-/// What the corrections are asked for.
+/// The requirements on the corrections.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Demand<'a> {
     pub(crate) orbit: &'a Orbit,
-    /// In the units of the tables.
+    /// Mean motion of the orbit, in the units of the tables.
     pub(crate) mean_motion: f64,
     pub(crate) level: Level,
-    /// Attitude error that is allowed \[rad\].
+    /// Largest attitude error \[rad\].
     pub(crate) tolerance: f64,
-    /// In the units of the tables.
+    /// Longest time from the epoch, in the units of the tables.
     pub(crate) duration: f64,
-    /// Part that a dropped term may have of what is left anyway.
+    /// Terms smaller than this fraction of the second-order error are dropped.
     pub(crate) share: f64,
 }
 
@@ -90,19 +92,19 @@ pub(crate) struct Demand<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct Corrections {
     pub(crate) generator: Generator,
-    /// Sum of what was dropped, over the span \[rad\].
+    /// Sum of the dropped terms over the span \[rad\].
     pub(crate) dropped: f64,
-    /// Sum of the terms that the level leaves out, over the span \[rad\].
+    /// Sum of the terms that the level omits, over the span \[rad\].
     pub(crate) omitted: f64,
-    /// What it leaves out of ⟨T33⟩ and of its slope, times the mass fraction over M.
+    /// The parts of ⟨T33⟩ and of its slope that the level omits, times the mass fraction over M.
     pub(crate) axial_omitted: [f64; 2],
-    /// What the sums for G leave \[rad\].
+    /// Truncation error of the sums for G \[rad\].
     pub(crate) rest: f64,
-    /// Sum of all terms \[rad\].
+    /// Sum of the sizes of all terms \[rad\].
     pub(crate) size: f64,
     /// Number of terms that are kept.
     pub(crate) count: usize,
-    /// The largest that is not, or what is left of one that is \[rad\].
+    /// The largest dropped term, or the largest truncation error of a kept term, whichever is larger \[rad\].
     pub(crate) neglected: f64,
 }
 
@@ -110,13 +112,13 @@ impl Corrections {
     /// The corrections of a mean motion.
     ///
     /// # Errors
-    /// - [`Error::Resonance`] where a term that no correction serves has an effect.
-    /// - [`Error::TorqueTooStrong`] where the corrections are no small ones.
+    /// - [`Error::Resonance`] if a resonant term has an effect that cannot be corrected.
+    /// - [`Error::TorqueTooStrong`] if the corrections are not small.
     pub(crate) fn new(inertia: &Inertia, demand: &Demand<'_>) -> Result<Self, Error> {
         let Demand { orbit, mean_motion, level, duration, .. } = *demand;
         let eccentricity = orbit.eccentricity();
         let eta_cubed = (1.0 - eccentricity * eccentricity).powf(1.5);
-        // The disturbing body's fastest: twice the true anomaly at the pericentre.
+        // The largest rate of twice the true anomaly, at the pericentre.
         let fastest = 2.0 * mean_motion * (1.0 + eccentricity).powi(2) / eta_cubed;
         let strength = 1.5 * mean_motion * mean_motion * orbit.disturbing_fraction();
         let pericentre = strength * ((1.0 + eccentricity) / eta_cubed.powf(2.0 / 3.0)).powi(3);
@@ -144,7 +146,7 @@ impl Corrections {
                 neglected = neglected.max(candidate.size());
                 continue;
             }
-            // The sum is asymptotic: it ends where it is good enough, or else where the rest is least.
+            // The sum is asymptotic. It ends when it is accurate enough, or where its truncation error is smallest.
             let left = |orders: usize| {
                 candidate.size() * orbital.norms[orders]
                     / orbital.norms[0]
@@ -194,12 +196,12 @@ impl Corrections {
     }
 }
 
-/// What the terms of second order do to the attitude over a time, at the least.
+/// Lower estimate of the second-order change of the attitude over a time \[rad\].
 fn second_order(size: f64, response: &Response, duration: f64) -> f64 {
     size * size * (1.0 + 0.1 * response.by_momentum * duration)
 }
 
-/// Every (h, m) that is there, of functions (value, slope) of (m, h); `scale` is four times the strength of the torque at the pericentre over M.
+/// All terms (h, m) that are not 0. `function` gives (value, slope) of (m, h). `scale` is four times the strength of the torque at the pericentre over M.
 fn candidates(
     inertia: &Inertia,
     response: &Response,
@@ -211,7 +213,7 @@ fn candidates(
     let mut candidates = Vec::new();
     for multiple in 0..=2_i32 {
         let lowest = if multiple == 0 { 1 } else { -highest };
-        // ℓ′ → ℓ′ + π turns the body half about axis 3: h and m are even or odd together.
+        // ℓ′ → ℓ′ + π turns the body by half a turn about axis 3, so h and m are both even or both odd.
         for harmonic in (lowest..=highest).filter(|h| (h + multiple) % 2 == 0) {
             let (value, slope) = function(multiple, harmonic);
             let (value_size, slope_size) = (value.abs(), slope.abs());
@@ -233,13 +235,13 @@ fn candidates(
 }
 
 impl Candidate {
-    /// Largest change of the attitude \[rad\].
+    /// Largest change of the attitude by the term \[rad\].
     fn size(&self) -> f64 {
         let frequency = self.frequency.abs();
         (self.rate + self.shift / frequency) / frequency
     }
 
-    /// Joins the others of its |h|, with as many derivatives of g as `orders`.
+    /// Adds this term to the other terms of its |h|, with `orders` derivatives of g.
     fn join(&self, harmonics: &mut Vec<Harmonic>, inertia: &Inertia, orders: usize) {
         let Self { harmonic, multiple, value, slope, frequency, .. } = *self;
         let [anomaly, longitude] = inertia.rate_slopes;
@@ -254,7 +256,7 @@ impl Candidate {
         let [by_p, by_p_bar] = [by_p, by_p_bar].map(|part| inverse * (part + further * slope));
         let factors: Vec<_> = (0..orders)
             .map(|j| {
-                // (iε)^j without i for odd j, and the same times j + 1.
+                // (iε)^j without the factor i for odd j, and the same times j + 1.
                 let weight = if j / 2 % 2 == 0 { 1.0 } else { -1.0 } * inverse.powi(j as i32); // j < ORDERS
                 let slope = (j as f64 + 1.0) * weight;
                 let common = by_frequency * slope;

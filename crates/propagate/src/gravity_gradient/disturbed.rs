@@ -1,8 +1,8 @@
 //! Rotation under the gravity gradient of a body on a Keplerian orbit (theory §9).
 //!
-//! The mean motion is the free one at the mean σ and M, in an invariable frame that the averaged torque carries along ([`super::averaged`]); short-period [`super::corrections`] of
-//! first order lead from it to the motion. Each is regular at J = 0 and at any inclination. Validity: rotation much faster than the orbit, torque weak; a divisor that is too
-//! small is [`Error::Resonance`]. What is left is of second order in the torque, and grows with time.
+//! The mean motion is the free motion at the mean σ and M, in an invariable frame that the averaged torque moves ([`super::averaged`]). Short-period
+//! [`super::corrections`] of first order lead from it to the motion. Both are regular at J = 0 and at any inclination. Validity: the rotation is much faster
+//! than the orbit, and the torque is weak. A divisor that is too small is [`Error::Resonance`]. The error is of second order in the torque and grows with time.
 
 #[cfg(test)]
 #[path = "tests.rs"]
@@ -22,6 +22,7 @@ use super::offset::Offset;
 use super::powers::Powers;
 use super::request::Request;
 use super::response::Response;
+use super::second_order;
 use crate::error::Error;
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
@@ -32,25 +33,25 @@ use crate::torque_free::polhode::{Frame, Polhode};
 
 type C64 = Complex<f64>;
 
-/// Changes of the mean variables below which they are converged.
+/// The iteration has converged if the mean variables change by less than this.
 const CONVERGED: f64 = 1e-15;
-/// Steps to the mean variables.
+/// Largest number of iterations for the mean variables.
 const MOST_STEPS: usize = 24;
-/// What a step may leave of the change before it, in the mean of the steps: with more there is no mean motion.
+/// Largest mean ratio of the changes of successive iterations. With a larger ratio there is no mean motion.
 const CONTRACTION: f64 = 0.5;
-/// Torque over M²/C above which an expansion in it has no first order.
+/// Largest torque over M²/C for which first order in the torque is accepted.
 pub(crate) const STRONGEST: f64 = 0.02;
 
-/// What a plan says of a gravity gradient.
+/// The entries of a plan that concern the gravity gradient.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct GradientPlan {
     pub(crate) averaging: Averaging,
     pub(crate) level: Level,
-    /// Terms of the short-period corrections.
+    /// Number of terms in the short-period corrections.
     pub(crate) terms: usize,
-    /// Sum of their sizes \[rad\].
+    /// Sum of the sizes of these terms \[rad\].
     pub(crate) size: f64,
-    /// The first term that is neglected \[rad\].
+    /// The first neglected term \[rad\].
     pub(crate) neglected: f64,
 }
 
@@ -61,27 +62,27 @@ pub(crate) struct Gradient {
     pub(super) pair: [Powers; 2],
     pub(super) corrections: Corrections,
     pub(super) slow: Slow,
-    /// What first order leaves at the epoch.
+    /// Constants that correct the error of first order at the epoch.
     pub(super) offset: Offset,
     pub(super) anomaly: Phase,
     pub(super) half_longitude: Phase,
     pub(super) mean_anomaly: Phase,
     pub(super) eccentricity: f64,
     pub(super) root: f64,
-    /// J times these is added to ℓ′ and y′.
+    /// These times J, or in second order times the drifts, are added to ℓ′ and y′.
     pub(super) drifts: [f64; 2],
-    /// What they add to the rates in the orbit average, in the user's unit.
+    /// The rates that they add to ℓ′ and y′ in the orbit average, in the user's unit.
     secular: [f64; 2],
     pub(super) frame: Frame,
     pub(super) moments: [f64; 3],
     level: Level,
-    /// Units of the motion: of rate and angular momentum over the user's.
+    /// The motion's units of rate and of angular momentum, in the user's units.
     pub(super) units: [f64; 2],
     pub(crate) error: f64,
 }
 
 impl Gradient {
-    /// From a polhode, the attitude at the epoch and where the state is on the polhode (ℓ′ and y′ − y there).
+    /// The motion from a polhode, the attitude at the epoch, and the place of the state on the polhode: σ, ℓ′ and y′ − y.
     pub(crate) fn new(
         polhode: &Polhode,
         attitude: UnitQuaternion<f64>,
@@ -98,7 +99,7 @@ impl Gradient {
             Demand { orbit, mean_motion, level: request.level, tolerance: request.tolerance, duration, share: SHARE };
         let size = strongest_torque(polhode, orbit, mean_motion / momentum);
         if size > STRONGEST {
-            // A resonance is the better reason, if it is one.
+            // If there is a resonance, report that instead, because it explains more.
             Corrections::new(&Inertia::new(polhode, osculating.0, momentum), &demand)?;
             return Err(Error::TorqueTooStrong { size, bound: STRONGEST });
         }
@@ -108,15 +109,23 @@ impl Gradient {
         let (sigma, [anomaly, longitude]) = osculating;
         let p = C64::from_polar(sigma.sqrt(), anomaly);
         let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
-        let MeanMotion { mean, change, inertia, corrections } = mean_motion_of(polhode, &state, &start, &demand)?;
+        let first = mean_motion_of(polhode, &state, &start, &demand)?;
+        let MeanMotion { mean, change, inertia, corrections } = if request.level == Level::SecondOrder {
+            second_order_of(polhode, first, &state, &start, &demand)?
+        } else {
+            first
+        };
         let (axial, axial_slope) = request.level.axial(&inertia);
         let fraction = orbit.disturbing_fraction();
         let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) * fraction;
-        let ellipse = AveragedOrbit::new(orbit, mean_motion, delta / mean.momentum);
-        // Rates are proportional to M, which as a double would leave 1e-16 of the phases.
+        let mut ellipse = AveragedOrbit::new(orbit, mean_motion, delta / mean.momentum);
+        if request.level == Level::SecondOrder {
+            ellipse = ellipse.with_second(second_order::epoch::hamiltonian(&inertia, &demand, polhode.moments));
+        }
+        // Rates are proportional to M. M rounded to a double would cause an error of 1e-16 of the phases.
         let precise = (polhode.momentum - change.momentum.into()) / mean.momentum.into();
         let rates = inertia.rates.map(|rate| rate * precise);
-        // ⟨D⟩ = −½ (dJ/dt) Δ: its derivatives with respect to L and M at fixed L.
+        // ⟨D⟩ = −½ (dJ/dt) Δ. Its derivatives with respect to L, and to M at fixed L, give the slopes.
         let slope = -0.5 * 1.5 * axial_slope * fraction / mean.momentum;
         let response = Response::new(&inertia);
         let anomaly = start.place.angle.values()[0] - start.place.centre.values()[0];
@@ -143,7 +152,8 @@ impl Gradient {
         };
         let [anomaly_rate, longitude_rate] =
             rates.map(|rate| DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) });
-        let drifts = [slope, -slope * inertia.sigma];
+        let secular_drifts = [slope, -slope * inertia.sigma];
+        let drifts = if request.level == Level::SecondOrder { [1.0; 2] } else { secular_drifts };
         let mut gradient = Self {
             anomaly: Phase::new(anomaly_rate, mean.p.arg()),
             half_longitude: Phase::new(longitude_rate * 0.5.into(), 0.5 * mean.longitude),
@@ -151,7 +161,7 @@ impl Gradient {
             eccentricity: orbit.eccentricity(),
             root: mean.p.norm(),
             drifts,
-            secular: drifts.map(|drift| drift * secular),
+            secular: secular_drifts.map(|drift| drift * secular),
             pair: inertia.pair.each_ref().map(|series| Powers::new(series, inertia.sigma.sqrt())),
             inertia,
             corrections,
@@ -167,13 +177,13 @@ impl Gradient {
         Ok(gradient)
     }
 
-    /// Mean rates of ℓ′ and y′ in the user's unit, y′ from an axis that turns with the angular momentum and not about it.
+    /// Mean rates of ℓ′ and y′ in the user's unit. y′ is counted from an axis that turns with the angular momentum and not about it.
     pub(crate) fn frequencies(&self) -> [f64; 2] {
         let [anomaly, longitude] = self.secular;
         [self.anomaly.frequency() * TAU + anomaly, 2.0 * self.half_longitude.frequency() * TAU + longitude]
     }
 
-    /// The longest time from the epoch that quarters are kept for, in the user's unit.
+    /// The longest time from the epoch for which quarters are kept, in the user's unit.
     pub(crate) fn bound(&self) -> f64 {
         match self.slow {
             Slow::Spin(_) => MOST_ORBITS / self.mean_anomaly.frequency(),
@@ -181,7 +191,7 @@ impl Gradient {
         }
     }
 
-    /// What the plan says of it.
+    /// The entries of the plan.
     pub(crate) fn plan(&self) -> GradientPlan {
         GradientPlan {
             averaging: match self.slow {
@@ -195,12 +205,11 @@ impl Gradient {
         }
     }
 
-    /// What this scene did not need.
+    /// The parts of the theory that this scene did not need.
     pub(crate) fn skipped(&self) -> Vec<String> {
         let mut skipped = Vec::new();
         if self.corrections.dropped > 0.0 {
-            skipped
-                .push(format!("short-period terms: those dropped are {:.1e} rad together", self.corrections.dropped));
+            skipped.push(format!("short-period terms: the dropped terms sum to {:.1e} rad", self.corrections.dropped));
         }
         if self.eccentricity == 0.0 {
             skipped.push("Kepler's equation: the orbit is a circle".to_owned());
@@ -209,7 +218,7 @@ impl Gradient {
     }
 }
 
-/// A mean state, the change that leads from it to the state, and the tables of it.
+/// A mean state, its change to the osculating state, and its tables.
 struct MeanMotion {
     mean: Mean,
     change: Change,
@@ -217,7 +226,27 @@ struct MeanMotion {
     corrections: Corrections,
 }
 
-/// The mean variables whose corrections lead to a state, by fixed-point iteration.
+/// The mean motion of second order from that of first order of a state.
+fn second_order_of(
+    polhode: &Polhode,
+    first: MeanMotion,
+    state: &Mean,
+    start: &When<pulp::Scalar>,
+    demand: &Demand<'_>,
+) -> Result<MeanMotion, Error> {
+    let (mean, momentum) = second_order::epoch::refined(
+        (&first.mean, &first.change),
+        state,
+        &first.inertia,
+        &start.place,
+        (demand, polhode.moments),
+    );
+    let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
+    let corrections = Corrections::new(&inertia, demand)?;
+    Ok(MeanMotion { mean, change: Change { momentum, ..first.change }, inertia, corrections })
+}
+
+/// The mean variables whose corrections give a state, by fixed-point iteration.
 fn mean_motion_of(
     polhode: &Polhode,
     state: &Mean,
@@ -226,7 +255,7 @@ fn mean_motion_of(
 ) -> Result<MeanMotion, Error> {
     let (mut mean, mut change) = (*state, Change::default());
     let (mut step, mut first) = (0, 0.0_f64);
-    // Each step gains the relative size of the corrections, which is below a fiftieth.
+    // Each iteration reduces the error by the relative size of the corrections, which is below a fiftieth.
     loop {
         let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
         let corrections = Corrections::new(&inertia, demand)?;
@@ -241,7 +270,7 @@ fn mean_motion_of(
         }
         first = first.max(moved);
         if step == MOST_STEPS {
-            // Rounding of large corrections may keep it from standing still; what does not come near has no mean motion.
+            // Rounding of large corrections may prevent full convergence. A motion without contraction has no mean motion.
             let contraction = (moved / first).powf(1.0 / MOST_STEPS as f64);
             return if contraction <= CONTRACTION {
                 Ok(MeanMotion { mean, change, inertia, corrections })
@@ -254,7 +283,7 @@ fn mean_motion_of(
     }
 }
 
-/// 3n²C(C − A)/2M² at the pericentre times the mass fraction, C the greatest moment and A the least, from n/M: the largest torque over M²/C.
+/// The largest torque over M²/C: 3n²C(C − A)/2M² at the pericentre times the mass fraction, where C is the largest and A the smallest moment; `rate` is n/M.
 fn strongest_torque(polhode: &Polhode, orbit: &Orbit, rate: f64) -> f64 {
     let [first, _, third] = polhode.moments;
     let product = first.max(third) * (first - third).abs();

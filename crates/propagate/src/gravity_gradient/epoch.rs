@@ -1,8 +1,8 @@
-//! The motion goes through the state that is given.
+//! The constants that make the motion pass exactly through the given state.
 //!
-//! First-order corrections lead from the mean variables to the state up to terms of second order. Their value at the epoch is a constant of the motion here: of p, beside its
-//! circle; of M; and of the frame that the averaged motion starts from. Mean σ and M, and with them all rates, stay those of the theory. So the error is 0 at the epoch,
-//! grows from there in either sense of time, and is continuous.
+//! First-order corrections lead from the mean variables to the state with an error of second order. Here the error at the epoch becomes a constant of the
+//! motion, which is added to p (relative to its circle), to M, and to the frame from which the averaged motion starts. The mean σ and M, and with them all
+//! rates, are those of the theory. The error is therefore 0 at the epoch, grows from there in both directions of time, and is continuous.
 
 use nalgebra::{Matrix2, Quaternion, UnitQuaternion, Vector2, Vector3};
 use num_complex::Complex;
@@ -14,15 +14,16 @@ use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::lanes::Lanes;
 use crate::torque_free::polhode::Polhode;
 
-/// Steps to the constants: each gains the size of the torque, or the step of the differences.
+/// Largest number of steps to the constants. Each step reduces the error by the size of the torque, or by the step of the differences.
 const MOST_STEPS: usize = 10;
-/// Changes below this are rounding.
+/// Changes below this are rounding errors.
 const CONVERGED: f64 = 1.5e-16;
-/// Step of the differences, over √σ_sep.
+/// Step of the differences, relative to √σ_sep.
 const STEP: f64 = 1e-4;
 
 impl Gradient {
-    /// Finds the constants with which the motion has this attitude and the polhode's angular momentum at the epoch; `slow` solves the averaged motion from a frame.
+    /// Finds the constants for which the motion has this attitude and the polhode's angular momentum at the epoch. `slow` solves the averaged motion from a
+    /// frame.
     pub(super) fn start_at(
         &mut self,
         polhode: &Polhode,
@@ -53,7 +54,7 @@ impl Gradient {
         }
     }
 
-    /// The change of p e^(−iℓ′) that brings the direction of the angular momentum in the body to this one: a step of Newton's method.
+    /// The change of p e^(−iℓ′) that gives the angular momentum this direction in the body: one step of Newton's method.
     fn missing(&self, state: &Osculating<pulp::Scalar>, direction: &Vector3<f64>, step: f64) -> Complex<f64> {
         let none = Lanes::splat(pulp::Scalar, 0.0);
         let (sine, cosine) = self.anomaly.sin_cos((none, none));

@@ -1,4 +1,5 @@
-//! From the mean motion to attitudes and rates, several times at once: phases, the averaged motion of the frame, corrections, and the harmonics of a and b (theory §8).
+//! Attitudes and rates from the mean motion, at several times at once: phases, the averaged motion of the frame, corrections, and the harmonics of a and b
+//! (theory §8).
 
 use std::f64::consts::TAU;
 
@@ -13,7 +14,7 @@ use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
 use crate::simd::phase::elapsed;
 
-/// Osculating variables at some times: p, the circle of y′/2, M, and the invariable frame, but for its norm.
+/// Osculating variables at some times: p, cosine and sine of y′/2, M, and the invariable frame, which is not normalized.
 #[derive(Clone, Copy)]
 pub(super) struct Osculating<S: InstructionSet> {
     pub(super) p: ComplexLanes<S>,
@@ -23,7 +24,7 @@ pub(super) struct Osculating<S: InstructionSet> {
 }
 
 impl Gradient {
-    /// The motion at times after the epoch, in osculating variables: compiled by itself, once for each instruction set.
+    /// The osculating variables at times after the epoch. The function is compiled separately, once for each instruction set.
     #[inline(always)]
     pub(super) fn state<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
         elapsed.0.simd().vectorize(At { gradient: self, elapsed })
@@ -33,10 +34,10 @@ impl Gradient {
     fn osculating<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
         let all = |value: f64| elapsed.0.all(value);
         let when = when(&self.mean_anomaly, elapsed, self.eccentricity);
-        let (frame, phase) = self.slow.at(&when, elapsed);
+        let (frame, [by_anomaly, by_longitude]) = self.slow.at(&when, elapsed);
         let plane = |(im, re): (Lanes<S>, Lanes<S>)| ComplexLanes { re, im };
-        let turn = plane(self.anomaly.sin_cos_beyond(elapsed, phase * all(self.drifts[0] / TAU)));
-        let half = plane(self.half_longitude.sin_cos_beyond(elapsed, phase * all(0.5 * self.drifts[1] / TAU)));
+        let turn = plane(self.anomaly.sin_cos_beyond(elapsed, by_anomaly * all(self.drifts[0] / TAU)));
+        let half = plane(self.half_longitude.sin_cos_beyond(elapsed, by_longitude * all(0.5 * self.drifts[1] / TAU)));
         let change =
             self.corrections.generator.at(&generator::MeanLanes { turn, spin: half * half, frame }, &when.place);
         let Offset { p, momentum } = self.offset;
@@ -51,7 +52,7 @@ impl Gradient {
         }
     }
 
-    /// Attitude and rates at times after the epoch, as far as they are asked for.
+    /// Attitude and rates at times after the epoch, each only if requested.
     #[inline(always)]
     pub(crate) fn evaluate<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
         &self,
@@ -76,12 +77,12 @@ impl Gradient {
         (attitude, rates)
     }
 
-    /// The angular momenta, inertial components, at times from an epoch.
+    /// The angular momenta in inertial components at `times`; `epoch` is in the same scale.
     pub(crate) fn angular_momenta(&self, times: &[f64], epoch: f64, out: &mut [[f64; 3]]) {
         dispatch(pulp::Arch::new(), Momenta { gradient: self, times, epoch, out });
     }
 
-    /// The quaternion of theory §8 of a state near the mean one.
+    /// The quaternion of theory §8 for a state near the mean state.
     #[inline(always)]
     pub(super) fn relative<S: InstructionSet>(&self, state: &Osculating<S>) -> QuaternionLanes<S> {
         let Osculating { p, half, .. } = *state;
@@ -94,7 +95,7 @@ impl Gradient {
     }
 }
 
-/// [`Gradient::state`] as a function of its own.
+/// [`Gradient::state`] as a task that is compiled separately.
 struct At<'a, S: InstructionSet> {
     gradient: &'a Gradient,
     elapsed: Elapsed<S>,

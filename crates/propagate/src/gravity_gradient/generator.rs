@@ -1,8 +1,9 @@
-//! The generating function W of the gravity gradient and its derivatives at one place of the orbit, laid out for speed.
+//! The generating function W of the gravity gradient and its derivatives at one place of the orbit, arranged for fast evaluation.
 //!
-//! With ε = 1/Ω, the sum for G is Σ (iε)^j d^j/dt^j g, up to −iε: the time derivatives of (a/r)³, (a/r)³ cos 2f and (a/r)³ sin 2f are Fourier polynomials in f that all terms
-//! share. Contracted with r̂r̂ for one m, each term takes real multiples of them, since T33, i t1 e^(−iy′) and t2 e^(−2iy′) have real coefficients (time reversal).
-//! |p| = √σ is a constant of the mean motion and is part of the coefficients; derivatives by p and p̄ are kept as ∂/∂p e^(iℓ′) and ∂/∂p̄ e^(−iℓ′), which is regular at p = 0.
+//! With ε = 1/Ω, the sum for G is Σ (iε)^j d^j/dt^j g, up to the factor −iε. The time derivatives of (a/r)³, (a/r)³ cos 2f and (a/r)³ sin 2f are Fourier
+//! polynomials in f that all terms share. After contraction with r̂r̂ for one m, each term needs only real multiples of them, since T33, i t1 e^(−iy′) and t2
+//! e^(−2iy′) have real coefficients (time reversal). |p| = √σ is a constant of the mean motion and is included in the coefficients. The derivatives with
+//! respect to p and p̄ are stored as ∂/∂p e^(iℓ′) and ∂/∂p̄ e^(−iℓ′), which are regular at p = 0.
 
 use nalgebra::Vector3;
 
@@ -12,15 +13,15 @@ use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
-/// g and the time derivatives of it that G may have.
+/// Number of functions in G: g and its time derivatives.
 pub(crate) const ORDERS: usize = 7;
-/// Highest multiple of f in the last of them.
+/// Highest multiple of f in the last derivative.
 pub(crate) const WIDTH: usize = 5 + 2 * (ORDERS - 1);
 
-/// What is summed over the terms: W, M ∂W/∂M, ∂W/∂p and ∂W/∂p̄.
+/// Number of sums over the terms: W, M ∂W/∂M, ∂W/∂p and ∂W/∂p̄.
 const SUMS: usize = 4;
 
-/// All terms of one |h|: the factors of cos hℓ′ and i sin hℓ′, by j and sum.
+/// All terms of one |h|: the factors of cos hℓ′ and of i sin hℓ′, by j and sum.
 #[derive(Clone, Debug)]
 pub(crate) struct Harmonic {
     pub(crate) degree: usize,
@@ -28,7 +29,7 @@ pub(crate) struct Harmonic {
 }
 
 impl Harmonic {
-    /// Adds a term e^(ihℓ′) with these factors of what is summed.
+    /// Adds a term e^(ihℓ′) with these factors of the sums.
     pub(crate) fn add(&mut self, negative: bool, factors: &[[f64; SUMS]]) {
         if self.factors.len() < factors.len() {
             self.factors.resize(factors.len(), [[0.0; 2]; SUMS]);
@@ -43,12 +44,12 @@ impl Harmonic {
     }
 }
 
-/// Terms by m, the Fourier polynomials, and the plane of the orbit.
+/// The terms by m, the Fourier polynomials, and the plane of the orbit.
 #[derive(Clone, Debug)]
 pub(crate) struct Generator {
     pub(crate) harmonics: [Vec<Harmonic>; 3],
     pub(crate) orbital: Orbital,
-    /// To the pericentre and across it, inertial.
+    /// Unit vectors to the pericentre and perpendicular to it, in inertial components.
     pub(crate) axes: [Vector3<f64>; 2],
     /// 3n²/2 times the disturbing mass fraction.
     pub(crate) strength: f64,
@@ -56,7 +57,7 @@ pub(crate) struct Generator {
     pub(crate) momentum: f64,
 }
 
-/// MeanLanes motion at some times: the circles of ℓ′ and y′ (cosine and sine), and the invariable frame.
+/// The mean motion at some times: cosine and sine of ℓ′ and of y′, and the invariable frame.
 #[derive(Clone, Copy)]
 pub(crate) struct MeanLanes<S: InstructionSet> {
     pub(crate) turn: ComplexLanes<S>,
@@ -64,7 +65,7 @@ pub(crate) struct MeanLanes<S: InstructionSet> {
     pub(crate) frame: QuaternionLanes<S>,
 }
 
-/// First-order changes of it; of p the change times e^(−iℓ′); `rotation` is about axes 1 and 2 of the frame.
+/// First-order changes of the mean motion. For p it is the change times e^(−iℓ′); `rotation` is about axes 1 and 2 of the frame.
 #[derive(Clone, Copy)]
 pub(crate) struct Correction<S: InstructionSet> {
     pub(crate) p: ComplexLanes<S>,
@@ -73,22 +74,23 @@ pub(crate) struct Correction<S: InstructionSet> {
     pub(crate) rotation: [Lanes<S>; 2],
 }
 
-/// Time derivatives of (a/r)³ times 1, cos 2f, sin 2f, by j and g, in cos kf for even j of 1 and cos 2f and for odd j of sin 2f, and in sin kf else.
+/// Time derivatives of (a/r)³ times 1, cos 2f and sin 2f; the indices are the order j and the function. Even derivatives of the first two and odd derivatives
+/// of the third are series in cos kf. The others are series in sin kf.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Orbital {
     series: Vec<[Fourier; 3]>,
     /// Highest k.
     highest: usize,
-    /// Largest sum of the coefficients' sizes, by j: one more than there are derivatives.
+    /// Largest sum of the coefficients' magnitudes, by j; there is one entry more than there are derivatives.
     pub(crate) norms: Vec<f64>,
 }
 
-/// The first k, and coefficients from there on.
+/// The first k, and the coefficients from this k on.
 #[derive(Clone, Debug)]
 struct Fourier(usize, Vec<f64>);
 
 impl Orbital {
-    /// All derivatives by a body of mean motion n; n η^(−3) w² d/df, w = 1 + e cos f.
+    /// All derivatives for a mean motion n. d/dt = n η^(−3) w² d/df with w = 1 + e cos f.
     pub(crate) fn new(eccentricity: f64, mean_motion: f64) -> Self {
         let eta_square = 1.0 - eccentricity * eccentricity;
         let rate = mean_motion / (eta_square * eta_square.sqrt());
@@ -117,7 +119,7 @@ impl Orbital {
         orbital
     }
 
-    /// Keeps the first derivatives.
+    /// Keeps the first `orders` derivatives.
     pub(crate) fn keep(&mut self, orders: usize) {
         self.series.truncate(orders);
         let ends = self.series.iter().flatten().map(|Fourier(first, rest)| first + rest.len());
@@ -125,12 +127,12 @@ impl Orbital {
     }
 }
 
-/// A series in cos kf, or in sin kf, times 1 + e cos f.
+/// A series in cos kf, or in sin kf if `odd`, times 1 + e cos f.
 fn times_w(series: &[f64], eccentricity: f64, odd: bool) -> Vec<f64> {
     let at = |k: usize| series.get(k).copied().unwrap_or_default();
     let half = 0.5 * eccentricity;
     let mut product: Vec<f64> = (0..series.len()).map(|k| at(k) + half * (at(k + 1) + at(k.wrapping_sub(1)))).collect();
-    // cos(−f) = cos f, sin(−f) = −sin f, and the mean is counted once.
+    // cos(−f) = cos f and sin(−f) = −sin f; the mean has only one coefficient.
     match odd {
         true => product[0] = 0.0,
         false => product[1] += half * at(0),
@@ -138,7 +140,7 @@ fn times_w(series: &[f64], eccentricity: f64, odd: bool) -> Vec<f64> {
     product
 }
 
-/// Without the lowest and highest coefficients that are nothing beside the largest.
+/// Drops the lowest and the highest coefficients if they are negligible.
 fn trimmed(series: &[f64]) -> Fourier {
     let largest = series.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
     let something = |c: &f64| c.abs() > 1e-18 * largest;
@@ -147,7 +149,8 @@ fn trimmed(series: &[f64]) -> Fourier {
     Fourier(first, series[first..last].to_vec())
 }
 
-/// What r̂r̂ gives to a multiple of y′, r₃² − ⅓, r̄₊ r₃, r̄₊², and its derivatives when the frame turns about its axes 1 and 2; times i for odd j.
+/// The contraction of r̂r̂ for one multiple of y′ (r₃² − ⅓, r̄₊ r₃ or r̄₊²), and its derivatives when the frame turns about its axes 1 and 2. They are
+/// multiplied by i for odd j.
 type Contracted<S> = [ComplexLanes<S>; 3];
 
 impl Generator {
@@ -181,9 +184,13 @@ impl Generator {
         self.change(&sums)
     }
 
-    /// r̂r̂ (a/r)³ and its time derivatives in the frame: components 11, 22, 33, 12, 13, 23.
+    /// r̂r̂ (a/r)³ and its time derivatives in the frame, as components 11, 22, 33, 12, 13, 23.
     #[inline(always)]
-    fn tensors<S: InstructionSet>(&self, frame: QuaternionLanes<S>, place: &Place<S>) -> [[Lanes<S>; 6]; ORDERS] {
+    pub(crate) fn tensors<S: InstructionSet>(
+        &self,
+        frame: QuaternionLanes<S>,
+        place: &Place<S>,
+    ) -> [[Lanes<S>; 6]; ORDERS] {
         let none = place.sine.all(0.0);
         let rows = frame.rows();
         let mut axes = [[none; 3]; 2];
@@ -217,7 +224,7 @@ impl Generator {
     fn change<S: InstructionSet>(&self, sums: &Derivatives<S>) -> Correction<S> {
         let all = |value: f64| sums.by_longitude.all(value);
         let momentum = sums.by_longitude * all(-self.strength);
-        // The real part of X counts: ∂/∂p̄ of it is (∂X/∂p̄ + conj ∂X/∂p)/2.
+        // Only the real part of X counts. Its derivative ∂/∂p̄ is (∂X/∂p̄ + conj ∂X/∂p)/2.
         let by_p_bar = sums.by_p[1] + sums.by_p[0].conjugate();
         let relative = all(self.strength / self.momentum);
         let half = all(0.5) * relative;
@@ -228,7 +235,7 @@ impl Generator {
             p: ComplexLanes { re: real, im: by_p_bar.re * half },
             longitude: relative * circling,
             momentum,
-            // k × δ(Mk)/M turns k, and the frame with it.
+            // k × δ(Mk)/M turns k and the frame.
             rotation: [relative * y, -(relative * x)],
         }
     }
@@ -238,7 +245,7 @@ impl Generator {
 const COMPONENTS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
 impl Orbital {
-    /// cos kf and sin kf.
+    /// cos kf and sin kf for k = 0, 1, …
     #[inline(always)]
     fn circle<S: InstructionSet>(&self, place: &Place<S>) -> [[Lanes<S>; 2]; WIDTH + 1] {
         let mut circle = [[place.sine.all(1.0), place.sine.all(0.0)]; WIDTH + 1];
@@ -252,7 +259,7 @@ impl Orbital {
     }
 }
 
-/// A series in cosines (part 0) or sines.
+/// The sum of a series in cosines (part 0) or sines (part 1).
 #[inline(always)]
 fn sum<S: InstructionSet>(circle: &[[Lanes<S>; 2]], series: &Fourier, part: usize) -> Lanes<S> {
     let mut sum = circle[0][1];
@@ -262,7 +269,7 @@ fn sum<S: InstructionSet>(circle: &[[Lanes<S>; 2]], series: &Fourier, part: usiz
     sum
 }
 
-/// e^(ihℓ′).
+/// e^(ihℓ′) for h = 0, 1, …
 #[inline(always)]
 fn circle<S: InstructionSet>(turn: ComplexLanes<S>, highest: usize) -> [ComplexLanes<S>; HIGHEST + 1] {
     let mut turns = [ComplexLanes { re: turn.re.all(1.0), im: turn.re.all(0.0) }; HIGHEST + 1];
@@ -272,7 +279,7 @@ fn circle<S: InstructionSet>(turn: ComplexLanes<S>, highest: usize) -> [ComplexL
     turns
 }
 
-/// The sums over the terms of an m for one j.
+/// The sums over the terms of one m, for one j.
 #[inline(always)]
 fn summed<S: InstructionSet>(
     harmonics: &[Harmonic],
@@ -311,9 +318,9 @@ fn contractions<S: InstructionSet>(tensor: &[Lanes<S>; 6], multiple: usize, odd:
     }
 }
 
-/// Derivatives of W over the strength.
+/// Derivatives of W divided by the strength.
 struct Derivatives<S: InstructionSet> {
-    /// By p and p̄.
+    /// With respect to p and p̄.
     by_p: [ComplexLanes<S>; 2],
     by_longitude: Lanes<S>,
     by_momentum: Lanes<S>,
@@ -323,7 +330,7 @@ struct Derivatives<S: InstructionSet> {
 impl<S: InstructionSet> Derivatives<S> {
     #[inline(always)]
     fn add(&mut self, totals: &[ComplexLanes<S>; SUMS + 2], multiple: usize, spin: ComplexLanes<S>) {
-        // −i of 1/(iΩ), and −i of t1: their coefficients are real without it.
+        // The factor −i is that of 1/(iΩ), and for m = 1 also that of t1. The coefficients are real without it.
         let factor = spin.re.all(-2.0);
         let phase = ComplexLanes { re: spin.re * factor, im: spin.im * factor };
         let phase = if multiple == 1 { phase } else { phase.quarter_turned() };

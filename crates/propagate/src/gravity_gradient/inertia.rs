@@ -1,10 +1,10 @@
 //! The inertia tensor in the invariable frame as Fourier series in ℓ′ and y′, to all orders in J (theory §9).
 //!
-//! T = Q diag(A, B, C) Qᵀ is sampled over a quarter of a turn of ℓ′ on the closed form at y′ = 0: T33, i t1 e^(−iy′), t2 e^(−2iy′). a and b of theory §8, whose norm is free, are
-//! the theta series themselves, with a few harmonics where the tensor has tens.
-//! Time reversal makes all coefficients real, and ℓ′ → ℓ′ + π leaves the odd or the even ones. A harmonic h is σ^(|h|/2) times a function that is analytic in σ at 0; that
-//! function and its slope are tabulated, so that with p = √σ e^(iℓ′) everything is regular at J = 0. Slopes are differences of fourth order over 0.4 % of sin²J (relative error
-//! 1e-10, of a correction that is small itself).
+//! T = Q diag(A, B, C) Qᵀ is sampled over a quarter turn of ℓ′ on the closed form at y′ = 0: T33, i t1 e^(−iy′), t2 e^(−2iy′). The parameters a and b of theory
+//! §8 need no normalization here. They are the theta series themselves, which have a few harmonics where the tensor has tens. Time reversal makes all
+//! coefficients real, and ℓ′ → ℓ′ + π leaves only the odd or only the even ones. A harmonic h is σ^(|h|/2) times a function that is analytic in σ at 0. This
+//! function and its slope are tabulated, so that with p = √σ e^(iℓ′) everything is regular at J = 0. Slopes are differences of fourth order over 0.4 % of
+//! sin²J. Their relative error is 1e-10, in a correction that is itself small.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,28 +17,30 @@ use crate::torque_free::polhode::Polhode;
 
 type C64 = Complex<f64>;
 
-/// Samples of a period of ℓ′.
+/// Number of samples in a period of ℓ′.
 const SAMPLES: [usize; 2] = [64, 128];
-/// Highest harmonic: at σ/σ_sep = 0.9 the tensor has 1e-14 of itself left beyond it.
+/// Highest harmonic. At σ/σ_sep = 0.9 the higher harmonics are 1e-14 of the tensor.
 pub(crate) const HIGHEST: usize = 32;
-/// Nome below which half of them, and of the samples, leave as little.
+/// Below this nome, half as many harmonics and samples have the same accuracy.
 const SMALL_NOME: f64 = 0.12;
-/// Harmonics from −[`HIGHEST`] on.
+/// Number of harmonics from −[`HIGHEST`] to [`HIGHEST`].
 const COUNT: usize = 2 * HIGHEST + 1;
 /// Whether T33, t1, t2 have the odd harmonics.
 const ODD: [bool; 3] = [false, true, false];
-/// sin²J below which functions are taken from their tangent at this value.
+/// Below this sin²J, functions are extrapolated along their tangent at this value.
 const SMALLEST_SQUARE: f64 = 1e-6;
-/// Step of the differences, over sin²J.
+/// Step of the differences, relative to sin²J.
 const STEP: f64 = 2e-3;
 
-/// Σ_h f_h(σ) P_h, P_h = p^h for h ≥ 0 and p̄^(−h) below.
+/// The series Σ_h f_h(σ) P_h, with P_h = p^h for h ≥ 0 and P_h = p̄^(−h) for h < 0.
 #[derive(Clone, Debug)]
 pub(crate) struct Harmonics {
-    /// f_h at h + [`HIGHEST`].
+    /// f_h at index h + [`HIGHEST`].
     pub(crate) values: Vec<f64>,
     /// df_h/dσ.
     pub(crate) slopes: Vec<f64>,
+    /// d²f_h/dσ².
+    pub(crate) curvatures: Vec<f64>,
 }
 
 impl Harmonics {
@@ -47,9 +49,15 @@ impl Harmonics {
         let index = (harmonic + HIGHEST as i32) as usize; // −HIGHEST ≤ h ≤ HIGHEST
         (self.values[index], self.slopes[index])
     }
+
+    /// f_h, df_h/dσ and d²f_h/dσ².
+    pub(crate) fn jet(&self, harmonic: i32) -> [f64; 3] {
+        let index = (harmonic + HIGHEST as i32) as usize; // −HIGHEST ≤ h ≤ HIGHEST
+        [self.values[index], self.slopes[index], self.curvatures[index]]
+    }
 }
 
-/// Everything of the free motion with one σ and M.
+/// The tables of the free motion with one σ and M.
 #[derive(Clone, Debug)]
 pub(crate) struct Inertia {
     pub(crate) momentum: f64,
@@ -58,17 +66,19 @@ pub(crate) struct Inertia {
     pub(crate) separatrix: f64,
     /// dℓ′/dt and dy′/dt.
     pub(crate) rates: [DoubleDouble; 2],
-    /// Their derivatives with respect to σ, at fixed M.
+    /// The derivatives of the two rates with respect to σ, at fixed M.
     pub(crate) rate_slopes: [f64; 2],
+    /// Their second derivatives.
+    pub(crate) rate_curvatures: [f64; 2],
     /// T33, i t1 e^(−iy′), t2 e^(−2iy′).
     pub(crate) tensor: [Harmonics; 3],
-    /// a and b, but for their norm.
+    /// The series of a and b, up to a common factor.
     pub(crate) pair: [Harmonics; 2],
     /// T33 and t2 e^(−2iy′) at J = 0.
     pub(crate) untilted: [f64; 2],
 }
 
-/// σ, rates and harmonics of one member of the family.
+/// σ, rates and harmonics of one free motion.
 struct Member {
     sigma: f64,
     rates: [DoubleDouble; 2],
@@ -86,18 +96,32 @@ impl Inertia {
             let [a, b, _, c, d] = members.each_ref().map(part);
             (8.0 * (c - b) - (d - a)) / (12.0 * step)
         };
+        let curvature = |part: &dyn Fn(&Member) -> f64| {
+            let [a, b, middle, c, d] = members.each_ref().map(part);
+            (16.0 * (b - middle + c - middle) - (a - middle + d - middle)) / (12.0 * step * step)
+        };
         let sigma_slope = slope(&|m| m.sigma);
+        let sigma_curvature = curvature(&|m| m.sigma);
+        // d²f/dσ² from the derivatives with respect to sin²J.
+        let by_sigma = |tangent: f64, second: f64| (second - tangent * sigma_curvature) / (sigma_slope * sigma_slope);
         let mut values = members[2].harmonics.clone();
-        let mut slopes = vec![0.0; values.len()];
+        let (mut slopes, mut curvatures) = (vec![0.0; values.len()], vec![0.0; values.len()]);
         for (index, (value, tangent)) in values.iter_mut().zip(&mut slopes).enumerate() {
             *tangent = slope(&|m| m.harmonics[index]) / sigma_slope;
+            curvatures[index] = by_sigma(*tangent, curvature(&|m| m.harmonics[index]));
             *value += *tangent * (sigma - members[2].sigma);
         }
         let rate_slopes = [0, 1].map(|i| slope(&|m| (m.rates[i] - members[2].rates[i]).to_f64()) / sigma_slope);
+        let rate_curvatures =
+            [0, 1].map(|i| by_sigma(rate_slopes[i], curvature(&|m| (m.rates[i] - members[2].rates[i]).to_f64())));
         let exact = rates(&polhode.tilted(square, momentum));
         let part = |index: usize| {
             let range = index * COUNT..(index + 1) * COUNT;
-            Harmonics { values: values[range.clone()].to_vec(), slopes: slopes[range].to_vec() }
+            Harmonics {
+                values: values[range.clone()].to_vec(),
+                slopes: slopes[range.clone()].to_vec(),
+                curvatures: curvatures[range].to_vec(),
+            }
         };
         Self {
             momentum,
@@ -105,6 +129,7 @@ impl Inertia {
             separatrix: polhode.separatrix_action(),
             rates: exact.1,
             rate_slopes,
+            rate_curvatures,
             tensor: [part(0), part(1), part(2)],
             pair: [part(3), part(4)],
             untilted: [polhode.moments[2], 0.25 * (polhode.moments[0] - polhode.moments[1])],
@@ -117,13 +142,13 @@ impl Inertia {
     }
 }
 
-/// σ and the two rates; for J = 0 those of its limit.
+/// σ and the two rates. For J = 0 they are limits.
 fn rates(polhode: &Polhode) -> (f64, [DoubleDouble; 2]) {
     let secular = Secular::exact(polhode);
     (secular.kappa_sigma / polhode.kappa(), [secular.anomaly_rate, secular.longitude_rate])
 }
 
-/// sin²J at ℓ = 0 for a given σ, by Newton's method: σ is nearly linear in it, and convex.
+/// sin²J at ℓ = 0 for a given σ, by Newton's method. σ is nearly linear and convex in sin²J.
 fn square_of(polhode: &Polhode, sigma: f64) -> f64 {
     let value = |square: f64| rates(&polhode.tilted(square, 1.0)).0;
     if sigma == 0.0 {
@@ -155,7 +180,7 @@ fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
     let circle: Vec<(f64, f64)> = (0..samples).map(|k| (TAU * k as f64 / samples as f64).sin_cos()).collect();
     let mut sums = vec![0.0; 5 * COUNT];
     for k in 0..=samples / 4 {
-        // A period holds an end point twice and an inner one four times.
+        // A period contains an end point twice and an inner point four times.
         let weight = if k == 0 || k == samples / 4 { 2.0 } else { 4.0 } / samples as f64;
         let functions = sample(&closed, TAU * k as f64 / samples as f64, tilted.moments).map(|f| f * weight);
         for ((function, series), odd) in functions.iter().zip(sums.chunks_exact_mut(COUNT)).zip(ODD) {
@@ -178,7 +203,8 @@ fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
             }
         }
     }
-    // Samples end at 1e-16 of the largest, which is of the size of 1; what is smaller is nothing. σ^(h/2) may be: near B = C the rest grows like σ_sep^(−h/2).
+    // The samples are accurate to 1e-16 of the largest, which has a size of about 1, so smaller sums are set to 0. σ^(h/2) may be small: near B = C the other
+    // factor grows like σ_sep^(−h/2).
     let noise = 4.0 * f64::EPSILON;
     let root = sigma.sqrt();
     for (index, sum) in sums.iter_mut().enumerate() {
@@ -192,7 +218,7 @@ fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
 /// T33, i t1, t2 at ℓ′ and y′ = 0.
 fn sample(closed: &ClosedForm, angle: f64, moments: [f64; 3]) -> [C64; 3] {
     let [a, b] = closed.series.pair(angle);
-    // Rows of Q are the invariable axes in the body, from the quaternion (x, y, z, w) = (Re b, Im b, Im a, Re a).
+    // The rows of Q are the axes of the invariable frame in body components, from the quaternion (x, y, z, w) = (Re b, Im b, Im a, Re a).
     let (x, y, z, w) = (b.re, b.im, a.im, a.re);
     let rows = [
         [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],

@@ -17,4 +17,5 @@ mod powers;
 pub(crate) mod request;
 mod resonance;
 mod response;
+mod second_order;
 mod torque;

@@ -1,12 +1,12 @@
-//! The constants that make the motion go through the state that is given.
+//! The constants that make the motion pass through the given state.
 
 use num_complex::Complex;
 
 /// Constants of second order.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Offset {
-    /// Of p, times e^(−iℓ′).
+    /// Added to p, times e^(−iℓ′).
     pub(super) p: Complex<f64>,
-    /// Of M.
+    /// Added to M.
     pub(super) momentum: f64,
 }

@@ -1,4 +1,4 @@
-//! The variables of the averaged theory at a state.
+//! The variables of the averaged theory at a given state.
 
 use andoyer_double::DoubleDouble;
 
@@ -8,10 +8,10 @@ use crate::torque_free::frequencies::Secular;
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::{Polhode, SMALLEST_TILT};
 
-/// σ/σ_sep up to which the tables for the gravity gradient have enough harmonics.
+/// Largest σ/σ_sep for which the tables for the gravity gradient have enough harmonics.
 pub(crate) const LARGEST_SEPARATRIX_RATIO: f64 = 0.9;
 
-/// Where a state that can be averaged is: σ/σ_sep, and σ, ℓ′, y′ − y.
+/// The variables of a state that can be averaged: σ/σ_sep, and σ, ℓ′, y′ − y.
 pub(crate) fn osculating(polhode: &Polhode) -> Result<(f64, (f64, [f64; 2])), Error> {
     let mode = Mode::of(polhode);
     let [g1, g2, g3] = polhode.direction;

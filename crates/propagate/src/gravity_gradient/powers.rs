@@ -1,14 +1,14 @@
-//! The harmonics of a and b of a motion near the mean one, as polynomials in p² and p̄².
+//! The harmonics of a and b for a motion near the mean motion, as polynomials in p² and p̄².
 
 use super::inertia::{HIGHEST, Harmonics};
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 
-/// A harmonic of a or b below this turns nothing \[rad\].
+/// Smaller harmonics of a or b have no effect on the attitude \[rad\].
 const NEGLIGIBLE: f64 = 1e-18;
 
-/// The harmonics of a or b that are not nothing, with their slopes, as polynomials in p² and p̄²: the first with h ≥ 0, the second with h < 0.
+/// The harmonics of a or b that are not negligible, with their slopes, as polynomials in p² and p̄². The first list has h ≥ 0, the second h < 0.
 #[derive(Clone, Debug)]
 pub(super) struct Powers([Vec<[f64; 2]>; 2]);
 
@@ -31,7 +31,7 @@ impl Powers {
         if odd { Self([side(1, 1), side(1, -1)]) } else { Self([side(0, 1), side(2, -1)]) }
     }
 
-    /// Their sums, to be multiplied with what they lack of p and p̄.
+    /// The two sums, without the remaining factors p and p̄.
     #[inline(always)]
     pub(super) fn at<S: InstructionSet>(&self, square: ComplexLanes<S>, beyond: Lanes<S>) -> [ComplexLanes<S>; 2] {
         let zero = beyond.all(0.0);

@@ -1,9 +1,9 @@
-//! What a scene asks of the motion under a torque.
+//! The options of a scene that concern the motion under a torque.
 
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
 
-/// What is asked of the perturbed motion.
+/// The requested options of the perturbed motion.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Request<'a> {
     pub(crate) orbit: &'a Orbit,
@@ -13,6 +13,6 @@ pub(crate) struct Request<'a> {
     pub(crate) epoch: f64,
     /// Longest time from the epoch, in the user's unit.
     pub(crate) duration: f64,
-    /// Whether the scene asks for it.
+    /// Whether the scene has a span.
     pub(crate) spanned: bool,
 }

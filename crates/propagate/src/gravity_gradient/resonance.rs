@@ -1,9 +1,10 @@
-//! Where no averaging holds: a term e^(i(hℓ′+my′)) whose frequency Ω is near a multiple of the mean motion that the disturbing body has (theory §9).
+//! Resonances, where averaging is not valid: terms e^(i(hℓ′+my′)) whose frequency Ω is near a multiple of the mean motion of the disturbing body (theory §9).
 //!
-//! Below [`SMALLEST_RATIO`] times the fastest angular rate of twice the true anomaly, a term is not corrected at all. Above it the sum for G takes all of it but the
-//! harmonics of the mean anomaly that are too high for its powers of d/dt: their amplitude falls like e^(−|j|(arcosh 1/e − η)), as Hansen's coefficients do. Either leaves the attitude
-//! its rate over the time that it acts in one sense, the span or 2/|Ω − jn|, and lets the phases drift by what it does to σ and, for m ≠ 0, to M. That is an
-//! estimate from above; what is not larger than second order becomes part of the error, and the rest is [`Error::Resonance`].
+//! A term with Ω below [`SMALLEST_RATIO`] times the largest rate of twice the true anomaly is not corrected. For larger Ω the sum for G contains the whole term
+//! except the harmonics of the mean anomaly that are too high for its powers of d/dt. Their amplitude falls like e^(−|j|(arcosh 1/e − η)), as Hansen's
+//! coefficients do. In both cases the attitude error is the rate of the term times the time during which it acts in one direction, which is the span or 2/|Ω −
+//! jn|. In addition the phases drift, because the term changes σ and, for m ≠ 0, M. This is an upper estimate. If it is not larger than the second-order error,
+//! it becomes part of the error bound; otherwise it is [`Error::Resonance`].
 
 use std::f64::consts::PI;
 
@@ -11,34 +12,34 @@ use super::candidate::{Candidate, SMALLEST_RATIO};
 use super::response::Response;
 use crate::error::Error;
 
-/// Orbital harmonics that a slow term is held against, from −3 to 3.
+/// Harmonics of the orbit, from −3 to 3, with which the frequency of a slow term is compared.
 const SLOW_HARMONICS: i32 = 3;
-/// How much more than second order may be left.
+/// Largest error of the resonant terms over that of second order.
 const MARGIN: f64 = 10.0;
-/// Largest prefactor of Hansen's coefficients beside their exponential, over their value at the pericentre.
+/// Largest prefactor of Hansen's coefficients, apart from their exponential, over their value at the pericentre.
 const PREFACTOR: f64 = 1.0;
 
-/// Frequencies of a mean motion against those of the orbit.
+/// The frequencies of a mean motion and of its orbit.
 pub(super) struct Commensurability<'a> {
     pub(super) response: &'a Response,
     pub(super) mean_motion: f64,
     pub(super) eccentricity: f64,
-    /// Of twice the true anomaly.
+    /// Largest rate of twice the true anomaly.
     pub(super) fastest: f64,
     pub(super) duration: f64,
 }
 
 impl Commensurability<'_> {
-    /// What the terms together leave \[rad\].
+    /// The attitude error of all terms together \[rad\].
     ///
     /// # Errors
-    /// - [`Error::Resonance`] if that is more than some times what is `allowed`; it names the largest.
+    /// - [`Error::Resonance`] if the error exceeds `allowed` by more than a factor [`MARGIN`]. It names the largest term.
     pub(super) fn left(&self, terms: &[Candidate], allowed: f64) -> Result<f64, Error> {
         let effects = terms.iter().map(|term| (self.effect(term), term));
         let (mut sum, mut largest) = (0.0, None::<(f64, &Candidate)>);
         for (effect, term) in effects {
             sum += effect;
-            // Of two that are as large as can be, the one nearer to the commensurability.
+            // Of two terms with the same largest effect, the one nearer to the commensurability is named.
             let nearer = |other: &Candidate| self.slow_distance(term) < self.slow_distance(other);
             if largest.is_none_or(|(most, other)| effect > most || (effect == most && nearer(other))) {
                 largest = Some((effect, term));
@@ -55,7 +56,7 @@ impl Commensurability<'_> {
         }
     }
 
-    /// What a term leaves over the span \[rad\], π at most.
+    /// The attitude error of a term over the span \[rad\], at most π.
     fn effect(&self, term: &Candidate) -> f64 {
         if term.frequency.abs() > SMALLEST_RATIO * self.fastest {
             let (amplitude, distance) = self.beyond_the_sum(term);
@@ -65,24 +66,24 @@ impl Commensurability<'_> {
         }
     }
 
-    /// What a term turns the attitude by over the span \[rad\] if it is not corrected at all, π at most.
+    /// The attitude error over the span if the term is not corrected at all \[rad\], at most π.
     pub(super) fn whole(&self, term: &Candidate) -> f64 {
         self.turned(term, 1.0, self.slow_distance(term))
     }
 
-    /// What a part of a term turns the attitude by, at its distance from a commensurability.
+    /// The attitude error of a part of a term at its distance from a commensurability.
     fn turned(&self, term: &Candidate, amplitude: f64, distance: f64) -> f64 {
         let time = if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration };
         (amplitude * term.rate * time * self.response.growth(term.multiple, self.duration)).min(PI)
     }
 
-    /// How far Ω is from a low multiple of the mean motion.
+    /// The distance of Ω from the nearest low multiple of the mean motion.
     fn slow_distance(&self, term: &Candidate) -> f64 {
         let multiples = -SLOW_HARMONICS..=SLOW_HARMONICS;
         multiples.map(|j| (term.frequency - f64::from(j) * self.mean_motion).abs()).fold(f64::INFINITY, f64::min)
     }
 
-    /// Amplitude of the nearest harmonic that the sum for G does not see, and the distance to it.
+    /// The amplitude of the nearest harmonic that the sum for G does not contain, and the distance of Ω from it.
     fn beyond_the_sum(&self, term: &Candidate) -> (f64, f64) {
         if self.eccentricity == 0.0 {
             return (0.0, term.frequency.abs());

@@ -1,25 +1,25 @@
-//! How errors of the mean variables turn the attitude: at once, and by the rates.
+//! The effect of errors of the mean variables on the attitude: directly, and through the rates.
 
 use super::inertia::{HIGHEST, Inertia};
 
-/// Factors of one mean motion.
+/// The factors of one mean motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Response {
-    /// Largest turn of the attitude by a change of p \[rad\]: √2 for a round body at J = 0, and √(2ω) near B = C.
+    /// Largest turn of the attitude for a unit change of p \[rad\]: √2 for an axisymmetric body at J = 0, and √(2ω) near B = C.
     pub(super) gain: f64,
-    /// Turn by a change of ℓ′.
+    /// Turn of the attitude for a unit change of ℓ′.
     pub(super) visible: f64,
-    /// Rate of the turn by a change of σ.
+    /// Rate of the turn for a unit change of σ.
     pub(super) by_sigma: f64,
-    /// Rate of the turn by a relative change of M.
+    /// Rate of the turn for a unit relative change of M.
     pub(super) by_momentum: f64,
-    /// σ, and how far it is from the separatrix's.
+    /// σ; `distance` is its distance from σ of the separatrix.
     pub(super) sigma: f64,
     distance: f64,
 }
 
 impl Response {
-    /// From the series of a and b.
+    /// The factors from the series of a and b.
     pub(super) fn new(inertia: &Inertia) -> Self {
         let Inertia { sigma, separatrix, .. } = *inertia;
         let root = sigma.sqrt();
@@ -47,20 +47,21 @@ impl Response {
         }
     }
 
-    /// What a change of p does to σ.
+    /// The change of σ that a change of p causes.
     pub(super) fn of_sigma(&self, p: f64) -> f64 {
         p * (2.0 * self.sigma.sqrt() + p)
     }
 
-    /// Attitude error of second order over a time, for first-order changes of this size and with derivatives of that one \[rad\]; of the change p has `p` \[1\].
+    /// Second-order attitude error over a time \[rad\], for first-order changes of this size and with derivatives of size `slope`. `p` is the change of p
+    /// \[1\].
     pub(super) fn second_order(&self, [size, slope]: [f64; 2], p: f64, duration: f64) -> f64 {
         let of_sigma = self.of_sigma(p);
-        // The bracket of two changes of p, and the curvature of the functions of σ, which the separatrix bounds.
+        // The bracket of two changes of p, and the curvature of the functions of σ. The distance from the separatrix bounds the curvature.
         let sigma = of_sigma * (slope + p / self.distance.sqrt() + of_sigma / self.distance);
         size * slope * (1.0 + self.by_momentum * duration) + self.by_sigma * sigma * duration
     }
 
-    /// How much a change of the attitude by a term grows over a time: by σ, and by M for m ≠ 0.
+    /// The factor by which the effect of a term on the attitude grows over a time: through σ, and through M for m ≠ 0.
     pub(super) fn growth(&self, multiple: i32, duration: f64) -> f64 {
         let by_momentum = if multiple == 0 { 0.0 } else { self.by_momentum };
         let by_sigma = 2.0 * self.sigma.sqrt() / self.gain * self.by_sigma;

@@ -1,4 +1,4 @@
-//! What the corrections must do to the mean variables, which the public face does not show: M stands still, and the brackets are kept.
+//! Tests of the corrections with the mean variables, which are not public: the mean M is nearly constant, and the brackets are preserved.
 
 use super::*;
 use crate::simd::kepler::Place;
@@ -55,7 +55,7 @@ impl Case {
         [polhode.user_momentum(), gradient.inertia.momentum * polhode.user_momentum() / polhode.momentum.to_f64()]
     }
 
-    /// Largest less smallest M, over that of the mean M.
+    /// The range of M over the range of the mean M.
     fn ratio(&self, states: &[State], level: Level) -> f64 {
         let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for state in states {
@@ -66,7 +66,7 @@ impl Case {
         (most[0] - least[0]) / (most[1] - least[1])
     }
 
-    /// Many states of the motion: of the full level, which the reference holds to 3e-7 of the torque's effect.
+    /// Many states of the motion at the full level. The reference agrees with them to 3e-7 of the torque's effect.
     fn dense(&self) -> Vec<State> {
         let motion = crate::Scene::new(self.body.clone(), self.states[0]).orbit(self.orbit).solve().expect("averaged");
         let states = (0..800).map(|k| motion.at(0.157 * f64::from(k)).expect("finite"));
@@ -81,16 +81,16 @@ fn mean_momentum_swings_as_little_as_theory_9_says_of_each_level() {
         let dense = case.dense();
         let [paper, moving] = [Level::Paper, Level::Moving].map(|level| case.ratio(&dense, level));
         let full = case.ratio(&case.states, Level::Full);
-        // Over 20 rotations; over another stretch the largest swing of M, and so the ratio, is another by a third.
+        // The ratios are for 20 rotations. Over other times the largest variation of M, and so the ratio, differs by up to a third.
         assert!((paper / ratio).ln().abs() <= 0.35, "{name}: {paper}");
         assert!(moving >= 0.99 * paper && full >= 1e6, "{name}: {moving}, {full}");
     }
 }
 
-/// Of the disturbing body, in units of the spin.
+/// Mean motion of the disturbing body, in units of the spin.
 const MEAN_MOTION: f64 = 1e-3;
 
-/// A mean state, and where the disturbing body is.
+/// A mean state, and the position of the disturbing body.
 struct Stand {
     polhode: Polhode,
     orbit: Orbit,
@@ -127,7 +127,7 @@ impl Stand {
         Corrections::new(&inertia, &demand).expect("no resonance").at(mean, &self.place)
     }
 
-    /// Central difference of δp, δM, δy′ and δk along axes 1 and 2, when the mean state is moved by ±h.
+    /// Central difference of δp, δM, δy′ and δk along axes 1 and 2 when the mean state changes by ±h.
     fn slope(&self, moved: impl Fn(&Mean, f64) -> Mean) -> [C64; 5] {
         const STEP: f64 = 1e-4;
         let parts = |change: Change| {
@@ -188,7 +188,7 @@ fn corrections_keep_the_poisson_brackets_to_first_order() {
         let size = change.p.norm() + change.longitude.abs();
         for (bracket, residual) in residuals {
             let scaled = residual.norm() / size;
-            // Differences: the square of the step, 1e-8, times derivatives, which are larger by 1/σ; slopes of the tables 1e-10.
+            // Error budget: the square of the step, 1e-8, times derivatives that are larger by 1/σ; and 1e-10 for the slopes of the tables.
             assert!(scaled <= 1e-5, "{bracket}: {scaled:e}");
         }
     }

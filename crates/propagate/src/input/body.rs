@@ -1,7 +1,7 @@
-//! A rigid body: three principal moments of inertia, and the constants of theory §1 that follow from them.
+//! A rigid body: three principal moments of inertia, and the constants of theory §1.
 //!
-//! Moments come in any order about body axes 1, 2, 3; the theory's A ≤ B ≤ C are the sorted ones. Differences of moments are formed
-//! before they are divided, so that α, αβ and 1 − β keep their relative accuracy for a nearly spherical, oblate or prolate body.
+//! Moments are given in any order about body axes 1, 2, 3. A ≤ B ≤ C of the theory are the sorted moments. Differences of moments are computed before any
+//! division, so that α, αβ and 1 − β keep their relative accuracy for a nearly spherical, oblate or prolate body.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
@@ -9,9 +9,9 @@ use super::catalogue;
 use super::principal_axes::{NEGLIGIBLE, principal_axes};
 use crate::error::Error;
 
-/// Slack of the triangle inequality: a flat body given in rounded decimals is still a body.
+/// Tolerance of the triangle inequality, which accepts a flat body given in rounded decimals.
 const TRIANGLE_SLACK: f64 = 8.0 * f64::EPSILON;
-/// Largest ratio of moments: past it C/A − 1 and its squares near the limits of a double. No body is a needle of 1e50 : 1.
+/// Largest ratio C/A of moments. Beyond it C/A − 1 and its squares approach the limits of a double. No body is so thin: a needle of 1e50 : 1 has this ratio.
 const LARGEST_RATIO: f64 = 1e100;
 
 /// Principal moments of inertia [any unit] about body axes 1, 2, 3, or an inertia tensor about the user's axes.
@@ -26,9 +26,9 @@ pub struct Body {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Tensor {
     given: [[f64; 3]; 3],
-    /// Columns.
+    /// The principal axes as columns, in the user's components.
     axes: Matrix3<f64>,
-    /// Rotation of components about principal axes into the user's.
+    /// Rotation from components about principal axes to components about the user's axes.
     turn: UnitQuaternion<f64>,
 }
 
@@ -53,7 +53,7 @@ impl Body {
         }
         let body = Self { moments, name: None, tensor: None };
         let [a, b, c] = body.sorted();
-        // Each quotient by itself: the sum of two large moments may overflow.
+        // Each quotient is computed by itself, because the sum of two large moments may overflow.
         let sum = a / c + b / c;
         if sum < 1.0 - TRIANGLE_SLACK {
             return Err(Error::MomentsTriangle { moments, ratio: 1.0 / sum });
@@ -64,12 +64,13 @@ impl Body {
         Ok(body)
     }
 
-    /// A body from its inertia tensor about the user's axes; attitudes, rates and momenta of its scenes are about these axes too.
+    /// A body from its inertia tensor about the user's axes. Attitudes, rates and momenta of its scenes refer to these axes too.
     ///
-    /// Its principal axes are those nearest to the user's; axes between which moments are equal, to 1e-12 of the largest, and no product of inertia is left stay as they are.
+    /// The principal axes are numbered and directed so that they are nearest to the user's axes. Two axes do not change if their moments are equal and their
+    /// product of inertia is 0, both to 1e-12 of the largest moment.
     ///
     /// # Errors
-    /// - [`Error::InertiaSymmetry`] for entries across the diagonal that differ by more than 1e-12 of the largest entry, or are not finite.
+    /// - [`Error::InertiaSymmetry`] for opposite entries that differ by more than 1e-12 of the largest entry, or for entries that are not finite.
     /// - [`Error::InertiaMoments`] for a principal moment that is not positive: `[[1.0, 2.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 1.0]]`.
     /// - [`Error::MomentsTriangle`], [`Error::MomentsRatio`] as for [`Body::new`].
     ///
@@ -103,11 +104,11 @@ impl Body {
         Ok(body)
     }
 
-    /// A homogeneous ellipsoid with these semi-axes along body axes 1, 2, 3: m (b² + c²)/5 and so on.
+    /// A homogeneous ellipsoid with the given semi-axes along body axes 1, 2, 3: the moment about axis 1 is m (b² + c²)/5, and so on.
     ///
     /// # Errors
     /// - [`Error::Positive`] for a semi-axis or a mass that is zero, negative or not finite.
-    /// - [`Error::Moment`], [`Error::MomentsRatio`] where the moments have no double.
+    /// - [`Error::Moment`], [`Error::MomentsRatio`] if the moments overflow or underflow.
     ///
     /// ```
     /// let body = andoyer_propagate::Body::ellipsoid([3.0, 2.0, 1.0], 5.0)?;
@@ -118,10 +119,10 @@ impl Body {
         Self::homogeneous(["a", "b", "c"], semi_axes, mass, 5.0)
     }
 
-    /// A homogeneous box with these edges along body axes 1, 2, 3: m (y² + z²)/12 and so on.
+    /// A homogeneous box with the given edges along body axes 1, 2, 3: the moment about axis 1 is m (y² + z²)/12, and so on.
     ///
     /// # Errors
-    /// As [`Body::ellipsoid`].
+    /// The errors of [`Body::ellipsoid`].
     ///
     /// ```
     /// let body = andoyer_propagate::Body::cuboid([3.0, 2.0, 1.0], 12.0)?;
@@ -142,23 +143,24 @@ impl Body {
         Self::new([b + c, a + c, a + b].map(|sum| mass * sum / divisor))
     }
 
-    /// Whether the body was given by an inertia tensor whose axes are not the principal ones.
+    /// Whether the body was given by an inertia tensor about axes that are not principal axes.
     pub fn has_tensor(&self) -> bool {
         self.tensor.is_some()
     }
 
-    /// The inertia tensor about the user's axes, as it was given; diagonal for a body about its principal axes.
+    /// The inertia tensor about the user's axes, as it was given. It is diagonal for a body given by principal moments.
     pub fn inertia(&self) -> [[f64; 3]; 3] {
         let [a, b, c] = self.moments;
         self.tensor.as_ref().map_or([[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]], |tensor| tensor.given)
     }
 
-    /// The principal axes in the user's components: columns of a proper rotation, in the order of [`Body::moments`]; the unit matrix unless a tensor was given.
+    /// The principal axes in the user's components, as columns of a proper rotation in the order of [`Body::moments`]. It is the unit matrix unless a tensor
+    /// was given.
     pub fn principal_axes(&self) -> Matrix3<f64> {
         self.tensor.as_ref().map_or_else(Matrix3::identity, |tensor| tensor.axes)
     }
 
-    /// Rotation of components about principal axes into the user's, where they differ.
+    /// Rotation from components about principal axes to components about the user's axes; `None` if the axes are the same.
     pub(crate) fn turn(&self) -> Option<UnitQuaternion<f64>> {
         self.tensor.as_ref().map(|tensor| tensor.turn)
     }
@@ -168,12 +170,18 @@ impl Body {
         Self { tensor: None, ..self.clone() }
     }
 
-    /// The same body with moments a little different, which need not be those of a body.
+    /// The same body with slightly different moments, which are not validated.
     pub(crate) fn with_moments(&self, moments: [f64; 3]) -> Self {
         Self { moments, ..self.clone() }
     }
 
-    /// A body of the catalogue by its name, in any case: "earth", "ceres", … (the list: [`Body::catalogue`]).
+    /// A body of the catalogue by its name, in upper or lower case: "earth", "ceres", … ([`Body::catalogue`] lists the names).
+    ///
+    /// ```
+    /// let eros = andoyer_propagate::Body::named("eros")?;
+    /// assert_eq!(eros.moments(), [0.210_078_32, 0.983_109_82, 1.0]);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
     ///
     /// # Errors
     /// - [`Error::UnknownBody`] for `"vulcan"`.
@@ -187,7 +195,7 @@ impl Body {
         catalogue::names().collect()
     }
 
-    /// Where the figures of a catalogue body come from.
+    /// The sources of the figures of a catalogue body.
     ///
     /// # Errors
     /// - [`Error::UnknownBody`] for `"vulcan"`.
@@ -195,37 +203,37 @@ impl Body {
         catalogue::entry(name).map(|entry| entry.source)
     }
 
-    /// The same body with a name, which is printed and nothing else.
+    /// The same body with a name. The name is only printed.
     #[must_use]
     pub fn with_name(mut self, name: &str) -> Self {
         self.name = Some(name.to_owned());
         self
     }
 
-    /// The name, if it has one.
+    /// The name, or `None` if the body has none.
     pub fn name(&self) -> Option<&str> {
         self.name.as_deref()
     }
 
-    /// The moments about body axes 1, 2, 3, as given; of an inertia tensor the principal ones, about [`Body::principal_axes`].
+    /// The moments about body axes 1, 2, 3, as given. For an inertia tensor they are the principal moments about [`Body::principal_axes`].
     pub fn moments(&self) -> [f64; 3] {
         self.moments
     }
 
-    /// A ≤ B ≤ C.
+    /// The sorted moments A ≤ B ≤ C.
     pub(crate) fn sorted(&self) -> [f64; 3] {
         let mut sorted = self.moments;
         sorted.sort_by(f64::total_cmp);
         sorted
     }
 
-    /// C/A − 1 and C/B − 1 (theory §1), each to its last bits.
+    /// C/A − 1 and C/B − 1 (theory §1), accurate to rounding.
     pub(crate) fn excesses(&self) -> (f64, f64) {
         let [a, b, c] = self.sorted();
         ((c - a) / a, (c - b) / b)
     }
 
-    /// C/A − C/B = 2αβ, without the difference of the two excesses.
+    /// C/A − C/B = 2αβ, computed without the difference of the two excesses.
     pub(crate) fn excess_difference(&self) -> f64 {
         let [a, b, c] = self.sorted();
         (c / b) * ((b - a) / a)
@@ -237,7 +245,7 @@ impl Body {
         0.5 * (first + second)
     }
 
-    /// β, the triaxiality, 0 ≤ β ≤ 1 (theory §1); 0 for A = B, 1 for B = C, and 0 for a sphere, where it is not defined.
+    /// β, the triaxiality, 0 ≤ β ≤ 1 (theory §1). It is 0 for A = B and 1 for B = C. For a sphere it is not defined, and 0 is returned.
     pub fn beta(&self) -> f64 {
         let alpha = self.alpha();
         if alpha == 0.0 { 0.0 } else { (0.5 * self.excess_difference() / alpha).min(1.0) }
@@ -257,7 +265,13 @@ impl Body {
 
     /// σ_sep(β) = (2/π) atan √((1−β)/2β), the action of the separatrix in units of M (theory §5); 1 for A = B, 0 for B = C.
     ///
-    /// From the moments, so that it keeps its digits where β is next to 1.
+    /// It is computed from the moments, so that it keeps its relative accuracy when β is close to 1.
+    ///
+    /// ```
+    /// let action = andoyer_propagate::Body::new([1.0, 1.5, 2.0])?.separatrix_action();
+    /// assert!((action - 0.39183).abs() < 5e-6); // β = ½: table of theory §5
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
     pub fn separatrix_action(&self) -> f64 {
         let (_, second) = self.excesses();
         let difference = self.excess_difference();

@@ -1,10 +1,10 @@
 //! Real bodies: moments of inertia in units of C about the principal axes, each with its source.
 //!
-//! Every figure was read in the source that the entry names; "read in" names the copy. What follows from these figures is called derived:
+//! Every figure was read in the source that the entry names; "read in" names the copy that was read. A figure computed from these is called derived:
 //! - homogeneous ellipsoid of semi-axes a ≥ b ≥ c: A : B : C = b² + c² : a² + c² : a² + b²;
 //! - gravity field, with c = C/(M R²), J2 = −√5 C̄20 and J22 = √(5/12) |C̄22 + iS̄22|: A/C = 1 − (J2 + 2 J22)/c and B/C = 1 − (J2 − 2 J22)/c.
 //!
-//! A body whose moments rest on a figure that could not be read is not in the list.
+//! A body is left out if one of its figures could not be read.
 
 use crate::error::Error;
 
@@ -58,17 +58,17 @@ const ENTRIES: &[Entry] = &[
     Entry {
         name: "Moon",
         moments: [0.999_369_23, 0.999_596_96, 1.0],
-        source: "(C-A)/B = 631.0213e-6, (B-A)/C = 227.7317e-6 (Williams 2014, read in pyshtools); A/C, B/C derived; synchronous: a spin resonance under its own orbit, which no averaging serves",
+        source: "(C-A)/B = 631.0213e-6, (B-A)/C = 227.7317e-6 (Williams 2014, read in pyshtools); A/C, B/C derived; synchronous: a spin resonance under its own orbit, for which no averaged theory holds",
     },
     Entry {
         name: "Phobos",
         moments: [0.3615 / 0.5024, 0.4265 / 0.5024, 1.0],
-        source: "A, B, C = 0.3615, 0.4265, 0.5024 MR^2 (read in a test of tudat); synchronous: a spin resonance under its own orbit, which no averaging serves",
+        source: "A, B, C = 0.3615, 0.4265, 0.5024 MR^2 (read in a test of tudat); synchronous: a spin resonance under its own orbit, for which no averaged theory holds",
     },
     Entry {
         name: "Dimorphos",
         moments: [0.617_158_46, 0.873_664_03, 1.0],
-        source: "after the impact of DART: a/b = 1.3, a/c = 1.6 (read: Naidu 2024, abstract); derived for constant density; near a spin resonance under its own orbit, which no averaging serves",
+        source: "after the impact of DART: a/b = 1.3, a/c = 1.6 (read: Naidu 2024, abstract); derived for constant density; near a spin resonance under its own orbit, for which no averaged theory holds",
     },
     Entry {
         name: "Hyperion",
@@ -82,7 +82,7 @@ const ENTRIES: &[Entry] = &[
     },
 ];
 
-/// The entry of a name, in any case.
+/// The entry with this name, in upper or lower case.
 pub(crate) fn entry(name: &str) -> Result<&'static Entry, Error> {
     let unknown = || Error::UnknownBody { name: name.to_owned(), known: names().collect() };
     ENTRIES.iter().find(|entry| entry.name.eq_ignore_ascii_case(name)).ok_or_else(unknown)

@@ -1,24 +1,27 @@
-//! How a scene is to be solved: method, averaging, level of the gravity-gradient theory, largest order.
+//! The options of a solution: method, averaging, level of the gravity-gradient theory, largest order.
 
 use std::fmt;
 use std::str::FromStr;
 
 use crate::error::Error;
 
-/// The highest order of the series; it reaches σ/σ_sep = 0.66 for a tolerance of 1e-12.
+/// The highest order of the series. It reaches σ/σ_sep = 0.66 for a tolerance of 1e-12.
 pub const MAX_ORDER: usize = 60;
 
-/// Which formulas evaluate a motion.
+/// The formulas that evaluate a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Method {
-    /// Whatever meets the tolerance at the lowest cost.
+    /// The cheapest method that meets the tolerance.
     #[default]
     Auto,
     /// The perturbation series.
     Series,
-    /// The closed form: theta functions.
+    /// The closed form with theta functions.
     Closed,
+    /// Numerical integration of the full equations over the span.
+    Integrated,
 }
 
 impl FromStr for Method {
@@ -29,6 +32,7 @@ impl FromStr for Method {
             "auto" => Ok(Self::Auto),
             "series" => Ok(Self::Series),
             "closed" => Ok(Self::Closed),
+            "integrated" => Ok(Self::Integrated),
             _ => Err(Error::Method { value: text.to_owned() }),
         }
     }
@@ -40,15 +44,18 @@ impl fmt::Display for Method {
             Self::Auto => "auto",
             Self::Series => "series",
             Self::Closed => "closed",
+            Self::Integrated => "integrated",
         })
     }
 }
 
-/// Whose precession and rotation a pair of periods belongs to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// The axis whose precession and rotation a pair of periods describes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Convention {
-    /// The axis that the angular momentum circles: the short axis in the short-axis mode, the long axis in the long-axis mode. Light-curve papers use it.
+    /// The axis around which the angular momentum circles: the short axis in the short-axis mode, the long axis in the long-axis mode. Light-curve papers use
+    /// it.
     #[default]
     ExtremalAxis,
     /// The long axis. Radar papers use it.
@@ -58,7 +65,7 @@ pub enum Convention {
 }
 
 impl Convention {
-    /// The three, in the order in which an ensemble gives its periods.
+    /// The three conventions, in the order of the periods of an ensemble.
     pub const ALL: [Self; 3] = [Self::LongAxis, Self::ShortAxis, Self::ExtremalAxis];
 }
 
@@ -85,17 +92,20 @@ impl fmt::Display for Convention {
     }
 }
 
-/// Which terms the corrections by the gravity gradient have.
+/// The terms in the corrections for the gravity gradient.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Level {
-    /// Those of Lara (2017): the potential at J = 0, the disturbing body held fixed in the divisors.
+    /// The terms of Lara (2017): the potential at J = 0, and a disturbing body that is fixed in the divisors.
     Paper,
-    /// The potential at J = 0, the disturbing body on its way.
+    /// The potential at J = 0, and a disturbing body that moves along its orbit.
     Moving,
-    /// To all orders in J.
+    /// The potential to all orders in J, and a disturbing body that moves along its orbit.
     #[default]
     Full,
+    /// To all orders in J, and the averaged motion to second order in the torque.
+    SecondOrder,
 }
 
 impl FromStr for Level {
@@ -106,6 +116,7 @@ impl FromStr for Level {
             "paper" => Ok(Self::Paper),
             "moving" => Ok(Self::Moving),
             "full" => Ok(Self::Full),
+            "second-order" => Ok(Self::SecondOrder),
             _ => Err(Error::Level { value: text.to_owned() }),
         }
     }
@@ -117,20 +128,22 @@ impl fmt::Display for Level {
             Self::Paper => "paper",
             Self::Moving => "moving",
             Self::Full => "full",
+            Self::SecondOrder => "second-order",
         })
     }
 }
 
-/// How far the equations are averaged.
+/// The averaging of the equations of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Averaging {
-    /// Whatever meets the tolerance at the lowest cost.
+    /// The cheapest averaging that meets the tolerance.
     #[default]
     Auto,
-    /// Over rotation and orbit: formulas.
+    /// Over the rotation and the orbit: the solution is a formula.
     Orbit,
-    /// Over the rotation: the averaged equations are solved quarter by quarter of the orbit.
+    /// Over the rotation only: the averaged equations are solved for each quarter of the orbit.
     Spin,
 }
 

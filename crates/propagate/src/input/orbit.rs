@@ -1,6 +1,7 @@
-//! The relative orbit of a disturbing body: Kepler's, any ellipse, in any plane.
+//! The relative orbit of a disturbing body: a Keplerian ellipse in any plane, fixed or with secular rates of node and pericentre.
 //!
-//! Elements are those of the inertial frame of the scene. The equation of Kepler is solved in lanes ([`crate::simd::kepler`]).
+//! The elements refer to the inertial frame of the scene. Node and argument of the pericentre are those at the time of pericentre. Kepler's equation is solved
+//! in lanes ([`crate::simd::kepler`]).
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,8 +13,21 @@ use crate::numerics::phase::Phase;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
-/// Radians of the mean anomaly beyond which a double has no phase.
+/// Largest mean anomaly from the pericentre \[rad\]. Beyond it a double has no phase.
 const MOST_TURNS: f64 = TAU * 1e15;
+
+const POSITIVE: &str = "positive and finite";
+
+/// An oblate primary body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Oblateness {
+    /// G × the mass of the primary [length³/time²].
+    pub gm: f64,
+    /// J2 for the reference radius.
+    pub j2: f64,
+    /// The reference radius of J2 \[length\].
+    pub radius: f64,
+}
 
 /// A Keplerian orbit of the disturbing body about the rotating one.
 ///
@@ -33,17 +47,20 @@ pub struct Orbit {
     node: f64,
     argument_of_pericentre: f64,
     mass_fraction: f64,
+    node_rate: f64,
+    pericentre_rate: f64,
+    attraction: Option<f64>,
 }
 
 impl Orbit {
     /// An orbit from its mean motion n [rad per unit of time] and eccentricity e, in the inertial x, y plane, with its pericentre on the x axis at time 0.
     ///
-    /// n²a³ is G times the sum of the two masses; the disturbing one is all of it until [`Orbit::mass_fraction`] says otherwise.
+    /// n²a³ is G times the sum of the two masses. The disturbing body has the whole mass unless [`Orbit::mass_fraction`] gives its share.
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for a mean motion of 0, −1, NaN, or an eccentricity of −0.1, 1, NaN.
+    /// - [`Error::Orbit`] for a mean motion of 0, −1 or NaN, and for an eccentricity of −0.1, 1 or NaN.
     pub fn new(mean_motion: f64, eccentricity: f64) -> Result<Self, Error> {
-        check("mean_motion", mean_motion, mean_motion > 0.0 && mean_motion.is_finite(), "positive and finite")?;
+        check("mean_motion", mean_motion, mean_motion > 0.0 && mean_motion.is_finite(), POSITIVE)?;
         check("eccentricity", eccentricity, (0.0..1.0).contains(&eccentricity), "0 or more and less than 1")?;
         Ok(Self {
             mean_motion,
@@ -53,22 +70,72 @@ impl Orbit {
             node: 0.0,
             argument_of_pericentre: 0.0,
             mass_fraction: 1.0,
+            node_rate: 0.0,
+            pericentre_rate: 0.0,
+            attraction: None,
         })
     }
 
-    /// A time of a passage of the pericentre.
+    /// The orbit about an oblate primary, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3). The rotating
+    /// body is the satellite and the primary is the disturbing body.
+    ///
+    /// Let n0² = GM/a³, p = a(1 − e²) and k = (3/2) n0 J2 (R/p)². The node rate is −k cos i, the pericentre rate k (2 − (5/2) sin² i), and the mean motion n0 +
+    /// k √(1 − e²) (1 − (3/2) sin² i), which is the rate of the mean anomaly. The attraction is GM/a³. `semi_major_axis` is the mean semi-major axis. Periodic
+    /// terms, of relative size J2 (R/p)², are omitted.
+    ///
+    /// ```
+    /// use andoyer_propagate::Orbit;
+    /// use andoyer_propagate::disturbers::Oblateness;
+    /// let earth = Oblateness { gm: 3.986004415e14, j2: 1.08262668e-3, radius: 6378136.3 };
+    /// let orbit = Orbit::around_oblate(&earth, 6878136.3, 0.001, 51.6_f64.to_radians())?;
+    /// let per_day = orbit.rates()[0].to_degrees() * 86400.0;
+    /// assert!((per_day + 4.75).abs() < 0.01);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for NaN or infinite.
+    /// - [`Error::Orbit`] for a gm, a semi-major axis or a radius of 0, a J2 of NaN, an eccentricity of 1, or rates that make the mean motion 0 or negative.
+    pub fn around_oblate(
+        primary: &Oblateness,
+        semi_major_axis: f64,
+        eccentricity: f64,
+        inclination: f64,
+    ) -> Result<Self, Error> {
+        let Oblateness { gm, j2, radius } = *primary;
+        let positive = |argument, value: f64| check(argument, value, value > 0.0 && value.is_finite(), POSITIVE);
+        positive("gm", gm)?;
+        positive("semi_major_axis", semi_major_axis)?;
+        positive("radius", radius)?;
+        finite("j2", j2)?;
+        finite("inclination", inclination)?;
+        check("eccentricity", eccentricity, (0.0..1.0).contains(&eccentricity), "0 or more and less than 1")?;
+        let attraction = gm / semi_major_axis / semi_major_axis / semi_major_axis;
+        positive("attraction", attraction)?;
+        let mean_motion = attraction.sqrt();
+        let square = (1.0 - eccentricity) * (1.0 + eccentricity);
+        let shape = radius / (semi_major_axis * square);
+        let k = 1.5 * mean_motion * j2 * shape * shape;
+        let (sine, cosine) = inclination.sin_cos();
+        let anomaly = mean_motion + k * square.sqrt() * (1.0 - 1.5 * sine * sine);
+        Self::new(anomaly, eccentricity)?
+            .plane(inclination, 0.0, 0.0)?
+            .secular_rates(-k * cosine, k * (2.0 - 2.5 * sine * sine))?
+            .attraction(attraction)
+    }
+
+    /// Sets a time of pericentre passage [unit of time].
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for a time that is NaN or infinite.
     pub fn time_of_pericentre(self, time: f64) -> Result<Self, Error> {
         finite("time_of_pericentre", time)?;
         Ok(Self { time_of_pericentre: time, ..self })
     }
 
-    /// Inclination, longitude of the node and argument of the pericentre \[rad\].
+    /// Sets inclination, longitude of the node and argument of the pericentre \[rad\].
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for NaN or infinite.
+    /// - [`Error::Orbit`] for an angle that is NaN or infinite.
     pub fn plane(self, inclination: f64, node: f64, argument_of_pericentre: f64) -> Result<Self, Error> {
         finite("inclination", inclination)?;
         finite("node", node)?;
@@ -76,16 +143,64 @@ impl Orbit {
         Ok(Self { inclination, node, argument_of_pericentre, ..self })
     }
 
-    /// The disturbing mass over the sum of both: 1 for the Sun on an asteroid, 1/82.3 for the Moon on the Earth.
+    /// Sets the disturbing mass as a fraction of the sum of both masses: 1 for the Sun and an asteroid, 1/82.3 for the Moon and the Earth.
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for 0, −1, 1.1, NaN.
+    /// - [`Error::Orbit`] for 0, −1, 1.1 or NaN.
     pub fn mass_fraction(self, fraction: f64) -> Result<Self, Error> {
         check("mass_fraction", fraction, fraction > 0.0 && fraction <= 1.0, "greater than 0 and at most 1")?;
         Ok(Self { mass_fraction: fraction, ..self })
     }
 
-    /// Mean motion n, eccentricity, time of pericentre, inclination, node, argument of pericentre, mass fraction.
+    /// Sets the secular rates of the node, about inertial axis 3, and of the argument of the pericentre, about the normal of the orbit [rad per unit of time].
+    /// Node and argument are then those at the time of pericentre, and the mean motion is the rate of the mean anomaly.
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for a rate that is NaN or infinite.
+    pub fn secular_rates(self, node: f64, pericentre: f64) -> Result<Self, Error> {
+        finite("node_rate", node)?;
+        finite("pericentre_rate", pericentre)?;
+        Ok(Self { node_rate: node, pericentre_rate: pericentre, ..self })
+    }
+
+    /// Sets the attraction G × disturbing mass / a³ [1/time²]. The default is mean_motion² × mass_fraction.
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for 0, −1 or NaN.
+    pub fn attraction(self, attraction: f64) -> Result<Self, Error> {
+        check("attraction", attraction, attraction > 0.0 && attraction.is_finite(), POSITIVE)?;
+        Ok(Self { attraction: Some(attraction), ..self })
+    }
+
+    /// Sets node and argument of the pericentre at the time of pericentre, which replace those of [`Orbit::plane`] \[rad\].
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for an angle that is NaN or infinite.
+    pub fn node_and_pericentre(self, node: f64, argument_of_pericentre: f64) -> Result<Self, Error> {
+        self.plane(self.inclination, node, argument_of_pericentre)
+    }
+
+    /// Secular rates of the node and of the argument of the pericentre [rad per unit of time].
+    pub fn rates(&self) -> [f64; 2] {
+        [self.node_rate, self.pericentre_rate]
+    }
+
+    /// Whether node and pericentre are fixed.
+    pub(crate) fn is_fixed(&self) -> bool {
+        self.rates() == [0.0; 2]
+    }
+
+    /// The given attraction G × disturbing mass / a³ [1/time²], or `None`.
+    pub fn asked_attraction(&self) -> Option<f64> {
+        self.attraction
+    }
+
+    /// The attraction G × disturbing mass / a³ [1/time²]. The default is mean_motion² × mass_fraction.
+    pub fn strength(&self) -> f64 {
+        self.attraction.unwrap_or(self.mean_motion * self.mean_motion * self.mass_fraction)
+    }
+
+    /// The elements: mean motion n, eccentricity, time of pericentre, inclination, node, argument of pericentre, mass fraction.
     pub fn elements(&self) -> [f64; 7] {
         [
             self.mean_motion,
@@ -98,7 +213,7 @@ impl Orbit {
         ]
     }
 
-    /// Angles of the elements beyond a whole turn, by name \[rad\]: they are taken as they are, but are often degrees given by mistake.
+    /// The angles of the elements that exceed a whole turn, with their names \[rad\]. They are accepted, but they are often degrees given by mistake.
     ///
     /// ```
     /// let orbit = andoyer_propagate::Orbit::new(1e-3, 0.1)?.plane(23.4, 0.0, 6.0)?;
@@ -119,11 +234,15 @@ impl Orbit {
         self.mean_motion
     }
 
+    /// The attraction over n². It is the mass fraction unless an attraction is given.
     pub(crate) fn disturbing_fraction(&self) -> f64 {
-        self.mass_fraction
+        match self.attraction {
+            Some(attraction) => attraction / self.mean_motion / self.mean_motion,
+            None => self.mass_fraction,
+        }
     }
 
-    /// Unit vectors to the pericentre, across it in the direction of motion, and along the orbital angular momentum; inertial components.
+    /// Unit vectors in inertial components: to the pericentre, perpendicular to it in the direction of motion, and along the orbital angular momentum.
     pub(crate) fn axes(&self) -> [Vector3<f64>; 3] {
         let about = UnitQuaternion::from_axis_angle;
         let turn = about(&Vector3::z_axis(), self.node)
@@ -132,30 +251,49 @@ impl Orbit {
         [turn * Vector3::x(), turn * Vector3::y(), turn * Vector3::z()]
     }
 
-    /// The mean anomaly as a phase from an epoch on.
+    /// The mean anomaly as a phase that starts at an epoch.
     pub(crate) fn mean_anomaly(&self, epoch: f64) -> Phase {
-        let since = DoubleDouble::sum(epoch, -self.time_of_pericentre);
-        let angle = since * DoubleDouble::from(self.mean_motion);
-        let turns = angle / (DoubleDouble::PI * DoubleDouble::from(2.0));
-        let rest = turns - DoubleDouble::from(turns.high.round());
-        Phase::new(self.mean_motion.into(), TAU * rest.to_f64())
+        self.angle(epoch, 0.0, self.mean_motion)
     }
 
-    /// Whether there is a mean anomaly at an epoch.
+    /// The node and the argument of the pericentre as phases that start at an epoch.
+    pub(crate) fn node_and_argument(&self, epoch: f64) -> [Phase; 2] {
+        [
+            self.angle(epoch, self.node, self.node_rate),
+            self.angle(epoch, self.argument_of_pericentre, self.pericentre_rate),
+        ]
+    }
+
+    /// Sine and cosine of the inclination.
+    pub(crate) fn tilt(&self) -> (f64, f64) {
+        self.inclination.sin_cos()
+    }
+
+    /// A phase that starts at an epoch, from an angle at the time of pericentre and its rate.
+    fn angle(&self, epoch: f64, start: f64, rate: f64) -> Phase {
+        let since = DoubleDouble::sum(epoch, -self.time_of_pericentre);
+        let angle = since * DoubleDouble::from(rate) + DoubleDouble::from(start);
+        let turns = angle / (DoubleDouble::PI * DoubleDouble::from(2.0));
+        let rest = turns - DoubleDouble::from(turns.high.round());
+        Phase::new(rate.into(), TAU * rest.to_f64())
+    }
+
+    /// Checks that the mean anomaly can be computed at an epoch.
     pub(crate) fn within_reach(&self, epoch: f64) -> Result<(), Error> {
-        let bounded = (epoch - self.time_of_pericentre).abs() * self.mean_motion <= MOST_TURNS;
+        let fastest = self.mean_motion.max(self.node_rate.abs()).max(self.pericentre_rate.abs());
+        let bounded = (epoch - self.time_of_pericentre).abs() * fastest <= MOST_TURNS;
         check("time_of_pericentre", self.time_of_pericentre, bounded, "within 1e15 periods of the epoch of the state")
     }
 
     /// The true anomaly at a time, in (−π, π] \[rad\].
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for a time that is NaN, infinite, or more than 1e15 periods from the epoch of the elements.
+    /// - [`Error::Orbit`] for a time that is NaN, infinite, or more than 1e15 periods from the time of pericentre.
     pub fn true_anomaly(&self, time: f64) -> Result<f64, Error> {
         let bounded = (time - self.time_of_pericentre).abs() * self.mean_motion <= MOST_TURNS;
         check("time", time, bounded, "finite and within 1e15 periods of the pericentre")?;
         let anomaly = self.mean_anomaly(self.time_of_pericentre).angle((time - self.time_of_pericentre, 0.0));
-        // Half a turn may come out on either side.
+        // The angle of half a turn may have either sign.
         let anomaly = if anomaly == -PI { PI } else { anomaly };
         Ok(Place::of(Lanes::splat(pulp::Scalar, anomaly), self.eccentricity).angle.values()[0])
     }

@@ -1,16 +1,16 @@
-//! Principal axes of an inertia tensor, as near as can be to the axes that it is given about.
+//! Principal axes of an inertia tensor, as near as possible to the axes of the tensor.
 //!
-//! Jacobi's method: rotations in planes of two axes, each by 45° at most, until nothing is left beside the diagonal. Products of inertia below [`NEGLIGIBLE`] of the largest moment are nothing, so
-//! that moments which are equal to that keep the axes as given, and a diagonal tensor has the unit matrix.
+//! The method is Jacobi's: rotations in the planes of two axes, each by at most 45°, until the matrix is diagonal. Products of inertia below [`NEGLIGIBLE`] of
+//! the largest moment count as 0. Moments that are equal to this accuracy therefore keep their axes, and a diagonal tensor has the unit matrix.
 
 use nalgebra::Matrix3;
 
-/// A product of inertia, or a difference of moments, that is nothing beside the largest moment.
+/// Products of inertia and differences of moments below this fraction of the largest moment count as 0.
 pub(crate) const NEGLIGIBLE: f64 = 1e-12;
-/// Sweeps after which nothing is left: convergence is quadratic, and five have always been enough.
+/// Largest number of sweeps. Convergence is quadratic, and five sweeps have always been enough.
 const MOST_SWEEPS: usize = 12;
 
-/// Principal moments, and the axes as columns of a proper rotation: the first is the nearest to the given axis 1, and so on.
+/// Principal moments, and the axes as columns of a proper rotation. The first axis is the one nearest to the given axis 1, and so on.
 pub(crate) fn principal_axes(tensor: &Matrix3<f64>) -> ([f64; 3], Matrix3<f64>) {
     let largest = tensor.amax();
     let mut left = *tensor / largest;
@@ -32,7 +32,7 @@ pub(crate) fn principal_axes(tensor: &Matrix3<f64>) -> ([f64; 3], Matrix3<f64>) 
     (moments.into(), axes)
 }
 
-/// The rotation that removes one product of inertia; none where that is nothing and the two moments are equal to as much.
+/// The rotation that removes one product of inertia. It is the identity if the product and the difference of the two moments are negligible.
 fn rotation(tensor: &Matrix3<f64>, i: usize, j: usize) -> Matrix3<f64> {
     let (product, difference) = (tensor[(i, j)], tensor[(j, j)] - tensor[(i, i)]);
     let mut turn = Matrix3::identity();
@@ -48,7 +48,7 @@ fn rotation(tensor: &Matrix3<f64>, i: usize, j: usize) -> Matrix3<f64> {
     turn
 }
 
-/// The columns in the order and with the senses that bring them nearest to the unit matrix.
+/// The columns in the order and with the signs that bring them nearest to the unit matrix.
 fn nearest_order(axes: &Matrix3<f64>) -> Matrix3<f64> {
     const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     let nearness = |order: &[usize; 3]| -> f64 { (0..3).map(|i| axes[(i, order[i])].abs()).sum() };
@@ -65,7 +65,7 @@ fn nearest_order(axes: &Matrix3<f64>) -> Matrix3<f64> {
         }
     }
     if sorted.determinant() < 0.0 {
-        // The one that is least along its own axis.
+        // Reverse the column that is least aligned with its own axis.
         let along = |column: &usize| sorted[(*column, *column)];
         let least = (0..3).min_by(|a, b| along(a).total_cmp(&along(b))).unwrap_or(0);
         sorted.column_mut(least).neg_mut();

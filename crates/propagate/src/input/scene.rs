@@ -1,14 +1,15 @@
-//! A scene: a body, its state and the accuracy asked for; `solve` turns it into a motion.
+//! A scene: a body, its state, and the requested accuracy. `solve` turns it into a motion.
 
 use nalgebra::UnitQuaternion;
 
 use super::body::Body;
+use super::disturbing_body::DisturbingBody;
 use super::options::{Averaging, Level, MAX_ORDER, Method};
 use super::orbit::Orbit;
 use super::state::State;
 use crate::error::Error;
 
-/// A body, its state at an epoch, and what is asked of the solution.
+/// A body, its state at an epoch, and the options of the solution.
 ///
 /// ```
 /// use andoyer_propagate::{Body, Scene, State};
@@ -26,7 +27,7 @@ pub struct Scene {
     tolerance: f64,
     method: Method,
     order: Option<usize>,
-    orbit: Option<Orbit>,
+    disturbing: Vec<DisturbingBody>,
     averaging: Averaging,
     level: Level,
     span: Option<(f64, f64)>,
@@ -35,7 +36,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A scene with a tolerance of 1e-12 rad and everything else left to the plan.
+    /// A scene with a tolerance of 1e-12 rad. The plan chooses all other options.
     pub fn new(body: Body, state: State) -> Self {
         Self {
             body,
@@ -43,7 +44,7 @@ impl Scene {
             tolerance: 1e-12,
             method: Method::Auto,
             order: None,
-            orbit: None,
+            disturbing: Vec::new(),
             averaging: Averaging::Auto,
             level: Level::Full,
             span: None,
@@ -52,70 +53,87 @@ impl Scene {
         }
     }
 
-    /// The attitude error asked for over the span \[rad\]; less than double precision holds means the best there is.
+    /// Sets the largest attitude error over the span \[rad\]. A value below the limit of double precision requests the best accuracy available.
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
         self
     }
 
-    /// The method; [`Method::Auto`] if this is not called.
+    /// Sets the method. The default is [`Method::Auto`].
     #[must_use]
     pub fn method(mut self, method: Method) -> Self {
         self.method = method;
         self
     }
 
-    /// A fixed order of the series, of the secular part too (theory §7), instead of the one that the tolerance needs.
+    /// Fixes the order of the series, including its secular part (theory §7). The default is the order that the tolerance needs.
     #[must_use]
     pub fn order(mut self, order: usize) -> Self {
         self.order = Some(order);
         self
     }
 
-    /// The orbit of a body whose gravity gradient acts; none if this is not called.
+    /// Sets the orbit of a body whose gravity gradient acts. The default is no such body.
     #[must_use]
-    pub fn orbit(mut self, orbit: Orbit) -> Self {
-        self.orbit = Some(orbit);
+    pub fn orbit(self, orbit: Orbit) -> Self {
+        self.disturbing([orbit])
+    }
+
+    /// Sets the bodies whose gravity gradients act, in place of those that the scene had. A scene with several bodies, a table, or an orbit with secular rates
+    /// is integrated.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Body, Method, Orbit, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.01, 1.0])?;
+    /// let bodies = [Orbit::new(2e-3, 0.1)?, Orbit::new(5e-3, 0.0)?.mass_fraction(0.01)?];
+    /// let motion = Scene::new(Body::new([1.0, 1.02, 1.05])?, state).disturbing(bodies).span(0.0, 100.0).solve()?;
+    /// assert_eq!(motion.plan().method(), Method::Integrated);
+    /// assert!(motion.plan().error_bound() < 1e-12);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    #[must_use]
+    pub fn disturbing(mut self, bodies: impl IntoIterator<Item = impl Into<DisturbingBody>>) -> Self {
+        self.disturbing = bodies.into_iter().map(Into::into).collect();
         self
     }
 
-    /// How far the equations of a scene with an orbit are averaged; [`Averaging::Auto`] if this is not called.
+    /// Sets the averaging of a scene with an orbit. The default is [`Averaging::Auto`].
     #[must_use]
     pub fn averaging(mut self, averaging: Averaging) -> Self {
         self.averaging = averaging;
         self
     }
 
-    /// Which terms the corrections of a scene with an orbit have; [`Level::Full`] if this is not called.
+    /// Sets the terms of the corrections of a scene with an orbit. The default is [`Level::Full`].
     #[must_use]
     pub fn level(mut self, level: Level) -> Self {
         self.level = level;
         self
     }
 
-    /// The times over which the tolerance is asked for; any within 1e9 rotations if this is not called.
+    /// Sets the first and the last time at which the tolerance must hold. The default is any time within 1e9 rotations.
     #[must_use]
     pub fn span(mut self, start: f64, stop: f64) -> Self {
         self.span = Some((start, stop));
         self
     }
 
-    /// A name, which is printed and nothing else.
+    /// Sets a name. The name is only printed.
     #[must_use]
     pub fn name(mut self, name: &str) -> Self {
         self.name = Some(name.to_owned());
         self
     }
 
-    /// Where the figures come from, which is written and nothing else.
+    /// Sets the source of the figures. The source is only written to files.
     #[must_use]
     pub fn source(mut self, source: &str) -> Self {
         self.source = Some(source.to_owned());
         self
     }
 
-    /// The same scene about the principal axes of its body, to which `turn` leads from the user's.
+    /// The same scene about the principal axes of its body. `turn` is the rotation from components about principal axes to the user's.
     pub(crate) fn about_principal_axes(&self, turn: UnitQuaternion<f64>) -> Self {
         let State { epoch, attitude, angular_velocity } = self.state;
         let state = State { epoch, attitude: attitude * turn, angular_velocity: turn.inverse() * angular_velocity };
@@ -132,68 +150,76 @@ impl Scene {
         &self.body
     }
 
-    /// The state.
+    /// The state at the epoch.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// The tolerance \[rad\].
+    /// The requested tolerance \[rad\].
     pub fn asked_tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// The method.
+    /// The requested method.
     pub fn asked_method(&self) -> Method {
         self.method
     }
 
-    /// The order, if one was fixed.
+    /// The fixed order, or `None`.
     pub fn asked_order(&self) -> Option<usize> {
         self.order
     }
 
-    /// The orbit, if there is one.
+    /// The orbit of the disturbing body, or `None` if there is not exactly one body or it has no orbit.
     pub fn asked_orbit(&self) -> Option<&Orbit> {
-        self.orbit.as_ref()
+        match &self.disturbing[..] {
+            [DisturbingBody::Orbit(orbit)] => Some(orbit),
+            _ => None,
+        }
     }
 
-    /// How far a scene with an orbit is averaged.
+    /// The bodies whose gravity gradients act.
+    pub fn asked_disturbing(&self) -> &[DisturbingBody] {
+        &self.disturbing
+    }
+
+    /// The requested averaging.
     pub fn asked_averaging(&self) -> Averaging {
         self.averaging
     }
 
-    /// Which terms the corrections have.
+    /// The requested level of the corrections.
     pub fn asked_level(&self) -> Level {
         self.level
     }
 
-    /// The span, if one was given.
+    /// The span, or `None`.
     pub fn asked_span(&self) -> Option<(f64, f64)> {
         self.span
     }
 
-    /// The name, if it has one.
+    /// The name, or `None`.
     pub fn asked_name(&self) -> Option<&str> {
         self.name.as_deref()
     }
 
-    /// Where the figures come from, if it is said.
+    /// The source of the figures, or `None`.
     pub fn asked_source(&self) -> Option<&str> {
         self.source.as_deref()
     }
 
-    /// Whether every number of the scene is one that a motion can start from.
+    /// Checks that a motion can start from the numbers of the scene.
     ///
     /// # Errors
-    /// - [`Error::Tolerance`] for 0, −1, NaN or infinite.
+    /// - [`Error::Tolerance`] for 0, −1, NaN or an infinity.
     /// - [`Error::Order`] for 61.
-    /// - [`Error::Span`] for (1, 0), or not finite.
-    /// - [`Error::Epoch`], [`Error::Attitude`], [`Error::AngularVelocity`] for a state with numbers that are no state.
+    /// - [`Error::Span`] for (1, 0), or for times that are not finite.
+    /// - [`Error::Epoch`], [`Error::Attitude`], [`Error::AngularVelocity`] for an invalid state: see [`State::new`].
     pub fn validate(&self) -> Result<(), Error> {
         self.validated().map(|_| ())
     }
 
-    /// The scene with a unit quaternion, if it is one.
+    /// The validated scene, with the quaternion of its state normalized.
     pub(crate) fn validated(&self) -> Result<Self, Error> {
         let state = self.state.validated()?;
         if !(self.tolerance.is_finite() && self.tolerance > 0.0) {

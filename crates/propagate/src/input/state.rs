@@ -4,10 +4,10 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::error::Error;
 
-/// How far from 1 the norm of an attitude quaternion may be.
+/// Largest difference from 1 of the norm of an attitude quaternion.
 const NORM_SLACK: f64 = 1e-6;
-/// A norm as near to 1 as a normalization leaves it: another one would only move the last bits, and a state written to a file and read
-/// back would be another state.
+/// Largest difference from 1 of a norm that normalization leaves. Another normalization would change the last bits, so a state written to a file would not be
+/// read back unchanged.
 const ROUNDED_NORM: f64 = 2.0 * f64::EPSILON;
 
 /// Attitude and angular velocity at an epoch.
@@ -22,8 +22,13 @@ pub struct State {
 }
 
 impl State {
-    /// A state from plain numbers: `attitude` as [x, y, z, w] with a norm within 1e-6 of 1, normalized here
-    /// unless it is so to rounding.
+    /// A state from plain numbers. `attitude` is [x, y, z, w] with a norm within 1e-6 of 1; it is normalized unless its norm is 1 to rounding.
+    ///
+    /// ```
+    /// let state = andoyer_propagate::State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?;
+    /// assert_eq!(state.angular_velocity.z, 1.0);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
     ///
     /// # Errors
     /// - [`Error::Epoch`] for `f64::NAN`.
@@ -37,7 +42,7 @@ impl State {
         state.validated()
     }
 
-    /// The state with a unit quaternion, if every number in it is finite and the quaternion is nearly one.
+    /// The state with a unit quaternion, if all its numbers are finite and its quaternion has a norm near 1.
     pub(crate) fn validated(mut self) -> Result<Self, Error> {
         if !self.epoch.is_finite() {
             return Err(Error::Epoch { value: self.epoch });
@@ -59,7 +64,7 @@ impl State {
     }
 }
 
-/// Whether a norm is near enough to 1; NaN is not.
+/// Whether a norm is near enough to 1. False for NaN.
 fn is_unit(norm: f64) -> bool {
     (norm - 1.0).abs() <= NORM_SLACK
 }
@@ -70,7 +75,7 @@ mod tests {
 
     #[test]
     fn normalized_attitude_is_kept_to_the_bit() {
-        // One division by the norm leaves 1 ± a few ulp in one of these quaternions in forty, which a second one would change.
+        // One division by the norm leaves 1 ± a few ulp in one of forty of these quaternions. A second division would change them.
         for k in 1..2000 {
             let k = f64::from(k);
             let given = Quaternion::new(k.sin(), (2.0 * k).sin(), (3.0 * k).cos(), (5.0 * k).sin()).normalize();

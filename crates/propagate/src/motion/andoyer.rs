@@ -1,9 +1,8 @@
 //! Andoyer variables of a motion (theory §1): λ, μ, ν and their momenta Λ, M, N.
 //!
-//! R = Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν), with axis 3 the user's axis of greatest inertia, axis 2 that of B, and axis 1 that of A, reversed where the user's
-//! order A, B, C is left-handed. N < 0 is a body turned over: there μ − ν grows with the mean rate and not μ + ν. The inclinations are taken by the
-//! arctangent of sine and cosine, never by an arccosine. Where a node is not defined its angle is 0 by convention: λ = 0 at I = 0 or π, ν = 0
-//! at J = 0 or π; μ then carries the sum.
+//! R = Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν). Axis 3 is the user's axis of greatest inertia, axis 2 the axis of B, and axis 1 the axis of A, reversed if the user's
+//! order A, B, C is left-handed. N < 0 is a body turned over; then μ − ν grows with the mean rate instead of μ + ν. The inclinations are arctangents of sine
+//! and cosine, not arccosines. If a node is not defined, its angle is 0 by convention: λ = 0 at I = 0 or π, ν = 0 at J = 0 or π. μ then contains the sum.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -12,36 +11,46 @@ use super::solved::{Motion, length};
 use crate::error::Error;
 use crate::torque_free::polhode::Frame;
 
-/// Times that are evaluated together.
+/// Number of times that are evaluated together.
 const AT_ONCE: usize = 64;
 
 impl Motion {
-    /// [λ, μ, ν, Λ, M, N] at a time: angles in (−π, π] \[rad\], momenta in the unit of moment × rate; zeros for a body at rest.
+    /// [λ, μ, ν, Λ, M, N] at a time: angles in (−π, π] \[rad\], momenta in units of moment × rate. All are 0 for a body at rest.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Body, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 2.0])?;
+    /// let motion = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).solve()?;
+    /// // At I = J = 0 the angle of rotation is μ, and Λ = M = N = C ω.
+    /// let [_, mu, _, _, momentum, _] = motion.andoyer(0.5)?;
+    /// assert!((mu - 1.0).abs() < 1e-14 && (momentum - 4.0).abs() < 1e-14);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// As [`Motion::at`].
+    /// The errors of [`Motion::at`].
     pub fn andoyer(&self, time: f64) -> Result<[f64; 6], Error> {
         let mut variables = [[0.0; 6]];
         self.andoyer_into(&[time], &mut variables)?;
         Ok(variables[0])
     }
 
-    /// [λ, μ, ν, Λ, M, N] at many times, without an allocation.
+    /// Writes [λ, μ, ν, Λ, M, N] at many times to `out`, without an allocation.
     ///
     /// # Errors
-    /// As [`Motion::attitudes_into`].
+    /// The errors of [`Motion::attitudes_into`].
     pub fn andoyer_into(&self, times: &[f64], out: &mut [[f64; 6]]) -> Result<(), Error> {
         self.batch().andoyer_into(times, out)
     }
 
     fn andoyer_of(&self, attitude: [f64; 4], rates: [f64; 3], total: Vector3<f64>) -> [f64; 6] {
-        // No squares: they overflow long before the momentum does.
+        // Squares are avoided, because they overflow long before the momentum does.
         let momentum = total.x.hypot(total.y).hypot(total.z);
         if momentum == 0.0 {
             return [0.0; 6];
         }
         let moments = self.scene.body().moments();
-        // Axis 3 keeps its sense.
+        // Axis 3 keeps its direction.
         let frame = Frame::new(moments, [0.0; 3], false);
         let [g1, g2, g3] = frame.sorted(std::array::from_fn(|i| moments[i] * rates[i]));
         let node = node_angle(total.x, -total.y);
@@ -62,10 +71,10 @@ impl Motion {
 }
 
 impl Batch<'_> {
-    /// [λ, μ, ν, Λ, M, N].
+    /// Writes [λ, μ, ν, Λ, M, N] at `times` to `out`.
     ///
     /// # Errors
-    /// As [`Motion::attitudes_into`].
+    /// The errors of [`Motion::attitudes_into`].
     pub fn andoyer_into(&self, times: &[f64], out: &mut [[f64; 6]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
         let (mut attitudes, mut rates, mut momenta) = ([[0.0; 4]; AT_ONCE], [[0.0; 3]; AT_ONCE], [[0.0; 3]; AT_ONCE]);
@@ -82,12 +91,12 @@ impl Batch<'_> {
     }
 }
 
-/// The angle of (sine, cosine), 0 where both vanish whatever their signs.
+/// The angle of (sine, cosine); 0 if both are 0, whatever their signs.
 fn node_angle(sine: f64, cosine: f64) -> f64 {
     if sine == 0.0 && cosine == 0.0 { 0.0 } else { sine.atan2(cosine) }
 }
 
-/// An angle in (−2π, 2π] brought to (−π, π].
+/// An angle in (−2π, 2π], moved to (−π, π].
 fn wrapped(angle: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     if angle > PI {

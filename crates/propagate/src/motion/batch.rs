@@ -1,7 +1,8 @@
-//! Many times at once.
+//! Evaluation at many times at once.
 
 use std::sync::atomic::AtomicBool;
 
+use nalgebra::{UnitQuaternion, Vector3};
 use pulp::Arch;
 
 use super::solved::{Motion, length};
@@ -11,7 +12,7 @@ use crate::simd::grid::GROUP;
 use crate::simd::halt::{GOING, Halt, going};
 use crate::simd::outputs::Outputs;
 
-/// How a motion is evaluated at many times: the number of threads changes no bit of the result.
+/// The options of an evaluation at many times. The number of threads does not change any bit of the result.
 ///
 /// ```
 /// use andoyer_propagate::{Body, Scene, State};
@@ -43,13 +44,14 @@ impl<'a> Batch<'a> {
         Self { threads: most, ..self }
     }
 
-    /// Times are counted from the epoch of the scene: a duration keeps digits that its sum with a large epoch loses.
+    /// Counts times from the epoch of the scene. A duration keeps digits that its sum with a large epoch would lose.
     #[must_use]
     pub fn since_epoch(self) -> Self {
         Self { since_epoch: true, ..self }
     }
 
-    /// Ends early, with [`Error::Stopped`], once another thread has set this flag: within a millisecond or so. What had been computed stays in the output.
+    /// Ends the evaluation with [`Error::Stopped`] when another thread sets this flag, within about a millisecond. Results computed before remain in the
+    /// output.
     ///
     /// ```
     /// use std::sync::atomic::AtomicBool;
@@ -66,30 +68,30 @@ impl<'a> Batch<'a> {
         Self { stop, ..self }
     }
 
-    /// Attitudes [x, y, z, w].
+    /// Writes the attitudes [x, y, z, w] at `times` to `out`.
     ///
     /// # Errors
-    /// As [`Motion::attitudes_into`].
+    /// The errors of [`Motion::attitudes_into`].
     pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
         self.fill(times, Outputs::Attitudes(out))?;
         self.turn(out, &mut [])
     }
 
-    /// Angular velocities, body components [rad per unit of time].
+    /// Writes the angular velocities at `times` to `out`: body components [rad per unit of time].
     ///
     /// # Errors
-    /// As [`Motion::attitudes_into`].
+    /// The errors of [`Motion::attitudes_into`].
     pub fn angular_velocities_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
         self.fill(times, Outputs::Rates(out))?;
         self.turn(&mut [], out)
     }
 
-    /// Attitudes [x, y, z, w] and angular velocities, body components [rad per unit of time].
+    /// Writes the attitudes [x, y, z, w] and the angular velocities, in body components [rad per unit of time], at `times`.
     ///
     /// # Errors
-    /// As [`Motion::attitudes_into`].
+    /// The errors of [`Motion::attitudes_into`].
     pub fn samples_into(&self, times: &[f64], attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
         length("attitudes", attitudes.len(), times.len())?;
         length("rates", rates.len(), times.len())?;
@@ -97,7 +99,7 @@ impl<'a> Batch<'a> {
         self.turn(attitudes, rates)
     }
 
-    /// Both about the principal axes.
+    /// Attitudes and rates about the principal axes.
     pub(crate) fn about_principal_axes(
         &self,
         times: &[f64],
@@ -107,10 +109,10 @@ impl<'a> Batch<'a> {
         self.fill(times, Outputs::Both(attitudes, rates))
     }
 
-    /// Angular momenta, inertial components.
+    /// Writes the angular momenta at `times` to `out`, in inertial components.
     ///
     /// # Errors
-    /// As [`Motion::attitudes_into`].
+    /// The errors of [`Motion::attitudes_into`].
     pub fn angular_momenta_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
         length("out", out.len(), times.len())?;
         let (motion, epoch) = (self.motion, self.epoch());
@@ -119,13 +121,26 @@ impl<'a> Batch<'a> {
             going(self.stop).map_err(|halt| self.halted(halt, times))?;
             match &motion.trajectory {
                 Trajectory::Gradient(gradient) => gradient.angular_momenta(part, epoch, out),
+                Trajectory::Integrated(_) => self.momenta_of_samples(part, out)?,
                 _ => out.fill(motion.angular_momentum.into()),
             }
         }
         Ok(())
     }
 
-    /// To the user's axes.
+    /// The angular momenta R I ω from attitudes and rates.
+    fn momenta_of_samples(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
+        let mut attitudes = vec![[0.0; 4]; times.len()];
+        self.about_principal_axes(times, &mut attitudes, out)?;
+        let moments = self.motion.scene.body().moments();
+        for (momentum, attitude) in out.iter_mut().zip(attitudes) {
+            let about_axes = Vector3::from_fn(|i, _| moments[i] * momentum[i]);
+            *momentum = (UnitQuaternion::new_unchecked(attitude.into()) * about_axes).into();
+        }
+        Ok(())
+    }
+
+    /// Transforms attitudes and rates from the principal axes to the user's axes.
     fn turn(&self, attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
         let Some(given) = &self.motion.given else { return Ok(()) };
         for part in attitudes.chunks_mut(GROUP) {
@@ -141,25 +156,25 @@ impl<'a> Batch<'a> {
 
     fn fill(&self, times: &[f64], outputs: Outputs<'_>) -> Result<(), Error> {
         let Self { motion, threads, stop, .. } = *self;
-        let (epoch, bound, arch) = (self.epoch(), motion.bound(), Arch::new());
-        let evaluation = Evaluation { trajectory: &motion.trajectory, epoch, bound, arch, stop };
+        let (epoch, reach, arch) = (self.epoch(), motion.reach(), Arch::new());
+        let evaluation = Evaluation { trajectory: &motion.trajectory, epoch, reach, arch, stop };
         evaluation.fill(times, outputs, threads).map_err(|halt| self.halted(halt, times))
     }
 
-    /// The epoch as the times count it.
+    /// The epoch in the scale of the times.
     pub(crate) fn epoch(&self) -> f64 {
         if self.since_epoch { 0.0 } else { self.motion.scene.state().epoch }
     }
 
     fn halted(&self, halt: Halt, times: &[f64]) -> Error {
         match halt {
-            Halt::Time(index) => self.motion.no_phase(index, times),
+            Halt::Time(index) => self.motion.no_phase(index, times, self.epoch()),
             Halt::Stopped => Error::Stopped,
         }
     }
 
     /// # Errors
-    /// - [`Error::Stopped`] where the flag is set.
+    /// - [`Error::Stopped`] if the flag is set.
     pub(crate) fn going(&self) -> Result<(), Error> {
         going(self.stop).map_err(|_| Error::Stopped)
     }
@@ -170,7 +185,7 @@ impl<'a> Batch<'a> {
 }
 
 impl Motion {
-    /// How many times at once are evaluated: on as many threads as pay, unless told otherwise.
+    /// An evaluation at many times. The default number of threads is the fastest one.
     pub fn batch(&self) -> Batch<'_> {
         Batch::new(self)
     }

@@ -1,26 +1,28 @@
-//! Two numbers by which tumblers are compared: the energy over its least, and the parameter of the elliptic functions.
+//! Two numbers that compare tumblers: the energy over its minimum, and the parameter of the elliptic functions.
 //!
-//! With g the direction of the angular momentum in the body, a = C/A − 1, b = C/B − 1 (theory §5, §10):
+//! Let g be the direction of the angular momentum in the body, a = C/A − 1 and b = C/B − 1 (theory §5, §10). Then
 //!
 //! ```text
 //! E/E0 = 1 + a g1² + b g2²,   E0 = M²/(2C)
 //! k² = (a − b)(g1²/b + g2²/a) / (g3² + g2² (a − b)/a),   in the long-axis mode with the axes in the opposite order
 //! ```
 //!
-//! Sums of positive terms: no digits are lost near the axes. The numbers are those of the state; a gravity gradient changes them with time.
+//! The sums have positive terms, so no digits are lost near the axes. The numbers are those of the state at the epoch; a gravity gradient changes them with
+//! time.
 
 use super::solved::Motion;
 
 impl Motion {
-    /// E/E0: rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum; 1 at least, C/B on the separatrix,
-    /// C/A at most, and 1 for a body at rest.
+    /// E/E0: the rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum. It is between 1 and C/A, C/B on the
+    /// separatrix, and 1 for a body at rest.
     pub fn energy_ratio(&self) -> f64 {
         let (first, second) = self.scene.body().excesses();
         let [g1, g2, _] = self.direction();
         1.0 + first * g1 * g1 + second * g2 * g2
     }
 
-    /// k², the parameter of the elliptic functions of the polhode, k their modulus: 0 on a principal axis and for an axisymmetric body, 1 on the separatrix.
+    /// k², the parameter of the elliptic functions of the polhode (k is their modulus). It is 0 on a principal axis and for an axisymmetric body, and 1 on the
+    /// separatrix.
     pub fn elliptic_parameter(&self) -> f64 {
         let [a, b, c] = self.scene.body().sorted();
         let [g1, g2, g3] = self.direction();
@@ -31,7 +33,7 @@ impl Motion {
         if short <= 1.0 { short } else { parameter([c, b, a], [g3, g2, g1]).min(1.0) }
     }
 
-    /// The direction of the angular momentum on the axes of A ≤ B ≤ C, without their senses; 0 at rest.
+    /// The direction of the angular momentum on the axes of A ≤ B ≤ C, without the signs of the axes; 0 at rest.
     fn direction(&self) -> [f64; 3] {
         let moments = self.scene.body().moments();
         let rates = self.scene.state().angular_velocity;
@@ -47,7 +49,7 @@ impl Motion {
     }
 }
 
-/// 1 − Q1/Q2 of theory §5 for moments in either order; above 1 in the other mode.
+/// 1 − Q1/Q2 of theory §5 for moments in either order. It exceeds 1 if the motion is in the other mode.
 fn parameter([a, b, c]: [f64; 3], [g1, g2, g3]: [f64; 3]) -> f64 {
     let (first, second) = ((c - a) / a, (c - b) / b);
     let difference = (c / b) * ((b - a) / a);

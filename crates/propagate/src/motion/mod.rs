@@ -1,4 +1,4 @@
-//! A solved motion: its trajectory (which of the theories runs), plan, evaluation at times, Andoyer variables and energy.
+//! A solved motion: its trajectory (the formulas that evaluate it), plan, evaluation at times, Andoyer variables and energy.
 //!
 //! Imports errors, numerics, simd, input, torque_free and gravity_gradient.
 

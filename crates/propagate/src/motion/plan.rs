@@ -7,13 +7,14 @@ use serde::{Deserialize, Serialize};
 use crate::gravity_gradient::disturbed::GradientPlan;
 use crate::input::options::{Averaging, Method};
 use crate::input::scene::Scene;
+use crate::integration::integrated::IntegrationPlan;
 use crate::torque_free::mode::Mode;
 
-/// σ/σ_sep above which its distance from 1 is printed.
+/// If σ/σ_sep exceeds this, its distance from 1 is printed.
 const NEAR_ONE: f64 = 0.999;
 
-/// A tolerance below this is met as well as rounding allows \[rad\].
-const ROUNDED_TOLERANCE: f64 = 2e-14;
+/// A smaller tolerance counts as met if the error bound is within this limit, which rounding sets \[rad\].
+pub(crate) const ROUNDED_TOLERANCE: f64 = 2e-14;
 
 /// The evaluation plan of a motion. It is printed in ASCII, and can be serialized.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,11 +29,12 @@ pub struct Plan {
     pub(crate) spanned: bool,
     pub(crate) separatrix_ratio: f64,
     pub(crate) gradient: Option<GradientPlan>,
+    pub(crate) integration: Option<IntegrationPlan>,
     pub(crate) skipped: Vec<String>,
 }
 
 impl Plan {
-    /// The plan of a scene by the closed form, without a sum, to which the rest is added.
+    /// The plan of a scene that uses the closed form without a sum. The caller adds the other entries.
     pub(crate) fn new(scene: &Scene, mode: Mode, separatrix_ratio: f64, error_bound: f64) -> Self {
         Self {
             mode,
@@ -44,41 +46,48 @@ impl Plan {
             spanned: scene.asked_span().is_some(),
             separatrix_ratio,
             gradient: None,
+            integration: None,
             skipped: Vec::new(),
         }
     }
 
-    /// The kind of motion.
+    /// The mode of the motion.
     pub fn mode(&self) -> Mode {
         self.mode
     }
 
-    /// The method of evaluation: the series, or the closed form (which includes the formulas of steady rotation).
+    /// The method of evaluation: the series, the closed form (which includes the formulas of steady rotation), or the integration.
     pub fn method(&self) -> Method {
         self.method
     }
 
-    /// Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance.
+    /// Order N of the series. It is 0 if no series is used, or if the harmonic oscillator alone meets the tolerance. For an integration it is the order of the
+    /// steps.
     pub fn order(&self) -> usize {
         self.order
     }
 
-    /// The highest multiple of ℓ′ that is evaluated; 0 where none is.
+    /// Number of steps of the integration; 0 if there is none.
+    pub fn steps(&self) -> usize {
+        self.integration.map_or(0, |integration| integration.steps)
+    }
+
+    /// The highest multiple of ℓ′ that is evaluated; 0 if there is none.
     pub fn harmonics(&self) -> usize {
         self.harmonics
     }
 
-    /// Estimate from above of the attitude error over the span \[rad\]: truncation, dropped harmonics, rounding.
+    /// Upper estimate of the attitude error over the span \[rad\]: truncation, dropped harmonics, rounding.
     pub fn error_bound(&self) -> f64 {
         self.error_bound
     }
 
-    /// The attitude error asked for over the span \[rad\].
+    /// The requested attitude error over the span \[rad\].
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// Whether the error bound is within the tolerance, or within 2e-14 rad where the tolerance is less than double precision holds.
+    /// Whether the error bound is within the tolerance. If the tolerance is below the limit of double precision, 2e-14 rad counts instead.
     ///
     /// ```
     /// use andoyer_propagate::{Body, Orbit, Scene, State};
@@ -93,7 +102,7 @@ impl Plan {
         self.error_bound <= self.tolerance.max(ROUNDED_TOLERANCE)
     }
 
-    /// One sentence with the error bound and the tolerance where the tolerance is not met.
+    /// A sentence with the error bound and the tolerance if the tolerance is not met, otherwise `None`.
     pub fn missed_tolerance(&self) -> Option<String> {
         (!self.meets_tolerance()).then(|| missed(self.error_bound, self.tolerance, self.spanned))
     }
@@ -103,27 +112,28 @@ impl Plan {
         self.separatrix_ratio
     }
 
-    /// How far the equations of a scene with an orbit are averaged; `None` without one.
+    /// The averaging of a scene with an orbit; `None` without an orbit.
     pub fn averaging(&self) -> Option<Averaging> {
         self.gradient.map(|gradient| gradient.averaging)
     }
 
-    /// Sum of the short-period corrections by the gravity gradient, which is the size of the torque; 0 without an orbit \[rad\].
+    /// Sum of the short-period corrections for the gravity gradient \[rad\], which measures the torque; 0 without an orbit.
     pub fn torque(&self) -> f64 {
         self.gradient.map_or(0.0, |gradient| gradient.size)
     }
 
-    /// The first neglected term under a gravity gradient: of second order in the torque, or a short-period one that was dropped; 0 without an orbit \[rad\].
+    /// The first neglected term under a gravity gradient \[rad\]: a term of second order in the torque, or a short-period term that was dropped; 0 without an
+    /// orbit.
     pub fn first_neglected(&self) -> f64 {
         self.gradient.map_or(0.0, |gradient| gradient.neglected)
     }
 
-    /// How derivatives with respect to the state and the moments are computed: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; `None` on the separatrix,
-    /// where the frequencies have none.
+    /// The method for derivatives with respect to the state and the moments: "closed" (theory §12), or "differences" of fourth order for a scene with an orbit
+    /// and for an integrated motion. It is `None` on the separatrix, where the frequencies have no derivatives.
     pub fn partials(&self) -> Option<&'static str> {
-        match (self.mode, self.gradient) {
-            (_, Some(_)) => Some("differences"),
-            (Mode::Separatrix, None) => None,
+        match (self.mode, self.method, self.gradient) {
+            (_, Method::Integrated, _) | (_, _, Some(_)) => Some("differences"),
+            (Mode::Separatrix, _, None) => None,
             _ => Some("closed"),
         }
     }
@@ -145,12 +155,16 @@ impl fmt::Display for Plan {
             ratio => writeln!(f, "separatrix    {ratio:.3e} (sigma/sigma_sep)")?,
         }
         match self.method {
-            Method::Series => writeln!(f, "order         {}", self.order)?,
+            Method::Series | Method::Integrated => writeln!(f, "order         {}", self.order)?,
             _ => writeln!(f, "order         -")?,
         }
         match self.harmonics {
             0 => writeln!(f, "harmonics     -")?,
             harmonics => writeln!(f, "harmonics     {harmonics}")?,
+        }
+        if let Some(IntegrationPlan { steps, bodies }) = self.integration {
+            let plural = if bodies == 1 { "body" } else { "bodies" };
+            writeln!(f, "steps         {steps} over the span, under {bodies} disturbing {plural}")?;
         }
         if let Some(GradientPlan { averaging, level, terms, size, neglected }) = self.gradient {
             writeln!(
@@ -170,12 +184,12 @@ impl fmt::Display for Plan {
     }
 }
 
-/// The times over which the tolerance is asked for, in words.
+/// The times over which the tolerance must hold, in words.
 fn asked_span(spanned: bool) -> &'static str {
     if spanned { "the span" } else { "1e9 rotations (no span given)" }
 }
 
-/// The sentence of a tolerance that is not met.
+/// The sentence for a tolerance that is not met.
 pub(crate) fn missed(bound: f64, tolerance: f64, spanned: bool) -> String {
     let over = asked_span(spanned);
     format!("the error bound of the attitude, {bound:.1e} rad, exceeds the tolerance, {tolerance:e} rad, over {over}")

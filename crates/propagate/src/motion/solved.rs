@@ -1,6 +1,6 @@
-//! A solved motion: immutable, shared between threads, evaluated at any time.
+//! A solved motion. It is immutable, can be shared between threads, and can be evaluated at any time.
 //!
-//! Evaluation is two sines and cosines (of ℓ′ and y′/2), the sums of theory §8, a normalization and a constant map: see [`super::trajectory`].
+//! An evaluation takes two sines and cosines (of ℓ′ and y′/2), the sums of theory §8, a normalization and a constant map: see [`super::trajectory`].
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -10,22 +10,27 @@ use crate::error::Error;
 use crate::input::options::Convention;
 use crate::input::scene::Scene;
 
-/// Rotations from the epoch within which phases are good to 1e-14 rad; not far beyond, a double no longer tells one turn from the next.
+/// Largest number of rotations from the epoch, within which phases are accurate to 1e-14 rad. Not far beyond, a double no longer distinguishes one turn from
+/// the next.
 const MOST_ROTATIONS: f64 = 1e15;
 
-/// No sum of two times this long overflows.
+/// Largest time. The sum of two such times does not overflow.
 const LONGEST: f64 = 1e300;
 
-/// Why a motion averaged over the spin ends.
+/// The reason why the times of a motion averaged over the spin are bounded.
 const SOLVED: &str =
     ": averaging = spin solves the averaged equations no farther; averaging over the orbit has no such bound";
+
+/// The reasons why the times of an integrated motion are bounded.
+const BEFORE: &str = ": the motion is integrated over its span, and this is the part before the epoch";
+const AFTER: &str = ": the motion is integrated over its span, and this is the part after the epoch";
 
 /// Attitude and angular velocity at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// The time.
     pub time: f64,
-    /// Rotation of body components into inertial ones.
+    /// Rotation from body components to inertial components.
     pub attitude: UnitQuaternion<f64>,
     /// Angular velocity, body components [rad per unit of time].
     pub angular_velocity: Vector3<f64>,
@@ -34,31 +39,31 @@ pub struct Sample {
 /// Mean frequencies of a motion [rad per unit of time].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frequencies {
-    /// dℓ′/dt: the polhode, in the body; negative in the long-axis mode, 0 on the separatrix.
+    /// dℓ′/dt, the motion along the polhode in the body. It is negative in the long-axis mode and 0 on the separatrix.
     pub anomaly: f64,
-    /// dy′/dt: the rotation, y = μ + ν (y = μ − ν for N < 0, where the theory's axis 3 is the body's turned over).
+    /// dy′/dt, the rotation: y = μ + ν, or y = μ − ν for N < 0, where axis 3 of the theory is opposite to the body's.
     pub longitude: f64,
 }
 
-/// A pair of mean periods: of the precession about the angular momentum and of the rotation or oscillation about the body's axis.
+/// A pair of mean periods [unit of time]: of the precession about the angular momentum, and of the rotation or oscillation about the body's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Periods {
-    /// P_φ, of the precession of the axis.
+    /// P_φ, the period of the precession of the axis.
     pub precession: f64,
-    /// P_ψ, about the axis.
+    /// P_ψ, the period of the rotation about the axis or of its oscillation.
     pub rotation: f64,
 }
 
-/// A scene about axes that are not the principal ones of its body.
+/// A scene about axes that are not the principal axes of its body.
 #[derive(Clone, Debug)]
 pub(crate) struct Given {
     pub(crate) scene: Scene,
-    /// Rotation of components about principal axes into the user's.
+    /// Rotation from components about principal axes to components about the user's axes.
     pub(crate) turn: UnitQuaternion<f64>,
 }
 
 impl Given {
-    /// Brings attitudes and rates about principal axes to the user's.
+    /// Transforms attitudes and rates from the principal axes to the user's axes.
     pub(crate) fn turn(&self, attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) {
         let back = self.turn.inverse();
         for attitude in attitudes {
@@ -76,16 +81,16 @@ impl Given {
 pub struct Motion {
     /// The scene about principal axes.
     pub(crate) scene: Scene,
-    /// The scene as given, where its axes are others.
+    /// The scene as given, if its axes are not the principal axes.
     pub(crate) given: Option<Box<Given>>,
     pub(crate) plan: Plan,
     pub(crate) trajectory: Trajectory,
     pub(crate) frequencies: Frequencies,
-    /// dy′/dt + dℓ′/dt, summed before it is rounded: for a needle the two nearly cancel.
+    /// dy′/dt + dℓ′/dt, added before rounding: for a thin needle the two nearly cancel.
     pub(crate) precession: f64,
-    /// Whether the theory's axis 3 is that of least inertia.
+    /// Whether axis 3 of the theory is the axis of least inertia.
     pub(crate) long_axis: bool,
-    /// Inertial components.
+    /// The angular momentum at the epoch, in inertial components.
     pub(crate) angular_momentum: Vector3<f64>,
 }
 
@@ -95,35 +100,35 @@ impl Motion {
         self.given.as_ref().map_or(&self.scene, |given| &given.scene)
     }
 
-    /// What is evaluated, and why.
+    /// The evaluation plan: the formulas that are used, and the reasons.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// The mean frequencies; 0 where the motion has none.
+    /// The mean frequencies [rad per unit of time]; 0 if the motion has none.
     pub fn frequencies(&self) -> Frequencies {
         self.frequencies
     }
 
-    /// Mean periods in the long-axis convention: P_φ of the precession of the long axis, P_ψ of the rotation about it or, in the short-axis mode, of its
-    /// oscillation; infinite where there is none. Radar papers use it.
+    /// Mean periods in the long-axis convention of radar papers: P_φ of the precession of the long axis, and P_ψ of the rotation about it or, in the short-axis
+    /// mode, of its oscillation. A period that does not exist is infinite.
     pub fn long_axis_periods(&self) -> Periods {
         self.periods(self.long_axis)
     }
 
-    /// Mean periods in the short-axis convention, that of Andoyer variables: P_φ of the precession of the short axis, P_ψ of the rotation about it or, in the
-    /// long-axis mode, of its oscillation; in the short-axis mode μ turns with dy′/dt + dℓ′/dt and ν with −dℓ′/dt (for N < 0 with +dℓ′/dt).
+    /// Mean periods in the short-axis convention, which is that of Andoyer variables: P_φ of the precession of the short axis, and P_ψ of the rotation about it
+    /// or, in the long-axis mode, of its oscillation. In the short-axis mode μ turns with dy′/dt + dℓ′/dt, and ν with −dℓ′/dt (for N < 0 with +dℓ′/dt).
     pub fn short_axis_periods(&self) -> Periods {
         self.periods(!self.long_axis)
     }
 
-    /// Mean periods in the extremal-axis convention, that of light-curve papers (Pravec et al. 2014): those of the short axis in the short-axis mode, of the
-    /// long axis in the long-axis mode. The body turns all the way round this axis.
+    /// Mean periods in the extremal-axis convention of light-curve papers (Pravec et al. 2014): those of the short axis in the short-axis mode, and of the long
+    /// axis in the long-axis mode. The body makes complete turns about this axis.
     pub fn extremal_axis_periods(&self) -> Periods {
         self.periods(true)
     }
 
-    /// Mean periods in a convention.
+    /// Mean periods in one of the three conventions.
     pub fn periods_of(&self, convention: Convention) -> Periods {
         match convention {
             Convention::ExtremalAxis => self.extremal_axis_periods(),
@@ -132,22 +137,32 @@ impl Motion {
         }
     }
 
-    /// Periods of the theory's axis 3, or of its axis 1, which is carried around by y′.
+    /// The periods of axis 3 of the theory if `own`, otherwise those of axis 1, whose precession is y′.
     fn periods(&self, own: bool) -> Periods {
         let Frequencies { anomaly, longitude } = self.frequencies;
         let precession = if own { self.precession } else { longitude };
         Periods { precession: std::f64::consts::TAU / precession, rotation: std::f64::consts::TAU / anomaly.abs() }
     }
 
-    /// The angular momentum at the epoch, inertial components: a constant unless there is an orbit.
+    /// The angular momentum at the epoch in inertial components. It is constant unless there is an orbit.
     pub fn angular_momentum(&self) -> Vector3<f64> {
         self.angular_momentum
     }
 
     /// Attitude and rates at a time.
     ///
+    /// ```
+    /// use andoyer_propagate::{Body, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 2.0])?;
+    /// let motion = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).solve()?;
+    /// // Rotation about axis 3 with 2 rad per unit of time.
+    /// assert!((motion.at(0.5)?.attitude.angle() - 1.0).abs() < 1e-14);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// - [`Error::Time`] for NaN, infinite, more than 1e15 rotations from the epoch, or where the scene is averaged over the spin more than 65,534 orbits from it.
+    /// - [`Error::Time`] for a time that is NaN, infinite, or more than 1e15 rotations from the epoch. For a scene averaged over the spin, also for a time more
+    ///   than 65,534 orbits from the epoch; for an integrated motion, also for a time outside the span.
     pub fn at(&self, time: f64) -> Result<Sample, Error> {
         let (mut attitude, mut rates) = ([[0.0; 4]], [[0.0; 3]]);
         self.batch().samples_into(&[time], &mut attitude, &mut rates)?;
@@ -155,47 +170,50 @@ impl Motion {
         Ok(Sample { time, attitude, angular_velocity: rates[0].into() })
     }
 
-    /// Attitudes [x, y, z, w] at many times, without an allocation.
+    /// Writes the attitudes [x, y, z, w] at many times to `out`, without an allocation.
     ///
     /// # Errors
-    /// - [`Error::Length`] for `out` shorter or longer than `times`.
-    /// - [`Error::Time`] as for [`Motion::at`], with the index.
+    /// - [`Error::Length`] if `out` and `times` have different lengths.
+    /// - [`Error::Time`] as for [`Motion::at`], with the index of the time.
     pub fn attitudes_into(&self, times: &[f64], out: &mut [[f64; 4]]) -> Result<(), Error> {
         self.batch().attitudes_into(times, out)
     }
 
-    /// Angular velocities, body components, at many times, without an allocation.
+    /// Writes the angular velocities in body components [rad per unit of time] at many times to `out`, without an allocation.
     ///
     /// # Errors
-    /// As [`Motion::attitudes_into`].
+    /// The errors of [`Motion::attitudes_into`].
     pub fn angular_velocities_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
         self.batch().angular_velocities_into(times, out)
     }
 
-    /// Angular momenta, inertial components, at many times, without an allocation.
+    /// Writes the angular momenta in inertial components at many times to `out`, without an allocation.
     ///
     /// # Errors
-    /// As [`Motion::attitudes_into`].
+    /// The errors of [`Motion::attitudes_into`].
     pub fn angular_momenta_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<(), Error> {
         self.batch().angular_momenta_into(times, out)
     }
 
-    /// Attitudes and angular velocities at many times, without an allocation.
+    /// Writes the attitudes and the angular velocities at many times, without an allocation.
     ///
     /// # Errors
-    /// As [`Motion::attitudes_into`].
+    /// The errors of [`Motion::attitudes_into`].
     pub fn samples_into(&self, times: &[f64], attitudes: &mut [[f64; 4]], rates: &mut [[f64; 3]]) -> Result<(), Error> {
         self.batch().samples_into(times, attitudes, rates)
     }
 
-    /// The largest distance from the epoch that is evaluated.
-    pub(crate) fn bound(&self) -> f64 {
-        self.reach().0
+    /// The largest times before (negative) and after the epoch that can be evaluated.
+    pub(crate) fn reach(&self) -> [f64; 2] {
+        match &self.trajectory {
+            Trajectory::Integrated(motion) => motion.reach,
+            _ => [-self.distance().0, self.distance().0],
+        }
     }
 
-    /// The largest distance from the epoch that is evaluated, and why there is one.
-    fn reach(&self) -> (f64, &'static str) {
-        // A body at rest, or one that turns once in 1e285 units, is still bounded, so that no sum of two times overflows.
+    /// The largest time from the epoch that can be evaluated, and the reason for the bound.
+    fn distance(&self) -> (f64, &'static str) {
+        // The time is also bounded for a body at rest, or for one that turns once in 1e285 units, so that no sum of two times overflows.
         let phases = MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude;
         let phases = if phases < LONGEST { (phases, ": farther away the motion has no phase") } else { (LONGEST, "") };
         match &self.trajectory {
@@ -204,19 +222,23 @@ impl Motion {
         }
     }
 
-    /// Whether all times, counted as this epoch is, have a phase.
+    /// Checks that all times have a phase; `epoch` is in the same scale as the times.
     pub(crate) fn valid(&self, times: &[f64], epoch: f64) -> Result<(), Error> {
-        let bound = self.bound();
-        // Written so that NaN fails it.
-        let valid = |time: &f64| (time - epoch).abs() <= bound;
+        let [least, most] = self.reach();
+        // This condition is false for NaN.
+        let valid = |time: &f64| least <= time - epoch && time - epoch <= most;
         match times.iter().position(|time| !valid(time)) {
-            Some(index) => Err(self.no_phase(index, times)),
+            Some(index) => Err(self.no_phase(index, times, epoch)),
             None => Ok(()),
         }
     }
 
-    pub(crate) fn no_phase(&self, index: usize, times: &[f64]) -> Error {
-        let (bound, reason) = self.reach();
+    pub(crate) fn no_phase(&self, index: usize, times: &[f64], epoch: f64) -> Error {
+        let (bound, reason) = match &self.trajectory {
+            Trajectory::Integrated(motion) if times[index] < epoch => (-motion.reach[0], BEFORE),
+            Trajectory::Integrated(motion) => (motion.reach[1], AFTER),
+            _ => self.distance(),
+        };
         Error::Time { index, value: times[index], bound, reason }
     }
 }

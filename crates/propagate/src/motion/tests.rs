@@ -1,4 +1,4 @@
-//! Kernels of every instruction set that the machine has, against a reference in double-double and against each other.
+//! Kernels of every available instruction set, compared with a reference in double-double and with each other.
 
 use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -28,7 +28,7 @@ fn archs() -> Vec<Arch> {
     archs
 }
 
-/// Numbers from 0 to 1 that look random.
+/// Pseudo-random numbers from 0 to 1.
 struct Draw(u64);
 
 impl Draw {
@@ -83,8 +83,8 @@ fn largest_error(arch: Arch, rate: DoubleDouble, start: f64, times: &[f64]) -> f
 
 #[test]
 fn sine_and_cosine_of_turns_are_within_an_ulp_of_one_at_every_level() {
-    // A rate of a turn, in double-double, makes the times turns: what is left is the error of the polynomials and of their sums. Every octant, its
-    // ends and their neighbours, and the smallest numbers.
+    // With a rate of one turn, in double-double, the times are turns. The error is then that of the polynomials and of their sums. The times contain every
+    // octant, its ends and their neighbours, and the smallest numbers.
     let turn = DoubleDouble::PI * 2.0.into();
     let mut draw = Draw(1);
     let mut times: Vec<f64> = (0..200_000).map(|_| draw.next() - 0.5).collect();
@@ -94,7 +94,7 @@ fn sine_and_cosine_of_turns_are_within_an_ulp_of_one_at_every_level() {
     }
     times.extend([f64::MIN_POSITIVE, 5e-324, 1e-310, 1e-200, 1e-17, -1e-17]);
     for arch in archs() {
-        // Rounding to 1.1e-16 at the octant's end by the product without a fused addition.
+        // At the end of an octant the product without a fused addition rounds to 1.1e-16.
         let bound = if matches!(arch, Arch::Scalar) { 1.6e-16 } else { 1.2e-16 };
         let error = largest_error(arch, turn, 0.0, &times);
         assert!(error <= bound, "{arch:?}: {error:e}");
@@ -103,7 +103,7 @@ fn sine_and_cosine_of_turns_are_within_an_ulp_of_one_at_every_level() {
 
 #[test]
 fn phases_hold_to_the_last_turn_at_every_level() {
-    // Budget: 1.4e-17 turns twice for the sum (1.8e-16 rad), 1.2e-16 for the sine, 1.6e-16 without fused additions.
+    // Budget: 1.4e-17 turns twice for the sum (1.8e-16 rad), 1.2e-16 for the sine, and 1.6e-16 without fused additions.
     let rate = DoubleDouble { high: 1.234_567_890_123, low: 3.3e-17 };
     let mut draw = Draw(2);
     for scale in [1e-3, 1.0, 1e3, 1e6, 1e9, 1e12, 5e15] {
@@ -117,7 +117,7 @@ fn phases_hold_to_the_last_turn_at_every_level() {
     }
 }
 
-/// A wobble whose harmonics fall by a ratio, and its reference.
+/// A wobble whose harmonics fall by a constant ratio, and its reference.
 struct Case {
     rates: [DoubleDouble; 2],
     starts: [f64; 2],
@@ -135,7 +135,7 @@ impl Case {
         let frame = Frame::new([1.0 + first, 1.0 + second, 1.0 + third], [0.0, 0.0, fourth], false);
         let terms = (0..terms).map(|k| {
             let [c, d, e, f] = numbers().map(|x| x * ratio.powi(k as i32));
-            // The mean has no sine, and leads.
+            // The mean has no sine and is the largest term.
             if k == 0 { ([1.0 + c, 0.0], [e, f]) } else { ([c, d], [e, f]) }
         });
         Self {
@@ -158,7 +158,7 @@ impl Case {
         Trajectory::Wobble(Box::new(WobbleEvaluator::new(&wobble)))
     }
 
-    /// Attitude and rates by theory §8, harmonic by harmonic.
+    /// Attitude and rates by theory §8, summed harmonic by harmonic.
     fn reference(&self, time: f64) -> ([f64; 4], [f64; 3]) {
         let turn = DoubleDouble::PI * 2.0.into();
         let turns = |phase: usize| (self.rates[phase] * time.into() + self.starts[phase].into()) / turn;
@@ -184,7 +184,7 @@ impl Case {
 }
 
 fn evaluation(trajectory: &Trajectory, arch: Arch) -> Evaluation<'_> {
-    Evaluation { trajectory, epoch: 0.0, bound: 1e15, arch, stop: &GOING }
+    Evaluation { trajectory, epoch: 0.0, reach: [-1e15, 1e15], arch, stop: &GOING }
 }
 
 type Both = (Vec<[f64; 4]>, Vec<[f64; 3]>);
@@ -207,8 +207,8 @@ fn uneven(draw: &mut Draw, size: usize) -> Vec<f64> {
 
 #[test]
 fn every_level_holds_the_reference_at_any_number_of_terms() {
-    // Budget, each component: 3e-16 of a phase and sine, two of them; the sums, a norm and a map of four, 1e-16 each; the reference's two
-    // quaternion products, 5e-16. Slow harmonics add their 16 to 40 rounded rotations.
+    // Budget for each component: 3e-16 for a phase and its sine, twice; 1e-16 each for the sums, a norm and a map of four; 5e-16 for the two quaternion
+    // products of the reference. Slowly falling harmonics add the rounding of 16 to 40 rotations.
     let mut draw = Draw(3);
     for (terms, ratio, bound) in [
         (1, 0.1, 2e-15),
@@ -271,7 +271,7 @@ fn any_number_of_threads_gives_the_same_bits() {
     let size = 5 * super::SAMPLES_PER_THREAD + 77;
     for times in [uneven(&mut draw, size), (0..size).map(|k| 7.0 + 0.01 * k as f64).collect()] {
         let one = both(&trajectory, Arch::new(), &times, 1);
-        // The pool of a small machine has too few threads to cut so often.
+        // The pool of a small machine has too few threads to divide the times so often.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(5).build().expect("threads");
         for threads in [2, 3, 5] {
             assert!(pool.install(|| both(&trajectory, Arch::new(), &times, threads)) == one, "{threads}");
@@ -281,7 +281,7 @@ fn any_number_of_threads_gives_the_same_bits() {
 
 #[test]
 fn uniform_times_agree_with_the_same_times_one_by_one() {
-    // A table's circle has three roundings more for each phase, and 2e-16 of the deviation's square: 1e-15 in all.
+    // With a table each phase has three more rounding errors, and 2e-16 from the square of the deviation: 1e-15 in all.
     let mut draw = Draw(7);
     let trajectory = Case::new(&mut draw, 3, 0.1).trajectory();
     let size = 3000;
@@ -303,7 +303,7 @@ fn uniform_times_agree_with_the_same_times_one_by_one() {
     for times in grids {
         for arch in archs() {
             let (attitudes, rates) = both(&trajectory, arch, &times, 1);
-            // Too few times for a table.
+            // A part has too few times for a table.
             let parts: Vec<Both> = times.chunks(100).map(|part| both(&trajectory, arch, part, 1)).collect();
             let direct_attitudes: Vec<[f64; 4]> = parts.iter().flat_map(|part| part.0.clone()).collect();
             let direct_rates: Vec<[f64; 3]> = parts.iter().flat_map(|part| part.1.clone()).collect();

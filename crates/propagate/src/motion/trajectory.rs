@@ -1,18 +1,22 @@
-//! From a solved motion to arrays of attitudes and rates: several times at once, with the best instructions of the machine, on several threads.
+//! Arrays of attitudes and rates from a solved motion: several times at once, with the best instruction set available, on several threads.
 //!
-//! Kernels are written once over [`crate::simd::lanes`] and compiled for each instruction set ([`crate::simd::instruction_set`]). A time takes two phases in double-double, two
-//! sines and cosines ([`crate::simd::sincos`]), the sums of theory §8 ([`crate::torque_free::sums`]) and a constant map ([`crate::torque_free::wobble`]); on a uniform grid the sines come from one
-//! product with a table ([`crate::simd::grid`]). Only what is asked for is computed. All sets with a fused multiply-add give the same bits, and so does any
-//! number of threads. 100,000 samples of attitude and rates with seven harmonics on one core of a Zen 5 take 36 ns each with the portable kernel, 7.3
-//! with AVX2, 3.9 with AVX-512; 18, 4.8 and 2.4 at uniform times; storing alone 0.8. In its first form this took 42, 8.0 and 4.2; lanes as plain arrays
-//! in functions with target features, which the compiler is to make vectors of, 31, 15 and 11.7; `wide` takes its instructions when it is compiled,
-//! and cannot be dispatched.
+//! Kernels are written once over [`crate::simd::lanes`] and compiled for each instruction set ([`crate::simd::instruction_set`]). One time takes two phases in
+//! double-double, two sines and cosines ([`crate::simd::sincos`]), the sums of theory §8 ([`crate::torque_free::sums`]) and a constant map
+//! ([`crate::torque_free::wobble`]). On a uniform grid one product with a table gives the sines ([`crate::simd::grid`]). Only the requested outputs are
+//! computed. All sets with a fused multiply-add give the same bits, with any number of threads.
+//!
+//! Speed: 100,000 samples of attitude and rates with seven harmonics on one core of a Zen 5 take 36 ns each with the portable kernel, 7.3 ns with AVX2 and 3.9
+//! ns with AVX-512. At uniform times they take 18, 4.8 and 2.4 ns. Storing alone takes 0.8 ns. The first version took 42, 8.0 and 4.2 ns. Plain arrays in
+//! functions with target features, vectorized by the compiler, took 31, 15 and 11.7 ns. The crate `wide` fixes its instructions at compile time, so it cannot
+//! select them at run time.
 
 use std::sync::atomic::AtomicBool;
 
 use pulp::Arch;
 
 use crate::gravity_gradient::disturbed::Gradient;
+use crate::integration::dense::Cursor;
+use crate::integration::integrated::Integrated;
 use crate::numerics::phase::Phase;
 use crate::simd::circles::{Evaluate, Source};
 use crate::simd::grid::{GROUP, Grid};
@@ -30,7 +34,7 @@ use crate::torque_free::wobble::WobbleEvaluator;
 #[path = "tests.rs"]
 mod tests;
 
-/// Samples for each thread below which one more thread costs more than it saves: a join takes 11 μs, this many samples 40 to 65.
+/// Smallest number of samples for each thread. With fewer samples another thread costs more than it saves: a join takes 11 μs, this many samples 40 to 65 μs.
 const SAMPLES_PER_THREAD: usize = 16_384;
 
 /// The formulas that evaluate a motion.
@@ -38,21 +42,23 @@ const SAMPLES_PER_THREAD: usize = 16_384;
 pub(crate) enum Trajectory {
     /// Rotation about an axis fixed in the body.
     Steady(Box<Steady>),
-    /// A polhode.
+    /// A wobble along a polhode.
     Wobble(Box<WobbleEvaluator>),
-    /// A polhode next to the separatrix or on it.
+    /// A motion near the separatrix or on it.
     Passage(Box<Passage>),
     /// Rotation under a gravity gradient.
     Gradient(Box<Gradient>),
+    /// A numerical integration.
+    Integrated(Box<Integrated>),
 }
 
 impl Trajectory {
-    /// ℓ′ and y′/2, where sines and cosines of them are all that is needed.
+    /// The phases ℓ′ and y′/2, if the motion depends on time only through their sines and cosines.
     fn phases(&self) -> Option<[&Phase; 2]> {
         match self {
             Self::Steady(steady) => Some(steady.phases()),
             Self::Wobble(tables) => Some(tables.phases()),
-            Self::Passage(_) | Self::Gradient(_) => None,
+            Self::Passage(_) | Self::Gradient(_) | Self::Integrated(_) => None,
         }
     }
 }
@@ -62,28 +68,28 @@ impl Trajectory {
 pub(crate) struct Evaluation<'a> {
     pub(crate) trajectory: &'a Trajectory,
     pub(crate) epoch: f64,
-    /// Largest distance from the epoch.
-    pub(crate) bound: f64,
+    /// Largest times before and after the epoch; the first is negative.
+    pub(crate) reach: [f64; 2],
     pub(crate) arch: Arch,
-    /// Set by another thread to end the evaluation.
+    /// A flag that another thread sets to end the evaluation.
     pub(crate) stop: &'a AtomicBool,
 }
 
 impl Evaluation<'_> {
-    /// Evaluates all times on at most `threads` threads, or says why it ended. Outputs are as long as the times.
+    /// Evaluates all times on at most `threads` threads, or returns the reason why it ended. The outputs must be as long as the times.
     pub(crate) fn fill(&self, times: &[f64], outputs: Outputs<'_>, threads: usize) -> Result<(), Halt> {
         let grid = self.trajectory.phases().and_then(|phases| Grid::new(self.arch, phases, times));
         let enough = times.len() / SAMPLES_PER_THREAD;
-        // A query of the size of the pool starts it, so a few samples do not query it.
+        // Reading the size of the thread pool starts the pool, so it is not read for a few samples.
         let threads = if enough.min(threads) <= 1 { 1 } else { enough.min(threads).min(rayon::current_num_threads()) };
         self.spread(times, outputs, grid.as_ref(), threads)
     }
 
-    /// Halves go to threads. They begin where a group does, so that each sample is computed as it would be by one thread.
+    /// Gives each half to a thread. A half begins where a group begins, so that each sample is computed as with one thread.
     fn spread(&self, times: &[f64], outputs: Outputs<'_>, grid: Option<&Grid>, threads: usize) -> Result<(), Halt> {
         if threads <= 1 {
-            let Self { trajectory, epoch, bound, arch, stop } = *self;
-            return dispatch(arch, Dispatch { trajectory, run: Run { epoch, bound, times, outputs, grid, stop } });
+            let Self { trajectory, epoch, reach, arch, stop } = *self;
+            return dispatch(arch, Dispatch { trajectory, run: Run { epoch, reach, times, outputs, grid, stop } });
         }
         let half = threads / 2;
         let place = (times.len() / threads * half).next_multiple_of(GROUP).min(times.len());
@@ -97,7 +103,7 @@ impl Evaluation<'_> {
     }
 }
 
-/// A stretch of times for one thread.
+/// A part of the times, for one thread.
 struct Dispatch<'a> {
     trajectory: &'a Trajectory,
     run: Run<'a>,
@@ -113,6 +119,10 @@ impl Task for Dispatch<'_> {
             Trajectory::Steady(steady) => run.by_circles(simd, steady.as_ref()),
             Trajectory::Wobble(tables) => run.by_circles(simd, tables.as_ref()),
             Trajectory::Passage(passage) => run.one_by_one(|elapsed| passage.evaluate(elapsed)),
+            Trajectory::Integrated(motion) => {
+                let mut cursor = Cursor::new(motion);
+                run.one_by_one(|elapsed| cursor.at(elapsed))
+            }
             Trajectory::Gradient(gradient) => {
                 let epoch = Lanes::splat(simd, run.epoch);
                 run.by_source(simd, Disturbed { gradient, epoch })
@@ -121,7 +131,7 @@ impl Task for Dispatch<'_> {
     }
 }
 
-/// Under a gravity gradient.
+/// The evaluation under a gravity gradient.
 #[derive(Clone, Copy)]
 struct Disturbed<'a, S: InstructionSet> {
     gradient: &'a Gradient,

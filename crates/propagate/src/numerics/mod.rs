@@ -1,6 +1,6 @@
-//! Numbers without vectors: phases in double-double, scaling by powers of two, the theta quantities of a polhode.
+//! Scalar numerics: phases in double-double, scaling by powers of two, the theta quantities of a polhode.
 //!
-//! Imports the errors and nothing else of the crate.
+//! Imports errors only.
 
 pub(crate) mod phase;
 pub(crate) mod scaling;

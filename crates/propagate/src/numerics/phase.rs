@@ -2,17 +2,17 @@
 
 use andoyer_double::DoubleDouble;
 
-/// An angle that grows with time, in turns.
+/// An angle in turns that grows linearly with time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Phase {
     /// Turns per unit of time.
     pub(crate) frequency: DoubleDouble,
-    /// Turns at the epoch: a part from ½ to 1½, which is a multiple of 2^−53, and the rest.
+    /// Turns at the epoch. The high part is between ½ and 1½, a multiple of 2^−53; the low part is the remainder.
     pub(crate) start: DoubleDouble,
 }
 
 impl Phase {
-    /// From a rate [rad per unit of time] and the angle at the epoch \[rad\].
+    /// The phase with this rate [rad per unit of time] and this angle at the epoch \[rad\].
     pub(crate) fn new(rate: DoubleDouble, start: impl Into<DoubleDouble>) -> Self {
         let turn = DoubleDouble::PI * DoubleDouble::from(2.0);
         let start = start.into() / turn;
@@ -20,7 +20,7 @@ impl Phase {
         Self { frequency: rate / turn, start: start + DoubleDouble::from(whole) }
     }
 
-    /// The phase that is 0 at its epoch.
+    /// The same frequency with a phase of 0 at the epoch.
     pub(crate) fn unstarted(&self) -> Self {
         Self { start: DoubleDouble::ONE, ..*self }
     }

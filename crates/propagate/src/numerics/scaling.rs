@@ -4,14 +4,14 @@ use andoyer_double::DoubleDouble;
 
 use super::phase::Phase;
 
-/// The binary exponent of a positive finite number, for a smaller number than the smallest normal one, the exponent of that one.
+/// The binary exponent of a positive finite number. For a subnormal number it is the exponent of the smallest normal number.
 pub(crate) fn exponent(value: f64) -> i32 {
-    // Eleven exponent bits: the shift leaves a value that fits.
+    // The shift leaves eleven exponent bits, which fit.
     let biased = ((value.to_bits() >> 52) & 0x7ff) as i32;
     biased.max(1) - 1023
 }
 
-/// value·2^power, in two steps, so that neither factor overflows.
+/// value·2^power. Two factors are used so that neither overflows.
 pub(crate) fn scaled(value: f64, power: i32) -> f64 {
     let half = power / 2;
     value * 2.0_f64.powi(half) * 2.0_f64.powi(power - half)
@@ -22,7 +22,7 @@ pub(crate) fn user_rate(rate: DoubleDouble, exponent: i32) -> DoubleDouble {
     DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) }
 }
 
-/// The phase of half an angle. A quaternion needs half angles: a whole turn of the half angle keeps its sign.
+/// The phase of half an angle. A quaternion needs half angles, and a whole turn of the half angle leaves it unchanged.
 pub(crate) fn half(rate: DoubleDouble, start: f64) -> Phase {
     Phase::new(rate * DoubleDouble::from(0.5), 0.5 * start)
 }

@@ -1,21 +1,21 @@
 //! Elliptic integrals for the closed form, in `f64`: the periods and arguments of the theta functions of one polhode.
 //!
-//! With m = k² = 1 − Q1/Q2 and 1 − m = k′² = Q1/Q2 of the polhode module, both without cancellation,
+//! With m = k² = 1 − Q1/Q2 and 1 − m = k′² = Q1/Q2 from the polhode module, both computed without cancellation,
 //!
 //! ```text
 //! K = π/(2 agm(1, k′))     K′ = π/(2 agm(1, k))     η = F(φ, k′),  tan φ = √(b/(a−b)),  a = C/A − 1,  b = C/B − 1
 //! ```
 //!
-//! At iη, |cos J| = 1: there the elliptic function 1 ± cos J has its zeros (theory §10; Piña, arXiv:1505.06186). F is computed as Carlson's
-//! R_F (Numer. Algorithms 10 (1995) 13) with positive arguments. Relative accuracy: a few 2^−53, at any k′ > 0.
+//! At iη, |cos J| = 1, and the elliptic functions 1 ± cos J have their zeros there (theory §10; Piña, arXiv:1505.06186). F is computed as Carlson's R_F (Numer.
+//! Algorithms 10 (1995) 13) with positive arguments. Relative accuracy: a few 2^−53, for any k′ > 0.
 
 use std::f64::consts::FRAC_PI_2;
 
 use andoyer_double::{DoubleDouble, arithmetic_geometric_mean, carlson_rf};
 
-/// K of one polhode with 0 < Q1, and u of a state from where cos J is greatest, 0 ≤ u ≤ K, to 1e-20 of K.
+/// K of a polhode with 0 < Q1, and the argument u of a state, counted from the maximum of cos J, 0 ≤ u ≤ K. Both are accurate to 1e-20 of K.
 ///
-/// Both are defined as in [`Theta::argument`]. Beside the middle axis u is forty radians: rounded to a double, it would make the time of the passage wrong by 1e-14.
+/// Both are defined as in [`Theta::argument`]. Near the middle axis u is forty radians. Rounded to a double, it would change the time of the passage by 1e-14.
 pub(crate) fn precise_argument(
     cosine_squares: [DoubleDouble; 2],
     [cosine, sine]: [f64; 2],
@@ -42,9 +42,9 @@ pub(crate) fn precise_argument(
 /// Periods and arguments of the theta functions of one polhode with 0 < Q1 ≤ Q2.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Theta {
-    /// √Q1 and √Q2: cos J where it is least and where it is greatest.
+    /// √Q1 and √Q2: the minimum and the maximum of cos J.
     pub(crate) cosines: [f64; 2],
-    /// tan(J/2) at the same two places.
+    /// tan(J/2) at the minimum and at the maximum of cos J.
     pub(crate) half_tangents: [f64; 2],
     /// K, a quarter of the real period; infinite on the separatrix.
     pub(crate) quarter: f64,
@@ -59,7 +59,7 @@ pub(crate) struct Theta {
 }
 
 impl Theta {
-    /// From a and b, a − b, Q1 and Q2, their difference, and 1 − Q1 and 1 − Q2.
+    /// The quantities from a and b, a − b, Q1 and Q2, Q2 − Q1, and 1 − Q1 and 1 − Q2.
     pub(crate) fn new(
         [first, second]: [DoubleDouble; 2],
         difference: DoubleDouble,
@@ -75,7 +75,7 @@ impl Theta {
         let cosine = (difference / first).to_f64();
         let eta =
             if cosine == 0.0 { conjugate } else { sine.sqrt() * carlson_rf(cosine, cosine + modulus * sine, 1.0) };
-        // An axisymmetric body may rotate about an axis perpendicular to its own: Q1 = Q2 = 0.
+        // An axisymmetric body may rotate about an axis perpendicular to its symmetry axis: Q1 = Q2 = 0.
         let round = difference == DoubleDouble::ZERO;
         let ratio = if round { 1.0 } else { (roots[0] / roots[1]).min(1.0) };
         Self {
@@ -89,14 +89,15 @@ impl Theta {
         }
     }
 
-    /// The argument u of a state on the polhode, counted from the nearer extremum of cos J. Returns whether that extremum is the maximum, and the distance.
+    /// The argument u of a state on the polhode, counted from the nearer extremum of cos J. Returns whether that extremum is the maximum, and the distance from
+    /// it.
     ///
-    /// u = √Q2 ∫ dℓ/√Q from ℓ = 0, or from ℓ = π/2 back, for ℓ in the first quadrant.
+    /// u = √Q2 ∫ dℓ/√Q for ℓ in the first quadrant. The integral starts at ℓ = 0, or at ℓ = π/2 and runs backwards.
     pub(crate) fn argument(&self, [cosine, sine]: [f64; 2]) -> (bool, f64) {
         let [least, greatest] = self.cosines;
         let (x, y) = (least * cosine, greatest * sine);
         let q = x * x + y * y;
-        // Both expressions degenerate only for Q1 = 0 at ℓ = 0.
+        // Both expressions are undefined only for Q1 = 0 at ℓ = 0.
         if y > x {
             (true, greatest * cosine * carlson_rf(y * y, q, greatest * greatest))
         } else {

@@ -8,17 +8,17 @@ use crate::input::body::Body;
 use crate::input::scene::Scene;
 use crate::torque_free::polhode::Frame;
 
-/// How much |Λ| and |N| may exceed M by rounding, relative to it.
+/// Largest relative excess of |Λ| and |N| over M, which allows for rounding.
 const SLACK: f64 = 8.0 * f64::EPSILON;
 
 impl Scene {
-    /// The scene whose Andoyer variables at the epoch are (λ, μ, ν, Λ, M, N): angles \[rad\], momenta in the unit of moment × rate.
+    /// Creates the scene whose Andoyer variables at the epoch are (λ, μ, ν, Λ, M, N): angles \[rad\], momenta in units of moment × rate.
     ///
-    /// R = Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν), cos I = Λ/M, cos J = N/M, about the principal axes in the order of [`crate::Motion::andoyer`]. J is known from M − N to 1e-8 only where it
-    /// is small.
+    /// R = Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν), cos I = Λ/M, cos J = N/M, about the principal axes in the order of [`crate::Motion::andoyer`]. If J is small, M − N
+    /// determines it only to 1e-8.
     ///
     /// # Errors
-    /// - [`Error::Andoyer`] for a variable that is not finite, M ≤ 0, |Λ| or |N| above M.
+    /// - [`Error::Andoyer`] for a variable that is not finite, for M ≤ 0, and for |Λ| or |N| above M.
     ///
     /// ```
     /// use andoyer_propagate::{Body, Scene, State};
@@ -42,10 +42,10 @@ impl Scene {
         }
         for (index, part) in [(3, vertical), (5, axial)] {
             if part.abs() > momentum * (1.0 + SLACK) {
-                return Err(refused(index, "its size must not exceed M"));
+                return Err(refused(index, "its magnitude must not exceed M"));
             }
         }
-        // Sine and cosine of an inclination from M and a component of it.
+        // Sine and cosine of an inclination, and the rotation by it, from M and one of its components.
         let inclined = |part: f64| {
             let cosine = part / momentum;
             let sine = ((momentum - part) / momentum * ((momentum + part) / momentum)).max(0.0).sqrt();

@@ -1,4 +1,4 @@
-//! Scenes from what is published: a pair of periods, or Andoyer variables.
+//! Scenes from published quantities: a pair of periods, or Andoyer variables.
 //!
 //! Imports errors, numerics, input, torque_free, motion and solve.
 
@@ -11,7 +11,7 @@ use crate::input::body::Body;
 use crate::input::scene::Scene;
 use crate::input::state::State;
 
-/// The scene of a state about the principal axes of the body.
+/// The scene of a state that is given about the principal axes of the body.
 fn scene_about_principal_axes(
     body: Body,
     epoch: f64,

@@ -1,8 +1,8 @@
-//! A scene from the periods of a tumbler (theory §7): what light curves and radar give.
+//! A scene from the periods of a tumbler (theory §7), as light curves and radar observations give them.
 //!
-//! In each mode P_ψ/P_φ is a function of sin²J alone that grows from its value on the axis to infinity on the separatrix: its root is bracketed in ln(sin²J/cos²J) and halved. The size of the
-//! angular momentum follows from either period. Frequencies are those of the quadrature in double-double, so that a scene has the periods that it was made from to rounding
-//! of its state: 1e-16, over cos²J next to the separatrix.
+//! In each mode P_ψ/P_φ is a function of sin²J alone. It grows from its value on the axis to infinity on the separatrix, so bisection in ln(sin²J/cos²J) finds
+//! its root. The magnitude of the angular momentum then follows from either period. Frequencies come from the quadrature in double-double. The scene therefore
+//! has the given periods, to the rounding error of its state: 1e-16, or 1e-16 over cos²J near the separatrix.
 
 use std::f64::consts::TAU;
 
@@ -19,33 +19,33 @@ use crate::torque_free::frequencies::Secular;
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
 
-/// ln(sin²J/cos²J) at ℓ = 0 between which roots are sought: J = 1e-17 rad, and cos²J = 1e-290.
+/// Interval of ln(sin²J/cos²J) at ℓ = 0 in which roots are searched: from J = 1e-17 rad to cos²J = 1e-290.
 const RANGE: [f64; 2] = [-78.0, 667.0];
-/// A ratio this near to that on the axis is it.
+/// A ratio this near to that on the axis counts as equal to it.
 const RATIO_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// The periods of a tumbler, as they are published.
+/// The periods of a tumbler, as published.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ObservedPeriods {
-    /// P_φ, of the precession of an axis about the angular momentum.
+    /// P_φ, the period of the precession of an axis about the angular momentum [unit of time].
     pub precession: f64,
-    /// P_ψ, of the rotation about this axis or of its oscillation.
+    /// P_ψ, the period of the rotation about this axis or of its oscillation [unit of time].
     pub rotation: f64,
     /// [`Mode::ShortAxis`] or [`Mode::LongAxis`].
     pub mode: Mode,
-    /// Whose periods they are.
+    /// The axis that the periods describe.
     pub convention: Convention,
-    /// Direction of the angular momentum, inertial components, of any length.
+    /// Direction of the angular momentum in inertial components; its length is arbitrary.
     pub momentum_direction: Vector3<f64>,
-    /// Parts of P_ψ and P_φ that have gone by at the epoch \[turns\]. At \[0, 0\] the axis that the angular momentum circles is nearest to it, tilted towards z × momentum
-    /// (towards x where the momentum is along z).
+    /// Elapsed fractions of P_ψ and P_φ at the epoch \[turns\]. At \[0, 0\] the axis around which the angular momentum circles is nearest to the angular
+    /// momentum, and is tilted towards z × momentum (towards x if the momentum is along z).
     pub phases: [f64; 2],
     /// Time of the state.
     pub epoch: f64,
 }
 
 impl ObservedPeriods {
-    /// A short-axis mode in the extremal-axis convention, the angular momentum along z, phases and epoch 0.
+    /// Periods of the short-axis mode in the extremal-axis convention, with the angular momentum along z, and with phases and epoch 0.
     pub fn new(precession: f64, rotation: f64) -> Self {
         Self {
             precession,
@@ -58,7 +58,7 @@ impl ObservedPeriods {
         }
     }
 
-    /// The same with the angular momentum towards a longitude and a latitude \[rad\].
+    /// Sets the direction of the angular momentum by longitude and latitude \[rad\].
     #[must_use]
     pub fn towards(self, longitude: f64, latitude: f64) -> Self {
         let (sine, cosine) = latitude.sin_cos();
@@ -68,14 +68,16 @@ impl ObservedPeriods {
 }
 
 impl Body {
-    /// The smallest P_ψ/P_φ of a mode, that of rotation about its axis, and the largest that doubles hold next to the separatrix; every ratio between them belongs to one motion.
+    /// The smallest and the largest P_ψ/P_φ of a mode. The smallest is that of rotation about the axis; the largest is the last one before the separatrix that
+    /// doubles can represent. Every ratio between them belongs to one motion.
     ///
     /// # Errors
-    /// - [`Error::ModeName`] for a mode other than the short-axis and the long-axis one.
-    /// - [`Error::NoSuchMode`] for the short-axis mode of a body with B = C, the long-axis mode of one with A = B.
+    /// - [`Error::ModeName`] for a mode other than the short-axis mode and the long-axis mode.
+    /// - [`Error::NoSuchMode`] for the short-axis mode of a body with B = C, and for the long-axis mode of a body with A = B.
     ///
     /// ```
-    /// use andoyer_propagate::{Body, Convention, Mode};
+    /// use andoyer_propagate::{Body, Mode};
+    /// use andoyer_propagate::options::Convention;
     /// let body = Body::new([1.0, 1.5, 2.0])?;
     /// let [lower, _] = body.period_ratios(Mode::ShortAxis, Convention::ExtremalAxis)?;
     /// // 1 + 1/γ, γ² = (C/A − 1)(C/B − 1) = 1/3.
@@ -89,16 +91,18 @@ impl Body {
 }
 
 impl Scene {
-    /// The scene of a body that tumbles with these periods, torque-free; for a mode there is one.
+    /// Creates the scene of a body that tumbles with these periods without torque. For each mode there is exactly one.
     ///
     /// # Errors
     /// - [`Error::Positive`] for a period that is zero, negative or not finite.
-    /// - [`Error::PeriodRatio`] for periods that the body cannot have, with the interval that it can; [`Error::ModeName`], [`Error::NoSuchMode`] as for [`Body::period_ratios`].
-    /// - [`Error::Direction`] for a direction of the angular momentum of length 0, or phases that are not finite; [`Error::Epoch`].
-    /// - [`Error::Units`] for periods whose angular momentum has no double.
+    /// - [`Error::PeriodRatio`] for periods that the body cannot have, with the interval of possible ratios; [`Error::ModeName`], [`Error::NoSuchMode`] as for
+    ///   [`Body::period_ratios`].
+    /// - [`Error::Direction`] for a direction of length 0, or for phases that are not finite; [`Error::Epoch`] for an epoch that is not finite.
+    /// - [`Error::Units`] for periods whose angular momentum overflows or underflows.
     ///
     /// ```
-    /// use andoyer_propagate::{Body, ObservedPeriods, Scene};
+    /// use andoyer_propagate::{Body, Scene};
+    /// use andoyer_propagate::periods::ObservedPeriods;
     /// // Apophis, in hours (Pravec et al. 2014): E/E0 = 1.024 ± 0.013.
     /// let motion = Scene::from_periods(Body::new([0.61, 0.965, 1.0])?, &ObservedPeriods::new(27.38, 263.0))?.solve()?;
     /// assert!((motion.energy_ratio() - 1.02364).abs() < 5e-6);
@@ -111,7 +115,7 @@ impl Scene {
         let principal = body.about_principal_axes();
         let start = family.state(periods)?;
         let passed = Scene::new(principal, start).solve()?.at(periods.phases[0].rem_euclid(1.0) * periods.rotation)?;
-        // The precession that has gone by with the phase along the polhode is taken back.
+        // The precession during the phase along the polhode is subtracted.
         let turns = periods.phases[1] - periods.phases[0].rem_euclid(1.0) * periods.rotation / periods.precession;
         let axis = nalgebra::Unit::new_normalize(periods.momentum_direction);
         let turned = UnitQuaternion::from_axis_angle(&axis, TAU * (turns - turns.round()));
@@ -140,13 +144,13 @@ impl ObservedPeriods {
     }
 }
 
-/// The motions of a body in one mode, M = 1 and moments scaled.
+/// The motions of a body in one mode, with M = 1 and scaled moments.
 struct Family {
     /// Rotation about the axis of the mode.
     axial: Polhode,
     mode: Mode,
     convention: Convention,
-    /// Whether the periods are those of the axis that the angular momentum circles.
+    /// Whether the periods are those of the axis around which the angular momentum circles.
     own: bool,
 }
 
@@ -176,9 +180,9 @@ impl Family {
         Ok(Self { axial, mode, convention, own })
     }
 
-    /// The polhode with this ln(sin²J/cos²J) at ℓ = 0, M = 1.
+    /// The polhode with M = 1 and this ln(sin²J/cos²J) at ℓ = 0.
     fn polhode(&self, logarithm: f64) -> Polhode {
-        // The smaller of the two squares is exact.
+        // The smaller of the two squares is computed directly, the larger as 1 minus it.
         let smaller = DoubleDouble::from(1.0 / (1.0 + logarithm.abs().exp()));
         let larger = DoubleDouble::ONE - smaller;
         let squares = if logarithm < 0.0 { [smaller, larger] } else { [larger, smaller] };
@@ -197,18 +201,18 @@ impl Family {
         (precession / rotation).to_f64()
     }
 
-    /// The ratio on the axis: dℓ′/dt = γ M/C, dy′/dt = M/C.
+    /// The ratio on the axis, where dℓ′/dt = γ M/C and dy′/dt = M/C.
     fn lowest(&self) -> f64 {
         let gamma = self.axial.gamma();
         let own = if self.own { DoubleDouble::ONE + gamma } else { DoubleDouble::ONE };
         (own / gamma).to_f64().abs()
     }
 
-    /// The polhode, M = 1, with a ratio of periods.
+    /// The polhode with M = 1 and this ratio of periods.
     fn with_ratio(&self, ratio: f64) -> Result<Polhode, Error> {
         let [mut low, mut high] = RANGE;
         let (lower, upper) = (self.lowest(), self.ratio(high));
-        // Written so that NaN fails it.
+        // This condition is false for NaN.
         let within = ratio >= lower * (1.0 - RATIO_ROUNDING) && ratio <= upper;
         if !within {
             let (mode, convention) = (self.mode.to_string(), self.convention.to_string());
@@ -226,7 +230,7 @@ impl Family {
         }
     }
 
-    /// The state at time 0 with phases 0: ℓ = π/2, where cos J is greatest.
+    /// The state at time 0 with phases 0: ℓ = π/2, where cos J has its maximum.
     fn state(&self, periods: &ObservedPeriods) -> Result<State, Error> {
         let polhode = self.with_ratio(periods.rotation / periods.precession)?;
         let [precession, _] = self.rates(&polhode);

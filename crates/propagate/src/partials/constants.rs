@@ -1,4 +1,4 @@
-//! What derivatives are computed from: the state in units of M = 1, the six changes of it, and the constants of theory §12 for each.
+//! The quantities from which derivatives are computed: the state in units of M = 1, its six changes, and the constants of theory §12 for each change.
 
 use crate::numerics::scaling::scaled;
 use crate::numerics::theta::Theta;
@@ -9,41 +9,41 @@ use super::integral::Integral;
 /// Parameters that change the polhode: three rates at the epoch, three moments.
 pub(super) const CHANGES: usize = 6;
 
-/// A parameter and what it changes on one axis: g at the epoch, and ν = M over the moment.
+/// A parameter and its effect on one axis: the changes of g at the epoch and of ν = M over the moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Change {
     /// The user's axis.
     pub(super) axis: usize,
-    /// The same axis among the sorted ones.
+    /// The index of this axis among the sorted axes.
     sorted: usize,
-    /// δg at the epoch on that axis, in the user's direction, for a unit of the parameter.
+    /// δg at the epoch along the user's axis, for a unit of the parameter.
     pub(super) lever: f64,
-    /// The same on the sorted axis, in scaled units.
+    /// δg on the sorted axis, in scaled units.
     step: f64,
     /// δν on that axis, in scaled units.
     rate: f64,
-    /// −1 over the moment in the user's unit, 0 for a rate.
+    /// −1 over the moment in the user's unit; 0 for a rate.
     pub(super) inverse_moment: f64,
-    /// What leads from the derivative in scaled units to that in the user's.
+    /// Factor from the derivative in scaled units to that in the user's units.
     pub(super) unit: f64,
 }
 
 /// The state at the epoch in units of M = 1, on the sorted axes.
 #[derive(Clone, Debug)]
 pub(super) struct Setting {
-    /// User axis of each sorted axis.
+    /// Index of the user's axis of each sorted axis.
     pub(super) axes: [usize; 3],
     /// g.
     pub(super) direction: [f64; 3],
     /// ν_i, scaled.
     pub(super) rates: [f64; 3],
-    /// d_i: ġ_1 = d_1 g_2 g_3 and so on, scaled.
+    /// The slopes d_i in ġ_1 = d_1 g_2 g_3 and so on, scaled.
     pub(super) slopes: [f64; 3],
-    /// The same on the user's axes.
+    /// The slopes d_i on the user's axes.
     pub(super) user_slopes: [f64; 3],
     /// ν_i on the user's axes, in the user's unit.
     pub(super) user_rates: [f64; 3],
-    /// Scaled units of time in the user's.
+    /// The user's unit of time in scaled units.
     pub(super) unit: f64,
     pub(super) changes: [Change; CHANGES],
 }
@@ -112,10 +112,10 @@ impl Change {
     }
 }
 
-/// The constants of one parameter (theory §12), for a unit of it in the user's unit and times in the scaled one.
+/// The constants of one parameter (theory §12), for a unit of the parameter in the user's unit and for scaled times.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Constants {
-    /// Half the logarithmic derivative of each amplitude, by user axis.
+    /// Half the logarithmic derivative of each amplitude, by the user's axis.
     pub(super) growth: [f64; 3],
     /// β/2.
     pub(super) half_beta: f64,
@@ -173,7 +173,8 @@ impl Constants {
     }
 }
 
-/// τ at the epoch: what ġ has of δg that the amplitudes leave, weighed so that both components have one size on a small polhode.
+/// τ at the epoch: the component along ġ of the part of δg that the amplitudes do not describe. The weights make both components equally large on a small
+/// polhode.
 fn delay(setting: &Setting, step: &[f64; 3], growth: &[f64; 2]) -> f64 {
     let Setting { direction: g, slopes: d, .. } = setting;
     let roots = [d[0].abs().sqrt(), d[1].abs().sqrt()];

@@ -1,36 +1,40 @@
-//! Derivatives of a motion under a gravity gradient, by differences of solved motions.
+//! Derivatives of a motion under a gravity gradient, or of an integrated motion, from differences of solved motions.
 //!
-//! Central differences of fourth order with steps that turn the body by [`STEP`] at the farthest time: their truncation is STEP⁴/30 of the largest derivative, 3e-10, and rounding of a
-//! solution, 1e-13, over the step as much. Derivatives of the mean motion alone would lack those of the short-period corrections, which are of the size of the torque. One call
-//! solves 37 motions, however many times it has.
+//! They are central differences of fourth order. A step turns the body by [`STEP`] at the most distant time. The truncation error is STEP⁴/30 of the largest
+//! derivative, 3e-10. The rounding error of a solution, 1e-13, divided by the step is as large. Derivatives of the mean motion alone would lack those of the
+//! short-period corrections, which have the size of the torque. One call solves 37 motions for any number of times.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::Error;
+use crate::input::options::Method;
 use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::motion::solved::Motion;
 
 use super::{Derivatives, PARAMETERS};
 
-/// Angle by which a step turns the body at the farthest time \[rad\].
+/// Angle by which a step turns the body at the most distant time \[rad\].
 const STEP: f64 = 1e-2;
 /// Largest step relative to the angular velocity or the moment.
 const LARGEST: f64 = 1e-3;
-/// Tolerance at which steps are solved, so that dropped terms are nothing beside a step \[rad\].
+/// Tolerance of the solved motions, so that dropped terms are negligible relative to a step \[rad\].
 const TOLERANCE: f64 = 1e-13;
-/// Places and weights of the differences: [8 f(h) − 8 f(−h) − f(2h) + f(−2h)]/12h.
+/// Positions and weights of the differences: [8 f(h) − 8 f(−h) − f(2h) + f(−2h)]/12h.
 const STENCIL: [(f64, f64); 4] = [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)];
 
-/// Derivatives at times that are valid for the motion.
+/// Computes derivatives at times that are valid for the motion.
 pub(super) fn fill(
     motion: &Motion,
     times: &[f64],
     attitudes: &mut [Derivatives],
     rates: &mut [Derivatives],
 ) -> Result<(), Error> {
-    let Some(averaging) = motion.plan.averaging() else { return Ok(()) };
-    let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance())).averaging(averaging);
+    let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance()));
+    let scene = match motion.plan.averaging() {
+        Some(averaging) => scene.averaging(averaging).method(Method::Closed),
+        None => scene.method(Method::Integrated),
+    };
     let steps = steps(&scene, times);
     let mut samples = Samples::new(times.len());
     samples.evaluate(&scene, times)?;
@@ -73,7 +77,11 @@ impl Samples {
 fn steps(scene: &Scene, times: &[f64]) -> [f64; PARAMETERS] {
     let State { epoch, angular_velocity, .. } = *scene.state();
     let farthest = times.iter().fold(0.0_f64, |most, time| most.max((time - epoch).abs()));
-    let rate = angular_velocity.norm();
+    // The rates of a body at rest need a step that is not 0.
+    let rate = match angular_velocity.norm() {
+        0.0 => STEP / farthest.max(f64::MIN_POSITIVE),
+        rate => rate,
+    };
     let part = LARGEST.min(STEP / (rate * farthest));
     let moments = scene.body().moments();
     std::array::from_fn(|parameter| match parameter {
@@ -98,7 +106,7 @@ fn changed(scene: &Scene, parameter: usize, step: f64) -> Scene {
     scene.starting_from(scene.body().with_moments(moments), state)
 }
 
-/// The rotation vector from one attitude to a neighbouring one, body components.
+/// The rotation vector from one attitude to a nearby one, in body components.
 fn rotation_vector(start: [f64; 4], end: [f64; 4]) -> Vector3<f64> {
     let [start, end] = [start, end].map(|attitude| UnitQuaternion::new_unchecked(attitude.into()));
     (start.inverse() * end).scaled_axis()

@@ -1,13 +1,13 @@
-//! Derivatives at many times, several at once (theory §12).
+//! Derivatives at many times, several of them at once (theory §12).
 //!
-//! The attitude's follow from those of g by the conservation of the angular momentum, δL = R0 δG0, but for the component along g, which grows with twice the energy's
-//! change:
+//! Conservation of the angular momentum, δL = R0 δG0, gives the derivatives of the attitude from those of g, except for the component along g, which grows with
+//! twice the change of the energy:
 //!
 //! ```text
 //! δθ = g × (RᵀR0 δg0 − δg) + g (g·δθ)
 //! ```
 //!
-//! All is computed in units of M = 1 and of the scaled time.
+//! All quantities are in units of M = 1 and of the scaled time.
 
 use nalgebra::UnitQuaternion;
 use pulp::Arch;
@@ -30,10 +30,10 @@ use super::integral::Integral;
 use super::sources::{Amplitudes, Passing, Place, Source, Wobbling};
 use super::{Derivatives, PARAMETERS};
 
-/// Samples for each thread below which one more thread costs more than it saves.
+/// Smallest number of samples for each thread. With fewer samples another thread costs more than it saves.
 const SAMPLES_PER_THREAD: usize = 1024;
 
-/// Times and the state that derivatives are wanted at.
+/// The times of the derivatives, and the state at the epoch.
 #[derive(Clone, Copy)]
 pub(super) struct Target<'a> {
     pub(super) times: &'a [f64],
@@ -44,7 +44,8 @@ pub(super) struct Target<'a> {
 }
 
 impl Target<'_> {
-    /// By the best instruction set of the machine, on as many threads as pay; parts begin where lanes do, so that no bit depends on their number.
+    /// Fills the outputs with the best instruction set available, on as many threads as are faster. Parts begin where lanes begin, so that no bit depends on
+    /// the number of threads.
     pub(super) fn fill<T: Source + Sync>(self, source: &T, attitudes: &mut [Derivatives], rates: &mut [Derivatives]) {
         let length = self.times.len();
         if length < 2 * SAMPLES_PER_THREAD || rayon::current_num_threads() == 1 {
@@ -62,7 +63,7 @@ impl Target<'_> {
         });
     }
 
-    /// On a polhode, with every harmonic that the closed form has.
+    /// Derivatives on a polhode, with every harmonic of the closed form.
     pub(super) fn wobbling(
         self,
         scene: &Scene,
@@ -87,7 +88,7 @@ impl Target<'_> {
                 let amplitudes = &amplitudes(start);
                 self.fill(&Passing { flip, integral: &integral, amplitudes }, attitudes, rates);
             }
-            Trajectory::Steady(_) | Trajectory::Gradient(_) => {}
+            Trajectory::Steady(_) | Trajectory::Gradient(_) | Trajectory::Integrated(_) => {}
         }
         Ok(())
     }
@@ -110,7 +111,7 @@ impl<T: Source> Task for Run<'_, T> {
         let width = if T::VECTORS { Lanes::<S>::WIDTH } else { 1 };
         let origin = Lanes::splat(simd, epoch);
         let initial = QuaternionLanes::all(origin, &initial);
-        // Rates do not depend on the initial attitude: these entries stay 0.
+        // Rates do not depend on the initial attitude, so these entries remain 0.
         let mut entries = [[Lanes::splat(simd, 0.0); 3 * PARAMETERS]; 2];
         let mut start = 0;
         while start < times.len() {
@@ -127,7 +128,7 @@ impl<T: Source> Task for Run<'_, T> {
     }
 }
 
-/// Derivatives of one vector in lanes: row by row, as they lie in memory.
+/// The derivatives of one vector in lanes, row by row as in memory.
 type Entries<S> = [Lanes<S>; 3 * PARAMETERS];
 
 /// Derivatives of attitude and rates at some times.
@@ -172,7 +173,7 @@ fn columns<S: InstructionSet, T: Source>(
     }
 }
 
-/// As many matrices as there are, four entries at a time; the last four overlap those before them.
+/// Stores the matrices, four entries at a time. The last four entries overlap those before them.
 #[inline(always)]
 fn store<S: InstructionSet>(entries: &Entries<S>, matrices: &mut [Derivatives]) {
     const FIRSTS: [usize; 7] = [0, 4, 8, 12, 16, 20, 23];
@@ -183,7 +184,7 @@ fn store<S: InstructionSet>(entries: &Entries<S>, matrices: &mut [Derivatives]) 
         Lanes::store_fours(four, &mut rows);
         let mut place = first;
         for row in rows {
-            // A chunk of four is one store; a slice would be a call.
+            // A chunk of four is one store; a slice would be a function call.
             let Some(chunk) = matrices.get_mut(place..).and_then(|rest| rest.first_chunk_mut()) else { break };
             *chunk = row;
             place += 3 * PARAMETERS;

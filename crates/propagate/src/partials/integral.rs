@@ -1,26 +1,26 @@
-//! The one integral that derivatives need: ∫g2² dt, an elliptic integral of the second kind (theory §12).
+//! The only integral that the derivatives need: ∫g2² dt, an elliptic integral of the second kind (theory §12).
 //!
-//! g2² is proportional to sn² v, v = (2K/π)(ℓ′ − π/2). Its mean is (1 − E/K)/m, and what is left integrates to Jacobi's zeta function:
+//! g2² is proportional to sn² v with v = (2K/π)(ℓ′ − π/2). Its mean is (1 − E/K)/m. The integral of the remaining periodic part is Jacobi's zeta function:
 //!
 //! ```text
 //! (1 − E/K)/m = Σ 2^(n−1) c_n²/m       Z(v)/m = −(π/2K) Σ 4n (q^(n²)/m) sin 2nℓ′ / (1 + 2 Σ q^(n²) cos 2nℓ′)
 //! ```
 //!
-//! with c_n of the arithmetic-geometric mean. Both are divided by m before anything is subtracted, so that they hold at m = 0. Next to the separatrix Z is a sum of hyperbolic
-//! tangents, one for each passage.
+//! Here c_n is from the arithmetic-geometric mean. Both are divided by m before any subtraction, so they are valid at m = 0. Near the separatrix Z is a sum of
+//! hyperbolic tangents, one for each passage.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::numerics::theta::Theta;
 
-/// q^(n²) below this is nothing beside 1.
+/// Smaller q^(n²) are negligible relative to 1.
 const NEGLIGIBLE: f64 = 1e-18;
-/// m below which q/m is taken from its series.
+/// Below this m, q/m is computed from its power series.
 const SMALL_PARAMETER: f64 = 1e-6;
-/// Passages on either side that are summed: the next is e^(−8πK/K′), 1e-80 at k′ = 1e-5.
+/// Number of passages on each side that are summed. The next one is e^(−8πK/K′), 1e-80 at k′ = 1e-5.
 const PASSAGES: i32 = 3;
 
-/// The mean of sn² and the zeta function over m.
+/// The mean of sn², and the zeta function over m.
 #[derive(Clone, Debug)]
 pub(super) struct Integral {
     /// ⟨sn²⟩.
@@ -29,12 +29,12 @@ pub(super) struct Integral {
     parameter: f64,
     quarter: f64,
     conjugate: f64,
-    /// For n = 1, 2, …: the factors of sin 2nℓ′ in the numerator of Z/m and of cos 2nℓ′ in the denominator.
+    /// For n = 1, 2, …: the factor of sin 2nℓ′ in the numerator of Z/m, and the factor of cos 2nℓ′ in the denominator.
     pub(super) terms: Vec<[f64; 2]>,
 }
 
 impl Integral {
-    /// For a polhode with m = 1 − Q1/Q2.
+    /// The integral for a polhode with m = 1 − Q1/Q2.
     pub(super) fn new(theta: &Theta) -> Self {
         let parameter = theta.parameter;
         let logarithm = -PI * theta.conjugate / theta.quarter;
@@ -62,7 +62,7 @@ impl Integral {
         }
     }
 
-    /// Z/m at an ℓ′ with this sine and cosine of 2ℓ′.
+    /// Z/m at the ℓ′ with this (sine, cosine) of 2ℓ′.
     pub(super) fn zeta(&self, (sine, cosine): (f64, f64)) -> f64 {
         let (mut numerator, mut denominator, mut c, mut s) = (0.0, 1.0, cosine, sine);
         for [odd, even] in &self.terms {
@@ -73,7 +73,7 @@ impl Integral {
         numerator / denominator
     }
 
-    /// Z/m where 2ℓ″ = 2ℓ′ − π is this angle, up to half a turn either way, next to the separatrix.
+    /// Z/m near the separatrix, where `angle` = 2ℓ″ = 2ℓ′ − π is between −π and π.
     pub(super) fn zeta_of_passages(&self, angle: f64) -> f64 {
         let u = self.quarter * angle / PI;
         let rate = FRAC_PI_2 / self.conjugate;
@@ -88,7 +88,7 @@ impl Integral {
     }
 }
 
-/// (1 − E/K)/m by the arithmetic-geometric mean.
+/// (1 − E/K)/m, by the arithmetic-geometric mean.
 fn mean_square(complement: f64, parameter: f64) -> f64 {
     let (mut a, mut b) = (1.0, complement.sqrt());
     // c_1²/m = m/(4(1 + k′)²), and c_{n+1} = c_n²/(4 a_{n+1}).

@@ -1,9 +1,9 @@
 //! Derivatives of attitude and rates with respect to the state at the epoch and the moments, in closed form (theory §12).
 //!
-//! Nine parameters: a small rotation of the initial attitude about the three body axes, the initial angular velocity, the three moments as given. A change of attitude,
-//! at the epoch and at the time, is a rotation vector about body axes, R → R exp(\[δθ\]×). With g = G/M, ν_i = M/(A, B, C)_i and the invariants of the polhode, every
-//! derivative is an algebraic function of attitude and rates at the time and of one elliptic integral of the second kind, ∫g2² dt. Set-up takes some microseconds.
-//! Accuracy: 1e-14 of the largest derivative over Q1, which is cos²J where it is least and small next to the separatrix.
+//! There are nine parameters: a small rotation of the initial attitude about the three body axes, the initial angular velocity, and the three moments as given.
+//! A change of attitude, at the epoch and at the time, is a rotation vector about body axes, R → R exp(\[δθ\]×). With g = G/M, ν_i = M/(A, B, C)_i and the
+//! invariants of the polhode, every derivative is an algebraic function of attitude and rates at the time and of one elliptic integral of the second kind, ∫g2²
+//! dt. Set-up takes some microseconds. Accuracy: 1e-14 of the largest derivative over Q1, where Q1 is the minimum of cos²J, which is small near the separatrix.
 //!
 //! Imports errors, numerics, simd, input, torque_free, motion and solve.
 
@@ -28,10 +28,10 @@ use evaluate::Target;
 use sources::Steadily;
 use steady::Varied;
 
-/// Parameters with respect to which derivatives are taken.
+/// Number of parameters of the derivatives.
 pub const PARAMETERS: usize = 9;
 
-/// Derivatives of one vector: rows are its components, columns the parameters.
+/// Derivatives of one vector. The rows are its components, the columns the parameters.
 pub type Derivatives = [[f64; PARAMETERS]; 3];
 
 /// Derivatives of attitude and rates at one time.
@@ -39,10 +39,11 @@ pub type Derivatives = [[f64; PARAMETERS]; 3];
 pub struct Partials {
     /// The time.
     pub time: f64,
-    /// Of the attitude, as a rotation vector about body axes: three columns for the initial attitude \[1\], three for the initial angular velocity \[unit of time\], three for
-    /// the moments [1/unit of moment]; of a body with an inertia tensor the principal moments, with the principal axes kept.
+    /// Derivatives of the attitude, as a rotation vector about body axes. Three columns are for the initial attitude \[1\], three for the initial angular
+    /// velocity \[unit of time\], three for the moments [1/unit of moment]. For a body with an inertia tensor the last three are for the principal moments,
+    /// with fixed principal axes.
     pub attitude: Derivatives,
-    /// Of the angular velocity, body components, in the same order [rate, 1, rate/unit of moment].
+    /// Derivatives of the angular velocity in body components, in the same order [rate, 1, rate/unit of moment].
     pub angular_velocity: Derivatives,
 }
 
@@ -59,18 +60,18 @@ impl Motion {
     /// ```
     ///
     /// # Errors
-    /// As [`Motion::partials_into`].
+    /// The errors of [`Motion::partials_into`].
     pub fn partials(&self, time: f64) -> Result<Partials, Error> {
         let (mut attitude, mut rates) = ([[[0.0; PARAMETERS]; 3]], [[[0.0; PARAMETERS]; 3]]);
         self.partials_into(&[time], &mut attitude, &mut rates)?;
         Ok(Partials { time, attitude: attitude[0], angular_velocity: rates[0] })
     }
 
-    /// Derivatives at many times, without an allocation for each.
+    /// Writes the derivatives at many times to `attitudes` and `rates`, without an allocation for each time.
     ///
     /// # Errors
-    /// - [`Error::Length`] for an output shorter or longer than `times`.
-    /// - [`Error::Time`] as for [`Motion::at`]; beside the middle axis also for times at which e^(λt) has no double.
+    /// - [`Error::Length`] if an output and `times` have different lengths.
+    /// - [`Error::Time`] as for [`Motion::at`]; for rotation about the middle axis also for times at which e^(λt) overflows.
     /// - [`Error::SeparatrixPartials`] on the separatrix.
     pub fn partials_into(
         &self,
@@ -81,7 +82,7 @@ impl Motion {
         self.batch().partials_into(times, attitudes, rates)
     }
 
-    /// Of times counted from this epoch.
+    /// Computes the derivatives for times counted from `epoch`.
     fn partials_since(
         &self,
         epoch: f64,
@@ -105,6 +106,13 @@ impl Motion {
         attitudes: &mut [Derivatives],
         rates: &mut [Derivatives],
     ) -> Result<(), Error> {
+        let disturbed = || {
+            let start = self.scene.state().epoch - epoch;
+            times.iter().map(|time| start + time).collect::<Vec<f64>>()
+        };
+        if matches!(self.trajectory, Trajectory::Integrated(_)) {
+            return differences::fill(self, &disturbed(), attitudes, rates);
+        }
         let Some(polhode) = Polhode::new(self.scene.body(), self.scene.state()) else {
             steady::at_rest(times, epoch, attitudes, rates);
             return Ok(());
@@ -124,10 +132,8 @@ impl Motion {
                 target.fill(&Steadily { course, varied: &varied }, attitudes, rates);
                 Ok(())
             }
-            Trajectory::Gradient(_) => {
-                let start = self.scene.state().epoch - epoch;
-                let times: Vec<f64> = times.iter().map(|time| start + time).collect();
-                differences::fill(self, &times, attitudes, rates)
+            Trajectory::Gradient(_) | Trajectory::Integrated(_) => {
+                differences::fill(self, &disturbed(), attitudes, rates)
             }
             Trajectory::Wobble(_) | Trajectory::Passage(_) => {
                 target.wobbling(&self.scene, &polhode, mode, (attitudes, rates))
@@ -136,14 +142,14 @@ impl Motion {
     }
 }
 
-/// Times between two looks at the flag that ends a call.
+/// Number of times between two checks of the flag that ends a call.
 const AT_ONCE: usize = 1 << 13;
 
 impl Batch<'_> {
-    /// Derivatives of attitude and angular velocity, as by [`Motion::partials_into`].
+    /// Writes the derivatives of attitude and angular velocity, as [`Motion::partials_into`] does.
     ///
     /// # Errors
-    /// As [`Motion::partials_into`]; [`Error::Stopped`] where the flag is set.
+    /// The errors of [`Motion::partials_into`], and [`Error::Stopped`] if the flag is set.
     pub fn partials_into(
         &self,
         times: &[f64],
@@ -162,7 +168,7 @@ impl Batch<'_> {
     }
 }
 
-/// From principal axes to the user's: the vector, and the parameters that are vectors.
+/// Transforms derivatives from the principal axes to the user's: the vector, and the parameters that are vectors.
 fn turn(axes: &Matrix3<f64>, derivatives: &mut Derivatives) {
     let matrix = SMatrix::<f64, 3, PARAMETERS>::from_fn(|row, column| derivatives[row][column]);
     let mut turned = axes * matrix;

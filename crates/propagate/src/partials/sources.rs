@@ -1,6 +1,6 @@
-//! What derivatives are made of at some times: attitude, rates, and δg and g·δθ for each parameter (theory §12).
+//! The time-dependent quantities of the derivatives: attitude, rates, and δg and g·δθ for each parameter (theory §12).
 //!
-//! All is computed in units of M = 1 and of the scaled time.
+//! All quantities are in units of M = 1 and of the scaled time.
 
 use crate::numerics::phase::Phase;
 use crate::simd::circles::{Circle, Circles, Evaluate};
@@ -14,16 +14,16 @@ use super::constants::{CHANGES, Constants, Setting};
 use super::integral::Integral;
 use super::steady::{Growth, Varied};
 
-/// Attitude, g and what the derivatives of g at some times are computed from.
+/// Attitude, rates, and the quantities from which the derivatives of g at some times are computed.
 pub(super) struct Place<S: InstructionSet, T> {
     pub(super) attitude: [Lanes<S>; 4],
     pub(super) rates: [Lanes<S>; 3],
     pub(super) rest: T,
 }
 
-/// How attitude, rates and their derivatives come from the time since the epoch.
+/// A type of motion: gives attitude, rates and their derivatives from the time since the epoch.
 pub(super) trait Source {
-    /// What derivatives of g at some times are computed from.
+    /// The quantities from which derivatives of g at some times are computed.
     type Rest<S: InstructionSet>: Copy;
     /// Whether several times are computed at once.
     const VECTORS: bool = true;
@@ -39,7 +39,7 @@ pub(super) trait Source {
     fn change<S: InstructionSet>(&self, rest: &Self::Rest<S>, parameter: usize) -> ([Lanes<S>; 3], Lanes<S>);
 }
 
-/// Sines and cosines of ℓ′ and y′/2 that have been computed.
+/// Sines and cosines of ℓ′ and y′/2 that are already computed.
 #[derive(Clone, Copy)]
 struct Ready<S: InstructionSet>([Circle<S>; 2]);
 
@@ -65,20 +65,20 @@ fn ready<S: InstructionSet>(phases: [&Phase; 2], elapsed: (Lanes<S>, Lanes<S>)) 
 pub(super) struct Polhodic<S: InstructionSet> {
     direction: [Lanes<S>; 3],
     slope: [Lanes<S>; 3],
-    /// The r_i that belongs to each of the user's axes.
+    /// The r_i of each of the user's axes.
     squares: [Lanes<S>; 3],
-    /// Time, scaled, and the periodic part of ∫w dt.
+    /// The scaled time; `swing` is the periodic part of ∫w dt.
     time: Lanes<S>,
     swing: Lanes<S>,
 }
 
-/// What both kinds of polhode share.
+/// The amplitudes of a wobble and of a passage.
 #[derive(Clone, Debug)]
 pub(super) struct Amplitudes {
     constants: [Constants; CHANGES],
-    /// The user's axis and 1/d_i of r_1 and r_2, scaled.
+    /// For r_1 and r_2: the user's axis, and 1/d_i, scaled.
     invariants: [(usize, f64); 2],
-    /// Which r_i belongs to each of the user's axes.
+    /// The index i of the r_i of each of the user's axes.
     owners: [usize; 3],
     /// The periodic part of ∫w dt for each unit of Z/m.
     swing: f64,
@@ -87,7 +87,7 @@ pub(super) struct Amplitudes {
 }
 
 impl Amplitudes {
-    /// `anomaly_rate` is that of ℓ′, scaled; `quarter` is K.
+    /// The amplitudes; `anomaly_rate` is the rate of ℓ′, scaled, and `quarter` is K.
     pub(super) fn new(
         setting: &Setting,
         constants: [Constants; CHANGES],
@@ -148,7 +148,7 @@ impl Amplitudes {
     }
 }
 
-/// A wobble by its Fourier series.
+/// A wobble, from its Fourier series.
 pub(super) struct Wobbling<'a> {
     pub(super) tables: &'a WobbleEvaluator,
     pub(super) integral: &'a Integral,
@@ -187,7 +187,7 @@ impl Source for Wobbling<'_> {
     }
 }
 
-/// A passage along the separatrix: each time by itself.
+/// A passage near the separatrix, evaluated for one time after another.
 pub(super) struct Passing<'a> {
     pub(super) flip: &'a Passage,
     pub(super) integral: &'a Integral,

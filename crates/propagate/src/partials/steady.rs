@@ -1,12 +1,13 @@
-//! Derivatives about a steady rotation: rest, a sphere, a principal axis, an axis across the equal ones of a round body (theory §12).
+//! Derivatives for a steady rotation (theory §12): a body at rest, a sphere, a principal axis, or any axis in the plane of two equal moments.
 //!
-//! g is constant, so that δġ = A δg + f with A δg = δg × ω + g × ν δg, f = g × δν g, both constant. A³ = λ² A and A² f = 0:
+//! g is constant, so δġ = A δg + f with A δg = δg × ω + g × ν δg and f = g × δν g, both constant. Since A³ = λ² A and A² f = 0,
 //!
 //! ```text
 //! δg = δg0 + S A δg0 + C A² δg0 + t f + C A f      S = sinh λt/λ      C = (cosh λt − 1)/λ²
 //! ```
 //!
-//! sin and cos about an axis of extreme inertia, where λ² = −(dℓ′/dt)², t and t²/2 where λ = 0. About the middle axis S grows until it has no double.
+//! S and C are a sine and a cosine about an axis of extreme inertia, where λ² = −(dℓ′/dt)², and t and t²/2 if λ = 0. About the middle axis S grows until it
+//! overflows.
 
 use andoyer_double::{DoubleDouble, two_sum};
 
@@ -18,21 +19,21 @@ use crate::torque_free::polhode::Polhode;
 use super::constants::{CHANGES, Setting};
 use super::{Derivatives, PARAMETERS};
 
-/// λt beyond which e^(λt), times what it is multiplied by, may have no double.
+/// Largest λt. Beyond it e^(λt) times its factor may overflow.
 const LONGEST_GROWTH: f64 = 300.0;
 
-/// How a change grows.
+/// The growth of a change with time.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Growth {
-    /// Half of ℓ′, and dℓ′/dt scaled.
+    /// Oscillation: half of ℓ′, and dℓ′/dt, scaled.
     Oscillation(Phase, f64),
-    /// λ scaled.
+    /// Exponential growth with λ, scaled.
     Exponential(f64),
-    /// λ = 0.
+    /// Polynomial growth, λ = 0.
     Polynomial,
 }
 
-/// The vectors of one parameter, user components.
+/// The vectors of one parameter, in user components.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Vectors {
     /// Factors of 1, S, C and t in δg.
@@ -41,19 +42,19 @@ pub(super) struct Vectors {
     pub(super) turn: f64,
 }
 
-/// What derivatives about a steady rotation are computed from.
+/// The quantities from which derivatives for a steady rotation are computed.
 #[derive(Clone, Debug)]
 pub(super) struct Varied {
     pub(super) growth: Growth,
     pub(super) vectors: [Vectors; CHANGES],
-    /// Largest distance from the epoch, in the user's unit.
+    /// Largest time from the epoch, in the user's unit.
     bound: f64,
 }
 
 impl Varied {
     pub(super) fn new(polhode: &Polhode, setting: &Setting, mode: Mode) -> Self {
         let (g, d) = (setting.direction, setting.slopes);
-        // A δg: rows of the linearized ġ_i = d_i g_j g_k.
+        // A δg, from the rows of the linearized ġ_i = d_i g_j g_k.
         let apply =
             |v: [f64; 3]| [0, 1, 2].map(|i| d[i] * (g[(i + 1) % 3] * v[(i + 2) % 3] + v[(i + 1) % 3] * g[(i + 2) % 3]));
         let signs = polhode.frame.signs;
@@ -81,14 +82,14 @@ impl Varied {
         Self { growth, vectors, bound }
     }
 
-    /// Largest distance from the epoch, in the user's unit.
+    /// Largest time from the epoch, in the user's unit.
     pub(super) fn bound(&self) -> f64 {
         self.bound
     }
 }
 
 fn growth(polhode: &Polhode, setting: &Setting, mode: Mode) -> Growth {
-    // λ² = ½ tr A², of which one term is not 0 on a principal axis.
+    // λ² = ½ tr A². On a principal axis only one of its terms is not 0.
     let (g, d) = (setting.direction, setting.slopes);
     let square: f64 = (0..3).map(|i| d[(i + 1) % 3] * d[(i + 2) % 3] * g[i] * g[i]).sum();
     if mode == Mode::Spherical || square == 0.0 {
@@ -102,7 +103,7 @@ fn growth(polhode: &Polhode, setting: &Setting, mode: Mode) -> Growth {
     }
 }
 
-/// Derivatives of a body at rest: it turns by the rate times the time.
+/// Derivatives of a body at rest, which turns by the rate times the time.
 pub(super) fn at_rest(times: &[f64], epoch: f64, attitudes: &mut [Derivatives], rates: &mut [Derivatives]) {
     for ((time, attitude), rate) in times.iter().zip(attitudes).zip(rates) {
         let (elapsed, _) = two_sum(*time, -epoch);

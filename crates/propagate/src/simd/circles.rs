@@ -17,7 +17,7 @@ pub(crate) trait Circles<S: InstructionSet>: Copy {
 
 /// Gives attitude and rates at some times, each only if requested.
 pub(crate) trait Source<S: InstructionSet> {
-    /// At the times from an index on.
+    /// Attitude and rates at `times`, which begin at the index `place`.
     fn at<const ATTITUDE: bool, const RATES: bool>(
         &self,
         place: usize,
@@ -27,7 +27,7 @@ pub(crate) trait Source<S: InstructionSet> {
 
 /// Computes attitude and rates from sines and cosines of the phases.
 pub(crate) trait Evaluate {
-    /// ℓ′ and y′/2.
+    /// The phases ℓ′ and y′/2.
     fn phases(&self) -> [&Phase; 2];
 
     /// Attitude and rates, each only if requested.

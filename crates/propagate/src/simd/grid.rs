@@ -33,14 +33,14 @@ pub(crate) struct Grid {
     offsets: [f64; BLOCK],
     /// Largest |δ|.
     tolerance: f64,
-    /// 2πf of the two phases.
+    /// 2πf of the two phases [rad per unit of time].
     rates: [f64; 2],
     /// Sines and cosines of the two phases after the offsets.
     table: [[[f64; BLOCK]; 2]; 2],
 }
 
 impl Grid {
-    /// The grid of these times, if they look uniform and are many enough.
+    /// The grid of these times, or `None` if they are too few or do not seem uniform.
     pub(crate) fn new(arch: Arch, phases: [&Phase; 2], times: &[f64]) -> Option<Self> {
         let (&[first, ..], &[.., last]) = (times, times) else { return None };
         if times.len() < FEWEST {
@@ -56,7 +56,7 @@ impl Grid {
             rates,
             table: [[[0.0; BLOCK]; 2]; 2],
         };
-        // One block in the middle is tested for all: a wrong guess costs time, not accuracy.
+        // Only one block in the middle is tested. A wrong guess costs time, not accuracy.
         let middle = times.len() / 2 / BLOCK * BLOCK;
         if !(step.is_finite() && grid.holds(pulp::Scalar, &times[middle..middle + BLOCK])) {
             return None;
@@ -83,7 +83,7 @@ impl Grid {
         most.values().iter().all(|deviation| *deviation <= self.tolerance)
     }
 
-    /// The first factors of the blocks of a group.
+    /// The first factors of the blocks in a group.
     #[inline(always)]
     pub(super) fn seeds<S: InstructionSet>(
         &self,
@@ -109,7 +109,7 @@ impl Grid {
         seeds
     }
 
-    /// The factors of a block for which [`Grid::holds`].
+    /// The factors of a block that [`Grid::holds`] accepts.
     #[inline(always)]
     pub(super) fn tabled<S: InstructionSet>(&self, simd: S, base: f64, seed: &Seed) -> Tabled<'_, S> {
         Tabled {

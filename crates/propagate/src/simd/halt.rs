@@ -2,10 +2,10 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A flag that nobody sets.
+/// A flag that is never set.
 pub(crate) static GOING: AtomicBool = AtomicBool::new(false);
 
-/// Why an evaluation ends before its last time.
+/// The reason why an evaluation ends before its last time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Halt {
     /// The index of a time at which the motion has no phase.
@@ -15,7 +15,7 @@ pub(crate) enum Halt {
 }
 
 impl Halt {
-    /// The same of times that begin later.
+    /// The same reason for times that begin at the index `place`.
     pub(crate) fn later(self, place: usize) -> Self {
         match self {
             Self::Time(index) => Self::Time(place + index),
@@ -24,7 +24,7 @@ impl Halt {
     }
 }
 
-/// Whether to go on. Asked once for each group of times, which takes a microsecond or more.
+/// Checks the flag. It is called once for each group of times, which takes a microsecond or more.
 pub(crate) fn going(stop: &AtomicBool) -> Result<(), Halt> {
     if stop.load(Ordering::Relaxed) { Err(Halt::Stopped) } else { Ok(()) }
 }

@@ -1,7 +1,7 @@
 //! Kepler's equation and the true anomaly, in lanes.
 //!
-//! Kepler's equation is solved with a fixed number of steps: Markley's starter (Celest. Mech. Dyn. Astron.
-//! 63 (1995) 101), good to 1e-4, then two steps of third order with a residual that is formed without cancellation, (1−e)E + e(E − sin E) − M.
+//! Kepler's equation is solved with a fixed number of steps. Markley's starter (Celest. Mech. Dyn. Astron. 63 (1995) 101) is accurate to 1e-4. Two steps of
+//! third order follow, with the residual (1−e)E + e(E − sin E) − M, which is computed without cancellation.
 
 use std::f64::consts::{PI, TAU};
 
@@ -22,7 +22,7 @@ pub(crate) struct Place<S: InstructionSet> {
 }
 
 impl<S: InstructionSet> Place<S> {
-    /// From the mean anomaly in [−π, π], up to a rounding error.
+    /// From the mean anomaly in [−π, π], which may exceed this interval by a rounding error.
     #[inline(always)]
     pub(crate) fn of(mean_anomaly: Lanes<S>, eccentricity: f64) -> Self {
         let all = |value: f64| mean_anomaly.all(value);
@@ -77,7 +77,7 @@ fn excess<S: InstructionSet>(anomaly: Lanes<S>, sine: Lanes<S>) -> Lanes<S> {
     anomaly.magnitude().up_to(1.0, anomaly * sum, anomaly - sine)
 }
 
-/// The root of the cubic that a Padé approximation of the sine makes of Kepler's equation.
+/// The starter: the root of the cubic that follows from Kepler's equation with a Padé approximation of the sine.
 #[inline(always)]
 fn starter<S: InstructionSet>(m: Lanes<S>, e: f64) -> Lanes<S> {
     let all = |value: f64| m.all(value);
@@ -110,7 +110,7 @@ mod tests {
 
     #[test]
     fn the_eccentric_anomaly_solves_keplers_equation_to_the_last_bits_for_any_ellipse() {
-        // M from E in double-double, so that the root is known; what M rounds to moves E by its half unit over 1 − e cos E.
+        // M is computed from E in double-double, so the root is known. Rounding M changes E by half a unit of M over 1 − e cos E.
         for e in [0.0, 1e-9, 0.1, 0.5, 0.9, 0.99, 0.999_999, 1.0 - 1e-12, 1.0 - f64::EPSILON] {
             for k in 0..=2000 {
                 let anomaly =

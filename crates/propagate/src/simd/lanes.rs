@@ -19,7 +19,8 @@ pub(crate) const WIDEST: usize = 8 * STRANDS;
 /// 1.5·2^52. Adding and subtracting it rounds a smaller number to the nearest integer; after the addition the lowest bits are those of that integer.
 pub(crate) const INTEGERS: f64 = 6_755_399_441_055_744.0;
 
-/// Vectors of doubles. With a fused multiply-add `mul_add` rounds once, without one twice; everything else has the same bits everywhere.
+/// Vectors of doubles. `mul_add` rounds once if the instruction set has a fused multiply-add, otherwise twice. All other operations give the same bits on every
+/// machine.
 #[derive(Clone, Copy)]
 pub(crate) struct Lanes<S: InstructionSet> {
     simd: S,
@@ -80,7 +81,7 @@ impl<S: InstructionSet> Neg for Lanes<S> {
 }
 
 impl<S: InstructionSet> Lanes<S> {
-    /// How many doubles.
+    /// Number of doubles.
     pub(crate) const WIDTH: usize = STRANDS * S::F64_LANES;
 
     /// `value` in each lane.
@@ -99,7 +100,7 @@ impl<S: InstructionSet> Lanes<S> {
         all
     }
 
-    /// The values of a slice, one for each lane; missing ones are zero.
+    /// The values of a slice, one for each lane. Missing values are zero.
     #[inline(always)]
     pub(crate) fn load(simd: S, values: &[f64]) -> Self {
         let zeros = Self::splat(simd, 0.0);
@@ -113,7 +114,7 @@ impl<S: InstructionSet> Lanes<S> {
         }
     }
 
-    /// The instructions.
+    /// The instruction set.
     #[inline(always)]
     pub(crate) fn simd(self) -> S {
         self.simd
@@ -125,13 +126,13 @@ impl<S: InstructionSet> Lanes<S> {
         Self::splat(self.simd, value)
     }
 
-    /// The values of a slice that has one for each lane.
+    /// Loads a slice with one value for each lane.
     #[inline(always)]
     pub(crate) fn like(self, values: &[f64]) -> Self {
         Self::load(self.simd, values)
     }
 
-    /// The larger of self and |other|, in each lane; NaN stays if it comes last.
+    /// The larger of self and |other| in each lane. The result is NaN if `other` is NaN; a NaN in self is lost.
     #[inline(always)]
     pub(crate) fn largest(self, other: Self) -> Self {
         strands!(self, i => {
@@ -141,7 +142,7 @@ impl<S: InstructionSet> Lanes<S> {
         })
     }
 
-    /// The values in memory.
+    /// The values as a slice.
     #[inline(always)]
     pub(crate) fn values(&self) -> &[f64] {
         bytemuck::cast_slice(&self.strands)
@@ -165,14 +166,14 @@ impl<S: InstructionSet> Lanes<S> {
         strands!(self, i => self.simd.abs_f64s(self.strands[i]))
     }
 
-    /// The nearest integer, for less than 2^51.
+    /// The nearest integer; |self| must be below 2^51.
     #[inline(always)]
     pub(crate) fn rounded(self) -> Self {
         let integers = self.all(INTEGERS);
         (self + integers) - integers
     }
 
-    /// In each lane `near` where self is at most `bound`, and `far` elsewhere.
+    /// In each lane `near` if self is at most `bound`, otherwise `far`.
     #[inline(always)]
     pub(crate) fn up_to(self, bound: f64, near: Self, far: Self) -> Self {
         let bound = self.all(bound);
@@ -192,7 +193,7 @@ impl<S: InstructionSet> Lanes<S> {
         lanes
     }
 
-    /// A polynomial with these coefficients, of self.
+    /// The polynomial with these coefficients, evaluated at self.
     #[inline(always)]
     pub(crate) fn polynomial(self, coefficients: &[f64]) -> Self {
         let mut sum = self.all(0.0);
@@ -218,7 +219,7 @@ impl<S: InstructionSet> Lanes<S> {
     #[inline(always)]
     pub(crate) fn product_error(self, other: Self, product: Self) -> Self {
         if S::FUSED {
-            // The sign goes into the instruction.
+            // A negated operand is part of the instruction.
             return self.mul_add(other, product * product.all(-1.0));
         }
         // Dekker's product.

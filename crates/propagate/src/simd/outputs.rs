@@ -8,7 +8,7 @@ pub(crate) enum Outputs<'a> {
 }
 
 impl<'a> Outputs<'a> {
-    /// The rows before an index, and those from it on.
+    /// The rows before an index, and the rows from this index on.
     pub(crate) fn split_at(self, place: usize) -> (Self, Self) {
         match self {
             Self::Attitudes(attitudes) => {

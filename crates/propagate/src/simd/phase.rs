@@ -1,7 +1,7 @@
-//! Phases over long times: turns = frequency × time, in double-double, reduced before any sine (theory §10).
+//! Phases over long times: turns = frequency × time, in double-double, reduced before any sine is computed (theory §10).
 //!
-//! In double precision alone n·t is wrong by 6e-7 rad after 1e9 rotations. Here frequency, time since the epoch, product and the phase at the
-//! epoch carry 32 digits, and a phase in turns is reduced by subtracting integers and quarters, which is exact: 1.4e-17 turns are left to rounding.
+//! In double precision alone n·t is wrong by 6e-7 rad after 1e9 rotations. Here the frequency, the time since the epoch, their product and the phase at the
+//! epoch have 32 digits. A phase in turns is reduced by subtracting integers and quarters, which is exact. The remaining rounding error is 1.4e-17 turns.
 
 use super::instruction_set::InstructionSet;
 use super::lanes::{INTEGERS, Lanes};
@@ -25,26 +25,26 @@ impl Phase {
         (product.rounded() + (turns + over), (beyond - over) * product.all(std::f64::consts::TAU))
     }
 
-    /// The same for one time.
+    /// [`Phase::turns_and_angle`] for one time.
     pub(crate) fn turns_and_angle_at(&self, (high, low): (f64, f64)) -> (f64, f64) {
         let elapsed = (Lanes::splat(pulp::Scalar, high), Lanes::splat(pulp::Scalar, low));
         let (turns, angle) = self.turns_and_angle(elapsed);
         (turns.values()[0], angle.values()[0])
     }
 
-    /// The angle at one time.
+    /// The angle beyond whole turns at one time \[rad\].
     pub(crate) fn angle(&self, elapsed: (f64, f64)) -> f64 {
         self.turns_and_angle_at(elapsed).1
     }
 
-    /// (sin, cos) a time `(high, low)` after the epoch.
+    /// (sin, cos) of the phase at the time `elapsed` = (high, low) after the epoch.
     #[inline(always)]
     pub(crate) fn sin_cos<S: InstructionSet>(&self, elapsed: (Lanes<S>, Lanes<S>)) -> (Lanes<S>, Lanes<S>) {
         let (_, fraction, rest) = self.reduced(elapsed);
         self.circle(fraction, rest)
     }
 
-    /// (sin, cos) of the phase plus some turns.
+    /// (sin, cos) of the phase plus `turns`.
     #[inline(always)]
     pub(crate) fn sin_cos_beyond<S: InstructionSet>(
         &self,

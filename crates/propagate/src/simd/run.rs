@@ -16,25 +16,26 @@ use crate::numerics::phase::Phase;
 /// The times of one thread.
 pub(crate) struct Run<'a> {
     pub(crate) epoch: f64,
-    /// Largest distance from the epoch.
-    pub(crate) bound: f64,
+    /// Largest times before and after the epoch; the first is negative.
+    pub(crate) reach: [f64; 2],
     pub(crate) times: &'a [f64],
     pub(crate) outputs: Outputs<'a>,
     pub(crate) grid: Option<&'a Grid>,
-    /// Set by another thread to end the evaluation.
+    /// A flag that another thread sets to end the evaluation.
     pub(crate) stop: &'a AtomicBool,
 }
 
 impl Run<'_> {
     /// Evaluates each time by itself, without vectors.
-    pub(crate) fn one_by_one(self, evaluate: impl Fn((f64, f64)) -> ([f64; 4], [f64; 3])) -> Result<(), Halt> {
-        let Self { epoch, bound, times, outputs, stop, .. } = self;
+    #[inline(always)]
+    pub(crate) fn one_by_one(self, mut evaluate: impl FnMut((f64, f64)) -> ([f64; 4], [f64; 3])) -> Result<(), Halt> {
+        let Self { epoch, reach, times, outputs, stop, .. } = self;
         let (mut attitudes, mut rates) = match outputs {
             Outputs::Attitudes(attitudes) => (Some(attitudes), None),
             Outputs::Rates(rates) => (None, Some(rates)),
             Outputs::Both(attitudes, rates) => (Some(attitudes), Some(rates)),
         };
-        all_within(times, epoch, bound)?;
+        all_within(times, epoch, reach)?;
         for (index, &time) in times.iter().enumerate() {
             if index % GROUP == 0 {
                 going(stop)?;
@@ -53,8 +54,8 @@ impl Run<'_> {
     /// Evaluates a source that has neither circles nor a grid.
     #[inline(always)]
     pub(crate) fn by_source<S: InstructionSet>(self, simd: S, source: impl Source<S> + Copy) -> Result<(), Halt> {
-        let Self { epoch, bound, times, outputs, stop, .. } = self;
-        all_within(times, epoch, bound)?;
+        let Self { epoch, reach, times, outputs, stop, .. } = self;
+        all_within(times, epoch, reach)?;
         match outputs {
             Outputs::Attitudes(attitudes) => groups::<S, true, false>(simd, times, (attitudes, &mut []), source, stop),
             Outputs::Rates(rates) => groups::<S, false, true>(simd, times, (&mut [], rates), source, stop),
@@ -65,8 +66,8 @@ impl Run<'_> {
     /// Evaluates a motion by sines and cosines of its phases.
     #[inline(always)]
     pub(crate) fn by_circles<S: InstructionSet, C: Evaluate>(self, simd: S, course: &C) -> Result<(), Halt> {
-        let Self { epoch, bound, times, outputs, grid, stop } = self;
-        let stretch = Stretch { simd, epoch, bound, course, grid, stop };
+        let Self { epoch, reach, times, outputs, grid, stop } = self;
+        let stretch = Stretch { simd, epoch, reach, course, grid, stop };
         match outputs {
             Outputs::Attitudes(attitudes) => stretch.fill::<true, false>(times, (attitudes, &mut [])),
             Outputs::Rates(rates) => stretch.fill::<false, true>(times, (&mut [], rates)),
@@ -75,13 +76,13 @@ impl Run<'_> {
     }
 }
 
-/// Attitudes and rates; an output that is not requested is empty.
+/// Attitudes and rates; an output that was not requested is empty.
 type Rows<'a> = (&'a mut [[f64; 4]], &'a mut [[f64; 3]]);
 
 struct Stretch<'a, S, C> {
     simd: S,
     epoch: f64,
-    bound: f64,
+    reach: [f64; 2],
     course: &'a C,
     grid: Option<&'a Grid>,
     stop: &'a AtomicBool,
@@ -94,55 +95,47 @@ impl<S: InstructionSet, C: Evaluate> Stretch<'_, S, C> {
         for (index, group) in times.chunks(GROUP).enumerate() {
             let start = index * GROUP;
             going(self.stop)?;
-            all_within(group, self.epoch, self.bound).map_err(|halt| halt.later(start))?;
-            let rows = part::<ATTITUDE, RATES>(&mut rows, start, group.len());
-            match self.grid {
-                Some(grid) => self.uniform::<ATTITUDE, RATES>(grid, group, rows),
-                None => self.direct::<ATTITUDE, RATES>(group, rows),
-            }
+            all_within(group, self.epoch, self.reach).map_err(|halt| halt.later(start))?;
+            self.group::<ATTITUDE, RATES>(group, part::<ATTITUDE, RATES>(&mut rows, start, group.len()));
         }
         Ok(())
     }
 
-    /// Evaluates the uniform blocks of a group by the table, and the other times directly.
+    /// Evaluates the uniform blocks of a group with the table, and the other times with their own phases.
+    ///
+    /// Each of the two is inlined only once, because it is compiled for each instruction set and each set of outputs.
     #[inline(always)]
-    fn uniform<const ATTITUDE: bool, const RATES: bool>(&self, grid: &Grid, times: &[f64], mut rows: Rows<'_>) {
-        let seeds = grid.seeds(self.simd, self.course.phases(), times, self.epoch);
-        for (index, block) in times.chunks(BLOCK).enumerate() {
-            let rows = part::<ATTITUDE, RATES>(&mut rows, index * BLOCK, block.len());
-            if grid.holds(self.simd, block) {
-                let tabled = grid.tabled(self.simd, block[0], &seeds[index]);
-                each::<S, ATTITUDE, RATES>(
-                    self.simd,
-                    block,
-                    rows,
-                    Blocks { course: self.course, simd: self.simd, tabled },
-                );
-            } else {
-                self.direct::<ATTITUDE, RATES>(block, rows);
+    fn group<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], mut rows: Rows<'_>) {
+        let simd = self.simd;
+        let seeds = self.grid.map(|grid| (grid, grid.seeds(simd, self.course.phases(), times, self.epoch)));
+        let length = if seeds.is_some() { BLOCK } else { GROUP };
+        for (index, block) in times.chunks(length).enumerate() {
+            let rows = part::<ATTITUDE, RATES>(&mut rows, index * length, block.len());
+            match &seeds {
+                Some((grid, seeds)) if grid.holds(simd, block) => {
+                    let tabled = grid.tabled(simd, block[0], &seeds[index]);
+                    each::<S, ATTITUDE, RATES>(simd, block, rows, Blocks { course: self.course, simd, tabled });
+                }
+                _ => {
+                    let direct = Direct { course: self.course, simd, epoch: Lanes::splat(simd, self.epoch) };
+                    each::<S, ATTITUDE, RATES>(simd, block, rows, direct);
+                }
             }
         }
     }
-
-    /// Evaluates each time by its own phases.
-    #[inline(always)]
-    fn direct<const ATTITUDE: bool, const RATES: bool>(&self, times: &[f64], rows: Rows<'_>) {
-        let source = Direct { course: self.course, simd: self.simd, epoch: Lanes::splat(self.simd, self.epoch) };
-        each::<S, ATTITUDE, RATES>(self.simd, times, rows, source);
-    }
 }
 
-/// Whether all times are within the bound, or the first that is not. NaN is not.
+/// Checks that all times are within the bound; the error names the first time that is not. NaN is outside.
 #[inline(always)]
-fn all_within(times: &[f64], epoch: f64, bound: f64) -> Result<(), Halt> {
-    let valid = |time: &f64| (time - epoch).abs() <= bound;
+fn all_within(times: &[f64], epoch: f64, [least, most]: [f64; 2]) -> Result<(), Halt> {
+    let valid = |time: &f64| (least <= time - epoch) & (time - epoch <= most);
     if times.iter().fold(true, |all, time| all & valid(time)) {
         return Ok(());
     }
     Err(Halt::Time(times.iter().position(|time| !valid(time)).unwrap_or(0)))
 }
 
-/// Group by group, as long as the flag is not set.
+/// Evaluates group by group while the flag is not set.
 #[inline(always)]
 fn groups<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     simd: S,
@@ -159,7 +152,7 @@ fn groups<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     Ok(())
 }
 
-/// Evaluates all lanes at once; for the last times the missing lanes are filled up.
+/// Evaluates all lanes at once. If fewer times than lanes remain, they are read from a copy that is filled up, and the results go to copies of the rows.
 #[inline(always)]
 fn each<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     simd: S,
@@ -168,34 +161,35 @@ fn each<S: InstructionSet, const ATTITUDE: bool, const RATES: bool>(
     source: impl Source<S>,
 ) {
     let width = Lanes::<S>::WIDTH;
-    let whole = times.len() / width * width;
-    for place in (0..whole).step_by(width) {
-        let (attitude, rate) = source.at::<ATTITUDE, RATES>(place, Lanes::load(simd, &times[place..]));
+    let mut last = [0.0; WIDEST];
+    let (mut last_attitudes, mut last_rates) = ([[0.0; 4]; WIDEST], [[0.0; 3]; WIDEST]);
+    for place in (0..times.len()).step_by(width) {
+        let rest = (times.len() - place).min(width);
+        let whole = rest == width;
+        if !whole {
+            last = [times[place]; WIDEST];
+            last[..rest].copy_from_slice(&times[place..]);
+        }
+        let lanes = Lanes::load(simd, if whole { &times[place..] } else { &last });
+        let (attitude, rate) = source.at::<ATTITUDE, RATES>(place, lanes);
         if ATTITUDE {
-            Lanes::store_fours(attitude, &mut attitudes[place..place + width]);
+            let rows = if whole { &mut attitudes[place..place + width] } else { &mut last_attitudes[..width] };
+            Lanes::store_fours(attitude, rows);
         }
         if RATES {
-            Lanes::store_threes(rate, &mut rates[place..place + width]);
+            let rows = if whole { &mut rates[place..place + width] } else { &mut last_rates[..width] };
+            Lanes::store_threes(rate, rows);
         }
-    }
-    if whole < times.len() {
-        let rest = times.len() - whole;
-        let mut last = [times[whole]; WIDEST];
-        last[..rest].copy_from_slice(&times[whole..]);
-        let (attitude, rate) = source.at::<ATTITUDE, RATES>(whole, Lanes::load(simd, &last));
-        let (mut last_attitudes, mut last_rates) = ([[0.0; 4]; WIDEST], [[0.0; 3]; WIDEST]);
-        Lanes::store_fours(attitude, &mut last_attitudes[..width]);
-        Lanes::store_threes(rate, &mut last_rates[..width]);
-        if ATTITUDE {
-            attitudes[whole..].copy_from_slice(&last_attitudes[..rest]);
+        if !whole && ATTITUDE {
+            attitudes[place..].copy_from_slice(&last_attitudes[..rest]);
         }
-        if RATES {
-            rates[whole..].copy_from_slice(&last_rates[..rest]);
+        if !whole && RATES {
+            rates[place..].copy_from_slice(&last_rates[..rest]);
         }
     }
 }
 
-/// A part of the rows, if the output is requested.
+/// The rows of a part of the times, if the output is requested.
 #[inline(always)]
 fn part<'a, const ATTITUDE: bool, const RATES: bool>(rows: &'a mut Rows<'_>, start: usize, length: usize) -> Rows<'a> {
     (
@@ -204,7 +198,7 @@ fn part<'a, const ATTITUDE: bool, const RATES: bool>(rows: &'a mut Rows<'_>, sta
     )
 }
 
-/// By the phases of each time.
+/// Evaluates times with their own phases.
 struct Direct<'a, S: InstructionSet, C> {
     course: &'a C,
     simd: S,
@@ -241,7 +235,7 @@ impl<S: InstructionSet> Circles<S> for DirectCircles<'_, S> {
     }
 }
 
-/// By the table of a grid.
+/// Evaluates times with the table of a grid.
 struct Blocks<'a, S: InstructionSet, C> {
     course: &'a C,
     simd: S,

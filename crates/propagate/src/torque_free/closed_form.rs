@@ -1,17 +1,18 @@
-//! The closed form: a and b of theory §8 as theta functions of ℓ′, the sums of which converge like q^(n²) (theory §10).
+//! The closed form: a and b of theory §8 as theta functions of ℓ′. Their sums converge like q^(n²) (theory §10).
 //!
-//! 1 ± cos J are elliptic functions of time, and |a|² and |b|² half of them. Each has two zeros in a cell; the phase e^(iy) turns one of the two into a
-//! double zero of a² (or b²) and cancels the other. The quotient is a theta function with one zero over a common denominator. The denominator is not needed, because
-//! the norm |a|² + |b|² = 1 is known. With q = e^(−πK′/K), χ = πη/(2K):
+//! 1 ± cos J are elliptic functions of time, and |a|², |b|² are half of them. Each has two zeros in a period cell. The phase e^(iy) turns one of the two into a
+//! double zero of a² (or b²) and cancels the other. The quotient is a theta function with one zero over a common denominator. The denominator is not needed,
+//! because the norm |a|² + |b|² = 1 is known. With q = e^(−πK′/K) and χ = πη/(2K):
 //!
 //! ```text
 //! a e^(−iy′/2) ∝ θ3(ℓ′ − iχ | q²) = 1 + Σ 2 q^(2n²) cos 2n(ℓ′ − iχ)
 //! b e^(−iy′/2) ∝ ρ θ2(ℓ′ − iχ | q²)/(2 q^½ cosh χ) = ρ Σ q^(2n²+2n) cos (2n+1)(ℓ′ − iχ)/cosh χ
 //! ```
 //!
-//! with ρ from tan(J/2) = |b/a| at ℓ′ = 0, where all terms are positive. Since η ≤ K′, e^(2χ) q ≤ 1 and the n-th terms are of size q^(2n²−n) and q^(2n²+n) at most:
-//! one to eight terms are needed down to k′ = 1e-5, where the terms are 18 times as large as their sum (k′^(−1/4)); nearer to the separatrix the module `separatrix`
-//! is used. No quadrature, no inverse trigonometric function, no 2TC − G². Checked in 40 digits against all reference motions: equal to 1e-31.
+//! Here ρ follows from tan(J/2) = |b/a| at ℓ′ = 0, where all terms are positive. Since η ≤ K′, e^(2χ) q ≤ 1, and the n-th terms are at most of size q^(2n²−n)
+//! and q^(2n²+n). One to eight terms are enough down to k′ = 1e-5, where the terms are 18 times as large as their sum (k′^(−1/4)). Nearer to the separatrix the
+//! module `separatrix` is used. No quadrature, no inverse trigonometric function and no difference 2TC − G² is computed. Checked in 40 digits against all
+//! reference motions: equal to 1e-31.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -19,10 +20,10 @@ use super::harmonics::CayleyKleinSeries;
 use super::polhode::Polhode;
 use crate::numerics::theta::Theta;
 
-/// k′² below which the nome q nears 1 and the transformed theta functions serve.
+/// k′² below which the nome q is near 1 and the transformed theta functions are used.
 pub(crate) const NEAREST_COMPLEMENT: f64 = 0.9e-10;
 
-/// Number of terms that suffices for every k′² above the bound: q^(2n²−n) is 1e-20 at n = 8 for q = 0.68.
+/// Largest number of terms. It is enough for every k′² above the bound: q^(2n²−n) is 1e-20 at n = 8 for q = 0.68.
 const MOST_TERMS: usize = 10;
 
 /// Terms smaller than this are dropped; the first term is 1.
@@ -31,7 +32,7 @@ const NEGLIGIBLE: f64 = 1e-18;
 /// The theta series of one polhode, and the phase of the state on it.
 #[derive(Clone, Debug)]
 pub(crate) struct ClosedForm {
-    /// Unnormalized.
+    /// The series of a and b, not normalized.
     pub(crate) series: CayleyKleinSeries,
     /// ℓ′ at the epoch \[rad\].
     pub(crate) anomaly: f64,
@@ -45,7 +46,7 @@ impl ClosedForm {
         let logarithm = -PI * theta.conjugate / theta.quarter;
         let q = logarithm.exp();
         let chi = FRAC_PI_2 * theta.eta / theta.quarter;
-        // e^(−2χ), and e^(2χ) q ≤ 1; both are 0 for a circular polhode, χ = ∞.
+        // e^(−2χ), and e^(2χ) q ≤ 1. Both are 0 for a circular polhode, where χ = ∞.
         let small = (-2.0 * chi).exp();
         let large = if q == 0.0 { 0.0 } else { (2.0 * chi + logarithm).exp().min(1.0) };
         let tanh = chi.tanh();

@@ -1,7 +1,8 @@
-//! What limits the accuracy of a motion: the terms of `plan.error_bound` beside truncation (theory §10).
+//! The terms of `plan.error_bound` other than truncation (theory §10).
 //!
-//! Inputs are taken as exact. Rounding of the attitude is a constant, and for each harmonic; phases add a relative error of double-double times the span; next to the
-//! separatrix the relative error of Q1, a difference, counts for each half turn of the polhode; next to the middle axis what double-double does not see grows like e^(λt).
+//! Inputs are taken as exact. The rounding error of the attitude is a constant plus a part for each harmonic. Phases add the relative error of double-double
+//! times the span. Near the separatrix the relative error of Q1, which is a difference, counts for each half turn of the polhode. Near the middle axis an error
+//! below the resolution of double-double grows like e^(λt).
 
 use std::f64::consts::{FRAC_2_PI, TAU};
 
@@ -13,11 +14,11 @@ use super::polhode::Polhode;
 use crate::input::scene::Scene;
 use crate::numerics::scaling::scaled;
 
-/// Rounding error of an attitude \[rad\]: of the frames, of two quaternion products, and of the sums of eight harmonics each.
+/// Rounding error of an attitude \[rad\]: the frames, two quaternion products, and the sums of eight harmonics each.
 pub(crate) const ROUNDING: f64 = 3e-15;
 /// Rotations over which the tolerance holds if no span is given.
 const DEFAULT_ROTATIONS: f64 = 1e9;
-/// Relative error of frequencies and phases in double-double: 2^−104, twenty operations deep.
+/// Relative error of frequencies and phases in double-double: 2^−104 after twenty operations.
 const PHASE_ROUNDING: f64 = 1e-30;
 /// Relative error of the terms of Q1 in double-double, with inputs taken as exact.
 pub(crate) const COSINE_ROUNDING: f64 = 1e-31;
@@ -27,10 +28,10 @@ pub(crate) fn rounding(series: &CayleyKleinSeries) -> f64 {
     ROUNDING * (1.0 + series.harmonics() as f64 / 8.0)
 }
 
-/// Phase error over the span by the rounding error of Q1 \[rad\], for exact inputs. K contains −½ ln Q1, so each half turn of ℓ′ is late by half the relative error of Q1,
-/// in u.
+/// Phase error over the span from the rounding error of Q1 \[rad\], for exact inputs. K contains −½ ln Q1, so the argument u of each half turn of ℓ′ is late by
+/// half the relative error of Q1.
 pub(crate) fn conditioning(scene: &Scene, polhode: &Polhode, rates: &Secular) -> f64 {
-    // For an axisymmetric body Q is constant and not a difference.
+    // For an axisymmetric body Q is constant, and Q1 is not computed as a difference.
     if polhode.difference == DoubleDouble::ZERO {
         return 0.0;
     }
@@ -43,9 +44,10 @@ fn rotations(scene: &Scene, rates: &Secular, polhode: &Polhode) -> f64 {
     duration(scene, rates.longitude_rate, polhode.scales.1) * rates.longitude_rate.to_f64() / TAU
 }
 
-/// Error at the end of the span of a rotation next to the middle axis that is treated as a rotation about that axis \[rad\]; 0 on the axis itself.
+/// Error at the end of the span if a rotation near the middle axis is treated as a rotation about that axis \[rad\]; 0 on the axis itself.
 ///
-/// With λ = (M/C)√(b(a−b)) the linear motion is g3 cosh λt + g1 √((a−b)/b) sinh λt, and the same for g1 with the root's inverse; the attitude follows it.
+/// With λ = (M/C)√(b(a−b)) the linear motion of g3 is g3 cosh λt + g1 √((a−b)/b) sinh λt. The motion of g1 is the same with the inverse of the square root. The
+/// attitude follows this motion.
 pub(crate) fn departure(scene: &Scene, polhode: &Polhode) -> f64 {
     let rates = scene.state().angular_velocity;
     if rates.iter().filter(|rate| **rate != 0.0).count() == 1 {
@@ -55,25 +57,25 @@ pub(crate) fn departure(scene: &Scene, polhode: &Polhode) -> f64 {
     let rate = (polhode.mean_rate() * (second * polhode.difference).sqrt()).to_f64();
     let stretch = (polhode.difference / second).to_f64().sqrt();
     let [g1, _, g3] = polhode.direction.map(f64::abs);
-    // Scaling may underflow the smallest rates.
+    // Scaling may underflow the smallest rates to 0.
     let tilt = (g1 * (1.0 + stretch) + g3 * (1.0 + 1.0 / stretch)).max(f64::MIN_POSITIVE);
     2.0 * (tilt.ln() + rate * duration(scene, polhode.middle_rate(), polhode.scales.1)).exp()
 }
 
-/// Phase error over the span by the frequencies of a fixed order \[rad\].
+/// Phase error over the span from the frequencies of a fixed order \[rad\].
 pub(crate) fn drift(scene: &Scene, exact: &Secular, secular: &Secular, exponent: i32, quarter: f64) -> f64 {
     let anomaly = (exact.anomaly_rate - secular.anomaly_rate).to_f64().abs();
     let longitude = (exact.longitude_rate - secular.longitude_rate).to_f64().abs();
-    // At its fastest the polhode angle changes 2K/π times as fast as ℓ′.
+    // The polhode angle changes at most 2K/π times as fast as ℓ′.
     (FRAC_2_PI * quarter * anomaly + longitude) * duration(scene, exact.longitude_rate, exponent)
 }
 
-/// Error over the span by rounding of frequencies and phases \[rad\].
+/// Error over the span from the rounding of frequencies and phases \[rad\].
 pub(crate) fn phase_rounding(scene: &Scene, rate: DoubleDouble, exponent: i32) -> f64 {
     PHASE_ROUNDING * rate.to_f64() * duration(scene, rate, exponent)
 }
 
-/// The longest time from the epoch that the tolerance is asked for, in the scaled unit.
+/// The longest time from the epoch at which the tolerance must hold, in the scaled unit.
 pub(crate) fn duration(scene: &Scene, rate: DoubleDouble, exponent: i32) -> f64 {
     let epoch = scene.state().epoch;
     match scene.asked_span() {

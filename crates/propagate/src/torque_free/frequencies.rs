@@ -1,15 +1,14 @@
 //! The secular part of a motion: σ and the mean rates of ℓ′ and y′ (theory §5, §7).
 //!
-//! Two routes. `exact` is the quadrature that theory §5 states, in the variable in which it has no singularity but the
-//! separatrix: with Q(ℓ) = cos²J of the polhode module,
+//! There are two methods. `exact` is the quadrature of theory §5, in a variable in which only the separatrix is singular. With Q(ℓ) = cos²J of the polhode
+//! module,
 //!
 //! ```text
 //! κσ = κE ⟨1/(1+√Q)⟩_ℓ,   dℓ′/dt = (Mγ/C) agm(√Q1, √Q2),   dy′/dt = (M/C) [1 + γE ⟨1/(1+√Q)⟩_t]
 //! ```
 //!
-//! where ⟨⟩_ℓ is the mean over ℓ and ⟨⟩_t that with the weight 1/√Q (dt is proportional to dℓ/√Q). The last follows from
-//! dy/dt = ∂H/∂M = (M/C)[1 + α(1−cosJ)(1−β cos 2ν)] at fixed (x, X). Every term is positive, and all of it is in double-double.
-//! `truncated` is the series of theory §7 at a fixed order.
+//! Here ⟨⟩_ℓ is the mean over ℓ, and ⟨⟩_t the mean with the weight 1/√Q (dt is proportional to dℓ/√Q). The last equation follows from dy/dt = ∂H/∂M = (M/C)[1 +
+//! α(1−cosJ)(1−β cos 2ν)] at fixed (x, X). Every term is positive, and all terms are in double-double. `truncated` is the series of theory §7 at a fixed order.
 
 use andoyer_double::{DoubleDouble, arithmetic_geometric_mean};
 
@@ -31,7 +30,7 @@ pub(crate) struct Secular {
 }
 
 impl Secular {
-    /// By quadrature, for 0 < Q1 or A = B.
+    /// The frequencies by quadrature, for 0 < Q1 or A = B.
     pub(crate) fn exact(polhode: &Polhode) -> Self {
         let mean_rate = polhode.mean_rate();
         let [q1, q2] = polhode.cosine_squares();
@@ -49,7 +48,8 @@ impl Secular {
         }
     }
 
-    /// By the series truncated after P_N, `polynomials` = P_0 … P_N (theory §7), in double-double: in doubles the phase would be wrong by 1e-13 rad after 100 rotations.
+    /// The frequencies by the series truncated after P_N, with `polynomials` = P_0 … P_N (theory §7), in double-double. In `f64` the phase would be wrong by
+    /// 1e-13 rad after 100 rotations.
     pub(crate) fn truncated(polhode: &Polhode, polynomials: &[DoubleDouble]) -> Self {
         let s = invert_energy(polynomials, polhode.kappa_energy());
         let (mut slope, mut rest) = (DoubleDouble::ZERO, DoubleDouble::ZERO);
@@ -68,17 +68,17 @@ impl Secular {
     }
 }
 
-/// κσ from Σ P_n (κσ)^(n+1) = κE by Newton's method, in doubles and then two steps beyond.
+/// κσ from Σ P_n (κσ)^(n+1) = κE by Newton's method: first in `f64`, then two steps in double-double.
 ///
-/// P_0 = 2 and P_n ≤ 0: the sum is concave and at most 2κσ, so from κE/2 the iteration rises to the root without passing it.
+/// P_0 = 2 and P_n ≤ 0, so the sum is concave and at most 2κσ. From κE/2 the iteration therefore rises to the root and does not pass it.
 fn invert_energy(polynomials: &[DoubleDouble], kappa_energy: DoubleDouble) -> DoubleDouble {
     let target = kappa_energy.to_f64();
     let mut s = 0.5 * target;
-    // Quadratic from below; the bound is for the slow first steps next to the separatrix.
+    // Convergence is quadratic from below. The bound allows for the slow first steps near the separatrix.
     for _ in 0..100 {
         let (value, slope) = value_and_slope(polynomials, s);
         if slope <= 0.0 {
-            return s.into(); // beyond the maximum of a truncated sum there is no root
+            return s.into(); // a truncated sum has no root beyond its maximum
         }
         let step = (target - value * s) / slope;
         s += step;
@@ -97,7 +97,7 @@ fn invert_energy(polynomials: &[DoubleDouble], kappa_energy: DoubleDouble) -> Do
     root
 }
 
-/// Σ P_n s^n and the slope of s times it.
+/// Σ P_n s^n, and the derivative of s Σ P_n s^n.
 fn value_and_slope(polynomials: &[DoubleDouble], s: f64) -> (f64, f64) {
     let terms = polynomials.iter().enumerate().rev();
     terms.fold((0.0, 0.0), |(value, slope), (n, &p)| (value * s + p.high, slope * s + (n as f64 + 1.0) * p.high))
@@ -117,8 +117,8 @@ fn means(q1: DoubleDouble, q2: DoubleDouble) -> (DoubleDouble, DoubleDouble, Dou
 
 /// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(√Q(1+√Q))⟩_ℓ next to the separatrix, by the trapezoidal rule in t = ln tan ℓ.
 ///
-/// dℓ = dt/(2 cosh t), Q = (Q1 + Q2 e^2t)/(1 + e^2t): analytic in |Im t| < π/2 however small Q1 is, with tails of e^(−|t|) beyond 0 and ln √(Q1/Q2). The
-/// nodes are e^t = e^(first) e^(jh), a product: no exponential but two.
+/// dℓ = dt/(2 cosh t) and Q = (Q1 + Q2 e^2t)/(1 + e^2t). The integrands are analytic in |Im t| < π/2 for any Q1, and fall as e^(−|t|) outside the interval
+/// between 0 and ln √(Q1/Q2). The nodes e^t = e^(first) e^(jh) are products, so only two exponentials are computed.
 fn logarithmic(q1: DoubleDouble, q2: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
     let tail = 76.0;
     let first = 0.5 * (q1.to_f64() / q2.to_f64()).ln() - tail;
@@ -157,7 +157,7 @@ mod tests {
 
     #[test]
     fn the_mean_of_one_over_the_cosine_is_one_over_the_agm_to_thirty_digits() {
-        // By construction ⟨1/√Q⟩_ℓ = 1/agm, and 1/(√Q(1+√Q)) + 1/(1+√Q) = 1/√Q ties the two sums to it.
+        // ⟨1/√Q⟩_ℓ = 1/agm (Gauss). The identity 1/(√Q(1+√Q)) + 1/(1+√Q) = 1/√Q connects the two sums with it.
         for (q1, q2) in [(0.9, 0.95), (0.3, 0.8), (0.01, 0.7), (1e-4, 0.5)] {
             let (by_anomaly, by_time, agm) = means(q1.into(), q2.into());
             let whole = by_time + by_anomaly * agm;
@@ -167,7 +167,8 @@ mod tests {
 
     #[test]
     fn the_series_has_the_frequencies_of_the_quadrature_to_twenty_eight_digits_where_it_converges() {
-        // σ/σ_sep is some 1e-2: order 20 leaves 1e-40. In doubles both rates were 1e-16 off, and phases 1e-13 after 100 rotations.
+        // σ/σ_sep is about 1e-2, so the truncation error at order 20 is 1e-40. In `f64` both rates were wrong by 1e-16, and phases by 1e-13 after 100
+        // rotations.
         let body = Body::new([1.0, 1.5, 2.1]).expect("a body");
         let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.02, 0.01, 1.0]).expect("a state");
         let polhode = Polhode::new(&body, &state).expect("it turns");

@@ -1,12 +1,12 @@
 //! The quaternion of theory §8 as two real-coefficient Fourier series in ℓ′, and their evaluation.
 //!
 //! a e^(−iy′/2) = √(1−z/2) e^(iδ/2) and b e^(−iy′/2) = (ζ/2) e^(iδ/2), with ζ = (X + ix)/√M, z = |ζ|²/2 and δ = y − y′.
-//! Time reversal (ℓ′ → −ℓ′ conjugates both) makes every coefficient real, and ℓ′ → ℓ′ + π leaves a and turns b over: a has the even harmonics, b
-//! the odd ones. So a quarter period of samples gives all coefficients by the trapezoidal rule.
+//! Time reversal (ℓ′ → −ℓ′) conjugates both, so every coefficient is real. ℓ′ → ℓ′ + π keeps a and changes the sign of b, so a has the even harmonics and b the
+//! odd ones. A quarter period of samples therefore gives all coefficients by the trapezoidal rule.
 
 use num_complex::Complex;
 
-/// A harmonic that turns the attitude by less than this is rounding error of the samples \[rad\].
+/// A harmonic that turns the attitude by less than this is a rounding error of the samples \[rad\].
 const NOISE: f64 = 6e-16;
 
 /// Cosine and sine coefficient of one harmonic.
@@ -20,21 +20,21 @@ pub(crate) struct CayleyKleinSeries {
 }
 
 impl CayleyKleinSeries {
-    /// From the terms (c_k, d_k) of a and of b; what is evaluated is normalized, so their norm need not be 1.
+    /// The series with the terms (c_k, d_k) of a and of b. Evaluation normalizes the result, so the norm of the terms need not be 1.
     pub(crate) fn from_terms(terms: Vec<(Pair, Pair)>) -> Self {
         Self { terms }
     }
 
-    /// Drops the highest harmonics as long as they turn the attitude by less than `budget` \[rad\] together. Returns the series and the angle dropped.
+    /// Drops the highest harmonics while they turn the attitude by less than `budget` \[rad\] together. Returns the series and the dropped angle.
     ///
-    /// The fundamental is always kept; a small wobble has no other harmonic.
+    /// The fundamental is always kept, because a small wobble has no other harmonic.
     pub(crate) fn truncated(mut self, budget: f64) -> (Self, f64) {
         let mut dropped = 0.0;
         while let [_, .., (even, odd)] = self.terms[..] {
             // An error of a or b turns the attitude by twice its size.
             let size = 2.0 * (even[0].abs().max(even[1].abs()) + odd[0].abs().max(odd[1].abs()));
             if size <= NOISE {
-                dropped = NOISE; // not their sum: all that is true of them is the tail of one smaller than this
+                dropped = NOISE; // not the sum: these harmonics are noise, and their true sum is smaller than this
             } else if dropped + size <= budget {
                 dropped += size;
             } else {
@@ -50,7 +50,7 @@ impl CayleyKleinSeries {
         &self.terms
     }
 
-    /// a and b e^(−iy′/2) at ℓ′, normalized.
+    /// a e^(−iy′/2) and b e^(−iy′/2) at ℓ′, normalized.
     pub(crate) fn pair(&self, angle: f64) -> [Complex<f64>; 2] {
         let (mut a, mut b) = (Complex::new(0.0, 0.0), Complex::new(0.0, 0.0));
         for (k, (even, odd)) in self.terms.iter().enumerate().rev() {

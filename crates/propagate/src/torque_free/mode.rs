@@ -9,21 +9,22 @@ use super::error_budget::COSINE_ROUNDING;
 use super::polhode::{Polhode, SMALLEST_TILT};
 use crate::error::Error;
 
-/// The kind of motion.
+/// The mode of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Mode {
-    /// Triaxial body near rotation about its axis of greatest inertia.
+    /// Triaxial body that rotates about its axis of greatest inertia with a wobble.
     ShortAxis,
-    /// Triaxial body about its axis of least inertia.
+    /// Triaxial body that rotates about its axis of least inertia with a wobble.
     LongAxis,
-    /// Triaxial body between the two, turning over once (theory §5).
+    /// Triaxial body on the separatrix between the two; it turns over once (theory §5).
     Separatrix,
     /// A = B or B = C: regular precession.
     Axisymmetric,
     /// A = B = C.
     Spherical,
-    /// Rotation about a principal axis itself.
+    /// Rotation exactly about a principal axis.
     PrincipalAxis,
     /// Zero angular velocity.
     AtRest,
@@ -46,7 +47,7 @@ impl fmt::Display for Mode {
 impl FromStr for Mode {
     type Err = Error;
 
-    /// One of the two modes that have periods.
+    /// Reads "short-axis" or "long-axis", the two modes that have periods.
     fn from_str(text: &str) -> Result<Self, Error> {
         match text {
             "short-axis" => Ok(Self::ShortAxis),
@@ -57,15 +58,15 @@ impl FromStr for Mode {
 }
 
 impl Mode {
-    /// The mode of a body that turns.
+    /// The mode of a rotating body.
     pub(crate) fn of(polhode: &Polhode) -> Self {
         let [g1, g2, g3] = polhode.direction.map(|g| g.abs() < SMALLEST_TILT);
         let [first, second] = polhode.excesses;
         if first == DoubleDouble::ZERO {
             return Self::Spherical;
         }
-        // With B = C every axis across axis 1 is one of greatest inertia, with A = B every axis across axis 3 one of least; in the middle between A and C
-        // rotation is steady too, as long as it is exact.
+        // If B = C, every axis perpendicular to axis 1 has the greatest inertia. If A = B, every axis perpendicular to axis 3 has the least inertia. Rotation
+        // exactly about the axis of B is steady too.
         if g1 && (g2 || g3 || second == DoubleDouble::ZERO) || g3 && polhode.difference == DoubleDouble::ZERO {
             return Self::PrincipalAxis;
         }

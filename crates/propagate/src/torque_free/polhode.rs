@@ -1,15 +1,15 @@
-//! The polhode of a state: its place among the motions of the body, formed without cancellation.
+//! The polhode of a state: its position among the motions of the body, computed without cancellation.
 //!
-//! The state is turned into the theory's frame (axes sorted, N ≥ 0) and scaled by powers of two, so that any unit gives the same bits.
-//! With g = G/M the unit angular momentum in the body, a = C/A − 1, b = C/B − 1 and ℓ the angle of theory §1,
+//! The state is transformed to the frame of the theory (axes sorted, N ≥ 0) and scaled by powers of two, so that any unit gives the same bits. Let g = G/M be
+//! the unit angular momentum in the body, a = C/A − 1, b = C/B − 1, and ℓ the angle of theory §1. Then
 //!
 //! ```text
 //! cos²J = Q(ℓ) = Q1 cos²ℓ + Q2 sin²ℓ,   Q1 = g3² − g1² (a−b)/b,   Q2 = g3² + g2² (a−b)/a
 //! γE = a g1² + b g2²,                  κE = α (g1²/b + g2²/a)
 //! ```
 //!
-//! Q1 > 0 is the short-axis mode, Q1 = 0 the separatrix: no difference of energies is formed (theory §5, §7). The long-axis mode is the same with the axes in
-//! the opposite order: A ≥ B ≥ C, a and b negative, and γ taken negative with them, so that ℓ′ runs backwards (theory §10).
+//! Q1 > 0 is the short-axis mode, and Q1 = 0 the separatrix. No difference of energies is computed (theory §5, §7). The long-axis mode has the same formulas
+//! with the axes in the opposite order: A ≥ B ≥ C, and a, b and γ are negative, so that ℓ′ runs backwards (theory §10).
 
 use std::f64::consts::FRAC_2_PI;
 
@@ -22,19 +22,21 @@ use crate::input::state::State;
 use crate::numerics::scaling::{exponent, scaled};
 use crate::numerics::theta::Theta;
 
-/// The body axes in the theory's order, C along the user's axis or, for N < 0, against it; A is reversed where that makes them right-handed.
+/// The body axes in the order of the theory. Axis C points along the user's axis, or against it if N < 0. Axis A is reversed if the axes would be left-handed
+/// otherwise.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
-    /// User axis of each sorted axis.
+    /// Index of the user's axis of each sorted axis.
     pub(crate) axes: [usize; 3],
-    /// Sense of each sorted axis along the user's.
+    /// Sign of each sorted axis relative to the user's axis.
     pub(crate) signs: [f64; 3],
-    /// Rotation of user body components into sorted ones.
+    /// Rotation from the user's body components to sorted components.
     pub(crate) quaternion: UnitQuaternion<f64>,
 }
 
 impl Frame {
-    /// The frame of moments and a body vector whose component on axis 3 shall not be negative; axis 3 is that of C, or of A for the long-axis mode.
+    /// The frame for these moments. `momentum` is a body vector whose component on axis 3 must become ≥ 0. Axis 3 is the axis of C, or of A for the long-axis
+    /// mode.
     pub(crate) fn new(moments: [f64; 3], momentum: [f64; 3], long_axis: bool) -> Self {
         let mut axes = [0, 1, 2];
         axes.sort_by(|&i, &j| moments[i].total_cmp(&moments[j]));
@@ -68,29 +70,29 @@ impl Frame {
     }
 }
 
-/// The rotations around the Cayley–Klein parameters: the attitude is inertial · (a, b) · frame.
+/// The constant rotations on both sides of the Cayley–Klein parameters: the attitude is inertial · (a, b) · frame.
 #[derive(Clone, Debug)]
 pub(crate) struct UserFrame {
     pub(crate) inertial: UnitQuaternion<f64>,
     pub(crate) frame: Frame,
-    /// M over each moment, on the sorted axes.
+    /// M divided by each moment, on the sorted axes.
     pub(crate) rates: Vector3<f64>,
 }
 
-/// sin J below which the wobble is neglected: its square is not a normal double.
+/// sin J below which the wobble is neglected, because its square is not a normal double.
 pub(crate) const SMALLEST_TILT: f64 = 1e-150;
 
 /// A state reduced to the quantities of theory §1, §5 and §7.
 #[derive(Clone, Debug)]
 pub(crate) struct Polhode {
     pub(crate) frame: Frame,
-    /// Whether the axes are in the opposite order.
+    /// Whether the axes are in the opposite order (long-axis mode).
     pub(crate) long_axis: bool,
-    /// A, B, C over a power of two; C, B, A in the long-axis mode.
+    /// A, B, C divided by a power of two; C, B, A in the long-axis mode.
     pub(crate) moments: [f64; 3],
     /// M in scaled units.
     pub(crate) momentum: DoubleDouble,
-    /// Binary exponents taken out of the moments and of the rates.
+    /// Binary exponents by which the moments and the rates were scaled.
     pub(crate) scales: (i32, i32),
     /// g on the sorted axes.
     pub(crate) direction: [f64; 3],
@@ -104,9 +106,9 @@ pub(crate) struct Polhode {
 }
 
 impl Polhode {
-    /// The polhode of a valid state; `None` for a body at rest.
+    /// The polhode of a valid state, or `None` for a body at rest.
     ///
-    /// Long-axis mode where Q1 < 0, or B = C and the rotation is not about an axis across axis 1.
+    /// The motion is in the long-axis mode if Q1 < 0. If B = C, it is in the long-axis mode unless the rotation is about an axis perpendicular to axis 1.
     pub(crate) fn new(body: &Body, state: &State) -> Option<Self> {
         let short = Self::in_order(body, state, false)?;
         let [first, second] = short.excesses;
@@ -147,12 +149,12 @@ impl Polhode {
         })
     }
 
-    /// The same body turning with sin²J = `square` at ℓ = 0, and M.
+    /// The same body rotating with M and sin²J = `square` at ℓ = 0.
     pub(crate) fn tilted(&self, square: f64, momentum: f64) -> Self {
         self.with_squares([square.into(), DoubleDouble::ONE - square.into()], momentum)
     }
 
-    /// The same body turning with these sin²J and cos²J at ℓ = 0, and M.
+    /// The same body rotating with M and these sin²J and cos²J at ℓ = 0.
     pub(crate) fn with_squares(&self, squares: [DoubleDouble; 2], momentum: f64) -> Self {
         let [sine, cosine] = squares.map(|square| square.to_f64().sqrt());
         let direction = [0.0, sine, cosine];
@@ -164,8 +166,8 @@ impl Polhode {
 
     /// Q1 and Q2 for B < C.
     ///
-    /// Q1 = [G3² A (C−B) − G1² C (B−A)]/(A (C−B) M²): nothing is divided before the difference is taken, so that it is zero on the separatrix wherever the
-    /// terms have a double-double.
+    /// Q1 = [G3² A (C−B) − G1² C (B−A)]/(A (C−B) M²). The division follows the difference, so Q1 is exactly 0 on the separatrix if double-double holds the two
+    /// terms exactly.
     pub(crate) fn cosine_squares(&self) -> [DoubleDouble; 2] {
         let (terms, divisor) = self.separatrix_terms();
         let [_, second, third] = self.parts.map(|part| part * part);
@@ -181,33 +183,33 @@ impl Polhode {
         ([third * divisor, first * (DoubleDouble::from(c) * DoubleDouble::sum(b, -a))], divisor)
     }
 
-    /// The terms of Q1 over Q1: the factor by which its relative error grows. Infinite on the separatrix.
+    /// The sum of the two terms of Q1 over Q1: the factor by which its relative error grows. It is infinite on the separatrix.
     pub(crate) fn cancellation(&self) -> f64 {
         let ([third, first], _) = self.separatrix_terms();
         ((third + first) / (third - first)).to_f64().abs()
     }
 
-    /// Q2 − Q1, a sum of two terms of one sign.
+    /// Q2 − Q1, a sum of two terms with equal signs.
     pub(crate) fn spread(&self) -> DoubleDouble {
         self.difference * (self.squares[0] / self.excesses[1] + self.squares[1] / self.excesses[0])
     }
 
-    /// 1 − Q1 and 1 − Q2: sin²J where it is greatest and where it is least.
+    /// 1 − Q1 and 1 − Q2: the maximum and the minimum of sin²J.
     pub(crate) fn sine_squares(&self) -> [DoubleDouble; 2] {
         let [g1, g2, _] = self.squares;
         let [a, b] = self.excesses;
         [g1 * a / b + g2, g1 + g2 * b / a]
     }
 
-    /// β of theory §1 to 32 digits, of the axes in this order.
+    /// β of theory §1 to 32 digits, for the axes in this order.
     pub(crate) fn precise_beta(&self) -> DoubleDouble {
         let beta = self.difference / (self.excesses[0] + self.excesses[1]);
         if beta.to_f64() >= 1.0 { DoubleDouble::ONE } else { beta }
     }
 
-    /// σ_sep(β) of the axes in this order, 1 for A = B and 0 for B = C (theory §5).
+    /// σ_sep(β) for the axes in this order: 1 for A = B and 0 for B = C (theory §5).
     ///
-    /// (1−β)/2β = b/(a−b): from the moments, so that it keeps its digits where β is next to 1.
+    /// It is computed from the moments, (1−β)/2β = b/(a−b), so that it keeps its relative accuracy when β is close to 1.
     pub(crate) fn separatrix_action(&self) -> f64 {
         let [second, difference] = [self.excesses[1], self.difference].map(|x| x.to_f64().abs().sqrt());
         FRAC_2_PI * second.atan2(difference)
@@ -261,7 +263,7 @@ impl Polhode {
         scaled(self.momentum.to_f64(), self.scales.0 + self.scales.1)
     }
 
-    /// M/A, M/B, M/C in the user's units: the rates are these times g.
+    /// M/A, M/B, M/C in the user's units. The rates are these numbers times g.
     pub(crate) fn user_rates(&self) -> Vector3<f64> {
         let rates = self.moments.map(|m| scaled((self.momentum / m.into()).to_f64(), self.scales.1));
         Vector3::from(rates)
@@ -285,12 +287,12 @@ impl Polhode {
         Theta::new(self.excesses, self.difference, self.cosine_squares(), self.spread(), self.sine_squares())
     }
 
-    /// (cos ℓ, sin ℓ) of the state, in the first quadrant, and the signs that were taken out (theory §1: G2 ~ cos ℓ, −G1 ~ sin ℓ).
+    /// (cos ℓ, sin ℓ) of the state, moved to the first quadrant, and the two signs that were removed (theory §1: G2 ~ cos ℓ, −G1 ~ sin ℓ).
     pub(crate) fn quadrant(&self) -> ([f64; 2], [f64; 2]) {
         let [g1, g2, _] = self.direction;
         let [first, second]: [DoubleDouble; 2] = self.excesses;
         let (cosine, sine) = (g2, -g1 * (first / second).to_f64().sqrt());
-        // Scaled first: squares of a small wobble have no double.
+        // The components are scaled first, because the squares of a small wobble would underflow.
         let largest = cosine.abs().max(sine.abs());
         let (x, y) = (cosine.abs() / largest, sine.abs() / largest);
         let length = x.hypot(y);

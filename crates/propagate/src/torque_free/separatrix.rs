@@ -1,15 +1,15 @@
-//! Motion near the separatrix and on it: the theta functions of the closed form in the conjugate nome (theory §10).
+//! Motion near the separatrix and on it, from the theta functions of the closed form in the conjugate nome (theory §10).
 //!
-//! Jacobi's imaginary transformation of the closed form, about ℓ″ = ℓ′ − π/2, where the axis is nearest to the angular momentum, with |ℓ″| ≤ π/2, f = ℓ″/π, u = 2K f,
-//! p = e^(−πK/(2K′)), ξ = πu/(4K′) and ζ0 = πη/(4K′):
+//! This is Jacobi's imaginary transformation of the closed form. The angle is ℓ″ = ℓ′ − π/2 with |ℓ″| ≤ π/2; at ℓ″ = 0 the axis is nearest to the angular
+//! momentum. With f = ℓ″/π, u = 2K f, p = e^(−πK/(2K′)), ξ = πu/(4K′) and ζ0 = πη/(4K′):
 //!
 //! ```text
 //! a ∝ Σ p^(n²+n) cos (2n+1)(ζ0 + iξ)        b ∝ iρ Σ (−1)^n p^(n²+n) sin (2n+1)(ζ0 + iξ)        half phase: y′/2 + πηf/(2K′)
 //! ```
 //!
-//! A passage from one rotation about the middle axis to the opposite one is cosh and sinh, and p, which is 2.4e-6 at k′ = 1e-5, corrects them at the ends. On the separatrix
-//! K is infinite, p = 0, ξ is linear in time without end and dy′/dt = M/B. Sums are scaled by e^(−|ξ|), their n-th terms are then of size p^(n²) at most. Every
-//! ℓ″ → ℓ″ + π turns b over.
+//! A passage from one rotation about the middle axis to the opposite one is described by cosh and sinh. The terms with p, which is 2.4e-6 at k′ = 1e-5, correct
+//! it at its ends. On the separatrix K is infinite, p = 0, ξ is linear in time and unbounded, and dy′/dt = M/B. The sums are scaled by e^(−|ξ|), so their n-th
+//! terms are at most of size p^(n²). Each step ℓ″ → ℓ″ + π changes the sign of b.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
@@ -20,7 +20,7 @@ use super::polhode::{Polhode, UserFrame};
 use crate::numerics::phase::Phase;
 use crate::numerics::theta::{Theta, precise_argument};
 
-/// A motion by such a passage, one time after another.
+/// A motion near or on the separatrix, evaluated for one time after another.
 #[derive(Clone, Debug)]
 pub(crate) struct Passage {
     pub(crate) passage: PassageTheta,
@@ -29,7 +29,7 @@ pub(crate) struct Passage {
 }
 
 impl Passage {
-    /// Attitude and rates a time after the epoch.
+    /// Attitude and rates at the time `elapsed` after the epoch.
     pub(crate) fn evaluate(&self, elapsed: (f64, f64)) -> ([f64; 4], [f64; 3]) {
         let (a, b, lead) = self.passage.evaluate(elapsed);
         let scale = 1.0 / (a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1]).sqrt();
@@ -54,26 +54,26 @@ impl Passage {
     }
 }
 
-/// p^(n²) is 3e-23 for n = 2 at k′ = 1e-5: terms n = 0, 1, 2.
+/// Number of terms, n = 0, 1, 2. At k′ = 1e-5, p^(n²) is 3e-23 for n = 2.
 const TERMS: i32 = 3;
 
 /// |ξ| beyond which e^(−2|ξ|) is negligible.
 const FARTHEST: f64 = 1e4;
 
-/// The relation between the time and the place on the polhode.
+/// The relation between the time and the position on the polhode.
 ///
-/// Beside the middle axis u is tens of radians, hundreds at 1 − m = 1e-290, while the passage is over in a few: neither u at the epoch nor what it is counted
-/// from is rounded to a double before they cancel.
+/// Near the middle axis u is tens of radians, or hundreds at 1 − m = 1e-290, but the passage takes only a few. Therefore u at the epoch and its origin are
+/// subtracted in double-double, before the result is rounded to a double.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Clock {
-    /// 2ℓ″, in whole turns of which b is turned over; the turns that are 0 of them; and ξ for each radian.
+    /// The phase 2ℓ″, the number of turns of this phase at which b has its original sign, and ξ for each radian of 2ℓ″. b changes its sign with each turn.
     Repeating(Phase, f64, f64),
-    /// ξ at the epoch and its rate, on the separatrix itself.
+    /// On the separatrix itself: ξ at the epoch, and its rate.
     Once(DoubleDouble, DoubleDouble),
 }
 
 impl Clock {
-    /// Beside the separatrix: from the rate of ℓ″, the place and a quarter of the period that [`PassageTheta::place`] gives, and K′.
+    /// The clock near the separatrix, from the rate of ℓ″, the place u and the quarter period K of [`PassageTheta::place`], and K′.
     pub(crate) fn repeating(
         anomaly_rate: DoubleDouble,
         place: DoubleDouble,
@@ -92,7 +92,7 @@ impl Clock {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PassageTheta {
     clock: Clock,
-    /// Half phase for each radian of ℓ″, η/(2K′).
+    /// The half phase for each radian of ℓ″: η/(2K′).
     lead: f64,
     /// ζ0.
     offset: f64,
@@ -103,7 +103,7 @@ pub(crate) struct PassageTheta {
 }
 
 impl PassageTheta {
-    /// The passage of a polhode; `clock` is made from what [`PassageTheta::place`] says.
+    /// The passage of a polhode; `clock` comes from [`PassageTheta::place`].
     pub(crate) fn new(theta: &Theta, clock: Clock) -> Self {
         let offset = FRAC_PI_4 * theta.eta / theta.conjugate;
         let nome = (-FRAC_PI_2 * theta.quarter / theta.conjugate).exp();
@@ -118,27 +118,27 @@ impl PassageTheta {
         Self { clock, lead, offset, ratio: theta.half_tangents[1] * cosines / sines, nome }
     }
 
-    /// u of the state, K, and whether b is turned over: the place nearest to the angular momentum is u = 0.
+    /// u of the state, K, and whether b changes its sign. u = 0 is the place where the axis is nearest to the angular momentum.
     pub(crate) fn place(polhode: &Polhode) -> (DoubleDouble, DoubleDouble, bool) {
         let (position, [cosine_sign, sine_sign]) = polhode.quadrant();
         let (quarter, distance) = precise_argument(polhode.cosine_squares(), position);
-        // ℓ from −π/2 to 0 goes with ℓ′ → ℓ′ + π.
+        // The values of ℓ from −π/2 to 0 correspond to ℓ′ → ℓ′ + π.
         (distance.times_double(-cosine_sign * sine_sign), quarter, sine_sign < 0.0)
     }
 
-    /// The same with b turned over.
+    /// The same passage, with the sign of b changed if `over` is true.
     #[must_use]
     pub(crate) fn turned(self, over: bool) -> Self {
         Self { ratio: if over { -self.ratio } else { self.ratio }, ..self }
     }
 
-    /// arg a with what the half phase adds, a time after the epoch \[rad\].
+    /// arg a plus the added half phase, at the time `elapsed` after the epoch \[rad\].
     pub(crate) fn phase(&self, elapsed: (f64, f64)) -> f64 {
         let (a, _, lead) = self.evaluate(elapsed);
         a[1].atan2(a[0]) + lead
     }
 
-    /// 2ℓ″ a time after the epoch, up to half a turn either way; 0 on the separatrix itself \[rad\].
+    /// 2ℓ″ at the time `elapsed` after the epoch, between −π and π; 0 on the separatrix itself \[rad\].
     pub(crate) fn angle(&self, elapsed: (f64, f64)) -> f64 {
         match self.clock {
             Clock::Once(..) => 0.0,
@@ -146,7 +146,7 @@ impl PassageTheta {
         }
     }
 
-    /// a and b up to their norm, and the half phase to add, a time after the epoch.
+    /// a and b up to a common factor, and the half phase to add, at the time `elapsed` after the epoch.
     pub(crate) fn evaluate(&self, elapsed: (f64, f64)) -> ([f64; 2], [f64; 2], f64) {
         let (xi, lead, turned) = match self.clock {
             Clock::Once(start, rate) => {

@@ -1,4 +1,4 @@
-//! The Cayley–Klein parameters (a, b) of theory §8 as functions of time, by theta functions: away from the separatrix, next to it, and on it.
+//! The Cayley–Klein parameters (a, b) of theory §8 as functions of time, by theta functions: far from the separatrix, near it, and on it.
 
 use andoyer_double::DoubleDouble;
 
@@ -15,33 +15,33 @@ use crate::numerics::phase::Phase;
 use crate::numerics::scaling::user_rate;
 use crate::numerics::theta::Theta;
 
-/// Part of the tolerance that dropped harmonics may use.
+/// Fraction of the tolerance that dropped harmonics may use.
 pub(crate) const HARMONICS_SHARE: f64 = 0.125;
 
-/// a e^(−iy′/2) and b e^(−iy′/2), up to their norm.
+/// a e^(−iy′/2) and b e^(−iy′/2), up to a common factor.
 pub(crate) enum CayleyKlein {
-    /// ℓ′ and the harmonics of it.
+    /// The phase ℓ′ and the harmonics in ℓ′.
     Fourier(Phase, CayleyKleinSeries),
-    /// Near the separatrix and on it.
+    /// A passage near the separatrix or on it.
     Passage(PassageTheta),
 }
 
-/// The parameters of one motion, and what its plan says of them.
+/// The parameters of one motion, and the entries of its plan.
 pub(crate) struct Solution {
     pub(crate) parameters: CayleyKlein,
-    /// y′ at the epoch, where y is 0.
+    /// y′ at the epoch, where y is 0 \[rad\].
     pub(crate) longitude: f64,
     pub(crate) rates: Secular,
     /// Order of the series; 0 for the closed form.
     pub(crate) order: usize,
-    /// Highest multiple of ℓ′; 0 where there is no sum.
+    /// Highest multiple of ℓ′; 0 if there is no sum.
     pub(crate) harmonics: usize,
-    /// \[rad\]
+    /// Bound of the attitude error \[rad\].
     pub(crate) error_bound: f64,
     pub(crate) skipped: Vec<String>,
 }
 
-/// By theta functions, for any polhode beside the separatrix, whose σ/σ_sep is `ratio`.
+/// The solution by theta functions for any polhode that is not on the separatrix; `ratio` is σ/σ_sep.
 pub(crate) fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secular, ratio: f64, mode: Mode) -> Solution {
     let theta = polhode.theta();
     if theta.complement < NEAREST_COMPLEMENT {
@@ -49,7 +49,7 @@ pub(crate) fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secula
     }
     let closed = ClosedForm::new(polhode, &theta);
     let all = closed.series.harmonics();
-    // What is dropped is missing at the epoch and at the time.
+    // The dropped harmonics are missing at the epoch and at the time of evaluation.
     let budget = 0.5 * HARMONICS_SHARE * scene.asked_tolerance() * closed.least_norm;
     let (series, dropped) = if budget == 0.0 { (closed.series, 0.0) } else { closed.series.truncated(budget) };
     let error_bound =
@@ -80,16 +80,16 @@ fn beside_the_separatrix(scene: &Scene, polhode: &Polhode, rates: Secular, theta
     }
 }
 
-/// The motion on the separatrix: one passage, from and to rotation about the axis of middle inertia.
+/// The motion on the separatrix: one passage that begins and ends with rotation about the axis of middle inertia.
 pub(crate) fn on_the_separatrix(scene: &Scene, polhode: &Polhode) -> Solution {
     let (place, _, turned) = PassageTheta::place(polhode);
-    // K is infinite there, however far from 0 rounding has left Q1.
+    // K is infinite on the separatrix, even if rounding leaves Q1 different from 0.
     let theta = Theta { quarter: f64::INFINITY, ..polhode.theta() };
     let [least, greatest] = polhode.cosine_squares();
     let rate = polhode.mean_rate() * polhode.gamma() * greatest.sqrt();
     let clock = Clock::Once(place.times_double(0.5), user_rate(rate.times_double(0.5), polhode.scales.1));
     let rates = Secular { kappa_sigma: 0.0, anomaly_rate: DoubleDouble::ZERO, longitude_rate: polhode.middle_rate() };
-    // A distance from the separatrix that double-double does not see grows like e^u.
+    // A distance from the separatrix below the resolution of double-double grows like e^u.
     let growth = (rate.to_f64().abs() * duration(scene, rates.longitude_rate, polhode.scales.1)).exp();
     let unseen = if least == DoubleDouble::ZERO { 0.0 } else { COSINE_ROUNDING * growth };
     Solution {
@@ -110,12 +110,12 @@ fn passage(passage: PassageTheta, rates: Secular, reason: &str) -> Solution {
     }
 }
 
-/// Why a round body needs no series.
+/// The reason why an axisymmetric body needs no series.
 pub(crate) fn round_body() -> Vec<String> {
     vec!["series: two moments are equal, the wobble is a circle and the precession regular".to_owned()]
 }
 
-/// What to say of the harmonics that were dropped, if any were.
+/// A remark on the harmonics that were dropped, if there are any.
 pub(crate) fn dropped_harmonics(series: &CayleyKleinSeries, all: usize) -> Vec<String> {
     let kept = series.harmonics();
     let reason = (kept < all).then(|| format!("harmonics above {kept}: together below an eighth of the tolerance"));

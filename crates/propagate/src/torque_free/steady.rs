@@ -1,6 +1,7 @@
-//! Rotation about an axis that keeps its place in the body (theory §5): a sphere, a principal axis, any axis across the equal ones of a round body.
+//! Rotation about an axis that is fixed in the body (theory §5): any axis of a sphere, a principal axis, or any axis in the plane of two equal moments.
 //!
-//! The attitude turns about the constant angular velocity, at M over the moment about it: the half angle's sine and cosine, and constant rates.
+//! The angular velocity is constant. The attitude turns about it at the rate M over the moment about the axis. The evaluation needs the sine and cosine of the
+//! half angle.
 
 use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -16,19 +17,19 @@ use crate::simd::circles::{Circles, Evaluate};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 
-/// A rotation about an axis that keeps its place in the body.
+/// A rotation about an axis that is fixed in the body.
 pub(crate) struct SteadyRotation {
-    /// Unit axis, or the zero vector at rest; user's body components.
+    /// Unit axis in the user's body components; the zero vector at rest.
     pub(crate) axis: Vector3<f64>,
     /// Angular rate, in scaled units.
     pub(crate) rate: DoubleDouble,
-    /// dℓ′/dt of the limit of small wobbles; 0 across the axes of a round body.
+    /// dℓ′/dt in the limit of small wobbles; 0 for an axis perpendicular to axis 3.
     pub(crate) anomaly_rate: DoubleDouble,
     /// σ/σ_sep.
     pub(crate) separatrix_ratio: f64,
-    /// \[rad\]
+    /// Bound of the attitude error \[rad\].
     pub(crate) error_bound: f64,
-    /// Why there is no wobble.
+    /// The reason why there is no wobble.
     pub(crate) reason: &'static str,
 }
 
@@ -49,7 +50,8 @@ impl SteadyRotation {
     pub(crate) fn new(scene: &Scene, polhode: &Polhode, mode: Mode) -> Self {
         let [_, g2, g3] = polhode.direction;
         let [_, second] = polhode.excesses;
-        // With A = B every axis across axis 3 is a principal one, and M over their moment the rate; of three unequal moments only the middle one is across.
+        // If A = B, every axis perpendicular to axis 3 is a principal axis, and the rate is M over its moment. If the three moments differ, only the middle
+        // axis is perpendicular to axis 3 here.
         let across = mode == Mode::PrincipalAxis && second != DoubleDouble::ZERO && g3.abs() < SMALLEST_TILT;
         let middle = across && polhode.difference != DoubleDouble::ZERO;
         let reason = match mode {
@@ -73,24 +75,24 @@ impl SteadyRotation {
         }
     }
 
-    /// What it is evaluated from, for a state in the user's units; `exponent` is that of the polhode's rates.
+    /// The evaluator for a state in the user's units; `exponent` is that of the polhode's rates.
     pub(crate) fn evaluator(&self, state: &State, exponent: i32) -> Steady {
         let half_angle = half(user_rate(self.rate, exponent), 0.0);
         Steady::new(self.axis, half_angle, state.attitude, state.angular_velocity)
     }
 }
 
-/// What such a motion is evaluated from.
+/// The constants from which a steady rotation is evaluated.
 #[derive(Clone, Debug)]
 pub(crate) struct Steady {
-    half_angle: Phase,
-    /// The attitude is the first times the cosine and the second times the sine.
-    attitudes: [[f64; 4]; 2],
-    rates: [f64; 3],
+    pub(crate) half_angle: Phase,
+    /// The attitude is the first quaternion times the cosine plus the second times the sine.
+    pub(crate) attitudes: [[f64; 4]; 2],
+    pub(crate) rates: [f64; 3],
 }
 
 impl Steady {
-    /// From the unit axis, the phase of half the angle, and attitude and rates at the epoch.
+    /// The evaluator from the unit axis, the phase of half the angle, and attitude and rates at the epoch.
     pub(crate) fn new(
         axis: Vector3<f64>,
         half_angle: Phase,

@@ -1,20 +1,20 @@
-//! The two Fourier series of theory §8 as they are summed: four polynomials in cos 2ℓ′, or a rotation from one harmonic to the next.
+//! Two ways to sum the Fourier series of theory §8: four polynomials in cos 2ℓ′, or a rotation from one harmonic to the next.
 //!
-//! a e^(−iy′/2) = P0(cos 2ℓ′) + i sin 2ℓ′ P1(cos 2ℓ′) and b e^(−iy′/2) = cos ℓ′ P2(cos 2ℓ′) + i sin ℓ′ P3(cos 2ℓ′): T, U and the two half-angle
-//! families of Chebyshev polynomials, all with p_{k+1} = 2c p_k − p_{k−1}. In powers of c they cost one multiplication and addition a coefficient,
-//! which is taken as long as rounding is no worse than that of the sum itself: Σ k|p_k| ≤ 2 beside a pair of norm 1. That holds where the harmonics
-//! fall by 0.3 and more; otherwise e^(2iℓ′) leads from term to term, at ten operations each.
+//! a e^(−iy′/2) = P0(cos 2ℓ′) + i sin 2ℓ′ P1(cos 2ℓ′) and b e^(−iy′/2) = cos ℓ′ P2(cos 2ℓ′) + i sin ℓ′ P3(cos 2ℓ′). The bases are T, U and the two half-angle
+//! families of Chebyshev polynomials; all obey p_{k+1} = 2c p_k − p_{k−1}. In powers of c = cos 2ℓ′ each coefficient costs one multiplication and one addition.
+//! Powers are used if their rounding error is not larger than that of the sum: Σ k|p_k| ≤ 2 for a pair of norm 1. This holds if the harmonics fall by a factor
+//! of 0.3 or less. Otherwise e^(2iℓ′) leads from term to term, with ten operations for each.
 
 use super::harmonics::CayleyKleinSeries;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 
-/// More terms are not tried as powers: the powers of 1 + √2 are then sure to have won.
+/// Largest number of terms for powers. With more terms the powers of 1 + √2 always exceed the bound.
 const MOST_POWERS: usize = 16;
-/// Σ k|p_k| of a pair of norm 1, up to which powers are as good as the harmonics.
+/// Largest Σ k|p_k| of a pair of norm 1 for which powers are as accurate as the harmonics.
 const LARGEST_POWERS: f64 = 2.0;
 
-/// What the pair (a, b) e^(−iy′/2) is summed from, per index k: real and imaginary part of a, then of b.
+/// The coefficients of the pair (a, b) e^(−iy′/2), by index k: real and imaginary part of a, then of b.
 #[derive(Clone, Debug)]
 pub(crate) enum Sums {
     /// Coefficients of cos^k 2ℓ′.
@@ -32,7 +32,7 @@ impl Sums {
         }
     }
 
-    /// (Re a, Im a, Re b, Im b) of the pair at an ℓ′ with this sine and cosine.
+    /// (Re a, Im a, Re b, Im b) of the pair at the ℓ′ with this sine and cosine.
     #[inline(always)]
     pub(crate) fn pair<S: InstructionSet>(&self, simd: S, sine: Lanes<S>, cosine: Lanes<S>) -> [Lanes<S>; 4] {
         let twice = sine + sine;
@@ -70,13 +70,13 @@ impl Sums {
     }
 }
 
-/// The harmonics as powers of c = cos 2ℓ′, if they are small.
+/// The coefficients of the powers of c = cos 2ℓ′, or `None` if they are too large.
 fn powers(harmonics: &[[f64; 4]]) -> Option<Vec<[f64; 4]>> {
     let terms = harmonics.len();
     if terms > MOST_POWERS {
         return None;
     }
-    // T_k, U_{k−1}, V_k and W_k and the ones before, by powers.
+    // The current and the previous polynomials T_k, U_{k−1}, V_k and W_k, as coefficients of powers.
     let mut current = [[0.0; MOST_POWERS]; 4];
     let mut before = [[0.0; MOST_POWERS]; 4];
     let mut powers = vec![[0.0; 4]; terms];

@@ -1,7 +1,7 @@
-//! Attitude and rates of a wobbling body, several times at once.
+//! Attitude and rates of a wobbling body, at several times at once.
 //!
-//! The attitude is inertial · (a, b) · frame, and the two constant rotations are one real 4×4 map of (Re b, Im b, Im a, Re a). The rates need ℓ′ alone,
-//! since y cancels in b ā: g = (−2 Im b ā, 2 Re b ā, |a|² − |b|²)/(|a|² + |b|²), without a root and without the second sine (theory §8).
+//! The attitude is inertial · (a, b) · frame. The two constant rotations form one real 4×4 matrix that acts on (Re b, Im b, Im a, Re a). The rates need only
+//! ℓ′, because y cancels in b ā: g = (−2 Im b ā, 2 Re b ā, |a|² − |b|²)/(|a|² + |b|²). This takes no square root and no second sine (theory §8).
 
 use nalgebra::Quaternion;
 
@@ -13,7 +13,7 @@ use crate::simd::circles::{Circles, Evaluate};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 
-/// A wobble.
+/// A wobbling motion: its phases, its series and its frames.
 #[derive(Clone, Debug)]
 pub(crate) struct Wobble {
     pub(crate) anomaly: Phase,
@@ -22,16 +22,16 @@ pub(crate) struct Wobble {
     pub(crate) place: UserFrame,
 }
 
-/// What a wobbling motion is evaluated from.
+/// The constants from which a wobbling motion is evaluated.
 #[derive(Clone, Debug)]
 pub(crate) struct WobbleEvaluator {
-    anomaly: Phase,
-    half_longitude: Phase,
-    sums: Sums,
+    pub(crate) anomaly: Phase,
+    pub(crate) half_longitude: Phase,
+    pub(crate) sums: Sums,
     /// Rows x, y, z, w of the attitude, columns Re b, Im b, Im a, Re a.
-    map: [[f64; 4]; 4],
-    /// For each body axis the sorted one that gives it, and the factor of g: ±M over the moment.
-    rates: [(usize, f64); 3],
+    pub(crate) map: [[f64; 4]; 4],
+    /// For each body axis, the index of its sorted axis and the factor of g: ±M over the moment.
+    pub(crate) rates: [(usize, f64); 3],
 }
 
 impl WobbleEvaluator {

@@ -50,46 +50,46 @@ class ToleranceWarning(UserWarning):
 
 @final
 class Body:
-    """Principal moments of inertia of a rigid body."""
+    """A rigid body, given by its principal moments of inertia."""
 
     def __new__(cls, moments: ArrayLike, *, name: str | None = None) -> Body: ...
     @staticmethod
     def from_inertia(tensor: ArrayLike, *, name: str | None = None) -> Body:
-        """A body from its inertia tensor about axes of your own: attitudes, rates, momenta and derivatives of its scenes are about these axes."""
+        """A body from its inertia tensor about axes that you choose. Attitudes, rates, momenta and derivatives of its scenes are about these axes."""
     @staticmethod
     def ellipsoid(a: float, b: float, c: float, *, mass: float = 1.0, name: str | None = None) -> Body:
-        """A homogeneous ellipsoid with semi-axes a, b, c along body axes 1, 2, 3: moments m (b² + c²)/5 and so on."""
+        """A homogeneous ellipsoid with semi-axes a, b, c along body axes 1, 2, 3. Its moments are m (b² + c²)/5, m (a² + c²)/5, m (a² + b²)/5."""
     @staticmethod
     def box(x: float, y: float, z: float, *, mass: float = 1.0, name: str | None = None) -> Body:
-        """A homogeneous box with edges x, y, z along body axes 1, 2, 3: moments m (y² + z²)/12 and so on."""
+        """A homogeneous box with edges x, y, z along body axes 1, 2, 3. Its moments are m (y² + z²)/12, m (x² + z²)/12, m (x² + y²)/12."""
     def period_ratios(
         self,
         mode: Literal["short-axis", "long-axis"] = "short-axis",
         *,
         convention: Literal["extremal-axis", "long-axis", "short-axis"] = "extremal-axis",
     ) -> tuple[float, float]:
-        """The ratios P_ψ/P_φ that this body can have in a mode: an interval, of which each number belongs to one motion."""
+        """The interval of the ratios P_ψ/P_φ that this body can have in a mode. Each ratio in the interval belongs to one motion."""
     @staticmethod
     def named(name: str) -> Body:
-        """A body of the catalogue, by its name in any case."""
+        """A body of the catalogue."""
     @staticmethod
     def catalogue() -> list[str]:
-        """The names that `Body.named` knows."""
+        """The names of the catalogue, which `Body.named` accepts."""
     @staticmethod
     def source(name: str) -> str:
-        """Where the figures of a catalogue body come from."""
+        """The source of the figures of a catalogue body."""
     @property
     def moments(self) -> _Array:
-        """The moments about body axes 1, 2, 3 as given: a read-only array, shape (3,)."""
+        """The moments of inertia about body axes 1, 2, 3 in the given order: a read-only array, shape (3,)."""
     @property
     def inertia(self) -> _Array:
-        """The inertia tensor about the user's axes: a read-only array, shape (3, 3), diagonal unless `from_inertia` was given another."""
+        """The inertia tensor about the user's axes: a read-only array, shape (3, 3). It is diagonal unless the body was made by `from_inertia`."""
     @property
     def principal_axes(self) -> _Array:
-        """The principal axes, the columns of a proper rotation in the order of `moments`, in the user's components: a read-only array, shape (3, 3)."""
+        """The principal axes in the user's components, as the columns of a rotation matrix in the order of `moments`: a read-only array, shape (3, 3)."""
     @property
     def alpha(self) -> float:
-        """Oblateness α = [(C/A − 1) + (C/B − 1)]/2 of the sorted moments A ≤ B ≤ C (theory §1); 0 for a sphere."""
+        """Asphericity α = [(C/A − 1) + (C/B − 1)]/2 of the sorted moments A ≤ B ≤ C (theory §1); 0 for a sphere."""
     @property
     def beta(self) -> float:
         """Triaxiality β, 0 ≤ β ≤ 1 (theory §1); 0 for A = B and for a sphere, 1 for B = C."""
@@ -121,7 +121,24 @@ class Orbit:
         node: float = 0.0,
         argument_of_pericentre: float = 0.0,
         mass_fraction: float = 1.0,
+        node_rate: float = 0.0,
+        pericentre_rate: float = 0.0,
+        attraction: float | None = None,
     ) -> Orbit: ...
+    @staticmethod
+    def around_oblate(
+        gm: float,
+        semi_major_axis: float,
+        eccentricity: float,
+        inclination: float,
+        *,
+        j2: float,
+        radius: float,
+        node: float = 0.0,
+        argument_of_pericentre: float = 0.0,
+        time_of_pericentre: float = 0.0,
+    ) -> Orbit:
+        """The orbit of a satellite about an oblate primary, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3)."""
     @property
     def mean_motion(self) -> float:
         """Mean motion n, in rad per unit of time."""
@@ -143,6 +160,15 @@ class Orbit:
     @property
     def mass_fraction(self) -> float:
         """Disturbing mass over the sum of both."""
+    @property
+    def node_rate(self) -> float:
+        """Secular rate of the node, in rad per unit of time."""
+    @property
+    def pericentre_rate(self) -> float:
+        """Secular rate of the argument of the pericentre, in rad per unit of time."""
+    @property
+    def attraction(self) -> float:
+        """G × disturbing mass / a³, in 1/time²: by default mean_motion² × mass_fraction."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
@@ -150,8 +176,30 @@ class Orbit:
     def __deepcopy__(self, _memo: Any) -> Orbit: ...
 
 @final
+class TabulatedOrbit:
+    """Position of a disturbing body relative to the rotating one, as a table; only for the integrated method."""
+
+    def __new__(cls, times: ArrayLike | Any, positions: ArrayLike, gm: float) -> TabulatedOrbit: ...
+    @property
+    def times(self) -> _Array:
+        """The times, a read-only array of shape (n,)."""
+    @property
+    def positions(self) -> _Array:
+        """The positions, a read-only array of shape (n, 3)."""
+    @property
+    def gm(self) -> float:
+        """G × mass of the disturbing body."""
+    def position(self, time: float) -> _Array:
+        """The position at a time within the table: an array of shape (3,)."""
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __getnewargs__(self) -> tuple[Any, ...]: ...
+    def __copy__(self) -> TabulatedOrbit: ...
+    def __deepcopy__(self, _memo: Any) -> TabulatedOrbit: ...
+
+@final
 class Scene:
-    """A body, its state at an epoch, and the accuracy asked of the solution."""
+    """A body, its state at an epoch, and the requested accuracy of the solution."""
 
     def __new__(
         cls,
@@ -160,9 +208,9 @@ class Scene:
         angular_velocity: ArrayLike,
         *,
         epoch: float | Any = 0.0,
-        orbit: Orbit | None = None,
+        orbit: Orbit | TabulatedOrbit | Sequence[Orbit | TabulatedOrbit] | None = None,
         tolerance: float = 1e-12,
-        method: Literal["auto", "series", "closed"] = "auto",
+        method: Literal["auto", "series", "closed", "integrated"] = "auto",
         order: int | None = None,
         span: ArrayLike | None = None,
         averaging: Literal["auto", "orbit", "spin"] = "auto",
@@ -212,8 +260,8 @@ class Scene:
     def tolerance(self) -> float:
         """The attitude error asked for, in rad."""
     @property
-    def method(self) -> Literal["auto", "series", "closed"]:
-        """The method: "auto", "series" or "closed"."""
+    def method(self) -> Literal["auto", "series", "closed", "integrated"]:
+        """The method: "auto", "series", "closed" or "integrated"."""
     @property
     def order(self) -> int | None:
         """The fixed order of the series, or None."""
@@ -221,8 +269,8 @@ class Scene:
     def span(self) -> tuple[float, float] | None:
         """The times over which the tolerance is asked for: (start, stop), or None."""
     @property
-    def orbit(self) -> Orbit | None:
-        """The orbit of the disturbing body, or None."""
+    def orbit(self) -> Orbit | TabulatedOrbit | tuple[Orbit | TabulatedOrbit, ...] | None:
+        """The orbit of the disturbing body, an `Orbit` or a `TabulatedOrbit`; of several a tuple of them; or None."""
     @property
     def averaging(self) -> Literal["auto", "orbit", "spin"]:
         """The averaging: "auto", "orbit" or "spin"."""
@@ -243,89 +291,96 @@ class Scene:
 
 @final
 class Motion:
-    """A solved motion, from `Scene.solve`: immutable, and shared between threads, which run in parallel while they evaluate it."""
+    """A solved motion, from `Scene.solve`. It is immutable, and several threads can evaluate it in parallel."""
 
     def at(self, times: ArrayLike, *, scalar_first: bool = False) -> Samples:
-        """Attitudes and angular velocities, in one pass."""
+        """Evaluates attitudes and angular velocities in one pass."""
     def attitude(self, times: ArrayLike, out: _Array | None = None, *, scalar_first: bool = False) -> _Array:
-        """Unit quaternions [x, y, z, w] that rotate body components into inertial ones (theory §8)."""
+        """Evaluates attitudes: unit quaternions [x, y, z, w] that rotate body components into inertial ones (theory §8)."""
     def angular_velocity(self, times: ArrayLike, out: _Array | None = None) -> _Array:
-        """Angular velocities in body components, in rad per unit of time."""
+        """Evaluates angular velocities in body components, in rad per unit of time."""
     def angular_momentum(self, times: ArrayLike) -> _Array:
-        """Angular momenta in inertial components, in the unit of moment × rate: the same at all times unless the scene has an orbit."""
+        """Evaluates the angular momentum in inertial components, in the unit of moment × rate. It is constant unless the scene has an orbit."""
     def andoyer(self, times: ArrayLike) -> _Array:
-        """Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1)."""
+        """Evaluates the Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1)."""
     def rotation(self, times: ArrayLike) -> Rotation:
-        """Attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else."""
+        """Evaluates attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. This method imports SciPy."""
     def partials(self, times: ArrayLike) -> Partials:
-        """Derivatives of attitude and angular velocity with respect to the state at the epoch and the moments (theory §12)."""
+        """Evaluates the derivatives of attitude and angular velocity with respect to the initial state and the moments (theory §12)."""
+    def to_code(self, language: Literal["c", "rust", "python", "javascript"] = "c") -> str:
+        """A self-contained function `rotation(time)` that evaluates this motion, as the text of a file of source (theory §8)."""
+    def _code(self, language: Literal["c", "rust", "python", "javascript"]) -> tuple[str, float, float]:
+        """The same with the bounds of its differences that its head states: of the attitude [rad], of the angular velocity over its length."""
     @property
     def plan(self) -> Plan:
-        """What is evaluated, and why."""
+        """The plan: method, order, error bound and other facts about this motion."""
     @property
     def scene(self) -> Scene:
         """The scene that was solved."""
     @property
     def frequencies(self) -> Frequencies:
-        """Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time; 0 where there is none."""
+        """Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time."""
     @property
     def periods(self) -> dict[Literal["long-axis", "short-axis", "extremal-axis"], Periods]:
         """Mean periods (P_φ, P_ψ) in three conventions: a dict with the keys "long-axis", "short-axis" and "extremal-axis"."""
     @property
     def energy_ratio(self) -> float:
-        """E/E0: rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum (theory §5)."""
+        """E/E0: the rotational energy divided by the energy of rotation about the axis of greatest inertia with the same angular momentum (theory §5)."""
     @property
     def elliptic_parameter(self) -> float:
-        """k², the parameter of the elliptic functions of the polhode (theory §10): 0 on a principal axis, 1 on the separatrix."""
+        """k², the parameter of the elliptic functions of the polhode (theory §10): 0 for rotation about a principal axis, 1 on the separatrix."""
     def __copy__(self) -> Motion: ...
     def __deepcopy__(self, _memo: Any) -> Motion: ...
 
 @final
 class Plan:
-    """What is evaluated for a motion, and why: see `Motion.plan`; ``str(plan)`` is a table of it."""
+    """The method, order, error bound and other facts about a motion, from `Motion.plan`. ``str(plan)`` is a table."""
 
     @property
     def mode(self) -> Literal["short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis", "at-rest"]:
         """The kind of motion: "short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis" or "at-rest"."""
     @property
-    def method(self) -> Literal["series", "closed"]:
-        """How it is evaluated: "series", or "closed" for theta functions and the formulas that need no sum at all."""
+    def method(self) -> Literal["series", "closed", "integrated"]:
+        """The method of evaluation: "series", "closed" for theta functions and elementary formulas, or "integrated"."""
     @property
     def order(self) -> int:
-        """Order N of the series; 0 where none is used, or where the harmonic oscillator alone meets the tolerance."""
+        """Order N of the series, or of the steps of an integration. It is 0 if there is no series, or if the harmonic oscillator alone meets the tolerance."""
+    @property
+    def steps(self) -> int:
+        """Steps of the integration; 0 without one."""
     @property
     def harmonics(self) -> int:
-        """The highest multiple of the anomaly ℓ′ that is evaluated; 0 where none is."""
+        """The highest multiple of the anomaly ℓ′ in the evaluation; 0 if the method has no harmonics."""
     @property
     def error_bound(self) -> float:
-        """Estimate from above of the attitude error over the span, in rad: truncation, dropped harmonics, rounding."""
+        """Upper estimate of the attitude error over the span, in rad. It includes truncation, dropped harmonics and rounding."""
     @property
     def tolerance(self) -> float:
-        """The attitude error asked for over the span, in rad."""
+        """The requested attitude error over the span, in rad."""
     @property
     def meets_tolerance(self) -> bool:
-        """Whether the error bound is within the tolerance, or within 2e-14 rad where the tolerance is less than double precision holds."""
+        """True if the error bound is at most the tolerance. If the tolerance is below the rounding error of doubles, the bound must be at most 2e-14 rad."""
     @property
     def missed_tolerance(self) -> str | None:
-        """The sentence of the `ToleranceWarning` where the tolerance is not met, or None."""
+        """The text of the `ToleranceWarning` if the tolerance is not met, otherwise None."""
     @property
     def separatrix_ratio(self) -> float:
-        """σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5)."""
+        """σ/σ_sep (theory §5): 0 for rotation about the axis of greatest inertia, 1 on the separatrix."""
     @property
     def averaging(self) -> Literal["orbit", "spin"] | None:
-        """How far the equations of a scene with an orbit are averaged: "orbit", "spin", or None without an orbit (theory §9)."""
+        """The averaging of a scene with an orbit: "orbit", "spin", or None without an orbit (theory §9)."""
     @property
     def torque(self) -> float:
-        """Size of the torque: the sum of the short-period corrections by the gravity gradient, in rad; 0 without an orbit."""
+        """The size of the torque: the sum of the short-period corrections of the gravity gradient, in rad; 0 without an orbit."""
     @property
     def first_neglected(self) -> float:
-        """First neglected term under a gravity gradient, in rad: of second order in the torque, or a short-period one that was dropped; 0 without an orbit."""
+        """The first neglected term of the gravity gradient, in rad: the second order in the torque, or a dropped short-period term; 0 without an orbit."""
     @property
     def partials(self) -> Literal["closed", "differences"] | None:
-        """How `Motion.partials` computes: "closed" (theory §12); "differences" of fourth order for a scene with an orbit; None on the separatrix, where there are none."""
+        """The method of `Motion.partials`: "closed" (theory §12), "differences" of fourth order for a scene with an orbit and for an integrated motion, or None on the separatrix, where the derivatives do not exist."""
     @property
     def skipped(self) -> list[str]:
-        """What this scene did not need, and why: a list of str."""
+        """The steps that this scene did not need, with the reasons: a list of str."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: None  # type: ignore[assignment]
     def __copy__(self) -> Plan: ...
@@ -333,14 +388,14 @@ class Plan:
 
 @final
 class Samples:
-    """Attitudes and angular velocities at some times, of a motion or of the members of an ensemble: what `Motion.at` and `Ensemble.at` return."""
+    """Attitudes and angular velocities of a motion or an ensemble at given times, from `Motion.at` or `Ensemble.at`."""
 
     @property
     def times(self) -> Any:
-        """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n). Times of astropy are given back as they are."""
+        """The times, float64, shape (n,), or (m, n) for an ensemble whose members have their own times. Times of astropy are returned as given."""
     @property
     def errors(self) -> dict[int, Error]:
-        """Why members have no samples but NaN: errors by index, of an ensemble with ``errors="nan"``; else empty."""
+        """The errors of members whose samples are NaN, by index, for an ensemble with ``errors="nan"``; otherwise empty."""
     @property
     def attitude(self) -> _Array:
         """Unit quaternions [x, y, z, w] that rotate body components into inertial ones, shape (n, 4) or (m, n, 4)."""
@@ -349,16 +404,16 @@ class Samples:
         """Angular velocities in body components, in rad per unit of time, shape (n, 3) or (m, n, 3)."""
     @property
     def scalar_first(self) -> bool:
-        """Whether the quaternions are [w, x, y, z]."""
+        """True if the quaternions are [w, x, y, z]."""
     def to_pandas(self) -> DataFrame:
-        """A table of pandas, indexed by time, or by member and time: qx, qy, qz, qw, wx, wy, wz. pandas is imported here and nowhere else."""
+        """Converts the samples to a pandas table with the columns qx, qy, qz, qw, wx, wy, wz, indexed by time or by member and time. This method imports pandas."""
     def to_xarray(self) -> Dataset:
-        """A data set of xarray: attitude and angular_velocity by (member,) time, quaternion or axis. xarray is imported here and nowhere else."""
+        """Converts the samples to an xarray data set: attitude and angular_velocity by (member,) time, and quaternion or axis. This method imports xarray."""
     def __len__(self) -> int: ...
 
 @final
 class Partials:
-    """Derivatives of attitude and angular velocity at some times, of a motion or of the members of an ensemble: what `Motion.partials` and `Ensemble.partials` return."""
+    """Derivatives of attitude and angular velocity at given times, from `Motion.partials` and `Ensemble.partials`."""
 
     @property
     def times(self) -> _Array:
@@ -451,40 +506,40 @@ class Ensemble:
 
 @final
 class NormalForm:
-    """The normal form of the free rigid body, exact, symbolic in the triaxiality β, to any order (theory §4, §6)."""
+    """The normal form of the free rigid body to any order: exact, and symbolic in the triaxiality β (theory §4, §6)."""
 
     def __new__(cls, order: int, *, progress: Callable[[int, int], object] | None = None) -> NormalForm: ...
     @property
     def order(self) -> int:
         """The order."""
     def triaxiality_polynomial(self, n: int) -> dict[int, Fraction]:
-        """Triaxiality polynomial P_n, real form: K = M²/(2C) [1 + γ Σ P_n κⁿ σⁿ⁺¹] (theory §4)."""
+        """The triaxiality polynomial P_n in real form: K = M²/(2C) [1 + γ Σ P_n κⁿ σⁿ⁺¹] (theory §4)."""
     def paper_polynomial(self, n: int) -> dict[int, _Gaussian]:
-        """Triaxiality polynomial p_n = (−i)ⁿ⁺¹ P_n in the paper's form (theory §4, and §11 for the misprint)."""
+        """The triaxiality polynomial p_n = (−i)ⁿ⁺¹ P_n in the form of the paper (theory §4; §11 for the misprint)."""
     def generator(self, m: int) -> _Form:
-        """Generating function S_m · (√γ V/α)ᵐ = Σ c uʲ Uᵏ βˡ, the factor (m−1)! included (theory §4)."""
+        """The generating function S_m · (√γ V/α)ᵐ = Σ c uʲ Uᵏ βˡ, including the factor (m−1)! (theory §4)."""
     def direct(self, name: Literal["u", "U", "y"], n: int) -> _Form:
-        """Order n of the transformation of a variable to the new ones, 1/n! included (theory §6)."""
+        """Order n of an old variable as a function of the new variables, including the factor 1/n! (theory §6)."""
     def inverse(self, name: Literal["u", "U", "y"], n: int) -> _Form:
-        """Order n of the transformation of a new variable to the old ones, scaled as `direct`."""
+        """Order n of a new variable as a function of the old variables, scaled as in `direct` (theory §6)."""
     def to_json(self) -> str:
-        """This normal form as JSON text: exact, "p/q" strings, with a format version."""
+        """Writes this normal form as JSON text with a format version; numbers are exact "p/q" strings."""
     @classmethod
     def from_json(cls, text: str) -> NormalForm:
-        """Reads what `to_json` wrote."""
+        """Reads a normal form from the text of `to_json`. Each order is computed again and compared."""
     def to_latex(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> str:
-        """A part of this normal form as LaTeX, for a document that uses amsmath."""
+        """Writes a part of this normal form as LaTeX, for a document that uses amsmath."""
     def to_sympy(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> Any:
-        """A part of this normal form as exact SymPy expressions. SymPy is imported here and nowhere else."""
+        """Converts a part of this normal form to exact SymPy expressions. This method imports SymPy."""
     def to_code(self, language: Literal["c", "rust", "python"] = "c", beta: float | None = None) -> str:
-        """A function that evaluates the direct transformation and the frequencies to this order, as the text of a file of source."""
+        """Writes a source file with a function that evaluates the direct transformation and the frequencies to this order."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __copy__(self) -> NormalForm: ...
     def __deepcopy__(self, _memo: Any) -> NormalForm: ...
 
 def separatrix_action(beta: float) -> float:
-    """Action σ_sep(β) = (2/π) atan √((1−β)/2β) of the separatrix, in units of M: the radius of convergence of the series (theory §5)."""
+    """The action σ_sep(β) = (2/π) atan √((1−β)/2β) of the separatrix, in units of M. It is the radius of convergence of the series (theory §5)."""
 
 @final
 class BirkhoffNormalForm:
@@ -556,9 +611,9 @@ class BirkhoffNormalForm:
         """This normal form as JSON text, with a format version: exact numbers as "p/q" strings, floats with all their digits."""
     @classmethod
     def from_json(cls, text: str, symbols: dict[str, Any] | None = None) -> BirkhoffNormalForm:
-        """Reads what `to_json` wrote."""
+        """Reads a normal form from the text of `to_json`. Each order is computed again and compared."""
     def to_latex(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> str:
-        """A part of this normal form as LaTeX, for a document that uses amsmath."""
+        """Writes a part of this normal form as LaTeX, for a document that uses amsmath."""
     def to_code(self, language: Literal["c", "rust", "python"] = "c") -> str:
         """Functions that evaluate this normal form, as the text of a file of source that needs nothing but its language."""
     def to_sympy(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> Any:
@@ -569,14 +624,14 @@ class BirkhoffNormalForm:
 
 @final
 class Domain:
-    """How far a normal form is good, from `BirkhoffNormalForm.domain`: an estimate by the sizes of its orders."""
+    """An estimate of the range of validity of a normal form by the sizes of its orders, from `BirkhoffNormalForm.domain`."""
 
     @property
     def norms(self) -> list[float]:
-        """‖T_1‖ … ‖T_N‖: norms of the generating functions S_m/(m−1)! at the amplitude 1."""
+        """The norms ‖T_1‖ … ‖T_N‖ of the generating functions T_m = S_m/(m−1)! at the amplitude 1."""
     @property
     def radii(self) -> list[float]:
-        """ρ_m = (‖T_{m−2}‖/‖T_m‖)^½, m = 3 … N: the amplitude at which order m is as large as order m − 2."""
+        """The radii ρ_m = (‖T_{m−2}‖/‖T_m‖)^½, m = 3 … N. At the amplitude ρ_m order m is as large as order m − 2."""
     def sizes(self, amplitude: float) -> list[float]:
         """The sizes (m + 2) ‖T_m‖ a^(m+1) of the orders of the transformation at an amplitude."""
     def best_order(self, amplitude: float) -> int:
@@ -590,10 +645,11 @@ def normalize(
     *,
     parameters: Sequence[Any] | None = None,
     degrees: dict[str, int] | None = None,
+    frequency: tuple[str, str] | None = None,
     resonances: Sequence[Sequence[int]] | None = None,
     keep: Literal["hyperbolic"] | None = None,
     smallest_divisor: float = 1e-6,
     exact: bool | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> BirkhoffNormalForm:
-    """Birkhoff normal form of a polynomial Hamiltonian about an equilibrium at the origin."""
+    """Computes the Birkhoff normal form of a polynomial Hamiltonian about an equilibrium at the origin."""

@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from andoyer._core import Motion
+from andoyer._core import Motion, RepresentationError
 from andoyer._quaternions import angle_between
+from andoyer._span import within_span
 from andoyer.output.attitude_types import derivative
 from andoyer.output.files import whole_file
 
@@ -72,13 +73,13 @@ def page(
     FileExistsError
         There is such a file, and ``force=False``.
     ValueError
-        An interval of no length or of more than 208 rotations; a mesh of another shape.
+        An interval of no length; for a motion without code (`Motion.to_code`) one of more than 208 rotations; a mesh of another shape.
 
     Examples
     --------
     >>> from andoyer import plot
     >>> motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0], name="wobble").solve()
-    >>> plot.page(motion, "wobble.html") < 1e-8
+    >>> plot.page(motion, "wobble.html") < 1e-13
     True
     """
     start, stop = _interval(motion) if interval is None else (float(interval[0]), float(interval[1]))
@@ -104,8 +105,17 @@ def page(
 def evaluator(motion: Motion, start: float, stop: float) -> tuple[str, float]:
     """JavaScript that defines `evaluate(t)` between two times, and the largest angle [rad] between its attitude and that of the motion.
 
-    It is a table with cubic Hermite interpolation of the quaternion: between nodes a 192th of a rotation apart it leaves some 1e-9 rad.
+    It is the code of the motion (`Motion.to_code`). A motion without code, along the separatrix or under a torque, is a table.
     """
+    try:
+        text, error, _ = motion._code("javascript")
+    except RepresentationError:
+        return _table(motion, start, stop)
+    return f"const evaluate = (() => {{\n{text}return t => Array.from(rotation(t));\n}})();", error
+
+
+def _table(motion: Motion, start: float, stop: float) -> tuple[str, float]:
+    """A table with cubic Hermite interpolation of the quaternion: between nodes a 192th of a rotation apart it leaves some 1e-9 rad."""
     rate = _largest_rate(motion, start, stop)
     count = max(LEAST_NODES, math.ceil(rate * (stop - start) / (2 * math.pi) * NODES))
     if count > MOST_NODES:
@@ -138,10 +148,10 @@ def _interval(motion: Motion) -> tuple[float, float]:
     """Three periods of the polhode, at most sixty rotations; a unit of time at rest."""
     start = motion.scene.epoch
     precession, rotation = motion.periods["long-axis"]
-    rate = _largest_rate(motion, start, start + 1e-9)
+    rate = float(np.linalg.norm(motion.scene.angular_velocity))
     spans = [PERIODS * rotation, MOST_ROTATIONS * 2 * math.pi / rate if rate > 0 else math.inf, MOST_ROTATIONS * precession]
     span = min(span for span in [*spans, math.inf])
-    return start, start + (span if math.isfinite(span) else 1.0)
+    return within_span(motion, start, start + (span if math.isfinite(span) else 1.0))
 
 
 def _largest_rate(motion: Motion, start: float, stop: float) -> float:

@@ -60,12 +60,15 @@ const body = data.mesh || ellipsoid(data.semiaxes);
 const radius = Math.max(...body.vertices.map(size));
 const octant = body.faces.map(face => { const c = face.reduce((sum, k) => plus(sum, body.vertices[k]), [0, 0, 0]); return data.axes.reduce((sign, axis) => sign * Math.sign(dot(axis, c)), 1) > 0; });
 
-// Curves: the polhode, path of the angular velocity in the body; the herpolhode, its path among the stars. One rolls on the other.
+// Curves: the polhode, path of the angular velocity in the body; the herpolhode, its path among the stars, of which the last two rotations are drawn. One rolls on the other.
 const fastest = data.largestRate > 0 ? data.largestRate : 1, reach = 1.35 * radius / fastest;
-const polhode = [], herpolhode = [];
+const polhode = [], rotation = (data.stop - data.start) / Math.max(data.rotations, 1), trailed = 120;
 for (let k = 0; k <= 500; k++) polhode.push(scaled(reach, state(data.start + (data.polhodeStop - data.start) * k / 500).rates));
-const trailed = Math.min(6000, Math.max(1000, Math.ceil(data.rotations * 60)));
-for (let k = 0; k <= trailed; k++) herpolhode.push(scaled(reach, state(data.start + (data.stop - data.start) * k / trailed).inertialRates));
+function herpolhode(t) {
+  const from = Math.max(data.start, t - 2 * rotation), points = [];
+  for (let k = 0; k <= trailed; k++) points.push(scaled(reach, state(from + (t - from) * k / trailed).inertialRates));
+  return points;
+}
 
 const COLORS = { axes: ["#D55E00", "#009E73", "#0072B2"], momentum: "#CC79A7", rate: "#E69F00", polhode: "#56B4E9", herpolhode: "#E69F00" };
 const css = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -73,13 +76,13 @@ const css = name => getComputedStyle(document.documentElement).getPropertyValue(
 let scale = 1, centre = [0, 0];
 const place = v => { const p = project(v); return [centre[0] + scale * p[0], centre[1] - scale * p[1], p[2]]; };
 
-function curve(points, color, front, width, from = 0, to = points.length - 1) {
+function curve(points, color, front, width) {
   context.strokeStyle = color;
   context.lineWidth = width;
   context.globalAlpha = front ? 1 : 0.3;
   context.beginPath();
   let joined = false;
-  for (let k = from; k < to; k++) {
+  for (let k = 0; k < points.length - 1; k++) {
     const a = points[k], b = points[k + 1];
     if ((a[2] + b[2] >= 0) === front) {
       if (!joined) context.moveTo(a[0], a[1]);
@@ -154,12 +157,11 @@ function draw(t) {
   context.clearRect(0, 0, box.width, box.height);
   centre = [box.width / 2, box.height / 2];
   scale = view.zoom * Math.min(box.width, box.height) / (3.6 * radius);
-  const turning = polhode.map(v => place(rotate(s.q, v))), resting = herpolhode.map(place);
-  const now = Math.round((t - data.start) / (data.stop - data.start) * trailed) || 0;
+  const turning = polhode.map(v => place(rotate(s.q, v))), resting = herpolhode(t).map(place);
   const axes = [0, 1, 2].map(k => { const v = [0, 0, 0]; v[k] = 1.25 * radius; return [rotate(s.q, v), COLORS.axes[k], String(k + 1)]; });
   const arrows = [...axes, [scaled(1.5 * radius, unit(s.inertialMomentum)), COLORS.momentum, "M"], [scaled(reach, s.inertialRates), COLORS.rate, "ω"]];
   const layer = front => {
-    curve(resting, COLORS.herpolhode, front, 1.2, Math.max(0, now - Math.ceil(trailed / Math.max(data.rotations, 1) * 2)), Math.max(now, 1));
+    curve(resting, COLORS.herpolhode, front, 1.2);
     curve(turning, COLORS.polhode, front, 2);
     for (const [tip, color, label] of arrows) if (front || label !== "M" || size(s.momentum) > 0) arrow(tip, surface(s.q, tip), color, label, front);
   };

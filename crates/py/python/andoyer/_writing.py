@@ -120,7 +120,7 @@ def write_samples(path: Path, motion: andoyer.Motion, samples: andoyer.Samples, 
 def write_kernel(path: Path, motion: andoyer.Motion, interval: tuple[float, float], given: dict[str, Any], force: bool) -> None:
     """Write a C-kernel, and say how many records it has."""
     names = {field.name for field in fields(Kernel)}
-    kernel = Kernel(comments=_comments(motion), **{key: value for key, value in given.items() if key in names})
+    kernel = Kernel(**{key: value for key, value in given.items() if key in names})
     progress = Progress("writing, windows")
     try:
         with written_to(path):

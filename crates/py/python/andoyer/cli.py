@@ -1,4 +1,4 @@
-"""The command line: `andoyer propagate`, `plan`, `plot`, `bodies`, `series`.
+"""The command line: `andoyer propagate`, `plot`, `code`, `plan`, `bodies`, `series`.
 
 Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion that is not served,
 no command. A tolerance that is not met is one line on stderr, and exit status 3 under `--strict`. After Ctrl-C it is 130, and no file is left half written.
@@ -40,8 +40,11 @@ MISSED = 3
 """Exit status of a tolerance that is not met, under --strict."""
 
 PICTURES = [".png", ".svg", ".pdf", ".html"]
-COMMANDS = ["propagate", "plot", "plan", "bodies", "series"]
+COMMANDS = ["propagate", "plot", "code", "plan", "bodies", "series"]
 LANGUAGES = ["c", "rust", "python"]
+Code = Literal["c", "rust", "python", "javascript"]
+CODES: dict[str, Code] = {".c": "c", ".rs": "rust", ".py": "python", ".js": "javascript"}
+"""Languages of the code of a motion, each by the ending of its files."""
 EXAMPLES = {
     "propagate": """\
 andoyer propagate eros.toml -o eros.csv
@@ -53,6 +56,9 @@ andoyer propagate eros.toml -o eros.bc --stop 86400 --interpolation-error 1e-6 -
 andoyer plot eros.toml -o eros.png
 andoyer plot eros.toml -o eros.html
 andoyer plot eros.aem -o difference.png --against eros.toml --date 2026-01-01T00:00:00""",
+    "code": """\
+andoyer code apophis.toml -o apophis.c
+andoyer code apophis.toml --language rust > apophis.rs""",
     "bodies": "andoyer bodies",
     "series": """\
 andoyer series --order 10
@@ -133,6 +139,15 @@ def parser() -> Parser:
     strictly(command)
     command.set_defaults(run=plot)
 
+    writes = "write a function in C, Rust, Python or JavaScript that evaluates a motion and needs nothing but its language"
+    command = commands.add_parser("code", help=writes, description=f"{writes.capitalize()}.", **examples("", EXAMPLES["code"]))
+    command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
+    command.add_argument("-o", "--output", metavar="FILE", default="-", help=f"what is written, {', '.join(CODES)} by its ending (default: -, stdout)")
+    command.add_argument("--language", choices=list(CODES.values()), metavar="LANGUAGE", help=f"{', '.join(CODES.values())} (default: by the ending of FILE, else c)")
+    command.add_argument("--force", action="store_true", help="replace a file that is there already")
+    strictly(command)
+    command.set_defaults(run=code)
+
     command = commands.add_parser("plan", help="print what would be evaluated, and why", **examples("", EXAMPLES["plan"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
     strictly(command)
@@ -210,6 +225,30 @@ def turning(arguments: argparse.Namespace, path: Path) -> int:
     motion = solved(arguments.scene)
     with writing.written_to(path):
         page(motion, path, force=arguments.force)
+    return status(arguments, motion)
+
+
+def code(arguments: argparse.Namespace) -> int:
+    """Write a motion as source code."""
+    path = Path(arguments.output)
+    of_ending = CODES.get(path.suffix.lower())
+    language: Code | None = arguments.language or of_ending or ("c" if arguments.output == "-" else None)
+    if language is None:
+        raise InputError(f"argument -o/--output: {path}: the name must end in {', '.join(CODES)}, or --language must be given")
+    if of_ending not in (None, language):
+        raise InputError(f"argument --language: {language} does not go with the name {path}, which says {of_ending}")
+    if arguments.output != "-" and not arguments.force:
+        writing.refuse_existing(path)
+    motion = solved(arguments.scene)
+    try:
+        text = motion.to_code(language)
+    except andoyer.Error as error:
+        raise InputError(f"{arguments.scene}: {error}") from error
+    if arguments.output == "-":
+        sys.stdout.write(text)
+    else:
+        with writing.written_to(path), whole_file(path, arguments.force) as temporary:
+            temporary.write_text(text, encoding="ascii", newline="\n")
     return status(arguments, motion)
 
 

@@ -12,12 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from andoyer._compared import clock as _clock, components, difference, sampled_rates
-from andoyer._core import Motion, Samples
+from andoyer._core import Motion, Orbit, Samples
 from andoyer._diagrams import axes_or_new as _axes, domain, error_by_order, work_precision
 from andoyer._drawing import near_pole, on_ellipsoid, plane, surface as draw_surface
 from andoyer._extra import extra
 from andoyer._film import film
 from andoyer._page import page
+from andoyer._span import within_span
 from andoyer._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION, Array
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ __all__ = ["angles", "animate", "components", "difference", "domain", "error_by_
 
 
 def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> Array:
-    """Times over whole periods of the polhode from the epoch, or of the rotation where there is no polhode.
+    """Times over whole periods of the polhode from the epoch, or of the rotation where there is no polhode; of an integrated motion no farther than its span.
 
     Returns
     -------
@@ -47,7 +48,7 @@ def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> A
     """
     precession, rotation = motion.periods["long-axis"]
     period = next((time for time in (rotation, precession) if math.isfinite(time)), 1.0)
-    return motion.scene.epoch + np.linspace(0, turns * period, samples)
+    return np.linspace(*within_span(motion, motion.scene.epoch, motion.scene.epoch + turns * period), samples)
 
 
 def polhode(motion: Motion, axes: "Axes | None" = None, *, surface: str = "sphere") -> "Axes":
@@ -95,13 +96,16 @@ def polhode_near_pole(motion: Motion, times: ArrayLike | None = None, axes: "Axe
 def pole_path(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = None) -> "Axes":
     """The path of the angular momentum's direction among the stars, in arcseconds from where it starts: a point without a torque.
 
-    By default over one period of the orbit, if there is one. East is along z × k, north from k towards z, with k the first direction.
+    By default over one period of the orbit, if there is one; under several bodies or a table over the span. East is along z × k, north from k towards z, with k the first direction.
     """
     axes = _axes(axes)
-    orbit = motion.scene.orbit
-    whole = times is None and orbit is not None
+    orbit, epoch = motion.scene.orbit, motion.scene.epoch
+    one = orbit if isinstance(orbit, Orbit) else None
+    stop = epoch + 2 * math.pi / one.mean_motion if one else math.inf
+    reached = within_span(motion, epoch, stop)
+    whole = times is None and one is not None and reached == (epoch, stop)
     if times is None and orbit is not None:
-        times = motion.scene.epoch + np.linspace(0, 2 * math.pi / orbit.mean_motion, SAMPLES)
+        times = np.linspace(*reached, SAMPLES)
     momentum = motion.angular_momentum(_times(motion, times))
     sizes = np.linalg.norm(momentum, axis=1, keepdims=True)
     directions = momentum / np.where(sizes > 0, sizes, 1)

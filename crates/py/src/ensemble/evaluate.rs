@@ -2,7 +2,8 @@
 
 use std::sync::atomic::AtomicBool;
 
-use andoyer_propagate::{Error as Propagation, Outcome, Run};
+use andoyer_propagate::Error as Propagation;
+use andoyer_propagate::ensemble::{Outcome, Run};
 use pyo3::prelude::*;
 
 use super::{Array, Ensemble, LONG};

@@ -2,8 +2,11 @@
 
 use std::sync::atomic::AtomicBool;
 
+use andoyer_propagate::ensemble::{MAX_THREADS, OnError};
 use andoyer_propagate::error::Kind;
-use andoyer_propagate::{Convention, MAX_THREADS, OnError, PARAMETERS, Periods};
+use andoyer_propagate::options::Convention;
+use andoyer_propagate::partials::PARAMETERS;
+use andoyer_propagate::periods::Periods;
 use numpy::{IntoPyArray, PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};

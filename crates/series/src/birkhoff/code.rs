@@ -1,35 +1,39 @@
-//! A normal form as source text: functions in C, Rust or Python that need nothing but the language.
+//! A Birkhoff normal form as source text: functions in C, Rust or Python that need only the language itself.
 //!
-//! `from_normal` and `to_normal` evaluate the truncated transformation both ways, `actions` the actions of normal variables, `frequencies` their
-//! rates ∂K/∂I where K is a function of the actions. Straight-line code: one multiplication and one addition for about every term, by Horner's rule in one variable after
-//! the other; the linear change comes before or after. Coefficients are rounded once, to the digits that are read back to the same bits.
+//! `from_normal` and `to_normal` evaluate the truncated transformation in both directions. `actions` gives the actions of normal variables. `frequencies` gives
+//! their rates ∂K/∂I, if K is a function of the actions. The code has no branches or loops. Horner's rule in one variable after the other takes about one
+//! multiplication and one addition for each term. The linear change comes before or after it. Each coefficient is rounded once and printed with the digits that
+//! are read back to the same bits.
 
 use super::BirkhoffNormalForm;
 use super::matrix::{Matrix, symplectic_inverse};
 use super::mode::Mode;
+use crate::emit::Language;
 use crate::emit::program::{Expression, Program, Statement, name};
 use crate::emit::text::expression;
-use crate::{Error, Language, Monomial, Polynomial, RealField};
+use crate::real_field::RealField;
+use crate::{Error, Monomial, Polynomial};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A function from arrays to an array.
 struct Function {
     name: &'static str,
     meaning: String,
-    /// Names and lengths of the arrays that go in.
+    /// Names and lengths of the argument arrays.
     arguments: Vec<(&'static str, usize)>,
     result: (&'static str, usize),
     program: Program,
 }
 
 impl<R: RealField> BirkhoffNormalForm<R> {
-    /// Functions in `language` that evaluate this normal form, as the text of a file.
+    /// The source file of functions in `language` that evaluate this normal form.
     ///
-    /// `from_normal(normal)` gives the state q₁, p₁, q₂, … of normal variables, `to_normal(state)` the other way, `actions(normal)` and
-    /// `frequencies(actions)` follow a motion; the last is left out where K has resonant terms. Parameters are an array after the first argument.
+    /// `from_normal(normal)` gives the state q₁, p₁, q₂, … of normal variables, and `to_normal(state)` is its inverse. `actions(normal)` and
+    /// `frequencies(actions)` describe the motion. `frequencies` is missing if K has resonant terms. Parameters are an array after the first argument.
     ///
     /// ```
-    /// use andoyer_series::{Language, PhaseSpace, normalize};
+    /// use andoyer_series::{PhaseSpace, normalize};
+    /// use andoyer_series::print::Language;
     /// let space = PhaseSpace::new(&[("q", "p")])?;
     /// let form = normalize(&space.parse::<f64>("(p^2 + q^2)/2 + q^4/4")?, 2, &space)?;
     /// let text = form.to_code(Language::Python)?;
@@ -110,7 +114,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         Ok(functions)
     }
 
-    /// A real variable of the one side in those of the other, without the linear change.
+    /// A real variable of one side in those of the other side, without the linear change.
     fn normal_image(&self, slot: usize, direct: bool) -> Result<Polynomial<R>, Error> {
         let variable = Polynomial::variable(slot)?;
         self.transported(
@@ -196,7 +200,7 @@ fn from_normal(images: &[Polynomial<f64>], forward: &Matrix<f64>) -> Program {
     rename(program, "image")
 }
 
-/// The results of `polynomials` get names of their own where the linear change follows.
+/// Renames the results of `polynomials` that the linear change uses.
 fn rename(mut program: Program, stem: &str) -> Program {
     let last: BTreeMap<String, usize> = program
         .statements
@@ -240,7 +244,7 @@ fn sum(row: &[f64], stem: &str) -> Expression {
     terms.fold(first, |sum, term| sum + term)
 }
 
-/// `result_0`, `result_1`, … of polynomials in `v_0`, `v_1`, …; parameters follow from slot `first` on.
+/// Assigns `result_0`, `result_1`, … from polynomials in `v_0`, `v_1`, …; the parameters are in the slots from `first` on.
 fn polynomials(list: &[Polynomial<f64>], first: usize, stem: &str) -> Program {
     let mut program = Program::default();
     for (number, polynomial) in list.iter().enumerate() {
@@ -252,7 +256,7 @@ fn polynomials(list: &[Polynomial<f64>], first: usize, stem: &str) -> Program {
     program
 }
 
-/// The value of a polynomial in the variables from `slot` on, in the name `a_slot` where it takes more than one assignment.
+/// The value of a polynomial in the variables from `slot` on. If it takes more than one assignment, its name is `a_slot`.
 fn horner(program: &mut Program, terms: &[(Monomial, f64)], slot: usize, first: usize) -> Expression {
     let Some(slot) = (slot..crate::SLOTS).find(|&slot| terms.iter().any(|(monomial, _)| monomial.exponent(slot) > 0))
     else {
@@ -293,7 +297,7 @@ fn header(lines: &[String], language: Language) -> String {
     }
 }
 
-/// A function as text.
+/// The text of a function in `language`.
 fn print(function: &Function, language: Language) -> String {
     let (results, count) = function.result;
     let mut text = opening(function, language);
@@ -353,7 +357,7 @@ fn opening(function: &Function, language: Language) -> String {
     }
 }
 
-/// All names that occur in values.
+/// The names that occur in values of the program.
 fn used(program: &Program) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     for statement in &program.statements {

@@ -1,16 +1,17 @@
-//! How far a normal form is good: the sizes of its orders, and what they say at an amplitude.
+//! The range of a normal form: the sizes of its orders, and the best order at a given amplitude.
 //!
-//! The amplitude of a mode is a = √(2|I|); with all amplitudes at most a, a term c Π u^j U^k of degree d is at most |c| Π s^j… a^d, where
-//! |u| = a/(2√r) and |U| = a √r for a centre, and |u| = |U| = a for a saddle or a quartet. The norm ‖T_m‖ of a generating function T_m = S_m/(m−1)! is the
-//! sum of these bounds at a = 1; its part of the transformation is of the size ‖T_m‖ a^(m+1) (m+2).
+//! The amplitude of a mode is a = √(2|I|). If all amplitudes are at most a, a term c Π u^j U^k of degree d is at most |c| Π |u|^j |U|^k, with |u| = a/(2√r) and
+//! |U| = a √r for a centre, and |u| = |U| = a for a saddle or a quartet. The norm ‖T_m‖ of a generating function T_m = S_m/(m−1)! is the sum of these bounds at
+//! a = 1. Its contribution to the transformation has the size ‖T_m‖ a^(m+1) (m+2).
 //!
-//! Such series behave like a^m/ρ_m^m with ρ_m = (‖T_{m−2}‖/‖T_m‖)^{1/2}, which falls with the order: the series diverge. At a given amplitude
-//! the sizes first fall and then rise; the best order is where they are least. That is an estimate and no bound: what it is worth is seen from the formal
-//! integrals along an integrated orbit, [`BirkhoffMap::actions`](crate::BirkhoffMap::actions).
+//! Such series behave like a^m/ρ_m^m with ρ_m = (‖T_{m−2}‖/‖T_m‖)^{1/2}. ρ_m falls with the order, so the series diverge. At a given amplitude the sizes first
+//! fall and then rise, and the best order is where they are smallest. This is an estimate, not a bound. The formal integrals along an integrated orbit test it:
+//! [`BirkhoffMap::actions`](crate::BirkhoffMap::actions).
 
 use super::BirkhoffNormalForm;
 use super::mode::{Mode, modulus};
-use crate::{Error, Polynomial, RealField};
+use crate::real_field::RealField;
+use crate::{Error, Polynomial};
 
 /// The sizes of the orders of a normal form.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,14 +20,14 @@ pub struct Domain {
 }
 
 impl<R: RealField> BirkhoffNormalForm<R> {
-    /// The sizes of the orders, with numbers for the parameters in the order of their names.
+    /// The sizes of the orders. `parameters` are numbers for the parameters, in the order of their names.
     ///
     /// ```
     /// use andoyer_series::{PhaseSpace, normalize};
     /// let space = PhaseSpace::new(&[("q", "p")])?;
     /// let form = normalize(&space.parse::<f64>("(p^2 + q^2)/2 - q^3/3")?, 12, &space)?;
     /// let domain = form.domain(&[])?;
-    /// // Far inside the highest order is best; beyond the separatrix through q = 1 a low one is.
+    /// // Well inside the separatrix the highest order is best; beyond it (it passes through q = 1) a low order is best.
     /// assert_eq!((domain.best_order(0.05)?, domain.best_order(1.5)?), (12, 2));
     /// # Ok::<(), andoyer_series::Error>(())
     /// ```
@@ -58,13 +59,13 @@ fn size<R: RealField>(mode: &Mode<R>) -> [f64; 2] {
 }
 
 impl Domain {
-    /// ‖T_1‖, …, ‖T_N‖.
+    /// The norms ‖T_1‖, …, ‖T_N‖.
     #[must_use]
     pub fn norms(&self) -> &[f64] {
         &self.norms
     }
 
-    /// ρ_m = (‖T_{m−2}‖/‖T_m‖)^{1/2} for m = 3, …, N: the amplitude at which order m is as large as order m − 2. Infinite where T_m is 0.
+    /// ρ_m = (‖T_{m−2}‖/‖T_m‖)^{1/2} for m = 3, …, N: the amplitude at which order m is as large as order m − 2. It is infinite if T_m is 0.
     #[must_use]
     pub fn radii(&self) -> Vec<f64> {
         self.norms
@@ -73,7 +74,7 @@ impl Domain {
             .collect()
     }
 
-    /// The sizes (m + 2) ‖T_m‖ a^(m+1), m = 1, …, N, of the orders of the transformation where all amplitudes √(2|I|) are a.
+    /// The sizes (m + 2) ‖T_m‖ a^(m+1), m = 1, …, N, of the orders of the transformation if all amplitudes √(2|I|) are a.
     ///
     /// # Errors
     /// - −1, NaN, an infinity: [`Error::OutsideInterval`].
@@ -86,14 +87,14 @@ impl Domain {
         Ok((1..).zip(&self.norms).map(size).collect())
     }
 
-    /// The order at which the sizes are least, of those that are not 0 by symmetry; 0 for a normal form of order 0.
+    /// The order with the smallest nonzero size. It is the highest order if all sizes are 0, and 0 for a normal form of order 0.
     ///
     /// # Errors
-    /// - as [`sizes`](Self::sizes).
+    /// - The errors of [`sizes`](Self::sizes).
     pub fn best_order(&self, amplitude: f64) -> Result<usize, Error> {
         let sizes = self.sizes(amplitude)?;
         let nonzero = sizes.iter().enumerate().filter(|(_, size)| **size > 0.0);
-        // Orders that a symmetry leaves out, and those at amplitude 0, do no harm.
+        // A size is 0 at amplitude 0, or if a symmetry removes the order.
         Ok(nonzero.min_by(|a, b| a.1.total_cmp(b.1)).map_or(self.norms.len(), |(at, _)| at + 1))
     }
 }

@@ -1,8 +1,9 @@
-//! The motion of a normal form in numbers: its actions, frequencies, rates and energy in the real normal variables.
+//! The numerical motion of a normal form: its actions, frequencies, rates and energy in the real normal variables.
 
 use super::BirkhoffNormalForm;
 use super::mode::Mode;
-use crate::{Error, Polynomial, RealField};
+use crate::real_field::RealField;
+use crate::{Error, Polynomial};
 use num_complex::Complex;
 
 /// K and its derivatives, with numbers for the parameters.
@@ -10,7 +11,7 @@ use num_complex::Complex;
 pub(crate) struct Flow {
     energy: Polynomial<f64>,
     gradient: Vec<Polynomial<f64>>,
-    /// ∂K/∂Iᵢ in the actions, or the term that keeps K from being a function of them.
+    /// ∂K/∂Iᵢ in the actions, or a resonant term if K is not a function of the actions.
     frequencies: Result<Vec<Polynomial<f64>>, String>,
 }
 
@@ -49,7 +50,7 @@ impl Flow {
     }
 }
 
-/// A polynomial with numbers for the parameters, which follow `first` variables.
+/// A polynomial with numbers substituted for the parameters, which follow the first `first` variables.
 fn at(mut polynomial: Polynomial<f64>, first: usize, parameters: &[f64]) -> Result<Polynomial<f64>, Error> {
     for (slot, value) in (first..).zip(parameters) {
         polynomial = polynomial.evaluate_partial(slot, value)?;
@@ -73,7 +74,7 @@ pub(crate) fn actions(modes: &[Mode<f64>], normal: &[f64]) -> Vec<f64> {
     modes.iter().enumerate().map(action).collect()
 }
 
-/// Real normal variables after a time, each mode moving with its frequency.
+/// Real normal variables after a time; each mode moves with its frequency.
 pub(crate) fn advanced(modes: &[Mode<f64>], normal: &[f64], frequencies: &[f64], time: f64) -> Vec<f64> {
     let mut moved = normal.to_vec();
     for (mode, kind) in modes.iter().enumerate() {
@@ -101,7 +102,7 @@ pub(crate) fn advanced(modes: &[Mode<f64>], normal: &[f64], frequencies: &[f64],
     moved
 }
 
-/// The complex variables u₁, U₁, u₂, … of real normal variables.
+/// The complex variables u₁, U₁, u₂, … from the real normal variables.
 pub(crate) fn complex_point(modes: &[Mode<f64>], normal: &[f64]) -> Vec<Complex<f64>> {
     let pair = |(mode, kind): (usize, &Mode<f64>)| {
         let (q, p) = (normal[2 * mode], normal[2 * mode + 1]);
@@ -121,7 +122,7 @@ pub(crate) fn complex_point(modes: &[Mode<f64>], normal: &[f64]) -> Vec<Complex<
     modes.iter().enumerate().flat_map(pair).collect()
 }
 
-/// Real normal variables of the complex ones: of a centre from U, of a quartet from its first mode.
+/// Real normal variables from the complex ones. Those of a centre follow from U, those of a quartet from its first mode.
 pub(crate) fn real_point(modes: &[Mode<f64>], values: &[Complex<f64>]) -> Vec<f64> {
     let mut normal = vec![0.0; values.len()];
     for (mode, kind) in modes.iter().enumerate() {

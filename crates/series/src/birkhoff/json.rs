@@ -1,4 +1,4 @@
-//! A normal form as JSON: exact numbers as "p/q", floats as numbers with all their digits.
+//! A Birkhoff normal form as JSON. Exact numbers are written as "p/q", floats as numbers with all their digits.
 //!
 //! ```text
 //! { "format": "andoyer-birkhoff-exact" or "andoyer-birkhoff-float", "version": 1, "order": N,
@@ -7,18 +7,23 @@
 //!   "modes": [["elliptic", ω, r] or ["hyperbolic", λ] or ["complex", σ, ν, partner], …],
 //!   "linear_change": [[…], …],                                 M by rows
 //!   "offset": [[[exponents], c], …],                           the constant term
+//!   "original": [[[exponents], c], …],                         the normalized Hamiltonian
 //!   "hamiltonian": [ [[[exponents], re, im], …], … ],          K_n/n! in u₁, U₁, …, parameters, n = 0 … N
 //!   "generators":  [ [[[exponents], re, im], …], … ] }         S_m/(m−1)!, m = 1 … N
 //! ```
 //!
-//! Reading verifies format, version, names, counts, degrees, that numbers are finite, that M is symplectic, that K has only terms that are kept and S none of
-//! them. It does *not* verify that K is the normal form of some Hamiltonian.
+//! Reading verifies format, version, names, counts and degrees, that numbers are finite, that M is symplectic, that K has only terms that are kept, and that S
+//! has none of these terms. Then it computes the normal form of the original Hamiltonian again and compares every coefficient.
 
 use super::diagonal::Diagonal;
 use super::matrix::{Matrix, form_entry, pairing, transposed};
 use super::mode::Mode;
+use super::verify::verified;
 use super::{BirkhoffNormalForm, PhaseSpace, Resonances, turns};
-use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, RealField, TermProblem};
+use crate::error::TermProblem;
+use crate::real_field::RealField;
+use crate::triangle::{LieTransform, Normalization, Progress, quiet};
+use crate::{Coefficient, Error, Monomial, Polynomial};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -46,6 +51,7 @@ struct Document {
     modes: Vec<Vec<Value>>,
     linear_change: Vec<Vec<Value>>,
     offset: Vec<(Vec<u32>, Value)>,
+    original: Vec<(Vec<u32>, Value)>,
     hamiltonian: Vec<Vec<Term>>,
     generators: Vec<Vec<Term>>,
 }
@@ -58,7 +64,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// This normal form as JSON text.
     ///
     /// # Errors
-    /// - none for a normal form that exists; JSON itself could not be written only if memory ran out.
+    /// - None for an existing normal form; writing JSON fails only if memory runs out.
     pub fn to_json(&self) -> Result<String, Error> {
         let space = self.space();
         let names = space.names();
@@ -71,6 +77,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             };
             f.terms().map(term).collect::<Vec<_>>()
         };
+        let reals = |f: &Polynomial<R>| f.terms().map(|(m, c)| (m.exponents()[..slots].to_vec(), value(c))).collect();
         let generators = (1..=self.order()).filter_map(|m| self.transform().scaled_generator(m));
         let degrees = space.parameter_degrees().iter().map(|degree| degree.unwrap_or(0));
         let document = Document {
@@ -84,17 +91,20 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             centre: self.resonances.keeps_centre(),
             modes: self.modes().iter().map(mode_values).collect(),
             linear_change: self.linear_change().iter().map(|row| row.iter().map(value).collect()).collect(),
-            offset: self.offset.terms().map(|(m, c)| (m.exponents()[..slots].to_vec(), value(c))).collect(),
+            offset: reals(&self.offset),
+            original: reals(&self.hamiltonian),
             hamiltonian: self.normalization.hamiltonian.iter().map(terms).collect(),
             generators: generators.map(terms).collect(),
         };
         serde_json::to_string(&document).map_err(Error::json)
     }
 
-    /// Reads what [`to_json`](Self::to_json) wrote from a normal form in the same kind of numbers.
+    /// Reads the text that [`to_json`](Self::to_json) wrote from a normal form in the same kind of numbers. The normal form is computed again and every
+    /// coefficient is compared.
     ///
     /// ```
-    /// use andoyer_series::{BigRational, BirkhoffNormalForm, PhaseSpace, normalize};
+    /// use andoyer_series::{BirkhoffNormalForm, PhaseSpace, normalize};
+    /// use andoyer_series::num_rational::BigRational;
     /// let space = PhaseSpace::new(&[("q", "p")])?;
     /// let form = normalize(&space.parse::<BigRational>("(p^2 + q^2)/2 + q^4/4")?, 4, &space)?;
     /// assert_eq!(BirkhoffNormalForm::<BigRational>::from_json(&form.to_json()?)?, form);
@@ -103,10 +113,31 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     ///
     /// # Errors
     /// - `"[]"`, a missing field, a number of the other kind: [`Error::Json`] or [`Error::RationalMalformed`];
-    /// - another format, exact for float among them, or version: [`Error::FormatUnknown`];
-    /// - lists of the wrong length: [`Error::CountMismatch`]; terms that no such normal form has: [`Error::TermInconsistent`];
-    /// - M not symplectic: [`Error::NotSymplectic`]; names and resonances as their constructors.
+    /// - another format (for example exact instead of float) or version: [`Error::FormatUnknown`];
+    /// - lists of the wrong length: [`Error::CountMismatch`]; terms that such a normal form cannot have: [`Error::TermInconsistent`];
+    /// - M not symplectic: [`Error::NotSymplectic`]; names and resonances: the errors of their constructors;
+    /// - a coefficient of K, S or M that differs from the normal form of the Hamiltonian in the text (for floats: by more than 1e-8 of the largest coefficient
+    ///   of its order): [`Error::CoefficientWrong`].
     pub fn from_json(text: &str) -> Result<Self, Error> {
+        Self::from_json_with(text, &mut quiet)
+    }
+
+    /// The same as [`from_json`](Self::from_json), with a callback as in [`normalize_with`](crate::normalize_with), which takes most of the time.
+    ///
+    /// # Errors
+    /// - The errors of [`from_json`](Self::from_json); a callback that returns `Break`: [`Error::Interrupted`].
+    pub fn from_json_with(text: &str, progress: &mut Progress<'_>) -> Result<Self, Error> {
+        let form = Self::from_json_unverified(text)?;
+        verified(&form, progress)?;
+        Ok(form)
+    }
+
+    /// The same as [`from_json`](Self::from_json) without the computation, for a text that this program wrote. Malformed text is refused, but a changed
+    /// coefficient is not found.
+    ///
+    /// # Errors
+    /// - The errors of [`from_json`](Self::from_json), except [`Error::CoefficientWrong`].
+    pub fn from_json_unverified(text: &str) -> Result<Self, Error> {
         let header: Header = serde_json::from_str(text).map_err(Error::json)?;
         if header.format != format::<R>() || header.version != VERSION {
             let (format, version) = (header.format, header.version);
@@ -118,8 +149,8 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             });
         }
         let document: Document = serde_json::from_str(text).map_err(Error::json)?;
-        if document.order > R::MAXIMUM_ORDER {
-            return Err(Error::OrderTooLarge { order: document.order, bound: R::MAXIMUM_ORDER });
+        if document.order > R::MAX_ORDER {
+            return Err(Error::OrderTooLarge { order: document.order, bound: R::MAX_ORDER });
         }
         let space = space(&document)?;
         let vectors: Vec<&[i64]> = document.resonances.iter().map(Vec::as_slice).collect();
@@ -129,23 +160,19 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         }
         let diagonal = diagonal::<R>(&document, space.degrees_of_freedom())?;
         resonances.check(&diagonal.modes)?;
-        let mut offset = Polynomial::zero();
-        for (exponents, c) in &document.offset {
-            let fits = exponents.len() == space.names().len()
-                && exponents[..2 * space.degrees_of_freedom()].iter().all(|&e| e == 0);
-            if !fits {
-                return Err(inconsistent("constant term", 0, exponents, TermProblem::Degree));
-            }
-            offset.add_term(Monomial::new(exponents)?, &number(c)?);
-        }
+        let offset = reals("constant term", &document.offset, &space, |phase, _| phase == 0)?;
+        let most = document.order as u32 + 2;
+        let within = |phase, degree| phase > 0 && degree <= most;
+        let hamiltonian = reals("original hamiltonian", &document.original, &space, within)?;
         let mut form = BirkhoffNormalForm {
             space,
             diagonal,
             resonances,
             offset,
+            hamiltonian,
             normalization: Normalization {
                 hamiltonian: Vec::new(),
-                transform: LieTransform::new(crate::Poisson::new(&[])?, Vec::new()),
+                transform: LieTransform::new(crate::bracket::Poisson::new(&[])?, Vec::new()),
             },
         };
         count("hamiltonian", document.hamiltonian.len(), document.order + 1)?;
@@ -198,6 +225,29 @@ fn count(what: &'static str, found: usize, expected: usize) -> Result<(), Error>
 
 fn value<R: RealField>(c: &R) -> Value {
     if R::EPSILON == 0.0 { super::quadratic::literal(c).into() } else { c.to_float().into() }
+}
+
+/// A polynomial in real variables. Each term must have a valid degree in the variables, and a valid degree including the parameters.
+fn reals<R: RealField>(
+    what: &'static str,
+    terms: &[(Vec<u32>, Value)],
+    space: &PhaseSpace,
+    fits: impl Fn(u32, u32) -> bool,
+) -> Result<Polynomial<R>, Error> {
+    let mut polynomial = Polynomial::zero();
+    for (exponents, c) in terms {
+        let fail = |problem| inconsistent(what, 0, exponents, problem);
+        let monomial = Monomial::new(exponents)?;
+        let phase = monomial.degree_in(&space.phase_slots());
+        if exponents.len() != space.names().len() || !fits(phase, space.degree(monomial)) {
+            return Err(fail(TermProblem::Degree));
+        }
+        if polynomial.coefficient(&monomial).is_some() {
+            return Err(fail(TermProblem::Repeated));
+        }
+        polynomial.add_term(monomial, &number(c)?);
+    }
+    Ok(polynomial)
 }
 
 /// A number in the notation of its kind.
@@ -282,7 +332,7 @@ fn diagonal<R: RealField>(document: &Document, pairs: usize) -> Result<Diagonal<
     Ok(Diagonal { modes, matrix })
 }
 
-/// Refuses a matrix that is not symplectic, among floats to rounding.
+/// Refuses a matrix that is not symplectic (for floats: beyond rounding error).
 fn symplectic<R: RealField>(matrix: &Matrix<R>) -> Result<(), Error> {
     let columns = transposed(matrix);
     let largest = matrix.iter().flatten().map(|entry| entry.to_float().abs()).fold(1.0, f64::max);

@@ -1,19 +1,19 @@
-//! The truncated series of a normal form in `f64`: states to normal coordinates and back, actions, frequencies, motion.
+//! The truncated series of a normal form in `f64`: transformation of states to normal coordinates and back, actions, frequencies, motion.
 //!
-//! States are q₁, p₁, q₂, p₂, …, of the old variables or of the new ones. Of a centre only the image of U is needed: at real
-//! points q = Im U and p = Re U / r; of a saddle or a quartet those of u and U. Exact generators are rounded to floats once, and the series
-//! are composed from them.
-//! Cost: that of the two transformations once, then one pass over their terms for each state. The error of a state of
-//! amplitude ε is of the order ε^(N+2).
+//! A state is q₁, p₁, q₂, p₂, … in the old or the new variables. For a centre only the image of U is needed: at real points q = Im U and p = Re U / r. For a
+//! saddle or a quartet the images of u and U are needed. Exact generators are rounded to floats once, and the series are composed from the rounded generators.
+//! Cost: the two transformations once, then one pass over their terms for each state. The error of a state of amplitude ε is of the order ε^(N+2).
 
 use super::flow::{self, Flow};
 use super::matrix::{Matrix, dot, symplectic_inverse};
 use super::mode::Mode;
 use super::{BirkhoffNormalForm, turns};
-use crate::{Error, Monomial, Polynomial, Progress, RealField, SLOTS, quiet};
+use crate::real_field::RealField;
+use crate::triangle::{Progress, quiet};
+use crate::{Error, Monomial, Polynomial, SLOTS};
 use num_complex::Complex;
 
-/// A normal form ready for numbers: the transformation of states and the motion in the normal form.
+/// A normal form ready for numerical evaluation: the transformation of states, and the motion in the normal form.
 ///
 /// ```
 /// use andoyer_series::{BirkhoffMap, PhaseSpace, normalize};
@@ -38,14 +38,14 @@ pub struct BirkhoffMap {
     flow: Flow,
 }
 
-/// A polynomial in the complex variables with numbers for the parameters, its terms in canonical order.
+/// A polynomial in the complex variables with numbers for the parameters. Its terms are in canonical order.
 #[derive(Debug, Clone)]
 struct Series {
     terms: Vec<(Monomial, Complex<f64>)>,
 }
 
 impl BirkhoffMap {
-    /// The series of `normal_form` with numbers for its parameters, in the order of their names.
+    /// The series of `normal_form`. `parameters` are numbers for its parameters, in the order of their names.
     ///
     /// # Errors
     /// - one number for two parameters: [`Error::CountMismatch`]; a NaN, or floats that overflow: [`Error::NotFinite`].
@@ -53,10 +53,10 @@ impl BirkhoffMap {
         Self::with_progress(normal_form, parameters, &mut quiet)
     }
 
-    /// As [`new`](Self::new), with a callback as that of [`normalize_with`](crate::normalize_with), for every series anew.
+    /// The same as [`new`](Self::new), with a callback as in [`normalize_with`](crate::normalize_with). Its counts start again for every series.
     ///
     /// # Errors
-    /// - as [`new`](Self::new); a callback that returns `Break`: [`Error::Interrupted`].
+    /// - The errors of [`new`](Self::new); a callback that returns `Break`: [`Error::Interrupted`].
     pub fn with_progress<R: RealField>(
         normal_form: &BirkhoffNormalForm<R>,
         parameters: &[f64],
@@ -89,7 +89,7 @@ impl BirkhoffMap {
         Ok(BirkhoffMap { modes, linear: [matrix, back], direct, inverse, flow })
     }
 
-    /// The normal coordinates of a state.
+    /// The normal coordinates of a state q₁, p₁, q₂, p₂, …
     ///
     /// # Errors
     /// - a state of another length: [`Error::CountMismatch`]; a NaN, or a result that overflows: [`Error::NotFinite`].
@@ -98,19 +98,19 @@ impl BirkhoffMap {
         self.transformed(&self.inverse, &self.linear(1, state))
     }
 
-    /// The state of normal coordinates.
+    /// The state q₁, p₁, q₂, p₂, … at normal coordinates.
     ///
     /// # Errors
-    /// - as [`to_normal`](Self::to_normal).
+    /// - The errors of [`to_normal`](Self::to_normal).
     pub fn from_normal(&self, normal: &[f64]) -> Result<Vec<f64>, Error> {
         check("state", normal, 2 * self.modes.len())?;
         finite("transformed state", self.linear(0, &self.transformed(&self.direct, normal)?))
     }
 
-    /// The state of a point of the centre manifold, given by q and p of the centres alone.
+    /// The state at a point of the centre manifold. `centre` holds q and p of the centres only.
     ///
     /// # Errors
-    /// - as [`to_normal`](Self::to_normal).
+    /// - The errors of [`to_normal`](Self::to_normal).
     pub fn from_centre(&self, centre: &[f64]) -> Result<Vec<f64>, Error> {
         let centres = self.modes.iter().filter(|mode| mode.is_elliptic()).count();
         check("state", centre, 2 * centres)?;
@@ -121,25 +121,25 @@ impl BirkhoffMap {
         self.from_normal(&normal)
     }
 
-    /// Whether K is a function of the actions.
+    /// Whether K is a function of the actions alone.
     #[must_use]
     pub fn is_integrable(&self) -> bool {
         self.flow.is_integrable()
     }
 
-    /// The actions of a state, constant along its motion to the order of the normal form if there is no resonance.
+    /// The actions of a state. Without resonances they are constant along the motion, to the order of the normal form.
     ///
     /// # Errors
-    /// - as [`to_normal`](Self::to_normal).
+    /// - The errors of [`to_normal`](Self::to_normal).
     pub fn actions(&self, state: &[f64]) -> Result<Vec<f64>, Error> {
         Ok(flow::actions(&self.modes, &self.to_normal(state)?))
     }
 
-    /// The frequencies Ωᵢ = ∂K/∂Iᵢ at given actions: of a saddle the rate, of a quartet the rate and the frequency.
+    /// The frequencies Ωᵢ = ∂K/∂Iᵢ at given actions. For a saddle this is the rate, for a quartet the rate and the frequency.
     ///
     /// # Errors
-    /// - another number of actions: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`]; −1 of a
-    ///   centre: [`Error::OutsideInterval`], since I = (q²/r + r p²)/2 is never negative;
+    /// - another number of actions: [`Error::CountMismatch`]; a NaN: [`Error::NotFinite`]; −1 for a centre: [`Error::OutsideInterval`], since I = (q²/r + r
+    ///   p²)/2 is never negative;
     /// - a resonant normal form: [`Error::ResonantTerm`].
     pub fn frequencies(&self, actions: &[f64]) -> Result<Vec<f64>, Error> {
         check("actions", actions, self.modes.len())?;
@@ -153,25 +153,25 @@ impl BirkhoffMap {
     /// The value of the normal form at normal coordinates.
     ///
     /// # Errors
-    /// - as [`to_normal`](Self::to_normal).
+    /// - The errors of [`to_normal`](Self::to_normal).
     pub fn energy(&self, normal: &[f64]) -> Result<f64, Error> {
         check("state", normal, 2 * self.modes.len())?;
         self.flow.energy(normal)
     }
 
-    /// The rates of normal coordinates, by Hamilton's equations of the normal form.
+    /// The rates of normal coordinates, from Hamilton's equations of the normal form.
     ///
     /// # Errors
-    /// - as [`to_normal`](Self::to_normal).
+    /// - The errors of [`to_normal`](Self::to_normal).
     pub fn rates(&self, normal: &[f64]) -> Result<Vec<f64>, Error> {
         check("state", normal, 2 * self.modes.len())?;
         finite("rates", self.flow.rates(normal)?)
     }
 
-    /// The states at times after that of `state`, by the motion of the normal form, in which the actions are constant.
+    /// The states at `times` after that of `state`, from the motion of the normal form, in which the actions are constant.
     ///
     /// # Errors
-    /// - as [`to_normal`](Self::to_normal) and [`frequencies`](Self::frequencies); a NaN among the times: [`Error::NotFinite`].
+    /// - The errors of [`to_normal`](Self::to_normal) and [`frequencies`](Self::frequencies); a NaN among the times: [`Error::NotFinite`].
     pub fn trajectory(&self, state: &[f64], times: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
         check("times", times, times.len())?;
         let normal = self.to_normal(state)?;
@@ -185,7 +185,7 @@ impl BirkhoffMap {
         self.linear[which].iter().map(|row| dot(row, state)).collect()
     }
 
-    /// The images of real normal variables by one of the two transformations.
+    /// The images of real normal variables under one of the two transformations.
     fn transformed(&self, images: &[Series], state: &[f64]) -> Result<Vec<f64>, Error> {
         let point = flow::complex_point(&self.modes, state);
         let mut powers: Vec<Vec<Complex<f64>>> =
@@ -199,7 +199,7 @@ impl BirkhoffMap {
     }
 }
 
-/// The complex variables whose images give the real ones of a mode.
+/// The complex variables whose images determine the real variables of a mode.
 fn needed(mode: usize, kind: &Mode<f64>) -> Vec<usize> {
     match kind {
         Mode::Elliptic { .. } => vec![2 * mode + 1],
@@ -224,7 +224,7 @@ impl Series {
         }
     }
 
-    /// The value at a point given by tables of powers, which grow as needed and hold the powers 0 and 1 at least.
+    /// The value at a point. `powers` holds tables of powers with at least the powers 0 and 1; they grow as needed.
     fn evaluate(&self, powers: &mut [Vec<Complex<f64>>]) -> Complex<f64> {
         let mut sum = Complex::default();
         for &(monomial, c) in &self.terms {

@@ -1,7 +1,8 @@
 //! Small matrices over a field, and the symplectic form in the order q₁, p₁, q₂, p₂, …
 
 use super::mode::modulus;
-use crate::{Coefficient, RealField};
+use crate::Coefficient;
+use crate::real_field::RealField;
 use num_traits::{One, Zero};
 
 pub(crate) type Matrix<C> = Vec<Vec<C>>;
@@ -50,7 +51,7 @@ pub(crate) fn form_entry(i: usize, j: usize) -> i64 {
     above(i, j) - above(j, i)
 }
 
-/// J M, the rows in pairs.
+/// J M, where J acts on pairs of rows.
 pub(crate) fn turned_rows<C: Coefficient>(matrix: &Matrix<C>) -> Matrix<C> {
     transposed(&transposed(matrix).iter().map(|column| turned(column)).collect())
 }
@@ -60,9 +61,9 @@ pub(crate) fn symplectic_inverse<C: Coefficient>(matrix: &Matrix<C>) -> Matrix<C
     turned_rows(&transposed(&turned_rows(matrix))) // J (J M)ᵀ = J Mᵀ Jᵀ
 }
 
-/// The null vectors of a square matrix by elimination with complete pivoting, `None` where there are not `dimension` of them.
+/// The null vectors of a square matrix, from elimination with complete pivoting; `None` if there are fewer or more than `dimension` of them.
 ///
-/// Among floats the last `dimension` pivots count as zero where they are below `smallest`.
+/// For floats the last `dimension` pivots count as zero if they are at most `smallest`.
 pub(crate) fn null_space<R: RealField>(
     mut matrix: Matrix<R::Complex>,
     dimension: usize,

@@ -1,14 +1,15 @@
 //! The Birkhoff normal form of any polynomial Hamiltonian about an equilibrium.
 //!
-//! H(q₁, p₁, …, qₙ, pₙ) = constant + H₂ + terms of higher degree, {q; p} = 1. A linear symplectic change makes H₂ a sum of modes ([`quadratic`], [`williamson`],
-//! [`mode`]): centres, saddles, quartets. Graded by degree, parameters by the degrees they are given: the terms of degree 2 + n are of order n. Order N removes by
-//! Deprit's triangle (theory §4), in the complex variables (u, U) of the modes, every term of degree 2 + N at most but those that [`Resonances`] keeps: the Gustavson
-//! form where there are resonances, the centre manifold where all terms of the centres are kept. Generators have no kernel part, which makes the normal form unique.
+//! H(q₁, p₁, …, qₙ, pₙ) = constant + H₂ + terms of higher degree, with {q; p} = 1. A linear symplectic change turns H₂ into a sum of modes: centres, saddles
+//! and quartets (`quadratic`, `williamson`, `mode`). Terms are graded by degree, where parameters count with given degrees: the terms of degree 2 + n are of
+//! order n. Deprit's triangle (theory §4), in the complex variables (u, U) of the modes, removes every term of degree 2 + N or less except those that
+//! [`Resonances`] keeps. The result is the Gustavson form if there are resonances, and the reduction to the centre manifold if all terms of the centres are
+//! kept. Generators have no kernel part, which makes the normal form unique.
 //!
-//! Exact over the rationals where the eigenvalues are rational, else in `f64`. The series diverge in general: at fixed amplitude there is a best order ([`domain`]).
-//! Cost: the triangle's, N³/6 brackets of ever larger polynomials.
-//! Sources: G. D. Birkhoff, *Dynamical Systems* (1927), ch. III; J. Williamson, Amer. J. Math. 58 (1936) 141; F. G. Gustavson, Astron. J. 71 (1966) 670; A. Deprit,
-//! Celest. Mech. 1 (1969) 12; A. Jorba and J. Masdemont, Physica D 132 (1999) 189.
+//! The computation is exact over the rationals if the eigenvalues are rational; otherwise it is in `f64`. The series diverge in general, so at fixed amplitude
+//! there is a best order (`domain`). Cost: N³/6 brackets of growing polynomials. Sources: G. D. Birkhoff, *Dynamical Systems* (1927), ch. III; J. Williamson,
+//! Amer. J. Math. 58 (1936) 141; F. G. Gustavson, Astron. J. 71 (1966) 670; A. Deprit, Celest. Mech. 1 (1969) 12; A. Jorba and J. Masdemont, Physica D 132
+//! (1999) 189.
 
 mod code;
 mod diagonal;
@@ -21,9 +22,11 @@ mod mode;
 mod phase_space;
 mod quadratic;
 mod resonances;
+mod scaled;
 mod spectrum;
 mod text;
 mod transformation;
+mod verify;
 mod williamson;
 
 pub use domain::Domain;
@@ -32,8 +35,10 @@ pub use mode::Mode;
 pub use phase_space::PhaseSpace;
 pub use resonances::Resonances;
 
+use crate::real_field::RealField;
+use crate::triangle::{LieTransform, Normalization, Progress, quiet};
 use crate::triangle::{Removal, normalize_by};
-use crate::{Coefficient, Error, LieTransform, Monomial, Normalization, Polynomial, Progress, RealField, quiet};
+use crate::{Coefficient, Error, Monomial, Polynomial};
 use diagonal::Diagonal;
 use mode::{modulus, substitute};
 use resonances::{divisor, is_small};
@@ -46,12 +51,14 @@ pub struct BirkhoffNormalForm<R: RealField> {
     diagonal: Diagonal<R>,
     resonances: Resonances,
     offset: Polynomial<R>,
+    /// The normalized Hamiltonian, without the constant term and without the terms above its order.
+    hamiltonian: Polynomial<R>,
     normalization: Normalization<R::Complex>,
 }
 
-/// The normal form of `hamiltonian` to `order`, of degree `order` + 2, without resonances.
+/// Computes the normal form of `hamiltonian` to `order`, that is to degree `order` + 2, without resonances.
 ///
-/// Terms of a higher degree do not matter. Parameters count as [`PhaseSpace::with_parameters`] says.
+/// Terms of higher degree have no effect. [`PhaseSpace::with_parameters`] defines the degrees of parameters.
 ///
 /// ```
 /// use andoyer_series::{PhaseSpace, normalize};
@@ -65,11 +72,11 @@ pub struct BirkhoffNormalForm<R: RealField> {
 ///
 /// # Errors
 /// - q + p²/2: [`Error::LinearTerm`]; p²/2: [`Error::ZeroFrequency`]; x X + y Y + x Y: [`Error::Defective`]; d q² + p² with d of degree 0:
-///   [`Error::ParameterDegree`], and else [`Error::FrequencyParameter`];
-/// - p²/2 + q² over the rationals: [`Error::FrequencyIrrational`], of coupled pairs [`Error::SpectrumIrrational`]; a NaN: [`Error::NotFinite`];
-/// - two modes of one frequency, coupled: [`Error::SmallDivisor`];
+///   [`Error::ParameterDegree`], otherwise [`Error::FrequencyParameter`];
+/// - p²/2 + q² over the rationals: [`Error::FrequencyIrrational`], for coupled pairs [`Error::SpectrumIrrational`]; a NaN: [`Error::NotFinite`];
+/// - two coupled modes with equal frequencies: [`Error::SmallDivisor`];
 /// - order 171 in `f64`, 32764 over the rationals: [`Error::OrderTooLarge`];
-/// - a variable beyond those of `space`: [`Error::ValueMissing`].
+/// - a variable that `space` does not have: [`Error::ValueMissing`].
 pub fn normalize<R: RealField>(
     hamiltonian: &Polynomial<R>,
     order: usize,
@@ -78,12 +85,14 @@ pub fn normalize<R: RealField>(
     normalize_with(hamiltonian, order, space, &Resonances::default(), &mut quiet)
 }
 
-/// The normal form of `hamiltonian` to `order` that keeps the terms of `resonances`.
+/// Computes the normal form of `hamiltonian` to `order` and keeps the terms of `resonances`.
 ///
-/// `progress` is called before every cell of the triangle, and within long ones, with (orders done, `order`).
+/// `progress` is called with (orders done, `order`) before every cell of the triangle and during long cells.
 ///
 /// ```
-/// use andoyer_series::{PhaseSpace, Resonances, normalize_with, quiet};
+/// use andoyer_series::{PhaseSpace, normalize_with};
+/// use andoyer_series::birkhoff::Resonances;
+/// use andoyer_series::progress::quiet;
 /// use num_rational::BigRational;
 /// let space = PhaseSpace::new(&[("x", "X"), ("y", "Y")])?;
 /// let henon_heiles = space.parse::<BigRational>("(x^2 + X^2 + y^2 + Y^2)/2 + x^2*y - y^3/3")?;
@@ -96,7 +105,7 @@ pub fn normalize<R: RealField>(
 /// ```
 ///
 /// # Errors
-/// - as [`normalize`];
+/// - the errors of [`normalize`];
 /// - resonances of another number of modes: [`Error::ResonanceMalformed`]; (1, −1) for frequencies 1 and 2: [`Error::NotResonant`];
 /// - a callback that returns `Break`: [`Error::Interrupted`].
 pub fn normalize_with<R: RealField>(
@@ -106,8 +115,8 @@ pub fn normalize_with<R: RealField>(
     resonances: &Resonances,
     progress: &mut Progress<'_>,
 ) -> Result<BirkhoffNormalForm<R>, Error> {
-    if order > R::MAXIMUM_ORDER {
-        return Err(Error::OrderTooLarge { order, bound: R::MAXIMUM_ORDER });
+    if order > R::MAX_ORDER {
+        return Err(Error::OrderTooLarge { order, bound: R::MAX_ORDER });
     }
     let space = space.settled(hamiltonian);
     let diagonal = Diagonal::of(hamiltonian, &space)?;
@@ -116,12 +125,17 @@ pub fn normalize_with<R: RealField>(
     let removal = |n, known: &Polynomial<_>| remove(n, known, &diagonal.modes, resonances, &space);
     let normalization = normalize_by(&series, &space.poisson()?, order, &removal, progress)?;
     let offset = hamiltonian.filter(|monomial, _| monomial.degree_in(&space.phase_slots()) == 0);
-    let normal_form = BirkhoffNormalForm { space, diagonal, resonances: resonances.clone(), offset, normalization };
+    let within = |monomial: Monomial| {
+        monomial.degree_in(&space.phase_slots()) > 0 && space.degree(monomial) as usize <= order + 2
+    };
+    let hamiltonian = hamiltonian.filter(|monomial, _| within(monomial));
+    let resonances = resonances.clone();
+    let normal_form = BirkhoffNormalForm { space, diagonal, resonances, offset, hamiltonian, normalization };
     normal_form.check_finite()?;
     Ok(normal_form)
 }
 
-/// The parts of degree 2, 3, …, `order` + 2 in the complex variables; that of degree 2 is −i Σ ω u U, to the bit.
+/// The parts of degree 2, 3, …, `order` + 2 in the complex variables. The part of degree 2 is exactly −i Σ ω u U, without rounding.
 fn graded<R: RealField>(
     hamiltonian: &Polynomial<R>,
     order: usize,
@@ -148,13 +162,13 @@ fn graded<R: RealField>(
     Ok(series)
 }
 
-/// k: the exponents of U less those of u.
+/// k: the exponents of U minus the exponents of u.
 fn turns(monomial: Monomial, modes: usize) -> Vec<i64> {
     let exponent = |slot| i64::from(monomial.exponent(slot));
     (0..modes).map(|mode| exponent(2 * mode + 1) - exponent(2 * mode)).collect()
 }
 
-/// The image part of `known` and S with {h₀; S} = −image: {h₀; S} = −i (k·ω) S for a term S.
+/// The image part of `known`, and the S with {h₀; S} = −image. For a single term, {h₀; S} = −i (k·ω) S.
 fn remove<R: RealField>(
     order: usize,
     known: &Polynomial<R::Complex>,
@@ -190,7 +204,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         self.normalization.transform.order()
     }
 
-    /// The variables.
+    /// The variables of the normal form.
     #[must_use]
     pub fn space(&self) -> &PhaseSpace {
         &self.space
@@ -202,13 +216,13 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         &self.diagonal.modes
     }
 
-    /// The frequencies ωᵢ: real for centres, negative where the energy of a centre is, iλ for saddles, iσ ∓ ν for quartets.
+    /// The frequencies ωᵢ: real for centres (negative if the energy of the centre is negative), iλ for saddles, iσ ∓ ν for quartets.
     #[must_use]
     pub fn frequencies(&self) -> Vec<R::Complex> {
         self.modes().iter().map(Mode::frequency).collect()
     }
 
-    /// The symplectic matrix M by rows, z = M z′, of the linear change that diagonalizes the quadratic part; z = (q₁, p₁, q₂, …).
+    /// The rows of the symplectic matrix M of the linear change z = M z′ that diagonalizes the quadratic part, with z = (q₁, p₁, q₂, …).
     #[must_use]
     pub fn linear_change(&self) -> &[Vec<R>] {
         &self.diagonal.matrix
@@ -220,19 +234,25 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         &self.resonances
     }
 
-    /// The energy of the equilibrium: the constant term, with parameters where they occur in it.
+    /// The energy of the equilibrium: the constant term, which may contain parameters.
     #[must_use]
     pub fn offset(&self) -> &Polynomial<R> {
         &self.offset
     }
 
-    /// The transformation in the complex variables, the order n of its series being the degree less 2.
+    /// The Hamiltonian that was normalized, to the degree of its order and without the constant term.
+    #[must_use]
+    pub fn hamiltonian(&self) -> &Polynomial<R> {
+        &self.hamiltonian
+    }
+
+    /// The transformation in the complex variables. Order n of its series is degree n + 2.
     #[must_use]
     pub fn transform(&self) -> &LieTransform<R::Complex> {
         &self.normalization.transform
     }
 
-    /// The normal form in the complex variables (u₁, U₁, u₂, U₂, …), offset included.
+    /// The normal form in the complex variables (u₁, U₁, u₂, U₂, …), including the offset.
     #[must_use]
     pub fn in_complex(&self) -> Polynomial<R::Complex> {
         let mut sum = self.offset.map(|c| R::complex(c.clone(), R::zero()));
@@ -242,17 +262,17 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         sum
     }
 
-    /// The normal form in the new real variables (q₁′, p₁′, q₂′, p₂′, …), offset included.
+    /// The normal form in the new real variables (q₁′, p₁′, q₂′, p₂′, …), including the offset.
     ///
     /// # Errors
-    /// - none for a normal form that exists: degrees stay as they are.
+    /// - None for an existing normal form: degrees do not change.
     pub fn in_real(&self) -> Result<Polynomial<R>, Error> {
         to_real(&self.in_complex(), self.modes())
     }
 
-    /// The normal form in the actions, offset included: Iᵢ in slot i, the parameters after them.
+    /// The normal form in the actions, including the offset: Iᵢ is in slot i, and the parameters follow.
     ///
-    /// I is (q²/r + r p²)/2 of a centre, q p of a saddle, q p + Q P and q P − Q p of the two modes (q, p), (Q, P) of a quartet.
+    /// I is (q²/r + r p²)/2 for a centre and q p for a saddle. For the two modes (q, p), (Q, P) of a quartet the actions are q p + Q P and q P − Q p.
     ///
     /// # Errors
     /// - resonant terms: [`Error::ResonantTerm`].
@@ -274,7 +294,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         Ok(substitute(&products, &images)?.map(|c| R::parts(c).0))
     }
 
-    /// uU of a mode in the actions.
+    /// The product u U of a mode as a function of the actions.
     fn action_form(&self, mode: usize, kind: &Mode<R>) -> Result<Polynomial<R::Complex>, Error> {
         let action = |mode: usize, re, im| Ok::<_, Error>((Monomial::ONE.with(mode, 1)?, R::complex(re, im)));
         let terms = match kind {
@@ -292,12 +312,12 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         Ok(Polynomial::from_terms(terms))
     }
 
-    /// The Hamiltonian on the centre manifold, where the saddles and quartets rest at q = p = 0, in the new real variables of the centres.
+    /// The Hamiltonian on the centre manifold, in the new real variables of the centres. On this manifold the saddles and quartets have q = p = 0.
     ///
-    /// Its points are those of [`BirkhoffMap::from_normal`] with zeros for the saddles.
+    /// [`BirkhoffMap::from_centre`] gives the states of its points.
     ///
     /// # Errors
-    /// - none for a normal form that exists.
+    /// - None for an existing normal form.
     pub fn centre_manifold(&self) -> Result<Polynomial<R>, Error> {
         let outside: Vec<usize> = self.saddle_slots();
         to_real(&self.in_complex().filter(|monomial, _| monomial.degree_in(&outside) == 0), self.modes())
@@ -309,7 +329,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         modes.flat_map(|(mode, _)| [2 * mode, 2 * mode + 1]).collect()
     }
 
-    /// The generating function S_m in real variables, of degree m + 2; orders as theory §4 numbers them, 1 to N.
+    /// The generating function S_m in real variables. It has degree m + 2; orders are numbered 1 to N as in theory §4.
     ///
     /// # Errors
     /// - 0, N + 1: [`Error::OrderOutOfRange`].
@@ -319,7 +339,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         to_real(&self.transform().generator(m).ok_or_else(range)?, self.modes())
     }
 
-    /// Floats that overflowed on the way are an error.
+    /// Refuses floats that overflowed during the computation.
     fn check_finite(&self) -> Result<(), Error> {
         let generators = (1..=self.order()).filter_map(|m| self.transform().scaled_generator(m));
         for polynomial in self.normalization.hamiltonian.iter().chain(generators) {

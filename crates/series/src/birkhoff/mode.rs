@@ -9,15 +9,17 @@
 //!             u = (q − iQ)/2,  U = p + iP and their conjugates;      uU = (I + i I′)/2, I = q p + Q P, I′ = q P − Q p
 //! ```
 //!
-//! An elliptic mode has q = √(2rI) sin φ, p = √(2I/r) cos φ, dφ/dt = ω. A hyperbolic one has q ~ e^{λt}, p ~ e^{−λt}: q is the unstable direction.
-//! Real scales r keep square roots out, so that all is rational where the frequencies are.
+//! An elliptic mode has q = √(2rI) sin φ, p = √(2I/r) cos φ, dφ/dt = ω. A hyperbolic mode has q ~ e^{λt}, p ~ e^{−λt}, so q is the unstable direction. The real
+//! scales r avoid square roots, so everything is rational if the frequencies are.
 
-use crate::{Coefficient, Error, Monomial, Polynomial, RealField};
+use crate::real_field::RealField;
+use crate::{Coefficient, Error, Monomial, Polynomial};
 
 /// One mode of the quadratic part.
 ///
 /// ```
-/// use andoyer_series::{Mode, PhaseSpace, normalize};
+/// use andoyer_series::{PhaseSpace, normalize};
+/// use andoyer_series::birkhoff::Mode;
 /// let space = PhaseSpace::new(&[("x", "X"), ("y", "Y")])?;
 /// let saddle_and_centre = normalize(&space.parse::<f64>("(X^2 - 4*x^2)/2 + (Y^2 + y^2)/2")?, 0, &space)?;
 /// let [Mode::Hyperbolic { rate }, centre] = saddle_and_centre.modes() else { panic!("{saddle_and_centre}") };
@@ -29,7 +31,7 @@ use crate::{Coefficient, Error, Monomial, Polynomial, RealField};
 pub enum Mode<R> {
     /// A centre, (a p² + b q²)/2 with ab > 0.
     Elliptic {
-        /// ω = ±√(ab), negative where a and b are.
+        /// ω = ±√(ab), with the sign of a and b.
         frequency: R,
         /// r = √(a/b).
         ratio: R,
@@ -51,7 +53,7 @@ pub enum Mode<R> {
 }
 
 impl<R> Mode<R> {
-    /// This mode with its numbers mapped, to floats for instance.
+    /// This mode with `function` applied to its numbers, for example to convert them to floats.
     pub(crate) fn map<S>(&self, function: impl Fn(&R) -> S) -> Mode<S> {
         match self {
             Mode::Elliptic { frequency, ratio } => {
@@ -78,7 +80,7 @@ impl<R: RealField> Mode<R> {
         }
     }
 
-    /// "elliptic", "hyperbolic" or "complex".
+    /// The name of the kind: "elliptic", "hyperbolic" or "complex".
     pub fn kind(&self) -> &'static str {
         match self {
             Mode::Elliptic { .. } => "elliptic",
@@ -87,7 +89,7 @@ impl<R: RealField> Mode<R> {
         }
     }
 
-    /// r = √(a/b) of a centre.
+    /// r = √(a/b) of a centre; `None` for other modes.
     pub fn ratio(&self) -> Option<&R> {
         if let Mode::Elliptic { ratio, .. } = self { Some(ratio) } else { None }
     }
@@ -98,7 +100,7 @@ impl<R: RealField> Mode<R> {
     }
 }
 
-/// √(re² + im²) of a number, and its parts in floats.
+/// The modulus √(re² + im²) of a number, in floats.
 pub(crate) fn modulus<R: RealField>(value: &R::Complex) -> f64 {
     let (re, im) = R::parts(value);
     re.to_float().hypot(im.to_float())
@@ -186,7 +188,7 @@ fn form<R: RealField>(terms: Vec<(usize, Parts<R>)>) -> Result<Polynomial<R::Com
     Ok(Polynomial::from_terms(terms.collect::<Result<Vec<_>, Error>>()?))
 }
 
-/// `f` with the linear form number i put for the variable of slot i, by Horner's rule in one variable after the other.
+/// Substitutes the linear form number i for the variable of slot i in `f`, by Horner's rule in one variable after the other.
 pub(crate) fn substitute<C: Coefficient>(f: &Polynomial<C>, forms: &[Polynomial<C>]) -> Result<Polynomial<C>, Error> {
     replace(f.terms().map(|(monomial, c)| (monomial, c.clone())).collect(), forms, 0)
 }
@@ -217,7 +219,7 @@ fn replace<C: Coefficient>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Poisson;
+    use crate::bracket::Poisson;
     use num_complex::Complex;
     use num_rational::BigRational;
 

@@ -1,12 +1,12 @@
 //! The variables of a Hamiltonian: conjugate pairs (q, p), then parameters.
 //!
-//! Convention: pair number i has q in slot 2i and p in slot 2i + 1, {q; p} = 1; the parameters follow and commute with
-//! everything. So polynomials, exponents and states list the variables as q₁, p₁, q₂, p₂, …. The monomials have eight
-//! slots: up to four degrees of freedom, or three with two parameters.
-//! The same slots hold the complex variables (u, U) of a normal form, printed as `u_q`, `U_q` for the pair (q, p).
+//! Convention: pair number i has q in slot 2i and p in slot 2i + 1, with {q; p} = 1. The parameters follow and commute with everything. Polynomials, exponents
+//! and states therefore list the variables as q₁, p₁, q₂, p₂, …. A monomial has eight slots, enough for four degrees of freedom, or for three with two
+//! parameters. The same slots hold the complex variables (u, U) of a normal form, which are printed as `u_q`, `U_q` for the pair (q, p).
 
+use crate::bracket::Poisson;
 use crate::parse::check_names;
-use crate::{Coefficient, Error, Monomial, Poisson, Polynomial, SLOTS};
+use crate::{Coefficient, Error, Monomial, Polynomial, SLOTS};
 
 /// The named variables of a Hamiltonian.
 ///
@@ -23,7 +23,7 @@ use crate::{Coefficient, Error, Monomial, Poisson, Polynomial, SLOTS};
 pub struct PhaseSpace {
     names: Vec<String>,
     degrees_of_freedom: usize,
-    /// Degrees of the parameters where they were given.
+    /// The given degrees of the parameters; `None` if no degree was given.
     degrees: Vec<Option<u32>>,
 }
 
@@ -32,30 +32,33 @@ impl PhaseSpace {
     ///
     /// # Errors
     /// - no pair, or five: [`Error::PhaseSpaceSize`];
-    /// - ("x", "x"), ("x", "2y"): [`Error::Parse`], the name is taken or no identifier.
+    /// - ("x", "x"), ("x", "2y"): [`Error::Parse`], because the name is taken or is not an identifier.
     pub fn new(pairs: &[(&str, &str)]) -> Result<Self, Error> {
         let names = pairs.iter().flat_map(|&(q, p)| [q.to_owned(), p.to_owned()]).collect();
         PhaseSpace { names, degrees_of_freedom: pairs.len(), degrees: Vec::new() }.checked()
     }
 
-    /// This space with parameters more: symbols in the coefficients.
+    /// This space with additional parameters, which are symbols in the coefficients.
     ///
-    /// A parameter counts as degree 2 where it occurs in the quadratic part (a detuning, like d in d y²), else as degree 0, unless
-    /// [`with_degree`](Self::with_degree) says otherwise.
+    /// A parameter that occurs in the quadratic part has degree 2 (a detuning, like d in d y²). Any other parameter has degree 0.
+    /// [`with_degree`](Self::with_degree) sets another degree.
     ///
     /// # Errors
-    /// - three of them beside three pairs: [`Error::PhaseSpaceSize`];
-    /// - a name that is taken or no identifier: [`Error::Parse`].
+    /// - three parameters with three pairs: [`Error::PhaseSpaceSize`];
+    /// - a name that is taken or is not an identifier: [`Error::Parse`].
     pub fn with_parameters(mut self, names: &[&str]) -> Result<Self, Error> {
         self.names.extend(names.iter().map(|&name| name.to_owned()));
         self.degrees.extend(names.iter().map(|_| None));
         self.checked()
     }
 
-    /// This space with a degree for a parameter: how small it is beside the variables, for the order in which terms are removed.
+    /// This space with a degree for a parameter. The degree states how small the parameter is compared with the variables, and so decides the order in which
+    /// terms are removed.
     ///
     /// ```
-    /// use andoyer_series::{PhaseSpace, Resonances, normalize_with, quiet};
+    /// use andoyer_series::{PhaseSpace, normalize_with};
+    /// use andoyer_series::birkhoff::Resonances;
+    /// use andoyer_series::progress::quiet;
     /// use num_rational::BigRational;
     /// // Near the 1:1 resonance: frequencies 1 and 1 + d, the detuning d of degree 1.
     /// let space = PhaseSpace::new(&[("x", "X"), ("y", "Y")])?.with_parameters(&["d"])?.with_degree("d", 1)?;
@@ -67,7 +70,7 @@ impl PhaseSpace {
     /// ```
     ///
     /// # Errors
-    /// - a name that is no parameter: [`Error::ParameterUnknown`].
+    /// - a name that is not a parameter: [`Error::ParameterUnknown`].
     pub fn with_degree(mut self, parameter: &str, degree: u32) -> Result<Self, Error> {
         let first = 2 * self.degrees_of_freedom;
         match self.names[first..].iter().position(|name| name == parameter) {
@@ -80,7 +83,24 @@ impl PhaseSpace {
         Ok(self)
     }
 
-    /// This space with the degrees of all parameters settled, those not given by whether they occur in the quadratic part of `hamiltonian`.
+    /// This space with a new name for a parameter.
+    pub(super) fn with_renamed(&self, parameter: &str, name: &str) -> Result<Self, Error> {
+        let mut renamed = self.clone().with_degree(parameter, 0)?;
+        for known in &mut renamed.names[2 * self.degrees_of_freedom..] {
+            if known == parameter {
+                name.clone_into(known);
+            }
+        }
+        renamed.checked()
+    }
+
+    /// The names as `String`s.
+    pub(super) fn owned_names(&self) -> Vec<String> {
+        self.names.clone()
+    }
+
+    /// This space with degrees for all parameters. A missing degree follows from the quadratic part of `hamiltonian`: 2 if the parameter occurs in it,
+    /// otherwise 0.
     pub(crate) fn settled<C: Coefficient>(&self, hamiltonian: &Polynomial<C>) -> Self {
         let phase = self.phase_slots();
         let detunes = |slot| hamiltonian.terms().any(|(m, _)| m.degree_in(&phase) == 2 && m.exponent(slot) > 0);
@@ -91,14 +111,14 @@ impl PhaseSpace {
         settled
     }
 
-    /// The degree of a monomial: that in the pairs, and the degrees of the parameters in it.
+    /// The degree of a monomial: its degree in the pairs plus the degrees of its parameters.
     pub(crate) fn degree(&self, monomial: Monomial) -> u32 {
         let parameters = (2 * self.degrees_of_freedom..).zip(&self.degrees);
         let parameters = parameters.map(|(slot, degree)| monomial.exponent(slot).saturating_mul(degree.unwrap_or(0)));
         parameters.fold(monomial.degree_in(&self.phase_slots()), u32::saturating_add)
     }
 
-    /// Degrees of the parameters, `None` where they are not settled.
+    /// Degrees of the parameters; `None` if a degree was not given.
     #[must_use]
     pub fn parameter_degrees(&self) -> &[Option<u32>] {
         &self.degrees
@@ -149,18 +169,18 @@ impl PhaseSpace {
         actions.chain(self.names[2 * self.degrees_of_freedom..].iter().cloned()).collect()
     }
 
-    /// Reads a polynomial in these variables: [`Polynomial::parse`].
+    /// Reads a polynomial in these variables, as [`Polynomial::parse`] does.
     ///
     /// # Errors
-    /// - as [`Polynomial::parse`].
+    /// - The errors of [`Polynomial::parse`].
     pub fn parse<C: Coefficient>(&self, text: &str) -> Result<Polynomial<C>, Error> {
         Polynomial::parse(text, &self.names())
     }
 
-    /// The bracket of the pairs.
+    /// The Poisson bracket of the pairs.
     ///
     /// # Errors
-    /// - none: the slots differ.
+    /// - None, since the slots differ.
     pub fn poisson(&self) -> Result<Poisson, Error> {
         Poisson::new(&(0..self.degrees_of_freedom).map(|mode| (2 * mode, 2 * mode + 1)).collect::<Vec<_>>())
     }
@@ -170,7 +190,7 @@ impl PhaseSpace {
         (0..2 * self.degrees_of_freedom).collect()
     }
 
-    /// A polynomial as text, in names given as `String`.
+    /// A polynomial as text, with names given as `String`.
     pub(crate) fn text<C: Coefficient>(polynomial: &Polynomial<C>, names: &[String]) -> String {
         polynomial.display(&names.iter().map(String::as_str).collect::<Vec<_>>()).to_string()
     }

@@ -1,21 +1,22 @@
 //! The quadratic part of a Hamiltonian, and the linear symplectic change of variables that diagonalizes it.
 //!
-//! H₂ = ½ zᵀ A z, z = (q₁, p₁, q₂, …), has the linear motion ż = J A z. Where J A can be diagonalized and has no eigenvalue 0, there is a real
-//! symplectic M, Mᵀ J M = J, such that z = M z′ makes it a sum of the modes of [`Mode`](super::mode): centres, saddles and quartets (Williamson).
+//! H₂ = ½ zᵀ A z with z = (q₁, p₁, q₂, …) has the linear motion ż = J A z. If J A can be diagonalized and has no eigenvalue 0, there is a real symplectic M, Mᵀ
+//! J M = J, such that z = M z′ turns H₂ into a sum of the modes of [`Mode`](super::mode): centres, saddles and quartets (Williamson).
 //!
-//! Pairs that no product couples are separate blocks. A pair that is a centre (a p² + b q²)/2 already stays as it is. In any other block the modes stand
-//! in the order saddles by descending rate, quartets, centres by descending |ω|, in the places of the block's pairs.
-//! A is scaled by powers of two before eigenvalues are compared, q → s q, p → p/s, so that units do not matter.
+//! Pairs that no product couples are separate blocks. A pair that already is a centre (a p² + b q²)/2 does not change. In any other block the modes are
+//! ordered: saddles by descending rate, then quartets, then centres by descending |ω|. They take the places of the pairs of the block. Before eigenvalues are
+//! compared, A is scaled by powers of two, q → s q, p → p/s, so that units have no effect.
 
 use super::PhaseSpace;
 use super::diagonal::Diagonal;
 use super::matrix::{Matrix, product, symplectic_inverse, transposed, unit};
 use super::mode::Mode;
 use super::williamson;
-use crate::{Error, Monomial, Polynomial, RealField};
+use crate::real_field::RealField;
+use crate::{Error, Monomial, Polynomial};
 
 impl<R: RealField> Diagonal<R> {
-    /// The modes of the quadratic part of `hamiltonian`, whose terms are checked first.
+    /// The modes of the quadratic part of `hamiltonian`, after a check of all terms.
     pub(crate) fn of(hamiltonian: &Polynomial<R>, space: &PhaseSpace) -> Result<Self, Error> {
         check(hamiltonian, space)?;
         let second = matrix(hamiltonian, space)?;
@@ -49,18 +50,18 @@ impl<R: RealField> Diagonal<R> {
         Ok(Diagonal { modes: modes.into_iter().flatten().collect(), matrix: change })
     }
 
-    /// The forms of the old variables in the new ones, `None` where they are the same.
+    /// The old variables as linear forms in the new ones, or `None` if they are equal.
     pub(crate) fn forms(&self) -> Result<Option<Vec<Polynomial<R>>>, Error> {
         forms(&self.matrix)
     }
 
-    /// The forms of the new variables in the old ones, `None` where they are the same.
+    /// The new variables as linear forms in the old ones, or `None` if they are equal.
     pub(crate) fn inverse_forms(&self) -> Result<Option<Vec<Polynomial<R>>>, Error> {
         forms(&symplectic_inverse(&self.matrix))
     }
 }
 
-/// A zero frequency that a parameter would lift is another error.
+/// Replaces the error of a zero frequency if a term with a parameter in the block could make the frequency nonzero.
 fn explained<R: RealField>(error: Error, hamiltonian: &Polynomial<R>, space: &PhaseSpace, slots: &[usize]) -> Error {
     let phase = space.phase_slots();
     let in_block = |m: Monomial| m.degree_in(slots) == 2 && m.degree_in(&phase) == 2 && m.total_degree() > 2;
@@ -84,7 +85,7 @@ fn forms<R: RealField>(matrix: &Matrix<R>) -> Result<Option<Vec<Polynomial<R>>>,
     matrix.iter().map(form).collect::<Result<Vec<_>, Error>>().map(Some)
 }
 
-/// Refuses what has no quadratic part with numbers for coefficients: NaN, variables of another space, linear terms, parameters of degree 0.
+/// Refuses a Hamiltonian whose quadratic part does not have numbers as coefficients: NaN, variables of another space, linear terms, parameters of degree 0.
 fn check<R: RealField>(hamiltonian: &Polynomial<R>, space: &PhaseSpace) -> Result<(), Error> {
     for (monomial, c) in hamiltonian.terms() {
         let unknown = (space.names().len()..crate::SLOTS).find(|&slot| monomial.exponent(slot) > 0);
@@ -110,7 +111,7 @@ fn owned(space: &PhaseSpace) -> Vec<String> {
     space.names().iter().map(|&name| name.to_owned()).collect()
 }
 
-/// A, of the terms without parameters.
+/// The matrix A of the quadratic terms without parameters.
 fn matrix<R: RealField>(hamiltonian: &Polynomial<R>, space: &PhaseSpace) -> Result<Matrix<R>, Error> {
     let n = 2 * space.degrees_of_freedom();
     let entry = |i: usize, j: usize| {
@@ -139,7 +140,7 @@ fn blocks<R: RealField>(second: &Matrix<R>) -> Vec<Vec<usize>> {
     (0..n).map(block).filter(|block| !block.is_empty()).collect()
 }
 
-/// The mode of a block that is one centre (a p² + b q²)/2 already.
+/// The mode of a block that already is one centre (a p² + b q²)/2.
 fn centre<R: RealField>(block: &Matrix<R>, names: &dyn Fn(usize) -> String) -> Result<Option<Mode<R>>, Error> {
     if block.len() != 2 || !block[0][1].is_zero() || block[0][0].sign() * block[1][1].sign() != 1 {
         return Ok(None);

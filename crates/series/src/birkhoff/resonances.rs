@@ -1,25 +1,25 @@
-//! Which terms a normal form keeps, and which divisors are too small to remove a term.
+//! The resonances of a normal form: the terms that it keeps, and the smallest divisor that may remove a term.
 //!
-//! A monomial of the complex variables turns with the angles as e^{i k·φ}, k_i = exponent of U_i − exponent of u_i, and
-//! is removed by dividing by k·ω. It is kept where k = 0, or where k lies in the module spanned over the integers by the
-//! resonances asked for. Any other term with |k·ω| < `smallest divisor` · max |ω| is an error that names it.
+//! A monomial of the complex variables depends on the angles as e^{i k·φ}, with k_i = exponent of U_i − exponent of u_i. Its removal divides by k·ω. It is kept
+//! if k = 0, or if k is an integer combination of the given resonance vectors. Any other term with |k·ω| < `smallest divisor` · max |ω| is an error that names
+//! the term.
 //!
-//! The default bound, 1e-6: a divisor δ multiplies a term, and with it the rounding of floats, by max|ω|/δ; at 1e-6 a term
-//! loses six of the sixteen digits, and exact resonances of rounded frequencies, some 1e-15, are recognized with certainty.
-//! In floats, terms that cancel may leave a residue of rounding, which counts as a term.
-//! Membership is decided on an echelon basis of the module by Euclid's algorithm, exactly.
+//! The default of the smallest divisor is 1e-6. A divisor δ multiplies a term, and its rounding error, by max|ω|/δ. At 1e-6 a term loses six of its sixteen
+//! digits, and exact resonances of rounded frequencies, about 1e-15, are still recognized. In floats, terms that cancel may leave a rounding error, which
+//! counts as a term. Euclid's algorithm on an echelon basis decides exactly whether k is a combination of the vectors.
 
 use super::mode::{Mode, modulus};
-use crate::{Coefficient, Error, MAXIMUM_EXPONENT, RealField};
+use crate::real_field::RealField;
+use crate::{Coefficient, Error, MAX_EXPONENT};
 use num_traits::Zero;
 
 /// The default of the smallest divisor, relative to the largest frequency.
 const SMALLEST_DIVISOR: f64 = 1e-6;
 
-/// The resonances asked for, and the smallest divisor allowed.
+/// The resonances to keep, and the smallest divisor allowed.
 ///
 /// ```
-/// use andoyer_series::Resonances;
+/// use andoyer_series::birkhoff::Resonances;
 /// let one_to_one = Resonances::new(&[&[1, -1]])?;
 /// assert!(one_to_one.keeps(&[2, -2]) && !one_to_one.keeps(&[2, -1]));
 /// # Ok::<(), andoyer_series::Error>(())
@@ -27,30 +27,30 @@ const SMALLEST_DIVISOR: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resonances {
     vectors: Vec<Vec<i64>>,
-    /// Echelon form: each row starts with zeros, one more than the row before at least.
+    /// The vectors in echelon form: each row starts with at least one zero more than the row before.
     basis: Vec<Vec<i128>>,
     smallest_divisor: f64,
     centre: bool,
 }
 
 impl Default for Resonances {
-    /// No resonance.
+    /// No resonance, and a smallest divisor of 1e-6.
     fn default() -> Self {
         Resonances { vectors: Vec::new(), basis: Vec::new(), smallest_divisor: SMALLEST_DIVISOR, centre: false }
     }
 }
 
 impl Resonances {
-    /// The module spanned by integer vectors, each with one entry for each degree of freedom.
+    /// The integer combinations of `vectors`, each with one entry for each degree of freedom.
     ///
     /// # Errors
-    /// - (0, 0), (1, −1) beside (1, −1, 0), (40000, 1): [`Error::ResonanceMalformed`].
+    /// - (0, 0), (1, −1) together with (1, −1, 0), (40000, 1): [`Error::ResonanceMalformed`].
     pub fn new(vectors: &[&[i64]]) -> Result<Self, Error> {
         let mut resonances = Self::default();
         for &vector in vectors {
-            let malformed = || Error::ResonanceMalformed { vector: vector.to_vec(), bound: MAXIMUM_EXPONENT };
+            let malformed = || Error::ResonanceMalformed { vector: vector.to_vec(), bound: MAX_EXPONENT };
             let length = resonances.vectors.first().map_or(vector.len(), Vec::len);
-            let fits = vector.iter().all(|entry| entry.unsigned_abs() <= MAXIMUM_EXPONENT.into());
+            let fits = vector.iter().all(|entry| entry.unsigned_abs() <= MAX_EXPONENT.into());
             if vector.len() != length || !fits || vector.iter().all(|&entry| entry == 0) {
                 return Err(malformed());
             }
@@ -61,8 +61,7 @@ impl Resonances {
         Ok(resonances)
     }
 
-    /// These resonances with another smallest divisor, relative to the largest frequency. A wider bound admits resonances
-    /// that are not exact.
+    /// These resonances with another smallest divisor, relative to the largest frequency. A larger value also admits resonances that are not exact.
     ///
     /// # Errors
     /// - −1, 1.1, NaN: [`Error::OutsideInterval`].
@@ -75,11 +74,13 @@ impl Resonances {
         Ok(self)
     }
 
-    /// These resonances, and all terms of the centres: only what couples saddles and quartets to them is removed (Jorba and Masdemont,
-    /// Physica D 132 (1999) 189). Divisors are then never smaller than the rate of a saddle.
+    /// These resonances, and in addition all terms of the centres. Only the terms that couple saddles and quartets to the centres are removed (Jorba and
+    /// Masdemont, Physica D 132 (1999) 189). Divisors are then never smaller than the rate of a saddle.
     ///
     /// ```
-    /// use andoyer_series::{PhaseSpace, Resonances, normalize_with, quiet};
+    /// use andoyer_series::{PhaseSpace, normalize_with};
+    /// use andoyer_series::birkhoff::Resonances;
+    /// use andoyer_series::progress::quiet;
     /// let space = PhaseSpace::new(&[("x", "X"), ("y", "Y")])?;
     /// let h = space.parse::<f64>("x*X + (y^2 + Y^2)/2 + x*y^2 + X^2*y/2 + y^3")?;
     /// let reduced = normalize_with(&h, 1, &space, &Resonances::default().with_centre(), &mut quiet)?.centre_manifold()?;
@@ -110,21 +111,21 @@ impl Resonances {
         &self.vectors
     }
 
-    /// Whether terms that turn with e^{i k·φ} are kept: k is 0 or in the module.
+    /// Whether terms with e^{i k·φ} are kept: k is 0 or a combination of the vectors.
     #[must_use]
     pub fn keeps(&self, k: &[i64]) -> bool {
         let mut rest: Vec<i128> = k.iter().map(|&entry| entry.into()).collect();
         for row in &self.basis {
             let Some(pivot) = pivot(row).filter(|_| row.len() == rest.len()) else { return false };
             let quotient = rest[pivot] / row[pivot];
-            // Entries that overflow are no exponents: such a k is not in the module for any monomial.
+            // An overflow means that k is too large for the exponents of any monomial.
             let Some(reduced) = combine(&rest, row, quotient) else { return false };
             rest = reduced;
         }
         rest.iter().all(|&entry| entry == 0)
     }
 
-    /// Whether terms that turn with e^{i k·φ} are kept in a form with these modes.
+    /// Whether terms with e^{i k·φ} are kept in a normal form with these modes.
     pub(crate) fn keeps_of<R: RealField>(&self, k: &[i64], modes: &[Mode<R>]) -> bool {
         let centre = || k.iter().zip(modes).all(|(&k, mode)| k == 0 || mode.is_elliptic());
         self.keeps(k) || (self.centre && centre())
@@ -136,12 +137,12 @@ impl Resonances {
         self.smallest_divisor * largest
     }
 
-    /// Refuses vectors of another length, and those that are no resonance of these modes.
+    /// Refuses vectors of the wrong length, and vectors that are not a resonance of these modes.
     pub(crate) fn check<R: RealField>(&self, modes: &[Mode<R>]) -> Result<(), Error> {
         let bound = self.bound(modes);
         for vector in &self.vectors {
             if vector.len() != modes.len() {
-                return Err(Error::ResonanceMalformed { vector: vector.clone(), bound: MAXIMUM_EXPONENT });
+                return Err(Error::ResonanceMalformed { vector: vector.clone(), bound: MAX_EXPONENT });
             }
             let divisor = divisor(vector, modes);
             if !is_small::<R>(&divisor, bound) {
@@ -163,7 +164,7 @@ pub(crate) fn divisor<R: RealField>(k: &[i64], modes: &[Mode<R>]) -> R::Complex 
     sum
 }
 
-/// Whether a divisor is zero or below the bound.
+/// Whether a divisor is 0 or below the bound.
 pub(crate) fn is_small<R: RealField>(divisor: &R::Complex, bound: f64) -> bool {
     divisor.is_zero() || modulus::<R>(divisor) < bound
 }
@@ -172,12 +173,12 @@ fn pivot(row: &[i128]) -> Option<usize> {
     row.iter().position(|&entry| entry != 0)
 }
 
-/// row − quotient · other, `None` on overflow.
+/// row − quotient · other, or `None` on overflow.
 fn combine(row: &[i128], other: &[i128], quotient: i128) -> Option<Vec<i128>> {
     row.iter().zip(other).map(|(a, b)| a.checked_sub(b.checked_mul(quotient)?)).collect()
 }
 
-/// Adds a vector to an echelon basis, by Euclid's algorithm on rows with the same pivot; `None` on overflow.
+/// Adds a vector to an echelon basis by Euclid's algorithm on rows with the same pivot; `None` on overflow.
 fn insert(basis: &mut Vec<Vec<i128>>, mut row: Vec<i128>) -> Option<()> {
     while let Some(column) = pivot(&row) {
         match basis.iter().position(|held| pivot(held).is_some_and(|other| other >= column)) {

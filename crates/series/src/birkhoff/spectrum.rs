@@ -1,27 +1,28 @@
 //! The eigenvalues of the linear motion J A and their null vectors.
 //!
-//! Eigenvalues come in floats, by the real Schur form; over the rationals each must be one of the fractions near it, which elimination then proves. An
-//! eigenvalue of multiplicity m has m null vectors of J A − λ, or a Jordan block, which is an error that names it.
+//! The real Schur form gives the eigenvalues in floats. Over the rationals each eigenvalue must be one of the fractions near the float, and elimination proves
+//! it. An eigenvalue of multiplicity m has m null vectors of J A − λ. Otherwise it has a Jordan block, which is an error that names the eigenvalue.
 
 use super::matrix::{Matrix, null_space};
 use super::mode::modulus;
-use crate::{Error, RealField};
+use crate::Error;
+use crate::real_field::RealField;
 
-/// Eigenvalues of this size count as zero, and eigenvalues as close as this to an axis lie on it: relative to the largest entry of A, the root of rounding,
-/// by which a Jordan block splits.
+/// Tolerance relative to the largest entry of A. Smaller eigenvalues count as 0, and eigenvalues nearer than this to an axis lie on the axis. It is about the
+/// square root of the rounding error, by which a Jordan block splits.
 pub(super) const ROOT: f64 = 1e-7;
-/// Eigenvalues as close as this are one of a higher multiplicity; where they are two, their vectors are told apart to 1e-5 and made symplectic afterwards.
+/// Eigenvalues nearer than this count as one of higher multiplicity. If they are two, their vectors are separated to 1e-5 and made symplectic afterwards.
 const EQUAL: f64 = 1e-11;
 /// An eigenvalue in the first quadrant, with its multiplicity and its null vectors.
 pub(super) struct Eigenspace<R: RealField> {
     pub(super) re: R,
     pub(super) im: R,
     pub(super) vectors: Vec<Vec<R::Complex>>,
-    /// Null vectors of −λ, of saddles and quartets.
+    /// Null vectors of −λ, for saddles and quartets.
     pub(super) opposite: Vec<Vec<R::Complex>>,
 }
 
-/// What an error says about the block.
+/// The names of a block's variables, for error messages.
 pub(super) struct Names<'a> {
     pub(super) names: &'a dyn Fn(usize) -> String,
     pub(super) slots: usize,
@@ -33,7 +34,7 @@ impl Names<'_> {
         (0..self.slots).step_by(2).map(pair).collect::<Vec<_>>().join(", ")
     }
 
-    /// The largest components of a vector, relative to the largest of all.
+    /// The largest components of a vector, relative to its largest component.
     pub(super) fn direction<R: RealField>(&self, vector: &[R::Complex]) -> String {
         let largest = vector.iter().map(modulus::<R>).fold(0.0, f64::max);
         let part = |(slot, value): (usize, &R::Complex)| {
@@ -44,7 +45,7 @@ impl Names<'_> {
     }
 }
 
-/// The eigenvalues of J A with Re ≥ 0, Im ≥ 0 and their multiplicities: real ones first, then complex ones, then imaginary ones, by descending size.
+/// The eigenvalues of J A with Re ≥ 0, Im ≥ 0 and their multiplicities: real ones first, then complex ones, then imaginary ones, each by descending size.
 pub(super) fn spectrum<R: RealField>(
     motion: &Matrix<R>,
     scale: f64,
@@ -62,7 +63,7 @@ pub(super) fn spectrum<R: RealField>(
         if value.norm() < ROOT {
             return Err(zero::<R>(motion, names));
         }
-        // Each eigenvalue stands for ±λ, ±λ̄: what lies off the axis by less than the root of rounding is on it.
+        // Each eigenvalue represents ±λ, ±λ̄. If its distance from the axis is below `ROOT`, it is moved to the axis.
         let re = if value.re.abs() < ROOT { 0.0 } else { value.re.abs() };
         let im = if value.im.abs() < ROOT { 0.0 } else { value.im.abs() };
         let weight = if re > 0.0 && im > 0.0 { 1 } else { 2 };
@@ -82,11 +83,11 @@ pub(super) fn spectrum<R: RealField>(
         }
     };
     found.sort_by(|a, b| rank(a).cmp(&rank(b)).then((b.0.hypot(b.1)).total_cmp(&a.0.hypot(a.1))));
-    // Counted four times: ±λ, ±λ̄, or two of them twice.
+    // Each count is four times the multiplicity: from ±λ, ±λ̄, or twice from ±λ.
     Ok(found.into_iter().map(|(re, im, count)| (re * scale, im * scale, count.div_ceil(4))).collect())
 }
 
-/// How far apart two computed values of one eigenvalue can lie: by the root of rounding where they were off the axis, else by rounding.
+/// Largest distance of two computed values of one eigenvalue: `ROOT` if the value was moved to an axis, otherwise `EQUAL`.
 fn known_radius(value: &nalgebra::Complex<f64>, re: f64, im: f64) -> f64 {
     let moved = (value.re.abs() - re).abs().max((value.im.abs() - im).abs());
     if moved > EQUAL { ROOT } else { EQUAL }
@@ -140,7 +141,7 @@ pub(super) fn eigenspace<R: RealField>(
             }
             return Ok(Eigenspace { re: a, im: b, vectors, opposite: opposite.unwrap_or_default() });
         }
-        // Fewer vectors than the multiplicity.
+        // There are fewer vectors than the multiplicity.
         for fewer in (1..multiplicity).rev() {
             if let Some(vectors) = nulls(&a, &b, fewer) {
                 return Err(defective(vectors.first()));

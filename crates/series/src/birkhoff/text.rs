@@ -1,18 +1,20 @@
-//! A normal form as text and as LaTeX, floats rounded to what is significant.
+//! A Birkhoff normal form as text and as LaTeX. Floats are rounded to their significant digits.
 //!
-//! Rounding of a sum of terms is relative to the largest of them: of each degree twelve digits of the largest coefficient are printed, and a
-//! coefficient below that is left out. Exact numbers are printed as they are.
+//! The rounding error of a sum is relative to its largest term. Within each degree, coefficients are printed to the twelfth digit of the largest coefficient,
+//! and smaller coefficients are omitted. Exact numbers are printed unchanged.
 
 use super::{BirkhoffNormalForm, PhaseSpace};
-use crate::{Error, Part, Polynomial, RealField, SLOTS};
+use crate::latex::Part;
+use crate::real_field::RealField;
+use crate::{Error, Polynomial, SLOTS};
 use std::collections::BTreeMap;
 
-/// Digits of the largest coefficient of a degree.
+/// Number of digits of the largest coefficient of a degree.
 const DIGITS: i32 = 12;
-/// Terms in one line of LaTeX.
+/// Number of terms in one line of LaTeX.
 const TERMS: usize = 6;
 
-/// The normal form as text: in the actions `I_q`, or with resonant terms in the complex variables `u_q`, `U_q`.
+/// Prints the normal form in the actions `I_q`, or in the complex variables `u_q`, `U_q` if it has resonant terms.
 impl<R: RealField> std::fmt::Display for BirkhoffNormalForm<R> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let space = self.space();
@@ -26,7 +28,7 @@ impl<R: RealField> std::fmt::Display for BirkhoffNormalForm<R> {
     }
 }
 
-/// The coefficients rounded, degree by degree.
+/// Rounds the coefficients of each degree.
 pub(super) fn significant<R: RealField>(polynomial: &Polynomial<R::Complex>) -> Polynomial<R::Complex> {
     if R::EPSILON == 0.0 {
         return polynomial.clone();
@@ -45,13 +47,13 @@ pub(super) fn significant<R: RealField>(polynomial: &Polynomial<R::Complex>) -> 
     Polynomial::from_terms(terms)
 }
 
-/// A float to twelve digits of `largest`.
+/// A float rounded to the twelfth digit of `largest`.
 fn rounded(value: f64, largest: f64) -> f64 {
     let decimals = DIGITS - 1 - largest.log10().floor() as i32;
     if !value.is_finite() || !(-300..=300).contains(&decimals) {
         return value;
     }
-    // Decimal text rounds correctly, and its nearest float prints as the same decimal.
+    // Formatting as decimal text rounds correctly, and the nearest float of that text prints as the same decimal.
     let text = if decimals >= 0 {
         format!("{value:.*}", decimals as usize)
     } else {
@@ -64,11 +66,13 @@ fn rounded(value: f64, largest: f64) -> f64 {
 impl<R: RealField> BirkhoffNormalForm<R> {
     /// A part of this normal form as LaTeX, for a document with `\usepackage{amsmath}`.
     ///
-    /// The Hamiltonian K in the actions, or with resonant terms in u and U; the generating functions S_m; the old variables in the new ones, with a
-    /// prime, or the new in the old.
+    /// The Hamiltonian is K in the actions, or in u and U if it has resonant terms. The generators are the functions S_m. The direct transformation gives the
+    /// old variables in the new ones (with a prime), the inverse transformation the new ones in the old ones.
     ///
     /// ```
-    /// use andoyer_series::{BigRational, Part, PhaseSpace, normalize};
+    /// use andoyer_series::{PhaseSpace, normalize};
+    /// use andoyer_series::print::Part;
+    /// use andoyer_series::num_rational::BigRational;
     /// let space = PhaseSpace::new(&[("q", "p")])?;
     /// let form = normalize(&space.parse::<BigRational>("(p^2 + q^2)/2 + q^4/4")?, 2, &space)?;
     /// assert!(form.to_latex(Part::Hamiltonian)?.contains("K &= I_{q} + \\frac{3}{8}I_{q}^{2}"));
@@ -109,7 +113,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     }
 }
 
-/// One series, `name &= …`, in an `align*` of its own; `primed` for the new variables.
+/// Writes one series, `name &= …`, in its own `align*`; `primed` means that its variables are the new ones.
 fn align<R: RealField>(
     text: &mut String,
     name: &str,
@@ -145,7 +149,7 @@ fn align<R: RealField>(
     text.push_str(if polynomial.is_zero() { " 0\n\\end{align*}\n" } else { "\n\\end{align*}\n" });
 }
 
-/// A name as a symbol: Greek letters by name, what follows an underscore or the digits at the end as an index.
+/// A name as a LaTeX symbol. Greek letters are recognized by name. The text after an underscore, or the digits at the end, become an index.
 fn symbol(name: &str, prime: &str) -> String {
     const GREEK: [&str; 24] = [
         "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu",

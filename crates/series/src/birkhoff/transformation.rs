@@ -1,20 +1,22 @@
-//! Functions of the old variables in the new ones and the other way, as polynomials.
+//! Functions of the old variables expressed in the new ones and the reverse, as polynomials.
 
 use super::BirkhoffNormalForm;
 use super::mode::{Mode, complex_in_real, real_in_complex, substitute};
-use crate::{Error, LieTransform, Polynomial, Progress, RealField, quiet};
+use crate::real_field::RealField;
+use crate::triangle::{LieTransform, Progress, quiet};
+use crate::{Error, Polynomial};
 
-/// A real function in the complex variables.
+/// A real function, expressed in the complex variables.
 pub(super) fn to_complex<R: RealField>(f: &Polynomial<R>, modes: &[Mode<R>]) -> Result<Polynomial<R::Complex>, Error> {
     substitute(&f.map(|c| R::complex(c.clone(), R::zero())), &real_in_complex(modes)?)
 }
 
-/// A function in the complex variables that is real on real points, in the real ones.
+/// A function of the complex variables that is real on real points, expressed in the real variables.
 pub(super) fn to_real<R: RealField>(f: &Polynomial<R::Complex>, modes: &[Mode<R>]) -> Result<Polynomial<R>, Error> {
     Ok(substitute(f, &complex_in_real(modes)?)?.map(|c| R::parts(c).0))
 }
 
-/// A function with linear forms put for its variables, if there are any.
+/// A function with linear forms substituted for its variables, if forms are given.
 pub(super) fn changed<R: RealField>(
     f: &Polynomial<R>,
     forms: Option<&[Polynomial<R>]>,
@@ -23,7 +25,7 @@ pub(super) fn changed<R: RealField>(
 }
 
 impl<R: RealField> BirkhoffNormalForm<R> {
-    /// A function f of the old variables in the new ones, complete to degree d + N, d the lowest positive degree of f.
+    /// Expresses a function f of the old variables in the new ones, complete to degree d + N, where d is the lowest positive degree of f.
     ///
     /// ```
     /// use andoyer_series::{PhaseSpace, normalize};
@@ -42,33 +44,35 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         self.direct_with(f, &mut quiet)
     }
 
-    /// As [`direct`](Self::direct), with a callback as that of [`normalize_with`](crate::normalize_with), for every homogeneous part of f anew.
+    /// The same as [`direct`](Self::direct), with a callback as in [`normalize_with`](crate::normalize_with). Its counts start again for every homogeneous part
+    /// of f.
     ///
     /// # Errors
-    /// - as [`direct`](Self::direct); a callback that returns `Break`: [`Error::Interrupted`].
+    /// - The errors of [`direct`](Self::direct); a callback that returns `Break`: [`Error::Interrupted`].
     pub fn direct_with(&self, f: &Polynomial<R>, progress: &mut Progress<'_>) -> Result<Polynomial<R>, Error> {
         let old = self.diagonal.forms()?;
         self.transported(&changed(f, old.as_deref())?, |transform, part| transform.direct_with(part, progress))
     }
 
-    /// A function f of the new variables in the old ones, complete to degree d + N, d the lowest positive degree of f.
+    /// Expresses a function f of the new variables in the old ones, complete to degree d + N, where d is the lowest positive degree of f.
     ///
     /// # Errors
-    /// - as [`direct`](Self::direct).
+    /// - The errors of [`direct`](Self::direct).
     pub fn inverse(&self, f: &Polynomial<R>) -> Result<Polynomial<R>, Error> {
         self.inverse_with(f, &mut quiet)
     }
 
-    /// As [`inverse`](Self::inverse), with a callback as that of [`normalize_with`](crate::normalize_with), for every homogeneous part of f anew.
+    /// The same as [`inverse`](Self::inverse), with a callback as in [`normalize_with`](crate::normalize_with). Its counts start again for every homogeneous
+    /// part of f.
     ///
     /// # Errors
-    /// - as [`direct_with`](Self::direct_with).
+    /// - The errors of [`direct_with`](Self::direct_with).
     pub fn inverse_with(&self, f: &Polynomial<R>, progress: &mut Progress<'_>) -> Result<Polynomial<R>, Error> {
         let old = self.transported(f, |transform, part| transform.inverse_with(part, progress))?;
         changed(&old, self.diagonal.inverse_forms()?.as_deref())
     }
 
-    /// The sum of the series of the homogeneous parts of f, each only as far as all of them are known.
+    /// The sum of the series of the homogeneous parts of f. Each series is truncated at the degree to which all of them are known.
     pub(super) fn transported(
         &self,
         f: &Polynomial<R>,

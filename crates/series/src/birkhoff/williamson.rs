@@ -1,20 +1,21 @@
 //! The symplectic diagonalization of one block of a quadratic part.
 //!
-//! The vectors w = a + ib of an eigenvalue iω are orthogonalized in the Hermitian form w̄ᵀ J w = 2i aᵀ J b, whose sign is the signature of the centre: it gives ω
-//! its sign. Those of λ and −λ are paired. Among floats M is then made symplectic to rounding, M ← M (1 + ½ J E), E = Mᵀ J M − J, and the frequencies are read
-//! off Mᵀ A M, where errors of the vectors enter squared.
+//! The vectors w = a + ib of an eigenvalue iω are orthogonalized in the Hermitian form w̄ᵀ J w = 2i aᵀ J b. The sign of this form is the signature of the
+//! centre and determines the sign of ω. The vectors of λ and −λ are paired. For floats, M is then made symplectic to rounding error by M ← M (1 + ½ J E), E =
+//! Mᵀ J M − J. The frequencies are read from Mᵀ A M, where the errors of the vectors enter squared.
 
 use super::diagonal::Diagonal;
 use super::matrix::{Matrix, dot, form_entry, pairing, product, transposed, turned, turned_rows};
 use super::mode::{Mode, modulus};
 use super::spectrum::{Eigenspace, Names, ROOT, eigenspace, shown, spectrum};
-use crate::{Coefficient, Error, RealField};
+use crate::real_field::RealField;
+use crate::{Coefficient, Error};
 use num_traits::{One, Zero};
 
-/// What is left off the diagonal of Mᵀ A M by rounding.
+/// Largest rounding error of the entries of Mᵀ A M off its diagonal form, relative to A.
 const RESIDUAL: f64 = 1e-9;
 
-/// The modes of ½ zᵀ A z and M.
+/// The modes of ½ zᵀ A z, and the matrix M.
 pub(crate) fn diagonalized<R: RealField>(a: &Matrix<R>, names: &dyn Fn(usize) -> String) -> Result<Diagonal<R>, Error> {
     let names = Names { names, slots: a.len() };
     let scale = a.iter().flatten().map(|entry| entry.to_float().abs()).fold(0.0, f64::max);
@@ -61,7 +62,7 @@ fn conjugate<R: RealField>(vector: &[R::Complex]) -> Vec<R::Complex> {
         .collect()
 }
 
-/// vector − factor · other.
+/// Subtracts factor · other from the vector.
 fn less<C: Coefficient>(vector: &mut [C], other: &[C], factor: &C) {
     for (entry, other) in vector.iter_mut().zip(other) {
         let mut product = factor.clone();
@@ -70,7 +71,7 @@ fn less<C: Coefficient>(vector: &mut [C], other: &[C], factor: &C) {
     }
 }
 
-/// The vector turned so that its largest coordinate q is real and positive (of equal ones the first).
+/// The vector with its phase changed so that its largest coordinate q is real and positive (the first one of equal size).
 fn phased<R: RealField>(vector: &[R::Complex]) -> Vec<R::Complex> {
     let size = |slot: usize| modulus::<R>(&vector[slot]);
     let slots = || (0..vector.len()).step_by(2);
@@ -83,7 +84,7 @@ fn phased<R: RealField>(vector: &[R::Complex]) -> Vec<R::Complex> {
     turned
 }
 
-/// The norm w̄ᵀ J w / (2i) = aᵀ J b of w = a + ib, and whether it is too small beside |w|².
+/// The norm w̄ᵀ J w / (2i) = aᵀ J b of w = a + ib, and whether it is too small relative to |w|².
 fn norm<R: RealField>(vector: &[R::Complex]) -> (R, bool) {
     let (a, b) = parts::<R>(vector);
     let (norm, size) = (pairing(&a, &b), vector.iter().map(|value| modulus::<R>(value).powi(2)).sum::<f64>());
@@ -91,7 +92,7 @@ fn norm<R: RealField>(vector: &[R::Complex]) -> (R, bool) {
     (norm, small)
 }
 
-/// One centre for each vector of iω: q along a, p along b/(aᵀJb), with the sign of aᵀJb for ω.
+/// Adds one centre for each vector of iω: q along a, p along b/(aᵀJb). ω has the sign of aᵀJb.
 fn centres<R: RealField>(
     space: &Eigenspace<R>,
     modes: &mut Vec<Mode<R>>,
@@ -136,7 +137,7 @@ fn centres<R: RealField>(
     Ok(())
 }
 
-/// Takes a vector with a norm out of those that are left: the one of largest norm, or a sum of two.
+/// Removes a vector of nonzero norm from `vectors`: the one of largest norm, or a sum of two.
 fn independent<R: RealField>(vectors: &mut Vec<Vec<R::Complex>>) -> Option<Vec<R::Complex>> {
     let size = |vector: &[R::Complex]| {
         let length = vector.iter().map(|value| modulus::<R>(value).powi(2)).sum::<f64>();
@@ -161,7 +162,7 @@ fn independent<R: RealField>(vectors: &mut Vec<Vec<R::Complex>>) -> Option<Vec<R
     (!norm::<R>(&vectors[at]).1).then(|| vectors.swap_remove(at))
 }
 
-/// The vectors of −λ combined so that vᵢᵀ J wⱼ = δᵢⱼ with those of λ.
+/// Combines the vectors of −λ so that vᵢᵀ J wⱼ = δᵢⱼ with the vectors of λ.
 fn paired<R: RealField>(space: &Eigenspace<R>, names: &Names) -> Result<Vec<[Vec<R::Complex>; 2]>, Error> {
     let (mut left, mut right) = (space.vectors.clone(), space.opposite.clone());
     let mut pairs = Vec::new();
@@ -191,7 +192,7 @@ fn paired<R: RealField>(space: &Eigenspace<R>, names: &Names) -> Result<Vec<[Vec
     Ok(pairs)
 }
 
-/// Among floats v and w are given the same length.
+/// For floats, scales v and w to the same length.
 fn balanced<R: RealField>(v: Vec<R::Complex>, w: Vec<R::Complex>) -> Result<[Vec<R::Complex>; 2], Error> {
     if R::EPSILON == 0.0 {
         return Ok([v, w]);
@@ -217,7 +218,7 @@ fn saddles<R: RealField>(
     Ok(())
 }
 
-/// z = v u + w U + conjugates with u = (q − iQ)/2, U = p + iP.
+/// Adds the modes of quartets: z = v u + w U + conjugates with u = (q − iQ)/2, U = p + iP.
 fn quartets<R: RealField>(
     space: &Eigenspace<R>,
     modes: &mut Vec<Mode<R>>,
@@ -235,7 +236,7 @@ fn quartets<R: RealField>(
     Ok(())
 }
 
-/// M made symplectic to rounding.
+/// Makes M symplectic to rounding error.
 fn symplectic<R: RealField>(mut matrix: Matrix<R>) -> Matrix<R> {
     let Some(half) = R::ratio(1, 2).filter(|_| R::EPSILON > 0.0) else { return matrix };
     for _ in 0..3 {
@@ -256,7 +257,7 @@ fn symplectic<R: RealField>(mut matrix: Matrix<R>) -> Matrix<R> {
     matrix
 }
 
-/// The modes with the frequencies of Mᵀ A M, which must be diagonal.
+/// Reads the frequencies from Mᵀ A M, which must have the diagonal form.
 fn finished<R: RealField>(
     a: &Matrix<R>,
     mut modes: Vec<Mode<R>>,

@@ -1,4 +1,4 @@
-//! Floating-point coefficients: lifted values are the values themselves.
+//! Floating-point coefficients. The lifted values are the values themselves.
 
 use super::Coefficient;
 use andoyer_double::DoubleDouble;
@@ -57,7 +57,7 @@ impl Coefficient for DoubleDouble {
     type Scale = ();
 
     fn integer(value: i64) -> Self {
-        // 2^63 in two parts of 32 bits each, both exact.
+        // Two parts of 32 bits each, both exact, hold any integer up to 2^63.
         let high = (value >> 32) as f64 * 4_294_967_296.0;
         DoubleDouble::sum(high, (value & 0xffff_ffff) as f64)
     }

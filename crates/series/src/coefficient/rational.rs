@@ -8,8 +8,7 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-/// Least common multiple of denominators. Most of them divide the multiple found so far, and a remainder is cheaper
-/// than a gcd.
+/// Least common multiple of the denominators. Most denominators divide the multiple found so far, and a remainder costs less than a gcd.
 fn common_denominator<'a>(values: impl Iterator<Item = &'a BigRational>) -> BigInt {
     let mut common = BigInt::one();
     for value in values {
@@ -28,7 +27,7 @@ fn lowered(raw: BigInt, scale: BigInt) -> BigRational {
     if raw.is_zero() { BigRational::zero() } else { BigRational::new(raw, scale) }
 }
 
-/// Rationals as integers over their common denominator, where all of them fit.
+/// Rationals as integers over their common denominator, or `None` if one of them does not fit in 128 bits.
 fn words<'a>(values: impl Iterator<Item = &'a BigRational> + Clone) -> Option<(Vec<i128>, i128)> {
     let mut common = 1_i128;
     for value in values.clone() {
@@ -41,7 +40,7 @@ fn words<'a>(values: impl Iterator<Item = &'a BigRational> + Clone) -> Option<(V
     Some((numerators.collect::<Option<_>>()?, common))
 }
 
-/// The reduced fraction.
+/// The reduced fraction `numerator`/`denominator`.
 fn fraction(numerator: i128, denominator: i128) -> BigRational {
     if denominator == 1 || numerator == 0 {
         return BigRational::from_integer(numerator.into());
@@ -91,7 +90,7 @@ impl Coefficient for BigRational {
     }
 
     fn raw_accumulate(sum: &mut BigInt, product: &BigInt, weight: i64) {
-        // Most sums are of plain products, and another multiplication is another allocation.
+        // Most sums are of plain products, and another multiplication would be another allocation.
         if weight == 1 {
             *sum += product;
         } else {
@@ -174,7 +173,7 @@ impl Coefficient for Complex<BigRational> {
     }
 }
 
-/// The literal of a complex number from those of its parts: `3/4`, `3/4*i`, `i`, or `(1/2 - 3/4*i)`.
+/// The literal of a complex number from those of its parts, for example `3/4`, `3/4*i`, `i` or `(1/2 - 3/4*i)`.
 pub(super) fn complex_literal(re: (bool, String), im: (bool, String), re_zero: bool, im_zero: bool) -> (bool, String) {
     let imaginary = if im.1 == "1" { "i".to_owned() } else { format!("{}*i", im.1) };
     match (re_zero, im_zero) {

@@ -1,4 +1,4 @@
-//! C99 with `math.h`.
+//! Prints the function in C99 with `math.h`.
 
 use super::Source;
 use super::program::{Function, Statement};

@@ -1,12 +1,12 @@
-//! The numbers of an emitted function: power series in s = κσ, one for each harmonic of ℓ′ (theory §6, §7).
+//! The coefficients of an emitted function: power series in s = κσ, one for each harmonic of ℓ′ (theory §6, §7).
 //!
-//! With ϱ = s where β is a number and ϱ = βs where it is an argument (the harmonic h of w e^(−iℓ′) has the factor β^(|h|/2)):
+//! Let ϱ = s if β is a number, and ϱ = βs if β is an argument, because the harmonic h of w e^(−iℓ′) has the factor β^(|h|/2). Then
 //!
 //! ```text
 //! w/√M = √σ Σ_m ϱ^m [ upper_m(s) e^(i(2m+1)ℓ′) + ϱ lower_m(s) e^(−i(2m+1)ℓ′) ]      y − y′ = σ Σ_k ϱ^k longitude_k(s) sin 2kℓ′
 //! ```
 //!
-//! At a given β the coefficients are those of [`NumericNormalForm`] in double-double, otherwise the exact polynomials in β²: each number is rounded once.
+//! At a given β the coefficients come from [`NumericNormalForm`] in double-double, otherwise from the exact polynomials in β². Each number is rounded once.
 
 use crate::rigid_body::{Variable, turned_complex as turned};
 use crate::{Error, NormalForm, NumericNormalForm};
@@ -15,17 +15,17 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 
-/// A power series in s, lowest power first; a coefficient is a polynomial in β², lowest power first, or one number.
+/// A power series in s, lowest power first. Each coefficient is a polynomial in β², lowest power first, or one number.
 pub(super) type Series = Vec<Vec<f64>>;
 
 /// All the series of a function.
 #[derive(Clone, Debug)]
 pub(super) struct Coefficients {
-    /// Of e^(i(2m+1)ℓ′), at m.
+    /// The series of e^(i(2m+1)ℓ′) at index m.
     pub(super) upper: Vec<Series>,
-    /// Of e^(−i(2m+1)ℓ′), at m.
+    /// The series of e^(−i(2m+1)ℓ′) at index m.
     pub(super) lower: Vec<Series>,
-    /// Of sin 2kℓ′, at k − 1.
+    /// The series of sin 2kℓ′ at index k − 1.
     pub(super) longitude: Vec<Series>,
     /// ½ (n+1) P_n: dℓ′/dt in units of Mγ/C.
     pub(super) anomaly_rate: Series,
@@ -34,7 +34,7 @@ pub(super) struct Coefficients {
 }
 
 impl Coefficients {
-    /// Those at one β, 0 ≤ β < 1.
+    /// The coefficients at one β, 0 ≤ β < 1.
     pub(super) fn at(beta: f64, order: usize) -> Result<Self, Error> {
         let normal_form = NumericNormalForm::<DoubleDouble>::new(beta.into(), order)?;
         let mut result = Self::empty(order);
@@ -60,7 +60,8 @@ impl Coefficients {
         Ok(result.trimmed())
     }
 
-    /// Those of every β, as polynomials in β²; the harmonics have the powers of β that theory §2 gives them, those from a file too.
+    /// The coefficients for any β, as polynomials in β². Each harmonic has the powers of β that theory §2 gives. [`NormalForm::from_json`] checks this for a
+    /// normal form from a file.
     pub(super) fn symbolic(normal_form: &NormalForm) -> Result<Self, Error> {
         let order = normal_form.order();
         let mut result = Self::empty(order);
@@ -101,7 +102,7 @@ impl Coefficients {
         }
     }
 
-    /// The coefficient of order n of the odd harmonic h of w, if that order has it: 1 − 2n ≤ h ≤ 1 + 2n.
+    /// The coefficient of order n of the odd harmonic h of w, or `None` outside 1 − 2n ≤ h ≤ 1 + 2n.
     fn oscillator(&mut self, n: usize, harmonic: i64) -> Option<&mut Vec<f64>> {
         let m = harmonic.unsigned_abs() as usize / 2;
         if harmonic > 0 {
@@ -111,7 +112,7 @@ impl Coefficients {
         }
     }
 
-    /// Without the zeros at the ends of the series, and without the harmonics that have no series.
+    /// Removes the zeros at the ends of the series, and the last harmonics if their series are empty.
     fn trimmed(mut self) -> Self {
         for list in [&mut self.upper, &mut self.lower, &mut self.longitude] {
             list.iter_mut().for_each(trim);
@@ -131,7 +132,7 @@ fn trim(series: &mut Series) {
     }
 }
 
-/// Rounds a number into its place.
+/// Rounds `value` and stores it at `index`.
 fn put(target: &mut Vec<f64>, index: u32, value: &BigRational) -> Result<(), Error> {
     let index = index as usize;
     if value.is_zero() {
@@ -140,6 +141,6 @@ fn put(target: &mut Vec<f64>, index: u32, value: &BigRational) -> Result<(), Err
     if target.len() <= index {
         target.resize(index + 1, 0.0);
     }
-    target[index] = value.to_f64().ok_or(Error::DivisionByZero)?; // none but for 0/0
+    target[index] = value.to_f64().ok_or(Error::DivisionByZero)?; // `None` only for 0/0
     Ok(())
 }

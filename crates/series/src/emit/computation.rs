@@ -1,24 +1,24 @@
-//! The computation that is emitted: from σ, ℓ′ (and β) to ζ = (X + ix)/√M, y − y′ and the two frequencies (theory §6, §7, §8).
+//! The emitted computation: from σ, ℓ′ (and β) to ζ = (X + ix)/√M, y − y′ and the two frequencies (theory §6, §7, §8).
 //!
-//! The Fourier series are summed by Clenshaw's rule from the highest harmonic down, in e^(2iℓ′) scaled by ϱ, so that no powers of s are
-//! formed; the factors cos ℓ′ of X, sin ℓ′ of x and sin 2ℓ′ of y − y′ stand outside, and what vanishes there vanishes with its relative accuracy:
+//! Clenshaw's rule sums the Fourier series from the highest harmonic down, in e^(2iℓ′) scaled by ϱ, so no powers of s are computed. The factors cos ℓ′ of X,
+//! sin ℓ′ of x and sin 2ℓ′ of y − y′ stand outside the sums, so the results keep their relative accuracy near their zeros:
 //!
 //! ```text
 //! c_m = a_m + 2ϱ cos 2ℓ′ c_{m+1} − ϱ² c_{m+2}:   Σ a_m ϱ^m cos (2m+1)ℓ′ = cos ℓ′ (c_0 − ϱ c_1),   sin: sin ℓ′ (c_0 + ϱ c_1)
 //! ```
 //!
-//! a_m = upper_m + ϱ lower_m for X and upper_m − ϱ lower_m for x. The rates are sums of terms of one sign, but for the first of dℓ′/dt.
+//! Here a_m = upper_m + ϱ lower_m for X and a_m = upper_m − ϱ lower_m for x. All terms of a rate have the same sign, except the first term of dℓ′/dt.
 
 use super::coefficients::{Coefficients, Series};
 use super::program::{Expression, Function, Program, call, name};
 use andoyer_double::DoubleDouble;
 use std::ops::{Add, Sub};
 
-/// The names of the results, in their order.
+/// The names of the results, in order.
 pub(super) const RESULTS: [&str; 5] =
     ["zeta_real", "zeta_imaginary", "longitude_shift", "anomaly_rate", "longitude_rate"];
 
-/// The computation; `beta` is a number, or `None` where it is an argument.
+/// The computation; `beta` is a number, or `None` if β is an argument of the emitted function.
 pub(super) fn computation(coefficients: &Coefficients, beta: Option<f64>) -> Program {
     let mut program = Program::default();
     let radius = scales(&mut program, beta);
@@ -44,7 +44,7 @@ pub(super) fn computation(coefficients: &Coefficients, beta: Option<f64>) -> Pro
     program
 }
 
-/// s, ϱ and the axes √2ωσ, √2σ/ω of the ellipse of first order; the name of ϱ.
+/// Assigns s, ϱ and the axes √2ωσ, √2σ/ω of the ellipse of first order; returns the name of ϱ.
 fn scales(program: &mut Program, beta: Option<f64>) -> &'static str {
     let root = |value| call(Function::SquareRoot, value);
     let Some(beta) = beta else {
@@ -73,7 +73,7 @@ fn scales(program: &mut Program, beta: Option<f64>) -> &'static str {
     "s"
 }
 
-/// The one sine and cosine; sin 2ℓ′ and 2ϱ cos 2ℓ′ without cancellation, and ϱ².
+/// Assigns one sine and one cosine, sin 2ℓ′ and 2ϱ cos 2ℓ′ without cancellation, and ϱ².
 fn trigonometry(program: &mut Program, radius: &str) {
     program.assign("sine", call(Function::Sine, name("anomaly")));
     program.assign("cosine", call(Function::Cosine, name("anomaly")));
@@ -83,7 +83,7 @@ fn trigonometry(program: &mut Program, radius: &str) {
     program.assign("square", name(radius) * name(radius));
 }
 
-/// c_m of X and of x, from the highest harmonic down to the first.
+/// Assigns c_m of X and of x, from the highest harmonic down to the first.
 fn oscillator(program: &mut Program, coefficients: &Coefficients, radius: &str) {
     let harmonics = coefficients.upper.len().max(coefficients.lower.len());
     let series = |list: &[Series], m: usize| list.get(m).cloned().unwrap_or_default();
@@ -108,7 +108,7 @@ fn oscillator(program: &mut Program, coefficients: &Coefficients, radius: &str) 
     }
 }
 
-/// c_k of y − y′, k = 1 and up.
+/// Assigns c_k of y − y′, from the highest harmonic down to k = 1.
 fn longitude(program: &mut Program, list: &[Series]) {
     for (index, series) in list.iter().enumerate().rev() {
         let k = index + 1;
@@ -118,7 +118,7 @@ fn longitude(program: &mut Program, list: &[Series]) {
     }
 }
 
-/// One step of Clenshaw's rule: `own` + 2ϱ cos 2ℓ′ c_{m+1} − ϱ² c_{m+2}, of which those from `end` on are zero.
+/// One step of Clenshaw's rule: `own` + 2ϱ cos 2ℓ′ c_{m+1} − ϱ² c_{m+2}. The c_m with m ≥ `end` are 0.
 fn clenshaw(program: &mut Program, sum: &str, own: Expression, m: usize, end: usize) {
     let mut value = own;
     if m + 1 < end {

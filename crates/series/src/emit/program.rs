@@ -1,12 +1,12 @@
-//! A computation as a list of assignments: what the three printers print, and what the cost is counted from.
+//! A computation as a list of assignments. The three printers print it, and its cost is counted.
 //!
-//! No loops, no branches and no tables: a value is a number, a name, an operation on two values or a call. A name may be given a new value
-//! (Horner's rule does). What no result needs is taken out, so that no compiler warns of it.
+//! There are no loops, branches or tables: a value is a number, a name, an operation on two values or a call. A name may receive a new value (in Horner's rule
+//! it does). Assignments that no result needs are removed, so that no compiler warns about them.
 
 use std::collections::BTreeSet;
 use std::ops::{Add, Div, Mul, Sub};
 
-/// Coefficients in one statement of Horner's rule: with 17 digits each the line stays below 120 letters.
+/// Number of coefficients in one statement of Horner's rule. With 17 digits each, the line has fewer than 120 characters.
 const COEFFICIENTS_PER_STATEMENT: usize = 3;
 
 /// A function of one argument.
@@ -40,7 +40,7 @@ pub(crate) fn name(name: &str) -> Expression {
     Expression::Name(name.to_owned())
 }
 
-/// A function of a value.
+/// A function applied to a value.
 pub(crate) fn call(function: Function, argument: Expression) -> Expression {
     Expression::Call(function, Box::new(argument))
 }
@@ -69,7 +69,7 @@ impl From<f64> for Expression {
 }
 
 impl Expression {
-    /// Calls `visit` for this value and every one inside it.
+    /// Calls `visit` for this value and for every value inside it.
     pub(crate) fn walk(&self, visit: &mut dyn FnMut(&Expression)) {
         visit(self);
         match self {
@@ -109,17 +109,17 @@ pub(crate) struct Program {
 }
 
 impl Program {
-    /// A remark about what follows.
+    /// Adds a comment.
     pub(crate) fn comment(&mut self, text: &str) {
         self.statements.push(Statement::Comment(text.to_owned()));
     }
 
-    /// Gives `target` a value.
+    /// Adds the assignment of a value to `target`.
     pub(crate) fn assign(&mut self, target: &str, value: Expression) {
         self.statements.push(Statement::Assignment(target.to_owned(), value));
     }
 
-    /// Gives `target` the value of Σ cᵢ `variable`ⁱ, lowest power first, where cᵢ is itself a polynomial in `inner`; false if there is no term.
+    /// Assigns Σ cᵢ `variable`ⁱ to `target`, lowest power first, where each cᵢ is a polynomial in `inner`. Returns false if there is no term.
     pub(crate) fn horner(&mut self, target: &str, variable: &str, inner: &str, coefficients: &[Vec<f64>]) -> bool {
         let mut pending: Option<Expression> = None;
         let mut length = 0;
@@ -150,7 +150,7 @@ impl Program {
         pending.is_some()
     }
 
-    /// Takes out the assignments that no result needs.
+    /// Removes the assignments that no result needs.
     pub(crate) fn keep_what_gives(&mut self, results: &[&str]) {
         let mut needed: BTreeSet<String> = results.iter().map(|&name| name.to_owned()).collect();
         let mut kept = Vec::new();
@@ -171,7 +171,7 @@ impl Program {
         self.statements = kept;
     }
 
-    /// The operations, counted.
+    /// Counts the operations.
     pub(crate) fn cost(&self) -> Cost {
         let mut cost = Cost::default();
         for statement in &self.statements {

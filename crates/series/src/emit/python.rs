@@ -1,4 +1,4 @@
-//! Python with its module `math` alone.
+//! Prints the function in Python with its module `math` only.
 
 use super::Source;
 use super::program::{Function, Statement};

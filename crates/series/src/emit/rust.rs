@@ -1,4 +1,4 @@
-//! Rust with its standard library alone.
+//! Prints the function in Rust with its standard library only.
 
 use super::Source;
 use super::program::{Function, Statement};
@@ -6,7 +6,7 @@ use super::text::expression;
 
 pub(super) fn print(source: &Source) -> String {
     let mut text = String::new();
-    // No inner doc comment: the file can be a module, or be included in one.
+    // There is no inner doc comment, so that the file can be a module or be included in one.
     for line in &source.header {
         text += format!("// {line}").trim_end();
         text.push('\n');

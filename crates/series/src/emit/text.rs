@@ -1,11 +1,11 @@
-//! What the three languages share: operators, numbers and the order of evaluation.
+//! The printing of expressions, which the three languages share: operators, numbers and the order of evaluation.
 //!
-//! Numbers are printed with the fewest digits that are read back to the same bits. Sums and products associate to the left in all three
-//! languages, and only what would be read otherwise stands in brackets: every language does the same operations in the same order.
+//! Numbers are printed with the fewest digits that are read back to the same bits. Sums and products associate to the left in all three languages. Brackets are
+//! printed only where the expression would be read differently without them. Every language therefore does the same operations in the same order.
 
 use super::program::{Expression, Function, Operator};
 
-/// How a language writes the call of a function.
+/// The function that writes a call in one language.
 pub(crate) type Call = fn(Function, &str) -> String;
 
 /// A value as text.

@@ -1,4 +1,4 @@
-//! The facts of an error as data: its kind, the argument, the value given and the bound that it breaks.
+//! The facts of an error as data: its kind, the argument, the given value and the bound that it breaks.
 
 use super::{Error, ParseProblem};
 
@@ -6,19 +6,19 @@ use super::{Error, ParseProblem};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Kind {
-    /// An argument is wrong: give another one.
+    /// An argument is wrong; give another one.
     Input,
-    /// A file, or a text that should be JSON, cannot be read: mend it.
+    /// A file, or a JSON text, cannot be read; correct it.
     File,
-    /// Doubles, exact rationals or memory cannot hold the problem: choose other units, nearer times, a lower order or floats.
+    /// Doubles, exact rationals or the memory cannot hold the problem. Choose other units, nearer times, a lower order or floats.
     Representation,
-    /// No theory holds for the problem: choose another method.
+    /// No theory holds for the problem; choose another method.
     Theory,
-    /// A fault of this library, or a computation that was stopped.
+    /// A defect of this library, or a computation that was stopped.
     Internal,
 }
 
-/// A value that was given, or a bound.
+/// A given value, or a bound.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Value {
@@ -30,7 +30,7 @@ pub enum Value {
     Text(String),
     /// A vector of whole numbers.
     Integers(Vec<i64>),
-    /// A vector of real numbers; as a bound, the lower and the upper end of an interval.
+    /// A vector of real numbers. As a bound: the lower and the upper end of an interval.
     Numbers(Vec<f64>),
 }
 
@@ -101,13 +101,13 @@ fn facts<'a>(argument: &'a str, value: impl Into<Value>, bound: impl Into<Value>
     (Some(argument), Some(value.into()), Some(bound.into()))
 }
 
-/// The facts of something that is no argument of its own.
+/// The facts of an error that concerns no single argument.
 fn nameless<'a>(value: impl Into<Value>, bound: impl Into<Value>) -> Facts<'a> {
     (None, Some(value.into()), Some(bound.into()))
 }
 
 impl Error {
-    /// What a caller can do about it.
+    /// What a caller can do about this error.
     #[must_use]
     pub fn kind(&self) -> Kind {
         match self {
@@ -143,6 +143,7 @@ impl Error {
             | Self::ParameterDegree { .. }
             | Self::ParameterUnknown { .. }
             | Self::FrequencyParameter { .. }
+            | Self::FrequencyLetter { .. }
             | Self::NotFinite { .. }
             | Self::NotResonant { .. }
             | Self::ResonanceMalformed { .. }
@@ -153,19 +154,19 @@ impl Error {
         }
     }
 
-    /// The argument that is wrong. None if only the caller knows its name, as with the text of a polynomial.
+    /// The argument that is wrong. It is `None` if only the caller knows its name, for example for the text of a polynomial.
     #[must_use]
     pub fn argument(&self) -> Option<&str> {
         self.facts().0
     }
 
-    /// The value that was given, or the number computed from it that breaks the bound.
+    /// The given value, or the number computed from it that breaks the bound.
     #[must_use]
     pub fn value(&self) -> Option<Value> {
         self.facts().1
     }
 
-    /// What the value must be: a number, an interval or words.
+    /// The requirement on the value: a number, an interval or words.
     #[must_use]
     pub fn bound(&self) -> Option<Value> {
         self.facts().2
@@ -206,11 +207,14 @@ impl Error {
         }
     }
 
-    /// Of a Hamiltonian that has no normal form of this kind.
+    /// The facts of a Hamiltonian that has no normal form of this kind.
     fn facts_of_hamiltonian(&self) -> Option<Facts<'_>> {
         let (value, bound) = match self {
             Self::LinearTerm { term, .. } => (term, "no linear term"),
             Self::ZeroFrequency { pairs, .. } => (pairs, "no frequency 0"),
+            Self::FrequencyLetter { term, .. } => {
+                (term, "1/sqrt(w) to the power 0 in the quadratic part, not negative elsewhere")
+            }
             Self::FrequencyParameter { term, .. } => (term, "a number for the frequency"),
             Self::Defective { eigenvalue, .. } => (eigenvalue, "no Jordan block"),
             Self::SpectrumIrrational { eigenvalue, .. } => (eigenvalue, "rational eigenvalues, or floats"),
@@ -220,7 +224,7 @@ impl Error {
         Some(facts("hamiltonian", value, bound))
     }
 
-    /// Of a text that should be a normal form as JSON.
+    /// The facts of a text that is not the JSON of a normal form.
     fn facts_of_text(&self) -> Facts<'_> {
         match self {
             Self::Json { line, column, message } => facts("text", format!("line {line} column {column}"), message),
@@ -240,7 +244,7 @@ impl Error {
 }
 
 impl ParseProblem {
-    /// Its facts, and the offset of the byte where nothing else can be named.
+    /// The facts of this problem. The value is the offset of the byte if there is no better one.
     fn facts<'a>(&self, position: usize) -> Facts<'a> {
         match self {
             Self::UnexpectedCharacter(found) => nameless(found.to_string(), "a polynomial"),

@@ -1,16 +1,16 @@
-//! The numbers in which a sum of products is formed.
+//! The arithmetic of a sum of products.
 //!
-//! Three kinds: the lifted values of any coefficient (floats as they are, rationals as big integers), integers of 64 bits that are summed in
-//! 128, and Gaussian integers likewise. The caller knows that the sums of the last two fit.
+//! There are three kinds: lifted values of any coefficient (floats, or big integers for rationals), integers of 64 bits that are summed in 128, and Gaussian
+//! integers in the same way. The caller ensures that the sums of the last two kinds fit.
 
 use crate::Coefficient;
 
-/// Factors, sums of their products, and what becomes of a sum.
+/// Factors, sums of their products, and the values of these sums.
 pub(super) trait Arithmetic: Sync {
     type Factor: Sync;
     type Sum: Clone + Default + Send;
     type Value: Clone + Send + Sync;
-    /// Whether an array of sums costs little to fill and to scan.
+    /// Whether an array of sums is cheap to fill and to scan.
     const LIGHT: bool;
 
     /// Adds `weight` · `first` · `second`.
@@ -19,11 +19,11 @@ pub(super) trait Arithmetic: Sync {
     /// The value 0.
     fn zero() -> Self::Value;
 
-    /// The value of a sum, `None` for zero.
+    /// The value of a sum, or `None` if it is zero.
     fn value(&self, sum: Self::Sum) -> Option<Self::Value>;
 }
 
-/// The lifted values of a coefficient; sums are lowered one by one.
+/// The lifted values of a coefficient. Each sum is lowered by itself.
 pub(super) struct Lifted<'a, C: Coefficient> {
     pub(super) scales: (&'a C::Scale, &'a C::Scale),
 }
@@ -50,7 +50,7 @@ impl<C: Coefficient> Arithmetic for Lifted<'_, C> {
     }
 }
 
-/// Integers.
+/// Integers of 64 bits with sums of 128 bits.
 pub(super) struct Integers;
 
 impl Arithmetic for Integers {

@@ -1,35 +1,35 @@
-//! Codes of monomials: one machine word each, and the product of two monomials is the sum of their codes.
+//! Codes of monomials. A code is one machine word, and the code of a product of two monomials is the sum of their codes.
 //!
-//! code = (degree) · G − Σ eₛ uₛ over the slots s but the last one, which the degree determines. The units uₛ are the products of the
-//! radices of the slots behind s (Kronecker's substitution), G is the product of all radices. The radix of a slot exceeds every exponent that the
-//! result can have there, so a code belongs to one monomial. For the total degree the order of the codes is the canonical order of the
-//! monomials. With a truncation the degree is the one that the truncation bounds, and what it drops is an upper end of the codes.
+//! code = (degree) · G − Σ eₛ uₛ over all slots s except the last one, which the degree determines. The unit uₛ is the product of the radices of the slots
+//! after s (Kronecker's substitution), and G is the product of all radices. The radix of a slot exceeds every exponent that the result can have there, so each
+//! code belongs to one monomial. If the degree is the total degree, the order of the codes is the canonical order of the monomials. With a truncation the
+//! degree is the one that the truncation bounds, so the dropped terms are those with the largest codes.
 
 use crate::monomial::shift;
 use crate::{Monomial, SLOTS, Truncation};
 use std::fmt::Debug;
 
-/// A code: `i64` where the result's codes fit, else `i128`, which always does (7 · 15 bits of exponents, 18 of degree).
+/// A code: `i64` if the codes of the result fit, otherwise `i128`, which always fits (7 · 15 bits of exponents, 18 bits of degree).
 pub(super) trait Key: Copy + Ord + Debug + Send + Sync {
-    /// Smaller than every code: marks a free slot of a table.
+    /// A value below every code, which marks a free slot of a table.
     const NONE: Self;
-    /// Bits of the magnitude of the sum of two codes.
+    /// Largest number of bits of the magnitude of a sum of two codes.
     const BITS: u32;
 
     fn narrowed(code: i128) -> Self;
-    /// The packed exponents.
+    /// The packed exponents of the code.
     fn decoded(self, layout: &Layout) -> u128;
     fn widened(self) -> i128;
     fn plus(self, other: Self) -> Self;
-    /// self − base ≥ 0, the largest number where it is larger.
+    /// self − base ≥ 0, or the largest `usize` if the difference does not fit.
     fn offset(self, base: Self) -> usize;
-    /// 64 bits whose upper ones are well mixed, from all bits but the last four.
+    /// A hash of 64 bits with well mixed upper bits. It uses all bits of the code except the last four.
     fn hash(self) -> u64;
-    /// The last bits.
+    /// The lowest `count` bits.
     fn low_bits(self, count: u32) -> usize;
 }
 
-/// 2⁶⁴ over the golden ratio.
+/// 2⁶⁴ divided by the golden ratio.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 impl Key for i64 {
@@ -109,15 +109,15 @@ impl Key for i128 {
     }
 }
 
-/// How the monomials of one sum of products are coded.
+/// The coding of the monomials of one sum of products.
 #[derive(Debug)]
 pub(super) struct Layout {
     fields: Vec<Field>,
-    /// How often a slot counts in the degree, which is once but for a truncation.
+    /// How often each slot counts in the degree: once, unless a truncation says otherwise.
     counts: [i128; SLOTS],
     /// The slot that the degree determines.
     determined: Option<usize>,
-    /// G, and its binary logarithm where all radices are powers of two.
+    /// G, and its binary logarithm if all radices are powers of two.
     grade: i128,
     grade_bits: Option<u32>,
     /// Whether the codes follow the canonical order.
@@ -127,7 +127,7 @@ pub(super) struct Layout {
 #[derive(Debug)]
 struct Field {
     slot: usize,
-    /// uₛ, and its binary logarithm where it is a power of two.
+    /// uₛ, and its binary logarithm if it is a power of two.
     unit: i128,
     bits: u32,
     /// How often the slot counts in the degree.
@@ -135,7 +135,7 @@ struct Field {
 }
 
 impl Layout {
-    /// The layout for exponents up to `bounds`. Radices that are powers of two decode faster, others leave fewer codes unused.
+    /// The layout for exponents up to `bounds`. Radices that are powers of two decode faster; other radices leave fewer codes unused.
     pub(super) fn new(bounds: &[u32; SLOTS], truncation: Option<&Truncation>, powers_of_two: bool) -> Self {
         let mut counts = [1; SLOTS];
         if let Some(truncation) = truncation {
@@ -156,7 +156,7 @@ impl Layout {
         Layout { fields, counts, determined, grade, grade_bits, canonical }
     }
 
-    /// What one more in the exponent of each slot adds to a code.
+    /// The change of a code when the exponent of each slot grows by one.
     fn weights(&self) -> [i128; SLOTS] {
         let mut weights = self.counts.map(|count| count * self.grade);
         for field in &self.fields {
@@ -165,30 +165,30 @@ impl Layout {
         weights
     }
 
-    /// The codes of monomials, or of differences of monomials.
+    /// A function that gives the codes of monomials, or of differences of monomials.
     pub(super) fn encoder(&self) -> impl Fn(Monomial) -> i128 + use<> {
         let weights = self.weights();
         move |monomial| (0..SLOTS).map(|slot| i128::from(monomial.exponent(slot)) * weights[slot]).sum()
     }
 
-    /// The largest code of a monomial of the degree of the truncation.
+    /// The largest code of a monomial with this degree of the truncation.
     pub(super) fn last_of_degree(&self, degree: u32) -> i128 {
         i128::from(degree) * self.grade
     }
 
-    /// Codes between those of the degrees `low` and `high`.
+    /// Number of codes from degree `low` to degree `high`.
     pub(super) fn codes(&self, low: u32, high: u32) -> i128 {
         i128::from(high - low + 1).saturating_mul(self.grade)
     }
 
-    /// Bits of the magnitude of the codes of results of up to this total degree.
+    /// Bits of the magnitude of the codes of results up to this total degree.
     pub(super) fn bits(&self, degree: u32) -> u32 {
         let most = self.counts.iter().max().copied().unwrap_or(1).max(1);
         let largest = (i128::from(degree) * most + 1).saturating_mul(self.grade);
         i128::BITS - largest.leading_zeros()
     }
 
-    /// The exponents of a code that is a word; units and G are, too.
+    /// The exponents of a code in one word; the units and G fit in a word as well.
     #[inline]
     fn decode_word(&self, code: i64) -> u128 {
         let grade = self.grade as i64;
@@ -220,7 +220,7 @@ impl Layout {
         key | self.last(degree)
     }
 
-    /// The field of the slot that the degree determines, from what the others leave of the degree.
+    /// The field of the slot that the degree determines. `degree` is the remaining degree after the other slots.
     #[inline]
     fn last(&self, degree: i128) -> u128 {
         match self.determined {

@@ -1,10 +1,10 @@
-//! The sum of many products, window by window.
+//! The sum of many products, computed window by window.
 //!
-//! The codes of a result are cut into windows, each so small that its sums stay in the cache of a core (after F. Biscani, *Parallel sparse
-//! polynomial multiplication on modern hardware architectures*, ISSAC 2012, whose segments are those of a hash table). Both factors are sorted
-//! by code, so the products that fall into a window are found by walking along a staircase. A window holds its sums in an array where most codes are in use,
-//! else in a table sized before it is filled. It is drained in the order of the codes: the result is sorted, windows are independent, and one thread or
-//! many add the same numbers in the same order.
+//! The codes of a result are cut into windows. Each window is so small that its sums stay in the cache of a core (after F. Biscani, *Parallel sparse polynomial
+//! multiplication on modern hardware architectures*, ISSAC 2012, whose segments are those of a hash table). Both factors are sorted by code, so the products of
+//! a window are found along a staircase. A window holds its sums in an array if most codes are in use, otherwise in a table that is sized before it is filled.
+//! It is emptied in the order of the codes. The result is therefore sorted, the windows are independent, and any number of threads adds the same numbers in the
+//! same order.
 
 use super::arithmetic::Arithmetic;
 use super::code::{Key, Layout};
@@ -13,53 +13,53 @@ use super::{PRODUCTS_PER_PAUSE, Pause};
 use crate::Error;
 use rayon::prelude::*;
 
-/// Products on which another thread is worth its start.
+/// Smallest number of products for which several threads are used.
 const PARALLEL_PRODUCTS: usize = 1 << 18;
-/// Windows for each thread from one pause to the next.
+/// Number of windows for each thread between two pauses.
 const WINDOWS_PER_BATCH: usize = 16;
-/// Cells of a window's array: a megabyte of 16-byte sums.
+/// Cells of the array of a window: a megabyte of 16-byte sums.
 const ARRAY_CELLS: i128 = 1 << 16;
-/// Products in a window's array: some milliseconds.
+/// Products of one window with an array: some milliseconds.
 const ARRAY_PRODUCTS: i128 = 1 << 22;
 const FEWEST_CELLS: i128 = 1 << 8;
-/// An array may have so many cells for each product.
+/// Largest number of cells for each product if an array is used.
 pub(super) const CELLS_PER_PRODUCT: i128 = 4;
-/// Bytes of a window's table that has a slot for every other product; twice or four times as many take a tenth to a third longer.
+/// Bytes of a window's table with one slot for every two products. With twice or four times as many bytes the sum takes a tenth to a third longer.
 const TABLE_BYTES: usize = 1 << 18;
-/// The same for sums that own memory, each product of which takes tenths of a microsecond.
+/// Products of one window with a table, for sums that own memory. Each such product takes tenths of a microsecond.
 const HEAVY_TABLE_PRODUCTS: usize = 1 << 13;
-/// Sums drawn for each boundary of the windows.
+/// Number of sampled codes for each boundary between windows.
 const SAMPLES_PER_WINDOW: usize = 32;
 
-/// A polynomial ready for products: codes in ascending order, exponents and lifted coefficients.
+/// A polynomial ready for products: codes in ascending order and lifted coefficients.
 pub(super) struct Operand<K, F> {
     pub(super) codes: Vec<K>,
     pub(super) factors: Vec<F>,
 }
 
-/// What a pair of terms is multiplied by.
+/// The factor of a pair of terms.
 pub(super) enum Weights {
     Constant(i64),
-    /// j₁ k₂ − k₁ j₂, (j, k) being given for every term of both sides.
+    /// j₁ k₂ − k₁ j₂; `outer` and `inner` hold (j, k) for every term of the two factors.
     Bracket {
         outer: Vec<[i64; 2]>,
         inner: Vec<[i64; 2]>,
     },
 }
 
-/// One product: every outer term with every inner one.
+/// One product: every outer term times every inner term.
 pub(super) struct Part<'a, K, F> {
     pub(super) outer: &'a Operand<K, F>,
     pub(super) inner: &'a Operand<K, F>,
-    /// Added to every code.
+    /// The shift that is added to every code.
     pub(super) shift: K,
     pub(super) weights: Weights,
 }
 
-/// Takes numbers of products; an error ends the sum.
+/// A callback that receives numbers of products; its error ends the sum.
 type Count<'a> = dyn FnMut(usize) -> Result<(), Error> + 'a;
 
-/// The codes from `low` on, below `high`.
+/// The codes c with `low` ≤ c < `high`.
 #[derive(Clone, Copy)]
 struct Window<K> {
     low: K,
@@ -71,14 +71,14 @@ impl<K: Key, F> Part<'_, K, F> {
         self.outer.codes.len().saturating_mul(self.inner.codes.len())
     }
 
-    /// Smallest and largest code, `None` without a pair.
+    /// Smallest and largest code, or `None` if there is no pair.
     fn range(&self) -> Option<(K, K)> {
         let low = self.outer.codes.first()?.plus(self.shift).plus(*self.inner.codes.first()?);
         let high = self.outer.codes.last()?.plus(self.shift).plus(*self.inner.codes.last()?);
         Some((low, high))
     }
 
-    /// Calls `row` with each outer position and the range of inner positions whose products are in the window.
+    /// Calls `row` with each outer position and the range of inner positions whose products lie in the window.
     #[inline(always)]
     fn rows(
         &self,
@@ -107,7 +107,7 @@ impl<K: Key, F> Part<'_, K, F> {
         Ok(())
     }
 
-    /// Adds the products that are in the window, and tells `count` of those of each row.
+    /// Adds the products in the window, and reports their number to `count`.
     fn add<A: Arithmetic<Factor = F>, S: Store<K, A::Sum>>(
         &self,
         window: Window<K>,
@@ -153,7 +153,7 @@ impl<K: Key, F> Part<'_, K, F> {
     }
 }
 
-/// The terms of a stretch of the result, in the order of their codes.
+/// The terms of a part of the result, in the order of their codes.
 pub(super) struct Piece<V> {
     pub(super) keys: Vec<u128>,
     pub(super) values: Vec<V>,
@@ -165,12 +165,12 @@ impl<V> Piece<V> {
     }
 }
 
-/// A sum of products that is ready to be formed.
+/// A sum of products, ready to be computed.
 pub(super) struct Sum<'a, K, A: Arithmetic> {
     pub(super) arithmetic: &'a A,
     pub(super) parts: &'a [Part<'a, K, A::Factor>],
     pub(super) layout: &'a Layout,
-    /// The largest code that is kept.
+    /// The largest code that is kept, if there is a truncation.
     pub(super) last_kept: Option<i128>,
 }
 
@@ -194,10 +194,10 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
         }
     }
 
-    /// Windows on each of which about as many products fall.
+    /// Windows with about equal numbers of products.
     fn quantiles(&self, whole: Window<K>, pairs: usize) -> Vec<Window<K>> {
         let products = if A::LIGHT { 2 * TABLE_BYTES / size_of::<(K, A::Sum)>() } else { HEAVY_TABLE_PRODUCTS };
-        // Walking along the staircases must cost less than the products themselves.
+        // The steps along the staircases must cost less than the products.
         let steps: usize = self.parts.iter().map(|part| part.outer.codes.len() + 2 * part.inner.codes.len()).sum();
         let count = (pairs / products).min(pairs / (2 * steps + 1)).max(1);
         let wanted = SAMPLES_PER_WINDOW * count;
@@ -220,7 +220,7 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
         boundaries.windows(2).map(|pair| Window { low: pair[0], high: pair[1] }).collect()
     }
 
-    /// Forms the windows in order, by several threads where there is enough to do.
+    /// Computes the windows in order, with several threads if the work is large enough.
     fn windows<S: Store<K, A::Sum>>(
         &self,
         store: impl Fn() -> S + Sync,
@@ -261,7 +261,7 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
         Ok(vec![piece])
     }
 
-    /// Forms the sums of one window, on which about `expected` products fall.
+    /// Computes the sums of one window, which has about `expected` products.
     fn window<S: Store<K, A::Sum>>(
         &self,
         window: Window<K>,
@@ -284,7 +284,7 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
     }
 }
 
-/// Windows of as many codes as an array has cells, or of fewer where very many products fall on a cell.
+/// Windows with as many codes as an array has cells, or with fewer codes if each cell receives very many products.
 fn even<K: Key>(whole: Window<K>, pairs: usize) -> Vec<Window<K>> {
     let (low, high) = (whole.low.widened(), whole.high.widened());
     let cells = ((high - low) * ARRAY_PRODUCTS / pairs.max(1) as i128).clamp(FEWEST_CELLS, ARRAY_CELLS);

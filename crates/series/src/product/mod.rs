@@ -1,10 +1,9 @@
-//! Sums of products and of brackets: the one place where polynomials are multiplied.
+//! Sums of products and of brackets. All multiplication of polynomials takes place here.
 //!
-//! Left factors are lifted together to one scale and so are right factors; then every product of a left with a right
-//! has the same denominator, and a whole sum (the inner sum of Deprit's triangle, for one) costs one gcd for each
-//! resulting term at most. Exact factors run in 64-bit integers with 128-bit sums where a bound on the sums, taken beforehand, allows it, else in big integers.
-//! Products are added in canonical order of the factor with fewer terms, then of the other one: a floating-point sum has the same bits in every run and
-//! with any number of threads.
+//! All left factors are lifted to one scale, and all right factors to another. Every product then has the same denominator, and a whole sum (such as the inner
+//! sum of Deprit's triangle) costs at most one gcd for each resulting term. If a bound computed in advance shows that the sums fit, exact factors are 64-bit
+//! integers with 128-bit sums; otherwise they are big integers. Products are added in canonical order of the factor with fewer terms, then of the other factor.
+//! A floating-point sum therefore has the same bits in every run and with any number of threads.
 
 mod arithmetic;
 mod code;
@@ -15,25 +14,25 @@ mod store;
 use crate::monomial::Monomial;
 use crate::terms::Terms;
 use crate::words::{FactorList, Factors, Numerators, Words};
-use crate::{Coefficient, Error, MAXIMUM_EXPONENT, Polynomial, SLOTS, Truncation};
+use crate::{Coefficient, Error, MAX_EXPONENT, Polynomial, SLOTS, Truncation};
 use arithmetic::{Arithmetic, GaussianIntegers, Integers, Lifted};
 use code::{Key, Layout};
 use engine::{CELLS_PER_PRODUCT, Part, Piece, Sum};
 use operands::Sides;
 use rayon::prelude::*;
 
-/// The factors of both operands, block by block.
+/// The factors of both sides, polynomial by polynomial.
 type OperandFactors<A> = (Vec<Vec<<A as Arithmetic>::Factor>>, Vec<Vec<<A as Arithmetic>::Factor>>);
 
-/// Products from one call of `pause` to the next: some tens of milliseconds of large rationals.
+/// Number of products between two calls of `pause`. With large rationals they take some tens of milliseconds.
 const PRODUCTS_PER_PAUSE: usize = 1 << 14;
-/// Sums of 128 bits are safe below this.
+/// Sums below this bound fit in 128 bits.
 const LARGEST_SUM: f64 = (1_u128 << 126) as f64;
 
-/// What a long sum calls now and then; an error ends it.
+/// A callback of long sums; its error ends the sum.
 pub(crate) type Pause<'a> = dyn FnMut() -> Result<(), Error> + 'a;
 
-/// A weighted sum of products of some left polynomials with some right ones.
+/// A weighted sum of products of left polynomials with right polynomials.
 pub(crate) struct Accumulator<'a, C> {
     left: Vec<&'a Polynomial<C>>,
     right: Vec<&'a Polynomial<C>>,
@@ -41,7 +40,7 @@ pub(crate) struct Accumulator<'a, C> {
     truncation: Option<&'a Truncation>,
 }
 
-/// One product of the sum: factors by position, and what it is multiplied by.
+/// One product of the sum: the positions of its factors, and its weight.
 #[derive(Debug, Clone, Copy)]
 struct Product {
     left: usize,
@@ -55,7 +54,7 @@ enum Weight {
     Rule(Rule),
 }
 
-/// What one pair of variables makes of a pair of terms: an integer weight and a shift of the exponents.
+/// The effect of one pair of variables on a pair of terms in a bracket: an integer weight and a shift of the exponents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Rule {
     pub(crate) first: usize,
@@ -66,7 +65,7 @@ pub(crate) struct Rule {
 }
 
 impl Rule {
-    /// ± (j₁ k₂ − k₁ j₂), with j, k the exponents of the first and the second variable of the pair.
+    /// The weight ± (j₁ k₂ − k₁ j₂), where j, k are the exponents of the first and the second variable of the pair.
     fn weigh(&self, left: Monomial, right: Monomial) -> i64 {
         let exponent = |m: Monomial, slot| i64::from(m.exponent(slot));
         let (j1, k1) = (exponent(left, self.first), exponent(left, self.second));
@@ -76,12 +75,12 @@ impl Rule {
 }
 
 impl<'a, C: Coefficient> Accumulator<'a, C> {
-    /// Takes the factors; they are named by their position from here on.
+    /// A sum with these factors, which are then named by their positions.
     pub(crate) fn new(left: &[&'a Polynomial<C>], right: &[&'a Polynomial<C>]) -> Self {
         Accumulator { left: left.to_vec(), right: right.to_vec(), products: Vec::new(), truncation: None }
     }
 
-    /// The same sum without what `truncation` drops.
+    /// The same sum without the terms that `truncation` drops.
     pub(crate) fn within(mut self, truncation: Option<&'a Truncation>) -> Self {
         self.truncation = truncation;
         self
@@ -92,12 +91,12 @@ impl<'a, C: Coefficient> Accumulator<'a, C> {
         self.products.push(Product { left, right, weight: Weight::Constant(weight) });
     }
 
-    /// Adds one term for each pair of terms and each of its weights: `weigh(left, right)` for every rule.
+    /// Adds, for each pair of terms and each rule, their product with the weight `rule.weigh(left, right)`.
     pub(crate) fn add_bracket(&mut self, (left, right): (usize, usize), rules: &[Rule]) {
         self.products.extend(rules.iter().map(|&rule| Product { left, right, weight: Weight::Rule(rule) }));
     }
 
-    /// Forms the sum. Exponents that overflow in a product that is dropped are an error, too.
+    /// Computes the sum. An exponent that overflows is an error, even in a product that is dropped.
     pub(crate) fn finish(mut self, pause: &mut Pause<'_>) -> Result<Polynomial<C>, Error> {
         self.products.retain(|product| !self.left[product.left].is_zero() && !self.right[product.right].is_zero());
         if self.products.is_empty() {
@@ -125,17 +124,17 @@ impl<'a, C: Coefficient> Accumulator<'a, C> {
             for slot in 0..SLOTS {
                 reached[slot] = left[product.left][slot] + right[product.right][slot] + raised[slot];
             }
-            if reached.iter().any(|&exponent| exponent > MAXIMUM_EXPONENT) {
+            if reached.iter().any(|&exponent| exponent > MAX_EXPONENT) {
                 self.check_exponents(product)?;
             }
             for (bound, reached) in bounds.iter_mut().zip(reached) {
-                *bound = reached.min(MAXIMUM_EXPONENT).max(*bound);
+                *bound = reached.min(MAX_EXPONENT).max(*bound);
             }
         }
         Ok(bounds)
     }
 
-    /// Looks at every pair of a product for one that overflows.
+    /// Searches all pairs of terms of a product for an exponent that overflows.
     fn check_exponents(&self, product: &Product) -> Result<(), Error> {
         for (m, _) in self.left[product.left].sorted() {
             for (n, _) in self.right[product.right].sorted() {
@@ -149,7 +148,7 @@ impl<'a, C: Coefficient> Accumulator<'a, C> {
         Ok(())
     }
 
-    /// Both sides in machine words, if the sums fit into 128 bits.
+    /// Both sides in machine words, or `None` if the sums might not fit in 128 bits.
     fn in_words(&self) -> Option<[Factors; 2]> {
         C::MACHINE_WORDS?;
         let side = |polynomials: &[&Polynomial<C>]| {
@@ -235,7 +234,7 @@ impl<'a, C: Coefficient> Accumulator<'a, C> {
         }
     }
 
-    /// Radices as small as can be where an array will hold the sums, else powers of two where their codes fit into a word.
+    /// The layout of the codes. Radices are as small as possible if an array will hold the sums. Otherwise they are powers of two if their codes fit in a word.
     fn layout(&self, bounds: &[u32; SLOTS], light: bool) -> Layout {
         let layout = Layout::new(bounds, self.truncation, false);
         let pairs = |product: &Product| self.left[product.left].len() * self.right[product.right].len();
@@ -271,10 +270,10 @@ impl<'a, C: Coefficient> Accumulator<'a, C> {
     }
 }
 
-/// The terms of all pieces, one after the other, in canonical order.
+/// The terms of all pieces in canonical order.
 fn gather<V: Clone + Send + Sync>(pieces: Vec<Piece<V>>, zero: &V, ordered: bool) -> (Vec<Monomial>, Vec<V>) {
     let Piece { keys, values } = join(pieces, zero);
-    // The conversion is done in place.
+    // This conversion reuses the memory.
     let monomials: Vec<_> = keys.into_iter().map(Monomial::from_key).collect();
     if ordered {
         return (monomials, values);
@@ -284,7 +283,7 @@ fn gather<V: Clone + Send + Sync>(pieces: Vec<Piece<V>>, zero: &V, ordered: bool
     terms.into_iter().unzip()
 }
 
-/// One piece of many: numbers are copied by all threads, what owns memory is moved.
+/// Joins the pieces. All threads copy numbers; values that own memory are moved.
 fn join<V: Clone + Send + Sync>(pieces: Vec<Piece<V>>, zero: &V) -> Piece<V> {
     if pieces.len() < 2 || std::mem::needs_drop::<V>() {
         let mut whole = Piece { keys: Vec::new(), values: Vec::new() };

@@ -1,4 +1,4 @@
-//! The factors of a sum of products, coded and sorted.
+//! The factors of a sum of products, with codes in ascending order.
 
 use super::code::{Key, Layout};
 use super::engine::{Operand, Part, Weights};
@@ -35,7 +35,7 @@ impl<K: Key, F: Clone> Sides<K, F> {
         Sides { left: side(left, factors.0), right: side(right, factors.1) }
     }
 
-    /// What the engine forms of a product: the factor with fewer terms is the outer one.
+    /// The input of the engine for one product. The factor with fewer terms is the outer one.
     pub(super) fn part<'a>(&'a self, product: &Product, layout: &Layout) -> Part<'a, K, F> {
         let (left, right) = (&self.left[product.left], &self.right[product.right]);
         let turned = left.monomials.len() > right.monomials.len();
@@ -57,7 +57,7 @@ impl<K: Key, F: Clone> Sides<K, F> {
     }
 }
 
-/// Sorts by code, which most factors are already.
+/// Sorts a factor by code; most factors are already sorted.
 fn factor<K: Key, F: Clone>(codes: Vec<K>, monomials: &[Monomial], factors: Vec<F>) -> Factor<K, F> {
     if codes.is_sorted() {
         return Factor { operand: Operand { codes, factors }, monomials: monomials.to_vec() };

@@ -1,18 +1,18 @@
-//! Where the sums of one window of codes grow: an array, or an open-addressing table.
+//! Storage for the sums of one window of codes: an array, or an open-addressing table.
 //!
-//! Both give their sums back in ascending order of the codes, so the order of a table is never seen.
+//! Both return their sums in ascending order of the codes, so the order of a table has no effect.
 
 use super::code::Key;
 
 /// Sums by code.
 pub(super) trait Store<K, S> {
-    /// Prepares for the codes from `low`, `span` of them, on which about `pairs` products fall.
+    /// Prepares for `span` codes from `low` on, with about `pairs` products.
     fn open(&mut self, low: K, span: usize, pairs: usize);
 
     /// The sum at a code of the window.
     fn cell(&mut self, key: K) -> &mut S;
 
-    /// Gives all sums away in the order of their codes, and leaves none.
+    /// Passes all sums to `take` in the order of their codes, and empties the store.
     fn drain(&mut self, take: &mut impl FnMut(K, S));
 }
 
@@ -48,24 +48,24 @@ impl<K: Key, S: Clone + Default> Store<K, S> for Array<K, S> {
     }
 }
 
-/// Linear probing, at most half full; a table is kept from window to window.
+/// A hash table with linear probing, at most half full. It is reused from window to window.
 pub(super) struct Table<K, S> {
     low: K,
-    /// The window has fewer codes than 2 to this power.
+    /// 2 to this power exceeds the number of codes of the window.
     span_bits: u32,
     slots: Vec<(K, S)>,
-    /// Leading bits of the hash that are not the position.
+    /// Number of leading bits of the hash that are not part of the position.
     shift: u32,
     held: usize,
-    /// Codes of a window, less its first, with their positions behind; and space to sort them.
+    /// Codes minus the first code of the window, each with its position in the low bits; and space to sort them.
     order: Vec<u64>,
     sorted: Vec<u64>,
 }
 
-/// A first table has a slot for so many products: about a quarter of them give a term of their own.
+/// The first table has one slot for this many products: about a quarter of the products give a term of their own.
 const PRODUCTS_PER_SLOT: usize = 2;
 const SMALLEST: usize = 1 << (NEIGHBOURS + 1);
-/// Last bits of a code that the hash leaves alone: terms that follow each other lie in the same or the next line of the cache.
+/// Number of lowest bits of a code that the hash does not change, so that neighbouring terms lie in the same or the next cache line.
 const NEIGHBOURS: u32 = 4;
 
 impl<K: Key, S: Clone + Default> Table<K, S> {
@@ -87,7 +87,7 @@ impl<K: Key, S: Clone + Default> Table<K, S> {
         self.shift = u64::BITS - (length.trailing_zeros() - NEIGHBOURS);
     }
 
-    /// Position of a code, or of the free slot where it belongs.
+    /// The position of a code, or of the free slot where it belongs.
     #[inline(always)]
     fn position(&self, key: K) -> usize {
         let last = self.slots.len() - 1;
@@ -156,12 +156,12 @@ impl<K: Key, S: Clone + Default> Store<K, S> for Table<K, S> {
     }
 }
 
-/// Bits of a digit of the sort.
+/// Number of bits of one digit of the sort.
 const DIGIT: u32 = 11;
-/// Fewer numbers than this are sorted by comparison.
+/// Below this count, numbers are sorted by comparison.
 const FEW: usize = 1 << 9;
 
-/// Sorts numbers that differ in the bits from `first` on, `count` of them: from the least digit to the greatest.
+/// Sorts numbers that differ only in `count` bits from bit `first` on, from the least digit to the greatest.
 fn sort_by_bits(numbers: &mut Vec<u64>, space: &mut Vec<u64>, first: u32, count: u32) {
     if numbers.len() < FEW {
         numbers.sort_unstable();

@@ -1,37 +1,37 @@
-//! From the Fourier coefficients of w and y − y′ to those of the quaternion of theory §8.
+//! The Fourier coefficients of the quaternion of theory §8, from those of w and y − y′.
 
 use super::tables::Expansion;
 use crate::torque_free::harmonics::CayleyKleinSeries;
 
-/// Grid points in a period for each order: the products of theory §8 reach past the 2N+1 harmonics of ζ, and what folds back from beyond eight times
-/// the order is smaller than the truncation squared.
+/// Grid points in a period for each order. The products of theory §8 have more than the 2N+1 harmonics of ζ. Aliasing from beyond eight times the order is
+/// smaller than the square of the truncation error.
 const GRID_PER_ORDER: usize = 8;
 
-/// The ellipse that (x, X) runs through at first order: ζ = long·Re w + i short·Im w, w in units of √M.
+/// The ellipse of (x, X) at first order: ζ = long·Re w + i short·Im w, with w in units of √M.
 ///
-/// Both axes are kept as they are: as sum and difference of the parts of w and w̄ in ζ the short one would lose half its digits at β → 1.
+/// Both axes are stored. If they were computed as sum and difference of the parts of w and w̄ in ζ, the short axis would lose half its digits at β → 1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ellipse {
-    /// √2ω, of X.
+    /// The axis of X, √(2ω).
     pub(crate) long: f64,
-    /// √(2/ω), of x.
+    /// The axis of x, √(2/ω).
     pub(crate) short: f64,
 }
 
 impl Ellipse {
-    /// From ω² = (C/A − 1)/(C/B − 1) ≥ 1 (theory §1).
+    /// The ellipse from ω² = (C/A − 1)/(C/B − 1) ≥ 1 (theory §1).
     pub(crate) fn new(omega_square: f64) -> Self {
         let omega = omega_square.sqrt();
         Self { long: (2.0 * omega).sqrt(), short: (2.0 / omega).sqrt() }
     }
 
-    /// w/√M of ζ.
+    /// w/√M from ζ.
     pub(crate) fn oscillator(&self, zeta: [f64; 2]) -> [f64; 2] {
         [zeta[0] / self.long, zeta[1] / self.short]
     }
 }
 
-/// w/√M and y − y′ at an angle ℓ′, `trigonometry(h)` being (sin hℓ′, cos hℓ′).
+/// w/√M and y − y′ at an angle ℓ′; `trigonometry(h)` returns (sin hℓ′, cos hℓ′).
 pub(crate) fn oscillator_and_longitude(
     expansion: &Expansion,
     trigonometry: impl Fn(usize) -> (f64, f64),
@@ -49,7 +49,7 @@ pub(crate) fn oscillator_and_longitude(
     ([real, imaginary], longitude)
 }
 
-/// The composition of theory §8, sampled over a quarter period and analysed.
+/// Samples the composition of theory §8 over a quarter period and computes its harmonics.
 pub(crate) fn harmonics(expansion: &Expansion, ellipse: Ellipse) -> CayleyKleinSeries {
     let order = expansion.longitude.len();
     let period = (GRID_PER_ORDER * (order + 1)).next_power_of_two();
@@ -60,7 +60,7 @@ pub(crate) fn harmonics(expansion: &Expansion, ellipse: Ellipse) -> CayleyKleinS
     for g in 0..=quarter {
         let trigonometry = |harmonic: usize| circle[(harmonic * g) & (period - 1)];
         let (a, b) = composed(expansion, ellipse, trigonometry);
-        // A period holds an end point twice and an inner one four times; a pair of harmonics ±h takes twice the mean.
+        // A period contains an end point twice and an inner point four times. A pair of harmonics ±h has twice the mean.
         let weight = if g == 0 || g == quarter { 4.0 } else { 8.0 } / period as f64;
         for (k, (even, odd)) in terms.iter_mut().enumerate() {
             let (sine, cosine) = trigonometry(2 * k);
@@ -71,7 +71,7 @@ pub(crate) fn harmonics(expansion: &Expansion, ellipse: Ellipse) -> CayleyKleinS
             odd[1] += weight * b[1] * sine;
         }
     }
-    terms[0].0[0] *= 0.5; // the mean is no pair
+    terms[0].0[0] *= 0.5; // the mean has only one coefficient
     CayleyKleinSeries::from_terms(terms)
 }
 
@@ -85,7 +85,7 @@ fn composed(
     let zeta = [ellipse.long * w[0], ellipse.short * w[1]];
     let half_z = 0.25 * (zeta[0] * zeta[0] + zeta[1] * zeta[1]);
     let (sine, cosine) = (0.5 * longitude).sin_cos();
-    // A low order asked for by hand can pass z = 2; there the truncated motion has no attitude and the error bound says so.
+    // A low order fixed by the user can reach z > 2. The truncated motion then has no attitude, and the error bound shows this.
     let upper = (1.0 - half_z).max(0.0).sqrt();
     (
         [upper * cosine, upper * sine],

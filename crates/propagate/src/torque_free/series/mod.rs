@@ -1,6 +1,7 @@
-//! The route of the paper: tables of the normal form at a body's β, their Fourier coefficients for one motion, and the order that a tolerance needs.
+//! The perturbation series of the paper: tables of the normal form at a body's β, their Fourier coefficients for one motion, and the order that a tolerance
+//! needs.
 //!
-//! Imports what [`super`] imports, and its siblings there. It alone knows the series crate.
+//! Imports what [`super`] imports, and its sibling modules there. It is the only folder that uses the series crate.
 
 pub(crate) mod composition;
 pub(crate) mod order;

@@ -1,4 +1,4 @@
-//! The order of the series: the lowest that leaves the tolerance its share, known before anything is expanded (theory §5).
+//! The order of the series: the lowest one whose truncation error meets its share of the tolerance. A first estimate needs no expansion (theory §5).
 
 use super::composition::{Ellipse, oscillator_and_longitude};
 use super::tables::{Expansion, SeriesTables};
@@ -9,31 +9,31 @@ use crate::torque_free::frequencies::Secular;
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
 
-/// Part of the tolerance that truncation may use.
+/// Fraction of the tolerance that truncation may use.
 const TRUNCATION_SHARE: f64 = 0.75;
-/// Truncation below this is lost in rounding \[rad\].
+/// Truncation errors below this are smaller than rounding errors \[rad\].
 const SMALLEST_TOLERANCE: f64 = 1e-15;
 
-/// The first order worth trying: that at which (σ/σ_sep)^(N+1)/(N+1), theory §5 and a share that was measured, is below the tolerance.
+/// The first order to try: the lowest N with (σ/σ_sep)^(N+1)/(N+1) below the tolerance. The power is from theory §5, the factor 1/(N+1) was measured.
 pub(crate) fn first_order(ratio: f64, tolerance: f64) -> Option<usize> {
     (0..=MAX_ORDER)
         .find(|&order| ratio.powi(order as i32 + 1) <= tolerance.max(SMALLEST_TOLERANCE) * (order as f64 + 1.0))
 }
 
-/// The series of one order with its truncation error.
+/// The series of one order, with its truncation error.
 pub(crate) struct Expanded {
     pub(crate) order: usize,
     pub(crate) expansion: Expansion,
     pub(crate) secular: Secular,
     pub(crate) ellipse: Ellipse,
-    /// \[rad\]
+    /// Truncation error \[rad\].
     pub(crate) truncation: f64,
 }
 
-/// The series at the order asked for, or at the lowest whose truncation leaves the tolerance its share.
+/// The series at the fixed order, or at the lowest order whose truncation error meets its share of the tolerance.
 ///
 /// # Errors
-/// - [`Error::NearSeparatrix`] where no order does.
+/// - [`Error::NearSeparatrix`] if no order meets it.
 pub(crate) fn expanded(
     (scene, tables): (&Scene, &SeriesTables),
     polhode: &Polhode,
@@ -71,10 +71,11 @@ pub(crate) fn expanded(
     Err(Error::Order { value: scene.asked_order().unwrap_or(MAX_ORDER), bound: MAX_ORDER })
 }
 
-/// What the orders left out turn the attitude by \[rad\]: a geometric tail of the last one kept, at the time asked for and in both initial phases.
+/// The turn of the attitude by the omitted orders \[rad\]. It is estimated as a geometric tail of the last order kept, at the time of evaluation and in both
+/// initial phases.
 ///
-/// Hence the factor 4 (with 2 some errors at orders 1 and 2 pass the bound by up to a fifth). Terms grow at most linearly before they fall, as those of S do for β → 0:
-/// Σ_{n>N} n rⁿ = N rᴺ [r/(1−r) + r/(N(1−r)²)].
+/// Hence the factor 4 (with 2, some errors at orders 1 and 2 exceed the bound by up to a fifth). Terms grow at most linearly before they fall, like those of S
+/// for β → 0: Σ_{n>N} n rⁿ = N rᴺ [r/(1−r) + r/(N(1−r)²)].
 fn truncation(expansion: &Expansion, ellipse: Ellipse, ratio: f64, mode: Mode) -> f64 {
     match mode {
         Mode::Axisymmetric => 0.0,
@@ -86,10 +87,10 @@ fn truncation(expansion: &Expansion, ellipse: Ellipse, ratio: f64, mode: Mode) -
     }
 }
 
-/// ℓ′ whose transformed w has the direction of `target`.
+/// The ℓ′ whose transformed w has the direction of `target`.
 ///
-/// ℓ = 0, π/2, … are fixed points by symmetry, so the root is in the quadrant of the target. Regula falsi on the cross product, which
-/// stays within its bracket; the end that stays twice has its value halved (the Illinois rule), so that both ends move.
+/// ℓ = 0, π/2, … are fixed points by symmetry, so the root is in the quadrant of the target. Regula falsi finds a root of the cross product and stays within
+/// its bracket. If one end stays twice, its value is halved (the Illinois rule), so that both ends move.
 pub(crate) fn initial_anomaly(expansion: &Expansion, target: [f64; 2]) -> f64 {
     let folded = [target[0].abs(), target[1].abs()];
     let cross = |angle: f64| {
@@ -100,7 +101,7 @@ pub(crate) fn initial_anomaly(expansion: &Expansion, target: [f64; 2]) -> f64 {
     let (mut low_value, mut high_value) = (cross(low), cross(high));
     let mut angle = folded[1].atan2(folded[0]);
     let mut last = 0.0_f64;
-    // Superlinear; 200 steps are past any convergence.
+    // Convergence is superlinear; 200 steps are always enough.
     for _ in 0..200 {
         let value = cross(angle);
         if value == 0.0 || high - low <= f64::EPSILON {
@@ -116,7 +117,7 @@ pub(crate) fn initial_anomaly(expansion: &Expansion, target: [f64; 2]) -> f64 {
         }
         last = value;
         let next = (low * high_value - high * low_value) / (high_value - low_value);
-        // A bracket that has closed on an axis of symmetry gives 0/0, which moves nothing.
+        // A bracket that has closed on an axis of symmetry gives 0/0; the angle then stays as it is.
         let moves = (next - angle).abs() > 0.5 * f64::EPSILON;
         if !moves {
             break;

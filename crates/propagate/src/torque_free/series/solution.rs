@@ -1,4 +1,4 @@
-//! The Cayley–Klein parameters of one motion by the series (theory §7, §8).
+//! The Cayley–Klein parameters of one motion, by the series (theory §7, §8).
 
 use super::composition::{harmonics, oscillator_and_longitude};
 use super::order::{Expanded, expanded, initial_anomaly};
@@ -14,10 +14,10 @@ use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
 use crate::torque_free::solution::{CayleyKlein, HARMONICS_SHARE, Solution, dropped_harmonics, round_body};
 
-/// By the series at the order asked for, or at the lowest that the tolerance needs.
+/// The solution by the series at the fixed order, or at the lowest order that the tolerance needs.
 ///
 /// # Errors
-/// - [`Error::NearSeparatrix`] where no order does.
+/// - [`Error::NearSeparatrix`] if no order meets the tolerance.
 pub(crate) fn by_the_series(
     (scene, tables): (&Scene, &SeriesTables),
     polhode: &Polhode,
@@ -29,7 +29,7 @@ pub(crate) fn by_the_series(
     let Expanded { order, expansion, secular, ellipse, truncation } = expanded;
     let (series, dropped) = harmonics(&expansion, ellipse).truncated(HARMONICS_SHARE * scene.asked_tolerance());
     let theta = polhode.theta();
-    // The truncated series of a fixed order has its own ℓ′. Next to the separatrix that is ill-conditioned, and the elliptic integral is not.
+    // The truncated series of a fixed order has its own ℓ′, found by iteration. Near the separatrix this is ill-conditioned; the elliptic integral is not.
     let anomaly = match scene.asked_order() {
         Some(_) => initial_anomaly(&expansion, ellipse.oscillator(polhode.zeta())),
         None => anomaly(polhode, &theta),

@@ -1,39 +1,40 @@
 //! The series of one motion: from β, an order and κσ to Fourier coefficients in ℓ′.
 //!
-//! With s = κσ (theory §6, §7) order n of w/√M is √σ s^n times a form of degree 2n + 1, and order n of y − y′ is s^(n+1)/κ times one of
-//! degree 2n + 2. A form becomes harmonics by w^j w̄^k → e^(i(j−k)ℓ′). Sums run from the lowest order to the highest.
+//! With s = κσ (theory §6, §7), order n of w/√M is √σ s^n times a form of degree 2n + 1. Order n of y − y′ is s^(n+1)/κ times a form of degree 2n + 2. The
+//! harmonics of a form are w^j w̄^k → e^(i(j−k)ℓ′). Sums run from the lowest order to the highest.
 //!
-//! An order is computed from lower ones alone, so that tables cut off at an order have the bits of tables that end there: what was computed for one scene
-//! of a body serves the next ([`SeriesTables`]).
+//! An order is computed from lower orders only. Tables truncated to an order therefore have the same bits as tables computed to that order, and the tables of
+//! one scene serve all later scenes of the body ([`SeriesTables`]).
 
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use andoyer_double::DoubleDouble;
-use andoyer_series::{Form, NumericNormalForm};
+use andoyer_series::NumericNormalForm;
+use andoyer_series::forms::Form;
 
 use crate::error::Error;
 
 /// The series of one body: forms and triaxiality polynomials at its β, orders 0 to N.
 #[derive(Clone, Debug)]
 pub(crate) struct Tables {
-    /// To 32 digits.
+    /// β to 32 digits.
     beta: DoubleDouble,
     oscillator: Vec<Form>,
     longitude: Vec<Form>,
-    /// The polynomials to 32 digits, for who asked for an order: their frequencies are multiplied with time.
+    /// The polynomials to 32 digits, computed only for a fixed order, because their frequencies are multiplied by the time.
     precise: OnceLock<Vec<DoubleDouble>>,
 }
 
 /// Fourier coefficients in ℓ′ for one motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Expansion {
-    /// Coefficient of e^(ihℓ′) of w/√M, h = −(2N+1), −(2N−1), … 2N+1.
+    /// Coefficients of e^(ihℓ′) in w/√M, for h = −(2N+1), −(2N−1), … 2N+1.
     pub(crate) oscillator: Vec<f64>,
-    /// Coefficient of sin 2kℓ′ of y − y′, k = 1 … N, at k − 1.
+    /// Coefficients of sin 2kℓ′ in y − y′, for k = 1 … N, at index k − 1.
     pub(crate) longitude: Vec<f64>,
-    /// Sum of the magnitudes that the highest order added, w/√M and y − y′ together.
+    /// Sum of the magnitudes of the terms of the highest order, for w/√M and y − y′ together.
     pub(crate) last_order: f64,
 }
 
@@ -49,14 +50,14 @@ impl Tables {
         })
     }
 
-    /// The highest order that they reach.
+    /// The highest order of the tables.
     fn order(&self) -> usize {
         self.longitude.len()
     }
 
-    /// P_0 … P_N at this β to 32 digits (theory §4), N = `order`, which the tables reach.
+    /// P_0 … P_N at this β to 32 digits (theory §4), for N = `order`, which must not exceed the order of the tables.
     ///
-    /// Computed when they are first asked for, in 0.1 ms at order 12 and 2 ms at 30.
+    /// They are computed at the first call, in 0.1 ms at order 12 and 2 ms at 30.
     pub(crate) fn polynomials(&self, order: usize) -> Result<&[DoubleDouble], Error> {
         let precise = match self.precise.get() {
             Some(precise) => precise,
@@ -68,7 +69,7 @@ impl Tables {
         Ok(&precise[..=order])
     }
 
-    /// The Fourier coefficients of orders 0 to `order`, which the tables reach, at s = κσ.
+    /// The Fourier coefficients of orders 0 to `order` at s = κσ; `order` must not exceed the order of the tables.
     pub(crate) fn expand(&self, order: usize, kappa_sigma: f64, kappa: f64) -> Expansion {
         let root = (kappa_sigma / kappa).sqrt();
         let mut oscillator = vec![0.0; 2 * order + 2];
@@ -87,7 +88,7 @@ impl Tables {
         for (index, form) in self.longitude[..order].iter().enumerate() {
             let n = index + 1;
             power *= kappa_sigma;
-            // The forms are odd in w ↔ w̄: iŷ = Σ 2i·i c sin hℓ′ over the upper half, h = 2(j − n − 1).
+            // The forms are odd under w ↔ w̄: iŷ = Σ 2i·i c sin hℓ′ over the upper half, with h = 2(j − n − 1).
             for k in 1..=n {
                 let c = -2.0 * form.coefficients()[n + 1 + k] * power;
                 longitude[k - 1] += c;
@@ -98,19 +99,19 @@ impl Tables {
     }
 }
 
-/// Tables of the perturbation series, kept for the scenes that are solved with them ([`Scene::solve_with`](crate::Scene::solve_with)).
+/// Tables of the perturbation series, which several scenes can share ([`Scene::solve_with`](crate::Scene::solve_with)).
 ///
-/// There is one table for each β, that of a body in one of its modes. Clones share their tables. Nothing but time depends on what is there.
+/// There is one table for each β, and each mode of a body has its own β. Clones share their tables. The contents affect only the time of a solution.
 #[derive(Clone, Default)]
 pub struct SeriesTables(Arc<Mutex<HashMap<[u64; 2], Slot>>>);
 
-/// The longest table of one β that was asked for.
+/// The longest table computed for one β.
 type Slot = Arc<Mutex<Option<Arc<Tables>>>>;
 
 impl SeriesTables {
-    /// Tables of β that reach `order`. A thread that asks while they are computed waits for them.
+    /// The tables of β to at least `order`. If another thread is computing them, this thread waits.
     pub(crate) fn reaching(&self, order: usize, beta: DoubleDouble) -> Result<Arc<Tables>, Error> {
-        // A panic elsewhere leaves what was there before.
+        // If another thread panicked, the earlier tables are still valid.
         let slot = {
             let mut slots = self.0.lock().unwrap_or_else(PoisonError::into_inner);
             Arc::clone(slots.entry([beta.high, beta.low].map(f64::to_bits)).or_default())

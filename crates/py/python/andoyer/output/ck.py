@@ -271,6 +271,7 @@ def _comments(motion: Motion, kernel: Kernel, error: float) -> list[str]:
         f"Error bound of the motion: {plan.error_bound:.3g} rad; of SPICE's interpolation: {error:.3g} rad.",
         "The bound of the interpolation is on the attitude. Angular velocities are those of the motion at the",
         "records and interpolated linearly between them.",
+        *([] if plan.missed_tolerance is None else [plan.missed_tolerance]),
         *kernel.comments,
         "",
         "The scene:",

@@ -1,7 +1,7 @@
 """Is `plan.error_bound` a bound, and a tight one? Random scenes of every kind against the reference.
 
     make bounds                                          3000 scenes, one to two minutes
-    python examples/bounds.py --scenes 500 --seed 1
+    python tests/stress/bounds.py --scenes 500 --seed 1
 
 Exit status 1 if fewer than 99.9 % of the errors are within their bound, or if it is more than 100 times the error in the median.
 
@@ -21,11 +21,14 @@ import warnings  # noqa: E402
 from collections.abc import Callable, Iterable, Sequence  # noqa: E402
 from concurrent.futures import ProcessPoolExecutor  # noqa: E402
 from dataclasses import dataclass  # noqa: E402
+from pathlib import Path  # noqa: E402
 from typing import Any  # noqa: E402
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reference"))
 
 import andoyer  # noqa: E402
 import numpy as np  # noqa: E402
-from accuracy import Reference  # noqa: E402
+from comparison import Reference  # noqa: E402
 from numpy.random import Generator  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 

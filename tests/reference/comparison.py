@@ -4,17 +4,10 @@ A reference attitude is kept as a sum of two doubles, so that differences from i
 small angles and for large ones.
 """
 
-import sys
-from pathlib import Path
-
 import andoyer
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "reference"))
-
-from torque_free import TorqueFree  # noqa: E402
+from torque_free import TorqueFree
 
 # Separatrix and long phases cost digits of the guard, not of these: 20 are beyond every double.
 DIGITS = 20

@@ -21,12 +21,16 @@ from collections.abc import Callable, Iterator  # noqa: E402
 from concurrent.futures import ProcessPoolExecutor  # noqa: E402
 from dataclasses import astuple, dataclass, fields  # noqa: E402
 from itertools import product  # noqa: E402
+from pathlib import Path  # noqa: E402
 from typing import Any  # noqa: E402
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "reference"))
 
 import andoyer  # noqa: E402
 import numpy as np  # noqa: E402
-import work_precision  # noqa: E402
-from accuracy import ROOT, Reference  # noqa: E402
+import sweep_picture  # noqa: E402
+from comparison import Reference  # noqa: E402
+from machine import ROOT  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 
 warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # what low orders miss is measured here
@@ -159,8 +163,8 @@ def main() -> None:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(field.name for field in fields(Row))
         writer.writerows(astuple(row) for row in table)
-    work_precision.write_table(table, ROOT / "docs" / "series-or-closed.md")
-    work_precision.draw(table, ROOT / "docs" / "work-precision.png")
+    sweep_picture.write_table(table, ROOT / "docs" / "series-or-closed.md")
+    sweep_picture.draw(table, ROOT / "docs" / "work-precision.png")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,169 @@
+//! ⟨D⟩ + K2 in closed form, to first order in n/Ω, and its derivatives.
+//!
+//! With q = 3φn²/2, u = (a/r)³, s = k·r̂, c = k·N (N the normal of the orbit) and q_j = f² σ^|h| / ν^(j+1) for each term,
+//!
+//! ```text
+//! Â_mj = Σ_h [(h − mσ) dq_j/dσ − m(j+1) q_j],   B̂_mj = Σ_h q_j
+//! K2 = −(q²u²/M²) [P0 + P1 s² + P2 s⁴] − (q²u²ḟ c/M³) [Q0 + Q1 s²]
+//! ```
+//!
+//! with h > 0 for m = 0, and P, Q sums of Â and B̂ (theory §9). Terms without j hold the disturbing body fixed. K2 has no ℓ′ and no y′: mean σ and M are constant to second order.
+
+use nalgebra::Vector3;
+
+use super::modes::Mode;
+use crate::gravity_gradient::inertia::Inertia;
+
+/// P0, P1, P2, Q0, Q1, times their factors before the geometry.
+type Coefficients = [f64; 5];
+
+/// ⟨D⟩ + K2 at one mean σ and M, as a function of the angular momentum's direction and of the disturbing body's place.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Hamiltonian {
+    /// C of ⟨D⟩ = C u (s² − ⅓), and its derivatives with respect to L and to M at fixed L.
+    first: [f64; 3],
+    /// K2's coefficients, and their derivatives likewise.
+    second: [Coefficients; 3],
+    momentum: f64,
+}
+
+/// Where the disturbing body is, as the averaged equations see it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Disturber {
+    /// Unit vector to it.
+    pub(crate) direction: Vector3<f64>,
+    /// Normal of its orbit.
+    pub(crate) normal: Vector3<f64>,
+    /// (a/r)³.
+    pub(crate) cube: f64,
+    /// Rate of its true anomaly.
+    pub(crate) rate: f64,
+}
+
+/// Time derivatives of the mean motion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slopes {
+    /// Rotation of the invariable frame, across the angular momentum.
+    pub(crate) turning: Vector3<f64>,
+    /// What is added to dℓ′/dt and dy′/dt.
+    pub(crate) phases: [f64; 2],
+}
+
+impl Hamiltonian {
+    /// From the terms of the disturbing function; `strength` is q.
+    pub(super) fn new(inertia: &Inertia, modes: &[Mode], strength: f64, moments: [f64; 3]) -> Self {
+        let Inertia { sigma, momentum, .. } = *inertia;
+        let (axial, slope) = inertia.mean_axial();
+        let slope = 1.5 * strength * slope / momentum;
+        let first = [1.5 * strength * (axial - moments.iter().sum::<f64>() / 3.0), slope, -slope * sigma];
+        let sums = [0, 1].map(|order| Sums::new(modes, sigma, order));
+        let mut second = [[0.0; 5]; 3];
+        let [values, slopes] = [0, 1].map(|part| coefficients(&sums, part));
+        for i in 0..5 {
+            // The power of 1/M is j + 2.
+            let power = if i < 3 { 2 } else { 3 };
+            let scale = -strength * strength / momentum.powi(power);
+            second[0][i] = scale * values[i];
+            second[1][i] = scale * slopes[i] / momentum;
+            second[2][i] = -scale * (f64::from(power) * values[i] + sigma * slopes[i]) / momentum;
+        }
+        Self { first, second, momentum }
+    }
+
+    /// The derivatives of the mean variables for an angular momentum along a unit vector.
+    pub(crate) fn slopes(&self, axis: &Vector3<f64>, disturber: &Disturber) -> Slopes {
+        let Disturber { direction, normal, cube, rate } = disturber;
+        let (along, across) = (axis.dot(direction), axis.dot(normal));
+        let square = along * along;
+        let (still, moving) = (cube * cube, cube * cube * rate);
+        let part = |row: usize| {
+            let [p0, p1, p2, q0, q1] = self.second[row];
+            let second = still * (p0 + square * (p1 + square * p2)) + moving * across * (q0 + q1 * square);
+            self.first[row] * cube * (square - 1.0 / 3.0) + second
+        };
+        let [_, p1, p2, q0, q1] = self.second[0];
+        let to_body = 2.0 * self.first[0] * cube * along
+            + still * along * (2.0 * p1 + 4.0 * p2 * square)
+            + moving * across * 2.0 * q1 * along;
+        let to_normal = moving * (q0 + q1 * square);
+        let force = direction * to_body + normal * to_normal;
+        Slopes { turning: (force - axis * axis.dot(&force)) / self.momentum, phases: [part(1), part(2)] }
+    }
+
+    /// ⟨D⟩ and K2.
+    #[cfg(test)]
+    pub(super) fn values(&self, axis: &Vector3<f64>, disturber: &Disturber) -> [f64; 2] {
+        let square = axis.dot(&disturber.direction).powi(2);
+        let [p0, p1, p2, q0, q1] = self.second[0];
+        let moving = disturber.rate * axis.dot(&disturber.normal) * (q0 + q1 * square);
+        let second = disturber.cube.powi(2) * (p0 + square * (p1 + square * p2) + moving);
+        [self.first[0] * disturber.cube * (square - 1.0 / 3.0), second]
+    }
+}
+
+/// Â_mj and B̂_mj of one j, by m, and their derivatives with respect to σ.
+struct Sums {
+    by_action: [[f64; 2]; 3],
+    by_turn: [[f64; 2]; 3],
+}
+
+impl Sums {
+    fn new(modes: &[Mode], sigma: f64, order: i32) -> Self {
+        let mut sums = Self { by_action: [[0.0; 2]; 3], by_turn: [[0.0; 2]; 3] };
+        for mode in modes {
+            let (h, m) = (f64::from(mode.harmonic), f64::from(mode.multiple));
+            let [value, slope, curvature] = product(square(mode, sigma), power(mode.frequency, -(order + 1)));
+            let weight = m * f64::from(order + 1);
+            let index = mode.multiple as usize; // 0 ≤ m ≤ 2
+            sums.by_action[index][0] += (h - m * sigma) * slope - weight * value;
+            sums.by_action[index][1] += (h - m * sigma) * curvature - (m + weight) * slope;
+            sums.by_turn[index][0] += value;
+            sums.by_turn[index][1] += slope;
+        }
+        sums
+    }
+}
+
+/// P0, P1, P2, Q0, Q1 (`part` 0) or their derivatives with respect to σ (1) from the sums for j = 0 and 1.
+fn coefficients([still, moving]: &[Sums; 2], part: usize) -> Coefficients {
+    let [a0, a1, a2] = still.by_action.map(|sum| sum[part]);
+    let [_, b1, b2] = still.by_turn.map(|sum| sum[part]);
+    let [_, c1, c2] = moving.by_action.map(|sum| sum[part]);
+    let [d0, d1, d2] = moving.by_turn.map(|sum| sum[part]);
+    [
+        a0 / 9.0 + a2,
+        -2.0 / 3.0 * a0 + a1 - 2.0 * b1 - 2.0 * a2 + 8.0 * b2,
+        a0 + 4.0 * b1 - a1 + a2 - 8.0 * b2,
+        2.0 * c2 - d1,
+        c1 - 4.0 * d0 + 8.0 * d2 - 2.0 * c2 + d1,
+    ]
+}
+
+/// f² σ^|h| and its first two derivatives: regular at σ = 0.
+fn square(mode: &Mode, sigma: f64) -> [f64; 3] {
+    let [f, slope, curvature] = mode.function;
+    let degree = mode.harmonic.abs();
+    let d = f64::from(degree);
+    let falling = |lower: i32| if degree >= lower { sigma.powi(degree - lower) } else { 0.0 };
+    let [s0, s1, s2] = [falling(0), d * falling(1), d * (d - 1.0) * falling(2)];
+    [
+        f * f * s0,
+        2.0 * f * slope * s0 + f * f * s1,
+        2.0 * (slope * slope + f * curvature) * s0 + 4.0 * f * slope * s1 + f * f * s2,
+    ]
+}
+
+/// A power of a function and its first two derivatives.
+fn power([value, slope, curvature]: [f64; 3], exponent: i32) -> [f64; 3] {
+    let e = f64::from(exponent);
+    let lower = value.powi(exponent - 2);
+    [
+        lower * value * value,
+        e * lower * value * slope,
+        e * (e - 1.0) * lower * slope * slope + e * lower * value * curvature,
+    ]
+}
+
+fn product(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] * b[0], a[1] * b[0] + a[0] * b[1], a[2] * b[0] + 2.0 * a[1] * b[1] + a[0] * b[2]]
+}

@@ -1,0 +1,54 @@
+//! The terms of the disturbing function that the second order has: those that are large enough, and fast enough for the sums over time derivatives.
+
+use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
+
+/// Smallest √σ in the size of a term: forced wobble has no smaller one.
+const SMALLEST_ROOT: f64 = 1e-9;
+
+/// A term f σ^(|h|/2) e^(i(hℓ′+my′)) of the disturbing function over q = 3φn²/2.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mode {
+    /// h.
+    pub(super) harmonic: i32,
+    /// m, 0 to 2.
+    pub(super) multiple: i32,
+    /// f, df/dσ and d²f/dσ²; for m = 1 without the factor −i.
+    pub(super) function: [f64; 3],
+    /// ν = Ω/M and its first two derivatives with respect to σ.
+    pub(super) frequency: [f64; 3],
+}
+
+impl Mode {
+    fn new(inertia: &Inertia, harmonic: i32, multiple: i32) -> Self {
+        let factor = if multiple == 0 { 1.5 } else { 1.0 };
+        let function = inertia.tensor[multiple as usize].jet(harmonic).map(|part| factor * part); // 0 ≤ m ≤ 2
+        let rates = [inertia.rates.map(|rate| rate.to_f64()), inertia.rate_slopes, inertia.rate_curvatures];
+        let combined = |[anomaly, longitude]: [f64; 2]| {
+            (f64::from(harmonic) * anomaly + f64::from(multiple) * longitude) / inertia.momentum
+        };
+        Self { harmonic, multiple, function, frequency: rates.map(combined) }
+    }
+
+    /// Relative size of the change of the mean variables by the term.
+    fn size(&self, root: f64) -> f64 {
+        let degree = self.harmonic.abs();
+        let [value, slope, _] = self.function.map(f64::abs);
+        (value + root * root * slope) * root.powi((degree - 1).max(0)) * f64::from(degree + 1) / self.frequency[0].abs()
+    }
+}
+
+/// The modes with m > 0, and those with m = 0 and h > 0, that are larger than `share` of the largest and faster than `slowest`, a frequency.
+pub(super) fn modes(inertia: &Inertia, share: f64, slowest: f64) -> Vec<Mode> {
+    let highest = HIGHEST as i32;
+    let root = inertia.sigma.sqrt().max(SMALLEST_ROOT);
+    let mut modes = Vec::new();
+    for multiple in 0..=2_i32 {
+        let lowest = if multiple == 0 { 1 } else { -highest };
+        let harmonics = (lowest..=highest).filter(|h| (h + multiple) % 2 == 0);
+        modes.extend(harmonics.map(|harmonic| Mode::new(inertia, harmonic, multiple)));
+    }
+    modes.retain(|mode| mode.frequency[0].abs() * inertia.momentum > slowest && mode.size(root) > 0.0);
+    let largest = modes.iter().fold(0.0_f64, |most, mode| most.max(mode.size(root)));
+    modes.retain(|mode| mode.size(root) >= share * largest);
+    modes
+}

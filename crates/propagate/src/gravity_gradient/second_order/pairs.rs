@@ -1,0 +1,233 @@
+//! The changes of M and L = Mσ of second order, as one sum over pairs of terms.
+//!
+//! With D = Σ D_a e^(iaθ), a = (h, m), θ = (ℓ′, y′), dW/dt = D − ⟨D⟩ and the bracket \[ , \] of two amplitudes (theory §9),
+//!
+//! ```text
+//! δ₂M = Re Σ_ab e^(i(a+b)θ) {−(i/2) m_a [W_a, W_b] − i (m_a + m_b) χ_ab}
+//! χ_ab = S_ab/(iΩ_ab) − Ṡ_ab/(iΩ_ab)²,   S_ab = ½ [D_a, W_b]
+//! ```
+//!
+//! and the same with h for m gives δ₂L. ⟨D⟩ is one more a, with S_ab = [⟨D⟩, W_b] and without the first part. Quotients of a power of √σ and √σ are
+//! formed before σ is: the sum is regular at σ = 0.
+
+use num_complex::Complex;
+
+use super::modes::Mode;
+use crate::gravity_gradient::corrections::Mean;
+use crate::gravity_gradient::generator::ORDERS;
+use crate::gravity_gradient::inertia::Inertia;
+
+type C64 = Complex<f64>;
+
+/// A symmetric tensor: components 11, 22, 33, 12, 13, 23.
+pub(super) type Tensor = [f64; 6];
+/// The contraction of a tensor for one m, and its derivatives when the frame turns about its axes 1 and 2.
+type Contraction = [C64; 3];
+
+/// The state at which the sum is taken.
+pub(super) struct Stand<'a> {
+    pub(super) inertia: &'a Inertia,
+    pub(super) mean: &'a Mean,
+    /// q = 3φn²/2.
+    pub(super) strength: f64,
+    /// (a/r)³ r̂r̂ in the frame and its time derivatives.
+    pub(super) tensors: &'a [Tensor; ORDERS],
+    /// Largest sizes of the time derivatives, as many and one more.
+    pub(super) norms: &'a [f64],
+    /// Frequency below which pairs are left out.
+    pub(super) slowest: f64,
+    /// Sum of the moments of inertia.
+    pub(super) trace: f64,
+}
+
+/// δ₂M, δ₂L, and the part of them that pairs just above the cut make up.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Actions {
+    pub(super) momentum: f64,
+    pub(super) action: f64,
+}
+
+/// A contraction and its derivative with respect to Ω.
+#[derive(Clone, Copy, Default)]
+struct Part {
+    value: Contraction,
+    slope: C64,
+}
+
+/// One term, or ⟨D⟩.
+#[derive(Clone, Copy)]
+struct Row {
+    harmonic: f64,
+    multiple: f64,
+    /// Ω and its derivatives with respect to σ and M.
+    frequency: [f64; 3],
+    /// q e^(i(hℓ′+my′)), and −i for m = 1.
+    weight: C64,
+    /// F = σ^(|h|/2) f, √σ dF/dσ, and h F/√σ.
+    amplitude: [f64; 3],
+    /// Of D, and of dD/dt.
+    torque: [Part; 2],
+    /// Of W, and of dW/dt.
+    generator: [Part; 2],
+}
+
+/// δ₂M and δ₂L at a mean state of first order.
+pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode]) -> Actions {
+    let half: Vec<Row> = modes.iter().map(|mode| Row::new(stand, mode)).collect();
+    let rows: Vec<Row> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
+    let average = Row::average(stand);
+    let mut actions = Actions::default();
+    for b in &rows {
+        // The other half of the sum is its conjugate.
+        for a in &half {
+            actions.add(stand, a, b, 2.0, true);
+        }
+        actions.add(stand, &average, b, 1.0, false);
+    }
+    actions
+}
+
+/// ½ ⟨{D̃, W}⟩ from the pairs whose phases cancel, with as many time derivatives as the sums have.
+#[cfg(test)]
+pub(super) fn averaged(stand: &Stand<'_>, modes: &[Mode]) -> f64 {
+    let rows = modes.iter().map(|mode| Row::new(stand, mode));
+    rows.map(|a| stand.bracket(&a, &a.torque[0], &a.conjugate(), &a.conjugate().generator[0]).re).sum()
+}
+
+impl Actions {
+    fn add(&mut self, stand: &Stand<'_>, a: &Row, b: &Row, factor: f64, generating: bool) {
+        let i = C64::i();
+        let (torque, wave) = (&a.torque, &b.generator);
+        let (h, m) = (a.harmonic + b.harmonic, a.multiple + b.multiple);
+        let both =
+            if generating { stand.bracket(a, &a.generator[0], b, &wave[0]) * (-0.5 * i) } else { C64::default() };
+        let mut chi = C64::default();
+        let omega = a.frequency[0] + b.frequency[0];
+        if (h, m) != (0.0, 0.0) && omega.abs() > stand.slowest {
+            let inverse = (i * omega).inv();
+            let source = stand.bracket(a, &torque[0], b, &wave[0]);
+            let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
+            chi = (source - change * inverse) * inverse * 0.5 * -i;
+        }
+        self.momentum += factor * (both * a.multiple + chi * m).re;
+        self.action += factor * (both * a.harmonic + chi * h).re;
+    }
+}
+
+impl Stand<'_> {
+    /// The bracket of a part of one term with a part of another, with the phases.
+    fn bracket(&self, a: &Row, a_part: &Part, b: &Row, b_part: &Part) -> C64 {
+        let (momentum, sigma) = (self.mean.momentum, self.inertia.sigma);
+        let ([x, x1, x2], [z, z1, z2]) = (a_part.value, b_part.value);
+        // The derivative (h − mσ)/M ∂/∂σ + m ∂/∂M, with the factor that b's or a's amplitude gives.
+        let along = |row: &Row, other: &Row, value: C64, slope: C64| {
+            let [whole, _, lowered] = row.amplitude;
+            let [_, by_sigma, by_momentum] = other.frequency;
+            let turned = (lowered - row.multiple * sigma.sqrt() * whole) * other.amplitude[1] / momentum;
+            let shift = (row.harmonic - row.multiple * sigma) / momentum * by_sigma + row.multiple * by_momentum;
+            value * turned + slope * (whole * other.amplitude[0] * shift)
+        };
+        let forth = x * along(a, b, z, b_part.slope);
+        let back = z * along(b, a, x, a_part.slope);
+        let turning = (x1 * z2 - x2 * z1) * (a.amplitude[0] * b.amplitude[0] / momentum);
+        a.weight * b.weight * (C64::i() * (forth - back) + turning)
+    }
+}
+
+impl Row {
+    fn new(stand: &Stand<'_>, mode: &Mode) -> Self {
+        let (h, m) = (f64::from(mode.harmonic), f64::from(mode.multiple));
+        let Stand { mean, tensors, norms, strength, .. } = stand;
+        let [nu, slope, _] = mode.frequency;
+        let frequency = [mean.momentum * nu, mean.momentum * slope, nu];
+        let angle = if mean.p == C64::default() { 0.0 } else { mean.p.arg() };
+        let phase = C64::from_polar(*strength, h * angle + m * mean.longitude);
+        let weight = if mode.multiple == 1 { phase * -C64::i() } else { phase };
+        let contracted = tensors.map(|tensor| contraction(&tensor, mode.multiple));
+        Self {
+            harmonic: h,
+            multiple: m,
+            frequency,
+            weight,
+            amplitude: amplitude(mode.harmonic, mode.function, stand.inertia.sigma),
+            torque: [0, 1].map(|j| Part { value: contracted[j], slope: C64::default() }),
+            generator: generating(&contracted, frequency[0], norms),
+        }
+    }
+
+    /// ⟨D⟩, twice: it is no part of D̃, and S has not the half of it.
+    fn average(stand: &Stand<'_>) -> Self {
+        let (axial, slope) = stand.inertia.mean_axial();
+        let function = [1.5 * (axial - stand.trace / 3.0), 1.5 * slope, 0.0];
+        let part = |tensor: &Tensor| Part { value: contraction(tensor, 0), slope: C64::default() };
+        Self {
+            harmonic: 0.0,
+            multiple: 0.0,
+            frequency: [0.0; 3],
+            weight: (2.0 * stand.strength).into(),
+            amplitude: amplitude(0, function, stand.inertia.sigma),
+            torque: [part(&stand.tensors[0]), part(&stand.tensors[1])],
+            generator: [Part::default(); 2],
+        }
+    }
+
+    fn conjugate(&self) -> Self {
+        let conjugated =
+            |part: &Part, sign: f64| Part { value: part.value.map(|c| c.conj()), slope: part.slope.conj() * sign };
+        let [whole, slope, lowered] = self.amplitude;
+        Self {
+            harmonic: -self.harmonic,
+            multiple: -self.multiple,
+            frequency: self.frequency.map(|part| -part),
+            weight: self.weight.conj(),
+            amplitude: [whole, slope, -lowered],
+            torque: self.torque.each_ref().map(|part| conjugated(part, 1.0)),
+            // Ω has the other sign.
+            generator: self.generator.each_ref().map(|part| conjugated(part, -1.0)),
+        }
+    }
+}
+
+/// F = σ^(|h|/2) f, √σ dF/dσ and h F/√σ, regular at σ = 0.
+fn amplitude(harmonic: i32, [value, slope, _]: [f64; 3], sigma: f64) -> [f64; 3] {
+    let root = sigma.sqrt();
+    let degree = harmonic.abs();
+    let lowered = if degree == 0 { 0.0 } else { root.powi(degree - 1) * value };
+    let whole = root.powi(degree) * value;
+    [whole, root.powi(degree + 1) * slope + 0.5 * f64::from(degree) * lowered, f64::from(harmonic) * lowered]
+}
+
+/// V and dV/dt with V̇ + iΩV = U, from the contractions of U and its time derivatives: sums that end where what they leave is least.
+fn generating(contracted: &[Contraction; ORDERS], omega: f64, norms: &[f64]) -> [Part; 2] {
+    let left = |orders: usize| norms[orders] / omega.abs().powi(orders as i32);
+    let orders = (1..=ORDERS).min_by(|&a, &b| left(a).total_cmp(&left(b))).unwrap_or(1);
+    let inverse = (C64::i() * omega).inv();
+    let mut parts = [Part::default(); 2];
+    // (−1)^j/(iΩ)^(j+1).
+    let mut factor = inverse;
+    for (j, values) in contracted.iter().enumerate().take(orders) {
+        let slope = factor * inverse * -C64::i() * (j as f64 + 1.0);
+        for (sum, value) in parts[0].value.iter_mut().zip(values) {
+            *sum += factor * value;
+        }
+        parts[0].slope += slope * values[0];
+        if let Some(next) = contracted.get(j + 1) {
+            for (sum, value) in parts[1].value.iter_mut().zip(next) {
+                *sum += factor * value;
+            }
+            parts[1].slope += slope * next[0];
+        }
+        factor *= -inverse;
+    }
+    parts
+}
+
+/// c_m of a tensor and its derivatives by rotations about axes 1 and 2: U33 − tr U/3, U13 − iU23, U11 − U22 − 2iU12.
+fn contraction(&[xx, yy, zz, xy, xz, yz]: &Tensor, multiple: i32) -> Contraction {
+    let c = C64::new;
+    match multiple {
+        0 => [c(zz - (xx + yy + zz) / 3.0, 0.0), c(-2.0 * yz, 0.0), c(2.0 * xz, 0.0)],
+        1 => [c(xz, -yz), c(-xy, yy - zz), c(xx - zz, -xy)],
+        _ => [c(xx - yy, -2.0 * xy), c(-2.0 * yz, -2.0 * xz), c(-2.0 * xz, 2.0 * yz)],
+    }
+}

@@ -1,0 +1,197 @@
+//! K2 in closed form against a numerical average over both angles, its derivatives against differences, and the brackets of the sum over pairs against it.
+
+use nalgebra::{UnitQuaternion, Vector3};
+use num_complex::Complex;
+
+use super::epoch::{slowest, tensors};
+use super::hamiltonian::{Disturber, Hamiltonian};
+use super::modes::modes;
+use super::pairs::{Stand, Tensor, averaged};
+use crate::gravity_gradient::corrections::{Change, Corrections, Demand, Mean};
+use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
+use crate::gravity_gradient::osculating::osculating;
+use crate::input::options::Level;
+use crate::input::orbit::Orbit;
+use crate::simd::kepler::Place;
+use crate::simd::lanes::Lanes;
+use crate::torque_free::polhode::Polhode;
+use crate::{Body, State};
+
+type C64 = Complex<f64>;
+
+/// Of the disturbing body: what the closed form lacks is (n/Ω)² of it.
+const MEAN_MOTION: f64 = 1e-4;
+const ECCENTRICITY: f64 = 0.3;
+
+struct Scene {
+    polhode: Polhode,
+    orbit: Orbit,
+    mean: Mean,
+    place: Place<pulp::Scalar>,
+}
+
+impl Scene {
+    fn all() -> [Self; 3] {
+        [
+            Self::new([0.7, 0.85, 1.0], [0.1, 0.05, 1.0]),
+            Self::new([0.6, 0.9, 1.0], [0.02, 0.1, -1.0]),
+            Self::new([0.4, 0.95, 1.0], [1.0, 0.04, 0.03]),
+        ]
+    }
+
+    fn new(moments: [f64; 3], rates: [f64; 3]) -> Self {
+        let state = State::new(0.0, [0.1, -0.2, 0.3, 0.927_361_849_549_570_4], rates).expect("a state");
+        let polhode = Polhode::new(&Body::new(moments).expect("a body"), &state).expect("turning");
+        let (_, (sigma, [anomaly, longitude])) = osculating(&polhode).expect("no separatrix");
+        let orbit =
+            Orbit::new(MEAN_MOTION, ECCENTRICITY).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
+        let mean = Mean {
+            p: C64::from_polar(sigma.sqrt(), anomaly),
+            longitude,
+            momentum: polhode.momentum.to_f64(),
+            frame: polhode.invariable_frame(state.attitude),
+        };
+        Self { polhode, orbit, mean, place: Place::of(Lanes::splat(pulp::Scalar, 0.8), ECCENTRICITY) }
+    }
+
+    fn demand(&self) -> Demand<'_> {
+        Demand {
+            orbit: &self.orbit,
+            mean_motion: MEAN_MOTION,
+            level: Level::Full,
+            tolerance: 1e-30,
+            duration: 0.0,
+            share: 0.0,
+        }
+    }
+
+    fn disturber(&self) -> Disturber {
+        let [first, second, normal] = self.orbit.axes();
+        let (sine, cosine) = (self.place.sine.values()[0], self.place.cosine.values()[0]);
+        let eta = (1.0 - ECCENTRICITY * ECCENTRICITY).sqrt();
+        let weight = 1.0 + ECCENTRICITY * cosine;
+        Disturber {
+            direction: first * cosine + second * sine,
+            normal,
+            cube: (weight / (eta * eta)).powi(3),
+            rate: MEAN_MOTION * weight * weight / eta.powi(3),
+        }
+    }
+
+    fn closed(&self, inertia: &Inertia, strength: f64) -> Hamiltonian {
+        Hamiltonian::new(inertia, &modes(inertia, 0.0, slowest(&self.demand())), strength, self.polhode.moments)
+    }
+}
+
+const Q: f64 = 1.5 * MEAN_MOTION * MEAN_MOTION;
+
+/// D less its average at a state whose σ is near that of the tables, over q.
+fn periodic(inertia: &Inertia, p: C64, longitude: f64, tensor: &Tensor) -> f64 {
+    let beyond = p.norm_sqr() - inertia.sigma;
+    let [xx, yy, zz, xy, xz, yz] = *tensor;
+    let sum = |multiple: usize| -> C64 {
+        (-(HIGHEST as i32)..=HIGHEST as i32)
+            .filter(|&h| multiple > 0 || h != 0)
+            .map(|h| {
+                let [value, slope, _] = inertia.tensor[multiple].jet(h);
+                let power = if h >= 0 { p.powi(h) } else { p.conj().powi(-h) };
+                power * (value + slope * beyond)
+            })
+            .sum()
+    };
+    let spin = C64::from_polar(1.0, longitude);
+    let first = sum(1) * -C64::i() * spin * C64::new(xz, -yz);
+    let second = sum(2) * spin * spin * C64::new(xx - yy, -2.0 * xy);
+    1.5 * sum(0).re * (zz - (xx + yy + zz) / 3.0) + 2.0 * (first + second).re
+}
+
+#[test]
+fn the_closed_form_is_the_average_of_the_bracket_over_both_angles() {
+    for scene in Scene::all() {
+        let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
+        let corrections = Corrections::new(&inertia, &scene.demand()).expect("no resonance");
+        let (tensor, _) = tensors(&scene.mean, &scene.place, &scene.demand());
+        // The torus is filled at one frame: the change turns the tensor.
+        let turned = |rotation: [f64; 2], step: f64| -> Tensor {
+            let [x, y] = rotation.map(|angle| step * angle);
+            let turn = UnitQuaternion::new(Vector3::new(x, y, 0.0));
+            tensors(&Mean { frame: scene.mean.frame * turn, ..scene.mean }, &scene.place, &scene.demand()).0[0]
+        };
+        let (mut sum, count) = (0.0, (48, 10));
+        // A change of some 1e-4 makes the quotient good to its square.
+        let scale = 1e-4 / corrections.size;
+        for k in 0..count.0 {
+            for l in 0..count.1 {
+                let anomaly = std::f64::consts::TAU * f64::from(k) / f64::from(count.0);
+                let longitude = std::f64::consts::TAU * f64::from(l) / f64::from(count.1);
+                let p = C64::from_polar(inertia.sigma.sqrt(), anomaly);
+                let mean = Mean { p, longitude, ..scene.mean };
+                let Change { p: by_p, longitude: by_longitude, rotation, .. } = corrections.at(&mean, &scene.place);
+                let value = |step: f64| {
+                    periodic(&inertia, p + by_p * step, longitude + by_longitude * step, &turned(rotation, step))
+                };
+                sum += 0.5 * (value(scale) - value(-scale)) / (2.0 * scale);
+            }
+        }
+        let torus = Q * sum / f64::from(count.0 * count.1);
+        let axis = scene.mean.frame * Vector3::z();
+        let [_, closed] = scene.closed(&inertia, Q).values(&axis, &scene.disturber());
+        // Quotients leave 1e-8; the closed form lacks (n/Ω)² = 1e-7 of it, where its terms with n/Ω are 1e-3.
+        assert!((torus / closed - 1.0).abs() <= 1e-6, "{torus:e} {closed:e} {:e} {tensor:?}", torus / closed - 1.0);
+    }
+}
+
+#[test]
+fn the_pairs_that_cancel_add_up_to_the_closed_form() {
+    for scene in Scene::all() {
+        let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
+        let (tensors, norms) = tensors(&scene.mean, &scene.place, &scene.demand());
+        let stand = Stand {
+            inertia: &inertia,
+            mean: &scene.mean,
+            strength: Q,
+            tensors: &tensors,
+            norms: &norms,
+            slowest: 0.0,
+            trace: scene.polhode.moments.iter().sum(),
+        };
+        let pairs = averaged(&stand, &modes(&inertia, 0.0, slowest(&scene.demand())));
+        let axis = scene.mean.frame * Vector3::z();
+        let [_, closed] = scene.closed(&inertia, Q).values(&axis, &scene.disturber());
+        assert!((pairs / closed - 1.0).abs() <= 1e-6, "{pairs:e} {closed:e} {:e}", pairs / closed - 1.0);
+    }
+}
+
+#[test]
+fn drifts_and_turning_are_the_derivatives_of_the_hamiltonian() {
+    // q = 1 makes ⟨D⟩ and K2 alike in size.
+    for scene in Scene::all() {
+        let Mean { p, momentum, frame, .. } = scene.mean;
+        let (sigma, axis, disturber) = (p.norm_sqr(), frame * Vector3::z(), scene.disturber());
+        let value = |action: f64, momentum: f64, axis: &Vector3<f64>| {
+            let inertia = Inertia::new(&scene.polhode, action / momentum, momentum);
+            scene.closed(&inertia, 1.0).values(axis, &disturber).iter().sum::<f64>()
+        };
+        let inertia = Inertia::new(&scene.polhode, sigma, momentum);
+        let slopes = scene.closed(&inertia, 1.0).slopes(&axis, &disturber);
+        let action = sigma * momentum;
+        let (small, step) = (1e-3 * action, 1e-4 * momentum);
+        let by_action =
+            (value(action + small, momentum, &axis) - value(action - small, momentum, &axis)) / (2.0 * small);
+        let by_momentum =
+            (value(action, momentum + step, &axis) - value(action, momentum - step, &axis)) / (2.0 * step);
+        for (exact, difference) in slopes.phases.into_iter().zip([by_action, by_momentum]) {
+            // The square of the step, and 1e-9 of the tables over it.
+            assert!((exact / difference - 1.0).abs() <= 1e-5, "{exact:e} {difference:e}");
+        }
+        // dk/dt = (1/M) ∂K/∂k × k.
+        let gradient = Vector3::from(std::array::from_fn::<f64, 3, _>(|i| {
+            let step = Vector3::ith(i, 1e-5);
+            (value(action, momentum, &(axis + step)) - value(action, momentum, &(axis - step))) / 2e-5
+        }));
+        let expected = gradient.cross(&axis) / momentum;
+        let found = slopes.turning.cross(&axis);
+        assert!((expected - found).norm() <= 1e-7 * expected.norm(), "{expected:?} {found:?}");
+        assert!(slopes.turning.dot(&axis).abs() <= 1e-14 * found.norm());
+    }
+}

@@ -1,0 +1,28 @@
+//! A disturbing body: its gravity gradient acts on the rotating body. Its position comes from an orbit or from a table.
+
+use std::sync::Arc;
+
+use super::orbit::Orbit;
+use super::tabulated::TabulatedOrbit;
+
+/// A disturbing body.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum DisturbingBody {
+    /// A body on a Keplerian orbit, fixed or with secular rates.
+    Orbit(Orbit),
+    /// A body with a table of positions.
+    Tabulated(Arc<TabulatedOrbit>),
+}
+
+impl From<Orbit> for DisturbingBody {
+    fn from(orbit: Orbit) -> Self {
+        Self::Orbit(orbit)
+    }
+}
+
+impl From<TabulatedOrbit> for DisturbingBody {
+    fn from(table: TabulatedOrbit) -> Self {
+        Self::Tabulated(Arc::new(table))
+    }
+}

@@ -1,0 +1,142 @@
+//! The error bound of an integration: what becomes of a displaced state.
+//!
+//! The state at the epoch is displaced by as much as all errors of the steps together may be: twice the root of the sum of squares of the rounding errors, and the sum of the last terms
+//! of the series. Integrated with shorter steps, and with tables interpolated by polynomials of lower degree, it separates from the motion as errors do; the bound is
+//! its largest distance so far. This covers phases, which grow linearly with time, resonances and chaotic motion, where distances grow exponentially; in so far as they grow faster than
+//! linearly, up to ten times the distance is taken, because the displacement may lie across the direction that grows.
+//!
+//! First the displacement is enlarged to about 1e-3 rad at the end, where steps of low order are enough, and the distance is scaled back; this takes a third of the integration's time for each. Where the
+//! state has gone too far for a scale, and with tables, the displacement itself is integrated.
+
+use std::f64::consts::PI;
+use std::sync::atomic::AtomicBool;
+
+use super::expansion::{Equations, Workspace};
+use super::integrator::{Precision, Runner, Step, next_knot};
+use super::series::Row;
+use crate::error::Error;
+use crate::simd::halt::going;
+use crate::simd::instruction_set::{InstructionSet, Task};
+
+/// The most that the bound is of the largest distance of the displaced state.
+const SAFETY: f64 = 10.0;
+/// Times at which the two are compared.
+const COMPARISONS: usize = 256;
+/// Length of the steps of the displaced state, relative to those of the motion.
+const SHORTER: f64 = 0.9;
+/// A distance beyond which nothing is known \[rad\].
+const LOST: f64 = 0.5;
+/// Rounding errors of the evaluation \[rad\].
+pub(super) const FLOOR: f64 = 3e-15;
+/// Relative rounding errors of the moments' ratios and of the state.
+const INPUT: f64 = 2e-16;
+
+/// Displacements of the rates, with the sign of each. Where nearby states separate in a plane of two axes, beside the middle axis, one line in the plane does not grow: for no plane
+/// do the two displacements lie near the same line.
+const WEIGHTS: [Row; PATTERNS] = [[0.8, 1.0, 0.9, 0.0], [1.0, -0.4, 0.2, 0.0]];
+/// How many displacements are integrated.
+pub(super) const PATTERNS: usize = 2;
+
+/// Distance at the end of linear growth, of an enlarged displacement \[rad\].
+const ENLARGED: f64 = 1e-3;
+/// A distance of an enlarged displacement beyond which it has no scale \[rad\].
+const UNSCALED: f64 = 0.1;
+
+/// The error bound at some times from the epoch, which does not decrease.
+pub(super) type Profile = Vec<(f64, f64)>;
+
+/// The steps of a motion in one direction, and what measures their error.
+#[derive(Clone, Copy)]
+pub(super) struct Measured<'a> {
+    pub(super) equations: &'a Equations,
+    pub(super) precision: Precision,
+    pub(super) steps: &'a [Step],
+    /// Of attitude \[rad\] and rates.
+    pub(super) errors: [f64; 2],
+    pub(super) backward: bool,
+    /// The index of the displacement.
+    pub(super) pattern: usize,
+    /// Whether the displacement is enlarged.
+    pub(super) enlarged: bool,
+    pub(super) stop: &'a AtomicBool,
+}
+
+impl Measured<'_> {
+    /// Of attitude \[rad\] and rates.
+    fn displacement(&self) -> [f64; 2] {
+        let [angle, rate] = self.errors;
+        let [first, second, third] = self.steps[0].rates;
+        [angle + INPUT, rate + INPUT * first.abs().max(second.abs()).max(third.abs())]
+    }
+
+    fn displaced(&self, [angle, rate]: [f64; 2]) -> Runner {
+        let first = self.steps[0].start(self.backward);
+        let angle = 0.5 * angle;
+        let [x, y, z, w] = first.attitude;
+        let turn = [0.7 * angle, -angle, 0.8 * angle];
+        let attitude = [
+            x + w * turn[0] + y * turn[2] - z * turn[1],
+            y + w * turn[1] + z * turn[0] - x * turn[2],
+            z + w * turn[2] + x * turn[1] - y * turn[0],
+            w - x * turn[0] - y * turn[1] - z * turn[2],
+        ];
+        let weights = WEIGHTS[self.pattern];
+        let rates: Row = std::array::from_fn(|i| first.rates[i] + rate * weights[i] * 1.0_f64.copysign(first.rates[i]));
+        Runner::new(attitude, rates, self.backward)
+    }
+}
+
+impl Task for Measured<'_> {
+    /// None where an enlarged displacement has no scale.
+    type Output = Result<Option<Profile>, Error>;
+
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, _simd: S) -> Self::Output {
+        let displacement = self.displacement();
+        let Self { equations, precision, steps, backward, enlarged, stop, .. } = self;
+        let duration = steps[steps.len() - 1].time.0.abs();
+        let scale = if enlarged { ENLARGED / (displacement[0] + displacement[1] * duration) } else { 1.0 };
+        let displacement = displacement.map(|displacement| scale * displacement);
+        let mut runner = self.displaced(displacement);
+        let precision = Precision { factor: if enlarged { 1.0 } else { SHORTER }, ..precision };
+        let mut workspace = Workspace::new(equations.bodies.len());
+        let (mut profile, mut bound) = (Profile::new(), 0.0_f64);
+        let stride = steps.len().div_ceil(COMPARISONS);
+        for group in steps[1..].chunks(stride) {
+            let Some(target) = group.last() else { continue };
+            while bound < PI && runner.time != target.time {
+                going(stop).map_err(|_| Error::Stopped)?;
+                let knot = next_knot(equations, runner.time.0, !backward);
+                let end = knot.filter(|knot| knot.0.abs() < target.time.0.abs()).unwrap_or(target.time);
+                if runner.advance((equations, precision), end, &mut workspace).is_nan() {
+                    bound = PI;
+                }
+            }
+            for step in group {
+                bound = bound.max(2.0 * (norm(&step.attitude) - 1.0).abs());
+            }
+            let distance = angle(&target.attitude, &runner.step().attitude);
+            let linear = displacement[0] + displacement[1] * target.time.0.abs();
+            let safety = (distance / linear).clamp(1.0, SAFETY);
+            if enlarged && (distance >= UNSCALED || distance.is_nan()) {
+                return Ok(None);
+            }
+            bound = if distance < LOST { bound.max(safety * distance / scale + FLOOR) } else { PI };
+            profile.push((target.time.0, bound.min(PI)));
+        }
+        Ok(Some(profile))
+    }
+}
+
+fn norm(attitude: &Row) -> f64 {
+    attitude.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// The angle between two attitudes.
+fn angle(one: &Row, other: &Row) -> f64 {
+    let [x, y, z, w] = *one;
+    let [a, b, c, d] = *other;
+    let vector = [w * a - d * x - (y * c - z * b), w * b - d * y - (z * a - x * c), w * c - d * z - (x * b - y * a)];
+    let scalar = x * a + y * b + z * c + w * d;
+    2.0 * norm(&[vector[0], vector[1], vector[2], 0.0]).atan2(scalar.abs())
+}

@@ -1,0 +1,60 @@
+//! Evaluation at any time by the series of the step that contains it.
+//!
+//! Of an integration whose coefficients are not kept a step is expanded again when a time falls into it, which takes as long as the step took and gives the same bits; times in
+//! order share the expansion.
+
+use super::expansion::Workspace;
+use super::integrated::Integrated;
+use super::integrator::{Side, Step};
+use crate::numerics::scaling::scaled;
+
+/// Where the last time was.
+pub(crate) struct Cursor<'a> {
+    motion: &'a Integrated,
+    workspace: Box<Workspace>,
+    /// Side and step that are expanded.
+    expanded: Option<(usize, usize)>,
+}
+
+impl<'a> Cursor<'a> {
+    pub(crate) fn new(motion: &'a Integrated) -> Self {
+        Self { motion, workspace: Workspace::new(motion.equations.bodies.len()), expanded: None }
+    }
+
+    /// Attitude and rates a time after the epoch, in the user's unit.
+    #[inline(always)]
+    pub(crate) fn at(&mut self, (high, low): (f64, f64)) -> ([f64; 4], [f64; 3]) {
+        let Integrated { equations, order, sides, exponent, .. } = self.motion;
+        let time = (scaled(high, *exponent), scaled(low, *exponent));
+        let side = usize::from(time.0 >= 0.0);
+        let Side { steps, coefficients } = &sides[side];
+        // The end of the last step begins none.
+        let last = steps.len().saturating_sub(2);
+        let place = match self.expanded {
+            Some((expanded, place)) if expanded == side && within(time.0, &steps[place..]) => place,
+            _ => steps.partition_point(|step| step.time.0.abs() <= time.0.abs()).saturating_sub(1).min(last),
+        };
+        let start = &steps[place];
+        if self.expanded != Some((side, place)) {
+            let rows = *order + 1;
+            match coefficients.get(place * rows..(place + 1) * rows) {
+                Some(kept) => self.workspace.restore(kept),
+                None => self.workspace.expand(equations, &start.start(side == 0), *order),
+            }
+            self.expanded = Some((side, place));
+        }
+        let since = (time.0 - start.time.0) + (time.1 - start.time.1);
+        let (attitude, rates) = self.workspace.at(since, *order);
+        let norm = attitude.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let [first, second, third, _] = rates.map(|rate| scaled(rate, *exponent));
+        (attitude.map(|x| x / norm), [first, second, third])
+    }
+}
+
+/// Whether a time lies in the first of some steps.
+fn within(time: f64, steps: &[Step]) -> bool {
+    match steps {
+        [start, end, ..] => start.time.0.abs() <= time.abs() && time.abs() < end.time.0.abs(),
+        _ => false,
+    }
+}

@@ -1,0 +1,234 @@
+//! A motion by integration over a span, with its error bound.
+
+use std::f64::consts::PI;
+use std::sync::atomic::AtomicBool;
+
+use andoyer_double::two_sum;
+use pulp::Arch;
+
+use super::bound::{FLOOR, Measured, PATTERNS, Profile};
+use super::disturber::Disturber;
+use super::expansion::Equations;
+use super::integrator::{Kept, Precision, Runner, Side, Step};
+use super::series::Row;
+use crate::error::Error;
+use crate::input::disturbing_body::DisturbingBody;
+use crate::input::orbit::Orbit;
+use crate::input::scene::Scene;
+use crate::input::tabulated::TabulatedOrbit;
+use crate::numerics::scaling::{exponent, scaled};
+use crate::simd::instruction_set::dispatch;
+
+/// Relative truncation error of a step below which its sum over all steps is nothing beside rounding.
+const FINEST: f64 = 1e-19;
+/// The largest one that is used.
+const COARSEST: f64 = 1e-6;
+/// Error at the end that the steps of an enlarged displacement may leave, before its division by the square of the phase \[rad\].
+const ENLARGED_ERROR: f64 = 1e-4;
+/// Relative rounding error of the rates that a step of about half a radian leaves.
+const STEP_ROUNDING: f64 = 1e-16;
+
+/// What a plan says of an integration.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub(crate) struct IntegrationPlan {
+    pub(crate) steps: usize,
+    pub(crate) bodies: usize,
+}
+
+/// A motion by integration. Times are those from the epoch in its own unit.
+#[derive(Clone, Debug)]
+pub(crate) struct Integrated {
+    pub(super) equations: Equations,
+    pub(super) order: usize,
+    /// Before and after the epoch.
+    pub(super) sides: [Side; 2],
+    pub(super) exponent: i32,
+    /// The first and the last time from the epoch, in the user's unit.
+    pub(crate) reach: [f64; 2],
+    pub(crate) error: f64,
+}
+
+impl Integrated {
+    /// The motion of a scene about principal axes over its span.
+    pub(crate) fn new(scene: &Scene, reason: &str, stop: &AtomicBool) -> Result<Self, Error> {
+        let problem = Problem::new(scene, reason)?;
+        let tolerance = scene.asked_tolerance();
+        let phase = problem.phase();
+        // Truncation errors of the rates add up over the steps, and their effect on the angle over time.
+        let first = (50.0 * tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST);
+        let (mut motion, mut profiles) = problem.solved(first, stop)?;
+        if motion.error > tolerance && first > FINEST {
+            (motion, profiles) = problem.solved(FINEST, stop)?;
+        }
+        if motion.error < PI {
+            return Ok(motion);
+        }
+        let [start, stop] = profiles.map(|profile| {
+            let held = profile.iter().take_while(|(_, error)| *error <= tolerance).last();
+            scene.state().epoch + scaled(held.map_or(0.0, |(time, _)| *time), -problem.exponent)
+        });
+        Err(Error::Unpredictable { tolerance, start, stop })
+    }
+
+    /// What the plan says of it.
+    pub(crate) fn plan(&self) -> IntegrationPlan {
+        let steps = self.sides.iter().map(|side| side.steps.len() - 1).sum();
+        IntegrationPlan { steps, bodies: self.equations.bodies.len() }
+    }
+
+    /// The order of the series.
+    pub(crate) fn order(&self) -> usize {
+        self.order
+    }
+}
+
+/// The error bound that rounding leaves a motion without growth of its own, and how many steps it takes, both from above by guess: for the choice of a method.
+pub(crate) fn prospect(scene: &Scene) -> Option<(f64, f64)> {
+    let problem = Problem::new(scene, "").ok()?;
+    let phase = problem.phase();
+    let steps = 10.0 + 2.0 * phase;
+    Some((STEP_ROUNDING * (10.0 + steps.sqrt() * phase), steps))
+}
+
+/// The equations with the state and the times.
+struct Problem {
+    equations: Equations,
+    attitude: Row,
+    rates: Row,
+    exponent: i32,
+    /// From the epoch, in double-double and the unit of the integration.
+    ends: [(f64, f64); 2],
+    reach: [f64; 2],
+}
+
+impl Problem {
+    fn new(scene: &Scene, reason: &str) -> Result<Self, Error> {
+        let (start, stop) = scene.asked_span().ok_or_else(|| Error::NoSpan { reason: reason.to_owned() })?;
+        let epoch = scene.state().epoch;
+        let (start, stop) = (start.min(epoch), stop.max(epoch));
+        let (mut fastest, mut square) = (scene.state().angular_velocity.norm(), 0.0_f64);
+        for body in scene.asked_disturbing() {
+            let (rate, least) = match body {
+                DisturbingBody::Orbit(orbit) => {
+                    orbit.within_reach(epoch)?;
+                    rates_of_orbit(orbit)
+                }
+                DisturbingBody::Tabulated(table) => {
+                    let (first, last) = table.ends();
+                    if start < first || stop > last {
+                        return Err(Error::TableSpan { start, stop, first, last });
+                    }
+                    rates_of_table(table)
+                }
+            };
+            fastest = fastest.max(rate);
+            square += least * least;
+        }
+        let exponent = if fastest > 0.0 { exponent(fastest) } else { 0 };
+        let scale = scaled(square.sqrt(), -exponent).max(f64::MIN_POSITIVE);
+        let rates = scene.state().angular_velocity.map(|rate| scaled(rate, -exponent));
+        let end = |time: f64| {
+            let (high, low) = two_sum(time, -epoch);
+            (scaled(high, exponent), scaled(low, exponent))
+        };
+        Ok(Self {
+            equations: Equations::new(scene, exponent, scale),
+            attitude: scene.state().attitude.coords.into(),
+            rates: [rates.x, rates.y, rates.z, 0.0],
+            exponent,
+            ends: [end(start), end(stop)],
+            reach: [start - epoch, stop - epoch],
+        })
+    }
+
+    /// Radians of the fastest rate over the longer side.
+    fn phase(&self) -> f64 {
+        let longest = self.ends[0].0.abs().max(self.ends[1].0.abs());
+        let [x, y, z, _] = self.rates;
+        longest * x.hypot(y).hypot(z).max(self.equations.scale)
+    }
+
+    fn solved(&self, error: f64, stop: &AtomicBool) -> Result<(Integrated, [Profile; 2]), Error> {
+        let (arch, precision, equations) = (Arch::new(), Precision::of(error), &self.equations);
+        let mut sides = [Side::default(), Side::default()];
+        let mut profiles = [Profile::new(), Profile::new()];
+        let mut bound = FLOOR;
+        for (side, target) in self.ends.into_iter().enumerate() {
+            let backward = side == 0;
+            let runner = Runner::new(self.attitude, self.rates, backward);
+            let (kept, runner) = dispatch(arch, Kept { equations, precision, runner, target, stop })?;
+            profiles[side] = self.measured(&kept.steps, (precision, runner.errors()), backward, stop)?;
+            bound = profiles[side].last().map_or(bound, |(_, error)| bound.max(*error));
+            sides[side] = kept;
+        }
+        let Self { exponent, reach, .. } = *self;
+        let equations = equations.clone();
+        let motion = Integrated { equations, order: precision.order, sides, exponent, reach, error: bound };
+        Ok((motion, profiles))
+    }
+
+    /// The error bound of the steps in one direction.
+    fn measured(
+        &self,
+        steps: &[Step],
+        (precision, errors): (Precision, [f64; 2]),
+        backward: bool,
+        stop: &AtomicBool,
+    ) -> Result<Profile, Error> {
+        let phase = self.phase();
+        let coarse = Precision::of((ENLARGED_ERROR / (10.0 + phase * phase)).clamp(FINEST, COARSEST));
+        let tabulated = self.equations.bodies.iter().any(|body| matches!(body, Disturber::Tabulated(_)));
+        let coarser = self.equations.coarser();
+        let mut whole = Profile::new();
+        for pattern in 0..PATTERNS {
+            let enlarged = Measured {
+                equations: &self.equations,
+                precision: coarse,
+                steps,
+                errors,
+                backward,
+                pattern,
+                enlarged: true,
+                stop,
+            };
+            let exact = Measured { equations: &coarser, precision, enlarged: false, ..enlarged };
+            let cheap = !tabulated && coarse.order < precision.order;
+            let profile = if cheap { dispatch(Arch::new(), enlarged)? } else { None };
+            let profile = match profile {
+                Some(profile) => profile,
+                None => dispatch(Arch::new(), exact)?.unwrap_or_default(),
+            };
+            merge(&mut whole, profile);
+        }
+        Ok(whole)
+    }
+}
+
+/// The larger of two error bounds at each time.
+fn merge(whole: &mut Profile, profile: Profile) {
+    if whole.is_empty() {
+        *whole = profile;
+        return;
+    }
+    for ((_, bound), (_, other)) in whole.iter_mut().zip(profile) {
+        *bound = bound.max(other);
+    }
+}
+
+/// The fastest rate that an orbit brings in, and the torque's √(3μ/ρ³) at the apocentre.
+fn rates_of_orbit(orbit: &Orbit) -> (f64, f64) {
+    let e = orbit.eccentricity();
+    let strength = (3.0 * orbit.strength()).sqrt();
+    let near = (1.0 - e).powf(-1.5);
+    let [node, pericentre] = orbit.rates();
+    let fastest = (strength * near).max(2.0 * orbit.mean_motion() * near).max(node.abs()).max(pericentre.abs());
+    (fastest, strength * (1.0 + e).powf(-1.5))
+}
+
+/// √(3 gm/r³) at the nearest and the farthest position.
+fn rates_of_table(table: &TabulatedOrbit) -> (f64, f64) {
+    let distances = table.positions().iter().map(|[x, y, z]| x.hypot(*y).hypot(*z));
+    let (nearest, farthest) = distances.fold((f64::INFINITY, 0.0_f64), |(least, most), r| (least.min(r), most.max(r)));
+    let rate = |distance: f64| (3.0 * table.gm() / distance).sqrt() / distance;
+    (rate(nearest), rate(farthest))
+}

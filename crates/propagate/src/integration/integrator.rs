@@ -1,0 +1,241 @@
+//! Steps in one direction from the epoch, kept with the state at the start of each.
+//!
+//! Sums over steps are compensated (Kahan), so that their rounding errors are those of the increments.
+
+use std::sync::atomic::AtomicBool;
+
+use andoyer_double::two_sum;
+
+use super::expansion::{Equations, Start, Workspace};
+use super::series::{Coefficients, MAX, Row, largest};
+use crate::error::Error;
+use crate::simd::halt::going;
+use crate::simd::instruction_set::{InstructionSet, Task};
+
+/// The most steps that are kept in one direction: 600 MB.
+pub(crate) const MOST_STEPS: usize = 1 << 23;
+/// Steps between two looks at the flag: about 0.3 ms.
+const AT_ONCE: usize = 64;
+/// An integration whose first steps would need more than this many times the steps that are kept is refused at once.
+const HOPELESS: f64 = 16.0;
+/// The terms after the last, relative to it: steps are e^−2 of the radius of convergence, so that their sum is 0.16 of it.
+const OMITTED: f64 = 0.2;
+/// Relative rounding errors of a torque and of ω × Iω.
+const ROUNDING: [f64; 2] = [4.0 * 1.2e-16, 2.0 * 1.2e-16];
+
+/// The start of a step: 72 bytes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Step {
+    /// Time from the epoch, in double-double.
+    pub(super) time: (f64, f64),
+    pub(super) attitude: Row,
+    pub(super) rates: [f64; 3],
+}
+
+impl Step {
+    pub(super) fn start(&self, backward: bool) -> Start {
+        let [first, second, third] = self.rates;
+        Start { time: self.time, backward, attitude: self.attitude, rates: [first, second, third, 0.0] }
+    }
+}
+
+/// The most rows of coefficients that are kept in one direction: 59 MB. Of longer integrations none are, and a step is expanded again when a time falls into it.
+const MOST_COEFFICIENTS: usize = 1 << 20;
+
+/// The steps in one direction.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Side {
+    pub(super) steps: Vec<Step>,
+    /// order + 1 for each step, or none.
+    pub(super) coefficients: Vec<Coefficients>,
+}
+
+/// The order and the factor of the lengths of steps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Precision {
+    pub(super) order: usize,
+    /// 1, or less for shorter steps.
+    pub(super) factor: f64,
+}
+
+impl Precision {
+    /// For a relative error of a step (Jorba and Zou, eq. 3-7).
+    pub(super) fn of(error: f64) -> Self {
+        let order = (-0.5 * error.ln()).ceil() + 1.0;
+        Self { order: (order as usize).clamp(4, MAX), factor: 1.0 }
+    }
+}
+
+/// A state on its way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Runner {
+    pub(super) time: (f64, f64),
+    backward: bool,
+    attitude: Row,
+    attitude_rest: Row,
+    rates: Row,
+    rates_rest: Row,
+    /// Sums of squares of the rounding errors, and sums of the truncation errors, of attitude \[rad\] and rates.
+    rounded: [f64; 2],
+    truncated: [f64; 2],
+}
+
+impl Runner {
+    pub(super) fn new(attitude: Row, rates: Row, backward: bool) -> Self {
+        let none = [0.0; 4];
+        Self {
+            time: (0.0, 0.0),
+            backward,
+            attitude,
+            attitude_rest: none,
+            rates,
+            rates_rest: none,
+            rounded: [0.0; 2],
+            truncated: [0.0; 2],
+        }
+    }
+
+    pub(super) fn step(&self) -> Step {
+        let [first, second, third, _] = self.rates;
+        Step { time: self.time, attitude: self.attitude, rates: [first, second, third] }
+    }
+
+    /// Estimates of the errors of attitude \[rad\] and rates that all steps leave together.
+    pub(super) fn errors(&self) -> [f64; 2] {
+        std::array::from_fn(|i| 2.0 * self.rounded[i].sqrt() + self.truncated[i])
+    }
+
+    /// Goes on by one step, to the target at most. Returns the length of the step without a target.
+    #[inline(always)]
+    pub(super) fn advance(
+        &mut self,
+        (equations, precision): (&Equations, Precision),
+        target: (f64, f64),
+        workspace: &mut Workspace,
+    ) -> f64 {
+        let Precision { order, factor } = precision;
+        let start = Start { time: self.time, backward: self.backward, attitude: self.attitude, rates: self.rates };
+        workspace.expand(equations, &start, order);
+        let scale = largest(&self.rates).max(equations.scale);
+        let mut length = f64::INFINITY;
+        for k in [order - 1, order] {
+            let ratio = (largest(&workspace.rates[k]) / scale).max(largest(&workspace.attitude[k]));
+            length = length.min(ratio.powf(-1.0 / k as f64));
+        }
+        let whole = length * factor * (-2.0 - 0.7 / (order - 1) as f64).exp();
+        let left = (target.0 - self.time.0) + (target.1 - self.time.1);
+        let last = whole >= left.abs();
+        let length = if last { left } else { whole.copysign(left) };
+        self.add(length, order, workspace);
+        self.account(length.abs(), order, (equations, workspace));
+        self.time = if last { target } else { sum(self.time, length) };
+        whole
+    }
+
+    #[inline(always)]
+    fn add(&mut self, length: f64, order: usize, workspace: &Workspace) {
+        let (mut attitude, mut rates) = (workspace.attitude[order], workspace.rates[order]);
+        for k in (1..order).rev() {
+            for lane in 0..4 {
+                attitude[lane] = attitude[lane].mul_add(length, workspace.attitude[k][lane]);
+                rates[lane] = rates[lane].mul_add(length, workspace.rates[k][lane]);
+            }
+        }
+        for lane in 0..4 {
+            compensated(&mut self.attitude[lane], &mut self.attitude_rest[lane], attitude[lane] * length);
+            compensated(&mut self.rates[lane], &mut self.rates_rest[lane], rates[lane] * length);
+        }
+    }
+
+    /// Adds the errors that the step may have made.
+    #[inline(always)]
+    fn account(&mut self, length: f64, order: usize, (equations, workspace): (&Equations, &Workspace)) {
+        let last = length.powi(order as i32);
+        self.truncated[0] += 2.0 * OMITTED * largest(&workspace.attitude[order]) * last;
+        self.truncated[1] += OMITTED * largest(&workspace.rates[order]) * last;
+        let [torque, gyration] = &workspace.parts;
+        let by_rates = ROUNDING[0] * largest(torque) + ROUNDING[1] * largest(gyration);
+        let rate = by_rates * largest(&equations.factors) * length;
+        let angle = ROUNDING[1] * largest(&self.rates) * length;
+        self.rounded[0] += angle * angle;
+        self.rounded[1] += rate * rate;
+    }
+}
+
+/// A time in double-double plus a length.
+#[inline(always)]
+fn sum((high, low): (f64, f64), length: f64) -> (f64, f64) {
+    let (sum, rest) = two_sum(high, length);
+    two_sum(sum, rest + low)
+}
+
+#[inline(always)]
+fn compensated(value: &mut f64, rest: &mut f64, change: f64) {
+    let change = change + *rest;
+    let sum = *value + change;
+    *rest = change - (sum - *value);
+    *value = sum;
+}
+
+/// The integration to a time, every step of it kept.
+pub(super) struct Kept<'a> {
+    pub(super) equations: &'a Equations,
+    pub(super) precision: Precision,
+    pub(super) runner: Runner,
+    pub(super) target: (f64, f64),
+    pub(super) stop: &'a AtomicBool,
+}
+
+impl Task for Kept<'_> {
+    type Output = Result<(Side, Runner), Error>;
+
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, _simd: S) -> Self::Output {
+        let Self { equations, precision, mut runner, target, stop } = self;
+        let mut workspace = Workspace::new(equations.bodies.len());
+        let (mut steps, mut coefficients) = (Vec::new(), Vec::new());
+        let (mut kept, forward) = (true, !runner.backward);
+        while runner.time != target {
+            if steps.len() % AT_ONCE == 0 {
+                going(stop).map_err(|_| Error::Stopped)?;
+                affordable(&steps, &runner, target)?;
+            }
+            let knot = next_knot(equations, runner.time.0, forward);
+            let end = knot.filter(|knot| knot.0.abs() < target.0.abs()).unwrap_or(target);
+            steps.push(runner.step());
+            let length = runner.advance((equations, precision), end, &mut workspace);
+            // A table whose polynomial meets the origin leaves no number.
+            if length.is_nan() {
+                return Err(Error::TooManySteps { steps: f64::INFINITY, bound: MOST_STEPS });
+            }
+            kept &= coefficients.len() + precision.order < MOST_COEFFICIENTS;
+            if kept {
+                coefficients.extend(workspace.coefficients(precision.order));
+            } else {
+                coefficients = Vec::new();
+            }
+        }
+        steps.push(runner.step());
+        Ok((Side { steps, coefficients }, runner))
+    }
+}
+
+/// The nearest time at which the series of a body ends.
+pub(super) fn next_knot(equations: &Equations, time: f64, forward: bool) -> Option<(f64, f64)> {
+    let knots = equations.bodies.iter().filter_map(|body| body.next_knot(time, forward));
+    knots.min_by(|one, other| one.0.abs().total_cmp(&other.0.abs()))
+}
+
+/// Whether the steps so far leave the whole within the bound.
+fn affordable(steps: &[Step], runner: &Runner, target: (f64, f64)) -> Result<(), Error> {
+    let done = runner.time.0.abs();
+    if steps.is_empty() || done == 0.0 {
+        return Ok(());
+    }
+    let whole = steps.len() as f64 * (target.0.abs() / done);
+    let bound = MOST_STEPS as f64;
+    if whole > HOPELESS * bound || steps.len() >= MOST_STEPS {
+        return Err(Error::TooManySteps { steps: whole, bound: MOST_STEPS });
+    }
+    Ok(())
+}

@@ -1,0 +1,101 @@
+//! The series of a tabulated body: of the polynomial through the nearest positions.
+//!
+//! The polynomial belongs to an interval of the table, so a step ends at each of its times.
+
+use std::sync::Arc;
+
+use andoyer_double::two_sum;
+
+use super::series::{ROWS, Scalars, Series, power, product};
+use crate::input::tabulated::{NODES, TabulatedOrbit};
+use crate::numerics::scaling::scaled;
+
+/// A table in the unit of the integration.
+#[derive(Clone, Debug)]
+pub(super) struct Table {
+    orbit: Arc<TabulatedOrbit>,
+    /// Times from the epoch, in double-double.
+    knots: Arc<Vec<(f64, f64)>>,
+    /// A length by which positions are divided.
+    length: f64,
+    /// √(3 gm/length³).
+    strength: f64,
+    /// Positions through which a polynomial goes.
+    nodes: usize,
+}
+
+impl Table {
+    pub(super) fn new(orbit: &Arc<TabulatedOrbit>, epoch: f64, exponent: i32) -> Self {
+        let knots = orbit.times().iter().map(|time| {
+            let (high, low) = two_sum(*time, -epoch);
+            (scaled(high, exponent), scaled(low, exponent))
+        });
+        let [x, y, z] = orbit.positions()[0];
+        let length = x.hypot(y).hypot(z);
+        let strength = scaled((3.0 * orbit.gm() / length).sqrt() / length, -exponent);
+        Self { orbit: orbit.clone(), knots: Arc::new(knots.collect()), length, strength, nodes: NODES }
+    }
+
+    pub(super) fn coarser(&self) -> Self {
+        Self { nodes: NODES - 2, ..self.clone() }
+    }
+
+    /// The index of the interval that begins at a time or contains it.
+    fn interval(&self, time: (f64, f64)) -> usize {
+        let after = self.knots.partition_point(|knot| *knot <= time);
+        after.clamp(1, self.knots.len() - 1) - 1
+    }
+
+    pub(super) fn next_knot(&self, time: f64, forward: bool) -> Option<(f64, f64)> {
+        if forward {
+            self.knots.get(self.knots.partition_point(|knot| knot.0 <= time)).copied()
+        } else {
+            self.knots[..self.knots.partition_point(|knot| knot.0 < time)].last().copied()
+        }
+    }
+
+    /// Newton's divided differences, expanded about the time.
+    pub(super) fn series(&self, (time, backward): ((f64, f64), bool), order: usize, out: &mut Series) {
+        let interval = self.interval(time);
+        // A step backwards from a time of the table lies in the interval before it.
+        let interval = if backward && self.knots[interval] == time { interval.saturating_sub(1) } else { interval };
+        let start = self.orbit.first_node(interval, self.nodes);
+        let mut at = [0.0; NODES];
+        let mut values = [[0.0; 3]; NODES];
+        for i in 0..self.nodes {
+            let knot = self.knots[start + i];
+            at[i] = (knot.0 - time.0) + (knot.1 - time.1);
+            values[i] = self.orbit.positions()[start + i].map(|value| value / self.length);
+        }
+        for level in 1..self.nodes {
+            for i in (level..self.nodes).rev() {
+                let share = 1.0 / (at[i] - at[i - level]);
+                let before = values[i - 1];
+                for (value, before) in values[i].iter_mut().zip(before) {
+                    *value = (*value - before) * share;
+                }
+            }
+        }
+        let mut position: [Scalars; 3] = [[0.0; ROWS]; 3];
+        for (axis, p) in position.iter_mut().enumerate() {
+            for i in (0..self.nodes).rev() {
+                // p ← p · (t − at) + value.
+                for k in (1..self.nodes).rev() {
+                    p[k] = p[k - 1] - at[i] * p[k];
+                }
+                p[0] = values[i][axis] - at[i] * p[0];
+            }
+        }
+        let (mut square, mut factor): (Scalars, Scalars) = ([0.0; ROWS], [0.0; ROWS]);
+        for k in 0..order {
+            square[k] = position.iter().map(|p| product(p, p, k)).sum();
+            factor[k] = if k == 0 {
+                self.strength / (square[0] * square[0].sqrt().sqrt())
+            } else {
+                power(&square, &factor, -1.25, k)
+            };
+            let [x, y, z] = position.each_ref().map(|p| product(p, &factor, k));
+            out[k] = [x, y, z, 0.0];
+        }
+    }
+}

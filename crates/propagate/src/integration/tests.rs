@@ -1,0 +1,45 @@
+use super::integrator::Step;
+use crate::error::STEP_BYTES;
+use crate::{Body, Error, Method, Scene, State};
+
+fn scene(moments: [f64; 3], rates: [f64; 3]) -> Scene {
+    let state = State::new(3.0, [0.1, -0.2, 0.3, 0.86_f64.sqrt()], rates).expect("a state");
+    Scene::new(Body::new(moments).expect("a body"), state)
+}
+
+#[test]
+fn a_step_takes_the_bytes_that_the_error_says() {
+    assert_eq!(size_of::<Step>() as f64, STEP_BYTES);
+}
+
+#[test]
+fn free_motion_is_that_of_the_closed_form_in_both_directions() {
+    for (moments, rates) in [
+        ([1.0, 1.5, 2.0], [0.1, 0.2, 1.0]),
+        ([1.0, 1.5, 2.0], [1.0, 0.2, 0.1]),
+        ([2.0, 1.0, 1.5], [0.3, -0.2, 0.7]),
+        ([1.0, 1.0, 2.0], [0.1, 0.2, -1.0]),
+        ([0.1, 1.0, 1.05], [0.3, 0.2, 1e-3]),
+    ] {
+        let free = scene(moments, rates).span(-97.0, 203.0);
+        let closed = free.clone().solve().expect("a motion");
+        let motion = free.method(Method::Integrated).solve().expect("a motion");
+        let bound = motion.plan().error_bound();
+        assert!(bound < 1e-11, "{moments:?}: {bound:e}");
+        for k in 0..=300 {
+            let time = -97.0 + f64::from(k);
+            let [found, exact] = [&motion, &closed].map(|motion| motion.at(time).expect("a time"));
+            let error = found.attitude.angle_to(&exact.attitude);
+            assert!(error <= bound, "{moments:?} at {time}: {error:e} and {bound:e}");
+            assert!((found.angular_velocity - exact.angular_velocity).norm() < 1e-13);
+        }
+    }
+}
+
+#[test]
+fn a_span_is_needed_and_one_of_too_many_rotations_is_refused() {
+    let scene = scene([1.0, 1.5, 2.0], [0.1, 0.2, 1.0]).method(Method::Integrated);
+    assert!(matches!(scene.solve(), Err(Error::NoSpan { .. })));
+    let error = scene.span(0.0, 6.3e9).solve().expect_err("too long");
+    assert!(matches!(error, Error::TooManySteps { steps, .. } if steps > 1e9), "{error}");
+}

@@ -1,0 +1,50 @@
+//! Scaling by a parameter to which all frequencies are proportional. The quadratic part then has numbers as coefficients.
+
+use super::PhaseSpace;
+use crate::{Coefficient, Error, Monomial, Polynomial};
+
+impl PhaseSpace {
+    /// Returns H/w in the variables x = q√w, y = p/√w, with the parameter s = 1/√w in place of the parameter w, and the space of these variables.
+    ///
+    /// `letter` is the name of w, `root` the name of s. Divisors k·ω with the parameter w are not polynomials; after the scaling the frequencies are numbers. A
+    /// term c qᵃ pᵇ wᵐ becomes c xᵃ yᵇ s^(a−b−2m+2). The motion is that of H in the time wt, and K of H is w times K of H/w.
+    ///
+    /// ```
+    /// use andoyer_series::{PhaseSpace, normalize};
+    /// use andoyer_series::num_rational::BigRational;
+    /// let space = PhaseSpace::new(&[("q", "p")])?.with_parameters(&["w"])?;
+    /// let (scaled, space) = space.scaled(&space.parse::<BigRational>("p^2/2 + w^2*q^2/2 + q^4/4")?, "w", "s")?;
+    /// assert_eq!(scaled, space.parse("(p^2 + q^2)/2 + s^6*q^4/4")?);
+    /// assert_eq!(normalize(&scaled, 2, &space)?.to_string(), "I_q + 3/8*I_q^2*s^6"); // K = w I + 3 I²/(8 w²)
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - `letter` is not a parameter: [`Error::ParameterUnknown`]; `root` is taken or is not an identifier: [`Error::Parse`];
+    /// - p²/2 + q²/2 + w² y²/2 …, whose other frequencies are not proportional to w, and w² p⁴, which has s^(−6): [`Error::FrequencyLetter`].
+    pub fn scaled<C: Coefficient>(
+        &self,
+        hamiltonian: &Polynomial<C>,
+        letter: &str,
+        root: &str,
+    ) -> Result<(Polynomial<C>, Self), Error> {
+        let space = self.with_renamed(letter, root)?.with_degree(root, 0)?;
+        let (names, pairs) = (space.names(), 2 * self.degrees_of_freedom());
+        let slot = names.iter().position(|name| *name == root).unwrap_or(pairs);
+        let mut scaled = Polynomial::zero();
+        for (monomial, c) in hamiltonian.terms() {
+            let mut exponents = monomial.exponents()[..names.len()].to_vec();
+            let sum = |first: usize| exponents[first..pairs].iter().step_by(2).map(|&e| i64::from(e)).sum::<i64>();
+            let power = sum(0) - sum(1) - 2 * i64::from(exponents[slot]) + 2;
+            let quadratic = monomial.degree_in(&self.phase_slots()) == 2;
+            let valid = u32::try_from(power).ok().filter(|power| !quadratic || *power == 0);
+            exponents[slot] = valid.ok_or_else(|| Error::FrequencyLetter {
+                letter: letter.to_owned(),
+                term: Self::text(&Polynomial::from_terms([(monomial, c.clone())]), &self.owned_names()),
+                power,
+            })?;
+            scaled.add_term(Monomial::new(&exponents)?, c);
+        }
+        Ok((scaled, space))
+    }
+}

@@ -1,0 +1,131 @@
+"""What a release says of itself, and whether it says the same everywhere: version, address, licences, changelog.
+
+    python tests/release.py              exit status 1 and one line for each thing that disagrees
+    python tests/release.py --write      carry version and address from Cargo.toml to the other files
+    python tests/release.py --semver     public Rust names against the last tag, by cargo-semver-checks; with CI set it must be there
+
+The version and the address (`repository`) have one place, `workspace.package` in Cargo.toml. The README of the wheel is that of the repository with absolute links, since
+registries show it without the files beside it.
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+PACKAGE = tomllib.loads((ROOT / "Cargo.toml").read_text(encoding="utf-8"))["workspace"]["package"]
+VERSION, ADDRESS = PACKAGE["version"], PACKAGE["repository"]
+PUBLISHED = ("double", "series", "propagate")
+PLACEHOLDER = "https://example.org/"
+PICTURES = (".png", ".svg")
+LINK = re.compile(r"\]\((?!https?:|#)([^)\s]+)\)")
+
+
+def absolute(text: str, folder: str = "") -> str:
+    """A README with absolute links to files and pictures of the repository."""
+
+    def linked(match: re.Match[str]) -> str:
+        kind = "raw" if match[1].endswith(PICTURES) else "blob"
+        return f"]({ADDRESS}/{kind}/main/{folder}{match[1]})"
+
+    return LINK.sub(linked, text)
+
+
+def readdressed(text: str) -> str:
+    """The address of now in the links to files of the repository, whatever it was before."""
+    return re.sub(r"https://[^\s\")]+?(?=/(?:blob|raw)/main/)", ADDRESS, text)
+
+
+def expected() -> Iterator[tuple[Path, str]]:
+    """The files that are made from Cargo.toml and the README, with what they must hold."""
+
+    def text(name: str) -> str:
+        return (ROOT / name).read_text(encoding="utf-8")
+
+    yield ROOT / "crates/py/README.md", absolute(text("README.md"))
+    for crate in PUBLISHED:
+        yield ROOT / f"crates/{crate}/README.md", readdressed(text(f"crates/{crate}/README.md"))
+    cited = re.sub(r"(?m)^version: .*$", f"version: {VERSION}", text("CITATION.cff"))
+    yield ROOT / "CITATION.cff", re.sub(r"(?m)^repository-code: .*$", f"repository-code: {ADDRESS}", cited)
+    meta = re.sub(r'"version": "[^"]*"', f'"version": "{VERSION}"', text("codemeta.json"))
+    yield ROOT / "codemeta.json", re.sub(r'"codeRepository": "[^"]*"', f'"codeRepository": "{ADDRESS}"', meta)
+    project = re.sub(r'(?m)^Repository = ".*"$', f'Repository = "{ADDRESS}"', text("crates/py/pyproject.toml"))
+    yield ROOT / "crates/py/pyproject.toml", readdressed(project)
+
+
+def problems() -> Iterator[str]:
+    """One line for each thing that disagrees."""
+    for path, text in expected():
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            yield f"{path.relative_to(ROOT)}: not what Cargo.toml and README.md say: python tests/release.py --write"
+    for name, dependency in tomllib.loads((ROOT / "Cargo.toml").read_text(encoding="utf-8"))["workspace"]["dependencies"].items():
+        if name.startswith("andoyer-") and dependency["version"] != VERSION:
+            yield f"Cargo.toml: workspace.dependencies has {name} {dependency['version']}, workspace.package {VERSION}"
+    for crate in (*PUBLISHED, "py"):
+        for licence in ("LICENSE-MIT", "LICENSE-APACHE"):
+            path = ROOT / "crates" / crate / licence
+            if not path.exists() or path.read_bytes() != (ROOT / licence).read_bytes():
+                yield f"{path.relative_to(ROOT)}: not the text of {licence}"
+        readme = ROOT / "crates" / crate / "README.md"
+        links = LINK.findall(readme.read_text(encoding="utf-8")) if readme.exists() else []
+        yield from (f"crates/{crate}/README.md: a registry has no file {link}" for link in links)
+    json.loads((ROOT / "codemeta.json").read_text(encoding="utf-8"))
+    yield from changelog((ROOT / "CHANGELOG.md").read_text(encoding="utf-8"))
+
+
+def changelog(text: str) -> Iterator[str]:
+    """Unreleased comes first, then the versions, the last one first, each once and with a date."""
+    headings = re.findall(r"(?m)^## (.*)$", text)
+    if not headings or headings[0] != "[Unreleased]":
+        yield f"CHANGELOG.md: the first section must be [Unreleased]: got {headings[:1]}"
+    versions = []
+    for heading in headings[1:]:
+        match = re.fullmatch(r"\[(\d+)\.(\d+)\.(\d+)\] - \d{4}-\d{2}-\d{2}", heading)
+        if match is None:
+            yield f"CHANGELOG.md: a section must be [version] - date: got {heading}"
+        else:
+            versions.append(tuple(int(part) for part in match.groups()))
+    if versions != sorted(set(versions), reverse=True):
+        yield f"CHANGELOG.md: versions must fall: got {versions}"
+    for section in re.split(r"(?m)^## ", text)[1:]:
+        names = re.findall(r"(?m)^### (.*)$", section)
+        yield from (f"CHANGELOG.md: {name} stands twice in {section.splitlines()[0]}" for name in sorted(set(names)) if names.count(name) > 1)
+
+
+def semver() -> int:
+    """Compare the public names of the crates with those of the last tag."""
+    done = subprocess.run(["git", "describe", "--tags", "--abbrev=0", "--match", "v*"], cwd=ROOT, capture_output=True, text=True)
+    if done.returncode:
+        print("semver: no tag v* yet, and so nothing to compare with")
+        return 0
+    if shutil.which("cargo-semver-checks") is None:
+        print("semver: skipped, since there is no cargo-semver-checks (cargo install --locked cargo-semver-checks)")
+        return 1 if os.environ.get("CI") else 0
+    packages = [argument for crate in PUBLISHED for argument in ("--package", f"andoyer-{crate}")]
+    return subprocess.run(["cargo", "semver-checks", "--baseline-rev", done.stdout.strip(), *packages], cwd=ROOT).returncode
+
+
+def main(arguments: list[str]) -> int:
+    if arguments == ["--semver"]:
+        return semver()
+    if arguments == ["--write"]:
+        for path, text in expected():
+            path.write_text(text, encoding="utf-8")
+    elif arguments:
+        raise SystemExit(__doc__)
+    found = list(problems())
+    for line in found:
+        print(line, file=sys.stderr)
+    if ADDRESS.startswith(PLACEHOLDER):
+        print(f"note: workspace.package.repository is a placeholder, {ADDRESS}")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))
