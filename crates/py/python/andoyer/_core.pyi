@@ -538,6 +538,23 @@ class NormalForm:
     def __copy__(self) -> NormalForm: ...
     def __deepcopy__(self, _memo: Any) -> NormalForm: ...
 
+@final
+class CassiniState:
+    """A Cassini state, from `cassini_states`."""
+
+    @property
+    def obliquity(self) -> float:
+        """θ, the angle from the normal of the orbit to the pole of the body [rad], in (−π, π]: positive away from inertial axis 3, in the plane of both."""
+    @property
+    def stable(self) -> bool:
+        """Whether nearby poles stay near."""
+    @property
+    def rate(self) -> float:
+        """Frequency of small librations about a stable state, or the rate at which poles leave an unstable one [rad/time]."""
+    def __eq__(self, other: object, /) -> bool: ...
+
+def cassini_states(body: Body, orbit: Orbit, spin_rate: float) -> list[CassiniState]:
+    """The Cassini states of a body: places of its pole that turn with the node of a precessing orbit (theory, section 9)."""
 def separatrix_action(beta: float) -> float:
     """The action σ_sep(β) = (2/π) atan √((1−β)/2β) of the separatrix, in units of M. It is the radius of convergence of the series (theory §5)."""
 
