@@ -132,7 +132,7 @@ def compare(name, sampling, repeats):
     short = np.linspace(0, 2 * math.pi * CHECK_ROTATIONS, 7)
     check = angle(GravityGradient(moments, ATTITUDE, RATES, orbit).states(short)[0], Integration(moments, orbit, FINEST).prepare(short[-1])(short)[:, :4])
     integration = Integration(moments, orbit, TOLERANCE)
-    make = lambda: andoyer.Scene(andoyer.Body(moments), ATTITUDE, RATES, orbit=orbit, tolerance=1e-9, span=(0, end)).solve()  # noqa: E731
+    make = lambda: andoyer.Scene(andoyer.Body(moments), ATTITUDE, RATES, orbit=orbit, tolerance=1e-9, span=(0, end), method="closed").solve()  # noqa: E731
     rounds = []
     for _ in range(repeats):
         own_set_up, solved = cpu(make)

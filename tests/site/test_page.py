@@ -94,6 +94,30 @@ def test_page_has_the_andoyer_variables_of_the_library(opened, name):
         assert np.cos(shown["J"]) == pytest.approx(short / size, abs=bound)
 
 
+def test_page_shows_body_axes_momentum_curves_controls_and_numbers(opened):
+    motion = MOTIONS["short-axis"]
+    window, _, _ = opened(motion)
+    said = window.page.inner_text("#lines").split("\n")
+    assert [line.strip() for line in said if line.strip()][-6:] == [*[f"body axis {k}" for k in (1, 2, 3)], "angular momentum M", "angular velocity ω; herpolhode", "polhode"]
+    assert window.run("Object.keys(cells)") == ["t", "J", "λ", "μ", "ν", "Λ/M", "N/M", "ω₁", "ω₂", "ω₃"]
+    window.run("andoyer.show(data.start + 2)")
+    lambda_, mu, nu, node, size, short = motion.andoyer(2.0)
+    expected = {"J": np.arccos(short / size), "λ": lambda_ % (2 * np.pi), "μ": mu % (2 * np.pi), "ν": nu % (2 * np.pi)}
+    assert window.run("Object.fromEntries(['J', 'λ', 'μ', 'ν'].map(name => [name, cells[name].textContent]))") == {name: f"{np.degrees(angle):.4f}°" for name, angle in expected.items()}
+    assert window.run("[body.faces.length > 100, polhode.length, herpolhode(data.start + 2).length]") == [True, 501, 121]
+    assert window.run("[...speed.options].map(option => option.value)") == ["10", "30", "60", "120", "300"]
+    window.page.select_option("#speed", "10")
+    window.page.click("#play")
+    # The policy of the page forbids what `wait_for_function` does.
+    for _ in range(100):
+        window.page.wait_for_timeout(100)
+        if window.run("time") > 2.5:
+            break
+    assert window.run("[playing, time > 2.5]") == [True, True]
+    window.page.fill("#time", str(motion.scene.epoch + 3))
+    assert window.run("[playing, time]") == [False, 3] and window.said == []
+
+
 def test_picture_moves_with_time_and_the_slider_shows_it(opened):
     window, _, _ = opened(MOTIONS["short-axis"])
     pictures = []

@@ -105,7 +105,8 @@ impl Runner {
         std::array::from_fn(|i| 2.0 * self.rounded[i].sqrt() + self.truncated[i])
     }
 
-    /// Goes on by one step, to the target at most. Returns the length of the step without a target.
+    /// Goes on by one step, to the target at most. Returns the length of the step without a target, or NaN where the state has become
+    /// none.
     #[inline(always)]
     pub(super) fn advance(
         &mut self,
@@ -129,7 +130,8 @@ impl Runner {
         self.add(length, order, workspace);
         self.account(length.abs(), order, (equations, workspace));
         self.time = if last { target } else { sum(self.time, length) };
-        whole
+        let state: f64 = self.attitude.iter().chain(&self.rates).sum();
+        if state.is_finite() { whole } else { f64::NAN }
     }
 
     #[inline(always)]
