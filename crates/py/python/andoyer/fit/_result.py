@@ -32,7 +32,7 @@ class Optimum:
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """The state that fits data best, with its uncertainty: what `attitudes` and `light_curve` return.
+    """The state that fits the data best, with its uncertainty, from `attitudes` or `light_curve`.
 
     Examples
     --------
@@ -76,24 +76,24 @@ class Fit:
         return self.chi_square / self.degrees_of_freedom if self.degrees_of_freedom > 0 else float("nan")
 
     def ensemble(self, n: int, rng: Any = None, *, threads: int | None = None) -> Ensemble:
-        """States drawn from the covariance, as an `Ensemble` about principal axes.
+        """Draw states from the covariance, as an `Ensemble` about principal axes.
 
-        Attitude and rates are drawn from a normal distribution, moments and axis ratios from a log-normal one. A draw whose moments no body has is drawn again. What the data do not
-        determine is the same in all.
+        Attitude and rates are drawn from a normal distribution, moments and axis ratios from a log-normal distribution. A draw with impossible moments is repeated. Components that the data do not
+        determine are equal in all states.
 
         Parameters
         ----------
         n : int
-            How many states.
+            Number of states.
         rng : int or numpy.random.Generator, optional
-            A seed or a generator.
+            A seed or a generator of random numbers.
         threads : int, optional
-            As of `Ensemble`.
+            Number of threads, as for `Ensemble`.
 
         Raises
         ------
         InputError
-            Moments so uncertain that less than one draw in a hundred is a body.
+            The moments are so uncertain that less than one draw in a hundred is valid.
 
         Examples
         --------
