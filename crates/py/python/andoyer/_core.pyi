@@ -308,9 +308,9 @@ class Motion:
     def partials(self, times: ArrayLike) -> Partials:
         """Evaluates the derivatives of attitude and angular velocity with respect to the initial state and the moments (theory §12)."""
     def to_code(self, language: Literal["c", "rust", "python", "javascript"] = "c") -> str:
-        """A self-contained function `rotation(time)` that evaluates this motion, as the text of a file of source (theory §8)."""
+        """Writes a source file with a self-contained function `rotation(time)` that evaluates this motion (theory §8)."""
     def _code(self, language: Literal["c", "rust", "python", "javascript"]) -> tuple[str, float, float]:
-        """The same with the bounds of its differences that its head states: of the attitude [rad], of the angular velocity over its length."""
+        """The source file, and the bounds of the differences in its head: of the attitude [rad], and of the angular velocity divided by its length."""
     @property
     def plan(self) -> Plan:
         """The plan: method, order, error bound and other facts about this motion."""
@@ -347,7 +347,7 @@ class Plan:
         """Order N of the series, or of the steps of an integration. It is 0 if there is no series, or if the harmonic oscillator alone meets the tolerance."""
     @property
     def steps(self) -> int:
-        """Steps of the integration; 0 without one."""
+        """Number of steps of the integration; 0 for the other methods."""
     @property
     def harmonics(self) -> int:
         """The highest multiple of the anomaly ℓ′ in the evaluation; 0 if the method has no harmonics."""
