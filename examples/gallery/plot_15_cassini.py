@@ -11,12 +11,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 # %%
-# An oblate body rotates fifty times as fast as its orbit. Its pole precesses with α = (3/2) (G m/a³) (C − A)/(C ω), the node with a tenth of that.
+# An oblate body rotates fifty times as fast as its orbit. Its pole precesses with α = (3/2) (G m/a³) (C − A)/(C ω), the node with three tenths of that.
 
 body, spin, inclination = andoyer.Body([0.9, 0.9, 1.0]), 1.0, 0.3
 n = 0.02
 alpha = 1.5 * n**2 * 0.1
-node_rate = -0.1 * alpha
+node_rate = -0.3 * alpha
 orbit = andoyer.Orbit(n, inclination=inclination, node_rate=node_rate)
 states = andoyer.cassini_states(body, orbit, spin)
 for state in states:
