@@ -78,6 +78,8 @@ pub(super) struct Runner {
     /// Sums of squares of the rounding errors, and sums of the truncation errors, of attitude \[rad\] and rates.
     rounded: [f64; 2],
     truncated: [f64; 2],
+    /// Rounding errors of the last step.
+    last: [f64; 2],
 }
 
 impl Runner {
@@ -92,6 +94,7 @@ impl Runner {
             rates_rest: none,
             rounded: [0.0; 2],
             truncated: [0.0; 2],
+            last: [0.0; 2],
         }
     }
 
@@ -102,7 +105,7 @@ impl Runner {
 
     /// Estimates of the errors of attitude \[rad\] and rates that all steps leave together.
     pub(super) fn errors(&self) -> [f64; 2] {
-        std::array::from_fn(|i| 2.0 * self.rounded[i].sqrt() + self.truncated[i])
+        std::array::from_fn(|i| self.rounded[i].sqrt() + self.truncated[i])
     }
 
     /// Goes on by one step, to the target at most. Returns the length of the step without a target, or NaN where the state has become
@@ -161,6 +164,23 @@ impl Runner {
         let angle = ROUNDING[1] * largest(&self.rates) * length;
         self.rounded[0] += angle * angle;
         self.rounded[1] += rate * rate;
+        self.last = [angle, rate];
+    }
+
+    /// Adds errors of so many times the size of the rounding errors of the last step, with signs that look like random ones.
+    #[inline(always)]
+    pub(super) fn disturb(&mut self, scale: f64, random: &mut u64) {
+        // Marsaglia's generator of 64 bits.
+        *random ^= *random << 13;
+        *random ^= *random >> 7;
+        *random ^= *random << 17;
+        let [angle, rate] = self.last;
+        for lane in 0..4 {
+            let sign = |bit: u32| if (*random >> bit) & 1 == 0 { scale } else { -scale };
+            self.attitude[lane] += 0.5 * angle * sign(8 + lane as u32);
+            // The fourth rate is 0.
+            self.rates[lane] += if lane < 3 { rate * sign(40 + lane as u32) } else { 0.0 };
+        }
     }
 }
 
