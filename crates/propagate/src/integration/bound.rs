@@ -27,7 +27,7 @@ const SHORTER: f64 = 0.9;
 /// A distance beyond which nothing is known \[rad\].
 const LOST: f64 = 0.5;
 /// Rounding errors of the evaluation \[rad\].
-pub(super) const FLOOR: f64 = 3e-15;
+pub(super) const FLOOR: f64 = 6e-15;
 /// Relative rounding errors of the moments' ratios and of the state.
 const INPUT: f64 = 2e-16;
 
