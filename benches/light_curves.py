@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 
 import numpy as np
-from andoyer import Ensemble, Scene, Body, fit
+from andoyer import Body, Scene, fit
 from andoyer._quaternions import angle_between, product
 from andoyer.fit._light_curve import HALF_TURNS
 from andoyer.fit._search import random_states

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from andoyer._core import Ensemble, Scene
+from andoyer._core import Ensemble, Orbit, Scene
 from andoyer._quaternions import Array
 from andoyer.fit._degeneracy import sentence, undetermined
 from andoyer.fit._given import refusal
@@ -93,7 +93,7 @@ class Fit:
         Raises
         ------
         InputError
-            The moments are so uncertain that less than one draw in a hundred is valid.
+            The moments are so uncertain that less than one draw in a hundred is valid. A scene with several disturbing bodies or a `TabulatedOrbit`.
 
         Examples
         --------
@@ -104,6 +104,9 @@ class Fit:
         >>> len(found.ensemble(20, rng=1))
         20
         """
+        orbit = self.scene.orbit
+        if not (orbit is None or isinstance(orbit, Orbit)):
+            raise refusal("scene", type(orbit).__name__, "Orbit", "has several disturbing bodies or a table of positions: an Ensemble takes one Orbit at most")
         steps = Steps(self.scene, self._names(), self.semi_axes)
         root = _root(self.covariance / np.outer(*[steps.units(np.zeros(len(self.parameters)))] * 2))
         generator = np.random.default_rng(rng)
@@ -120,7 +123,7 @@ class Fit:
             raise refusal("n", n, n - missing, f"= {n}: only {n - missing} draws of the covariance are bodies; fit fewer parameters, or hold the moments")
         moments, attitudes, rates = steps.states(np.concatenate(chosen))
         _, options = self.scene.__getnewargs_ex__()
-        shared = {"epochs": options.get("epoch", 0.0), "orbits": self.scene.orbit, "tolerance": self.scene.tolerance, "span": self.scene.span}
+        shared = {"epochs": options.get("epoch", 0.0), "orbits": orbit, "tolerance": self.scene.tolerance, "span": self.scene.span}
         return Ensemble(moments, _about_principal_axes(self.scene, attitudes), rates @ self.scene.body.principal_axes, threads=threads, **shared)
 
     def _names(self) -> tuple[str, ...]:

@@ -181,14 +181,21 @@ def with_derivatives(axes: Array, sun: Array, observer: Array, scattering: str, 
     along_observer = [2 * found.by_y * e + found.by_z * s for s, e in zip(sun, observer)]
     by_turn = np.stack(
         [
-            scale * (sun_weighted[i] * along_sun[j] - sun_weighted[j] * along_sun[i] + observer_weighted[i] * along_observer[j] - observer_weighted[j] * along_observer[i])
+            scale
+            * (
+                sun_weighted[i] * along_sun[j]
+                - sun_weighted[j] * along_sun[i]
+                + observer_weighted[i] * along_observer[j]
+                - observer_weighted[j] * along_observer[i]
+            )
             for i, j in ((1, 2), (2, 0), (0, 1))
         ]
     )
     if not shape:
         return Brightness(value, by_turn, np.zeros((0, *value.shape)))
     by_shape = [
-        value - 2 * scale * (found.by_x * sun_weighted[k] * sun[k] + found.by_y * observer_weighted[k] * observer[k] + found.by_z * sun_weighted[k] * observer[k])
+        value
+        - 2 * scale * (found.by_x * sun_weighted[k] * sun[k] + found.by_y * observer_weighted[k] * observer[k] + found.by_z * sun_weighted[k] * observer[k])
         for k in (1, 2)
     ]
     return Brightness(value, by_turn, np.stack(by_shape))
