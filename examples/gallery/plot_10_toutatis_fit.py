@@ -36,7 +36,7 @@ print(found.message)
 assert 7 < rms < 8
 
 # %%
-# Periods with their spread: a thousand states drawn from the covariance, all solved at once. Published: 5.41 ± 0.03 d and 7.35 ± 0.03 d (Hudson and Ostro 1995, recalled), 5.38 d and 7.40 d (Zhao et al. 2015).
+# Periods with their spread: a thousand states drawn from the covariance, all solved at once. Published: 5.41 d and 7.35 d (Hudson and Ostro 1995, abstract), 5.38 d and 7.40 d (Zhao et al. 2015).
 
 states = found.ensemble(1000, rng=1)
 best, spread = found.scene.solve().periods["long-axis"], states.periods["long-axis"]

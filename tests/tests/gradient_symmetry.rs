@@ -2,7 +2,7 @@
 
 use andoyer_propagate::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use andoyer_propagate::options::{Averaging, Level};
-use andoyer_propagate::{Body, Error, Motion, Orbit, Scene, State};
+use andoyer_propagate::{Body, Error, Method, Motion, Orbit, Scene, State};
 use andoyer_tests::attitude_error;
 use andoyer_tests::integration::Problem;
 
@@ -28,7 +28,7 @@ fn orbit([inclination, node, argument]: [f64; 3], pericentre: f64) -> Orbit {
 
 fn scene(moments: [f64; 3], epoch: f64, attitude: UnitQuaternion<f64>, rates: [f64; 3]) -> Scene {
     let state = State::new(epoch, attitude.coords.into(), rates).expect("a state");
-    Scene::new(Body::new(moments).expect("a body"), state).span(epoch - SPAN, epoch + SPAN)
+    Scene::new(Body::new(moments).expect("a body"), state).span(epoch - SPAN, epoch + SPAN).method(Method::Closed)
 }
 
 fn standard() -> Scene {

@@ -357,14 +357,17 @@ def test_refused_member_names_itself_or_is_nan_with_its_reason(body):
 
 
 def test_member_without_a_motion_names_itself_or_is_nan_with_its_reason():
-    options = {"orbits": andoyer.Orbit(2e-3), "span": (0, 1e3), "tolerance": 1.0}
-    rates = [[0, 0.01, 1], [0, 1, 0.001], [0, 0.02, 1]]  # the second turns about the middle axis
+    options = {"orbits": andoyer.Orbit(2e-3), "tolerance": 1.0}
+    # The second turns about the middle axis, and without a span it is not integrated.
+    rates = [[0, 0.01, 1], [0, 1, 0.001], [0, 0.02, 1]]
     with pytest.raises(andoyer.TheoryError, match="^member 1: ") as caught:
         andoyer.Ensemble([1, 1.02, 1.05], [0, 0, 0, 1], rates, **options).at([0.0])
     assert caught.value.index == 1
     ensemble = andoyer.Ensemble([1, 1.02, 1.05], [0, 0, 0, 1], rates, errors="nan", **options)
     assert np.isnan(ensemble.attitude([0.0]))[:, 0, 0].tolist() == [False, True, False]
     assert {index: type(error) for index, error in ensemble.at([0.0]).errors.items()} == {1: andoyer.TheoryError}
+    spanned = andoyer.Ensemble([1, 1.02, 1.05], [0, 0, 0, 1], rates, span=(0, 1e3), **options)
+    assert [plan.method for plan in spanned.plans] == ["closed", "integrated", "closed"]
 
 
 def test_ensemble_without_refusals_has_no_errors_and_another_word_is_refused():

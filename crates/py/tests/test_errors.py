@@ -53,7 +53,7 @@ BAD = {
     "epoch": (lambda: scene(epoch=-INF), InputError, "epoch", -INF, "finite"),
     "tolerance": (lambda: scene(tolerance=0.0), InputError, "tolerance", 0.0, "positive and finite"),
     "span": (lambda: scene(span=(1, 0)), InputError, "span", (1.0, 0.0), "finite with start <= stop"),
-    "method": (lambda: scene(method="magic"), InputError, "method", "magic", "auto, series, closed"),
+    "method": (lambda: scene(method="magic"), InputError, "method", "magic", "auto, series, closed, integrated"),
     "averaging": (lambda: scene(averaging="moon"), InputError, "averaging", "moon", "auto, orbit, spin"),
     "level": (lambda: scene(level="moon"), InputError, "level", "moon", "paper, moving, full"),
     "negative order": (lambda: scene(order=-1), InputError, "order", -1, (0, 60)),
@@ -138,8 +138,8 @@ def test_bad_input_has_its_class_argument_value_and_bound(call, kind, argument, 
 
 KEYS = {
     "value": ("moments = [1, 1.5, 2]", "moments = [1, 2, 3.5]", "body.moments", (1.0, 2.0, 3.5), "the largest at most the sum of the other two"),
-    "type": ("moments = [1, 1.5, 2]", 'moments = "ceres"', "body.moments", "ceres", "a list of 3 numbers"),
-    "unknown key": ("[state]", "[state]\ncolour = 1", "state.colour", 1, "attitude, angular_velocity"),
+    "type": ("moments = [1, 1.5, 2]", 'moments = "ceres"', "body.moments", "ceres", "an array of length 3"),
+    "unknown key": ("[state]", "[state]\ncolour = 1", "state.colour", 1, "attitude or angular_velocity"),
     "missing key": ("angular_velocity = [0, 0, 1]", "", "state.angular_velocity", None, "present"),
     "no TOML": ("[state]", "[state", "line 3", "[state", "TOML"),
 }

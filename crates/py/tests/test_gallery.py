@@ -14,8 +14,8 @@ SCRIPTS = sorted((REPOSITORY / "examples/gallery").glob("*.py"), key=lambda path
 PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
 
 
-def test_there_are_the_eleven_of_them():
-    assert [path.stem.split("_", 2)[2] for path in SCRIPTS] == ["earth_wobble", "eros_separatrix", "apophis", "box_satellite", "normal_form", "ensemble", "kernel", "libration_points", "periods", "toutatis_fit", "light_curve"]
+def test_there_are_the_thirteen_of_them():
+    assert [path.stem.split("_", 2)[2] for path in SCRIPTS] == ["earth_wobble", "eros_separatrix", "apophis", "box_satellite", "normal_form", "ensemble", "kernel", "libration_points", "periods", "toutatis_fit", "light_curve", "satellite_month", "librations"]
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)

@@ -1,5 +1,6 @@
 """The integrated method against SciPy's DOP853, the closed form, and nature; what it refuses."""
 
+import json
 import math
 import pickle
 
@@ -8,6 +9,8 @@ import pytest
 
 import andoyer
 from andoyer import Body, Orbit, Scene, TabulatedOrbit
+
+from conftest import REPOSITORY
 
 EARTH = {"gm": 3.986004415e14, "j2": 1.08262668e-3, "radius": 6378136.3}
 ATTITUDE = [0.1, -0.2, 0.3, 0.9273618495495703]
@@ -38,7 +41,7 @@ SCENES = {
 def test_motion_is_that_of_another_integration(moments, rates, orbit, span, direction):
     full_equations = pytest.importorskip("full_equations")
     ends = (2.0, 2.0 + span) if direction > 0 else (2.0 - span, 2.0)
-    scene = Scene(Body(moments), ATTITUDE, rates, epoch=2.0, orbit=orbit, span=ends, tolerance=1e-11, method="integrated")
+    scene = Scene(Body(moments), ATTITUDE, rates, epoch=2.0, orbit=orbit, span=ends, tolerance=1e-10, method="integrated")
     motion = scene.solve()
     assert motion.plan.method == "integrated" and motion.plan.meets_tolerance
     times = 2.0 + direction * np.linspace(0, span, 30)
@@ -49,6 +52,17 @@ def test_motion_is_that_of_another_integration(moments, rates, orbit, span, dire
     assert np.abs(found.angular_velocity - velocity).max() < 1e-9
     turned = motion.rotation(times).apply(found.angular_velocity * np.array(moments))
     assert np.abs(motion.angular_momentum(times) - turned).max() < 1e-14 * (1 + np.abs(turned).max())
+
+
+@pytest.mark.parametrize("case", json.loads((REPOSITORY / "tests/data/gravity_gradient.json").read_text(encoding="utf-8")), ids=lambda case: case["name"])
+def test_thousands_of_rotations_are_those_of_the_reference_within_the_bound(case):
+    elements, states = case["orbit"], case["states"]
+    orbit = Orbit(elements["mean_motion"], elements["eccentricity"], argument_of_pericentre=elements["pericentre_longitude"])
+    times = [state["t"] for state in states]
+    scene = Scene(Body(case["moments"]), case["attitude0_xyzw"], case["angular_velocity0"], orbit=orbit, span=(0, times[-1]), tolerance=1e-9, method="integrated")
+    motion = scene.solve()
+    error = angle(motion.attitude(times), [[float(x) for x in state["attitude_xyzw"]] for state in states]).max()
+    assert error < motion.plan.error_bound <= 1e-9
 
 
 def test_times_in_any_order_and_one_by_one_give_the_same_bits():
@@ -71,7 +85,7 @@ def test_motion_runs_back_to_where_it_came_from():
 
 def test_table_of_a_circle_gives_the_motion_of_the_orbit_within_the_bound():
     body, span = Body([0.5, 0.8, 1.0]), (0.0, 10.0)
-    by_orbit = Scene(body, ATTITUDE, [0.5, 1.5, 2.0], orbit=Orbit(1.0), span=span, tolerance=1e-11, method="integrated").solve()
+    by_orbit = Scene(body, ATTITUDE, [0.5, 1.5, 2.0], orbit=Orbit(1.0), span=span, tolerance=1e-10, method="integrated").solve()
     errors = []
     for count in (101, 201):
         times = np.linspace(-1, 11, count)
@@ -115,8 +129,8 @@ def test_integration_needs_a_span_and_ends_with_it():
 
 
 def test_integration_of_1e9_rotations_is_refused_with_the_figure():
-    with pytest.raises(andoyer.TheoryError, match=r"about 1\.\de\+?10 steps, which take .* GB|about [\d.]+e\+?\d+ steps") as caught:
-        Scene(Body([1, 1.02, 1.05]), ATTITUDE, [0, 0.1, 1], orbit=Orbit(0.5), span=(0, 6.3e9)).solve()
+    with pytest.raises(andoyer.TheoryError, match=r"about \d\.\de10 steps, which take \d+\.\d GB; at most 8388608 are kept") as caught:
+        Scene(Body([1, 1.02, 1.05]), ATTITUDE, [0, 0.1, 1], orbit=Orbit(0.5), span=(0, 6.3e9), method="integrated").solve()
     assert caught.value.argument == "span" and caught.value.value > 1e9
 
 
@@ -178,7 +192,7 @@ def test_attraction_is_the_mean_motion_squared_times_the_mass_fraction_in_the_th
 
 
 def test_rates_of_a_satellite_are_those_of_the_first_order_in_j2():
-    # Sun-synchronous: 0.985647° a day at 800 km, e = 0 and 98.603° (Vallado 2013, §11.4.1).
+    # The node of a Sun-synchronous orbit, at 800 km one of 98.603°, turns with the mean Sun, 360° in 365.2422 days.
     orbit = Orbit.around_oblate(EARTH["gm"], EARTH["radius"] + 800e3, 0.0, math.radians(98.603), j2=EARTH["j2"], radius=EARTH["radius"])
     assert math.degrees(orbit.node_rate) * 86400 == pytest.approx(0.985647, rel=2e-3)
     # At the critical inclination the pericentre stands still.
@@ -211,8 +225,8 @@ def test_phobos_librates_by_the_amplitude_of_the_linear_formula():
     assert motion.plan.method == "integrated"
     times = np.linspace(0, 300, 4000)
     sines = fitted(longitudes(motion, times) - times, [times, 2 * times, math.sqrt(free) * times])
-    # The formula leaves terms of relative size e, and of the third power of the angle 3 % of which the restoring torque departs from a straight line.
-    assert sines[0] == pytest.approx(amplitude, rel=2e-3)
+    # The long axis swings by 0.049 rad about the direction of the planet: the torque, sin 2x, is weaker than 2x by (3/4)(2x)²/6 = 1.2e-3, and the amplitude by 1.63 times that.
+    assert sines[0] == pytest.approx(amplitude, rel=4e-3)
     assert math.degrees(sines[0]) == pytest.approx(-1.143, abs=0.05)
 
 

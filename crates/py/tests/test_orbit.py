@@ -130,7 +130,7 @@ def test_unknown_choice_is_refused_with_the_known_ones(error, keyword):
 def test_what_is_no_orbit_is_refused_by_its_kind():
     with pytest.raises(TypeError) as caught:
         Scene(Body([1, 2, 2]), [0, 0, 0, 1], [0, 0, 1], orbit=1e-3)
-    assert str(caught.value) == "orbit must be an andoyer.Orbit or None: got float; use Orbit(mean_motion)"
+    assert str(caught.value) == "orbit must be an andoyer.Orbit, a TabulatedOrbit, a sequence of them or None: got float; use Orbit(mean_motion)"
 
 
 def test_example_scene_precesses_at_the_rate_of_the_averaged_theory():

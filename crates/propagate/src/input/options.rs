@@ -10,6 +10,7 @@ pub const MAX_ORDER: usize = 60;
 
 /// The formulas that evaluate a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Method {
     /// The cheapest method that meets the tolerance.
@@ -49,7 +50,8 @@ impl fmt::Display for Method {
 }
 
 /// The axis whose precession and rotation a pair of periods describes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Convention {
     /// The axis around which the angular momentum circles: the short axis in the short-axis mode, the long axis in the long-axis mode. Light-curve papers use
@@ -63,7 +65,7 @@ pub enum Convention {
 }
 
 impl Convention {
-    /// The three, in the order in which an ensemble gives its periods.
+    /// The three conventions, in the order of the periods of an ensemble.
     pub const ALL: [Self; 3] = [Self::LongAxis, Self::ShortAxis, Self::ExtremalAxis];
 }
 
@@ -92,6 +94,7 @@ impl fmt::Display for Convention {
 
 /// The terms in the corrections for the gravity gradient.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Level {
     /// The terms of Lara (2017): the potential at J = 0, and a disturbing body that is fixed in the divisors.
@@ -132,6 +135,7 @@ impl fmt::Display for Level {
 
 /// The averaging of the equations of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Averaging {
     /// The cheapest averaging that meets the tolerance.

@@ -76,7 +76,7 @@ impl Orbit {
         })
     }
 
-    /// The orbit about an oblate primary, with its secular rates of first order in J2 (Kaula 1966, eqs. 3.74; Vallado 2013, eqs. 9-38 to 9-41). The rotating
+    /// The orbit about an oblate primary, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3). The rotating
     /// body is the satellite and the primary is the disturbing body.
     ///
     /// Let n0² = GM/a³, p = a(1 − e²) and k = (3/2) n0 J2 (R/p)². The node rate is −k cos i, the pericentre rate k (2 − (5/2) sin² i), and the mean motion n0 +

@@ -95,8 +95,9 @@ impl TabulatedOrbit {
         for level in 1..NODES {
             for i in 0..NODES - level {
                 let (left, right) = (nodes[i], nodes[i + level]);
-                for axis in 0..3 {
-                    table[i][axis] = (right * table[i][axis] - left * table[i + 1][axis]) / (right - left);
+                let next = table[i + 1];
+                for (value, next) in table[i].iter_mut().zip(next) {
+                    *value = (right * *value - left * next) / (right - left);
                 }
             }
         }

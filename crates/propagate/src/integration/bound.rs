@@ -5,7 +5,7 @@
 //! its largest distance so far. This covers phases, which grow linearly with time, resonances and chaotic motion, where distances grow exponentially; in so far as they grow faster than
 //! linearly, up to ten times the distance is taken, because the displacement may lie across the direction that grows.
 //!
-//! First the displacement is enlarged to about 1e-3 rad at the end, where steps of low order are enough, and the distance is scaled back; this takes a third of the integration's time. Where the
+//! First the displacement is enlarged to about 1e-3 rad at the end, where steps of low order are enough, and the distance is scaled back; this takes a third of the integration's time for each. Where the
 //! state has gone too far for a scale, and with tables, the displacement itself is integrated.
 
 use std::f64::consts::PI;
@@ -27,9 +27,15 @@ const SHORTER: f64 = 0.9;
 /// A distance beyond which nothing is known \[rad\].
 const LOST: f64 = 0.5;
 /// Rounding errors of the evaluation \[rad\].
-const FLOOR: f64 = 3e-15;
+pub(super) const FLOOR: f64 = 3e-15;
 /// Relative rounding errors of the moments' ratios and of the state.
 const INPUT: f64 = 2e-16;
+
+/// Displacements of the rates, with the sign of each. Where nearby states separate in a plane of two axes, beside the middle axis, one line in the plane does not grow: for no plane
+/// do the two displacements lie near the same line.
+const WEIGHTS: [Row; PATTERNS] = [[0.8, 1.0, 0.9, 0.0], [1.0, -0.4, 0.2, 0.0]];
+/// How many displacements are integrated.
+pub(super) const PATTERNS: usize = 2;
 
 /// Distance at the end of linear growth, of an enlarged displacement \[rad\].
 const ENLARGED: f64 = 1e-3;
@@ -40,6 +46,7 @@ const UNSCALED: f64 = 0.1;
 pub(super) type Profile = Vec<(f64, f64)>;
 
 /// The steps of a motion in one direction, and what measures their error.
+#[derive(Clone, Copy)]
 pub(super) struct Measured<'a> {
     pub(super) equations: &'a Equations,
     pub(super) precision: Precision,
@@ -47,6 +54,8 @@ pub(super) struct Measured<'a> {
     /// Of attitude \[rad\] and rates.
     pub(super) errors: [f64; 2],
     pub(super) backward: bool,
+    /// The index of the displacement.
+    pub(super) pattern: usize,
     /// Whether the displacement is enlarged.
     pub(super) enlarged: bool,
     pub(super) stop: &'a AtomicBool,
@@ -71,8 +80,8 @@ impl Measured<'_> {
             z + w * turn[2] + x * turn[1] - y * turn[0],
             w - x * turn[0] - y * turn[1] - z * turn[2],
         ];
-        let weights: Row = [0.8, 1.0, 0.9, 0.0];
-        let rates: Row = std::array::from_fn(|i| first.rates[i] + (rate * weights[i]).copysign(first.rates[i]));
+        let weights = WEIGHTS[self.pattern];
+        let rates: Row = std::array::from_fn(|i| first.rates[i] + rate * weights[i] * 1.0_f64.copysign(first.rates[i]));
         Runner::new(attitude, rates, self.backward)
     }
 }
@@ -109,7 +118,7 @@ impl Task for Measured<'_> {
             let distance = angle(&target.attitude, &runner.step().attitude);
             let linear = displacement[0] + displacement[1] * target.time.0.abs();
             let safety = (distance / linear).clamp(1.0, SAFETY);
-            if enlarged && !(distance < UNSCALED) {
+            if enlarged && (distance >= UNSCALED || distance.is_nan()) {
                 return Ok(None);
             }
             bound = if distance < LOST { bound.max(safety * distance / scale + FLOOR) } else { PI };

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use andoyer_double::two_sum;
 use pulp::Arch;
 
-use super::bound::{Measured, Profile};
+use super::bound::{FLOOR, Measured, PATTERNS, Profile};
 use super::disturber::Disturber;
 use super::expansion::Equations;
 use super::integrator::{Kept, Precision, Runner, Side, Step};
@@ -55,7 +55,7 @@ impl Integrated {
         let tolerance = scene.asked_tolerance();
         let phase = problem.phase();
         // Truncation errors of the rates add up over the steps, and their effect on the angle over time.
-        let first = (10.0 * tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST);
+        let first = (50.0 * tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST);
         let (mut motion, mut profiles) = problem.solved(first, stop)?;
         if motion.error > tolerance && first > FINEST {
             (motion, profiles) = problem.solved(FINEST, stop)?;
@@ -152,7 +152,7 @@ impl Problem {
         let (arch, precision, equations) = (Arch::new(), Precision::of(error), &self.equations);
         let mut sides = [Side::default(), Side::default()];
         let mut profiles = [Profile::new(), Profile::new()];
-        let mut bound = 0.0_f64;
+        let mut bound = FLOOR;
         for (side, target) in self.ends.into_iter().enumerate() {
             let backward = side == 0;
             let runner = Runner::new(self.attitude, self.rates, backward);
@@ -175,20 +175,43 @@ impl Problem {
         backward: bool,
         stop: &AtomicBool,
     ) -> Result<Profile, Error> {
-        let arch = Arch::new();
         let phase = self.phase();
         let coarse = Precision::of((ENLARGED_ERROR / (10.0 + phase * phase)).clamp(FINEST, COARSEST));
         let tabulated = self.equations.bodies.iter().any(|body| matches!(body, Disturber::Tabulated(_)));
-        if !tabulated && coarse.order < precision.order {
-            let equations = &self.equations;
-            let task = Measured { equations, precision: coarse, steps, errors, backward, enlarged: true, stop };
-            if let Some(profile) = dispatch(arch, task)? {
-                return Ok(profile);
-            }
+        let coarser = self.equations.coarser();
+        let mut whole = Profile::new();
+        for pattern in 0..PATTERNS {
+            let enlarged = Measured {
+                equations: &self.equations,
+                precision: coarse,
+                steps,
+                errors,
+                backward,
+                pattern,
+                enlarged: true,
+                stop,
+            };
+            let exact = Measured { equations: &coarser, precision, enlarged: false, ..enlarged };
+            let cheap = !tabulated && coarse.order < precision.order;
+            let profile = if cheap { dispatch(Arch::new(), enlarged)? } else { None };
+            let profile = match profile {
+                Some(profile) => profile,
+                None => dispatch(Arch::new(), exact)?.unwrap_or_default(),
+            };
+            merge(&mut whole, profile);
         }
-        let equations = &self.equations.coarser();
-        let task = Measured { equations, precision, steps, errors, backward, enlarged: false, stop };
-        Ok(dispatch(arch, task)?.unwrap_or_default())
+        Ok(whole)
+    }
+}
+
+/// The larger of two error bounds at each time.
+fn merge(whole: &mut Profile, profile: Profile) {
+    if whole.is_empty() {
+        *whole = profile;
+        return;
+    }
+    for ((_, bound), (_, other)) in whole.iter_mut().zip(profile) {
+        *bound = bound.max(other);
     }
 }
 

@@ -70,14 +70,14 @@ impl Table {
         for level in 1..self.nodes {
             for i in (level..self.nodes).rev() {
                 let share = 1.0 / (at[i] - at[i - level]);
-                for axis in 0..3 {
-                    values[i][axis] = (values[i][axis] - values[i - 1][axis]) * share;
+                let before = values[i - 1];
+                for (value, before) in values[i].iter_mut().zip(before) {
+                    *value = (*value - before) * share;
                 }
             }
         }
         let mut position: [Scalars; 3] = [[0.0; ROWS]; 3];
-        for axis in 0..3 {
-            let p = &mut position[axis];
+        for (axis, p) in position.iter_mut().enumerate() {
             for i in (0..self.nodes).rev() {
                 // p ← p · (t − at) + value.
                 for k in (1..self.nodes).rev() {

@@ -174,7 +174,7 @@ impl<'a> Batch<'a> {
     }
 
     /// # Errors
-    /// - [`Error::Stopped`] where the flag is set.
+    /// - [`Error::Stopped`] if the flag is set.
     pub(crate) fn going(&self) -> Result<(), Error> {
         going(self.stop).map_err(|_| Error::Stopped)
     }

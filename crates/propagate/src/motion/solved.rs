@@ -128,7 +128,7 @@ impl Motion {
         self.periods(true)
     }
 
-    /// Mean periods in a convention.
+    /// Mean periods in one of the three conventions.
     pub fn periods_of(&self, convention: Convention) -> Periods {
         match convention {
             Convention::ExtremalAxis => self.extremal_axis_periods(),

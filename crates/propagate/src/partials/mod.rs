@@ -82,7 +82,7 @@ impl Motion {
         self.batch().partials_into(times, attitudes, rates)
     }
 
-    /// Of times counted from this epoch.
+    /// Computes the derivatives for times counted from `epoch`.
     fn partials_since(
         &self,
         epoch: f64,
@@ -142,14 +142,14 @@ impl Motion {
     }
 }
 
-/// Times between two looks at the flag that ends a call.
+/// Number of times between two checks of the flag that ends a call.
 const AT_ONCE: usize = 1 << 13;
 
 impl Batch<'_> {
-    /// Derivatives of attitude and angular velocity, as by [`Motion::partials_into`].
+    /// Writes the derivatives of attitude and angular velocity, as [`Motion::partials_into`] does.
     ///
     /// # Errors
-    /// As [`Motion::partials_into`]; [`Error::Stopped`] where the flag is set.
+    /// The errors of [`Motion::partials_into`], and [`Error::Stopped`] if the flag is set.
     pub fn partials_into(
         &self,
         times: &[f64],

@@ -11,6 +11,7 @@ use crate::error::Error;
 
 /// The mode of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Mode {
     /// Triaxial body that rotates about its axis of greatest inertia with a wobble.

@@ -1,6 +1,6 @@
 //! The changes of M and L = Mσ of second order, as one sum over pairs of terms.
 //!
-//! With D = Σ D_a e^(iaθ), a = (h, m), θ = (ℓ′, y′), dW/dt = D − ⟨D⟩ and the bracket [ , ] of two amplitudes (theory §9),
+//! With D = Σ D_a e^(iaθ), a = (h, m), θ = (ℓ′, y′), dW/dt = D − ⟨D⟩ and the bracket \[ , \] of two amplitudes (theory §9),
 //!
 //! ```text
 //! δ₂M = Re Σ_ab e^(i(a+b)θ) {−(i/2) m_a [W_a, W_b] − i (m_a + m_b) χ_ab}

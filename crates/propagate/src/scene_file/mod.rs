@@ -1,0 +1,85 @@
+//! Scenes in TOML files.
+//!
+//! ```toml
+//! name = "…"                       # optional, as are source, epoch (0), span, tolerance (1e-12), method ("auto"), order, averaging ("auto"), level ("full")
+//! source = "where the figures come from"
+//! epoch = 0.0                      # time of the state
+//! span = [0.0, 1.0e6]              # times over which the tolerance is asked for
+//! tolerance = 1e-12                # \[rad\]
+//! [body]
+//! moments = [0.5, 0.75, 1.0]       # about body axes 1, 2, 3; or named = "ceres"; or inertia = [[…], […], […]], a tensor about axes of your own
+//! [state]
+//! attitude = [0.0, 0.0, 0.0, 1.0]  # [x, y, z, w], body components → inertial ones
+//! angular_velocity = [0.0, 0.1, 1.0]   # body components
+//! # or, instead of a state, the periods of a tumbler:
+//! # [periods]
+//! # precession = 27.38             # P_φ
+//! # rotation = 263.0               # P_ψ
+//! # mode = "short-axis"            # or "long-axis"; convention = "extremal-axis", or "long-axis", "short-axis"
+//! # momentum_direction = [0, 0, 1] # inertial components, or [longitude, latitude] \[rad\]; phases = [0, 0] \[turns\]
+//! [orbit]                          # optional: of the disturbing body, for the gravity gradient
+//! mean_motion = 1e-3               # the only element without a default
+//! eccentricity = 0.1               # 0, as time_of_pericentre, inclination, node, argument_of_pericentre; mass_fraction is 1
+//! node_rate = 0.0                  # 0, as pericentre_rate: secular rates; attraction = 1e-6 instead of mean_motion² × mass_fraction
+//! # [[orbit]]                      # instead, once for each of several disturbing bodies; or of one by a table of positions:
+//! # times = [0.0, 60.0]            # eight at least
+//! # positions = [[…], […]]         # from the rotating body, inertial components
+//! # gm = 4.0e14                    # G × mass of the disturbing body
+//! ```
+//!
+//! Any other key is an error. Numbers are written so that they are read back to the same bits.
+
+mod problem;
+mod read;
+mod tables;
+mod write;
+
+use std::path::Path;
+
+use crate::error::{Error, Value as Fact};
+use crate::input::scene::Scene;
+use problem::{in_file, located};
+
+impl Scene {
+    /// The scene of a TOML file.
+    ///
+    /// # Errors
+    /// - [`Error::SceneFile`] for no such file, no TOML, an unknown or missing key, or a value that no scene can have. The error has file, key, value and bound.
+    pub fn from_toml(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let file = path.as_ref().display().to_string();
+        let unreadable = |error: std::io::Error| {
+            let value = Some(Fact::from(&file));
+            in_file(&file, "file", error.to_string(), value, Some("a file that can be read".into()))
+        };
+        let text = std::fs::read_to_string(path.as_ref()).map_err(unreadable)?;
+        Self::parse_toml(&text, &file)
+    }
+
+    /// The scene of a TOML text. Errors call it `file`.
+    ///
+    /// # Errors
+    /// As [`Scene::from_toml`].
+    ///
+    /// ```
+    /// use andoyer_propagate::Scene;
+    /// let text = "[body]\nmoments = [1.0, 2.0, 3.5]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0, 1]";
+    /// let error = Scene::parse_toml(text, "flat.toml").unwrap_err();
+    /// assert!(error.to_string().starts_with("flat.toml: body.moments: moments = [1.0, 2.0, 3.5]: the largest must not exceed"));
+    /// ```
+    pub fn parse_toml(text: &str, file: &str) -> Result<Self, Error> {
+        let document: toml::Table = text.parse().map_err(|error: toml::de::Error| {
+            let line = error.span().map_or(1, |span| 1 + text[..span.start].matches('\n').count());
+            let value = text.lines().nth(line - 1).unwrap_or_default();
+            in_file(file, &format!("line {line}"), error.message().to_owned(), Some(value.into()), Some("TOML".into()))
+        })?;
+        let tables = serde_path_to_error::deserialize(document.clone());
+        let tables: tables::SceneTable = tables.map_err(|error| located(file, &document, &error))?;
+        tables.scene().map_err(|refusal| refusal.in_file(file, &document))
+    }
+
+    /// The scene as TOML. [`Scene::parse_toml`] reads it back to the same scene.
+    pub fn to_toml(&self) -> String {
+        // Every value of a scene has a form in TOML.
+        toml::to_string(&tables::SceneTable::of(self)).unwrap_or_default()
+    }
+}

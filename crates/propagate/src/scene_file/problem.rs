@@ -1,0 +1,110 @@
+//! Errors of a scene file, with file, key, value and bound.
+
+use serde_path_to_error::Segment;
+use toml::{Table, Value};
+
+use crate::error::{Error, Value as Fact};
+
+/// A value that a scene cannot have, with its key.
+pub(super) struct Refusal {
+    key: String,
+    problem: String,
+    value: Option<Fact>,
+    bound: Option<Fact>,
+}
+
+impl Refusal {
+    /// A problem of the file itself. The value is that of the key.
+    pub(super) fn new(key: &str, problem: &str, bound: &str) -> Self {
+        Self { key: key.to_owned(), problem: problem.to_owned(), value: None, bound: Some(bound.into()) }
+    }
+
+    pub(super) fn missing(key: &str) -> Self {
+        Self::new(key, "is missing, and a scene must have it", "present")
+    }
+
+    /// A value that a constructor refuses, under its key in the file.
+    pub(super) fn of(error: &Error) -> Self {
+        let key = match error {
+            Error::Orbit { argument, .. } | Error::Table { argument, .. } | Error::Length { argument, .. } => {
+                &format!("orbit.{argument}")
+            }
+            Error::Averaging { .. } => "averaging",
+            Error::Level { .. } => "level",
+            Error::Moment { .. } | Error::MomentsTriangle { .. } | Error::MomentsRatio { .. } => "body.moments",
+            Error::InertiaSymmetry { .. } | Error::InertiaMoments { .. } => "body.inertia",
+            Error::Positive { argument, .. } | Error::Direction { argument, .. } => &format!("periods.{argument}"),
+            Error::PeriodRatio { .. } => "periods.rotation",
+            Error::ModeName { .. } | Error::NoSuchMode { .. } => "periods.mode",
+            Error::UnknownBody { .. } => "body.named",
+            Error::Attitude { .. } => "state.attitude",
+            Error::AngularVelocity { .. } => "state.angular_velocity",
+            Error::Epoch { .. } => "epoch",
+            Error::Tolerance { .. } => "tolerance",
+            Error::Span { .. } => "span",
+            Error::Order { .. } => "order",
+            _ => "scene",
+        };
+        Self { key: key.to_owned(), problem: error.to_string(), value: error.value(), bound: error.bound() }
+    }
+
+    pub(super) fn in_file(self, file: &str, document: &Table) -> Error {
+        let value = self.value.or_else(|| at(document, self.key.split('.')).map(fact));
+        in_file(file, &self.key, self.problem, value, self.bound)
+    }
+}
+
+impl From<Error> for Refusal {
+    fn from(error: Error) -> Self {
+        Self::of(&error)
+    }
+}
+
+/// What serde refuses: an unknown or missing key, or a value of the wrong type.
+pub(super) fn located(file: &str, document: &Table, error: &serde_path_to_error::Error<toml::de::Error>) -> Error {
+    let message = error.inner().message();
+    let mut keys: Vec<String> = Vec::new();
+    for segment in error.path() {
+        match segment {
+            Segment::Map { key } => keys.push(key.clone()),
+            // An element of a list is told by the list, but for the tables of orbits.
+            Segment::Seq { .. } | Segment::Enum { .. } | Segment::Unknown => {}
+        }
+    }
+    let quoted = |start: &str| message.strip_prefix(start).and_then(|rest| rest.split('`').next());
+    let named = quoted("missing field `").or_else(|| quoted("unknown field `"));
+    if let Some(key) = named.filter(|key| keys.last().is_none_or(|last| last != key)) {
+        keys.push(key.to_owned());
+    }
+    let value = at(document, keys.iter().map(String::as_str)).map(fact);
+    let key = keys.join(".");
+    if quoted("missing field `").is_some() {
+        return Refusal::missing(&key).in_file(file, document);
+    }
+    let (problem, bound) = message.split_once(", expected ").unwrap_or((message, "a value that a scene has"));
+    let problem = if problem == message { message.to_owned() } else { format!("{problem}, expected {bound}") };
+    in_file(file, &key, problem, value, Some(bound.replace('`', "").into()))
+}
+
+/// The value of a key in nested tables.
+fn at<'a, 'k>(document: &'a Table, mut keys: impl Iterator<Item = &'k str>) -> Option<&'a Value> {
+    let first = document.get(keys.next()?)?;
+    keys.try_fold(first, |value, key| value.get(key))
+}
+
+pub(super) fn in_file(file: &str, key: &str, problem: String, value: Option<Fact>, bound: Option<Fact>) -> Error {
+    let (value, bound) = (value.map(Box::new), bound.map(Box::new));
+    Error::SceneFile { file: file.to_owned(), key: key.to_owned(), problem, value, bound }
+}
+
+/// A value of the file as an error states it.
+fn fact(value: &Value) -> Fact {
+    let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
+    let list = || value.as_array()?.iter().map(number).collect::<Option<Vec<f64>>>();
+    match value {
+        Value::String(text) => text.into(),
+        Value::Integer(whole) => Fact::Integer(*whole),
+        Value::Float(number) => Fact::Number(*number),
+        _ => list().map_or_else(|| value.to_string().into(), Fact::Numbers),
+    }
+}

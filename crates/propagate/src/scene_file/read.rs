@@ -1,0 +1,156 @@
+//! From the tables of a file to a scene.
+
+use nalgebra::Vector3;
+
+use super::problem::Refusal;
+use super::tables::{BodyTable, OrbitTable, OrbitTables, PeriodsTable, SceneTable};
+use crate::input::body::Body;
+use crate::input::disturbing_body::DisturbingBody;
+use crate::input::orbit::Orbit;
+use crate::input::scene::Scene;
+use crate::input::state::State;
+use crate::input::tabulated::TabulatedOrbit;
+use crate::observed::periods::ObservedPeriods;
+
+impl SceneTable {
+    pub(super) fn scene(self) -> Result<Scene, Refusal> {
+        let body = self.body.body()?;
+        let mut scene = match (self.state, self.periods) {
+            (Some(_), Some(_)) => {
+                return Err(Refusal::new("periods", "stands beside state: a scene has one or the other", "alone"));
+            }
+            (None, None) => return Err(Refusal::missing("state")),
+            (Some(state), None) => Scene::new(body, State::new(self.epoch, state.attitude, state.angular_velocity)?),
+            (None, Some(periods)) => Scene::from_periods(body, &periods.periods(self.epoch)?)?,
+        };
+        if let Some(tolerance) = self.tolerance {
+            scene = scene.tolerance(tolerance);
+        }
+        if let Some([start, stop]) = self.span {
+            scene = scene.span(start, stop);
+        }
+        if let Some(order) = self.order {
+            scene = scene.order(order);
+        }
+        if let Some(name) = &self.name {
+            scene = scene.name(name);
+        }
+        if let Some(source) = &self.source {
+            scene = scene.source(source);
+        }
+        let scene = scene
+            .method(self.method.unwrap_or_default())
+            .averaging(self.averaging.unwrap_or_default())
+            .level(self.level.unwrap_or_default());
+        let scene = scene.disturbing(self.orbit.map_or(Ok(Vec::new()), OrbitTables::bodies)?);
+        scene.validate()?;
+        Ok(scene)
+    }
+}
+
+impl BodyTable {
+    fn body(self) -> Result<Body, Refusal> {
+        let body = match (self.moments, self.named, self.inertia) {
+            (Some(moments), None, None) => Body::new(moments)?,
+            (None, Some(name), None) => Body::named(&name)?,
+            (None, None, Some(tensor)) => Body::from_inertia(tensor)?,
+            (None, None, None) => {
+                return Err(Refusal::new(
+                    "body.moments",
+                    "is missing: moments = [A, B, C], or named = \"ceres\" for a body of the catalogue, or inertia for a tensor",
+                    "moments, named or inertia",
+                ));
+            }
+            (Some(_), Some(_), _) => {
+                return Err(Refusal::new("body.named", "stands beside moments: a body has one or the other", "alone"));
+            }
+            _ => {
+                let problem = "stands beside moments or named: a body has one of them";
+                return Err(Refusal::new("body.inertia", problem, "alone"));
+            }
+        };
+        Ok(match self.name {
+            Some(name) => body.with_name(&name),
+            None => body,
+        })
+    }
+}
+
+impl PeriodsTable {
+    fn periods(self, epoch: f64) -> Result<ObservedPeriods, Refusal> {
+        let mut periods = ObservedPeriods::new(self.precession, self.rotation);
+        periods.mode = self.mode.unwrap_or(periods.mode);
+        let periods = ObservedPeriods { epoch, convention: self.convention, phases: self.phases, ..periods };
+        match self.momentum_direction.as_deref() {
+            None => Ok(periods),
+            Some(&[longitude, latitude]) => Ok(periods.towards(longitude, latitude)),
+            Some(&[x, y, z]) => Ok(ObservedPeriods { momentum_direction: Vector3::new(x, y, z), ..periods }),
+            Some(_) => {
+                let bound = "three inertial components, or longitude and latitude";
+                Err(Refusal::new(
+                    "periods.momentum_direction",
+                    &format!("has another length: it must be {bound}"),
+                    bound,
+                ))
+            }
+        }
+    }
+}
+
+impl OrbitTables {
+    fn bodies(self) -> Result<Vec<DisturbingBody>, Refusal> {
+        match self {
+            Self::One(orbit) => Ok(vec![orbit.body()?]),
+            Self::Several(orbits) => orbits.into_iter().map(OrbitTable::body).collect(),
+        }
+    }
+}
+
+impl OrbitTable {
+    fn body(self) -> Result<DisturbingBody, Refusal> {
+        if self.times.is_none() && self.positions.is_none() && self.gm.is_none() {
+            return self.orbit().map(DisturbingBody::from);
+        }
+        if let Some(key) = self.first_element() {
+            let problem = "stands beside a table of positions, which has times, positions and gm";
+            return Err(Refusal::new(&format!("orbit.{key}"), problem, "alone"));
+        }
+        let missing = |key: &str| Refusal::missing(&format!("orbit.{key}"));
+        let times = self.times.ok_or_else(|| missing("times"))?;
+        let positions = self.positions.ok_or_else(|| missing("positions"))?;
+        let gm = self.gm.ok_or_else(|| missing("gm"))?;
+        Ok(TabulatedOrbit::new(times, positions, gm)?.into())
+    }
+
+    /// The key of the first element that is given.
+    fn first_element(&self) -> Option<&'static str> {
+        let elements = [
+            ("mean_motion", self.mean_motion),
+            ("eccentricity", self.eccentricity),
+            ("time_of_pericentre", self.time_of_pericentre),
+            ("inclination", self.inclination),
+            ("node", self.node),
+            ("argument_of_pericentre", self.argument_of_pericentre),
+            ("mass_fraction", self.mass_fraction),
+            ("node_rate", self.node_rate),
+            ("pericentre_rate", self.pericentre_rate),
+            ("attraction", self.attraction),
+        ];
+        elements.into_iter().find_map(|(key, element)| element.map(|_| key))
+    }
+
+    fn orbit(&self) -> Result<Orbit, Refusal> {
+        let mean_motion = self.mean_motion.ok_or_else(|| Refusal::missing("orbit.mean_motion"))?;
+        let [inclination, node, argument] =
+            [self.inclination, self.node, self.argument_of_pericentre].map(Option::unwrap_or_default);
+        let orbit = Orbit::new(mean_motion, self.eccentricity.unwrap_or_default())?
+            .time_of_pericentre(self.time_of_pericentre.unwrap_or_default())?
+            .plane(inclination, node, argument)?
+            .mass_fraction(self.mass_fraction.unwrap_or(1.0))?
+            .secular_rates(self.node_rate.unwrap_or_default(), self.pericentre_rate.unwrap_or_default())?;
+        Ok(match self.attraction {
+            Some(attraction) => orbit.attraction(attraction)?,
+            None => orbit,
+        })
+    }
+}

@@ -1,0 +1,145 @@
+//! The tables of a scene file, as serde reads and writes them.
+//!
+//! A key that has no field here is an error. Optional keys that are absent are not written.
+
+use std::fmt;
+
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+
+use crate::input::options::{Averaging, Convention, Level, Method};
+use crate::torque_free::mode::Mode;
+
+/// The whole file.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SceneTable {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) name: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) source: Option<String>,
+    #[serde(default)]
+    pub(super) epoch: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) span: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) tolerance: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) method: Option<Method>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) order: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) averaging: Option<Averaging>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) level: Option<Level>,
+    pub(super) body: BodyTable,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) state: Option<StateTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) periods: Option<PeriodsTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) orbit: Option<OrbitTables>,
+}
+
+/// `[body]`: one of moments, named and inertia.
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BodyTable {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) moments: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) named: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) inertia: Option<[[f64; 3]; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) name: Option<String>,
+}
+
+/// `[state]`.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StateTable {
+    pub(super) attitude: [f64; 4],
+    pub(super) angular_velocity: [f64; 3],
+}
+
+/// `[periods]`, in the place of a state.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PeriodsTable {
+    pub(super) precession: f64,
+    pub(super) rotation: f64,
+    pub(super) mode: Option<Mode>,
+    #[serde(default)]
+    pub(super) convention: Convention,
+    /// Three inertial components, or longitude and latitude.
+    pub(super) momentum_direction: Option<Vec<f64>>,
+    #[serde(default)]
+    pub(super) phases: [f64; 2],
+}
+
+/// `[orbit]`: the elements of an orbit, or a table of positions.
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OrbitTable {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) mean_motion: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) eccentricity: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) time_of_pericentre: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) inclination: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) node: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) argument_of_pericentre: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) mass_fraction: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) node_rate: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) pericentre_rate: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) attraction: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) times: Option<Vec<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) positions: Option<Vec<[f64; 3]>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) gm: Option<f64>,
+}
+
+/// `[orbit]`, or one `[[orbit]]` for each of several disturbing bodies.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub(super) enum OrbitTables {
+    One(Box<OrbitTable>),
+    Several(Vec<OrbitTable>),
+}
+
+impl<'de> Deserialize<'de> for OrbitTables {
+    /// By the kind of the value. serde's `untagged` would lose the key of an error.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Either;
+
+        impl<'de> Visitor<'de> for Either {
+            type Value = OrbitTables;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a table or an array of tables")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<OrbitTables, A::Error> {
+                Deserialize::deserialize(MapAccessDeserializer::new(map)).map(OrbitTables::One)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<OrbitTables, A::Error> {
+                Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(OrbitTables::Several)
+            }
+        }
+
+        deserializer.deserialize_any(Either)
+    }
+}

@@ -1,0 +1,85 @@
+//! From a scene to the tables of a file.
+
+use super::tables::{BodyTable, OrbitTable, OrbitTables, SceneTable, StateTable};
+use crate::input::body::Body;
+use crate::input::disturbing_body::DisturbingBody;
+use crate::input::options::{Averaging, Level};
+use crate::input::orbit::Orbit;
+use crate::input::scene::Scene;
+
+impl SceneTable {
+    /// The tables of a scene. Options that only a scene with a disturbing body needs are left out of the others.
+    pub(super) fn of(scene: &Scene) -> Self {
+        let state = scene.state();
+        let disturbing = scene.asked_disturbing();
+        let disturbed = !disturbing.is_empty();
+        let (averaging, level) = (scene.asked_averaging(), scene.asked_level());
+        Self {
+            name: scene.asked_name().map(str::to_owned),
+            source: scene.asked_source().map(str::to_owned),
+            epoch: state.epoch,
+            span: scene.asked_span().map(<[f64; 2]>::from),
+            tolerance: Some(scene.asked_tolerance()),
+            method: Some(scene.asked_method()),
+            order: scene.asked_order(),
+            averaging: (disturbed || averaging != Averaging::default()).then_some(averaging),
+            level: (disturbed || level != Level::default()).then_some(level),
+            body: BodyTable::of(scene.body()),
+            state: Some(StateTable {
+                attitude: state.attitude.coords.into(),
+                angular_velocity: state.angular_velocity.into(),
+            }),
+            periods: None,
+            orbit: match disturbing {
+                [] => None,
+                [body] => Some(OrbitTables::One(Box::new(OrbitTable::of(body)))),
+                bodies => Some(OrbitTables::Several(bodies.iter().map(OrbitTable::of).collect())),
+            },
+        }
+    }
+}
+
+impl BodyTable {
+    fn of(body: &Body) -> Self {
+        let tensor = body.has_tensor();
+        Self {
+            moments: (!tensor).then(|| body.moments()),
+            named: None,
+            inertia: tensor.then(|| body.inertia()),
+            name: body.name().map(str::to_owned),
+        }
+    }
+}
+
+impl OrbitTable {
+    fn of(body: &DisturbingBody) -> Self {
+        match body {
+            DisturbingBody::Orbit(orbit) => Self::of_orbit(orbit),
+            DisturbingBody::Tabulated(table) => Self {
+                times: Some(table.times().to_vec()),
+                positions: Some(table.positions().to_vec()),
+                gm: Some(table.gm()),
+                ..Self::default()
+            },
+        }
+    }
+
+    fn of_orbit(orbit: &Orbit) -> Self {
+        let [mean_motion, eccentricity, time_of_pericentre, inclination, node, argument_of_pericentre, mass_fraction] =
+            orbit.elements().map(Some);
+        let [node_rate, pericentre_rate] = orbit.rates().map(|rate| (rate != 0.0).then_some(rate));
+        Self {
+            mean_motion,
+            eccentricity,
+            time_of_pericentre,
+            inclination,
+            node,
+            argument_of_pericentre,
+            mass_fraction,
+            node_rate,
+            pericentre_rate,
+            attraction: orbit.asked_attraction(),
+            ..Self::default()
+        }
+    }
+}
