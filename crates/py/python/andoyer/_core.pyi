@@ -628,7 +628,7 @@ class BirkhoffNormalForm:
         """Writes this normal form as JSON text with a format version: exact numbers as "p/q" strings, floats with all their digits."""
     @classmethod
     def from_json(cls, text: str, symbols: dict[str, Any] | None = None) -> BirkhoffNormalForm:
-        """Reads a normal form from the text of `to_json`. Each order is computed again and compared."""
+        """Reads a normal form from the text of `to_json`, and computes the form again to compare every coefficient."""
     def to_latex(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> str:
         """Writes a part of this normal form as LaTeX, for a document that uses amsmath."""
     def to_code(self, language: Literal["c", "rust", "python"] = "c") -> str:
