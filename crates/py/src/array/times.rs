@@ -87,7 +87,7 @@ impl<'py> Times<'py> {
 
     /// The same for derivatives, which take some microseconds a time.
     pub(crate) fn long_partials(&self) -> bool {
-        self.array.len() > LONG_DISTURBED
+        self.leading.iter().product::<usize>() > LONG_DISTURBED || self.long()
     }
 
     /// Whether evaluating at these times may take so long that Ctrl-C must end it.
