@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use andoyer_propagate::{Body, Orbit, Scene, State};
+use andoyer_propagate::{Body, Method, Orbit, Scene, State};
 use criterion::Criterion;
 
 /// Short measurements: some hundred ids, a second each. Their medians repeat within a few per cent on a quiet machine.
@@ -30,7 +30,7 @@ pub fn disturbed(eccentricity: f64) -> Scene {
     let (half_sine, half_cosine) = (0.2_f64).sin_cos();
     let state = State::new(0.0, [half_sine, 0.0, 0.0, half_cosine], [0.006, 0.02, 1.0]).expect("a state");
     let orbit = Orbit::new(2e-3, eccentricity).expect("an ellipse");
-    Scene::new(body, state).orbit(orbit).span(0.0, 1000.0 * std::f64::consts::TAU)
+    Scene::new(body, state).orbit(orbit).span(0.0, 1000.0 * std::f64::consts::TAU).method(Method::Closed)
 }
 
 /// Bodies of many shapes: 1/16 ≤ β ≤ 15/16, C/A up to 3.

@@ -3,7 +3,7 @@
 //! The truth is [`Problem`], which integrates the full equations and shares no formula with the averaged theory.
 
 use andoyer_propagate::options::{Averaging, Level};
-use andoyer_propagate::{Body, Error, Motion, Orbit, Scene, State};
+use andoyer_propagate::{Body, Error, Method, Motion, Orbit, Scene, State};
 
 use crate::attitude_error;
 use crate::integration::Problem;
@@ -66,14 +66,17 @@ impl Disturbed {
         Orbit::new(mean_motion, eccentricity)?.plane(inclination, node, argument)?.time_of_pericentre(pericentre)
     }
 
-    /// The scene without the orbit.
+    /// The scene without the orbit, by theory.
     ///
     /// # Errors
     /// Those of [`Body::new`] and [`State::new`].
     pub fn free(&self) -> Result<Scene, Error> {
         let state = State::new(0.0, self.attitude, self.rates)?;
         let [start, stop] = [self.span.min(0.0), self.span.max(0.0)];
-        Ok(Scene::new(Body::new(self.moments)?, state).span(start, stop).tolerance(self.tolerance))
+        Ok(Scene::new(Body::new(self.moments)?, state)
+            .span(start, stop)
+            .tolerance(self.tolerance)
+            .method(Method::Closed))
     }
 
     /// The motion under the torque.

@@ -1,7 +1,7 @@
 //! How good averaging is where it is hardest, that its bound says so, and the errors where it does not hold.
 
 use andoyer_propagate::options::Averaging;
-use andoyer_propagate::{Body, Error, Motion, Orbit, Scene, State};
+use andoyer_propagate::{Body, Error, Method, Motion, Orbit, Scene, State};
 use andoyer_tests::attitude_error;
 use andoyer_tests::integration::Problem;
 
@@ -9,7 +9,7 @@ const ATTITUDE: [f64; 4] = [0.295_520_206_661_339_6, 0.0, 0.0, 0.955_336_489_125
 
 fn scene(moments: [f64; 3], rates: [f64; 3], span: f64) -> Scene {
     let state = State::new(0.0, ATTITUDE, rates).expect("a state");
-    Scene::new(Body::new(moments).expect("a body"), state).span(0.0, span)
+    Scene::new(Body::new(moments).expect("a body"), state).span(0.0, span).method(Method::Closed)
 }
 
 fn orbit(mean_motion: f64, eccentricity: f64, fraction: f64) -> Orbit {

@@ -180,8 +180,17 @@ fn assert_agrees(language: CodeLanguage, file: &str, build: Build<'_>) {
         for (time, line) in times.iter().zip(&lines).take(TIMES + 1) {
             assert_near(&motion, (code.attitude_error(), code.rate_error()), *time, line, name);
         }
-        assert!(code.attitude_error() < 1e-13 && code.rate_error() < 1e-13, "{name}: {code:?}");
+        assert!(code.attitude_error() < 1e-14, "{name}: {:e} rad", code.attitude_error());
+        assert!(code.rate_error() < rate_budget(&motion), "{name}: {:e}", code.rate_error());
     }
+}
+
+/// A few roundings of the angular momentum turn into angular velocity by the smallest moment, which is small beside the others in a needle.
+fn rate_budget(motion: &Motion) -> f64 {
+    let (moments, rates) = (motion.scene().body().moments(), motion.scene().state().angular_velocity);
+    let momentum = motion.angular_momentum().norm();
+    let fastest = momentum / moments.iter().copied().fold(f64::INFINITY, f64::min);
+    if momentum > 0.0 { 1e-14 * fastest / rates.amax() } else { 1e-14 }
 }
 
 fn assert_near(motion: &Motion, (attitude_error, rate_error): (f64, f64), time: f64, line: &str, name: &str) {

@@ -123,6 +123,8 @@ fn a_plan_is_ascii_whatever_the_motion() {
         triaxial(),
         triaxial().method(Method::Series).order(2),
         triaxial().orbit(orbit()).tolerance(1e-9).span(0.0, 1e3),
+        triaxial().orbit(Orbit::new(0.4, 0.1).expect("an orbit")).span(0.0, 10.0),
+        scene([1.0, 1.02, 1.05], [0.0, 1.0, 1e-3]).orbit(orbit()).span(0.0, 10.0),
         scene([1.0, 2.0, 3.0], [0.0, 1.0, 1e-3]),
         scene([1.0, 2.0, 3.0], [0.0, 1.0, 0.0]),
         scene([1.0, 2.0, 2.25], [0.75, 0.0, 1.0]),

@@ -143,7 +143,7 @@ fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Mo
         Ok(motion) if motion.plan.meets_tolerance() => return Ok(motion),
         Ok(motion) => motion,
         Err(error) if error.kind() == Kind::Theory => {
-            return integrated(scene, tables, format!("theory: {error}"), stop);
+            return integrated(scene, tables, format!("theory: {}", in_ascii(&error)), stop);
         }
         Err(error) => return Err(error),
     };
@@ -158,6 +158,11 @@ fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Mo
         Err(Error::Stopped) => Err(Error::Stopped),
         _ => Ok(by_theory),
     }
+}
+
+/// The message of an error without the signs that a plan does not print.
+fn in_ascii(error: &Error) -> String {
+    error.to_string().replace('σ', "sigma").replace('−', "-").replace('²', "^2")
 }
 
 /// The motion by integration over the span; mode and frequencies are those of the free motion at the epoch.

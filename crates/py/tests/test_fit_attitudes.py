@@ -1,16 +1,15 @@
 """Fits of attitudes: the known answer within the covariance, derivatives against differences, what data do not determine, what is refused."""
 
+import andoyer
 import numpy as np
 import pytest
-
-import andoyer
 from andoyer import Body, Orbit, Scene
 
 pytest.importorskip("scipy")
-from andoyer import fit  # noqa: E402
-from andoyer.fit import _attitudes, _rotations  # noqa: E402
-from scipy.optimize import approx_fprime  # noqa: E402
-from scipy.spatial.transform import Rotation  # noqa: E402
+from andoyer import fit
+from andoyer.fit import _attitudes, _rotations
+from scipy.optimize import approx_fprime
+from scipy.spatial.transform import Rotation
 
 TIMES = np.linspace(0, 50, 100)
 TRUTH = Scene(Body([1.0, 1.5, 2.0]), [0.1, -0.2, 0.3, np.sqrt(0.86)], [0.1, 0.2, 1.0])
@@ -47,6 +46,19 @@ def test_known_answers_lie_within_the_covariance(truth):
     assert 12 * 292 - 330 < chi_squares < 12 * 292 + 330
 
 
+def test_covariance_is_the_inverse_of_the_information():
+    """The information from differences of motions: central, with a step of 1e-6."""
+    sigma, step = 0.01, 1e-6
+    found = fit.attitudes(TRUTH, TIMES, TRUTH.solve().attitude(TIMES), sigma=sigma, free=("attitude", "angular_velocity"))
+
+    def attitudes(change):
+        attitude = Rotation.from_quat(list(found.scene.attitude)) * Rotation.from_rotvec(change[:3])
+        return Scene(found.scene.body, attitude, found.scene.angular_velocity + change[3:]).solve().rotation(TIMES)
+
+    slopes = [(attitudes(-step * axis).inv() * attitudes(step * axis)).as_rotvec().ravel() / (2 * step * sigma) for axis in np.eye(6)]
+    assert np.allclose(found.covariance @ (np.array(slopes) @ np.transpose(slopes)), np.eye(6), atol=1e-5)
+
+
 def test_poor_guess_leads_to_the_answer():
     """Rates 20 % off and moments 7 %: at the last time a turn and more away, so the search must take the data in one after the other."""
     guess = Scene(Body([1.0, 1.4, 2.1]), Rotation.from_quat(list(TRUTH.attitude)) * Rotation.from_rotvec([0.05, -0.1, 0.1]), [0.12, 0.18, 1.01])
@@ -61,7 +73,9 @@ def test_derivatives_are_those_of_differences(scene):
     covariances = np.broadcast_to(np.diag([1e-2, 4e-2, 2e-2]) + 5e-3, (20, 3, 3))
     problem = _attitudes._Problem(scene, TIMES[:20], noisy(scene, covariances, generator, TIMES[:20]), covariances, ("attitude", "angular_velocity", "moments"))
     step = generator.normal(scale=0.02, size=8)
-    differences = (approx_fprime(step, problem.whitened, 1e-6) - approx_fprime(step, problem.whitened, -1e-6)) / 2 + approx_fprime(step, problem.whitened, -1e-6)
+    differences = (approx_fprime(step, problem.whitened, 1e-6) - approx_fprime(step, problem.whitened, -1e-6)) / 2 + approx_fprime(
+        step, problem.whitened, -1e-6
+    )
     exact = problem.jacobian(step)
     # Central differences with a step of 1e-6: rounding 1e-15/1e-6 of the largest derivative.
     assert np.abs(exact - differences).max() < 1e-7 * np.abs(exact).max()

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use std::io::{self, Write};
 
 use andoyer_propagate::options::{Averaging, Level};
-use andoyer_propagate::{Body, Error, Motion, Orbit, Scene, State};
+use andoyer_propagate::{Body, Error, Method, Motion, Orbit, Scene, State};
 use andoyer_tests::climb::{FAMILIES, Family, Summit, Theory, Uniform, climb};
 use andoyer_tests::disturbed::{Disturbed, Measured};
 use andoyer_tests::integration::Problem;
@@ -55,7 +55,9 @@ impl Setting {
         let span = self.orbits * std::f64::consts::TAU / self.mean_motion;
         let times: Vec<f64> = (0..SAMPLES).map(|k| span * k as f64 / (SAMPLES - 1) as f64).collect();
         let truth = Problem { moments: self.moments, orbit: Some(orbit) }.integrate(0.0, attitude, rates, &times);
-        let scene = Scene::new(Body::new(self.moments)?, State::new(0.0, attitude, rates)?).span(0.0, span);
+        let scene = Scene::new(Body::new(self.moments)?, State::new(0.0, attitude, rates)?)
+            .span(0.0, span)
+            .method(Method::Closed);
         Ok(Run { scene, orbit, times, truth })
     }
 }
@@ -79,7 +81,9 @@ fn reference_cases(out: &mut impl Write) -> Result<(), Box<dyn std::error::Error
     for (case, orbit) in cases(REFERENCE).iter().zip(orbits(REFERENCE)) {
         let body = Body::new(case.moments)?;
         let span = case.states.iter().map(|&(time, ..)| time).fold(0.0, f64::max);
-        let scene = Scene::new(body, State::new(0.0, case.attitude, case.angular_velocity)?).span(0.0, span);
+        let scene = Scene::new(body, State::new(0.0, case.attitude, case.angular_velocity)?)
+            .span(0.0, span)
+            .method(Method::Closed);
         let error = |motion: &Motion| -> Result<f64, Error> {
             case.states.iter().try_fold(0.0_f64, |worst, &(time, reference, _)| {
                 Ok(worst.max(attitude_error(motion.at(time)?.attitude.coords.into(), reference)))

@@ -25,7 +25,7 @@ const SAMPLES: usize = 48;
 /// margin the worst case found by hill climbing (docs/gravity-gradient.md) is below its bound.
 const MARGIN: f64 = 2.0;
 /// The safety factor of an averaged motion of second order.
-const THIRD_MARGIN: f64 = 3.0;
+const THIRD_MARGIN: f64 = 5.0;
 /// The derivatives of the change, as a fraction of the sum of the largest sizes of all terms.
 const SLOPE_SHARE: f64 = 0.25;
 /// Number of orbits on each side of the epoch for which quarters are kept.

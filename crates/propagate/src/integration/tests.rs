@@ -1,6 +1,10 @@
+use std::sync::atomic::AtomicBool;
+
+use super::dense::Cursor;
+use super::integrated::Integrated;
 use super::integrator::Step;
 use crate::error::STEP_BYTES;
-use crate::{Body, Error, Method, Scene, State};
+use crate::{Body, Error, Method, Orbit, Scene, State};
 
 fn scene(moments: [f64; 3], rates: [f64; 3]) -> Scene {
     let state = State::new(3.0, [0.1, -0.2, 0.3, 0.86_f64.sqrt()], rates).expect("a state");
@@ -42,4 +46,18 @@ fn a_span_is_needed_and_one_of_too_many_rotations_is_refused() {
     assert!(matches!(scene.solve(), Err(Error::NoSpan { .. })));
     let error = scene.span(0.0, 6.3e9).solve().expect_err("too long");
     assert!(matches!(error, Error::TooManySteps { steps, .. } if steps > 1e9), "{error}");
+}
+
+#[test]
+fn steps_that_are_expanded_again_give_the_bits_of_those_that_were_kept() {
+    let orbit = Orbit::new(0.3, 0.4).expect("an orbit").secular_rates(0.01, -0.02).expect("rates");
+    let scene = scene([0.5, 0.8, 1.0], [0.3, 0.5, 1.0]).orbit(orbit).span(-40.0, 60.0);
+    let kept = Integrated::new(&scene, "", &AtomicBool::new(false)).expect("a motion");
+    let mut dropped = kept.clone();
+    dropped.sides.iter_mut().for_each(|side| side.coefficients.clear());
+    let (mut one, mut other) = (Cursor::new(&kept), Cursor::new(&dropped));
+    for k in 0..=400 {
+        let time = -43.0 + 0.25 * f64::from(k);
+        assert_eq!(one.at((time, 0.0)), other.at((time, 0.0)));
+    }
 }

@@ -1,7 +1,7 @@
-//! Arrays in and out: array-likes of numbers to float64 slices, results straight into NumPy's memory.
+//! Conversion of array-likes to float64 slices, and results that are written directly into NumPy arrays.
 //!
-//! Numbers are what NumPy calls integers and floats, and objects with `__float__`; strings, booleans and complex numbers are a
-//! `TypeError`. A scalar time gives results without the leading axis. Nothing is copied that is float64, aligned and in C order already.
+//! Numbers are integers and floats of NumPy, and objects with `__float__`. Strings, booleans and complex numbers are a
+//! `TypeError`. A scalar time gives results without the leading axis. An array that is float64, aligned and in C order is not copied.
 
 use numpy::{
     IntoPyArray, PyArray1, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray,
@@ -27,7 +27,7 @@ fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py
     let value = foreign::plain(argument, value)?;
     let numpy = py.import(intern!(py, "numpy"))?;
     let array = numpy.getattr(intern!(py, "asarray"))?.call1((value,)).map_err(|problem| {
-        // NumPy says so of nested lists of unequal length.
+        // The error of NumPy for nested lists of unequal length.
         let ragged = problem.is_instance_of::<PyValueError>(py);
         if !ragged {
             return problem;
@@ -50,7 +50,7 @@ fn numbers<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py
     }
 }
 
-/// An array of Python objects as numbers, one by one: NumPy would read None as NaN, and texts as what they spell.
+/// An array of Python objects as numbers, one by one. NumPy would convert None to NaN, and texts to numbers.
 fn objects<'py>(argument: &str, array: &Bound<'py, PyUntypedArray>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let refused = |problem: PyErr| {
         let first = array.getattr("flat").and_then(|flat| flat.get_item(0)).ok();
@@ -95,7 +95,7 @@ pub(crate) fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> 
     }
 }
 
-/// N numbers for each member of an ensemble: an array_like of shape (m, N), or (N,) for all of them.
+/// N numbers for each member of an ensemble: an array_like of shape (m, N), or (N,) for all members.
 pub(crate) enum MemberRows<const N: usize> {
     One([f64; N]),
     Many(Vec<[f64; N]>),
@@ -116,7 +116,7 @@ impl<const N: usize> MemberRows<N> {
         }
     }
 
-    /// The number of rows, unless one row stands for any number of them.
+    /// The number of rows, or None if a single row is used for all members.
     pub(crate) fn members(&self) -> Option<usize> {
         match self {
             Self::One(_) => None,
@@ -134,7 +134,7 @@ impl<const N: usize> MemberRows<N> {
         .for_each(change);
     }
 
-    /// As many rows as there are, or `members` times the one.
+    /// All rows, or the single row repeated `members` times.
     pub(crate) fn repeated(self, members: usize) -> Vec<[f64; N]> {
         match self {
             Self::One(row) => vec![row; members],
@@ -143,7 +143,7 @@ impl<const N: usize> MemberRows<N> {
     }
 }
 
-/// `value` as one number, or as one axis of them.
+/// `value` as one number or one axis of numbers.
 pub(crate) fn numbers_of(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let array = numbers(argument, value)?;
     if array.ndim() > 1 {
@@ -180,7 +180,7 @@ pub(crate) fn fixed<const N: usize>(argument: &str, value: &Bound<'_, PyAny>) ->
     read(argument, &array)?.as_slice()?.try_into().map_err(|_| wrong())
 }
 
-/// First and last time of a span, of a state at an epoch.
+/// First and last time of a span, for a state at an epoch.
 pub(crate) fn span(value: &Bound<'_, PyAny>, epoch: f64, calendar: Option<Calendar>) -> PyResult<[f64; 2]> {
     match foreign::since("span", value, calendar.as_slice())? {
         Some((seconds, ..)) => Ok(fixed("span", &seconds)?.map(|seconds: f64| epoch + seconds)),
@@ -204,7 +204,7 @@ pub(crate) fn two_or_three(argument: &str, value: &Bound<'_, PyAny>) -> PyResult
     }
 }
 
-/// Whether `value` is an array_like of shape (3, 3).
+/// True if `value` is an array_like of shape (3, 3).
 pub(crate) fn is_matrix(value: &Bound<'_, PyAny>) -> bool {
     numbers("moments", value).is_ok_and(|array| array.shape() == [3, 3])
 }
@@ -235,7 +235,7 @@ impl<'py> Rows<'py> {
         Ok(Self { array: read(argument, &array)?, columns })
     }
 
-    /// What `evaluate` makes of each row, `columns` numbers, computed without the interpreter lock.
+    /// The result of `evaluate` for each row, `columns` numbers, computed without the interpreter lock.
     pub(crate) fn map(
         &self,
         columns: usize,
@@ -249,10 +249,10 @@ impl<'py> Rows<'py> {
     }
 }
 
-/// Rows between two looks for Ctrl-C: long series take some milliseconds each.
+/// Number of rows between two checks for Ctrl-C; for long series a row takes some milliseconds.
 const ROWS_AT_ONCE: usize = 64;
 
-/// What `evaluate` makes of rows of `width` numbers, part by part, without the interpreter lock; Ctrl-C is noticed in between.
+/// The results of `evaluate` for rows of `width` numbers, computed in parts without the interpreter lock. Ctrl-C is checked between the parts.
 pub(crate) fn row_by_row(
     py: Python<'_>,
     values: &[f64],

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use super::in_use;
 use crate::error;
 
-/// `out`, if it is an array that results of this shape can be written into.
+/// `out`, checked to be an array for results of this shape.
 pub(super) fn output<'py>(out: &Bound<'py, PyAny>, shape: &[usize]) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
     let Ok(array) = out.cast::<PyUntypedArray>() else {
         return Err(PyTypeError::new_err(format!("out must be a NumPy array, not {}", out.get_type().name()?)));

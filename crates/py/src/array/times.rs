@@ -16,22 +16,22 @@ use crate::foreign::{self, Calendar};
 
 /// Numbers that fill 128 KiB. From this size on glibc asks the system for memory.
 const FEWEST_SHARED: usize = 16_384;
-/// Times of a motion from which on evaluating them is a long call: 1 to 200 ms.
+/// Number of times of a motion above which an evaluation counts as a long call; it takes 1 to 200 ms.
 const LONG: usize = 1 << 19;
-/// The same under a gravity gradient, 3 to 20 ms.
+/// The same number under a gravity gradient; it takes 3 to 20 ms.
 const LONG_DISTURBED: usize = 1 << 14;
-/// Members of an ensemble from which on solving them is a long call: 20 ms.
+/// Number of members of an ensemble above which solving counts as a long call; it takes 20 ms.
 const LONG_MEMBERS: usize = 1 << 12;
-/// The same under a gravity gradient, at 200 µs each.
+/// The same number under a gravity gradient, with 0.2 to 0.3 ms for each member.
 const LONG_DISTURBED_MEMBERS: usize = 32;
 
-/// Times: a scalar, or one axis of them; for the members of an ensemble also an axis of each.
+/// Times: a scalar or one axis; for an ensemble also one row for each member.
 pub(crate) struct Times<'py> {
     array: PyReadonlyArrayDyn<'py, f64>,
     members: Option<usize>,
     /// Axes of the result before its last.
     leading: Vec<usize>,
-    /// Times of another package, as they were given: the numbers are then seconds since the epoch.
+    /// Times of another package as given; the numbers are then seconds since the epoch.
     given: Option<Bound<'py, PyAny>>,
     disturbed: bool,
 }
@@ -46,7 +46,7 @@ impl<'py> Times<'py> {
         Ok(Self { array: read("times", &array)?, members: None, leading: shape, given, disturbed })
     }
 
-    /// Numbers, the times of another package if they are some, and the shape as given.
+    /// The numbers, the times of another package if such times were given, and the shape as given.
     #[expect(clippy::type_complexity, reason = "taken apart at once")]
     fn read(
         value: &Bound<'py, PyAny>,
@@ -75,22 +75,22 @@ impl<'py> Times<'py> {
         Ok(Self { array: read("times", &array)?, members: Some(members), leading, given, disturbed })
     }
 
-    /// Whether the numbers are seconds since the epoch.
+    /// True if the numbers are seconds since the epoch.
     pub(crate) fn since_epoch(&self) -> bool {
         self.given.is_some()
     }
 
-    /// Times of another package, as they were given.
+    /// The times of another package as given.
     pub(crate) fn given(&self) -> Option<Py<PyAny>> {
         self.given.clone().map(Bound::unbind)
     }
 
-    /// The same for derivatives, which take some microseconds a time.
+    /// The same for derivatives, which take some microseconds for each time.
     pub(crate) fn long_partials(&self) -> bool {
-        self.array.len() > LONG_DISTURBED
+        self.leading.iter().product::<usize>() > LONG_DISTURBED || self.long()
     }
 
-    /// Whether evaluating at these times may take so long that Ctrl-C must end it.
+    /// True if the evaluation at these times may be a long call, which Ctrl-C must end.
     pub(crate) fn long(&self) -> bool {
         let (times, members) =
             if self.disturbed { (LONG_DISTURBED, LONG_DISTURBED_MEMBERS) } else { (LONG, LONG_MEMBERS) };
@@ -113,8 +113,8 @@ impl<'py> Times<'py> {
 
     /// A copy of the times, and two arrays to be filled, of these shapes for each time.
     ///
-    /// Many times share one block of memory. In three blocks it is given back to the system with each call, and every page of the next one is a fault:
-    /// 25 ns a sample for 100,000 of them, against 1.0 in one block.
+    /// For many times the arrays share one block of memory. Three blocks would be returned to the system after each call, and the page faults of the next call
+    /// would take 25 ns a sample for 100,000 samples; with one block it is 1.0 ns.
     fn with_outputs(&self, [first, second]: [&[usize]; 2]) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
         let shapes = [self.array.shape().to_vec(), self.shape(first), self.shape(second)];
         let numbers = shapes.iter().map(|shape| shape.iter().product::<usize>()).sum::<usize>();
@@ -139,7 +139,7 @@ impl<'py> Times<'py> {
         Ok([part(0, 0)?, part(sizes[0], 1)?, part(sizes[0] + sizes[1], 2)?])
     }
 
-    /// An array to be filled: zeros would be written twice.
+    /// An uninitialized array to be filled; writing zeros first would write it twice.
     fn empty(&self, shape: &[usize]) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         static EMPTY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
         let py = self.array.py();
