@@ -1,9 +1,9 @@
-"""What criterion measured as one table: docs/data/bench.csv.
+"""Collect the measurements of criterion in one table, docs/data/bench.csv.
 
     python benches/collect.py          after `cargo bench`; `make bench` runs both
 
-A row is a benchmark id `task/size/engine`: median and its 95 % interval in ns per iteration, elements per iteration where they are counted, and the machine. Only ids that were
-measured since the start of the run are taken (`--since`, seconds since 1970).
+A row is a benchmark id `task/size/engine` with the median and its 95 % interval in ns per iteration, the elements per iteration if the benchmark counts them, and the machine. Only ids
+that were measured since the start of the run are used (`--since`, seconds since 1970).
 """
 
 import argparse

@@ -1,10 +1,10 @@
-"""Instruction counts of five kernels against those on file: exit status 1 where one has grown by more than 5 %.
+"""Compare the instruction counts of five kernels with the recorded counts. Exit status 1 if a count has grown by more than 5 %.
 
     python benches/gate.py PROGRAM             `make gate`; PROGRAM is the built `kernels` of benches
-    python benches/gate.py PROGRAM --write     `make gate-write`: benches/instructions.json, on purpose
+    python benches/gate.py PROGRAM --write     `make gate-write`: records new counts in benches/instructions.json
 
-Counted by valgrind's callgrind, which depends on neither the clock nor what else the machine does. Valgrind shows the program a processor without AVX-512, so that kernels are those
-of AVX2 with FMA wherever the machine has these; where it has not (/proc/cpuinfo says so), nothing is compared. Compilers differ: counts are held against the compiler that they were taken with, and only reported for others.
+Valgrind's callgrind counts the instructions, so the counts do not depend on the clock or on the load of the machine. Valgrind emulates a processor without AVX-512, so the kernels run with
+AVX2 and FMA if the machine has these. If it does not (see /proc/cpuinfo), nothing is compared. The comparison is strict for the compiler of the recorded counts; for other compilers the counts are only printed.
 """
 
 import argparse
@@ -18,7 +18,7 @@ from pathlib import Path
 
 from machine import described
 
-# What the counts on file were taken with.
+# The conditions of the recorded counts.
 INSTRUCTION_SETS = {"avx2", "fma"}
 FILE = Path(__file__).with_name("instructions.json")
 GROWTH = 1.05
@@ -27,13 +27,13 @@ KERNELS = {"normalize": 2, "numeric": 2, "solve-closed": 2, "solve-series": 1, "
 
 
 def lacking(processor):
-    """Instruction sets that the kernels of the file use and this processor, as /proc/cpuinfo describes it, has not."""
+    """Instruction sets of the recorded kernels that this processor lacks according to /proc/cpuinfo."""
     flags = re.search(r"^flags\s*:(.*)$", processor, re.MULTILINE)
     return sorted(INSTRUCTION_SETS - set(flags[1].split() if flags else ()))
 
 
 def instructions(program, kernel, repeats):
-    """What callgrind counts for so many repeats."""
+    """Instruction count of callgrind for this number of repeats."""
     command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", program, kernel, str(repeats)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     found = re.search(r"Collected\s*:\s*(\d+)", done.stderr)
@@ -43,7 +43,7 @@ def instructions(program, kernel, repeats):
 
 
 def counted(program):
-    """Instructions of one repeat of each kernel: the first, which fills what later ones find, is left out."""
+    """Instructions of one repeat of each kernel, without the first repeat, which fills the caches."""
     return {kernel: (instructions(program, kernel, 1 + n) - instructions(program, kernel, 1)) // n for kernel, n in KERNELS.items()}
 
 

@@ -1,4 +1,4 @@
-"""What each level of the gravity-gradient theory leaves of the torque's effect on the attitude, as a picture.
+"""Draw the error of each level of the gravity-gradient theory, relative to the effect of the torque on the attitude.
 
     make gravity    writes docs/data/gravity-*.csv from integrations of the full equations, and docs/gravity-gradient.png from them
 """
@@ -11,8 +11,8 @@ from typing import Any
 import matplotlib.pyplot as plt
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
-# Okabe and Ito's colours, which the colour-blind tell apart, and markers of their own.
-# The paper's level is drawn last, dashed and open, so that another one under it is seen.
+# Colours of Okabe and Ito, which colour-blind readers can distinguish, and a different marker for each level.
+# The level "paper" is drawn last, dashed and with open markers, so that a curve under it is visible.
 LEVELS: dict[str, dict[str, Any]] = {
     "full": {"color": "#009E73", "marker": "^"},
     "moving": {"color": "#0072B2", "marker": "s"},
@@ -22,7 +22,7 @@ PANELS = {"J": "J [rad]", "n/spin": "n / spin", "e": "eccentricity e", "(B-A)/C"
 
 
 def main() -> None:
-    """Draws the four panels."""
+    """Draw the four panels."""
     series: dict[str, list[dict[str, str]]] = defaultdict(list)
     with (DOCS / "data" / "gravity-levels.csv").open(encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):

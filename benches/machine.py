@@ -1,4 +1,4 @@
-"""What a measurement was made on: processor, cores, compiler, commit, date. No names of hosts."""
+"""Description of the machine of a measurement: processor, cores, compiler, commit, date. It contains no host names."""
 
 import datetime
 import os
@@ -10,7 +10,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 def described():
-    """The columns that every row of docs/data/bench.csv and work-precision.csv carries."""
+    """The columns that describe the machine in every row of docs/data/bench.csv and work-precision.csv."""
     return {
         "processor": _processor(),
         "cores": os.cpu_count(),

@@ -38,7 +38,7 @@ def read(name):
 
 
 def draw(rows, path):
-    """Run time of the whole against error: a panel a scene, a curve an engine."""
+    """Draw the total run time against the error, with a panel for each scene and a curve for each engine."""
     with plt.rc_context(STYLE):
         figure, grid = plt.subplots(2, 3, figsize=(13, 8), sharex=True, sharey=True, layout="constrained")
         for axes, (scene, title) in zip(grid.flat, PANELS.items(), strict=True):
@@ -60,7 +60,7 @@ def draw(rows, path):
 
 
 def duration(nanoseconds):
-    """A time with its unit, three digits."""
+    """A time with its unit and three digits."""
     value = float(nanoseconds)
     for unit, size in (("s", 1e9), ("ms", 1e6), ("µs", 1e3)):
         if value >= size:
@@ -75,13 +75,13 @@ def table(heads, rows):
 
 
 def machine(rows):
-    """What a file was measured on, in a sentence."""
+    """The machine of the measurements of a file, in a sentence."""
     first = rows[0]
     return f"{first['date']}, commit {first['commit']}, {first['processor']}, {first['cores']} cores, {first['compiler']}."
 
 
 def by_task(rows):
-    """A table of each task of the benchmarks: a row a size, a column an engine; what is counted in elements has the time of one."""
+    """A table for each task of the benchmarks, with a row for each size and a column for each engine. Times are for one element if elements are counted."""
     parts = []
     for task in sorted({row["task"] for row in rows}):
         here = [row for row in rows if row["task"] == task]
@@ -93,7 +93,7 @@ def by_task(rows):
             found = [cells.get((size, engine)) for engine in engines]
             counted = max(int(row["elements"]) for row in found if row)
             lines.append([size, f"{counted:,}" if counted > 1 else "", *(duration(row["element_ns"]) if row else "" for row in found)])
-        # A task that was measured apart says when and on what.
+        # A task that was measured separately states its date and machine.
         apart = "" if machine(here) == machine(rows) else f"{machine(here)}\n\n"
         parts.append(f"### {task}\n\n{apart}" + table([task, "elements", *(engine or "time" for engine in engines)], lines))
     return "\n\n".join(parts)
@@ -104,7 +104,7 @@ def _numbers(row):
 
 
 def at_equal_error(rows):
-    """The cheapest setting of each engine that is at least this good, and who is fastest."""
+    """The fastest setting of each engine that reaches this error, and the fastest engine."""
     lines = []
     for scene, title in PANELS.items():
         for error in (1e-6, 1e-12):
@@ -120,7 +120,7 @@ def at_equal_error(rows):
 
 
 def by_work(bench, precision, stress):
-    """What each kind of work takes, and the error over all random scenes."""
+    """The time of each kind of work, and the error over all random scenes."""
     ids = {(row["task"], row["size"], row["engine"]): row for row in bench}
 
     def of(task, size, engine):
@@ -144,13 +144,13 @@ def by_work(bench, precision, stress):
 
 
 def summary(bench, precision, stress):
-    """The table of the README: what each kind of work costs, and the error over all random scenes."""
+    """The table of the README: the time of each kind of work, and the error over all random scenes."""
     said = "One core of a shared machine with AVX-512; `make report` writes the table from what `make bench` and `make stress` measured. More: [accuracy](docs/accuracy.md), [speed](docs/speed.md)."
     return f"{by_work(bench, precision, stress)}\n\n{said}"
 
 
 def between(path, text):
-    """Puts text between the marks of a page."""
+    """Replace the text between the marks of a page."""
     page = path.read_text(encoding="utf-8")
     before, rest = page.split(MARKS[0], 1)
     path.write_text(f"{before}{MARKS[0]}\n\n{text}\n\n{MARKS[1]}{rest.split(MARKS[1], 1)[1]}", encoding="utf-8")

@@ -1,11 +1,11 @@
-"""Where the series win and where the closed form does: error, set-up and time of a sample over order, σ/σ_sep and β.
+"""Measure the series and the closed form: error, set-up and time of a sample as functions of order, σ/σ_sep and β.
 
     make sweep      writes docs/data/sweep.csv, docs/work-precision.png and the table in docs/series-or-closed.md
 
-For every β and σ/σ_sep one motion over 100 rotations, found by bisection on the angle J at the epoch. The series are solved at every order from 1 to 40, with
-the harmonics that this order deserves (those above an eighth of its error are dropped), and at the order that a tolerance takes; the
-closed form at the same tolerances. Errors are the largest at 24 uneven epochs, against tests/reference/torque_free.py. Times are those of one thread, as
-processor time: the median of 5 calls of `Motion.at` with 20,000 uneven times, and of 5 calls of `Scene.solve` for a body already seen.
+For every β and σ/σ_sep there is one motion over 100 rotations, found by bisection on the angle J at the epoch. The series are solved at every order from 1 to 40, with
+the harmonics above an eighth of the error of this order, and at the order that a tolerance needs. The
+closed form is solved at the same tolerances. Errors are the largest at 24 uneven epochs, relative to tests/reference/torque_free.py. Times are processor times of one
+thread: the median of 5 calls of `Motion.at` with 20,000 uneven times, and of 5 calls of `Scene.solve` for a body that was solved before.
 """
 
 import os
@@ -33,18 +33,18 @@ from comparison import Reference  # noqa: E402
 from machine import ROOT  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 
-warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # what low orders miss is measured here
+warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # the errors of low orders are measured here
 
 ORDERS = range(1, 41)
 RATIOS = (0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95)
 BETAS = (0.05, 0.5, 0.9)
 TOLERANCES = (1e-3, 1e-6, 1e-9, 1e-12, 1e-15)
-ALPHA = 0.5  # scales time and nothing else (theory §3)
+ALPHA = 0.5  # only scales the time (theory §2)
 NU, MU = 0.3, 0.7
 ROTATIONS = 100
 EPOCHS = 24
 TIMED_SAMPLES, TIMED_CALLS = 20_000, 5
-FINEST = 1e-15  # a tolerance that asks for the best there is
+FINEST = 1e-15  # requests the best accuracy
 GOLDEN = 0.618033988749895
 
 
@@ -55,7 +55,7 @@ class Row:
     beta: float
     separatrix_ratio: float
     method: str
-    fixed: str  # what was asked for: "order" or "tolerance"
+    fixed: str  # the fixed quantity: "order" or "tolerance"
     tolerance: float
     order: int
     harmonics: int
@@ -94,7 +94,7 @@ def scene(beta: float, ratio: float) -> tuple[andoyer.Body, list[float], NDArray
 
 
 def uneven(span: tuple[float, float], count: int) -> NDArray[np.float64]:
-    """`count` times over the span, in order, at no rational part of it but its end."""
+    """`count` ascending times over the span. Except for the end, no time is a rational part of the span."""
     times: NDArray[np.float64] = span[1] * np.sort([*(GOLDEN * k % 1.0 for k in range(1, count)), 1.0])
     return times
 
@@ -106,7 +106,7 @@ def reference(case: tuple[float, float]) -> Reference:
 
 
 def processor_time(call: Callable[[], object]) -> float:
-    """Median of the processor time [s] of a call, each repeated until there is something to measure."""
+    """Median of the processor time [s] of a call. Short calls are repeated until the time can be measured."""
     repeats = 1
     durations: list[float] = []
     while len(durations) < TIMED_CALLS:
@@ -147,7 +147,7 @@ def rows(case: tuple[float, float], truth: Reference) -> Iterator[Row]:
         try:
             yield measured(case, solved(method=method, tolerance=tolerance), truth, "tolerance")
         except andoyer.TheoryError:
-            pass  # the series do not reach this tolerance
+            pass  # the series do not meet this tolerance
 
 
 def main() -> None:

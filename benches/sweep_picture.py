@@ -1,6 +1,6 @@
-"""The picture and the table of sweep.py: cost against error for the series and the closed form.
+"""The picture and the table of sweep.py: time against error for the series and the closed form.
 
-Colours are those of Okabe and Ito, safe for colour-blind readers; σ/σ_sep has a marker as well, and the closed form has dashes.
+The colours are those of Okabe and Ito, which colour-blind readers can distinguish. Each σ/σ_sep also has its own marker, and the closed form has dashed lines.
 """
 
 from collections.abc import Sequence
@@ -27,7 +27,7 @@ def select(rows: Sequence[Any], **wanted: object) -> list[Any]:
 
 
 def draw(rows: Sequence[Any], path: Path) -> None:
-    """Writes the picture: a column for each β, evaluation above set-up."""
+    """Write the picture: a column for each β, the evaluation above the set-up."""
     betas = sorted({row.beta for row in rows})
     with plt.rc_context(STYLE):
         figure, grid = plt.subplots(len(COSTS), len(betas), figsize=(13, 8), sharex=True, sharey="row", layout="constrained")
@@ -51,7 +51,7 @@ def draw(rows: Sequence[Any], path: Path) -> None:
 
 
 def _curves(axes: Any, rows: Sequence[Any], cost: str) -> None:
-    """Cost against error for the orders of the series and the tolerances of the closed form, at each σ/σ_sep drawn."""
+    """Draw time against error for the orders of the series and the tolerances of the closed form, at each σ/σ_sep of the picture."""
     for ratio, (color, marker) in DRAWN.items():
         here = select(rows, separatrix_ratio=ratio)
         for chosen, style in ((select(here, fixed="order"), "-"), (select(here, method="closed"), "--")):
@@ -63,13 +63,13 @@ def _curves(axes: Any, rows: Sequence[Any], cost: str) -> None:
 
 
 def _cell(row: Any) -> str:
-    """Order, harmonics, error and costs of one row in a cell of the table."""
+    """Order, harmonics, error and times of one row, as cells of the table."""
     order = f"{row.order} / " if row.method == "series" else ""
     return f"{order}{row.harmonics} | {row.error:.1e} | {row.setup_us:.0f} | {row.sample_ns:.1f}"
 
 
 def table(rows: Sequence[Any]) -> str:
-    """Both methods at each tolerance and σ/σ_sep, as Markdown: at β = 0.5, the middle one."""
+    """The table of both methods at each tolerance and σ/σ_sep, for β = 0.5, as Markdown."""
     lines = [
         "| σ/σ_sep | tolerance | series: order / harmonics | error [rad] | set-up [μs] | ns/sample | closed form: harmonics | error [rad] | set-up [μs] | ns/sample |",
         "|---" * 10 + "|",
@@ -84,7 +84,7 @@ def table(rows: Sequence[Any]) -> str:
 
 
 def write_table(rows: Sequence[Any], path: Path) -> None:
-    """Puts the table between the marks of the page."""
+    """Write the table between the marks of the page."""
     page = path.read_text(encoding="utf-8")
     (before, rest), mark, end = page.split(MARKS[0]), *MARKS
     path.write_text(before + mark + "\n" + table(rows) + "\n" + end + rest.split(end)[1], encoding="utf-8")

@@ -1,10 +1,10 @@
-"""Run time against error, engine by engine: docs/data/work-precision.csv.
+"""Measure run time against error for each engine, and write docs/data/work-precision.csv.
 
-    python benches/work_precision.py          two minutes; `make bench` runs it after criterion
+    python benches/work_precision.py          takes two minutes; `make bench` runs it after criterion
 
-Six scenes of tests/data/torque_free.json, from t = 0 to 200π (a hundred rotations), 20,000 times in no even steps. andoyer's series by order, its closed form by tolerance; beside
-them the engines of benches/rivals that need no more than SciPy: Jacobi's closed form in its special functions, and DOP853 with dense output by tolerance. `make rivals` has more.
-CPU seconds of one process, calls from Python, medians of seven rounds in which the engines take turns; error against tests/reference/enclosures.py at 60 of the times.
+The scenes are six of tests/data/torque_free.json, from t = 0 to 200π (a hundred rotations), with 20,000 uneven times. The engines are andoyer's series by order, its closed form by
+tolerance, and the engines of benches/rivals that need only SciPy: Jacobi's closed form with SciPy's special functions, and DOP853 with dense output by tolerance. `make rivals` has more engines.
+Times are CPU seconds of one process, with calls from Python, as medians of seven rounds in which the engines take turns. Errors are relative to tests/reference/enclosures.py at 60 of the times.
 """
 
 import csv
@@ -26,7 +26,7 @@ import numpy as np  # noqa: E402
 import propagators  # noqa: E402
 from machine import ROOT, described  # noqa: E402
 
-warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # what low orders miss is measured here
+warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # the errors of low orders are measured here
 
 SCENES = ("earth", "ceres", "eros", "triaxial", "apophis", "near-separatrix-1e-2")
 ORDERS = (0, 1, 2, 4, 6, 8, 12, 16, 20, 30, 40, 60)
@@ -37,7 +37,7 @@ OUTPUT = ROOT / "docs" / "data" / "work-precision.csv"
 
 
 class Fixed(propagators.Own):
-    """andoyer's series of one order, or its closed form by tolerance."""
+    """The series of andoyer at one order, or its closed form at one tolerance."""
 
     def __init__(self, scene, times, method, order=None, tolerance=1e-15):
         self.asked = {"method": method, "order": order, "tolerance": tolerance, "span": (float(times[0]), float(times[-1]))}
@@ -49,7 +49,7 @@ class Fixed(propagators.Own):
 
 
 class Dop853(propagators.ScipyDop853):
-    """SciPy's DOP853 with dense output, by tolerance."""
+    """SciPy's DOP853 with dense output, at one tolerance."""
 
     def __init__(self, scene, times, tolerance):
         super().__init__(scene, times)
@@ -57,7 +57,7 @@ class Dop853(propagators.ScipyDop853):
 
 
 def engines(scene, times):
-    """(engine, setting, maker) of all; what does not serve a scene raises `Unfit`."""
+    """(engine, setting, maker) of all engines. A maker raises `Unfit` if its engine does not serve the scene."""
     yield from (("series", order, lambda order=order: Fixed(scene, times, "series", order)) for order in ORDERS)
     yield from (("closed form", x, lambda x=x: Fixed(scene, times, "closed", None, x)) for x in TOLERANCES)
     yield "SciPy closed form", "", lambda: propagators.ScipyClosed(scene, times)

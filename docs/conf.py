@@ -58,7 +58,7 @@ sphinx_gallery_conf = {
 
 
 def setup(app):
-    """Keep the docstrings of attributes as they are: napoleon takes what stands before a colon in them for a type."""
+    """Keep the docstrings of attributes unchanged, because napoleon interprets the text before a colon as a type."""
     kept = {}
 
     def keep(_app, what, name, _obj, _options, lines):

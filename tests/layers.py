@@ -1,10 +1,10 @@
-"""Imports between the files of each crate: no circle in any, and none upwards in crates/propagate, whose lib.rs lists its modules in the order of the layers.
+"""Check the imports between the files of each crate. No crate may have an import circle. A module of crates/propagate may import only from earlier layers; lib.rs lists its modules in the order of the layers.
 
-    python tests/layers.py               exit status 1 for a circle or an import upwards
-    python tests/layers.py --planted     the same check on crates that have one of each
+    python tests/layers.py               exit status 1 for a circle or an import from a later layer
+    python tests/layers.py --planted     the same check on invented crates that have one of each
 
-`use` declarations and paths that begin with `crate`, `self` or `super` are read, and names that lib.rs re-exports are followed to their files. Comments and tests do not count.
-A module and its own folder are one room: an import between a module and what is below it is no circle.
+The script reads `use` declarations and paths that begin with `crate`, `self` or `super`, and follows names that lib.rs re-exports to their files. It ignores comments and tests.
+An import between a module and a file in its own folder does not count as a circle.
 """
 
 import re
@@ -37,7 +37,7 @@ def expanded(path: str) -> Iterator[str]:
 
 
 def code(file: Path) -> str:
-    """A file without comments and without its module of tests."""
+    """The text of a file without comments and without its test module."""
     text = re.sub(r"//[^\n]*", "", file.read_text(encoding="utf-8"))
     return re.split(r"#\[cfg\(test\)\]\s*mod \w+ \{", text)[0]
 
@@ -49,7 +49,7 @@ def module(source: Path, file: Path) -> str:
 
 
 def paths(text: str, here: str) -> Iterator[list[str]]:
-    """What a file imports, as paths from the root of its crate."""
+    """The imports of a file, as paths from the root of its crate."""
     found = [path for tree in re.findall(r"\buse\s+((?:crate|self|super)\b[^;]+);", text) for path in expanded(tree)]
     text = re.sub(r"\buse\s[^;]+;", "", text)
     found += re.findall(r"\b(?:crate|self|super)(?:::\w+)+", text)
@@ -111,7 +111,7 @@ def circles(edges: Imports) -> Iterator[list[str]]:
 
 
 def upwards(source: Path, edges: Imports) -> Iterator[str]:
-    """Imports of a layer from one below it."""
+    """Imports of a module from a later layer."""
     layers = re.findall(r"^(?:pub(?:\(crate\))? )?mod (\w+);", code(source / "lib.rs"), re.MULTILINE)
     place = {layer: number for number, layer in enumerate(layers)}
     for name, others in edges.items():
@@ -122,7 +122,7 @@ def upwards(source: Path, edges: Imports) -> Iterator[str]:
 
 
 def problems(source: Path, layered: bool) -> list[str]:
-    """What is wrong with the imports of a crate."""
+    """The problems in the imports of a crate."""
     edges = imports(source)
     found = [f"{len(circle)} modules in a circle: {', '.join(circle)}" for circle in circles(edges)]
     return found + (list(upwards(source, edges)) if layered else [])
@@ -141,7 +141,7 @@ PLANTED = {
 
 
 def planted() -> list[str]:
-    """Where the check does not find what is there to be found, or finds more."""
+    """The cases in which the check misses a planted problem or finds a wrong one."""
     wrong = []
     for name, (files, layered, expected) in PLANTED.items():
         with tempfile.TemporaryDirectory() as folder:
@@ -156,7 +156,7 @@ def planted() -> list[str]:
 
 
 def main() -> int:
-    """Check the crates, or the check."""
+    """Check the crates or, with --planted, the check itself."""
     if "--planted" in sys.argv[1:]:
         found, good = planted(), "imports: planted circles and imports upwards are found"
     else:

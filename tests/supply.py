@@ -1,8 +1,8 @@
-"""Licences, bans and sources of every locked dependency against deny.toml, with nothing but cargo: what `cargo deny check licenses bans sources` says, for CI.
+"""Check licences, bans and sources of every locked dependency against deny.toml. It needs only cargo and makes the checks of `cargo deny check licenses bans sources`.
 
-    python tests/supply.py [MANIFEST …]          exit status 1 for what deny.toml does not allow
+    python tests/supply.py [MANIFEST …]          exit status 1 if deny.toml does not allow a dependency
 
-An SPDX expression is satisfied by one alternative of OR, all parts of AND; the old "/" counts as OR. Duplicates are looked for in what is compiled for some platform with the
+An SPDX expression is satisfied by one alternative of OR, or by all parts of AND; the old "/" counts as OR. Duplicates are searched among the crates that are compiled for any platform with the
 default features and for tests.
 """
 
@@ -19,7 +19,7 @@ MANIFESTS = ("Cargo.toml", "fuzz/Cargo.toml", "benches/rivals/ode_solvers/Cargo.
 
 
 def allowed(expression, licences):
-    """Whether an SPDX expression leaves a choice that is allowed."""
+    """True if an SPDX expression has an allowed alternative."""
     text = expression.replace("/", " OR ")
     tokens = re.findall(r"\(|\)|\bAND\b|\bOR\b|(?:(?!\bAND\b|\bOR\b)[^()])+", text)
     words = [token.strip() for token in tokens if token.strip()]
@@ -28,7 +28,7 @@ def allowed(expression, licences):
 
 
 def problems(manifest, rules):
-    """What a workspace has that the rules do not allow."""
+    """The dependencies of a workspace that the rules do not allow."""
     command = ["cargo", "metadata", "--locked", "--format-version", "1", "--manifest-path", str(ROOT / manifest)]
     packages = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)["packages"]
     licences, bans = set(rules["licenses"]["allow"]), rules["bans"]

@@ -1,14 +1,14 @@
-"""The rivals' algebras, each with what the triangle asks for, written in the terms that its own manual recommends.
+"""The algebras of the rivals with the operations of the triangle, each written as its manual recommends.
 
-An algebra has `one`, `zero`, `perturbation` = −(2 + a + b)/4, polynomials with + − !=, and the methods of `Flint` below. Each module
-is imported when its algebra is made, so that a rival that is not asked for costs nothing.
+An algebra has `one`, `zero`, `perturbation` = −(2 + a + b)/4, polynomials with + − !=, and the methods of `Flint` below. A module
+is imported when its algebra is made, so that unused rivals take no time.
 """
 
 from fractions import Fraction
 
 
 class Flint:
-    """python-flint's `fmpq_mpoly`: packed exponents, one common denominator, dense products by Kronecker substitution."""
+    """`fmpq_mpoly` of python-flint: packed exponents, one common denominator, dense products by Kronecker substitution."""
 
     def __init__(self):
         from flint import Ordering, fmpq, fmpq_mpoly_ctx, fmpq_poly
@@ -29,7 +29,7 @@ class Flint:
         return self.a * f.derivative(0) - self.b * f.derivative(1)
 
     def exchange(self, f):
-        """f with a and b exchanged; by dictionary it takes ten times as long."""
+        """f with a and b exchanged. A conversion by dictionary would take ten times as long."""
         return f.compose(self.b, self.a)
 
     def dot(self, factors):
@@ -40,14 +40,14 @@ class Flint:
         return total
 
     def split(self, f):
-        """The kernel of θ in f, and the solution ψ of −2 θψ = the rest."""
+        """The part of f in the kernel of θ, and the solution ψ of −2 θψ = the other part."""
         terms = f.to_dict()
         kernel = {(p, q): c for (p, q), c in terms.items() if p == q}
         solution = {(p, q): c / (2 * (q - p)) for (p, q), c in terms.items() if p != q}
         return self.context.from_dict(kernel), self.context.from_dict(solution)
 
     def univariate(self, f):
-        """A polynomial of the kernel as a dense one in β² = ab."""
+        """A polynomial of the kernel as a dense polynomial in β² = ab."""
         terms = f.to_dict()
         length = 1 + max((p for p, _ in terms), default=0)
         return self.dense([terms.get((p, p), 0) for p in range(length)])
@@ -61,7 +61,7 @@ class Flint:
         return {powers: Fraction(int(c.p), int(c.q)) for powers, c in terms.items()}
 
     def forget(self):
-        """Empties what a run has cached, so that the next one works again. FLINT caches nothing."""
+        """Empty the caches of a run, so that the next run computes everything again. FLINT has no cache."""
 
 
 class SympyRing:
@@ -100,11 +100,11 @@ class SympyRing:
         return {powers: Fraction(int(c.numerator), int(c.denominator)) for powers, c in f.items()}
 
     def forget(self):
-        """The ring caches nothing."""
+        """The ring has no cache."""
 
 
 class Expressions:
-    """Expanded expressions of SymPy, or of SymEngine, whose Python face is the same."""
+    """Expanded expressions of SymPy, or of SymEngine, which has the same Python interface."""
 
     def __init__(self, module, forget):
         self.module, self.forget = module, forget
@@ -127,7 +127,7 @@ class Expressions:
 
     def powers(self, f):
         """((power of a, power of b), monomial, coefficient) for each term."""
-        # SymEngine takes a lone number for a monomial.
+        # For SymEngine a single number is a monomial.
         for monomial, c in ({1: f} if f.is_Number else f.as_coefficients_dict()).items():
             powers = self.module.sympify(monomial).as_powers_dict()
             yield (int(powers.get(self.a, 0)), int(powers.get(self.b, 0))), monomial, c
@@ -146,7 +146,7 @@ class Expressions:
 
 
 def sympy_expressions():
-    """SymPy's expressions; its cache of results is emptied before each run (a warm one answers in a fraction of the time)."""
+    """SymPy's expressions. The cache of SymPy is emptied before each run, because a warm cache shortens the time to a fraction."""
     import sympy
     from sympy.core.cache import clear_cache
 
@@ -154,7 +154,7 @@ def sympy_expressions():
 
 
 def symengine_expressions():
-    """SymEngine's expressions; it caches nothing."""
+    """SymEngine's expressions. SymEngine has no cache."""
     import symengine
 
     return Expressions(symengine, lambda: None)

@@ -1,4 +1,4 @@
-"""What a run must have computed before its time counts: P_n of theory §4, and every P_n and S_m of the rival equal to andoyer's."""
+"""Checks of the answer of a run, before its time counts: P_n of theory §4, and every P_n and S_m of the rival equal to those of andoyer."""
 
 from fractions import Fraction
 from math import factorial
@@ -19,11 +19,11 @@ PUBLISHED = {
 
 
 class WrongAnswer(Exception):
-    """An engine computed something else: its time does not count."""
+    """The answer of an engine is wrong, and its time does not count."""
 
 
 def check_kernel(engine, polynomials):
-    """P_0 … P_N as {power of β: Fraction} against theory §4."""
+    """Compare P_0 … P_N, as {power of β: Fraction}, with theory §4."""
     for n, polynomial in enumerate(polynomials):
         if n in PUBLISHED:
             factor, terms = PUBLISHED[n]
@@ -38,7 +38,7 @@ def kernel(algebra, polynomials):
 
 
 def check_all(rival, algebra, answer, normal_form):
-    """Every P_n, and every S_m as Σ c u^j U^k β^l, against `normal_form`."""
+    """Compare every P_n, and every S_m as Σ c u^j U^k β^l, with `normal_form`."""
     polynomials, generators = answer
     for n, polynomial in enumerate(kernel(algebra, polynomials)):
         if polynomial != normal_form.triaxiality_polynomial(n):

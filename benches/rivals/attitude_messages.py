@@ -1,10 +1,10 @@
-"""Attitude ephemeris messages (CCSDS AEM) as andoyer writes them, read by Orekit: the same times, quaternions and angular velocities.
+"""Check that Orekit reads the attitude ephemeris messages (CCSDS AEM) of andoyer with the same times, quaternions and angular velocities.
 
     python benches/rivals/attitude_messages.py --orekit FOLDER [--examples FOLDER]
 
-Messages of every type, both versions and every time system are written and read. With `--examples`, both read every file of that folder instead: each
-is read by both with equal attitudes, or refused here for the reason that is printed. Orekit has no ephemeris of the bodies here, so lines CENTER_NAME
-are left out of what it reads. Exit status 1 for a difference.
+The script writes and reads messages of every type, both versions and every time system. With `--examples` both programs read every file of that folder instead. A file
+is read by both with equal attitudes, or refused by andoyer for the printed reason. Orekit has no ephemeris of the bodies here, so the lines CENTER_NAME
+are removed from its copies. Exit status 1 for a difference.
 """
 
 import argparse
@@ -43,7 +43,7 @@ TDB_LESS_TT = 0.002
 
 
 def written(folder: Path) -> list[Path]:
-    """Messages of every type, version and time system."""
+    """Write messages of every type, version and time system."""
     headings = [Heading(attitude_type=name, frame="EME2000") for name in TYPES]
     headings += [Heading(attitude_type=name, frame="EME2000", version=1) for name in OF_VERSION_1]
     headings += [Heading(time_system=system, frame="EME2000", date=datetime(2016, 12, 31, 23, 59, 55), interpolation=("LINEAR", 1)) for system in TIME_SYSTEMS]
@@ -56,7 +56,7 @@ def written(folder: Path) -> list[Path]:
 
 
 def without_centers(paths: list[Path], folder: Path) -> list[Path]:
-    """Copies of the files without the body that the object orbits."""
+    """Copies of the files without the lines CENTER_NAME."""
     copies = [folder / path.name for path in paths]
     for path, copy in zip(paths, copies):
         copy.write_text(re.sub(r"^.*CENTER_NAME.*\n", "", path.read_text(encoding="utf-8"), flags=re.MULTILINE), encoding="utf-8")
@@ -64,7 +64,7 @@ def without_centers(paths: list[Path], folder: Path) -> list[Path]:
 
 
 def by_orekit(paths: list[Path], jars: Path) -> dict[int, dict[int, np.ndarray]]:
-    """Rows of each segment of each file by their numbers; what Orekit refuses is missing."""
+    """The rows that Orekit reads, by file and segment; files that Orekit refuses are missing."""
     leaps = "\n".join(f"{row['year']} {row['month']} {round(row['tai_utc'])}" for row in erfa.leap_seconds.get() if row["year"] > 1971)
     program = Path(__file__).parent / "orekit" / "AemRival.java"
     done = subprocess.run(["java", "-cp", str(jars / "*"), str(program), *map(str, paths)], input=leaps, capture_output=True, text=True, check=True)
@@ -77,7 +77,7 @@ def by_orekit(paths: list[Path], jars: Path) -> dict[int, dict[int, np.ndarray]]
 
 
 def compared(segment: Segment, rows: np.ndarray) -> str | None:
-    """What is not equal in a segment, or None."""
+    """A description of the differences in a segment, or None."""
     samples = segment.samples
     if len(rows) != len(samples):
         return f"{len(rows)} records by Orekit, {len(samples)} here"

@@ -1,18 +1,18 @@
-"""The normal form by conservation of energy, the algorithm of `andoyer.NormalForm` itself, on python-flint.
+"""The normal form by conservation of energy on python-flint, with the algorithm of `andoyer.NormalForm`.
 
-The triangle's rivals measure algorithm and arithmetic together; this one has the same algorithm, so its ratio is that of the arithmetic
-alone. Variables and T_m as in triangle.py, with h = −(2 + a + b)/4, D = 2θ and dH/dε = Σ c_n ε^{n−1} H^{n+1} at fixed action:
+The rivals with the triangle measure algorithm and arithmetic together. This rival has the same algorithm as andoyer, so its ratio measures the arithmetic
+alone. Variables and T_m are as in triangle.py, with h = −(2 + a + b)/4, D = 2θ and dH/dε = Σ c_n ε^{n−1} H^{n+1} at fixed action:
 
     D T_m = Σ_{k≥1} c_{m−k} C(m−k+1, k) h^k + c_m − h [m = 1] + m (D h) T_{m−1} − 2 h D T_{m−1}
 
-whose mean gives c_m; then n k_n = Σ_j c_j [ε^{n−j}] (K/J)^{j+1} and P_n = 2 k_n. Derived in crates/series/src/energy.rs.
+The mean of this equation gives c_m. Then n k_n = Σ_j c_j [ε^{n−j}] (K/J)^{j+1} and P_n = 2 k_n. The derivation is in crates/series/src/energy.rs.
 """
 
 from math import comb
 
 
 def normalize(algebra, order):
-    """P_0 … P_N as polynomials in β² = ab and T_1 … T_N as those of the triangle, `algebra` being the one on FLINT."""
+    """P_0 … P_N as polynomials in β² = ab, and T_1 … T_N as in the triangle; `algebra` is the algebra on FLINT."""
     h = algebra.perturbation
     slope_of_h = algebra.scale(algebra.theta(h), 2, 1)
     slopes, generators = [algebra.zero], []
@@ -30,7 +30,7 @@ def normalize(algebra, order):
 
 
 def forcing(algebra, slopes, m):
-    """Σ_{k≥1} c_{m−k} C(m−k+1, k) h^k by Horner's rule; the binomial ends the sum, c_0 is none."""
+    """Σ_{k≥1} c_{m−k} C(m−k+1, k) h^k by Horner's rule. The binomial ends the sum, and there is no c_0."""
     total = algebra.zero
     for k in range(min((m + 1) // 2, m - 1), 0, -1):
         total = (total + algebra.scale(slopes[m - k], comb(m - k + 1, k), 1)) * algebra.perturbation

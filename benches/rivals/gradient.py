@@ -1,15 +1,15 @@
-"""The gravity gradient, andoyer's averaged theory against heyoka's integration of the full equations.
+"""Compare andoyer's averaged theory of the gravity gradient with heyoka's integration of the full equations.
 
     python benches/rivals/gradient.py [--repeats 7] [--output out]
 
-A thousand rotations of a body under the gravity gradient of one on a Keplerian orbit, attitude and rates twice a rotation (2,000 samples) and twice an orbit (2 to 40). heyoka integrates
-Euler's equations with the torque, the quaternion and Kepler's equation (its `kepE`) at a tolerance of 1e-12, with continuous output or on the grid of times, whichever is faster; andoyer
-solves a `Scene` with an `Orbit`. Both are held against heyoka at 1e-17 in the same equations with another stepper setting, whose agreement with SciPy's DOP853
-(tests/reference/gravity_gradient.py) over ten rotations is printed.
+The motions have a thousand rotations under the gravity gradient of a body on a Keplerian orbit, with attitude and rates twice a rotation (2,000 samples) or twice an orbit (2 to 40 samples). heyoka integrates
+Euler's equations with the torque, the quaternion and Kepler's equation (its `kepE`) at a tolerance of 1e-12, with continuous output or on the grid of times, whichever is faster. andoyer
+solves a `Scene` with an `Orbit`. The reference of both is heyoka at 1e-17 for the same equations with another stepper setting. The script prints the agreement of this reference with SciPy's DOP853
+(tests/reference/gravity_gradient.py) over ten rotations.
 
-The two are not the same kind of answer: the integration is of the full equations to its tolerance; the theory leaves what is of second order in the torque. The table has
-both errors. Engines take turns; times are CPU seconds of the process; a ratio is the median of the rounds' ratios, heyoka / andoyer, of one run, for set-up and samples together.
-heyoka compiles the equations of each body and orbit when an integrator is made (measured with constants that its cache has not seen): one ratio is without that, one with it.
+The two errors are of different kinds: the integration solves the full equations to its tolerance, and the error of the theory is of second order in the torque. The table has
+both errors. The engines take turns. Times are CPU seconds of the process. A ratio, heyoka / andoyer, is the median of the ratios of the rounds of one run, for set-up and samples together.
+heyoka compiles the equations of each body and orbit when an integrator is made (measured with constants that are not in its cache). One ratio excludes this time and one includes it.
 """
 
 import argparse
@@ -74,7 +74,7 @@ def equations(moments, orbit):
 
 
 class Integration:
-    """heyoka at a tolerance; made anew it compiles."""
+    """heyoka at a tolerance. A new integrator is compiled."""
 
     def __init__(self, moments, orbit, tolerance, **options):
         self.start = [*ATTITUDE, *RATES]
@@ -92,7 +92,7 @@ class Integration:
 
 
 def cpu(run):
-    """Median CPU seconds of a run, repeated until there is something to measure, and its answer."""
+    """Median CPU seconds of a run, which is repeated until the time can be measured, and its answer."""
     seconds = []
     while sum(seconds) < LEAST_SECONDS or len(seconds) < 3:
         start = time.process_time()
@@ -109,10 +109,10 @@ def angle(p, q):
 
 
 def compile_seconds(moments, orbit):
-    """Least CPU seconds of three times of making an integrator, its equations compiled."""
+    """Least of three CPU times [s] of making an integrator, including the compilation."""
     seconds = []
     for _ in range(3):
-        # What was compiled before is kept, on disk too: a moment changed by chance is new.
+        # heyoka keeps compiled code, also on disk. A randomly changed moment makes the code new.
         changed = [moments[0] * (1 + 1e-6 * random.random()), *moments[1:]]
         start = time.process_time()
         Integration(changed, orbit, TOLERANCE)

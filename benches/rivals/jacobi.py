@@ -1,7 +1,7 @@
-"""Jacobi's closed form in SciPy's special functions, on arrays: elliptic functions, and the angle about the momentum by Carlson's integrals.
+"""Jacobi's closed form on arrays with SciPy's special functions: elliptic functions, and the angle about the momentum by Carlson's integrals.
 
-The formulas are those of tests/reference/torque_free.py (theory §10), with the energies formed without cancellation, so that it is as accurate as it can be made in double
-precision. The angle's period is taken out before the integral.
+The formulas are those of tests/reference/torque_free.py (theory §10). The energies are formed without cancellation, for the best accuracy in double
+precision. The period of the angle is subtracted before the integral.
 """
 
 import math
@@ -12,7 +12,7 @@ from scipy.special import ellipj, ellipkinc, ellipkm1, elliprf, elliprj
 
 
 class Jacobi:
-    """The motion through one state; axes are renamed so that axis 3 is the one circled, and the rate about it positive."""
+    """The motion through one state. Axes are renamed so that the angular momentum circles axis 3 and the rate about it is positive."""
 
     def __init__(self, moments, attitude, rates):
         order = np.argsort(moments, kind="stable")

@@ -1,6 +1,6 @@
-"""The scenes that propagation is measured on, their times, and the error of an answer against tests/reference/torque_free.py.
+"""The scenes of the propagation benchmarks, their times, and the error of an answer relative to tests/reference/torque_free.py.
 
-A scene is one of tests/data/torque_free.json, from t = 0 to 200π: a hundred rotations of a body that turns once in 2π.
+A scene is one of tests/data/torque_free.json, from t = 0 to 200π, a hundred rotations of a body that rotates once in 2π.
 """
 
 import json
@@ -20,16 +20,16 @@ NAMES = ("earth", "ceres", "eros", "triaxial", "apophis", "near-separatrix-1e-2"
 GRIDS = ("uneven", "uniform")
 STOP = 200 * math.pi
 SAMPLES = 100_000
-CHECKED = 200  # samples that are held against the reference
+CHECKED = 200  # samples that are compared with the reference
 DIGITS = 25
-WORST = 1e-2  # rad; an answer farther off is of another motion
+WORST = 1e-2  # rad; a larger error means another motion
 
 Scene = namedtuple("Scene", "name moments attitude rates")
 Truth = namedtuple("Truth", "indices attitudes rates")
 
 
 class WrongAnswer(Exception):
-    """An engine computed something else: its time does not count."""
+    """The answer of an engine is wrong, and its time does not count."""
 
 
 def scenes(names):
@@ -50,7 +50,7 @@ def times(grid):
 
 
 def truth(scene, times):
-    """The reference at some of the times, the first and the last among them."""
+    """The reference at some of the times, including the first and the last."""
     motion = torque_free.TorqueFree(scene.moments, scene.attitude, scene.rates, digits=DIGITS)
     indices = np.unique(np.linspace(0, len(times) - 1, CHECKED).round().astype(int))
     states = [motion.state(times[index]) for index in indices]
@@ -60,7 +60,7 @@ def truth(scene, times):
 def errors(engine, rows, truth):
     """Largest error of the attitude [rad], and of the rates relative to the largest; rows are [x, y, z, w, ω1, ω2, ω3] at the checked indices.
 
-    A rival's own grid may end a step early: one row may be missing.
+    The grid of a rival may end one step early, so one row may be missing.
     """
     if len(rows) < len(truth.indices) - 1:
         raise WrongAnswer(f"{engine}: {len(rows)} of {len(truth.indices)} rows")

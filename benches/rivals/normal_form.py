@@ -1,10 +1,10 @@
-"""The normal form of the free rigid body, andoyer against general algebras: one table of ratios.
+"""Compare andoyer with general algebras for the normal form of the free rigid body: one table of ratios.
 
     python benches/rivals/normal_form.py [--orders 10 20] [--repeats 5] [--rivals flint sympy-ring] [--output out]
 
-Every engine computes H and S, exact and symbolic in β, to the same order (theory §4). The runs are interleaved in one process: CPU seconds
-of all its threads, RAYON_NUM_THREADS = 1, medians over the repeats, the ratio being the median of the repeats' ratios. An answer is checked
-before its time counts. Peak memory is that of a child process. The table goes to the terminal, and as Markdown and csv to the output folder.
+Every engine computes the normalized Hamiltonian and S, exact and symbolic in β, to the same order (theory §4). The runs are interleaved in one process. Times are CPU seconds
+of all threads with RAYON_NUM_THREADS = 1, as medians over the repeats; the ratio is the median of the ratios of the repeats. An answer is checked
+before its time counts. Peak memory is that of a child process. The table is printed, and written to the output folder as Markdown and CSV.
 Exit status 1 for a wrong answer.
 """
 
@@ -95,7 +95,7 @@ def peak_memory():
 
 
 def alone(order):
-    """What a child process does: prints CPU seconds, memory before and peak memory [MiB]."""
+    """The work of a child process: print CPU seconds, memory before the work and peak memory [MiB]."""
     before = peak_memory()
     start = time.process_time()
     normal_form = andoyer.NormalForm(order)
@@ -106,7 +106,7 @@ def alone(order):
 
 
 def in_a_child(order):
-    """CPU seconds, memory before and peak memory [MiB] of `order` in a process of its own."""
+    """CPU seconds, memory before the work and peak memory [MiB] of `order` in a separate process."""
     command = [sys.executable, __file__, "--alone", str(order)]
     child = subprocess.run(command, capture_output=True, text=True)
     if child.returncode:

@@ -1,8 +1,8 @@
-"""Derivatives of attitude and rates: Motion.partials against heyoka's variational equations, in one run.
+"""Compare Motion.partials with heyoka's variational equations, in one run: derivatives of attitude and rates.
 
-heyoka integrates Euler's equations and q′ = q ω/2 with their first-order variational equations in the seven initial values and the three moments, 70 derivatives a sample; andoyer gives 54, with the
-attitude's as rotation vectors. Even times over a hundred rotations, one core, CPU time; each derivative of ours is held against heyoka's. heyoka's compilation is not counted, its
-integration is.
+heyoka integrates Euler's equations and q′ = q ω/2 with their first-order variational equations in the seven initial values and the three moments, 70 derivatives a sample. andoyer computes 54 derivatives;
+those of the attitude are rotation vectors. Times are uniform over a hundred rotations. CPU time of one core is measured, and each derivative of andoyer is compared with that of heyoka. heyoka's compilation is not
+counted; its integration is counted.
 
     python benches/rivals/partials.py [--samples 20001]
 """
@@ -59,7 +59,7 @@ def run(integrator, start, times):
 
 
 def by_rotation_vectors(states):
-    """The columns of Motion.partials from heyoka's: attitude and rates, (n, 3, 9) each."""
+    """The columns of Motion.partials from the derivatives of heyoka: attitude and rates, (n, 3, 9) each."""
     quaternions, derivatives = states[:, :4], states[:, 7:].reshape(-1, 7, 10)
     x, y, z, w = quaternions.T
     # Twice the vector part of q⁻¹ dq.

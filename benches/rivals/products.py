@@ -1,12 +1,12 @@
-"""Products of polynomials, andoyer against general algebras: one table of ratios.
+"""Compare andoyer with general algebras for products of polynomials: one table of ratios.
 
     python benches/rivals/products.py --engine target/release/products [--repeats 5] [--rivals flint symbolica symengine] [--tasks …]
                                       [--output out]
 
-Tasks: M. Monagan and R. Pearce's sparse product, n = 12 (5,821,335 terms), and R. Fateman's dense one, n = 20 (135,751 terms). andoyer runs them exactly
-and in `f64`, the rivals exactly. The engine is a child process that takes turns with the rivals: processor seconds of one thread, medians over the repeats, the
-ratio being the median of the repeats' ratios. The factors are made before; the number of terms and one coefficient of each answer are checked. `reading` is what andoyer takes further
-to turn machine words into reduced fractions when somebody looks at a term for the first time. Exit status 1 for a wrong answer.
+The tasks are the sparse product of M. Monagan and R. Pearce, n = 12 (5,821,335 terms), and the dense product of R. Fateman, n = 20 (135,751 terms). andoyer runs them exactly
+and in `f64`, the rivals exactly. The engine is a child process that takes turns with the rivals. Times are processor seconds of one thread, as medians over the repeats; the
+ratio is the median of the ratios of the repeats. The factors are made before the measurement. The number of terms and one coefficient of each answer are checked. `reading` is the time of
+the first access to a term, which converts the coefficients of andoyer from machine words to reduced fractions. Exit status 1 for a wrong answer.
 """
 
 import argparse
@@ -69,7 +69,7 @@ class Flint:
 
 
 class Symbolica:
-    """Symbolica's polynomials with integer coefficients; without a licence it runs on one core."""
+    """Symbolica's polynomials with integer coefficients. Without a licence Symbolica runs on one core."""
 
     package = "symbolica"
 
@@ -96,7 +96,7 @@ class Symbolica:
 
 
 class SymEngine:
-    """SymEngine's expanded expressions."""
+    """Expanded expressions of SymEngine."""
 
     package = "symengine"
 
@@ -124,7 +124,7 @@ PACKAGES = {"flint": "python-flint", "flint-rational": "python-flint", "symbolic
 
 
 class WrongAnswer(Exception):
-    """An answer that is not the known one."""
+    """An answer that differs from the known one."""
 
 
 class Engine:
@@ -186,7 +186,7 @@ def markdown(rows):
 
 
 def threads_line(path, name, repeats):
-    """How much faster two threads are, on the clock; the two take turns."""
+    """A line with the ratio of the elapsed times of one thread and of two threads, which take turns."""
     one, two = Engine(path, 1), Engine(path, 2)
     pairs = [(one.run(name).clock, two.run(name).clock) for _ in range(repeats + 1)][1:]
     ratios = [a / b for a, b in pairs]

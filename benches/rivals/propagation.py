@@ -1,10 +1,10 @@
-"""Torque-free propagation, andoyer against what else propagates: attitude and rates at 100,000 times within a hundred rotations.
+"""Compare andoyer with other programs for torque-free propagation: attitude and rates at 100,000 times within a hundred rotations.
 
     python benches/rivals/propagation.py [--scenes earth eros] [--repeats 7] [--output out] [--ode-solvers PROGRAM] [--orekit FOLDER]
 
-The engines take turns in every round; times are CPU seconds of all threads, RAYON_NUM_THREADS = 1, Python's call included; medians over the rounds, a
-ratio being the median of the rounds' ratios. Each answer is held against tests/reference/torque_free.py. The table goes to the terminal, and as
-Markdown and csv to the output folder. Exit status 1 for a wrong answer.
+The engines take turns in every round. Times are CPU seconds of all threads with RAYON_NUM_THREADS = 1, including the call from Python, as medians over the rounds. A
+ratio is the median of the ratios of the rounds. Each answer is compared with tests/reference/torque_free.py. The table is printed, and written to the output folder as
+Markdown and CSV. Exit status 1 for a wrong answer.
 """
 
 import argparse
@@ -33,7 +33,7 @@ Row = namedtuple("Row", FIELDS)
 
 
 def engines(scene, grid, truth, options):
-    """Name and maker of each engine, ours first; a maker may raise `Unfit`."""
+    """Name and maker of each engine, those of andoyer first. A maker may raise `Unfit`."""
     times = motions.times(grid)
     yield OWN, lambda: propagators.Own(scene, times)
     yield "andoyer series", lambda: propagators.Own(scene, times, "series")
@@ -99,14 +99,14 @@ def scaled(x, factor):
 
 
 def ratio(part, rounds, base):
-    """Median of the rounds' own ratios of this part; None where it has no such part."""
+    """Median of the ratios of the rounds for this part of the time; None if an engine does not have this part."""
     if rounds[0][part] is None:
         return None
     return median(theirs[part] / ours[part] for theirs, ours in zip(rounds, base))
 
 
 def victories(name, ratios, error, own_error):
-    """What a rival does better than andoyer's closed form."""
+    """The quantities in which a rival is better than andoyer's closed form."""
     if name.startswith(("andoyer", "store")):
         return ""
     wins = [what for what, won in [("speed", min(x for x in ratios if x is not None) < 1), ("error", error < own_error)] if won]
@@ -123,12 +123,12 @@ def markdown(rows):
 
 
 def findings(rows):
-    """The ratios that are asked after, over all scenes, and where rivals win."""
+    """The requested ratios over all scenes, and the rows in which rivals win."""
     for grid in motions.GRIDS:
         of = [row for row in rows if row.times == grid]
         scenes = dict.fromkeys(row.scene for row in of)
         for what, field in [("samples alone", "samples_ratio"), ("with integration and set-up", "whole_ratio")]:
-            # For each scene that setting of heyoka's which is fastest.
+            # For each scene the fastest setting of heyoka.
             best = {}
             for row in of:
                 if row.engine.startswith("heyoka") and getattr(row, field) is not None:

@@ -1,7 +1,7 @@
-"""The engines of propagation, each with what the table asks for.
+"""The engines of the propagation benchmark.
 
-An engine is made for one scene and its times, `measure`d as often as wanted, asked for some `rows` of its last run, and closed.
-Each rival's module is imported when its engine is made.
+An engine is made for one scene and its times. It can be `measure`d several times, returns some `rows` of its last run, and is closed at the end.
+The module of a rival is imported when its engine is made.
 """
 
 import json
@@ -22,9 +22,9 @@ class Unfit(Exception):
 
 
 def cpu(run):
-    """Median CPU seconds of `run`, and what it last returned.
+    """Median CPU seconds of `run`, and its last result.
 
-    The first run after those of another engine has fresh pages of memory to fill, at 10 to 100 ns for a row: so not the mean.
+    The first run after another engine fills new pages of memory, which takes 10 to 100 ns a row. The median, unlike the mean, does not include this.
     """
     seconds, answer = [], None
     while sum(seconds) < SAMPLE_SECONDS or len(seconds) < LEAST_RUNS and seconds[0] < LONG_SECONDS:
@@ -35,7 +35,7 @@ def cpu(run):
 
 
 class Engine:
-    """An engine in this process: `prepare` what does not depend on the times, `sample` at all of them."""
+    """An engine in this process: `prepare` computes everything that does not depend on the times, and `sample` evaluates all times."""
 
     def __init__(self, scene, times):
         self.scene, self.times = scene, times
@@ -49,16 +49,16 @@ class Engine:
         return seconds
 
     def measure(self):
-        """CPU seconds of the set-up and of the samples, None where they cannot be told apart, and of both."""
+        """CPU seconds of the set-up, of the samples, and of both. The first two are None if they cannot be separated."""
         set_up, evaluation = self.set_up(), self.evaluate()
         return set_up, evaluation, set_up + evaluation
 
     def close(self):
-        """Ends what runs beside this process."""
+        """End a child process of the engine."""
 
 
 class Own(Engine):
-    """andoyer: `Scene(…).solve()`, and `Motion.at`, both by their Python call."""
+    """andoyer: `Scene(…).solve()` and `Motion.at`, both called from Python."""
 
     def __init__(self, scene, times, method="closed"):
         super().__init__(scene, times)
@@ -70,7 +70,7 @@ class Own(Engine):
 
     def prepare(self):
         scene = self.scene
-        # A new body each time: what its scenes share is not there yet.
+        # A new body each time, so that no tables of earlier scenes are used.
         return andoyer.Scene(andoyer.Body(scene.moments), scene.attitude, scene.rates, method=self.method).solve()
 
     def sample(self):
@@ -81,7 +81,7 @@ class Own(Engine):
 
 
 class OwnRates(Own):
-    """The rates alone, into an array that is there."""
+    """andoyer: the rates alone, written to an existing array."""
 
     def __init__(self, scene, times):
         super().__init__(scene, times)
@@ -92,7 +92,7 @@ class OwnRates(Own):
 
 
 class Store(Engine):
-    """What no evaluation can beat: one number stored in every place of an array of seven or three columns, which is there or new."""
+    """A lower bound of any evaluation: storing one number in every place of an array of seven or three columns, which is existing or new."""
 
     def __init__(self, scene, times, columns=7, new=False):
         super().__init__(scene, times)
@@ -110,7 +110,7 @@ class Store(Engine):
 class Heyoka(Engine):
     """heyoka.py: Euler's equations and q′ = q ω/2 by Taylor series, and its continuous output.
 
-    The integrator is compiled beforehand. Its defaults are the fastest here: `slp_vectorize` costs a third more, `force_avx512`, `fast_math` and `compact_mode` save nothing.
+    The integrator is compiled before the measurement. Its default options are the fastest here: `slp_vectorize` takes a third longer, and `force_avx512`, `fast_math` and `compact_mode` do not save time.
     """
 
     def __init__(self, scene, times, tolerance):
@@ -194,7 +194,7 @@ class ScipyDop853(Engine):
 
 
 class Process(Engine):
-    """A process that reads a scene, and answers each further line with a run as JSON."""
+    """A child process that reads a scene, and answers each further line with the result of a run as JSON."""
 
     def __init__(self, scene, times, command, header, indices):
         super().__init__(scene, times)
@@ -223,7 +223,7 @@ class Process(Engine):
 
 
 class OdeSolvers(Process):
-    """DOP853 of the Rust crate ode_solvers, with dense output, which is on uniform times alone and cannot be told from the integration."""
+    """DOP853 of the Rust crate ode_solvers with dense output. The output is at uniform times only, and its time cannot be separated from the integration."""
 
     tolerance = 1e-13
 

@@ -1,6 +1,6 @@
-"""Sphinx: mathematics as MathML, which browsers draw themselves: no script, no font and no server is needed.
+"""Sphinx extension: mathematics as MathML. Browsers draw MathML without a script, a font or a server.
 
-LaTeX is converted by latex2mathml while the pages are built. Blocks marked `equation` are those that the tests execute (`printed`); what it cannot read is a warning.
+LaTeX is converted by latex2mathml while the pages are built. The tests execute the blocks marked `equation` (`printed`). LaTeX that cannot be converted is a warning.
 """
 
 import re
@@ -33,7 +33,7 @@ class Equation(SphinxDirective):
 
 
 def mathml(node: nodes.Element, kind: str) -> str:
-    """A node as MathML; LaTeX that is not understood would be left in it with its backslash."""
+    """A node as MathML. LaTeX that is not converted would keep its backslash, which is detected."""
     text = node.astext().replace("{aligned}", "{align*}")
     result = convert(text, display=kind)
     if "\\" in result or "<mi>&</mi>" in result:
@@ -52,7 +52,7 @@ def block(self: Any, node: nodes.Element) -> None:
 
 
 def without_links_outside(app: Sphinx, docname: str, source: list[str]) -> None:
-    """Pages are read in the repository too, where they link to files beside docs/: on the site those are names."""
+    """Replace links to files outside docs/ by the names of the files; these links work in the repository but not on the site."""
     if app.env.doc2path(docname).suffix == ".md":
         source[0] = OUTSIDE.sub(r"\1 (`\2`)", source[0])
 

@@ -1,6 +1,6 @@
-"""Sphinx: tables made from the committed figures in docs/data, so that no page says anything else than its file.
+"""Sphinx extension: tables from the committed figures in docs/data, so that a page always agrees with its file.
 
-A block marked `measured` holds the name of one of the tables below.
+A block marked `measured` contains the name of one of the tables below.
 """
 
 import csv
@@ -44,7 +44,7 @@ def scenes_speed() -> list[str]:
 
 
 def chosen(method: str) -> dict[float, list[Row]]:
-    """The motions of the sweep for which a tolerance was asked, by tolerance."""
+    """The motions of the sweep with a fixed tolerance, by tolerance."""
     groups: dict[float, list[Row]] = {}
     for row in read("sweep.csv"):
         if (row["method"], row["fixed"]) == (method, "tolerance"):
@@ -53,7 +53,7 @@ def chosen(method: str) -> dict[float, list[Row]]:
 
 
 def sweep_accuracy() -> list[str]:
-    """Errors by tolerance: median, highest, and against the bound."""
+    """Errors by tolerance: median, largest, and largest ratio to the bound."""
     rows = []
     for method in ("series", "closed"):
         for tolerance, motions in chosen(method).items():
@@ -78,7 +78,7 @@ def sweep_speed() -> list[str]:
 
 
 def ensemble() -> list[str]:
-    """Measured ensembles, and what 1e9 body-epochs would take at their rate."""
+    """Measured ensembles, and the time of 1e9 body-epochs at their rate."""
     rows = []
     for row in read("ensemble.csv"):
         body_epochs = int(row["bodies"]) * int(row["epochs"])
@@ -88,7 +88,7 @@ def ensemble() -> list[str]:
 
 
 def gravity_cases() -> list[str]:
-    """What each level leaves of the torque's effect in the reference cases."""
+    """The relative error of each level in the reference cases."""
     header = ["case", "n/spin", "e", "effect of the torque [rad]", "paper", "moving", "full", "error of full [rad]", "bound [rad]"]
     names = ["case", "n_over_spin", "e", "effect_rad", "paper", "moving", "full", "full_error_rad", "bound_rad"]
     return markdown(header, ([row[name] for name in names] for row in read("gravity-cases.csv")))

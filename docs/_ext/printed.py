@@ -1,6 +1,6 @@
-"""Printed equations as LaTeX: the lines of the blocks marked `equation`, which the tests execute as they stand.
+"""Printed equations as LaTeX: the lines of the blocks marked `equation`, which the tests execute.
 
-A line is ``name = expression``, before it perhaps ``printed`` or ``correct``. Products keep their order; numbers and i stand in front as one fraction.
+A line is ``name = expression``, optionally after ``printed`` or ``correct``. Products keep their order; numbers and i are in front as one fraction.
 """
 
 import re
@@ -64,7 +64,7 @@ class Reader:
 
 
 def product(factors: list[str]) -> str:
-    """Factors side by side: a number after a number needs a dot."""
+    """A product of factors. Between two numbers there is a dot."""
     text = ""
     for factor in factors:
         if factor == "1" and len(factors) > 1:

@@ -1,4 +1,4 @@
-"""The formulas on the front pages of the crates, as MathML: docs.rs and a browser without a network draw them alike.
+"""The formulas on the front pages of the crates as MathML, which docs.rs and a browser without a network draw in the same way.
 
     python docs/_ext/rustdoc.py             writes crates/*/doc/formulas.html from the blocks of docs/theory.md
     python docs/_ext/rustdoc.py --check     exit status 1 if they are not what it would write
@@ -25,7 +25,7 @@ CHOSEN = {
 
 
 def formulas(crate: str) -> str:
-    """What stands on the front page of a crate."""
+    """The formulas on the front page of a crate."""
     text = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```math\n(.*?)```", text, re.DOTALL)
     parts = []

@@ -1,7 +1,7 @@
-"""Attitude errors against tests/reference/torque_free.py, for many evaluations of the same motion at the same times.
+"""Attitude errors relative to tests/reference/torque_free.py, for many evaluations of the same motion at the same times.
 
-A reference attitude is kept as a sum of two doubles, so that differences from it are good to 1e-32; the angle comes from the relative quaternion, good for
-small angles and for large ones.
+A reference attitude is stored as a sum of two doubles, so that differences from it are accurate to 1e-32. The angle comes from the relative quaternion, which is accurate for
+small and large angles.
 """
 
 import andoyer
@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from torque_free import TorqueFree
 
-# Separatrix and long phases cost digits of the guard, not of these: 20 are beyond every double.
+# Separatrix and long phases lose only guard digits; 20 digits are more than a double has.
 DIGITS = 20
 
 
 class Reference:
-    """The attitudes of a body, from `attitude` and `angular_velocity` at time 0, at `times`: some 6 ms each."""
+    """The attitudes of a body at `times`, from `attitude` and `angular_velocity` at time 0. An attitude takes about 6 ms."""
 
     def __init__(self, moments: ArrayLike, attitude: ArrayLike, angular_velocity: ArrayLike, times: ArrayLike) -> None:
         motion = TorqueFree(moments, attitude, angular_velocity, digits=DIGITS)
@@ -27,7 +27,7 @@ class Reference:
         """The angle [rad] between each of `attitudes` (n, 4), at the times of the reference, and the true one."""
         sign = np.sign(np.sum(attitudes * self.high, axis=1, keepdims=True))
         difference = (sign * attitudes - self.high) - self.low
-        # The relative quaternion is 1 + conj(reference) difference: its vector part holds no 1 that hides a small one.
+        # The relative quaternion is 1 + conj(reference) difference. Its vector part does not contain the 1, so small angles are accurate.
         scalar = np.sum(self.high * difference, axis=1)
         v, w = self.high[:, :3], self.high[:, 3:]
         vector = w * difference[:, :3] - v * difference[:, 3:] - np.cross(v, difference[:, :3])

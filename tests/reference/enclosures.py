@@ -1,17 +1,17 @@
-"""Torque-free rigid-body motion in ball arithmetic: every number comes with a proven bound of its error, at 40 digits or more.
+"""Torque-free rigid-body motion in ball arithmetic: every number has a proven bound of its error, at 40 digits or more.
 
-The formulas are those of Jacobi in the axes of `torque_free.py` (axis 3 is the one that the angular momentum circles, its rate positive), evaluated by
-other means: sn, cn, dn as quotients of theta functions of the nome, integrals in Carlson's symmetric forms. With s, c, d = sn, cn, dn of u,
+The formulas are those of Jacobi in the axes of `torque_free.py` (the angular momentum circles axis 3, and the rate about it is positive), evaluated in
+a different way: sn, cn, dn as quotients of theta functions of the nome, integrals in Carlson's symmetric forms. With s, c, d = sn, cn, dn of u,
 
     theta quotients      s = t3 t1(z)/(t2 t4(z)),  c = t4 t2(z)/(t2 t4(z)),  d = t4 t3(z)/(t3 t4(z)),   z = u/(2K),  tau = i K'/K
     angle of axis 3      phi = G t/I1 + f [T(u0 + n t) - T(u0)],   f = G (I3-I1)/(I1 I3 n),   v = -I3 (I2-I1)/(I1 (I3-I2))
                          T(u) = (v/3) s^3 RJ(c^2, d^2, 1, 1 - v s^2)   for |u| <= K,   T(u + 2jK) = T(u) + 2j T(K)
 
-Inputs are doubles taken as exact, the quaternion is normalized. Where balls come out wider than asked, the whole is done again with twice the
-bits: a state next to the separatrix, or a phase after 1e9 rotations, costs time, not digits. Which axis is circled is decided in exact integers.
-On the separatrix itself (G^2 = 2TB exactly) ValueError. A state takes some 0.1 ms: FLINT's Arb does the work (python-flint).
+Inputs are doubles that count as exact; the quaternion is normalized. If a ball is wider than requested, the computation is repeated with twice the
+bits. A state next to the separatrix, or a phase after 1e9 rotations, therefore takes more time but loses no digits. Exact integers decide which axis is circled.
+On the separatrix itself (G^2 = 2TB exactly) ValueError is raised. A state takes about 0.1 ms with FLINT's Arb (python-flint).
 Sources: theory §10; B. C. Carlson, Numer. Algorithms 10 (1995) 13-26; NIST DLMF 22.2, 19.25.
-Held against `torque_free.py` (mpmath, Landen, Legendre) and Taylor's series of the equations of motion in `stress/references.py`.
+`stress/references.py` compares the results with `torque_free.py` (mpmath, Landen, Legendre) and with Taylor series of the equations of motion.
 """
 
 from fractions import Fraction
@@ -23,7 +23,7 @@ WIDEST = 2.0**-133  # of an attitude's and a relative rate's ball: 40 digits
 
 
 class TooWide(ArithmeticError):
-    """The balls hold less than what was asked for: more bits are needed."""
+    """The balls are wider than requested, and more bits are needed."""
 
 
 def solve(moments, attitude, angular_velocity, times, epoch=0.0):
@@ -73,7 +73,7 @@ class Enclosure:
         self.axes = ((order[0], 1), (order[1], parity * sign), (order[2], sign))
 
     def _set_constants(self, exact, speeds):
-        # Squares and differences exactly, as rationals; what follows are products and roots, which lose nothing.
+        # Squares and differences are exact rationals. Only products and roots follow, which do not cancel.
         i1, i2, i3 = (exact[i] for i, _ in self.axes)
         w1, w2, w3 = (sign * speeds[i] for i, sign in self.axes)
         p = i2 * (i2 - i1) * w2**2 + i3 * (i3 - i1) * w3**2
@@ -112,7 +112,7 @@ class Enclosure:
         return v / 3 * s * s * s * acb.elliptic_rj(cosine2, delta2, 1, 1 - v * s * s).real
 
     def _third_at_ends(self, u, s, c):
-        """T(u) where u may be 0, K or -K, and Carlson's integral is at the edge of its domain: dT/du = v s^2/(1 - v s^2), and |s| <= |u|."""
+        """T(u) for u that may be 0, K or -K, where Carlson's integral is at the edge of its domain: dT/du = v s^2/(1 - v s^2), and |s| <= |u|."""
         if s.contains(0):
             return self.characteristic * u * u * u * arb(0, 1)
         if c.contains(0):
@@ -122,12 +122,12 @@ class Enclosure:
 
     def _in_invariable_frame(self, w, phi):
         g1, g2, g3 = (moment * x / self.momentum for moment, x in zip(self.principal, w))
-        # A direction of (0, 0) is any: the tilt is zero as well.
+        # A direction of (0, 0) is arbitrary, because the tilt is zero too.
         tilt2 = g1 * g1 + g2 * g2
         tilt = tilt2.sqrt()
         up = ((1 + g3) / 2).sqrt()
         s, c = (phi / 2).sin_cos()
-        # e^{i psi/2} with tan psi = g1/g2, up to the sign that both numbers of the quaternion share.
+        # e^{i psi/2} with tan psi = g1/g2, up to a sign that is common to both numbers of the quaternion.
         cosine, sine = g2 / tilt, g1 / tilt
         if cosine > 0:
             b = ((1 + cosine) / 2).sqrt()
@@ -141,7 +141,7 @@ class Enclosure:
         return product([across * (c * b + s * a), across * (s * b - c * a), up * (s * b + c * a), up * (c * b - s * a)], self._renaming())
 
     def _renaming(self):
-        """The quaternion body axes -> renamed axes, of the signed permutation, by the largest of its components."""
+        """The quaternion body axes -> renamed axes of the signed permutation, from its largest component."""
         r = [[sign if j == i else 0 for j in range(3)] for i, sign in self.axes]
         trace = r[0][0] + r[1][1] + r[2][2]
         squares = [1 + 2 * r[i][i] - trace for i in range(3)] + [1 + trace]
@@ -199,7 +199,7 @@ class Enclosure:
 
 
 def ball(fraction):
-    """A rational as a ball of the precision that is set."""
+    """A rational as a ball of the current precision."""
     return arb(fmpq(fraction.numerator, fraction.denominator))
 
 

@@ -1,10 +1,10 @@
 """Attitude under the gravity gradient of a Keplerian body by numerical integration: an independent check of the averaged theory.
 
-Euler's equations with the torque 3 n^2 f (a/r)^3 r x (I r), r the unit vector to the disturbing body in the body's axes and f its share of the mass, and the
-kinematics of the quaternion, by SciPy's DOP853 with relative tolerance 1e-13: good to about 1e-11 rad over 100 rotations. Shares nothing with the
-library: no averaging, no angles. Needs numpy and scipy.
+It integrates Euler's equations with the torque 3 n^2 f (a/r)^3 r x (I r) and the kinematics of the quaternion; r is the unit vector to the disturbing body in body components, and f is its share of
+the mass. SciPy's DOP853 with relative tolerance 1e-13 is accurate to about 1e-11 rad over 100 rotations. The module shares nothing with the
+library: it uses neither averaging nor angles. It needs numpy and scipy.
 
-    python tests/reference/gravity_gradient.py tests/data/gravity_gradient.json     compares the file with it, some minutes
+    python tests/reference/gravity_gradient.py tests/data/gravity_gradient.json     compares the file with this module; takes some minutes
 """
 
 import json
@@ -74,7 +74,7 @@ class GravityGradient:
 
 
 def _plane(inclination, node, argument):
-    """Unit vectors to the pericentre and across it, in the direction of motion."""
+    """Unit vectors to the pericentre and, perpendicular to it in the orbit plane, in the direction of motion."""
     (ci, si), (cn, sn), (cw, sw) = ((math.cos(x), math.sin(x)) for x in (inclination, node, argument))
     pericentre = [cn * cw - sn * sw * ci, sn * cw + cn * sw * ci, sw * si]
     across = [-cn * sw - sn * cw * ci, -sn * sw + cn * cw * ci, cw * si]
@@ -82,7 +82,7 @@ def _plane(inclination, node, argument):
 
 
 def compare(path):
-    """Prints, for every case of the JSON file at `path`, the largest differences from this module; returns the largest of all."""
+    """Print, for every case of the JSON file at `path`, the largest differences from this module. Return the largest of all."""
     worst = 0.0
     print(f"{'case':16s} {'epochs':>6s} {'attitude [rad]':>15s} {'rates':>9s}")
     with open(path, encoding="utf-8") as file:

@@ -1,4 +1,4 @@
-"""Writes data/orders.json: four motions over twenty rotations, for the error of the series by order (theory §7).
+"""Write data/orders.json: four motions over twenty rotations, for the error of the series by order (theory §7).
 
     python make_orders.py > ../data/orders.json
 

@@ -1,9 +1,9 @@
-"""Writes data/separatrix.json: motions beside the separatrix, on both sides of it, down to 1 − m = 2e-14.
+"""Write data/separatrix.json: motions close to the separatrix, on both sides of it, down to 1 − m = 2e-14.
 
     python make_separatrix.py > ../data/separatrix.json
 
-The body [81, 225, 240] with the rates [5, 1, 9] is on it exactly: 240·15·9² = 81·144·5². Here the largest rate is 9 (1 ± 2^−k), in three orders of the axes and with
-both signs; up to 1e9 rotations, by torque_free.py in 40 digits.
+The body [81, 225, 240] with the rates [5, 1, 9] is exactly on the separatrix: 240·15·9² = 81·144·5². In the file the largest rate is 9 (1 ± 2^−k), in three orders of the axes and with
+both signs. The motions have up to 1e9 rotations and come from torque_free.py in 40 digits.
 """
 
 import json

@@ -1,8 +1,8 @@
-"""Derivatives of torque-free attitude and rates by differences of a solution in multiple precision: the reference of `tests/tests/partials.rs`.
+"""Derivatives of torque-free attitude and rates by differences of a solution in multiple precision. They are the reference of `tests/tests/partials.rs`.
 
-The solution is that of torque_free.py. Nine parameters: a rotation of the initial attitude about body axes, the initial angular velocity, the moments. Each derivative is a central
-difference with a step of 1e-25: its error, the square of the step times the square of the phase, is 1e-28 of the derivative after 1e9 rotations. A change of attitude is
-the rotation vector, in body components, from the one attitude to the other.
+The solution is that of torque_free.py. The nine parameters are a rotation of the initial attitude about body axes, the initial angular velocity, and the moments. Each derivative is a central
+difference with a step of 1e-25. Its error, the square of the step times the square of the phase, is 1e-28 of the derivative after 1e9 rotations. A change of attitude is
+the rotation vector, in body components, from one attitude to the other.
 
     python partials.py ../data/partials.json      writes the file
 """
@@ -48,7 +48,7 @@ CASES = {
 
 
 def rates_beside_the_separatrix(moments, distance, long_axis):
-    """Rates with C (C-B) w3² = A (B-A) w1² (1 ± distance²), not on an axis."""
+    """Rates near the separatrix and not on an axis: C (C-B) w3² = A (B-A) w1² (1 ± distance²)."""
     a, b, c = moments
     w1 = 0.6
     w3 = w1 * (a * (b - a) / (c * (c - b))) ** 0.5 * (1 - distance**2 if long_axis else 1 + distance**2) ** 0.5

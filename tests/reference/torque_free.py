@@ -1,9 +1,9 @@
-"""Torque-free rigid-body motion from Jacobi's closed form, in multiple precision: the solution that others are held against.
+"""Torque-free rigid-body motion from Jacobi's closed form in multiple precision. It is a reference for other solutions.
 
-Inputs are taken as the exact doubles (or decimal strings) they are; the quaternion is normalized first. Attitudes are unit quaternions
-[x, y, z, w], Hamilton product, rotating body components into inertial ones; rates are body components.
+Inputs are doubles or decimal strings and count as exact; the quaternion is normalized first. Attitudes are unit quaternions
+[x, y, z, w], Hamilton product, that rotate body components into inertial ones. Rates are body components.
 
-Axes are renamed so that axis 3 is the one the angular momentum circles (the shortest or the longest) and the rate about it is positive:
+Axes are renamed so that the angular momentum circles axis 3 (the shortest or the longest axis) and the rate about it is positive:
 
     w1 = a1 cn(u), w2 = s a2 sn(u), w3 = a3 dn(u),    u = u0 + n t,    s = sign(I3 - I2)
     P = G^2 - 2T I1 = I2 (I2-I1) w2^2 + I3 (I3-I1) w3^2          Q = 2T I3 - G^2 = I1 (I3-I1) w1^2 + I2 (I3-I2) w2^2
@@ -14,8 +14,8 @@ and the angle of axis 3 about the angular momentum is, with nu = -I3 (I2-I1)/(I1
 
     phi(t) - phi(0) = (G/I3) t + G (I3-I1)/(I1 I3 n) [Pi(nu; am(u) | m) - Pi(nu; am(u0) | m)]
 
-P and Q are sums of terms of one sign, so nothing is lost at J -> 0. Valid for every motion but those on the separatrix itself, which raise
-ValueError; steady rotations (sphere, a principal axis, rest) are the exponential of the constant rate. A state costs a few milliseconds.
+P and Q are sums of terms of one sign, so there is no cancellation at J -> 0. The formulas are valid for every motion except those on the separatrix itself, which raise
+ValueError. Steady rotations (sphere, a principal axis, rest) are the exponential of the constant rate. A state takes a few milliseconds.
 Source: theory §10; Jacobi's solution as in R. van Zon and J. Schofield, J. Comput. Phys. 225 (2007) 145-164.
 
     python torque_free.py data/torque_free.json      compares every case of such a file, exit status 1 if one is worse than 1e-25
@@ -27,14 +27,14 @@ import time
 
 from mpmath import MPContext
 
-GUARD_DIGITS = 40  # for the digits that a long phase n t and a state near the separatrix lose, some 15 each
+GUARD_DIGITS = 40  # a long phase n t and a state near the separatrix lose about 15 digits each
 
 
 class TorqueFree:
     """The motion through one state: `moments` about body axes 1, 2, 3 in any order, `attitude` [x, y, z, w], `angular_velocity` in the body.
 
     `mode` is "short-axis", "long-axis", "axisymmetric", "spherical", "principal-axis" or "at-rest"; `parameter` and `complement` are m and
-    1-m of the elliptic functions (0 and 1 where there are none). Results carry `digits` significant digits.
+    1-m of the elliptic functions (0 and 1 for steady rotations). Results have `digits` significant digits.
     """
 
     def __init__(self, moments, attitude, angular_velocity, *, epoch=0.0, digits=40):
@@ -64,7 +64,7 @@ class TorqueFree:
         """Finds axes (i1, i2, i3) of a right-handed set, as (index, sign) pairs, with axis 3 the one circled and w3 > 0."""
         low, middle, high = sorted(range(3), key=lambda i: self.moments[i])
         a, b, c = (self.moments[i] for i in (low, middle, high))
-        # G^2 - 2T B, whose sign says which axis is circled: exact inputs and guard digits leave no doubt unless it is zero.
+        # The sign of G^2 - 2T B determines which axis is circled. With exact inputs and guard digits it is certain unless the value is zero.
         excess = c * (c - b) * self.rates[high] ** 2 - a * (b - a) * self.rates[low] ** 2
         if excess == 0:
             raise ValueError("the state lies on the separatrix (G^2 = 2TB exactly), where the closed form in sn, cn, dn degenerates")
@@ -157,7 +157,7 @@ class TorqueFree:
     def mean_rates(self):
         """The mean rates of axis 3 about the angular momentum and of the body about axis 3 (of mu and nu in a short-axis mode with N > 0).
 
-        Axis 3 is the circled one, on the side of the angular momentum. None of it is defined for steady rotations.
+        Axis 3 is the circled axis, on the side of the angular momentum. These rates are not defined for steady rotations.
         """
         period = 4 * self.quarter_period / self.rate  # of the rates, in which am advances by 2 pi
         about_momentum = self.momentum / self.principal[2] + 2 * self.factor * self.turn / period
@@ -180,7 +180,7 @@ def solve(moments, attitude, angular_velocity, times, *, epoch=0.0, digits=40):
 
 
 def attitude_error(q, q_ref, digits=40):
-    """The angle [rad] of the rotation between two attitudes, each normalized first: 4 atan2(|p - r|, |p + r|), exact at 0 and at pi."""
+    """The angle [rad] of the rotation between two attitudes, each normalized first: 4 atan2(|p - r|, |p + r|), accurate at 0 and at pi."""
     cx = MPContext()
     cx.dps = digits + GUARD_DIGITS
     p, r = (_unit([cx.mpf(x) if isinstance(x, str) or hasattr(x, "_mpf_") else cx.mpf(float(x)) for x in row], cx) for row in (q, q_ref))
@@ -206,9 +206,9 @@ def _product(p, q):
 
 
 def residual(motion, t, step="1e-20"):
-    """How far the state at `t` is from solving q' = q w/2 and Euler's equations: the largest component, by central differences.
+    """The residual of the state at `t` in q' = q w/2 and in Euler's equations: the largest component, by central differences.
 
-    The differences are taken at the working precision; with rates of order one, what they leave is of order step^2.
+    The differences are taken at the working precision. With rates of order one their truncation error is of order step^2.
     """
     step, t = motion.context.mpf(step), motion.context.mpf(t)
     (q0, w0), (q, w), (q1, w1) = (motion.state(x) for x in (t - step, t, t + step))
@@ -220,9 +220,9 @@ def residual(motion, t, step="1e-20"):
 
 
 def compare(path):
-    """Prints, for every case of the JSON file at `path`, the largest differences from this module; returns the largest of all.
+    """Print, for every case of the JSON file at `path`, the largest differences from this module. Return the largest of all.
 
-    The last columns are `residual` at the case's last epoch, which knows nothing of the closed form, and the speed.
+    The last columns are `residual` at the last epoch of the case, which does not use the closed form, and the speed.
     """
     worst = 0.0
     print(f"{'case':22s} {'mode':15s} {'epochs':>6s} {'attitude [rad]':>15s} {'rates (relative)':>17s} {'residual':>9s} {'epochs/s':>9s}")

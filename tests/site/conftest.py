@@ -1,4 +1,4 @@
-"""The built site, a server for it on the loopback, and a headless Chromium that Playwright drives."""
+"""The built site, a server for it on the loopback interface, and a headless Chromium, controlled by Playwright."""
 
 import functools
 import http.server
@@ -11,7 +11,7 @@ import pytest
 
 SITE = Path(__file__).resolve().parents[2] / "target" / "site"
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
-# Without these Chromium asks its maker's servers for updates, which a machine without a network reports as errors.
+# Without these options Chromium asks for updates, and a machine without a network reports errors.
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--disable-background-networking", "--disable-component-update", "--disable-sync"]
 
 
@@ -31,7 +31,7 @@ def address():
 
 @pytest.fixture(scope="session")
 def browser():
-    """The browser of this machine. With CI set it must be there."""
+    """The browser of this machine. If CI is set, a missing browser is a failure."""
     if CHROMIUM is None and not os.environ.get("CI"):
         pytest.skip("no Chromium on this machine: the pages are not opened")
     assert CHROMIUM is not None, "CI needs Chromium: apt-get install chromium"
@@ -44,7 +44,7 @@ def browser():
 
 
 class Visit:
-    """One page of the site in a window of a given width: what its console says and what it fetches."""
+    """One page of the site in a window of a given width, with its console messages and its requests."""
 
     def __init__(self, page, address):
         self.page, self.address = page, address
@@ -68,7 +68,7 @@ class Visit:
 
 @pytest.fixture(scope="session")
 def visits(browser, address):
-    """A window for each width that is asked for, opened once."""
+    """A window for each requested width, opened once."""
     windows = {}
 
     def at(width):

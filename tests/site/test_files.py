@@ -1,4 +1,4 @@
-"""The built site as files: links lead somewhere and nothing is fetched from elsewhere. Needs no browser; `make docs` builds the site."""
+"""Checks of the files of the built site: every link has a target, and no page loads files from elsewhere. They need no browser; `make docs` builds the site."""
 
 import re
 

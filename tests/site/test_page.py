@@ -1,4 +1,4 @@
-"""Pages in which a motion turns, in a headless Chromium: no word on the console, nothing fetched, the library's attitude, and a picture that moves."""
+"""Animated pages of motions in a headless Chromium: no console message, no request, the attitude of the library, and a moving picture."""
 
 import andoyer
 import numpy as np
@@ -31,7 +31,7 @@ TABLES = ["gravity gradient", "passage"]
 
 
 class Window:
-    """A page of a motion, with what its console says and what it fetches."""
+    """A page of a motion, with its console messages and its requests."""
 
     def __init__(self, browser, path, scheme="light"):
         self.page = browser.new_page(viewport={"width": 1000, "height": 700}, color_scheme=scheme)
@@ -69,14 +69,14 @@ def test_page_has_the_attitude_of_the_library(opened, name):
     values = np.array([window.run(f"andoyer.evaluate({time!r})") for time in times.tolist()])
     angle = angle_between(values[:, :4], motion.attitude(times)).max()
     if name in TABLES:
-        # The error was found at three places between each two nodes; the largest may lie beside them.
+        # The error was found at three times between two nodes; the largest error may be between these times.
         assert angle < 1.2 * error + 1e-14 < 1e-8
         assert values[:, 4:] == pytest.approx(motion.angular_velocity(times), abs=1e-4)
     else:
         assert angle <= error < 1e-12
         assert values[:, 4:] == pytest.approx(motion.angular_velocity(times), rel=1e-12, abs=1e-12)
     assert window.said == [] and window.fetched == [path.as_uri()]
-    assert window.run("document.querySelectorAll('b, script').length") == 3  # no element by the name of the scene
+    assert window.run("document.querySelectorAll('b, script').length") == 3  # the name of the scene must not become an element
 
 
 @pytest.mark.parametrize("name", ["short-axis", "long-axis", "beside the separatrix", "left-handed", "tensor", "gravity gradient"])
@@ -92,6 +92,30 @@ def test_page_has_the_andoyer_variables_of_the_library(opened, name):
             assert abs(np.angle(np.exp(1j * (shown[angle] - expected)))) < bound
         assert [shown["Lambda"], shown["M"], shown["N"]] == pytest.approx([node, size, short], rel=bound, abs=bound)
         assert np.cos(shown["J"]) == pytest.approx(short / size, abs=bound)
+
+
+def test_page_shows_body_axes_momentum_curves_controls_and_numbers(opened):
+    motion = MOTIONS["short-axis"]
+    window, _, _ = opened(motion)
+    said = window.page.inner_text("#lines").split("\n")
+    assert [line.strip() for line in said if line.strip()][-6:] == [*[f"body axis {k}" for k in (1, 2, 3)], "angular momentum M", "angular velocity ω; herpolhode", "polhode"]
+    assert window.run("Object.keys(cells)") == ["t", "J", "λ", "μ", "ν", "Λ/M", "N/M", "ω₁", "ω₂", "ω₃"]
+    window.run("andoyer.show(data.start + 2)")
+    lambda_, mu, nu, node, size, short = motion.andoyer(2.0)
+    expected = {"J": np.arccos(short / size), "λ": lambda_ % (2 * np.pi), "μ": mu % (2 * np.pi), "ν": nu % (2 * np.pi)}
+    assert window.run("Object.fromEntries(['J', 'λ', 'μ', 'ν'].map(name => [name, cells[name].textContent]))") == {name: f"{np.degrees(angle):.4f}°" for name, angle in expected.items()}
+    assert window.run("[body.faces.length > 100, polhode.length, herpolhode(data.start + 2).length]") == [True, 501, 121]
+    assert window.run("[...speed.options].map(option => option.value)") == ["10", "30", "60", "120", "300"]
+    window.page.select_option("#speed", "10")
+    window.page.click("#play")
+    # The policy of the page forbids what `wait_for_function` does.
+    for _ in range(100):
+        window.page.wait_for_timeout(100)
+        if window.run("time") > 2.5:
+            break
+    assert window.run("[playing, time > 2.5]") == [True, True]
+    window.page.fill("#time", str(motion.scene.epoch + 3))
+    assert window.run("[playing, time]") == [False, 3] and window.said == []
 
 
 def test_picture_moves_with_time_and_the_slider_shows_it(opened):
@@ -125,7 +149,7 @@ def test_mesh_is_drawn_in_the_place_of_the_ellipsoid(opened):
     vertices = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]
     window, _, _ = opened(MOTIONS["short-axis"], mesh=(vertices, [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]), interval=(0.0, 10.0))
     assert window.run("body.faces.length") == 4 and window.run("data.stop") == 10
-    # Seen from outside, two or three of its faces are in sight and drawn.
+    # From outside, two or three faces are visible and drawn.
     assert window.said == []
 
 

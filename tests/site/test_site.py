@@ -1,4 +1,4 @@
-"""The built site in a real browser: no console errors, nothing fetched from elsewhere, equations and pictures drawn, no text outside its box."""
+"""The built site in a real browser: no console errors, no external requests, equations and pictures drawn, no text outside its box."""
 
 import os
 import re
@@ -16,7 +16,7 @@ WITH_EQUATIONS = {"theory.html": 12, "errata.html": 4}
 WITH_PICTURES = {"index.html": 1, "gallery/index.html": len(SCRIPTS), "speed.html": 2, "series-or-closed.html": 1}
 
 BROKEN = "[...document.images].filter(image => !(image.complete && image.naturalWidth > 1)).map(image => image.src)"
-# Code and output whose text is wider than the box in which it is shown.
+# Code and output whose text is wider than its box.
 OUTSIDE = """[...document.querySelectorAll('article pre')].filter(box => box.getClientRects().length && box.scrollWidth > box.clientWidth + 1)
     .map(box => box.textContent.slice(0, 80))"""
 SIDEWAYS = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
@@ -24,7 +24,7 @@ EQUATIONS = """[...document.querySelectorAll('math')].map(math => {
     const box = math.getBoundingClientRect();
     return [box.width, box.height, math.querySelectorAll('merror').length, math.textContent];
 })"""
-# A fraction that is drawn as one has its numerator above its denominator.
+# In a correctly drawn fraction the numerator is above the denominator.
 FRACTIONS = """[...document.querySelectorAll('mfrac')].map(fraction => {
     const [above, below] = [...fraction.children].map(child => child.getBoundingClientRect());
     return above.bottom <= below.top + 1;

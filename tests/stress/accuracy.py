@@ -1,7 +1,7 @@
-"""One random scene against its enclosure, and what must hold of it whatever the reference says.
+"""Compare one random scene with its enclosure, and check its invariants, which need no reference.
 
-Errors are those of doubles against balls of 40 digits: the angle between attitudes [rad], and the differences of the rates w_i in units of M/I_i. The invariants need no
-reference: none of them is enforced by construction of the code under test.
+Errors are differences between doubles and balls of 40 digits: the angle between attitudes [rad], and the differences of the rates w_i in units of M/I_i. The tested code does not enforce
+the invariants by construction.
 """
 
 import sys
@@ -15,8 +15,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reference"))
 
 import enclosures  # noqa: E402
 
-# Error budget. An attitude is a product of two quaternions whose four numbers are sums of up to some ten harmonics, each rounded to 2^-53 of the whole: 4 · 12 · 1.1e-16 at
-# most, doubled as an angle. A rate is one such sum; near the separatrix the sum holds terms larger than itself. Energy is quadratic in rates; a reversed motion is a second one.
+# Error budget. An attitude is a product of two quaternions whose four numbers are sums of up to some ten harmonics, each rounded to 2^-53 of the sum: at most 4 · 12 · 1.1e-16,
+# doubled as an angle. A rate is one such sum; near the separatrix the terms are larger than the sum. The energy is quadratic in the rates; time reversal compares two motions.
 BUDGETS = {
     "attitude": 1e-14,
     "rates": 1e-14,
@@ -31,19 +31,19 @@ BUDGETS = {
     "group": 1.0,
 }
 TOLERANCE = 1e-15
-# Relative rounding of a state that is taken as the start of a new motion, and of the quaternion.
+# Relative rounding of a state that starts a new motion, and of the quaternion.
 STATE_ROUNDING = 2e-15
 
 
 def angle(p, q, low=0.0):
-    """The angles [rad] between attitudes (n, 4), the second q + low, small ones too."""
+    """The angles [rad] between attitudes (n, 4); the second attitude is q + low. Small angles are accurate."""
     sign = np.sign(np.sum(p * q, axis=-1, keepdims=True))
     difference = (sign * p - q) - low
     return 2 * np.linalg.norm(difference, axis=-1)
 
 
 def span(one, unit=1.0):
-    """From the first to the last of the epoch and the times."""
+    """The interval from the first to the last of the epoch and the times."""
     return min(one.epoch, *one.times) * unit, max(one.epoch, *one.times) * unit
 
 
@@ -58,17 +58,17 @@ def measured(seed, number):
     """(regime, {check: value}, case) of one scene: errors over the times, invariants over more of them."""
     one = case(seed, number)
     body = andoyer.Body(one.moments)
-    # The bound is one over a span: without it, nothing is said of the times that are looked at.
+    # The error bound holds over the span, so the span must contain the times.
     motion = andoyer.Scene(body, one.attitude, one.rates, epoch=one.epoch, tolerance=TOLERANCE, span=span(one)).solve()
     samples = motion.at(one.times)
     found = {}
     try:
         (attitude, attitude_low), (rates, rates_low) = truth(one)
-    except ValueError:  # on the separatrix to the bit: the invariants alone
+    except ValueError:  # exactly on the separatrix there is no reference, only invariants
         pass
     else:
         found["attitude"] = float(angle(samples.attitude, attitude, attitude_low).max())
-        # By axis in units of M/I: a needle turns fastest about its thin axis, later if not at first.
+        # For each axis in units of M/I, since a needle rotates fastest about its thin axis.
         momentum = np.linalg.norm(np.multiply(one.moments, one.rates) / max(one.moments)) or 1.0
         apart = np.abs((samples.angular_velocity - rates) - rates_low) * one.moments / max(one.moments)
         found["rates"] = float(np.max(apart) / momentum)
@@ -81,7 +81,7 @@ def measured(seed, number):
 
 
 def of_block(seed, numbers):
-    """What `measured` returns, of many; members of one ensemble, those with epoch 0 must have the same bits."""
+    """The results of `measured` for many scenes. Scenes with epoch 0 are also evaluated as members of one ensemble and must have the same bits."""
     found = [measured(seed, number) for number in numbers]
     members = [one for one in (case(seed, number) for number in numbers) if one.epoch == 0.0]
     fields = zip(*((one.moments, one.attitude, one.rates) for one in members))
@@ -94,7 +94,7 @@ def of_block(seed, numbers):
 
 
 def invariants(one, body, motion, samples):
-    """What the equations of motion keep, and what their symmetries say."""
+    """Violations of the conservation laws and symmetries of the equations of motion."""
     moments = np.array(one.moments) / max(one.moments)
     rates = samples.angular_velocity / np.max(np.abs(one.rates)) if np.any(one.rates) else samples.angular_velocity
     first = np.array(one.rates) / (np.max(np.abs(one.rates)) or 1.0)
@@ -118,7 +118,7 @@ def invariants(one, body, motion, samples):
 
 
 def powers_of_two(one, samples):
-    """Moments times 2^37 and time times 2^-9: the same bits, where nothing becomes a denormal."""
+    """The scene with moments times 2^37 and time times 2^-9, which must have the same bits if no number becomes a denormal."""
     if min(abs(x) for x in (*one.rates, *one.times) if x) < 1e-290:
         return 0.0
     body = andoyer.Body([x * 2.0**37 for x in one.moments])
@@ -128,12 +128,12 @@ def powers_of_two(one, samples):
 
 
 def group(one, body, motion, samples):
-    """at(t1 + t2) by way of a new scene from the state at t1, in units of what the rounding of that state makes of it."""
+    """Error of the state at t1 + t2 from a new scene that starts from the state at t1, in units of the effect of rounding that state."""
     middle, end = one.times[1], one.times[2]
     state = motion.at([middle])
     again = andoyer.Scene(body, state.attitude[0], state.angular_velocity[0], epoch=middle, tolerance=TOLERANCE).solve()
     apart = angle(again.attitude([end]), samples.attitude[2:3])[0]
-    # Relative changes of the frequencies are those of the state, near the separatrix those of 1−m over it (σ/σ_sep below 0.9 here).
+    # The relative change of the frequencies is that of the state; near the separatrix it is that of 1−m divided by 1−m (σ/σ_sep is below 0.9 here).
     phase = abs(end - middle) * np.max(np.abs(one.rates))
     near = 1 / (1 - motion.plan.separatrix_ratio) ** 2
     spread = max(one.moments) / min(one.moments)
@@ -141,7 +141,7 @@ def group(one, body, motion, samples):
 
 
 def rotated(quaternions, vectors):
-    """Vectors turned by quaternions [x, y, z, w]."""
+    """Vectors rotated by quaternions [x, y, z, w]."""
     axis, scalar = quaternions[:, :3], quaternions[:, 3:]
     across = 2 * np.cross(axis, vectors)
     return vectors + scalar * across + np.cross(axis, across)

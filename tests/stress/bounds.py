@@ -1,18 +1,17 @@
-"""Is `plan.error_bound` a bound, and a tight one? Random scenes of every kind against the reference.
+"""Test that `plan.error_bound` is a bound, and how tight it is, with random scenes of every kind.
 
     make bounds                                          3000 scenes, one to two minutes
     python tests/stress/bounds.py --scenes 500 --seed 1
 
-Exit status 1 if fewer than 99.9 % of the errors are within their bound, or if it is more than 100 times the error in the median.
+Exit status 1 if fewer than 99.9 % of the errors are within their bound, or if the bound is more than 100 times the error in the median.
 
-A scene: one of six kinds of bodies, one of five kinds of motion, a tolerance from 1e-3 to 1e-13 (every fourth has 1e-13), a span of 1 to 1e6 rotations. It is solved in closed form,
-by the series where they serve, and by the series of a random order. The error is the largest at six epochs, the last of which ends the span,
-against tests/reference/torque_free.py.
+A scene has one of six kinds of bodies, one of five kinds of motion, a tolerance from 1e-3 to 1e-13 (1e-13 in every fourth scene), and a span of 1 to 1e6 rotations. It is solved in closed form,
+by the series if they serve it, and by the series of a random order. The error is the largest at six epochs relative to tests/reference/torque_free.py. The last epoch is the end of the span.
 """
 
 import os
 
-os.environ["RAYON_NUM_THREADS"] = "1"  # the two processes are the threads
+os.environ["RAYON_NUM_THREADS"] = "1"  # two processes already use the two cores
 
 import argparse  # noqa: E402
 import sys  # noqa: E402
@@ -32,12 +31,12 @@ from comparison import Reference  # noqa: E402
 from numpy.random import Generator  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 
-warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # what low orders miss is measured here
+warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # the errors of low orders are measured here
 
 EPOCHS = 6
 PROCESSES = 2
-SHARE, TIGHTNESS = 0.999, 100.0  # what is promised
-EXACT = 1e-18  # an error that no double shows
+SHARE, TIGHTNESS = 0.999, 100.0  # the requirements
+EXACT = 1e-18  # an error below the precision of doubles
 FINEST = 1e-13
 METHODS = ("closed", "series", "fixed order")
 QUANTILES = {"median": 0.5, "q99": 0.99, "q99.9": 0.999, "max": 1.0}
@@ -59,7 +58,7 @@ class Scene:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one method made of it."""
+    """The result of one method for a scene."""
 
     scene: Scene
     method: str
@@ -83,7 +82,7 @@ KINDS: dict[str, Callable[[Generator], list[float]]] = {
     "β → 0": lambda r: (lambda b: [b * (1 - decades(r, 1, 12)), b, 1.0])(r.uniform(0.6, 0.95)),
     "β → 1": lambda r: [r.uniform(0.1, 0.95), 1 - 0.05 * decades(r, 0, 12), 1.0],
 }
-# The part of the separatrix's energy excess, counted from rotation about the axis that the momentum circles; whether that is the long axis.
+# The excess of energy as a part of that of the separatrix, from rotation about the circled axis; True if that is the long axis.
 MOTIONS: dict[str, tuple[Callable[[Generator], float], bool]] = {
     "small wobble": (lambda r: decades(r, 1, 24), False),
     "short-axis": (lambda r: r.uniform(0, 0.95), False),
@@ -98,7 +97,7 @@ def _sorted(moments: Iterable[float]) -> list[float]:
 
 
 def momentum(random: Generator, moments: Sequence[float], part: float, long_axis: bool) -> NDArray[np.float64]:
-    """A direction of the angular momentum with this part of the separatrix's excess of energy."""
+    """A direction of the angular momentum whose excess of energy is this part of that of the separatrix."""
     inverse = 1 / np.array(moments)
     circled, other = (0, 2) if long_axis else (2, 0)
     most, least = abs(inverse[other] - inverse[circled]), abs(inverse[1] - inverse[circled])
@@ -127,7 +126,7 @@ def scene(seed: int, number: int) -> Scene:
 
 
 def outcomes(seed: int, number: int) -> list[Outcome]:
-    """What the methods make of one scene."""
+    """The results of all methods for one scene."""
     case = scene(seed, number)
     body = andoyer.Body(case.moments)
     longitude = andoyer.Scene(body, case.attitude, case.rates).solve().frequencies.longitude
@@ -153,7 +152,7 @@ def block(arguments: tuple[int, range]) -> list[Outcome]:
 
 
 def line(name: str, found: Sequence[Outcome]) -> tuple[float, float, str]:
-    """A line of the table: how many, the share within the bound, bound/error in the median, the largest error/bound, quantiles of errors."""
+    """A line of the table: number of scenes, share of errors within the bound, median of bound/error, largest error/bound, quantiles of the errors."""
     errors, bounds, tolerances = (np.array(numbers) for numbers in zip(*((o.error, o.bound, o.scene.tolerance) for o in found)))
     share, tightness = float(np.mean(errors <= bounds)), float(np.median(bounds / np.maximum(errors, EXACT)))
     met = errors[tolerances == FINEST]
@@ -163,12 +162,12 @@ def line(name: str, found: Sequence[Outcome]) -> tuple[float, float, str]:
 
 
 def report(found: Sequence[Outcome], scenes: int) -> bool:
-    """Prints the tables; whether what is promised is kept."""
+    """Print the tables. Return True if the requirements hold."""
     heads = "".join(f"{name:>9}" for name in [*QUANTILES, *QUANTILES])
     kept = True
     for method in METHODS:
         of_method = [o for o in found if o.method == method]
-        # A fixed order knows no tolerance: what it leaves out is what its bound says.
+        # A fixed order ignores the tolerance; only its bound limits the error.
         titles, names = ("", "") if method == "fixed order" else (f"{'error / tolerance':>19}{f'error [rad] at tolerance {FINEST:g}':>48}", heads)
         print(f"\n{method:<26}{'scenes':>7}{'within':>9}{'bound /':>9}{'error /':>9}  {titles}")
         print(f"{'':<26}{'':>7}{'%':>9}{'error':>9}{'bound':>9}  {names}")

@@ -1,7 +1,7 @@
-"""Is the reference right? The enclosures against two computations that share nothing with them but the equations of motion.
+"""Test of the reference: compare the enclosures with two other computations, which share only the equations of motion with them.
 
 - `torque_free.py`: mpmath, amplitude by Landen's transformation, Legendre's integrals.
-- Taylor's series of Euler's equations and of q′ = q ω/2 about the epoch, summed in rationals of 300 bits: knows no elliptic function.
+- Taylor series of Euler's equations and of q′ = q ω/2 about the epoch, in integers of 400 fractional bits, without elliptic functions.
 """
 
 import sys
@@ -20,7 +20,7 @@ TERMS, BITS, STEP = 60, 400, Fraction(1, 8)
 
 
 def taylor(moments, attitude, rates, time):
-    """Attitude and rates at `time` by Taylor's series in integers of 400 fractional bits; |ω| t ≤ 1/8 or so."""
+    """Attitude and rates at `time` by Taylor series in integers of 400 fractional bits, for |ω| t up to about 1/8."""
     i = [Fraction(x) for x in moments]
     w = [[_cut(Fraction(x))] for x in rates]
     norm = _root(sum(Fraction(x) ** 2 for x in attitude))
@@ -49,7 +49,7 @@ def _root(x):
 
 
 def _apart(rows, others, context):
-    """The largest difference of a state's numbers, the quaternion's sign free."""
+    """The largest difference between the numbers of two states, for either sign of the quaternion."""
     (p, w), (q, v) = rows, others
     p, w = ([context.mpf(x.mid().str(70, radius=False)) for x in row] for row in (p, w))
     q, v = ([context.mpf(x.numerator) / x.denominator if isinstance(x, Fraction) else x for x in row] for row in (q, v))
@@ -59,7 +59,7 @@ def _apart(rows, others, context):
 
 
 def compared(seed, numbers):
-    """The largest difference from `torque_free.py` and from Taylor's series over these cases, and how many there were."""
+    """The largest differences from `torque_free.py` and from the Taylor series over these cases, and the number of cases."""
     worst, count = [0.0, 0.0], 0
     for number in numbers:
         one = case(seed, number)

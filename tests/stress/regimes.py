@@ -1,20 +1,20 @@
-"""Random scenes by regime: where the numerics are weakest, each number of them drawn from a seed.
+"""Random scenes in the regimes in which the numerics are weakest. A seed and a number determine each scene.
 
-A regime makes body, state, epoch and the times at which it is looked at, all doubles that the reference takes as exact. The direction of the angular
-momentum comes from the part of the separatrix's excess of energy that it shall have (theory §5); rounding to doubles moves it by some 1e-16, which the reference knows.
+A regime makes body, state, epoch and times; all are doubles, which the reference takes as exact. The direction of the angular
+momentum follows from its excess of energy as a part of that of the separatrix (theory §5). Rounding to doubles changes the direction by about 1e-16 before the reference is computed.
 """
 
 from dataclasses import dataclass, field
 
 import numpy as np
 
-# Smallest tilt from the middle axis: the code takes one below 1e-150 for none, and its error bound is π then. From other axes tilts go down to denormals.
+# Smallest tilt from the middle axis. The code treats a tilt below 1e-150 as 0, with an error bound of π. From other axes tilts may be denormal.
 SMALLEST_TILT = 1e-145
 
 
 @dataclass(frozen=True)
 class Case:
-    """A random scene and the times to look at."""
+    """A random scene and its times."""
 
     regime: str
     moments: tuple
@@ -22,7 +22,7 @@ class Case:
     rates: tuple
     epoch: float
     times: tuple
-    complement: float  # 1 − m of the elliptic functions as it was asked for, 0 where nothing was
+    complement: float  # requested 1 − m of the elliptic functions, or 0
     tags: dict = field(default_factory=dict)
 
 
@@ -38,10 +38,10 @@ def body(random):
 
 
 def turned(random, moments, part, long_axis):
-    """A direction of the angular momentum with this part of the separatrix's excess of energy; A ≤ B ≤ C."""
+    """A direction of the angular momentum whose excess of energy is this part of that of the separatrix; A ≤ B ≤ C."""
     a, b, c = moments
     circled, other = (0, 2) if long_axis else (2, 0)
-    # 1/I differences without cancellation; those of two equal moments vanish.
+    # Differences of 1/I without cancellation; they vanish for equal moments.
     most = abs(moments[circled] - moments[other]) / (moments[other] * moments[circled])
     least = abs(moments[circled] - b) / (b * moments[circled])
     angle = random.uniform(0, 2 * np.pi)
@@ -53,7 +53,7 @@ def turned(random, moments, part, long_axis):
 
 
 def finished(random, regime, moments, direction, *, scale=None, epoch=0.0, attitude=None, rotations=None, complement=0.0):
-    """The case: axes in random order, rates of any size unless told, four times up to some thousand rotations."""
+    """The case: axes in random order, rates of random size unless given, four times up to some thousand rotations."""
     moments = np.asarray(moments, dtype=float)
     unit, speed = scale or (1.0, decades(random, -3, 3))
     order = random.permutation(3)
@@ -62,7 +62,7 @@ def finished(random, regime, moments, direction, *, scale=None, epoch=0.0, attit
     rotation = 2 * np.pi / np.max(np.abs(rates))
     spread = rotations if rotations is not None else [0.0, random.uniform(-2, 2), random.uniform(-50, 50), random.choice([-1, 1]) * decades(random, 2, 4)]
     times = [epoch + rotation * x for x in spread]
-    # The triangle inequality holds for what is rounded, too.
+    # The triangle inequality must also hold for the rounded moments.
     grown = _possible(moments * unit)
     return Case(regime, tuple(grown[order]), tuple(attitude / np.linalg.norm(attitude)), tuple(rates[order]), float(epoch), tuple(map(float, times)), complement)
 
@@ -193,7 +193,7 @@ REGIMES = {
 
 
 def case(seed, number):
-    """The case of this number: the same in every process, regimes in turn."""
+    """The case of this number, which is the same in every process. The regimes alternate."""
     random = np.random.default_rng([seed, number])
     regime = list(REGIMES)[number % len(REGIMES)]
     moments, direction, told = REGIMES[regime](random)

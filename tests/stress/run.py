@@ -1,15 +1,15 @@
-"""The stress test: random scenes of every regime against enclosures of 40 digits, and what must hold without any reference.
+"""The stress test: compare random scenes of every regime with enclosures of 40 digits, and check their invariants.
 
-    make stress                                     240,000 scenes: docs/data/stress.csv and the tables of docs/accuracy.md; some minutes
-    make stress-short                               a minute, as part of `make test`
+    make stress                                     240,000 scenes; writes docs/data/stress.csv and the tables of docs/accuracy.md; takes some minutes
+    make stress-short                               takes a minute; part of `make test`
     python tests/stress/run.py --scenes 1600 --seed 1
 
-Exit status 1 if any value is above its budget, which is written where it is stated: `BUDGETS` in accuracy.py and series.py. A scene is found again by its seed and number.
+Exit status 1 if any value is above its budget (`BUDGETS` in accuracy.py and series.py). The seed and the number of a scene determine the scene.
 """
 
 import os
 
-os.environ["RAYON_NUM_THREADS"] = "1"  # the processes are the threads
+os.environ["RAYON_NUM_THREADS"] = "1"  # the processes already use all cores
 
 import argparse  # noqa: E402
 import csv  # noqa: E402
@@ -46,7 +46,7 @@ def work(task):
 
 
 def tasks(seed, scenes, only):
-    """Blocks of everything that is run side by side, those that take longest first; of some regimes alone, if that was asked for."""
+    """Blocks of work for the processes, the longest first; only for some regimes if requested."""
     names = list(REGIMES)
     numbers = [k for k in range(scenes) if not only or any(text in names[k % len(names)] for text in only)]
     lots = {"orders": (range(max(scenes // 600, 8)), 8), "tolerances": (range(scenes // 12), BLOCK), "scenes": (numbers, BLOCK)}
@@ -100,7 +100,7 @@ def tables(rows, seed):
 
 
 def kept(regimes):
-    """The rows on file of other regimes than these."""
+    """The rows of the existing file for other regimes than these."""
     with open(CSV, encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if row["regime"] not in regimes and (row["regime"] in REGIMES or row["check"] in series.BUDGETS)]
     numbers = dict.fromkeys([*QUANTILES, "budget"], float) | {"scenes": int}
@@ -108,7 +108,7 @@ def kept(regimes):
 
 
 def ordered(rows):
-    """Rows by check, then regime, as they are declared."""
+    """Rows by check, then by regime, in the order of their declaration."""
     order = {name: k for k, name in enumerate([*BUDGETS, *REGIMES])}
     return sorted(rows, key=lambda row: (order[row["check"]], order.get(row["regime"], len(order)), row["regime"]))
 

@@ -1,7 +1,7 @@
-"""The series: against the reference by tolerance, against the closed form, by order 0 to 60, and the canonicity of the transformation.
+"""Tests of the series: errors by tolerance, differences from the closed form, errors of the orders 0 to 60, and the canonicity of the transformation.
 
-An order N leaves (σ/σ_sep)^(N+1) (theory §5). `by_order` divides the error of each order, over one rotation, by 8 (σ/σ_sep)^(N+1) plus rounding: above 1 the error did not
-fall as it should, or it came back after rounding was reached.
+The error of order N is about (σ/σ_sep)^(N+1) (theory §5). `by_order` divides the error of each order over one rotation by 8 (σ/σ_sep)^(N+1) plus rounding. A value above 1 means that the error does not
+fall with the order, or grows again after it has reached rounding error.
 """
 
 import warnings
@@ -12,11 +12,11 @@ import numpy as np
 from accuracy import angle, truth
 from regimes import Case, body, decades, turned
 
-warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # what low orders miss is measured here
+warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # the errors of low orders are measured here
 
 ORDERS = 61
 BUDGETS = {"error / tolerance": 1.0, "error / bound": 1.0, "series − closed / bounds": 1.0, "error by order": 1.0, "brackets": 0.0}
-ROUNDING = 2e-14  # what order 60 with its 60 harmonics leaves; fewer leave less
+ROUNDING = 2e-14  # rounding error of order 60 with its 60 harmonics; lower orders have less
 FACTOR = 8.0
 
 
@@ -31,7 +31,7 @@ def scene(random, part, rotations):
 
 
 def by_tolerance(seed, number):
-    """(regime, {check: value}, number) of the series on a random scene that it serves, the closed form beside it."""
+    """(regime, {check: value}, number) of the series, and of the closed form, for a random scene that the series serve."""
     random = np.random.default_rng([seed, number, 1])
     small = number % 2 == 0
     part = decades(random, -28, -2) if small else random.uniform(0, 0.55)
@@ -54,7 +54,7 @@ def by_tolerance(seed, number):
 
 
 def by_order(seed, number):
-    """The largest excess of the errors of all orders over what theory leaves of them."""
+    """The largest ratio of the error of an order to the error expected by the theory."""
     random = np.random.default_rng([seed, number, 2])
     one = scene(random, random.uniform(0.01, 0.97), 1.0)
     given = andoyer.Body(one.moments)
@@ -68,9 +68,9 @@ def by_order(seed, number):
 
 
 def brackets(order):
-    """The largest coefficient that should vanish in {u; U} − 1, {y; u} and {y; U} up to this order, exactly; theory §1, §6.
+    """The largest coefficient of {u; U} − 1, {y; u} and {y; U} up to this order, in exact arithmetic (theory §1, §6). All should vanish.
 
-    u = Σ τⁿ u_n with τ ∝ 1/M and y = y′ + (1/M) Σ τⁿ y_n, so that {y; u} = (1/M) Σ τⁿ [Σ {y_a; u_b} − n u_n], a + b = n.
+    With u = Σ τⁿ u_n, τ ∝ 1/M, and y = y′ + (1/M) Σ τⁿ y_n, {y; u} = (1/M) Σ τⁿ [Σ {y_a; u_b} − n u_n], a + b = n.
     """
     form = andoyer.NormalForm(order)
     series = {name: [form.direct(name, n) for n in range(1, order + 1)] for name in ("u", "U", "y")}
@@ -92,7 +92,7 @@ def brackets(order):
 
 
 def bracket(into, f, g):
-    """Adds ∂f/∂u ∂g/∂U − ∂f/∂U ∂g/∂u."""
+    """Add ∂f/∂u ∂g/∂U − ∂f/∂U ∂g/∂u."""
     for (j, k, beta), (a, b) in f.items():
         for (m, n, more), (c, d) in g.items():
             factor = j * n - k * m

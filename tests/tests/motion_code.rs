@@ -103,6 +103,10 @@ fn motions() -> Result<Vec<(&'static str, Motion)>, Error> {
         ("long-axis", scene(body(), [1.0, 0.1, -0.2])?),
         ("long-axis by the series", scene(body(), [1.0, 0.1, -0.2])?.method(Method::Series)),
         ("near the separatrix", scene(body(), [0.02, 1.0, 0.05])?),
+        (
+            "33 harmonics",
+            scene(Body::new([1.0, 1.9, 2.0]), [0.1, 1.0, 0.4])?.method(Method::Series).order(40).tolerance(1e-15),
+        ),
         ("left-handed, upside down", scene(Body::new([2.0, 3.5, 3.0]), [0.3, -1.0, 0.2])?),
         ("needle", scene(Body::new([1e-3, 1.0, 1.0]), [0.4, 0.1, 0.05])?),
         ("round", scene(Body::new([1.0, 1.0, 2.0]), [0.1, 0.2, 1.0])?),
@@ -267,6 +271,17 @@ fn javascript_gives_the_motion() {
         node.arg(directory.join("main.js"));
         node
     });
+}
+
+#[test]
+fn sums_are_by_powers_and_where_there_are_many_harmonics_by_these() -> Result<(), Error> {
+    for (name, motion) in motions()? {
+        let text = motion.to_code(CodeLanguage::Python)?;
+        let harmonics = text.contains("by a rotation from each multiple of 2l' to the next");
+        assert_eq!(harmonics, name == "33 harmonics", "{name}");
+        assert_ne!(harmonics, text.contains("by Horner's rule in cos 2l'"), "{name}");
+    }
+    Ok(())
 }
 
 #[test]

@@ -25,18 +25,18 @@ use crate::order::order;
 use crate::progress;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
-/// What pickle calls, and with what.
+/// The function that pickle calls, and its arguments.
 type Reduced<'py> = (Bound<'py, PyAny>, (String, Py<PyDict>));
 
-/// The Birkhoff normal form of a Hamiltonian, from `normalize`: the new Hamiltonian K, and the transformation both ways.
+/// The Birkhoff normal form of a Hamiltonian, from `normalize`: the new Hamiltonian K and the transformation in both directions.
 ///
 /// Polynomials are dictionaries of coefficients by tuple of exponents, in the order q₁, p₁, q₂, p₂, …, parameters: `Fraction` if
 /// `exact`, else float. The new variables (q, p) of a centre have the action I = (q²/r + r p²)/2 and the complex variables U = r p + i q =
 /// √(2rI) e^{iφ} and u = (q + i r p)/(2r), {u; U} = 1, uU = iI. Those of a saddle are real, u = q, U = p, I = q p; q is the unstable direction. The two modes
 /// (q, p), (Q, P) of a quartet have I = q p + Q P and q P − Q p, u = (q − iQ)/2 and U = p + iP.
 ///
-/// States are arrays (2n,) or (m, 2n) of q₁, p₁, q₂, p₂, …; for those methods parameters are given as a dict of numbers by name. The
-/// series are truncated: a state of amplitude ε errs by ε^(N+2).
+/// States are arrays (2n,) or (m, 2n) of q₁, p₁, q₂, p₂, … Methods on states take the parameters as a dict of numbers by name. The
+/// series are truncated: for a state of amplitude ε the error is of order ε^(N+2).
 ///
 /// Examples
 /// --------
@@ -50,7 +50,7 @@ type Reduced<'py> = (Bound<'py, PyAny>, (String, Py<PyDict>));
 #[pyclass(frozen, eq, module = "andoyer")]
 pub(crate) struct BirkhoffNormalForm {
     form: Form,
-    /// SymPy symbols by name, as the caller gave them.
+    /// The SymPy symbols of the caller, by name.
     symbols: Py<PyDict>,
     /// The maps for the parameters last used.
     map: Mutex<Option<(Vec<f64>, Arc<BirkhoffMap>)>>,
@@ -76,7 +76,7 @@ impl BirkhoffNormalForm {
         self.order() + 2
     }
 
-    /// Whether the coefficients are exact: `Fraction`, not float.
+    /// True if the coefficients are exact (`Fraction`), False if they are floats.
     #[getter]
     fn exact(&self) -> bool {
         matches!(self.form, Form::Exact(_))
@@ -97,7 +97,7 @@ impl BirkhoffNormalForm {
         PyTuple::new(py, &space.names()[2 * space.degrees_of_freedom()..])
     }
 
-    /// The frequencies ω at the origin: of a centre real, and negative where its energy is; of a saddle iλ; of a quartet iσ − ν and iσ + ν.
+    /// The frequencies ω at the origin. A centre has a real frequency, negative if its energy is negative; a saddle has iλ; a quartet has iσ − ν and iσ + ν.
     #[getter]
     fn frequencies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         either!(&self.form, form => {
@@ -118,7 +118,7 @@ impl BirkhoffNormalForm {
         either!(&self.form, form => PyTuple::new(py, form.modes().iter().map(|mode| mode.ratio().cloned())))
     }
 
-    /// The symplectic matrix M of the linear change z = M z′ that diagonalizes the quadratic part, by rows; the unit matrix where it is diagonal already.
+    /// The symplectic matrix M of the linear change z = M z′ that diagonalizes the quadratic part, by rows. It is the unit matrix if the quadratic part is already diagonal.
     #[getter]
     fn linear_change<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         either!(&self.form, form => {
@@ -127,19 +127,19 @@ impl BirkhoffNormalForm {
         })
     }
 
-    /// The resonances that were kept: vectors k with k·ω = 0, whose terms turn with the resonant angles k·φ.
+    /// The resonances that were kept: vectors k with k·ω = 0. Their terms depend on the resonant angles k·φ.
     #[getter]
     fn resonances<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let vectors = either!(&self.form, form => form.resonances().vectors().to_vec());
         PyTuple::new(py, vectors.into_iter().map(|vector| PyTuple::new(py, vector)).collect::<PyResult<Vec<_>>>()?)
     }
 
-    /// K in the actions: exponents of I₁, I₂, …, parameters. The constant term of H is in it.
+    /// K as a function of the actions: coefficients by exponents of I₁, I₂, …, parameters. It includes the constant term of H.
     ///
     /// Raises
     /// ------
     /// TheoryError
-    ///     K has resonant terms, and is no function of the actions alone.
+    ///     K has resonant terms and is not a function of the actions alone.
     fn in_actions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let slots = self.space().degrees_of_freedom() + self.space().parameters();
         either!(&self.form, form => real(py, &detached(py, error::algebra, || form.in_actions())?, slots))
@@ -162,12 +162,12 @@ impl BirkhoffNormalForm {
         either!(&self.form, form => real(py, &detached(py, error::algebra, || form.in_real())?, self.slots()))
     }
 
-    /// The Hamiltonian on the centre manifold: K in the new real variables of the centres, where the saddles rest at q = p = 0.
+    /// The Hamiltonian on the centre manifold: K in the new real variables of the centres, with q = p = 0 for the saddles.
     fn centre_manifold<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         either!(&self.form, form => real(py, &detached(py, error::algebra, || form.centre_manifold())?, self.slots()))
     }
 
-    /// Generating function S_m in the real variables, of degree m + 2.
+    /// The generating function S_m in the real variables, of degree m + 2.
     ///
     /// Parameters
     /// ----------
@@ -183,27 +183,27 @@ impl BirkhoffNormalForm {
         either!(&self.form, form => real(py, &detached(py, error::algebra, || form.generator(m))?, self.slots()))
     }
 
-    /// A function of the old variables in the new ones, complete to degree d + N, d its lowest positive degree.
+    /// Expresses a function of the old variables in the new variables. It is complete to degree d + N, where d is its lowest positive degree.
     ///
     /// Parameters
     /// ----------
     /// function : str, dict or SymPy expression
-    ///     As the Hamiltonian of `normalize`; a variable by its name.
+    ///     A function in the form of the Hamiltonian of `normalize`, or the name of a variable.
     fn direct<'py>(&self, py: Python<'py>, function: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         self.transformed(py, function, true)
     }
 
-    /// A function of the new variables in the old ones, complete to degree d + N, d its lowest positive degree.
+    /// Expresses a function of the new variables in the old variables. It is complete to degree d + N, where d is its lowest positive degree.
     ///
     /// Parameters
     /// ----------
     /// function : str, dict or SymPy expression
-    ///     As the Hamiltonian of `normalize`; a variable by its name.
+    ///     A function in the form of the Hamiltonian of `normalize`, or the name of a variable.
     fn inverse<'py>(&self, py: Python<'py>, function: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         self.transformed(py, function, false)
     }
 
-    /// The new variables of states.
+    /// Transforms states to the new variables.
     ///
     /// Parameters
     /// ----------
@@ -224,7 +224,7 @@ impl BirkhoffNormalForm {
         Rows::new("states", states, n)?.map(n, |state| map.to_normal(state))
     }
 
-    /// The states of new variables; errors are those of `to_normal`.
+    /// Transforms new variables to states. The errors are those of `to_normal`.
     ///
     /// Parameters
     /// ----------
@@ -241,7 +241,7 @@ impl BirkhoffNormalForm {
         Rows::new("states", states, n)?.map(n, |state| map.from_normal(state))
     }
 
-    /// The states of points of the centre manifold, given by the new variables of the centres alone.
+    /// Transforms points of the centre manifold, given by the new variables of the centres, to states.
     ///
     /// Parameters
     /// ----------
@@ -273,7 +273,7 @@ impl BirkhoffNormalForm {
         Rows::new("states", states, 2 * centres)?.map(n, |centre| map.from_centre(centre))
     }
 
-    /// The value of K at new variables: the energy.
+    /// The energy: the value of K at new variables.
     ///
     /// Parameters
     /// ----------
@@ -311,7 +311,7 @@ impl BirkhoffNormalForm {
         Rows::new("normal", normal, n)?.map(n, |normal| map.rates(normal))
     }
 
-    /// How far the form is good: the sizes of its orders, and the best order at an amplitude.
+    /// Estimates the range of validity of the form: the sizes of its orders, and the best order at an amplitude.
     ///
     /// Parameters
     /// ----------
@@ -329,7 +329,7 @@ impl BirkhoffNormalForm {
         either!(&self.form, form => form.domain(&values)).map(Domain).map_err(error::algebra)
     }
 
-    /// The actions of states, which hardly change along a motion unless a resonance exchanges them.
+    /// The actions of states. Along a motion they are almost constant, unless a resonance exchanges them.
     ///
     /// Parameters
     /// ----------
@@ -354,7 +354,7 @@ impl BirkhoffNormalForm {
         Rows::new("states", states, 2 * n)?.map(n, |state| map.actions(state))
     }
 
-    /// The frequencies Ω = ∂K/∂I at actions: of a saddle the rate, of a quartet rate and frequency.
+    /// The frequencies Ω = ∂K/∂I at actions. For a saddle Ω is the rate; for a quartet it is rate and frequency.
     ///
     /// Parameters
     /// ----------
@@ -377,10 +377,10 @@ impl BirkhoffNormalForm {
         Rows::new("actions", actions, n)?.map(n, |actions| map.frequencies(actions))
     }
 
-    /// The states at times after that of `state`, by the motion of the normal form.
+    /// Propagates a state by the normal form to times after the state.
     ///
-    /// Where K is a function of the actions, these are constant and the angles move uniformly with their frequencies. With resonant terms K is
-    /// integrated: SciPy's DOP853 at a relative tolerance of 1e-12, in the new variables.
+    /// If K is a function of the actions, the actions are constant and the angles move uniformly. With resonant terms SciPy's DOP853 integrates
+    /// the equations of K in the new variables at a relative tolerance of 1e-12.
     ///
     /// Parameters
     /// ----------
@@ -418,10 +418,10 @@ impl BirkhoffNormalForm {
         Ok(result.into_any())
     }
 
-    /// A part of this normal form as SymPy expressions. SymPy is imported here and nowhere else.
+    /// Converts a part of this normal form to SymPy expressions. This method imports SymPy.
     ///
-    /// Symbols are those that `normalize` was given, with their assumptions, or of the names of variables and parameters; ``I_q`` is the action of
-    /// (q, p). They are the new variables in "direct", the old ones in "inverse". `sympy.ccode` and `lambdify` lead on from there.
+    /// The symbols are those given to `normalize`, with their assumptions, or have the names of variables and parameters; ``I_q`` is the action of
+    /// (q, p). They are the new variables in "direct" and the old variables in "inverse". `sympy.ccode` and `lambdify` accept these expressions.
     ///
     /// Parameters
     /// ----------
@@ -438,7 +438,7 @@ impl BirkhoffNormalForm {
     /// InputError
     ///     ``"lagrangian"``.
     /// ImportError
-    ///     SymPy is not installed: the extra ``andoyer[sympy]`` brings it.
+    ///     SymPy is not installed; the extra ``andoyer[sympy]`` installs it.
     ///
     /// Examples
     /// --------
@@ -450,24 +450,24 @@ impl BirkhoffNormalForm {
         slf.py().import("andoyer._symbolic")?.call_method1("birkhoff", (slf, what, &slf.get().symbols))
     }
 
-    /// This normal form as JSON text, with a format version: exact numbers as "p/q" strings, floats with all their digits.
+    /// Writes this normal form as JSON text with a format version: exact numbers as "p/q" strings, floats with all their digits.
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {
         detached(py, error::algebra, || either!(&self.form, form => form.to_json()))
     }
 
-    /// Reads what `to_json` wrote, and computes it anew to compare every coefficient.
+    /// Reads a normal form from the text of `to_json`, and computes the form again to compare every coefficient.
     ///
     /// Parameters
     /// ----------
     /// text : str
     /// symbols : dict of {str: sympy.Symbol}, optional
-    ///     What `to_sympy` puts for the names.
+    ///     The symbols that `to_sympy` uses for the names.
     ///
     /// Raises
     /// ------
     /// FileError
-    ///     Not JSON, another format or version, a term that no normal form has; a coefficient that the normal form of the Hamiltonian in the text does not have, among
-    ///     floats by 1e-8 of the largest of its order.
+    ///     A text that is not JSON; another format or version; a term that a normal form cannot have; a coefficient that differs from the computed one (for floats by more than
+    ///     1e-8 of the largest of its order).
     ///
     /// Examples
     /// --------
@@ -482,14 +482,14 @@ impl BirkhoffNormalForm {
         Ok(Self::new(form, symbols.unwrap_or_else(|| PyDict::new(py)).unbind()))
     }
 
-    /// From a pickle, whose text this program wrote itself.
+    /// Rebuilds a form from a pickle, whose text this program wrote.
     #[staticmethod]
     fn _restored(py: Python<'_>, text: &str, symbols: Bound<'_, PyDict>) -> PyResult<Self> {
         let form = detached(py, error::algebra, || Form::restored(text))?;
         Ok(Self::new(form, symbols.unbind()))
     }
 
-    /// A part of this normal form as LaTeX, for a document that uses amsmath.
+    /// Writes a part of this normal form as LaTeX, for a document that uses amsmath.
     ///
     /// Parameters
     /// ----------
@@ -506,10 +506,10 @@ impl BirkhoffNormalForm {
         detached(py, error::algebra, || either!(&self.form, form => form.to_latex(part)))
     }
 
-    /// Functions that evaluate this normal form, as the text of a file of source that needs nothing but its language.
+    /// Writes a source file with functions that evaluate this normal form. The file needs only the standard library of its language.
     ///
-    /// ``from_normal(normal)`` and ``to_normal(state)`` transform arrays q₁, p₁, q₂, …; ``actions(normal)`` gives the actions, ``frequencies(actions)`` the rates
-    /// ∂K/∂I, which is left out where K has resonant terms. Parameters are an array after the first argument.
+    /// ``from_normal(normal)`` and ``to_normal(state)`` transform arrays q₁, p₁, q₂, …; ``actions(normal)`` returns the actions, and ``frequencies(actions)`` the rates
+    /// ∂K/∂I. ``frequencies`` is absent if K has resonant terms. Parameters are an array after the first argument.
     ///
     /// Parameters
     /// ----------
@@ -538,7 +538,7 @@ impl BirkhoffNormalForm {
         Ok((slf.get_type().getattr("_restored")?, (form.to_json(py)?, form.symbols.clone_ref(py))))
     }
 
-    /// Order, variables, kind of numbers, and where there are no parameters the last radius of the domain.
+    /// Order, variables, kind of numbers and, if there are no parameters, the last radius of the domain.
     fn __repr__(&self) -> String {
         let (space, numbers) = (self.space(), if self.exact() { "exact" } else { "float" });
         let radii = either!(&self.form, form => form.domain(&[])).map(|domain| domain.radii()).unwrap_or_default();
@@ -547,7 +547,7 @@ impl BirkhoffNormalForm {
         format!("<BirkhoffNormalForm of order {} in {}, {numbers}{radius}>", self.order(), space.names().join(", "))
     }
 
-    /// K as text, in the actions or, with resonant terms, in the complex variables.
+    /// K as text, in the actions or, if it has resonant terms, in the complex variables.
     fn __str__(&self, py: Python<'_>) -> PyResult<String> {
         detached(py, |never: Infallible| match never {}, || Ok(either!(&self.form, form => form.to_string())))
     }
@@ -587,7 +587,7 @@ impl BirkhoffNormalForm {
         }
     }
 
-    /// The maps at numbers for the parameters, built once for the same numbers in a row.
+    /// The maps for given numbers of the parameters; the maps last used are kept.
     fn map(&self, py: Python<'_>, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Arc<BirkhoffMap>> {
         let values = self.values(parameters)?;
         let held = || self.map.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -622,7 +622,7 @@ impl BirkhoffNormalForm {
     }
 }
 
-/// A real frequency as its number, any other as a complex one.
+/// A frequency as a real number if it is real, otherwise as a complex number.
 fn frequency<'py, R: RealField + IntoPyObject<'py>>(
     py: Python<'py>,
     omega: &Complex<R>,

@@ -1,6 +1,6 @@
-//! Computing without the interpreter lock: the one place where a panic, which is a fault of this package, becomes an `InternalError`.
+//! Computation without the interpreter lock. Only here a panic, which is a fault of this package, becomes an `InternalError`.
 //!
-//! PyO3 would make a `PanicException` of it, which is no `Exception` and ends programs that handle their errors.
+//! PyO3 would raise a `PanicException`, which is not an `Exception` and therefore ends programs that handle their errors.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,23 +13,23 @@ use pyo3::prelude::*;
 
 use crate::error::InternalError;
 
-/// What `compute` returns, without the interpreter lock; an error of it as `exception` says.
+/// Runs `compute` without the interpreter lock and returns its result. `exception` converts its error.
 pub(crate) fn detached<T: Send, E: Send>(
     py: Python<'_>,
     exception: impl FnOnce(E) -> PyErr,
     compute: impl FnOnce() -> Result<T, E> + Send,
 ) -> PyResult<T> {
-    // What a panic leaves half done is dropped with it, or is the caller's output array.
+    // Incomplete results of a panic are dropped, except those in the output array of the caller.
     #[expect(clippy::disallowed_methods, reason = "this is where panics are caught")]
     let outcome = py.detach(|| catch_unwind(AssertUnwindSafe(compute)));
     outcome.map_err(|panic| internal(&*panic))?.map_err(exception)
 }
 
-/// How often the main thread looks for Ctrl-C while another computes.
+/// Time between two checks of the main thread for Ctrl-C while another thread computes.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// As [`detached`]. What is `long` is computed by a thread of its own, while this one looks for signals and sets the flag that `compute` is given when a
-/// handler raises: Python runs handlers in the main thread alone. Starting the thread takes 30 µs.
+/// As [`detached`]. A `long` call is computed by its own thread. Meanwhile this thread checks for signals, because Python runs signal handlers only in the main thread. If a
+/// handler raises, this thread sets the stop flag of `compute`. Starting the thread takes 30 µs.
 pub(crate) fn interruptible<T: Send, E: Send>(
     py: Python<'_>,
     long: bool,
@@ -64,7 +64,7 @@ pub(crate) fn interruptible<T: Send, E: Send>(
     match (raised, outcome, work) {
         (Some(raised), ..) => Err(raised),
         (None, Some(outcome), _) => outcome.map_err(|panic| internal(&*panic))?.map_err(exception),
-        // The system gave no thread.
+        // The system could not start a thread.
         (None, None, Some(compute)) => detached(py, exception, || compute(&stop)),
         (None, None, None) => Err(InternalError::new_err("a fault of this package, please report it: no result")),
     }
@@ -76,7 +76,7 @@ fn internal(panic: &(dyn Any + Send)) -> PyErr {
     InternalError::new_err(format!("a fault of this package, please report it: {text}"))
 }
 
-/// Fails as a fault of this package would, for the test of that.
+/// Panics like a fault of this package, for a test.
 #[pyfunction]
 pub(crate) fn _panic(py: Python<'_>, text: &str) -> PyResult<()> {
     #[expect(clippy::panic, reason = "this is what it is for")]

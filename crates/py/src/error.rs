@@ -1,7 +1,7 @@
-//! The exceptions, and which error of the Rust crates becomes which: its kind says it.
+//! The Python exceptions, and the conversion of the errors of the Rust crates by their kind.
 //!
-//! `Error` is a `ValueError`; there is one subclass of it for each thing that a caller would handle differently. Message, argument, value and bound are those of
-//! the Rust error. What is not an array-like of numbers, no `Body` or no string where one is due, stays Python's own `TypeError`.
+//! `Error` is a `ValueError`. It has one subclass for each kind of error that a caller would handle differently. Message, argument, value and bound are those of
+//! the Rust error. An argument of a wrong type (not an array-like of numbers, not a `Body`, not a string) is a `TypeError` of Python.
 
 use std::ffi::CString;
 
@@ -17,9 +17,9 @@ create_exception!(
     andoyer,
     Error,
     PyValueError,
-    "The base of every error of this package.\n\nAttributes\n----------\nargument : str or None\n    Name of the argument.\nvalue\n    The value given, or the number computed from it.\nbound\n    What the value must be: a number, (lower, upper) or words.\nindex : int\n    Place of the member, in an error of a member of an ensemble alone."
+    "The base of every error of this package.\n\nAttributes\n----------\nargument : str or None\n    Name of the argument.\nvalue\n    The given value, or a number computed from it.\nbound\n    The bound of the value: a number, (lower, upper) or words.\nindex : int\n    Number of the member; only errors of members of an ensemble have it."
 );
-create_exception!(andoyer, InputError, Error, "An argument that is wrong.");
+create_exception!(andoyer, InputError, Error, "An invalid argument.");
 create_exception!(andoyer, FileError, Error, "A scene file or a JSON text that cannot be read.");
 create_exception!(
     andoyer,
@@ -31,7 +31,7 @@ create_exception!(
     andoyer,
     TheoryError,
     Error,
-    "No theory holds: the series near the separatrix, a spin resonance, a torque too strong, a motion without averaging, a small divisor or a Hamiltonian that cannot be diagonalized."
+    "No theory holds: series near the separatrix, a spin resonance, a torque that is too strong, a motion that cannot be averaged, a small divisor, or a Hamiltonian that cannot be diagonalized."
 );
 create_exception!(andoyer, InternalError, Error, "A fault of this package: no input should lead to it.");
 
@@ -39,23 +39,23 @@ create_exception!(
     andoyer,
     ToleranceWarning,
     PyUserWarning,
-    "A motion, or members of an ensemble, whose error bound exceeds the tolerance over the span."
+    "The error bound of a motion, or of members of an ensemble, exceeds the tolerance over the span."
 );
 
-/// Warns with a sentence, if there is one, at the line that called.
+/// Issues a `ToleranceWarning` with this text, if there is one, at the line of the caller.
 pub(crate) fn warn_of_tolerance(py: Python<'_>, said: Option<String>) -> PyResult<()> {
     let Some(said) = said else { return Ok(()) };
     let said = CString::new(said)?;
     PyErr::warn(py, &py.get_type::<ToleranceWarning>(), &said, 1)
 }
 
-/// Gives every error the attributes, None where an instance does not say otherwise.
+/// Gives every error class the attributes, with None as their default.
 pub(crate) fn with_attributes(py: Python<'_>) -> PyResult<()> {
     let class = py.get_type::<Error>();
     ["argument", "value", "bound"].into_iter().try_for_each(|name| class.setattr(name, py.None()))
 }
 
-/// The exception of an error in propagation: of a member of an ensemble that of a single body, with the attribute `index`.
+/// The exception for an error of propagation. For a member of an ensemble it is that of a single body, with the attribute `index`.
 pub(crate) fn propagation(error: Propagation) -> PyErr {
     let (value, bound) = (error.value(), error.bound());
     let exception = exception(error.kind(), error.argument(), value, bound, error.to_string());
@@ -65,28 +65,28 @@ pub(crate) fn propagation(error: Propagation) -> PyErr {
     }
 }
 
-/// The exception of an error in the exact algebra.
+/// The exception for an error of the exact algebra.
 pub(crate) fn algebra(error: Algebra) -> PyErr {
     exception(error.kind(), error.argument(), error.value(), error.bound(), error.to_string())
 }
 
-/// The same where the error is that of one argument and does not name it.
+/// The same exception, for an error of one argument that does not name it.
 pub(crate) fn algebra_of(argument: &str, error: Algebra) -> PyErr {
     let message = format!("{argument}: {error}");
     exception(error.kind(), Some(argument), error.value(), error.bound(), message)
 }
 
-/// The same, under the name that the argument has in Python.
+/// The same exception, with the Python name of the argument.
 pub(crate) fn algebra_as(argument: &str) -> impl Fn(Algebra) -> PyErr {
     move |error| exception(error.kind(), Some(argument), error.value(), error.bound(), error.to_string())
 }
 
-/// An argument that is wrong before a Rust crate sees it.
+/// The exception for an invalid argument, before it is passed to a Rust crate.
 pub(crate) fn input(argument: &str, value: impl Into<Value>, bound: impl Into<Value>, message: String) -> PyErr {
     exception(Kind::Input, Some(argument), Some(value.into()), Some(bound.into()), message)
 }
 
-/// An array of a wrong shape.
+/// The exception for an array of a wrong shape.
 pub(crate) fn shape(argument: &str, shape: &[usize], bound: &str) -> PyErr {
     let message = format!("{argument} has shape {}: it must be {bound}", shape_text(shape));
     let lengths: Vec<i64> = shape.iter().filter_map(|&length| length.try_into().ok()).collect();
@@ -121,7 +121,7 @@ pub(crate) fn exception(
     with_attribute(exception, "bound", bound.map(Fact))
 }
 
-/// The exception with one more attribute, or that of setting it.
+/// The exception with one more attribute, or the exception raised by setting it.
 pub(crate) fn with_attribute<T: for<'py> IntoPyObject<'py>>(exception: PyErr, name: &str, value: T) -> PyErr {
     Python::attach(|py| match exception.value(py).setattr(name, value) {
         Ok(()) => exception,

@@ -1,7 +1,7 @@
-//! Polynomials from Python, as texts, dictionaries of exponents or SymPy expressions, and back to it as dictionaries.
+//! Conversion of texts, dictionaries of exponents or SymPy expressions to polynomials, and of polynomials to dictionaries.
 //!
-//! SymPy is never imported: an expression that the caller made is asked for its terms. Numbers are taken at their exact value;
-//! whether a float was among them is told beside.
+//! This module does not import SymPy; it reads the terms of an expression of the caller by its methods. Numbers have their exact value.
+//! A flag tells if one of them was a float.
 
 use andoyer_series::real_field::RealField;
 use andoyer_series::{Coefficient, Monomial, PhaseSpace, Polynomial};
@@ -16,7 +16,7 @@ use crate::error;
 /// A polynomial with the exact values of its coefficients.
 pub(crate) struct Expression {
     pub(crate) polynomial: Polynomial<BigRational>,
-    /// Whether a coefficient was given as a float.
+    /// True if a coefficient was given as a float.
     pub(crate) float: bool,
 }
 
@@ -72,7 +72,7 @@ impl Expression {
             let name = symbol.str()?.to_string();
             let Some(slot) = names.iter().position(|known| *known == name) else {
                 let known = names.join(", ");
-                let message = format!("{argument} contains {name:?}, which is none of {known}");
+                let message = format!("{argument} contains {name:?}, which is not one of {known}");
                 return Err(error::input(argument, name, known, message));
             };
             present.push((slot, symbol));
@@ -98,7 +98,7 @@ impl Expression {
     }
 }
 
-/// A number at its exact value, and whether it is a float: anything but integers, fractions and texts.
+/// The exact value of a number, and true if it is a float. Every number except integers, fractions and texts counts as a float.
 fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<(BigRational, bool)> {
     let refused = || -> PyResult<PyErr> {
         Ok(PyTypeError::new_err(format!(
@@ -114,7 +114,7 @@ fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<(BigRational, bo
         let constant = constant.map_err(|problem| error::algebra_of(argument, problem))?;
         return Ok((constant.as_constant().unwrap_or_else(|| BigRational::integer(0)), false));
     }
-    // Integers and fractions, SymPy's and NumPy's among them.
+    // Integers and fractions, including those of SymPy and NumPy.
     if let (Ok(numerator), Ok(denominator)) = (value.getattr("numerator"), value.getattr("denominator"))
         && let (Ok(numerator), Ok(denominator)) = (numerator.extract::<BigInt>(), denominator.extract::<BigInt>())
         && denominator != BigInt::ZERO

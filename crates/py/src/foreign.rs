@@ -1,7 +1,7 @@
 //! Values of other packages: quantities and times of astropy, rotations of SciPy.
 //!
-//! None of those packages is imported here: a value that has the look of one is handed to `andoyer._foreign`. Lists, tuples, floats and plain arrays,
-//! which most calls pass, are told by their type alone.
+//! This module imports none of these packages. It passes a value that looks like one of theirs to `andoyer._foreign`. Lists, tuples, floats and plain arrays,
+//! the usual arguments, are recognized by their type.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -13,7 +13,7 @@ use pyo3::types::{PyFloat, PyInt, PyList, PyTuple};
 
 use crate::error;
 
-/// `value`, or the numbers in it.
+/// `value`, or the numbers in a value of another package.
 pub(crate) fn plain<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let py = value.py();
     let usual = value.is_exact_instance_of::<PyFloat>()
@@ -35,12 +35,12 @@ fn looks_foreign(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     Ok(value.hasattr(intern!(py, "unit"))? || is_time(value)? || is_rotation(value)?)
 }
 
-/// Whether `value` is a Time or a TimeDelta of astropy, which both are two doubles.
+/// True if `value` is a Time or a TimeDelta of astropy; both consist of two doubles.
 fn is_time(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     value.hasattr(intern!(value.py(), "jd1"))
 }
 
-/// Whether `value` is one, or a list of them. Numbers and plain arrays are told by their type alone: asking for an attribute that is not there takes 0.2 µs.
+/// True if `value` is a value of another package, or a list of such values. Numbers and plain arrays are recognized by their type, because looking up a missing attribute takes 0.2 µs.
 fn holds_times(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     if value.is_exact_instance_of::<PyFloat>()
         || value.is_exact_instance_of::<PyInt>()
@@ -54,14 +54,14 @@ fn holds_times(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     is_time(value)
 }
 
-/// Whether `value` is an array of NumPy that has a mask.
+/// True if `value` is a NumPy array with a mask.
 fn masked(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     let py = value.py();
     let array = value.is_instance_of::<PyUntypedArray>() && !value.is_exact_instance_of::<PyUntypedArray>();
     Ok(array && value.hasattr(intern!(py, "mask"))?)
 }
 
-/// The first entry of a list or a tuple, of however many lists, unless it is a plain number.
+/// The first entry of a list or a tuple, through any number of nested lists, unless it is a plain number.
 fn first_of<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>>> {
     let mut first = value.clone();
     while first.is_exact_instance_of::<PyList>() || first.is_exact_instance_of::<PyTuple>() {
@@ -77,7 +77,7 @@ fn first_of<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>
 /// Julian date TDB as the two doubles of astropy.
 pub(crate) type Calendar = [f64; 2];
 
-/// Times that are counted from epochs: in seconds, as they were given, and the shape that they were given in.
+/// Times relative to epochs: in seconds, as given, and with the given shape.
 pub(crate) type Since<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Vec<usize>);
 
 /// Times of astropy as seconds since the epochs of a state or of each member; None for anything else.
@@ -99,7 +99,7 @@ pub(crate) fn since<'py>(
     Ok(Some(since.call1((argument, value, first, second))?.extract()?))
 }
 
-/// Epochs as numbers, and as calendar times where they are some.
+/// Epochs as numbers, and as calendar times if they are Time objects.
 pub(crate) fn epochs<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<(Bound<'py, PyAny>, Vec<Calendar>)> {
     if !holds_times(value)? {
         return Ok((value.clone(), Vec::new()));
@@ -115,7 +115,7 @@ pub(crate) fn calendar<'py>(py: Python<'py>, epochs: &[Calendar]) -> PyResult<Bo
     py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "calendar"))?.call1((first, second))
 }
 
-/// The sentence for a value that is a date of Python or NumPy, which has no time scale; None for anything else.
+/// The message for a date of Python or NumPy, which has no time scale; None for any other value.
 pub(crate) fn date(argument: &str, value: &Bound<'_, PyAny>) -> Option<PyErr> {
     let (class, first) = (value.get_type(), first_of(value).ok().flatten());
     let name = first.map_or(class, |first| first.get_type());
@@ -134,19 +134,19 @@ pub(crate) fn date(argument: &str, value: &Bound<'_, PyAny>) -> Option<PyErr> {
     })
 }
 
-/// Whether `value` is a rotation, whose quaternion has no order of its own.
+/// True if `value` is a rotation, to which the option `scalar_first` does not apply.
 pub(crate) fn is_rotation(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     value.hasattr(intern!(value.py(), "as_quat"))
 }
 
-/// [x, y, z, w] from [w, x, y, z], if so asked.
+/// [x, y, z, w] from [w, x, y, z], if `scalar_first` is set.
 pub(crate) fn scalar_last(quaternion: &mut [f64; 4], scalar_first: bool) {
     if scalar_first {
         quaternion.rotate_left(1);
     }
 }
 
-/// [w, x, y, z] from [x, y, z, w], if so asked.
+/// [w, x, y, z] from [x, y, z, w], if `scalar_first` is set.
 pub(crate) fn scalar_first(quaternions: &mut [[f64; 4]], asked: bool, stop: &AtomicBool) {
     for part in quaternions.chunks_mut(if asked { 1 << 20 } else { usize::MAX }) {
         if asked && !stop.load(Ordering::Relaxed) {

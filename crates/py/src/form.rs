@@ -1,4 +1,4 @@
-//! A Birkhoff normal form in one kind of numbers or the other, exact or floats.
+//! A Birkhoff normal form with exact numbers or with floats.
 
 use andoyer_series::progress::Progress;
 use andoyer_series::real_field::RealField;
@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use crate::progress;
 
-/// A normal form in one kind of numbers or the other.
+/// A normal form with exact numbers or with floats.
 #[derive(PartialEq)]
 pub(crate) enum Form {
     Exact(Inner<BigRational>),
@@ -49,7 +49,7 @@ pub(crate) fn rounded(polynomial: &Polynomial<BigRational>) -> Polynomial<f64> {
     polynomial.map(RealField::to_float)
 }
 
-/// A function in the variables of the other side.
+/// A function expressed in the variables of the other side.
 pub(crate) fn transformed<R: RealField>(
     py: Python<'_>,
     form: &Inner<R>,

@@ -1,8 +1,8 @@
-//! The iterator over an ensemble, whose members are solved when they are reached.
+//! The iterator over an ensemble. It solves each member when it reaches the member.
 
 use pyo3::prelude::*;
 
-/// The members of a sequence, in order: what ``iter(ensemble)`` gives.
+/// The iterator over the members of an ensemble, from ``iter(ensemble)``.
 #[pyclass(module = "andoyer._core")]
 pub(crate) struct Members {
     sequence: Py<PyAny>,

@@ -11,38 +11,38 @@ use crate::{array, error};
 /// The names of the elements after the mean motion and the eccentricity, in the order of the core's.
 const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argument_of_pericentre", "mass_fraction"];
 
-/// Relative Keplerian orbit of a body whose gravity gradient acts on the rotating one (theory §9).
+/// The relative Keplerian orbit of a body whose gravity gradient acts on the rotating body (theory §9).
 ///
-/// Elements are those of the inertial frame that attitudes lead to. With none but the mean motion: a circle in the x, y plane, the disturbing body on
+/// The elements refer to the inertial frame of the attitudes. With the mean motion alone, the orbit is a circle in the x, y plane with the disturbing body on
 /// the x axis at time 0.
 ///
 /// Parameters
 /// ----------
 /// mean_motion : float
-///     n, in rad per unit of time; n²a³ is G times the sum of both masses.
+///     Mean motion n, in rad per unit of time; n²a³ is G times the sum of both masses.
 /// eccentricity : float, optional
-///     0 or more and less than 1.
+///     Eccentricity e, 0 ≤ e < 1.
 /// time_of_pericentre : float, optional
-///     A time at which the pericentre is passed.
+///     A time of passage through the pericentre.
 /// inclination, node, argument_of_pericentre : float, optional
-///     Of the orbit plane and in it, in rad.
+///     Inclination of the orbit plane, longitude of the ascending node, and argument of the pericentre from the node, in rad.
 /// mass_fraction : float, optional
-///     Disturbing mass over the sum of both: 1 for the Sun on an asteroid, 1/82.3 for the Moon on the Earth.
+///     Disturbing mass divided by the sum of both masses: 1 for the Sun on an asteroid, 1/82.3 for the Moon on the Earth.
 /// node_rate, pericentre_rate : float, optional
-///     Secular rates of the node, about inertial axis 3, and of the argument of the pericentre, in rad per unit of time. `node` and `argument_of_pericentre` are then
-///     those at `time_of_pericentre`, and `mean_motion` is the rate of the mean anomaly. Such an orbit is integrated, and needs a span.
+///     Secular rates of the node (about inertial axis 3) and of the argument of the pericentre, in rad per unit of time. `node` and `argument_of_pericentre` are then
+///     the values at `time_of_pericentre`, and `mean_motion` is the rate of the mean anomaly. A motion with such an orbit is integrated and needs a span.
 /// attraction : float, optional
 ///     G × disturbing mass / a³, in 1/time², instead of mean_motion² × mass_fraction.
 ///
 /// Warns
 /// -----
 /// UserWarning
-///     An inclination, node or argument beyond 2π: degrees by mistake.
+///     An inclination, node or argument beyond 2π, which is probably in degrees.
 ///
 /// Raises
 /// ------
 /// InputError
-///     A mean motion of 0 or -1, an eccentricity of 1 or -0.1, a mass fraction of 0 or 1.1, an attraction of 0, or what is not finite.
+///     A mean motion or an attraction that is not positive; an eccentricity outside 0 ≤ e < 1; a mass fraction that is not positive or is above 1; a value that is not finite.
 /// TypeError
 ///     A text.
 ///
@@ -96,26 +96,26 @@ impl Orbit {
 
     /// The orbit of a satellite about an oblate primary, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3).
     ///
-    /// With n0² = GM/a³, p = a (1 − e²) and k = (3/2) n0 J2 (R/p)² the node turns by −k cos i, the argument of the pericentre by k (2 − (5/2) sin² i), and the mean anomaly by
-    /// n0 + k √(1 − e²) (1 − (3/2) sin² i), which is `mean_motion`. Periodic terms, of relative size J2 (R/p)², are left out. Nothing here knows whether the orbit meets the
-    /// ground: the radius is that of J2.
+    /// Let n0² = GM/a³, p = a (1 − e²) and k = (3/2) n0 J2 (R/p)². The rate of the node is −k cos i, the rate of the argument of the pericentre is k (2 − (5/2) sin² i), and the rate of the mean anomaly is
+    /// n0 + k √(1 − e²) (1 − (3/2) sin² i), which is `mean_motion`. Periodic terms of relative size J2 (R/p)² are omitted. The function does not check that the orbit is above the
+    /// ground, because the radius is only the reference radius of J2.
     ///
     /// Parameters
     /// ----------
     /// gm : float
     ///     G × mass of the primary, in length³/time².
     /// semi_major_axis : float
-    ///     The mean one, in units of length.
+    ///     Mean semi-major axis a, in units of length.
     /// eccentricity : float
     ///     0 or more and less than 1.
     /// inclination : float
-    ///     To the equator of the primary, which is the inertial x, y plane, in rad.
+    ///     Inclination i to the equator of the primary, which is the inertial x, y plane, in rad.
     /// j2 : float
     ///     J2 of the primary.
     /// radius : float
     ///     The reference radius of J2, in units of length.
     /// node, argument_of_pericentre : float, optional
-    ///     At `time_of_pericentre`, in rad.
+    ///     Longitude of the node and argument of the pericentre at `time_of_pericentre`, in rad.
     /// time_of_pericentre : float, optional
     ///     A time at which the pericentre is passed.
     ///
@@ -126,11 +126,11 @@ impl Orbit {
     /// Raises
     /// ------
     /// InputError
-    ///     A gm, a semi-major axis or a radius of 0, an eccentricity of 1, what is not finite, or a J2 that leaves no positive mean motion.
+    ///     A gm, a semi-major axis or a radius that is not positive; an eccentricity outside 0 ≤ e < 1; a value that is not finite; a J2 for which the mean motion is not positive.
     ///
     /// Examples
     /// --------
-    /// At 500 km and 51.6° the node turns by −4.75° a day:
+    /// At a height of 500 km and an inclination of 51.6° the rate of the node is −4.75° a day:
     ///
     /// >>> import math
     /// >>> orbit = Orbit.around_oblate(3.986004415e14, 6878136.3, 0.001, math.radians(51.6), j2=1.08262668e-3, radius=6378136.3)
@@ -174,7 +174,7 @@ impl Orbit {
         self.0.elements()[1]
     }
 
-    /// A time at which the pericentre is passed.
+    /// A time of passage through the pericentre.
     #[getter]
     fn time_of_pericentre(&self) -> f64 {
         self.0.elements()[2]
@@ -198,7 +198,7 @@ impl Orbit {
         self.0.elements()[5]
     }
 
-    /// Disturbing mass over the sum of both.
+    /// Disturbing mass divided by the sum of both masses.
     #[getter]
     fn mass_fraction(&self) -> f64 {
         self.0.elements()[6]
@@ -253,7 +253,7 @@ impl Orbit {
 }
 
 impl Orbit {
-    /// The keyword arguments that make this orbit; rates and attraction only where they are given.
+    /// The keyword arguments of this orbit; rates and attraction only if they were given.
     fn keywords(&self) -> Vec<(&'static str, f64)> {
         let [_, _, rest @ ..] = self.0.elements();
         let [node_rate, pericentre_rate] = self.0.rates();
@@ -264,7 +264,7 @@ impl Orbit {
     }
 }
 
-/// Warns of angles beyond a whole turn, which are often degrees.
+/// Warns of angles beyond a whole turn, which are probably in degrees.
 pub(crate) fn doubt(py: Python<'_>, orbit: &andoyer_propagate::Orbit) -> PyResult<()> {
     for (argument, angle) in orbit.beyond_a_turn() {
         let said =

@@ -1,4 +1,4 @@
-//! Whole numbers from Python: anything with `__index__` but a boolean, of any size and sign.
+//! Whole numbers from Python: any object with `__index__` except a boolean, of any size and sign.
 
 use andoyer_series::error::{Kind, Value};
 use pyo3::exceptions::PyTypeError;
@@ -13,8 +13,8 @@ pub(crate) fn order(argument: &str, value: &Bound<'_, PyAny>, minimum: usize, ma
     whole_number(argument, value, minimum, maximum, above)
 }
 
-/// `value` as a number. Whether it is within `minimum..=maximum` the Rust side says; here only what no `usize` can hold is refused, with an error of the kind
-/// `above` where it is too large.
+/// `value` as a number. The Rust crates check that it is within `minimum..=maximum`. This function refuses only a value that does not fit a `usize`, with an error of the kind
+/// `above` if it is too large.
 pub(crate) fn whole_number(
     argument: &str,
     value: &Bound<'_, PyAny>,

@@ -1,4 +1,4 @@
-//! Progress callbacks: Python hears of every order once, and Ctrl-C is noticed while the series are computed.
+//! Progress callbacks: the callback is called once for each order, and Ctrl-C is checked while the series are computed.
 
 use std::ops::ControlFlow;
 
@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use crate::computing::detached;
 use crate::error;
 
-/// What `compute` returns, without the interpreter lock. An exception in `progress` stops it and is raised here.
+/// Runs `compute` without the interpreter lock and returns its result. An exception in `progress` stops the computation and is raised here.
 pub(crate) fn reported<T: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
@@ -17,7 +17,7 @@ pub(crate) fn reported<T: Send>(
 ) -> PyResult<T> {
     let mut told = None;
     let mut failure = None;
-    // Asked before every cell of the triangle.
+    // Called before every cell of the triangle.
     let mut tell = |done: usize, of: usize| {
         let result = Python::attach(|py| {
             py.check_signals()?;

@@ -82,24 +82,24 @@ impl Scene {
         Ok(Self { scene, tables: body.tables.clone(), calendar })
     }
 
-    /// The torque-free state of a body that tumbles with these periods (theory §7): for a mode there is one.
+    /// The scene of a torque-free body that tumbles with these periods (theory §7). In each mode there is one such motion.
     ///
     /// Parameters
     /// ----------
     /// body : Body
     /// precession : float
-    ///     P_φ, of the precession of an axis about the angular momentum.
+    ///     P_φ, the mean period with which an axis precesses about the angular momentum, in units of time.
     /// rotation : float
-    ///     P_ψ, of the rotation about this axis, or of its oscillation.
+    ///     P_ψ, the mean period of the rotation about this axis, or of the oscillation about it, in units of time.
     /// mode : {"short-axis", "long-axis"}, optional
     ///     The axis that the angular momentum circles.
     /// convention : {"extremal-axis", "long-axis", "short-axis"}, optional
-    ///     Whose periods they are: by default those of the mode's own axis, as light-curve papers give them; radar papers give those of the long axis.
+    ///     The axis of the periods. The default is the axis of the mode, as in light-curve papers; radar papers use the long axis.
     /// momentum_direction : array_like, shape (3,) or (2,), optional
     ///     Direction of the angular momentum: inertial components of any length, or (longitude, latitude) in rad; by default inertial axis 3.
     /// phases : (float, float), optional
-    ///     Parts of P_ψ and P_φ, in turns, that have gone by at the epoch. At (0, 0) the mode's axis is nearest to the angular momentum, tilted towards
-    ///     (inertial axis 3) × momentum, or towards inertial axis 1 where the momentum is along axis 3.
+    ///     Phases of P_ψ and P_φ at the epoch, in turns. At (0, 0) the axis of the mode is nearest to the angular momentum, tilted towards
+    ///     (inertial axis 3) × momentum, or towards inertial axis 1 if the momentum is along axis 3.
     /// epoch : float, optional
     ///     Time of the state.
     /// **options
@@ -108,8 +108,8 @@ impl Scene {
     /// Raises
     /// ------
     /// InputError
-    ///     A ratio P_ψ/P_φ that the body cannot have; the message has the interval that it can, as `Body.period_ratios`. A mode that a round body does not have; a period,
-    ///     a direction or phases that are none.
+    ///     A ratio P_ψ/P_φ that the body cannot have; the message states the interval of `Body.period_ratios`. A mode that an axisymmetric body does not
+    ///     have. A period that is not positive, a direction of length 0, a value that is not finite.
     ///
     /// Examples
     /// --------
@@ -156,7 +156,7 @@ impl Scene {
         with_options(class, body, (&scene, epoch), options)
     }
 
-    /// The scene whose Andoyer variables at the epoch are these: the inverse of `Motion.andoyer` (theory §1).
+    /// The scene with given Andoyer variables at the epoch (theory §1). It is the inverse of `Motion.andoyer`.
     ///
     /// Parameters
     /// ----------
@@ -195,7 +195,7 @@ impl Scene {
         with_options(class, body, (&scene, epoch), options)
     }
 
-    /// The scene of a TOML file.
+    /// Reads a scene from a TOML file.
     ///
     /// Parameters
     /// ----------
@@ -204,7 +204,7 @@ impl Scene {
     /// Raises
     /// ------
     /// FileError
-    ///     No such file, no TOML, an unknown or missing key, a value that no scene has; the message names file, key and bound.
+    ///     A missing file, a file that is not TOML, an unknown or missing key, a value outside its bound. The message names file, key and bound.
     #[classmethod]
     fn from_toml(class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
         let scene = andoyer_propagate::Scene::from_toml(path).map_err(error::propagation)?;
@@ -216,31 +216,31 @@ impl Scene {
         Ok(Self::from(scene))
     }
 
-    /// The scene as TOML text, which `from_toml` reads back from a file to an equal scene.
+    /// Writes the scene as TOML text. `from_toml` reads this text from a file as an equal scene.
     fn to_toml(&self) -> String {
         self.scene.to_toml()
     }
 
-    /// The motion: everything that does not depend on time is done here, once.
+    /// Solves the scene: computes everything that does not depend on time, and returns the motion.
     ///
     /// Warns
     /// -----
     /// ToleranceWarning
-    ///     Once, with both numbers, where the error bound exceeds the tolerance over the span (`Plan.meets_tolerance`).
+    ///     The error bound exceeds the tolerance over the span (`Plan.meets_tolerance`); the warning has both numbers.
     ///
     /// Raises
     /// ------
     /// TheoryError
-    ///     ``method="series"`` where the tolerance needs an order above 60, so near is the separatrix, or on it.
-    ///     Without a span, or with a method, an averaging or a level of the theory: an orbit that is in resonance with the rotation, or not much slower (the message names the
-    ///     pair (k−j, m)); an orbit whose torque is too strong for an expansion in it; an orbit, and a motion too near the separatrix, a body at rest or on its middle axis, or
-    ///     a round one that turns about an axis across; or more orbits than `averaging="spin"` solves. With a span ``method="auto"`` integrates these.
+    ///     ``method="series"`` if the motion is on the separatrix, or so near it that the tolerance needs an order above 60.
+    ///     Without a span, or with a fixed method, averaging or level: an orbit that is in resonance with the rotation or not much slower (the message names the
+    ///     pair (k−j, m)); a torque that is too strong for an expansion; an orbit with a motion too near the separatrix, a body at rest or rotating about its middle axis, or
+    ///     an axisymmetric body that rotates about a perpendicular axis; more orbits than ``averaging="spin"`` can solve. With a span ``method="auto"`` integrates these motions.
     ///     ``method="closed"`` or ``"series"`` with several orbits, a table, or an orbit with secular rates.
-    ///     An integration of more than 8,388,608 steps on one side of the epoch; one at whose end nearby states have separated so far that nothing is known.
+    ///     An integration with more than 8,388,608 steps on one side of the epoch, or one that is so unstable that the final state is unknown.
     /// InputError
-    ///     An integration without a span, or with one that a `TabulatedOrbit` does not cover.
+    ///     An integration without a span, or with a span that a `TabulatedOrbit` does not cover.
     /// RepresentationError
-    ///     The angular momentum, moment × rate, is no normal double: ``1e-200 * 1e-200``.
+    ///     The angular momentum, moment × rate, is not a normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {
         let motion = self.solved(py)?;
         error::warn_of_tolerance(py, motion.plan().missed_tolerance())?;
@@ -271,7 +271,7 @@ impl Scene {
         self.scene.state().epoch
     }
 
-    /// The attitude error asked for, in rad.
+    /// The requested attitude error, in rad.
     #[getter]
     fn tolerance(&self) -> f64 {
         self.scene.asked_tolerance()
@@ -289,7 +289,7 @@ impl Scene {
         self.scene.asked_order()
     }
 
-    /// The times over which the tolerance is asked for: (start, stop), or None.
+    /// The span, the times over which the tolerance is requested: (start, stop), or None.
     #[getter]
     fn span(&self) -> Option<(f64, f64)> {
         self.scene.asked_span()
@@ -325,7 +325,7 @@ impl Scene {
         self.scene.asked_name()
     }
 
-    /// Where the figures come from, or None.
+    /// The source of the figures, or None.
     #[getter]
     fn source(&self) -> Option<&str> {
         self.scene.asked_source()
@@ -403,7 +403,7 @@ fn with_options<'py>(
     class.call((body, attitude, rates), Some(&keywords))
 }
 
-/// What is said of a body that is none.
+/// The message for an argument that is not a `Body`.
 fn not_a_body(value: &Bound<'_, PyAny>) -> PyErr {
     PyTypeError::new_err(format!("body must be an andoyer.Body: got {}; use Body([A, B, C])", kind(value)))
 }
@@ -431,7 +431,7 @@ fn disturbing_body<'py>(py: Python<'py>, body: &DisturbingBody) -> PyResult<Boun
     }
 }
 
-/// What is said of an orbit that is none.
+/// The message for an argument that is not an `Orbit`.
 fn not_an_orbit(value: &Bound<'_, PyAny>) -> PyErr {
     let said = "orbit must be an andoyer.Orbit, a TabulatedOrbit, a sequence of them or None: got";
     PyTypeError::new_err(format!("{said} {}; use Orbit(mean_motion)", kind(value)))

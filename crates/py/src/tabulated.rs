@@ -10,24 +10,24 @@ use crate::array::{constant, constant_rows, number, numbers_of, vectors};
 use crate::error;
 use crate::foreign;
 
-/// Position of a disturbing body relative to the rotating one, as a table; only for the integrated method.
+/// A table of the position of a disturbing body relative to the rotating body. Only the integrated method uses it.
 ///
-/// Between two times the position is the polynomial of degree seven through the eight nearest ones. `Plan.error_bound` contains the effect of the interpolation, which is
-/// measured with the polynomial of degree five. The span and the epoch of a scene must lie within the times.
+/// Between two times the position is the polynomial of degree seven through the eight nearest positions. `Plan.error_bound` includes the error of the interpolation, which is
+/// estimated with the polynomial of degree five. The span and the epoch of a scene must be within the times.
 ///
 /// Parameters
 /// ----------
 /// times : array_like, shape (n,), or astropy.time.Time
-///     Times, increasing; eight at least. Of a Time seconds since J2000 (TDB).
+///     At least eight increasing times. A Time is converted to TDB seconds since J2000.
 /// positions : array_like, shape (n, 3)
-///     From the rotating body to the disturbing one, inertial components, in any unit of length.
+///     Positions of the disturbing body relative to the rotating body, in inertial components and any unit of length.
 /// gm : float
 ///     G × mass of the disturbing body, in length³/time².
 ///
 /// Raises
 /// ------
 /// InputError
-///     Seven times, times that do not increase, positions of another number, a position at the origin, a gm of 0, what is not finite.
+///     Fewer than eight times; times that do not increase; another number of positions; a position at the origin; a gm that is not positive; a value that is not finite.
 ///
 /// Examples
 /// --------

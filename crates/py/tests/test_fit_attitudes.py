@@ -47,6 +47,19 @@ def test_known_answers_lie_within_the_covariance(truth):
     assert 12 * 292 - 330 < chi_squares < 12 * 292 + 330
 
 
+def test_covariance_is_the_inverse_of_the_information():
+    """The information from differences of motions: central, with a step of 1e-6."""
+    sigma, step = 0.01, 1e-6
+    found = fit.attitudes(TRUTH, TIMES, TRUTH.solve().attitude(TIMES), sigma=sigma, free=("attitude", "angular_velocity"))
+
+    def attitudes(change):
+        attitude = Rotation.from_quat(list(found.scene.attitude)) * Rotation.from_rotvec(change[:3])
+        return Scene(found.scene.body, attitude, found.scene.angular_velocity + change[3:]).solve().rotation(TIMES)
+
+    slopes = [(attitudes(-step * axis).inv() * attitudes(step * axis)).as_rotvec().ravel() / (2 * step * sigma) for axis in np.eye(6)]
+    assert np.allclose(found.covariance @ (np.array(slopes) @ np.transpose(slopes)), np.eye(6), atol=1e-5)
+
+
 def test_poor_guess_leads_to_the_answer():
     """Rates 20 % off and moments 7 %: at the last time a turn and more away, so the search must take the data in one after the other."""
     guess = Scene(Body([1.0, 1.4, 2.1]), Rotation.from_quat(list(TRUTH.attitude)) * Rotation.from_rotvec([0.05, -0.1, 0.1]), [0.12, 0.18, 1.01])

@@ -93,6 +93,35 @@ def test_derivatives_of_the_projected_residuals_give_the_gradient_of_chi_square(
         assert np.isclose((up - down) / 2e-5, -2 * normal.gradient[0, place], rtol=1e-5, atol=1e-5 * np.abs(normal.gradient).max())
 
 
+def test_normal_equations_are_those_of_the_state_and_the_factor_without_the_factor():
+    """JᵀJ of the projected problem is the Schur complement of the full one, whose derivatives are differences here."""
+    truth, times, sun, observer, values, sigma = observed("short-axis", points=30)
+    curve, _ = _light_curve._curve(times, values, (sun, observer), sigma, None, ("lommel-seeliger", True))
+    state = _light_curve._state_of(truth, AXES, times[0])
+
+    def model(step):
+        axes, attitudes, rates = _search.moved(state, step[None])
+        motion = Scene(Body.ellipsoid(*axes[0]), attitudes[0], rates[0], epoch=times[0]).solve()
+        return fit.brightness(axes[0], motion.attitude(times), sun, observer) / sigma
+
+    base = model(np.zeros(8))
+    factor = base @ (values / sigma) / (base @ base)
+    slopes = factor * np.stack([(model(1e-5 * axis) - model(-1e-5 * axis)) / 2e-5 for axis in np.eye(8)])
+    expected = slopes @ slopes.T - np.outer(slopes @ base, slopes @ base) / (base @ base)
+    found = curve.normal_equations(state).matrix[0]
+    scale = np.sqrt(np.diag(expected))
+    assert np.abs((found - expected) / np.outer(scale, scale)).max() < 1e-6
+
+
+def test_both_modes_are_kept_however_bad_one_is():
+    states = _search.random_states(AXES, (0.8, 1.6), 400, np.random.default_rng(1))
+    short = _search.short_axis(_search.moments_of_ellipsoid(states.axes), states.rates)
+    chi_squares = np.where(short, 1.0, 100.0) + np.arange(400) / 1e3
+    kept = _search.best(_search.Population(states, chi_squares), 60)
+    assert np.sum(kept.chi_squares > 50) == np.sum(kept.chi_squares < 50) == 30
+    assert sorted(kept.chi_squares) == sorted([*np.sort(chi_squares[short])[:30], *np.sort(chi_squares[~short])[:30]])
+
+
 def test_random_states_have_the_periods_and_both_modes():
     states = _search.random_states(AXES, (0.8, 1.6), 400, np.random.default_rng(1))
     modes, periods = [], []

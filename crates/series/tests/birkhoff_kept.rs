@@ -211,6 +211,48 @@ fn floats_print_what_is_significant() -> Result<(), Error> {
     Ok(())
 }
 
+// Drivers behind the emitted text: the state, the normal variables again, actions and frequencies, as numbers with all their digits.
+const C_DRIVER: &str = r#"
+#include <stdio.h>
+
+static void print(const double *numbers, int count)
+{
+    int i;
+    for (i = 0; i < count; i++)
+        printf("%.17g ", numbers[i]);
+}
+
+int main(void)
+{
+    const double normal[SIZE] = {NUMBERS};
+    double state[SIZE], back[SIZE], action[HALF], rate[HALF];
+    from_normal(normal, state);
+    to_normal(state, back);
+    actions(normal, action);
+    frequencies(action, rate);
+    print(state, SIZE);
+    print(back, SIZE);
+    print(action, HALF);
+    print(rate, HALF);
+    return 0;
+}
+"#;
+const RUST_DRIVER: &str = r#"
+fn main() {
+    let normal: [f64; SIZE] = [NUMBERS];
+    let state = from_normal(&normal);
+    let action = actions(&normal);
+    for number in state.iter().chain(&to_normal(&state)).chain(&action).chain(&frequencies(&action)) {
+        print!("{number:?} ");
+    }
+}
+"#;
+const PYTHON_DRIVER: &str = r#"
+normal = [NUMBERS]
+state = from_normal(normal)
+print(*state, *to_normal(state), *actions(normal), *frequencies(actions(normal)))
+"#;
+
 /// The emitted text with a driver that prints, of one state of normal variables, what all functions give.
 fn run(language: Language, form: &BirkhoffNormalForm<f64>, normal: &[f64]) -> Vec<f64> {
     let n = normal.len();
@@ -218,31 +260,14 @@ fn run(language: Language, form: &BirkhoffNormalForm<f64>, normal: &[f64]) -> Ve
     std::fs::create_dir_all(&directory).expect("a directory to build in");
     let text = form.to_code(language).expect("code");
     let numbers = normal.iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(", ");
-    let (half, program) = (n / 2, directory.join("main"));
     let (source, driver) = match language {
-        Language::C => (
-            "main.c",
-            format!(
-                "{text}\n#include <stdio.h>\nint main(void) {{ const double normal[{n}] = {{{numbers}}}; double state[{n}], back[{n}], a[{half}], w[{half}]; int i;\n\
-             from_normal(normal, state); to_normal(state, back); actions(normal, a); frequencies(a, w);\n\
-             for (i = 0; i < {n}; i++) printf(\"%.17g \", state[i]); for (i = 0; i < {n}; i++) printf(\"%.17g \", back[i]);\n\
-             for (i = 0; i < {half}; i++) printf(\"%.17g \", a[i]); for (i = 0; i < {half}; i++) printf(\"%.17g \", w[i]); return 0; }}\n"
-            ),
-        ),
-        Language::Rust => (
-            "main.rs",
-            format!(
-                "{text}\nfn main() {{ let normal = [{numbers}]; let state = from_normal(&normal); let back = to_normal(&state); let a = actions(&normal); let w = frequencies(&a);\n\
-             for x in state.iter().chain(&back).chain(&a).chain(&w) {{ print!(\"{{x:?}} \"); }} }}\n"
-            ),
-        ),
-        _ => (
-            "main.py",
-            format!(
-                "{text}\nnormal = [{numbers}]\nstate = from_normal(normal)\na = actions(normal)\nprint(*state, *to_normal(state), *a, *frequencies(a))\n"
-            ),
-        ),
+        Language::C => ("main.c", C_DRIVER),
+        Language::Rust => ("main.rs", RUST_DRIVER),
+        _ => ("main.py", PYTHON_DRIVER),
     };
+    let driver =
+        driver.replace("SIZE", &n.to_string()).replace("HALF", &(n / 2).to_string()).replace("NUMBERS", &numbers);
+    let (driver, program) = (text + &driver, directory.join("main"));
     std::fs::write(directory.join(source), driver).expect("a file in the directory of the tests");
     let mut command = match language {
         Language::C => std::process::Command::new("cc"),

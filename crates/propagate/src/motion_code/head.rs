@@ -59,5 +59,5 @@ fn named(name: Option<&str>) -> String {
 
 /// Printable ASCII that ends no comment in any of the languages.
 fn ascii(text: &str) -> String {
-    text.chars().map(|c| if c.is_ascii_graphic() && !"*/\\\"".contains(c) || c == ' ' { c } else { '?' }).collect()
+    text.chars().map(|c| if c.is_ascii_graphic() && !"*/\\\"<>".contains(c) || c == ' ' { c } else { '?' }).collect()
 }

@@ -5,6 +5,7 @@
 
 pub(crate) mod circles;
 pub(crate) mod complex_quaternion;
+pub(crate) mod double_double_lanes;
 pub(crate) mod grid;
 pub(crate) mod halt;
 pub(crate) mod instruction_set;

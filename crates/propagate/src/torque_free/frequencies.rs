@@ -13,10 +13,9 @@
 use andoyer_double::{DoubleDouble, arithmetic_geometric_mean};
 
 use super::polhode::Polhode;
+use super::quadrature::{nodes, trapezoidal};
 
-/// Above this number of nodes in a quarter period the logarithmic sum needs fewer terms.
-const MOST_NODES: usize = 1000;
-/// Step of the logarithmic sum. The error of the sum is e^(−π²/step), 1e-33.
+/// Step of the logarithmic sum: its error is e^(−π²/step), 1e-33.
 const LOGARITHMIC_STEP: f64 = 0.125;
 
 /// σ and the mean rates, in the scaled units of the polhode.
@@ -109,43 +108,14 @@ fn means(q1: DoubleDouble, q2: DoubleDouble) -> (DoubleDouble, DoubleDouble, Dou
     let (root1, root2) = (q1.sqrt(), q2.sqrt());
     let agm = arithmetic_geometric_mean(root1, root2);
     let stretch = root1 / root2;
-    // The number of nodes is infinite for a circle, where two nodes are exact.
-    let nodes = (76.0 / (4.0 * stretch.to_f64().min(1.0).sqrt().atanh())).ceil().max(2.0);
-    let (by_anomaly, by_time) =
-        if nodes <= MOST_NODES as f64 { trapezoidal(q1, q2, stretch, nodes as usize) } else { logarithmic(q1, q2) };
+    let (by_anomaly, by_time) = match nodes(stretch.to_f64()) {
+        Some(count) => trapezoidal([q1, q2], stretch, count),
+        None => logarithmic(q1, q2),
+    };
     (by_anomaly, by_time * agm, agm)
 }
 
-/// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(√Q(1+√Q))⟩_ℓ by the trapezoidal rule in φ, tan ℓ = c tan φ with c² = √(Q1/Q2) = `stretch`.
-///
-/// The integrands are analytic in |Im φ| < atanh c. With n nodes in half a turn the error is e^(−2n atanh c). `quarter` is n/2, the number of nodes to compute
-/// by symmetry. Without the stretch by c the strip is atanh c², and many more nodes are needed.
-fn trapezoidal(
-    q1: DoubleDouble,
-    q2: DoubleDouble,
-    stretch: DoubleDouble,
-    quarter: usize,
-) -> (DoubleDouble, DoubleDouble) {
-    let (sine, cosine) = (DoubleDouble::PI.over(4.0 * quarter as f64)).sin_cos();
-    // The nodes are φ = (j + ½)π/2n. In terms of 2φ the first node is π/2n and the step is twice that.
-    let (mut c2, mut s2) = (cosine * cosine - sine * sine, DoubleDouble::from(2.0) * sine * cosine);
-    let step = (c2 * c2 - s2 * s2, DoubleDouble::from(2.0) * s2 * c2);
-    let (mut by_anomaly, mut by_time) = (DoubleDouble::ZERO, DoubleDouble::ZERO);
-    for _ in 0..quarter {
-        let (cos2, sin2) = (DoubleDouble::ONE + c2, DoubleDouble::ONE - c2);
-        let weight = DoubleDouble::ONE / (cos2 + stretch * sin2);
-        let root = ((q1 * cos2 + q2 * stretch * sin2) * weight).sqrt();
-        let term = weight / (DoubleDouble::ONE + root);
-        by_anomaly = by_anomaly + term;
-        by_time = by_time + term / root;
-        (c2, s2) = (c2 * step.0 - s2 * step.1, s2 * step.0 + c2 * step.1);
-    }
-    // cos2 and sin2 are twice the squares, so weight contains a factor ½ and the mean a factor 2c/n.
-    let factor = stretch.sqrt().over(0.5 * quarter as f64);
-    (by_anomaly * factor, by_time * factor)
-}
-
-/// The same two means near the separatrix, by the trapezoidal rule in t = ln tan ℓ.
+/// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(√Q(1+√Q))⟩_ℓ next to the separatrix, by the trapezoidal rule in t = ln tan ℓ.
 ///
 /// dℓ = dt/(2 cosh t) and Q = (Q1 + Q2 e^2t)/(1 + e^2t). The integrands are analytic in |Im t| < π/2 for any Q1, and fall as e^(−|t|) outside the interval
 /// between 0 and ln √(Q1/Q2). The nodes e^t = e^(first) e^(jh) are products, so only two exponentials are computed.
@@ -215,8 +185,9 @@ mod tests {
         for (q1, q2) in [(0.9, 0.95), (0.3, 0.8), (1e-3, 0.7), (1e-6, 0.5)] {
             let (q1, q2) = (DoubleDouble::from(q1), DoubleDouble::from(q2));
             let stretch = q1.sqrt() / q2.sqrt();
-            let nodes = (76.0 / (4.0 * stretch.to_f64().sqrt().atanh())).ceil() as usize;
-            let (a, b) = (trapezoidal(q1, q2, stretch, nodes), logarithmic(q1, q2));
+            // 1e-6 takes more nodes than are kept in a table.
+            let count = nodes(stretch.to_f64()).expect("few enough");
+            let (a, b) = (trapezoidal([q1, q2], stretch, count), logarithmic(q1, q2));
             assert!((a.0 - b.0).to_f64().abs() < 1e-28 * a.0.high, "{q1:?}: {:?} {:?}", a.0, b.0);
             assert!((a.1 - b.1).to_f64().abs() < 1e-28 * a.1.high, "{q1:?}: {:?} {:?}", a.1, b.1);
         }

@@ -9,6 +9,7 @@ pub(crate) mod frequencies;
 pub(crate) mod harmonics;
 pub(crate) mod mode;
 pub(crate) mod polhode;
+pub(crate) mod quadrature;
 pub(crate) mod separatrix;
 pub(crate) mod series;
 pub(crate) mod solution;

@@ -1,12 +1,11 @@
-"""Rotation of rigid bodies by perturbation series in complex variables.
+"""Attitude of rigid bodies, free and under gravity gradient, in closed form; exact and symbolic perturbation series.
 
-The exact side is `NormalForm`: the normal form of the free rigid body to any order; `normalize` finds that of any other polynomial
-Hamiltonian about an equilibrium. The numerical side is `Scene`, a `Body` with its state,
-which is solved into a `Motion` and evaluated at any time; with an `Orbit`, under the gravity gradient of another body; an `Ensemble` is many of
-them. No unit is built in; angles are in rad. Attitudes are unit quaternions
+Numerical part: a `Scene` is a `Body` with its state. It is solved into a `Motion`, which is evaluated at any time. With an `Orbit` the gravity gradient
+of another body acts. An `Ensemble` is many scenes. Exact part: `NormalForm` is the normal form of the free rigid body to any order, and `normalize` finds
+the normal form of any other polynomial Hamiltonian about an equilibrium. Units are any consistent set; angles are in rad. Attitudes are unit quaternions
 [x, y, z, w] that rotate body components into inertial ones.
 
-In every docstring "theory §n" is section n of docs/theory.md, and the scene file is described in docs/scene.md.
+In every docstring "theory §n" is section n of docs/theory.md. docs/scene.md describes the scene file.
 
 >>> import andoyer
 >>> scene = andoyer.Scene(andoyer.Body([1.0, 1.5, 2.0]), [0, 0, 0, 1], [0.1, 0.2, 1.0])
@@ -23,6 +22,7 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 from andoyer._core import (
     BirkhoffNormalForm,
     Body,
+    CassiniState,
     Domain,
     Ensemble,
     Error,
@@ -41,12 +41,13 @@ from andoyer._core import (
     TheoryError,
     ToleranceWarning,
     __version__,
+    cassini_states,
     normalize,
     separatrix_action,
 )
 from andoyer.mean import Frequencies, Periods, PeriodsOfMembers
 
-# Names of the errors before this release. They go in the next one; the base stands where an old class held errors of several new ones.
+# Old names of the errors, which the next release removes. Where an old class had errors of several new classes, its name now means the base class.
 AngularVelocityError = InputError
 AttitudeError = InputError
 AveragingError = Error
@@ -78,6 +79,7 @@ UnknownNameError = InputError
 __all__ = [
     "BirkhoffNormalForm",
     "Body",
+    "CassiniState",
     "Domain",
     "Ensemble",
     "Error",
@@ -99,6 +101,7 @@ __all__ = [
     "TheoryError",
     "ToleranceWarning",
     "__version__",
+    "cassini_states",
     "normalize",
     "separatrix_action",
 ]

@@ -1,4 +1,4 @@
-"""Types of the arguments of the command line: each reads a text or says what it must be."""
+"""Types of the arguments of the command line. Each reads a text or raises an error that states the allowed values."""
 
 import argparse
 import math
@@ -13,7 +13,7 @@ MOST_SAMPLES = 10**9
 
 
 class InputError(Exception):
-    """What the command line was given cannot be done."""
+    """An argument of the command line that cannot be used."""
 
 
 def number(text: str) -> float:
@@ -37,7 +37,7 @@ def count(text: str) -> int:
 
 
 def date(text: str) -> datetime:
-    """A calendar date without a zone, or with Z, which is UTC."""
+    """A calendar date without a zone, or with Z for UTC."""
     return checked(text, datetime.fromisoformat, lambda value: value.utcoffset() in (None, timedelta()), "a date like 2000-01-01T12:00:00, without a zone but Z for UTC")
 
 
@@ -58,7 +58,7 @@ def interpolation(text: str) -> tuple[str, int]:
 
 
 def checked(text: str, read: Callable[[str], Value], accepts: Callable[[Value], bool], expected: str) -> Value:
-    """`text` as `read` reads it, if that is accepted; argparse puts the name of the argument before the message."""
+    """`text`, converted by `read` and checked. argparse puts the name of the argument before the message."""
     refusal = argparse.ArgumentTypeError(f"must be {expected}: got {text!r}")
     try:
         value = read(text)

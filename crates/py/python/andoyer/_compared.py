@@ -1,4 +1,4 @@
-"""Pictures of samples as a file has them, and of the angle between them and a motion."""
+"""Pictures of the samples of a file, and of the angle between them and a motion."""
 
 from typing import TYPE_CHECKING
 
@@ -21,14 +21,14 @@ LEAST_ANGLE = 1e-17
 
 
 def components(samples: Samples, axes: "Axes | None" = None) -> "Axes":
-    """The components of the quaternions over time; between neighbours the sign is the one that makes them continuous.
+    """Draw the components of the quaternions over time. The sign of each quaternion is chosen so that the curves are continuous.
 
     Parameters
     ----------
     samples : Samples
-        Of one motion, or of a file.
+        Samples of one motion, or of a file.
     axes : matplotlib.axes.Axes, optional
-        By default those of a new figure.
+        Axes to draw into; by default those of a new figure.
     """
     axes = axes_or_new(axes)
     table = rows(samples)
@@ -44,7 +44,7 @@ def components(samples: Samples, axes: "Axes | None" = None) -> "Axes":
 
 
 def sampled_rates(samples: Samples, axes: "Axes | None" = None) -> "Axes":
-    """The angular velocities over time, about the body's axes.
+    """Draw the angular velocities about the body axes over time.
 
     Parameters
     ----------
@@ -63,19 +63,21 @@ def sampled_rates(samples: Samples, axes: "Axes | None" = None) -> "Axes":
 
 
 def difference(samples: Samples, motion: Motion | Samples, axes: "Axes | None" = None) -> "Axes":
-    """The angle between samples and a motion at their times, or other samples of the same times, on a logarithmic axis.
+    """Draw the angle between samples and a motion over time, on a logarithmic axis.
 
     Parameters
     ----------
     samples : Samples
+        Samples of one motion, or of a file.
     motion : Motion or Samples
+        A motion, evaluated at the times of `samples`, or other samples at the same times.
     axes : matplotlib.axes.Axes, optional
-        By default those of a new figure.
+        Axes to draw into; by default those of a new figure.
 
     Raises
     ------
     ValueError
-        Samples of other times.
+        The two samples have different times.
     """
     axes = axes_or_new(axes)
     table = rows(samples)
@@ -98,7 +100,7 @@ def angles_between(samples: Samples, motion: Motion | Samples) -> Array:
 
 
 def _at(motion: Motion, samples: Samples, times: Array) -> Samples:
-    """The motion at the times of samples: at calendar times as they are, if the epoch of its state is one, else at the seconds since J2000."""
+    """The motion at the times of samples: at calendar times if the epoch of the motion is one, otherwise at seconds since J2000."""
     try:
         return motion.at(samples.times)
     except InputError:

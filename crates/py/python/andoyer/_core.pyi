@@ -28,13 +28,13 @@ class Error(ValueError):
     argument: str | None
     value: Any
     bound: Any
-    index: int  # only of a member of an ensemble: its place among the members
+    index: int  # only for a member of an ensemble: its number
 
 class FileError(Error):
     """A scene file or a JSON text that cannot be read."""
 
 class InputError(Error):
-    """An argument that is wrong."""
+    """An invalid argument."""
 
 class InternalError(Error):
     """A fault of this package: no input should lead to it."""
@@ -43,10 +43,10 @@ class RepresentationError(Error):
     """Units, times or orders that doubles, exact rationals or memory cannot hold."""
 
 class TheoryError(Error):
-    """No theory holds: the series near the separatrix, a spin resonance, a torque too strong, a motion without averaging, a small divisor or a Hamiltonian that cannot be diagonalized."""
+    """No theory holds: series near the separatrix, a spin resonance, a torque that is too strong, a motion that cannot be averaged, a small divisor, or a Hamiltonian that cannot be diagonalized."""
 
 class ToleranceWarning(UserWarning):
-    """A motion, or members of an ensemble, whose error bound exceeds the tolerance over the span."""
+    """The error bound of a motion, or of members of an ensemble, exceeds the tolerance over the span."""
 
 @final
 class Body:
@@ -109,7 +109,7 @@ class Body:
 
 @final
 class Orbit:
-    """Relative Keplerian orbit of a body whose gravity gradient acts on the rotating one (theory §9)."""
+    """The relative Keplerian orbit of a body whose gravity gradient acts on the rotating body (theory §9)."""
 
     def __new__(
         cls,
@@ -147,7 +147,7 @@ class Orbit:
         """Eccentricity, 0 or more and less than 1."""
     @property
     def time_of_pericentre(self) -> float:
-        """A time at which the pericentre is passed."""
+        """A time of passage through the pericentre."""
     @property
     def inclination(self) -> float:
         """Inclination of the orbit plane, in rad."""
@@ -159,7 +159,7 @@ class Orbit:
         """Argument of the pericentre, from the node, in rad."""
     @property
     def mass_fraction(self) -> float:
-        """Disturbing mass over the sum of both."""
+        """Disturbing mass divided by the sum of both masses."""
     @property
     def node_rate(self) -> float:
         """Secular rate of the node, in rad per unit of time."""
@@ -177,7 +177,7 @@ class Orbit:
 
 @final
 class TabulatedOrbit:
-    """Position of a disturbing body relative to the rotating one, as a table; only for the integrated method."""
+    """A table of the position of a disturbing body relative to the rotating body. Only the integrated method uses it."""
 
     def __new__(cls, times: ArrayLike | Any, positions: ArrayLike, gm: float) -> TabulatedOrbit: ...
     @property
@@ -233,17 +233,17 @@ class Scene:
         epoch: Any = None,
         **options: Any,
     ) -> Scene:
-        """The torque-free state of a body that tumbles with these periods (theory §7): for a mode there is one."""
+        """The scene of a torque-free body that tumbles with these periods (theory §7). In each mode there is one such motion."""
     @classmethod
     def from_andoyer(cls, body: Body, andoyer: ArrayLike, *, epoch: Any = None, **options: Any) -> Scene:
-        """The scene whose Andoyer variables at the epoch are these: the inverse of `Motion.andoyer` (theory §1)."""
+        """The scene with given Andoyer variables at the epoch (theory §1). It is the inverse of `Motion.andoyer`."""
     @classmethod
     def from_toml(cls, path: str | os.PathLike[str]) -> Scene:
-        """The scene of a TOML file."""
+        """Reads a scene from a TOML file."""
     def to_toml(self) -> str:
-        """The scene as TOML text, which `from_toml` reads back from a file to an equal scene."""
+        """Writes the scene as TOML text. `from_toml` reads this text from a file as an equal scene."""
     def solve(self) -> Motion:
-        """The motion: everything that does not depend on time is done here, once."""
+        """Solves the scene: computes everything that does not depend on time, and returns the motion."""
     @property
     def body(self) -> Body:
         """The body."""
@@ -258,7 +258,7 @@ class Scene:
         """The time of the state."""
     @property
     def tolerance(self) -> float:
-        """The attitude error asked for, in rad."""
+        """The requested attitude error, in rad."""
     @property
     def method(self) -> Literal["auto", "series", "closed", "integrated"]:
         """The method: "auto", "series", "closed" or "integrated"."""
@@ -267,7 +267,7 @@ class Scene:
         """The fixed order of the series, or None."""
     @property
     def span(self) -> tuple[float, float] | None:
-        """The times over which the tolerance is asked for: (start, stop), or None."""
+        """The span, the times over which the tolerance is requested: (start, stop), or None."""
     @property
     def orbit(self) -> Orbit | TabulatedOrbit | tuple[Orbit | TabulatedOrbit, ...] | None:
         """The orbit of the disturbing body, an `Orbit` or a `TabulatedOrbit`; of several a tuple of them; or None."""
@@ -282,7 +282,7 @@ class Scene:
         """The name, or None."""
     @property
     def source(self) -> str | None:
-        """Where the figures come from, or None."""
+        """The source of the figures, or None."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
@@ -308,9 +308,9 @@ class Motion:
     def partials(self, times: ArrayLike) -> Partials:
         """Evaluates the derivatives of attitude and angular velocity with respect to the initial state and the moments (theory §12)."""
     def to_code(self, language: Literal["c", "rust", "python", "javascript"] = "c") -> str:
-        """A self-contained function `rotation(time)` that evaluates this motion, as the text of a file of source (theory §8)."""
+        """Writes a source file with a self-contained function `rotation(time)` that evaluates this motion (theory §8)."""
     def _code(self, language: Literal["c", "rust", "python", "javascript"]) -> tuple[str, float, float]:
-        """The same with the bounds of its differences that its head states: of the attitude [rad], of the angular velocity over its length."""
+        """The source file, and the bounds of the differences in its head: of the attitude [rad], and of the angular velocity divided by its length."""
     @property
     def plan(self) -> Plan:
         """The plan: method, order, error bound and other facts about this motion."""
@@ -347,7 +347,7 @@ class Plan:
         """Order N of the series, or of the steps of an integration. It is 0 if there is no series, or if the harmonic oscillator alone meets the tolerance."""
     @property
     def steps(self) -> int:
-        """Steps of the integration; 0 without one."""
+        """Number of steps of the integration; 0 for the other methods."""
     @property
     def harmonics(self) -> int:
         """The highest multiple of the anomaly ℓ′ in the evaluation; 0 if the method has no harmonics."""
@@ -428,7 +428,7 @@ class Partials:
 
 @final
 class Ensemble:
-    """Many bodies with their states, solved and evaluated member by member on all cores, in memory proportional to the result."""
+    """Many bodies with their states. They are solved and evaluated member by member on all cores, in memory proportional to the result."""
 
     def __new__(
         cls,
@@ -445,29 +445,29 @@ class Ensemble:
         scalar_first: bool = False,
     ) -> Ensemble: ...
     def at(self, times: ArrayLike, *, scalar_first: bool = False) -> Samples:
-        """Attitudes and angular velocities of all members, in one pass."""
+        """Evaluates attitudes and angular velocities of all members in one pass."""
     def attitude(self, times: ArrayLike, out: _Array | None = None, *, scalar_first: bool = False) -> _Array:
-        """Attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones."""
+        """Evaluates attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones."""
     def angular_momentum(self, times: ArrayLike) -> _Array:
-        """Angular momenta of all members in inertial components, in the unit of moment × rate: the same at all times unless a member has an orbit."""
+        """Evaluates the angular momenta of all members in inertial components, in the unit of moment × rate. They are constant unless a member has an orbit."""
     def andoyer(self, times: ArrayLike) -> _Array:
-        """Andoyer variables (λ, μ, ν, Λ, M, N) of all members, as `Motion.andoyer` defines them (theory §1)."""
+        """Evaluates the Andoyer variables (λ, μ, ν, Λ, M, N) of all members, as defined in `Motion.andoyer` (theory §1)."""
     def rotation(self, times: ArrayLike) -> Rotation:
-        """Attitudes of all members as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else."""
+        """Evaluates attitudes of all members as a `scipy.spatial.transform.Rotation`, body to inertial. This method imports SciPy."""
     def partials(self, times: ArrayLike) -> Partials:
-        """Derivatives of attitude and angular velocity of all members, as `Motion.partials` defines them (theory §12)."""
+        """Evaluates the derivatives of attitude and angular velocity of all members, as defined in `Motion.partials` (theory §12)."""
     @property
     def periods(self) -> dict[Literal["long-axis", "short-axis", "extremal-axis"], PeriodsOfMembers]:
-        """Mean periods (P_φ, P_ψ) of all members in three conventions, as `Motion.periods` defines them."""
+        """Mean periods (P_φ, P_ψ) of all members in three conventions, as defined in `Motion.periods`."""
     @property
     def energy_ratio(self) -> _Array:
-        """E/E0 of all members, shape (m,): rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum (theory §5)."""
+        """E/E0 of all members, shape (m,): the rotational energy divided by the energy of rotation about the axis of greatest inertia with the same angular momentum (theory §5)."""
     @property
     def plans(self) -> list[Any]:
-        """The plan of every member: a list of `Plan`; with ``errors="nan"`` None for a member that is refused."""
+        """The plan of every member: a list of `Plan`. With ``errors="nan"`` the plan of an invalid member is None."""
     @property
     def errors(self) -> dict[int, Error]:
-        """Why members have no motion: errors by index. All members are solved for it; empty where every member has one."""
+        """The errors of members that have no motion, by index. This property solves all members; it is empty if every member has a motion."""
     @property
     def epochs(self) -> Any:
         """The times of the states: a float for all members, or a read-only array, shape (m,)."""
@@ -476,22 +476,22 @@ class Ensemble:
         """The moments about body axes 1, 2, 3: a read-only array, shape (m, 3)."""
     @property
     def attitudes(self) -> _Array:
-        """The attitudes at time 0 as given: unit quaternions [x, y, z, w], a read-only array, shape (m, 4)."""
+        """The attitudes at the epoch as given: unit quaternions [x, y, z, w], a read-only array, shape (m, 4)."""
     @property
     def angular_velocities(self) -> _Array:
-        """The angular velocities at time 0, in body components, in rad per unit of time: a read-only array, shape (m, 3)."""
+        """The angular velocities at the epoch in body components, in rad per unit of time: a read-only array, shape (m, 3)."""
     @property
     def tolerance(self) -> float:
-        """The attitude error asked for, in rad."""
+        """The requested attitude error, in rad."""
     @property
     def orbits(self) -> Orbit | list[Orbit | None] | None:
         """The orbits: an Orbit for all members, a list of one or None for each, or None."""
     @property
     def span(self) -> tuple[float, float] | None:
-        """The times over which `tolerance` is asked for, or None."""
+        """The span, the times over which `tolerance` is requested, or None."""
     @property
     def threads(self) -> int | None:
-        """The number of threads asked for, or None."""
+        """The requested number of threads, or None."""
     def __len__(self) -> int: ...
     def __iter__(self) -> Iterator[Motion]: ...
     @overload
@@ -538,12 +538,29 @@ class NormalForm:
     def __copy__(self) -> NormalForm: ...
     def __deepcopy__(self, _memo: Any) -> NormalForm: ...
 
+@final
+class CassiniState:
+    """A Cassini state, from `cassini_states`."""
+
+    @property
+    def obliquity(self) -> float:
+        """θ, the angle from the normal of the orbit to the pole of the body [rad], in (−π, π]: positive away from inertial axis 3, in the plane of both."""
+    @property
+    def stable(self) -> bool:
+        """Whether nearby poles stay near."""
+    @property
+    def rate(self) -> float:
+        """Frequency of small librations about a stable state, or the rate at which poles leave an unstable one [rad/time]."""
+    def __eq__(self, other: object, /) -> bool: ...
+
+def cassini_states(body: Body, orbit: Orbit, spin_rate: float) -> list[CassiniState]:
+    """The Cassini states of a body: places of its pole that turn with the node of a precessing orbit (theory, section 9)."""
 def separatrix_action(beta: float) -> float:
     """The action σ_sep(β) = (2/π) atan √((1−β)/2β) of the separatrix, in units of M. It is the radius of convergence of the series (theory §5)."""
 
 @final
 class BirkhoffNormalForm:
-    """The Birkhoff normal form of a Hamiltonian, from `normalize`: the new Hamiltonian K, and the transformation both ways."""
+    """The Birkhoff normal form of a Hamiltonian, from `normalize`: the new Hamiltonian K and the transformation in both directions."""
 
     @property
     def order(self) -> int:
@@ -553,7 +570,7 @@ class BirkhoffNormalForm:
         """The degree N + 2."""
     @property
     def exact(self) -> bool:
-        """Whether the coefficients are exact: `Fraction`, not float."""
+        """True if the coefficients are exact (`Fraction`), False if they are floats."""
     @property
     def variables(self) -> tuple[tuple[str, str], ...]:
         """The pairs (q, p)."""
@@ -562,7 +579,7 @@ class BirkhoffNormalForm:
         """The parameters."""
     @property
     def frequencies(self) -> tuple[_Number | complex, ...]:
-        """The frequencies ω at the origin: of a centre real, and negative where its energy is; of a saddle iλ; of a quartet iσ − ν and iσ + ν."""
+        """The frequencies ω at the origin. A centre has a real frequency, negative if its energy is negative; a saddle has iλ; a quartet has iσ − ν and iσ + ν."""
     @property
     def kinds(self) -> tuple[Literal["elliptic", "hyperbolic", "complex"], ...]:
         """The kind of every mode: "elliptic", "hyperbolic" or "complex"."""
@@ -571,53 +588,53 @@ class BirkhoffNormalForm:
         """The ratios r = √(a/b) of the centres, None for other modes."""
     @property
     def linear_change(self) -> tuple[tuple[_Number, ...], ...]:
-        """The symplectic matrix M of the linear change z = M z′ that diagonalizes the quadratic part, by rows; the unit matrix where it is diagonal already."""
+        """The symplectic matrix M of the linear change z = M z′ that diagonalizes the quadratic part, by rows. It is the unit matrix if the quadratic part is already diagonal."""
     @property
     def resonances(self) -> tuple[tuple[int, ...], ...]:
-        """The resonances that were kept: vectors k with k·ω = 0, whose terms turn with the resonant angles k·φ."""
+        """The resonances that were kept: vectors k with k·ω = 0. Their terms depend on the resonant angles k·φ."""
     def in_actions(self) -> _Polynomial:
-        """K in the actions: exponents of I₁, I₂, …, parameters. The constant term of H is in it."""
+        """K as a function of the actions: coefficients by exponents of I₁, I₂, …, parameters. It includes the constant term of H."""
     def in_complex(self) -> dict[tuple[int, ...], tuple[_Number, _Number]]:
         """K in the complex variables: (re, im) by exponents of u₁, U₁, u₂, U₂, …, parameters."""
     def in_real(self) -> _Polynomial:
         """K in the new real variables."""
     def centre_manifold(self) -> _Polynomial:
-        """The Hamiltonian on the centre manifold: K in the new real variables of the centres, where the saddles rest at q = p = 0."""
+        """The Hamiltonian on the centre manifold: K in the new real variables of the centres, with q = p = 0 for the saddles."""
     def generator(self, m: int) -> _Polynomial:
-        """Generating function S_m in the real variables, of degree m + 2."""
+        """The generating function S_m in the real variables, of degree m + 2."""
     def direct(self, function: _Expression) -> _Polynomial:
-        """A function of the old variables in the new ones, complete to degree d + N, d its lowest positive degree."""
+        """Expresses a function of the old variables in the new variables. It is complete to degree d + N, where d is its lowest positive degree."""
     def inverse(self, function: _Expression) -> _Polynomial:
-        """A function of the new variables in the old ones, complete to degree d + N, d its lowest positive degree."""
+        """Expresses a function of the new variables in the old variables. It is complete to degree d + N, where d is its lowest positive degree."""
     def to_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The new variables of states."""
+        """Transforms states to the new variables."""
     def from_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The states of new variables; errors are those of `to_normal`."""
+        """Transforms new variables to states. The errors are those of `to_normal`."""
     def actions(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The actions of states, which hardly change along a motion unless a resonance exchanges them."""
+        """The actions of states. Along a motion they are almost constant, unless a resonance exchanges them."""
     def from_centre_manifold(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The states of points of the centre manifold, given by the new variables of the centres alone."""
+        """Transforms points of the centre manifold, given by the new variables of the centres, to states."""
     def energy(self, normal: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The value of K at new variables: the energy."""
+        """The energy: the value of K at new variables."""
     def rates(self, normal: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The rates of new variables, by Hamilton's equations of K."""
     def domain(self, parameters: dict[str, float] | None = None) -> Domain:
-        """How far the form is good: the sizes of its orders, and the best order at an amplitude."""
+        """Estimates the range of validity of the form: the sizes of its orders, and the best order at an amplitude."""
     def frequency_map(self, actions: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The frequencies Ω = ∂K/∂I at actions: of a saddle the rate, of a quartet rate and frequency."""
+        """The frequencies Ω = ∂K/∂I at actions. For a saddle Ω is the rate; for a quartet it is rate and frequency."""
     def trajectory(self, state: ArrayLike, times: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
-        """The states at times after that of `state`, by the motion of the normal form."""
+        """Propagates a state by the normal form to times after the state."""
     def to_json(self) -> str:
-        """This normal form as JSON text, with a format version: exact numbers as "p/q" strings, floats with all their digits."""
+        """Writes this normal form as JSON text with a format version: exact numbers as "p/q" strings, floats with all their digits."""
     @classmethod
     def from_json(cls, text: str, symbols: dict[str, Any] | None = None) -> BirkhoffNormalForm:
         """Reads a normal form from the text of `to_json`. Each order is computed again and compared."""
     def to_latex(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> str:
         """Writes a part of this normal form as LaTeX, for a document that uses amsmath."""
     def to_code(self, language: Literal["c", "rust", "python"] = "c") -> str:
-        """Functions that evaluate this normal form, as the text of a file of source that needs nothing but its language."""
+        """Writes a source file with functions that evaluate this normal form. The file needs only the standard library of its language."""
     def to_sympy(self, what: Literal["hamiltonian", "generator", "direct", "inverse"] = "hamiltonian") -> Any:
-        """A part of this normal form as SymPy expressions. SymPy is imported here and nowhere else."""
+        """Converts a part of this normal form to SymPy expressions. This method imports SymPy."""
     def __eq__(self, other: object, /) -> bool: ...
     def __copy__(self) -> BirkhoffNormalForm: ...
     def __deepcopy__(self, _memo: Any) -> BirkhoffNormalForm: ...

@@ -1,4 +1,4 @@
-"""Diagrams of accuracy: error by order of the series, what accuracy costs, the domain of a normal form. The first two measure while they are drawn, against the closed form at its best."""
+"""Diagrams of accuracy: error by order of the series, time against error, domain of a normal form. The first two measure while they draw, relative to the closed form at its smallest tolerance."""
 
 import time
 import warnings
@@ -24,7 +24,7 @@ ROTATIONS = 20
 
 @contextmanager
 def missed_on_purpose() -> Iterator[None]:
-    """What a low order misses is what is drawn: no warning."""
+    """Suppress warnings of missed tolerances, since the diagrams show the errors of low orders."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ToleranceWarning)
         yield
@@ -32,21 +32,23 @@ def missed_on_purpose() -> Iterator[None]:
 
 @missed_on_purpose()
 def error_by_order(scene: Scene, orders: Iterable[int] = range(0, 31, 2), axes: "Axes | None" = None) -> "Axes":
-    """Largest attitude error of the series over 20 rotations by order, beside (σ/σ_sep)^(N+1) and the closed form's bound.
+    """Draw the largest attitude error of the series over 20 rotations against the order, with (σ/σ_sep)^(N+1) and the error bound of the closed form.
 
-    The error is that against the closed form, whose own bound is the dashed line: below it nothing is told apart.
+    The error is relative to the closed form. The dashed line is the error bound of the closed form; errors below it cannot be resolved.
 
     Parameters
     ----------
     scene : Scene
-        Its method, order, tolerance and span are not used.
+        The scene. Its method, order, tolerance and span are not used.
     orders : iterable of int, optional
+        Orders of the series.
     axes : matplotlib.axes.Axes, optional
+        Axes to draw into; by default those of a new figure.
 
     Raises
     ------
     TheoryError
-        A scene on the separatrix: there are no series.
+        The motion is on the separatrix, where the series do not exist.
     """
     axes = axes_or_new(axes)
     chosen = list(orders)
@@ -64,16 +66,18 @@ def error_by_order(scene: Scene, orders: Iterable[int] = range(0, 31, 2), axes: 
 
 @missed_on_purpose()
 def work_precision(scene: Scene, orders: Iterable[int] = range(0, 21, 2), axes: "Axes | None" = None) -> "Axes":
-    """Time of solving against the error reached: the series by order, the closed form by tolerance. Accuracy grows to the right.
+    """Draw the time of solving against the error: the series by order, the closed form by tolerance. The accuracy increases to the right.
 
-    Errors below the bound of the closed form are drawn on it: they are not told apart.
+    Errors below the error bound of the closed form cannot be resolved and are drawn at the bound.
 
     Parameters
     ----------
     scene : Scene
-        Its method, order, tolerance and span are not used.
+        The scene. Its method, order, tolerance and span are not used.
     orders : iterable of int, optional
+        Orders of the series.
     axes : matplotlib.axes.Axes, optional
+        Axes to draw into; by default those of a new figure.
     """
     axes = axes_or_new(axes)
     best, times, truth = _truth(scene)
@@ -103,14 +107,16 @@ def domain(
     *,
     parameters: dict[str, float] | None = None,
 ) -> "Axes":
-    """Sizes of the orders of a normal form at some amplitudes, the best order of each marked with a star.
+    """Draw the sizes of the orders of a normal form at some amplitudes. A star marks the best order of each amplitude.
 
     Parameters
     ----------
     normal_form : BirkhoffNormalForm
+        The normal form.
     amplitudes : iterable of float, optional
-        √(2|I|) of all modes.
+        Amplitudes √(2|I|) of all modes.
     axes : matplotlib.axes.Axes, optional
+        Axes to draw into; by default those of a new figure.
     parameters : dict of {str: float}, optional
         Numbers for the parameters of the form.
     """
@@ -138,12 +144,12 @@ def axes_or_new(axes: "Axes | None") -> "Axes":
 
 
 def _variant(scene: Scene, **options: Any) -> Scene:
-    """The free motion of the scene with other choices."""
+    """The free motion of the scene with other options."""
     return Scene(scene.body, scene.attitude, scene.angular_velocity, epoch=scene.epoch, name=scene.name, **options)
 
 
 def _truth(scene: Scene) -> tuple[Motion, Array, Array]:
-    """The closed form at its best, times, and its attitudes at these."""
+    """The closed form at its smallest tolerance, times, and its attitudes at these times."""
     motion = _variant(scene, method="closed", tolerance=1e-15).solve()
     rotation = motion.periods["long-axis"].precession
     times = scene.epoch + np.linspace(0, ROTATIONS * rotation, EPOCHS)
@@ -151,7 +157,7 @@ def _truth(scene: Scene) -> tuple[Motion, Array, Array]:
 
 
 def _largest_angle(first: Array, second: Array) -> float:
-    """The largest angle between attitudes, from the vector part of the relative quaternion, which small ones do not leave."""
+    """The largest angle between attitudes, from the vector part of the relative quaternion, which is accurate for small angles."""
     v, w = first[:, :3], first[:, 3:]
     difference = second * np.sign(np.sum(first * second, axis=1, keepdims=True)) - first
     vector = w * difference[:, :3] - v * difference[:, 3:] - np.cross(v, difference[:, :3])
@@ -159,7 +165,7 @@ def _largest_angle(first: Array, second: Array) -> float:
 
 
 def _timed(scene: Scene) -> tuple[float, Motion]:
-    """Seconds of solving, the least of five, and the motion."""
+    """The least of five times of solving [s], and the motion."""
     spans = []
     for _ in range(5):
         start = time.perf_counter()

@@ -1,4 +1,4 @@
-"""What the pictures of `andoyer.plot` are drawn with: the surface of the polhode, Andoyer's plane, the neighbourhood of the pole."""
+"""Drawing functions of `andoyer.plot`: the surface of the polhode, Andoyer's plane, the neighbourhood of the pole."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def on_ellipsoid(moments: Array) -> Any:
-    """From momentum directions to the angular velocities of energy 1/2 along them, the longest semi-axis being 1."""
+    """The map from directions of the momentum to the angular velocities of energy 1/2 along them, with the longest semi-axis 1."""
 
     def place(directions: Array) -> Array:
         rates = directions / moments
@@ -47,7 +47,7 @@ def _separatrix(moments: Array) -> tuple[Array, ...]:
 
 
 def surface(axes: "Axes", moments: Array, pole: Array, place: Any, names: list[str]) -> None:
-    """The surface that `place` makes of the momentum sphere, seen from between the body axes, axis 3 up."""
+    """Draw the image of the momentum sphere under `place`, seen from between the body axes, axis 3 up."""
     azimuth, elevation = np.radians(32), np.radians(24)
     view = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
     right = np.array([-np.sin(azimuth), np.cos(azimuth), 0])
@@ -55,7 +55,7 @@ def surface(axes: "Axes", moments: Array, pole: Array, place: Any, names: list[s
     screen = np.array([right, up])
 
     def line(curve: Array, **style: Any) -> None:
-        # The momentum is normal to the inertia ellipsoid: it tells front from back on either surface.
+        # The momentum is normal to the inertia ellipsoid, so its sign along the view separates front and back on both surfaces.
         flat, front = place(curve) @ screen.T, curve @ view >= 0
         label = style.pop("label", None)
         axes.plot(*np.where(front[:, None], flat, np.nan).T, label=label, **style)
@@ -84,7 +84,7 @@ def surface(axes: "Axes", moments: Array, pole: Array, place: Any, names: list[s
 
 
 def plane(axes: "Axes", moments: Array, nu: Array, cosine: Array) -> None:
-    """The (nu, N/M) plane: level curves of the energy, the separatrix, the motion."""
+    """Draw the (nu, N/M) plane: level curves of the energy, the separatrix, the motion."""
     a, b, c = moments
     alpha = (c / a + c / b) / 2 - 1
     beta = (c / a - c / b) / 2 / alpha if alpha else 0
@@ -105,7 +105,7 @@ def plane(axes: "Axes", moments: Array, nu: Array, cosine: Array) -> None:
 
 
 def near_pole(axes: "Axes", pole: Array, names: list[str]) -> None:
-    """The path of the angular momentum in the body, near axis 3; angles beside it in microradians and in arcseconds."""
+    """Draw the path of the angular momentum in the body near axis 3, with axes in microradians and in arcseconds."""
     x, y = 1e6 * pole[:, 0], 1e6 * pole[:, 1]
     axes.plot(x, y, color=BLUE, linewidth=1.8)
     axes.plot(x[0], y[0], "o", color=BLUE, markersize=6)

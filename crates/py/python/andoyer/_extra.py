@@ -1,16 +1,16 @@
-"""Optional packages: imported where they are used, and an error that names the one which is missing."""
+"""Import of optional packages where they are used, with an error that names a missing package."""
 
 import importlib
 from typing import Any
 
 
 def extra(module: str, purpose: str) -> Any:
-    """The module `module` of a package that is not among the requirements.
+    """Import the module `module` of an optional package.
 
     Raises
     ------
     ImportError
-        It is not installed.
+        The package is not installed.
     """
     try:
         return importlib.import_module(module)

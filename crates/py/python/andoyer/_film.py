@@ -18,7 +18,7 @@ REACH = 1.2
 
 
 def film(motion: Motion, times: Array, interval: float) -> "FuncAnimation":
-    """The animation, one frame a time; angular momentum upwards."""
+    """The animation, with one frame for each time and the angular momentum upwards."""
     plt, animation = (extra(module, "andoyer.plot.animate") for module in ("matplotlib.pyplot", "matplotlib.animation"))
     samples = motion.at(times)
     upright = _upright(motion.angular_momentum(times[0]))

@@ -1,4 +1,4 @@
-"""The motion of a normal form with resonant terms, integrated. SciPy is imported in `trajectory` and nowhere else."""
+"""Numerical integration of the motion of a normal form with resonant terms. Only `trajectory` imports SciPy."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ RELATIVE = 1e-12
 
 
 def trajectory(normal_form: BirkhoffNormalForm, state: list[float], times: ArrayLike, parameters: dict[str, float] | None) -> Any:
-    """The states at times after that of `state`: Hamilton's equations of K from the new variables of the state, transformed back."""
+    """The states at times after `state`: integrates Hamilton's equations of K from the new variables of the state, and transforms back."""
     try:
         from scipy.integrate import solve_ivp
     except ImportError as error:

@@ -1,8 +1,8 @@
-"""Values of astropy and SciPy as plain numbers. Quantities are taken in SI units, times in TDB seconds since J2000, 2000-01-01T12:00:00 TDB.
+"""Conversion of values of astropy and SciPy to plain numbers. Quantities become SI units; times become TDB seconds since J2000 (2000-01-01T12:00:00 TDB).
 
-Times of a motion are differences from its epoch, formed in the two doubles of astropy: seconds since J2000 are good to 1e-7 s alone.
+Times of a motion are differences from its epoch, formed in the two doubles of astropy, because seconds since J2000 in one double are accurate only to 1e-7 s.
 
-Neither package is imported before a value of it is given.
+A package is imported only when one of its values is given.
 """
 
 from __future__ import annotations
@@ -30,19 +30,19 @@ UNITS = {
     "node": "rad",
     "argument_of_pericentre": "rad",
 }
-"""Unit of each argument; of the others none."""
+"""Unit of each argument that has one."""
 
 J2000 = 2451545.0
 DAY = 86400.0
 
 
 def plain(argument: str, value: Any) -> Any:
-    """The numbers in a quantity, a time or a rotation; anything else as it is.
+    """The numbers in a quantity, a time or a rotation. Any other value is returned unchanged.
 
     Raises
     ------
     TypeError
-        A quantity of another kind: metres for times. An array with a mask.
+        A quantity with a wrong unit, for example metres for times; an array with a mask.
     """
     if hasattr(value, "as_quat"):
         return value.as_quat()
@@ -62,7 +62,7 @@ def plain(argument: str, value: Any) -> Any:
         try:
             return value.to_value(unit)
         except units.UnitConversionError:
-            # 1 Hz is no rad/s in astropy, since a frequency may count turns or radians.
+            # astropy does not convert 1 Hz to rad/s, since a frequency may count turns or radians.
             advice = "; rates in turns per second have the unit u.cycle / u.s" if unit == "rad / s" and value.unit.is_equivalent("Hz") else ""
             raise TypeError(f"{argument} must be in {unit or 'no unit'}, or what converts to it: got {value.unit}{advice}") from None
     return value
@@ -74,12 +74,12 @@ def seconds(moment: Any) -> Any:
 
 
 def joined(argument: str, value: Any) -> Any:
-    """A list of times or quantities as one; anything else as it is.
+    """A list of times or quantities as one object. Any other value is returned unchanged.
 
     Raises
     ------
     TypeError
-        A list of both, or with plain numbers among them.
+        A list with both times and quantities, or with plain numbers among them.
     """
     if not isinstance(value, (list, tuple)):
         return value
@@ -105,7 +105,7 @@ def unmasked(argument: str, value: Any) -> None:
     Raises
     ------
     TypeError
-        A mask.
+        The value has a mask or a masked entry.
     """
     masked = bool(value.masked) if hasattr(value, "jd1") else isinstance(value, np.ma.MaskedArray) or hasattr(value, "unmasked")
     if masked:
@@ -113,15 +113,15 @@ def unmasked(argument: str, value: Any) -> None:
 
 
 def since(argument: str, value: Any, first: list[float], second: list[float]) -> tuple[Any, Any, tuple[int, ...]]:
-    """Seconds from epochs to times: the seconds, the times as one object, and their shape.
+    """Seconds from epochs to times. Returns the seconds, the times as one object, and their shape.
 
-    `first` and `second` are the epochs' TDB Julian dates in two doubles: none if the epoch is a number, one, or one for each member, which leads the
-    axes of the seconds.
+    `first` and `second` are the TDB Julian dates of the epochs in two doubles: empty if the epoch is a number, otherwise one date, or one for each member. With one
+    for each member the first axis of the seconds is that of the members.
 
     Raises
     ------
     InputError
-        A calendar time where the epoch is a number.
+        A calendar time if the epoch is a number.
     """
     value = joined(argument, value)
     unmasked(argument, value)
@@ -154,14 +154,14 @@ def epochs(argument: str, value: Any) -> tuple[Any, list[tuple[float, float]]]:
 
 
 def calendar(first: list[float], second: list[float]) -> Any:
-    """The times of TDB Julian dates in two doubles."""
+    """The Time objects of TDB Julian dates in two doubles."""
     import astropy.time  # type: ignore[import-untyped, import-not-found, unused-ignore]
 
     return astropy.time.Time(np.array(first), np.array(second), format="jd", scale="tdb")
 
 
 def numbers(times: Any) -> NDArray[Any]:
-    """Times of samples as an array: of astropy as datetime64 in their own scale, durations in seconds."""
+    """Times of samples as an array: times of astropy as datetime64 in their own time scale, durations in seconds."""
     if isinstance(times, np.ndarray):
         return times
     if isinstance(times, sys.modules["astropy.time"].TimeDelta):

@@ -1,4 +1,4 @@
-"""Samples as tables of pandas and data sets of xarray, which are imported here and nowhere else."""
+"""Conversion of samples to pandas tables and xarray data sets. Only this module imports these packages."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ RATES = ["wx", "wy", "wz"]
 
 
 def pandas(samples: Samples) -> Any:
-    """A row for each time, or for each member and time."""
+    """A table with a row for each time, or for each member and time."""
     pd = extra("pandas", "Samples.to_pandas")
     columns = [*_quaternion(samples, "q"), *RATES]
     rows = np.concatenate([samples.attitude, samples.angular_velocity], axis=-1).reshape(-1, 7)

@@ -1,7 +1,7 @@
-"""One HTML file in which a motion turns: body, axes, angular momentum, polhode and herpolhode, with a slider of time. Nothing is fetched.
+"""One HTML file with an animation of a motion: body, axes, angular momentum, polhode and herpolhode, with a slider of time. The page needs no network.
 
-The page calls `evaluate(t)`, which returns the attitude and the angular velocity at a time; `evaluator` gives its source and its error. Everything else that
-is shown, the Andoyer variables included, the page computes from these seven numbers and the moments.
+The page calls `evaluate(t)`, which returns the attitude and the angular velocity at a time; `evaluator` writes its source and finds its error. The page computes
+everything else, including the Andoyer variables, from these seven numbers and the moments.
 """
 
 import base64
@@ -45,23 +45,25 @@ def page(
     unit: str = "s",
     force: bool = True,
 ) -> float:
-    """Write one self-contained HTML page in which the motion turns.
+    """Write one self-contained HTML page with an animation of the motion.
 
-    It shows the body (the homogeneous ellipsoid of its moments, or a mesh), its axes, the angular momentum M upwards, the angular velocity ω, the
-    polhode on the body and the herpolhode among the stars; the Andoyer angles, J and the rates as numbers. Time runs, or is set with a slider.
+    The page shows the body (the homogeneous ellipsoid of its moments, or a mesh), its axes, the angular momentum M upwards, the angular velocity ω, the
+    polhode on the body and the herpolhode in inertial space. It shows the Andoyer angles, J and the rates as numbers. The animation runs, or the user sets the time with a slider.
 
     Parameters
     ----------
     motion : Motion
+        The motion to show.
     path : path-like
+        File to write.
     interval : pair of float, optional
         First and last time. By default three periods of the polhode from the epoch, at most 60 rotations.
     mesh : pair of array_like, optional
-        Vertices (n, 3) in body components, of any unit of length, and faces (m, 3), indices of vertices, counterclockwise from outside.
+        Vertices (n, 3) in body components, in any unit of length, and faces (m, 3), as indices of vertices, counterclockwise from outside.
     unit : str, optional
         Name of the unit of time.
     force : bool, optional
-        Whether a file that is there already is replaced.
+        If True, an existing file is replaced.
 
     Returns
     -------
@@ -71,9 +73,9 @@ def page(
     Raises
     ------
     FileExistsError
-        There is such a file, and ``force=False``.
+        The file exists, and ``force=False``.
     ValueError
-        An interval of no length; for a motion without code (`Motion.to_code`) one of more than 208 rotations; a mesh of another shape.
+        An interval of zero length; for a motion without code (`Motion.to_code`) an interval of more than 208 rotations; a mesh of another shape.
 
     Examples
     --------
@@ -105,7 +107,7 @@ def page(
 def evaluator(motion: Motion, start: float, stop: float) -> tuple[str, float]:
     """JavaScript that defines `evaluate(t)` between two times, and the largest angle [rad] between its attitude and that of the motion.
 
-    It is the code of the motion (`Motion.to_code`). A motion without code, along the separatrix or under a torque, is a table.
+    The evaluator is the code of the motion (`Motion.to_code`). For a motion without code, on the separatrix or under a torque, it is a table.
     """
     try:
         text, error, _ = motion._code("javascript")
@@ -159,7 +161,7 @@ def _largest_rate(motion: Motion, start: float, stop: float) -> float:
 
 
 def _data(motion: Motion, start: float, stop: float, unit: str, error: float, mesh: tuple[ArrayLike, ArrayLike] | None) -> dict[str, Any]:
-    """What the page knows of the motion beside its evaluator."""
+    """The data of the motion in the page, except the evaluator."""
     moments = motion.scene.body.moments
     order = np.argsort(moments, kind="stable")
     rate = _largest_rate(motion, start, stop)
@@ -206,5 +208,5 @@ def _part(name: str) -> str:
 
 
 def _script(value: Any) -> str:
-    """JSON that no text in it can end the element around."""
+    """JSON for a script element, escaped so that no text in it can end the element."""
     return json.dumps(value, ensure_ascii=True, allow_nan=False).replace("<", "\\u003c")

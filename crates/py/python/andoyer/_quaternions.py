@@ -21,21 +21,21 @@ def product(p: Array, q: Array) -> Array:
 
 
 def rotate(q: Array, vectors: Array) -> Array:
-    """The vectors as q rotates them: body components to inertial ones for an attitude."""
+    """Rotate vectors by q. For an attitude q this turns body components into inertial ones."""
     twice = 2 * np.cross(q[..., :3], vectors)
     rotated: Array = vectors + q[..., 3:] * twice + np.cross(q[..., :3], twice)
     return rotated
 
 
 def angle_between(p: Array, q: Array) -> Array:
-    """The angle [rad] from 0 to π of the rotation from p to q, exact for small ones too."""
+    """The angle [rad] from 0 to π of the rotation from p to q, accurate for small angles too."""
     difference = product(conjugate(p), q)
     angle: Array = 2 * np.arctan2(np.linalg.norm(difference[..., :3], axis=-1), np.abs(difference[..., 3]))
     return angle
 
 
 def between(p: Array, q: Array, fraction: float) -> Array:
-    """The rotation that is `fraction` of the way from p to q, about one axis at one rate by the shorter way."""
+    """The rotation at `fraction` of the way from p to q, about one axis at one rate on the shorter way."""
     difference = product(conjugate(p), q)
     difference *= np.where(difference[..., 3:] < 0, -1.0, 1.0)
     size = np.linalg.norm(difference[..., :3], axis=-1, keepdims=True)

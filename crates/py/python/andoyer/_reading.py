@@ -1,4 +1,4 @@
-"""What `andoyer plot` draws: a scene, or a file of attitudes beside one."""
+"""The input of `andoyer plot`: a scene, or a file of attitudes with an optional scene."""
 
 import argparse
 from pathlib import Path
@@ -13,7 +13,7 @@ ATTITUDE_FILES = [".aem", ".xml", *ENDINGS]
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
-    """The options of a file of attitudes."""
+    """Add the options of a file of attitudes."""
     group = command.add_argument_group(f"a file of attitudes ({', '.join(ATTITUDE_FILES)}) in the place of SCENE")
     group.add_argument("--against", metavar="SCENE", help="scene file whose motion it is compared with: the angle between them over time")
     group.add_argument("--segment", type=int, metavar="N", help="segment of an AEM, from 0; needed where it has several")
@@ -21,19 +21,19 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def is_attitude_file(path: str) -> bool:
-    """Whether a name ends as files of attitudes do."""
+    """True if the name has an ending of attitude files."""
     return Path(path).suffix.lower() in ATTITUDE_FILES
 
 
 def refuse_options(arguments: argparse.Namespace) -> None:
-    """The options of a file of attitudes do not go with a scene."""
+    """Refuse the options of a file of attitudes for a scene."""
     for key in ("against", "segment", "date"):
         if getattr(arguments, key) is not None:
             raise InputError(f"argument --{key}: goes with a file of attitudes alone ({', '.join(ATTITUDE_FILES)}), not with {arguments.scene}")
 
 
 def read(arguments: argparse.Namespace) -> andoyer.Samples:
-    """The samples of the file."""
+    """Read the samples of the file."""
     path = Path(arguments.scene)
     given = zoned({"date": arguments.date} if arguments.date else {})
     try:

@@ -1,4 +1,4 @@
-"""Colours and style of the pictures. The colours are those of Okabe and Ito, safe for colour-blind readers."""
+"""Colours and style of the pictures. The colours are those of Okabe and Ito, which colour-blind readers can distinguish."""
 
 import math
 

@@ -1,7 +1,7 @@
-"""Normal forms as SymPy expressions: what the methods `to_sympy` return. SymPy is imported in `_sympy` and nowhere else.
+"""Conversion of normal forms to SymPy expressions, for the methods `to_sympy`. Only `_sympy` imports SymPy.
 
-All coefficients of `NormalForm` are exact, `Rational` and `I`, and its symbols carry no assumptions, so that ``sympy.Symbol("beta")`` is the one in the
-expression. `BirkhoffNormalForm` puts the caller's symbols, where it was given symbols, for the names.
+All coefficients of `NormalForm` are exact, `Rational` and `I`. Its symbols have no assumptions, so ``sympy.Symbol("beta")`` is equal to the symbol in the
+expression. `BirkhoffNormalForm` uses the symbols of the caller if they were given.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def expressions(normal_form: NormalForm, what: str) -> Any:
-    """A part of a normal form; `what` is one that `NormalForm.to_latex` knows."""
+    """A part of a normal form; `what` is as in `NormalForm.to_latex`."""
     sympy = _sympy()
     if what == "hamiltonian":
         return _hamiltonian(sympy, normal_form)
@@ -29,7 +29,7 @@ def expressions(normal_form: NormalForm, what: str) -> Any:
 
 
 def birkhoff(normal_form: BirkhoffNormalForm, what: str, symbols: Mapping[str, Any]) -> Any:
-    """A part of a Birkhoff normal form; `what` as in `expressions`, `symbols` those of the caller by name."""
+    """A part of a Birkhoff normal form; `what` is as in `expressions`, and `symbols` are those of the caller by name."""
     sympy = _sympy()
     variables = [name for pair in normal_form.variables for name in pair]
     names = [*variables, *normal_form.parameters]
@@ -53,7 +53,7 @@ def _sympy() -> Any:
 
 
 def _polynomial(sympy: Any, terms: Mapping[tuple[int, ...], Fraction | float], names: Sequence[str], known: Mapping[str, Any]) -> Any:
-    """Σ c x₁^e₁ x₂^e₂ …, floats as SymPy's of 53 bits."""
+    """Σ c x₁^e₁ x₂^e₂ …, with floats as SymPy floats of 53 bits."""
     symbols = [known.get(name, sympy.Symbol(name)) for name in names]
 
     def term(exponents: tuple[int, ...], c: Fraction | float) -> Any:
@@ -75,7 +75,7 @@ def _hamiltonian(sympy: Any, normal_form: NormalForm) -> Any:
 
 
 def _transformation(sympy: Any, series: Any, name: str, order: int) -> Any:
-    """The variable of one side in those of the other; y moves in units of 1/M = √γ/V (theory §6)."""
+    """A variable of one side as a function of those of the other side. The terms of y have the factor 1/M = √γ/V (theory §6)."""
     gamma, V = sympy.symbols("gamma V")
     factor = sympy.sqrt(gamma) / V if name == "y" else 1
     terms = (factor * _tau(sympy) ** n * _form(sympy, series(name, n)) for n in range(1, order + 1))

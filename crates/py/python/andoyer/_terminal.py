@@ -1,4 +1,4 @@
-"""What is shown on a terminal and nowhere else: a bar for long work, bold names. Files and pipes get plain text."""
+"""Output for terminals: a progress bar and bold names. Files and pipes get plain text."""
 
 import os
 import sys
@@ -11,7 +11,7 @@ PATIENCE = 0.3
 
 
 class Progress:
-    """A bar on stderr, if that is a terminal; call it with what is done and of how much, and `close` it."""
+    """A progress bar on stderr, if stderr is a terminal. Call it with the amount done and the total, and `close` it at the end."""
 
     def __init__(self, what: str, stream: TextIO | None = None) -> None:
         self.what = what
@@ -21,7 +21,7 @@ class Progress:
         self.last = ""
 
     def __call__(self, done: int, of: int) -> None:
-        """Show how far it is."""
+        """Show the progress."""
         if not self.visible or time.monotonic() - self.started < PATIENCE:
             return
         share = done / of if of else 1.0
@@ -33,13 +33,13 @@ class Progress:
             self.last = line
 
     def close(self) -> None:
-        """Leave the line empty."""
+        """Clear the line of the bar."""
         if self.last:
             self.stream.write("\r\x1b[K")
             self.stream.flush()
 
 
 def named(name: str, stream: TextIO | None = None) -> str:
-    """A name in front of a value, bold on a terminal that is not asked to be plain (NO_COLOR)."""
+    """A name in front of a value, bold on a terminal unless NO_COLOR is set."""
     terminal = (sys.stdout if stream is None else stream).isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
     return f"\x1b[1m{name:13}\x1b[0m" if terminal else f"{name:13}"

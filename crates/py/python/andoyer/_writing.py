@@ -1,4 +1,4 @@
-"""What `andoyer propagate` writes: the options of each format, and the writer that the ending of the file chooses."""
+"""The output of `andoyer propagate`: the options of each format, and the writer for the ending of the file."""
 
 import argparse
 import os
@@ -27,7 +27,7 @@ OPTIONS = {"version": "aem-version", "segment": "segment-name", "name": "object-
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
-    """The options of the formats that have a heading: AEM and CK."""
+    """Add the options of the formats with a heading: AEM and CK."""
     command.add_argument("--force", action="store_true", help="replace a file that is there already")
     both = command.add_argument_group("headings of a .aem (CCSDS attitude ephemeris message) and a .bc (SPICE C-kernel), times in seconds")
     default = Heading()
@@ -52,7 +52,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def check(arguments: argparse.Namespace) -> dict[str, Any]:
-    """The options that were given for a heading, if they go with the file that is written and nothing is lost by it."""
+    """The given heading options, checked: they belong to the format of the file, and no existing file would be replaced."""
     path = Path(arguments.output)
     ending = path.suffix.lower()
     to_stdout = arguments.output == "-"
@@ -76,12 +76,12 @@ def check(arguments: argparse.Namespace) -> dict[str, Any]:
 
 
 def option(field: str) -> str:
-    """The option that sets a field."""
+    """The command-line option of a field."""
     return OPTIONS.get(field, field).replace("_", "-")
 
 
 def zoned(given: dict[str, Any]) -> dict[str, Any]:
-    """The options with a date without a zone: Z is UTC."""
+    """The options with the date without its zone; Z selects UTC."""
     when = given.get("date")
     if when is None or when.tzinfo is None:
         return given
@@ -91,7 +91,7 @@ def zoned(given: dict[str, Any]) -> dict[str, Any]:
 
 
 def refuse_existing(path: Path) -> None:
-    """A file that is there is an error of the argument."""
+    """Refuse an existing file, as an error of the argument."""
     if path.exists() and not is_stream(path) and not path.is_dir():
         raise InputError(f"argument -o/--output: {path}: File exists; --force replaces it")
 
@@ -118,7 +118,7 @@ def write_samples(path: Path, motion: andoyer.Motion, samples: andoyer.Samples, 
 
 
 def write_kernel(path: Path, motion: andoyer.Motion, interval: tuple[float, float], given: dict[str, Any], force: bool) -> None:
-    """Write a C-kernel, and say how many records it has."""
+    """Write a C-kernel and print its number of records."""
     names = {field.name for field in fields(Kernel)}
     kernel = Kernel(**{key: value for key, value in given.items() if key in names})
     progress = Progress("writing, windows")
@@ -131,7 +131,7 @@ def write_kernel(path: Path, motion: andoyer.Motion, interval: tuple[float, floa
 
 
 def _comments(motion: andoyer.Motion) -> tuple[str, ...]:
-    """That the tolerance is not met, where it is not."""
+    """A comment if the tolerance is not met."""
     missed = motion.plan.missed_tolerance
     return () if missed is None else (missed,)
 
@@ -141,7 +141,7 @@ def _name(motion: andoyer.Motion) -> str:
 
 
 def _note(heading: Heading | Kernel, given: dict[str, Any]) -> None:
-    """What was not given of a heading is said on stderr."""
+    """Print the default values of a heading on stderr."""
     if "date" not in given or "frame" not in given:
         said = f"time 0 is {heading.date.isoformat()} {heading.time_system}, the inertial frame {heading.frame}"
         print(f"andoyer: note: {said}; --date and --frame name others", file=sys.stderr)
@@ -149,7 +149,7 @@ def _note(heading: Heading | Kernel, given: dict[str, Any]) -> None:
 
 @contextmanager
 def written_to(path: Path) -> Iterator[None]:
-    """What the system or a writer says against `path` is an error of the argument, in its own words whoever writes."""
+    """Turn an error of the system or of a writer at `path` into an error of the argument, with the same message."""
     try:
         yield
     except BrokenPipeError:

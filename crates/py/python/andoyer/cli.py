@@ -1,7 +1,7 @@
 """The command line: `andoyer propagate`, `plot`, `code`, `plan`, `bodies`, `series`.
 
-Exit status 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion that is not served,
-no command. A tolerance that is not met is one line on stderr, and exit status 3 under `--strict`. After Ctrl-C it is 130, and no file is left half written.
+The exit status is 0, or 2 with one line on stderr for bad input: a missing file, a bad scene, a bad number, a motion without a theory,
+no command. A tolerance that is not met prints one line on stderr, and the exit status is 3 with `--strict`. After Ctrl-C it is 130, and no incomplete file is left.
 """
 
 import argparse
@@ -42,7 +42,8 @@ MISSED = 3
 PICTURES = [".png", ".svg", ".pdf", ".html"]
 COMMANDS = ["propagate", "plot", "code", "plan", "bodies", "series"]
 LANGUAGES = ["c", "rust", "python"]
-CODES = {".c": "c", ".rs": "rust", ".py": "python", ".js": "javascript"}
+Code = Literal["c", "rust", "python", "javascript"]
+CODES: dict[str, Code] = {".c": "c", ".rs": "rust", ".py": "python", ".js": "javascript"}
 """Languages of the code of a motion, each by the ending of its files."""
 EXAMPLES = {
     "propagate": """\
@@ -102,7 +103,7 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def examples(said: str, *lines: str) -> dict[str, Any]:
-    """The end of a help text: what is said, filled, then examples as they stand."""
+    """The end of a help text: a filled paragraph, then examples with their own line breaks."""
     width = max(40, min(shutil.get_terminal_size().columns, 100) - 2)
     paragraphs = [textwrap.fill(said, width)] if said else []
     paragraphs.append("examples:\n" + textwrap.indent("\n".join(lines), "  "))
@@ -111,7 +112,7 @@ def examples(said: str, *lines: str) -> dict[str, Any]:
 
 def parser() -> Parser:
     """The parser of the command line."""
-    top = Parser(prog="andoyer", description="Rotation of rigid bodies by perturbation series in complex variables.", **examples("", *EXAMPLES.values()))
+    top = Parser(prog="andoyer", description="Attitude of rigid bodies, free and under gravity gradient, in closed form; exact perturbation series.", **examples("", *EXAMPLES.values()))
     top.add_argument("--version", action="version", version=f"andoyer {andoyer.__version__}")
     commands = top.add_subparsers(title="commands", metavar="COMMAND")
     top.set_defaults(run=None)
@@ -119,12 +120,12 @@ def parser() -> Parser:
     writes = "write attitude and angular velocity at equal steps of time"
     command = commands.add_parser("propagate", help=writes, description=f"{writes.capitalize()}.", **examples(f"Columns {COLUMNS}: {CONVENTION}.", EXAMPLES["propagate"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
-    command.add_argument("-o", "--output", metavar="FILE", required=True, help=f"what is written, {ENDINGS} by its ending; - is CSV on stdout")
-    command.add_argument("--start", type=number, metavar="T", help="first time (default: the scene's span, else its epoch)")
-    command.add_argument("--stop", type=number, metavar="T", help=f"last time (default: the scene's span, else {ROTATIONS} rotations on)")
+    command.add_argument("-o", "--output", metavar="FILE", required=True, help=f"file to write; its ending chooses the format: {ENDINGS}; - is CSV on stdout")
+    command.add_argument("--start", type=number, metavar="T", help="first time (default: start of the scene's span, or its epoch)")
+    command.add_argument("--stop", type=number, metavar="T", help=f"last time (default: end of the scene's span, or {ROTATIONS} rotations after the first time)")
     spacing = command.add_mutually_exclusive_group()
     spacing.add_argument("--samples", type=count, metavar="N", help=f"number of times, the last one included (default: {SAMPLES})")
-    spacing.add_argument("--step", type=step, metavar="DT", help="time from one sample to the next, from the first time on")
+    spacing.add_argument("--step", type=step, metavar="DT", help="time between samples")
     writing.add_options(command)
     strictly(command)
     command.set_defaults(run=propagate)
@@ -132,22 +133,22 @@ def parser() -> Parser:
     pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole"
     command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML), or a file of attitudes")
-    command.add_argument("-o", "--output", metavar="FILE", required=True, help="what is written, .png, .svg, .pdf, or a page that turns, .html, by its ending")
-    command.add_argument("--force", action="store_true", help="replace a file that is there already")
+    command.add_argument("-o", "--output", metavar="FILE", required=True, help="file to write; its ending chooses the format: .png, .svg, .pdf, or .html for an animated page")
+    command.add_argument("--force", action="store_true", help="replace an existing file")
     reading.add_options(command)
     strictly(command)
     command.set_defaults(run=plot)
 
-    writes = "write a function in C, Rust, Python or JavaScript that evaluates a motion and needs nothing but its language"
+    writes = "write a function in C, Rust, Python or JavaScript that evaluates a motion and needs only its language"
     command = commands.add_parser("code", help=writes, description=f"{writes.capitalize()}.", **examples("", EXAMPLES["code"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
-    command.add_argument("-o", "--output", metavar="FILE", default="-", help=f"what is written, {', '.join(CODES)} by its ending (default: -, stdout)")
-    command.add_argument("--language", choices=list(CODES.values()), metavar="LANGUAGE", help=f"{', '.join(CODES.values())} (default: by the ending of FILE, else c)")
-    command.add_argument("--force", action="store_true", help="replace a file that is there already")
+    command.add_argument("-o", "--output", metavar="FILE", default="-", help=f"file to write; its ending chooses the language: {', '.join(CODES)} (default: -, stdout)")
+    command.add_argument("--language", choices=list(CODES.values()), metavar="LANGUAGE", help=f"{', '.join(CODES.values())} (default: by the ending of FILE, or c)")
+    command.add_argument("--force", action="store_true", help="replace an existing file")
     strictly(command)
     command.set_defaults(run=code)
 
-    command = commands.add_parser("plan", help="print what would be evaluated, and why", **examples("", EXAMPLES["plan"]))
+    command = commands.add_parser("plan", help="print the plan of a scene: method, order, error bound, periods", **examples("", EXAMPLES["plan"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
     strictly(command)
     command.set_defaults(run=plan)
@@ -158,8 +159,8 @@ def parser() -> Parser:
     command = commands.add_parser("series", help="print the triaxiality polynomials P_0 ... P_N, or the normal form as JSON, LaTeX or source code", **examples("", EXAMPLES["series"]))
     command.add_argument("--order", type=whole, required=True, metavar="N", help="order of the normal form")
     forms = ["text", "json", "latex", *LANGUAGES]
-    command.add_argument("--to", choices=forms, default="text", metavar="FORM", help=f"what is printed: {', '.join(forms)} (default: text)")
-    command.add_argument("--part", choices=PARTS, metavar="PART", help=f"part of the normal form that latex prints: {', '.join(PARTS)} (default: the first)")
+    command.add_argument("--to", choices=forms, default="text", metavar="FORM", help=f"output format: {', '.join(forms)} (default: text)")
+    command.add_argument("--part", choices=PARTS, metavar="PART", help=f"part of the normal form for latex: {', '.join(PARTS)} (default: the first)")
     command.add_argument("--beta", type=number, metavar="BETA", help="triaxiality in source code (default: an argument of the function)")
     command.set_defaults(run=series)
     return top
@@ -217,7 +218,7 @@ def plot(arguments: argparse.Namespace) -> int:
 
 
 def turning(arguments: argparse.Namespace, path: Path) -> int:
-    """Write the page in which a scene turns."""
+    """Write the animated page of a scene."""
     reading.refuse_options(arguments)
     if reading.is_attitude_file(arguments.scene):
         raise InputError(f"argument -o/--output: {arguments.output}: a page is of a scene, not of a file of attitudes")
@@ -231,7 +232,7 @@ def code(arguments: argparse.Namespace) -> int:
     """Write a motion as source code."""
     path = Path(arguments.output)
     of_ending = CODES.get(path.suffix.lower())
-    language = arguments.language or of_ending or ("c" if arguments.output == "-" else None)
+    language: Code | None = arguments.language or of_ending or ("c" if arguments.output == "-" else None)
     if language is None:
         raise InputError(f"argument -o/--output: {path}: the name must end in {', '.join(CODES)}, or --language must be given")
     if of_ending not in (None, language):
@@ -252,7 +253,7 @@ def code(arguments: argparse.Namespace) -> int:
 
 
 def read(path: str) -> andoyer.Scene:
-    """The scene of a file; what is doubtful in it is said on stderr."""
+    """Read the scene of a file, and print its warnings on stderr."""
     with warnings.catch_warnings(record=True) as doubts:
         warnings.simplefilter("always")
         scene = andoyer.Scene.from_toml(path)
@@ -262,7 +263,7 @@ def read(path: str) -> andoyer.Scene:
 
 
 def solved(path: str) -> andoyer.Motion:
-    """The motion of a scene file; that it has none is an error of the file."""
+    """Solve the scene of a file. A scene without a motion is an error of the file."""
     scene = read(path)
     with warnings.catch_warnings():
         # `status` says it in one line.
@@ -274,7 +275,7 @@ def solved(path: str) -> andoyer.Motion:
 
 
 def status(arguments: argparse.Namespace, motion: andoyer.Motion) -> int:
-    """The exit status of a command about this motion; a tolerance that is not met is said on stderr."""
+    """The exit status of a command for this motion. A tolerance that is not met is printed on stderr."""
     missed = motion.plan.missed_tolerance
     if missed is None:
         return 0
@@ -283,7 +284,7 @@ def status(arguments: argparse.Namespace, motion: andoyer.Motion) -> int:
 
 
 def instants(arguments: argparse.Namespace, motion: andoyer.Motion) -> NDArray[np.float64]:
-    """The times that are asked for: from the first to the last, or by steps from the first up to the last."""
+    """The requested times: from the first to the last, or by steps from the first up to the last."""
     start, stop = interval(motion, arguments.start, arguments.stop)
     with np.errstate(over="ignore", invalid="ignore"):
         if arguments.step is None:
@@ -297,7 +298,7 @@ def instants(arguments: argparse.Namespace, motion: andoyer.Motion) -> NDArray[n
 
 
 def note_sparse(motion: andoyer.Motion, times: NDArray[np.float64]) -> None:
-    """Say on stderr that samples are too far apart to show the rotation."""
+    """Print on stderr that samples are too far apart to show the rotation."""
     rotation = motion.periods["long-axis"].precession
     apart = (times[1] - times[0]) / rotation if len(times) > 1 else 0.0
     if apart > 0.5:
@@ -306,7 +307,7 @@ def note_sparse(motion: andoyer.Motion, times: NDArray[np.float64]) -> None:
 
 
 def interval(motion: andoyer.Motion, start: float | None, stop: float | None) -> tuple[float, float]:
-    """First and last time: as asked, else the scene's span, else ten rotations from the epoch."""
+    """First and last time: the requested ones, or the span of the scene, or ten rotations from the epoch."""
     scene = motion.scene
     if scene.span is not None:
         start, stop = scene.span[0] if start is None else start, scene.span[1] if stop is None else stop
@@ -360,7 +361,7 @@ def series(arguments: argparse.Namespace) -> int:
 
 
 def written(normal_form: andoyer.NormalForm, arguments: argparse.Namespace) -> str:
-    """The normal form as the text that is asked for."""
+    """The normal form as text in the requested format."""
     if arguments.to == "json":
         return normal_form.to_json() + "\n"
     if arguments.to == "latex":

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 
 class Frequencies(NamedTuple):
-    """Mean frequencies of a motion, in rad per unit of time; 0 where there is none (theory §7)."""
+    """Mean frequencies of a motion, in rad per unit of time; 0 if the frequency does not exist (theory §7)."""
 
     anomaly: float
     """dℓ′/dt: the polhode, in the body."""
@@ -17,7 +17,7 @@ class Frequencies(NamedTuple):
 
 
 class Periods(NamedTuple):
-    """A pair of mean periods, in units of time; infinite where there is none."""
+    """A pair of mean periods, in units of time; infinite if the period does not exist."""
 
     precession: float
     """P_φ, of the precession of the axis about the angular momentum."""

@@ -1,8 +1,8 @@
-"""Pictures of a motion, for matplotlib: polhode, phase portrait, angles, rates, the path of the pole.
+"""Pictures of a motion with matplotlib: polhode, phase portrait, angles, rates, path of the pole.
 
-Each function takes a `Motion`, optionally times and the axes to draw into, and returns the axes; `summary` composes a figure. Angles are Andoyer's,
-theory §1, shown in degrees; times are taken to be in seconds; lines on the far side of a surface are pale, grey lines are other motions of the same body, the dashed line is the separatrix. Colours are
-those of Okabe and Ito, safe for colour-blind readers, and no line is told from another by colour alone. Needs matplotlib: the extra ``andoyer[plot]``.
+Each function takes a `Motion`, and optionally times and the axes to draw into. It returns the axes; `summary` returns a figure. Angles are those of Andoyer
+(theory §1), in degrees. The labels assume that times are in seconds. Lines on the far side of a surface are pale, grey lines are other motions of the same body, and the dashed line is the separatrix. The colours are
+those of Okabe and Ito, which colour-blind readers can distinguish; lines also differ in style or marker. The module needs matplotlib, which the extra ``andoyer[plot]`` installs.
 """
 
 import math
@@ -39,12 +39,12 @@ __all__ = ["angles", "animate", "components", "difference", "domain", "error_by_
 
 
 def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> Array:
-    """Times over whole periods of the polhode from the epoch, or of the rotation where there is no polhode; of an integrated motion no farther than its span.
+    """Times over whole periods of the polhode from the epoch, or over whole rotations if the motion is steady. For an integrated motion they end with its span.
 
     Returns
     -------
     ndarray, shape (samples,)
-        A unit of time for a body at rest.
+        The times. For a body at rest they cover `turns` units of time.
     """
     precession, rotation = motion.periods["long-axis"]
     period = next((time for time in (rotation, precession) if math.isfinite(time)), 1.0)
@@ -52,7 +52,7 @@ def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> A
 
 
 def polhode(motion: Motion, axes: "Axes | None" = None, *, surface: str = "sphere") -> "Axes":
-    """The polhode with the separatrix, on the sphere of momentum directions or on the inertia ellipsoid of Poinsot, axis 3 up.
+    """Draw the polhode with the separatrix, on the sphere of momentum directions or on Poinsot's inertia ellipsoid, axis 3 up.
 
     Parameters
     ----------
@@ -60,11 +60,12 @@ def polhode(motion: Motion, axes: "Axes | None" = None, *, surface: str = "spher
     axes : matplotlib.axes.Axes, optional
         By default those of a new figure.
     surface : {"sphere", "ellipsoid"}, optional
+        The surface.
 
     Raises
     ------
     ValueError
-        ``surface="cube"``.
+        An unknown surface (``"cube"``).
     """
     if surface not in ("sphere", "ellipsoid"):
         raise ValueError(f'surface = {surface!r}: it must be "sphere" or "ellipsoid"')
@@ -77,7 +78,7 @@ def polhode(motion: Motion, axes: "Axes | None" = None, *, surface: str = "spher
 
 
 def phase_portrait(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = None) -> "Axes":
-    """Andoyer's plane (ν, N/M): level curves of the energy, the separatrix, the motion and where it starts."""
+    """Draw Andoyer's plane (ν, N/M): level curves of the energy, the separatrix, the motion and its start."""
     axes, times = _axes(axes), _times(motion, times)
     _, moments, directions = _sorted(motion, times)
     nu = np.arctan2(directions[:, 0], directions[:, 1])
@@ -86,7 +87,7 @@ def phase_portrait(motion: Motion, times: ArrayLike | None = None, axes: "Axes |
 
 
 def polhode_near_pole(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = None) -> "Axes":
-    """The path of the angular momentum in the body, near the axis of greatest inertia: of a motion whose J is small."""
+    """Draw the path of the angular momentum in the body near the axis of greatest inertia, for a motion with small J."""
     axes, times = _axes(axes), _times(motion, times)
     numbers, _, directions = _sorted(motion, times)
     near_pole(axes, directions, _names(numbers))
@@ -94,9 +95,9 @@ def polhode_near_pole(motion: Motion, times: ArrayLike | None = None, axes: "Axe
 
 
 def pole_path(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = None) -> "Axes":
-    """The path of the angular momentum's direction among the stars, in arcseconds from where it starts: a point without a torque.
+    """Draw the inertial path of the direction of the angular momentum, in arcseconds from its start. Without a torque the path is a point.
 
-    By default over one period of the orbit, if there is one; under several bodies or a table over the span. East is along z × k, north from k towards z, with k the first direction.
+    The default times are one period of the orbit, or the span for several bodies or a table. East is along z × k and north is from k towards z, where k is the first direction.
     """
     axes = _axes(axes)
     orbit, epoch = motion.scene.orbit, motion.scene.epoch
@@ -126,7 +127,7 @@ def pole_path(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None
 
 
 def nutation(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = None) -> "Axes":
-    """The nutation J, of the axis of greatest inertia from the angular momentum, over time."""
+    """Draw the nutation J, the angle from the angular momentum to the axis of greatest inertia, over time."""
     axes, times = _axes(axes), _times(motion, times)
     angle = _nutation(_sorted(motion, times)[2])
     tiny = angle.max() < TINY
@@ -138,13 +139,13 @@ def nutation(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None"
 
 
 def angles(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = None, *, residual: bool = True) -> "Axes":
-    """Andoyer's angles μ and ν over time, less their mean motion, or ν as it is.
+    """Draw Andoyer's angles μ and ν over time without their mean motion, or ν itself.
 
     Parameters
     ----------
     motion : Motion
     times : array_like, shape (n,), optional
-        By default three periods of the polhode. Each turn of an angle must be sampled more than twice.
+        Times [s]. By default three periods of the polhode. Each turn of an angle needs more than two times.
     axes : matplotlib.axes.Axes, optional
     residual : bool, optional
     """
@@ -173,7 +174,7 @@ def angles(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" =
 
 
 def rates(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = None) -> "Axes":
-    """Angular velocity about the body's axes over time; where J is tiny, that about the short axis in words."""
+    """Draw the angular velocity about the body axes over time. If J is tiny, the rate about the short axis is a text."""
     axes, times = _axes(axes), _times(motion, times)
     numbers, _, directions = _sorted(motion, times)
     values = motion.angular_velocity(times)
@@ -194,9 +195,9 @@ def rates(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = 
 
 
 def summary(motion: Motion, times: ArrayLike | None = None) -> "Figure":
-    """A figure of a motion: polhode, phase portrait (near the pole, if J is tiny; under a torque, the pole's path), nutation, angles, rates.
+    """Draw a figure of a motion: polhode, phase portrait (the path near the pole if J is tiny, the inertial path of the pole under a torque), nutation, angles, rates.
 
-    Times are taken to be in seconds, and are shown in hours or days; by default they cover three periods of the polhode.
+    The labels assume times in seconds and show hours or days for long spans. The default times are three periods of the polhode.
     """
     times = _times(motion, times)
     scene = motion.scene
@@ -225,14 +226,14 @@ def summary(motion: Motion, times: ArrayLike | None = None) -> "Figure":
 
 
 def samples_summary(samples: Samples, motion: Motion | None = None, *, name: str = "") -> "Figure":
-    """A figure of samples as a file has them: quaternions, rates and, where a motion is given, the angle between them and it.
+    """Draw a figure of the samples of a file: quaternions, rates and, if a motion is given, the angle between the samples and the motion.
 
     Parameters
     ----------
     samples : Samples
         Times are taken to be in seconds.
     motion : Motion, optional
-        What the samples are compared with.
+        The motion to compare with the samples.
     name : str, optional
         Title of the figure.
     """
@@ -251,13 +252,13 @@ def samples_summary(samples: Samples, motion: Motion | None = None, *, name: str
 
 
 def animate(motion: Motion, times: ArrayLike | None = None, *, interval: float = 40.0) -> "FuncAnimation":
-    """An animation of a motion: body axes, angular momentum upwards, angular velocity, polhode and herpolhode; ``.save`` writes a film.
+    """Animate a motion: body axes, angular momentum upwards, angular velocity, polhode and herpolhode. ``.save`` writes a film.
 
     Parameters
     ----------
     motion : Motion
     times : array_like, shape (n,), optional
-        One frame each. By default 300 over one period of the polhode.
+        Times of the frames. By default 300 times over one period of the polhode.
     interval : float, optional
         Time between frames [ms].
 
@@ -277,7 +278,7 @@ def _times(motion: Motion, times: ArrayLike | None) -> Array:
 def _sorted(motion: Motion, times: Array) -> tuple[list[int], Array, Array]:
     """The user's axes of moments A, B, C; these moments; directions of the momentum on them, axis 1 reversed as `Motion.andoyer` has it.
 
-    A body at rest has no direction: NaN, which matplotlib leaves out.
+    The directions of a body at rest are NaN, which matplotlib does not draw.
     """
     body = motion.scene.body
     moments = body.moments
@@ -294,13 +295,13 @@ def _left_handed(order: Any) -> bool:
 
 
 def _names(numbers: list[int]) -> list[str]:
-    """What the axes of moments A, B, C are called among the user's: with a minus where axis 1 is reversed."""
+    """The numbers of the user's axes with moments A, B, C; a minus marks a reversed axis 1."""
     names = [str(number + 1) for number in numbers]
     return [f"−{names[0]}", *names[1:]] if _left_handed(numbers) else names
 
 
 def _nutation(directions: Array) -> Array:
-    """J from the components across axis 3: the arccosine of N/M would lose a small one."""
+    """J from the components perpendicular to axis 3, because the arccosine of N/M is inaccurate for small J."""
     angle: Array = np.arctan2(np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2])
     return angle
 
@@ -317,7 +318,7 @@ def _without_mean(angle: Array, times: Array) -> tuple[Array, float, Array]:
 
 
 def _legend(axes: "Axes") -> None:
-    """A legend above the right end of a panel, where it hides no line."""
+    """A legend above the right end of a panel, outside of the curves."""
     axes.legend(loc="lower right", bbox_to_anchor=(1, 0.98), ncols=3, fontsize=9, frameon=False)
 
 

@@ -1,6 +1,6 @@
-"""`python -m andoyer.selftest`: the installed wheel against answers that are known, in under a second. Needs NumPy alone.
+"""`python -m andoyer.selftest` checks the installed wheel against known answers, in under a second. It needs only NumPy.
 
-Exit status 0 if all hold, 1 with a line for each that does not.
+Exit status 0 if all checks hold; otherwise 1, with a line for each check that fails.
 """
 
 import math
@@ -38,7 +38,7 @@ def uniform() -> bool:
 
 
 def conserved() -> bool:
-    """Energy and the inertial angular momentum stay, in both modes and on either side of 1e9 rotations."""
+    """Energy and inertial angular momentum are conserved in both modes, over 9e8 rotations."""
     for rates in ([0.1, 0.2, 1.0], [1.0, 0.2, 0.1]):
         motion = andoyer.Scene(andoyer.Body(BODY), [0, 0, 0, 1], rates).solve()
         samples = motion.at(np.array([0.0, 1.0, 1e3, 1e6, 6e9]))
@@ -50,7 +50,7 @@ def conserved() -> bool:
 
 
 def methods() -> bool:
-    """The series and the closed form give one attitude."""
+    """The series and the closed form give the same attitude."""
     first, second = (
         andoyer.Scene(andoyer.Body(BODY), [0, 0, 0, 1], [0.05, 0.1, 1.0], method=method).solve().attitude(np.linspace(0, 100, 50))
         for method in ("series", "closed")
@@ -69,7 +69,7 @@ def torque() -> bool:
 
 
 def shared() -> bool:
-    """An ensemble has the bits of its members, for any number of threads and after pickling."""
+    """An ensemble gives the same bits as its members, for any number of threads and after pickling."""
     moments = np.array([BODY, [1.0, 2.0, 2.5], [1.0, 1.0, 1.9]])
     ensemble = andoyer.Ensemble(moments, [0, 0, 0, 1], [0.1, 0.2, 1.0], threads=2)
     times = np.linspace(0, 10, 7)
@@ -91,7 +91,7 @@ def threads() -> bool:
 
 
 def refused() -> bool:
-    """What no body has is refused by name."""
+    """Invalid input raises an error that names the argument."""
     try:
         andoyer.Body([1.0, 1.0, 2.5])
     except andoyer.InputError as error:
@@ -117,7 +117,7 @@ def main() -> int:
         said = (check.__doc__ or "").rstrip(".")
         try:
             problem = "" if check() else "does not hold"
-        except Exception as error:  # whatever a broken wheel raises is the finding
+        except Exception as error:  # any exception of a broken wheel is a failed check
             problem = f"{type(error).__name__}: {error}"
         failed += bool(problem)
         print(f"{'FAILED' if problem else 'ok':7} {said}{': ' if problem else ''}{problem}")

@@ -8,13 +8,13 @@ use crate::error;
 use crate::foreign::{self, Calendar};
 use crate::orbit::Orbit;
 
-/// Epochs as seconds: one, or one for each member; and as calendar times where they are some.
+/// Epochs as numbers, one or one for each member, and as calendar times if they are Time objects.
 pub(super) fn epochs_of(value: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, Vec<Calendar>)> {
     let (seconds, calendar) = foreign::epochs("epochs", value)?;
     Ok((numbers_of("epochs", &seconds)?, calendar))
 }
 
-/// The ensemble with what was asked for besides.
+/// The ensemble with its options.
 pub(super) fn asked(
     ensemble: andoyer_propagate::Ensemble,
     orbits: Option<Vec<Option<andoyer_propagate::Orbit>>>,
@@ -29,7 +29,7 @@ pub(super) fn asked(
     Ok(threads.into_iter().fold(ensemble, andoyer_propagate::Ensemble::threads))
 }
 
-/// One orbit for all, or one or None for each.
+/// One orbit for all members, or an orbit or None for each.
 pub(super) fn orbits_of(value: &Bound<'_, PyAny>) -> PyResult<Vec<Option<andoyer_propagate::Orbit>>> {
     let kind = |name: &str, value: &Bound<'_, PyAny>, or: &str| -> PyErr {
         let found = value.get_type().name().map_or_else(|_| "something else".to_owned(), |name| name.to_string());

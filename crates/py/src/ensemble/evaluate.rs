@@ -48,7 +48,7 @@ impl Ensemble {
         interruptible(py, long, error::propagation, |stop| find(self.0.run().until(stop)))
     }
 
-    /// The plan of every member, or why it has none.
+    /// The plan of every member, or its error.
     pub(super) fn solved(&self, py: Python<'_>) -> PyResult<Vec<Result<andoyer_propagate::Plan, Propagation>>> {
         self.values(py, |run| run.plans())
     }
@@ -59,7 +59,7 @@ impl Ensemble {
     }
 }
 
-/// The errors of members that were refused, as Python has them.
+/// The errors of refused members, as Python exceptions.
 pub(super) fn refused(py: Python<'_>, outcome: Outcome) -> Vec<(usize, Py<PyAny>)> {
     let value = |problem| error::propagation(problem).into_value(py).into_any();
     outcome.into_errors().into_iter().map(|(index, problem)| (index, value(problem))).collect()

@@ -31,7 +31,7 @@ use evaluate::refused;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
-/// Members from which on building an ensemble, which checks each of them, is a long call.
+/// Number of members above which the construction of an ensemble, which checks each member, counts as a long call.
 const LONG: usize = 1 << 16;
 
 #[doc = include_str!("ensemble.md")]
@@ -82,14 +82,14 @@ impl Ensemble {
         interruptible(py, members >= LONG, error::propagation, new).map(|ensemble| Self(ensemble, calendar))
     }
 
-    /// Attitudes and angular velocities of all members, in one pass.
+    /// Evaluates attitudes and angular velocities of all members in one pass.
     ///
     /// Parameters
     /// ----------
     /// times : float or array_like, shape (n,) or (m, n)
-    ///     The times of all members, or a row for each.
+    ///     Times for all members, or a row of times for each member.
     /// scalar_first : bool, optional
-    ///     Attitudes as [w, x, y, z].
+    ///     If True, quaternions are [w, x, y, z]; by default [x, y, z, w].
     ///
     /// Returns
     /// -------
@@ -99,14 +99,14 @@ impl Ensemble {
     /// Warns
     /// -----
     /// ToleranceWarning
-    ///     How many members miss the tolerance, and which is the worst.
+    ///     Some members miss the tolerance; the warning states their number and the worst member.
     ///
     /// Raises
     /// ------
     /// RepresentationError
-    ///     Times as of a motion and units as of a scene, with the attribute ``index`` of the first member that has it.
+    ///     Errors of times as for a motion and of units as for a scene; the attribute ``index`` is the first member with the error.
     /// InputError
-    ///     Rows for another number of members.
+    ///     Another number of rows than members.
     #[pyo3(signature = (times, *, scalar_first=false))]
     fn at(&self, py: Python<'_>, times: &Bound<'_, PyAny>, scalar_first: bool) -> PyResult<Samples> {
         let times = self.times(times)?;
@@ -127,20 +127,20 @@ impl Ensemble {
         Ok(samples.given(times.given()).refused(refused(py, outcome)))
     }
 
-    /// Attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones.
+    /// Evaluates attitudes of all members: unit quaternions [x, y, z, w] that rotate body components into inertial ones.
     ///
     /// Parameters
     /// ----------
     /// times : float or array_like, shape (n,) or (m, n)
     /// out : ndarray, float64, C-contiguous, shape (m, n, 4), optional
-    ///     Where the result is written. After an error it holds what had been computed.
+    ///     Array for the result. After an error it contains the values computed so far.
     /// scalar_first : bool, optional
-    ///     [w, x, y, z] instead.
+    ///     If True, quaternions are [w, x, y, z].
     ///
     /// Returns
     /// -------
     /// ndarray, shape (m, n, 4)
-    ///     `out`, if given.
+    ///     Unit quaternions; this is `out` if `out` was given.
     #[pyo3(signature = (times, out=None, *, scalar_first=false))]
     fn attitude<'py>(
         &self,
@@ -155,7 +155,7 @@ impl Ensemble {
         })
     }
 
-    /// Angular momenta of all members in inertial components, in the unit of moment × rate: the same at all times unless a member has an orbit.
+    /// Evaluates the angular momenta of all members in inertial components, in the unit of moment × rate. They are constant unless a member has an orbit.
     ///
     /// Parameters
     /// ----------
@@ -175,7 +175,7 @@ impl Ensemble {
         self.rows(times, None, |run, values, rows, _| run.angular_momenta_into(values, rows))
     }
 
-    /// Andoyer variables (λ, μ, ν, Λ, M, N) of all members, as `Motion.andoyer` defines them (theory §1).
+    /// Evaluates the Andoyer variables (λ, μ, ν, Λ, M, N) of all members, as defined in `Motion.andoyer` (theory §1).
     ///
     /// Parameters
     /// ----------
@@ -188,7 +188,7 @@ impl Ensemble {
     ///
     /// Examples
     /// --------
-    /// The last of them, N, is the component of the angular momentum on axis 3.
+    /// The last variable, N, is the component of the angular momentum on axis 3.
     ///
     /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [0.1, 0.2, 1.0])
     /// >>> ensemble.andoyer(0.0)[:, 5].round(12)
@@ -197,7 +197,7 @@ impl Ensemble {
         self.rows(times, None, |run, values, rows, _| run.andoyer_into(values, rows))
     }
 
-    /// Attitudes of all members as a `scipy.spatial.transform.Rotation`, body to inertial. SciPy is imported here and nowhere else.
+    /// Evaluates attitudes of all members as a `scipy.spatial.transform.Rotation`, body to inertial. This method imports SciPy.
     ///
     /// Parameters
     /// ----------
@@ -211,9 +211,9 @@ impl Ensemble {
     /// Raises
     /// ------
     /// ImportError
-    ///     SciPy is not installed: the extra ``andoyer[scipy]`` brings it.
+    ///     SciPy is not installed; the extra ``andoyer[scipy]`` installs it.
     /// ValueError
-    ///     Several times with a SciPy before 1.17, whose rotations have one axis.
+    ///     Several times with SciPy before 1.17, whose rotations have only one axis.
     ///
     /// Examples
     /// --------
@@ -224,7 +224,7 @@ impl Ensemble {
         foreign::rotation(&self.attitude(times, None, false)?)
     }
 
-    /// Derivatives of attitude and angular velocity of all members, as `Motion.partials` defines them (theory §12).
+    /// Evaluates the derivatives of attitude and angular velocity of all members, as defined in `Motion.partials` (theory §12).
     ///
     /// Parameters
     /// ----------
@@ -233,7 +233,7 @@ impl Ensemble {
     /// Returns
     /// -------
     /// Partials
-    ///     With a leading axis of members: arrays of shape (m, n, 3, 9), for a scalar time (m, 3, 9); with ``errors="nan"`` NaN for a member that has none.
+    ///     With a leading axis of members: arrays of shape (m, n, 3, 9), for a scalar time (m, 3, 9); with ``errors="nan"`` they are NaN for a member without derivatives.
     ///
     /// Raises
     /// ------
@@ -242,7 +242,7 @@ impl Ensemble {
     ///
     /// Examples
     /// --------
-    /// Rotation about axis 3 for 10 units of time: the angle grows by 10 for each unit of its rate.
+    /// After 10 units of time, the angle of rotation about axis 3 grows by 10 for each unit of the rate.
     ///
     /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [0, 0, 2.0])
     /// >>> ensemble.partials(10.0).attitude[:, 2, 5]
@@ -261,9 +261,9 @@ impl Ensemble {
         Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
     }
 
-    /// Mean periods (P_φ, P_ψ) of all members in three conventions, as `Motion.periods` defines them.
+    /// Mean periods (P_φ, P_ψ) of all members in three conventions, as defined in `Motion.periods`.
     ///
-    /// A dict with the keys "long-axis", "short-axis" and "extremal-axis"; values are named tuples (precession, rotation) of arrays, shape (m,), infinite where a member has no
+    /// A dict with the keys "long-axis", "short-axis" and "extremal-axis"; values are named tuples (precession, rotation) of arrays, shape (m,), infinite if a member has no
     /// such period.
     ///
     /// Examples
@@ -285,7 +285,7 @@ impl Ensemble {
         )
     }
 
-    /// E/E0 of all members, shape (m,): rotational energy over that of rotation about the axis of greatest inertia with the same angular momentum (theory §5).
+    /// E/E0 of all members, shape (m,): the rotational energy divided by the energy of rotation about the axis of greatest inertia with the same angular momentum (theory §5).
     ///
     /// Examples
     /// --------
@@ -298,7 +298,7 @@ impl Ensemble {
         Ok(ratios.into_pyarray(py))
     }
 
-    /// The plan of every member: a list of `Plan`; with ``errors="nan"`` None for a member that is refused.
+    /// The plan of every member: a list of `Plan`. With ``errors="nan"`` the plan of an invalid member is None.
     #[getter]
     fn plans(&self, py: Python<'_>) -> PyResult<Vec<Option<Plan>>> {
         let plans = self.solved(py)?.into_iter();
@@ -308,7 +308,7 @@ impl Ensemble {
         }
     }
 
-    /// Why members have no motion: errors by index. All members are solved for it; empty where every member has one.
+    /// The errors of members that have no motion, by index. This property solves all members; it is empty if every member has a motion.
     #[getter]
     fn errors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let errors = PyDict::new(py);
@@ -336,19 +336,19 @@ impl Ensemble {
         constant_rows(py, self.0.moments())
     }
 
-    /// The attitudes at time 0 as given: unit quaternions [x, y, z, w], a read-only array, shape (m, 4).
+    /// The attitudes at the epoch as given: unit quaternions [x, y, z, w], a read-only array, shape (m, 4).
     #[getter]
     fn attitudes<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
         constant_rows(py, self.0.attitudes())
     }
 
-    /// The angular velocities at time 0, in body components, in rad per unit of time: a read-only array, shape (m, 3).
+    /// The angular velocities at the epoch in body components, in rad per unit of time: a read-only array, shape (m, 3).
     #[getter]
     fn angular_velocities<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
         constant_rows(py, self.0.angular_velocities())
     }
 
-    /// The attitude error asked for, in rad.
+    /// The requested attitude error, in rad.
     #[getter]
     fn tolerance(&self) -> f64 {
         self.0.asked_tolerance()
@@ -360,13 +360,13 @@ impl Ensemble {
         self.orbits_as_given(py)
     }
 
-    /// The times over which `tolerance` is asked for, or None.
+    /// The span, the times over which `tolerance` is requested, or None.
     #[getter]
     fn span(&self) -> Option<(f64, f64)> {
         self.0.asked_span()
     }
 
-    /// The number of threads asked for, or None.
+    /// The requested number of threads, or None.
     #[getter]
     fn threads(&self) -> Option<usize> {
         self.0.asked_threads()

@@ -10,7 +10,7 @@ and the two laws of scattering, both of albedo 1 and solid angle 1, are
     lommel-seeliger    (π/2) abc { [√x (y+z) + √y (x+z)]/S² − (d²/S³) ln[(√x S + x + z)(√y S + y + z)/d²] }
 
 The first is that of Connelly and Ostro (Geometriae Dedicata 17, 1984), the integral of µ over the surface that is lit and seen; the second is the integral of µµ0/(µ + µ0)
-(Muinonen and Lumme, A&A 584, A23, 2015), written without their angles. Tests hold both against sums over a triangulated ellipsoid.
+(Muinonen and Lumme, A&A 584, A23, 2015), written without their angles. Tests compare both with sums over a triangulated ellipsoid.
 """
 
 from collections.abc import Callable
@@ -96,12 +96,12 @@ def brightness(axes: ArrayLike, attitudes: ArrayLike, sun: ArrayLike, observer: 
     Returns
     -------
     ndarray, shape (…,)
-        In the square of the unit of the axes.
+        Brightnesses, in the square of the unit of the axes.
 
     Raises
     ------
     InputError
-        Semi-axes that are not above 0, a direction of length 0, Sun and observer on opposite sides, another law.
+        Semi-axes that are not positive, a direction of length 0, Sun and observer on opposite sides, an unknown law.
 
     Examples
     --------

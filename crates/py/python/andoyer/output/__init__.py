@@ -1,8 +1,8 @@
 """Samples and motions as files, and back: CSV, NPZ, Parquet, the attitude ephemeris message of the CCSDS, the C-kernel of SPICE.
 
-Every writer takes the path first and writes the file whole or not at all; a file that is there already is replaced unless ``force=False``.
-`write_csv`, `write_npz`, `write_parquet` and `write_aem` take `Samples`, `write_ck` a `Motion`, since it chooses its times itself.
-`read_table` and `read_aem` give samples back.
+The first argument of every writer is the path. A file is written whole or not at all; an existing file is replaced unless ``force=False``.
+`write_csv`, `write_npz`, `write_parquet` and `write_aem` take `Samples`. `write_ck` takes a `Motion`, because it chooses its times itself.
+`read_table` and `read_aem` return samples.
 """
 
 from andoyer.output.aem import Heading, write_aem

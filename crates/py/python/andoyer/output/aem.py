@@ -1,8 +1,8 @@
-"""The attitude ephemeris message of the CCSDS in keyword = value notation, written: version 2 (504.0-B-2, January 2024), or 1.
+"""Writer of the attitude ephemeris message of the CCSDS in keyword = value notation: version 2 (504.0-B-2, January 2024) or version 1.
 
-Its quaternion from frame A to frame B turns the axes of A into those of B (annex F2), so with A the inertial frame and B the body's axes it is the
-attitude as it stands, scalar last. Version 2 has neither ATTITUDE_DIR nor QUATERNION_TYPE; version 1 has both, A2B and LAST here, and its rates are
-those of the quaternion, since it does not say of which frame RATE is.
+The quaternion of the standard from frame A to frame B turns the axes of A into those of B (annex F2). With A the inertial frame and B the body axes, it is the
+attitude, scalar last. Version 2 has neither ATTITUDE_DIR nor QUATERNION_TYPE. Version 1 has both, here with A2B and LAST. Its rates are
+those of the quaternion, because version 1 does not state the frame of RATE.
 """
 
 import os
@@ -30,7 +30,7 @@ METHODS = ["LINEAR", "HERMITE", "LAGRANGE"]
 
 @dataclass(frozen=True)
 class Heading:
-    """What an AEM says beside the samples. Texts are of ASCII; the standard has names in capitals."""
+    """The header and metadata of an AEM. Texts are in ASCII; the standard uses names in capitals."""
 
     name: str = "UNKNOWN"
     """OBJECT_NAME."""
@@ -39,7 +39,7 @@ class Heading:
     date: datetime = J2000
     """Calendar date of time 0 in `time_system`, for samples whose times are numbers."""
     time_system: str = "TDB"
-    """TDB, TT, TAI, GPS or UTC; for UTC the leap seconds of astropy are counted."""
+    """TDB, TT, TAI, GPS or UTC; UTC uses the leap seconds of astropy."""
     object_id: str = "UNKNOWN"
     """OBJECT_ID, by custom year, number and part of the launch: 2000-052A."""
     originator: str = "ANDOYER"
@@ -59,34 +59,35 @@ class Heading:
 
     @property
     def type(self) -> str:
-        """The attitude type, given or not."""
+        """The attitude type: the given one, or the default of the version."""
         return self.attitude_type or ("QUATERNION/ANGVEL" if self.version == 2 else "QUATERNION/DERIVATIVE")
 
 
 def write_aem(path: str | os.PathLike[str], samples: Samples, heading: Heading = Heading(), *, body: Body | None = None, force: bool = True) -> None:
-    """Samples as an attitude ephemeris message (AEM) of one segment, times in seconds.
+    """Write samples as an attitude ephemeris message (AEM) with one segment. Times are in seconds.
 
     Parameters
     ----------
     path : path-like
+        File to write.
     samples : Samples
-        Of one motion, at ascending times.
+        Samples of one motion, at ascending times.
     heading : Heading, optional
         Names, frames, date of time 0, type, version.
     body : Body, optional
-        For the types with nutation: it must have equal moments about body axes 1 and 2.
+        The body, for the types with nutation. It must have equal moments about body axes 1 and 2.
     force : bool, optional
-        Whether a file that is there already is replaced.
+        If True, an existing file is replaced.
 
     Raises
     ------
     FileExistsError
-        There is such a file, and ``force=False``.
+        The file exists, and ``force=False``.
     ImportError
         UTC without astropy.
     ValueError
-        Samples of an ensemble; times that do not ascend by 1e-12 s at least; years outside 1 to 9999; a type, version or interpolation that the
-        standard does not have, or that this motion does not allow.
+        Samples of an ensemble; times that do not ascend by at least 1e-12 s; years outside 1 to 9999; a type, version or interpolation that the
+        standard does not have, or that is not possible for this motion.
 
     Examples
     --------
@@ -113,7 +114,7 @@ def write_aem(path: str | os.PathLike[str], samples: Samples, heading: Heading =
 
 
 def _moments(samples: Samples, times: Array, heading: Heading) -> list[Fraction]:
-    """The times of the samples as the calendar counts them: numbers from the date of time 0, calendar times as they are."""
+    """The calendar times of the samples: numbers count from the date of time 0, calendar times are unchanged."""
     calendar = calendar_times(samples)
     if calendar is not None:
         return counts(calendar, heading.time_system)
@@ -167,11 +168,11 @@ def heading_lines(heading: Heading, epochs: list[str]) -> Iterator[str]:
 
 
 def _ascii(line: str) -> str:
-    """A line in printable ASCII of the length that the standard lets it have."""
+    """A line in printable ASCII of at most the length of the standard."""
     text = line.encode("ascii", "replace").decode()
     return "".join(letter if letter.isprintable() else " " for letter in text)[:LONGEST_LINE]
 
 
 def _text(value: str) -> str:
-    """A value as the standard has texts: of one case, in ASCII, with single blanks."""
+    """A text in the form of the standard: one case, ASCII, single blanks."""
     return " ".join(_ascii(value).upper().split()) or "UNKNOWN"

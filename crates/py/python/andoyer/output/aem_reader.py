@@ -1,7 +1,7 @@
-"""Attitude ephemeris messages (AEM) of the CCSDS, read: versions 1 and 2, in keyword = value notation and in XML.
+"""Reader of attitude ephemeris messages (AEM) of the CCSDS: versions 1 and 2, in keyword = value notation and in XML.
 
-Whatever the type of a message and the direction in which it is given, attitudes come out as everywhere in this package: from body components to
-those of the other frame, with the angular velocity of the body in body components.
+For every type and direction of a message, the resulting attitudes rotate body components into components of the other frame, as everywhere in this package.
+The angular velocity of the body is in body components.
 """
 
 import os
@@ -37,9 +37,9 @@ AXES = str.maketrans("123", "XYZ")
 
 @dataclass(frozen=True)
 class Segment:
-    """A segment of an AEM: what it says of itself, and its samples.
+    """A segment of an AEM: its heading and its samples.
 
-    Angular velocities are NaN where the message has none.
+    Angular velocities are NaN if the message has none.
     """
 
     heading: Heading
@@ -47,29 +47,30 @@ class Segment:
 
 
 def read_aem(path: str | os.PathLike[str], segment: int | None = None, *, date: datetime | None = None) -> Samples:
-    """The samples of a segment of an AEM, version 1 or 2, KVN or XML.
+    """Read the samples of a segment of an AEM, version 1 or 2, KVN or XML.
 
     Parameters
     ----------
     path : path-like
+        File to read.
     segment : int, optional
-        Its number from 0; needed where the message has several.
+        Number of the segment, from 0. It is needed if the message has several segments.
     date : datetime, optional
-        Time 0 of the samples, in the time system of the message: times are then exact seconds of that system. By default times are in TDB
-        seconds since J2000, as everywhere where calendar times are taken, for which systems other than TDB need astropy.
+        Time 0 of the samples, in the time system of the message. Times are then exact seconds of that system. By default times are TDB
+        seconds since J2000, as everywhere in this package; time systems other than TDB then need astropy.
 
     Returns
     -------
     Samples
-        Attitudes from body components to those of the frame that the body turns against; angular velocities in body components [rad/s], NaN
-        where the message has none (type QUATERNION or EULER_ANGLE) or does not say of which frame they are (the types RATE of version 1).
+        Attitudes from body components to components of the reference frame, and angular velocities in body components [rad/s]. Angular velocities are NaN
+        if the message has none (type QUATERNION or EULER_ANGLE) or does not state their frame (the types RATE of version 1).
 
     Raises
     ------
     ImportError
         UTC, or the conversion to TDB, without astropy.
     ValueError
-        What the standard does not have, with the line; a segment that is not there; a time system that does not count seconds.
+        Text that the standard does not allow, with the number of the line; a segment that does not exist; a time system that does not count seconds.
 
     Examples
     --------
@@ -88,11 +89,12 @@ def read_aem(path: str | os.PathLike[str], segment: int | None = None, *, date: 
 
 
 def read_aem_segments(path: str | os.PathLike[str], *, date: datetime | None = None) -> list[Segment]:
-    """All segments of an AEM with what they say of themselves.
+    """Read all segments of an AEM with their headings.
 
     Parameters
     ----------
     path : path-like
+        File to read.
     date : datetime, optional
         As in `read_aem`.
 
@@ -163,7 +165,7 @@ def _segment(message: RawMessage, raw: RawSegment, date: datetime | None) -> Seg
 
 
 def _choice(raw: RawSegment, key: str, allowed: list[str]) -> str:
-    """A value that must be one of a few, in any case, with blanks for underscores."""
+    """A value that must be one of a few texts, in any case; blanks count as underscores."""
     value = raw.metadata.get(key)
     if value is None:
         raise ValueError(f"{raw.where}: {key} must be given")
@@ -174,7 +176,7 @@ def _choice(raw: RawSegment, key: str, allowed: list[str]) -> str:
 
 
 def _plain(text: str) -> str:
-    """A text without the differences that the standard does not count (6.8.6, 6.8.8)."""
+    """A text without the differences that the standard ignores (6.8.6, 6.8.8)."""
     return " ".join(text.replace("_", " ").upper().split())
 
 
@@ -225,7 +227,7 @@ def _times(raw: RawSegment, system: str, date: datetime | None) -> Array:
 def _of_second(raw: RawSegment, attitude: Array, rates: Array) -> Array:
     """An angular velocity in components of frame B."""
     frame = _plain(raw.metadata.get("ANGVEL_FRAME", ""))
-    # The standard's own figure G-13 has the keyword in the place of the name.
+    # Figure G-13 of the standard has the keyword in the place of the name.
     if frame in (_plain(raw.metadata["REF_FRAME_B"]), "REF FRAME B"):
         return rates
     if frame in (_plain(raw.metadata["REF_FRAME_A"]), "REF FRAME A"):

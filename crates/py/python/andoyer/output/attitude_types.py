@@ -1,6 +1,6 @@
-"""The attitude types of an AEM (504.0-B-2, table 4-4 and annex F) from attitudes and angular velocities, and back.
+"""Conversion of attitudes and angular velocities to the attitude types of an AEM (504.0-B-2, table 4-4 and annex F), and back.
 
-Attitudes are [x, y, z, w] from body components to those of the reference frame; angular velocities are body components in rad/s. Angles in the message
+Attitudes are [x, y, z, w] and rotate body components into components of the reference frame. Angular velocities are body components in rad/s. Angles in the message
 are in degrees.
 """
 
@@ -48,7 +48,7 @@ def columns_of(name: str, attitude: Array, rates: Array, body: Body | None = Non
     Raises
     ------
     ValueError
-        SPIN of a body that does not turn about axis 3 alone; a nutation without a body, of one whose moments about axes 1 and 2 differ, or at rest.
+        SPIN for a body that does not rotate about axis 3 alone; a nutation without a `Body`, for a body whose moments about axes 1 and 2 differ, or for a body at rest.
     """
     if name == "QUATERNION":
         return attitude
@@ -96,9 +96,9 @@ def _nutation(name: str, rates: Array, body: Body | None) -> tuple[Array, Array,
 
 
 def attitudes_of(name: str, table: Array, sequence: str) -> tuple[Array, Array]:
-    """Attitudes from frame B to A, and the angular velocity of B against A in components of B [rad/s]; NaN where the type has none.
+    """Attitudes from frame B to A, and the angular velocity of B relative to A in components of B [rad/s], or NaN if the type has no rates.
 
-    ANGVEL is taken as it stands, in the frame that the message names.
+    ANGVEL is returned unchanged, in the frame that the message names.
 
     Raises
     ------
@@ -126,7 +126,7 @@ def attitudes_of(name: str, table: Array, sequence: str) -> tuple[Array, Array]:
 
 
 def _spin(name: str, table: Array) -> tuple[Array, Array]:
-    """Annex F5: the body turns at one rate about axis 3, and that axis at one rate about the angular momentum."""
+    """Annex F5: the body rotates at one rate about axis 3, and this axis precesses at one rate about the angular momentum."""
     spin = np.radians(table[:, :4])
     attitude = product(axis_turned(spin[:, 0], spin[:, 1]), about(2, spin[:, 2]))
     rates = np.zeros((len(table), 3))
@@ -145,7 +145,7 @@ def _spin(name: str, table: Array) -> tuple[Array, Array]:
 
 
 def _euler_rates(sequence: str, turns: list[Array], speeds: Array) -> Array:
-    """The angular velocity in the last frame of three turns: each about an axis of the frame before it."""
+    """The angular velocity in the last frame of three rotations, each about an axis of the frame before it."""
     total = np.zeros_like(speeds)
     since = np.broadcast_to([0.0, 0.0, 0.0, 1.0], turns[0].shape)
     for place in (2, 1, 0):

@@ -1,7 +1,7 @@
 """Calendar times of CCSDS messages as exact seconds, and back.
 
-A calendar time is counted in its own scale, in seconds since 2000-01-01T12:00:00 of that scale, as a fraction: no digit is lost. UTC is counted in
-SI seconds through the leap seconds that astropy knows, TDB against other scales by astropy too; nothing else needs it.
+A calendar time is a number of seconds since 2000-01-01T12:00:00 in its own time scale, as an exact fraction. UTC is counted in
+SI seconds with the leap seconds of astropy. The conversion of TDB to other scales also uses astropy; other conversions do not need it.
 """
 
 import re
@@ -45,7 +45,7 @@ def parse(text: str, system: str) -> Fraction:
     Raises
     ------
     ValueError
-        Another form; a day, hour, minute or second that the calendar does not have; Z, which is UTC, in another scale.
+        Another form; a day, hour, minute or second that the calendar does not have; Z, which means UTC, in another scale.
     """
     match = EPOCH.fullmatch(text)
     if match is None:
@@ -84,7 +84,7 @@ def counts(times: Any, system: str) -> list[Fraction]:
 
 
 def written(seconds: Fraction, system: str) -> str:
-    """The calendar time so many seconds after 2000-01-01T12:00:00 of the scale, to `EPOCH_DIGITS` decimals.
+    """The calendar time for a number of seconds since 2000-01-01T12:00:00 of the scale, to `EPOCH_DIGITS` decimals.
 
     Raises
     ------
@@ -108,7 +108,7 @@ def seconds_of_tdb(date: datetime, system: str) -> float:
 
 
 def tdb(moments: Sequence[Fraction], system: str) -> Array:
-    """Seconds of TDB since J2000 at times so many seconds after 2000-01-01T12:00:00 of the scale.
+    """TDB seconds since J2000 at times given in seconds since 2000-01-01T12:00:00 of the scale.
 
     Raises
     ------
@@ -149,7 +149,7 @@ def _leap_seconds(day: Day) -> int:
 
 
 def _utc(whole: int) -> tuple[int, int]:
-    """The label of UTC for a count of SI seconds: seconds of the calendar since 2000-01-01T12:00:00, and 1 within a leap second."""
+    """The calendar seconds of UTC since 2000-01-01T12:00:00 for a number of SI seconds, and 1 within a leap second, otherwise 0."""
     first = _leap_seconds(J2000.date())
     days, offsets = _table()
     starts = [(day - J2000.date()).days * DAY - DAY // 2 + offset - first for day, offset in zip(days, offsets)]
@@ -172,6 +172,6 @@ def _table() -> tuple[list[Day], list[int]]:
 
 
 def _erfa(purpose: str) -> Any:
-    """The library of astropy for scales of time, with astropy's leap seconds: importing astropy brings them up to date."""
+    """The library of astropy for time scales. Importing astropy updates its leap seconds."""
     extra("astropy.time", purpose)
     return extra("erfa", purpose)

@@ -1,9 +1,9 @@
-"""A motion as a C-kernel of SPICE, by SpiceyPy: type 3, or type 2 where the body turns uniformly.
+"""Writer of C-kernels of SPICE, by SpiceyPy: type 3, or type 2 for uniform rotation.
 
-A C-kernel gives the matrix from an inertial frame to the body's axes and the angular velocity in inertial components at times of a spacecraft clock.
-SPICE's quaternion of that matrix is [w, -x, -y, -z] of the attitude here. Type 3 turns uniformly between its records (`andoyer.output.nodes` says
-how many are needed), type 2 keeps one angular velocity for each record. Without a clock kernel one is written beside: its ticks are
-the seconds of ephemeris time (TDB) less a whole number, so that no digit is lost.
+A C-kernel gives the matrix from an inertial frame to the body axes, and the angular velocity in inertial components, at times of a spacecraft clock.
+The SPICE quaternion of that matrix is [w, -x, -y, -z] for the attitude [x, y, z, w]. Type 3 rotates uniformly between its records; `andoyer.output.nodes` computes
+their times. Type 2 has one angular velocity for each record. If no clock kernel is given, one is written too. Its ticks are
+the seconds of ephemeris time (TDB) minus a whole number, so that no digit is lost.
 """
 
 import math
@@ -44,41 +44,41 @@ ROUNDING = 2.0**-51
 
 @dataclass(frozen=True)
 class Kernel:
-    """What a C-kernel says beside the attitudes."""
+    """The codes, frames, clock and comments of a C-kernel."""
 
     instrument: int = -999000
-    """Code of the body's axes: the class ID of their frame."""
+    """Code of the body frame: its class ID."""
     body_frame: str = "ANDOYER_BODY"
-    """Name of that frame, in the text kernel that is written beside."""
+    """Name of the body frame in the text kernel."""
     frame: str = "J2000"
     """Inertial frame of the scene, by a name that SPICE knows."""
     segment: str = "ANDOYER"
     """Name of the segments."""
     clock: str | os.PathLike[str] | None = None
-    """A clock kernel (SCLK); without one, a clock of ephemeris seconds is written beside."""
+    """A clock kernel (SCLK). By default the text kernel contains a clock of ephemeris seconds."""
     clock_id: int | None = None
-    """Code of the clock: by default the thousands of a negative instrument code, else -999."""
+    """Code of the clock: by default the thousands of a negative instrument code, otherwise -999."""
     date: datetime = J2000
-    """Calendar date of time 0 in `time_system`; the scene's seconds are those of TDB."""
+    """Calendar date of time 0 in `time_system`; the seconds of the scene are TDB seconds."""
     time_system: str = "TDB"
     comments: tuple[str, ...] = ()
     """Lines for the comment area, after those on the scene."""
 
     @property
     def clock_code(self) -> int:
-        """The code of the clock, given or not."""
+        """The code of the clock: the given one or the default."""
         if self.clock_id is not None:
             return self.clock_id
         return -(-self.instrument // 1000) if self.instrument <= -1000 else -999
 
 
 class Written(NamedTuple):
-    """What was written."""
+    """The result of `write_ck`."""
 
     type: int
     """Type of the C-kernel: 2 or 3."""
     records: int
-    """Records in all segments."""
+    """Number of records in all segments."""
 
 
 def write_ck(
@@ -91,26 +91,26 @@ def write_ck(
     progress: Progress = silent,
     force: bool = True,
 ) -> Written:
-    """A motion as a C-kernel whose pointing, as SPICE interpolates it, is that of the motion within a given angle.
+    """Write a motion as a C-kernel. The attitude that SPICE interpolates differs from the motion by at most a given angle.
 
-    Beside FILE.bc the text kernel FILE.tsc is written: the frame of the body and, where none is given, the clock.
+    The function also writes the text kernel FILE.tsc for FILE.bc, with the frame of the body and, if no clock is given, a clock.
 
     Parameters
     ----------
     path : path-like
-        Of the C-kernel, by custom with the ending .bc.
+        File of the C-kernel, usually with the ending .bc.
     motion : Motion
-        In seconds, the unit of SPICE.
+        A motion with times in seconds, the unit of SPICE.
     interval : pair of float
-        First and last time [s], as the scene counts them.
+        First and last time [s] of the scene.
     kernel : Kernel, optional
         Codes, frames, clock, date of time 0, comments.
     interpolation_error : float, optional
-        Largest angle [rad] between SPICE's attitude and that of the motion.
+        Largest angle [rad] between the attitude of SPICE and that of the motion.
     progress : callable, optional
-        Called with the windows written and their number.
+        Called as ``progress(done, total)`` with numbers of windows.
     force : bool, optional
-        Whether files that are there already are replaced.
+        If True, existing files are replaced.
 
     Returns
     -------
@@ -120,12 +120,12 @@ def write_ck(
     Raises
     ------
     ImportError
-        SpiceyPy is not installed: the extra ``andoyer[spice]`` brings it.
+        SpiceyPy is not installed; the extra ``andoyer[spice]`` installs it.
     FileExistsError
-        There is such a file, and ``force=False``.
+        The file exists, and ``force=False``.
     ValueError
-        An interval of no length; an error below 1e-13 rad, or one that asks for more than 5e7 records; a frame that SPICE does not know; a
-        name longer than SPICE takes.
+        An interval of zero length; an error below 1e-13 rad, or one that needs more than 5e7 records; a frame that SPICE does not know; a
+        name that is too long for SPICE.
 
     Examples
     --------
@@ -152,7 +152,7 @@ def write_ck(
 
 
 class _Segment(NamedTuple):
-    """Records of one segment: times [s] as the scene counts them, attitudes, angular velocities in inertial components."""
+    """Records of one segment: times [s] of the scene, attitudes, angular velocities in inertial components."""
 
     times: Array
     attitude: Array
@@ -170,14 +170,14 @@ def _check(path: Path, begin: float, end: float, error: float) -> None:
 
 
 def _segment(motion: Motion, times: Array, zero: float, uniform: bool) -> _Segment:
-    """The motion at times that ephemeris time has exactly: after `zero` seconds they are rounded, and the motion is taken there."""
+    """Evaluate the motion at times that are exact in ephemeris time: the sum with `zero` seconds is rounded first."""
     times = (zero + times) - zero
     samples = motion.at(times)
     return _Segment(times, samples.attitude, rotate(samples.attitude, samples.angular_velocity), uniform)
 
 
 def _uniform(motion: Motion, begin: float, end: float, error: float, zero: float) -> Iterator[_Segment]:
-    """One record, or as many as keep the rounding of a record's angle below the error."""
+    """Records of type 2: one, or as many as keep the rounding of the angle of a record below the error."""
     angle = float(np.linalg.norm(motion.angular_velocity(begin))) * (end - begin)
     count = max(1, math.ceil(angle * ROUNDING / error))
     _limit(count, error)
@@ -185,7 +185,7 @@ def _uniform(motion: Motion, begin: float, end: float, error: float, zero: float
 
 
 def _tabulated(motion: Motion, begin: float, end: float, error: float, zero: float, progress: Progress) -> Iterator[_Segment]:
-    """Segments of type 3, each of whole windows; neighbours share a node, so that there is no gap."""
+    """Segments of type 3, each with whole windows. Neighbouring segments share a node, so that there is no gap."""
     borders = windows(motion, begin, end)
     _limit(round(estimate(motion, borders, error)), error)
     parts: list[Array] = []
@@ -209,7 +209,7 @@ def _limit(records: int, error: float) -> None:
 
 @contextmanager
 def _clock(spice: Any, kernel: Kernel, begin: float) -> Iterator[Any]:
-    """From ephemeris times to ticks: by the clock that is given, loaded for so long, or by that which is written."""
+    """Conversion of ephemeris times to ticks, by the given clock, which is loaded meanwhile, or by the written clock."""
     if kernel.clock is None:
         yield lambda times: times - math.floor(begin)
         return
@@ -222,7 +222,7 @@ def _clock(spice: Any, kernel: Kernel, begin: float) -> Iterator[Any]:
 
 @contextmanager
 def _plain_errors(spice: Any) -> Iterator[None]:
-    """What SPICE says is an error of the system with its short message and its explanation."""
+    """Turn an error of SPICE into an OSError with its short message and its explanation."""
     try:
         yield
     except spice.exceptions.SpiceyError as error:
@@ -261,7 +261,7 @@ def _write(spice: Any, path: Path, segments: Iterator[_Segment], kernel: Kernel,
 
 
 def _comments(motion: Motion, kernel: Kernel, error: float) -> list[str]:
-    """The comment area: what the kernel is, its error, the scene."""
+    """The comment area: a description of the kernel, its error, the scene."""
     plan = motion.plan
     lines = [
         f"Attitude of {motion.scene.name or motion.scene.body.name or 'a rigid body'}, written by andoyer {__version__}.",
@@ -282,7 +282,7 @@ def _comments(motion: Motion, kernel: Kernel, error: float) -> list[str]:
 
 
 def _pieces(line: str) -> list[str]:
-    """A line in printable ASCII, in pieces that SPICE takes."""
+    """A line in printable ASCII, in pieces that are short enough for SPICE."""
     text = "".join(letter if letter.isprintable() else " " for letter in line.encode("ascii", "replace").decode())
     return [text[start : start + LONGEST_LINE] for start in range(0, len(text), LONGEST_LINE)] or [" "]
 

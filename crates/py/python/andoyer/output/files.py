@@ -1,4 +1,4 @@
-"""A file is written whole or not at all: under another name in the same folder, which is renamed when it is complete."""
+"""Writing a file whole or not at all: the file has a temporary name in the same folder until it is complete."""
 
 import os
 import secrets
@@ -13,20 +13,21 @@ LONGEST_STEM = 40
 
 @contextmanager
 def whole_file(path: str | os.PathLike[str], force: bool = True) -> Iterator[Path]:
-    """The name to write under; when the block ends without an error, the file gets the name `path`.
+    """The temporary name to write to. When the block ends without an error, the file gets the name `path`.
 
-    An error, or Ctrl-C, removes what was written and leaves a file that was at `path` as it was. A device or a pipe is written directly.
+    After an error or Ctrl-C the temporary file is removed and an old file at `path` is unchanged. A device or a pipe is written directly.
 
     Parameters
     ----------
     path : path-like
+        File to write.
     force : bool, optional
-        Whether a file that is there already is replaced.
+        If True, an existing file is replaced.
 
     Raises
     ------
     FileExistsError
-        There is such a file, and ``force=False``.
+        The file exists, and ``force=False``.
     """
     target = Path(os.path.realpath(path))
     if is_stream(target):
@@ -37,7 +38,7 @@ def whole_file(path: str | os.PathLike[str], force: bool = True) -> Iterator[Pat
     if not force and target.exists():
         raise existing(path)
     temporary = target.with_name(f".{target.stem[:LONGEST_STEM]}-{secrets.token_hex(4)}{target.suffix}")
-    # The system says now whether the folder can be written.
+    # This shows now if the folder cannot be written.
     os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
     try:
         yield temporary
@@ -50,7 +51,7 @@ def whole_file(path: str | os.PathLike[str], force: bool = True) -> Iterator[Pat
 
 
 def is_stream(path: Path) -> bool:
-    """Whether a device or a pipe is there: it has no name to be renamed to."""
+    """True if the path is a device or a pipe, which cannot be renamed."""
     try:
         mode = path.stat().st_mode
     except OSError:
@@ -59,12 +60,12 @@ def is_stream(path: Path) -> bool:
 
 
 def existing(path: str | os.PathLike[str]) -> FileExistsError:
-    """The error for a file that is there."""
+    """The error for an existing file."""
     return FileExistsError(17, os.strerror(17), str(path))
 
 
 def _rename_to_new(temporary: Path, target: Path, path: str | os.PathLike[str]) -> None:
-    """Rename unless something has come to be at `target` meanwhile; a link fails on it, where the file system has links."""
+    """Rename unless `target` exists by now. Where the file system has links, a link detects this."""
     try:
         os.link(temporary, target)
     except FileExistsError:

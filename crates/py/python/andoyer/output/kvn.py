@@ -1,4 +1,4 @@
-"""The keyword = value notation of an AEM (504.0-B-2, section 6), read."""
+"""Parser of the keyword = value notation of an AEM (504.0-B-2, section 6)."""
 
 import re
 
@@ -9,12 +9,12 @@ ASSIGNMENT = re.compile(r"([A-Z][A-Z0-9_]*)\s*=\s*(.*)", re.ASCII)
 
 
 def parse_kvn(text: str) -> RawMessage:
-    """The message in a text.
+    """Parse the message in a text.
 
     Raises
     ------
     ValueError
-        A line that is not as the standard has it, with its number.
+        A line that the standard does not allow, with its number.
     """
     lines = [(number, line.strip()) for number, line in enumerate(LINE_END.split(text), 1) if line.strip()]
     if not lines:
@@ -31,7 +31,7 @@ def parse_kvn(text: str) -> RawMessage:
 
 
 class _State:
-    """A part of the message: it takes a line and says which part the next is in."""
+    """A part of the message. It takes a line and returns the part of the next line."""
 
     def __init__(self, message: RawMessage):
         self.message = message
@@ -41,7 +41,7 @@ class _State:
         raise NotImplementedError
 
     def end(self, number: int) -> None:
-        """The file ends after line `number`: an error but for the state after a whole segment."""
+        """The file ends after line `number`. This is an error, except after a complete segment."""
         raise ValueError(f"line {number}: the message ends here, in {self.named}")
 
     named = ""

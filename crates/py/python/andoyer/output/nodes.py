@@ -1,9 +1,9 @@
-"""Times at which a motion is tabulated so that what turns uniformly from one to the next stays within a given error.
+"""Times at which a motion is tabulated, so that uniform rotation between neighbouring times stays within a given error.
 
-Between two attitudes a C-kernel of type 3 turns about one axis at one rate. A motion whose angular velocity changes by α = |dω/dt| departs from that
-by h²α/8 in the middle of an interval h, as a straight line does from a parabola. So the fewest nodes for an error ε have the density √(α/8ε), and
-their number is its integral. α is measured: it is what the attitude at the middle of a short interval lacks, so every torque is in it.
-An interval is never longer than a quarter of a turn, since the shorter way round is taken.
+Between two attitudes a C-kernel of type 3 rotates about one axis at one rate. For a motion with the angular acceleration α = |dω/dt| the error
+is h²α/8 in the middle of an interval h, the difference between a parabola and its chord. The smallest number of nodes for an error ε therefore has the density √(α/8ε), and
+the number is the integral of the density. α is computed from the attitude in the middle of a short interval and includes every torque.
+An interval is at most a quarter of a turn long, because SPICE takes the shorter of the two rotations.
 """
 
 import math
@@ -33,14 +33,14 @@ ATTEMPTS = 8
 
 
 def windows(motion: Motion, start: float, stop: float) -> Array:
-    """Borders of the parts of the interval that are tabulated one after the other: each of `ROTATIONS` rotations, or the whole."""
+    """Borders of the windows, the parts of the interval that are tabulated one after the other: `ROTATIONS` rotations each, or the whole interval."""
     rate = float(np.max(np.linalg.norm(motion.angular_velocity(np.linspace(start, stop, 1024)), axis=1)))
     count = max(1, math.ceil((stop - start) * rate / (2 * math.pi * ROTATIONS)))
     return np.linspace(start, stop, count + 1)
 
 
 def estimate(motion: Motion, borders: Array, error: float) -> float:
-    """About how many nodes there will be, by the first window."""
+    """Estimate the number of nodes from the first window."""
     _, integral = _count(motion, float(borders[0]), float(borders[1]), MARGIN * error)
     return float(integral[-1]) * (len(borders) - 1)
 
@@ -51,7 +51,7 @@ def nodes(motion: Motion, borders: Array, error: float) -> Iterator[Array]:
     Raises
     ------
     ArithmeticError
-        The nodes do not come to lie within the error, which is left to rounding.
+        More nodes do not bring the error below its bound, because rounding dominates.
     """
     for start, stop in zip(borders, borders[1:]):
         yield _window(motion, float(start), float(stop), error)
@@ -72,7 +72,7 @@ def _window(motion: Motion, start: float, stop: float, error: float) -> Array:
 
 
 def _count(motion: Motion, start: float, stop: float, error: float) -> tuple[Array, Array]:
-    """Places in the interval, and the number of nodes that are needed up to each of them."""
+    """Times in the interval, and the number of nodes that are needed up to each time."""
     steps = ROTATIONS * GRID
     times = np.linspace(start, stop, 2 * steps + 1)
     samples = motion.at(times)
@@ -85,7 +85,7 @@ def _count(motion: Motion, start: float, stop: float, error: float) -> tuple[Arr
 
 
 def _error(motion: Motion, times: Array) -> float:
-    """The largest error [rad] of uniform rotation from each time to the next, at three places between them."""
+    """The largest error [rad] of uniform rotation from each time to the next, at three times between them."""
     attitude = motion.attitude(times)
     widths = np.diff(times)
     return max(

@@ -1,4 +1,4 @@
-"""What an AEM says, as texts: the same of both its notations, with the keywords that the versions have."""
+"""The contents of an AEM as texts, the same for both notations, with the keywords of each version."""
 
 from dataclasses import dataclass, field
 
@@ -30,7 +30,7 @@ METADATA_OF = {
 
 @dataclass
 class Record:
-    """One data line: where it stands, its epoch, its values by place (KVN) or by name (XML)."""
+    """One data line: its position, its epoch, its values by position (KVN) or by name (XML)."""
 
     where: str
     epoch: str
@@ -39,7 +39,7 @@ class Record:
 
 @dataclass
 class RawSegment:
-    """A segment: where it starts, its metadata, comments, records."""
+    """A segment: its start, metadata, comments and records."""
 
     where: str
     metadata: dict[str, str] = field(default_factory=dict)
@@ -56,12 +56,12 @@ class RawMessage:
     segments: list[RawSegment] = field(default_factory=list)
 
     def put(self, given: dict[str, str], key: str, value: str, where: str) -> None:
-        """A keyword of the header or of the metadata, once, and one that the version has.
+        """Add a keyword of the header or of the metadata. It must be new and belong to the version.
 
         Raises
         ------
         ValueError
-            It is unknown, there already, or without a value.
+            The keyword is unknown, repeated or without a value.
         """
         known = HEADER_OF if given is self.header else METADATA_OF
         if key not in known[self.version]:
@@ -79,7 +79,7 @@ class RawMessage:
         Raises
         ------
         ValueError
-            A keyword that must be given is not.
+            A mandatory keyword is missing.
         """
         known = HEADER_OF if given is self.header else METADATA_OF
         missing = [key for key, needed in known[self.version].items() if needed and key not in given]
@@ -93,7 +93,7 @@ def version_of(text: str, where: str) -> str:
     Raises
     ------
     ValueError
-        It is another.
+        Another version.
     """
     if text not in HEADER_OF:
         raise ValueError(f"{where}: CCSDS_AEM_VERS must be 1.0 or 2.0: got {text!r}")

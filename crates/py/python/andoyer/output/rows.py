@@ -18,7 +18,7 @@ CONVENTION = (
 
 
 def rows(samples: Samples) -> Array:
-    """The samples as an array of shape (n, 8), its columns in the order of `COLUMNS` whatever the order of the quaternions is.
+    """The samples as an array of shape (n, 8) with the columns of `COLUMNS`, for either order of the quaternions.
 
     Calendar times are in TDB seconds since J2000.
 
@@ -42,7 +42,7 @@ def calendar_times(samples: Samples) -> Any:
 
 
 def samples_of(times: ArrayLike, attitude: ArrayLike, angular_velocity: ArrayLike, calendar: Any = None) -> Samples:
-    """Samples with the arrays of their own: shapes (n,), (n, 4) scalar last, (n, 3); `calendar` are the times as an astropy Time."""
+    """Samples with their own arrays of shapes (n,), (n, 4) scalar last, (n, 3); `calendar` has the times as an astropy Time."""
     arrays = [np.array(value, dtype=np.float64) for value in (times, attitude, angular_velocity)]
     restored: Samples = Samples._restored(*arrays, False, calendar)  # type: ignore[attr-defined]
     return restored

@@ -1,6 +1,6 @@
 """Tables of samples: CSV, NPZ and Parquet, written and read back to the same bits.
 
-NPZ and Parquet carry the convention, the units, the scene and, where the samples have times of astropy, these times.
+NPZ and Parquet files also have the convention, the units, the scene and, if the samples have times of astropy, these times.
 """
 
 import json
@@ -35,38 +35,39 @@ Progress: TypeAlias = Callable[[int, int], None]
 
 
 def silent(_done: int, _of: int) -> None:
-    """A progress that nobody sees."""
+    """A progress callback that does nothing."""
 
 
 @dataclass(frozen=True)
 class Table:
-    """What a table of samples holds: see `read_table`."""
+    """The contents of a table of samples, from `read_table`."""
 
     samples: Samples
-    """The samples; their times are an astropy Time where such times were written."""
+    """The samples; their times are an astropy Time if the file has calendar times."""
     scene: Scene | None = None
-    """The scene that the samples are of, where the file has it."""
+    """The scene of the samples, if the file has it."""
     units: dict[str, str] = field(default_factory=dict)
-    """Unit of each column, where the file has them."""
+    """Unit of each column, if the file has units."""
 
 
 def write_csv(path: str | os.PathLike[str], samples: Samples, progress: Progress = silent, *, force: bool = True) -> None:
-    """Samples as a CSV file.
+    """Write samples as a CSV file.
 
     Parameters
     ----------
     path : path-like
+        File to write.
     samples : Samples
-        Of one motion.
+        Samples of one motion.
     progress : callable, optional
-        Called with the lines written and their number.
+        Called as ``progress(done, total)`` with numbers of lines.
     force : bool, optional
-        Whether a file that is there already is replaced.
+        If True, an existing file is replaced.
 
     Raises
     ------
     FileExistsError
-        There is such a file, and ``force=False``.
+        The file exists, and ``force=False``.
     ValueError
         Samples of an ensemble.
 
@@ -82,7 +83,7 @@ def write_csv(path: str | os.PathLike[str], samples: Samples, progress: Progress
 
 
 def write_table(file: TextIO, samples: Samples, progress: Progress = silent) -> None:
-    """Samples as CSV into an open text file: the names of the columns, one line a time with all 17 digits; `progress` hears of the lines that are written."""
+    """Write samples as CSV into an open text file: a line of column names, then one line for each time, with 17 digits. `progress` is called with the lines written."""
     table = rows(samples)
     file.write(f"{COLUMNS}\n")
     for start in range(0, len(table), LINES_AT_ONCE):
@@ -93,24 +94,25 @@ def write_table(file: TextIO, samples: Samples, progress: Progress = silent) -> 
 def write_npz(
     path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, remark: str | None = None, force: bool = True
 ) -> None:
-    """Samples as NPZ: arrays times, attitude (scalar last), angular_velocity, and texts: convention, units, scene.
+    """Write samples as an NPZ file: arrays times, attitude (scalar last), angular_velocity, and texts convention, units, scene.
 
     Parameters
     ----------
     path : path-like
+        File to write.
     samples : Samples
-        Of one motion.
+        Samples of one motion.
     scene : Scene, optional
-        The scene of the samples: it is kept as its TOML.
+        The scene of the samples; the file keeps its TOML text.
     remark : str, optional
-        What is to be said of the samples: that they miss the tolerance.
+        A remark on the samples, for example that they miss the tolerance.
     force : bool, optional
-        Whether a file that is there already is replaced.
+        If True, an existing file is replaced.
 
     Raises
     ------
     FileExistsError
-        There is such a file, and ``force=False``.
+        The file exists, and ``force=False``.
     ValueError
         Samples of an ensemble.
     """
@@ -126,7 +128,7 @@ def write_npz(
 def write_parquet(
     path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, remark: str | None = None, force: bool = True
 ) -> None:
-    """Samples as Parquet: the columns of the CSV as float64; convention, units and scene in the metadata of the schema.
+    """Write samples as a Parquet file: the columns of the CSV as float64; convention, units and scene in the metadata of the schema.
 
     Parameters
     ----------
@@ -136,7 +138,7 @@ def write_parquet(
     Raises
     ------
     ImportError
-        pyarrow is not installed: the extra ``andoyer[parquet]`` brings it.
+        pyarrow is not installed; the extra ``andoyer[parquet]`` installs it.
     FileExistsError, ValueError
         As in `write_npz`.
     """
@@ -147,31 +149,33 @@ def write_parquet(
     columns = dict(zip(COLUMNS.split(","), np.ascontiguousarray(table.T))) | julian
     schema = arrow.schema([(name, arrow.float64()) for name in columns], metadata=texts)
     with whole_file(path, force) as temporary, parquet.ParquetWriter(temporary, schema) as writer:
-        # One group of rows after the other: Python looks for Ctrl-C between them. A table of no rows has a group too.
+        # Rows are written in groups, and Python checks for Ctrl-C between them. A table without rows has one group.
         for start in range(0, max(len(table), 1), ROWS_AT_ONCE):
             part = [column[start : start + ROWS_AT_ONCE] for column in columns.values()]
             writer.write_table(arrow.table(part, schema=schema))
 
 
 def read_table(path: str | os.PathLike[str]) -> Table:
-    """The samples of a CSV, NPZ or Parquet file, by its ending, and what else it says.
+    """Read the samples and the other contents of a CSV, NPZ or Parquet file. The ending of the name determines the format.
 
-    Columns are found by their names, so that they may stand in any order and among others.
+    Columns are found by their names. They may be in any order, with other columns between them.
 
     Parameters
     ----------
     path : path-like
+        File to read.
 
     Returns
     -------
     Table
+        Samples, scene and units.
 
     Raises
     ------
     ImportError
         A Parquet file without pyarrow; calendar times without astropy.
     ValueError
-        Another ending; a column that is missing or not of finite numbers; a file that is none of its kind.
+        Another ending; a column that is missing or has a value that is not a finite number; a file whose content does not fit its ending.
 
     Examples
     --------
@@ -202,7 +206,7 @@ def read_table(path: str | os.PathLike[str]) -> Table:
 
 
 def _about(scene: Scene | None, times: Any) -> tuple[dict[str, str], dict[str, Array]]:
-    """What is said of a table beside its numbers: texts, and the columns of calendar times."""
+    """The texts of a table, and the columns of calendar times."""
     unit = "unit of time of the scene" if times is None else "s"
     units = {"t": unit} | dict.fromkeys(["qx", "qy", "qz", "qw"], "1") | dict.fromkeys(["wx", "wy", "wz"], "rad/s" if times is not None else f"rad per {unit}")
     texts = {"convention": CONVENTION, "units": json.dumps(units)}

@@ -1,6 +1,6 @@
-"""The XML notation of an AEM (504.0-B-2, section 7), read by the parser of the standard library without any entity or document type.
+"""Parser of the XML notation of an AEM (504.0-B-2, section 7), by the standard library, without entities and document types.
 
-Documents of both versions are read, and combined ones (`ndm`) for the AEMs in them.
+It reads documents of both versions, and the AEMs in combined documents (`ndm`).
 """
 
 from collections.abc import Iterator
@@ -31,7 +31,7 @@ class Element:
 
     @property
     def where(self) -> str:
-        """Its place, for messages."""
+        """The position of the element, for messages."""
         return f"line {self.line}"
 
     def all(self, name: str) -> list["Element"]:
@@ -52,7 +52,7 @@ def parse_xml(data: bytes) -> list[RawMessage]:
     Raises
     ------
     ValueError
-        A text that is no XML; one with a document type, and so with entities; elements that an AEM does not have.
+        A text that is not XML; a document type, which may define entities; elements that an AEM does not have.
     """
     root = _tree(data)
     messages = [root] if root.name == "aem" else root.all("aem") if root.name == "ndm" else []
