@@ -1,10 +1,10 @@
-"""Light curves with known answers from 100,000 starts that do not know them: time, and whether the answer is found.
+"""Fit simulated light curves with known answers from 100,000 random starts: measure the time, and test if the answer is found.
 
     python benches/light_curves.py [--starts 100000] [--curves 8]      prints a table, writes docs/data/light-curves.csv
 
-Each curve is of an ellipsoid 1 : 0.7 : 0.5 in a random state, short-axis and long-axis mode in turn, at 100 random times over some six precession periods, with noise of 2 %. Starts
-have precession periods in a range of more than three to one. "found" says that the state with the least χ² is the true one within 0.15 rad at three times, but for half turns of the body. Times are of the
-wall clock and of the processor: on a machine that does other work the second says what an idle one would take, divided by its cores.
+Each curve is of an ellipsoid 1 : 0.7 : 0.5 in a random state, in the short-axis and the long-axis mode alternately, at 100 random times over about six precession periods, with a noise of 2 %. The starts
+have precession periods in a range of more than three to one. "found" means that the state with the least χ² agrees with the true state within 0.15 rad at three times, except for half turns of the body. Elapsed time and
+processor time are measured. On a loaded machine the processor time divided by the number of cores estimates the time of an idle machine.
 """
 
 import argparse
@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 
 import numpy as np
-from andoyer import Ensemble, Scene, Body, fit
+from andoyer import Body, Scene, fit
 from andoyer._quaternions import angle_between, product
 from andoyer.fit._light_curve import HALF_TURNS
 from andoyer.fit._search import random_states

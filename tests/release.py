@@ -1,11 +1,11 @@
-"""What a release says of itself, and whether it says the same everywhere: version, address, licences, changelog.
+"""Check that version, address, licences and changelog of a release agree in all files.
 
-    python tests/release.py              exit status 1 and one line for each thing that disagrees
-    python tests/release.py --write      carry version and address from Cargo.toml to the other files
-    python tests/release.py --semver     public Rust names against the last tag, by cargo-semver-checks; with CI set it must be there
+    python tests/release.py              exit status 1 and one line for each disagreement
+    python tests/release.py --write      copies version and address from Cargo.toml to the other files
+    python tests/release.py --semver     compares the public Rust names with the last tag by cargo-semver-checks, which must be installed if CI is set
 
-The version and the address (`repository`) have one place, `workspace.package` in Cargo.toml. The README of the wheel is that of the repository with absolute links, since
-registries show it without the files beside it.
+`workspace.package` in Cargo.toml defines the version and the address (`repository`). The README of the wheel is that of the repository with absolute links, since
+registries show it without the other files.
 """
 
 import json
@@ -38,12 +38,12 @@ def absolute(text: str, folder: str = "") -> str:
 
 
 def readdressed(text: str) -> str:
-    """The address of now in the links to files of the repository, whatever it was before."""
+    """Replace any former address in the links to files of the repository by the current one."""
     return re.sub(r"https://[^\s\")]+?(?=/(?:blob|raw)/main/)", ADDRESS, text)
 
 
 def expected() -> Iterator[tuple[Path, str]]:
-    """The files that are made from Cargo.toml and the README, with what they must hold."""
+    """The files that are made from Cargo.toml and the README, with their expected contents."""
 
     def text(name: str) -> str:
         return (ROOT / name).read_text(encoding="utf-8")
@@ -60,7 +60,7 @@ def expected() -> Iterator[tuple[Path, str]]:
 
 
 def problems() -> Iterator[str]:
-    """One line for each thing that disagrees."""
+    """One line for each disagreement."""
     for path, text in expected():
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             yield f"{path.relative_to(ROOT)}: not what Cargo.toml and README.md say: python tests/release.py --write"
@@ -80,7 +80,7 @@ def problems() -> Iterator[str]:
 
 
 def changelog(text: str) -> Iterator[str]:
-    """Unreleased comes first, then the versions, the last one first, each once and with a date."""
+    """Problems of the changelog: Unreleased must come first, then the versions in descending order, each once and with a date."""
     headings = re.findall(r"(?m)^## (.*)$", text)
     if not headings or headings[0] != "[Unreleased]":
         yield f"CHANGELOG.md: the first section must be [Unreleased]: got {headings[:1]}"

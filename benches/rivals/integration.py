@@ -1,13 +1,13 @@
-"""The integrated method against heyoka's integration of the same equations, in nine regimes.
+"""Compare the integrated method with heyoka's integration of the same equations, in nine regimes.
 
     python benches/rivals/integration.py [--scenes 30] [--seed 1] [--tolerance 1e-10] [--no-cost] [--output out]
 
 Random scenes of each regime: slow, synchronous, 3:2, fast, two bodies, precessing, eccentric (up to 0.95), near the separatrix, long axis. The reference is heyoka in extended precision (80 bits, tolerance
-1e-19) on the same doubles; the table has the largest error, how often it exceeds the error bound or, where `Plan.meets_tolerance` says that it is met, the tolerance, and the quantiles of bound over error.
+1e-19) with the same doubles. The table has the largest error, the number of errors above the error bound, the number of errors above the tolerance if `Plan.meets_tolerance` is True, and the quantiles of bound / error.
 
-Cost: CPU seconds for set-up and 200 samples of one scene a regime, andoyer's with its error bound, heyoka's without its compilation (constants in the equations), whose seconds
-are in the last column. "At tolerance": heyoka at the loosest tolerance of a grid whose error is within the tolerance asked for; "at error": within andoyer's own error, or at the
-tightest. Engines take turns; a ratio is the median of the rounds' ratios, heyoka / andoyer, of one run.
+Cost: CPU seconds for set-up and 200 samples of one scene in each regime. andoyer's time includes its error bound. heyoka's time excludes its compilation (constants are in the equations), which
+is in the last column. "At tolerance": heyoka at the largest tolerance of a grid whose error is within the requested tolerance. "At error": the same for andoyer's own error, or heyoka's smallest
+tolerance. The engines take turns. A ratio, heyoka / andoyer, is the median of the ratios of the rounds of one run.
 """
 
 import argparse

@@ -2,7 +2,7 @@
 Toutatis: a state from radar attitudes
 ======================================
 
-In December 1992 radar saw the attitude of Toutatis on seventeen days (Takahashi, Busch and Scheeres 2013). `andoyer.fit.attitudes` finds the free rotation that fits them, with its uncertainty.
+In December 1992 radar measured the attitude of Toutatis on seventeen days (Takahashi, Busch and Scheeres 2013). `andoyer.fit.attitudes` finds the free rotation that fits these attitudes, and its uncertainty.
 """
 
 import csv
@@ -23,8 +23,8 @@ angles = [[float(row[name]) for name in ("alpha", "beta", "gamma")] for row in r
 measured = Rotation.from_euler("ZXZ", angles, degrees=True)
 
 # %%
-# The search begins with the first row: its attitude, its rates, and round numbers for the moments. Body axis 3 is the long one. The standard deviation of 5° about each axis is a guess, which
-# the fit confirms: reduced χ² is near 1.
+# The search begins with the attitude and the rates of the first row, and with round numbers for the moments. Body axis 3 is the long axis. The standard deviation of 5° about each axis is a guess. The fit
+# confirms it, since the reduced χ² is near 1.
 
 rates = np.radians([float(rows[0][name]) for name in ("w1", "w2", "w3")])
 guess = andoyer.Scene(andoyer.Body([3.0, 3.2, 1.0]), measured[0], rates)
@@ -36,7 +36,8 @@ print(found.message)
 assert 7 < rms < 8
 
 # %%
-# Periods with their spread: a thousand states drawn from the covariance, all solved at once. Published: 5.41 d and 7.35 d (Hudson and Ostro 1995, abstract), 5.38 d and 7.40 d (Zhao et al. 2015).
+# The spread of the periods comes from a thousand states drawn from the covariance, which are solved in one call. Published periods are 5.41 d and 7.35 d (Hudson and Ostro 1995, abstract), and 5.38 d and
+# 7.40 d (Zhao et al. 2015).
 
 states = found.ensemble(1000, rng=1)
 best, spread = found.scene.solve().periods["long-axis"], states.periods["long-axis"]
@@ -47,7 +48,7 @@ print("moments over that of the long axis", (found.scene.body.moments[:2] / foun
 assert 5.37 < best.rotation < 5.38 and 7.39 < best.precession < 7.45
 
 # %%
-# What is left, and the correlations: moments, and rates with them, go together.
+# The first picture shows the residuals, the second the correlations. The moments are correlated with each other and with the rates.
 
 found.residual_picture()
 plt.show()
@@ -55,7 +56,7 @@ found.corner()
 plt.show()
 
 # %%
-# How long do the states agree? The angle between the best one and the draws grows with time, for their periods differ.
+# The angle between the best state and the drawn states grows with time, because their periods differ.
 
 later = np.linspace(0, 400, 200)
 best_at, drawn_at = found.scene.solve().rotation(later), states.rotation(later)
@@ -71,6 +72,6 @@ plt.show()
 # Why this does not predict 2008
 # ------------------------------
 #
-# A free rotation from 1992 does not reach the attitude that radar saw in November 2008, for two reasons. The spread above passes 90° long before. And the rotation is not free:
-# Toutatis passes the Earth every four years, at 0.010 au in 2004, and the torques of the Earth and the Sun change its angular momentum at each passage. Takahashi et al. fit the moments with those
-# torques included. The averaged theory of this package needs an orbit that is the same at each turn, which these passages are not.
+# A free rotation from 1992 does not predict the attitude that radar measured in November 2008, for two reasons. First, the spread above exceeds 90° long before. Second, the rotation is not free.
+# Toutatis passes the Earth every four years, at 0.010 au in 2004, and the torques of the Earth and the Sun change its angular momentum at each passage. Takahashi et al. fit the moments with these
+# torques. The averaged theory of this package needs a periodic orbit and does not hold for such passages.

@@ -2,7 +2,7 @@
 A light curve: from brightnesses to a predicted attitude
 ========================================================
 
-A simulated tumbler is seen at a hundred random times over six precession periods, with noise of 2 %. `andoyer.fit.light_curve` finds its state from random starts that know nothing of it, lists
+A simulated tumbler is observed at a hundred random times over six precession periods, with a noise of 2 %. `andoyer.fit.light_curve` finds its state from random starts, lists
 the other minima with their χ², and predicts its attitude with a spread.
 """
 
@@ -34,7 +34,7 @@ sigma = 0.02 * exact.mean()
 measured = exact + sigma * generator.standard_normal(len(times))
 
 # %%
-# Ten thousand starts, half of them in either mode. The periods are a guess within a factor of two or so. Every start is evaluated, and the best are improved together with the derivatives
+# The search has ten thousand starts, half of them in each mode. The range of periods is a guess within a factor of about two. Every start is evaluated, and the best are improved with the derivatives
 # of the motion.
 
 found = fit.light_curve(axes, times, measured, sun=sun(times), observer=observer(times), sigma=sigma, periods=(0.6, 2.0), starts=10_000)
@@ -47,7 +47,7 @@ print(f"the best of the other mode: χ² {wrong.chi_square:.0f}")
 assert found.optima[0].mode == truth.solve().plan.mode and wrong.chi_square > 10 * found.chi_square
 
 # %%
-# Data and model: the factor between them is a part of the fit.
+# The picture shows data and model. The factor between them is a part of the fit.
 
 fine = np.linspace(0, 6, 1500)
 model = fit.brightness(axes, found.scene.solve().attitude(fine), sun(fine), observer(fine))
@@ -60,8 +60,8 @@ found.residual_picture(panels[1])
 plt.show()
 
 # %%
-# Prediction: two thousand states from the covariance, and the angle of each from the best one. It grows with time after the last point; the truth, which the fit does not know, lies among
-# them. Half turns of the body change no brightness, so the truth is compared in all four positions.
+# The prediction uses two thousand states drawn from the covariance, and the angle of each from the best state. The angle grows with time after the last point. The true state, which the fit does not use, is within the
+# spread. Half turns of the body do not change the brightness, so the true state is compared in all four positions.
 
 later = np.linspace(0, 60, 300)
 states = found.ensemble(2000, rng=1)
@@ -80,7 +80,7 @@ plt.show()
 assert np.mean(truly < np.percentile(apart, 99, axis=0)) > 0.9
 
 # %%
-# The corner picture has the ellipses of one and two standard deviations.
+# The corner picture shows the ellipses of one and two standard deviations.
 
 found.corner()
 plt.show()

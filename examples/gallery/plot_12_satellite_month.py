@@ -2,8 +2,8 @@
 A satellite over a month
 ========================
 
-A box satellite of 1 × 1.2 × 0.6 m in an orbit of the space station's height and inclination, tumbling slowly after it was released. The oblate Earth turns the node of the orbit by five degrees a day,
-and the gravity gradient follows the node: the axis after a month is not that of a fixed orbit. The motion is integrated, and written as an attitude ephemeris message.
+A box satellite of 1 × 1.2 × 0.6 m tumbles slowly after its release, in an orbit with the height and inclination of the space station. The oblate Earth turns the node of the orbit by five degrees a day,
+and the gravity gradient follows the node. After a month the axis differs from that in a fixed orbit. The motion is integrated and written as an attitude ephemeris message.
 """
 
 import math
@@ -26,7 +26,7 @@ print(f"node {math.degrees(orbit.node_rate) * DAY:.3f} °/day, pericentre {math.
 assert abs(math.degrees(orbit.node_rate) * DAY + 4.95) < 0.01
 
 # %%
-# Half a degree a second about the shortest side: with so slow a rotation no averaged theory meets a tolerance of 1e-6 rad, and the plan says so.
+# The satellite rotates by half a degree a second about its shortest side. The orbit has secular rates, so the motion is integrated. The plan states the reason.
 
 box = andoyer.Body.box(1.0, 1.2, 0.6, mass=100.0)
 spin = math.radians(0.5)
@@ -37,7 +37,7 @@ print(motion.plan)
 assert motion.plan.method == "integrated" and motion.plan.meets_tolerance
 
 # %%
-# The same satellite in the orbit that stands still. The two angular momenta are 6° apart after a day, and more than 90° within the month.
+# The same satellite in a fixed orbit. The angle between the two angular momenta is 6° after a day and exceeds 90° within the month.
 
 still = andoyer.Orbit(orbit.mean_motion, orbit.eccentricity, inclination=inclination, attraction=orbit.attraction)
 fixed = andoyer.Scene(box, *state, orbit=still, span=month, tolerance=1e-6, method="integrated").solve()
@@ -53,7 +53,7 @@ axes.set(xlabel="days", ylabel="between the two angular momenta [°]")
 plt.show()
 
 # %%
-# An integration at a tighter tolerance takes other steps of another order; it agrees within the error bounds of both.
+# An integration at a smaller tolerance has other steps and another order. It agrees within the error bounds of both.
 
 tighter = andoyer.Scene(box, *state, orbit=orbit, span=month, tolerance=1e-8, method="integrated").solve()
 difference = (motion.rotation(times[-1]).inv() * tighter.rotation(times[-1])).magnitude()
@@ -61,7 +61,7 @@ print(f"orders {motion.plan.order} and {tighter.plan.order}, {difference:.1e} ra
 assert difference < motion.plan.error_bound + tighter.plan.error_bound
 
 # %%
-# The last hour as a message of the CCSDS, which mission software reads.
+# The last hour is written as a message of the CCSDS, which mission software can read.
 
 with tempfile.TemporaryDirectory() as folder:
     path = Path(folder) / "box.aem"

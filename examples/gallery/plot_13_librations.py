@@ -2,8 +2,8 @@
 The Moon, Mercury, Phobos: libration
 ====================================
 
-Three bodies in resonance with their own orbits. No averaged theory holds there, and the full equations are integrated. The forced librations in longitude are held against the
-linear formulas and against what is observed.
+The rotations of these three bodies are in resonance with their orbits. The averaged theory does not hold there, and the full equations are integrated. The forced librations in longitude are compared with the
+linear formulas and with observations.
 """
 
 import math
@@ -13,12 +13,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 # %%
-# A body turns about its axis of greatest inertia in the plane of its orbit; time is in radians of the mean anomaly. What is left of the rotation angle after the mean rotation is
-# the libration; a fit takes the part with the period of the orbit from the free libration.
+# A body rotates about its axis of greatest inertia in the plane of its orbit. Time is in radians of the mean anomaly. The libration is the rotation angle minus the mean
+# rotation. A fit separates the part with the period of the orbit from the free libration.
 
 
 def libration(moments, eccentricity, spin, free, start, turns):
-    """(times, libration [rad], its amplitude with the orbit's period [rad])."""
+    """(times, libration [rad], amplitude of the part with the period of the orbit [rad])."""
     orbit = andoyer.Orbit(1.0, eccentricity)
     scene = andoyer.Scene(andoyer.Body(moments), [0, 0, 0, 1], [0, 0, spin + start], orbit=orbit, span=(0, 2 * math.pi * turns), tolerance=1e-8)
     motion = scene.solve()
@@ -41,7 +41,7 @@ print(f"Phobos   {math.degrees(found):.3f}°; formula {math.degrees(formula):.3f
 assert abs(found / formula - 1) < 4e-3
 
 # %%
-# **The Moon** (moments of its catalogue entry, e = 0.0549): the part of the Keplerian ellipse alone, without the Sun.
+# **The Moon** (moments of its catalogue entry, e = 0.0549): only the libration due to the Keplerian ellipse, without the Sun.
 
 A, B, C = andoyer.Body.named("moon").moments
 e, square = 0.0549, 3 * (B - A) / C
@@ -51,7 +51,7 @@ print(f"Moon     {math.degrees(found) * 3600:.2f}″; formula {math.degrees(form
 assert abs(found / formula - 1) < 0.02
 
 # %%
-# **Mercury**, three rotations in two orbits, its mantle alone: (B − A)/Cm is taken from the observed 38.5″ (Margot et al. 2012) by the series of Peale's formula in e.
+# **Mercury**, with three rotations in two orbits; the model is the mantle alone. (B − A)/Cm follows from the observed 38.5″ (Margot et al. 2012) by the series of Peale's formula in e.
 
 e, observed = 0.20563593, math.radians(38.5 / 3600)
 ratio = observed / (1.5 * (1 - 11 * e**2 + 959 / 48 * e**4 - 3641 / 288 * e**6))

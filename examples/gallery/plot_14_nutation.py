@@ -2,7 +2,7 @@
 The Earth under Sun and Moon: precession and nutation
 =====================================================
 
-A rigid Earth is integrated for 37.2 years, two revolutions of the lunar node, under the Sun and the Moon on ellipses with secular rates. The motion of its figure axis is then analysed into the
+This example integrates a rigid Earth for 37.2 years, two revolutions of the lunar node. The Sun and the Moon are on ellipses with secular rates. The motion of the figure axis is then decomposed into terms with the
 arguments of REN-2000, the nutation of the rigid Earth by Souchay, Loysel, Kinoshita and Folgueira (1999).
 """
 
@@ -18,8 +18,8 @@ ARCSECOND = np.pi / 648000
 DATA = Path(__file__).resolve().parents[2] / "tests/data/ren2000_main_terms.csv"
 
 # %%
-# The fundamental arguments of the IERS Conventions (2010), section 5.7.2: values at J2000 [°] and rates ["/century]. Ω is the longitude of the lunar node from the moving equinox, and so is the
-# Sun's longitude F − D + Ω. In an inertial frame both are slower by the general precession of 5028.796195 "/century (IAU 2006).
+# The fundamental arguments of the IERS Conventions (2010), section 5.7.2: values at J2000 [°] and rates ["/century]. Ω is the longitude of the lunar node, and F − D + Ω is the longitude of the
+# Sun, both from the moving equinox. In an inertial frame both rates are smaller by the general precession of 5028.796195 "/century (IAU 2006).
 
 ARGUMENTS = {
     "l": (134.96340251, 1717915923.2178),
@@ -34,7 +34,7 @@ precession = np.array([0.0, 5028.796195 * ARCSECOND / CENTURY])
 
 
 def orbit(gm, axis, eccentricity, inclination, anomaly, node, pericentre):
-    """An orbit from its angles at J2000 with their rates; node and pericentre go back to the time of pericentre."""
+    """An orbit from its angles at J2000 and their rates. Node and pericentre are converted to the time of pericentre."""
     start = -anomaly[0] / anomaly[1]
     node_at, pericentre_at = ((angle + rate * start) % (2 * np.pi) for angle, rate in (node, pericentre))
     return andoyer.Orbit(
@@ -55,7 +55,7 @@ sun_longitude = latitude - elongation + node - precession
 sun = orbit(1.32712440018e11, 149598023.0, 0.0167086, 0.0, sun_anomaly, np.zeros(2), sun_longitude - sun_anomaly)
 
 # %%
-# The Earth has the dynamical ellipticity of REN-2000, (C − A)/C = 0.0032737548, and A = B. At J2000 its figure axis stands at the obliquity of 84381.448", and it rotates about this axis.
+# The Earth has the dynamical ellipticity of REN-2000, (C − A)/C = 0.0032737548, and A = B. At J2000 its figure axis has the obliquity 84381.448", and the Earth rotates about this axis.
 
 earth = andoyer.Body([1 - 0.0032737548, 1 - 0.0032737548, 1.0])
 half = 84381.448 * ARCSECOND / 2
@@ -66,7 +66,7 @@ print(motion.plan)
 assert motion.plan.meets_tolerance
 
 # %%
-# The figure axis in the ecliptic of J2000: ψ is the angle by which it has gone back along the ecliptic, and ε its distance from the pole.
+# The figure axis in the frame of the ecliptic of J2000: ψ is the angle of its retrograde motion along the ecliptic, and ε its angle from the pole of the ecliptic.
 
 times = np.arange(0, span, DAY / 4)
 axis = motion.rotation(times).as_matrix()[:, :, 2]
@@ -74,7 +74,7 @@ psi = np.unwrap(np.arctan2(axis[:, 0], axis[:, 1])) / ARCSECOND
 epsilon = np.arctan2(np.hypot(axis[:, 0], axis[:, 1]), axis[:, 2]) / ARCSECOND
 
 # %%
-# A fit by least squares: a cubic polynomial, the free wobble of the initial state, and the terms of the table whose frequencies differ by a cycle in the span at least.
+# The fit by least squares has a cubic polynomial, the free wobble of the initial state, and the terms of the table whose frequencies differ by at least one cycle in the span.
 
 with DATA.open(encoding="utf-8", newline="") as file:
     table = list(csv.DictReader(line for line in file if not line.startswith("#")))
@@ -94,8 +94,8 @@ of_psi, of_epsilon = np.linalg.lstsq(columns, np.array([psi, epsilon]).T, rcond=
 found = np.array([of_psi[6 : 6 + len(kept)], of_epsilon[6 + len(kept) :]]).T
 
 # %%
-# Amplitudes in longitude (sine) and obliquity (cosine) for the terms that two precessing ellipses produce. The Moon's ellipse lacks evection and variation, perturbations by the Sun, which change
-# the terms with l by half a per cent and that of −l + 2F + 2Ω by two. They also make the terms of the table that are not shown here, and change the solar ones by 0.2 %.
+# Amplitudes in longitude (sine) and obliquity (cosine) for the terms that two precessing ellipses produce. The ellipse of the Moon does not include evection and variation, which are perturbations by the Sun. They change
+# the terms with l by half a per cent, the term −l + 2F + 2Ω by two per cent, and the solar terms by 0.2 %. They also produce the terms of the table that are not shown here.
 
 NAMED = {
     "Ω": (0, 0, 0, 0, -1), "2Ω": (0, 0, 0, 0, -2), "2F+2Ω": (0, 0, 2, 0, 2), "2F+Ω": (0, 0, 2, 0, 1), "l": (1, 0, 0, 0, 0),
@@ -113,8 +113,8 @@ for name, bound in {"Ω": 5e-4, "2Ω": 1e-3, "2F+2Ω": 6e-4, "2F+Ω": 8e-4, "l":
     assert abs(ratios[name] - 1) < bound, (name, ratios[name])
 
 # %%
-# The luni-solar precession is the slope of ψ. First order averaged over both orbits gives (3/2) H cos ε/ω times the sum of the attractions, each over η³, the Moon's times 1 − (3/2) sin² i
-# (theory, section 9).
+# The luni-solar precession is the rate of ψ. The first-order theory, averaged over both orbits, gives (3/2) H cos ε/ω times the sum of the attractions, each divided by η³; the attraction of the Moon is also multiplied by
+# 1 − (3/2) sin² i (theory, section 9).
 
 slope = of_psi[1] / span * CENTURY
 eta = [np.sqrt(1 - body.eccentricity**2) ** -3 * body.attraction for body in (moon, sun)]

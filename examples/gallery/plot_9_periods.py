@@ -13,19 +13,18 @@ import numpy as np
 HOUR, DAY = 3600.0, 86400.0
 
 # %%
-# Light-curve papers of short-axis tumblers give the periods of the short axis. Each entry has the moments in units of the largest, P_φ and P_ψ in hours, and the ecliptic longitude and
-# latitude of the angular momentum. (The direction of Pravec et al. is from memory and was not checked in the paper.)
+# Light-curve papers of short-axis tumblers give the periods of the short axis. Each entry has the moments in units of the largest, P_φ and P_ψ in hours, and where it was
+# read the direction of the angular momentum, as ecliptic longitude and latitude in degrees. Without a direction the angular momentum is along inertial axis 3.
 
 solutions = {
-    "Pravec et al. 2014": ([0.61, 0.965, 1.0], 27.38, 263.0, (250, -75)),
+    "Pravec et al. 2014": ([0.61, 0.965, 1.0], 27.38, 263.0, None),
     "Brozović et al. 2018": ([0.729, 0.947, 1.0], 27.45, 265.7, (246.8, -59.3)),
     "Lee et al. 2022": ([0.64, 0.97, 1.0], 27.38547, 264.178, (275, -85)),
 }
 motions = {}
 for paper, (moments, precession, rotation, pole) in solutions.items():
-    scene = andoyer.Scene.from_periods(
-        andoyer.Body(moments), precession * HOUR, rotation * HOUR, momentum_direction=np.radians(pole)
-    )
+    direction = {} if pole is None else {"momentum_direction": np.radians(pole)}
+    scene = andoyer.Scene.from_periods(andoyer.Body(moments), precession * HOUR, rotation * HOUR, **direction)
     motions[paper] = scene.solve()
     long_axis = motions[paper].periods["long-axis"].precession / HOUR
     print(

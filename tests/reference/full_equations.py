@@ -1,7 +1,7 @@
-"""Rotation under several disturbing bodies by SciPy's DOP853: an independent check of the integrated method.
+"""Rotation under several disturbing bodies by SciPy's DOP853, an independent check of the integrated method.
 
-Euler's equations with the torque 3 μ/ρ^3 r × (I r) of each body, r the unit vector to it in the body's axes, μ = G m/a^3 and ρ the distance in units of a, and the kinematics of
-the quaternion; relative tolerance 1e-13. Orbits have the attributes of andoyer.Orbit. Needs numpy and scipy.
+It integrates Euler's equations with the torque 3 μ/ρ^3 r × (I r) of each body and the kinematics of the quaternion; r is the unit vector to the disturbing body in body components, μ = G m/a^3, and ρ is the distance in
+units of a. The relative tolerance is 1e-13. Orbits have the attributes of andoyer.Orbit. It needs numpy and scipy.
 """
 
 import math

@@ -63,7 +63,8 @@ pub mod periods {
 }
 
 pub mod disturbers {
-    //! Bodies whose gravity gradient acts: by elements of an orbit or by a table of positions.
+    //! Bodies whose gravity gradient acts: by elements of an orbit or by a table of positions; Cassini states.
+    pub use crate::gravity_gradient::cassini::{CassiniState, cassini_states};
     pub use crate::input::disturbing_body::DisturbingBody;
     pub use crate::input::orbit::{Oblateness, Orbit};
     pub use crate::input::tabulated::TabulatedOrbit;

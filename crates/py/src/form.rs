@@ -37,8 +37,8 @@ impl Form {
 macro_rules! either {
     ($form:expr, $inner:ident => $result:expr) => {
         match $form {
-            Form::Exact($inner) => $result,
-            Form::Float($inner) => $result,
+            $crate::form::Form::Exact($inner) => $result,
+            $crate::form::Form::Float($inner) => $result,
         }
     };
 }

@@ -13,6 +13,7 @@
 mod array;
 mod birkhoff;
 mod body;
+mod cassini;
 mod computing;
 mod domain;
 mod ensemble;
@@ -42,6 +43,8 @@ mod _core {
     use super::birkhoff::BirkhoffNormalForm;
     #[pymodule_export]
     use super::body::Body;
+    #[pymodule_export]
+    use super::cassini::{CassiniState, cassini_states};
     #[pymodule_export]
     use super::computing::_panic;
     #[pymodule_export]

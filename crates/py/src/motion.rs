@@ -256,26 +256,28 @@ impl Motion {
         Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
     }
 
-    /// A self-contained function `rotation(time)` that evaluates this motion, as the text of a file of source (theory §8).
+    /// Writes a source file with a self-contained function `rotation(time)` that evaluates this motion (theory §8).
     ///
-    /// It returns the attitude [x, y, z, w] and the angular velocity in body components, from the constants in the file and the language alone: C99 with math.h, Rust of `core`,
-    /// Python with math, JavaScript. C and Rust allocate nothing. Phases are kept in two doubles, so that they hold after 1e9 rotations. The head of the file names the scene,
-    /// the mode, the validity interval and the largest difference from the library. Times count as those of the scene; for an epoch of astropy in TDB seconds since J2000.
+    /// The function returns the attitude [x, y, z, w] and the angular velocity in body components. It needs only its language: C99 with math.h, Rust with `core`,
+    /// Python with math, or JavaScript. The C and Rust functions do not allocate memory. Phases are in double-double arithmetic and are accurate after 1e9 rotations. The head of the file names the scene,
+    /// the mode, the validity interval and the largest difference from the library. Times are those of the scene, or TDB seconds since J2000 if the epoch is a Time of astropy.
     ///
     /// Parameters
     /// ----------
     /// language : {"c", "rust", "python", "javascript"}, optional
+    ///     Language of the file.
     ///
     /// Returns
     /// -------
     /// str
+    ///     Text of the file.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     The language ``"fortran"``.
+    ///     An unknown language (``"fortran"``).
     /// RepresentationError
-    ///     A passage along the separatrix, or a motion under a torque.
+    ///     A motion on the separatrix or under a torque.
     ///
     /// Examples
     /// --------
@@ -291,7 +293,7 @@ impl Motion {
         detached(py, error::propagation, || self.0.to_code(language))
     }
 
-    /// The same with the bounds of its differences that its head states: of the attitude [rad], of the angular velocity over its length.
+    /// The source file, and the bounds of the differences in its head: of the attitude [rad], and of the angular velocity divided by its length.
     fn _code(&self, py: Python<'_>, language: &str) -> PyResult<(String, f64, f64)> {
         let language = language.parse().map_err(error::propagation)?;
         let code = detached(py, error::propagation, || self.0.code(language))?;
@@ -312,7 +314,7 @@ impl Motion {
 
     /// Mean frequencies dℓ′/dt, dy′/dt (theory §7): a named tuple (anomaly, longitude), in rad per unit of time.
     ///
-    /// The frequencies of an integrated motion are those of the free motion at the epoch, as `periods`.
+    /// The frequencies and `periods` of an integrated motion are those of the free motion at the epoch.
     ///
     /// Both are at least 0; a frequency that does not exist in this mode is 0. y = μ + ν for N ≥ 0. For N < 0 axis 3 points away from the angular momentum, and y = μ − ν (see `andoyer`).
     #[getter]

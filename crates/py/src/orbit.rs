@@ -96,26 +96,26 @@ impl Orbit {
 
     /// The orbit of a satellite about an oblate primary, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3).
     ///
-    /// With n0² = GM/a³, p = a (1 − e²) and k = (3/2) n0 J2 (R/p)² the node turns by −k cos i, the argument of the pericentre by k (2 − (5/2) sin² i), and the mean anomaly by
-    /// n0 + k √(1 − e²) (1 − (3/2) sin² i), which is `mean_motion`. Periodic terms, of relative size J2 (R/p)², are left out. Nothing here knows whether the orbit meets the
-    /// ground: the radius is that of J2.
+    /// Let n0² = GM/a³, p = a (1 − e²) and k = (3/2) n0 J2 (R/p)². The rate of the node is −k cos i, the rate of the argument of the pericentre is k (2 − (5/2) sin² i), and the rate of the mean anomaly is
+    /// n0 + k √(1 − e²) (1 − (3/2) sin² i), which is `mean_motion`. Periodic terms of relative size J2 (R/p)² are omitted. The function does not check that the orbit is above the
+    /// ground, because the radius is only the reference radius of J2.
     ///
     /// Parameters
     /// ----------
     /// gm : float
     ///     G × mass of the primary, in length³/time².
     /// semi_major_axis : float
-    ///     The mean one, in units of length.
+    ///     Mean semi-major axis a, in units of length.
     /// eccentricity : float
     ///     0 or more and less than 1.
     /// inclination : float
-    ///     To the equator of the primary, which is the inertial x, y plane, in rad.
+    ///     Inclination i to the equator of the primary, which is the inertial x, y plane, in rad.
     /// j2 : float
     ///     J2 of the primary.
     /// radius : float
     ///     The reference radius of J2, in units of length.
     /// node, argument_of_pericentre : float, optional
-    ///     At `time_of_pericentre`, in rad.
+    ///     Longitude of the node and argument of the pericentre at `time_of_pericentre`, in rad.
     /// time_of_pericentre : float, optional
     ///     A time at which the pericentre is passed.
     ///
@@ -126,11 +126,11 @@ impl Orbit {
     /// Raises
     /// ------
     /// InputError
-    ///     A gm, a semi-major axis or a radius of 0, an eccentricity of 1, what is not finite, or a J2 that leaves no positive mean motion.
+    ///     A gm, a semi-major axis or a radius that is not positive; an eccentricity outside 0 ≤ e < 1; a value that is not finite; a J2 for which the mean motion is not positive.
     ///
     /// Examples
     /// --------
-    /// At 500 km and 51.6° the node turns by −4.75° a day:
+    /// At a height of 500 km and an inclination of 51.6° the rate of the node is −4.75° a day:
     ///
     /// >>> import math
     /// >>> orbit = Orbit.around_oblate(3.986004415e14, 6878136.3, 0.001, math.radians(51.6), j2=1.08262668e-3, radius=6378136.3)

@@ -39,7 +39,7 @@ impl Plan {
         self.0.order()
     }
 
-    /// Steps of the integration; 0 without one.
+    /// Number of steps of the integration; 0 for the other methods.
     #[getter]
     fn steps(&self) -> usize {
         self.0.steps()

@@ -29,9 +29,9 @@ use crate::foreign::Calendar;
 ///     Requested attitude error over the span, in rad. A tolerance below about 1e-14 requests the best accuracy of double precision,
 ///     which `Plan.error_bound` states.
 /// method : {"auto", "series", "closed", "integrated"}, optional
-///     Perturbation series, closed form (with an orbit the averaged theory about it), or numerical integration of the full equations over the span. "auto" uses the closed
-///     form, or the series if an order is fixed. With an orbit and a span it uses the integration where the theory does not hold, or where the theory misses the tolerance and the
-///     integration meets it, and for several orbits, a table or an orbit with secular rates. `Plan.skipped` states the reason.
+///     Perturbation series, closed form (with an orbit: averaged theory), or numerical integration of the full equations over the span. "auto" uses the closed
+///     form, or the series if an order is fixed. With an orbit and a span it uses the integration if the theory does not hold, or if the theory misses the tolerance and the
+///     integration meets it. It also integrates with several orbits, a table or an orbit with secular rates. `Plan.skipped` states the reason.
 /// order : int, optional
 ///     Fixed order of the series and of the secular part (theory §7), 0 to 60. By default ``method="series"`` uses the order that the tolerance needs (theory §5).
 ///     A fixed order stays fixed, whatever the tolerance. If it is too low, `Plan.error_bound` exceeds the tolerance, and ``str(plan)``

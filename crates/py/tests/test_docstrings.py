@@ -3,9 +3,8 @@
 import doctest
 import inspect
 
-import pytest
-
 import andoyer
+import pytest
 from andoyer import fit, output
 
 NEEDS = {"output.write_ck": "spiceypy"} | dict.fromkeys(("fit.attitudes", "fit.light_curve", "fit.Fit", "fit.Fit.ensemble"), "scipy")

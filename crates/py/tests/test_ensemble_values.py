@@ -1,9 +1,8 @@
 """Periods, energies, momenta, Andoyer variables, rotations and derivatives of ensembles: the bits of the members' own motions."""
 
+import andoyer
 import numpy as np
 import pytest
-
-import andoyer
 from andoyer import Ensemble, Motion, Orbit, Partials
 from test_ensemble import MEMBERS, random_members, single
 
@@ -81,7 +80,13 @@ def test_members_without_a_motion_are_nan(members):
     moments = members[0].copy()
     moments[7] = [1, 1, 2.5]
     ensemble = Ensemble(moments, *members[1:], errors="nan")
-    for values in (ensemble.periods["long-axis"].precession, ensemble.energy_ratio, ensemble.angular_momentum(TIMES), ensemble.andoyer(TIMES), ensemble.partials(TIMES).attitude):
+    for values in (
+        ensemble.periods["long-axis"].precession,
+        ensemble.energy_ratio,
+        ensemble.angular_momentum(TIMES),
+        ensemble.andoyer(TIMES),
+        ensemble.partials(TIMES).attitude,
+    ):
         assert np.isnan(values[7]).all() and np.isfinite(values[:7]).all() and np.isfinite(values[8:]).all()
 
 

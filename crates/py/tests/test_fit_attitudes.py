@@ -1,16 +1,15 @@
 """Fits of attitudes: the known answer within the covariance, derivatives against differences, what data do not determine, what is refused."""
 
+import andoyer
 import numpy as np
 import pytest
-
-import andoyer
 from andoyer import Body, Orbit, Scene
 
 pytest.importorskip("scipy")
-from andoyer import fit  # noqa: E402
-from andoyer.fit import _attitudes, _rotations  # noqa: E402
-from scipy.optimize import approx_fprime  # noqa: E402
-from scipy.spatial.transform import Rotation  # noqa: E402
+from andoyer import fit
+from andoyer.fit import _attitudes, _rotations
+from scipy.optimize import approx_fprime
+from scipy.spatial.transform import Rotation
 
 TIMES = np.linspace(0, 50, 100)
 TRUTH = Scene(Body([1.0, 1.5, 2.0]), [0.1, -0.2, 0.3, np.sqrt(0.86)], [0.1, 0.2, 1.0])
@@ -74,7 +73,9 @@ def test_derivatives_are_those_of_differences(scene):
     covariances = np.broadcast_to(np.diag([1e-2, 4e-2, 2e-2]) + 5e-3, (20, 3, 3))
     problem = _attitudes._Problem(scene, TIMES[:20], noisy(scene, covariances, generator, TIMES[:20]), covariances, ("attitude", "angular_velocity", "moments"))
     step = generator.normal(scale=0.02, size=8)
-    differences = (approx_fprime(step, problem.whitened, 1e-6) - approx_fprime(step, problem.whitened, -1e-6)) / 2 + approx_fprime(step, problem.whitened, -1e-6)
+    differences = (approx_fprime(step, problem.whitened, 1e-6) - approx_fprime(step, problem.whitened, -1e-6)) / 2 + approx_fprime(
+        step, problem.whitened, -1e-6
+    )
     exact = problem.jacobian(step)
     # Central differences with a step of 1e-6: rounding 1e-15/1e-6 of the largest derivative.
     assert np.abs(exact - differences).max() < 1e-7 * np.abs(exact).max()

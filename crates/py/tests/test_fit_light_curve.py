@@ -1,15 +1,14 @@
 """Fits of light curves: a known answer from starts that know nothing of it, in either mode; derivatives; what is refused."""
 
+import andoyer
 import numpy as np
 import pytest
-
-import andoyer
 from andoyer import Body, Scene
 
 pytest.importorskip("scipy")
-from andoyer import fit  # noqa: E402
-from andoyer._quaternions import angle_between, product  # noqa: E402
-from andoyer.fit import _curve, _light_curve, _search  # noqa: E402
+from andoyer import fit
+from andoyer._quaternions import angle_between, product
+from andoyer.fit import _curve, _light_curve, _search
 
 AXES = np.array([1.0, 0.7, 0.5])
 SPAN, NOISE = 6.0, 0.02
@@ -154,7 +153,16 @@ def test_random_states_have_the_periods_and_both_modes():
 )
 def test_bad_input_is_an_error_that_names_it(changed, argument):
     _, times, sun, observer, values, sigma = observed("short-axis")
-    given = {"axes": AXES, "times": times, "brightness": np.abs(values), "sun": sun, "observer": observer, "sigma": sigma, "periods": (0.6, 2.0), "starts": 10} | changed
+    given = {
+        "axes": AXES,
+        "times": times,
+        "brightness": np.abs(values),
+        "sun": sun,
+        "observer": observer,
+        "sigma": sigma,
+        "periods": (0.6, 2.0),
+        "starts": 10,
+    } | changed
     with pytest.raises(andoyer.InputError) as error:
         fit.light_curve(given.pop("axes"), given.pop("times"), given.pop("brightness"), **given)
     assert error.value.argument == argument

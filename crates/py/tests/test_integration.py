@@ -28,7 +28,7 @@ def angle(one, other):
 SCENES = {
     "slow": ([0.5, 0.8, 1.0], [0.01, 0.02, 0.03], Orbit(1.0, 0.1, **TILTED), 10.0),
     "synchronous": ([0.7, 0.85, 1.0], [0.01, 0.02, 1.0], Orbit(1.0, 0.05), 20.0),
-    "eccentric": ([0.5, 0.8, 1.0], [1.0, 2.0, 3.0], Orbit(1.0, 0.9, time_of_pericentre=1.0, **TILTED), 8.0),
+    "eccentric": ([0.5, 0.8, 1.0], [1.0, 2.0, 3.0], Orbit(1.0, 0.9, time_of_pericentre=1.0, **TILTED), 6.0),
     "precessing": ([0.5, 0.8, 1.0], [1.0, 2.0, 3.0], Orbit(1.0, 0.2, node_rate=-0.1, pericentre_rate=0.2, attraction=0.5, time_of_pericentre=-3.0, **TILTED), 8.0),
     "two bodies": ([0.5, 0.8, 1.0], [0.1, 2.0, 3.0], [Orbit(1.0, 0.2, **TILTED), Orbit(0.3, 0.0, mass_fraction=0.5)], 8.0),
     "at rest": ([0.5, 0.8, 1.0], [0, 0, 0], Orbit(1.0, 0.2, **TILTED), 8.0),
@@ -41,7 +41,7 @@ SCENES = {
 def test_motion_is_that_of_another_integration(moments, rates, orbit, span, direction):
     full_equations = pytest.importorskip("full_equations")
     ends = (2.0, 2.0 + span) if direction > 0 else (2.0 - span, 2.0)
-    scene = Scene(Body(moments), ATTITUDE, rates, epoch=2.0, orbit=orbit, span=ends, tolerance=1e-10, method="integrated")
+    scene = Scene(Body(moments), ATTITUDE, rates, epoch=2.0, orbit=orbit, span=ends, tolerance=1e-9, method="integrated")
     motion = scene.solve()
     assert motion.plan.method == "integrated" and motion.plan.meets_tolerance
     times = 2.0 + direction * np.linspace(0, span, 30)

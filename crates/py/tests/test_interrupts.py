@@ -59,6 +59,7 @@ def interrupted(code, cwd=None):
 CALLS = {
     "ensemble under an orbit": "andoyer.Ensemble(body.moments, level, few, orbits=sun, span=(0, 1e5)).attitude([0.0])",
     "plans of an ensemble under an orbit": "andoyer.Ensemble(body.moments, level, few, orbits=sun, span=(0, 1e5)).plans",
+    "derivatives of an ensemble under an orbit": "andoyer.Ensemble(body.moments, level, few[:8000], orbits=sun, span=(0, 1e5)).partials(0.0)",
     "members at many times": "andoyer.Ensemble(body.moments, level, few[:2], orbits=sun, span=(0, 1e5)).at(np.linspace(0, 1e5, 6_000_000))",
     "integration": "andoyer.Scene(body, level, [0, 0.1, 1], orbit=andoyer.Orbit(0.5), span=(0, 4e6), method='integrated').solve()",
 }

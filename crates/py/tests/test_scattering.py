@@ -1,9 +1,8 @@
 """Brightness of an ellipsoid in closed form against sums over its surface, and the derivatives against differences."""
 
+import andoyer
 import numpy as np
 import pytest
-
-import andoyer
 from andoyer import fit
 from andoyer.fit import _scattering
 
@@ -61,7 +60,7 @@ def test_sphere_has_the_phase_functions_of_the_textbooks():
 
 def test_full_phase_has_no_singularity():
     directions = np.array([[0.6, 0.8, 0.0]])
-    near = directions + [[1e-9, -1e-9, 1e-9]]
+    near = directions + np.array([1e-9, -1e-9, 1e-9])
     for scattering in _scattering.LAWS:
         at = fit.brightness([1, 0.8, 0.5], LEVEL, directions, directions, scattering=scattering)
         assert np.isfinite(at).all() and np.allclose(at, fit.brightness([1, 0.8, 0.5], LEVEL, directions, near, scattering=scattering), rtol=1e-8)
@@ -77,7 +76,7 @@ def test_derivatives_are_those_of_differences(scattering):
         axes, sun, observer = np.append(1.0, generator.uniform(0.3, 0.9, 2)), unit(generator), unit(generator)
         start = rotation.random(rng=generator)
 
-        def value(turn, shape):
+        def value(turn, shape, axes=axes, start=start, sun=sun, observer=observer):
             attitude = (start * rotation.from_rotvec(turn)).as_quat()
             return fit.brightness(axes * np.exp([0, *shape]), attitude, sun, observer, scattering=scattering) / (np.pi / 2)
 

@@ -5,13 +5,12 @@ from datetime import datetime
 
 import numpy as np
 import pytest
+from andoyer import Body, Scene
 from conftest import REPOSITORY
 
-from andoyer import Body, Scene
-
 pytest.importorskip("scipy")
-from andoyer import fit  # noqa: E402
-from scipy.spatial.transform import Rotation  # noqa: E402
+from andoyer import fit
+from scipy.spatial.transform import Rotation
 
 
 @pytest.fixture(scope="module")

@@ -66,7 +66,7 @@ pub struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// Times are counted from the epoch of each member, as by [`crate::Batch::since_epoch`].
+    /// Times are counted from the epoch of each member, as by [`crate::batch::Batch::since_epoch`].
     #[must_use]
     pub fn since_epoch(self) -> Self {
         Self { since_epoch: true, ..self }

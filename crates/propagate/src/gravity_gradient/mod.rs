@@ -5,6 +5,7 @@
 mod averaged;
 mod budget;
 mod candidate;
+pub(crate) mod cassini;
 mod corrections;
 pub(crate) mod disturbed;
 mod epoch;

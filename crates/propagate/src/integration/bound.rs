@@ -1,9 +1,9 @@
 //! The error bound of an integration: what becomes of a displaced state.
 //!
-//! The state at the epoch is displaced by as much as all errors of the steps together may be: twice the root of the sum of squares of the rounding errors, and the sum of the last terms
-//! of the series. Integrated with shorter steps, and with tables interpolated by polynomials of lower degree, it separates from the motion as errors do; the bound is
+//! The state at the epoch is displaced by as much as all errors of the steps together may be: the root of the sum of squares of the rounding errors, and the sum of the terms after the
+//! last of the series. Every step adds a displacement of the size of its own rounding errors, because a state that is displaced later may go farther. Integrated with shorter steps, and with tables interpolated by polynomials of lower degree, it separates from the motion as errors do; the bound is
 //! its largest distance so far. This covers phases, which grow linearly with time, resonances and chaotic motion, where distances grow exponentially; in so far as they grow faster than
-//! linearly, up to ten times the distance is taken, because the displacement may lie across the direction that grows.
+//! linearly, up to twenty times the distance is taken, because the displacement may lie across the direction that grows.
 //!
 //! First the displacement is enlarged to about 1e-3 rad at the end, where steps of low order are enough, and the distance is scaled back; this takes a third of the integration's time for each. Where the
 //! state has gone too far for a scale, and with tables, the displacement itself is integrated.
@@ -18,8 +18,8 @@ use crate::error::Error;
 use crate::simd::halt::going;
 use crate::simd::instruction_set::{InstructionSet, Task};
 
-/// The most that the bound is of the largest distance of the displaced state.
-const SAFETY: f64 = 10.0;
+/// The least and the most that the bound is of the largest distance of the displaced state.
+const SAFETY: [f64; 2] = [2.0, 20.0];
 /// Times at which the two are compared.
 const COMPARISONS: usize = 256;
 /// Length of the steps of the displaced state, relative to those of the motion.
@@ -27,13 +27,15 @@ const SHORTER: f64 = 0.9;
 /// A distance beyond which nothing is known \[rad\].
 const LOST: f64 = 0.5;
 /// Rounding errors of the evaluation \[rad\].
-pub(super) const FLOOR: f64 = 3e-15;
+pub(super) const FLOOR: f64 = 6e-15;
 /// Relative rounding errors of the moments' ratios and of the state.
 const INPUT: f64 = 2e-16;
 
 /// Displacements of the rates, with the sign of each. Where nearby states separate in a plane of two axes, beside the middle axis, one line in the plane does not grow: for no plane
 /// do the two displacements lie near the same line.
 const WEIGHTS: [Row; PATTERNS] = [[0.8, 1.0, 0.9, 0.0], [1.0, -0.4, 0.2, 0.0]];
+/// Where the signs of the displacements of each step begin.
+const SEEDS: [u64; PATTERNS] = [0x9e37_79b9_7f4a_7c15, 0xd1b5_4a32_d192_ed03];
 /// How many displacements are integrated.
 pub(super) const PATTERNS: usize = 2;
 
@@ -101,6 +103,7 @@ impl Task for Measured<'_> {
         let precision = Precision { factor: if enlarged { 1.0 } else { SHORTER }, ..precision };
         let mut workspace = Workspace::new(equations.bodies.len());
         let (mut profile, mut bound) = (Profile::new(), 0.0_f64);
+        let mut random = SEEDS[self.pattern];
         let stride = steps.len().div_ceil(COMPARISONS);
         for group in steps[1..].chunks(stride) {
             let Some(target) = group.last() else { continue };
@@ -111,13 +114,14 @@ impl Task for Measured<'_> {
                 if runner.advance((equations, precision), end, &mut workspace).is_nan() {
                     bound = PI;
                 }
+                runner.disturb(scale, &mut random);
             }
             for step in group {
                 bound = bound.max(2.0 * (norm(&step.attitude) - 1.0).abs());
             }
             let distance = angle(&target.attitude, &runner.step().attitude);
             let linear = displacement[0] + displacement[1] * target.time.0.abs();
-            let safety = (distance / linear).clamp(1.0, SAFETY);
+            let safety = (SAFETY[0] * distance / linear).clamp(SAFETY[0], SAFETY[1]);
             if enlarged && (distance >= UNSCALED || distance.is_nan()) {
                 return Ok(None);
             }

@@ -18,6 +18,8 @@ pub(crate) const MOST_STEPS: usize = 1 << 23;
 const AT_ONCE: usize = 64;
 /// An integration whose first steps would need more than this many times the steps that are kept is refused at once.
 const HOPELESS: f64 = 16.0;
+/// Relative rounding error of the constants of a torque, the same in every step.
+const CONSTANTS: f64 = 4.0 * 1.2e-16;
 /// The terms after the last, relative to it: steps are e^−2 of the radius of convergence, so that their sum is 0.16 of it.
 const OMITTED: f64 = 0.2;
 /// Relative rounding errors of a torque and of ω × Iω.
@@ -75,9 +77,11 @@ pub(super) struct Runner {
     attitude_rest: Row,
     rates: Row,
     rates_rest: Row,
-    /// Sums of squares of the rounding errors, and sums of the truncation errors, of attitude \[rad\] and rates.
+    /// Sums of squares of the rounding errors, and sums of the errors that do not change their sign by chance, of attitude \[rad\] and rates.
     rounded: [f64; 2],
-    truncated: [f64; 2],
+    systematic: [f64; 2],
+    /// Rounding errors of the last step.
+    last: [f64; 2],
 }
 
 impl Runner {
@@ -91,7 +95,8 @@ impl Runner {
             rates,
             rates_rest: none,
             rounded: [0.0; 2],
-            truncated: [0.0; 2],
+            systematic: [0.0; 2],
+            last: [0.0; 2],
         }
     }
 
@@ -102,7 +107,7 @@ impl Runner {
 
     /// Estimates of the errors of attitude \[rad\] and rates that all steps leave together.
     pub(super) fn errors(&self) -> [f64; 2] {
-        std::array::from_fn(|i| 2.0 * self.rounded[i].sqrt() + self.truncated[i])
+        std::array::from_fn(|i| self.rounded[i].sqrt() + self.systematic[i])
     }
 
     /// Goes on by one step, to the target at most. Returns the length of the step without a target, or NaN where the state has become
@@ -153,14 +158,32 @@ impl Runner {
     #[inline(always)]
     fn account(&mut self, length: f64, order: usize, (equations, workspace): (&Equations, &Workspace)) {
         let last = length.powi(order as i32);
-        self.truncated[0] += 2.0 * OMITTED * largest(&workspace.attitude[order]) * last;
-        self.truncated[1] += OMITTED * largest(&workspace.rates[order]) * last;
+        self.systematic[0] += 2.0 * OMITTED * largest(&workspace.attitude[order]) * last;
+        self.systematic[1] += OMITTED * largest(&workspace.rates[order]) * last;
         let [torque, gyration] = &workspace.parts;
+        self.systematic[1] += CONSTANTS * largest(torque) * largest(&equations.factors) * length;
         let by_rates = ROUNDING[0] * largest(torque) + ROUNDING[1] * largest(gyration);
         let rate = by_rates * largest(&equations.factors) * length;
         let angle = ROUNDING[1] * largest(&self.rates) * length;
         self.rounded[0] += angle * angle;
         self.rounded[1] += rate * rate;
+        self.last = [angle, rate];
+    }
+
+    /// Adds errors of so many times the size of the rounding errors of the last step, with signs that look like random ones.
+    #[inline(always)]
+    pub(super) fn disturb(&mut self, scale: f64, random: &mut u64) {
+        // Marsaglia's generator of 64 bits.
+        *random ^= *random << 13;
+        *random ^= *random >> 7;
+        *random ^= *random << 17;
+        let [angle, rate] = self.last;
+        for lane in 0..4 {
+            let sign = |bit: u32| if (*random >> bit) & 1 == 0 { scale } else { -scale };
+            self.attitude[lane] += 0.5 * angle * sign(8 + lane as u32);
+            // The fourth rate is 0.
+            self.rates[lane] += if lane < 3 { rate * sign(40 + lane as u32) } else { 0.0 };
+        }
     }
 }
 

@@ -15,8 +15,8 @@ use crate::simd::lanes::{Lanes, WIDEST};
 
 /// Above this number of nodes in a quarter period the logarithmic sum is shorter.
 const MOST_NODES: usize = 1000;
-/// Numbers of nodes, as multiples of the widest vectors, whose sines and cosines are kept.
-const KEPT: usize = 8;
+/// Numbers of nodes, as multiples of the widest vectors: the sines and cosines of all of them take 1 MB.
+const KEPT: usize = MOST_NODES.div_ceil(WIDEST);
 
 /// 2cos²φ and 2sin²φ at the nodes of a quarter period.
 struct Nodes {
@@ -25,21 +25,17 @@ struct Nodes {
 }
 
 impl Nodes {
-    /// `count` nodes at φ = (j + ½)π/2n.
+    /// `count` nodes, an even number, at φ = (j + ½)π/2n: below π/4 by Taylor's series, above by symmetry.
     fn new(count: usize) -> Self {
-        let (sine, cosine) = (DoubleDouble::PI.over(4.0 * count as f64)).sin_cos();
-        // In 2φ: start at one step of π/2n, go on by two.
-        let (mut c2, mut s2) = (cosine * cosine - sine * sine, DoubleDouble::from(2.0) * sine * cosine);
-        let step = (c2 * c2 - s2 * s2, DoubleDouble::from(2.0) * s2 * c2);
-        let mut nodes = Self { cosines: [vec![], vec![]], sines: [vec![], vec![]] };
-        for _ in 0..count {
-            for (parts, value) in
-                [(&mut nodes.cosines, DoubleDouble::ONE + c2), (&mut nodes.sines, DoubleDouble::ONE - c2)]
-            {
-                parts[0].push(value.high);
-                parts[1].push(value.low);
+        let mut nodes =
+            Self { cosines: [vec![0.0; count], vec![0.0; count]], sines: [vec![0.0; count], vec![0.0; count]] };
+        for place in 0..count / 2 {
+            let (sine, cosine) = DoubleDouble::PI.times_double(place as f64 + 0.5).over(2.0 * count as f64).sin_cos();
+            let [sine, cosine] = [sine, cosine].map(|value| (value * value).times_double(2.0));
+            for (parts, below, above) in [(&mut nodes.cosines, cosine, sine), (&mut nodes.sines, sine, cosine)] {
+                (parts[0][place], parts[1][place]) = (below.high, below.low);
+                (parts[0][count - 1 - place], parts[1][count - 1 - place]) = (above.high, above.low);
             }
-            (c2, s2) = (c2 * step.0 - s2 * step.1, s2 * step.0 + c2 * step.1);
         }
         nodes
     }
@@ -60,18 +56,11 @@ pub(super) fn trapezoidal(
     count: usize,
 ) -> (DoubleDouble, DoubleDouble) {
     static TABLES: [OnceLock<Nodes>; KEPT] = [const { OnceLock::new() }; KEPT];
-    let multiple = count / WIDEST;
-    let sums = match TABLES.get(multiple - 1) {
-        Some(table) => sums(table.get_or_init(|| Nodes::new(count)), [q1, q2 * stretch, stretch]),
-        None => sums(&Nodes::new(count), [q1, q2 * stretch, stretch]),
-    };
+    let nodes = TABLES[count / WIDEST - 1].get_or_init(|| Nodes::new(count));
+    let sums = dispatch(Arch::new(), Sums { nodes, values: [q1, q2 * stretch, stretch] });
     // cos2 and sin2 are twice the squares, so the weight carries ½ and the mean 2c/n.
     let factor = stretch.sqrt().over(0.5 * count as f64);
     (sums[0] * factor, sums[1] * factor)
-}
-
-fn sums(nodes: &Nodes, values: [DoubleDouble; 3]) -> [DoubleDouble; 2] {
-    dispatch(Arch::new(), Sums { nodes, values })
 }
 
 /// Σ w/(1+√Q) and Σ w/(√Q(1+√Q)) over the nodes, with Q1, Q2 c² and c².

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 from andoyer._core import (
     BirkhoffNormalForm,
     Body,
+    CassiniState,
     Domain,
     Ensemble,
     Error,
@@ -40,6 +41,7 @@ from andoyer._core import (
     TheoryError,
     ToleranceWarning,
     __version__,
+    cassini_states,
     normalize,
     separatrix_action,
 )
@@ -77,6 +79,7 @@ UnknownNameError = InputError
 __all__ = [
     "BirkhoffNormalForm",
     "Body",
+    "CassiniState",
     "Domain",
     "Ensemble",
     "Error",
@@ -98,6 +101,7 @@ __all__ = [
     "TheoryError",
     "ToleranceWarning",
     "__version__",
+    "cassini_states",
     "normalize",
     "separatrix_action",
 ]

@@ -308,9 +308,9 @@ class Motion:
     def partials(self, times: ArrayLike) -> Partials:
         """Evaluates the derivatives of attitude and angular velocity with respect to the initial state and the moments (theory §12)."""
     def to_code(self, language: Literal["c", "rust", "python", "javascript"] = "c") -> str:
-        """A self-contained function `rotation(time)` that evaluates this motion, as the text of a file of source (theory §8)."""
+        """Writes a source file with a self-contained function `rotation(time)` that evaluates this motion (theory §8)."""
     def _code(self, language: Literal["c", "rust", "python", "javascript"]) -> tuple[str, float, float]:
-        """The same with the bounds of its differences that its head states: of the attitude [rad], of the angular velocity over its length."""
+        """The source file, and the bounds of the differences in its head: of the attitude [rad], and of the angular velocity divided by its length."""
     @property
     def plan(self) -> Plan:
         """The plan: method, order, error bound and other facts about this motion."""
@@ -347,7 +347,7 @@ class Plan:
         """Order N of the series, or of the steps of an integration. It is 0 if there is no series, or if the harmonic oscillator alone meets the tolerance."""
     @property
     def steps(self) -> int:
-        """Steps of the integration; 0 without one."""
+        """Number of steps of the integration; 0 for the other methods."""
     @property
     def harmonics(self) -> int:
         """The highest multiple of the anomaly ℓ′ in the evaluation; 0 if the method has no harmonics."""
@@ -538,6 +538,23 @@ class NormalForm:
     def __copy__(self) -> NormalForm: ...
     def __deepcopy__(self, _memo: Any) -> NormalForm: ...
 
+@final
+class CassiniState:
+    """A Cassini state, from `cassini_states`."""
+
+    @property
+    def obliquity(self) -> float:
+        """θ, the angle from the normal of the orbit to the pole of the body [rad], in (−π, π]: positive away from inertial axis 3, in the plane of both."""
+    @property
+    def stable(self) -> bool:
+        """Whether nearby poles stay near."""
+    @property
+    def rate(self) -> float:
+        """Frequency of small librations about a stable state, or the rate at which poles leave an unstable one [rad/time]."""
+    def __eq__(self, other: object, /) -> bool: ...
+
+def cassini_states(body: Body, orbit: Orbit, spin_rate: float) -> list[CassiniState]:
+    """The Cassini states of a body: places of its pole that turn with the node of a precessing orbit (theory, section 9)."""
 def separatrix_action(beta: float) -> float:
     """The action σ_sep(β) = (2/π) atan √((1−β)/2β) of the separatrix, in units of M. It is the radius of convergence of the series (theory §5)."""
 

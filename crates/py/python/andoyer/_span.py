@@ -4,7 +4,7 @@ from andoyer._core import Motion
 
 
 def within_span(motion: Motion, start: float, stop: float) -> tuple[float, float]:
-    """An interval that begins at the epoch, as far as the motion reaches: an integrated one ends with its span. Where the span ends at the epoch, the span itself."""
+    """An interval that begins at the epoch and in which the motion can be evaluated. For an integrated motion it ends with the span, or is the span if the span ends at the epoch."""
     span = motion.scene.span
     if motion.plan.method != "integrated" or span is None:
         return start, stop

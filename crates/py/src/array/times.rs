@@ -87,7 +87,7 @@ impl<'py> Times<'py> {
 
     /// The same for derivatives, which take some microseconds for each time.
     pub(crate) fn long_partials(&self) -> bool {
-        self.array.len() > LONG_DISTURBED
+        self.leading.iter().product::<usize>() > LONG_DISTURBED || self.long()
     }
 
     /// True if the evaluation at these times may be a long call, which Ctrl-C must end.

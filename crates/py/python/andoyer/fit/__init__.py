@@ -1,6 +1,6 @@
-"""States from data: `attitudes` fits measured attitudes, `light_curve` brightnesses of an ellipsoid. Both return a `Fit`.
+"""Fits of states to data: `attitudes` fits measured attitudes, and `light_curve` fits brightnesses of an ellipsoid. Both return a `Fit`.
 
-Needs SciPy: the extra ``andoyer[fit]``; pictures need matplotlib.
+The module needs SciPy, which the extra ``andoyer[fit]`` installs; pictures need matplotlib.
 """
 
 from andoyer.fit._attitudes import attitudes

@@ -31,37 +31,38 @@ def attitudes(
 ) -> Fit:
     """Fits the state of a body, and its moments, to measured attitudes.
 
-    Minimizes the sum of squares of the rotation vectors from model to measured attitude, about body axes, over their standard deviations, by `scipy.optimize.least_squares` with
-    the derivatives of `Motion.partials` (theory §12; under an orbit by differences). Attitudes fix the moments only up to a factor: of the moments that fit, those with the product of the
-    given ones are taken. Times may be in any order. Needs SciPy: the extra ``andoyer[fit]``.
+    The residuals are the rotation vectors about body axes from model to measured attitude, divided by their standard deviations. `scipy.optimize.least_squares` minimizes their sum of squares with
+    the derivatives of `Motion.partials` (theory §12; with an orbit by differences). Attitudes determine the moments only up to a common factor; the fit keeps the product of the
+    given moments. Times may be in any order. The function needs SciPy, which the extra ``andoyer[fit]`` installs.
 
     Parameters
     ----------
     scene : Scene
-        Where the search begins: a state not more than about a third of a turn from the measured attitudes, and the options that the fitted scene keeps.
+        First state of the search, at most about a third of a turn from the measured attitudes. The fitted scene keeps its options.
     times : array_like, shape (n,)
-        As of `Motion.attitude`.
+        Times, as for `Motion.attitude`.
     attitudes : array_like, shape (n, 4), or scipy.spatial.transform.Rotation
         Measured unit quaternions [x, y, z, w], body to inertial.
     sigma : float or array_like, shape (n,) or (n, 3, 3)
         Standard deviation about each body axis [rad], or covariances of the error as a rotation vector about body axes [rad²].
     free : iterable of {"attitude", "angular_velocity", "moments"}, optional
-        What is fitted; the rest is as in `scene`.
+        The fitted quantities. The others keep the values of `scene`.
 
     Returns
     -------
     Fit
+        The fitted scene, its covariance and its residuals.
 
     Raises
     ------
     InputError
-        Fewer data than parameters, such as two attitudes for the nine; quaternions of norm 0.9 or shape (n, 3); a `sigma` of 0; ``free="inertia"``; a time that is not finite.
+        Fewer data than parameters; quaternions whose norm is not 1 or whose shape is not (n, 4); a `sigma` that is not positive; an unknown name in `free`; a time that is not finite.
     TheoryError
-        A motion on the separatrix, where no derivatives exist.
+        A motion on the separatrix, where derivatives do not exist.
 
     Examples
     --------
-    The rate about the axis of greatest inertia, from a guess that is 1 % off:
+    The fit finds the rate about the axis of greatest inertia from a guess with an error of 1 %:
 
     >>> import numpy as np
     >>> from andoyer import Body, Scene, fit
@@ -84,7 +85,7 @@ def attitudes(
 
 
 class _Problem:
-    """Residuals and their derivatives, by reduced steps: without the common factor of the moments, which attitudes never determine."""
+    """Residuals and their derivatives as functions of reduced steps, without the common factor of the moments, which attitudes do not determine."""
 
     def __init__(self, scene: Scene, times: Any, measured: Any, sigma: ArrayLike, names: tuple[str, ...]) -> None:
         count = np.size(times) if np.ndim(times) else 1

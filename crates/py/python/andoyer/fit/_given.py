@@ -56,7 +56,9 @@ def quaternions(argument: str, value: Any, count: int) -> Array:
     norms = np.linalg.norm(array, axis=1)
     worst = int(np.argmax(np.abs(norms - 1))) if count else 0
     if count and abs(norms[worst] - 1) > NEAR_UNIT:
-        raise refusal(argument, float(norms[worst]), f"1 ± {NEAR_UNIT}", f"[{worst}] has norm {norms[worst]:.9g}: a unit quaternion has norm 1 within {NEAR_UNIT}")
+        raise refusal(
+            argument, float(norms[worst]), f"1 ± {NEAR_UNIT}", f"[{worst}] has norm {norms[worst]:.9g}: a unit quaternion has norm 1 within {NEAR_UNIT}"
+        )
     unit: Array = array / norms[:, None]
     return unit
 

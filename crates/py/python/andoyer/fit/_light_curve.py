@@ -43,19 +43,19 @@ def light_curve(
 ) -> Fit:
     """Fits the state of a homogeneous ellipsoid to its brightnesses, from many random starts.
 
-    Starts have any direction of the angular momentum in space and in the body, half of them in either mode, and precession frequencies between those of `periods`. All are
-    evaluated; the best of either mode are improved together by Levenberg and Marquardt's method with the derivatives of `Ensemble.partials` (theory §12) in rounds that keep fewer and fewer;
-    the last few are polished by `scipy.optimize.least_squares`. A factor for each curve is solved for. Half turns about the body's axes change no brightness: of the four
-    states one is returned. Needs SciPy: the extra ``andoyer[fit]``.
+    The starts have random directions of the angular momentum in space and in the body, half of them in each mode, and precession frequencies between those of `periods`. All starts are
+    evaluated. The best of each mode are improved together by Levenberg and Marquardt's method with the derivatives of `Ensemble.partials` (theory §12), in rounds with fewer and fewer states.
+    `scipy.optimize.least_squares` improves the last few. The fit includes a brightness factor for each curve. Half turns about the body axes do not change the brightness; one of the four
+    equivalent states is returned. The function needs SciPy, which the extra ``andoyer[fit]`` installs.
 
     Parameters
     ----------
     axes : array_like, shape (3,)
-        Semi-axes along body axes 1, 2, 3; their ratios matter alone.
+        Semi-axes along body axes 1, 2, 3; only their ratios matter.
     times : array_like, shape (n,)
-        In one unit with `periods`. The first is the epoch of the scene.
+        Times, in the unit of `periods`. The first time is the epoch of the scene.
     brightness : array_like, shape (n,)
-        In intensities (not magnitudes), each in the unit of its curve.
+        Brightnesses as intensities (not magnitudes), each in the unit of its curve.
     sun, observer : array_like, shape (3,) or (n, 3)
         Directions from the body to the Sun and the observer, inertial components.
     sigma : float or array_like, shape (n,)
@@ -63,33 +63,33 @@ def light_curve(
     periods : (float, float)
         The shortest and the longest mean precession period P_φ of the starts, in the convention "extremal-axis" of `Motion.periods`. Not needed with `scene`.
     curves : array_like of int, shape (n,), optional
-        The curve that each point belongs to, 0, 1, …; by default all belong to one.
+        Number of the curve of each point, 0, 1, …; by default all points belong to one curve.
     scattering : {"lommel-seeliger", "geometric"}, optional
-        As of `brightness`.
+        Law of scattering, as for `brightness`.
     shape : bool, optional
-        Whether the axis ratios b/a and c/a are fitted too.
+        If True, the axis ratios b/a and c/a are fitted too.
     scene : Scene, optional
-        A torque-free state to begin from instead of random ones; its moments are replaced by those of the ellipsoid.
+        A torque-free first state, instead of random states; its moments are replaced by those of the ellipsoid.
     starts : int, optional
-        How many random starts.
+        Number of random starts.
     delta_chi_square : float, optional
-        `Fit.optima` are the minima with χ² up to this much above the least; by default all that were found.
+        Largest difference of χ² from the least χ² in `Fit.optima`; by default all minima are listed.
     rng : int or numpy.random.Generator, optional
         A seed or a generator of the starts.
 
     Returns
     -------
     Fit
-        With `Fit.optima`: the mode and χ² of every minimum, the best first.
+        The fit; `Fit.optima` has the mode and χ² of every minimum, the best first.
 
     Raises
     ------
     InputError
-        Fewer points than parameters; brightnesses or a `sigma` that are not above 0; ``periods=(2, 1)``; a direction of length 0, or Sun and observer on opposite sides.
+        Fewer points than parameters; a brightness or a `sigma` that is not positive; a shortest period above the longest; a direction of length 0; Sun and observer on opposite sides.
 
     Examples
     --------
-    An ellipsoid that turns about its short axis, seen by the Sun's light from 30° aside:
+    An ellipsoid that rotates about its short axis, at a phase angle of 30°:
 
     >>> import numpy as np
     >>> from andoyer import Body, Scene, fit

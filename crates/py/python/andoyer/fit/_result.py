@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from andoyer._core import Ensemble, Scene
+from andoyer._core import Ensemble, Orbit, Scene
 from andoyer._quaternions import Array
 from andoyer.fit._degeneracy import sentence, undetermined
 from andoyer.fit._given import refusal
@@ -16,23 +16,23 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MOST_DRAWS = 100
-"""Draws for each state that is a body, at most."""
+"""Largest number of draws for each valid state."""
 
 
 @dataclass(frozen=True, eq=False)
 class Optimum:
-    """A minimum of χ², of a search with many starts."""
+    """A minimum of χ² from a search with many starts."""
 
     scene: Scene
     mode: str
     """The mode of its motion, such as "short-axis"."""
     chi_square: float
-    """χ² there."""
+    """χ² at the minimum."""
 
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """The state that fits data best, with its uncertainty: what `attitudes` and `light_curve` return.
+    """The state that fits the data best, with its uncertainty, from `attitudes` or `light_curve`.
 
     Examples
     --------
@@ -48,7 +48,7 @@ class Fit:
     """
 
     scene: Scene
-    """The scene of the best state, with the options of the scene that was given."""
+    """The scene of the best state, with the options of the given scene."""
     parameters: tuple[str, ...]
     """Names of the free parameters: a small rotation θ1…θ3 about body axes at the epoch [rad], angular velocities ω1…ω3, principal moments I1…I3, axis ratios b/a, c/a."""
     covariance: Array
@@ -60,11 +60,11 @@ class Fit:
     chi_square: float
     """Sum of the squared residuals over their variances."""
     degrees_of_freedom: int
-    """Data minus parameters that they determine."""
+    """Number of data minus number of parameters that they determine."""
     message: str
-    """What the data do not determine."""
+    """A sentence on the directions that the data do not determine."""
     times: Any = field(repr=False)
-    """The times of the data, as they were given."""
+    """The times of the data as given."""
     optima: tuple[Optimum, ...] = ()
     """All minima within Δχ² of the best, the best first; of `light_curve`."""
     semi_axes: Array | None = None
@@ -72,28 +72,28 @@ class Fit:
 
     @property
     def reduced_chi_square(self) -> float:
-        """χ² over the degrees of freedom: near 1 where the model and `sigma` are right; NaN where there are none."""
+        """χ² divided by the degrees of freedom: near 1 if the model and `sigma` are right; NaN if there are no degrees of freedom."""
         return self.chi_square / self.degrees_of_freedom if self.degrees_of_freedom > 0 else float("nan")
 
     def ensemble(self, n: int, rng: Any = None, *, threads: int | None = None) -> Ensemble:
-        """States drawn from the covariance, as an `Ensemble` about principal axes.
+        """Draw states from the covariance, as an `Ensemble` about principal axes.
 
-        Attitude and rates are drawn from a normal distribution, moments and axis ratios from a log-normal one. A draw whose moments no body has is drawn again. What the data do not
-        determine is the same in all.
+        Attitude and rates are drawn from a normal distribution, moments and axis ratios from a log-normal distribution. A draw with impossible moments is repeated. Components that the data do not
+        determine are equal in all states.
 
         Parameters
         ----------
         n : int
-            How many states.
+            Number of states.
         rng : int or numpy.random.Generator, optional
-            A seed or a generator.
+            A seed or a generator of random numbers.
         threads : int, optional
-            As of `Ensemble`.
+            Number of threads, as for `Ensemble`.
 
         Raises
         ------
         InputError
-            Moments so uncertain that less than one draw in a hundred is a body.
+            The moments are so uncertain that less than one draw in a hundred is valid. A scene with several disturbing bodies or a `TabulatedOrbit`.
 
         Examples
         --------
@@ -104,6 +104,9 @@ class Fit:
         >>> len(found.ensemble(20, rng=1))
         20
         """
+        orbit = self.scene.orbit
+        if not (orbit is None or isinstance(orbit, Orbit)):
+            raise refusal("scene", type(orbit).__name__, "Orbit", "has several disturbing bodies or a table of positions: an Ensemble takes one Orbit at most")
         steps = Steps(self.scene, self._names(), self.semi_axes)
         root = _root(self.covariance / np.outer(*[steps.units(np.zeros(len(self.parameters)))] * 2))
         generator = np.random.default_rng(rng)
@@ -120,7 +123,7 @@ class Fit:
             raise refusal("n", n, n - missing, f"= {n}: only {n - missing} draws of the covariance are bodies; fit fewer parameters, or hold the moments")
         moments, attitudes, rates = steps.states(np.concatenate(chosen))
         _, options = self.scene.__getnewargs_ex__()
-        shared = {"epochs": options.get("epoch", 0.0), "orbits": self.scene.orbit, "tolerance": self.scene.tolerance, "span": self.scene.span}
+        shared = {"epochs": options.get("epoch", 0.0), "orbits": orbit, "tolerance": self.scene.tolerance, "span": self.scene.span}
         return Ensemble(moments, _about_principal_axes(self.scene, attitudes), rates @ self.scene.body.principal_axes, threads=threads, **shared)
 
     def _names(self) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ and the two laws of scattering, both of albedo 1 and solid angle 1, are
     lommel-seeliger    (π/2) abc { [√x (y+z) + √y (x+z)]/S² − (d²/S³) ln[(√x S + x + z)(√y S + y + z)/d²] }
 
 The first is that of Connelly and Ostro (Geometriae Dedicata 17, 1984), the integral of µ over the surface that is lit and seen; the second is the integral of µµ0/(µ + µ0)
-(Muinonen and Lumme, A&A 584, A23, 2015), written without their angles. Tests hold both against sums over a triangulated ellipsoid.
+(Muinonen and Lumme, A&A 584, A23, 2015), written without their angles. Tests compare both with sums over a triangulated ellipsoid.
 """
 
 from collections.abc import Callable
@@ -96,12 +96,12 @@ def brightness(axes: ArrayLike, attitudes: ArrayLike, sun: ArrayLike, observer: 
     Returns
     -------
     ndarray, shape (…,)
-        In the square of the unit of the axes.
+        Brightnesses, in the square of the unit of the axes.
 
     Raises
     ------
     InputError
-        Semi-axes that are not above 0, a direction of length 0, Sun and observer on opposite sides, another law.
+        Semi-axes that are not positive, a direction of length 0, Sun and observer on opposite sides, an unknown law.
 
     Examples
     --------
@@ -181,14 +181,21 @@ def with_derivatives(axes: Array, sun: Array, observer: Array, scattering: str, 
     along_observer = [2 * found.by_y * e + found.by_z * s for s, e in zip(sun, observer)]
     by_turn = np.stack(
         [
-            scale * (sun_weighted[i] * along_sun[j] - sun_weighted[j] * along_sun[i] + observer_weighted[i] * along_observer[j] - observer_weighted[j] * along_observer[i])
+            scale
+            * (
+                sun_weighted[i] * along_sun[j]
+                - sun_weighted[j] * along_sun[i]
+                + observer_weighted[i] * along_observer[j]
+                - observer_weighted[j] * along_observer[i]
+            )
             for i, j in ((1, 2), (2, 0), (0, 1))
         ]
     )
     if not shape:
         return Brightness(value, by_turn, np.zeros((0, *value.shape)))
     by_shape = [
-        value - 2 * scale * (found.by_x * sun_weighted[k] * sun[k] + found.by_y * observer_weighted[k] * observer[k] + found.by_z * sun_weighted[k] * observer[k])
+        value
+        - 2 * scale * (found.by_x * sun_weighted[k] * sun[k] + found.by_y * observer_weighted[k] * observer[k] + found.by_z * sun_weighted[k] * observer[k])
         for k in (1, 2)
     ]
     return Brightness(value, by_turn, np.stack(by_shape))

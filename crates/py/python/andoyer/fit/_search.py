@@ -1,6 +1,6 @@
-"""Minima of χ² from many starts: a Levenberg–Marquardt iteration of all at once, from which the worst drop out.
+"""Minima of χ² from many starts, by Levenberg–Marquardt iterations of all states at once.
 
-Every start is evaluated once. Then rounds follow, each of which takes the best of what is left, of either mode as many, and improves them by a few steps.
+Every start is evaluated once. Each following round keeps the best remaining states, the same number of each mode, and improves them by a few steps.
 """
 
 from typing import NamedTuple
