@@ -110,6 +110,12 @@ impl Runner {
         std::array::from_fn(|i| self.rounded[i].sqrt() + self.systematic[i])
     }
 
+    /// Errors of the rates by all steps relative to those by rounding alone, 1 or more.
+    pub(super) fn systematic_share(&self) -> f64 {
+        let rounded = self.rounded[1].sqrt();
+        if rounded > 0.0 { 1.0 + self.systematic[1] / rounded } else { 1.0 }
+    }
+
     /// Goes on by one step, to the target at most. Returns the length of the step without a target, or NaN where the state has become
     /// none.
     #[inline(always)]
