@@ -55,8 +55,8 @@ pub(super) struct Measured<'a> {
     pub(super) steps: &'a [Step],
     /// Of attitude \[rad\] and rates.
     pub(super) errors: [f64; 2],
-    /// The displacement of a step relative to its rounding errors.
-    pub(super) noise: f64,
+    /// The displacements of a step relative to its rounding errors.
+    pub(super) noise: [f64; 2],
     pub(super) backward: bool,
     /// The index of the displacement.
     pub(super) pattern: usize,
@@ -116,7 +116,7 @@ impl Task for Measured<'_> {
                 if runner.advance((equations, precision), end, &mut workspace).is_nan() {
                     bound = PI;
                 }
-                runner.disturb(scale * noise, &mut random);
+                runner.disturb(noise.map(|noise| scale * noise), &mut random);
             }
             for step in group {
                 bound = bound.max(2.0 * (norm(&step.attitude) - 1.0).abs());
