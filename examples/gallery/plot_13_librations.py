@@ -11,6 +11,7 @@ import math
 import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
+from numpy.typing import NDArray
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
@@ -20,10 +21,13 @@ Array = NDArray[np.float64]
 # rotation. A fit separates the part with the period of the orbit from the free libration.
 
 
-def libration(moments, eccentricity, spin, free, start, turns):
+def libration(
+    moments: list[float], eccentricity: float, spin: float, free: float, start: float, turns: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
     """(times, libration [rad], amplitude of the part with the period of the orbit [rad])."""
     orbit = andoyer.Orbit(1.0, eccentricity)
-    scene = andoyer.Scene(andoyer.Body(moments), [0, 0, 0, 1], [0, 0, spin + start], orbit=orbit, span=(0, 2 * math.pi * turns), tolerance=1e-8)
+    end = 2 * math.pi * turns
+    scene = andoyer.Scene(andoyer.Body(moments), [0, 0, 0, 1], [0, 0, spin + start], orbit=orbit, span=(0, end), tolerance=1e-8)
     motion = scene.solve()
     assert motion.plan.method == "integrated" and motion.plan.meets_tolerance
     times = np.linspace(0, end, 200 * turns)
