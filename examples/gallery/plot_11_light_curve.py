@@ -9,6 +9,7 @@ the other minima with their χ², and predicts its attitude with a spread.
 import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
+from numpy.typing import NDArray
 from andoyer import fit
 
 generator = np.random.default_rng(1)
@@ -17,15 +18,15 @@ truth = andoyer.Scene(andoyer.Body.ellipsoid(*axes), [0.1, -0.5, 0.3, np.sqrt(0.
 times = np.sort(generator.uniform(0, 6, 100))
 
 
-def direction(longitude, height):
+def direction(longitude: NDArray[np.float64], height: float) -> NDArray[np.float64]:
     return np.stack([np.cos(longitude), np.sin(longitude), height + 0 * longitude], axis=-1)
 
 
-def sun(t):
+def sun(t: NDArray[np.float64]) -> NDArray[np.float64]:
     return direction(0.7 + 0.14 * t, 0.0)
 
 
-def observer(t):
+def observer(t: NDArray[np.float64]) -> NDArray[np.float64]:
     return direction(-0.1 * t, 0.1)
 
 

@@ -11,23 +11,30 @@ import math
 import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
+from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
 
 # %%
 # A body rotates about its axis of greatest inertia in the plane of its orbit. Time is in radians of the mean anomaly. The libration is the rotation angle minus the mean
 # rotation. A fit separates the part with the period of the orbit from the free libration.
 
 
-def libration(moments, eccentricity, spin, free, start, turns):
+def libration(
+    moments: list[float], eccentricity: float, spin: float, free: float, start: float, turns: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
     """(times, libration [rad], amplitude of the part with the period of the orbit [rad])."""
     orbit = andoyer.Orbit(1.0, eccentricity)
-    scene = andoyer.Scene(andoyer.Body(moments), [0, 0, 0, 1], [0, 0, spin + start], orbit=orbit, span=(0, 2 * math.pi * turns), tolerance=1e-8)
+    end = 2 * math.pi * turns
+    scene = andoyer.Scene(andoyer.Body(moments), [0, 0, 0, 1], [0, 0, spin + start], orbit=orbit, span=(0, end), tolerance=1e-8)
     motion = scene.solve()
     assert motion.plan.method == "integrated" and motion.plan.meets_tolerance
-    times = np.linspace(*scene.span, 200 * turns)
+    times = np.linspace(0, end, 200 * turns)
     attitude = motion.attitude(times)
     angle = np.unwrap(2 * np.arctan2(attitude[:, 2], attitude[:, 3]), period=4 * np.pi) - spin * times
     columns = [np.sin(times), np.cos(times), np.sin(2 * times), np.cos(2 * times), np.sin(free * times), np.cos(free * times), np.ones_like(times)]
-    return times, angle, np.linalg.lstsq(np.stack(columns, axis=1), angle, rcond=None)[0][0]
+    return times, angle, float(np.linalg.lstsq(np.stack(columns, axis=1), angle, rcond=None)[0][0])
 
 
 # %%

@@ -12,6 +12,7 @@ from pathlib import Path
 import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
+from numpy.typing import NDArray
 
 DAY, CENTURY = 86400.0, 36525 * 86400.0
 ARCSECOND = np.pi / 648000
@@ -33,7 +34,10 @@ anomaly, sun_anomaly, latitude, elongation, node = values
 precession = np.array([0.0, 5028.796195 * ARCSECOND / CENTURY])
 
 
-def orbit(gm, axis, eccentricity, inclination, anomaly, node, pericentre):
+Angle = NDArray[np.float64]  # value at J2000 and rate
+
+
+def orbit(gm: float, axis: float, eccentricity: float, inclination: float, anomaly: Angle, node: Angle, pericentre: Angle) -> andoyer.Orbit:
     """An orbit from its angles at J2000 and their rates. Node and pericentre are converted to the time of pericentre."""
     start = -anomaly[0] / anomaly[1]
     node_at, pericentre_at = ((angle + rate * start) % (2 * np.pi) for angle, rate in (node, pericentre))
@@ -81,7 +85,7 @@ with DATA.open(encoding="utf-8", newline="") as file:
 multiples = np.array([[int(row[name]) for name in ("l", "lp", "F", "D", "Om")] for row in table])
 published = np.array([[float(row["dpsi_sin_uas"]), float(row["deps_cos_uas"])] for row in table]) * 1e-6
 phases, rates = multiples @ values[:, 0], multiples @ values[:, 1]
-kept = []
+kept: list[int] = []
 for index in np.argsort(-abs(published[:, 0])):
     apart = [min(abs(rates[index] - rates[other]), abs(rates[index] + rates[other])) for other in kept]
     if abs(rates[index]) * span > 2 * np.pi and min(apart, default=np.inf) * span > 0.9 * 2 * np.pi:

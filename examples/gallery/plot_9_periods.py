@@ -23,8 +23,8 @@ solutions = {
 }
 motions = {}
 for paper, (moments, precession, rotation, pole) in solutions.items():
-    direction = {} if pole is None else {"momentum_direction": np.radians(pole)}
-    scene = andoyer.Scene.from_periods(andoyer.Body(moments), precession * HOUR, rotation * HOUR, **direction)
+    direction = (0, 0, 1) if pole is None else np.radians(pole)
+    scene = andoyer.Scene.from_periods(andoyer.Body(moments), precession * HOUR, rotation * HOUR, momentum_direction=direction)
     motions[paper] = scene.solve()
     long_axis = motions[paper].periods["long-axis"].precession / HOUR
     print(

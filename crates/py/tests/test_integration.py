@@ -90,11 +90,11 @@ def test_table_of_a_circle_gives_the_motion_of_the_orbit_within_the_bound():
     for count in (101, 201):
         times = np.linspace(-1, 11, count)
         table = TabulatedOrbit(times, np.stack([np.cos(times), np.sin(times), 0 * times], axis=1) * 7e6, 7e6**3)
-        motion = Scene(body, ATTITUDE, [0.5, 1.5, 2.0], orbit=table, span=span, tolerance=1e-6).solve()
+        motion = Scene(body, ATTITUDE, [0.5, 1.5, 2.0], orbit=table, span=span, tolerance=1e-5).solve()
         assert motion.plan.method == "integrated" and "table" in motion.plan.skipped[0]
         at = np.linspace(0, 10, 300)
         errors.append(angle(motion.attitude(at), by_orbit.attitude(at)).max())
-        assert errors[-1] < motion.plan.error_bound < 1e-6
+        assert errors[-1] < motion.plan.error_bound < 1e-5
     # Degree seven: 2^8 for half the distance of the times.
     assert 150 < errors[0] / errors[1] < 400
 
@@ -140,7 +140,7 @@ def test_chaotic_motion_says_over_which_span_the_tolerance_can_be_had():
     with pytest.raises(andoyer.TheoryError, match="nearby states separate") as caught:
         scene.solve()
     start, stop = caught.value.bound
-    assert start == 0 and 20 < stop < 1000
+    assert start == 0 and 10 < stop < 1000
     short = Scene(scene.body, scene.attitude, scene.angular_velocity, orbit=scene.orbit, span=(0, stop), tolerance=1e-8).solve()
     assert short.plan.method == "integrated" and short.plan.error_bound < 1e-7
 

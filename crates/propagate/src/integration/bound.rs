@@ -1,7 +1,7 @@
 //! The error bound of an integration: what becomes of a displaced state.
 //!
 //! The state at the epoch is displaced by as much as all errors of the steps together may be: the root of the sum of squares of the rounding errors, and the sum of the terms after the
-//! last of the series. Every step adds a displacement of the size of its own rounding errors, because a state that is displaced later may go farther. Integrated with shorter steps, and with tables interpolated by polynomials of lower degree, it separates from the motion as errors do; the bound is
+//! last of the series. Every step adds a displacement in proportion, because a state that is displaced later may go farther. Integrated with shorter steps, and with tables interpolated by polynomials of lower degree, it separates from the motion as errors do; the bound is
 //! its largest distance so far. This covers phases, which grow linearly with time, resonances and chaotic motion, where distances grow exponentially; in so far as they grow faster than
 //! linearly, up to twenty times the distance is taken, because the displacement may lie across the direction that grows.
 //!
@@ -55,6 +55,8 @@ pub(super) struct Measured<'a> {
     pub(super) steps: &'a [Step],
     /// Of attitude \[rad\] and rates.
     pub(super) errors: [f64; 2],
+    /// The displacements of a step relative to its rounding errors.
+    pub(super) noise: [f64; 2],
     pub(super) backward: bool,
     /// The index of the displacement.
     pub(super) pattern: usize,
@@ -95,7 +97,7 @@ impl Task for Measured<'_> {
     #[inline(always)]
     fn run<S: InstructionSet>(self, _simd: S) -> Self::Output {
         let displacement = self.displacement();
-        let Self { equations, precision, steps, backward, enlarged, stop, .. } = self;
+        let Self { equations, precision, steps, noise, backward, enlarged, stop, .. } = self;
         let duration = steps[steps.len() - 1].time.0.abs();
         let scale = if enlarged { ENLARGED / (displacement[0] + displacement[1] * duration) } else { 1.0 };
         let displacement = displacement.map(|displacement| scale * displacement);
@@ -114,7 +116,7 @@ impl Task for Measured<'_> {
                 if runner.advance((equations, precision), end, &mut workspace).is_nan() {
                     bound = PI;
                 }
-                runner.disturb(scale, &mut random);
+                runner.disturb(noise.map(|noise| scale * noise), &mut random);
             }
             for step in group {
                 bound = bound.max(2.0 * (norm(&step.attitude) - 1.0).abs());

@@ -110,6 +110,14 @@ impl Runner {
         std::array::from_fn(|i| self.rounded[i].sqrt() + self.systematic[i])
     }
 
+    /// Errors of attitude and rates by all steps relative to those by rounding alone, 1 or more.
+    pub(super) fn systematic_share(&self) -> [f64; 2] {
+        std::array::from_fn(|i| {
+            let rounded = self.rounded[i].sqrt();
+            if rounded > 0.0 { 1.0 + self.systematic[i] / rounded } else { 1.0 }
+        })
+    }
+
     /// Goes on by one step, to the target at most. Returns the length of the step without a target, or NaN where the state has become
     /// none.
     #[inline(always)]
@@ -172,14 +180,14 @@ impl Runner {
 
     /// Adds errors of so many times the size of the rounding errors of the last step, with signs that look like random ones.
     #[inline(always)]
-    pub(super) fn disturb(&mut self, scale: f64, random: &mut u64) {
+    pub(super) fn disturb(&mut self, [of_angle, of_rate]: [f64; 2], random: &mut u64) {
         // Marsaglia's generator of 64 bits.
         *random ^= *random << 13;
         *random ^= *random >> 7;
         *random ^= *random << 17;
-        let [angle, rate] = self.last;
+        let (angle, rate) = (of_angle * self.last[0], of_rate * self.last[1]);
         for lane in 0..4 {
-            let sign = |bit: u32| if (*random >> bit) & 1 == 0 { scale } else { -scale };
+            let sign = |bit: u32| if (*random >> bit) & 1 == 0 { 1.0 } else { -1.0 };
             self.attitude[lane] += 0.5 * angle * sign(8 + lane as u32);
             // The fourth rate is 0.
             self.rates[lane] += if lane < 3 { rate * sign(40 + lane as u32) } else { 0.0 };
