@@ -26,6 +26,8 @@ const SAMPLES: usize = 48;
 const MARGIN: f64 = 2.0;
 /// The safety factor of an averaged motion of second order.
 const THIRD_MARGIN: f64 = 5.0;
+/// The fraction of the first-order error that second order is allowed anyway: over spans of 1e5 radians the estimate of third order alone was exceeded.
+const FIRST_PART: f64 = 0.05;
 /// The derivatives of the change, as a fraction of the sum of the largest sizes of all terms.
 const SLOPE_SHARE: f64 = 0.25;
 /// Number of orbits on each side of the epoch for which quarters are kept.
@@ -75,10 +77,14 @@ impl Budget {
         let strength = ellipse.strength().abs();
         // The strength of the effect on the phases, like κ for the axis. Δ(σ) may be 0 where its slope is not.
         let by_phase = subject.phase() * mean_motion / ellipse.eta_cubed();
+        let first = MARGIN * response.second_order([size, slope], p, duration);
         Self {
             spin: match subject.left {
-                None => MARGIN * response.second_order([size, slope], p, duration),
-                Some(left) => THIRD_MARGIN * response.third_order([size, slope], p, duration, (subject.cut, left)),
+                None => first,
+                Some(left) => {
+                    let third = response.third_order([size, slope], p, duration, (subject.cut, left));
+                    THIRD_MARGIN * third + FIRST_PART * first
+                }
             },
             orbit: strength * (strength + 6.0 * by_phase) * (1.0 + orbital),
             dropped: corrections.dropped + 2.0 * corrections.rest,
