@@ -89,28 +89,41 @@ def ensemble() -> list[str]:
 
 def gravity_cases() -> list[str]:
     """The relative error of each level in the reference cases."""
-    header = ["case", "n/spin", "e", "effect of the torque [rad]", "paper", "moving", "full", "error of full [rad]", "bound [rad]"]
-    names = ["case", "n_over_spin", "e", "effect_rad", "paper", "moving", "full", "full_error_rad", "bound_rad"]
+    header = ["case", "n/spin", "e", "effect of the torque [rad]", "paper", "moving", "full", "second-order", "error of full [rad]", "bound [rad]", "error of second-order [rad]", "its bound [rad]"]
+    names = ["case", "n_over_spin", "e", "effect_rad", "paper", "moving", "full", "second_order", "full_error_rad", "bound_rad", "second_error_rad", "second_bound_rad"]
     return markdown(header, ([row[name] for name in names] for row in read("gravity-cases.csv")))
 
 
 def gravity_bounds() -> list[str]:
     """Error over bound in random scenes, by averaging."""
     rows = []
-    for averaging in ("spin", "orbit"):
-        motions = [row for row in read("gravity-bounds.csv") if row["averaging"] == averaging]
+    for averaging, level in (("spin", "full"), ("orbit", "full"), ("spin", "second-order")):
+        motions = [row for row in read("gravity-bounds.csv") if (row["averaging"], row["level"]) == (averaging, level)]
         shares = sorted(float(row["error"]) / float(row["bound"]) for row in motions)
         errors = [float(row["error"]) / float(row["torque"]) for row in motions]
         figures = [f"{statistics.median(shares):.4f}", f"{shares[-1]:.2f}", f"{statistics.median(errors):.1e}"]
-        rows.append([averaging, str(len(motions)), *figures])
-    return markdown(["averaged over", "motions", "error / bound, median", "largest", "error / torque, median"], rows)
+        rows.append([averaging, level, str(len(motions)), *figures])
+    return markdown(["averaged over", "level", "motions", "error / bound, median", "largest", "error / torque, median"], rows)
 
 
 def gravity_climb() -> list[str]:
     """The largest error over bound that hill climbing finds, by family of scenes."""
-    header = ["scenes", "mode", "averaged over", "climbs", "scenes solved", "error [rad]", "bound [rad]", "largest error / bound"]
-    names = ["family", "mode", "averaging", "starts", "solved", "error", "bound", "ratio"]
+    header = ["scenes", "mode", "averaged over", "level", "climbs", "scenes solved", "error [rad]", "bound [rad]", "largest error / bound"]
+    names = ["family", "mode", "averaging", "level", "starts", "solved", "error", "bound", "ratio"]
     return markdown(header, ([row[name] for name in names] for row in read("gravity-climb.csv")))
+
+
+def gravity_table() -> list[str]:
+    """Scenes served, what is left of the torque's effect, and bound over error, by n/spin and e, in first and second order."""
+    groups: dict[tuple[str, str], dict[str, Row]] = {}
+    for row in read("gravity-table.csv"):
+        groups.setdefault((row["n"], row["e"]), {})[row["level"]] = row
+    rows = []
+    for (motion, eccentricity), levels in groups.items():
+        first, second = levels["full"], levels["second-order"]
+        figures = [level[name] for name in ("median_share", "median_bound_over_error") for level in (first, second)]
+        rows.append([motion, eccentricity, f"{first['accepted']} of {first['scenes']}", *(figure.replace("NaN", "–") for figure in figures)])
+    return markdown(["n/spin", "e", "scenes", "error / effect, full", "second-order", "bound / error, full", "second-order"], rows)
 
 
 def light_curves() -> list[str]:
@@ -124,6 +137,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "gravity-bounds": gravity_bounds,
     "gravity-cases": gravity_cases,
     "gravity-climb": gravity_climb,
+    "gravity-table": gravity_table,
     "light-curves": light_curves,
     "scenes-accuracy": scenes_accuracy,
     "scenes-speed": scenes_speed,

@@ -29,6 +29,9 @@ const COORDINATES: usize = 11;
 /// A point of the unit cube: a scene of a family.
 type Point = [f64; COORDINATES];
 
+/// How a scene is solved; the family of levels has its own level.
+pub type Theory = (Averaging, Level);
+
 /// A kind of scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
@@ -61,12 +64,12 @@ impl Family {
     }
 
     /// A random scene.
-    pub fn random(self, long_axis: bool, averaging: Averaging, random: &mut Uniform) -> Disturbed {
-        self.scene(&std::array::from_fn(|_| random.draw()), long_axis, averaging)
+    pub fn random(self, long_axis: bool, theory: Theory, random: &mut Uniform) -> Disturbed {
+        self.scene(&std::array::from_fn(|_| random.draw()), long_axis, theory)
     }
 
     /// The scene at a point, in the short-axis mode or the long-axis one.
-    fn scene(self, point: &Point, long_axis: bool, averaging: Averaging) -> Disturbed {
+    fn scene(self, point: &Point, long_axis: bool, (averaging, level): Theory) -> Disturbed {
         let [shape, ratio, tilt, azimuth, inclination, motion, eccentricity, anomaly, argument, node, span] = *point;
         let mix = |low: f64, high: f64, part: f64| low + (high - low) * part;
         let power = |low: f64, high: f64, part: f64| 10.0_f64.powf(mix(low, high, part));
@@ -114,7 +117,7 @@ impl Family {
         let level = match self {
             Self::Levels if long_axis => Level::Paper,
             Self::Levels => Level::Moving,
-            _ => Level::Full,
+            _ => level,
         };
         Disturbed { averaging, level, ..scene }
     }
@@ -139,13 +142,7 @@ impl Summit {
 }
 
 /// Climbs from one random scene of a family; `None` where no scene was served.
-pub fn climb(
-    family: Family,
-    long_axis: bool,
-    averaging: Averaging,
-    steps: usize,
-    random: &mut Uniform,
-) -> Option<Summit> {
+pub fn climb(family: Family, long_axis: bool, theory: Theory, steps: usize, random: &mut Uniform) -> Option<Summit> {
     let mut best: Option<(Point, Summit)> = None;
     let mut solved = 0;
     for _ in 0..steps {
@@ -161,7 +158,7 @@ pub fn climb(
                 })
             }
         };
-        let scene = family.scene(&point, long_axis, averaging);
+        let scene = family.scene(&point, long_axis, theory);
         // A scene that is refused is no step.
         let Ok(measured) = scene.measured() else { continue };
         solved += 1;

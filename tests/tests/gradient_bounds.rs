@@ -2,9 +2,13 @@
 
 use andoyer_propagate::Error;
 use andoyer_propagate::options::{Averaging, Level};
-use andoyer_tests::climb::{FAMILIES, Uniform, climb};
+use andoyer_tests::climb::{FAMILIES, Theory, Uniform, climb};
 use andoyer_tests::disturbed::{Disturbed, Measured};
 use andoyer_tests::{attitude_error, difference};
+
+/// First order by either averaging, and second order.
+const THEORIES: [Theory; 3] =
+    [(Averaging::Spin, Level::Full), (Averaging::Orbit, Level::Full), (Averaging::Spin, Level::SecondOrder)];
 
 const ATTITUDE: [f64; 4] = [0.1, 0.2, 0.3, 0.927_361_849_549_570_4];
 
@@ -175,8 +179,8 @@ fn the_motion_has_the_state_given_at_its_epoch_and_is_continuous_there() {
     let mut served = 0;
     for k in 0..400 {
         let family = FAMILIES[k % FAMILIES.len()];
-        let averaging = [Averaging::Spin, Averaging::Orbit][k / 5 % 2];
-        let scene = family.random(k % 2 == 1, averaging, &mut random);
+        let theory = THEORIES[k / 5 % 3];
+        let scene = family.random(k % 2 == 1, theory, &mut random);
         let Ok(motion) = scene.solve() else { continue };
         served += 1;
         let sample = motion.at(0.0).expect("finite");
@@ -199,10 +203,9 @@ fn the_motion_has_the_state_given_at_its_epoch_and_is_continuous_there() {
 fn hill_climbing_finds_no_error_above_its_bound() {
     // The long form is `gradient climb` (make gravity).
     for (k, family) in FAMILIES.into_iter().enumerate() {
-        for (j, averaging) in [Averaging::Spin, Averaging::Orbit].into_iter().enumerate() {
+        for (j, theory) in THEORIES.into_iter().enumerate() {
             let long_axis = (k + j) % 2 == 1;
-            let summit =
-                climb(family, long_axis, averaging, 12, &mut Uniform(7 * k as u64 + j as u64)).expect("served");
+            let summit = climb(family, long_axis, theory, 12, &mut Uniform(7 * k as u64 + j as u64)).expect("served");
             assert!(summit.ratio() <= 1.0, "{}: {summit:?}", family.name());
         }
     }

@@ -119,11 +119,13 @@ fn rotation_about_the_long_axis_goes_by_the_same_route() {
 
 #[test]
 fn a_motion_started_again_from_its_own_state_goes_on_within_both_bounds() {
-    let motion = standard().averaging(Averaging::Spin).solve().expect("averaged");
+    // Second order has rates with an error of second order, bounded, which a motion started again turns into a drift.
+    let motion = standard().averaging(Averaging::Spin).level(Level::Full).solve().expect("averaged");
     let middle = motion.at(1234.0).expect("finite");
     let again = scene(MOMENTS, 1234.0, middle.attitude, middle.angular_velocity.into())
         .orbit(orbit(PLANE, 100.0))
         .averaging(Averaging::Spin)
+        .level(Level::Full)
         .solve()
         .expect("averaged");
     for time in [1234.0, 2000.0, 5000.0] {

@@ -21,12 +21,13 @@ fn worst(motion: &Motion, case: &Case) -> f64 {
 
 /// Largest distance to the truth, over that of the free motion.
 fn share(case: &Case, orbit: &Orbit, level: Level) -> f64 {
-    let motion = free(case).orbit(*orbit).level(level).averaging(Averaging::Spin).solve().expect("solved");
+    let motion =
+        free(case).orbit(*orbit).level(level).averaging(Averaging::Spin).tolerance(1e-15).solve().expect("solved");
     worst(&motion, case) / worst(&free(case).solve().expect("solved"), case)
 }
 
 #[test]
-fn second_order_leaves_a_thousandth_of_what_first_order_leaves() {
+fn second_order_leaves_at_most_twice_what_an_independent_program_of_the_same_recipe_leaves() {
     // Twice what the same recipe leaves in an independent program (numpy, exact divisors).
     let bounds = [
         ("j-zero", 2.4e-10),
@@ -41,7 +42,6 @@ fn second_order_leaves_a_thousandth_of_what_first_order_leaves() {
     for (case, orbit) in cases(REFERENCE).iter().zip(orbits(REFERENCE)) {
         let bound = bounds.iter().find(|(name, _)| *name == case.name).expect("a bound").1;
         let share = share(case, &orbit, Level::SecondOrder);
-        println!("{} {share:.2e} of {bound:.1e}", case.name);
         if share > bound {
             failed.push(format!("{}: {share:.1e} > {bound:.1e}", case.name));
         }
@@ -85,9 +85,8 @@ fn nothing_is_singular_at_vanishing_tilt_and_inclination_or_in_the_long_axis_mod
             Disturbed { level, averaging: Averaging::Spin, tolerance: 1e-12, ..scene }.measured().expect("served").error
         };
         let (first, second) = (error(Level::Full), error(Level::SecondOrder));
-        println!("{name}: first {first:.2e}, second {second:.2e} of {bound:.1e}");
-        if second > bound {
-            failed.push(format!("{name}: {second:.1e} > {bound:.1e}"));
+        if second > bound || second > 0.1 * first {
+            failed.push(format!("{name}: {second:.1e} > {bound:.1e}, first {first:.1e}"));
         }
     }
     assert!(failed.is_empty(), "{failed:?}");
@@ -116,7 +115,6 @@ fn the_error_falls_with_the_square_of_the_torque() {
     for level in [Level::Full, Level::SecondOrder] {
         let [strong, weak] = [0.5, 0.25].map(|fraction| error(fraction, level));
         let order = (strong / weak).log2();
-        println!("{level}: {strong:.2e} {weak:.2e} order {order:.2}");
         assert!((order - 2.0).abs() <= 0.4, "{level}: {strong:e}, {weak:e}, order {order}");
     }
 }

@@ -262,11 +262,16 @@ pub enum Error {
         bound: &'static str,
     },
     /// An unknown level of the gravity-gradient theory.
-    #[error("level = {value:?}: it must be \"paper\", \"moving\" or \"full\"")]
+    #[error("level = {value:?}: it must be \"auto\", \"paper\", \"moving\", \"full\" or \"second-order\"")]
     Level {
         /// The level as given.
         value: String,
     },
+    /// Second order together with the average over the orbit, which is of first order.
+    #[error(
+        "level = \"second-order\" needs averaging = \"spin\" or \"auto\": the average over the orbit is of first order"
+    )]
+    LevelOfOrbit,
     /// An unknown averaging.
     #[error("averaging = {value:?}: it must be \"auto\", \"orbit\" or \"spin\"")]
     Averaging {

@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use crate::error::{Error, Kind};
-use crate::gravity_gradient::disturbed::Gradient;
+use crate::gravity_gradient::choice::chosen;
 use crate::gravity_gradient::osculating::{LARGEST_SEPARATRIX_RATIO, osculating};
 use crate::gravity_gradient::request::Request;
 use crate::input::disturbing_body::DisturbingBody;
@@ -316,12 +316,13 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
         duration: scaled(duration(&scene, rotation, exponent), -exponent),
         spanned: scene.asked_span().is_some(),
     };
-    let gradient = Gradient::new(polhode, scene.state().attitude, osculating, &request)?;
+    let (gradient, unused) = chosen(polhode, scene.state().attitude, osculating, &request)?;
     let [anomaly, longitude] = gradient.frequencies();
     let mut skipped: Vec<String> = unused_order(&scene).into_iter().collect();
     if scene.asked_method() == Method::Series {
         skipped.push("series: a scene with an orbit is solved about the closed form".to_owned());
     }
+    skipped.extend(unused);
     skipped.extend(gradient.skipped());
     let mut plan = Plan::new(&scene, mode, ratio, gradient.error + 4.0 * ROUNDING);
     (plan.gradient, plan.skipped) = (Some(gradient.plan()), skipped);
@@ -337,7 +338,7 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
         scene,
     };
     let orbits = request.duration * orbit.mean_motion() / std::f64::consts::TAU;
-    if request.level == Level::Full && orbits < 1.0 && error > WORTH.max(request.tolerance) {
+    if !matches!(request.level, Level::Paper | Level::Moving) && orbits < 1.0 && error > WORTH.max(request.tolerance) {
         let effect = effect(&motion)?;
         if error > effect {
             return Err(Error::TorqueTooStrong { size: error, bound: effect });

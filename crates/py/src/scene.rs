@@ -313,7 +313,7 @@ impl Scene {
         self.scene.asked_averaging().to_string()
     }
 
-    /// The level: "full", "moving" or "paper".
+    /// The level: "auto", "full", "second-order", "moving" or "paper".
     #[getter]
     fn level(&self) -> String {
         self.scene.asked_level().to_string()

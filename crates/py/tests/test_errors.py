@@ -55,7 +55,7 @@ BAD = {
     "span": (lambda: scene(span=(1, 0)), InputError, "span", (1.0, 0.0), "finite with start <= stop"),
     "method": (lambda: scene(method="magic"), InputError, "method", "magic", "auto, series, closed, integrated"),
     "averaging": (lambda: scene(averaging="moon"), InputError, "averaging", "moon", "auto, orbit, spin"),
-    "level": (lambda: scene(level="moon"), InputError, "level", "moon", "paper, moving, full"),
+    "level": (lambda: scene(level="moon"), InputError, "level", "moon", "auto, paper, moving, full, second-order"),
     "negative order": (lambda: scene(order=-1), InputError, "order", -1, (0, 60)),
     "half an order": (lambda: scene(order=2.5), InputError, "order", 2.5, (0, 60)),
     "high order": (lambda: scene(order=61), RepresentationError, "order", 61, 60),

@@ -3,16 +3,22 @@
 //! `cases`: the share of the torque's effect on the attitude that each level leaves in the reference cases.
 //! `levels`: the share of the torque's effect on the attitude that each level leaves, against J, n/spin, e and B − A, one of them varied at a time.
 //! `climb STARTS STEPS SEED`: the largest error over its bound that hill climbing finds, by family, mode and averaging.
-//! `bounds N`: the error of N random scenes over the bound that the plan states, for both averagings.
+//! `bounds N SEED`: the error of N random scenes and the bound that the plan states, for both averagings and for second order.
+//! `table N SEED`: by n/spin and e, how many of N random scenes are served, the share of the torque's effect that is left, and the bound over the error.
 
+use std::f64::consts::TAU;
 use std::io::{self, Write};
 
 use andoyer_propagate::options::{Averaging, Level};
 use andoyer_propagate::{Body, Error, Method, Motion, Orbit, Scene, State};
-use andoyer_tests::climb::{FAMILIES, Summit, Uniform, climb};
-use andoyer_tests::disturbed::Disturbed;
+use andoyer_tests::climb::{FAMILIES, Family, Summit, Theory, Uniform, climb};
+use andoyer_tests::disturbed::{Disturbed, Measured};
 use andoyer_tests::integration::Problem;
 use andoyer_tests::{attitude_error, cases, orbits};
+
+/// What is climbed with: first order by either averaging, and second order.
+const THEORIES: [Theory; 3] =
+    [(Averaging::Spin, Level::Full), (Averaging::Orbit, Level::Full), (Averaging::Spin, Level::SecondOrder)];
 
 /// Samples of a run.
 const SAMPLES: usize = 61;
@@ -68,7 +74,10 @@ impl Run {
 
 fn reference_cases(out: &mut impl Write) -> Result<(), Box<dyn std::error::Error>> {
     const REFERENCE: &str = include_str!("../../data/gravity_gradient.json");
-    writeln!(out, "case,n_over_spin,e,paper,moving,full,effect_rad,full_error_rad,bound_rad")?;
+    writeln!(
+        out,
+        "case,n_over_spin,e,paper,moving,full,second_order,effect_rad,full_error_rad,bound_rad,second_error_rad,second_bound_rad"
+    )?;
     for (case, orbit) in cases(REFERENCE).iter().zip(orbits(REFERENCE)) {
         let body = Body::new(case.moments)?;
         let span = case.states.iter().map(|&(time, ..)| time).fold(0.0, f64::max);
@@ -84,11 +93,15 @@ fn reference_cases(out: &mut impl Write) -> Result<(), Box<dyn std::error::Error
         let solve = |level| scene.clone().orbit(orbit).level(level).averaging(Averaging::Spin).solve();
         let [n, e, ..] = orbit.elements();
         write!(out, "{},{n},{e}", case.name)?;
-        for level in [Level::Paper, Level::Moving, Level::Full] {
+        for level in [Level::Paper, Level::Moving, Level::Full, Level::SecondOrder] {
             write!(out, ",{:.1e}", error(&solve(level)?)? / effect)?;
         }
-        let full = solve(Level::Full)?;
-        writeln!(out, ",{effect:.2e},{:.2e},{:.2e}", error(&full)?, full.plan().error_bound())?;
+        write!(out, ",{effect:.2e}")?;
+        for level in [Level::Full, Level::SecondOrder] {
+            let motion = solve(level)?;
+            write!(out, ",{:.2e},{:.2e}", error(&motion)?, motion.plan().error_bound())?;
+        }
+        writeln!(out)?;
     }
     Ok(())
 }
@@ -155,21 +168,22 @@ fn setting(random: &mut Uniform) -> Setting {
 }
 
 fn bounds(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn std::error::Error>> {
-    writeln!(out, "averaging,n,e,J,A,B,ratio,orbits,torque,kappa,error,bound")?;
+    writeln!(out, "averaging,level,n,e,J,A,B,ratio,orbits,torque,kappa,error,bound")?;
     let mut random = Uniform(seed);
     for _ in 0..count {
         let setting = setting(&mut random);
         let run = setting.run()?;
-        for averaging in [Averaging::Spin, Averaging::Orbit] {
+        for (averaging, level) in THEORIES {
             // A resonance has no line.
-            let Ok(motion) = run.scene.clone().orbit(run.orbit).averaging(averaging).solve() else { continue };
+            let scene = run.scene.clone().orbit(run.orbit).averaging(averaging).level(level);
+            let Ok(motion) = scene.solve() else { continue };
             let plan = motion.plan();
             let [a, b, _] = setting.moments;
             let kappa =
                 3.0 * setting.mean_motion * (1.0 - 0.5 * (a + b)) / (1.0 - setting.eccentricity.powi(2)).powf(1.5);
             writeln!(
                 out,
-                "{averaging},{:.3e},{:.3},{:.3},{a:.3},{b:.3},{:.3},{:.1},{:.3e},{kappa:.3e},{:.3e},{:.3e}",
+                "{averaging},{level},{:.3e},{:.3},{:.3},{a:.3},{b:.3},{:.3},{:.1},{:.3e},{kappa:.3e},{:.3e},{:.3e}",
                 setting.mean_motion,
                 setting.eccentricity,
                 setting.tilt,
@@ -185,18 +199,19 @@ fn bounds(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn s
 }
 
 fn climbs(out: &mut impl Write, starts: u64, steps: usize, seed: u64) -> Result<(), Box<dyn std::error::Error>> {
-    writeln!(out, "family,mode,averaging,starts,solved,error,bound,ratio,scene")?;
+    writeln!(out, "family,mode,averaging,level,starts,solved,error,bound,ratio,scene")?;
     let mut tasks = Vec::new();
     for family in FAMILIES {
         for long_axis in [false, true] {
-            for averaging in [Averaging::Spin, Averaging::Orbit] {
-                tasks.push((family, long_axis, averaging));
+            for theory in THEORIES {
+                tasks.push((family, long_axis, theory));
             }
         }
     }
+    tasks.retain(|&(family, _, (_, level))| family != Family::Levels || level != Level::SecondOrder);
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(tasks.len());
-    let run = |&(family, long_axis, averaging): &(_, _, _)| -> Vec<Summit> {
-        let climbs = (0..starts).map(|start| climb(family, long_axis, averaging, steps, &mut Uniform(seed + start)));
+    let run = |&(family, long_axis, theory): &(_, _, _)| -> Vec<Summit> {
+        let climbs = (0..starts).map(|start| climb(family, long_axis, theory, steps, &mut Uniform(seed + start)));
         climbs.flatten().collect()
     };
     // Results go in the order of the tasks, whatever thread has them.
@@ -215,14 +230,14 @@ fn climbs(out: &mut impl Write, starts: u64, steps: usize, seed: u64) -> Result<
             }
         }
     });
-    for ((family, long_axis, averaging), found) in tasks.into_iter().zip(summits) {
+    for ((family, long_axis, (averaging, level)), found) in tasks.into_iter().zip(summits) {
         let solved: usize = found.iter().map(|summit| summit.solved).sum();
         let Some(worst) = found.into_iter().max_by(|a, b| a.ratio().total_cmp(&b.ratio())) else { continue };
         let mode = if long_axis { "long" } else { "short" };
         let Disturbed { moments, attitude, rates, orbit, span, .. } = worst.scene;
         writeln!(
             out,
-            "{},{mode},{averaging},{starts},{solved},{:.3e},{:.3e},{:.3},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {span}\"",
+            "{},{mode},{averaging},{level},{starts},{solved},{:.3e},{:.3e},{:.3},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {span}\"",
             family.name(),
             worst.measured.error,
             worst.measured.bound,
@@ -230,6 +245,68 @@ fn climbs(out: &mut impl Write, starts: u64, steps: usize, seed: u64) -> Result<
         )?;
     }
     Ok(())
+}
+
+/// n/spin of a table.
+const MEAN_MOTIONS: [f64; 6] = [1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1];
+/// Eccentricities of a table.
+const ECCENTRICITIES: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
+/// Rotations that a scene of a table spans.
+const ROTATIONS: f64 = 200.0;
+
+/// What is accepted and what it is worth, by n/spin and e: random ellipsoids with J up to 0.5 over some rotations, tolerance 1e-8.
+fn table(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn std::error::Error>> {
+    writeln!(
+        out,
+        "level,n,e,scenes,accepted,median_share,median_bound_over_error,q90_bound_over_error,least_bound_over_error"
+    )?;
+    for mean_motion in MEAN_MOTIONS {
+        for eccentricity in ECCENTRICITIES {
+            let mut random = Uniform(seed);
+            let mut measured = [Vec::new(), Vec::new()];
+            for _ in 0..count {
+                let scene = tabled(&mut random, mean_motion, eccentricity);
+                for (found, level) in measured.iter_mut().zip([Level::Full, Level::SecondOrder]) {
+                    found.extend(Disturbed { level, ..scene }.measured());
+                }
+            }
+            for (found, level) in measured.iter().zip([Level::Full, Level::SecondOrder]) {
+                let sorted = |part: fn(&Measured) -> f64| -> Vec<f64> {
+                    let mut values: Vec<f64> = found.iter().map(part).collect();
+                    values.sort_by(f64::total_cmp);
+                    values
+                };
+                let shares = sorted(|m| m.error / m.effect);
+                let ratios = sorted(|m| m.bound / m.error.max(1e-12));
+                let quantile = |values: &[f64], part: f64| {
+                    values.get((part * values.len() as f64) as usize).copied().unwrap_or(f64::NAN)
+                };
+                writeln!(
+                    out,
+                    "{level},{mean_motion},{eccentricity},{count},{},{:.1e},{:.1e},{:.1e},{:.1e}",
+                    found.len(),
+                    quantile(&shares, 0.5),
+                    quantile(&ratios, 0.5),
+                    quantile(&ratios, 0.9),
+                    quantile(&ratios, 0.0),
+                )?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A scene of a table.
+fn tabled(random: &mut Uniform, mean_motion: f64, eccentricity: f64) -> Disturbed {
+    let Setting { moments, azimuth, inclination, .. } = setting(random);
+    let (sine, cosine) = random.between(0.0, 0.5).sin_cos();
+    let [a, b, c] = moments;
+    let rates = [c / a * sine * azimuth.sin(), c / b * sine * azimuth.cos(), cosine];
+    let (half_sine, half_cosine) = (0.5 * inclination).sin_cos();
+    let pericentre = random.between(-0.5, 0.5) * TAU / mean_motion;
+    let orbit = [mean_motion, eccentricity, pericentre, 0.0, 0.0, random.between(0.0, TAU)];
+    let scene = Disturbed::new(moments, [half_sine, 0.0, 0.0, half_cosine], rates, orbit, ROTATIONS * TAU);
+    Disturbed { averaging: Averaging::Spin, ..scene }
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -240,9 +317,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ["cases"] => reference_cases(&mut out),
         ["levels"] => levels(&mut out),
         ["climb", starts, steps, seed] => climbs(&mut out, starts.parse()?, steps.parse()?, seed.parse()?),
+        ["table", count, seed] => table(&mut out, count.parse()?, seed.parse()?),
         ["bounds", count, seed] => bounds(&mut out, count.parse()?, seed.parse()?),
         _ => Err(
-            "usage: gradient cases | gradient levels | gradient bounds COUNT SEED | gradient climb STARTS STEPS SEED"
+            "usage: gradient cases | gradient levels | gradient bounds COUNT SEED | gradient table COUNT SEED | gradient climb STARTS STEPS SEED"
                 .into(),
         ),
     }

@@ -59,6 +59,7 @@ impl Error {
             | Self::TableSpan { .. }
             | Self::NoSpan { .. }
             | Self::Level { .. }
+            | Self::LevelOfOrbit
             | Self::Averaging { .. }
             | Self::OnError { .. }
             | Self::Index { .. }
@@ -149,7 +150,8 @@ impl Error {
             Self::CodeLanguage { value } => facts("language", value, "c, rust, python, javascript"),
             Self::Convention { value } => facts("convention", value, "extremal-axis, long-axis, short-axis"),
             Self::ModeName { value } => facts("mode", value, "short-axis, long-axis"),
-            Self::Level { value } => facts("level", value, "paper, moving, full"),
+            Self::Level { value } => facts("level", value, "auto, paper, moving, full, second-order"),
+            Self::LevelOfOrbit => facts("averaging", "orbit", "auto, spin"),
             Self::Averaging { value } => facts("averaging", value, "auto, orbit, spin"),
             Self::OnError { value } => facts("errors", value, "raise, nan"),
             Self::Threads { value, problem } => facts("threads", *value, problem),

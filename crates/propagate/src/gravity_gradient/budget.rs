@@ -15,7 +15,7 @@ use super::inertia::Inertia;
 use super::request::Request;
 use super::response::Response;
 use crate::error::Error;
-use crate::input::options::Averaging;
+use crate::input::options::{Averaging, Level};
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
@@ -24,6 +24,10 @@ const SAMPLES: usize = 48;
 /// Safety factor of the second-order error. The largest change may exceed the largest sample, and enters squared; second order has a factor too. With this
 /// margin the worst case found by hill climbing (docs/gravity-gradient.md) is below its bound.
 const MARGIN: f64 = 2.0;
+/// The safety factor of an averaged motion of second order.
+const THIRD_MARGIN: f64 = 5.0;
+/// The fraction of the first-order error that second order is allowed anyway: over spans of 1e5 radians the estimate of third order alone was exceeded.
+const FIRST_PART: f64 = 0.05;
 /// The derivatives of the change, as a fraction of the sum of the largest sizes of all terms.
 const SLOPE_SHARE: f64 = 0.25;
 /// Number of orbits on each side of the epoch for which quarters are kept.
@@ -54,6 +58,10 @@ pub(super) struct Subject<'a> {
     pub(super) ellipse: &'a AveragedOrbit,
     /// Mean anomaly of the orbit at the epoch.
     pub(super) anomaly: f64,
+    /// What the mean M and L of second order lack, over M; `None` in first order.
+    pub(super) left: Option<[f64; 2]>,
+    /// The part of the drifts of second order that K2 lacks.
+    pub(super) cut: f64,
     /// d⟨T33⟩/dσ times −3/4 of the mass fraction over M.
     pub(super) drift: f64,
 }
@@ -69,8 +77,15 @@ impl Budget {
         let strength = ellipse.strength().abs();
         // The strength of the effect on the phases, like κ for the axis. Δ(σ) may be 0 where its slope is not.
         let by_phase = subject.phase() * mean_motion / ellipse.eta_cubed();
+        let first = MARGIN * response.second_order([size, slope], p, duration);
         Self {
-            spin: MARGIN * response.second_order([size, slope], p, duration),
+            spin: match subject.left {
+                None => first,
+                Some(left) => {
+                    let third = response.third_order([size, slope], p, duration, (subject.cut, left));
+                    THIRD_MARGIN * third + FIRST_PART * first
+                }
+            },
             orbit: strength * (strength + 6.0 * by_phase) * (1.0 + orbital),
             dropped: corrections.dropped + 2.0 * corrections.rest,
             omitted: corrections.omitted + subject.omitted(mean_motion) * (1.0 + orbital),
@@ -81,12 +96,16 @@ impl Budget {
 
     /// Whether the equations are averaged over the orbit as well.
     pub(super) fn by_orbit(&self, request: &Request<'_>) -> Result<bool, Error> {
+        let second = request.level == Level::SecondOrder;
         let too_far = request.spanned && self.orbits > MOST_ORBITS;
         match request.averaging {
+            Averaging::Orbit if second => Err(Error::LevelOfOrbit),
             Averaging::Orbit => Ok(true),
-            Averaging::Auto => Ok(self.orbit <= request.tolerance || too_far),
-            Averaging::Spin if too_far => Err(Error::TooManyOrbits { orbits: self.orbits, bound: MOST_ORBITS }),
-            Averaging::Spin => Ok(false),
+            Averaging::Auto if !second => Ok(self.orbit <= request.tolerance || too_far),
+            Averaging::Auto | Averaging::Spin if too_far => {
+                Err(Error::TooManyOrbits { orbits: self.orbits, bound: MOST_ORBITS })
+            }
+            Averaging::Auto | Averaging::Spin => Ok(false),
         }
     }
 

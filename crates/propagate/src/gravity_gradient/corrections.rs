@@ -39,6 +39,8 @@ type C64 = Complex<f64>;
 const LARGEST_SIZE: f64 = 0.05;
 /// [`Demand::share`] of a motion. The second-order error is 0.003 of its bound in the median, and a few tens of terms may be dropped.
 pub(crate) const SHARE: f64 = 1e-5;
+/// The same for a motion of second order, whose mean variables are better by the size of the corrections.
+pub(crate) const SECOND_SHARE: f64 = 1e-9;
 
 /// The mean variables at one time.
 #[derive(Clone, Copy, Debug)]

@@ -16,13 +16,13 @@ use num_complex::Complex;
 
 use super::averaged::{AveragedOrbit, Precession, Slow, Spin, When, when};
 use super::budget::{Budget, MOST_ORBITS, Subject};
-use super::corrections::{Change, Corrections, Demand, Mean, SHARE};
+use super::corrections::{Change, Corrections, Demand, Mean, SECOND_SHARE, SHARE};
 use super::inertia::Inertia;
 use super::offset::Offset;
 use super::powers::Powers;
 use super::request::Request;
 use super::response::Response;
-use super::second_order;
+use super::second_order::{self, epoch::Refined};
 use crate::error::Error;
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
@@ -95,8 +95,8 @@ impl Gradient {
         let mean_motion = scaled(orbit.mean_motion(), -exponent);
         let momentum = polhode.momentum.to_f64();
         let duration = scaled(request.duration, exponent);
-        let demand =
-            Demand { orbit, mean_motion, level: request.level, tolerance: request.tolerance, duration, share: SHARE };
+        let share = if request.level == Level::SecondOrder { SECOND_SHARE } else { SHARE };
+        let demand = Demand { orbit, mean_motion, level: request.level, tolerance: request.tolerance, duration, share };
         let size = strongest_torque(polhode, orbit, mean_motion / momentum);
         if size > STRONGEST {
             // If there is a resonance, report that instead, because it explains more.
@@ -110,7 +110,7 @@ impl Gradient {
         let p = C64::from_polar(sigma.sqrt(), anomaly);
         let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
         let first = mean_motion_of(polhode, &state, &start, &demand)?;
-        let MeanMotion { mean, change, inertia, corrections } = if request.level == Level::SecondOrder {
+        let MeanMotion { mean, change, inertia, corrections, left } = if request.level == Level::SecondOrder {
             second_order_of(polhode, first, &state, &start, &demand)?
         } else {
             first
@@ -137,6 +137,8 @@ impl Gradient {
             ellipse: &ellipse,
             anomaly,
             drift: slope,
+            left,
+            cut: left.map_or(0.0, |_| second_order::cut(&inertia, &demand)),
         };
         let budget = Budget::new(&subject, mean_motion, duration);
         let by_orbit = budget.by_orbit(request)?;
@@ -224,6 +226,8 @@ struct MeanMotion {
     change: Change,
     inertia: Inertia,
     corrections: Corrections,
+    /// What is left of the mean M and L over M, if they are of second order.
+    left: Option<[f64; 2]>,
 }
 
 /// The mean motion of second order from that of first order of a state.
@@ -234,8 +238,8 @@ fn second_order_of(
     start: &When<pulp::Scalar>,
     demand: &Demand<'_>,
 ) -> Result<MeanMotion, Error> {
-    let (mean, momentum) = second_order::epoch::refined(
-        (&first.mean, &first.change),
+    let Refined { mean, momentum, left } = second_order::epoch::refined(
+        (&first.mean, &first.change, first.corrections.size),
         state,
         &first.inertia,
         &start.place,
@@ -243,7 +247,8 @@ fn second_order_of(
     );
     let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
     let corrections = Corrections::new(&inertia, demand)?;
-    Ok(MeanMotion { mean, change: Change { momentum, ..first.change }, inertia, corrections })
+    let change = Change { momentum, ..first.change };
+    Ok(MeanMotion { mean, change, inertia, corrections, left: Some(left) })
 }
 
 /// The mean variables whose corrections give a state, by fixed-point iteration.
@@ -266,14 +271,14 @@ fn mean_motion_of(
             + (next.momentum / mean.momentum - 1.0).abs()
             + next.frame.angle_to(&mean.frame);
         if moved <= CONVERGED {
-            return Ok(MeanMotion { mean, change, inertia, corrections });
+            return Ok(MeanMotion { mean, change, inertia, corrections, left: None });
         }
         first = first.max(moved);
         if step == MOST_STEPS {
             // Rounding of large corrections may prevent full convergence. A motion without contraction has no mean motion.
             let contraction = (moved / first).powf(1.0 / MOST_STEPS as f64);
             return if contraction <= CONTRACTION {
-                Ok(MeanMotion { mean, change, inertia, corrections })
+                Ok(MeanMotion { mean, change, inertia, corrections, left: None })
             } else {
                 Err(Error::TorqueTooStrong { size: contraction, bound: CONTRACTION })
             };

@@ -15,7 +15,7 @@ use crate::simd::lanes::Lanes;
 use crate::torque_free::polhode::Polhode;
 
 /// Largest number of steps to the constants. Each step reduces the error by the size of the torque, or by the step of the differences.
-const MOST_STEPS: usize = 10;
+const MOST_STEPS: usize = 16;
 /// Changes below this are rounding errors.
 const CONVERGED: f64 = 1.5e-16;
 /// Step of the differences, relative to √σ_sep.

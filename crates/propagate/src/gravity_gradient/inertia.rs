@@ -3,8 +3,8 @@
 //! T = Q diag(A, B, C) Qᵀ is sampled over a quarter turn of ℓ′ on the closed form at y′ = 0: T33, i t1 e^(−iy′), t2 e^(−2iy′). The parameters a and b of theory
 //! §8 need no normalization here. They are the theta series themselves, which have a few harmonics where the tensor has tens. Time reversal makes all
 //! coefficients real, and ℓ′ → ℓ′ + π leaves only the odd or only the even ones. A harmonic h is σ^(|h|/2) times a function that is analytic in σ at 0. This
-//! function and its slope are tabulated, so that with p = √σ e^(iℓ′) everything is regular at J = 0. Slopes are differences of fourth order over 0.4 % of
-//! sin²J. Their relative error is 1e-10, in a correction that is itself small.
+//! function and its slope are tabulated, so that with p = √σ e^(iℓ′) everything is regular at J = 0. Slopes are differences of fourth order in sin²J.
+//! Their step is 0.2 % of the distance to the separatrix (sin²J = 1), and at most 40 % of sin²J. A smaller step at small J would amplify rounding. The relative error is 1e-10.
 
 use std::f64::consts::{PI, TAU};
 
@@ -29,8 +29,10 @@ const COUNT: usize = 2 * HIGHEST + 1;
 const ODD: [bool; 3] = [false, true, false];
 /// Below this sin²J, functions are extrapolated along their tangent at this value.
 const SMALLEST_SQUARE: f64 = 1e-6;
-/// Step of the differences, relative to sin²J.
+/// Step of the differences in sin²J, relative to 1 − sin²J.
 const STEP: f64 = 2e-3;
+/// Largest step, over sin²J: two of them leave it positive.
+const LARGEST_STEP: f64 = 0.4;
 
 /// The series Σ_h f_h(σ) P_h, with P_h = p^h for h ≥ 0 and P_h = p̄^(−h) for h < 0.
 #[derive(Clone, Debug)]
@@ -90,7 +92,8 @@ impl Inertia {
     pub(crate) fn new(polhode: &Polhode, sigma: f64, momentum: f64) -> Self {
         let square = square_of(polhode, sigma);
         let base = square.max(SMALLEST_SQUARE);
-        let step = STEP * base;
+        // Functions vary over the distance to the separatrix, where sin²J is 1. At small J a step that is a fixed share of sin²J would leave rounding over it.
+        let step = (STEP * (1.0 - base)).min(LARGEST_STEP * base);
         let members = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| member(polhode, base + k * step, momentum));
         let slope = |part: &dyn Fn(&Member) -> f64| {
             let [a, b, _, c, d] = members.each_ref().map(part);

@@ -6,6 +6,7 @@ mod averaged;
 mod budget;
 mod candidate;
 pub(crate) mod cassini;
+pub(crate) mod choice;
 mod corrections;
 pub(crate) mod disturbed;
 mod epoch;

@@ -61,6 +61,22 @@ impl Response {
         size * slope * (1.0 + self.by_momentum * duration) + self.by_sigma * sigma * duration
     }
 
+    /// The same for averaged motion of second order: what is bounded stays, what grows is of third order. `cut` is the part of the drifts that K2 lacks, and `left` what the mean M and L lack
+    /// over M.
+    pub(super) fn third_order(
+        &self,
+        [size, slope]: [f64; 2],
+        p: f64,
+        duration: f64,
+        (cut, left): (f64, [f64; 2]),
+    ) -> f64 {
+        let of_sigma = self.of_sigma(p);
+        let further = slope + p / self.distance.sqrt() + of_sigma / self.distance;
+        let growing = (size * slope * self.by_momentum + self.by_sigma * of_sigma * further) * duration;
+        let actions = (left[0] * self.by_momentum + (left[1] + self.sigma * left[0]) * self.by_sigma) * duration;
+        size * slope + growing * (further + cut) + actions
+    }
+
     /// The factor by which the effect of a term on the attitude grows over a time: through σ, and through M for m ≠ 0.
     pub(super) fn growth(&self, multiple: i32, duration: f64) -> f64 {
         let by_momentum = if multiple == 0 { 0.0 } else { self.by_momentum };

@@ -7,7 +7,7 @@ impl Level {
     /// f_h for a multiple of y′, and its slope, at this level; for the first multiple those of i t1.
     pub(crate) fn tensor(self, inertia: &Inertia, multiple: i32, harmonic: i32) -> (f64, f64) {
         match self {
-            Self::Full | Self::SecondOrder => inertia.tensor[multiple as usize].at(harmonic), // 0 ≤ m ≤ 2
+            Self::Auto | Self::Full | Self::SecondOrder => inertia.tensor[multiple as usize].at(harmonic), // 0 ≤ m ≤ 2
             Self::Paper | Self::Moving if (multiple, harmonic) == (2, 0) => (inertia.untilted[1], 0.0),
             Self::Paper | Self::Moving => (0.0, 0.0),
         }
@@ -23,7 +23,7 @@ impl Level {
     /// T33 averaged over ℓ′, and its slope, at this level.
     pub(crate) fn axial(self, inertia: &Inertia) -> (f64, f64) {
         match self {
-            Self::Full | Self::SecondOrder => inertia.mean_axial(),
+            Self::Auto | Self::Full | Self::SecondOrder => inertia.mean_axial(),
             Self::Paper | Self::Moving => (inertia.untilted[0], 0.0),
         }
     }

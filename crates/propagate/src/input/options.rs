@@ -92,19 +92,21 @@ impl fmt::Display for Convention {
     }
 }
 
-/// The terms in the corrections for the gravity gradient.
+/// How much of the theory of the gravity gradient is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Level {
+    /// [`Level::Full`] where it meets the tolerance, else [`Level::SecondOrder`] where its error bound is smaller.
+    Auto,
     /// The terms of Lara (2017): the potential at J = 0, and a disturbing body that is fixed in the divisors.
     Paper,
     /// The potential at J = 0, and a disturbing body that moves along its orbit.
     Moving,
-    /// The potential to all orders in J, and a disturbing body that moves along its orbit.
+    /// First order in the torque, the potential to all orders in J, and a disturbing body that moves along its orbit.
     #[default]
     Full,
-    /// To all orders in J, and the averaged motion to second order in the torque.
+    /// To all orders in J, and the averaged motion to second order in the torque: not with [`Averaging::Orbit`].
     SecondOrder,
 }
 
@@ -113,6 +115,7 @@ impl FromStr for Level {
 
     fn from_str(text: &str) -> Result<Self, Error> {
         match text {
+            "auto" => Ok(Self::Auto),
             "paper" => Ok(Self::Paper),
             "moving" => Ok(Self::Moving),
             "full" => Ok(Self::Full),
@@ -125,6 +128,7 @@ impl FromStr for Level {
 impl fmt::Display for Level {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Self::Auto => "auto",
             Self::Paper => "paper",
             Self::Moving => "moving",
             Self::Full => "full",

@@ -105,7 +105,7 @@ impl Scene {
         self
     }
 
-    /// Sets the terms of the corrections of a scene with an orbit. The default is [`Level::Full`].
+    /// Sets how much of the theory a scene with an orbit uses. The default is [`Level::Full`].
     #[must_use]
     pub fn level(mut self, level: Level) -> Self {
         self.level = level;

@@ -214,7 +214,7 @@ class Scene:
         order: int | None = None,
         span: ArrayLike | None = None,
         averaging: Literal["auto", "orbit", "spin"] = "auto",
-        level: Literal["full", "moving", "paper"] = "full",
+        level: Literal["auto", "full", "second-order", "moving", "paper"] = "full",
         name: str | None = None,
         source: str | None = None,
         scalar_first: bool = False,
@@ -275,8 +275,8 @@ class Scene:
     def averaging(self) -> Literal["auto", "orbit", "spin"]:
         """The averaging: "auto", "orbit" or "spin"."""
     @property
-    def level(self) -> Literal["full", "moving", "paper"]:
-        """The level: "full", "moving" or "paper"."""
+    def level(self) -> Literal["auto", "full", "second-order", "moving", "paper"]:
+        """The level: "auto", "full", "second-order", "moving" or "paper"."""
     @property
     def name(self) -> str | None:
         """The name, or None."""

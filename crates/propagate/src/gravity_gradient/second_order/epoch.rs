@@ -14,9 +14,18 @@ use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
 /// Terms smaller than this share of the largest are left out of the sum over pairs.
-const SMALLEST_PAIR: f64 = 1e-3;
+const SMALLEST_PAIR: f64 = 1e-6;
 /// Terms smaller than this share of the largest are left out of K2.
 const SMALLEST_TERM: f64 = 1e-9;
+
+/// The mean state of second order at the epoch.
+pub(crate) struct Refined {
+    pub(crate) mean: Mean,
+    /// The change of M that leads to the state.
+    pub(crate) momentum: f64,
+    /// What is left of the mean M and L, over M.
+    pub(crate) left: [f64; 2],
+}
 
 /// Twice the rate of the true anomaly at the pericentre, times the ratio below which sums over time derivatives do not converge.
 pub(super) fn slowest(demand: &Demand<'_>) -> f64 {
@@ -34,14 +43,14 @@ pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, moments: [f64;
     Hamiltonian::new(inertia, &modes(inertia, SMALLEST_TERM, slowest(demand)), strength(demand), moments)
 }
 
-/// The mean state with |p| and M to second order, and the change of M that leads to the state: from the mean state of first order at the epoch and its change.
+/// The mean state with |p| and M to second order: from the mean state of first order at the epoch, its change, and the sum of all terms \[rad\].
 pub(crate) fn refined(
-    (first, change): (&Mean, &Change),
+    (first, change, size): (&Mean, &Change, f64),
     state: &Mean,
     inertia: &Inertia,
     place: &Place<pulp::Scalar>,
     (demand, moments): (&Demand<'_>, [f64; 3]),
-) -> (Mean, f64) {
+) -> Refined {
     let slowest = slowest(demand);
     let (tensors, norms) = tensors(first, place, demand);
     let stand = Stand {
@@ -51,6 +60,9 @@ pub(crate) fn refined(
         tensors: &tensors,
         norms: &norms,
         slowest,
+        mean_motion: demand.mean_motion,
+        duration: demand.duration,
+        closest: closest(place, demand.orbit.eccentricity()),
         trace: moments.iter().sum(),
     };
     let actions = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest));
@@ -60,7 +72,17 @@ pub(crate) fn refined(
     let momentum = state.momentum - by_momentum;
     let sigma = ((state.momentum * state.p.norm_sqr() - by_action) / momentum).max(0.0);
     let turn = if first.p == Complex::default() { Complex::new(1.0, 0.0) } else { first.p / first.p.norm() };
-    (Mean { p: turn * sigma.sqrt(), momentum, ..*first }, by_momentum)
+    let pruned = actions.pruned * size * size;
+    Refined {
+        mean: Mean { p: turn * sigma.sqrt(), momentum, ..*first },
+        momentum: by_momentum,
+        left: actions.left.map(|left| left / momentum + pruned),
+    }
+}
+
+/// (a/r)⁶ at the pericentre over that at a place.
+fn closest(place: &Place<pulp::Scalar>, eccentricity: f64) -> f64 {
+    ((1.0 + eccentricity) / (1.0 + eccentricity * place.cosine.values()[0])).powi(6)
 }
 
 /// (a/r)³ r̂r̂ in the frame of a mean state, its time derivatives, and their largest sizes.

@@ -3,7 +3,7 @@
 use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
 
 /// Smallest √σ in the size of a term: forced wobble has no smaller one.
-const SMALLEST_ROOT: f64 = 1e-9;
+pub(super) const SMALLEST_ROOT: f64 = 1e-9;
 
 /// A term f σ^(|h|/2) e^(i(hℓ′+my′)) of the disturbing function over q = 3φn²/2.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +30,7 @@ impl Mode {
     }
 
     /// Relative size of the change of the mean variables by the term.
-    fn size(&self, root: f64) -> f64 {
+    pub(super) fn size(&self, root: f64) -> f64 {
         let degree = self.harmonic.abs();
         let [value, slope, _] = self.function.map(f64::abs);
         (value + root * root * slope) * root.powi((degree - 1).max(0)) * f64::from(degree + 1) / self.frequency[0].abs()

@@ -12,7 +12,8 @@
 
 use num_complex::Complex;
 
-use super::modes::Mode;
+use super::modes::{Mode, SMALLEST_ROOT};
+use crate::gravity_gradient::candidate::SMALLEST_RATIO;
 use crate::gravity_gradient::corrections::Mean;
 use crate::gravity_gradient::generator::ORDERS;
 use crate::gravity_gradient::inertia::Inertia;
@@ -34,17 +35,30 @@ pub(super) struct Stand<'a> {
     pub(super) tensors: &'a [Tensor; ORDERS],
     /// Largest sizes of the time derivatives, as many and one more.
     pub(super) norms: &'a [f64],
-    /// Frequency below which pairs are left out.
+    /// Frequency below which pairs are left out: the fastest of the orbit's times [`SMALLEST_RATIO`].
     pub(super) slowest: f64,
+    /// Mean motion of the disturbing body.
+    pub(super) mean_motion: f64,
+    /// Longest time from the epoch.
+    pub(super) duration: f64,
+    /// (a/r)⁶ at the pericentre over that at the epoch.
+    pub(super) closest: f64,
     /// Sum of the moments of inertia.
     pub(super) trace: f64,
 }
 
-/// δ₂M, δ₂L, and the part of them that pairs just above the cut make up.
+/// Pairs whose sizes, over the largest, have a smaller product are left out.
+const SMALLEST_PRODUCT: f64 = 1e-6;
+
+/// δ₂M and δ₂L.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Actions {
     pub(super) momentum: f64,
     pub(super) action: f64,
+    /// What the sum leaves of them: pairs that are too slow, and the rest of the two terms in d/dt.
+    pub(super) left: [f64; 2],
+    /// Sum of the products of the relative sizes of the pairs that are left out.
+    pub(super) pruned: f64,
 }
 
 /// A contraction and its derivative with respect to Ω.
@@ -59,6 +73,8 @@ struct Part {
 struct Row {
     harmonic: f64,
     multiple: f64,
+    /// Relative size.
+    size: f64,
     /// Ω and its derivatives with respect to σ and M.
     frequency: [f64; 3],
     /// q e^(i(hℓ′+my′)), and −i for m = 1.
@@ -73,14 +89,21 @@ struct Row {
 
 /// δ₂M and δ₂L at a mean state of first order.
 pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode]) -> Actions {
-    let half: Vec<Row> = modes.iter().map(|mode| Row::new(stand, mode)).collect();
+    let mut half: Vec<Row> = modes.iter().map(|mode| Row::new(stand, mode)).collect();
+    let largest = half.iter().fold(0.0_f64, |most, row| most.max(row.size));
+    half.iter_mut().for_each(|row| row.size /= largest);
     let rows: Vec<Row> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
     let average = Row::average(stand);
     let mut actions = Actions::default();
     for b in &rows {
         // The other half of the sum is its conjugate.
         for a in &half {
-            actions.add(stand, a, b, 2.0, true);
+            let product = a.size * b.size;
+            if product < SMALLEST_PRODUCT {
+                actions.pruned += product;
+            } else {
+                actions.add(stand, a, b, 2.0, true);
+            }
         }
         actions.add(stand, &average, b, 1.0, false);
     }
@@ -103,18 +126,38 @@ impl Actions {
             if generating { stand.bracket(a, &a.generator[0], b, &wave[0]) * (-0.5 * i) } else { C64::default() };
         let mut chi = C64::default();
         let omega = a.frequency[0] + b.frequency[0];
-        if (h, m) != (0.0, 0.0) && omega.abs() > stand.slowest {
-            let inverse = (i * omega).inv();
+        if (h, m) != (0.0, 0.0) {
             let source = stand.bracket(a, &torque[0], b, &wave[0]);
+            let left = 0.5 * factor * source.norm() * stand.left(omega);
+            self.left = [self.left[0] + left * m.abs(), self.left[1] + left * h.abs()];
+            if omega.abs() <= stand.slowest {
+                return self.sum(factor, both, chi, (a, [h, m]));
+            }
+            let inverse = (i * omega).inv();
             let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
             chi = (source - change * inverse) * inverse * 0.5 * -i;
         }
+        self.sum(factor, both, chi, (a, [h, m]));
+    }
+
+    fn sum(&mut self, factor: f64, both: C64, chi: C64, (a, [h, m]): (&Row, [f64; 2])) {
         self.momentum += factor * (both * a.multiple + chi * m).re;
         self.action += factor * (both * a.harmonic + chi * h).re;
     }
 }
 
 impl Stand<'_> {
+    /// What χ lacks of a pair of frequency Ω, over S: the next term of its sum, or all of it if the pair is too slow.
+    fn left(&self, omega: f64) -> f64 {
+        if omega.abs() > self.slowest {
+            // A product of two has twice the orbit's rates.
+            let ratio = 2.0 * self.slowest / (SMALLEST_RATIO * omega.abs());
+            return ratio.min(1.0).powi(2) / omega.abs();
+        }
+        let distance = (omega - self.mean_motion * (omega / self.mean_motion).round()).abs();
+        self.closest * if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration }
+    }
+
     /// The bracket of a part of one term with a part of another, with the phases.
     fn bracket(&self, a: &Row, a_part: &Part, b: &Row, b_part: &Part) -> C64 {
         let (momentum, sigma) = (self.mean.momentum, self.inertia.sigma);
@@ -147,6 +190,7 @@ impl Row {
         Self {
             harmonic: h,
             multiple: m,
+            size: mode.size(stand.inertia.sigma.sqrt().max(SMALLEST_ROOT)),
             frequency,
             weight,
             amplitude: amplitude(mode.harmonic, mode.function, stand.inertia.sigma),
@@ -163,6 +207,7 @@ impl Row {
         Self {
             harmonic: 0.0,
             multiple: 0.0,
+            size: 1.0,
             frequency: [0.0; 3],
             weight: (2.0 * stand.strength).into(),
             amplitude: amplitude(0, function, stand.inertia.sigma),
@@ -178,6 +223,7 @@ impl Row {
         Self {
             harmonic: -self.harmonic,
             multiple: -self.multiple,
+            size: self.size,
             frequency: self.frequency.map(|part| -part),
             weight: self.weight.conj(),
             amplitude: [whole, slope, -lowered],

@@ -153,6 +153,9 @@ fn the_pairs_that_cancel_add_up_to_the_closed_form() {
             tensors: &tensors,
             norms: &norms,
             slowest: 0.0,
+            mean_motion: MEAN_MOTION,
+            duration: 0.0,
+            closest: 1.0,
             trace: scene.polhode.moments.iter().sum(),
         };
         let pairs = averaged(&stand, &modes(&inertia, 0.0, slowest(&scene.demand())));

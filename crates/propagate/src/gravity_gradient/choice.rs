@@ -1,0 +1,38 @@
+//! The level that the theory chooses by itself: first order where it meets the tolerance, else second order where its error bound is smaller.
+
+use nalgebra::UnitQuaternion;
+
+use super::disturbed::Gradient;
+use super::request::Request;
+use crate::error::Error;
+use crate::input::options::{Averaging, Level};
+use crate::torque_free::polhode::Polhode;
+
+/// The motion under a gravity gradient at the level that is asked for, and why it is not of second order if that was left open.
+///
+/// # Errors
+/// Those of [`Gradient::new`], in first order if the level was left open.
+pub(crate) fn chosen(
+    polhode: &Polhode,
+    attitude: UnitQuaternion<f64>,
+    osculating: (f64, [f64; 2]),
+    request: &Request<'_>,
+) -> Result<(Gradient, Option<String>), Error> {
+    let solved = |level: Level| Gradient::new(polhode, attitude, osculating, &Request { level, ..*request });
+    if request.level != Level::Auto {
+        return Ok((solved(request.level)?, None));
+    }
+    let first = solved(Level::Full)?;
+    let reason = if first.error <= request.tolerance {
+        "first order meets the tolerance".to_owned()
+    } else if request.averaging == Averaging::Orbit {
+        "the average over the orbit, which was asked for, is of first order".to_owned()
+    } else {
+        match solved(Level::SecondOrder) {
+            Ok(second) if second.error < first.error => return Ok((second, None)),
+            Ok(second) => format!("its error bound, {:.1e} rad, is no smaller", second.error),
+            Err(error) => error.to_string(),
+        }
+    };
+    Ok((first, Some(format!("second order: {reason}"))))
+}
