@@ -5,10 +5,10 @@ import re
 
 import numpy as np
 import pytest
+from conftest import REPOSITORY
 
 import andoyer
 from andoyer.cli import COLUMNS, main
-from conftest import REPOSITORY
 
 TEXT = (REPOSITORY / "docs/scene.md").read_text(encoding="utf-8")
 EXAMPLE = re.search(r"```toml\n(.*?)```", TEXT, re.DOTALL)[1]
