@@ -12,7 +12,7 @@ demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print t
 	$(BIN)/python examples/demo.py
 
 test: lint supply $(VENV)/installed $(VENV)/tested docs-test  ## everything that CI runs
-	cargo test --workspace --quiet
+	cargo test --workspace --exclude andoyer-py --quiet
 	$(BIN)/python tests/reference/torque_free.py tests/data/torque_free.json
 	$(BIN)/python examples/scenes/make_scenes.py --check
 	$(BIN)/python tests/stress/bounds.py --scenes 120
@@ -21,7 +21,9 @@ test: lint supply $(VENV)/installed $(VENV)/tested docs-test  ## everything that
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
 	$(MAKE) --no-print-directory stress-short gate
 
-lint:  ## formatting, clippy, documentation, and the imports between the files of each crate
+lint: $(VENV)/ready  ## formatting, clippy, ruff, documentation, and the imports between the files of each crate
+	$(BIN)/ruff check --config tests/ruff.toml --quiet .
+	$(BIN)/ruff format --config tests/ruff.toml --check --quiet .
 	$(PYTHON) tests/layers.py
 	$(PYTHON) tests/layers.py --planted
 	$(PYTHON) tests/release.py

@@ -1,6 +1,6 @@
 """Draw the error of each level of the gravity-gradient theory, relative to the effect of the torque on the attitude.
 
-    make gravity    writes docs/data/gravity-*.csv from integrations of the full equations, and docs/gravity-gradient.png from them
+make gravity    writes docs/data/gravity-*.csv from integrations of the full equations, and docs/gravity-gradient.png from them
 """
 
 import csv

@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+
 from andoyer import Body, Scene, fit
 from andoyer._quaternions import angle_between, product
 from andoyer.fit._light_curve import HALF_TURNS

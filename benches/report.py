@@ -13,7 +13,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.pyplot as plt
 
 ROOT = Path(__file__).resolve().parents[1]
 DATA = ROOT / "docs" / "data"
@@ -26,7 +26,14 @@ CURVES = {
     "SciPy DOP853": ("#CC79A7", "^", "SciPy, DOP853, tolerances 1e-4 to 1e-13"),
 }
 # The cases of tests/data/torque_free.json resemble these bodies.
-PANELS = {"earth": "Earth-like", "ceres": "Ceres-like", "eros": "Eros-like", "triaxial": "triaxial, β = ½", "apophis": "Apophis-like", "near-separatrix-1e-2": "near the separatrix"}
+PANELS = {
+    "earth": "Earth-like",
+    "ceres": "Ceres-like",
+    "eros": "Eros-like",
+    "triaxial": "triaxial, β = ½",
+    "apophis": "Apophis-like",
+    "near-separatrix-1e-2": "near the separatrix",
+}
 STYLE = {"font.size": 10, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False}
 SMALLEST = 1e-17  # where an error of zero is drawn
 
@@ -134,11 +141,23 @@ def by_work(bench, precision, stress):
     total = sum(int(row["scenes"]) for row in attitude)
     lines = [
         ["exact normal form, order 10 / 30 / 50", " / ".join(of("normalize", f"order-{n}", "energy") for n in (10, 30, 50))],
-        ["set-up of a motion, closed form / series of order 20", f"{of('set-up', 'body-new-tolerance-1e-12', 'closed')} / {of('set-up', 'body-new-order-20', 'series')}"],
-        ["a sample of attitude and rates, even / uneven times", f"{of('skip', 'times-uniform', 'closed')} / {of('skip', 'outputs-attitudes-and-rates', 'closed')}"],
-        ["gravity gradient, 1,000 rotations: set-up / a sample", f"{of('gradient-solve', 'ellipse-full', 'spin')} / {of('gradient-evaluate', 'ellipse-full', 'spin')}"],
+        [
+            "set-up of a motion, closed form / series of order 20",
+            f"{of('set-up', 'body-new-tolerance-1e-12', 'closed')} / {of('set-up', 'body-new-order-20', 'series')}",
+        ],
+        [
+            "a sample of attitude and rates, even / uneven times",
+            f"{of('skip', 'times-uniform', 'closed')} / {of('skip', 'outputs-attitudes-and-rates', 'closed')}",
+        ],
+        [
+            "gravity gradient, 1,000 rotations: set-up / a sample",
+            f"{of('gradient-solve', 'ellipse-full', 'spin')} / {of('gradient-evaluate', 'ellipse-full', 'spin')}",
+        ],
         ["against SciPy's closed form, calls from Python", f"{min(ratios):.3g} to {max(ratios):.3g} times as fast"],
-        [f"attitude error, {total:,} random scenes: largest q99.9 of a regime / maximum", f"{max(float(r['q99.9']) for r in attitude):.1e} / {max(float(r['max']) for r in attitude):.1e} rad"],
+        [
+            f"attitude error, {total:,} random scenes: largest q99.9 of a regime / maximum",
+            f"{max(float(r['q99.9']) for r in attitude):.1e} / {max(float(r['max']) for r in attitude):.1e} rad",
+        ],
     ]
     return table(["what", "measured"], lines)
 

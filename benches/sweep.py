@@ -12,26 +12,27 @@ import os
 
 os.environ["RAYON_NUM_THREADS"] = "1"  # before the library starts any
 
-import csv  # noqa: E402
-import statistics  # noqa: E402
-import sys  # noqa: E402
-import time  # noqa: E402
-import warnings  # noqa: E402
-from collections.abc import Callable, Iterator  # noqa: E402
-from concurrent.futures import ProcessPoolExecutor  # noqa: E402
-from dataclasses import astuple, dataclass, fields  # noqa: E402
-from itertools import product  # noqa: E402
-from pathlib import Path  # noqa: E402
-from typing import Any  # noqa: E402
+import csv
+import statistics
+import sys
+import time
+import warnings
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import astuple, dataclass, fields
+from itertools import product
+from pathlib import Path
+from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "reference"))
 
-import andoyer  # noqa: E402
-import numpy as np  # noqa: E402
-import sweep_picture  # noqa: E402
-from comparison import Reference  # noqa: E402
-from machine import ROOT  # noqa: E402
-from numpy.typing import NDArray  # noqa: E402
+import numpy as np
+import sweep_picture
+from comparison import Reference
+from machine import ROOT
+from numpy.typing import NDArray
+
+import andoyer
 
 warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # the errors of low orders are measured here
 

@@ -11,8 +11,8 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib.lines import Line2D  # noqa: E402
+import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
 
 # σ/σ_sep drawn: its colour and marker.
 DRAWN = {0.05: ("#0072B2", "o"), 0.3: ("#009E73", "s"), 0.6: ("#E69F00", "^"), 0.9: ("#CC79A7", "D")}
@@ -43,7 +43,10 @@ def draw(rows: Sequence[Any], path: Path) -> None:
         for axes in grid[0]:
             axes.set_ylim(bottom=0)
         handles = [Line2D([], [], color=color, marker=marker, label=f"σ/σ_sep = {ratio}") for ratio, (color, marker) in DRAWN.items()]
-        handles += [Line2D([], [], color="black", label="series, orders 1 to 40"), Line2D([], [], color="black", linestyle="--", marker="*", label="closed form, tolerances 1e-3 to 1e-15", markersize=9)]
+        handles += [
+            Line2D([], [], color="black", label="series, orders 1 to 40"),
+            Line2D([], [], color="black", linestyle="--", marker="*", label="closed form, tolerances 1e-3 to 1e-15", markersize=9),
+        ]
         figure.legend(handles=handles, loc="outside lower center", ncols=6)
         figure.suptitle("What accuracy costs: series and closed form, one thread", fontweight="bold")
         figure.savefig(path, dpi=110)

@@ -19,12 +19,13 @@ os.environ["RAYON_NUM_THREADS"] = "1"
 sys.path.insert(0, str(Path(__file__).resolve().parent / "rivals"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "reference"))
 
-import andoyer  # noqa: E402
-import enclosures  # noqa: E402
-import motions  # noqa: E402
-import numpy as np  # noqa: E402
-import propagators  # noqa: E402
-from machine import ROOT, described  # noqa: E402
+import enclosures
+import motions
+import numpy as np
+import propagators
+from machine import ROOT, described
+
+import andoyer
 
 warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # the errors of low orders are measured here
 

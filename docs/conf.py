@@ -3,8 +3,9 @@
 import sys
 from pathlib import Path
 
-import andoyer
 import matplotlib
+
+import andoyer
 
 DOCS = Path(__file__).parent
 sys.path.insert(0, str(DOCS / "_ext"))
@@ -13,7 +14,15 @@ matplotlib.use("Agg")
 project = "andoyer"
 author = copyright = "The andoyer developers"
 version = release = andoyer.__version__
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_gallery.gen_gallery", "matplotlib.sphinxext.plot_directive", "equations", "measured"]
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx_gallery.gen_gallery",
+    "matplotlib.sphinxext.plot_directive",
+    "equations",
+    "measured",
+]
 exclude_patterns = ["_ext", "requirements.txt", "gallery/*.ipynb", "gallery/*.py", "**/sg_execution_times.rst", "sg_execution_times.rst"]
 default_role = "py:obj"
 

@@ -18,11 +18,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
-import andoyer
 import numpy as np
 import pyarrow
 import pyarrow.parquet as parquet
 from numpy.typing import NDArray
+
+import andoyer
 
 CHUNK = 10_000
 """Number of bodies in a chunk: about 0.1 s of work at ten epochs, and 5.6 MB of result."""

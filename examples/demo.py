@@ -12,7 +12,6 @@ the tables of the README (`make report`) use these files.
 """
 
 import csv
-
 import statistics
 import sys
 import time
@@ -20,10 +19,11 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
-import andoyer
 import numpy as np
-from andoyer import plot
 from numpy.typing import NDArray
+
+import andoyer
+from andoyer import plot
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "reference"))
@@ -190,7 +190,9 @@ def main() -> None:
             failed.append(f"{path.stem}: {error}")
     (out / "table.md").write_text(markdown(table), encoding="utf-8")
     print(f"\nerror: largest attitude error at {EPOCHS} epochs over the span, against the closed form in 40 digits (with an orbit, a numerical integration)")
-    print(f"ns/sample: attitude and rates, median of {TIMED_CALLS} calls with {TIMED_SAMPLES:,} even times    pictures: {out.name}/*.png    table: {out.name}/table.md")
+    print(
+        f"ns/sample: attitude and rates, median of {TIMED_CALLS} calls with {TIMED_SAMPLES:,} even times    pictures: {out.name}/*.png    table: {out.name}/table.md"
+    )
     if "--record" in sys.argv[1:]:
         record(table)
     if failed:

@@ -135,8 +135,16 @@ PLANTED = {
         False,
         ["circle: a, b"],
     ),
-    "an import upwards": ({"lib.rs": "mod a;\n\nmod b;\n", "a.rs": "use crate::b::{c::C, B};\n", "b/mod.rs": "", "b/c.rs": ""}, True, ["a imports b", "a imports b::c"]),
-    "none": ({"lib.rs": "mod a;\nmod b;\n", "a.rs": "// use crate::b::B;\n", "b.rs": "use crate::a::A;\n#[cfg(test)]\nmod tests {\n    use crate::b::B;\n}\n"}, True, []),
+    "an import upwards": (
+        {"lib.rs": "mod a;\n\nmod b;\n", "a.rs": "use crate::b::{c::C, B};\n", "b/mod.rs": "", "b/c.rs": ""},
+        True,
+        ["a imports b", "a imports b::c"],
+    ),
+    "none": (
+        {"lib.rs": "mod a;\nmod b;\n", "a.rs": "// use crate::b::B;\n", "b.rs": "use crate::a::A;\n#[cfg(test)]\nmod tests {\n    use crate::b::B;\n}\n"},
+        True,
+        [],
+    ),
 }
 
 

@@ -15,9 +15,10 @@ import tempfile
 from datetime import datetime
 from pathlib import Path
 
-import andoyer
 import erfa
 import numpy as np
+
+import andoyer
 from andoyer._quaternions import angle_between
 from andoyer.output import TIME_SYSTEMS, Heading, Segment, read_aem_segments, write_aem
 

@@ -24,13 +24,14 @@ from statistics import median
 
 os.environ["RAYON_NUM_THREADS"] = "1"
 
-import andoyer  # noqa: E402
-import heyoka  # noqa: E402
-import numpy as np  # noqa: E402
+import heyoka
+import numpy as np
+
+import andoyer
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "reference"))
 
-from gravity_gradient import GravityGradient, _plane  # noqa: E402
+from gravity_gradient import GravityGradient, _plane
 
 ROTATIONS = 1000
 TOLERANCE, FINEST = 1e-12, 1e-17
@@ -146,7 +147,11 @@ def compare(name, sampling, repeats):
     ratios = [median((extra + min(c + d, grid)) / (a + b) for a, b, c, d, grid in rounds) for extra in (0.0, compiled)]
     per = 1e9 / len(times)
     own_error, rival_error = angle(samples.attitude, truth), angle(np.array(rows)[:, :4], truth)
-    wins = "; ".join(w for w, wins in (("heyoka: error", rival_error < own_error), ("heyoka: a sample", columns[3] < columns[1]), ("heyoka: the whole", ratios[0] < 1)) if wins)
+    wins = "; ".join(
+        w
+        for w, wins in (("heyoka: error", rival_error < own_error), ("heyoka: a sample", columns[3] < columns[1]), ("heyoka: the whole", ratios[0] < 1))
+        if wins
+    )
     return [
         name,
         sampling,
@@ -170,7 +175,18 @@ def main():
     parser.add_argument("--repeats", type=int, default=7)
     parser.add_argument("--output", type=Path, default=Path("out"))
     arguments = parser.parse_args()
-    heads = ["scene", "times", "samples", "set-up [µs]", "heyoka: integration [µs]", "compilation [ms]", "a sample [ns]", "heyoka", "ratio of the whole", "with compilation"]
+    heads = [
+        "scene",
+        "times",
+        "samples",
+        "set-up [µs]",
+        "heyoka: integration [µs]",
+        "compilation [ms]",
+        "a sample [ns]",
+        "heyoka",
+        "ratio of the whole",
+        "with compilation",
+    ]
     heads += ["error [rad]", "heyoka", "heyoka against DOP853", "better"]
     lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
     for name, sampling in product(SCENES, ("twice a rotation", "twice an orbit")):

@@ -21,9 +21,10 @@ from statistics import median
 
 os.environ["RAYON_NUM_THREADS"] = "1"
 
-import andoyer  # noqa: E402
-import heyoka as hy  # noqa: E402
-import numpy as np  # noqa: E402
+import heyoka as hy
+import numpy as np
+
+import andoyer
 
 SAMPLES = 200
 ORBIT_PARAMETERS = 9  # mean motion, e, mean anomaly at 0, node and its rate, argument and its rate, inclination, attraction
@@ -36,7 +37,9 @@ def equations(bodies, number):
     a, b, c = (number(k) for k in range(3))
     torque = [0.0, 0.0, 0.0]
     for body in range(bodies):
-        n, e, anomaly, node, node_rate, argument, argument_rate, inclination, attraction = (number(3 + ORBIT_PARAMETERS * body + k) for k in range(ORBIT_PARAMETERS))
+        n, e, anomaly, node, node_rate, argument, argument_rate, inclination, attraction = (
+            number(3 + ORBIT_PARAMETERS * body + k) for k in range(ORBIT_PARAMETERS)
+        )
         eccentric = hy.kepE(e, anomaly + n * hy.time)
         inverse = 1.0 / (1.0 - e * hy.cos(eccentric))
         along, across = (hy.cos(eccentric) - e) * inverse, (1.0 - e * e) ** 0.5 * hy.sin(eccentric) * inverse
@@ -82,7 +85,13 @@ class Reference:
         if bodies not in self.integrators:
             state = np.zeros(7, np.longdouble)
             state[3] = 1.0
-            self.integrators[bodies] = hy.taylor_adaptive(equations(bodies, lambda k: hy.par[k]), state, tol=np.longdouble(1e-19), fp_type=np.longdouble, pars=np.zeros(3 + ORBIT_PARAMETERS * bodies, np.longdouble))
+            self.integrators[bodies] = hy.taylor_adaptive(
+                equations(bodies, lambda k: hy.par[k]),
+                state,
+                tol=np.longdouble(1e-19),
+                fp_type=np.longdouble,
+                pars=np.zeros(3 + ORBIT_PARAMETERS * bodies, np.longdouble),
+            )
         integrator = self.integrators[bodies]
         integrator.pars[:] = np.array(numbers, np.longdouble)
         integrator.time = np.longdouble(0)
@@ -128,7 +137,9 @@ def drawn(regime, random):
             rates, span = direction * 10 ** random.uniform(1, 2.3), 2 * math.pi * random.uniform(1, 4)
         case "two bodies":
             rates = direction * 10 ** random.uniform(0.3, 1.5)
-            orbits = [andoyer.Orbit(random.uniform(0.1, 3), random.uniform(0, 0.5), attraction=random.uniform(0.1, 2), node=1.0, inclination=random.uniform(0, 3))]
+            orbits = [
+                andoyer.Orbit(random.uniform(0.1, 3), random.uniform(0, 0.5), attraction=random.uniform(0.1, 2), node=1.0, inclination=random.uniform(0, 3))
+            ]
         case "precessing":
             rates = direction * 10 ** random.uniform(0.3, 1.5)
             orbit |= {"node_rate": random.uniform(-0.2, 0.2), "pericentre_rate": random.uniform(-0.2, 0.2)}
@@ -201,7 +212,9 @@ def main():
     warnings.simplefilter("ignore", andoyer.ToleranceWarning)
     reference, lines, bad = Reference(), [], 0
     lines.append(f"tolerance {asked.tolerance:g}, {asked.scenes} scenes a regime, heyoka {hy.__version__}, andoyer {andoyer.__version__}")
-    lines.append(f"{'regime':<13}{'worst error':>12}{'its bound':>11}{'beyond bound':>14}{'beyond tolerance':>18}{'missed':>8}{'refused':>9}  {'bound/error q5, q50, q95':>26}{'at tolerance':>13}{'at error':>13}{'ms':>9}{'compiled, s':>12}")
+    lines.append(
+        f"{'regime':<13}{'worst error':>12}{'its bound':>11}{'beyond bound':>14}{'beyond tolerance':>18}{'missed':>8}{'refused':>9}  {'bound/error q5, q50, q95':>26}{'at tolerance':>13}{'at error':>13}{'ms':>9}{'compiled, s':>12}"
+    )
     for regime in REGIMES:
         random = np.random.default_rng([asked.seed, REGIMES.index(regime)])
         errors, bounds, beyond, missed, refused, priced = [], [], 0, 0, 0, ""

@@ -27,9 +27,7 @@ class Jacobi:
         w1, w2, w3 = w = self.signs * np.array([rates[i] for i in order])
         p = i2 * (i2 - i1) * w2**2 + i3 * (i3 - i1) * w3**2
         q = i1 * (i3 - i1) * w1**2 + i2 * (i3 - i2) * w2**2
-        self.amplitudes = np.array(
-            [math.sqrt(q / (i1 * (i3 - i1))), math.copysign(math.sqrt(q / (i2 * (i3 - i2))), i3 - i2), math.sqrt(p / (i3 * (i3 - i1)))]
-        )
+        self.amplitudes = np.array([math.sqrt(q / (i1 * (i3 - i1))), math.copysign(math.sqrt(q / (i2 * (i3 - i2))), i3 - i2), math.sqrt(p / (i3 * (i3 - i1)))])
         self.rate = math.sqrt(p * (i3 - i2) / (i1 * i2 * i3))
         self.m = q * (i2 - i1) / (p * (i3 - i2))
         self.complement = (i3 - i1) * excess / (p * (i3 - i2))

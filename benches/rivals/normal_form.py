@@ -25,12 +25,12 @@ from statistics import median
 
 os.environ["RAYON_NUM_THREADS"] = "1"
 
-import andoyer  # noqa: E402
+import algebras
+import answers
+import energy
+import triangle
 
-import algebras  # noqa: E402
-import answers  # noqa: E402
-import energy  # noqa: E402
-import triangle  # noqa: E402
+import andoyer
 
 Rival = namedtuple("Rival", "package algorithm algebra orders")
 Row = namedtuple("Row", "order rival andoyer_s rival_s ratio lowest highest repeats")
@@ -119,8 +119,7 @@ def markdown(rows):
     yield "|---|---|---|---|---|---|---|"
     for row in rows:
         yield (
-            f"| {row.order} | {row.rival} | {row.andoyer_s:.2g} | {row.rival_s:.2g} | {row.ratio:.3g} "
-            f"| {row.lowest:.3g} – {row.highest:.3g} | {row.repeats} |"
+            f"| {row.order} | {row.rival} | {row.andoyer_s:.2g} | {row.rival_s:.2g} | {row.ratio:.3g} | {row.lowest:.3g} – {row.highest:.3g} | {row.repeats} |"
         )
 
 

@@ -12,10 +12,11 @@ import os
 
 os.environ["RAYON_NUM_THREADS"] = "1"  # before andoyer starts its threads
 
-import andoyer
 import heyoka
 import numpy as np
 from propagators import cpu
+
+import andoyer
 
 TOLERANCE = 1e-12
 SCENES = {
@@ -81,8 +82,7 @@ def main(samples):
         theirs, states = cpu(lambda integrator=integrator, start=start, times=times: run(integrator, start, times))
         ours, partials = cpu(lambda motion=motion, times=times: motion.partials(times))
         differences = [
-            np.abs(mine - other).max() / np.abs(other).max()
-            for mine, other in zip((partials.attitude, partials.angular_velocity), by_rotation_vectors(states))
+            np.abs(mine - other).max() / np.abs(other).max() for mine, other in zip((partials.attitude, partials.angular_velocity), by_rotation_vectors(states))
         ]
         nanoseconds = [seconds / samples * 1e9 for seconds in (theirs, ours)]
         print(f"| {name} | {nanoseconds[0]:.0f} | {nanoseconds[1]:.0f} | {theirs / ours:.1f} | {max(differences):.0e} |")

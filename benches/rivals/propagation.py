@@ -20,8 +20,8 @@ from statistics import median
 
 os.environ["RAYON_NUM_THREADS"] = "1"
 
-import motions  # noqa: E402
-import propagators  # noqa: E402
+import motions
+import propagators
 
 OWN = "andoyer closed"
 RATES, RATES_STORE = "andoyer rates alone", "store of 3"

@@ -9,8 +9,9 @@ import subprocess
 import time
 from statistics import median
 
-import andoyer
 import numpy as np
+
+import andoyer
 
 SAMPLE_SECONDS = 0.02  # shorter runs are repeated until a sample has this much
 LEAST_RUNS = 3  # and so often, if they are below
@@ -27,7 +28,7 @@ def cpu(run):
     The first run after another engine fills new pages of memory, which takes 10 to 100 ns a row. The median, unlike the mean, does not include this.
     """
     seconds, answer = [], None
-    while sum(seconds) < SAMPLE_SECONDS or len(seconds) < LEAST_RUNS and seconds[0] < LONG_SECONDS:
+    while sum(seconds) < SAMPLE_SECONDS or (len(seconds) < LEAST_RUNS and seconds[0] < LONG_SECONDS):
         start = time.process_time()
         answer = run()
         seconds.append(time.process_time() - start)

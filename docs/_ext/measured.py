@@ -89,8 +89,34 @@ def ensemble() -> list[str]:
 
 def gravity_cases() -> list[str]:
     """The relative error of each level in the reference cases."""
-    header = ["case", "n/spin", "e", "effect of the torque [rad]", "paper", "moving", "full", "second-order", "error of full [rad]", "bound [rad]", "error of second-order [rad]", "its bound [rad]"]
-    names = ["case", "n_over_spin", "e", "effect_rad", "paper", "moving", "full", "second_order", "full_error_rad", "bound_rad", "second_error_rad", "second_bound_rad"]
+    header = [
+        "case",
+        "n/spin",
+        "e",
+        "effect of the torque [rad]",
+        "paper",
+        "moving",
+        "full",
+        "second-order",
+        "error of full [rad]",
+        "bound [rad]",
+        "error of second-order [rad]",
+        "its bound [rad]",
+    ]
+    names = [
+        "case",
+        "n_over_spin",
+        "e",
+        "effect_rad",
+        "paper",
+        "moving",
+        "full",
+        "second_order",
+        "full_error_rad",
+        "bound_rad",
+        "second_error_rad",
+        "second_bound_rad",
+    ]
     return markdown(header, ([row[name] for name in names] for row in read("gravity-cases.csv")))
 
 

@@ -9,11 +9,12 @@ import csv
 from datetime import datetime
 from pathlib import Path
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
-from andoyer import fit
 from scipy.spatial.transform import Rotation
+
+import andoyer
+from andoyer import fit
 
 DATA = Path(__file__).resolve().parents[2] / "tests/data/toutatis_attitudes.csv"
 rows = list(csv.DictReader(line for line in DATA.read_text().splitlines() if not line.startswith("#")))

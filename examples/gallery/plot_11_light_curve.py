@@ -6,10 +6,11 @@ A simulated tumbler is observed at a hundred random times over six precession pe
 the other minima with their χ², and predicts its attitude with a spread.
 """
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
 from numpy.typing import NDArray
+
+import andoyer
 from andoyer import fit
 
 generator = np.random.default_rng(1)

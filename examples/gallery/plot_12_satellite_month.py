@@ -10,9 +10,10 @@ import math
 import tempfile
 from pathlib import Path
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
+
+import andoyer
 from andoyer import output
 
 # %%

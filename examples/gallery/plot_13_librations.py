@@ -8,11 +8,11 @@ linear formulas and with observations.
 
 import math
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
 from numpy.typing import NDArray
-from numpy.typing import ArrayLike, NDArray
+
+import andoyer
 
 Array = NDArray[np.float64]
 

@@ -9,10 +9,11 @@ arguments of REN-2000, the nutation of the rigid Earth by Souchay, Loysel, Kinos
 import csv
 from pathlib import Path
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
 from numpy.typing import NDArray
+
+import andoyer
 
 DAY, CENTURY = 86400.0, 36525 * 86400.0
 ARCSECOND = np.pi / 648000
@@ -105,7 +106,7 @@ NAMED = {
     "Ω": (0, 0, 0, 0, -1), "2Ω": (0, 0, 0, 0, -2), "2F+2Ω": (0, 0, 2, 0, 2), "2F+Ω": (0, 0, 2, 0, 1), "l": (1, 0, 0, 0, 0),
     "l+Ω": (1, 0, 0, 0, 1), "l−Ω": (1, 0, 0, 0, -1), "l+2F+2Ω": (1, 0, 2, 0, 2), "−l+2F+2Ω": (-1, 0, 2, 0, 2),
 }  # fmt: skip
-print("term          period [d]   ψ sine [\"]  table [\"]   ratio    ε cosine [\"]  table [\"]   ratio")
+print('term          period [d]   ψ sine ["]  table ["]   ratio    ε cosine ["]  table ["]   ratio')
 ratios = {}
 for name, wanted in NAMED.items():
     place = next(place for place, index in enumerate(kept) if tuple(multiples[index]) == wanted)

@@ -6,9 +6,10 @@ The orbit of a body precesses: its normal N goes about a fixed axis. The pole of
 about the Cassini states (Colombo 1966).
 """
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
+
+import andoyer
 
 # %%
 # An oblate body rotates fifty times as fast as its orbit. Its pole precesses with α = (3/2) (G m/a³) (C − A)/(C ω), the node with three tenths of that.

@@ -9,9 +9,10 @@ rate and the eccentricity of its orbit.
 import time
 import warnings
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
+
+import andoyer
 
 # %%
 # A triaxial body wobbles by some degrees and turns once in 2π. The tolerance is 1e-4 rad over five orbits. A chaotic motion may miss it: its error bound grows with the distance of nearby

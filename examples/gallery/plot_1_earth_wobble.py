@@ -8,9 +8,10 @@ period of the real Earth is longer, because the Earth is not rigid.)
 
 import math
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
+
+import andoyer
 from andoyer import plot
 
 # %%

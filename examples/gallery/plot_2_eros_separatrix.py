@@ -9,8 +9,9 @@ separatrix: the order that the series need, the place where they stop, and the e
 import math
 from typing import Literal
 
-import andoyer
 import matplotlib.pyplot as plt
+
+import andoyer
 from andoyer import plot
 
 # %%

@@ -6,9 +6,10 @@ Apophis tumbles. Its short axis precesses in 27.38 hours, and the body turns abo
 the periods in three conventions, the strongest line of the light curve, and the error of the series at each order.
 """
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
+
+import andoyer
 from andoyer import plot
 
 # %%
@@ -17,9 +18,7 @@ from andoyer import plot
 
 HOUR = 3600.0
 apophis = andoyer.Body.named("apophis")
-scene = andoyer.Scene.from_periods(
-    apophis, 27.38 * HOUR, 263.0 * HOUR, momentum_direction=np.radians([275, -85]), name="Apophis, tumbling"
-)
+scene = andoyer.Scene.from_periods(apophis, 27.38 * HOUR, 263.0 * HOUR, momentum_direction=np.radians([275, -85]), name="Apophis, tumbling")
 motion = scene.solve()
 print(motion.plan)
 

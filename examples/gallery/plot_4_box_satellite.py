@@ -8,9 +8,10 @@ its angular momentum precess about the normal of the orbit. The averaged theory 
 
 import math
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
+
+import andoyer
 from andoyer import plot
 
 # %%

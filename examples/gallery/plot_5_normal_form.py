@@ -7,9 +7,10 @@ Your own normal form
 
 import math
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
+
+import andoyer
 
 # %%
 # H = p²/2 − cos q is written as a Taylor polynomial of degree 14 with exact rational coefficients.

@@ -6,9 +6,10 @@ The moments of Apophis are known to a few percent. This example draws a thousand
 attitudes shows for how long the orientation is known. `Ensemble` evaluates all bodies in one call.
 """
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
+
+import andoyer
 
 # %%
 # A/C and B/C have a standard deviation of one percent. Draws that violate the triangle inequality of the moments are left out.

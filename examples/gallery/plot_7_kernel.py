@@ -9,10 +9,11 @@ reads the attitude back, and the angle between the kernel and the motion stays b
 import tempfile
 from pathlib import Path
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
 import spiceypy
+
+import andoyer
 from andoyer.output import Kernel, write_ck
 
 # %%

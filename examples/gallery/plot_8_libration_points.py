@@ -9,12 +9,13 @@ motions: planar and vertical Lyapunov orbits and the tori around them. This exam
 import math
 from typing import Any
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
-from andoyer import plot
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
+
+import andoyer
+from andoyer import plot
 
 # %%
 # The Hamiltonian about L1 is H = (X² + Y² + Z²)/2 + yX − xY − Σ c_n ρⁿ P_n(x/ρ) with Legendre polynomials P_n. The unit of length is the distance γ from L1 to the Moon.

@@ -6,9 +6,10 @@ Observers publish periods, a mode, and axis ratios or moments. `Scene.from_perio
 computes the motion of Toutatis. For 2008 TC3 the authors found no published moments; there the periods give a condition on the moments.
 """
 
-import andoyer
 import matplotlib.pyplot as plt
 import numpy as np
+
+import andoyer
 
 HOUR, DAY = 3600.0, 86400.0
 

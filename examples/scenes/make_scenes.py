@@ -15,8 +15,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from textwrap import fill
 
-import andoyer
 from mpmath import asin, atan2, cos, cospi, degrees, mp, mpf, pi, quad, radians, sin, sinpi, sqrt
+
+import andoyer
 
 FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parents[1] / "tests" / "reference"))
@@ -202,7 +203,10 @@ def describe(recipe, nutation, nu, momentum):
     alpha, beta = (c / a + c / b) / 2 - 1, (c / a - c / b) / (c / a + c / b - 2)
     spin, wobble = 2 * pi / (momentum * (precession + roll)), 2 * pi / (-roll * momentum)
     swing = [asin(sqrt(excess / (c / moment - 1))) for moment in (a, b)]
-    figure = lambda x, digits: mp.nstr(x, digits, strip_zeros=False)
+
+    def figure(x, digits):
+        return mp.nstr(x, digits, strip_zeros=False)
+
     return {
         "precession": figure(precession_of_pole(recipe, momentum), 4) if recipe.orbit else None,
         "moments": " : ".join(recipe.moments),

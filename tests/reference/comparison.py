@@ -4,10 +4,11 @@ A reference attitude is stored as a sum of two doubles, so that differences from
 small and large angles.
 """
 
-import andoyer
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from torque_free import TorqueFree
+
+import andoyer
 
 # Separatrix and long phases lose only guard digits; 20 digits are more than a double has.
 DIGITS = 20

@@ -27,8 +27,14 @@ def case(number, power, side):
     motion = torque_free.TorqueFree(moments, attitude, rates)
     states = [(t, *motion.state(t)) for t in TIMES]
     text = lambda row: [mpmath.nstr(x, 32) for x in row]  # noqa: E731
-    return {"name": f"{motion.mode}-2^-{power}", "one_minus_m": mpmath.nstr(motion.complement, 20), "moments": moments, "attitude0_xyzw": attitude,
-            "angular_velocity0": rates, "states": [{"t": t, "attitude_xyzw": text(q), "angular_velocity": text(w)} for t, q, w in states]}
+    return {
+        "name": f"{motion.mode}-2^-{power}",
+        "one_minus_m": mpmath.nstr(motion.complement, 20),
+        "moments": moments,
+        "attitude0_xyzw": attitude,
+        "angular_velocity0": rates,
+        "states": [{"t": t, "attitude_xyzw": text(q), "angular_velocity": text(w)} for t, q, w in states],
+    }
 
 
 cases = [(power, side) for power in POWERS for side in (1, -1)]

@@ -100,9 +100,7 @@ def main(path):
         if rates is None:
             rates = rates_beside_the_separatrix(moments, float(name.rsplit("-", 2)[-2] + "-" + name.rsplit("-", 1)[-1]), "long" in name)
         print(name, rates, flush=True)
-        states = [
-            {"t": t, "attitude": a, "angular_velocity": w} for t, (a, w) in zip(times, partials(moments, attitude, rates, times))
-        ]
+        states = [{"t": t, "attitude": a, "angular_velocity": w} for t, (a, w) in zip(times, partials(moments, attitude, rates, times))]
         cases.append({"name": name, "moments": moments, "attitude0_xyzw": attitude, "angular_velocity0": rates, "states": states})
     with open(path, "w", encoding="utf-8") as file:
         json.dump(cases, file, indent=0)

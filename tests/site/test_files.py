@@ -3,7 +3,6 @@
 import re
 
 import pytest
-
 from conftest import SITE
 
 PAGES = sorted(path for path in SITE.rglob("*.html") if "rust" not in path.parts and "_static" not in path.parts)

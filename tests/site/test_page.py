@@ -1,8 +1,9 @@
 """Animated pages of motions in a headless Chromium: no console message, no request, the attitude of the library, and a moving picture."""
 
-import andoyer
 import numpy as np
 import pytest
+
+import andoyer
 from andoyer import plot
 from andoyer._quaternions import angle_between
 
@@ -98,12 +99,19 @@ def test_page_shows_body_axes_momentum_curves_controls_and_numbers(opened):
     motion = MOTIONS["short-axis"]
     window, _, _ = opened(motion)
     said = window.page.inner_text("#lines").split("\n")
-    assert [line.strip() for line in said if line.strip()][-6:] == [*[f"body axis {k}" for k in (1, 2, 3)], "angular momentum M", "angular velocity ω; herpolhode", "polhode"]
+    assert [line.strip() for line in said if line.strip()][-6:] == [
+        *[f"body axis {k}" for k in (1, 2, 3)],
+        "angular momentum M",
+        "angular velocity ω; herpolhode",
+        "polhode",
+    ]
     assert window.run("Object.keys(cells)") == ["t", "J", "λ", "μ", "ν", "Λ/M", "N/M", "ω₁", "ω₂", "ω₃"]
     window.run("andoyer.show(data.start + 2)")
-    lambda_, mu, nu, node, size, short = motion.andoyer(2.0)
+    lambda_, mu, nu, _node, size, short = motion.andoyer(2.0)
     expected = {"J": np.arccos(short / size), "λ": lambda_ % (2 * np.pi), "μ": mu % (2 * np.pi), "ν": nu % (2 * np.pi)}
-    assert window.run("Object.fromEntries(['J', 'λ', 'μ', 'ν'].map(name => [name, cells[name].textContent]))") == {name: f"{np.degrees(angle):.4f}°" for name, angle in expected.items()}
+    assert window.run("Object.fromEntries(['J', 'λ', 'μ', 'ν'].map(name => [name, cells[name].textContent]))") == {
+        name: f"{np.degrees(angle):.4f}°" for name, angle in expected.items()
+    }
     assert window.run("[body.faces.length > 100, polhode.length, herpolhode(data.start + 2).length]") == [True, 501, 121]
     assert window.run("[...speed.options].map(option => option.value)") == ["10", "30", "60", "120", "300"]
     window.page.select_option("#speed", "10")

@@ -7,13 +7,14 @@ the invariants by construction.
 import sys
 from pathlib import Path
 
-import andoyer
 import numpy as np
 from regimes import case
 
+import andoyer
+
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reference"))
 
-import enclosures  # noqa: E402
+import enclosures
 
 # Error budget. An attitude is a product of two quaternions whose four numbers are sums of up to some ten harmonics, each rounded to 2^-53 of the sum: at most 4 · 12 · 1.1e-16,
 # doubled as an angle. A rate is one such sum; near the separatrix the terms are larger than the sum. The energy is quadratic in the rates; time reversal compares two motions.

@@ -13,23 +13,24 @@ import os
 
 os.environ["RAYON_NUM_THREADS"] = "1"  # two processes already use the two cores
 
-import argparse  # noqa: E402
-import sys  # noqa: E402
-import time  # noqa: E402
-import warnings  # noqa: E402
-from collections.abc import Callable, Iterable, Sequence  # noqa: E402
-from concurrent.futures import ProcessPoolExecutor  # noqa: E402
-from dataclasses import dataclass  # noqa: E402
-from pathlib import Path  # noqa: E402
-from typing import Any  # noqa: E402
+import argparse
+import sys
+import time
+import warnings
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reference"))
 
-import andoyer  # noqa: E402
-import numpy as np  # noqa: E402
-from comparison import Reference  # noqa: E402
-from numpy.random import Generator  # noqa: E402
-from numpy.typing import NDArray  # noqa: E402
+import numpy as np
+from comparison import Reference
+from numpy.random import Generator
+from numpy.typing import NDArray
+
+import andoyer
 
 warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # the errors of low orders are measured here
 
@@ -183,7 +184,9 @@ def report(found: Sequence[Outcome], scenes: int) -> bool:
     print(f"\n{len(violated)} of {len(found)} errors above their bound")
     for o in violated[:20]:
         print(f"  {o.error / o.bound:.2f} times: {o.method}, order {o.order}, σ/σ_sep {o.ratio:.6g}, error {o.error:.2e}, bound {o.bound:.2e}, {o.scene}")
-    print(f"\n{scenes} scenes; promised: {100 * SHARE} % within the bound, the bound at most {TIGHTNESS:g} times the error in the median: {'kept' if kept else 'not kept'}")
+    print(
+        f"\n{scenes} scenes; promised: {100 * SHARE} % within the bound, the bound at most {TIGHTNESS:g} times the error in the median: {'kept' if kept else 'not kept'}"
+    )
     return kept
 
 

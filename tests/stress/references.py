@@ -12,8 +12,8 @@ from regimes import case
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reference"))
 
-import enclosures  # noqa: E402
-import torque_free  # noqa: E402
+import enclosures
+import torque_free
 
 AGREEMENT = 1e-38  # of numbers of order one, 40 digits each
 TERMS, BITS, STEP = 60, 400, Fraction(1, 8)

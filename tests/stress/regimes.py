@@ -39,7 +39,7 @@ def body(random):
 
 def turned(random, moments, part, long_axis):
     """A direction of the angular momentum whose excess of energy is this part of that of the separatrix; A ≤ B ≤ C."""
-    a, b, c = moments
+    _a, b, _c = moments
     circled, other = (0, 2) if long_axis else (2, 0)
     # Differences of 1/I without cancellation; they vanish for equal moments.
     most = abs(moments[circled] - moments[other]) / (moments[other] * moments[circled])
@@ -64,7 +64,9 @@ def finished(random, regime, moments, direction, *, scale=None, epoch=0.0, attit
     times = [epoch + rotation * x for x in spread]
     # The triangle inequality must also hold for the rounded moments.
     grown = _possible(moments * unit)
-    return Case(regime, tuple(grown[order]), tuple(attitude / np.linalg.norm(attitude)), tuple(rates[order]), float(epoch), tuple(map(float, times)), complement)
+    return Case(
+        regime, tuple(grown[order]), tuple(attitude / np.linalg.norm(attitude)), tuple(rates[order]), float(epoch), tuple(map(float, times)), complement
+    )
 
 
 def _possible(moments):

@@ -11,19 +11,19 @@ import os
 
 os.environ["RAYON_NUM_THREADS"] = "1"  # the processes already use all cores
 
-import argparse  # noqa: E402
-import csv  # noqa: E402
-import sys  # noqa: E402
-import time  # noqa: E402
-from collections import defaultdict  # noqa: E402
-from concurrent.futures import ProcessPoolExecutor  # noqa: E402
-from pathlib import Path  # noqa: E402
+import argparse
+import csv
+import sys
+import time
+from collections import defaultdict
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
 
-import accuracy  # noqa: E402
-import numpy as np  # noqa: E402
-import references  # noqa: E402
-import series  # noqa: E402
-from regimes import REGIMES  # noqa: E402
+import accuracy
+import numpy as np
+import references
+import series
+from regimes import REGIMES
 
 ROOT = Path(__file__).resolve().parents[2]
 CSV = ROOT / "docs" / "data" / "stress.csv"
@@ -81,7 +81,12 @@ def tables(rows, seed):
     """The tables of the page."""
     cells = {(row["check"], row["regime"]): row for row in rows}
     total = sum(row["scenes"] for row in rows if row["check"] in ("energy", "error / tolerance", "error by order"))
-    lines = [START, "", f"{total:,} scenes, seed {seed}. The table has the error of the attitude [rad] and of the rates [M/I], each at the worst of four times:", ""]
+    lines = [
+        START,
+        "",
+        f"{total:,} scenes, seed {seed}. The table has the error of the attitude [rad] and of the rates [M/I], each at the worst of four times:",
+        "",
+    ]
     lines += ["| regime | scenes | median | q99 | q99.9 | max | rates: q99.9 | max | max of error / bound |", "|---|---|---|---|---|---|---|---|---|"]
     for regime in REGIMES:
         attitude, rates, bound = (cells[check, regime] for check in ("attitude", "rates", "attitude / bound"))
@@ -92,7 +97,13 @@ def tables(rows, seed):
     for regime in REGIMES:
         found = [cells.get((check, regime)) for check in INVARIANTS]
         lines.append(f"| {regime} | " + " | ".join(f"{row['max']:.1e}" if row else "" for row in found) + " |")
-    lines += ["", "The checks of the series, each in units of its budget:", "", "| check | regime | scenes | median | q99 | q99.9 | max |", "|---|---|---|---|---|---|---|"]
+    lines += [
+        "",
+        "The checks of the series, each in units of its budget:",
+        "",
+        "| check | regime | scenes | median | q99 | q99.9 | max |",
+        "|---|---|---|---|---|---|---|",
+    ]
     for row in rows:
         if row["check"] in series.BUDGETS and row["check"] != "brackets":
             lines.append(f"| {row['check']} | {row['regime']} | {row['scenes']:,} | " + " | ".join(f"{row[name]:.1e}" for name in QUANTILES) + " |")
@@ -146,7 +157,9 @@ def main():
         print(f"{row['check']:<26}{row['regime']:<44}{row['scenes']:>7} {numbers}  of {row['budget']:.0e}")
     bad = [row for row in rows if not row["max"] <= row["budget"]]
     for row in bad:
-        print(f"ABOVE ITS BUDGET: {row['check']}, {row['regime']}: {row['max']:.2e} in scene {row['worst']} of seed {arguments.seed}, allowed {row['budget']:.0e}")
+        print(
+            f"ABOVE ITS BUDGET: {row['check']}, {row['regime']}: {row['max']:.2e} in scene {row['worst']} of seed {arguments.seed}, allowed {row['budget']:.0e}"
+        )
     if arguments.write:
         if arguments.only:
             rows = ordered(rows + kept({row["regime"] for row in rows}))

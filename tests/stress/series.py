@@ -7,10 +7,11 @@ fall with the order, or grows again after it has reached rounding error.
 import warnings
 from collections import defaultdict
 
-import andoyer
 import numpy as np
 from accuracy import angle, truth
 from regimes import Case, body, decades, turned
+
+import andoyer
 
 warnings.simplefilter("ignore", andoyer.ToleranceWarning)  # the errors of low orders are measured here
 

@@ -79,7 +79,9 @@ def test_what_is_written_is_read_back(tmp_path, version, name, system):
         pytest.importorskip("astropy")
     motion = OF_TYPE.get(name, TRIAXIAL)
     date = datetime(2016, 12, 31, 23, 59, 50)  # ten seconds and a leap second before the new year
-    heading = Heading("BODY", "ICRF", date, system, "2026-001A", "ME", "SUN", attitude_type=name, version=version, interpolation=("HERMITE", 3), comments=("a line",))
+    heading = Heading(
+        "BODY", "ICRF", date, system, "2026-001A", "ME", "SUN", attitude_type=name, version=version, interpolation=("HERMITE", 3), comments=("a line",)
+    )
     path = tmp_path / "message.aem"
     write_aem(path, motion.at(TIMES), heading, body=motion.scene.body)
     [segment] = read_aem_segments(path, date=date)
@@ -151,7 +153,16 @@ def test_both_notations_say_the_same(tmp_path):
     [kvn] = read_aem_segments(put(tmp_path, MESSAGE))
     [xml] = read_aem_segments(put(tmp_path, XML, "message.xml"))
     assert replace(xml.heading, center="EARTH", interpolation=("LINEAR", 1)) == kvn.heading
-    assert kvn.heading == Heading("BODY", "EME2000", object_id="2026-001A", originator="SOMEBODY", center="EARTH", attitude_type="QUATERNION/ANGVEL", interpolation=("LINEAR", 1), comments=("in the metadata", "in the data"))
+    assert kvn.heading == Heading(
+        "BODY",
+        "EME2000",
+        object_id="2026-001A",
+        originator="SOMEBODY",
+        center="EARTH",
+        attitude_type="QUATERNION/ANGVEL",
+        interpolation=("LINEAR", 1),
+        comments=("in the metadata", "in the data"),
+    )
     for samples in (kvn.samples, xml.samples):
         assert samples.attitude[0].tolist() == [0, 0, 0.6, 0.8] and samples.times[0] == 0
         assert samples.angular_velocity[0] == pytest.approx(np.radians([1, 2, 3]), rel=1e-15)
@@ -226,7 +237,11 @@ def test_leap_second_is_counted_and_written(tmp_path):
     before, within, after = "2016-12-31T23:59:59", "2016-12-31T23:59:60.5Z", "2017-001T00:00:00Z"
     counts = [parse(text, "UTC") for text in (before, within, after)]
     assert [float(moment - counts[0]) for moment in counts] == [0, 1.5, 2]
-    assert [written(moment, "UTC") for moment in counts] == ["2016-12-31T23:59:59.000000000000", "2016-12-31T23:59:60.500000000000", "2017-01-01T00:00:00.000000000000"]
+    assert [written(moment, "UTC") for moment in counts] == [
+        "2016-12-31T23:59:59.000000000000",
+        "2016-12-31T23:59:60.500000000000",
+        "2017-01-01T00:00:00.000000000000",
+    ]
     for text in ("2016-12-30T23:59:60", "2017-12-31T23:59:60", "2016-12-31T22:59:60"):
         with pytest.raises(ValueError, match="only a leap second of UTC"):
             parse(text, "UTC")
@@ -261,7 +276,11 @@ REFUSED = {
     "empty": ("", "", "line 1: the file is empty"),
     "another file": ("CCSDS_AEM_VERS", "CCSDS_OEM_VERS", "line 1: an AEM must start with CCSDS_AEM_VERS: got CCSDS_OEM_VERS"),
     "version 3": ("= 2.0", "= 3.0", "line 1: CCSDS_AEM_VERS must be 1.0 or 2.0: got '3.0'"),
-    "keyword of the other version": ("TIME_SYSTEM", "ATTITUDE_DIR = A2B\nTIME_SYSTEM", "line 13: ATTITUDE_DIR is no keyword of the metadata in version 2.0 .it is in 1.0."),
+    "keyword of the other version": (
+        "TIME_SYSTEM",
+        "ATTITUDE_DIR = A2B\nTIME_SYSTEM",
+        "line 13: ATTITUDE_DIR is no keyword of the metadata in version 2.0 .it is in 1.0.",
+    ),
     "unknown keyword": ("CENTER_NAME", "CENTRE", "line 10: CENTRE is no keyword of the metadata"),
     "in the header": ("MESSAGE_ID", "TIME_SYSTEM", "line 5: TIME_SYSTEM is no keyword of the header"),
     "twice": ("CENTER_NAME = EARTH", "OBJECT_ID = X", "line 10: OBJECT_ID is given twice"),
@@ -288,7 +307,11 @@ REFUSED = {
     "not a number": ("0 0 0.6", "0 nan 0.6", "line 24: Q2 must be a finite number: got 'nan'"),
     "too large a number": ("1 2 3", "1 2 1e999", "line 24: ANGVEL_Z must be a finite number: got '1e999'"),
     "norm": ("0 0 0.6", "0 0 0.7", "line 6: a quaternion must have a norm within 0.001 of 1: record 1 has 1.06301"),
-    "rates that overflow": ("QUATERNION/ANGVEL\nANGVEL_FRAME = SC_BODY_1\nINTERPOLATION_METHOD = LINEAR\nINTERPOLATION_DEGREE = 1\nMETA_STOP\n\nDATA_START\nCOMMENT in the data\n2000-01-01T12:00:00 0 0 0.6 0.8 1 2 3\n2000-001T12:00:10.5   0.5 0.5 0.5 0.5   -1.e0 +.5E+1 0", "QUATERNION/DERIVATIVE\nMETA_STOP\nDATA_START\n2000-01-01T12:00:00 0.6 0 0 0.8 1e308 1e308 1e308 -1e308", "line 6: angular velocities must be finite"),
+    "rates that overflow": (
+        "QUATERNION/ANGVEL\nANGVEL_FRAME = SC_BODY_1\nINTERPOLATION_METHOD = LINEAR\nINTERPOLATION_DEGREE = 1\nMETA_STOP\n\nDATA_START\nCOMMENT in the data\n2000-01-01T12:00:00 0 0 0.6 0.8 1 2 3\n2000-001T12:00:10.5   0.5 0.5 0.5 0.5   -1.e0 +.5E+1 0",
+        "QUATERNION/DERIVATIVE\nMETA_STOP\nDATA_START\n2000-01-01T12:00:00 0.6 0 0 0.8 1e308 1e308 1e308 -1e308",
+        "line 6: angular velocities must be finite",
+    ),
     "epoch": ("T12:00:10.5", "T12:00:10,5", "line 25: an epoch must be like .*: got '2000-001T12:00:10,5'"),
     "month": ("2000-01-01T12:00:00 ", "2000-13-01T12:00:00 ", "line 24: an epoch must be a time of the calendar: got '2000-13"),
     "day of the year": ("2000-001T", "2000-367T", "line 25: an epoch must be a time of the calendar: got '2000-367"),
@@ -380,4 +403,6 @@ def test_calendar_times_of_samples_are_the_epochs(tmp_path, system):
     shown = {"TDB": times.tdb, "TT": times.tt, "TAI": times.tai, "GPS": times.tai - time.TimeDelta(19, format="sec"), "UTC": times}[system]
     shown.precision = 9
     # A Julian date in two doubles has 1e-11 s.
-    assert [float(parse(epoch, system) - parse(str(text), system)) for epoch, text in zip(epochs, shown.isot, strict=True)] == pytest.approx([0, 0, 0], abs=1e-9)
+    assert [float(parse(epoch, system) - parse(str(text), system)) for epoch, text in zip(epochs, shown.isot, strict=True)] == pytest.approx(
+        [0, 0, 0], abs=1e-9
+    )

@@ -5,17 +5,38 @@ import pytest
 
 pytest.importorskip("hypothesis")
 
-from hypothesis import HealthCheck, given, settings  # noqa: E402
-from hypothesis import strategies as st  # noqa: E402
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from test_aem import MESSAGE, XML
 
-from andoyer.output import read_aem_segments  # noqa: E402
-from andoyer.output.attitude_types import FIELDS, VERSION_1  # noqa: E402
-from test_aem import MESSAGE, XML  # noqa: E402
+from andoyer.output import read_aem_segments
+from andoyer.output.attitude_types import FIELDS, VERSION_1
 
 pytest.importorskip("astropy")
 
 BOUNDED = settings(max_examples=300, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
-PIECES = [*MESSAGE.split(), "META_START", "META_STOP", "COMMENT x", "Z", "=", "\r", "\t", "\0", "é", "1e400", "-0", "nan", "9" * 40, "T", "XYZ", "UTC", "FIRST", "B2A", "\n"]
+PIECES = [
+    *MESSAGE.split(),
+    "META_START",
+    "META_STOP",
+    "COMMENT x",
+    "Z",
+    "=",
+    "\r",
+    "\t",
+    "\0",
+    "é",
+    "1e400",
+    "-0",
+    "nan",
+    "9" * 40,
+    "T",
+    "XYZ",
+    "UTC",
+    "FIRST",
+    "B2A",
+    "\n",
+]
 NUMBERS = st.one_of(st.floats(allow_nan=True, allow_infinity=True).map(repr), st.integers().map(str), st.sampled_from(["1", "0", "0.5", "-1e-300", "1_0", "٣"]))
 EPOCHS = st.one_of(
     st.datetimes().map(lambda date: date.isoformat()),
@@ -56,7 +77,17 @@ def test_message_with_pieces_changed_is_a_message_or_refused(tmp_path, changes):
 
 
 @BOUNDED
-@given(changes=st.lists(st.tuples(st.integers(0, len(XML)), st.integers(0, 60), st.sampled_from([*PIECES, "<", ">", "/>", "<QC>", "</QC>", "&amp;", "&a;", "<!DOCTYPE a>", "<![CDATA[", "]]>"])), min_size=1, max_size=4))
+@given(
+    changes=st.lists(
+        st.tuples(
+            st.integers(0, len(XML)),
+            st.integers(0, 60),
+            st.sampled_from([*PIECES, "<", ">", "/>", "<QC>", "</QC>", "&amp;", "&a;", "<!DOCTYPE a>", "<![CDATA[", "]]>"]),
+        ),
+        min_size=1,
+        max_size=4,
+    )
+)
 def test_document_with_pieces_changed_is_a_message_or_refused(tmp_path, changes):
     text = XML
     for place, removed, piece in changes:
@@ -65,13 +96,22 @@ def test_document_with_pieces_changed_is_a_message_or_refused(tmp_path, changes)
 
 
 @BOUNDED
-@given(name=st.sampled_from(sorted(FIELDS)), system=st.sampled_from(["UTC", "TAI", "TDB", "TCB", "UT1"]), lines=st.lists(st.tuples(EPOCHS, st.lists(NUMBERS, max_size=9)), max_size=4), data=st.data())
+@given(
+    name=st.sampled_from(sorted(FIELDS)),
+    system=st.sampled_from(["UTC", "TAI", "TDB", "TCB", "UT1"]),
+    lines=st.lists(st.tuples(EPOCHS, st.lists(NUMBERS, max_size=9)), max_size=4),
+    data=st.data(),
+)
 def test_records_of_any_type_are_read_or_refused(tmp_path, name, system, lines, data):
     if data.draw(st.booleans()):  # as many numbers as the type has
         lines = [(epoch, data.draw(st.lists(NUMBERS, min_size=len(FIELDS[name]), max_size=len(FIELDS[name])))) for epoch, _ in lines]
     text = MESSAGE.replace("QUATERNION/ANGVEL", name).replace("= TDB", f"= {system}").replace("INTERPOLATION", "EULER_ROT_SEQ = ZXZ\nINTERPOLATION", 1)
     if name in VERSION_1 and data.draw(st.booleans()):
-        text = text.replace("= 2.0", "= 1.0").replace("MESSAGE_ID = 1\n", "").replace("ANGVEL_FRAME = SC_BODY_1\n", "QUATERNION_TYPE = FIRST\nATTITUDE_DIR = B2A\n")
+        text = (
+            text.replace("= 2.0", "= 1.0")
+            .replace("MESSAGE_ID = 1\n", "")
+            .replace("ANGVEL_FRAME = SC_BODY_1\n", "QUATERNION_TYPE = FIRST\nATTITUDE_DIR = B2A\n")
+        )
     text = text[: text.index("2000-01-01T12:00:00 0")] + "".join(f"{epoch} {' '.join(numbers)}\n" for epoch, numbers in lines) + "DATA_STOP\n"
     read(tmp_path / "x.aem", text.encode())
 

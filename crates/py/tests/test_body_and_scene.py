@@ -6,10 +6,10 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from conftest import REPOSITORY
 
 import andoyer
 from andoyer import Body, Scene
-from conftest import REPOSITORY
 
 ATTITUDE, RATES = [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0]
 NAN, INF = math.nan, math.inf
@@ -57,7 +57,7 @@ def test_catalogue_and_scene_of_a_body_have_the_same_moments(name):
 
 def test_repr_can_be_pasted_back(scene):
     names = vars(andoyer)
-    for body in [Body([0.1, 0.2, 0.25]), Body([1e-300, 2e-300, 2e-300], name="it's \"é\"")]:
+    for body in [Body([0.1, 0.2, 0.25]), Body([1e-300, 2e-300, 2e-300], name='it\'s "é"')]:
         assert eval(repr(body), dict(names)) == body
     assert eval(repr(scene), dict(names)) == scene
     other = Scene(scene.body, scene.attitude, RATES, order=3, span=[0, 5], method="series", source="a 'book'")

@@ -5,9 +5,9 @@ import math
 
 import numpy as np
 import pytest
+from conftest import REPOSITORY
 
 from andoyer import Body
-from conftest import REPOSITORY
 
 
 def rows(name):

@@ -159,7 +159,10 @@ BAD_LINES = {
     "no date": (["propagate", "SCENE", "-o", "out.aem", "--date", "noon"], "--date: must be a date like .*: got 'noon'"),
     "date in a zone": (["propagate", "SCENE", "-o", "out.aem", "--date", "2026-01-01T00:00:00+01:00"], "--date.*without a zone"),
     "unknown time system": (["propagate", "SCENE", "-o", "out.aem", "--time-system", "UT1"], "--time-system.*UT1"),
-    "Z beside a time system": (["propagate", "SCENE", "-o", "out.aem", "--date", "2026-01-01T00:00:00Z", "--time-system", "TT"], "--date: Z is UTC, but --time-system is TT"),
+    "Z beside a time system": (
+        ["propagate", "SCENE", "-o", "out.aem", "--date", "2026-01-01T00:00:00Z", "--time-system", "TT"],
+        "--date: Z is UTC, but --time-system is TT",
+    ),
     "UTC of old": (["propagate", "SCENE", "-o", "out.aem", "--date", "1969-01-01T00:00:00Z"], "whole leap seconds from 1972-01-01 on"),
     "steps of a kernel": (["propagate", "SCENE", "-o", "out.bc", "--step", "1"], "--step: a .bc chooses its times itself"),
     "clock of a message": (["propagate", "SCENE", "-o", "out.aem", "--clock", "x.tsc"], "--clock: goes with a .bc alone, not with out.aem"),

@@ -1,6 +1,7 @@
 """Many processes: the chunk plan of examples/cluster.py, the same bits as one process, and a worker that is killed at its work."""
 
 import hashlib
+import itertools
 import os
 import signal
 import subprocess
@@ -54,7 +55,7 @@ def test_plan_of_a_million_bodies_covers_each_once(tmp_path):
     cluster.make_catalogue(path, 1_000_000)
     chunks = cluster.plan(path, tmp_path / "result", [0.0])
     assert len(chunks) == 100 and chunks[0].start == 0 and chunks[-1].stop == 1_000_000
-    assert all(one.stop == other.start for one, other in zip(chunks, chunks[1:]))
+    assert all(one.stop == other.start for one, other in itertools.pairwise(chunks))
     assert len({chunk.part for chunk in chunks}) == 100
     assert cluster.lines(chunks[37]).shape == (10_000, 10)
 

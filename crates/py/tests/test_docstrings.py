@@ -3,8 +3,9 @@
 import doctest
 import inspect
 
-import andoyer
 import pytest
+
+import andoyer
 from andoyer import fit, output
 
 NEEDS = {"output.write_ck": "spiceypy"} | dict.fromkeys(("fit.attitudes", "fit.light_curve", "fit.Fit", "fit.Fit.ensemble"), "scipy")
@@ -16,7 +17,9 @@ def documented():
         value = getattr(andoyer, name)
         yield name, value
         if inspect.isclass(value):
-            yield from ((f"{name}.{member}", getattr(value, member)) for member in vars(value) if not member.startswith("_") and getattr(value, member) is not None)
+            yield from (
+                (f"{name}.{member}", getattr(value, member)) for member in vars(value) if not member.startswith("_") and getattr(value, member) is not None
+            )
     for name in fit.__all__:
         yield f"fit.{name}", getattr(fit, name)
     yield from ((f"fit.Fit.{member}", value) for member, value in vars(fit.Fit).items() if not member.startswith("_") and callable(value))
@@ -37,5 +40,18 @@ def test_example_of_the_docstring_holds(name, tmp_path, monkeypatch):
 
 
 def test_every_class_has_an_example_and_everything_public_a_docstring():
-    assert set(EXAMPLES) >= {"andoyer", "Body", "Orbit", "Scene", "Motion", "Plan", "Samples", "Ensemble", "NormalForm", "BirkhoffNormalForm", "normalize", "separatrix_action"}
+    assert set(EXAMPLES) >= {
+        "andoyer",
+        "Body",
+        "Orbit",
+        "Scene",
+        "Motion",
+        "Plan",
+        "Samples",
+        "Ensemble",
+        "NormalForm",
+        "BirkhoffNormalForm",
+        "normalize",
+        "separatrix_action",
+    }
     assert not [name for name, value in documented() if name != "__version__" and not inspect.getdoc(value)]

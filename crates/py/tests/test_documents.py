@@ -5,10 +5,10 @@ import re
 
 import numpy as np
 import pytest
+from conftest import REPOSITORY
 
 import andoyer
 from andoyer.cli import COLUMNS, main
-from conftest import REPOSITORY
 
 TEXT = (REPOSITORY / "docs/scene.md").read_text(encoding="utf-8")
 EXAMPLE = re.search(r"```toml\n(.*?)```", TEXT, re.DOTALL)[1]
@@ -45,7 +45,7 @@ def known(path, line):
     path.write_text(text.replace(line, f"{line}\ncolour = 1") if line else f"colour = 1\n{EXAMPLE}", encoding="utf-8")
     with pytest.raises(andoyer.FileError, match="colour") as caught:
         andoyer.Scene.from_toml(path)
-    return re.findall("`([a-z_]+)`", str(caught.value).partition("expected one of")[2])
+    return re.findall("`([a-z_]+)`", str(caught.value).partition("expected ")[2])
 
 
 def test_table_has_every_key_and_no_other(example):

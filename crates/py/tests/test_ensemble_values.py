@@ -1,10 +1,11 @@
 """Periods, energies, momenta, Andoyer variables, rotations and derivatives of ensembles: the bits of the members' own motions."""
 
-import andoyer
 import numpy as np
 import pytest
-from andoyer import Ensemble, Motion, Orbit, Partials
 from test_ensemble import MEMBERS, random_members, single
+
+import andoyer
+from andoyer import Ensemble, Motion, Orbit, Partials
 
 TIMES = [-10.0, 0.0, 3.5, 1e6]
 CONVENTIONS = ["long-axis", "short-axis", "extremal-axis"]

@@ -159,7 +159,7 @@ def test_letter_as_a_frequency_is_refused_with_what_to_do():
     assert form.in_actions()[1, 1] == 1 and form.in_actions()[1, 0] == 2
     # K = w I + (3/2) I²/w² + …: (3/2)/(2 + d)² = 3/8 − 3/8 d + …
     assert form.in_actions()[2, 0] == pytest.approx(3 / 8) and form.in_actions()[2, 1] == pytest.approx(-3 / 8)
-    with pytest.raises(andoyer.InputError, match="degrees: \"e\" is not a parameter"):
+    with pytest.raises(andoyer.InputError, match='degrees: "e" is not a parameter'):
         normalize("x^2 + X^2", 2, [("x", "X")], parameters=["d"], degrees={"e": 1})
 
 

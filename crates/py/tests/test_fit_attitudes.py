@@ -1,15 +1,17 @@
 """Fits of attitudes: the known answer within the covariance, derivatives against differences, what data do not determine, what is refused."""
 
-import andoyer
 import numpy as np
 import pytest
+
+import andoyer
 from andoyer import Body, Orbit, Scene
 
 pytest.importorskip("scipy")
-from andoyer import fit
-from andoyer.fit import _attitudes, _rotations
 from scipy.optimize import approx_fprime
 from scipy.spatial.transform import Rotation
+
+from andoyer import fit
+from andoyer.fit import _attitudes, _rotations
 
 TIMES = np.linspace(0, 50, 100)
 TRUTH = Scene(Body([1.0, 1.5, 2.0]), [0.1, -0.2, 0.3, np.sqrt(0.86)], [0.1, 0.2, 1.0])

@@ -1,8 +1,9 @@
 """Fits of light curves: a known answer from starts that know nothing of it, in either mode; derivatives; what is refused."""
 
-import andoyer
 import numpy as np
 import pytest
+
+import andoyer
 from andoyer import Body, Scene
 
 pytest.importorskip("scipy")

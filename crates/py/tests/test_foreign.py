@@ -62,7 +62,9 @@ def test_scalar_first_is_a_keyword_alone(motion):
 def test_quantities_are_taken_in_si_units(body):
     day = 86400.0
     rates = [0.0, 0.001, 360.0] * units.deg / units.day
-    scene = andoyer.Scene(andoyer.Body([1.0, 1.5, 2.0] * units.g * units.km**2), QUATERNION, rates, epoch=2 * units.day, span=[0, 1] * units.h, tolerance=1 * units.mas)
+    scene = andoyer.Scene(
+        andoyer.Body([1.0, 1.5, 2.0] * units.g * units.km**2), QUATERNION, rates, epoch=2 * units.day, span=[0, 1] * units.h, tolerance=1 * units.mas
+    )
     assert np.allclose(scene.body.moments, [1e3, 1.5e3, 2e3], rtol=1e-15)
     assert scene.angular_velocity[2] == pytest.approx(2 * math.pi / day, rel=1e-15)
     assert (scene.epoch, scene.span) == (2 * day, (0.0, 3600.0))
@@ -106,7 +108,7 @@ def test_samples_are_a_table_of_pandas(motion):
     pandas = pytest.importorskip("pandas")
     samples = motion.at([0.0, 1.0, 2.5])
     table = samples.to_pandas()
-    assert list(table.columns) == "qx qy qz qw wx wy wz".split() and list(table.index) == [0.0, 1.0, 2.5] and table.index.name == "t"
+    assert list(table.columns) == ["qx", "qy", "qz", "qw", "wx", "wy", "wz"] and list(table.index) == [0.0, 1.0, 2.5] and table.index.name == "t"
     assert np.array_equal(table[["qx", "qy", "qz", "qw"]], samples.attitude) and np.array_equal(table[["wx", "wy", "wz"]], samples.angular_velocity)
     assert list(motion.at([0.0], scalar_first=True).to_pandas().columns)[:4] == ["qw", "qx", "qy", "qz"]
     assert len(motion.at(1.0).to_pandas()) == 1

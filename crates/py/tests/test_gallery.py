@@ -6,7 +6,6 @@ import subprocess
 import sys
 
 import pytest
-
 from conftest import REPOSITORY
 
 pytest.importorskip("matplotlib")
@@ -15,7 +14,21 @@ PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
 
 
 def test_there_are_the_thirteen_of_them():
-    assert [path.stem.split("_", 2)[2] for path in SCRIPTS] == ["earth_wobble", "eros_separatrix", "apophis", "box_satellite", "normal_form", "ensemble", "kernel", "libration_points", "periods", "toutatis_fit", "light_curve", "satellite_month", "librations"]
+    assert [path.stem.split("_", 2)[2] for path in SCRIPTS] == [
+        "earth_wobble",
+        "eros_separatrix",
+        "apophis",
+        "box_satellite",
+        "normal_form",
+        "ensemble",
+        "kernel",
+        "libration_points",
+        "periods",
+        "toutatis_fit",
+        "light_curve",
+        "satellite_month",
+        "librations",
+    ]
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)

@@ -6,11 +6,10 @@ import pickle
 
 import numpy as np
 import pytest
+from conftest import REPOSITORY
 
 import andoyer
 from andoyer import Body, Orbit, Scene, TabulatedOrbit
-
-from conftest import REPOSITORY
 
 EARTH = {"gm": 3.986004415e14, "j2": 1.08262668e-3, "radius": 6378136.3}
 ATTITUDE = [0.1, -0.2, 0.3, 0.9273618495495703]
@@ -29,7 +28,12 @@ SCENES = {
     "slow": ([0.5, 0.8, 1.0], [0.01, 0.02, 0.03], Orbit(1.0, 0.1, **TILTED), 10.0),
     "synchronous": ([0.7, 0.85, 1.0], [0.01, 0.02, 1.0], Orbit(1.0, 0.05), 20.0),
     "eccentric": ([0.5, 0.8, 1.0], [1.0, 2.0, 3.0], Orbit(1.0, 0.9, time_of_pericentre=1.0, **TILTED), 6.0),
-    "precessing": ([0.5, 0.8, 1.0], [1.0, 2.0, 3.0], Orbit(1.0, 0.2, node_rate=-0.1, pericentre_rate=0.2, attraction=0.5, time_of_pericentre=-3.0, **TILTED), 8.0),
+    "precessing": (
+        [0.5, 0.8, 1.0],
+        [1.0, 2.0, 3.0],
+        Orbit(1.0, 0.2, node_rate=-0.1, pericentre_rate=0.2, attraction=0.5, time_of_pericentre=-3.0, **TILTED),
+        8.0,
+    ),
     "two bodies": ([0.5, 0.8, 1.0], [0.1, 2.0, 3.0], [Orbit(1.0, 0.2, **TILTED), Orbit(0.3, 0.0, mass_fraction=0.5)], 8.0),
     "at rest": ([0.5, 0.8, 1.0], [0, 0, 0], Orbit(1.0, 0.2, **TILTED), 8.0),
     "B = C": ([0.5, 1.0, 1.0], [0.1, 0.2, 3.0], Orbit(1.0, 0.2, **TILTED), 8.0),
@@ -59,7 +63,9 @@ def test_thousands_of_rotations_are_those_of_the_reference_within_the_bound(case
     elements, states = case["orbit"], case["states"]
     orbit = Orbit(elements["mean_motion"], elements["eccentricity"], argument_of_pericentre=elements["pericentre_longitude"])
     times = [state["t"] for state in states]
-    scene = Scene(Body(case["moments"]), case["attitude0_xyzw"], case["angular_velocity0"], orbit=orbit, span=(0, times[-1]), tolerance=1e-9, method="integrated")
+    scene = Scene(
+        Body(case["moments"]), case["attitude0_xyzw"], case["angular_velocity0"], orbit=orbit, span=(0, times[-1]), tolerance=1e-9, method="integrated"
+    )
     motion = scene.solve()
     error = angle(motion.attitude(times), [[float(x) for x in state["attitude_xyzw"]] for state in states]).max()
     assert error < motion.plan.error_bound <= 1e-9

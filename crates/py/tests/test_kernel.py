@@ -1,12 +1,12 @@
 """C-kernels: what SPICE reads of them is the motion within the angle that was asked for, of every kind of motion."""
 
+import itertools
 from datetime import datetime
 
 import numpy as np
 import pytest
 
 import andoyer
-
 from andoyer._quaternions import angle_between, rotate
 from andoyer.cli import main
 from andoyer.output import Kernel, write_ck
@@ -143,7 +143,7 @@ def test_windows_make_segments_without_a_gap(tmp_path, loaded, monkeypatch):
         segments.append(spice.dafus(spice.dafgs(), 2, 6)[0])
     spice.dafcls(handle)
     assert len(segments) > 2 and segments[0][0] == 0.0 and segments[-1][1] == 1000.0
-    assert all(before[1] == after[0] for before, after in zip(segments, segments[1:]))
+    assert all(before[1] == after[0] for before, after in itertools.pairwise(segments))
     loaded(path, path.with_suffix(".tsc"))
     times = np.linspace(0, 1000, 400)
     assert angle_between(read(times)[0], motion.attitude(times)).max() < 1e-2 and written.records > 1000
@@ -198,7 +198,11 @@ BAD = {
     "not finite": ((0.0, float("nan")), {}, "interval must be two finite times"),
     "too small an error": ((0.0, 1.0), {"interpolation_error": 1e-14}, "at least 1e-13 rad: got 1e-14"),
     "too many records": ((0.0, 1e9), {"interpolation_error": 1e-12}, r"needs about \d+ records over this interval, more than 50000000"),
-    "records that the clock does not tell apart": ((0.0, 1e-3), {"kernel": Kernel(date=datetime(9000, 1, 1)), "interpolation_error": 1e-13}, "records that the clock tells apart"),
+    "records that the clock does not tell apart": (
+        (0.0, 1e-3),
+        {"kernel": Kernel(date=datetime(9000, 1, 1)), "interpolation_error": 1e-13},
+        "records that the clock tells apart",
+    ),
     "unknown frame": ((0.0, 1.0), {"kernel": Kernel(frame="NOWHERE")}, "frame must be one that SPICE knows.*NOWHERE"),
 }
 

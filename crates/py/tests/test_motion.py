@@ -5,11 +5,11 @@ import re
 
 import numpy as np
 import pytest
+from conftest import REFERENCE
+from torque_free import TorqueFree
 
 import andoyer
 from andoyer import Body, Scene
-from conftest import REFERENCE
-from torque_free import TorqueFree
 
 METHODS = {"attitude": 4, "angular_velocity": 3, "angular_momentum": 3, "andoyer": 6}
 

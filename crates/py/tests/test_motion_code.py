@@ -55,8 +55,14 @@ def test_command_writes_what_the_method_returns(scene_file, tmp_path, language, 
 
 
 REFUSED = {
-    "an ending that says no language": (["-o", "rotation.txt"], "argument -o/--output: rotation.txt: the name must end in .c, .rs, .py, .js, or --language must be given"),
-    "an ending of another language": (["-o", "rotation.c", "--language", "rust"], "argument --language: rust does not go with the name rotation.c, which says c"),
+    "an ending that says no language": (
+        ["-o", "rotation.txt"],
+        "argument -o/--output: rotation.txt: the name must end in .c, .rs, .py, .js, or --language must be given",
+    ),
+    "an ending of another language": (
+        ["-o", "rotation.c", "--language", "rust"],
+        "argument --language: rust does not go with the name rotation.c, which says c",
+    ),
 }
 
 
@@ -66,7 +72,9 @@ def test_command_refuses_in_one_line(scene_file, arguments, message, capfd):
     assert capfd.readouterr().err == f"andoyer: error: {message}\n"
 
 
-@pytest.mark.parametrize("rates, options, motion", [([1e-9, 1.0, 1e-9], {}, "a passage along the separatrix"), ([0.01, 0.02, 1.0], DISTURBED, "a motion under a torque")])
+@pytest.mark.parametrize(
+    "rates, options, motion", [([1e-9, 1.0, 1e-9], {}, "a passage along the separatrix"), ([0.01, 0.02, 1.0], DISTURBED, "a motion under a torque")]
+)
 def test_motion_without_code_is_an_error_that_says_what_has(body, rates, options, motion, tmp_path, capfd):
     scene = andoyer.Scene(body, [0, 0, 0, 1], rates, **options)
     with pytest.raises(andoyer.RepresentationError, match=motion) as caught:

@@ -56,7 +56,12 @@ def test_old_names_of_errors_are_aliases_that_help_does_not_print():
     assert andoyer.SceneFileError is andoyer.FileError and andoyer.UnitsError is andoyer.RepresentationError
     # Old classes that held errors of several new ones.
     assert {name for name in aliases() if getattr(andoyer, name) is andoyer.Error} == {
-        "AveragingError", "HamiltonianError", "OrderError", "ResonanceError", "SeriesError", "TimesError",
+        "AveragingError",
+        "HamiltonianError",
+        "OrderError",
+        "ResonanceError",
+        "SeriesError",
+        "TimesError",
     }
     assert not [name for name in aliases() if name in pydoc.render_doc(andoyer, renderer=pydoc.plaintext)]
 
@@ -130,10 +135,7 @@ def callables():
 
 @pytest.mark.parametrize("node, function", list(callables()))
 def test_stub_has_the_parameters_of_the_function(node, function):
-    runtime = [
-        (p.name, p.kind is p.KEYWORD_ONLY, None if p.default is p.empty else p.default)
-        for p in inspect.signature(function).parameters.values()
-    ]
+    runtime = [(p.name, p.kind is p.KEYWORD_ONLY, None if p.default is p.empty else p.default) for p in inspect.signature(function).parameters.values()]
     positional, keyword = node.args.args, node.args.kwonlyargs
     defaults = [None] * (len(positional) - len(node.args.defaults)) + node.args.defaults + node.args.kw_defaults
     stub = [

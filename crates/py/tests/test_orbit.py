@@ -6,11 +6,11 @@ import pickle
 
 import numpy as np
 import pytest
+from conftest import REPOSITORY
+from gravity_gradient import GravityGradient
 
 import andoyer
 from andoyer import Body, Orbit, Scene
-from conftest import REPOSITORY
-from gravity_gradient import GravityGradient
 
 NAN, INF = math.nan, math.inf
 ELEMENTS = ["mean_motion", "eccentricity", "time_of_pericentre", "inclination", "node", "argument_of_pericentre", "mass_fraction"]

@@ -14,8 +14,8 @@ from andoyer.output import COLUMNS, CONVENTION
 from andoyer.output.calendar import count, written
 
 TIMES = ["--start", "-3.5", "--stop", "7.25", "--samples", "44"]
-MANDATORY = "OBJECT_NAME OBJECT_ID REF_FRAME_A REF_FRAME_B TIME_SYSTEM START_TIME STOP_TIME ATTITUDE_TYPE".split()
-OPTIONAL = "CENTER_NAME USEABLE_START_TIME USEABLE_STOP_TIME EULER_ROT_SEQ ANGVEL_FRAME INTERPOLATION_METHOD INTERPOLATION_DEGREE".split()
+MANDATORY = ["OBJECT_NAME", "OBJECT_ID", "REF_FRAME_A", "REF_FRAME_B", "TIME_SYSTEM", "START_TIME", "STOP_TIME", "ATTITUDE_TYPE"]
+OPTIONAL = ["CENTER_NAME", "USEABLE_START_TIME", "USEABLE_STOP_TIME", "EULER_ROT_SEQ", "ANGVEL_FRAME", "INTERPOLATION_METHOD", "INTERPOLATION_DEGREE"]
 
 
 @pytest.fixture
@@ -32,7 +32,11 @@ def message(scene_file, tmp_path):
     options = ["--date", "2026-06-30T23:59:59.5", "--time-system", "TT", "--frame", "EME2000"]
     assert main(["propagate", str(scene_file), "-o", str(output), *TIMES, *options]) == 0
     lines = output.read_text(encoding="ascii").splitlines()
-    header, metadata, data = lines[: lines.index("META_START")], lines[lines.index("META_START") + 1 : lines.index("META_STOP")], lines[lines.index("META_STOP") + 1 :]
+    header, metadata, data = (
+        lines[: lines.index("META_START")],
+        lines[lines.index("META_START") + 1 : lines.index("META_STOP")],
+        lines[lines.index("META_STOP") + 1 :],
+    )
     assert header[0] == "CCSDS_AEM_VERS = 2.0" and [line.split(" = ")[0] for line in header[1:]] == ["CREATION_DATE", "ORIGINATOR"]
     assert data[0] == "DATA_START" and data[-1] == "DATA_STOP" and max(map(len, lines)) <= 254
     pairs = [line.split(" = ", 1) for line in metadata if not line.startswith("COMMENT ")]

@@ -8,12 +8,12 @@ import subprocess
 
 import numpy as np
 import pytest
+from conftest import REPOSITORY
 
 import andoyer
 from andoyer._page import MOST_NODES, NODES, evaluator, page
 from andoyer._quaternions import angle_between, rotate
 from andoyer.cli import main
-from conftest import REPOSITORY
 
 BODY = andoyer.Body([1.0, 1.5, 2.0])
 DISTURBED = {"orbit": andoyer.Orbit(1e-3, 0.1, inclination=0.5), "tolerance": 1e-3, "span": (0.0, 1000.0)}

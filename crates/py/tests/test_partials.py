@@ -5,10 +5,10 @@ import pickle
 
 import numpy as np
 import pytest
+from conftest import REPOSITORY
 
 import andoyer
 from andoyer import Body, Scene
-from conftest import REPOSITORY
 
 CASES = {case["name"]: case for case in json.loads((REPOSITORY / "tests/data/partials.json").read_text(encoding="utf-8"))}
 

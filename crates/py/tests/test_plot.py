@@ -1,6 +1,7 @@
 """Pictures: each is rendered, labelled with units, inside its figure, and shows the motion that it is given."""
 
 import importlib.util
+import itertools
 import re
 from datetime import datetime
 
@@ -11,13 +12,13 @@ matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402
+from conftest import REPOSITORY  # noqa: E402
 from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
 
 import andoyer  # noqa: E402
 from andoyer import output, plot  # noqa: E402
 from andoyer.cli import main  # noqa: E402
 from andoyer.output.rows import samples_of  # noqa: E402
-from conftest import REPOSITORY  # noqa: E402
 
 Rotation = pytest.importorskip("scipy.spatial.transform").Rotation
 
@@ -112,7 +113,7 @@ def test_diagram_is_drawn_into_its_axes_with_labels_and_nothing_cut_off(scene, d
 def test_error_by_order_falls_as_the_theory_says(scene):
     series, line, _ = plot.error_by_order(scene, orders=range(0, 7, 2)).lines
     errors = series.get_ydata()
-    assert all(later < earlier for earlier, later in zip(errors, errors[1:]))
+    assert all(later < earlier for earlier, later in itertools.pairwise(errors))
     # Over twenty rotations the frequencies' error adds up to at most 2π·20 times that of the harmonics.
     assert np.all(errors < 130 * line.get_ydata()) and errors[0] > 1e-4
 

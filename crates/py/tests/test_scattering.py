@@ -1,8 +1,9 @@
 """Brightness of an ellipsoid in closed form against sums over its surface, and the derivatives against differences."""
 
-import andoyer
 import numpy as np
 import pytest
+
+import andoyer
 from andoyer import fit
 from andoyer.fit import _scattering
 

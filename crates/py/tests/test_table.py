@@ -35,7 +35,9 @@ def test_scene_and_units_are_kept(motion, tmp_path, ending):
     getattr(output, f"write_{ending}")(path, motion.at(TIMES), scene=motion.scene)
     table = read_table(path)
     assert table.scene == motion.scene
-    assert table.units == {"t": "unit of time of the scene", "qx": "1", "qy": "1", "qz": "1", "qw": "1"} | dict.fromkeys(["wx", "wy", "wz"], "rad per unit of time of the scene")
+    assert table.units == {"t": "unit of time of the scene", "qx": "1", "qy": "1", "qz": "1", "qw": "1"} | dict.fromkeys(
+        ["wx", "wy", "wz"], "rad per unit of time of the scene"
+    )
 
 
 @pytest.mark.parametrize("ending", ["npz", "parquet"])
@@ -59,7 +61,9 @@ def test_calendar_times_come_back_as_they_were_given(body, tmp_path, ending, sca
 
 def test_columns_are_found_by_their_names(motion, tmp_path):
     samples = motion.at(TIMES)
-    columns = dict(zip("t,qx,qy,qz,qw,wx,wy,wz".split(","), np.column_stack([TIMES, samples.attitude, samples.angular_velocity]).T)) | {"other": TIMES}
+    columns = dict(zip(["t", "qx", "qy", "qz", "qw", "wx", "wy", "wz"], np.column_stack([TIMES, samples.attitude, samples.angular_velocity]).T)) | {
+        "other": TIMES
+    }
     names = ["wz", "qw", "other", "qx", "qy", "t", "qz", "wx", "wy"]
     path = tmp_path / "turned.csv"
     np.savetxt(path, np.column_stack([columns[name] for name in names]), fmt="%.17g", delimiter=",", header=",".join(names), comments="")

@@ -5,12 +5,14 @@ from datetime import datetime
 
 import numpy as np
 import pytest
-from andoyer import Body, Scene
 from conftest import REPOSITORY
 
+from andoyer import Body, Scene
+
 pytest.importorskip("scipy")
-from andoyer import fit
 from scipy.spatial.transform import Rotation
+
+from andoyer import fit
 
 
 @pytest.fixture(scope="module")

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from conftest import REPOSITORY
 
 import andoyer
 from andoyer.cli import main
-from conftest import REPOSITORY
 
 HOUR, DAY = 3600.0, 86400.0
 APOPHIS = REPOSITORY / "examples/scenes/apophis.toml"

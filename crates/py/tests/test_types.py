@@ -9,7 +9,7 @@ import pytest
 
 pytest.importorskip("mypy")
 
-from conftest import REPOSITORY  # noqa: E402
+from conftest import REPOSITORY
 
 # Packages without types of their own; dask's and distributed's functions are untyped.
 SETTINGS = """
@@ -32,8 +32,20 @@ def run(folder, *arguments):
 def test_stub_is_what_the_module_is(tmp_path):
     # PyO3's classes cannot be subclassed, have no signature of __new__ that inspect sees, and pickle by methods that no stub lists.
     allowed = tmp_path / "allowed"
-    allowed.write_text(r"andoyer\._core\.\w+\._restored" + "\n" + r"andoyer\._core\.\w+\.__reduce__" + "\n" + r"andoyer\._core\.__all__" + "\n" + r"andoyer\._core\._panic" + "\n", encoding="utf-8")
-    done = run(tmp_path, "mypy.stubtest", "andoyer._core", "--concise", "--allowlist", str(allowed), "--ignore-unused-allowlist", "--mypy-config-file", "mypy.ini")
+    allowed.write_text(
+        r"andoyer\._core\.\w+\._restored"
+        + "\n"
+        + r"andoyer\._core\.\w+\.__reduce__"
+        + "\n"
+        + r"andoyer\._core\.__all__"
+        + "\n"
+        + r"andoyer\._core\._panic"
+        + "\n",
+        encoding="utf-8",
+    )
+    done = run(
+        tmp_path, "mypy.stubtest", "andoyer._core", "--concise", "--allowlist", str(allowed), "--ignore-unused-allowlist", "--mypy-config-file", "mypy.ini"
+    )
     assert done.returncode == 0, done.stdout + done.stderr
 
 

@@ -38,7 +38,9 @@ def count(text: str) -> int:
 
 def date(text: str) -> datetime:
     """A calendar date without a zone, or with Z for UTC."""
-    return checked(text, datetime.fromisoformat, lambda value: value.utcoffset() in (None, timedelta()), "a date like 2000-01-01T12:00:00, without a zone but Z for UTC")
+    return checked(
+        text, datetime.fromisoformat, lambda value: value.utcoffset() in (None, timedelta()), "a date like 2000-01-01T12:00:00, without a zone but Z for UTC"
+    )
 
 
 def word(text: str) -> str:

@@ -555,6 +555,7 @@ class CassiniState:
 
 def cassini_states(body: Body, orbit: Orbit, spin_rate: float) -> list[CassiniState]:
     """The Cassini states of a body: places of its pole that turn with the node of a precessing orbit (theory, section 9)."""
+
 def separatrix_action(beta: float) -> float:
     """The action σ_sep(β) = (2/π) atan √((1−β)/2β) of the separatrix, in units of M. It is the radius of convergence of the series (theory §5)."""
 

@@ -139,7 +139,7 @@ def axes_or_new(axes: "Axes | None") -> "Axes":
     if axes is not None:
         return axes
     plt: Any = extra("matplotlib.pyplot", "andoyer.plot")
-    new: "Axes" = plt.subplots(layout="constrained")[1]
+    new: Axes = plt.subplots(layout="constrained")[1]
     return new
 
 

@@ -47,7 +47,7 @@ def film(motion: Motion, times: Array, interval: float) -> "FuncAnimation":
         clock.set_text(f"t = {times[frame]:.6g}")
         return [*lines, rate, herpolhode, polhode, clock]
 
-    made: "FuncAnimation" = animation.FuncAnimation(figure, show, frames=len(times), interval=interval, blit=False)
+    made: FuncAnimation = animation.FuncAnimation(figure, show, frames=len(times), interval=interval, blit=False)
     plt.close(figure)
     return made
 

@@ -128,7 +128,9 @@ def since(argument: str, value: Any, first: list[float], second: list[float]) ->
     if isinstance(value, sys.modules["astropy.time"].TimeDelta):
         return np.asarray(value.jd1 * DAY + value.jd2 * DAY, dtype=float), value, value.shape
     if not first:
-        error = InputError(f"{argument} is a calendar time, and the epoch of the state is a number: give the epoch as a Time too, or a TimeDelta from the epoch")
+        error = InputError(
+            f"{argument} is a calendar time, and the epoch of the state is a number: give the epoch as a Time too, or a TimeDelta from the epoch"
+        )
         error.argument, error.value, error.bound = argument, value, "numbers or a TimeDelta"
         raise error
     moment, epoch = value.tdb, calendar(first, second)

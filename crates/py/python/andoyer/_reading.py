@@ -17,7 +17,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
     group = command.add_argument_group(f"a file of attitudes ({', '.join(ATTITUDE_FILES)}) in the place of SCENE")
     group.add_argument("--against", metavar="SCENE", help="scene file whose motion it is compared with: the angle between them over time")
     group.add_argument("--segment", type=int, metavar="N", help="segment of an AEM, from 0; needed where it has several")
-    group.add_argument("--date", type=date, metavar="DATE", help="calendar date of time 0 of the scene, in the time system of an AEM (default: 2000-01-01T12:00:00 TDB)")
+    group.add_argument(
+        "--date", type=date, metavar="DATE", help="calendar date of time 0 of the scene, in the time system of an AEM (default: 2000-01-01T12:00:00 TDB)"
+    )
 
 
 def is_attitude_file(path: str) -> bool:

@@ -40,7 +40,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
     message.add_argument("--object-id", type=words, metavar="ID", help=f"identifier of the object, such as 2000-052A (default: {default.object_id})")
     message.add_argument("--originator", type=words, metavar="NAME", help=f"who writes the message (default: {default.originator})")
     message.add_argument("--center", type=words, metavar="NAME", help="body that the object orbits (default: none is named)")
-    message.add_argument("--attitude-type", type=str.upper, choices=FROM_SAMPLES, metavar="TYPE", help=f"{', '.join(FROM_SAMPLES)} (default: QUATERNION/ANGVEL)")
+    message.add_argument(
+        "--attitude-type", type=str.upper, choices=FROM_SAMPLES, metavar="TYPE", help=f"{', '.join(FROM_SAMPLES)} (default: QUATERNION/ANGVEL)"
+    )
     message.add_argument("--interpolation", type=interpolation, metavar="METHOD:DEGREE", help="recommended interpolation, such as HERMITE:3 (default: none)")
     message.add_argument("--aem-version", dest="version", type=int, choices=[1, 2], metavar="N", help="version of the message, 1 or 2 (default: 2)")
     kernel = command.add_argument_group("a .bc, which chooses its times itself; beside it a .tsc is written")

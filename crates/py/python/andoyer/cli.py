@@ -112,17 +112,25 @@ def examples(said: str, *lines: str) -> dict[str, Any]:
 
 def parser() -> Parser:
     """The parser of the command line."""
-    top = Parser(prog="andoyer", description="Attitude of rigid bodies, free and under gravity gradient, in closed form; exact perturbation series.", **examples("", *EXAMPLES.values()))
+    top = Parser(
+        prog="andoyer",
+        description="Attitude of rigid bodies, free and under gravity gradient, in closed form; exact perturbation series.",
+        **examples("", *EXAMPLES.values()),
+    )
     top.add_argument("--version", action="version", version=f"andoyer {andoyer.__version__}")
     commands = top.add_subparsers(title="commands", metavar="COMMAND")
     top.set_defaults(run=None)
 
     writes = "write attitude and angular velocity at equal steps of time"
-    command = commands.add_parser("propagate", help=writes, description=f"{writes.capitalize()}.", **examples(f"Columns {COLUMNS}: {CONVENTION}.", EXAMPLES["propagate"]))
+    command = commands.add_parser(
+        "propagate", help=writes, description=f"{writes.capitalize()}.", **examples(f"Columns {COLUMNS}: {CONVENTION}.", EXAMPLES["propagate"])
+    )
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
     command.add_argument("-o", "--output", metavar="FILE", required=True, help=f"file to write; its ending chooses the format: {ENDINGS}; - is CSV on stdout")
     command.add_argument("--start", type=number, metavar="T", help="first time (default: start of the scene's span, or its epoch)")
-    command.add_argument("--stop", type=number, metavar="T", help=f"last time (default: end of the scene's span, or {ROTATIONS} rotations after the first time)")
+    command.add_argument(
+        "--stop", type=number, metavar="T", help=f"last time (default: end of the scene's span, or {ROTATIONS} rotations after the first time)"
+    )
     spacing = command.add_mutually_exclusive_group()
     spacing.add_argument("--samples", type=count, metavar="N", help=f"number of times, the last one included (default: {SAMPLES})")
     spacing.add_argument("--step", type=step, metavar="DT", help="time between samples")
@@ -133,7 +141,9 @@ def parser() -> Parser:
     pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole"
     command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML), or a file of attitudes")
-    command.add_argument("-o", "--output", metavar="FILE", required=True, help="file to write; its ending chooses the format: .png, .svg, .pdf, or .html for an animated page")
+    command.add_argument(
+        "-o", "--output", metavar="FILE", required=True, help="file to write; its ending chooses the format: .png, .svg, .pdf, or .html for an animated page"
+    )
     command.add_argument("--force", action="store_true", help="replace an existing file")
     reading.add_options(command)
     strictly(command)
@@ -142,8 +152,12 @@ def parser() -> Parser:
     writes = "write a function in C, Rust, Python or JavaScript that evaluates a motion and needs only its language"
     command = commands.add_parser("code", help=writes, description=f"{writes.capitalize()}.", **examples("", EXAMPLES["code"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
-    command.add_argument("-o", "--output", metavar="FILE", default="-", help=f"file to write; its ending chooses the language: {', '.join(CODES)} (default: -, stdout)")
-    command.add_argument("--language", choices=list(CODES.values()), metavar="LANGUAGE", help=f"{', '.join(CODES.values())} (default: by the ending of FILE, or c)")
+    command.add_argument(
+        "-o", "--output", metavar="FILE", default="-", help=f"file to write; its ending chooses the language: {', '.join(CODES)} (default: -, stdout)"
+    )
+    command.add_argument(
+        "--language", choices=list(CODES.values()), metavar="LANGUAGE", help=f"{', '.join(CODES.values())} (default: by the ending of FILE, or c)"
+    )
     command.add_argument("--force", action="store_true", help="replace an existing file")
     strictly(command)
     command.set_defaults(run=code)
@@ -156,7 +170,9 @@ def parser() -> Parser:
     command = commands.add_parser("bodies", help="print the catalogue of bodies, each with its source", **examples("", EXAMPLES["bodies"]))
     command.set_defaults(run=bodies)
 
-    command = commands.add_parser("series", help="print the triaxiality polynomials P_0 ... P_N, or the normal form as JSON, LaTeX or source code", **examples("", EXAMPLES["series"]))
+    command = commands.add_parser(
+        "series", help="print the triaxiality polynomials P_0 ... P_N, or the normal form as JSON, LaTeX or source code", **examples("", EXAMPLES["series"])
+    )
     command.add_argument("--order", type=whole, required=True, metavar="N", help="order of the normal form")
     forms = ["text", "json", "latex", *LANGUAGES]
     command.add_argument("--to", choices=forms, default="text", metavar="FORM", help=f"output format: {', '.join(forms)} (default: text)")

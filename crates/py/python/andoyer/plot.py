@@ -11,10 +11,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from andoyer._compared import clock as _clock, components, difference, sampled_rates
+from andoyer._compared import clock as _clock
+from andoyer._compared import components, difference, sampled_rates
 from andoyer._core import Motion, Orbit, Samples
-from andoyer._diagrams import axes_or_new as _axes, domain, error_by_order, work_precision
-from andoyer._drawing import near_pole, on_ellipsoid, plane, surface as draw_surface
+from andoyer._diagrams import axes_or_new as _axes
+from andoyer._diagrams import domain, error_by_order, work_precision
+from andoyer._drawing import near_pole, on_ellipsoid, plane
+from andoyer._drawing import surface as draw_surface
 from andoyer._extra import extra
 from andoyer._film import film
 from andoyer._page import page
@@ -35,7 +38,26 @@ STEADY = 1e-11
 TURNS, SAMPLES = 3, 3000
 """Periods of the polhode that are drawn if no times are given, and how many times."""
 
-__all__ = ["angles", "animate", "components", "difference", "domain", "error_by_order", "nutation", "page", "phase_portrait", "polhode", "polhode_near_pole", "pole_path", "rates", "sampled_rates", "samples_summary", "summary", "whole_turns", "work_precision"]
+__all__ = [
+    "angles",
+    "animate",
+    "components",
+    "difference",
+    "domain",
+    "error_by_order",
+    "nutation",
+    "page",
+    "phase_portrait",
+    "pole_path",
+    "polhode",
+    "polhode_near_pole",
+    "rates",
+    "sampled_rates",
+    "samples_summary",
+    "summary",
+    "whole_turns",
+    "work_precision",
+]
 
 
 def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> Array:
@@ -203,7 +225,7 @@ def summary(motion: Motion, times: ArrayLike | None = None) -> "Figure":
     scene = motion.scene
     tiny = _nutation(_sorted(motion, times)[2]).max() < TINY
     with plt.rc_context(STYLE):
-        figure: "Figure" = plt.figure(figsize=(13, 9), layout="constrained")
+        figure: Figure = plt.figure(figsize=(13, 9), layout="constrained")
         figure.suptitle(scene.name or scene.body.name or "", fontsize=15, fontweight="bold")
         grid = figure.add_gridspec(4, 2, width_ratios=(1, 1.25))
         polhode(motion, figure.add_subplot(grid[:2, 0]))
@@ -238,7 +260,7 @@ def samples_summary(samples: Samples, motion: Motion | None = None, *, name: str
         Title of the figure.
     """
     with plt.rc_context(STYLE):
-        figure: "Figure" = plt.figure(figsize=(11, 9 if motion else 6), layout="constrained")
+        figure: Figure = plt.figure(figsize=(11, 9 if motion else 6), layout="constrained")
         figure.suptitle(name, fontsize=15, fontweight="bold")
         panels = figure.subplots(3 if motion else 2, 1, sharex=True)
         components(samples, panels[0])

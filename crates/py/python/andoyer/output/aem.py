@@ -8,7 +8,7 @@ those of the quaternion, because version 1 does not state the frame of RATE.
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 from fractions import Fraction
 from itertools import pairwise
 
@@ -139,7 +139,7 @@ def heading_lines(heading: Heading, epochs: list[str]) -> Iterator[str]:
     """The header and the metadata of an AEM."""
     old = heading.version == 1
     yield f"CCSDS_AEM_VERS = {heading.version}.0"
-    yield f"CREATION_DATE = {datetime.now(timezone.utc):%Y-%m-%dT%H:%M:%S}"
+    yield f"CREATION_DATE = {datetime.now(UTC):%Y-%m-%dT%H:%M:%S}"
     yield f"ORIGINATOR = {_text(heading.originator)}"
     yield "META_START"
     yield f"COMMENT Time 0 of the scene is {heading.date.isoformat()} {heading.time_system}; its unit of time is taken as the second."

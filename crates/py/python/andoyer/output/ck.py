@@ -147,8 +147,7 @@ def write_ck(
             raise ValueError(f"frame must be one that SPICE knows, such as J2000 or ECLIPJ2000: got {kernel.frame!r}")
         beside.write_text(_text_kernel(kernel, zero + begin), encoding="ascii", errors="replace")
         binary.unlink()
-        written = _write(spice, binary, segments, kernel, ticks, zero, _comments(motion, kernel, interpolation_error))
-    return written
+        return _write(spice, binary, segments, kernel, ticks, zero, _comments(motion, kernel, interpolation_error))
 
 
 class _Segment(NamedTuple):
@@ -238,7 +237,9 @@ def _write(spice: Any, path: Path, segments: Iterator[_Segment], kernel: Kernel,
         for segment in segments:
             times = ticks(zero + segment.times)
             if np.any(np.diff(times) <= 0):
-                raise ValueError(f"interpolation_error must leave records that the clock tells apart: some are less than {np.spacing(times[-1]):.2g} ticks apart")
+                raise ValueError(
+                    f"interpolation_error must leave records that the clock tells apart: some are less than {np.spacing(times[-1]):.2g} ticks apart"
+                )
             quaternions = np.ascontiguousarray(segment.attitude[:, [3, 0, 1, 2]] * np.array([1.0, -1.0, -1.0, -1.0]))
             head = (handle, times[0], times[-1], kernel.instrument, kernel.frame)
             if segment.uniform:

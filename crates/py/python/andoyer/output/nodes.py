@@ -6,6 +6,7 @@ the number is the integral of the density. α is computed from the attitude in t
 An interval is at most a quarter of a turn long, because SPICE takes the shorter of the two rotations.
 """
 
+import itertools
 import math
 from collections.abc import Iterator
 
@@ -53,7 +54,7 @@ def nodes(motion: Motion, borders: Array, error: float) -> Iterator[Array]:
     ArithmeticError
         More nodes do not bring the error below its bound, because rounding dominates.
     """
-    for start, stop in zip(borders, borders[1:]):
+    for start, stop in itertools.pairwise(borders):
         yield _window(motion, float(start), float(stop), error)
 
 
@@ -89,6 +90,5 @@ def _error(motion: Motion, times: Array) -> float:
     attitude = motion.attitude(times)
     widths = np.diff(times)
     return max(
-        float(np.max(angle_between(between(attitude[:-1], attitude[1:], part), motion.attitude(times[:-1] + part * widths))))
-        for part in (0.25, 0.5, 0.75)
+        float(np.max(angle_between(between(attitude[:-1], attitude[1:], part), motion.attitude(times[:-1] + part * widths)))) for part in (0.25, 0.5, 0.75)
     )

@@ -66,7 +66,10 @@ class RawMessage:
         known = HEADER_OF if given is self.header else METADATA_OF
         if key not in known[self.version]:
             others = [version for version, keys in known.items() if key in keys]
-            raise ValueError(f"{where}: {key} is no keyword of {'the header' if given is self.header else 'the metadata'} in version {self.version}" + "".join(f" (it is in {version})" for version in others))
+            raise ValueError(
+                f"{where}: {key} is no keyword of {'the header' if given is self.header else 'the metadata'} in version {self.version}"
+                + "".join(f" (it is in {version})" for version in others)
+            )
         if key in given:
             raise ValueError(f"{where}: {key} is given twice")
         if not value:

@@ -91,9 +91,7 @@ def write_table(file: TextIO, samples: Samples, progress: Progress = silent) -> 
         progress(min(start + LINES_AT_ONCE, len(table)), len(table))
 
 
-def write_npz(
-    path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, remark: str | None = None, force: bool = True
-) -> None:
+def write_npz(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, remark: str | None = None, force: bool = True) -> None:
     """Write samples as an NPZ file: arrays times, attitude (scalar last), angular_velocity, and texts convention, units, scene.
 
     Parameters
@@ -125,9 +123,7 @@ def write_npz(
         np.savez(file, **arrays)
 
 
-def write_parquet(
-    path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, remark: str | None = None, force: bool = True
-) -> None:
+def write_parquet(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, remark: str | None = None, force: bool = True) -> None:
     """Write samples as a Parquet file: the columns of the CSV as float64; convention, units and scene in the metadata of the schema.
 
     Parameters
