@@ -39,7 +39,7 @@ fn a_point_without_a_diagonal_form_is_refused_by_term() {
     }
     assert_message(
         "x^2 + X^2 + Y^2/2 + c^2*y^2/2",
-        "the quadratic part in (y, Y) has a zero frequency where its parameters are 0, in the term 1/2*y^2*c^2: write the parameter as a number and a detuning, w = w0 + d, or scale q -> q/sqrt(w), p -> p sqrt(w), t -> t/w, so that the frequency is a number",
+        "the quadratic part in (y, Y) has a zero frequency where its parameters are 0, in the term 1/2*y^2*c^2: write the parameter as a number and a detuning, w = w0 + d, or scale q -> q/sqrt(w), p -> p sqrt(w), t -> t/w, so that the frequency is a number (PhaseSpace::scaled; in Python the argument frequency)",
     );
     assert_message(
         "x*X + y*Y + x*Y",
