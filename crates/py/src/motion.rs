@@ -19,6 +19,8 @@ use crate::plan::Plan;
 use crate::samples::Samples;
 use crate::scene_class::Scene;
 
+mod copies;
+
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
 /// A solved motion, from `Scene.solve`. It is immutable, and several threads can evaluate it in parallel.
@@ -375,24 +377,6 @@ impl Motion {
         let plan = self.0.plan();
         let name = self.0.scene().asked_name().map_or_else(String::new, |name| format!(" of {name:?}"));
         format!("<Motion{name}: {}, {}, order {}>", plan.mode(), plan.method(), plan.order())
-    }
-
-    fn __copy__(slf: Py<Self>) -> Py<Self> {
-        slf
-    }
-
-    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
-        slf
-    }
-
-    /// A motion is pickled as its scene and solved again on loading, without a `ToleranceWarning`.
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Scene,))> {
-        Ok((py.get_type::<Self>().getattr("_restored")?, (self.scene(),)))
-    }
-
-    #[staticmethod]
-    fn _restored(py: Python<'_>, scene: PyRef<'_, Scene>) -> PyResult<Self> {
-        scene.solved(py).map(|motion| Self(motion, scene.calendar))
     }
 }
 

@@ -4,10 +4,12 @@
 //! exponent that does not fit its field, an unknown name, a text that is not a polynomial, and a file that is not a normal form.
 
 mod facts;
+mod problems;
 
 use thiserror::Error;
 
 pub use facts::{Kind, Value};
+pub use problems::{ParseProblem, TermProblem};
 
 /// An error, with the offending value and its bound.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -367,75 +369,4 @@ impl Error {
         let place = format!(" at line {line} column {column}");
         Self::Json { line, column, message: text.strip_suffix(&place).unwrap_or(&text).to_owned() }
     }
-}
-
-/// The reason why a text is not a polynomial.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum ParseProblem {
-    /// The text ends where an operand is required.
-    #[error("the text ends where an operand or a bracket is required")]
-    UnexpectedEnd,
-    /// A character that cannot stand there.
-    #[error("unexpected character {0:?}")]
-    UnexpectedCharacter(char),
-    /// A name that is not a variable.
-    #[error("unknown name {0:?}")]
-    UnknownName(String),
-    /// A name before a bracket: a function.
-    #[error(
-        "{0:?} is a function, and only polynomials are read: expand it as a Taylor polynomial, for a normal form of order N to degree N + 2"
-    )]
-    Function(String),
-    /// A bracket after an operand: a product without its sign.
-    #[error("a factor in brackets needs * before it")]
-    ProductWithoutSign,
-    /// The list of names is longer than the number of slots, contains a name twice, or contains a name that is not an identifier.
-    #[error("the list of variable names cannot hold {0:?}")]
-    UnusableName(String),
-    /// A divisor that contains a variable.
-    #[error("the divisor is not a constant")]
-    DivisorNotConstant,
-    /// A divisor that is zero.
-    #[error("the divisor is zero")]
-    DivisorZero,
-    /// An exponent above the bound.
-    #[error("the exponent exceeds {bound}")]
-    ExponentTooLarge {
-        /// The largest exponent that is read.
-        bound: u32,
-    },
-    /// Brackets or signs nested too deeply.
-    #[error("nested deeper than {bound}")]
-    TooDeep {
-        /// The deepest nesting that is read.
-        bound: u32,
-    },
-    /// The expansion of the polynomial would take too much work.
-    #[error("expanding the text takes too much work")]
-    TooLarge,
-}
-
-/// The reason why a term from a file is wrong.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum TermProblem {
-    /// The degree is not that of the order.
-    #[error("its degree is not the one of this order")]
-    Degree,
-    /// The term lies in the kernel of the unperturbed motion.
-    #[error("it lies in the kernel of the unperturbed motion")]
-    Kernel,
-    /// The harmonic k − j does not have this power of β.
-    #[error("its power of beta is not |k - j|/2 plus an even number")]
-    Harmonic,
-    /// The coefficient makes the function complex on real motions.
-    #[error("the function would not be real on real motions")]
-    NotReal,
-    /// The same exponents appear twice.
-    #[error("it appears twice")]
-    Repeated,
-    /// The coefficient is zero.
-    #[error("its coefficient is zero")]
-    Zero,
 }

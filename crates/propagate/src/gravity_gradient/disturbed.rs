@@ -248,6 +248,8 @@ fn second_order_of(
     let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
     let corrections = Corrections::new(&inertia, demand)?;
     let change = Change { momentum, ..first.change };
+    // The iteration leaves M and L its own threshold, which the rates multiply by the time.
+    let left = left.map(|part| part + CONVERGED);
     Ok(MeanMotion { mean, change, inertia, corrections, left: Some(left) })
 }
 

@@ -25,12 +25,10 @@ use crate::samples::Samples;
 mod arguments;
 mod copies;
 mod evaluate;
-
 use arguments::{asked, epochs_of, members_of, orbits_of, tolerance};
 use evaluate::refused;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
-
 /// Number of members above which the construction of an ensemble, which checks each member, counts as a long call.
 const LONG: usize = 1 << 16;
 

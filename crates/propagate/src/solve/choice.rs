@@ -1,0 +1,86 @@
+//! The choice between theory and integration.
+
+use std::sync::atomic::AtomicBool;
+
+use crate::error::{Error, Kind};
+use crate::input::disturbing_body::DisturbingBody;
+use crate::input::options::{Averaging, Level, Method};
+use crate::input::scene::Scene;
+use crate::integration::integrated::{Integrated, prospect};
+use crate::integration::integrator::MOST_STEPS;
+use crate::motion::plan::{Plan, ROUNDED_TOLERANCE};
+use crate::motion::solved::Motion;
+use crate::motion::trajectory::Trajectory;
+use crate::torque_free::series::tables::SeriesTables;
+
+/// What in a scene no theory has, if there is something.
+pub(super) fn beyond_theory(scene: &Scene) -> Option<String> {
+    let [a, b, c] = scene.body().moments();
+    match scene.asked_disturbing() {
+        // No body exerts a torque on a sphere.
+        _ if a == b && b == c => None,
+        [] => None,
+        [DisturbingBody::Orbit(orbit)] if orbit.is_fixed() => None,
+        [DisturbingBody::Orbit(_)] => Some("an orbit with a node_rate or a pericentre_rate is integrated".to_owned()),
+        [_] => Some("a table of positions is integrated".to_owned()),
+        bodies => Some(format!("{} disturbing bodies are integrated", bodies.len())),
+    }
+}
+
+/// Whether a scene with one orbit leaves the choice between theory and integration.
+pub(super) fn may_be_integrated(scene: &Scene) -> bool {
+    scene.asked_method() == Method::Auto
+        && scene.asked_span().is_some()
+        && scene.asked_orbit().is_some()
+        && scene.asked_order().is_none()
+        && scene.asked_averaging() == Averaging::default()
+        && scene.asked_level() == Level::default()
+}
+
+/// The theory where it meets the tolerance, else the integration where that does, else whichever has the smaller error bound.
+pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
+    let by_theory = match scene.clone().solve_by_theory(tables) {
+        Ok(motion) if motion.plan.meets_tolerance() => return Ok(motion),
+        Ok(motion) => motion,
+        Err(error) if error.kind() == Kind::Theory => {
+            return integrated(scene, tables, format!("theory: {}", in_ascii(&error)), stop);
+        }
+        Err(error) => return Err(error),
+    };
+    let tolerance = scene.asked_tolerance().max(ROUNDED_TOLERANCE);
+    let promising = prospect(&scene).is_some_and(|(bound, steps)| bound <= tolerance && steps <= MOST_STEPS as f64);
+    if !promising {
+        return Ok(by_theory);
+    }
+    let reason = format!("theory: its error bound is {:.1e} rad", by_theory.plan.error_bound);
+    match integrated(scene, tables, reason, stop) {
+        Ok(motion) if motion.plan.error_bound < by_theory.plan.error_bound => Ok(motion),
+        Err(Error::Stopped) => Err(Error::Stopped),
+        _ => Ok(by_theory),
+    }
+}
+
+/// The message of an error without the signs that a plan does not print.
+pub(super) fn in_ascii(error: &Error) -> String {
+    error.to_string().replace('σ', "sigma").replace('−', "-").replace('²', "^2")
+}
+
+/// The motion by integration over the span; mode and frequencies are those of the free motion at the epoch.
+pub(super) fn integrated(
+    scene: Scene,
+    tables: &SeriesTables,
+    reason: String,
+    stop: &AtomicBool,
+) -> Result<Motion, Error> {
+    let free = Scene::new(scene.body().clone(), *scene.state()).solve_by_theory(tables)?;
+    let motion = Integrated::new(&scene, &reason, stop)?;
+    let mut plan = Plan::new(&scene, free.plan.mode, free.plan.separatrix_ratio, motion.error);
+    plan.method = Method::Integrated;
+    plan.order = motion.order();
+    plan.integration = Some(motion.plan());
+    plan.skipped.extend(Some(reason).filter(|reason| !reason.is_empty()));
+    if let Some(order) = scene.asked_order() {
+        plan.skipped.push(format!("order {order}, which was asked for: it is one of the series"));
+    }
+    Ok(Motion { scene, plan, trajectory: Trajectory::Integrated(Box::new(motion)), ..free })
+}

@@ -1,0 +1,90 @@
+//! Arguments of a scene.
+
+use andoyer_propagate::State;
+use andoyer_propagate::disturbers::DisturbingBody;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyType};
+
+use crate::array;
+use crate::error::InternalError;
+use crate::foreign::{self, Calendar};
+use crate::orbit::Orbit;
+use crate::tabulated::TabulatedOrbit;
+
+// PyO3 leaves the name of an argument out of the message of its own `TypeError`.
+pub(super) fn epoch(value: Option<&Bound<'_, PyAny>>) -> PyResult<(f64, Option<Calendar>)> {
+    let Some(value) = value else { return Ok((0.0, None)) };
+    let (numbers, calendar) = foreign::epochs("epoch", value)?;
+    Ok((array::number("epoch", &numbers)?, calendar.first().copied()))
+}
+
+pub(super) fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    array::number("tolerance", value)
+}
+
+pub(super) fn precession(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    array::number("precession", value)
+}
+
+pub(super) fn rotation(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    array::number("rotation", value)
+}
+
+/// The scene of this state, at the epoch as it was given, with the keyword arguments of `Scene`.
+pub(super) fn with_options<'py>(
+    class: &Bound<'py, PyType>,
+    body: &Bound<'py, PyAny>,
+    (scene, epoch): (&andoyer_propagate::Scene, Option<&Bound<'py, PyAny>>),
+    options: Option<Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let keywords = options.unwrap_or_else(|| PyDict::new(class.py()));
+    if keywords.contains("scalar_first")? {
+        return Err(PyTypeError::new_err("scalar_first says how an attitude is given, and none is given here"));
+    }
+    let State { attitude, angular_velocity, .. } = scene.state();
+    if let Some(epoch) = epoch {
+        keywords.set_item("epoch", epoch)?;
+    }
+    let (attitude, rates): ([f64; 4], [f64; 3]) = (attitude.coords.into(), (*angular_velocity).into());
+    class.call((body, attitude, rates), Some(&keywords))
+}
+
+/// The message for an argument that is not a `Body`.
+pub(super) fn not_a_body(value: &Bound<'_, PyAny>) -> PyErr {
+    PyTypeError::new_err(format!("body must be an andoyer.Body: got {}; use Body([A, B, C])", kind(value)))
+}
+
+/// One disturbing body, or a sequence of them.
+pub(super) fn disturbing_bodies(value: &Bound<'_, PyAny>) -> PyResult<Vec<DisturbingBody>> {
+    let one = |value: &Bound<'_, PyAny>| -> Option<DisturbingBody> {
+        let orbit = value.cast::<Orbit>().map(|orbit| orbit.get().0.into());
+        orbit
+            .or_else(|_| value.cast::<TabulatedOrbit>().map(|table| DisturbingBody::Tabulated(table.get().0.clone())))
+            .ok()
+    };
+    if let Some(body) = one(value) {
+        return Ok(vec![body]);
+    }
+    let members = value.try_iter().map_err(|_| not_an_orbit(value))?;
+    members.map(|member| member.and_then(|member| one(&member).ok_or_else(|| not_an_orbit(&member)))).collect()
+}
+
+pub(super) fn disturbing_body<'py>(py: Python<'py>, body: &DisturbingBody) -> PyResult<Bound<'py, PyAny>> {
+    match body {
+        DisturbingBody::Orbit(orbit) => Ok(Bound::new(py, Orbit(*orbit))?.into_any()),
+        DisturbingBody::Tabulated(table) => Ok(Bound::new(py, TabulatedOrbit(table.clone()))?.into_any()),
+        _ => Err(InternalError::new_err("a fault of this package, please report it: an unknown disturbing body")),
+    }
+}
+
+/// The message for an argument that is not an `Orbit`.
+pub(super) fn not_an_orbit(value: &Bound<'_, PyAny>) -> PyErr {
+    let said = "orbit must be an andoyer.Orbit, a TabulatedOrbit, a sequence of them or None: got";
+    PyTypeError::new_err(format!("{said} {}; use Orbit(mean_motion)", kind(value)))
+}
+
+/// The name of the type of a value.
+pub(super) fn kind(value: &Bound<'_, PyAny>) -> String {
+    value.get_type().name().map_or_else(|_| "something else".to_owned(), |name| name.to_string())
+}
