@@ -74,5 +74,5 @@ plt.show()
 # ------------------------------
 #
 # A free rotation from 1992 does not predict the attitude that radar measured in November 2008, for two reasons. First, the spread above exceeds 90° long before. Second, the rotation is not free.
-# Toutatis passes the Earth every four years, at 0.010 au in 2004, and the torques of the Earth and the Sun change its angular momentum at each passage. Takahashi et al. fit the moments with these
+# Toutatis passes the Earth every four years, and the torques of the Earth and the Sun change its angular momentum at each passage. Takahashi et al. fit the moments with these
 # torques. The averaged theory of this package needs a periodic orbit and does not hold for such passages.

@@ -13,7 +13,7 @@ SCRIPTS = sorted((REPOSITORY / "examples/gallery").glob("*.py"), key=lambda path
 PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
 
 
-def test_there_are_the_thirteen_of_them():
+def test_there_are_the_sixteen_of_them():
     assert [path.stem.split("_", 2)[2] for path in SCRIPTS] == [
         "earth_wobble",
         "eros_separatrix",
@@ -28,6 +28,9 @@ def test_there_are_the_thirteen_of_them():
         "light_curve",
         "satellite_month",
         "librations",
+        "nutation",
+        "cassini",
+        "methods",
     ]
 
 
