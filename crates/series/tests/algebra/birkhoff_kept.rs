@@ -6,8 +6,7 @@ use andoyer_series::print::{Language, Part};
 use andoyer_series::progress::quiet;
 use andoyer_series::{BirkhoffMap, BirkhoffNormalForm, Error, PhaseSpace, Polynomial, normalize, normalize_with};
 
-mod hamiltonians;
-use hamiltonians::{collinear, space, triangular};
+use crate::hamiltonians::{collinear, space, triangular};
 
 fn plane() -> Result<PhaseSpace, Error> {
     PhaseSpace::new(&[("x", "X"), ("y", "Y")])

@@ -1,13 +1,11 @@
 //! The homological equation closes, and the kernel is what commutes with the unperturbed motion.
 
-mod strategies;
-
+use crate::strategies::{gaussian_polynomial, rational_polynomial};
 use andoyer_series::lie::{Homological, Poisson};
 use andoyer_series::{Coefficient, Error, Polynomial};
 use num_complex::Complex;
 use num_rational::BigRational;
 use proptest::prelude::*;
-use strategies::{gaussian_polynomial, rational_polynomial};
 
 fn closes<C: Coefficient>(h: &Polynomial<C>, eigenvalues: [C; 2]) -> Result<(), TestCaseError> {
     let [first, second] = eigenvalues;

@@ -1,11 +1,9 @@
 //! Derivative, substitution and evaluation agree with one another.
 
-mod strategies;
-
+use crate::strategies::{gaussian_polynomial, rational_polynomial};
 use andoyer_series::{Coefficient, Error, Polynomial, Truncation};
 use num_rational::BigRational;
 use proptest::prelude::*;
-use strategies::{gaussian_polynomial, rational_polynomial};
 
 fn laws<C: Coefficient>(
     a: &Polynomial<C>,

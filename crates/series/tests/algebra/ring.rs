@@ -1,12 +1,10 @@
 //! The ring laws, and identities that a wrong product would break.
 
-mod strategies;
-
+use crate::strategies::{gaussian_polynomial, rational_polynomial};
 use andoyer_series::{Coefficient, Error, Monomial, Polynomial, Truncation};
 use num_rational::BigRational;
 use proptest::prelude::*;
 use std::hash::{BuildHasher, Hash};
-use strategies::{gaussian_polynomial, rational_polynomial};
 
 fn laws<C: Coefficient>(a: &Polynomial<C>, b: &Polynomial<C>, c: &Polynomial<C>) -> Result<(), TestCaseError> {
     let one = Polynomial::constant(C::one());

@@ -1,13 +1,11 @@
 //! Reading and printing are inverse; hostile text is refused in bounded time.
 
-mod strategies;
-
+use crate::strategies::{gaussian_polynomial, rational_polynomial};
 use andoyer_series::error::ParseProblem;
 use andoyer_series::{Error, Polynomial};
 use num_complex::Complex;
 use num_rational::BigRational;
 use proptest::prelude::*;
-use strategies::{gaussian_polynomial, rational_polynomial};
 
 const NAMES: [&str; 4] = ["x", "y_1", "β", "U"];
 

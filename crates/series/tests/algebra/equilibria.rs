@@ -6,8 +6,7 @@ use andoyer_series::{
     BirkhoffMap, BirkhoffNormalForm, Error, Monomial, PhaseSpace, Polynomial, normalize, normalize_with,
 };
 
-mod hamiltonians;
-use hamiltonians::{collinear, distance, space, triangular};
+use crate::hamiltonians::{collinear, distance, space, triangular};
 
 /// Earth and Moon.
 const MU: f64 = 0.012150585609624;
@@ -178,8 +177,9 @@ fn the_transformation_about_a_saddle_takes_the_hamiltonian_to_its_normal_form_an
 
 /// The Hamiltonian on the centre manifold to degree 10 by another program, in its own variables (see tests/data/README.md), as exponents and coefficients.
 fn other_program(point: &str) -> Result<(f64, Polynomial<f64>), Error> {
-    let data: serde_json::Value = serde_json::from_str(include_str!("../../../tests/data/hiten_centre_manifolds.json"))
-        .expect("the file of tests/data");
+    let data: serde_json::Value =
+        serde_json::from_str(include_str!("../../../../tests/data/hiten_centre_manifolds.json"))
+            .expect("the file of tests/data");
     let number = |value: &serde_json::Value| value.as_f64().unwrap_or(f64::NAN);
     let mut h = Polynomial::zero();
     for term in data[point]["terms"].as_array().into_iter().flatten() {

@@ -1,12 +1,10 @@
 //! The Poisson bracket: its sign, and the laws of a Lie algebra of derivations.
 
-mod strategies;
-
+use crate::strategies::{gaussian_polynomial, rational_polynomial};
 use andoyer_series::lie::Poisson;
 use andoyer_series::{Coefficient, Error, Monomial, Polynomial};
 use num_rational::BigRational;
 use proptest::prelude::*;
-use strategies::{gaussian_polynomial, rational_polynomial};
 
 fn laws<C: Coefficient>(poisson: &Poisson, [f, g, h]: [&Polynomial<C>; 3]) -> Result<(), TestCaseError> {
     let bracket = |a: &Polynomial<C>, b: &Polynomial<C>| poisson.bracket(a, b);
