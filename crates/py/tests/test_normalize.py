@@ -172,7 +172,7 @@ def test_complex_form_has_real_and_imaginary_parts():
     "hamiltonian, message",
     [
         ("x^2 + X^2 + y^2 + Y^2 + 2*x*y", r"in \(x, X\), \(y, Y\) has a zero frequency, along the direction with the components x 1.000, y 1.000"),
-        ("x^2 + X^2 + y^2 + Y^2 - Y", "no equilibrium: the linear term Y has the coefficient -1"),
+        ("x^2 + X^2 + y^2 + Y^2 - Y", "the origin is not an equilibrium: the linear term Y has the coefficient -1"),
         ("x^2 + X^2 + y^4 + Y^2", r"in \(y, Y\) has a zero frequency"),
         ("x^2 +", "at byte 5"),
         ("sin(x)", "at byte"),
@@ -203,7 +203,7 @@ def test_resonances_not_asked_for_and_none_are_refused():
     with pytest.raises(andoyer.InputError, match=r"k = \[2, -1\] is not a resonance"):
         normalize(HENON_HEILES, 4, PLANE, resonances=[(2, -1)])
     for wrong in [[(0, 0)], [(1, -1, 0)], [(1,)]]:
-        with pytest.raises(andoyer.InputError, match="no resonance vector"):
+        with pytest.raises(andoyer.InputError, match="is not a resonance vector"):
             normalize(HENON_HEILES, 4, PLANE, resonances=wrong)
     resonant = normalize(HENON_HEILES, 4, PLANE, resonances=[(1, -1)])
     for ask in [resonant.in_actions, lambda: resonant.frequency_map([0.1, 0.1])]:
@@ -228,7 +228,7 @@ def test_sizes_and_orders_out_of_bounds_are_refused():
         normalize("x^2 + X^2", 171, [("x", "X")], exact=False)
     pairs = [(name, name.upper()) for name in "abcde"]
     for variables, parameters in [(pairs, []), ([], []), (pairs[:3], ["r", "s", "t"])]:
-        with pytest.raises(andoyer.InputError, match="8 variables at most"):
+        with pytest.raises(andoyer.InputError, match="at most 8 variables"):
             normalize("1", 2, variables, parameters=parameters)
     with pytest.raises(andoyer.InputError, match="cannot hold"):
         normalize("x^2", 2, [("x", "x")])
