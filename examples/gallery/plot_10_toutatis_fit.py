@@ -6,6 +6,7 @@ In December 1992 radar measured the attitude of Toutatis on seventeen days (Taka
 """
 
 import csv
+import sys
 from datetime import datetime
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from scipy.spatial.transform import Rotation
 import andoyer
 from andoyer import fit
 
-DATA = Path(__file__).resolve().parents[2] / "tests/data/toutatis_attitudes.csv"
+DATA = Path(sys.argv[0]).resolve().parents[2] / "tests/data/toutatis_attitudes.csv"
 rows = list(csv.DictReader(line for line in DATA.read_text().splitlines() if not line.startswith("#")))
 dates = [datetime.fromisoformat(row["utc"]) for row in rows]
 days = np.array([(date - dates[0]).total_seconds() / 86400 for date in dates])

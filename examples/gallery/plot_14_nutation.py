@@ -7,6 +7,7 @@ arguments of REN-2000, the nutation of the rigid Earth by Souchay, Loysel, Kinos
 """
 
 import csv
+import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -17,7 +18,7 @@ import andoyer
 
 DAY, CENTURY = 86400.0, 36525 * 86400.0
 ARCSECOND = np.pi / 648000
-DATA = Path(__file__).resolve().parents[2] / "tests/data/ren2000_main_terms.csv"
+DATA = Path(sys.argv[0]).resolve().parents[2] / "tests/data/ren2000_main_terms.csv"
 
 # %%
 # The fundamental arguments of the IERS Conventions (2010), section 5.7.2: values at J2000 [°] and rates ["/century]. Ω is the longitude of the lunar node, and F − D + Ω is the longitude of the
