@@ -203,8 +203,11 @@ fn a_scene_file_states_periods_or_a_tensor() {
     assert_eq!(Scene::parse_toml(&read.to_toml(), "again").expect("a scene"), read);
     for (broken, key) in [
         (file.replace("263", "2.63"), "periods.rotation: rotation/precession"),
-        (format!("{file}\n[state]\nattitude = [0, 0, 0, 1]"), "periods: stands beside state"),
-        (file.replace("rotation = 263", "mode = \"medium\"\nrotation = 263"), "periods.mode: mode = \"medium\""),
+        (
+            format!("{file}\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0, 1]"),
+            "periods: stands beside state",
+        ),
+        (file.replace("rotation = 263", "mode = \"medium\"\nrotation = 263"), "periods.mode: unknown variant `medium`"),
         (tensor.replace("[0.4, 124.8", "[0.5, 124.8"), "body.inertia: tensor[0][1]"),
         (tensor.replace("inertia", "moments = [1, 1, 1]\ninertia"), "body.inertia: stands beside"),
     ] {
