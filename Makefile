@@ -95,7 +95,7 @@ gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory le
 	target/release/gradient cases > docs/data/gravity-cases.csv
 	target/release/gradient levels > docs/data/gravity-levels.csv
 	target/release/gradient bounds 150 1 > docs/data/gravity-bounds.csv
-	target/release/gradient climb 1 45 11 > docs/data/gravity-climb.csv
+	target/release/gradient climb 2 90 11 > docs/data/gravity-climb.csv
 	target/release/gradient table 40 1 > docs/data/gravity-table.csv
 	$(BIN)/python benches/gravity.py
 
