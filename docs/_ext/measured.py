@@ -140,7 +140,7 @@ def gravity_climb() -> list[str]:
 
 
 def gravity_table() -> list[str]:
-    """Scenes served, what is left of the torque's effect, and bound over error, by n/spin and e, in first and second order."""
+    """Accepted scenes, error over the effect of the torque, and bound over error, by n/spin and e, in first and second order."""
     groups: dict[tuple[str, str], dict[str, Row]] = {}
     for row in read("gravity-table.csv"):
         groups.setdefault((row["n"], row["e"]), {})[row["level"]] = row

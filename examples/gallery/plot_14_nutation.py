@@ -22,7 +22,7 @@ DATA = Path(sys.argv[0]).resolve().parents[2] / "tests/data/ren2000_main_terms.c
 
 # %%
 # The fundamental arguments of the IERS Conventions (2010), section 5.7.2: values at J2000 [°] and rates ["/century]. Ω is the longitude of the lunar node, and F − D + Ω is the longitude of the
-# Sun, both from the moving equinox. In an inertial frame both rates are smaller by the general precession of 5028.796195 "/century (IAU 2006).
+# Sun, both from the moving equinox. In an inertial frame both rates are smaller by the general precession of 5028.77 "/century.
 
 ARGUMENTS = {
     "l": (134.96340251, 1717915923.2178),
@@ -33,7 +33,7 @@ ARGUMENTS = {
 }
 values = np.array([[np.radians(value), rate * ARCSECOND / CENTURY] for value, rate in ARGUMENTS.values()])
 anomaly, sun_anomaly, latitude, elongation, node = values
-precession = np.array([0.0, 5028.796195 * ARCSECOND / CENTURY])
+precession = np.array([0.0, 5028.77 * ARCSECOND / CENTURY])
 
 
 Angle = NDArray[np.float64]  # value at J2000 and rate
@@ -87,6 +87,9 @@ with DATA.open(encoding="utf-8", newline="") as file:
 multiples = np.array([[int(row[name]) for name in ("l", "lp", "F", "D", "Om")] for row in table])
 published = np.array([[float(row["dpsi_sin_uas"]), float(row["deps_cos_uas"])] for row in table]) * 1e-6
 phases, rates = multiples @ values[:, 0], multiples @ values[:, 1]
+periods = np.array([float(row["period_days"]) for row in table])
+short = periods < 1e4  # longer periods are small differences of rates
+assert np.allclose(2 * np.pi / abs(rates[short]) / DAY, periods[short], rtol=2e-5)  # the arguments are those of the table
 kept: list[int] = []
 for index in np.argsort(-abs(published[:, 0])):
     apart = [min(abs(rates[index] - rates[other]), abs(rates[index] + rates[other])) for other in kept]

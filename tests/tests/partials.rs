@@ -225,7 +225,7 @@ fn derivatives_under_a_gravity_gradient_become_those_of_free_rotation_with_its_t
         let disturbed = with_orbit(moments, ATTITUDE, rates, mean_motion).partials(100.0).expect("a time");
         (matrix(&disturbed) - free).amax() / free.amax()
     };
-    // The torque goes with the square of the mean motion; what is left without it is that of the differences.
+    // The torque goes with the square of the mean motion; without the torque, only the error of the differences remains.
     assert!(far(1e-6) <= 1e-9, "{:e}", far(1e-6));
     assert!((far(2e-3) / far(1e-3) - 4.0).abs() <= 0.4, "{:e} {:e}", far(2e-3), far(1e-3));
 }

@@ -67,7 +67,7 @@ fn nothing_is_singular_at_vanishing_tilt_and_inclination_or_in_the_long_axis_mod
     let general = [0.1, -0.2, 0.3, 0.86_f64.sqrt()];
     let half = 0.5_f64.sqrt();
     let mirrored = |rates: [f64; 3], signs: [f64; 3]| std::array::from_fn(|i| rates[i] * signs[i]);
-    // Twice what the recipe leaves in an independent program.
+    // Twice the error of the same formulas in an independent program.
     let scenes: [(&str, [f64; 4], [f64; 3], f64); 6] = [
         ("J = 0, I = 0", [0.0, 0.0, 0.3, 0.91_f64.sqrt()], [0.0, 0.0, 1.0], 4.8e-9),
         ("J = 0, I = pi", [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0], 4.0e-9),

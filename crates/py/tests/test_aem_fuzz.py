@@ -1,4 +1,4 @@
-"""Any bytes are a message or an error that names the file: texts that are nearly messages, and texts that are none."""
+"""Any bytes are read as a message or raise an error that names the file. The bytes are texts close to messages, and arbitrary texts."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-//! Cassini states: the axis of a body that keeps its place relative to a precessing orbit (Colombo, Astron. J. 71 (1966) 891; Ward and Hamilton, Astron. J. 128 (2004) 2501, eq. 4).
+//! Cassini states: the axis of a body that keeps its place relative to a precessing orbit (Colombo 1966). The equations are derived here from theory §9.
 //!
 //! The body rotates about its axis of greatest inertia, fast and out of resonance with its orbit. Its pole k precesses about the normal N of the orbit with −α (k·N), where
 //! α = (3/2) (G m/a³) η^(−3) (C − (A+B)/2)/(C ω) (theory §9), and N goes about inertial axis 3, ẑ, with the rate g of the node at the inclination i. In the frame that turns with the node

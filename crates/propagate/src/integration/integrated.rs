@@ -19,7 +19,7 @@ use crate::input::tabulated::TabulatedOrbit;
 use crate::numerics::scaling::{exponent, scaled};
 use crate::simd::instruction_set::dispatch;
 
-/// Relative truncation error of a step below which its sum over all steps is nothing beside rounding.
+/// Relative truncation error of a step. The sum of such errors over all steps is below the rounding error.
 const FINEST: f64 = 1e-19;
 /// The largest one that is used.
 const COARSEST: f64 = 1e-6;
