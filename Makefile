@@ -61,8 +61,8 @@ FUZZ_SECONDS ?= 60
 fuzz:  ## each fuzz target for a minute; needs a nightly compiler, and cargo-fuzz, which is installed if it is not there
 	command -v cargo-fuzz >/dev/null || cargo install --locked --quiet cargo-fuzz
 	for target in $(FUZZED); do \
-	  mkdir -p fuzz/target/corpus/$$target && \
-	  cargo +nightly fuzz run --release --sanitizer none $$target fuzz/target/corpus/$$target fuzz/corpus/$$target -- -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=2048 -max_len=4096 || exit 1; \
+	  mkdir -p target/fuzz/corpus/$$target && \
+	  cargo +nightly fuzz run --fuzz-dir tests/fuzz --target-dir target/fuzz --release --sanitizer none $$target target/fuzz/corpus/$$target tests/fuzz/corpus/$$target -- -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=2048 -max_len=4096 || exit 1; \
 	done
 
 supply:  ## licences, bans and sources of every locked dependency, by cargo alone
