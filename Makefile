@@ -70,7 +70,7 @@ supply:  ## licences, bans and sources of every locked dependency, by cargo alon
 
 deny:  ## the same rules by cargo-deny, which is installed if it is not there
 	command -v cargo-deny >/dev/null || cargo install --locked --quiet cargo-deny
-	cargo deny --offline check --config tests/deny.toml licenses bans sources
+	cargo deny --offline --config tests/deny.toml check licenses bans sources
 
 msrv:  ## the oldest compiler that Cargo.toml promises
 	cargo +$$(sed -n 's/^rust-version = "\(.*\)"/\1.0/p' Cargo.toml) check --workspace --all-targets --locked --quiet --target-dir target/msrv
