@@ -169,13 +169,13 @@ $(VENV)/tested: crates/py/requirements-test.txt $(VENV)/ready
 	$(BIN)/python -m pip install --quiet --requirement $<
 	touch $@
 
-# The sdist must build where there is no network: its crates' sources are vendored from its own lock file, and Cargo is told to stay offline.
+# The sdist must build where there is no network: its crates' sources are vendored from its own lock file, and Cargo gets an empty home and stays offline.
 package: $(VENV)/installed  ## the sdist and a wheel from it without network, the three crates as they would be published
 	rm -rf target/package-check && mkdir -p target/package-check
 	$(BIN)/maturin sdist --manifest-path crates/py/Cargo.toml --out target/package-check
 	tar -xzf target/package-check/andoyer-*.tar.gz -C target/package-check && rm target/package-check/andoyer-*.tar.gz
-	cd target/package-check/andoyer-* && mkdir .cargo && cargo vendor --quiet > .cargo/config.toml
-	cd target/package-check/andoyer-* && CARGO_NET_OFFLINE=true $(abspath $(BIN))/maturin build --quiet --release --locked --offline --interpreter $(abspath $(BIN))/python --out ..
+	cd target/package-check/andoyer-* && mkdir .cargo && cargo vendor > .cargo/config.toml 2> ../vendor.log || { cat ../vendor.log; exit 1; }
+	cd target/package-check/andoyer-* && CARGO_HOME=$(abspath target/package-check/cargo) CARGO_NET_OFFLINE=true $(abspath $(BIN))/maturin build --quiet --release --locked --offline --interpreter $(abspath $(BIN))/python --out ..
 	for text in MIT APACHE; do \
 		for crate in double series propagate py; do cmp LICENSE-$$text crates/$$crate/LICENSE-$$text || exit 1; done; \
 		unzip -p target/package-check/andoyer-*.whl '*.dist-info/licenses/LICENSE-'$$text | cmp - LICENSE-$$text || exit 1; \
