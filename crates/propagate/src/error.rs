@@ -272,6 +272,16 @@ pub enum Error {
         "level = \"second-order\" needs averaging = \"spin\" or \"auto\": the average over the orbit is of first order"
     )]
     LevelOfOrbit,
+    /// An option that needs one disturbing body on an orbit that does not precess.
+    #[error(
+        "{argument} = \"{value}\" needs one disturbing body on an orbit without node_rate and pericentre_rate"
+    )]
+    OneFixedOrbit {
+        /// The option.
+        argument: &'static str,
+        /// Its value.
+        value: String,
+    },
     /// An unknown averaging.
     #[error("averaging = {value:?}: it must be \"auto\", \"orbit\" or \"spin\"")]
     Averaging {
@@ -311,6 +321,16 @@ pub enum Error {
         /// Orbits from the epoch to the farther end of the span.
         orbits: f64,
         /// The largest number of orbits.
+        bound: f64,
+    },
+    /// A span with more arcs than the averaged equations of several bodies, or of an orbit that precesses, can be solved for.
+    #[error(
+        "span: it reaches {value} from the epoch, and the averaged equations of these orbits are solved up to {bound:.6e}"
+    )]
+    SpanOfBodies {
+        /// The time from the epoch to the farther end of the span.
+        value: f64,
+        /// The largest time.
         bound: f64,
     },
     /// A mode of motion for which the gravity-gradient theory is not valid.

@@ -95,7 +95,7 @@ impl Scene {
     fn solve_by_theory(self, tables: &SeriesTables) -> Result<Motion, Error> {
         let scene = self;
         let Some(polhode) = Polhode::new(scene.body(), scene.state()) else {
-            return match scene.asked_orbit() {
+            return match scene.asked_orbits() {
                 Some(_) => Err(Error::Unaveraged {
                     mode: Mode::AtRest.to_string(),
                     ratio: 0.0,
@@ -106,8 +106,8 @@ impl Scene {
         };
         representable(&polhode)?;
         let mode = Mode::of(&polhode);
-        match (mode, scene.asked_orbit().copied()) {
-            (mode, Some(orbit)) if mode != Mode::Spherical => disturbed(scene, &polhode, mode, &orbit),
+        match (mode, scene.asked_orbits()) {
+            (mode, Some(orbits)) if mode != Mode::Spherical => disturbed(scene, &polhode, mode, &orbits),
             (Mode::Spherical | Mode::PrincipalAxis, _) => Ok(with_unused(steadily_rotating(scene, &polhode, mode))),
             _ => wobbling((scene, tables), &polhode, mode).map(with_unused),
         }
@@ -237,12 +237,12 @@ fn assembled(scene: Scene, polhode: &Polhode, mut plan: Plan, solution: Solution
 }
 
 /// The motion under a gravity gradient.
-fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Result<Motion, Error> {
+fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbits: &[Orbit]) -> Result<Motion, Error> {
     let (ratio, osculating) = osculating(polhode)?;
     let exponent = polhode.scales.1;
     let rotation = polhode.mean_rate();
     let request = Request {
-        orbit,
+        orbits,
         averaging: scene.asked_averaging(),
         level: scene.asked_level(),
         tolerance: scene.asked_tolerance(),
@@ -271,8 +271,9 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
         trajectory: Trajectory::Gradient(Box::new(gradient)),
         scene,
     };
-    let orbits = request.duration * orbit.mean_motion() / std::f64::consts::TAU;
-    if !matches!(request.level, Level::Paper | Level::Moving) && orbits < 1.0 && error > WORTH.max(request.tolerance) {
+    let fastest = orbits.iter().map(Orbit::mean_motion).fold(0.0, f64::max);
+    let turns = request.duration * fastest / std::f64::consts::TAU;
+    if !matches!(request.level, Level::Paper | Level::Moving) && turns < 1.0 && error > WORTH.max(request.tolerance) {
         let effect = effect(&motion)?;
         if error > effect {
             return Err(Error::TorqueTooStrong { size: error, bound: effect });

@@ -18,10 +18,11 @@
 //! second-order error or of the tolerance. A resonant term is dropped if its effect over the span is no larger than that; otherwise it is an error
 //! ([`super::resonance`]).
 
-use nalgebra::{Quaternion, UnitQuaternion};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use num_complex::Complex;
 
 use super::candidate::{Candidate, SMALLEST_RATIO};
+use super::course::fixed;
 use super::generator::{self, Generator, Harmonic, ORDERS, Orbital};
 use super::inertia::{HIGHEST, Inertia};
 use super::resonance::Commensurability;
@@ -36,7 +37,7 @@ use crate::simd::lanes::Lanes;
 type C64 = Complex<f64>;
 
 /// Largest sum of the corrections for which first order is accepted.
-const LARGEST_SIZE: f64 = 0.05;
+pub(super) const LARGEST_SIZE: f64 = 0.05;
 /// [`Demand::share`] of a motion. The second-order error is 0.003 of its bound in the median, and a few tens of terms may be dropped.
 pub(crate) const SHARE: f64 = 1e-5;
 /// The same for a motion of second order, whose mean variables are better by the size of the corrections.
@@ -75,12 +76,28 @@ impl Mean {
     }
 }
 
+impl Change {
+    /// The sum of two changes.
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        Self {
+            p: self.p + other.p,
+            longitude: self.longitude + other.longitude,
+            momentum: self.momentum + other.momentum,
+            rotation: [self.rotation[0] + other.rotation[0], self.rotation[1] + other.rotation[1]],
+        }
+    }
+}
+
 /// The requirements on the corrections.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Demand<'a> {
     pub(crate) orbit: &'a Orbit,
     /// Mean motion of the orbit, in the units of the tables.
     pub(crate) mean_motion: f64,
+    /// Rates of node and pericentre, in the units of the tables.
+    pub(crate) rates: [f64; 2],
+    /// The axes of the orbit at the epoch.
+    pub(crate) axes: [Vector3<f64>; 3],
     pub(crate) level: Level,
     /// Largest attitude error \[rad\].
     pub(crate) tolerance: f64,
@@ -120,14 +137,16 @@ impl Corrections {
         let Demand { orbit, mean_motion, level, duration, .. } = *demand;
         let eccentricity = orbit.eccentricity();
         let eta_cubed = (1.0 - eccentricity * eccentricity).powf(1.5);
-        // The largest rate of twice the true anomaly, at the pericentre.
-        let fastest = 2.0 * mean_motion * (1.0 + eccentricity).powi(2) / eta_cubed;
+        // The largest rate of twice the true anomaly, at the pericentre, and of the axes.
+        let turning = 2.0 * (demand.rates[0].abs() + demand.rates[1].abs());
+        let fastest = 2.0 * mean_motion * (1.0 + eccentricity).powi(2) / eta_cubed + turning;
         let strength = 1.5 * mean_motion * mean_motion * orbit.disturbing_fraction();
         let pericentre = strength * ((1.0 + eccentricity) / eta_cubed.powf(2.0 / 3.0)).powi(3);
         let response = Response::new(inertia);
         let scale = 4.0 * pericentre / inertia.momentum;
         let all = candidates(inertia, &response, scale, |m, h| level.tensor(inertia, m, h));
-        let commensurability = Commensurability { response: &response, mean_motion, eccentricity, fastest, duration };
+        let commensurability =
+            Commensurability { response: &response, mean_motion, eccentricity, turning, fastest, duration };
         let regular = |candidate: &Candidate| candidate.frequency.abs() > SMALLEST_RATIO * fastest;
         let size: f64 = all.iter().filter(|candidate| regular(candidate)).map(Candidate::size).sum();
         if size > LARGEST_SIZE {
@@ -138,7 +157,7 @@ impl Corrections {
         let omitted = omitted.iter().map(|term| commensurability.whole(term)).sum();
         let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * size * size);
         let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
-        let mut orbital = Orbital::new(eccentricity, mean_motion);
+        let mut orbital = Orbital::precessing(eccentricity, mean_motion, demand.rates);
         let most = if level == Level::Paper { 1 } else { ORDERS };
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
         for candidate in all.into_iter().filter(regular) {
@@ -164,7 +183,7 @@ impl Corrections {
             candidate.join(&mut harmonics[candidate.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2
         }
         orbital.keep(most_orders);
-        let [first, second, _] = orbit.axes();
+        let [first, second, _] = demand.axes;
         let per_momentum = orbit.disturbing_fraction() / inertia.momentum;
         let (level_axial, full_axial) = (level.axial(inertia), Level::Full.axial(inertia));
         let axial_omitted = [full_axial.0 - level_axial.0, full_axial.1 - level_axial.1];
@@ -180,14 +199,16 @@ impl Corrections {
         Ok(Self { generator, dropped, omitted, axial_omitted, rest, size, count, neglected })
     }
 
-    /// The changes from mean to osculating variables, for |p| = √σ.
+    /// The changes from mean to osculating variables, for |p| = √σ and the axes of the orbit at the epoch.
     pub(crate) fn at(&self, mean: &Mean, place: &Place<pulp::Scalar>) -> Change {
         let one = |value: f64| Lanes::splat(pulp::Scalar, value);
         let turn = if mean.p == C64::default() { C64::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
         let spin = C64::from_polar(1.0, mean.longitude);
         let point = |c: C64| ComplexLanes { re: one(c.re), im: one(c.im) };
         let frame = QuaternionLanes::all(one(0.0), &mean.frame);
-        let change = self.generator.at(&generator::MeanLanes { turn: point(turn), spin: point(spin), frame }, place);
+        let axes = fixed(&self.generator.axes, place.sine);
+        let mean = generator::MeanLanes { turn: point(turn), spin: point(spin), frame };
+        let change = self.generator.at(&mean, place, &axes);
         let value = |lanes: Lanes<pulp::Scalar>| lanes.values()[0];
         Change {
             p: turn * C64::new(value(change.p.re), value(change.p.im)),

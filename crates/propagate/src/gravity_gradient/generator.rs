@@ -7,6 +7,7 @@
 
 use nalgebra::Vector3;
 
+use super::course::{Axes, fixed};
 use super::inertia::HIGHEST;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
@@ -49,7 +50,7 @@ impl Harmonic {
 pub(crate) struct Generator {
     pub(crate) harmonics: [Vec<Harmonic>; 3],
     pub(crate) orbital: Orbital,
-    /// Unit vectors to the pericentre and perpendicular to it, in inertial components.
+    /// Unit vectors to the pericentre and perpendicular to it at the epoch, in inertial components.
     pub(crate) axes: [Vector3<f64>; 2],
     /// 3n²/2 times the disturbing mass fraction.
     pub(crate) strength: f64,
@@ -74,11 +75,26 @@ pub(crate) struct Correction<S: InstructionSet> {
     pub(crate) rotation: [Lanes<S>; 2],
 }
 
+impl<S: InstructionSet> Correction<S> {
+    /// The sum of two changes.
+    #[inline(always)]
+    pub(crate) fn plus(self, other: Self) -> Self {
+        Self {
+            p: self.p + other.p,
+            longitude: self.longitude + other.longitude,
+            momentum: self.momentum + other.momentum,
+            rotation: [self.rotation[0] + other.rotation[0], self.rotation[1] + other.rotation[1]],
+        }
+    }
+}
+
 /// Time derivatives of (a/r)³ times 1, cos 2f and sin 2f; the indices are the order j and the function. Even derivatives of the first two and odd derivatives
 /// of the third are series in cos kf. The others are series in sin kf.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Orbital {
     series: Vec<[Fourier; 3]>,
+    /// Rate of the node about inertial axis 3.
+    node_rate: f64,
     /// Highest k.
     highest: usize,
     /// Largest sum of the coefficients' magnitudes, by j; there is one entry more than there are derivatives.
@@ -92,29 +108,25 @@ struct Fourier(usize, Vec<f64>);
 impl Orbital {
     /// All derivatives for a mean motion n. d/dt = n η^(−3) w² d/df with w = 1 + e cos f.
     pub(crate) fn new(eccentricity: f64, mean_motion: f64) -> Self {
-        let eta_square = 1.0 - eccentricity * eccentricity;
-        let rate = mean_motion / (eta_square * eta_square.sqrt());
-        let unit = |k: usize| -> Vec<f64> { (0..=WIDTH + 2).map(|i| if i == k { 1.0 } else { 0.0 }).collect() };
-        let mut current = [(unit(0), false), (unit(2), false), (unit(2), true)].map(|(series, odd)| {
-            let cubed = (0..3).fold(series, |series, _| times_w(&series, eccentricity, odd));
-            (cubed.iter().map(|c| c / eta_square.powi(3)).collect::<Vec<f64>>(), odd)
-        });
-        let (mut series, mut norms) = (Vec::new(), Vec::new());
-        for j in 0..=ORDERS {
-            let sums = current.each_ref().map(|(coefficients, _)| coefficients.iter().map(|c| c.abs()).sum::<f64>());
-            norms.push(sums.into_iter().fold(0.0, f64::max));
-            if j == ORDERS {
-                break;
-            }
-            series.push(current.each_ref().map(|(coefficients, _)| trimmed(coefficients)));
-            current = current.map(|(coefficients, odd)| {
-                let sign = if odd { rate } else { -rate };
-                let slope: Vec<f64> = coefficients.iter().enumerate().map(|(k, c)| sign * k as f64 * c).collect();
-                let weighted = (0..2).fold(slope, |series, _| times_w(&series, eccentricity, !odd));
-                (weighted, !odd)
-            });
-        }
-        let mut orbital = Self { series, highest: 0, norms };
+        Self::precessing(eccentricity, mean_motion, [0.0; 2])
+    }
+
+    /// The same on an orbit whose node and pericentre precess with these rates. With the pericentre's rate ω̇, the derivatives of (a/r)³ e^(2i(f+ω)), times
+    /// e^(−2iω), are those of (d/dt + 2iω̇)^j; the rate of the node enters at the evaluation.
+    pub(crate) fn precessing(eccentricity: f64, mean_motion: f64, [node_rate, pericentre_rate]: [f64; 2]) -> Self {
+        let fixed = derivatives(eccentricity, mean_motion);
+        let turned: Vec<_> = (0..=ORDERS).map(|j| with_turning(&fixed, 2.0 * pericentre_rate, j)).collect();
+        let sizes: Vec<f64> = turned
+            .iter()
+            .map(|functions| {
+                let sums = functions.each_ref().map(|series| series.iter().map(|c| c.abs()).sum::<f64>());
+                sums.into_iter().fold(0.0, f64::max)
+            })
+            .collect();
+        // A rate of the axes turns a symmetric tensor of rank 2 at most twice as fast.
+        let norms = (0..=ORDERS).map(|j| leibniz(j, 2.0 * node_rate.abs()).zip(&sizes[..=j]).map(|(c, s)| c * s).sum());
+        let series = turned[..ORDERS].iter().map(|functions| functions.each_ref().map(|series| trimmed(series)));
+        let mut orbital = Self { series: series.collect(), node_rate, highest: 0, norms: norms.collect() };
         orbital.keep(ORDERS);
         orbital
     }
@@ -125,6 +137,64 @@ impl Orbital {
         let ends = self.series.iter().flatten().map(|Fourier(first, rest)| first + rest.len());
         self.highest = ends.max().unwrap_or(1) - 1;
     }
+}
+
+/// The time derivatives of (a/r)³, (a/r)³ cos 2f and (a/r)³ sin 2f on a fixed ellipse, as coefficients of Fourier series.
+fn derivatives(eccentricity: f64, mean_motion: f64) -> Vec<[Vec<f64>; 3]> {
+    let eta_square = 1.0 - eccentricity * eccentricity;
+    let rate = mean_motion / (eta_square * eta_square.sqrt());
+    let unit = |k: usize| -> Vec<f64> { (0..=WIDTH + 2).map(|i| if i == k { 1.0 } else { 0.0 }).collect() };
+    let mut current = [(unit(0), false), (unit(2), false), (unit(2), true)].map(|(series, odd)| {
+        let cubed = (0..3).fold(series, |series, _| times_w(&series, eccentricity, odd));
+        (cubed.iter().map(|c| c / eta_square.powi(3)).collect::<Vec<f64>>(), odd)
+    });
+    let mut all = Vec::with_capacity(ORDERS + 1);
+    for _ in 0..=ORDERS {
+        all.push(current.each_ref().map(|(coefficients, _)| coefficients.clone()));
+        current = current.map(|(coefficients, odd)| {
+            let sign = if odd { rate } else { -rate };
+            let slope: Vec<f64> = coefficients.iter().enumerate().map(|(k, c)| sign * k as f64 * c).collect();
+            let squared = (0..2).fold(slope, |series, _| times_w(&series, eccentricity, !odd));
+            (squared, !odd)
+        });
+    }
+    all
+}
+
+/// The j-th derivatives of the three functions, where e^(2if) also turns with `rate`.
+fn with_turning(fixed: &[[Vec<f64>; 3]], rate: f64, j: usize) -> [Vec<f64>; 3] {
+    let [one, cosine, sine] = &fixed[j];
+    let (mut real, mut imaginary) = (cosine.clone(), sine.clone());
+    if rate != 0.0 {
+        for (k, weight) in leibniz(j, rate).enumerate().take(j) {
+            let turns = j - k;
+            let [_, cosine, sine] = &fixed[k];
+            let sign = |quarter: usize| if quarter / 2 % 2 == 0 { weight } else { -weight };
+            // i^m (A + iB), of which an odd m exchanges the two functions.
+            let (to_real, to_imaginary, signs) = if turns % 2 == 0 {
+                (cosine, sine, [sign(turns), sign(turns)])
+            } else {
+                (sine, cosine, [sign(turns + 1), sign(turns - 1)])
+            };
+            for (sum, c) in real.iter_mut().zip(to_real) {
+                *sum += signs[0] * c;
+            }
+            for (sum, c) in imaginary.iter_mut().zip(to_imaginary) {
+                *sum += signs[1] * c;
+            }
+        }
+    }
+    [one.clone(), real, imaginary]
+}
+
+/// Binomial coefficients of (x + rate)^j, for x^0, x^1, … x^j.
+fn leibniz(j: usize, rate: f64) -> impl Iterator<Item = f64> {
+    let mut binomial = 1.0;
+    (0..=j).map(move |k| {
+        let weight = binomial * rate.powi((j - k) as i32); // j ≤ ORDERS
+        binomial *= (j - k) as f64 / (k + 1) as f64;
+        weight
+    })
 }
 
 /// A series in cos kf, or in sin kf if `odd`, times 1 + e cos f.
@@ -154,12 +224,17 @@ fn trimmed(series: &[f64]) -> Fourier {
 type Contracted<S> = [ComplexLanes<S>; 3];
 
 impl Generator {
-    /// The changes from mean to osculating variables, for |p| = √σ.
+    /// The changes from mean to osculating variables, for |p| = √σ and an ellipse with these axes.
     #[inline(always)]
-    pub(crate) fn at<S: InstructionSet>(&self, mean: &MeanLanes<S>, place: &Place<S>) -> Correction<S> {
+    pub(crate) fn at<S: InstructionSet>(
+        &self,
+        mean: &MeanLanes<S>,
+        place: &Place<S>,
+        axes: &Axes<S>,
+    ) -> Correction<S> {
         let none = place.sine.all(0.0);
         let zero = ComplexLanes { re: none, im: none };
-        let tensors = self.tensors(mean.frame, place);
+        let tensors = self.tensors_of(mean.frame, place, axes);
         let highest = self.harmonics.iter().flatten().map(|harmonic| harmonic.degree).max().unwrap_or(0);
         let turns = circle(mean.turn, highest);
         let orders = self.orbital.series.len();
@@ -184,20 +259,30 @@ impl Generator {
         self.change(&sums)
     }
 
-    /// r̂r̂ (a/r)³ and its time derivatives in the frame, as components 11, 22, 33, 12, 13, 23.
+    /// r̂r̂ (a/r)³ and its time derivatives in the frame at the epoch's axes, as components 11, 22, 33, 12, 13, 23.
     #[inline(always)]
     pub(crate) fn tensors<S: InstructionSet>(
         &self,
         frame: QuaternionLanes<S>,
         place: &Place<S>,
     ) -> [[Lanes<S>; 6]; ORDERS] {
+        self.tensors_of(frame, place, &fixed(&self.axes, place.sine))
+    }
+
+    #[inline(always)]
+    fn tensors_of<S: InstructionSet>(
+        &self,
+        frame: QuaternionLanes<S>,
+        place: &Place<S>,
+        inertial: &Axes<S>,
+    ) -> [[Lanes<S>; 6]; ORDERS] {
         let none = place.sine.all(0.0);
         let rows = frame.rows();
         let mut axes = [[none; 3]; 2];
-        for (components, axis) in axes.iter_mut().zip(&self.axes) {
+        for (components, [x, y, z]) in axes.iter_mut().zip(inertial) {
             for (c, component) in components.iter_mut().enumerate() {
-                let part = rows[0][c].mul_add(none.all(axis.x), rows[1][c] * none.all(axis.y));
-                *component = rows[2][c].mul_add(none.all(axis.z), part);
+                let part = rows[0][c].mul_add(*x, rows[1][c] * *y);
+                *component = rows[2][c].mul_add(*z, part);
             }
         }
         let [first, second] = axes;
@@ -216,6 +301,10 @@ impl Generator {
             for (slot, [first, second, mixed]) in tensor.iter_mut().zip(products) {
                 *slot = pp.mul_add(first, qq.mul_add(second, pq * mixed));
             }
+        }
+        if self.orbital.node_rate != 0.0 {
+            let rate = rows[2].map(|component| component * none.all(self.orbital.node_rate));
+            turned(&mut tensors, self.orbital.series.len(), &rate);
         }
         tensors
     }
@@ -237,6 +326,31 @@ impl Generator {
             momentum,
             // k × δ(Mk)/M turns k and the frame.
             rotation: [relative * y, -(relative * x)],
+        }
+    }
+}
+
+/// Time derivatives of a tensor from those relative to axes that turn with an angular velocity, which is constant relative to them. The lists hold the orders
+/// from 0.
+#[inline(always)]
+fn turned<S: InstructionSet>(tensors: &mut [[Lanes<S>; 6]; ORDERS], orders: usize, [a, b, c]: &[Lanes<S>; 3]) {
+    let (a, b, c) = (*a, *b, *c);
+    for first in 1..orders {
+        // Each pass replaces the derivative j by (d/dt + ω×) of the derivative j − 1 of the pass before, beginning with the highest.
+        for j in (first..orders).rev() {
+            let [xx, yy, zz, xy, xz, yz] = tensors[j - 1];
+            let two = a.all(2.0);
+            let change = [
+                two * b.mul_add(xz, -(c * xy)),
+                two * c.mul_add(xy, -(a * yz)),
+                two * a.mul_add(yz, -(b * xz)),
+                c.mul_add(xx - yy, b.mul_add(yz, -(a * xz))),
+                b.mul_add(zz - xx, a.mul_add(xy, -(c * yz))),
+                a.mul_add(yy - zz, c.mul_add(xz, -(b * xy))),
+            ];
+            for (component, more) in tensors[j].iter_mut().zip(change) {
+                *component = *component + more;
+            }
         }
     }
 }

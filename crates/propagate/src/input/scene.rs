@@ -178,6 +178,16 @@ impl Scene {
         }
     }
 
+    /// The orbits of the disturbing bodies, or `None` if there is no body or if one has a table.
+    pub(crate) fn asked_orbits(&self) -> Option<Vec<Orbit>> {
+        let orbit = |body: &DisturbingBody| match body {
+            DisturbingBody::Orbit(orbit) => Some(*orbit),
+            DisturbingBody::Tabulated(_) => None,
+        };
+        let orbits: Option<Vec<_>> = self.disturbing.iter().map(orbit).collect();
+        orbits.filter(|orbits| !orbits.is_empty())
+    }
+
     /// The bodies whose gravity gradients act.
     pub fn asked_disturbing(&self) -> &[DisturbingBody] {
         &self.disturbing

@@ -19,19 +19,18 @@ pub(super) fn beyond_theory(scene: &Scene) -> Option<String> {
     match scene.asked_disturbing() {
         // No body exerts a torque on a sphere.
         _ if a == b && b == c => None,
-        [] => None,
-        [DisturbingBody::Orbit(orbit)] if orbit.is_fixed() => None,
-        [DisturbingBody::Orbit(_)] => Some("an orbit with a node_rate or a pericentre_rate is integrated".to_owned()),
-        [_] => Some("a table of positions is integrated".to_owned()),
-        bodies => Some(format!("{} disturbing bodies are integrated", bodies.len())),
+        bodies if bodies.iter().any(|body| matches!(body, DisturbingBody::Tabulated(_))) => {
+            Some("a table of positions is integrated".to_owned())
+        }
+        _ => None,
     }
 }
 
-/// Whether a scene with one orbit leaves the choice between theory and integration.
+/// Whether a scene with disturbing bodies leaves the choice between theory and integration.
 pub(super) fn may_be_integrated(scene: &Scene) -> bool {
     scene.asked_method() == Method::Auto
         && scene.asked_span().is_some()
-        && scene.asked_orbit().is_some()
+        && !scene.asked_disturbing().is_empty()
         && scene.asked_order().is_none()
         && scene.asked_averaging() == Averaging::default()
         && scene.asked_level() == Level::default()
