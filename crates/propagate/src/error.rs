@@ -273,9 +273,7 @@ pub enum Error {
     )]
     LevelOfOrbit,
     /// An option that needs one disturbing body on an orbit that does not precess.
-    #[error(
-        "{argument} = \"{value}\" needs one disturbing body on an orbit without node_rate and pericentre_rate"
-    )]
+    #[error("{argument} = \"{value}\" needs one disturbing body on an orbit without node_rate and pericentre_rate")]
     OneFixedOrbit {
         /// The option.
         argument: &'static str,

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use crate::error::Error;
+use crate::error::{Error, Kind};
 use crate::gravity_gradient::choice::chosen;
 use crate::gravity_gradient::osculating::{LARGEST_SEPARATRIX_RATIO, osculating};
 use crate::gravity_gradient::request::Request;
@@ -27,7 +27,7 @@ use crate::torque_free::wobble::{Wobble, WobbleEvaluator};
 
 mod choice;
 
-use choice::{beyond_theory, cheapest, integrated, may_be_integrated};
+use choice::{beyond_theory, cheapest, in_ascii, integrated, may_be_integrated, without_span};
 
 /// Error bound below which the corrections are not held against their own effect \[rad\].
 const WORTH: f64 = 1e-3;
@@ -44,7 +44,7 @@ impl Scene {
     /// - [`Error::Separatrix`] where the series is asked for on the separatrix itself.
     /// - [`Error::Resonance`], [`Error::TorqueTooStrong`], [`Error::Unaveraged`] for an orbit whose gravity gradient cannot be averaged, without a span or with a method other than
     ///   [`Method::Auto`] and [`Method::Integrated`].
-    /// - [`Error::NoSpan`] where the motion is integrated and no span is given; [`Error::OnlyIntegrated`] for several bodies, a table or secular rates with another method.
+    /// - [`Error::NoSpan`] where the motion is integrated and no span is given; [`Error::OnlyIntegrated`] for a table of positions with another method.
     /// - [`Error::TooManySteps`], [`Error::Unpredictable`] where the integration takes too many steps, or nothing is known at its end; [`Error::TableSpan`].
     pub fn solve(&self) -> Result<Motion, Error> {
         self.solve_with(&SeriesTables::default())
@@ -88,7 +88,15 @@ impl Scene {
             (Method::Auto, Some(reason)) => integrated(self, tables, format!("theory: {reason}"), stop),
             (method, Some(reason)) => Err(Error::OnlyIntegrated { method: method.to_string(), reason }),
             (_, None) if may_be_integrated(&self) => cheapest(self, tables, stop),
-            (_, None) => self.solve_by_theory(tables),
+            (_, None) => {
+                let bodies = without_span(&self);
+                self.solve_by_theory(tables).map_err(|error| match bodies {
+                    Some(bodies) if error.kind() == Kind::Theory => {
+                        Error::NoSpan { reason: format!("theory for {bodies}: {}", in_ascii(&error)) }
+                    }
+                    _ => error,
+                })
+            }
         }
     }
 

@@ -28,6 +28,8 @@ use crate::simd::lanes::{Lanes, WIDEST};
 mod bodies;
 mod polynomial;
 mod precession;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use bodies::{Bodies, Pull};
 use polynomial::{COLUMNS, Column, NODES, POINTS, Polynomial};

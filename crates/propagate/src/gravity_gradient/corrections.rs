@@ -37,7 +37,7 @@ use crate::simd::lanes::Lanes;
 type C64 = Complex<f64>;
 
 /// Largest sum of the corrections for which first order is accepted.
-pub(super) const LARGEST_SIZE: f64 = 0.05;
+const LARGEST_SIZE: f64 = 0.05;
 /// [`Demand::share`] of a motion. The second-order error is 0.003 of its bound in the median, and a few tens of terms may be dropped.
 pub(crate) const SHARE: f64 = 1e-5;
 /// The same for a motion of second order, whose mean variables are better by the size of the corrections.
@@ -127,40 +127,80 @@ pub(crate) struct Corrections {
     pub(crate) neglected: f64,
 }
 
-impl Corrections {
-    /// The corrections of a mean motion.
-    ///
-    /// # Errors
-    /// - [`Error::Resonance`] if a resonant term has an effect that cannot be corrected.
-    /// - [`Error::TorqueTooStrong`] if the corrections are not small.
-    pub(crate) fn new(inertia: &Inertia, demand: &Demand<'_>) -> Result<Self, Error> {
-        let Demand { orbit, mean_motion, level, duration, .. } = *demand;
+/// All terms for one body, before any is dropped.
+pub(super) struct Terms {
+    all: Vec<Candidate>,
+    response: Response,
+    /// 3n²/2 times the disturbing mass fraction.
+    strength: f64,
+    /// Four times the strength of the torque at the pericentre over M.
+    scale: f64,
+    /// Largest change of the frequencies of the torque by the rates of node and pericentre.
+    turning: f64,
+    /// The largest rate of twice the true anomaly, at the pericentre, and of the axes.
+    fastest: f64,
+    /// Sum of the sizes of the terms that are not resonant \[rad\].
+    pub(super) size: f64,
+}
+
+impl Terms {
+    pub(super) fn new(inertia: &Inertia, demand: &Demand<'_>) -> Self {
+        let Demand { orbit, mean_motion, level, rates, .. } = *demand;
         let eccentricity = orbit.eccentricity();
         let eta_cubed = (1.0 - eccentricity * eccentricity).powf(1.5);
-        // The largest rate of twice the true anomaly, at the pericentre, and of the axes.
-        let turning = 2.0 * (demand.rates[0].abs() + demand.rates[1].abs());
+        let turning = 2.0 * (rates[0].abs() + rates[1].abs());
         let fastest = 2.0 * mean_motion * (1.0 + eccentricity).powi(2) / eta_cubed + turning;
         let strength = 1.5 * mean_motion * mean_motion * orbit.disturbing_fraction();
         let pericentre = strength * ((1.0 + eccentricity) / eta_cubed.powf(2.0 / 3.0)).powi(3);
         let response = Response::new(inertia);
         let scale = 4.0 * pericentre / inertia.momentum;
         let all = candidates(inertia, &response, scale, |m, h| level.tensor(inertia, m, h));
+        let mut terms = Self { all, response, strength, scale, turning, fastest, size: 0.0 };
+        terms.size = terms.all.iter().filter(|candidate| terms.regular(candidate)).map(Candidate::size).sum();
+        terms
+    }
+
+    /// Whether a term is corrected.
+    fn regular(&self, candidate: &Candidate) -> bool {
+        candidate.frequency.abs() > SMALLEST_RATIO * self.fastest
+    }
+}
+
+impl Corrections {
+    /// The corrections of a mean motion under one body.
+    ///
+    /// # Errors
+    /// - [`Error::Resonance`] if a resonant term has an effect that cannot be corrected.
+    /// - [`Error::TorqueTooStrong`] if the corrections are not small.
+    pub(crate) fn new(inertia: &Inertia, demand: &Demand<'_>) -> Result<Self, Error> {
+        let terms = Terms::new(inertia, demand);
+        let size = terms.size;
+        Self::of(terms, inertia, demand, size)
+    }
+
+    /// The corrections of a mean motion for one of several bodies, for which all terms together sum to `whole`.
+    ///
+    /// # Errors
+    /// As [`Corrections::new`].
+    pub(super) fn of(terms: Terms, inertia: &Inertia, demand: &Demand<'_>, whole: f64) -> Result<Self, Error> {
+        if whole > LARGEST_SIZE {
+            return Err(Error::TorqueTooStrong { size: whole, bound: LARGEST_SIZE });
+        }
+        let Demand { orbit, mean_motion, level, duration, .. } = *demand;
+        let Terms { response, strength, scale, turning, fastest, size, .. } = terms;
+        let eccentricity = orbit.eccentricity();
         let commensurability =
             Commensurability { response: &response, mean_motion, eccentricity, turning, fastest, duration };
-        let regular = |candidate: &Candidate| candidate.frequency.abs() > SMALLEST_RATIO * fastest;
-        let size: f64 = all.iter().filter(|candidate| regular(candidate)).map(Candidate::size).sum();
-        if size > LARGEST_SIZE {
-            return Err(Error::TorqueTooStrong { size, bound: LARGEST_SIZE });
-        }
-        let mut dropped = commensurability.left(&all, demand.tolerance.max(second_order(size, &response, duration)))?;
+        let allowed = demand.tolerance.max(second_order(whole, &response, duration));
+        let mut dropped = commensurability.left(&terms.all, allowed)?;
         let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
         let omitted = omitted.iter().map(|term| commensurability.whole(term)).sum();
-        let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * size * size);
+        let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * whole * whole);
         let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
         let mut orbital = Orbital::precessing(eccentricity, mean_motion, demand.rates);
         let most = if level == Level::Paper { 1 } else { ORDERS };
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
-        for candidate in all.into_iter().filter(regular) {
+        for candidate in terms.all.iter().filter(|candidate| terms.regular(candidate)) {
             let growth = response.growth(candidate.multiple, duration);
             if candidate.size() <= nothing {
                 dropped += growth * candidate.size();

@@ -8,10 +8,6 @@
 #[path = "tests.rs"]
 mod tests;
 
-#[cfg(test)]
-#[path = "bodies_tests.rs"]
-mod bodies_tests;
-
 use std::f64::consts::TAU;
 
 use andoyer_double::DoubleDouble;
@@ -20,7 +16,7 @@ use num_complex::Complex;
 
 use super::averaged::{AveragedOrbit, Bodies, MOST_QUARTERS, Precession, Pull, Slow, Spin};
 use super::budget::{Budget, MOST_ORBITS, Subject};
-use super::corrections::{Change, Corrections, Demand, LARGEST_SIZE, Mean, SECOND_SHARE, SHARE};
+use super::corrections::{Change, Corrections, Demand, Mean, SECOND_SHARE, SHARE, Terms};
 use super::course::{Course, When};
 use super::inertia::Inertia;
 use super::offset::Offset;
@@ -183,10 +179,10 @@ impl Gradient {
         let secular = ellipses.iter().map(|ellipse| ellipse.secular(&axis) * ellipse.fraction()).sum::<f64>() * unit;
         let drifts_by = if request.is_fixed() { slope * ellipses[0].fraction() } else { slope };
         let pulls = || {
-            courses.iter().zip(&ellipses).map(|(course, ellipse)| Pull {
-                course: course.clone(),
-                attraction: ellipse.attraction() * unit,
-            })
+            courses
+                .iter()
+                .zip(&ellipses)
+                .map(|(course, ellipse)| Pull { course: course.clone(), attraction: ellipse.attraction() * unit })
         };
         let slow = |frame: UnitQuaternion<f64>| match (request.is_fixed(), by_orbit) {
             (false, _) => Slow::Bodies(Box::new(Bodies::new(pulls().collect(), delta, frame))),
@@ -226,6 +222,11 @@ impl Gradient {
     pub(crate) fn frequencies(&self) -> [f64; 2] {
         let [anomaly, longitude] = self.secular;
         [self.anomaly.frequency() * TAU + anomaly, 2.0 * self.half_longitude.frequency() * TAU + longitude]
+    }
+
+    /// Whether there is one body, on an orbit that does not precess.
+    pub(crate) fn is_fixed(&self) -> bool {
+        !matches!(self.slow, Slow::Bodies(_))
     }
 
     /// The longest time from the epoch for which quarters are kept, in the user's unit.
@@ -299,9 +300,9 @@ fn within_arcs(courses: &[Course], request: &Request<'_>) -> Result<(), Error> {
 
 /// The corrections for each body at a mean motion.
 fn all_corrections(inertia: &Inertia, demands: &[Demand<'_>]) -> Result<Vec<Corrections>, Error> {
-    let all = demands.iter().map(|demand| Corrections::new(inertia, demand)).collect::<Result<Vec<_>, Error>>()?;
-    let size = all.iter().map(|corrections| corrections.size).sum::<f64>();
-    if size > LARGEST_SIZE { Err(Error::TorqueTooStrong { size, bound: LARGEST_SIZE }) } else { Ok(all) }
+    let all: Vec<_> = demands.iter().map(|demand| Terms::new(inertia, demand)).collect();
+    let whole = all.iter().map(|terms| terms.size).sum();
+    all.into_iter().zip(demands).map(|(terms, demand)| Corrections::of(terms, inertia, demand, whole)).collect()
 }
 
 /// The mean motion of second order from that of first order of a state.

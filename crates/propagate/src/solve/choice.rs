@@ -26,6 +26,19 @@ pub(super) fn beyond_theory(scene: &Scene) -> Option<String> {
     }
 }
 
+/// What a scene would need the integration for if theory does not serve it, but gives no span: several bodies, or an orbit that precesses.
+pub(super) fn without_span(scene: &Scene) -> Option<String> {
+    if scene.asked_method() != Method::Auto || scene.asked_span().is_some() {
+        return None;
+    }
+    match scene.asked_disturbing() {
+        [] => None,
+        [DisturbingBody::Orbit(orbit)] if orbit.is_fixed() => None,
+        [_] => Some("an orbit that precesses".to_owned()),
+        bodies => Some(format!("{} disturbing bodies", bodies.len())),
+    }
+}
+
 /// Whether a scene with disturbing bodies leaves the choice between theory and integration.
 pub(super) fn may_be_integrated(scene: &Scene) -> bool {
     scene.asked_method() == Method::Auto

@@ -70,7 +70,8 @@ impl Bodies {
                 usize::from(*time < 0.0) == side && time.abs() >= stretch.from && time.abs() <= stretch.end()
             };
             let next = lane + 1 + all[lane + 1..].iter().take_while(|time| inside(time)).count();
-            let place = (times.magnitude() - times.all(stretch.from)) * times.all(2.0 / stretch.length) - times.all(1.0);
+            let place =
+                (times.magnitude() - times.all(stretch.from)) * times.all(2.0 / stretch.length) - times.all(1.0);
             let columns = stretch.solution.sums(place);
             if next - lane == all.len() {
                 let [x, y, z, w, anomaly, longitude] = columns;

@@ -28,9 +28,10 @@ impl Budget {
     ) -> Self {
         let Subject { inertia, response, .. } = subjects[0];
         // Largest angle by which the angular momentum turns about any axis.
-        let precession = subjects.iter().zip(demands).map(|(subject, demand)| {
-            0.5 * subject.ellipse.strength().abs() * demand.mean_motion * duration
-        });
+        let precession = subjects
+            .iter()
+            .zip(demands)
+            .map(|(subject, demand)| 0.5 * subject.ellipse.strength().abs() * demand.mean_motion * duration);
         let precession = precession.sum::<f64>().min(PI);
         let normals: Vec<_> = subjects.iter().map(|subject| subject.ellipse.normal()).collect();
         let (mut size, mut p, mut sum, mut dropped, mut omitted) = (0.0, 0.0, 0.0, 0.0, 0.0);
@@ -40,7 +41,8 @@ impl Budget {
             let corrections = subject.corrections;
             sum += corrections.size;
             dropped += corrections.dropped + 2.0 * corrections.rest;
-            omitted += corrections.omitted + subject.omitted(demand.mean_motion) * (1.0 + demand.mean_motion * duration);
+            omitted +=
+                corrections.omitted + subject.omitted(demand.mean_motion) * (1.0 + demand.mean_motion * duration);
         }
         let [anomaly, longitude] = inertia.rate_slopes;
         let slope = f64::max(size, SLOPE_SHARE * sum);
