@@ -85,16 +85,13 @@ impl Course {
 
     /// The longest time from a place on the orbit over which a polynomial represents the torque, in either direction.
     ///
-    /// The torque is singular at the mean anomalies ±i (arcosh 1/e − η), where the distance is 0.
+    /// The torque is singular at the mean anomalies ±i (artanh η − η), where the distance is 0.
     pub(crate) fn arc(&self, mean_anomaly: f64) -> f64 {
-        let e = self.eccentricity;
-        let bound = LONGEST_ARC / self.rate();
-        if e == 0.0 {
-            return bound;
-        }
-        let eta = ((1.0 - e) * (1.0 + e)).sqrt();
-        let distance = mean_anomaly.hypot((1.0 / e).acosh() - eta);
-        bound.min(ARC_SHARE * distance / (TAU * self.mean_anomaly.frequency()))
+        let eta = ((1.0 - self.eccentricity) * (1.0 + self.eccentricity)).sqrt();
+        // Two terms of the series, where the difference cancels. For a circle the singularity is infinitely far.
+        let singular = if eta < 0.01 { eta.powi(3) * (1.0 / 3.0 + eta * eta / 5.0) } else { eta.atanh() - eta };
+        let length = ARC_SHARE * mean_anomaly.hypot(singular) / (TAU * self.mean_anomaly.frequency());
+        length.min(LONGEST_ARC / self.rate())
     }
 
     /// Number of arcs in a unit of time.
