@@ -6,6 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector3;
+use pulp::NullaryFnOnce;
 
 use crate::input::orbit::Orbit;
 use crate::numerics::phase::Phase;
@@ -76,6 +77,12 @@ impl Course {
         When { turns, place: Place::of(angle, self.eccentricity), axes }
     }
 
+    /// [`Course::at`] as a function that is compiled separately.
+    #[inline(always)]
+    pub(crate) fn later<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> When<S> {
+        elapsed.0.simd().vectorize(At { course: self, elapsed })
+    }
+
     /// Radians per unit of time of mean anomaly, node and pericentre together.
     fn rate(&self) -> f64 {
         let turning = self.turning.as_ref();
@@ -103,6 +110,21 @@ impl Course {
             count += 1.0;
         }
         count * self.mean_anomaly.frequency()
+    }
+}
+
+/// [`Course::at`] as a task that is compiled separately.
+struct At<'a, S: InstructionSet> {
+    course: &'a Course,
+    elapsed: Elapsed<S>,
+}
+
+impl<S: InstructionSet> NullaryFnOnce for At<'_, S> {
+    type Output = When<S>;
+
+    #[inline(always)]
+    fn call(self) -> When<S> {
+        self.course.at(self.elapsed)
     }
 }
 

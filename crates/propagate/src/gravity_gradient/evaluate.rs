@@ -7,7 +7,7 @@ use pulp::NullaryFnOnce;
 
 use super::course::Elapsed;
 use super::disturbed::{DisturbedBy, Gradient};
-use super::generator;
+use super::generator::{self, Correction};
 use super::offset::Offset;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
@@ -33,15 +33,15 @@ impl Gradient {
     #[inline(always)]
     fn osculating<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
         let all = |value: f64| elapsed.0.all(value);
-        let when = self.bodies[0].course.at(elapsed);
-        let (frame, [by_anomaly, by_longitude]) = self.slow.at(&when, elapsed);
+        let first = self.bodies[0].course.at(elapsed);
+        let (frame, [by_anomaly, by_longitude]) = self.slow.at(&first, elapsed);
         let plane = |(im, re): (Lanes<S>, Lanes<S>)| ComplexLanes { re, im };
         let turn = plane(self.anomaly.sin_cos_beyond(elapsed, by_anomaly * all(self.drifts[0] / TAU)));
         let half = plane(self.half_longitude.sin_cos_beyond(elapsed, by_longitude * all(0.5 * self.drifts[1] / TAU)));
         let mean = generator::MeanLanes { turn, spin: half * half, frame };
-        let mut change = self.bodies[0].corrections.generator.at(&mean, &when.place, &when.axes);
-        for DisturbedBy { course, corrections } in &self.bodies[1..] {
-            let when = course.at(elapsed);
+        let mut change = Correction::none(elapsed.0);
+        for (index, DisturbedBy { course, corrections }) in self.bodies.iter().enumerate() {
+            let when = if index == 0 { first } else { course.later(elapsed) };
             change = change.plus(corrections.generator.at(&mean, &when.place, &when.axes));
         }
         let Offset { p, momentum } = self.offset;

@@ -76,6 +76,13 @@ pub(crate) struct Correction<S: InstructionSet> {
 }
 
 impl<S: InstructionSet> Correction<S> {
+    /// No change.
+    #[inline(always)]
+    pub(crate) fn none(like: Lanes<S>) -> Self {
+        let none = like.all(0.0);
+        Self { p: ComplexLanes { re: none, im: none }, longitude: none, momentum: none, rotation: [none; 2] }
+    }
+
     /// The sum of two changes.
     #[inline(always)]
     pub(crate) fn plus(self, other: Self) -> Self {

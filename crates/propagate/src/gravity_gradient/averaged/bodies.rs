@@ -12,11 +12,12 @@
 use std::sync::{Arc, RwLock};
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use pulp::Arch;
 
 use super::polynomial::{COLUMNS, Column, NODES, POINTS, Polynomial};
 use crate::gravity_gradient::course::Course;
 use crate::simd::complex_quaternion::QuaternionLanes;
-use crate::simd::instruction_set::InstructionSet;
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::{Lanes, WIDEST};
 
 /// A disturbing body: where it is, and μ in the units of the motion times the user's unit of time in these units.
@@ -36,6 +37,9 @@ pub(crate) struct Bodies {
     /// The solved arcs after the epoch, and before it.
     kept: Arc<[RwLock<Vec<Stretch>>; 2]>,
 }
+
+/// The direction of a body and μ (a/r)³.
+type Torque = (Vector3<f64>, f64);
 
 /// One arc: the distances of its ends from the epoch, and the solution.
 #[derive(Clone, Copy, Debug)]
@@ -110,14 +114,14 @@ impl Bodies {
         let longest = |pull: &Pull| pull.course.arc(pull.course.mean_anomaly.angle((sign * from, 0.0)));
         let length = self.pulls.iter().map(longest).fold(f64::INFINITY, f64::min);
         let half = 0.5 * length;
-        let torques: [Vec<(Vector3<f64>, f64)>; POINTS] =
-            NODES.map(|x| self.pulls.iter().map(|pull| pull.at(sign * (from + half * (1.0 + x)))).collect());
-        let slope = |i: usize, frame: &Quaternion<f64>| self.slope(&torques[i], frame);
+        let times = NODES.map(|x| sign * (from + half * (1.0 + x)));
+        let torques = dispatch(Arch::new(), Torques { pulls: &self.pulls, times });
+        let slope = |i: usize, frame: &Quaternion<f64>| self.slope(torques.iter().map(|body| &body[i]), frame);
         Stretch { from, length, solution: Polynomial::solved(sign * half, (-1.0, start), slope) }
     }
 
     /// The derivative of a column by time, from the directions of the bodies and μ(a/r)³.
-    fn slope(&self, torques: &[(Vector3<f64>, f64)], frame: &Quaternion<f64>) -> Column {
+    fn slope<'a>(&self, torques: impl Iterator<Item = &'a Torque>, frame: &Quaternion<f64>) -> Column {
         let axis = (frame * Quaternion::new(0.0, 0.0, 0.0, 1.0) * frame.conjugate()).imag();
         let (mut turning, mut phase) = (Vector3::zeros(), 0.0);
         for (direction, attraction) in torques {
@@ -131,15 +135,32 @@ impl Bodies {
     }
 }
 
-impl Pull {
-    /// The direction of the body and μ (a/r)³ at a time.
-    fn at(&self, time: f64) -> (Vector3<f64>, f64) {
-        let one = |value: f64| Lanes::splat(pulp::Scalar, value);
-        let when = self.course.at((one(time), one(0.0)));
-        let [first, second] = when.axes.map(|axis| Vector3::from(axis.map(|lanes| lanes.values()[0])));
-        let (sine, cosine) = (when.place.sine.values()[0], when.place.cosine.values()[0]);
-        let e = self.course.eccentricity;
-        let near = (1.0 + e * cosine) / ((1.0 - e) * (1.0 + e));
-        (first * cosine + second * sine, self.attraction * near * near * near)
+/// The directions of the bodies and μ (a/r)³ at the points of an arc, by body.
+struct Torques<'a> {
+    pulls: &'a [Pull],
+    times: [f64; POINTS],
+}
+
+impl Task for Torques<'_> {
+    type Output = Vec<[Torque; POINTS]>;
+
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
+        let none = Lanes::splat(simd, 0.0);
+        let mut all = vec![[(Vector3::zeros(), 0.0); POINTS]; self.pulls.len()];
+        for (pull, torques) in self.pulls.iter().zip(&mut all) {
+            let width = Lanes::<S>::WIDTH;
+            for (times, torques) in self.times.chunks(width).zip(torques.chunks_mut(width)) {
+                let when = pull.course.at((Lanes::load(simd, times), none));
+                let e = pull.course.eccentricity;
+                for (lane, torque) in torques.iter_mut().enumerate() {
+                    let [first, second] = when.axes.map(|axis| Vector3::from(axis.map(|lanes| lanes.values()[lane])));
+                    let (sine, cosine) = (when.place.sine.values()[lane], when.place.cosine.values()[lane]);
+                    let near = (1.0 + e * cosine) / ((1.0 - e) * (1.0 + e));
+                    *torque = (first * cosine + second * sine, pull.attraction * near * near * near);
+                }
+            }
+        }
+        all
     }
 }

@@ -19,14 +19,58 @@ const NEGLIGIBLE: f64 = 1e-17;
 pub(super) type Column = [f64; COLUMNS];
 /// Components of a column.
 pub(super) const COLUMNS: usize = 6;
+/// Those of the frame.
+const FRAME: usize = 4;
 
 /// The Chebyshev points, from −1 to 1.
 pub(super) static NODES: LazyLock<[f64; POINTS]> =
     LazyLock::new(|| std::array::from_fn(|i| (PI * (i as f64 + 0.5) / POINTS as f64).cos()));
-/// cos kθ at the points, by k.
-static COSINES: LazyLock<[[f64; POINTS]; POINTS]> = LazyLock::new(|| {
-    std::array::from_fn(|k| std::array::from_fn(|i| (PI * k as f64 * (i as f64 + 0.5) / POINTS as f64).cos()))
-});
+/// The coefficients of a primitive for a function that is 1 at one of the points and 0 at the others, by the point.
+static PRIMITIVES: LazyLock<[[f64; POINTS]; POINTS]> = LazyLock::new(|| std::array::from_fn(primitive));
+/// The values of these primitives at the points, by the point of the value.
+static VALUES: LazyLock<[[f64; POINTS]; POINTS]> =
+    LazyLock::new(|| std::array::from_fn(|i| PRIMITIVES.each_ref().map(|primitive| sum(primitive, NODES[i]))));
+/// The same at the ends of the interval, −1 and 1.
+static ENDS: LazyLock<[[f64; POINTS]; 2]> =
+    LazyLock::new(|| [-1.0, 1.0].map(|end| PRIMITIVES.each_ref().map(|primitive| sum(primitive, end))));
+
+/// The Chebyshev coefficients of the primitive for one point, without the constant.
+fn primitive(point: usize) -> [f64; POINTS] {
+    let count = POINTS as f64;
+    let series: [f64; POINTS + 1] = std::array::from_fn(|k| {
+        let scale = match k {
+            0 => 1.0 / count,
+            POINTS => 0.0,
+            _ => 2.0 / count,
+        };
+        scale * (PI * k as f64 * (point as f64 + 0.5) / count).cos()
+    });
+    std::array::from_fn(|k| match k {
+        0 => 0.0,
+        1 => series[0] - 0.5 * series[2],
+        _ => (series[k - 1] - series[k + 1]) / (2.0 * k as f64),
+    })
+}
+
+/// A Chebyshev series by Clenshaw's rule.
+fn sum(coefficients: &[f64; POINTS], x: f64) -> f64 {
+    let (mut next, mut after) = (0.0, 0.0);
+    for coefficient in coefficients[1..].iter().rev() {
+        (next, after) = (2.0 * x * next + coefficient - after, next);
+    }
+    x * next + coefficients[0] - after
+}
+
+/// Σ weight × slope.
+fn weighted(weights: &[f64; POINTS], slopes: &[Column; POINTS]) -> Column {
+    let mut sum = [0.0; COLUMNS];
+    for (weight, slope) in weights.iter().zip(slopes) {
+        for c in 0..COLUMNS {
+            sum[c] += weight * slope[c];
+        }
+    }
+    sum
+}
 
 /// Chebyshev coefficients in one interval.
 #[derive(Clone, Copy, Debug)]
@@ -43,52 +87,49 @@ impl Polynomial {
         (place, start): (f64, &Column),
         slope: impl Fn(usize, &Quaternion<f64>) -> Column,
     ) -> Self {
+        let (nodes, at_nodes) = (&*PRIMITIVES, &*VALUES);
+        let at_place = match place {
+            -1.0 => ENDS[0],
+            1.0 => ENDS[1],
+            place => nodes.each_ref().map(|primitive| sum(primitive, place)),
+        };
         let mut values = [*start; POINTS];
-        let mut solution = Self { coefficients: [[0.0; COLUMNS]; POINTS], terms: POINTS };
+        let mut constant = *start;
+        let mut slopes = [[0.0; COLUMNS]; POINTS];
         for _ in 0..MOST_ITERATIONS {
-            let slopes: [Column; POINTS] = std::array::from_fn(|i| {
-                let [x, y, z, w, ..] = values[i];
-                slope(i, &Quaternion::new(w, x, y, z))
-            });
-            solution = Self::integral(&slopes, half);
-            let offset = solution.at(place);
-            for c in 0..COLUMNS {
-                solution.coefficients[0][c] += start[c] - offset[c];
+            for (i, (value, found)) in values.iter().zip(&mut slopes).enumerate() {
+                let [x, y, z, w, ..] = *value;
+                *found = slope(i, &Quaternion::new(w, x, y, z)).map(|slope| half * slope);
             }
+            let offset = weighted(&at_place, &slopes);
+            constant = std::array::from_fn(|c| start[c] - offset[c]);
             let mut change = 0.0_f64;
-            for (value, &x) in values.iter_mut().zip(&*NODES) {
-                let next = solution.at(x);
-                change = (0..4).fold(change, |most, c| most.max((next[c] - value[c]).abs()));
-                *value = next;
+            for (value, weights) in values.iter_mut().zip(at_nodes) {
+                let integral = weighted(weights, &slopes);
+                for c in 0..COLUMNS {
+                    let next = constant[c] + integral[c];
+                    if c < FRAME {
+                        change = change.max((next - value[c]).abs());
+                    }
+                    value[c] = next;
+                }
             }
             if change <= 4.0 * f64::EPSILON {
                 break;
             }
         }
-        solution.trimmed()
-    }
-
-    /// The primitive, up to a constant, of a function with the given values at the points.
-    fn integral(slopes: &[Column; POINTS], half: f64) -> Self {
-        let count = POINTS as f64;
-        let mut series = [[0.0; COLUMNS]; POINTS + 1];
-        for ((k, sum), cosines) in series.iter_mut().enumerate().zip(&*COSINES) {
-            let scale = if k == 0 { 1.0 } else { 2.0 } / count * half;
-            for (cosine, slope) in cosines.iter().zip(slopes) {
-                let weight = scale * cosine;
+        let mut coefficients = [[0.0; COLUMNS]; POINTS];
+        for (primitive, slope) in nodes.iter().zip(&slopes) {
+            for (column, factor) in coefficients.iter_mut().zip(primitive) {
                 for c in 0..COLUMNS {
-                    sum[c] += weight * slope[c];
+                    column[c] += factor * slope[c];
                 }
             }
         }
-        let mut coefficients = [[0.0; COLUMNS]; POINTS];
-        for k in 1..POINTS {
-            let lower = if k == 1 { 2.0 } else { 1.0 };
-            for c in 0..COLUMNS {
-                coefficients[k][c] = (lower * series[k - 1][c] - series[k + 1][c]) / (2.0 * k as f64);
-            }
+        for c in 0..COLUMNS {
+            coefficients[0][c] += constant[c];
         }
-        Self { coefficients, terms: POINTS }
+        Self { coefficients, terms: POINTS }.trimmed()
     }
 
     /// The sums of the Chebyshev series, by Clenshaw's rule.
