@@ -9,6 +9,7 @@ from test_integration import ATTITUDE, EARTH, TILTED, angle
 import andoyer
 from andoyer import Body, Orbit, Scene, TabulatedOrbit
 
+pytestmark = pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
 BODY = Body([0.85, 0.9, 1.0])
 RATES = [0.12, -0.05, 1.0]
 PRECESSING = Orbit(4e-3, 0.2, node_rate=-1e-3, pericentre_rate=5e-4, time_of_pericentre=-300.0, **TILTED)
