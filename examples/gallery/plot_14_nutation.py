@@ -76,10 +76,10 @@ def solved(**options: Any) -> tuple[andoyer.Motion, NDArray[np.float64]]:
     """The motion, and the figure axis at the times."""
     clock = time.perf_counter()
     motion = andoyer.Scene(earth, *state, orbit=[moon, sun], span=(0, span), **options).solve()
-    axis = motion.rotation(times).as_matrix()[:, :, 2]
+    motion.attitude(times)
     print(f"{motion.plan}\n{time.perf_counter() - clock:.2f} s with {len(times)} attitudes\n")
     assert motion.plan.meets_tolerance
-    return motion, axis
+    return motion, motion.rotation(times).as_matrix()[:, :, 2]
 
 
 # %%
