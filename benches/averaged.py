@@ -117,7 +117,7 @@ def main():
     if options.output:
         with options.output.open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(["regime", "error", "bound", "bound of the integration", "effect"])
+            writer.writerow(["regime", "error", "bound", "integration_bound", "effect"])
             writer.writerows([(regime, *(f"{x:.6e}" for x in row)) for regime, *row in rows])
     return 1 if beyond else 0
 
