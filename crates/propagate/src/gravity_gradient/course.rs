@@ -71,16 +71,10 @@ impl Course {
     pub(crate) fn at<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> When<S> {
         let (turns, angle) = self.mean_anomaly.turns_and_angle(elapsed);
         let axes = match &self.turning {
-            Some(turning) => turning.axes(elapsed),
+            Some(turning) => elapsed.0.simd().vectorize(AxesAt { turning, elapsed }),
             None => fixed(&self.axes, angle),
         };
         When { turns, place: Place::of(angle, self.eccentricity), axes }
-    }
-
-    /// [`Course::at`] as a function that is compiled separately.
-    #[inline(always)]
-    pub(crate) fn later<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> When<S> {
-        elapsed.0.simd().vectorize(At { course: self, elapsed })
     }
 
     /// Radians per unit of time of mean anomaly, node and pericentre together.
@@ -113,18 +107,18 @@ impl Course {
     }
 }
 
-/// [`Course::at`] as a task that is compiled separately.
-struct At<'a, S: InstructionSet> {
-    course: &'a Course,
+/// [`Turning::axes`] as a task that is compiled separately: a fixed orbit does without it.
+struct AxesAt<'a, S: InstructionSet> {
+    turning: &'a Turning,
     elapsed: Elapsed<S>,
 }
 
-impl<S: InstructionSet> NullaryFnOnce for At<'_, S> {
-    type Output = When<S>;
+impl<S: InstructionSet> NullaryFnOnce for AxesAt<'_, S> {
+    type Output = Axes<S>;
 
     #[inline(always)]
-    fn call(self) -> When<S> {
-        self.course.at(self.elapsed)
+    fn call(self) -> Axes<S> {
+        self.turning.axes(self.elapsed)
     }
 }
 

@@ -41,7 +41,7 @@ impl Gradient {
         let mean = generator::MeanLanes { turn, spin: half * half, frame };
         let mut change = Correction::none(elapsed.0);
         for (index, DisturbedBy { course, corrections }) in self.bodies.iter().enumerate() {
-            let when = if index == 0 { first } else { course.later(elapsed) };
+            let when = if index == 0 { first } else { course.at(elapsed) };
             change = change.plus(corrections.generator.at(&mean, &when.place, &when.axes));
         }
         let Offset { p, momentum } = self.offset;

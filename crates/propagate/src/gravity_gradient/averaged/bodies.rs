@@ -12,7 +12,7 @@
 use std::sync::{Arc, RwLock};
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use pulp::Arch;
+use pulp::{Arch, NullaryFnOnce};
 
 use super::polynomial::{COLUMNS, Column, NODES, POINTS, Polynomial};
 use crate::gravity_gradient::course::Course;
@@ -61,9 +61,15 @@ impl Bodies {
         Self { pulls, delta, start: [frame.i, frame.j, frame.k, frame.w, 0.0, 0.0], kept: Arc::default() }
     }
 
-    /// Consecutive times in the same arc are evaluated together.
+    /// The frame and J at times after the epoch. The function is compiled separately: one fixed orbit does without it.
     #[inline(always)]
     pub(super) fn at<S: InstructionSet>(&self, times: Lanes<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
+        times.simd().vectorize(At { bodies: self, times })
+    }
+
+    /// Consecutive times in the same arc are evaluated together.
+    #[inline(always)]
+    fn evaluated<S: InstructionSet>(&self, times: Lanes<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         let all = times.values();
         let mut rows = [[0.0; WIDEST]; COLUMNS];
         let mut lane = 0;
@@ -132,6 +138,21 @@ impl Bodies {
         }
         let change = Quaternion::from_parts(0.0, turning * 0.5) * frame;
         [change.i, change.j, change.k, change.w, phase, phase]
+    }
+}
+
+/// [`Bodies::evaluated`] as a task that is compiled separately.
+struct At<'a, S: InstructionSet> {
+    bodies: &'a Bodies,
+    times: Lanes<S>,
+}
+
+impl<S: InstructionSet> NullaryFnOnce for At<'_, S> {
+    type Output = (QuaternionLanes<S>, [Lanes<S>; 2]);
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        self.bodies.evaluated(self.times)
     }
 }
 
