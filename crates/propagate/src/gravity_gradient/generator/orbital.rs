@@ -91,9 +91,9 @@ fn with_turning(fixed: &[[Vec<f64>; 3]], rate: f64, j: usize) -> [Vec<f64>; 3] {
         for (k, weight) in leibniz(j, rate).enumerate().take(j) {
             let turns = j - k;
             let [_, cosine, sine] = &fixed[k];
-            let sign = |quarter: usize| if quarter / 2 % 2 == 0 { weight } else { -weight };
+            let sign = |quarter: usize| if (quarter / 2).is_multiple_of(2) { weight } else { -weight };
             // i^m (A + iB), of which an odd m exchanges the two functions.
-            let (to_real, to_imaginary, signs) = if turns % 2 == 0 {
+            let (to_real, to_imaginary, signs) = if turns.is_multiple_of(2) {
                 (cosine, sine, [sign(turns), sign(turns)])
             } else {
                 (sine, cosine, [sign(turns + 1), sign(turns - 1)])
