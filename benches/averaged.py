@@ -74,7 +74,7 @@ def drawn(regime, random):
 def judged(regime, random):
     """A row of the table, or the reason why theory does not serve the scene."""
     body, attitude, rates, orbits, span = drawn(regime, random)
-    scene = dict(orbit=orbits, span=span, tolerance=1e-12)
+    scene = {"orbit": orbits, "span": span, "tolerance": 1e-12}
     try:
         theory = andoyer.Scene(body, attitude, rates, method="closed", **scene).solve()
     except andoyer.TheoryError as error:

@@ -142,9 +142,7 @@ def averaged_bodies() -> list[str]:
         shares = [float(row["error"]) / (float(row["bound"]) + float(row["integration_bound"])) for row in motions]
         gains = [float(row["error"]) / float(row["effect"]) for row in motions]
         largest = max(float(row["error"]) for row in motions)
-        rows.append(
-            [regime, str(len(motions)), f"{statistics.median(shares):.4f}", f"{max(shares):.2f}", f"{statistics.median(gains):.1e}", f"{largest:.1e}"]
-        )
+        rows.append([regime, str(len(motions)), f"{statistics.median(shares):.4f}", f"{max(shares):.2f}", f"{statistics.median(gains):.1e}", f"{largest:.1e}"])
     return markdown(["orbits", "motions", "error / bound, median", "largest", "error / effect of the torque, median", "largest error [rad]"], rows)
 
 

@@ -27,7 +27,7 @@ use crate::torque_free::wobble::{Wobble, WobbleEvaluator};
 
 mod choice;
 
-use choice::{beyond_theory, cheapest, in_ascii, integrated, may_be_integrated, without_span};
+use choice::{beyond_theory, cheapest, in_ascii, integrated, is_sphere, may_be_integrated, without_span};
 
 /// Error bound below which the corrections are not held against their own effect \[rad\].
 const WORTH: f64 = 1e-3;
@@ -104,12 +104,12 @@ impl Scene {
         let scene = self;
         let Some(polhode) = Polhode::new(scene.body(), scene.state()) else {
             return match scene.asked_orbits() {
-                Some(_) => Err(Error::Unaveraged {
+                Some(_) if !is_sphere(&scene) => Err(Error::Unaveraged {
                     mode: Mode::AtRest.to_string(),
                     ratio: 0.0,
                     bound: LARGEST_SEPARATRIX_RATIO,
                 }),
-                None => Ok(with_unused(at_rest(scene))),
+                _ => Ok(with_unused(at_rest(scene))),
             };
         };
         representable(&polhode)?;

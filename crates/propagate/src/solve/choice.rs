@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 use crate::error::{Error, Kind};
 use crate::input::disturbing_body::DisturbingBody;
 use crate::input::options::{Averaging, Level, Method};
+use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
 use crate::integration::integrated::{Integrated, prospect};
 use crate::integration::integrator::MOST_STEPS;
@@ -13,12 +14,16 @@ use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
 use crate::torque_free::series::tables::SeriesTables;
 
+/// Whether all moments are equal: no body exerts a torque on a sphere.
+pub(super) fn is_sphere(scene: &Scene) -> bool {
+    let [a, b, c] = scene.body().moments();
+    a == b && b == c
+}
+
 /// What in a scene no theory has, if there is something.
 pub(super) fn beyond_theory(scene: &Scene) -> Option<String> {
-    let [a, b, c] = scene.body().moments();
     match scene.asked_disturbing() {
-        // No body exerts a torque on a sphere.
-        _ if a == b && b == c => None,
+        _ if is_sphere(scene) => None,
         bodies if bodies.iter().any(|body| matches!(body, DisturbingBody::Tabulated(_))) => {
             Some("a table of positions is integrated".to_owned())
         }
@@ -59,8 +64,11 @@ pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -
         }
         Err(error) => return Err(error),
     };
+    // For several bodies and for orbits that precess the integration also counts where it only comes nearer to the tolerance.
+    let fixed = scene.asked_orbit().is_some_and(Orbit::is_fixed);
     let tolerance = scene.asked_tolerance().max(ROUNDED_TOLERANCE);
-    let promising = prospect(&scene).is_some_and(|(bound, steps)| bound <= tolerance && steps <= MOST_STEPS as f64);
+    let enough = if fixed { tolerance } else { tolerance.max(by_theory.plan.error_bound) };
+    let promising = prospect(&scene).is_some_and(|(bound, steps)| bound <= enough && steps <= MOST_STEPS as f64);
     if !promising {
         return Ok(by_theory);
     }
