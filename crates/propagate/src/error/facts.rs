@@ -1,4 +1,6 @@
 //! The facts of an error as data: its kind, the argument, the given value and the bound that it breaks.
+//!
+//! `Kind` and `Value` are the types of the series crate. The four methods are inherent ones in both crates, so that a caller needs no trait in scope.
 
 use super::Error;
 pub use andoyer_series::error::{Kind, Value};
