@@ -220,7 +220,6 @@ pub enum Error {
     /// Second order together with the average over the orbit, which is of first order.
     LevelOfOrbit,
     /// An option that needs one disturbing body on an orbit that does not precess.
-    #[error("{argument} = \"{value}\" needs one disturbing body on an orbit without node_rate and pericentre_rate")]
     OneFixedOrbit {
         /// The option.
         argument: &'static str,
@@ -259,9 +258,6 @@ pub enum Error {
         bound: f64,
     },
     /// A span with more arcs than the averaged equations of several bodies, or of an orbit that precesses, can be solved for.
-    #[error(
-        "span: it reaches {value} from the epoch, and the averaged equations of these orbits are solved up to {bound:.6e}"
-    )]
     SpanOfBodies {
         /// The time from the epoch to the farther end of the span.
         value: f64,
