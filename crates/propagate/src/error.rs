@@ -219,6 +219,13 @@ pub enum Error {
     },
     /// Second order together with the average over the orbit, which is of first order.
     LevelOfOrbit,
+    /// An option that needs one disturbing body on an orbit that does not precess.
+    OneFixedOrbit {
+        /// The option.
+        argument: &'static str,
+        /// Its value.
+        value: String,
+    },
     /// An unknown averaging.
     Averaging {
         /// The averaging as given.
@@ -248,6 +255,13 @@ pub enum Error {
         /// Orbits from the epoch to the farther end of the span.
         orbits: f64,
         /// The largest number of orbits.
+        bound: f64,
+    },
+    /// A span with more arcs than the averaged equations of several bodies, or of an orbit that precesses, can be solved for.
+    SpanOfBodies {
+        /// The time from the epoch to the farther end of the span.
+        value: f64,
+        /// The largest time.
         bound: f64,
     },
     /// A mode of motion for which the gravity-gradient theory is not valid.

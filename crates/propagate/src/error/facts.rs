@@ -28,6 +28,7 @@ impl Error {
             | Self::Resonance { .. }
             | Self::TorqueTooStrong { .. }
             | Self::TooManyOrbits { .. }
+            | Self::SpanOfBodies { .. }
             | Self::OnlyIntegrated { .. }
             | Self::TooManySteps { .. }
             | Self::Unpredictable { .. }
@@ -62,6 +63,7 @@ impl Error {
             | Self::NoSpan { .. }
             | Self::Level { .. }
             | Self::LevelOfOrbit
+            | Self::OneFixedOrbit { .. }
             | Self::Averaging { .. }
             | Self::OnError { .. }
             | Self::Index { .. }
@@ -154,6 +156,9 @@ impl Error {
             Self::ModeName { value } => facts("mode", value, "short-axis, long-axis"),
             Self::Level { value } => facts("level", value, "auto, paper, moving, full, second-order"),
             Self::LevelOfOrbit => facts("averaging", "orbit", "auto, spin"),
+            Self::OneFixedOrbit { argument, value } => {
+                facts(argument, value, if *argument == "level" { "auto, paper, moving, full" } else { "auto, spin" })
+            }
             Self::Averaging { value } => facts("averaging", value, "auto, orbit, spin"),
             Self::OnError { value } => facts("errors", value, "raise, nan"),
             Self::Threads { value, problem } => facts("threads", *value, problem),
@@ -173,6 +178,7 @@ impl Error {
             Self::Resonance { divisor, bound, .. } => facts("orbit", *divisor, *bound),
             Self::TorqueTooStrong { size, bound } => facts("orbit", *size, *bound),
             Self::TooManyOrbits { orbits, bound } => facts("span", *orbits, *bound),
+            Self::SpanOfBodies { value, bound } => facts("span", *value, *bound),
             Self::Unaveraged { ratio, bound, .. } => facts("orbit", *ratio, *bound),
             Self::TableSpan { start, stop, first, last } => facts("span", [*start, *stop], [*first, *last]),
             Self::NoSpan { .. } => facts("span", "none", "start <= stop"),
