@@ -4,6 +4,7 @@
 
 mod facts;
 mod message;
+mod place;
 
 pub use facts::{Kind, Value};
 
@@ -382,21 +383,5 @@ impl std::error::Error for Error {}
 impl From<andoyer_series::Error> for Error {
     fn from(error: andoyer_series::Error) -> Self {
         Self::Series(error)
-    }
-}
-
-impl Error {
-    /// The error of one member of an ensemble.
-    pub(crate) fn of_member(index: usize, problem: Self) -> Self {
-        Self::Member { index, others: 0, problem: Box::new(problem) }
-    }
-
-    /// The same error for times that begin at the index `start` of an array.
-    #[must_use]
-    pub fn later(self, start: usize) -> Self {
-        match self {
-            Self::Time { index, value, bound, reason } => Self::Time { index: start + index, value, bound, reason },
-            other => other,
-        }
     }
 }
