@@ -55,7 +55,9 @@ def test_error_is_of_second_order_in_the_torques_of_two_bodies():
 def test_a_precessing_orbit_without_rates_is_the_fixed_orbit():
     still, moving = (Orbit(4e-3, 0.3, node_rate=rate, **TILTED) for rate in (0.0, 1e-30))
     times = np.linspace(-3000, 3000, 200)
-    quarters, arcs = (Scene(BODY, ATTITUDE, RATES, orbit=orbit, averaging="spin", span=(-3000, 3000)).solve().attitude(times) for orbit in (still, moving))
+    quarters, arcs = (
+        Scene(BODY, ATTITUDE, RATES, orbit=orbit, averaging="spin", level="moving", span=(-3000, 3000)).solve().attitude(times) for orbit in (still, moving)
+    )
     # Both solve the same averaged equations, one on quarters of the orbit and one on arcs of time, to rounding.
     assert angle(quarters, arcs).max() < 1e-13
 

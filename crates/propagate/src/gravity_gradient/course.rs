@@ -143,5 +143,10 @@ impl Turning {
 /// The same axes at all times.
 #[inline(always)]
 pub(super) fn fixed<S: InstructionSet>(axes: &[Vector3<f64>], like: Lanes<S>) -> Axes<S> {
-    [0, 1].map(|i| [like.all(axes[i].x), like.all(axes[i].y), like.all(axes[i].z)])
+    // Not `map`, which is not inlined into code for an instruction set.
+    let (first, second) = (&axes[0], &axes[1]);
+    [
+        [like.all(first.x), like.all(first.y), like.all(first.z)],
+        [like.all(second.x), like.all(second.y), like.all(second.z)],
+    ]
 }

@@ -7,7 +7,7 @@ use pulp::NullaryFnOnce;
 
 use super::course::Elapsed;
 use super::disturbed::{DisturbedBy, Gradient};
-use super::generator::{self, Correction};
+use super::generator::{Correction, MeanLanes};
 use super::offset::Offset;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
@@ -38,11 +38,10 @@ impl Gradient {
         let plane = |(im, re): (Lanes<S>, Lanes<S>)| ComplexLanes { re, im };
         let turn = plane(self.anomaly.sin_cos_beyond(elapsed, by_anomaly * all(self.drifts[0] / TAU)));
         let half = plane(self.half_longitude.sin_cos_beyond(elapsed, by_longitude * all(0.5 * self.drifts[1] / TAU)));
-        let mean = generator::MeanLanes { turn, spin: half * half, frame };
-        let mut change = Correction::none(elapsed.0);
-        for (index, DisturbedBy { course, corrections }) in self.bodies.iter().enumerate() {
-            let when = if index == 0 { first } else { course.at(elapsed) };
-            change = change.plus(corrections.generator.at(&mean, &when.place, &when.axes));
+        let mean = MeanLanes { turn, spin: half * half, frame };
+        let mut change = self.bodies[0].corrections.generator.at(&mean, &first.place, &first.axes);
+        for body in &self.bodies[1..] {
+            change = change.plus(elapsed.0.simd().vectorize(Further { body, mean: &mean, elapsed }));
         }
         let Offset { p, momentum } = self.offset;
         let relative = ComplexLanes { re: change.p.re + all(self.root + p.re), im: change.p.im + all(p.im) };
@@ -96,6 +95,23 @@ impl Gradient {
         let a = a.plus(a_bar, square.conjugate()) * half;
         let b = (b * p).plus(b_bar, p.conjugate()) * half;
         QuaternionLanes([b.re, b.im, a.im, a.re]).normalized()
+    }
+}
+
+/// The corrections for one of further bodies, as a task that is compiled separately: the first body's are inlined.
+struct Further<'a, S: InstructionSet> {
+    body: &'a DisturbedBy,
+    mean: &'a MeanLanes<S>,
+    elapsed: Elapsed<S>,
+}
+
+impl<S: InstructionSet> NullaryFnOnce for Further<'_, S> {
+    type Output = Correction<S>;
+
+    #[inline(always)]
+    fn call(self) -> Correction<S> {
+        let when = self.body.course.at(self.elapsed);
+        self.body.corrections.generator.at(self.mean, &when.place, &when.axes)
     }
 }
 

@@ -76,13 +76,6 @@ pub(crate) struct Correction<S: InstructionSet> {
 }
 
 impl<S: InstructionSet> Correction<S> {
-    /// No change.
-    #[inline(always)]
-    pub(crate) fn none(like: Lanes<S>) -> Self {
-        let none = like.all(0.0);
-        Self { p: ComplexLanes { re: none, im: none }, longitude: none, momentum: none, rotation: [none; 2] }
-    }
-
     /// The sum of two changes.
     #[inline(always)]
     pub(crate) fn plus(self, other: Self) -> Self {
@@ -174,8 +167,8 @@ impl Generator {
             }
         }
         if self.orbital.node_rate != 0.0 {
-            let rate = rows[2].map(|component| component * none.all(self.orbital.node_rate));
-            turned(&mut tensors, self.orbital.series.len(), &rate);
+            let ([x, y, z], rate) = (rows[2], none.all(self.orbital.node_rate));
+            turned(&mut tensors, self.orbital.series.len(), [x * rate, y * rate, z * rate]);
         }
         tensors
     }
@@ -204,8 +197,7 @@ impl Generator {
 /// Time derivatives of a tensor from those relative to axes that turn with an angular velocity, which is constant relative to them. The lists hold the orders
 /// from 0.
 #[inline(always)]
-fn turned<S: InstructionSet>(tensors: &mut [[Lanes<S>; 6]; ORDERS], orders: usize, [a, b, c]: &[Lanes<S>; 3]) {
-    let (a, b, c) = (*a, *b, *c);
+fn turned<S: InstructionSet>(tensors: &mut [[Lanes<S>; 6]; ORDERS], orders: usize, [a, b, c]: [Lanes<S>; 3]) {
     for first in 1..orders {
         // Each pass replaces the derivative j by (d/dt + ω×) of the derivative j − 1 of the pass before, beginning with the highest.
         for j in (first..orders).rev() {

@@ -92,7 +92,11 @@ impl Bodies {
             }
             lane = next;
         }
-        let [x, y, z, w, anomaly, longitude] = rows.map(|row| times.like(&row));
+        let mut columns = [times; COLUMNS];
+        for (column, row) in columns.iter_mut().zip(&rows) {
+            *column = times.like(row);
+        }
+        let [x, y, z, w, anomaly, longitude] = columns;
         (QuaternionLanes([x, y, z, w]), [anomaly, longitude])
     }
 
