@@ -24,10 +24,10 @@ const SAMPLES: usize = 48;
 /// Safety factor of the second-order error. The largest change may exceed the largest sample, and enters squared; second order has a factor too. With this
 /// margin the worst case found by hill climbing (docs/gravity-gradient.md) is below its bound.
 const MARGIN: f64 = 2.0;
-/// The safety factor of an averaged motion of second order.
-const THIRD_MARGIN: f64 = 5.0;
-/// The fraction of the first-order error that second order is allowed anyway: over spans of 1e5 radians the estimate of third order alone was exceeded.
-const FIRST_PART: f64 = 0.05;
+/// The safety factor of what an averaged motion of second order leaves.
+const THIRD_MARGIN: f64 = 2.0;
+/// The same for the distance between the motions of first and of second order.
+const FIRST_MARGIN: f64 = 1.2;
 /// The derivatives of the change, as a fraction of the sum of the largest sizes of all terms.
 const SLOPE_SHARE: f64 = 0.25;
 /// Number of orbits on each side of the epoch for which quarters are kept.
@@ -58,12 +58,24 @@ pub(super) struct Subject<'a> {
     pub(super) ellipse: &'a AveragedOrbit,
     /// Mean anomaly of the orbit at the epoch.
     pub(super) anomaly: f64,
-    /// What the mean M and L of second order lack, over M; `None` in first order.
-    pub(super) left: Option<[f64; 2]>,
-    /// The part of the drifts of second order that K2 lacks.
-    pub(super) cut: f64,
+    /// What the second order in the torque says; `None` at the levels of the paper.
+    pub(super) further: Option<Further>,
     /// d⟨T33⟩/dσ times −3/4 of the mass fraction over M.
     pub(super) drift: f64,
+}
+
+/// What the second order in the torque says of the error of a motion whose mean M and L are those of all terms.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Further {
+    /// What the mean M and L lack, over M.
+    pub(super) left: [f64; 2],
+    /// The part of the drifts of second order that K2 lacks.
+    pub(super) cut: f64,
+    /// The distance from the motion of second order over the span, 0 for that motion \[rad\].
+    pub(super) apart: f64,
+    /// Sum of the dropped terms, and truncation of the sums for G, at any one time \[rad\].
+    pub(super) dropped: f64,
+    pub(super) dbg: f64,
 }
 
 impl Budget {
@@ -77,17 +89,19 @@ impl Budget {
         let strength = ellipse.strength().abs();
         // The strength of the effect on the phases, like κ for the axis. Δ(σ) may be 0 where its slope is not.
         let by_phase = subject.phase() * mean_motion / ellipse.eta_cubed();
-        let first = MARGIN * response.second_order([size, slope], p, duration);
+        let sizes = [size, slope];
+        let (spin, at_once) = match subject.further {
+            Some(Further { left, cut, apart, dropped, .. }) => {
+                let third: f64 = response.third_order(sizes, p, duration, cut).iter().sum();
+                let left = response.of_actions(left, duration);
+                (THIRD_MARGIN * third + left + FIRST_MARGIN * apart, dropped + corrections.resonant)
+            }
+            None => (MARGIN * response.second_order(sizes, p, duration), corrections.dropped + 2.0 * corrections.rest),
+        };
         Self {
-            spin: match subject.left {
-                None => first,
-                Some(left) => {
-                    let third = response.third_order([size, slope], p, duration, (subject.cut, left));
-                    THIRD_MARGIN * third + FIRST_PART * first
-                }
-            },
+            spin,
             orbit: strength * (strength + 6.0 * by_phase) * (1.0 + orbital),
-            dropped: corrections.dropped + 2.0 * corrections.rest,
+            dropped: at_once,
             omitted: corrections.omitted + subject.omitted(mean_motion) * (1.0 + orbital),
             rounding: 4.0 * f64::EPSILON * inertia.sigma * (anomaly.abs() + longitude.abs()) * duration,
             orbits: orbital / TAU,
@@ -116,6 +130,35 @@ impl Budget {
 }
 
 impl Subject<'_> {
+    #[allow(clippy::too_many_arguments)]
+    pub(super) fn report(
+        &self,
+        mean_motion: f64,
+        duration: f64,
+        drift: f64,
+        level: Level,
+        envelope: &super::second_order::envelope::Envelope,
+        extra: (f64, f64, bool),
+    ) {
+        let orbital = mean_motion * duration;
+        let [size, p] = self.largest_change(orbital);
+        let r = self.response;
+        let c = self.corrections;
+        let budget = Budget::new(self, mean_motion, duration);
+        let f = self.further.unwrap();
+        let slope = size.max(SLOPE_SHARE * c.size);
+        let [bounded, growing] = r.third_order([size, slope], p, duration, 0.0);
+        let [_, both] = r.third_order([size, slope], p, duration, f.cut);
+        eprintln!(
+            "PARTS {{\"level\":\"{level}\",\"eps\":{size:e},\"p\":{p:e},\"sum\":{:e},\"nuM\":{:e},\"nus\":{:e},\"sigma\":{:e},\"dist\":{:e},\"gain\":{:e},\"visible\":{:e},\"T\":{duration:e},\"n\":{mean_motion:e},\"e\":{:e},\"left\":{:e},\"cut\":{:e},\"resonant\":{:e},\"dropped\":{:e},\"rounding\":{:e},\"kappa\":{:e},\"drift\":{drift:e},\"second\":{:e},\"bounded\":{bounded:e},\"growing\":{growing:e},\"growcut\":{:e},\"omitted\":{:e},\"passes\":{},\"ratio0\":{:e},\"epoch0\":{:e}}}",
+            c.size, r.by_momentum, r.by_sigma, r.sigma, r.distance(), r.gain, r.visible, self.ellipse.eccentricity,
+            r.of_actions(f.left, duration), f.cut, c.resonant, f.dropped, budget.rounding,
+            self.ellipse.strength(),
+            r.second_order([size, slope], p, duration), both - growing,
+            budget.omitted, extra.2, envelope.span[0] / envelope.most[0], envelope.epoch[0] / envelope.most[0],
+        );
+    }
+
     /// The turn of the attitude by J = 1.
     fn phase(&self) -> f64 {
         self.drift.abs() * (self.response.visible + self.inertia.sigma)

@@ -26,6 +26,7 @@ use super::generator::{self, Generator, Harmonic, ORDERS, Orbital};
 use super::inertia::{HIGHEST, Inertia};
 use super::resonance::Commensurability;
 use super::response::Response;
+use super::second_order::envelope::Envelope;
 use crate::error::Error;
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
@@ -96,6 +97,12 @@ pub(crate) struct Corrections {
     pub(crate) generator: Generator,
     /// Sum of the dropped terms over the span \[rad\].
     pub(crate) dropped: f64,
+    /// Effect of the resonances over the span \[rad\].
+    pub(crate) resonant: f64,
+    /// Sum of the dropped terms at one time \[rad\].
+    pub(crate) bare_dropped: f64,
+    /// Truncation error of the sums for G at one time, by the number of their terms \[rad\].
+    pub(crate) bare_rest: [f64; ORDERS + 1],
     /// Sum of the terms that the level omits, over the span \[rad\].
     pub(crate) omitted: f64,
     /// The parts of ⟨T33⟩ and of its slope that the level omits, times the mass fraction over M.
@@ -134,10 +141,12 @@ impl Corrections {
             return Err(Error::TorqueTooStrong { size, bound: LARGEST_SIZE });
         }
         let mut dropped = commensurability.left(&all, demand.tolerance.max(second_order(size, &response, duration)))?;
+        let resonant = dropped;
         let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
         let omitted = omitted.iter().map(|term| commensurability.whole(term)).sum();
         let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * size * size);
         let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
+        let (mut bare_dropped, mut bare_rest) = (0.0, [0.0; ORDERS + 1]);
         let mut orbital = Orbital::new(eccentricity, mean_motion);
         let most = if level == Level::Paper { 1 } else { ORDERS };
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
@@ -145,6 +154,7 @@ impl Corrections {
             let growth = response.growth(candidate.multiple, duration);
             if candidate.size() <= nothing {
                 dropped += growth * candidate.size();
+                bare_dropped += candidate.size();
                 neglected = neglected.max(candidate.size());
                 continue;
             }
@@ -158,6 +168,7 @@ impl Corrections {
             let least = (1..=most).min_by(|&a, &b| left(a).total_cmp(&left(b)));
             let orders = enough.or(least).unwrap_or(most);
             rest += growth * left(orders);
+            bare_rest[orders] += left(orders);
             neglected = neglected.max(left(orders));
             count += 1;
             most_orders = most_orders.max(orders);
@@ -177,7 +188,14 @@ impl Corrections {
             root: inertia.sigma.sqrt(),
             momentum: inertia.momentum,
         };
-        Ok(Self { generator, dropped, omitted, axial_omitted, rest, size, count, neglected })
+        Ok(Self { generator, resonant, bare_dropped, bare_rest, dropped, omitted, axial_omitted, rest, size, count, neglected })
+    }
+
+    /// The dropped terms, and twice the truncation of the sums, at any one time of the span \[rad\].
+    pub(crate) fn at_once(&self, envelope: &Envelope) -> f64 {
+        let share = |orders: usize| envelope.span[orders] / envelope.most[orders];
+        let rest: f64 = (1..=ORDERS).map(|orders| share(orders) * self.bare_rest[orders]).sum();
+        share(0) * self.bare_dropped + 2.0 * rest
     }
 
     /// The changes from mean to osculating variables, for |p| = √σ.
@@ -229,7 +247,8 @@ fn candidates(
                 let [anomaly, longitude] = inertia.rate_slopes;
                 let by_sigma = f64::from(harmonic) * anomaly + f64::from(multiple) * longitude;
                 let shift = scale * 0.5 * response.gain * further * value_size * by_sigma.abs();
-                candidates.push(Candidate { harmonic, multiple, value, slope, frequency, rate, shift });
+                let action = 0.5 * scale * root.powi(degree) * value_size;
+                candidates.push(Candidate { harmonic, multiple, value, slope, frequency, rate, action, shift });
             }
         }
     }

@@ -15,13 +15,16 @@ use nalgebra::{UnitQuaternion, Vector3};
 use num_complex::Complex;
 
 use super::averaged::{AveragedOrbit, Precession, Slow, Spin, When, when};
-use super::budget::{Budget, MOST_ORBITS, Subject};
+use super::budget::{Budget, Further, MOST_ORBITS, Subject};
 use super::corrections::{Change, Corrections, Demand, Mean, SECOND_SHARE, SHARE};
 use super::inertia::Inertia;
 use super::offset::Offset;
 use super::powers::Powers;
 use super::request::Request;
 use super::response::Response;
+use super::generator::Orbital;
+use super::second_order::envelope::{Envelope, Reach};
+use super::second_order::drift::Drift;
 use super::second_order::{self, epoch::Refined};
 use crate::error::Error;
 use crate::input::options::{Averaging, Level};
@@ -110,11 +113,19 @@ impl Gradient {
         let p = C64::from_polar(sigma.sqrt(), anomaly);
         let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
         let first = mean_motion_of(polhode, &state, &start, &demand)?;
-        let MeanMotion { mean, change, inertia, corrections, left } = if request.level == Level::SecondOrder {
-            second_order_of(polhode, first, &state, &start, &demand)?
-        } else {
-            first
+        let reach = Reach {
+            eccentricity: orbit.eccentricity(),
+            anomaly: start.place.angle.values()[0] - start.place.centre.values()[0],
+            orbital: mean_motion * duration,
         };
+        let envelope = Envelope::new(&Orbital::new(orbit.eccentricity(), mean_motion), &reach);
+        let (MeanMotion { mean, change, inertia, corrections }, refinement) =
+            if matches!(request.level, Level::Full | Level::SecondOrder) {
+                let (motion, refinement) = refined_of(polhode, first, &state, &start, (&demand, &envelope))?;
+                (motion, Some(refinement))
+            } else {
+                (first, None)
+            };
         let (axial, axial_slope) = request.level.axial(&inertia);
         let fraction = orbit.disturbing_fraction();
         let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) * fraction;
@@ -128,18 +139,37 @@ impl Gradient {
         // ⟨D⟩ = −½ (dJ/dt) Δ. Its derivatives with respect to L, and to M at fixed L, give the slopes.
         let slope = -0.5 * 1.5 * axial_slope * fraction / mean.momentum;
         let response = Response::new(&inertia);
-        let anomaly = start.place.angle.values()[0] - start.place.centre.values()[0];
+        let further = refinement.map(|Refinement { left, apart }| {
+            let drift = Drift {
+                hamiltonian: &second_order::epoch::hamiltonian(&inertia, &demand, polhode.moments).without_first(),
+                demand: &demand,
+                reach: &reach,
+                axis: mean.frame * Vector3::z(),
+                rates: apart,
+                visible: response.visible,
+            };
+            let largest = drift.largest();
+            Further {
+                left,
+                cut: second_order::cut(&inertia, &demand),
+                apart: if request.level == Level::SecondOrder { 0.0 } else { largest },
+                dropped: corrections.at_once(&envelope),
+                dbg: largest,
+            }
+        });
         let subject = Subject {
             mean: &mean,
             inertia: &inertia,
             corrections: &corrections,
             response: &response,
             ellipse: &ellipse,
-            anomaly,
+            anomaly: reach.anomaly,
             drift: slope,
-            left,
-            cut: left.map_or(0.0, |_| second_order::cut(&inertia, &demand)),
+            further,
         };
+        if std::env::var_os("ANDOYER_PARTS").is_some() {
+            subject.report(mean_motion, duration, further.unwrap().dbg, request.level, &envelope, (0.0, 0.0, reach.passes()));
+        }
         let budget = Budget::new(&subject, mean_motion, duration);
         let by_orbit = budget.by_orbit(request)?;
         let error = budget.error(by_orbit);
@@ -226,31 +256,39 @@ struct MeanMotion {
     change: Change,
     inertia: Inertia,
     corrections: Corrections,
-    /// What is left of the mean M and L over M, if they are of second order.
-    left: Option<[f64; 2]>,
 }
 
-/// The mean motion of second order from that of first order of a state.
-fn second_order_of(
+/// What the second order in the torque says of a mean motion.
+struct Refinement {
+    /// What is left of the mean M and L, over M.
+    left: [f64; 2],
+    /// Rates of ℓ′ and y′ at the mean M and σ of second order, less those of first order.
+    apart: [f64; 2],
+}
+
+/// The mean motion with the mean M and L of all terms, to second order if the level is, and how far the rates of second order are from those of first.
+fn refined_of(
     polhode: &Polhode,
     first: MeanMotion,
     state: &Mean,
     start: &When<pulp::Scalar>,
-    demand: &Demand<'_>,
-) -> Result<MeanMotion, Error> {
-    let Refined { mean, momentum, left } = second_order::epoch::refined(
-        (&first.mean, &first.change, first.corrections.size),
+    (demand, envelope): (&Demand<'_>, &Envelope),
+) -> Result<(MeanMotion, Refinement), Error> {
+    let (both, [by_momentum, by_sigma]) = second_order::epoch::refined(
+        (&first.mean, first.corrections.size),
         state,
         &first.inertia,
         &start.place,
-        (demand, polhode.moments),
+        (demand, polhode.moments, &envelope.epoch),
     );
+    let Refined { mean, momentum, left } = both[usize::from(demand.level == Level::SecondOrder)];
     let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
+    let apart = [0, 1].map(|i| inertia.rates[i].to_f64() * by_momentum + inertia.rate_slopes[i] * by_sigma);
     let corrections = Corrections::new(&inertia, demand)?;
     let change = Change { momentum, ..first.change };
     // The iteration leaves M and L its own threshold, which the rates multiply by the time.
     let left = left.map(|part| part + CONVERGED);
-    Ok(MeanMotion { mean, change, inertia, corrections, left: Some(left) })
+    Ok((MeanMotion { mean, change, inertia, corrections }, Refinement { left, apart }))
 }
 
 /// The mean variables whose corrections give a state, by fixed-point iteration.
@@ -273,14 +311,14 @@ fn mean_motion_of(
             + (next.momentum / mean.momentum - 1.0).abs()
             + next.frame.angle_to(&mean.frame);
         if moved <= CONVERGED {
-            return Ok(MeanMotion { mean, change, inertia, corrections, left: None });
+            return Ok(MeanMotion { mean, change, inertia, corrections });
         }
         first = first.max(moved);
         if step == MOST_STEPS {
             // Rounding of large corrections may prevent full convergence. A motion without contraction has no mean motion.
             let contraction = (moved / first).powf(1.0 / MOST_STEPS as f64);
             return if contraction <= CONTRACTION {
-                Ok(MeanMotion { mean, change, inertia, corrections, left: None })
+                Ok(MeanMotion { mean, change, inertia, corrections })
             } else {
                 Err(Error::TorqueTooStrong { size: contraction, bound: CONTRACTION })
             };

@@ -79,6 +79,8 @@ pub(crate) struct Correction<S: InstructionSet> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Orbital {
     series: Vec<[Fourier; 3]>,
+    /// The derivative after the last.
+    next: Vec<[Fourier; 3]>,
     /// Highest k.
     highest: usize,
     /// Largest sum of the coefficients' magnitudes, by j; there is one entry more than there are derivatives.
@@ -99,11 +101,12 @@ impl Orbital {
             let cubed = (0..3).fold(series, |series, _| times_w(&series, eccentricity, odd));
             (cubed.iter().map(|c| c / eta_square.powi(3)).collect::<Vec<f64>>(), odd)
         });
-        let (mut series, mut norms) = (Vec::new(), Vec::new());
+        let (mut series, mut norms, mut next) = (Vec::new(), Vec::new(), Vec::new());
         for j in 0..=ORDERS {
             let sums = current.each_ref().map(|(coefficients, _)| coefficients.iter().map(|c| c.abs()).sum::<f64>());
             norms.push(sums.into_iter().fold(0.0, f64::max));
             if j == ORDERS {
+                next.push(current.each_ref().map(|(coefficients, _)| trimmed(coefficients)));
                 break;
             }
             series.push(current.each_ref().map(|(coefficients, _)| trimmed(coefficients)));
@@ -114,9 +117,28 @@ impl Orbital {
                 (weighted, !odd)
             });
         }
-        let mut orbital = Self { series, highest: 0, norms };
+        let mut orbital = Self { series, next, highest: 0, norms };
         orbital.keep(ORDERS);
         orbital
+    }
+
+    /// Sizes of all derivatives at a true anomaly: of (a/r)³, or of (a/r)³ e^(2if) if that is larger.
+    pub(crate) fn sizes_at(&self, anomaly: f64) -> [f64; ORDERS + 1] {
+        let mut sizes = [0.0; ORDERS + 1];
+        for (j, (size, [one, cosine, sine])) in sizes.iter_mut().zip(self.series.iter().chain(&self.next)).enumerate() {
+            let sum = |Fourier(first, rest): &Fourier, odd: bool| -> f64 {
+                let terms = rest.iter().enumerate();
+                terms
+                    .map(|(k, c)| {
+                        let (s, t) = ((first + k) as f64 * anomaly).sin_cos();
+                        c * if odd { s } else { t }
+                    })
+                    .sum()
+            };
+            let odd = j % 2 == 1;
+            *size = sum(one, odd).abs().max(sum(cosine, odd).hypot(sum(sine, !odd)));
+        }
+        sizes
     }
 
     /// Keeps the first `orders` derivatives.

@@ -4,9 +4,10 @@ use num_complex::Complex;
 
 use super::hamiltonian::Hamiltonian;
 use super::modes::modes;
+use super::actions::first_actions;
 use super::pairs::{Stand, Tensor, second_actions};
 use crate::gravity_gradient::candidate::SMALLEST_RATIO;
-use crate::gravity_gradient::corrections::{Change, Demand, Mean};
+use crate::gravity_gradient::corrections::{Demand, Mean};
 use crate::gravity_gradient::generator::{Generator, ORDERS, Orbital};
 use crate::gravity_gradient::inertia::Inertia;
 use crate::simd::complex_quaternion::QuaternionLanes;
@@ -15,10 +16,13 @@ use crate::simd::lanes::Lanes;
 
 /// Terms smaller than this share of the largest are left out of the sum over pairs.
 const SMALLEST_PAIR: f64 = 1e-6;
+/// Terms smaller than this share of the largest are left out of the changes of first order.
+const SMALLEST_FIRST: f64 = 1e-13;
 /// Terms smaller than this share of the largest are left out of K2.
 const SMALLEST_TERM: f64 = 1e-9;
 
-/// The mean state of second order at the epoch.
+/// A mean state at the epoch.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Refined {
     pub(crate) mean: Mean,
     /// The change of M that leads to the state.
@@ -43,19 +47,19 @@ pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, moments: [f64;
     Hamiltonian::new(inertia, &modes(inertia, SMALLEST_TERM, slowest(demand)), strength(demand), moments)
 }
 
-/// The mean state with |p| and M to second order: from the mean state of first order at the epoch, its change, and the sum of all terms \[rad\].
+/// The mean states with |p| and M from all terms of first order, and to second order, and the difference of their M, over M, and σ: from the mean state of the corrections at the epoch.
 pub(crate) fn refined(
-    (first, change, size): (&Mean, &Change, f64),
+    (mean, size): (&Mean, f64),
     state: &Mean,
     inertia: &Inertia,
     place: &Place<pulp::Scalar>,
-    (demand, moments): (&Demand<'_>, [f64; 3]),
-) -> Refined {
+    (demand, moments, sizes): (&Demand<'_>, [f64; 3], &[f64; ORDERS + 1]),
+) -> ([Refined; 2], [f64; 2]) {
     let slowest = slowest(demand);
-    let (tensors, norms) = tensors(first, place, demand);
+    let (tensors, norms) = tensors(mean, place, demand);
     let stand = Stand {
         inertia,
-        mean: first,
+        mean,
         strength: strength(demand),
         tensors: &tensors,
         norms: &norms,
@@ -65,19 +69,26 @@ pub(crate) fn refined(
         closest: closest(place, demand.orbit.eccentricity()),
         trace: moments.iter().sum(),
     };
-    let actions = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest));
-    let by_momentum = change.momentum + actions.momentum;
-    let by_sigma = 2.0 * (first.p.conj() * change.p).re;
-    let by_action = first.momentum * by_sigma + inertia.sigma * change.momentum + actions.action;
-    let momentum = state.momentum - by_momentum;
-    let sigma = ((state.momentum * state.p.norm_sqr() - by_action) / momentum).max(0.0);
-    let turn = if first.p == Complex::default() { Complex::new(1.0, 0.0) } else { first.p / first.p.norm() };
-    let pruned = actions.pruned * size * size;
-    Refined {
-        mean: Mean { p: turn * sigma.sqrt(), momentum, ..*first },
-        momentum: by_momentum,
-        left: actions.left.map(|left| left / momentum + pruned),
-    }
+    let first = first_actions(&stand, &modes(inertia, SMALLEST_FIRST, slowest), sizes);
+    let second = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest));
+    let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
+    let reached = |by_momentum: f64, by_action: f64, left: [f64; 2], further: f64| {
+        let momentum = state.momentum - by_momentum;
+        let sigma = ((state.momentum * state.p.norm_sqr() - by_action) / momentum).max(0.0);
+        Refined {
+            mean: Mean { p: turn * sigma.sqrt(), momentum, ..*mean },
+            momentum: by_momentum,
+            left: left.map(|left| left / momentum + further),
+        }
+    };
+    let pruned = second.pruned * size * size;
+    let both: [f64; 2] = std::array::from_fn(|i| first.left[i] + second.left[i]);
+    let states = [
+        reached(first.momentum, first.action, first.left, 0.0),
+        reached(first.momentum + second.momentum, first.action + second.action, both, pruned),
+    ];
+    let by_momentum = -second.momentum / state.momentum;
+    (states, [by_momentum, -second.action / state.momentum - inertia.sigma * by_momentum])
 }
 
 /// (a/r)⁶ at the pericentre over that at a place.

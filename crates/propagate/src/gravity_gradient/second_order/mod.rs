@@ -7,6 +7,9 @@ use super::candidate::SMALLEST_RATIO;
 use super::corrections::Demand;
 use super::inertia::Inertia;
 
+mod actions;
+pub(super) mod drift;
+pub(crate) mod envelope;
 pub(super) mod epoch;
 pub(crate) mod hamiltonian;
 mod modes;

@@ -269,7 +269,7 @@ fn generating(contracted: &[Contraction; ORDERS], omega: f64, norms: &[f64]) -> 
 }
 
 /// c_m of a tensor and its derivatives by rotations about axes 1 and 2: U33 − tr U/3, U13 − iU23, U11 − U22 − 2iU12.
-fn contraction(&[xx, yy, zz, xy, xz, yz]: &Tensor, multiple: i32) -> Contraction {
+pub(super) fn contraction(&[xx, yy, zz, xy, xz, yz]: &Tensor, multiple: i32) -> Contraction {
     let c = C64::new;
     match multiple {
         0 => [c(zz - (xx + yy + zz) / 3.0, 0.0), c(-2.0 * yz, 0.0), c(2.0 * xz, 0.0)],
