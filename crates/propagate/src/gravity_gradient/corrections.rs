@@ -89,6 +89,8 @@ pub(crate) struct Demand<'a> {
     pub(crate) duration: f64,
     /// Terms smaller than this fraction of the second-order error are dropped.
     pub(crate) share: f64,
+    /// What the span has of the orbit.
+    pub(crate) envelope: &'a Envelope,
 }
 
 /// The generating function of one mean motion.
@@ -101,8 +103,8 @@ pub(crate) struct Corrections {
     pub(crate) resonant: f64,
     /// Sum of the dropped terms at one time \[rad\].
     pub(crate) bare_dropped: f64,
-    /// Truncation error of the sums for G at one time, by the number of their terms \[rad\].
-    pub(crate) bare_rest: [f64; ORDERS + 1],
+    /// Truncation error of the sums for G at one time \[rad\].
+    pub(crate) bare_rest: f64,
     /// Sum of the terms that the level omits, over the span \[rad\].
     pub(crate) omitted: f64,
     /// The parts of ⟨T33⟩ and of its slope that the level omits, times the mass fraction over M.
@@ -126,16 +128,14 @@ impl Corrections {
     pub(crate) fn new(inertia: &Inertia, demand: &Demand<'_>) -> Result<Self, Error> {
         let Demand { orbit, mean_motion, level, duration, .. } = *demand;
         let eccentricity = orbit.eccentricity();
-        let eta_cubed = (1.0 - eccentricity * eccentricity).powf(1.5);
-        // The largest rate of twice the true anomaly, at the pericentre.
-        let fastest = 2.0 * mean_motion * (1.0 + eccentricity).powi(2) / eta_cubed;
+        let envelope = demand.envelope;
         let strength = 1.5 * mean_motion * mean_motion * orbit.disturbing_fraction();
-        let pericentre = strength * ((1.0 + eccentricity) / eta_cubed.powf(2.0 / 3.0)).powi(3);
+        let nearest = strength * envelope.span[0];
         let response = Response::new(inertia);
-        let scale = 4.0 * pericentre / inertia.momentum;
+        let scale = 4.0 * nearest / inertia.momentum;
         let all = candidates(inertia, &response, scale, |m, h| level.tensor(inertia, m, h));
-        let commensurability = Commensurability { response: &response, mean_motion, eccentricity, fastest, duration };
-        let regular = |candidate: &Candidate| candidate.frequency.abs() > SMALLEST_RATIO * fastest;
+        let commensurability = Commensurability { response: &response, mean_motion, eccentricity, envelope, duration };
+        let regular = |candidate: &Candidate| candidate.frequency.abs() > SMALLEST_RATIO * envelope.fastest;
         let size: f64 = all.iter().filter(|candidate| regular(candidate)).map(Candidate::size).sum();
         if size > LARGEST_SIZE {
             return Err(Error::TorqueTooStrong { size, bound: LARGEST_SIZE });
@@ -146,7 +146,7 @@ impl Corrections {
         let omitted = omitted.iter().map(|term| commensurability.whole(term)).sum();
         let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * size * size);
         let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
-        let (mut bare_dropped, mut bare_rest) = (0.0, [0.0; ORDERS + 1]);
+        let (mut bare_dropped, mut bare_rest) = (0.0, 0.0);
         let mut orbital = Orbital::new(eccentricity, mean_motion);
         let most = if level == Level::Paper { 1 } else { ORDERS };
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
@@ -160,15 +160,15 @@ impl Corrections {
             }
             // The sum is asymptotic. It ends when it is accurate enough, or where its truncation error is smallest.
             let left = |orders: usize| {
-                candidate.size() * orbital.norms[orders]
-                    / orbital.norms[0]
+                candidate.size() * envelope.span[orders]
+                    / envelope.span[0]
                     / candidate.frequency.abs().powi(orders as i32)
             };
             let enough = (1..most).find(|&orders| left(orders) <= nothing);
             let least = (1..=most).min_by(|&a, &b| left(a).total_cmp(&left(b)));
             let orders = enough.or(least).unwrap_or(most);
             rest += growth * left(orders);
-            bare_rest[orders] += left(orders);
+            bare_rest += left(orders);
             neglected = neglected.max(left(orders));
             count += 1;
             most_orders = most_orders.max(orders);
@@ -189,13 +189,6 @@ impl Corrections {
             momentum: inertia.momentum,
         };
         Ok(Self { generator, resonant, bare_dropped, bare_rest, dropped, omitted, axial_omitted, rest, size, count, neglected })
-    }
-
-    /// The dropped terms, and twice the truncation of the sums, at any one time of the span \[rad\].
-    pub(crate) fn at_once(&self, envelope: &Envelope) -> f64 {
-        let share = |orders: usize| envelope.span[orders] / envelope.most[orders];
-        let rest: f64 = (1..=ORDERS).map(|orders| share(orders) * self.bare_rest[orders]).sum();
-        share(0) * self.bare_dropped + 2.0 * rest
     }
 
     /// The changes from mean to osculating variables, for |p| = √σ.

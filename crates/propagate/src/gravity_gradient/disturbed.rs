@@ -22,7 +22,6 @@ use super::offset::Offset;
 use super::powers::Powers;
 use super::request::Request;
 use super::response::Response;
-use super::generator::Orbital;
 use super::second_order::envelope::{Envelope, Reach};
 use super::second_order::drift::Drift;
 use super::second_order::{self, epoch::Refined};
@@ -99,29 +98,29 @@ impl Gradient {
         let momentum = polhode.momentum.to_f64();
         let duration = scaled(request.duration, exponent);
         let share = if request.level == Level::SecondOrder { SECOND_SHARE } else { SHARE };
-        let demand = Demand { orbit, mean_motion, level: request.level, tolerance: request.tolerance, duration, share };
-        let size = strongest_torque(polhode, orbit, mean_motion / momentum);
-        if size > STRONGEST {
-            // If there is a resonance, report that instead, because it explains more.
-            Corrections::new(&Inertia::new(polhode, osculating.0, momentum), &demand)?;
-            return Err(Error::TorqueTooStrong { size, bound: STRONGEST });
-        }
         let mean_anomaly = orbit.mean_anomaly(request.epoch);
         let none = Lanes::splat(pulp::Scalar, 0.0);
         let start = when(&mean_anomaly, (none, none), orbit.eccentricity());
-        let (sigma, [anomaly, longitude]) = osculating;
-        let p = C64::from_polar(sigma.sqrt(), anomaly);
-        let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
-        let first = mean_motion_of(polhode, &state, &start, &demand)?;
         let reach = Reach {
             eccentricity: orbit.eccentricity(),
             anomaly: start.place.angle.values()[0] - start.place.centre.values()[0],
             orbital: mean_motion * duration,
         };
-        let envelope = Envelope::new(&Orbital::new(orbit.eccentricity(), mean_motion), &reach);
+        let envelope = Envelope::new(orbit.eccentricity(), mean_motion, &reach);
+        let demand = Demand { orbit, mean_motion, level: request.level, tolerance: request.tolerance, duration, share, envelope: &envelope };
+        let size = strongest_torque(polhode, orbit, mean_motion / momentum) * envelope.span[0] / envelope.most[0];
+        if size > STRONGEST {
+            // If there is a resonance, report that instead, because it explains more.
+            Corrections::new(&Inertia::new(polhode, osculating.0, momentum), &demand)?;
+            return Err(Error::TorqueTooStrong { size, bound: STRONGEST });
+        }
+        let (sigma, [anomaly, longitude]) = osculating;
+        let p = C64::from_polar(sigma.sqrt(), anomaly);
+        let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
+        let first = mean_motion_of(polhode, &state, &start, &demand)?;
         let (MeanMotion { mean, change, inertia, corrections }, refinement) =
             if matches!(request.level, Level::Full | Level::SecondOrder) {
-                let (motion, refinement) = refined_of(polhode, first, &state, &start, (&demand, &envelope))?;
+                let (motion, refinement) = refined_of(polhode, first, &state, &start, &demand)?;
                 (motion, Some(refinement))
             } else {
                 (first, None)
@@ -153,7 +152,7 @@ impl Gradient {
                 left,
                 cut: second_order::cut(&inertia, &demand),
                 apart: if request.level == Level::SecondOrder { 0.0 } else { largest },
-                dropped: corrections.at_once(&envelope),
+                dropped: corrections.bare_dropped + 2.0 * corrections.bare_rest,
                 dbg: largest,
             }
         });
@@ -272,14 +271,14 @@ fn refined_of(
     first: MeanMotion,
     state: &Mean,
     start: &When<pulp::Scalar>,
-    (demand, envelope): (&Demand<'_>, &Envelope),
+    demand: &Demand<'_>,
 ) -> Result<(MeanMotion, Refinement), Error> {
     let (both, [by_momentum, by_sigma]) = second_order::epoch::refined(
         (&first.mean, first.corrections.size),
         state,
         &first.inertia,
         &start.place,
-        (demand, polhode.moments, &envelope.epoch),
+        (demand, polhode.moments),
     );
     let Refined { mean, momentum, left } = both[usize::from(demand.level == Level::SecondOrder)];
     let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);

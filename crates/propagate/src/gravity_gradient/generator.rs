@@ -125,18 +125,18 @@ impl Orbital {
     /// Sizes of all derivatives at a true anomaly: of (a/r)³, or of (a/r)³ e^(2if) if that is larger.
     pub(crate) fn sizes_at(&self, anomaly: f64) -> [f64; ORDERS + 1] {
         let mut sizes = [0.0; ORDERS + 1];
+        let (sine, cosine) = anomaly.sin_cos();
+        let mut circle = [[1.0, 0.0]; WIDTH + 3];
+        for k in 1..circle.len() {
+            let [x, y] = circle[k - 1];
+            circle[k] = [x * cosine - y * sine, x * sine + y * cosine];
+        }
+        let sum = |Fourier(first, rest): &Fourier, part: usize| -> f64 {
+            circle[*first..].iter().zip(rest).map(|(turn, coefficient)| turn[part] * coefficient).sum()
+        };
         for (j, (size, [one, cosine, sine])) in sizes.iter_mut().zip(self.series.iter().chain(&self.next)).enumerate() {
-            let sum = |Fourier(first, rest): &Fourier, odd: bool| -> f64 {
-                let terms = rest.iter().enumerate();
-                terms
-                    .map(|(k, c)| {
-                        let (s, t) = ((first + k) as f64 * anomaly).sin_cos();
-                        c * if odd { s } else { t }
-                    })
-                    .sum()
-            };
-            let odd = j % 2 == 1;
-            *size = sum(one, odd).abs().max(sum(cosine, odd).hypot(sum(sine, !odd)));
+            let odd = j % 2;
+            *size = sum(one, odd).abs().max(sum(cosine, odd).hypot(sum(sine, 1 - odd)));
         }
         sizes
     }

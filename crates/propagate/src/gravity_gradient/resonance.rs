@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::candidate::{Candidate, SMALLEST_RATIO};
 use super::response::Response;
-use super::second_order::envelope::harmonic;
+use super::second_order::envelope::{Envelope, harmonic};
 use crate::error::Error;
 
 /// Harmonics of the orbit, from −3 to 3, with which the frequency of a slow term is compared.
@@ -25,8 +25,7 @@ pub(super) struct Commensurability<'a> {
     pub(super) response: &'a Response,
     pub(super) mean_motion: f64,
     pub(super) eccentricity: f64,
-    /// Largest rate of twice the true anomaly.
-    pub(super) fastest: f64,
+    pub(super) envelope: &'a Envelope,
     pub(super) duration: f64,
 }
 
@@ -50,7 +49,7 @@ impl Commensurability<'_> {
             Some((_, term)) if sum > MARGIN * allowed => Err(Error::Resonance {
                 harmonic: term.harmonic,
                 multiple: term.multiple,
-                divisor: 2.0 * term.frequency.abs() / self.fastest,
+                divisor: 2.0 * term.frequency.abs() / self.envelope.fastest,
                 bound: 2.0 * SMALLEST_RATIO,
             }),
             _ => Ok(sum),
@@ -59,7 +58,7 @@ impl Commensurability<'_> {
 
     /// The attitude error of a term over the span \[rad\], at most π.
     fn effect(&self, term: &Candidate) -> f64 {
-        if term.frequency.abs() > SMALLEST_RATIO * self.fastest {
+        if term.frequency.abs() > SMALLEST_RATIO * self.envelope.fastest {
             let (amplitude, distance) = self.beyond_the_sum(term);
             self.turned(term, amplitude, distance)
         } else {
@@ -99,7 +98,7 @@ impl Commensurability<'_> {
         let e = self.eccentricity;
         let number = (term.frequency / self.mean_motion).abs();
         let distance = self.mean_motion * (number - number.round()).abs();
-        if e == 0.0 {
+        if e == 0.0 || !self.envelope.passes {
             return (0.0, distance);
         }
         // Hansen's coefficients fall like e^(−|j|(arcosh 1/e − η)).

@@ -43,8 +43,10 @@ impl Drift<'_> {
                     let mut sum: Difference = std::array::from_fn(|i| part[i] + turns * whole[i]);
                     sum[3] += self.rates[0] * elapsed;
                     sum[4] += self.rates[1] * elapsed;
-                    sum[3] *= self.visible;
-                    largest = largest.max(sum.iter().map(|c| c * c).sum::<f64>().sqrt());
+                    let [x, y, z, anomaly, longitude] = sum;
+                    // The turns by ℓ′ and by y′ may be about the same axis.
+                    let about = self.visible * anomaly.abs() + longitude.abs();
+                    largest = largest.max((x * x + y * y + z * z + about * about).sqrt());
                 }
             }
         }

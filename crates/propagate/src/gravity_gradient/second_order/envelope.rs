@@ -12,6 +12,10 @@ const POINTS: usize = 48;
 /// The sizes at the epoch, the largest within a span, and the mean of the first over the span.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Envelope {
+    /// Largest rate of twice the true anomaly within the span.
+    pub(crate) fastest: f64,
+    /// Whether the pericentre is within the span.
+    pub(crate) passes: bool,
     pub(crate) epoch: [f64; ORDERS + 1],
     pub(crate) span: [f64; ORDERS + 1],
     /// The largest at any time.
@@ -41,7 +45,7 @@ impl Reach {
         (0..=POINTS).map(|k| first + (last - first) * k as f64 / POINTS as f64).collect()
     }
 
-    /// Whether the pericentre is within the span.
+    /// Whether the span has the pericentre.
     pub(crate) fn passes(&self) -> bool {
         let wrapped = self.anomaly - TAU * (self.anomaly / TAU).round();
         wrapped.abs() <= self.orbital
@@ -56,7 +60,8 @@ impl Reach {
 }
 
 impl Envelope {
-    pub(crate) fn new(orbital: &Orbital, reach: &Reach) -> Self {
+    pub(crate) fn new(eccentricity: f64, mean_motion: f64, reach: &Reach) -> Self {
+        let orbital = Orbital::new(eccentricity, mean_motion);
         let at = |f: f64| orbital.sizes_at(f);
         let largest = |places: &[f64]| {
             places.iter().map(|&f| at(f)).fold([0.0; ORDERS + 1], |most: [f64; ORDERS + 1], sizes| {
@@ -67,7 +72,12 @@ impl Envelope {
         let most = largest(&whole.places());
         let span = if reach.orbital >= PI { most } else { largest(&reach.places()) };
         let epoch = at(reach.true_anomaly(reach.anomaly));
-        Self { epoch, span, most }
+        let passes = reach.passes();
+        let eta_square = (1.0 - eccentricity) * (1.0 + eccentricity);
+        // (a/r)³ is the cube of what the rate is the square of.
+        let nearest = if passes { (1.0 + eccentricity) / eta_square } else { span[0].cbrt() };
+        let fastest = 2.0 * mean_motion * eta_square.sqrt() * nearest * nearest;
+        Self { fastest, passes, epoch, span, most }
     }
 }
 

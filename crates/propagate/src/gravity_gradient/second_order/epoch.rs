@@ -31,11 +31,9 @@ pub(crate) struct Refined {
     pub(crate) left: [f64; 2],
 }
 
-/// Twice the rate of the true anomaly at the pericentre, times the ratio below which sums over time derivatives do not converge.
+/// The largest rate of twice the true anomaly within the span, times the ratio below which sums over time derivatives do not converge.
 pub(super) fn slowest(demand: &Demand<'_>) -> f64 {
-    let eccentricity = demand.orbit.eccentricity();
-    let eta_cubed = (1.0 - eccentricity * eccentricity).powf(1.5);
-    SMALLEST_RATIO * 2.0 * demand.mean_motion * (1.0 + eccentricity).powi(2) / eta_cubed
+    SMALLEST_RATIO * demand.envelope.fastest
 }
 
 fn strength(demand: &Demand<'_>) -> f64 {
@@ -53,7 +51,7 @@ pub(crate) fn refined(
     state: &Mean,
     inertia: &Inertia,
     place: &Place<pulp::Scalar>,
-    (demand, moments, sizes): (&Demand<'_>, [f64; 3], &[f64; ORDERS + 1]),
+    (demand, moments): (&Demand<'_>, [f64; 3]),
 ) -> ([Refined; 2], [f64; 2]) {
     let slowest = slowest(demand);
     let (tensors, norms) = tensors(mean, place, demand);
@@ -66,10 +64,11 @@ pub(crate) fn refined(
         slowest,
         mean_motion: demand.mean_motion,
         duration: demand.duration,
-        closest: closest(place, demand.orbit.eccentricity()),
+        closest: demand.envelope.span[0] / demand.envelope.epoch[0],
+        bend: demand.envelope.epoch[2] / demand.envelope.epoch[0],
         trace: moments.iter().sum(),
     };
-    let first = first_actions(&stand, &modes(inertia, SMALLEST_FIRST, slowest), sizes);
+    let first = first_actions(&stand, &modes(inertia, SMALLEST_FIRST, slowest), &demand.envelope.epoch);
     let second = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest));
     let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
     let reached = |by_momentum: f64, by_action: f64, left: [f64; 2], further: f64| {
@@ -89,11 +88,6 @@ pub(crate) fn refined(
     ];
     let by_momentum = -second.momentum / state.momentum;
     (states, [by_momentum, -second.action / state.momentum - inertia.sigma * by_momentum])
-}
-
-/// (a/r)⁶ at the pericentre over that at a place.
-fn closest(place: &Place<pulp::Scalar>, eccentricity: f64) -> f64 {
-    ((1.0 + eccentricity) / (1.0 + eccentricity * place.cosine.values()[0])).powi(6)
 }
 
 /// (a/r)³ r̂r̂ in the frame of a mean state, its time derivatives, and their largest sizes.
