@@ -87,21 +87,6 @@ impl Disturbed {
         self.free()?.orbit(self.disturber()?).averaging(self.averaging).level(self.level).solve()
     }
 
-    pub fn measured_with(&self, kind: &str, _: &Self) -> Result<String, Error> {
-        let motion = self.solve()?;
-        let free = self.free()?.solve()?;
-        let times: Vec<f64> = (1..=SAMPLES).map(|k| self.span * k as f64 / SAMPLES as f64).collect();
-        let problem = Problem { moments: self.moments, orbit: Some(self.disturber()?) };
-        let truth = problem.integrate(0.0, self.attitude, self.rates, &times);
-        let errors = |motion: &Motion| -> Vec<f64> {
-            times.iter().zip(&truth).map(|(&time, &(attitude, _))| attitude_error(motion.at(time).expect("x").attitude.coords.into(), attitude)).collect()
-        };
-        let e = errors(&motion);
-        let most = |v: &[f64]| v.iter().copied().fold(0.0, f64::max);
-        Ok(format!("{{\"kind\":\"{kind}\",\"tol\":{:e},\"error\":{:e},\"early\":{:e},\"late\":{:e},\"bound\":{:e},\"effect\":{:e}, \"scene\":\"{self:?}\"}}",
-            self.tolerance, most(&e), most(&e[..4]), e[SAMPLES - 1], motion.plan().error_bound(), most(&errors(&free))))
-    }
-
     /// Error, bound and effect over the span.
     ///
     /// # Errors

@@ -296,43 +296,6 @@ fn table(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn st
     Ok(())
 }
 
-fn parts(count: usize, seed: u64) -> Result<(), Box<dyn std::error::Error>> {
-    let show = |kind: &str, scene: Disturbed| {
-        for level in [Level::Full, Level::SecondOrder] {
-            if let Ok(m) = (Disturbed { level, ..scene }).measured_with(kind, &scene) {
-                eprintln!("DONE {}", m);
-            }
-        }
-    };
-    for family in [Family::Generic, Family::NearlyProlate, Family::NearlyOblate, Family::Pericentre] {
-        for long_axis in [false, true] {
-            let mut random = Uniform(seed);
-            for _ in 0..count {
-                show(&format!("{}-{long_axis}", family.name()), family.random(long_axis, (Averaging::Spin, Level::Full), &mut random));
-            }
-        }
-    }
-    for mean_motion in MEAN_MOTIONS {
-        for eccentricity in ECCENTRICITIES {
-            let mut random = Uniform(seed);
-            for _ in 0..count {
-                show(&format!("table-{mean_motion}-{eccentricity}"), tabled(&mut random, mean_motion, eccentricity));
-            }
-        }
-    }
-    let mut random = Uniform(seed);
-    for _ in 0..count {
-        let s = setting(&mut random);
-        let (sine, cosine) = s.tilt.sin_cos();
-        let [a, b, c] = s.moments;
-        let rates = [c / a * sine * s.azimuth.sin(), c / b * sine * s.azimuth.cos(), cosine];
-        let (half_sine, half_cosine) = (0.5 * s.inclination).sin_cos();
-        let scene = Disturbed::new(s.moments, [half_sine, 0.0, 0.0, half_cosine], rates, [s.mean_motion, s.eccentricity, 0.0, 0.0, 0.0, 0.7], s.orbits * TAU / s.mean_motion);
-        show("bounds", Disturbed { averaging: Averaging::Spin, tolerance: 1e-12, ..scene });
-    }
-    Ok(())
-}
-
 /// A scene of a table.
 fn tabled(random: &mut Uniform, mean_motion: f64, eccentricity: f64) -> Disturbed {
     let Setting { moments, azimuth, inclination, .. } = setting(random);
@@ -355,7 +318,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ["levels"] => levels(&mut out),
         ["climb", starts, steps, seed] => climbs(&mut out, starts.parse()?, steps.parse()?, seed.parse()?),
         ["table", count, seed] => table(&mut out, count.parse()?, seed.parse()?),
-        ["parts", count, seed] => parts(count.parse()?, seed.parse()?),
         ["bounds", count, seed] => bounds(&mut out, count.parse()?, seed.parse()?),
         _ => Err(
             "usage: gradient cases | gradient levels | gradient bounds COUNT SEED | gradient table COUNT SEED | gradient climb STARTS STEPS SEED"

@@ -1,8 +1,10 @@
 //! The parts of the error bound of a motion under a gravity gradient.
 //!
-//! The largest first-order change ε is sampled over ℓ′, y′, the position of the disturbing body within the span, and the precession. The second-order error is
-//! ε times the derivatives of the change, which have the size of the sum of all terms. It also lets the phases drift, because it changes σ and M. Further parts
-//! are the dropped terms, the truncation of the sums for G, the terms that the level omits, the average over the orbit, and rounding.
+//! The largest first-order change ε is sampled over ℓ′, y′, the position of the disturbing body within the span, and the precession. What is bounded in second order
+//! is ε times the derivatives of the change, which have the size of the sum of all terms. What grows in third order is that times the rates, the time, and again
+//! the derivatives. A motion of first order is as far from that of second order as the drifts of second order lead within the span ([`super::second_order::drift`]).
+//! At the levels of the paper the drift of second order is estimated as what is bounded times rates and time. Further parts are what the mean M and L lack,
+//! the dropped terms, the truncation of the sums for G, the terms that the level omits, the average over the orbit, and rounding.
 
 use std::f64::consts::{PI, TAU};
 
@@ -73,9 +75,6 @@ pub(super) struct Further {
     pub(super) cut: f64,
     /// The distance from the motion of second order over the span, 0 for that motion \[rad\].
     pub(super) apart: f64,
-    /// Sum of the dropped terms, and truncation of the sums for G, at any one time \[rad\].
-    pub(super) dropped: f64,
-    pub(super) dbg: f64,
 }
 
 impl Budget {
@@ -90,18 +89,21 @@ impl Budget {
         // The strength of the effect on the phases, like κ for the axis. Δ(σ) may be 0 where its slope is not.
         let by_phase = subject.phase() * mean_motion / ellipse.eta_cubed();
         let sizes = [size, slope];
-        let (spin, at_once) = match subject.further {
-            Some(Further { left, cut, apart, dropped, .. }) => {
+        let (spin, dropped) = match subject.further {
+            Some(Further { left, cut, apart }) => {
                 let third: f64 = response.third_order(sizes, p, duration, cut).iter().sum();
                 let left = response.of_actions(left, duration);
-                (THIRD_MARGIN * third + left + FIRST_MARGIN * apart, dropped + corrections.resonant)
+                (THIRD_MARGIN * third + left + FIRST_MARGIN * apart, corrections.at_once + corrections.resonant)
             }
-            None => (MARGIN * response.second_order(sizes, p, duration), corrections.dropped + 2.0 * corrections.rest),
+            None => {
+                let second = response.second_order(sizes, p, duration);
+                (MARGIN * second, corrections.dropped + 2.0 * corrections.rest)
+            }
         };
         Self {
             spin,
             orbit: strength * (strength + 6.0 * by_phase) * (1.0 + orbital),
-            dropped: at_once,
+            dropped,
             omitted: corrections.omitted + subject.omitted(mean_motion) * (1.0 + orbital),
             rounding: 4.0 * f64::EPSILON * inertia.sigma * (anomaly.abs() + longitude.abs()) * duration,
             orbits: orbital / TAU,
@@ -130,35 +132,6 @@ impl Budget {
 }
 
 impl Subject<'_> {
-    #[allow(clippy::too_many_arguments)]
-    pub(super) fn report(
-        &self,
-        mean_motion: f64,
-        duration: f64,
-        drift: f64,
-        level: Level,
-        envelope: &super::second_order::envelope::Envelope,
-        extra: (f64, f64, bool),
-    ) {
-        let orbital = mean_motion * duration;
-        let [size, p] = self.largest_change(orbital);
-        let r = self.response;
-        let c = self.corrections;
-        let budget = Budget::new(self, mean_motion, duration);
-        let f = self.further.unwrap();
-        let slope = size.max(SLOPE_SHARE * c.size);
-        let [bounded, growing] = r.third_order([size, slope], p, duration, 0.0);
-        let [_, both] = r.third_order([size, slope], p, duration, f.cut);
-        eprintln!(
-            "PARTS {{\"level\":\"{level}\",\"eps\":{size:e},\"p\":{p:e},\"sum\":{:e},\"nuM\":{:e},\"nus\":{:e},\"sigma\":{:e},\"dist\":{:e},\"gain\":{:e},\"visible\":{:e},\"T\":{duration:e},\"n\":{mean_motion:e},\"e\":{:e},\"left\":{:e},\"cut\":{:e},\"resonant\":{:e},\"dropped\":{:e},\"rounding\":{:e},\"kappa\":{:e},\"drift\":{drift:e},\"second\":{:e},\"bounded\":{bounded:e},\"growing\":{growing:e},\"growcut\":{:e},\"omitted\":{:e},\"passes\":{},\"ratio0\":{:e},\"epoch0\":{:e}}}",
-            c.size, r.by_momentum, r.by_sigma, r.sigma, r.distance(), r.gain, r.visible, self.ellipse.eccentricity,
-            r.of_actions(f.left, duration), f.cut, c.resonant, f.dropped, budget.rounding,
-            self.ellipse.strength(),
-            r.second_order([size, slope], p, duration), both - growing,
-            budget.omitted, extra.2, envelope.span[0] / envelope.most[0], envelope.epoch[0] / envelope.most[0],
-        );
-    }
-
     /// The turn of the attitude by J = 1.
     fn phase(&self) -> f64 {
         self.drift.abs() * (self.response.visible + self.inertia.sigma)

@@ -22,11 +22,11 @@ use nalgebra::{Quaternion, UnitQuaternion};
 use num_complex::Complex;
 
 use super::candidate::{Candidate, SMALLEST_RATIO};
+use super::envelope::Envelope;
 use super::generator::{self, Generator, Harmonic, ORDERS, Orbital};
 use super::inertia::{HIGHEST, Inertia};
 use super::resonance::Commensurability;
 use super::response::Response;
-use super::second_order::envelope::Envelope;
 use crate::error::Error;
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
@@ -38,6 +38,8 @@ type C64 = Complex<f64>;
 
 /// Largest sum of the corrections for which first order is accepted.
 const LARGEST_SIZE: f64 = 0.05;
+/// Largest size of the contraction of r̂r̂ for each m.
+const CONTRACTED: [f64; 3] = [2.0 / 3.0, 0.5, 1.0];
 /// [`Demand::share`] of a motion. The second-order error is 0.003 of its bound in the median, and a few tens of terms may be dropped.
 pub(crate) const SHARE: f64 = 1e-5;
 /// The same for a motion of second order, whose mean variables are better by the size of the corrections.
@@ -101,10 +103,8 @@ pub(crate) struct Corrections {
     pub(crate) dropped: f64,
     /// Effect of the resonances over the span \[rad\].
     pub(crate) resonant: f64,
-    /// Sum of the dropped terms at one time \[rad\].
-    pub(crate) bare_dropped: f64,
-    /// Truncation error of the sums for G at one time \[rad\].
-    pub(crate) bare_rest: f64,
+    /// Dropped terms, and truncation of the sums for G on both ends, at one time \[rad\]: what they do to the mean M and L is not in it.
+    pub(crate) at_once: f64,
     /// Sum of the terms that the level omits, over the span \[rad\].
     pub(crate) omitted: f64,
     /// The parts of ⟨T33⟩ and of its slope that the level omits, times the mass fraction over M.
@@ -146,7 +146,7 @@ impl Corrections {
         let omitted = omitted.iter().map(|term| commensurability.whole(term)).sum();
         let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * size * size);
         let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
-        let (mut bare_dropped, mut bare_rest) = (0.0, 0.0);
+        let mut at_once = 0.0;
         let mut orbital = Orbital::new(eccentricity, mean_motion);
         let most = if level == Level::Paper { 1 } else { ORDERS };
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
@@ -154,7 +154,7 @@ impl Corrections {
             let growth = response.growth(candidate.multiple, duration);
             if candidate.size() <= nothing {
                 dropped += growth * candidate.size();
-                bare_dropped += candidate.size();
+                at_once += candidate.size();
                 neglected = neglected.max(candidate.size());
                 continue;
             }
@@ -168,7 +168,7 @@ impl Corrections {
             let least = (1..=most).min_by(|&a, &b| left(a).total_cmp(&left(b)));
             let orders = enough.or(least).unwrap_or(most);
             rest += growth * left(orders);
-            bare_rest += left(orders);
+            at_once += 2.0 * left(orders);
             neglected = neglected.max(left(orders));
             count += 1;
             most_orders = most_orders.max(orders);
@@ -188,7 +188,7 @@ impl Corrections {
             root: inertia.sigma.sqrt(),
             momentum: inertia.momentum,
         };
-        Ok(Self { generator, resonant, bare_dropped, bare_rest, dropped, omitted, axial_omitted, rest, size, count, neglected })
+        Ok(Self { generator, resonant, at_once, dropped, omitted, axial_omitted, rest, size, count, neglected })
     }
 
     /// The changes from mean to osculating variables, for |p| = √σ.
@@ -240,7 +240,7 @@ fn candidates(
                 let [anomaly, longitude] = inertia.rate_slopes;
                 let by_sigma = f64::from(harmonic) * anomaly + f64::from(multiple) * longitude;
                 let shift = scale * 0.5 * response.gain * further * value_size * by_sigma.abs();
-                let action = 0.5 * scale * root.powi(degree) * value_size;
+                let action = 0.5 * scale * CONTRACTED[multiple as usize] * root.powi(degree) * value_size; // 0 ≤ m ≤ 2
                 candidates.push(Candidate { harmonic, multiple, value, slope, frequency, rate, action, shift });
             }
         }

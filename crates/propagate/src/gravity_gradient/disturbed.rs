@@ -17,12 +17,12 @@ use num_complex::Complex;
 use super::averaged::{AveragedOrbit, Precession, Slow, Spin, When, when};
 use super::budget::{Budget, Further, MOST_ORBITS, Subject};
 use super::corrections::{Change, Corrections, Demand, Mean, SECOND_SHARE, SHARE};
+use super::envelope::{Envelope, Reach};
 use super::inertia::Inertia;
 use super::offset::Offset;
 use super::powers::Powers;
 use super::request::Request;
 use super::response::Response;
-use super::second_order::envelope::{Envelope, Reach};
 use super::second_order::drift::Drift;
 use super::second_order::{self, epoch::Refined};
 use crate::error::Error;
@@ -107,7 +107,15 @@ impl Gradient {
             orbital: mean_motion * duration,
         };
         let envelope = Envelope::new(orbit.eccentricity(), mean_motion, &reach);
-        let demand = Demand { orbit, mean_motion, level: request.level, tolerance: request.tolerance, duration, share, envelope: &envelope };
+        let demand = Demand {
+            orbit,
+            mean_motion,
+            level: request.level,
+            tolerance: request.tolerance,
+            duration,
+            share,
+            envelope: &envelope,
+        };
         let size = strongest_torque(polhode, orbit, mean_motion / momentum) * envelope.span[0] / envelope.most[0];
         if size > STRONGEST {
             // If there is a resonance, report that instead, because it explains more.
@@ -147,14 +155,8 @@ impl Gradient {
                 rates: apart,
                 visible: response.visible,
             };
-            let largest = drift.largest();
-            Further {
-                left,
-                cut: second_order::cut(&inertia, &demand),
-                apart: if request.level == Level::SecondOrder { 0.0 } else { largest },
-                dropped: corrections.bare_dropped + 2.0 * corrections.bare_rest,
-                dbg: largest,
-            }
+            let apart = if request.level == Level::SecondOrder { 0.0 } else { drift.largest() };
+            Further { left, cut: second_order::cut(&inertia, &demand), apart }
         });
         let subject = Subject {
             mean: &mean,
@@ -166,9 +168,6 @@ impl Gradient {
             drift: slope,
             further,
         };
-        if std::env::var_os("ANDOYER_PARTS").is_some() {
-            subject.report(mean_motion, duration, further.unwrap().dbg, request.level, &envelope, (0.0, 0.0, reach.passes()));
-        }
         let budget = Budget::new(&subject, mean_motion, duration);
         let by_orbit = budget.by_orbit(request)?;
         let error = budget.error(by_orbit);

@@ -9,6 +9,7 @@ pub(crate) mod cassini;
 pub(crate) mod choice;
 mod corrections;
 pub(crate) mod disturbed;
+mod envelope;
 mod epoch;
 mod evaluate;
 mod generator;

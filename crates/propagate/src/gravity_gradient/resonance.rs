@@ -9,16 +9,16 @@
 use std::f64::consts::{PI, TAU};
 
 use super::candidate::{Candidate, SMALLEST_RATIO};
+use super::envelope::{Envelope, harmonic};
 use super::response::Response;
-use super::second_order::envelope::{Envelope, harmonic};
 use crate::error::Error;
 
 /// Harmonics of the orbit, from −3 to 3, with which the frequency of a slow term is compared.
 const SLOW_HARMONICS: i32 = 3;
 /// Largest error of the resonant terms over that of second order.
 const MARGIN: f64 = 10.0;
-/// Harmonics that are smaller by more than this power of e are below rounding.
-const NEGLIGIBLE_DECAY: f64 = 40.0;
+/// Attitude error by a harmonic of the orbit of which no more need be known \[rad\].
+const NEGLIGIBLE: f64 = 1e-14;
 
 /// The frequencies of a mean motion and of its orbit.
 pub(super) struct Commensurability<'a> {
@@ -75,7 +75,8 @@ impl Commensurability<'_> {
     fn turned(&self, term: &Candidate, amplitude: f64, distance: f64) -> f64 {
         let time = self.acting(amplitude, distance);
         let (h, m) = (f64::from(term.harmonic.abs()), f64::from(term.multiple));
-        let drifting = self.response.of_actions([m * term.action, h * term.action], self.duration);
+        // M and L are off by half of what they swing, or half as long by all of it; the swings themselves last for that time.
+        let drifting = self.response.of_actions([m * term.action, h * term.action], 0.5 * (self.duration + time));
         (amplitude * time * (term.rate + drifting)).min(PI)
     }
 
@@ -101,13 +102,13 @@ impl Commensurability<'_> {
         if e == 0.0 || !self.envelope.passes {
             return (0.0, distance);
         }
-        // Hansen's coefficients fall like e^(−|j|(arcosh 1/e − η)).
+        // Hansen's coefficients fall like e^(−|j|(arcosh 1/e − η)), and are smaller than that times the value at the pericentre.
         let eta = ((1.0 - e) * (1.0 + e)).sqrt();
-        let decay = (1.0 / e).acosh() - eta;
-        if number * decay > NEGLIGIBLE_DECAY {
-            return (0.0, distance);
+        let upper = (-number.floor() * ((1.0 / e).acosh() - eta)).exp();
+        if self.turned(term, upper, distance) <= NEGLIGIBLE {
+            return (upper, distance);
         }
         let most = ((1.0 + e) / (eta * eta)).powi(3);
-        (harmonic(e, number.floor()).max(harmonic(e, number.ceil())) / most, distance)
+        (harmonic(e, number.floor()) / most, distance)
     }
 }

@@ -47,10 +47,6 @@ impl Response {
         }
     }
 
-    pub(super) fn distance(&self) -> f64 {
-        self.distance
-    }
-
     /// The change of σ that a change of p causes.
     pub(super) fn of_sigma(&self, p: f64) -> f64 {
         p * (2.0 * self.sigma.sqrt() + p)

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use super::envelope::Reach;
 use super::hamiltonian::{Disturber, Hamiltonian};
 use crate::gravity_gradient::corrections::Demand;
+use crate::gravity_gradient::envelope::Reach;
 
 /// Steps of the integral over an orbit, or over a span that is shorter, even in the true anomaly.
 const STEPS: usize = 48;

@@ -2,9 +2,9 @@
 
 use num_complex::Complex;
 
+use super::actions::first_actions;
 use super::hamiltonian::Hamiltonian;
 use super::modes::modes;
-use super::actions::first_actions;
 use super::pairs::{Stand, Tensor, second_actions};
 use crate::gravity_gradient::candidate::SMALLEST_RATIO;
 use crate::gravity_gradient::corrections::{Demand, Mean};

@@ -8,7 +8,6 @@ use super::inertia::Inertia;
 
 mod actions;
 pub(super) mod drift;
-pub(crate) mod envelope;
 pub(super) mod epoch;
 pub(crate) mod hamiltonian;
 mod modes;

@@ -9,7 +9,7 @@ use crate::simd::lanes::Lanes;
 /// Points of a span at which the sizes are taken.
 const POINTS: usize = 48;
 
-/// The sizes at the epoch, the largest within a span, and the mean of the first over the span.
+/// Of each time derivative the size at the epoch, the largest within the span, and the largest at any time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Envelope {
     /// Largest rate of twice the true anomaly within the span.
@@ -18,7 +18,6 @@ pub(crate) struct Envelope {
     pub(crate) passes: bool,
     pub(crate) epoch: [f64; ORDERS + 1],
     pub(crate) span: [f64; ORDERS + 1],
-    /// The largest at any time.
     pub(crate) most: [f64; ORDERS + 1],
 }
 
@@ -60,6 +59,7 @@ impl Reach {
 }
 
 impl Envelope {
+    /// The sizes for an orbit and its mean motion.
     pub(crate) fn new(eccentricity: f64, mean_motion: f64, reach: &Reach) -> Self {
         let orbital = Orbital::new(eccentricity, mean_motion);
         let at = |f: f64| orbital.sizes_at(f);
@@ -83,7 +83,8 @@ impl Envelope {
 
 /// The largest size of the Fourier coefficient of e^(ijl) in (a/r)³ times 1, e^(2if) and e^(−2if), for the mean anomaly l.
 pub(crate) fn harmonic(eccentricity: f64, number: f64) -> f64 {
-    let points = 64 + 4 * number.abs().min(4096.0) as usize;
+    // An even sum over more points than the integrand has harmonics in the eccentric anomaly is exact.
+    let points = 32 + (1.25 * number.abs().min(4096.0)) as usize;
     let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
     let mut sums = [0.0; 3];
     for k in 0..points {
@@ -100,4 +101,37 @@ pub(crate) fn harmonic(eccentricity: f64, number: f64) -> f64 {
         sums[2] += weight * (by_cosine * double_cosine - by_sine * double_sine);
     }
     sums.into_iter().fold(0.0, |most: f64, sum| most.max(sum.abs()))
+}
+
+/// The sizes for a span of a whole orbit.
+#[cfg(test)]
+pub(crate) fn whole(eccentricity: f64, mean_motion: f64) -> Envelope {
+    Envelope::new(eccentricity, mean_motion, &Reach { eccentricity, anomaly: 0.0, orbital: TAU })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn harmonics_are_hansen_s_coefficients() {
+        // X_0 of (a/r)³ is η^(−3); at small e that of e^(2if) is 7e/2 for l and 1 for 2l.
+        let e = 0.6_f64;
+        assert!((harmonic(e, 0.0) - (1.0 - e * e).powf(-1.5)).abs() <= 1e-13);
+        assert!((harmonic(1e-4, 2.0) - 1.0).abs() <= 1e-7);
+        assert!((harmonic(1e-4, 3.0) - 3.5e-4).abs() <= 1e-10);
+    }
+
+    #[test]
+    fn a_span_that_is_far_from_the_pericentre_has_little_of_its_strength() {
+        let eccentricity = 0.9;
+        let at =
+            |anomaly: f64, orbital: f64| Envelope::new(eccentricity, 1e-3, &Reach { eccentricity, anomaly, orbital });
+        let far = at(3.0, 0.3);
+        assert!(!far.passes && far.span[0] <= 1e-3 * far.most[0] && far.fastest <= 1e-2 * at(3.0, 4.0).fastest);
+        // With the pericentre between its ends it has all of it.
+        let near = at(-0.2, 0.3);
+        assert!(near.passes && near.span[0] >= 0.98 * near.most[0]);
+        assert!((near.fastest - 2e-3 * 1.9_f64.powi(2) / 0.19_f64.powf(1.5)).abs() <= 1e-12);
+    }
 }
