@@ -27,7 +27,7 @@ use crate::torque_free::wobble::{Wobble, WobbleEvaluator};
 
 mod choice;
 
-use choice::{beyond_theory, cheapest, integrated, may_be_integrated};
+use choice::{beyond_theory, cheapest, in_ascii, integrated, may_be_integrated};
 
 /// Error bound below which the corrections are not held against their own effect \[rad\].
 const WORTH: f64 = 1e-3;
@@ -256,7 +256,7 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
     if scene.asked_method() == Method::Series {
         skipped.push("series: a scene with an orbit is solved about the closed form".to_owned());
     }
-    skipped.extend(unused);
+    skipped.extend(unused.as_deref().map(in_ascii));
     skipped.extend(gradient.skipped());
     let mut plan = Plan::new(&scene, mode, ratio, gradient.error + 4.0 * ROUNDING);
     (plan.gradient, plan.skipped) = (Some(gradient.plan()), skipped);
