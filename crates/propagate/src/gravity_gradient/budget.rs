@@ -27,7 +27,7 @@ const SAMPLES: usize = 48;
 /// margin the worst case found by hill climbing (docs/gravity-gradient.md) is below its bound.
 const MARGIN: f64 = 2.0;
 /// The safety factor of what an averaged motion of second order leaves.
-const THIRD_MARGIN: f64 = 3.0;
+const THIRD_MARGIN: f64 = 6.0;
 /// The same for the distance between the motions of first and of second order.
 const FIRST_MARGIN: f64 = 1.4;
 /// The derivatives of the change, as a fraction of the sum of the largest sizes of all terms.

@@ -273,7 +273,7 @@ fn refined_of(
     demand: &Demand<'_>,
 ) -> Result<(MeanMotion, Refinement), Error> {
     let (both, [by_momentum, by_sigma]) = second_order::epoch::refined(
-        (&first.mean, first.corrections.size),
+        (&first.mean, &first.change, first.corrections.size),
         state,
         &first.inertia,
         &start.place,

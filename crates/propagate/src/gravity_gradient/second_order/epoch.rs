@@ -7,7 +7,7 @@ use super::hamiltonian::Hamiltonian;
 use super::modes::modes;
 use super::pairs::{Stand, Tensor, second_actions};
 use crate::gravity_gradient::candidate::SMALLEST_RATIO;
-use crate::gravity_gradient::corrections::{Demand, Mean};
+use crate::gravity_gradient::corrections::{Change, Demand, Mean};
 use crate::gravity_gradient::generator::{Generator, ORDERS, Orbital};
 use crate::gravity_gradient::inertia::Inertia;
 use crate::simd::complex_quaternion::QuaternionLanes;
@@ -47,7 +47,7 @@ pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, moments: [f64;
 
 /// The mean states with |p| and M from all terms of first order, and to second order, and the difference of their M, over M, and σ: from the mean state of the corrections at the epoch.
 pub(crate) fn refined(
-    (mean, size): (&Mean, f64),
+    (mean, change, size): (&Mean, &Change, f64),
     state: &Mean,
     inertia: &Inertia,
     place: &Place<pulp::Scalar>,
@@ -71,23 +71,26 @@ pub(crate) fn refined(
     let first = first_actions(&stand, &modes(inertia, SMALLEST_FIRST, slowest), &demand.envelope.epoch);
     let second = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest));
     let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
-    let reached = |by_momentum: f64, by_action: f64, left: [f64; 2], further: f64| {
-        let momentum = state.momentum - by_momentum;
-        let sigma = ((state.momentum * state.p.norm_sqr() - by_action) / momentum).max(0.0);
-        Refined {
-            mean: Mean { p: turn * sigma.sqrt(), momentum, ..*mean },
-            momentum: by_momentum,
-            left: left.map(|left| left / momentum + further),
-        }
-    };
     let pruned = second.pruned * size * size;
-    let both: [f64; 2] = std::array::from_fn(|i| first.left[i] + second.left[i]);
-    let states = [
-        reached(first.momentum, first.action, first.left, 0.0),
-        reached(first.momentum + second.momentum, first.action + second.action, both, pruned),
-    ];
-    let by_momentum = -second.momentum / state.momentum;
-    (states, [by_momentum, -second.action / state.momentum - inertia.sigma * by_momentum])
+    let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };
+    // What the corrections of the motion, which drop terms and end their sums early, lack of M and L.
+    let used = mean.momentum * 2.0 * (mean.p.conj() * change.p).re + inertia.sigma * change.momentum;
+    let (lacking, lacking_action) = (first.momentum - change.momentum, first.action - used);
+    let by_sigma = (lacking_action - inertia.sigma * lacking) / mean.momentum;
+    let lower = Refined {
+        mean: at(mean.p.norm_sqr() - by_sigma, mean.momentum - lacking),
+        momentum: first.momentum,
+        left: first.left.map(|left| left / mean.momentum),
+    };
+    let by_momentum = first.momentum + second.momentum;
+    let momentum = state.momentum - by_momentum;
+    let higher = Refined {
+        mean: at((state.momentum * state.p.norm_sqr() - first.action - second.action) / momentum, momentum),
+        momentum: by_momentum,
+        left: [0, 1].map(|i| (first.left[i] + second.left[i]) / momentum + pruned),
+    };
+    let apart = [-second.momentum / momentum, higher.mean.p.norm_sqr() - lower.mean.p.norm_sqr()];
+    ([lower, higher], apart)
 }
 
 /// (a/r)³ r̂r̂ in the frame of a mean state, its time derivatives, and their largest sizes.
