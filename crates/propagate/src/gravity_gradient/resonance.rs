@@ -25,6 +25,10 @@ pub(super) struct Commensurability<'a> {
     pub(super) response: &'a Response,
     pub(super) mean_motion: f64,
     pub(super) eccentricity: f64,
+    /// Largest change of the frequencies of the torque by the rates of node and pericentre.
+    pub(super) turning: f64,
+    /// Largest rate of twice the true anomaly.
+    pub(super) fastest: f64,
     pub(super) envelope: &'a Envelope,
     pub(super) duration: f64,
 }
@@ -49,7 +53,7 @@ impl Commensurability<'_> {
             Some((_, term)) if sum > MARGIN * allowed => Err(Error::Resonance {
                 harmonic: term.harmonic,
                 multiple: term.multiple,
-                divisor: 2.0 * term.frequency.abs() / self.envelope.fastest,
+                divisor: 2.0 * term.frequency.abs() / self.fastest,
                 bound: 2.0 * SMALLEST_RATIO,
             }),
             _ => Ok(sum),
@@ -58,7 +62,7 @@ impl Commensurability<'_> {
 
     /// The attitude error of a term over the span \[rad\], at most π.
     fn effect(&self, term: &Candidate) -> f64 {
-        if term.frequency.abs() > SMALLEST_RATIO * self.envelope.fastest {
+        if term.frequency.abs() > SMALLEST_RATIO * self.fastest {
             let (amplitude, distance) = self.beyond_the_sum(term);
             self.turned(term, amplitude, distance)
         } else {
@@ -73,6 +77,7 @@ impl Commensurability<'_> {
 
     /// The attitude error of a part of a term at its distance from a commensurability: at once, and by the drift that the changes of M and L make.
     fn turned(&self, term: &Candidate, amplitude: f64, distance: f64) -> f64 {
+        let distance = (distance - self.turning).max(0.0);
         let time = self.acting(amplitude, distance);
         let (h, m) = (f64::from(term.harmonic.abs()), f64::from(term.multiple));
         // M and L are off by half of what they swing, or half as long by all of it; the swings themselves last for that time.
