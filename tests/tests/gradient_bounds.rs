@@ -210,3 +210,35 @@ fn hill_climbing_finds_no_error_above_its_bound() {
         }
     }
 }
+
+#[test]
+fn the_threshold_of_the_mean_variables_is_in_the_bound_of_a_long_span() {
+    // 67,000 radians at a weak torque: the iteration for the mean M and L ends at 1e-15, which the rates make 1e-10 rad. The parts of the torque are less.
+    let scene = Disturbed::new(
+        [0.462_265_246_686_081_04, 0.827_488_028_530_126_7, 1.0],
+        normalized([0.773_131_259_346_158_3, 0.0, 0.0, 0.634_246_053_059_712_2]),
+        [0.010_653_862_556_338_937, -0.321_241_058_382_933, 0.964_009_236_867_969_5],
+        [0.000_323_686_441_510_334_1, 0.300_410_255_620_603_53, 0.0, 0.0, 0.0, 0.7],
+        66_861.673_961_258_58,
+    );
+    let measured = Disturbed { averaging: Averaging::Spin, level: Level::SecondOrder, tolerance: 1e-12, ..scene }
+        .measured()
+        .expect("served");
+    assert!(measured.error <= measured.bound, "{measured:?}");
+    assert!(measured.bound <= 10.0 * measured.error, "{measured:?}");
+}
+
+#[test]
+fn what_is_bounded_in_second_order_is_below_its_part_of_the_bound() {
+    // Found by the climb.
+    let scene = Disturbed::new(
+        [0.46634614210890996, 0.9972621015353297, 1.0],
+        [0.10504090305091762, 0.09602353217236466, -0.8663696892723729, 0.47869557284926184],
+        [2.1443056600288903, 0.00017336551329803228, 0.0047566655215646085],
+        [0.002694308949396653, 0.020727017637583285, -294.5924540361506, 0.0, 0.0, 2.874881172957255],
+        251.60811587158292,
+    );
+    let scene = Disturbed { averaging: Averaging::Spin, level: Level::SecondOrder, ..scene };
+    let measured = scene.measured().expect("served");
+    assert!(measured.error <= measured.bound, "{measured:?}");
+}

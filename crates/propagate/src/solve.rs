@@ -92,7 +92,7 @@ impl Scene {
                 let bodies = without_span(&self);
                 self.solve_by_theory(tables).map_err(|error| match bodies {
                     Some(bodies) if error.kind() == Kind::Theory => {
-                        Error::NoSpan { reason: format!("theory for {bodies}: {}", in_ascii(&error)) }
+                        Error::NoSpan { reason: format!("theory for {bodies}: {}", in_ascii(&error.to_string())) }
                     }
                     _ => error,
                 })
@@ -264,7 +264,7 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbits: &[Orbit]) -> R
     if scene.asked_method() == Method::Series {
         skipped.push("series: a scene with an orbit is solved about the closed form".to_owned());
     }
-    skipped.extend(unused);
+    skipped.extend(unused.as_deref().map(in_ascii));
     skipped.extend(gradient.skipped());
     let mut plan = Plan::new(&scene, mode, ratio, gradient.error + 4.0 * ROUNDING);
     (plan.gradient, plan.skipped) = (Some(gradient.plan()), skipped);

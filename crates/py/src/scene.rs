@@ -28,10 +28,10 @@ impl Scene {
     #[pyo3(
         signature = (
             body, attitude, angular_velocity, *, epoch=None, orbit=None, tolerance=1e-12, method="auto", order=None, span=None,
-            averaging="auto", level="full", name=None, source=None, scalar_first=false
+            averaging="auto", level="auto", name=None, source=None, scalar_first=false
         ),
         text_signature = "(body, attitude, angular_velocity, *, epoch=0.0, orbit=None, tolerance=1e-12, method='auto', order=None, span=None, \
-                          averaging='auto', level='full', name=None, source=None, scalar_first=False)"
+                          averaging='auto', level='auto', name=None, source=None, scalar_first=False)"
     )]
     #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
     fn new(

@@ -3,7 +3,7 @@
 //! `cases`: the share of the torque's effect on the attitude that each level leaves in the reference cases.
 //! `levels`: the share of the torque's effect on the attitude that each level leaves, against J, n/spin, e and B − A, one of them varied at a time.
 //! `climb STARTS STEPS SEED`: the largest error over its bound that hill climbing finds, by family, mode and averaging.
-//! `bounds N SEED`: the error of N random scenes and the bound that the plan states, for both averagings and for second order.
+//! `bounds N SEED`: the error of N random scenes and the bound that the plan states, for both averagings and for second order, and what the integration loses of the free motion over the span.
 //! `table N SEED`: by n/spin and e, how many of N random scenes are served, the share of the torque's effect that is left, and the bound over the error.
 
 use std::f64::consts::TAU;
@@ -42,6 +42,8 @@ struct Run {
     orbit: Orbit,
     times: Vec<f64>,
     truth: Vec<([f64; 4], [f64; 3])>,
+    /// Largest error of the same integration of the free motion.
+    lost: f64,
 }
 
 impl Setting {
@@ -58,7 +60,10 @@ impl Setting {
         let scene = Scene::new(Body::new(self.moments)?, State::new(0.0, attitude, rates)?)
             .span(0.0, span)
             .method(Method::Closed);
-        Ok(Run { scene, orbit, times, truth })
+        let free = Problem { moments: self.moments, orbit: None }.integrate(0.0, attitude, rates, &times);
+        let mut run = Run { scene, orbit, times, truth: free, lost: 0.0 };
+        run.lost = run.error(&run.scene.clone().tolerance(1e-15).solve()?)?;
+        Ok(Run { truth, ..run })
     }
 }
 
@@ -168,7 +173,7 @@ fn setting(random: &mut Uniform) -> Setting {
 }
 
 fn bounds(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn std::error::Error>> {
-    writeln!(out, "averaging,level,n,e,J,A,B,ratio,orbits,torque,kappa,error,bound")?;
+    writeln!(out, "averaging,level,n,e,J,A,B,ratio,orbits,torque,kappa,error,bound,lost")?;
     let mut random = Uniform(seed);
     for _ in 0..count {
         let setting = setting(&mut random);
@@ -183,7 +188,7 @@ fn bounds(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn s
                 3.0 * setting.mean_motion * (1.0 - 0.5 * (a + b)) / (1.0 - setting.eccentricity.powi(2)).powf(1.5);
             writeln!(
                 out,
-                "{averaging},{level},{:.3e},{:.3},{:.3},{a:.3},{b:.3},{:.3},{:.1},{:.3e},{kappa:.3e},{:.3e},{:.3e}",
+                "{averaging},{level},{:.3e},{:.3},{:.3},{a:.3},{b:.3},{:.3},{:.1},{:.3e},{kappa:.3e},{:.3e},{:.3e},{:.1e}",
                 setting.mean_motion,
                 setting.eccentricity,
                 setting.tilt,
@@ -192,6 +197,7 @@ fn bounds(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn s
                 plan.torque(),
                 run.error(&motion)?,
                 plan.error_bound(),
+                run.lost,
             )?;
         }
     }

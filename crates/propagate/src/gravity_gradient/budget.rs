@@ -1,8 +1,10 @@
 //! The parts of the error bound of a motion under a gravity gradient.
 //!
-//! The largest first-order change ε is sampled over ℓ′, y′, the position of the disturbing body within the span, and the precession. The second-order error is
-//! ε times the derivatives of the change, which have the size of the sum of all terms. It also lets the phases drift, because it changes σ and M. Further parts
-//! are the dropped terms, the truncation of the sums for G, the terms that the level omits, the average over the orbit, and rounding.
+//! The largest first-order change ε is sampled over ℓ′, y′, the position of the disturbing body within the span, and the precession. What is bounded in second order
+//! is ε times the derivatives of the change, which have the size of the sum of all terms. What grows in third order is that times the rates, the time, and again
+//! the derivatives. A motion of first order is as far from that of second order as the drifts of second order lead within the span ([`super::second_order::drift`]).
+//! At the levels of the paper the drift of second order is estimated as what is bounded times rates and time. Further parts are what the mean M and L lack,
+//! the dropped terms, the truncation of the sums for G, the terms that the level omits, the average over the orbit, and rounding.
 
 use std::f64::consts::{PI, TAU};
 
@@ -26,10 +28,10 @@ const SAMPLES: usize = 48;
 /// Safety factor of the second-order error. The largest change may exceed the largest sample, and enters squared; second order has a factor too. With this
 /// margin the worst case found by hill climbing (docs/gravity-gradient.md) is below its bound.
 const MARGIN: f64 = 2.0;
-/// The safety factor of an averaged motion of second order.
-const THIRD_MARGIN: f64 = 5.0;
-/// The fraction of the first-order error that second order is allowed anyway: over spans of 1e5 radians the estimate of third order alone was exceeded.
-const FIRST_PART: f64 = 0.05;
+/// The safety factor of what an averaged motion of second order leaves.
+const THIRD_MARGIN: f64 = 6.0;
+/// The same for the distance between the motions of first and of second order.
+const FIRST_MARGIN: f64 = 1.4;
 /// The derivatives of the change, as a fraction of the sum of the largest sizes of all terms.
 const SLOPE_SHARE: f64 = 0.25;
 /// Number of orbits on each side of the epoch for which quarters are kept.
@@ -60,12 +62,21 @@ pub(super) struct Subject<'a> {
     pub(super) ellipse: &'a AveragedOrbit,
     /// Mean anomaly of the orbit at the epoch.
     pub(super) anomaly: f64,
-    /// What the mean M and L of second order lack, over M; `None` in first order.
-    pub(super) left: Option<[f64; 2]>,
-    /// The part of the drifts of second order that K2 lacks.
-    pub(super) cut: f64,
+    /// What the second order in the torque says; `None` at the levels of the paper.
+    pub(super) further: Option<Further>,
     /// d⟨T33⟩/dσ times −3/4 of the mass fraction over M.
     pub(super) drift: f64,
+}
+
+/// What the second order in the torque says of the error of a motion whose mean M and L are those of all terms.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Further {
+    /// What the mean M and L lack, over M.
+    pub(super) left: [f64; 2],
+    /// The part of the drifts of second order that K2 lacks.
+    pub(super) cut: f64,
+    /// The distance from the motion of second order over the span, 0 for that motion \[rad\].
+    pub(super) apart: f64,
 }
 
 impl Budget {
@@ -79,17 +90,22 @@ impl Budget {
         let strength = ellipse.strength().abs();
         // The strength of the effect on the phases, like κ for the axis. Δ(σ) may be 0 where its slope is not.
         let by_phase = subject.phase() * mean_motion / ellipse.eta_cubed();
-        let first = MARGIN * response.second_order([size, slope], p, duration);
+        let sizes = [size, slope];
+        let (spin, dropped) = match subject.further {
+            Some(Further { left, cut, apart }) => {
+                let third: f64 = response.third_order(sizes, p, duration, cut).iter().sum();
+                let left = response.of_actions(left, duration);
+                (THIRD_MARGIN * third + left + FIRST_MARGIN * apart, corrections.at_once + corrections.resonant)
+            }
+            None => {
+                let second = response.second_order(sizes, p, duration);
+                (MARGIN * second, corrections.dropped + 2.0 * corrections.rest)
+            }
+        };
         Self {
-            spin: match subject.left {
-                None => first,
-                Some(left) => {
-                    let third = response.third_order([size, slope], p, duration, (subject.cut, left));
-                    THIRD_MARGIN * third + FIRST_PART * first
-                }
-            },
+            spin,
             orbit: strength * (strength + 6.0 * by_phase) * (1.0 + orbital),
-            dropped: corrections.dropped + 2.0 * corrections.rest,
+            dropped,
             omitted: corrections.omitted + subject.omitted(mean_motion) * (1.0 + orbital),
             rounding: 4.0 * f64::EPSILON * inertia.sigma * (anomaly.abs() + longitude.abs()) * duration,
             orbits: orbital / TAU,

@@ -14,6 +14,8 @@ pub(super) struct Candidate {
     pub(super) frequency: f64,
     /// Rate of change of the attitude by the term [rad per unit of time].
     pub(super) rate: f64,
+    /// Rate of change of M or L by the term, over M and over m or h.
+    pub(super) action: f64,
     /// The part of the change that comes from the slope of Ω, times Ω.
     pub(super) shift: f64,
 }

@@ -25,6 +25,8 @@ pub(crate) fn chosen(
     let first = solved(Level::Full)?;
     let reason = if first.error <= request.tolerance {
         "first order meets the tolerance".to_owned()
+    } else if !request.is_fixed() {
+        "several disturbing bodies, and orbits that precess, are of first order".to_owned()
     } else if request.averaging == Averaging::Orbit {
         "the average over the orbit, which was asked for, is of first order".to_owned()
     } else {

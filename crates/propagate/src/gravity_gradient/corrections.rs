@@ -23,6 +23,7 @@ use num_complex::Complex;
 
 use super::candidate::{Candidate, SMALLEST_RATIO};
 use super::course::fixed;
+use super::envelope::Envelope;
 use super::generator::{self, Generator, Harmonic, ORDERS, Orbital};
 use super::inertia::{HIGHEST, Inertia};
 use super::resonance::Commensurability;
@@ -38,6 +39,8 @@ type C64 = Complex<f64>;
 
 /// Largest sum of the corrections for which first order is accepted.
 const LARGEST_SIZE: f64 = 0.05;
+/// Largest size of the contraction of r̂r̂ for each m.
+const CONTRACTED: [f64; 3] = [2.0 / 3.0, 0.5, 1.0];
 /// [`Demand::share`] of a motion. The second-order error is 0.003 of its bound in the median, and a few tens of terms may be dropped.
 pub(crate) const SHARE: f64 = 1e-5;
 /// The same for a motion of second order, whose mean variables are better by the size of the corrections.
@@ -105,6 +108,8 @@ pub(crate) struct Demand<'a> {
     pub(crate) duration: f64,
     /// Terms smaller than this fraction of the second-order error are dropped.
     pub(crate) share: f64,
+    /// What the span has of the orbit.
+    pub(crate) envelope: &'a Envelope,
 }
 
 /// The generating function of one mean motion.
@@ -113,6 +118,10 @@ pub(crate) struct Corrections {
     pub(crate) generator: Generator,
     /// Sum of the dropped terms over the span \[rad\].
     pub(crate) dropped: f64,
+    /// Effect of the resonances over the span \[rad\].
+    pub(crate) resonant: f64,
+    /// Dropped terms, and truncation of the sums for G on both ends, at one time \[rad\]: what they do to the mean M and L is not in it.
+    pub(crate) at_once: f64,
     /// Sum of the terms that the level omits, over the span \[rad\].
     pub(crate) omitted: f64,
     /// The parts of ⟨T33⟩ and of its slope that the level omits, times the mass fraction over M.
@@ -146,14 +155,13 @@ pub(super) struct Terms {
 impl Terms {
     pub(super) fn new(inertia: &Inertia, demand: &Demand<'_>) -> Self {
         let Demand { orbit, mean_motion, level, rates, .. } = *demand;
-        let eccentricity = orbit.eccentricity();
-        let eta_cubed = (1.0 - eccentricity * eccentricity).powf(1.5);
+        let envelope = demand.envelope;
         let turning = 2.0 * (rates[0].abs() + rates[1].abs());
-        let fastest = 2.0 * mean_motion * (1.0 + eccentricity).powi(2) / eta_cubed + turning;
+        let fastest = envelope.fastest + turning;
         let strength = 1.5 * mean_motion * mean_motion * orbit.disturbing_fraction();
-        let pericentre = strength * ((1.0 + eccentricity) / eta_cubed.powf(2.0 / 3.0)).powi(3);
+        let nearest = strength * envelope.span[0];
         let response = Response::new(inertia);
-        let scale = 4.0 * pericentre / inertia.momentum;
+        let scale = 4.0 * nearest / inertia.momentum;
         let all = candidates(inertia, &response, scale, |m, h| level.tensor(inertia, m, h));
         let mut terms = Self { all, response, strength, scale, turning, fastest, size: 0.0 };
         terms.size = terms.all.iter().filter(|candidate| terms.regular(candidate)).map(Candidate::size).sum();
@@ -186,37 +194,41 @@ impl Corrections {
         if whole > LARGEST_SIZE {
             return Err(Error::TorqueTooStrong { size: whole, bound: LARGEST_SIZE });
         }
-        let Demand { orbit, mean_motion, level, duration, .. } = *demand;
+        let Demand { orbit, mean_motion, level, duration, envelope, .. } = *demand;
         let Terms { response, strength, scale, turning, fastest, size, .. } = terms;
         let eccentricity = orbit.eccentricity();
         let commensurability =
-            Commensurability { response: &response, mean_motion, eccentricity, turning, fastest, duration };
+            Commensurability { response: &response, mean_motion, eccentricity, turning, fastest, envelope, duration };
         let allowed = demand.tolerance.max(second_order(whole, &response, duration));
         let mut dropped = commensurability.left(&terms.all, allowed)?;
+        let resonant = dropped;
         let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
         let omitted = omitted.iter().map(|term| commensurability.whole(term)).sum();
         let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * whole * whole);
         let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
+        let mut at_once = 0.0;
         let mut orbital = Orbital::precessing(eccentricity, mean_motion, demand.rates);
+        let fixed_orbit = demand.rates == [0.0; 2];
+        let sizes: Vec<f64> = if fixed_orbit { envelope.span.to_vec() } else { orbital.norms.clone() };
         let most = if level == Level::Paper { 1 } else { ORDERS };
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
         for candidate in terms.all.iter().filter(|candidate| terms.regular(candidate)) {
             let growth = response.growth(candidate.multiple, duration);
             if candidate.size() <= nothing {
                 dropped += growth * candidate.size();
+                at_once += candidate.size();
                 neglected = neglected.max(candidate.size());
                 continue;
             }
             // The sum is asymptotic. It ends when it is accurate enough, or where its truncation error is smallest.
             let left = |orders: usize| {
-                candidate.size() * orbital.norms[orders]
-                    / orbital.norms[0]
-                    / candidate.frequency.abs().powi(orders as i32)
+                candidate.size() * sizes[orders] / sizes[0] / candidate.frequency.abs().powi(orders as i32)
             };
             let enough = (1..most).find(|&orders| left(orders) <= nothing);
             let least = (1..=most).min_by(|&a, &b| left(a).total_cmp(&left(b)));
             let orders = enough.or(least).unwrap_or(most);
             rest += growth * left(orders);
+            at_once += 2.0 * left(orders);
             neglected = neglected.max(left(orders));
             count += 1;
             most_orders = most_orders.max(orders);
@@ -236,7 +248,7 @@ impl Corrections {
             root: inertia.sigma.sqrt(),
             momentum: inertia.momentum,
         };
-        Ok(Self { generator, dropped, omitted, axial_omitted, rest, size, count, neglected })
+        Ok(Self { generator, resonant, at_once, dropped, omitted, axial_omitted, rest, size, count, neglected })
     }
 
     /// The changes from mean to osculating variables, for |p| = √σ and the axes of the orbit at the epoch.
@@ -290,7 +302,8 @@ fn candidates(
                 let [anomaly, longitude] = inertia.rate_slopes;
                 let by_sigma = f64::from(harmonic) * anomaly + f64::from(multiple) * longitude;
                 let shift = scale * 0.5 * response.gain * further * value_size * by_sigma.abs();
-                candidates.push(Candidate { harmonic, multiple, value, slope, frequency, rate, shift });
+                let action = 0.5 * scale * CONTRACTED[multiple as usize] * root.powi(degree) * value_size; // 0 ≤ m ≤ 2
+                candidates.push(Candidate { harmonic, multiple, value, slope, frequency, rate, action, shift });
             }
         }
     }

@@ -15,14 +15,16 @@ use nalgebra::{UnitQuaternion, Vector3};
 use num_complex::Complex;
 
 use super::averaged::{AveragedOrbit, Bodies, MOST_QUARTERS, Precession, Pull, Slow, Spin};
-use super::budget::{Budget, MOST_ORBITS, Subject};
+use super::budget::{Budget, Further, MOST_ORBITS, Subject};
 use super::corrections::{Change, Corrections, Demand, Mean, SECOND_SHARE, SHARE, Terms};
 use super::course::{Course, When};
+use super::envelope::{Envelope, Reach};
 use super::inertia::Inertia;
 use super::offset::Offset;
 use super::powers::Powers;
 use super::request::Request;
 use super::response::Response;
+use super::second_order::drift::Drift;
 use super::second_order::{self, epoch::Refined};
 use crate::error::Error;
 use crate::input::options::{Averaging, Level};
@@ -104,34 +106,54 @@ impl Gradient {
         let momentum = polhode.momentum.to_f64();
         let duration = scaled(request.duration, exponent);
         let share = if level == Level::SecondOrder { SECOND_SHARE } else { SHARE };
+        let courses: Vec<Course> = orbits.iter().map(|orbit| Course::new(orbit, request.epoch)).collect();
+        let none = Lanes::splat(pulp::Scalar, 0.0);
+        let starts: Vec<_> = courses.iter().map(|course| course.at((none, none))).collect();
+        let reaches: Vec<Reach> = orbits
+            .iter()
+            .zip(&starts)
+            .map(|(orbit, start)| Reach {
+                eccentricity: orbit.eccentricity(),
+                anomaly: start.place.angle.values()[0] - start.place.centre.values()[0],
+                orbital: scaled(orbit.mean_motion(), -exponent) * duration,
+            })
+            .collect();
+        let envelopes: Vec<Envelope> = orbits
+            .iter()
+            .zip(&reaches)
+            .map(|(orbit, reach)| Envelope::new(orbit.eccentricity(), scaled(orbit.mean_motion(), -exponent), reach))
+            .collect();
         let demands = orbits
             .iter()
-            .map(|orbit| {
+            .zip(&envelopes)
+            .map(|(orbit, envelope)| {
                 orbit.within_reach(request.epoch)?;
                 let [mean_motion, node, pericentre] =
                     [orbit.mean_motion(), orbit.rates()[0], orbit.rates()[1]].map(|rate| scaled(rate, -exponent));
-                let (axes, tolerance) = (orbit.axes_at(request.epoch), request.tolerance);
-                Ok(Demand { orbit, mean_motion, rates: [node, pericentre], axes, level, tolerance, duration, share })
+                let (axes, rates, tolerance) = (orbit.axes_at(request.epoch), [node, pericentre], request.tolerance);
+                Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, envelope })
             })
             .collect::<Result<Vec<_>, Error>>()?;
-        let size = demands.iter().map(|demand| strongest_torque(polhode, demand.orbit, demand.mean_motion / momentum));
+        let size = demands.iter().map(|demand| {
+            let share = demand.envelope.span[0] / demand.envelope.most[0];
+            share * strongest_torque(polhode, demand.orbit, demand.mean_motion / momentum)
+        });
         let size = size.sum::<f64>();
         if size > STRONGEST {
             // If there is a resonance, report that instead, because it explains more.
             all_corrections(&Inertia::new(polhode, osculating.0, momentum), &demands)?;
             return Err(Error::TorqueTooStrong { size, bound: STRONGEST });
         }
-        let courses: Vec<Course> = orbits.iter().map(|orbit| Course::new(orbit, request.epoch)).collect();
-        let none = Lanes::splat(pulp::Scalar, 0.0);
-        let starts: Vec<_> = courses.iter().map(|course| course.at((none, none))).collect();
         let (sigma, [anomaly, longitude]) = osculating;
         let p = C64::from_polar(sigma.sqrt(), anomaly);
         let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
         let first = mean_motion_of(polhode, &state, &starts, &demands)?;
-        let MeanMotion { mean, change, inertia, corrections, left } = if level == Level::SecondOrder {
-            second_order_of(polhode, first, &state, &starts[0], &demands[0])?
+        let refines = request.is_fixed() && matches!(level, Level::Full | Level::SecondOrder);
+        let (MeanMotion { mean, change, inertia, corrections }, refinement) = if refines {
+            let (motion, refinement) = refined_of(polhode, first, &state, &starts[0], &demands[0])?;
+            (motion, Some(refinement))
         } else {
-            first
+            (first, None)
         };
         let (axial, axial_slope) = level.axial(&inertia);
         let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) / mean.momentum;
@@ -153,16 +175,28 @@ impl Gradient {
         // ⟨D⟩ = −½ (dJ/dt) Δ. Its derivatives with respect to L, and to M at fixed L, give the slopes.
         let slope = -0.5 * 1.5 * axial_slope / mean.momentum;
         let response = Response::new(&inertia);
+        let further = refinement.map(|Refinement { left, apart }| {
+            let hamiltonian = second_order::epoch::hamiltonian(&inertia, &demands[0], polhode.moments);
+            let drift = Drift {
+                hamiltonian: &hamiltonian.without_first(),
+                demand: &demands[0],
+                reach: &reaches[0],
+                axis: mean.frame * Vector3::z(),
+                rates: apart,
+                visible: response.visible,
+            };
+            let apart = if level == Level::SecondOrder { 0.0 } else { drift.largest() };
+            Further { left, cut: second_order::cut(&inertia, &demands[0]), apart }
+        });
         let subject = |i: usize| Subject {
             mean: &mean,
             inertia: &inertia,
             corrections: &corrections[i],
             response: &response,
             ellipse: &ellipses[i],
-            anomaly: starts[i].place.angle.values()[0] - starts[i].place.centre.values()[0],
+            anomaly: reaches[i].anomaly,
             drift: slope * demands[i].orbit.disturbing_fraction(),
-            left,
-            cut: left.map_or(0.0, |_| second_order::cut(&inertia, &demands[i])),
+            further,
         };
         let (by_orbit, error) = if request.is_fixed() {
             let budget = Budget::new(&subject(0), demands[0].mean_motion, duration);
@@ -276,8 +310,14 @@ struct MeanMotion {
     inertia: Inertia,
     /// Of each body.
     corrections: Vec<Corrections>,
-    /// What is left of the mean M and L over M, if they are of second order.
-    left: Option<[f64; 2]>,
+}
+
+/// What the second order in the torque says of a mean motion.
+struct Refinement {
+    /// What is left of the mean M and L, over M.
+    left: [f64; 2],
+    /// Rates of ℓ′ and y′ at the mean M and σ of second order, less those of first order.
+    apart: [f64; 2],
 }
 
 /// The largest time from the epoch over which the averaged equations are solved, in the user's unit.
@@ -305,27 +345,29 @@ fn all_corrections(inertia: &Inertia, demands: &[Demand<'_>]) -> Result<Vec<Corr
     all.into_iter().zip(demands).map(|(terms, demand)| Corrections::of(terms, inertia, demand, whole)).collect()
 }
 
-/// The mean motion of second order from that of first order of a state.
-fn second_order_of(
+/// The mean motion with the mean M and L of all terms, to second order if the level is, and how far the rates of second order are from those of first.
+fn refined_of(
     polhode: &Polhode,
     first: MeanMotion,
     state: &Mean,
     start: &When<pulp::Scalar>,
     demand: &Demand<'_>,
-) -> Result<MeanMotion, Error> {
-    let Refined { mean, momentum, left } = second_order::epoch::refined(
+) -> Result<(MeanMotion, Refinement), Error> {
+    let (both, [by_momentum, by_sigma]) = second_order::epoch::refined(
         (&first.mean, &first.change, first.corrections[0].size),
         state,
         &first.inertia,
         &start.place,
         (demand, polhode.moments),
     );
+    let Refined { mean, momentum, left } = both[usize::from(demand.level == Level::SecondOrder)];
     let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
+    let apart = [0, 1].map(|i| inertia.rates[i].to_f64() * by_momentum + inertia.rate_slopes[i] * by_sigma);
     let corrections = vec![Corrections::new(&inertia, demand)?];
     let change = Change { momentum, ..first.change };
     // The iteration leaves M and L its own threshold, which the rates multiply by the time.
     let left = left.map(|part| part + CONVERGED);
-    Ok(MeanMotion { mean, change, inertia, corrections, left: Some(left) })
+    Ok((MeanMotion { mean, change, inertia, corrections }, Refinement { left, apart }))
 }
 
 /// The mean variables whose corrections give a state, by fixed-point iteration.
@@ -349,14 +391,14 @@ fn mean_motion_of(
             + (next.momentum / mean.momentum - 1.0).abs()
             + next.frame.angle_to(&mean.frame);
         if moved <= CONVERGED {
-            return Ok(MeanMotion { mean, change, inertia, corrections, left: None });
+            return Ok(MeanMotion { mean, change, inertia, corrections });
         }
         first = first.max(moved);
         if step == MOST_STEPS {
             // Rounding of large corrections may prevent full convergence. A motion without contraction has no mean motion.
             let contraction = (moved / first).powf(1.0 / MOST_STEPS as f64);
             return if contraction <= CONTRACTION {
-                Ok(MeanMotion { mean, change, inertia, corrections, left: None })
+                Ok(MeanMotion { mean, change, inertia, corrections })
             } else {
                 Err(Error::TorqueTooStrong { size: contraction, bound: CONTRACTION })
             };

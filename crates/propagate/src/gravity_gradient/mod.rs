@@ -10,6 +10,7 @@ pub(crate) mod choice;
 mod corrections;
 mod course;
 pub(crate) mod disturbed;
+mod envelope;
 mod epoch;
 mod evaluate;
 mod generator;

@@ -6,9 +6,10 @@
 //! jn|. In addition the phases drift, because the term changes σ and, for m ≠ 0, M. This is an upper estimate. If it is not larger than the second-order error,
 //! it becomes part of the error bound; otherwise it is [`Error::Resonance`].
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use super::candidate::{Candidate, SMALLEST_RATIO};
+use super::envelope::{Envelope, harmonic};
 use super::response::Response;
 use crate::error::Error;
 
@@ -16,8 +17,8 @@ use crate::error::Error;
 const SLOW_HARMONICS: i32 = 3;
 /// Largest error of the resonant terms over that of second order.
 const MARGIN: f64 = 10.0;
-/// Largest prefactor of Hansen's coefficients, apart from their exponential, over their value at the pericentre.
-const PREFACTOR: f64 = 1.0;
+/// Attitude error by a harmonic of the orbit of which no more need be known \[rad\].
+const NEGLIGIBLE: f64 = 1e-14;
 
 /// The frequencies of a mean motion and of its orbit.
 pub(super) struct Commensurability<'a> {
@@ -28,6 +29,7 @@ pub(super) struct Commensurability<'a> {
     pub(super) turning: f64,
     /// Largest rate of twice the true anomaly.
     pub(super) fastest: f64,
+    pub(super) envelope: &'a Envelope,
     pub(super) duration: f64,
 }
 
@@ -64,7 +66,7 @@ impl Commensurability<'_> {
             let (amplitude, distance) = self.beyond_the_sum(term);
             self.turned(term, amplitude, distance)
         } else {
-            self.turned(term, 1.0, self.slow_distance(term))
+            self.whole(term)
         }
     }
 
@@ -73,11 +75,22 @@ impl Commensurability<'_> {
         self.turned(term, 1.0, self.slow_distance(term))
     }
 
-    /// The attitude error of a part of a term at its distance from a commensurability.
+    /// The attitude error of a part of a term at its distance from a commensurability: at once, and by the drift that the changes of M and L make.
     fn turned(&self, term: &Candidate, amplitude: f64, distance: f64) -> f64 {
         let distance = (distance - self.turning).max(0.0);
-        let time = if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration };
-        (amplitude * term.rate * time * self.response.growth(term.multiple, self.duration)).min(PI)
+        let time = self.acting(amplitude, distance);
+        let (h, m) = (f64::from(term.harmonic.abs()), f64::from(term.multiple));
+        // M and L are off by half of what they swing, or half as long by all of it; the swings themselves last for that time.
+        let drifting = self.response.of_actions([m * term.action, h * term.action], 0.5 * (self.duration + time));
+        (amplitude * time * (term.rate + drifting)).min(PI)
+    }
+
+    /// The time over which a term acts in one sense.
+    fn acting(&self, amplitude: f64, distance: f64) -> f64 {
+        // A harmonic of the orbit acts at every passage of the pericentre.
+        let passage = if amplitude < 1.0 { TAU / self.mean_motion } else { 0.0 };
+        let span = self.duration + passage;
+        if distance * span > 2.0 { 2.0 / distance } else { span }
     }
 
     /// The distance of Ω from the nearest low multiple of the mean motion.
@@ -88,13 +101,19 @@ impl Commensurability<'_> {
 
     /// The amplitude of the nearest harmonic that the sum for G does not contain, and the distance of Ω from it.
     fn beyond_the_sum(&self, term: &Candidate) -> (f64, f64) {
-        if self.eccentricity == 0.0 {
-            return (0.0, term.frequency.abs());
+        let e = self.eccentricity;
+        let number = (term.frequency / self.mean_motion).abs();
+        let distance = self.mean_motion * (number - number.round()).abs();
+        if e == 0.0 || !self.envelope.passes {
+            return (0.0, distance);
         }
-        let multiple = (term.frequency / self.mean_motion).round();
-        let eta = ((1.0 - self.eccentricity) * (1.0 + self.eccentricity)).sqrt();
-        let decay = (1.0 / self.eccentricity).acosh() - eta;
-        let amplitude = PREFACTOR * (-multiple.abs() * decay).exp();
-        (amplitude, (term.frequency - multiple * self.mean_motion).abs())
+        // Hansen's coefficients fall like e^(−|j|(arcosh 1/e − η)), and are smaller than that times the value at the pericentre.
+        let eta = ((1.0 - e) * (1.0 + e)).sqrt();
+        let upper = (-number.floor() * ((1.0 / e).acosh() - eta)).exp();
+        if self.turned(term, upper, distance) <= NEGLIGIBLE {
+            return (upper, distance);
+        }
+        let most = ((1.0 + e) / (eta * eta)).powi(3);
+        (harmonic(e, number.floor()) / most, distance)
     }
 }

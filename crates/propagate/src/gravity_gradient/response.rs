@@ -61,20 +61,17 @@ impl Response {
         size * slope * (1.0 + self.by_momentum * duration) + self.by_sigma * sigma * duration
     }
 
-    /// The same for averaged motion of second order: what is bounded stays, what grows is of third order. `cut` is the part of the drifts that K2 lacks, and `left` what the mean M and L lack
-    /// over M.
-    pub(super) fn third_order(
-        &self,
-        [size, slope]: [f64; 2],
-        p: f64,
-        duration: f64,
-        (cut, left): (f64, [f64; 2]),
-    ) -> f64 {
+    /// What an averaged motion of second order leaves of that: what is bounded, and the drift of third order. `cut` is the part of the drifts of second order that K2 lacks.
+    pub(super) fn third_order(&self, [size, slope]: [f64; 2], p: f64, duration: f64, cut: f64) -> [f64; 2] {
         let of_sigma = self.of_sigma(p);
         let further = slope + p / self.distance.sqrt() + of_sigma / self.distance;
         let growing = (size * slope * self.by_momentum + self.by_sigma * of_sigma * further) * duration;
-        let actions = (left[0] * self.by_momentum + (left[1] + self.sigma * left[0]) * self.by_sigma) * duration;
-        size * slope + growing * (further + cut) + actions
+        [size * slope, growing * (further + cut)]
+    }
+
+    /// The attitude error over a time that errors of the mean M and L make, over M \[rad\].
+    pub(super) fn of_actions(&self, [momentum, action]: [f64; 2], duration: f64) -> f64 {
+        (momentum * self.by_momentum + (action + self.sigma * momentum) * self.by_sigma) * duration
     }
 
     /// The factor by which the effect of a term on the attitude grows over a time: through σ, and through M for m ≠ 0.

@@ -1,6 +1,7 @@
 //! Tests of the corrections with the mean variables, which are not public: the mean M is nearly constant, and the brackets are preserved.
 
 use super::*;
+use crate::gravity_gradient::envelope::whole;
 use crate::simd::kepler::Place;
 use crate::{Body, State};
 
@@ -125,6 +126,7 @@ impl Stand {
             tolerance: 1e-30,
             duration: 0.0,
             share: 0.0,
+            envelope: &whole(self.orbit.eccentricity(), MEAN_MOTION),
         };
         Corrections::new(&inertia, &demand).expect("no resonance").at(mean, &self.place)
     }

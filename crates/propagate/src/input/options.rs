@@ -98,13 +98,13 @@ impl fmt::Display for Convention {
 #[non_exhaustive]
 pub enum Level {
     /// [`Level::Full`] where it meets the tolerance, else [`Level::SecondOrder`] where its error bound is smaller.
+    #[default]
     Auto,
     /// The terms of Lara (2017): the potential at J = 0, and a disturbing body that is fixed in the divisors.
     Paper,
     /// The potential at J = 0, and a disturbing body that moves along its orbit.
     Moving,
     /// First order in the torque, the potential to all orders in J, and a disturbing body that moves along its orbit.
-    #[default]
     Full,
     /// To all orders in J, and the averaged motion to second order in the torque: not with [`Averaging::Orbit`].
     SecondOrder,

@@ -46,7 +46,7 @@ impl Scene {
             order: None,
             disturbing: Vec::new(),
             averaging: Averaging::Auto,
-            level: Level::Full,
+            level: Level::default(),
             span: None,
             name: None,
             source: None,
@@ -104,7 +104,7 @@ impl Scene {
         self
     }
 
-    /// Sets how much of the theory a scene with an orbit uses. The default is [`Level::Full`].
+    /// Sets how much of the theory a scene with an orbit uses. The default is [`Level::Auto`].
     #[must_use]
     pub fn level(mut self, level: Level) -> Self {
         self.level = level;

@@ -1,7 +1,7 @@
 //! Scenes in TOML files.
 //!
 //! ```toml
-//! name = "…"                       # optional, as are source, epoch (0), span, tolerance (1e-12), method ("auto"), order, averaging ("auto"), level ("full")
+//! name = "…"                       # optional, as are source, epoch (0), span, tolerance (1e-12), method ("auto"), order, averaging ("auto"), level ("auto")
 //! source = "where the figures come from"
 //! epoch = 0.0                      # time of the state
 //! span = [0.0, 1.0e6]              # times over which the tolerance is asked for

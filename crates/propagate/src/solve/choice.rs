@@ -60,7 +60,7 @@ pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -
         Ok(motion) if motion.plan.meets_tolerance() => return Ok(motion),
         Ok(motion) => motion,
         Err(error) if error.kind() == Kind::Theory => {
-            return integrated(scene, tables, format!("theory: {}", in_ascii(&error)), stop);
+            return integrated(scene, tables, format!("theory: {}", in_ascii(&error.to_string())), stop);
         }
         Err(error) => return Err(error),
     };
@@ -80,9 +80,9 @@ pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -
     }
 }
 
-/// The message of an error without the signs that a plan does not print.
-pub(super) fn in_ascii(error: &Error) -> String {
-    error.to_string().replace('σ', "sigma").replace('−', "-").replace('²', "^2")
+/// A message without the signs that a plan does not print.
+pub(super) fn in_ascii(message: &str) -> String {
+    message.replace('σ', "sigma").replace('−', "-").replace('²', "^2")
 }
 
 /// The motion by integration over the span; mode and frequencies are those of the free motion at the epoch.

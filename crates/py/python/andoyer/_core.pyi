@@ -214,7 +214,7 @@ class Scene:
         order: int | None = None,
         span: ArrayLike | None = None,
         averaging: Literal["auto", "orbit", "spin"] = "auto",
-        level: Literal["auto", "full", "second-order", "moving", "paper"] = "full",
+        level: Literal["auto", "full", "second-order", "moving", "paper"] = "auto",
         name: str | None = None,
         source: str | None = None,
         scalar_first: bool = False,

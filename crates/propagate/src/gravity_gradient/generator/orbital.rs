@@ -15,6 +15,8 @@ pub(crate) const WIDTH: usize = 5 + 2 * (ORDERS - 1);
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Orbital {
     pub(super) series: Vec<[Fourier; 3]>,
+    /// The derivative after the last.
+    next: Vec<[Fourier; 3]>,
     /// Rate of the node about inertial axis 3.
     pub(super) node_rate: f64,
     /// Highest k.
@@ -48,9 +50,30 @@ impl Orbital {
         // A rate of the axes turns a symmetric tensor of rank 2 at most twice as fast.
         let norms = (0..=ORDERS).map(|j| leibniz(j, 2.0 * node_rate.abs()).zip(&sizes[..=j]).map(|(c, s)| c * s).sum());
         let series = turned[..ORDERS].iter().map(|functions| functions.each_ref().map(|series| trimmed(series)));
-        let mut orbital = Self { series: series.collect(), node_rate, highest: 0, norms: norms.collect() };
+        let next =
+            turned[ORDERS..].iter().map(|functions| functions.each_ref().map(|series| trimmed(series))).collect();
+        let mut orbital = Self { series: series.collect(), next, node_rate, highest: 0, norms: norms.collect() };
         orbital.keep(ORDERS);
         orbital
+    }
+
+    /// Sizes of all derivatives at a true anomaly: of (a/r)³, or of (a/r)³ e^(2if) if that is larger.
+    pub(crate) fn sizes_at(&self, anomaly: f64) -> [f64; ORDERS + 1] {
+        let mut sizes = [0.0; ORDERS + 1];
+        let (sine, cosine) = anomaly.sin_cos();
+        let mut circle = [[1.0, 0.0]; WIDTH + 3];
+        for k in 1..circle.len() {
+            let [x, y] = circle[k - 1];
+            circle[k] = [x * cosine - y * sine, x * sine + y * cosine];
+        }
+        let sum = |Fourier(first, rest): &Fourier, part: usize| -> f64 {
+            circle[*first..].iter().zip(rest).map(|(turn, coefficient)| turn[part] * coefficient).sum()
+        };
+        for (j, (size, [one, cosine, sine])) in sizes.iter_mut().zip(self.series.iter().chain(&self.next)).enumerate() {
+            let odd = j % 2;
+            *size = sum(one, odd).abs().max(sum(cosine, odd).hypot(sum(sine, 1 - odd)));
+        }
+        sizes
     }
 
     /// Keeps the first `orders` derivatives.

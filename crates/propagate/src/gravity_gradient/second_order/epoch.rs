@@ -2,6 +2,7 @@
 
 use num_complex::Complex;
 
+use super::actions::first_actions;
 use super::hamiltonian::Hamiltonian;
 use super::modes::modes;
 use super::pairs::{Stand, Tensor, second_actions};
@@ -15,10 +16,13 @@ use crate::simd::lanes::Lanes;
 
 /// Terms smaller than this share of the largest are left out of the sum over pairs.
 const SMALLEST_PAIR: f64 = 1e-6;
+/// Terms smaller than this share of the largest are left out of the changes of first order.
+const SMALLEST_FIRST: f64 = 1e-13;
 /// Terms smaller than this share of the largest are left out of K2.
 const SMALLEST_TERM: f64 = 1e-9;
 
-/// The mean state of second order at the epoch.
+/// A mean state at the epoch.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Refined {
     pub(crate) mean: Mean,
     /// The change of M that leads to the state.
@@ -27,11 +31,9 @@ pub(crate) struct Refined {
     pub(crate) left: [f64; 2],
 }
 
-/// Twice the rate of the true anomaly at the pericentre, times the ratio below which sums over time derivatives do not converge.
+/// The largest rate of twice the true anomaly within the span, times the ratio below which sums over time derivatives do not converge.
 pub(super) fn slowest(demand: &Demand<'_>) -> f64 {
-    let eccentricity = demand.orbit.eccentricity();
-    let eta_cubed = (1.0 - eccentricity * eccentricity).powf(1.5);
-    SMALLEST_RATIO * 2.0 * demand.mean_motion * (1.0 + eccentricity).powi(2) / eta_cubed
+    SMALLEST_RATIO * demand.envelope.fastest
 }
 
 fn strength(demand: &Demand<'_>) -> f64 {
@@ -43,46 +45,52 @@ pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, moments: [f64;
     Hamiltonian::new(inertia, &modes(inertia, SMALLEST_TERM, slowest(demand)), strength(demand), moments)
 }
 
-/// The mean state with |p| and M to second order: from the mean state of first order at the epoch, its change, and the sum of all terms \[rad\].
+/// The mean states with |p| and M from all terms of first order, and to second order, and the difference of their M, over M, and σ: from the mean state of the corrections at the epoch.
 pub(crate) fn refined(
-    (first, change, size): (&Mean, &Change, f64),
+    (mean, change, size): (&Mean, &Change, f64),
     state: &Mean,
     inertia: &Inertia,
     place: &Place<pulp::Scalar>,
     (demand, moments): (&Demand<'_>, [f64; 3]),
-) -> Refined {
+) -> ([Refined; 2], [f64; 2]) {
     let slowest = slowest(demand);
-    let (tensors, norms) = tensors(first, place, demand);
+    let (tensors, norms) = tensors(mean, place, demand);
     let stand = Stand {
         inertia,
-        mean: first,
+        mean,
         strength: strength(demand),
         tensors: &tensors,
         norms: &norms,
         slowest,
         mean_motion: demand.mean_motion,
         duration: demand.duration,
-        closest: closest(place, demand.orbit.eccentricity()),
+        closest: demand.envelope.span[0] / demand.envelope.epoch[0],
+        bend: demand.envelope.epoch[2] / demand.envelope.epoch[0],
         trace: moments.iter().sum(),
     };
-    let actions = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest));
-    let by_momentum = change.momentum + actions.momentum;
-    let by_sigma = 2.0 * (first.p.conj() * change.p).re;
-    let by_action = first.momentum * by_sigma + inertia.sigma * change.momentum + actions.action;
+    let first = first_actions(&stand, &modes(inertia, SMALLEST_FIRST, slowest), &demand.envelope.epoch);
+    let second = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest));
+    let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
+    let pruned = second.pruned * size * size;
+    let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };
+    // What the corrections of the motion, which drop terms and end their sums early, lack of M and L.
+    let used = mean.momentum * 2.0 * (mean.p.conj() * change.p).re + inertia.sigma * change.momentum;
+    let (lacking, lacking_action) = (first.momentum - change.momentum, first.action - used);
+    let by_sigma = (lacking_action - inertia.sigma * lacking) / mean.momentum;
+    let lower = Refined {
+        mean: at(mean.p.norm_sqr() - by_sigma, mean.momentum - lacking),
+        momentum: first.momentum,
+        left: first.left.map(|left| left / mean.momentum),
+    };
+    let by_momentum = first.momentum + second.momentum;
     let momentum = state.momentum - by_momentum;
-    let sigma = ((state.momentum * state.p.norm_sqr() - by_action) / momentum).max(0.0);
-    let turn = if first.p == Complex::default() { Complex::new(1.0, 0.0) } else { first.p / first.p.norm() };
-    let pruned = actions.pruned * size * size;
-    Refined {
-        mean: Mean { p: turn * sigma.sqrt(), momentum, ..*first },
+    let higher = Refined {
+        mean: at((state.momentum * state.p.norm_sqr() - first.action - second.action) / momentum, momentum),
         momentum: by_momentum,
-        left: actions.left.map(|left| left / momentum + pruned),
-    }
-}
-
-/// (a/r)⁶ at the pericentre over that at a place.
-fn closest(place: &Place<pulp::Scalar>, eccentricity: f64) -> f64 {
-    ((1.0 + eccentricity) / (1.0 + eccentricity * place.cosine.values()[0])).powi(6)
+        left: [0, 1].map(|i| (first.left[i] + second.left[i]) / momentum + pruned),
+    };
+    let apart = [-second.momentum / momentum, higher.mean.p.norm_sqr() - lower.mean.p.norm_sqr()];
+    ([lower, higher], apart)
 }
 
 /// (a/r)³ r̂r̂ in the frame of a mean state, its time derivatives, and their largest sizes.

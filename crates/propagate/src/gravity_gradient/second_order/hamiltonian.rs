@@ -70,6 +70,11 @@ impl Hamiltonian {
         Self { first, second, momentum }
     }
 
+    /// K2 without ⟨D⟩.
+    pub(crate) fn without_first(self) -> Self {
+        Self { first: [0.0; 3], ..self }
+    }
+
     /// The derivatives of the mean variables for an angular momentum along a unit vector.
     pub(crate) fn slopes(&self, axis: &Vector3<f64>, disturber: &Disturber) -> Slopes {
         let Disturber { direction, normal, cube, rate } = disturber;

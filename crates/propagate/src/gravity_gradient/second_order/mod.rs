@@ -3,10 +3,11 @@
 //! Both parts are needed together: the rates of ℓ′ and y′ turn an error of second order in the mean σ or M into a drift of the size of K2's.
 //! Short-period corrections stay those of first order, so that a bounded error of second order is left.
 
-use super::candidate::SMALLEST_RATIO;
 use super::corrections::Demand;
 use super::inertia::Inertia;
 
+mod actions;
+pub(super) mod drift;
 pub(super) mod epoch;
 pub(crate) mod hamiltonian;
 mod modes;
@@ -20,7 +21,7 @@ const SMALLEST_WEIGHT: f64 = 1e-6;
 /// The part of the drifts of second order that K2 to first order in n/Ω lacks: (fastest/Ω)², each term by its weight in K2.
 pub(super) fn cut(inertia: &Inertia, demand: &Demand<'_>) -> f64 {
     let slowest = epoch::slowest(demand);
-    let fastest = slowest / SMALLEST_RATIO;
+    let fastest = demand.envelope.fastest;
     let root = inertia.sigma.sqrt().max(modes::SMALLEST_ROOT);
     let (mut sum, mut whole) = (0.0, f64::MIN_POSITIVE);
     for mode in modes::modes(inertia, SMALLEST_WEIGHT, slowest) {

@@ -13,7 +13,6 @@
 use num_complex::Complex;
 
 use super::modes::{Mode, SMALLEST_ROOT};
-use crate::gravity_gradient::candidate::SMALLEST_RATIO;
 use crate::gravity_gradient::corrections::Mean;
 use crate::gravity_gradient::generator::ORDERS;
 use crate::gravity_gradient::inertia::Inertia;
@@ -41,8 +40,10 @@ pub(super) struct Stand<'a> {
     pub(super) mean_motion: f64,
     /// Longest time from the epoch.
     pub(super) duration: f64,
-    /// (a/r)⁶ at the pericentre over that at the epoch.
+    /// Largest (a/r)³ within the span, over that at the epoch.
     pub(super) closest: f64,
+    /// Second time derivative of (a/r)³ r̂r̂ at the epoch, over it.
+    pub(super) bend: f64,
     /// Sum of the moments of inertia.
     pub(super) trace: f64,
 }
@@ -151,11 +152,10 @@ impl Stand<'_> {
     fn left(&self, omega: f64) -> f64 {
         if omega.abs() > self.slowest {
             // A product of two has twice the orbit's rates.
-            let ratio = 2.0 * self.slowest / (SMALLEST_RATIO * omega.abs());
-            return ratio.min(1.0).powi(2) / omega.abs();
+            return (4.0 * self.bend / (omega * omega)).min(1.0) / omega.abs();
         }
         let distance = (omega - self.mean_motion * (omega / self.mean_motion).round()).abs();
-        self.closest * if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration }
+        self.closest * self.closest * if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration }
     }
 
     /// The bracket of a part of one term with a part of another, with the phases.
@@ -269,7 +269,7 @@ fn generating(contracted: &[Contraction; ORDERS], omega: f64, norms: &[f64]) -> 
 }
 
 /// c_m of a tensor and its derivatives by rotations about axes 1 and 2: U33 − tr U/3, U13 − iU23, U11 − U22 − 2iU12.
-fn contraction(&[xx, yy, zz, xy, xz, yz]: &Tensor, multiple: i32) -> Contraction {
+pub(super) fn contraction(&[xx, yy, zz, xy, xz, yz]: &Tensor, multiple: i32) -> Contraction {
     let c = C64::new;
     match multiple {
         0 => [c(zz - (xx + yy + zz) / 3.0, 0.0), c(-2.0 * yz, 0.0), c(2.0 * xz, 0.0)],

@@ -8,6 +8,7 @@ use super::hamiltonian::{Disturber, Hamiltonian};
 use super::modes::modes;
 use super::pairs::{Stand, Tensor, averaged};
 use crate::gravity_gradient::corrections::{Change, Corrections, Demand, Mean};
+use crate::gravity_gradient::envelope::{Envelope, whole};
 use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
 use crate::gravity_gradient::osculating::osculating;
 use crate::input::options::Level;
@@ -28,6 +29,7 @@ struct Scene {
     orbit: Orbit,
     mean: Mean,
     place: Place<pulp::Scalar>,
+    envelope: Envelope,
 }
 
 impl Scene {
@@ -51,7 +53,8 @@ impl Scene {
             momentum: polhode.momentum.to_f64(),
             frame: polhode.invariable_frame(state.attitude),
         };
-        Self { polhode, orbit, mean, place: Place::of(Lanes::splat(pulp::Scalar, 0.8), ECCENTRICITY) }
+        let place = Place::of(Lanes::splat(pulp::Scalar, 0.8), ECCENTRICITY);
+        Self { polhode, orbit, mean, place, envelope: whole(ECCENTRICITY, MEAN_MOTION) }
     }
 
     fn demand(&self) -> Demand<'_> {
@@ -64,6 +67,7 @@ impl Scene {
             tolerance: 1e-30,
             duration: 0.0,
             share: 0.0,
+            envelope: &self.envelope,
         }
     }
 
@@ -158,6 +162,7 @@ fn the_pairs_that_cancel_add_up_to_the_closed_form() {
             mean_motion: MEAN_MOTION,
             duration: 0.0,
             closest: 1.0,
+            bend: 0.0,
             trace: scene.polhode.moments.iter().sum(),
         };
         let pairs = averaged(&stand, &modes(&inertia, 0.0, slowest(&scene.demand())));

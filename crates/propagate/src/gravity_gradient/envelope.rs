@@ -1,0 +1,137 @@
+//! Sizes of the time derivatives of (a/r)³ r̂r̂ where the disturbing body is, and of harmonics of its orbit.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::gravity_gradient::generator::{ORDERS, Orbital};
+use crate::simd::kepler::eccentric_anomaly;
+use crate::simd::lanes::Lanes;
+
+/// Points of a span at which the sizes are taken.
+const POINTS: usize = 48;
+
+/// Of each time derivative the size at the epoch, the largest within the span, and the largest at any time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Envelope {
+    /// Largest rate of twice the true anomaly within the span.
+    pub(crate) fastest: f64,
+    /// Whether the pericentre is within the span.
+    pub(crate) passes: bool,
+    pub(crate) epoch: [f64; ORDERS + 1],
+    pub(crate) span: [f64; ORDERS + 1],
+    pub(crate) most: [f64; ORDERS + 1],
+}
+
+/// The part of an orbit that a span has.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reach {
+    pub(crate) eccentricity: f64,
+    /// Mean anomaly at the epoch.
+    pub(crate) anomaly: f64,
+    /// Mean anomaly from the epoch to the end of the span.
+    pub(crate) orbital: f64,
+}
+
+impl Reach {
+    /// Evenly spaced true anomalies within the span on both sides of the epoch.
+    pub(crate) fn places(&self) -> Vec<f64> {
+        if self.orbital >= PI {
+            return (0..POINTS).map(|k| TAU * k as f64 / POINTS as f64).collect();
+        }
+        let [first, last] = [-self.orbital, self.orbital].map(|by| self.true_anomaly(self.anomaly + by));
+        let middle = self.true_anomaly(self.anomaly);
+        let first = if first > middle { first - TAU } else { first };
+        let last = if last < middle { last + TAU } else { last };
+        (0..=POINTS).map(|k| first + (last - first) * k as f64 / POINTS as f64).collect()
+    }
+
+    /// Whether the span has the pericentre.
+    pub(crate) fn passes(&self) -> bool {
+        let wrapped = self.anomaly - TAU * (self.anomaly / TAU).round();
+        wrapped.abs() <= self.orbital
+    }
+
+    pub(crate) fn true_anomaly(&self, mean: f64) -> f64 {
+        let e = self.eccentricity;
+        let wrapped = mean - TAU * (mean / TAU).round();
+        let half = 0.5 * eccentric_anomaly(Lanes::splat(pulp::Scalar, wrapped), e).values()[0];
+        2.0 * ((1.0 + e).sqrt() * half.sin()).atan2((1.0 - e).sqrt() * half.cos())
+    }
+}
+
+impl Envelope {
+    /// The sizes for an orbit and its mean motion.
+    pub(crate) fn new(eccentricity: f64, mean_motion: f64, reach: &Reach) -> Self {
+        let orbital = Orbital::new(eccentricity, mean_motion);
+        let at = |f: f64| orbital.sizes_at(f);
+        let largest = |places: &[f64]| {
+            places.iter().map(|&f| at(f)).fold([0.0; ORDERS + 1], |most: [f64; ORDERS + 1], sizes| {
+                std::array::from_fn(|j| most[j].max(sizes[j]))
+            })
+        };
+        let whole = Reach { orbital: TAU, ..*reach };
+        let most = largest(&whole.places());
+        let span = if reach.orbital >= PI { most } else { largest(&reach.places()) };
+        let epoch = at(reach.true_anomaly(reach.anomaly));
+        let passes = reach.passes();
+        let eta_square = (1.0 - eccentricity) * (1.0 + eccentricity);
+        // (a/r)³ is the cube of what the rate is the square of.
+        let nearest = if passes { (1.0 + eccentricity) / eta_square } else { span[0].cbrt() };
+        let fastest = 2.0 * mean_motion * eta_square.sqrt() * nearest * nearest;
+        Self { fastest, passes, epoch, span, most }
+    }
+}
+
+/// The largest size of the Fourier coefficient of e^(ijl) in (a/r)³ times 1, e^(2if) and e^(−2if), for the mean anomaly l.
+pub(crate) fn harmonic(eccentricity: f64, number: f64) -> f64 {
+    // An even sum over more points than the integrand has harmonics in the eccentric anomaly is exact.
+    let points = 32 + (1.25 * number.abs().min(4096.0)) as usize;
+    let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
+    let mut sums = [0.0; 3];
+    for k in 0..points {
+        // Half the orbit: the other half is its mirror image.
+        let anomaly = PI * (k as f64 + 0.5) / points as f64;
+        let (sine, cosine) = anomaly.sin_cos();
+        let distance = 1.0 - eccentricity * cosine;
+        let (x, y) = ((cosine - eccentricity) / distance, eta * sine / distance);
+        let (double_cosine, double_sine) = (x * x - y * y, 2.0 * x * y);
+        let (by_sine, by_cosine) = (number * (anomaly - eccentricity * sine)).sin_cos();
+        let weight = 1.0 / (distance * distance * points as f64);
+        sums[0] += weight * by_cosine;
+        sums[1] += weight * (by_cosine * double_cosine + by_sine * double_sine);
+        sums[2] += weight * (by_cosine * double_cosine - by_sine * double_sine);
+    }
+    sums.into_iter().fold(0.0, |most: f64, sum| most.max(sum.abs()))
+}
+
+/// The sizes for a span of a whole orbit.
+#[cfg(test)]
+pub(crate) fn whole(eccentricity: f64, mean_motion: f64) -> Envelope {
+    Envelope::new(eccentricity, mean_motion, &Reach { eccentricity, anomaly: 0.0, orbital: TAU })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn harmonics_are_hansen_s_coefficients() {
+        // X_0 of (a/r)³ is η^(−3); at small e that of e^(2if) is 7e/2 for l and 1 for 2l.
+        let e = 0.6_f64;
+        assert!((harmonic(e, 0.0) - (1.0 - e * e).powf(-1.5)).abs() <= 1e-13);
+        assert!((harmonic(1e-4, 2.0) - 1.0).abs() <= 1e-7);
+        assert!((harmonic(1e-4, 3.0) - 3.5e-4).abs() <= 1e-10);
+    }
+
+    #[test]
+    fn a_span_that_is_far_from_the_pericentre_has_little_of_its_strength() {
+        let eccentricity = 0.9;
+        let at =
+            |anomaly: f64, orbital: f64| Envelope::new(eccentricity, 1e-3, &Reach { eccentricity, anomaly, orbital });
+        let far = at(3.0, 0.3);
+        assert!(!far.passes && far.span[0] <= 1e-3 * far.most[0] && far.fastest <= 1e-2 * at(3.0, 4.0).fastest);
+        // With the pericentre between its ends it has all of it.
+        let near = at(-0.2, 0.3);
+        assert!(near.passes && near.span[0] >= 0.98 * near.most[0]);
+        assert!((near.fastest - 2e-3 * 1.9_f64.powi(2) / 0.19_f64.powf(1.5)).abs() <= 1e-12);
+    }
+}

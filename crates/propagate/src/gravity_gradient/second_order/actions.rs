@@ -1,0 +1,49 @@
+//! The changes of M and L = Mσ of first order at the epoch, from all terms.
+//!
+//! The corrections of a motion drop small terms and end their sums early. What that does to the mean M and L grows with the rates and with time; here nothing is dropped.
+
+use num_complex::Complex;
+
+use super::modes::Mode;
+use super::pairs::{Stand, contraction};
+use crate::gravity_gradient::generator::ORDERS;
+
+type C64 = Complex<f64>;
+
+/// δM and δL of first order.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct FirstActions {
+    pub(super) momentum: f64,
+    pub(super) action: f64,
+    /// What the sums over time derivatives leave of them.
+    pub(super) left: [f64; 2],
+}
+
+pub(super) fn first_actions(stand: &Stand<'_>, modes: &[Mode], sizes: &[f64; ORDERS + 1]) -> FirstActions {
+    let mut actions = FirstActions::default();
+    let angle = if stand.mean.p == C64::default() { 0.0 } else { stand.mean.p.arg() };
+    let root = stand.inertia.sigma.sqrt();
+    for mode in modes {
+        let (h, m) = (f64::from(mode.harmonic), f64::from(mode.multiple));
+        let omega = stand.mean.momentum * mode.frequency[0];
+        let amplitude = 2.0 * stand.strength * mode.function[0] * root.powi(mode.harmonic.abs());
+        let left = |orders: usize| sizes[orders] / omega.abs().powi(orders as i32);
+        let orders = (1..=ORDERS).min_by(|&a, &b| left(a).total_cmp(&left(b))).unwrap_or(1);
+        let mut factor = (C64::i() * omega).inv();
+        let inverse = factor;
+        let mut sum = C64::default();
+        for tensor in stand.tensors.iter().take(orders) {
+            sum += factor * contraction(tensor, mode.multiple)[0];
+            factor *= -inverse;
+        }
+        let phase = C64::from_polar(amplitude, h * angle + m * stand.mean.longitude);
+        let phase = if mode.multiple == 1 { phase * -C64::i() } else { phase };
+        // −i W, of which δM has m times the real part and δL h times.
+        let turned = (phase * sum * -C64::i()).re;
+        actions.momentum += m * turned;
+        actions.action += h * turned;
+        let rest = amplitude.abs() * left(orders) / omega.abs();
+        actions.left = [actions.left[0] + m * rest, actions.left[1] + h.abs() * rest];
+    }
+    actions
+}
