@@ -257,6 +257,26 @@ impl<S: InstructionSet> Lanes<S> {
         }
     }
 
+    /// Four columns to the places from `FIRST` on of rows of N numbers, one row for each lane.
+    #[inline(always)]
+    pub(crate) fn store_fours_at<const N: usize, const FIRST: usize>(
+        [x, y, z, w]: [Self; 4],
+        rows: &mut [[f64; N]; WIDEST],
+    ) {
+        let mut i = 0;
+        while i < STRANDS {
+            let vectors = x.simd.fours([x.strands[i], y.strands[i], z.strands[i], w.strands[i]]);
+            let fours: &[[f64; 4]] = bytemuck::cast_slice(&vectors);
+            let mut lane = 0;
+            while lane < S::F64_LANES {
+                let row = &mut rows[i * S::F64_LANES + lane];
+                [row[FIRST], row[FIRST + 1], row[FIRST + 2], row[FIRST + 3]] = fours[lane];
+                lane += 1;
+            }
+            i += 1;
+        }
+    }
+
     /// Three columns to rows, one row for each lane.
     #[inline(always)]
     pub(crate) fn store_threes([x, y, z]: [Self; 3], rows: &mut [[f64; 3]]) {
