@@ -122,7 +122,7 @@ fn representable(polhode: &Polhode) -> Result<(), Error> {
     }
     // No rate or frequency of the motion is more than twice M over the smallest moment.
     let smallest = polhode.moments.iter().copied().fold(f64::INFINITY, f64::min);
-    let fastest = polhode.momentum.to_f64() / smallest;
+    let fastest = polhode.invariants.momentum.to_f64() / smallest;
     if !scaled(4.0 * fastest, rate).is_finite() {
         let exponent = exponent(fastest) + rate;
         return Err(Error::Units { quantity: "the rate that belongs to the smallest moment", exponent });
@@ -181,7 +181,7 @@ fn wobbling((scene, tables): (Scene, &SeriesTables), polhode: &Polhode, mode: Mo
         };
     }
     let exact = Secular::exact(polhode);
-    let ratio = (exact.kappa_sigma / polhode.kappa() / polhode.separatrix_action()).min(1.0);
+    let ratio = (exact.kappa_sigma / polhode.invariants.kappa / polhode.separatrix_action()).min(1.0);
     let by_series = match scene.asked_method() {
         Method::Series => true,
         Method::Closed | Method::Integrated => false,
@@ -240,7 +240,7 @@ fn assembled(scene: Scene, polhode: &Polhode, mut plan: Plan, solution: Solution
 fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Result<Motion, Error> {
     let (ratio, osculating) = osculating(polhode)?;
     let exponent = polhode.scales.1;
-    let rotation = polhode.mean_rate();
+    let rotation = polhode.invariants.mean_rate;
     let request = Request {
         orbit,
         averaging: scene.asked_averaging(),

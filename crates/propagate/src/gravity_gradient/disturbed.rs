@@ -93,7 +93,7 @@ impl Gradient {
         let orbit = request.orbit;
         orbit.within_reach(request.epoch)?;
         let mean_motion = scaled(orbit.mean_motion(), -exponent);
-        let momentum = polhode.momentum.to_f64();
+        let momentum = polhode.invariants.momentum.to_f64();
         let duration = scaled(request.duration, exponent);
         let share = if request.level == Level::SecondOrder { SECOND_SHARE } else { SHARE };
         let demand = Demand { orbit, mean_motion, level: request.level, tolerance: request.tolerance, duration, share };
@@ -123,7 +123,7 @@ impl Gradient {
             ellipse = ellipse.with_second(second_order::epoch::hamiltonian(&inertia, &demand, polhode.moments));
         }
         // Rates are proportional to M. M rounded to a double would cause an error of 1e-16 of the phases.
-        let precise = (polhode.momentum - change.momentum.into()) / mean.momentum.into();
+        let precise = (polhode.invariants.momentum - change.momentum.into()) / mean.momentum.into();
         let rates = inertia.rates.map(|rate| rate * precise);
         // ⟨D⟩ = −½ (dJ/dt) Δ. Its derivatives with respect to L, and to M at fixed L, give the slopes.
         let slope = -0.5 * 1.5 * axial_slope * fraction / mean.momentum;

@@ -72,7 +72,7 @@ impl Target<'_> {
         (attitudes, rates): (&mut [Derivatives], &mut [Derivatives]),
     ) -> Result<(), Error> {
         let exact = untruncated(scene, polhode, mode)?;
-        let theta = polhode.theta();
+        let theta = polhode.invariants.theta;
         let integral = Integral::new(&theta);
         let constants = Constants::all(self.setting, &theta, &integral);
         let anomaly_rate = scaled(exact.frequencies.anomaly, -polhode.scales.1);

@@ -80,7 +80,7 @@ pub(crate) fn anomaly(polhode: &Polhode, theta: &Theta) -> f64 {
     let (position, [cosine_sign, sine_sign]) = polhode.quadrant();
     let (from_the_top, distance) = match theta.complement {
         1.0 => (false, theta.quarter * position[1].atan2(position[0]) / FRAC_PI_2), // a circle
-        _ => theta.argument(position),
+        _ => polhode.invariants.argument,
     };
     let distance = FRAC_PI_2 * distance / theta.quarter;
     let angle = if from_the_top { FRAC_PI_2 - distance } else { distance };
