@@ -26,6 +26,9 @@ use crate::torque_free::steady::SteadyRotation;
 use crate::torque_free::wobble::{Wobble, WobbleEvaluator};
 
 mod choice;
+mod several;
+
+pub(crate) use several::several;
 
 use choice::{beyond_theory, cheapest, integrated, may_be_integrated};
 
@@ -93,8 +96,14 @@ impl Scene {
     }
 
     fn solve_by_theory(self, tables: &SeriesTables) -> Result<Motion, Error> {
+        let polhode = Polhode::new(self.body(), self.state());
+        self.solve_on(polhode, Preparation { tables, secular: None, remarks: true })
+    }
+
+    /// The motion on a polhode; `None` for a body at rest.
+    fn solve_on(self, polhode: Option<Polhode>, preparation: Preparation<'_>) -> Result<Motion, Error> {
         let scene = self;
-        let Some(polhode) = Polhode::new(scene.body(), scene.state()) else {
+        let Some(polhode) = polhode else {
             return match scene.asked_orbit() {
                 Some(_) => Err(Error::Unaveraged {
                     mode: Mode::AtRest.to_string(),
@@ -109,9 +118,19 @@ impl Scene {
         match (mode, scene.asked_orbit().copied()) {
             (mode, Some(orbit)) if mode != Mode::Spherical => disturbed(scene, &polhode, mode, &orbit),
             (Mode::Spherical | Mode::PrincipalAxis, _) => Ok(with_unused(steadily_rotating(scene, &polhode, mode))),
-            _ => wobbling((scene, tables), &polhode, mode).map(with_unused),
+            _ => wobbling((scene, preparation), &polhode, mode).map(with_unused),
         }
     }
+}
+
+/// What is ready before a scene is solved, and what its plan is to say.
+#[derive(Clone, Copy)]
+struct Preparation<'a> {
+    tables: &'a SeriesTables,
+    /// The frequencies, if they are computed already.
+    secular: Option<Secular>,
+    /// Whether the plan says what was skipped.
+    remarks: bool,
 }
 
 /// Whether the angular momentum and every rate of a motion are normal doubles in the user's units.
@@ -169,7 +188,12 @@ fn steadily_rotating(scene: Scene, polhode: &Polhode, mode: Mode) -> Motion {
 }
 
 /// The motion of a wobbling body, or of one on the separatrix.
-fn wobbling((scene, tables): (Scene, &SeriesTables), polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
+fn wobbling(
+    (scene, preparation): (Scene, Preparation<'_>),
+    polhode: &Polhode,
+    mode: Mode,
+) -> Result<Motion, Error> {
+    let Preparation { tables, secular, remarks } = preparation;
     if mode == Mode::Separatrix {
         return match scene.asked_method() {
             Method::Series => Err(Error::Separatrix),
@@ -180,7 +204,7 @@ fn wobbling((scene, tables): (Scene, &SeriesTables), polhode: &Polhode, mode: Mo
             }
         };
     }
-    let exact = Secular::exact(polhode);
+    let exact = secular.unwrap_or_else(|| Secular::exact(polhode));
     let ratio = (exact.kappa_sigma / polhode.invariants.kappa / polhode.separatrix_action()).min(1.0);
     let by_series = match scene.asked_method() {
         Method::Series => true,
@@ -191,7 +215,7 @@ fn wobbling((scene, tables): (Scene, &SeriesTables), polhode: &Polhode, mode: Mo
     let solution = if by_series {
         by_the_series((&scene, tables), polhode, exact, ratio, mode)?
     } else {
-        by_theta_functions(&scene, polhode, exact, ratio, mode)
+        by_theta_functions((&scene, remarks), polhode, exact, ratio, mode)
     };
     let phases = phase_rounding(&scene, exact.longitude_rate, polhode.scales.1);
     let mut plan = Plan::new(&scene, mode, ratio, solution.error_bound + phases);
@@ -201,7 +225,8 @@ fn wobbling((scene, tables): (Scene, &SeriesTables), polhode: &Polhode, mode: Mo
 
 /// The motion of a wobbling body by the closed form, with every harmonic that rounding leaves: what derivatives are taken of.
 pub(crate) fn untruncated(scene: &Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
-    wobbling((scene.clone().method(Method::Closed).tolerance(0.0), &SeriesTables::default()), polhode, mode)
+    let preparation = Preparation { tables: &SeriesTables::default(), secular: None, remarks: false };
+    wobbling((scene.clone().method(Method::Closed).tolerance(0.0), preparation), polhode, mode)
 }
 
 fn assembled(scene: Scene, polhode: &Polhode, mut plan: Plan, solution: Solution) -> Motion {

@@ -36,7 +36,7 @@ pub(crate) fn conditioning(scene: &Scene, polhode: &Polhode, rates: &Secular) ->
         return 0.0;
     }
     let half_turns =
-        (rates.anomaly_rate / rates.longitude_rate).to_f64().abs() * rotations(scene, rates, polhode) * 2.0;
+        (rates.anomaly_rate.to_f64() / rates.longitude_rate.to_f64()).abs() * rotations(scene, rates, polhode) * 2.0;
     COSINE_ROUNDING * polhode.invariants.cancellation * half_turns
 }
 

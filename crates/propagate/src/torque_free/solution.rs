@@ -41,8 +41,14 @@ pub(crate) struct Solution {
     pub(crate) skipped: Vec<String>,
 }
 
-/// The solution by theta functions for any polhode that is not on the separatrix; `ratio` is σ/σ_sep.
-pub(crate) fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secular, ratio: f64, mode: Mode) -> Solution {
+/// The solution by theta functions for any polhode that is not on the separatrix; `ratio` is σ/σ_sep. `remarks` is whether the plan is to say what was skipped.
+pub(crate) fn by_theta_functions(
+    (scene, remarks): (&Scene, bool),
+    polhode: &Polhode,
+    rates: Secular,
+    ratio: f64,
+    mode: Mode,
+) -> Solution {
     let theta = polhode.invariants.theta;
     if theta.complement < NEAREST_COMPLEMENT {
         return beside_the_separatrix(scene, polhode, rates, &theta);
@@ -54,7 +60,9 @@ pub(crate) fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secula
     let (series, dropped) = if budget == 0.0 { (closed.series, 0.0) } else { closed.series.truncated(budget) };
     let error_bound =
         (2.0 * dropped + rounding(&series)) / closed.least_norm.min(1.0) + conditioning(scene, polhode, &rates);
-    let skipped = if mode == Mode::Axisymmetric {
+    let skipped = if !remarks {
+        Vec::new()
+    } else if mode == Mode::Axisymmetric {
         round_body()
     } else {
         let reason = match first_order(ratio, scene.asked_tolerance()) {
