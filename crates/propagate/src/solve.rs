@@ -97,11 +97,11 @@ impl Scene {
 
     fn solve_by_theory(self, tables: &SeriesTables) -> Result<Motion, Error> {
         let polhode = Polhode::new(self.body(), self.state());
-        self.solve_on(polhode, Preparation { tables, secular: None, remarks: true })
+        self.solve_on(polhode.as_ref(), Preparation { tables, secular: None, remarks: true })
     }
 
     /// The motion on a polhode; `None` for a body at rest.
-    fn solve_on(self, polhode: Option<Polhode>, preparation: Preparation<'_>) -> Result<Motion, Error> {
+    fn solve_on(self, polhode: Option<&Polhode>, preparation: Preparation<'_>) -> Result<Motion, Error> {
         let scene = self;
         let Some(polhode) = polhode else {
             return match scene.asked_orbit() {
@@ -113,12 +113,12 @@ impl Scene {
                 None => Ok(with_unused(at_rest(scene))),
             };
         };
-        representable(&polhode)?;
-        let mode = Mode::of(&polhode);
+        representable(polhode)?;
+        let mode = Mode::of(polhode);
         match (mode, scene.asked_orbit().copied()) {
-            (mode, Some(orbit)) if mode != Mode::Spherical => disturbed(scene, &polhode, mode, &orbit),
-            (Mode::Spherical | Mode::PrincipalAxis, _) => Ok(with_unused(steadily_rotating(scene, &polhode, mode))),
-            _ => wobbling((scene, preparation), &polhode, mode).map(with_unused),
+            (mode, Some(orbit)) if mode != Mode::Spherical => disturbed(scene, polhode, mode, &orbit),
+            (Mode::Spherical | Mode::PrincipalAxis, _) => Ok(with_unused(steadily_rotating(scene, polhode, mode))),
+            _ => wobbling((scene, preparation), polhode, mode).map(with_unused),
         }
     }
 }
@@ -188,11 +188,7 @@ fn steadily_rotating(scene: Scene, polhode: &Polhode, mode: Mode) -> Motion {
 }
 
 /// The motion of a wobbling body, or of one on the separatrix.
-fn wobbling(
-    (scene, preparation): (Scene, Preparation<'_>),
-    polhode: &Polhode,
-    mode: Mode,
-) -> Result<Motion, Error> {
+fn wobbling((scene, preparation): (Scene, Preparation<'_>), polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
     let Preparation { tables, secular, remarks } = preparation;
     if mode == Mode::Separatrix {
         return match scene.asked_method() {

@@ -325,8 +325,8 @@ impl Ensemble {
     }
 
     /// The motions of members, with plans that do not say what was skipped. There are at most [`Ensemble::group`] of them.
-    pub(super) fn motions(&self, indices: impl Iterator<Item = usize>) -> Vec<Result<Motion, Error>> {
-        several(indices.map(|index| self.scene(index)).collect())
+    pub(super) fn motions(&self, indices: &[usize]) -> impl Iterator<Item = Result<Motion, Error>> + use<> {
+        several(indices.iter().map(|index| self.scene(*index)).collect())
     }
 
     /// Members that are solved at once. Those under a gravity gradient are solved one by one.

@@ -253,7 +253,8 @@ impl<'a> Run<'a> {
             if let Err(stopped) = self.going() {
                 return outcome.refused(0, stopped);
             }
-            let motions = ensemble.motions(group.iter().map(|(index, _)| *index));
+            let indices: Vec<usize> = group.iter().map(|(index, _)| *index).collect();
+            let motions = ensemble.motions(&indices);
             group.into_iter().zip(motions).fold(outcome, told)
         };
         let members = rows.enumerate().chunks(ensemble.group()).with_min_len(ensemble.block() / ensemble.group());

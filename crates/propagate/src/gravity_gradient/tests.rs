@@ -52,7 +52,10 @@ impl Case {
         };
         let (_, osculating) = crate::gravity_gradient::osculating::osculating(&polhode).expect("no separatrix");
         let gradient = Gradient::new(&polhode, state.attitude, osculating, &request).expect("averaged");
-        [polhode.user_momentum(), gradient.inertia.momentum * polhode.user_momentum() / polhode.invariants.momentum.to_f64()]
+        [
+            polhode.user_momentum(),
+            gradient.inertia.momentum * polhode.user_momentum() / polhode.invariants.momentum.to_f64(),
+        ]
     }
 
     /// The range of M over the range of the mean M.

@@ -17,9 +17,14 @@ pub(crate) struct Phase {
 impl Phase {
     /// The phase with this rate [rad per unit of time] and this angle at the epoch \[rad\].
     pub(crate) fn new(rate: DoubleDouble, start: impl Into<DoubleDouble>) -> Self {
+        Self { frequency: rate * RADIAN, start: DoubleDouble::ONE }.starting_at(start)
+    }
+
+    /// The same frequency with this angle at the epoch \[rad\].
+    pub(crate) fn starting_at(&self, start: impl Into<DoubleDouble>) -> Self {
         let start = start.into() * RADIAN;
         let whole = 1.0 - start.high.round();
-        Self { frequency: rate * RADIAN, start: start + DoubleDouble::from(whole) }
+        Self { start: start + DoubleDouble::from(whole), ..*self }
     }
 
     /// The same frequency with a phase of 0 at the epoch.

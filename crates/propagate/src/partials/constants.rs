@@ -90,16 +90,7 @@ impl Setting {
                 }
             }
         });
-        Self {
-            axes: frame.axes,
-            direction,
-            rates,
-            slopes,
-            user_slopes,
-            user_rates,
-            unit: scaled(1.0, *rate),
-            changes,
-        }
+        Self { axes: frame.axes, direction, rates, slopes, user_slopes, user_rates, unit: scaled(1.0, *rate), changes }
     }
 }
 

@@ -13,7 +13,8 @@ use nalgebra::UnitQuaternion;
 use pulp::Arch;
 
 use crate::error::Error;
-use crate::input::scene::Scene;
+use crate::input::options::Method;
+use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
 use crate::numerics::scaling::scaled;
 use crate::simd::circles::Evaluate;
@@ -22,7 +23,7 @@ use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::{Lanes, WIDEST};
 use crate::simd::phase::elapsed;
 use crate::solve::untruncated;
-use crate::torque_free::mode::Mode;
+use crate::torque_free::closed_form::ClosedForm;
 use crate::torque_free::polhode::Polhode;
 
 use super::constants::{CHANGES, Change, Constants, Setting};
@@ -66,19 +67,24 @@ impl Target<'_> {
     /// Derivatives on a polhode, with every harmonic of the closed form.
     pub(super) fn wobbling(
         self,
-        scene: &Scene,
+        motion: &Motion,
         polhode: &Polhode,
-        mode: Mode,
-        (attitudes, rates): (&mut [Derivatives], &mut [Derivatives]),
+        outputs: (&mut [Derivatives], &mut [Derivatives]),
     ) -> Result<(), Error> {
-        let exact = untruncated(scene, polhode, mode)?;
+        if motion.plan.method != Method::Closed {
+            let exact = untruncated(&motion.scene, polhode, motion.plan.mode)?;
+            return self.wobbling(&exact, polhode, outputs);
+        }
+        let (attitudes, rates) = outputs;
         let theta = polhode.invariants.theta;
         let integral = Integral::new(&theta);
         let constants = Constants::all(self.setting, &theta, &integral);
-        let anomaly_rate = scaled(exact.frequencies.anomaly, -polhode.scales.1);
+        let anomaly_rate = scaled(motion.frequencies.anomaly, -polhode.scales.1);
         let amplitudes = |start| Amplitudes::new(self.setting, constants, anomaly_rate, theta.quarter, start);
-        match &exact.trajectory {
-            Trajectory::Wobble(tables) => {
+        match &motion.trajectory {
+            Trajectory::Wobble(truncated) => {
+                let closed = ClosedForm::new(polhode, &theta);
+                let tables = &truncated.with_series(&closed.series, closed.anomaly);
                 let (sine, cosine) = (2.0 * tables.phases()[0].angle((0.0, 0.0))).sin_cos();
                 let amplitudes = &amplitudes(integral.zeta((sine, cosine)));
                 self.fill(&Wobbling { tables, integral: &integral, amplitudes }, attitudes, rates);

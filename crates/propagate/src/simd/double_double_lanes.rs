@@ -221,8 +221,9 @@ mod tests {
         for _ in 0..200 {
             let mut number = || DoubleDouble::from(next()) * DoubleDouble::sum(next(), 1e-17 * next());
             let numbers = [0, 1].map(|_| std::array::from_fn(|_| number()));
-            let expected: Vec<_> =
-                std::iter::zip(numbers[0], numbers[1]).map(|(a, b)| [a + b, a - b, a * b, a / b, a.sqrt(), a.over(b.high)]).collect();
+            let expected: Vec<_> = std::iter::zip(numbers[0], numbers[1])
+                .map(|(a, b)| [a + b, a - b, a * b, a / b, a.sqrt(), a.over(b.high)])
+                .collect();
             assert_eq!(dispatch(Arch::new(), Operations { numbers }), expected);
         }
     }

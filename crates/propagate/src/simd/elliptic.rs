@@ -1,4 +1,4 @@
-//! The arithmetic-geometric mean and Carlson's R_F in lanes: the steps of `andoyer-double`, to the same bits.
+//! The arithmetic-geometric mean and Carlson's R_F in lanes, by the steps of `andoyer-double`.
 //!
 //! A lane that has converged keeps its numbers while the others go on, so that no lane depends on its neighbours.
 
@@ -85,9 +85,62 @@ fn beyond_one<S: InstructionSet>(u: Lanes<S>, v: Lanes<S>) -> Lanes<S> {
     let w = -(u + v);
     let (e2, e3) = (u * v - w * w, u * v * w);
     let by = |divisor: f64| u.all(1.0 / divisor);
-    e3 * by(14.0) - e2 * by(10.0) + e2 * e2 * by(24.0)
-        - e2 * e3 * by(44.0 / 3.0)
-        - e2 * e2 * e2 * by(208.0 / 5.0)
+    e3 * by(14.0) - e2 * by(10.0) + e2 * e2 * by(24.0) - e2 * e3 * by(44.0 / 3.0) - e2 * e2 * e2 * by(208.0 / 5.0)
         + e3 * e3 * by(104.0 / 3.0)
         + e2 * e2 * e3 * by(16.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use andoyer_double::{DoubleDouble, arithmetic_geometric_mean};
+    use pulp::Arch;
+
+    use super::*;
+    use crate::simd::instruction_set::{Task, dispatch};
+    use crate::simd::lanes::WIDEST;
+
+    /// Mean of 1 and a number, the same in double-double, and R_F(x, ½ + x, 1), from numbers in lanes.
+    struct Functions([f64; WIDEST]);
+
+    impl Task for Functions {
+        type Output = Vec<(f64, DoubleDouble, f64)>;
+
+        #[inline(always)]
+        fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
+            let mut found = Vec::new();
+            for start in (0..WIDEST).step_by(Lanes::<S>::WIDTH) {
+                let x = Lanes::load(simd, &self.0[start..]);
+                let one = x.all(1.0);
+                let means = mean(one, x);
+                let precise = precise_mean(DoubleDoubleLanes::from_lanes(one), DoubleDoubleLanes::from_lanes(x));
+                let integrals = carlson_rf(x, x + x.all(0.5), one);
+                for lane in 0..Lanes::<S>::WIDTH {
+                    found.push((means.values()[lane], precise.lane(lane), integrals.values()[lane]));
+                }
+            }
+            found
+        }
+    }
+
+    const NUMBERS: [f64; WIDEST] =
+        [1.0, 0.999, 0.5, 0.3, 0.1, 1e-2, 1e-3, 1e-5, 1e-8, 1e-12, 1e-20, 1e-50, 1e-100, 1e-150, 0.7, 0.9];
+
+    #[test]
+    fn lanes_have_the_means_and_integrals_of_single_numbers() {
+        for (x, (mean, precise, integral)) in NUMBERS.into_iter().zip(dispatch(Arch::new(), Functions(NUMBERS))) {
+            assert!((mean / arithmetic_geometric_mean(1.0, x) - 1.0).abs() <= 4.0 * f64::EPSILON, "{x}");
+            let exact = arithmetic_geometric_mean(DoubleDouble::ONE, DoubleDouble::from(x));
+            assert!(((precise - exact) / exact).to_f64().abs() <= 1e-30, "{x}");
+            let exact = andoyer_double::carlson_rf(x, x + 0.5, 1.0);
+            assert!((integral / exact - 1.0).abs() <= 4.0 * f64::EPSILON, "{x}");
+        }
+    }
+
+    #[test]
+    fn a_lane_does_not_depend_on_its_neighbours() {
+        let together = dispatch(Arch::new(), Functions(NUMBERS));
+        for (x, expected) in NUMBERS.into_iter().zip(together) {
+            assert!(dispatch(Arch::new(), Functions([x; WIDEST])).into_iter().all(|found| found == expected), "{x}");
+        }
+    }
 }

@@ -20,6 +20,9 @@ pub(crate) const WIDEST: usize = 8 * STRANDS;
 /// 1.5·2^52. Adding and subtracting it rounds a smaller number to the nearest integer; after the addition the lowest bits are those of that integer.
 pub(crate) const INTEGERS: f64 = 6_755_399_441_055_744.0;
 
+/// The bits of a double without its sign. The functions of pulp for magnitude and sign are not always inlined.
+const MAGNITUDE: f64 = f64::from_bits(!(1 << 63));
+
 /// Vectors of doubles. `mul_add` rounds once if the instruction set has a fused multiply-add, otherwise twice. All other operations give the same bits on every
 /// machine.
 #[derive(Clone, Copy)]
@@ -77,7 +80,7 @@ impl<S: InstructionSet> Neg for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        strands!(self, i => self.simd.neg_f64s(self.strands[i]))
+        strands!(self, i => self.simd.xor_f64s(self.strands[i], self.simd.splat_f64s(-0.0)))
     }
 }
 
@@ -137,7 +140,7 @@ impl<S: InstructionSet> Lanes<S> {
     #[inline(always)]
     pub(crate) fn largest(self, other: Self) -> Self {
         strands!(self, i => {
-            let magnitude = self.simd.abs_f64s(other.strands[i]);
+            let magnitude = self.simd.and_f64s(other.strands[i], self.simd.splat_f64s(MAGNITUDE));
             let smaller = self.simd.less_than_or_equal_f64s(magnitude, self.strands[i]);
             self.simd.select_f64s(smaller, self.strands[i], magnitude)
         })
@@ -164,7 +167,7 @@ impl<S: InstructionSet> Lanes<S> {
     /// |self|.
     #[inline(always)]
     pub(crate) fn magnitude(self) -> Self {
-        strands!(self, i => self.simd.abs_f64s(self.strands[i]))
+        strands!(self, i => self.simd.and_f64s(self.strands[i], self.simd.splat_f64s(MAGNITUDE)))
     }
 
     /// The nearest integer; |self| must be below 2^51.

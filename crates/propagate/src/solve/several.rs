@@ -14,26 +14,28 @@ use crate::torque_free::series::tables::SeriesTables;
 
 /// The motions of at most as many valid scenes as the widest vectors have lanes, each to the bits of [`Scene::solve`]. The plans of free motions do not say what was
 /// skipped.
-pub(crate) fn several(scenes: Vec<Result<Scene, Error>>) -> Vec<Result<Motion, Error>> {
+pub(crate) fn several(scenes: Vec<Result<Scene, Error>>) -> impl Iterator<Item = Result<Motion, Error>> {
     let tables = SeriesTables::default();
     let states: Vec<(&Body, &State)> =
         scenes.iter().flatten().filter(|scene| is_free(scene)).map(|scene| (scene.body(), scene.state())).collect();
     let polhodes = Polhode::several(&states);
-    let wobbling = |polhode: &&Polhode| {
-        matches!(Mode::of(polhode), Mode::ShortAxis | Mode::LongAxis | Mode::Axisymmetric)
-    };
-    let wobbles: Vec<bool> = polhodes.iter().map(|place| place.as_ref().is_some_and(|polhode| wobbling(&polhode))).collect();
-    let mut frequencies = Secular::several(&polhodes.iter().flatten().filter(wobbling).collect::<Vec<_>>()).into_iter();
-    let mut ready = polhodes.into_iter().zip(wobbles);
-    let mut solve = |scene: Scene| {
+    let frequencies = Secular::several(&polhodes.iter().flatten().filter(wobbles).collect::<Vec<_>>());
+    let (mut place, mut secular) = (0, frequencies.into_iter());
+    let mut solve = move |scene: Scene| {
         if !is_free(&scene) {
             return scene.solve();
         }
-        let (polhode, wobbles) = ready.next().unwrap_or_default();
-        let secular = if wobbles { frequencies.next() } else { None };
+        let polhode = polhodes[place].as_ref();
+        place += 1;
+        let secular = polhode.filter(wobbles).and_then(|_| secular.next());
         scene.solve_on(polhode, Preparation { tables: &tables, secular, remarks: false })
     };
-    scenes.into_iter().map(|scene| scene.and_then(&mut solve)).collect()
+    scenes.into_iter().map(move |scene| scene.and_then(&mut solve))
+}
+
+/// Whether a motion is a wobble, which has frequencies.
+fn wobbles(polhode: &&Polhode) -> bool {
+    matches!(Mode::of(polhode), Mode::ShortAxis | Mode::LongAxis | Mode::Axisymmetric)
 }
 
 /// Whether a scene has neither a torque nor a choice of method.

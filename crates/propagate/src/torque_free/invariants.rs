@@ -90,7 +90,8 @@ impl Task for Compute<'_> {
     fn run<S: InstructionSet>(self, simd: S) -> Vec<Invariants> {
         let mut found = Vec::with_capacity(self.given.len());
         for given in self.given.chunks(Lanes::<S>::WIDTH) {
-            compute(simd, given, &mut found);
+            let together = together(simd, given);
+            found.extend((0..given.len()).map(|lane| together.lane(lane)));
         }
         found
     }
@@ -154,7 +155,7 @@ struct Turning<S: InstructionSet> {
 fn turning<S: InstructionSet>(simd: S, columns: &Columns, moments: [Lanes<S>; 3]) -> Turning<S> {
     let one = DoubleDoubleLanes::splat(simd, DoubleDouble::ONE);
     let by_squares = Lanes::load(simd, &columns.by_squares);
-    let load = |values: &[[f64; WIDEST]; 2]| DoubleDoubleLanes::load(simd, &values[0], &values[1]);
+    let magnitude = DoubleDoubleLanes::load(simd, &columns.squares[3][0], &columns.squares[3][1]);
     let mut parts = [one; 3];
     for axis in 0..3 {
         let part = DoubleDoubleLanes::product(moments[axis], Lanes::load(simd, &columns.rates[axis]));
@@ -168,14 +169,14 @@ fn turning<S: InstructionSet>(simd: S, columns: &Columns, moments: [Lanes<S>; 3]
     let mut direction = [one.high; 3];
     for axis in 0..3 {
         let component = parts[axis] * inverse;
-        let given = load(&columns.squares[axis]);
+        let given = DoubleDoubleLanes::load(simd, &columns.squares[axis][0], &columns.squares[axis][1]);
         // Where the squares are given, the components are their roots.
         direction[axis] = by_squares.up_to(0.0, component.nearest(), given.high.root());
         parts[axis] = DoubleDoubleLanes::up_to_zero(by_squares, squares[axis], given);
         squares[axis] = DoubleDoubleLanes::up_to_zero(by_squares, component * component, given);
     }
     Turning {
-        momentum: DoubleDoubleLanes::up_to_zero(by_squares, momentum, load(&columns.squares[3])),
+        momentum: DoubleDoubleLanes::up_to_zero(by_squares, momentum, magnitude),
         direction,
         squares,
         parts,
@@ -183,17 +184,35 @@ fn turning<S: InstructionSet>(simd: S, columns: &Columns, moments: [Lanes<S>; 3]
     }
 }
 
+/// The constants of as many bodies as there are lanes.
+struct Together<S: InstructionSet> {
+    turning: Turning<S>,
+    excesses: [DoubleDoubleLanes<S>; 2],
+    difference: DoubleDoubleLanes<S>,
+    cosine_squares: [DoubleDoubleLanes<S>; 2],
+    cancellation: Lanes<S>,
+    sine_squares: [DoubleDoubleLanes<S>; 2],
+    gamma_energy: DoubleDoubleLanes<S>,
+    kappa_energy: DoubleDoubleLanes<S>,
+    gamma: DoubleDoubleLanes<S>,
+    kappa: Lanes<S>,
+    mean_rate: DoubleDoubleLanes<S>,
+    rates: [Lanes<S>; 3],
+    agm: DoubleDoubleLanes<S>,
+    stretch: DoubleDoubleLanes<S>,
+    elliptic: Elliptic<S>,
+    half_tangents: [Lanes<S>; 2],
+    argument: Argument<S>,
+}
+
 #[inline(always)]
-fn compute<S: InstructionSet>(simd: S, given: &[Given], found: &mut Vec<Invariants>) {
+fn together<S: InstructionSet>(simd: S, given: &[Given]) -> Together<S> {
     let columns = Columns::new(given);
     let one = DoubleDoubleLanes::splat(simd, DoubleDouble::ONE);
-    let [a, b, c] = [
-        Lanes::load(simd, &columns.moments[0]),
-        Lanes::load(simd, &columns.moments[1]),
-        Lanes::load(simd, &columns.moments[2]),
-    ];
-    let Turning { momentum, direction, squares, parts, total } = turning(simd, &columns, [a, b, c]);
-    let [s1, s2, _] = squares;
+    let [first, second, third] = &columns.moments;
+    let (a, b, c) = (Lanes::load(simd, first), Lanes::load(simd, second), Lanes::load(simd, third));
+    let turning = turning(simd, &columns, [a, b, c]);
+    let (parts, momentum, [s1, s2, _]) = (turning.parts, turning.momentum, turning.squares);
     // Differences of moments are exact, and are divided last.
     let excesses = [DoubleDoubleLanes::sum(c, -a).over(a), DoubleDoubleLanes::sum(c, -b).over(b)];
     let [first, second] = excesses;
@@ -203,73 +222,89 @@ fn compute<S: InstructionSet>(simd: S, given: &[Given], found: &mut Vec<Invarian
     let divisor = DoubleDoubleLanes::from_lanes(a) * DoubleDoubleLanes::sum(c, -b);
     let terms = [parts[2] * divisor, parts[0] * between];
     let apart = terms[0] - terms[1];
-    let cancellation = (terms[0].high + terms[1].high) / apart.high;
-    let q1 = apart / (divisor * total);
-    let q2 = (parts[2] + parts[1] * (difference * inverse_first)) / total;
-    let spread_over = s1 * inverse_second + s2 * inverse_first;
+    let q1 = apart / (divisor * turning.total);
+    let q2 = (parts[2] + parts[1] * (difference * inverse_first)) / turning.total;
+    let weights = s1 * inverse_second + s2 * inverse_first;
     let sine_squares = [s1 * (first * inverse_second) + s2, s1 + s2 * (second * inverse_first)];
-    let gamma_energy = s1 * first + s2 * second;
     let alpha = (first + second).times(a.all(0.5));
-    let kappa_energy = alpha * spread_over;
     let gamma = (first * second).root_or_zero();
     let sign = Lanes::load(simd, &columns.sign);
     let gamma = DoubleDoubleLanes { high: gamma.high * sign, low: gamma.low * sign };
-    let kappa = alpha.high / gamma.high;
     let mean_rate = momentum.over(c);
-    let rates = [momentum.over(a).nearest(), momentum.over(b).nearest(), mean_rate.nearest()];
     let (least, greatest) = (q1.root_or_zero(), q2.root_or_zero());
-    let (agm, stretch) = (precise_mean(least, greatest), least / greatest);
-    let theta = elliptic([q1, q2], [(difference * spread_over), (second * inverse_first), (difference * inverse_first)]);
-    let half_tangents = [
-        sine_squares[0].nearest().root() / (theta.cosines[0] + theta.one),
-        sine_squares[1].nearest().root() / (theta.cosines[1] + theta.one),
-    ];
-    let (quadrant, from_the_top, distance) =
-        argument(direction, (first * inverse_second).nearest().root(), theta.cosines);
-    for lane in 0..given.len() {
-        let at = |lanes: &Lanes<S>| lanes.values()[lane];
-        let difference = difference.lane(lane);
-        let cosines = [at(&theta.cosines[0]), at(&theta.cosines[1])];
-        let half_tangents = [at(&half_tangents[0]), at(&half_tangents[1])];
+    let elliptic = elliptic([q1, q2], [difference * weights, second * inverse_first, difference * inverse_first]);
+    let [lower, upper] = elliptic.cosines;
+    Together {
+        excesses,
+        difference,
+        cosine_squares: [q1, q2],
+        cancellation: (terms[0].high + terms[1].high) / apart.high,
+        sine_squares,
+        gamma_energy: s1 * first + s2 * second,
+        kappa_energy: alpha * weights,
+        gamma,
+        kappa: alpha.high / gamma.high,
+        mean_rate,
+        rates: [momentum.over(a).nearest(), momentum.over(b).nearest(), mean_rate.nearest()],
+        agm: precise_mean(least, greatest),
+        stretch: least / greatest,
+        half_tangents: [
+            sine_squares[0].nearest().root() / (lower + one.high),
+            sine_squares[1].nearest().root() / (upper + one.high),
+        ],
+        argument: argument(turning.direction, (first * inverse_second).nearest().root(), [lower, upper]),
+        elliptic,
+        turning,
+    }
+}
+
+/// One lane of each vector.
+fn each<S: InstructionSet, const N: usize>(vectors: &[Lanes<S>; N], lane: usize) -> [f64; N] {
+    std::array::from_fn(|index| vectors[index].values()[lane])
+}
+
+impl<S: InstructionSet> Together<S> {
+    /// The constants of one body.
+    fn lane(&self, lane: usize) -> Invariants {
+        let [q1, q2] = &self.cosine_squares;
+        let [s1, s2] = &self.sine_squares;
+        let [first, second] = &self.excesses;
+        let difference = self.difference.lane(lane);
+        let (cosines, half_tangents) = (each(&self.elliptic.cosines, lane), each(&self.half_tangents, lane));
         let theta = if difference == DoubleDouble::ZERO {
             Theta::round(cosines, half_tangents)
         } else {
-            Theta {
-                cosines,
-                half_tangents,
-                quarter: at(&theta.quarter),
-                conjugate: at(&theta.conjugate),
-                eta: at(&theta.eta),
-                complement: at(&theta.complement),
-                parameter: at(&theta.parameter),
-            }
+            let Elliptic { quarter, conjugate, eta, complement, parameter, .. } = self.elliptic;
+            let [quarter, conjugate, eta, complement, parameter] =
+                each(&[quarter, conjugate, eta, complement, parameter], lane);
+            Theta { cosines, half_tangents, quarter, conjugate, eta, complement, parameter }
         };
-        found.push(Invariants {
-            momentum: momentum.lane(lane),
-            direction: [at(&direction[0]), at(&direction[1]), at(&direction[2])],
+        let Argument { quadrant, from_the_top, distance } = &self.argument;
+        Invariants {
+            momentum: self.turning.momentum.lane(lane),
+            direction: each(&self.turning.direction, lane),
             excesses: [first.lane(lane), second.lane(lane)],
             difference,
             cosine_squares: [q1.lane(lane), q2.lane(lane)],
-            cancellation: at(&cancellation).abs(),
-            sine_squares: [sine_squares[0].lane(lane), sine_squares[1].lane(lane)],
-            gamma_energy: gamma_energy.lane(lane),
-            kappa_energy: kappa_energy.lane(lane),
-            gamma: gamma.lane(lane),
-            kappa: at(&kappa),
-            mean_rate: mean_rate.lane(lane),
-            rates: [at(&rates[0]), at(&rates[1]), at(&rates[2])],
-            agm: agm.lane(lane),
-            stretch: stretch.lane(lane),
+            cancellation: self.cancellation.values()[lane].abs(),
+            sine_squares: [s1.lane(lane), s2.lane(lane)],
+            gamma_energy: self.gamma_energy.lane(lane),
+            kappa_energy: self.kappa_energy.lane(lane),
+            gamma: self.gamma.lane(lane),
+            kappa: self.kappa.values()[lane],
+            mean_rate: self.mean_rate.lane(lane),
+            rates: each(&self.rates, lane),
+            agm: self.agm.lane(lane),
+            stretch: self.stretch.lane(lane),
             theta,
-            quadrant: [at(&quadrant[0]), at(&quadrant[1])],
-            argument: (at(&from_the_top) > 0.0, at(&distance)),
-        });
+            quadrant: each(quadrant, lane),
+            argument: (from_the_top.values()[lane] > 0.0, distance.values()[lane]),
+        }
     }
 }
 
 /// The theta quantities in lanes.
 struct Elliptic<S: InstructionSet> {
-    one: Lanes<S>,
     cosines: [Lanes<S>; 2],
     quarter: Lanes<S>,
     conjugate: Lanes<S>,
@@ -301,7 +336,6 @@ fn elliptic<S: InstructionSet>(
     let ratio = cosines[0] / cosines[1];
     let ratio = ratio.up_to(1.0, ratio, one);
     Elliptic {
-        one,
         cosines,
         quarter: quarter_turn / mean(one, ratio),
         conjugate,
@@ -311,13 +345,23 @@ fn elliptic<S: InstructionSet>(
     }
 }
 
-/// |cos ℓ| and |sin ℓ|; above 0 where the maximum of cos J is the nearer extremum, and the argument from there. `stretch` is √(a/b).
+/// The place of a state on its polhode.
+struct Argument<S: InstructionSet> {
+    /// |cos ℓ| and |sin ℓ|.
+    quadrant: [Lanes<S>; 2],
+    /// Above 0 where the maximum of cos J is the nearer extremum.
+    from_the_top: Lanes<S>,
+    /// The argument from there.
+    distance: Lanes<S>,
+}
+
+/// The place from g, √(a/b) and the least and the greatest cos J.
 #[inline(always)]
 fn argument<S: InstructionSet>(
     direction: [Lanes<S>; 3],
     stretch: Lanes<S>,
     [least, greatest]: [Lanes<S>; 2],
-) -> ([Lanes<S>; 2], Lanes<S>, Lanes<S>) {
+) -> Argument<S> {
     let (x, y) = (direction[1].magnitude(), direction[0].magnitude() * stretch);
     // The components are scaled first, because the squares of a small wobble would underflow.
     let largest = x.largest(y);
@@ -331,5 +375,6 @@ fn argument<S: InstructionSet>(
     let start = from_the_top.up_to(0.0, x_square, y_square);
     let end = from_the_top.up_to(0.0, least * least, greatest * greatest);
     let factor = greatest * from_the_top.up_to(0.0, sine, cosine);
-    ([cosine, sine], from_the_top, factor * carlson_rf(start, x_square + y_square, end))
+    let distance = factor * carlson_rf(start, x_square + y_square, end);
+    Argument { quadrant: [cosine, sine], from_the_top, distance }
 }

@@ -67,7 +67,8 @@ impl Mode {
         }
         // If B = C, every axis perpendicular to axis 1 has the greatest inertia. If A = B, every axis perpendicular to axis 3 has the least inertia. Rotation
         // exactly about the axis of B is steady too.
-        if g1 && (g2 || g3 || second == DoubleDouble::ZERO) || g3 && polhode.invariants.difference == DoubleDouble::ZERO {
+        if g1 && (g2 || g3 || second == DoubleDouble::ZERO) || g3 && polhode.invariants.difference == DoubleDouble::ZERO
+        {
             return Self::PrincipalAxis;
         }
         if polhode.invariants.difference == DoubleDouble::ZERO {

@@ -107,8 +107,8 @@ impl<T: Fn(usize) -> &'static Nodes> Task for Sums<'_, T> {
 fn each_node<S: InstructionSet>(simd: S, means: &Means, nodes: &Nodes, index: usize, partial: &mut Partial) {
     let Nodes { cosines, sines } = nodes;
     let [q1, q2] = means.squares;
-    let [one, q1, q2, stretch] = [DoubleDouble::ONE, q1, q2 * means.stretch, means.stretch]
-        .map(|value| DoubleDoubleLanes::splat(simd, value));
+    let [one, q1, q2, stretch] =
+        [DoubleDouble::ONE, q1, q2 * means.stretch, means.stretch].map(|value| DoubleDoubleLanes::splat(simd, value));
     let width = Lanes::<S>::WIDTH;
     let mut offset = 0;
     // The same for vectors of any width.
