@@ -17,7 +17,7 @@ use crate::solve::several;
 use super::on_error::OnError;
 use super::pool::{MAX_THREADS, Pool};
 
-/// Members that a thread takes at least: 64 of them are some 300 µs.
+/// Members that a thread takes at least: 64 of them are some 100 µs.
 const BLOCK: usize = 64;
 /// The same under a gravity gradient, at 200 µs each.
 const DISTURBED_BLOCK: usize = 2;

@@ -121,13 +121,13 @@ impl Columns {
         for lane in 0..WIDEST {
             let Some(body) = given.get(lane).or(given.first()) else { break };
             columns.sign[lane] = if body.long_axis { -1.0 } else { 1.0 };
-            for axis in 0..3 {
-                columns.moments[axis][lane] = body.moments[axis];
+            for (column, moment) in columns.moments.iter_mut().zip(body.moments) {
+                column[lane] = moment;
             }
             match body.rotation {
                 Rotation::Rates(rates) => {
-                    for axis in 0..3 {
-                        columns.rates[axis][lane] = rates[axis];
+                    for (column, rate) in columns.rates.iter_mut().zip(rates) {
+                        column[lane] = rate;
                     }
                 }
                 Rotation::Squares([x, y, z], momentum) => {
@@ -158,8 +158,7 @@ fn turning<S: InstructionSet>(simd: S, columns: &Columns, moments: [Lanes<S>; 3]
     let magnitude = DoubleDoubleLanes::load(simd, &columns.squares[3][0], &columns.squares[3][1]);
     let mut parts = [one; 3];
     for axis in 0..3 {
-        let part = DoubleDoubleLanes::product(moments[axis], Lanes::load(simd, &columns.rates[axis]));
-        parts[axis] = part;
+        parts[axis] = DoubleDoubleLanes::product(moments[axis], Lanes::load(simd, &columns.rates[axis]));
     }
     let (x, y, z) = (parts[0] * parts[0], parts[1] * parts[1], parts[2] * parts[2]);
     let total = x + y + z;
