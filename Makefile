@@ -61,8 +61,8 @@ FUZZ_SECONDS ?= 60
 fuzz:  ## each fuzz target for a minute; needs a nightly compiler, and cargo-fuzz, which is installed if it is not there
 	command -v cargo-fuzz >/dev/null || cargo install --locked --quiet cargo-fuzz
 	for target in $(FUZZED); do \
-	  mkdir -p fuzz/target/corpus/$$target && \
-	  cargo +nightly fuzz run --release --sanitizer none $$target fuzz/target/corpus/$$target fuzz/corpus/$$target -- -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=2048 -max_len=4096 || exit 1; \
+	  mkdir -p target/fuzz/corpus/$$target && \
+	  cargo +nightly fuzz run --fuzz-dir tests/fuzz --target-dir target/fuzz --release --sanitizer none $$target target/fuzz/corpus/$$target tests/fuzz/corpus/$$target -- -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=2048 -max_len=4096 || exit 1; \
 	done
 
 supply:  ## licences, bans and sources of every locked dependency, by cargo alone
@@ -70,7 +70,7 @@ supply:  ## licences, bans and sources of every locked dependency, by cargo alon
 
 deny:  ## the same rules by cargo-deny, which is installed if it is not there
 	command -v cargo-deny >/dev/null || cargo install --locked --quiet cargo-deny
-	cargo deny --offline check --config tests/deny.toml licenses bans sources
+	cargo deny --offline --config tests/deny.toml check licenses bans sources
 
 msrv:  ## the oldest compiler that Cargo.toml promises
 	cargo +$$(sed -n 's/^rust-version = "\(.*\)"/\1.0/p' Cargo.toml) check --workspace --all-targets --locked --quiet --target-dir target/msrv
@@ -97,6 +97,7 @@ gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory le
 	target/release/gradient bounds 150 1 > docs/data/gravity-bounds.csv
 	target/release/gradient climb 2 90 11 > docs/data/gravity-climb.csv
 	target/release/gradient table 40 1 > docs/data/gravity-table.csv
+	$(BIN)/python benches/averaged.py --scenes 30 --seed 2 --output docs/data/averaged-bodies.csv
 	$(BIN)/python benches/gravity.py
 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes
@@ -169,13 +170,13 @@ $(VENV)/tested: crates/py/requirements-test.txt $(VENV)/ready
 	$(BIN)/python -m pip install --quiet --requirement $<
 	touch $@
 
-# The sdist must build where there is no network: its crates' sources are vendored from its own lock file, and Cargo is told to stay offline.
+# The sdist must build where there is no network: its crates' sources are vendored from its own lock file, and Cargo gets an empty home and stays offline.
 package: $(VENV)/installed  ## the sdist and a wheel from it without network, the three crates as they would be published
 	rm -rf target/package-check && mkdir -p target/package-check
 	$(BIN)/maturin sdist --manifest-path crates/py/Cargo.toml --out target/package-check
 	tar -xzf target/package-check/andoyer-*.tar.gz -C target/package-check && rm target/package-check/andoyer-*.tar.gz
-	cd target/package-check/andoyer-* && mkdir .cargo && cargo vendor --quiet > .cargo/config.toml
-	cd target/package-check/andoyer-* && CARGO_NET_OFFLINE=true $(abspath $(BIN))/maturin build --quiet --release --locked --offline --interpreter $(abspath $(BIN))/python --out ..
+	cd target/package-check/andoyer-* && mkdir .cargo && cargo vendor > .cargo/config.toml 2> ../vendor.log || { cat ../vendor.log; exit 1; }
+	cd target/package-check/andoyer-* && CARGO_HOME=$(abspath target/package-check/cargo) CARGO_NET_OFFLINE=true $(abspath $(BIN))/maturin build --quiet --release --locked --offline --interpreter $(abspath $(BIN))/python --out ..
 	for text in MIT APACHE; do \
 		for crate in double series propagate py; do cmp LICENSE-$$text crates/$$crate/LICENSE-$$text || exit 1; done; \
 		unzip -p target/package-check/andoyer-*.whl '*.dist-info/licenses/LICENSE-'$$text | cmp - LICENSE-$$text || exit 1; \

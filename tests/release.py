@@ -1,10 +1,10 @@
 """Check that version, address, licences and changelog of a release agree in all files.
 
     python tests/release.py              exit status 1 and one line for each disagreement
-    python tests/release.py --write      copies version and address from Cargo.toml to the other files
+    python tests/release.py --write      copies version and address from `workspace.package` in Cargo.toml to the other places, and the date from the changelog
     python tests/release.py --semver     compares the public Rust names with the last tag by cargo-semver-checks, which must be installed if CI is set
 
-`workspace.package` in Cargo.toml defines the version and the address (`repository`). The README of the wheel is that of the repository with absolute links, since
+`workspace.package` in Cargo.toml defines the version and the address (`repository`). The date of the version is that of its section in CHANGELOG.md. The README of the wheel is that of the repository with absolute links, since
 registries show it without the other files.
 """
 
@@ -51,9 +51,13 @@ def expected() -> Iterator[tuple[Path, str]]:
     yield ROOT / "crates/py/README.md", absolute(text("README.md"))
     for crate in PUBLISHED:
         yield ROOT / f"crates/{crate}/README.md", readdressed(text(f"crates/{crate}/README.md"))
-    cited = re.sub(r"(?m)^version: .*$", f"version: {VERSION}", text("CITATION.cff"))
+    yield ROOT / "Cargo.toml", re.sub(r'(?m)^(andoyer-\w+ = .*version = )"[^"]*"', rf'\g<1>"{VERSION}"', text("Cargo.toml"))
+    released = re.search(rf"(?m)^## \[{re.escape(VERSION)}\] - (\S+)$", text("CHANGELOG.md"))
+    date = f"\ndate-released: {released[1]}" if released else ""
+    cited = re.sub(r"(?m)^version: .*$(\ndate-released: .*$)?", f"version: {VERSION}{date}", text("CITATION.cff"))
     yield ROOT / "CITATION.cff", re.sub(r"(?m)^repository-code: .*$", f"repository-code: {ADDRESS}", cited)
-    meta = re.sub(r'"version": "[^"]*"', f'"version": "{VERSION}"', text("codemeta.json"))
+    date = f'\n  "datePublished": "{released[1]}",' if released else ""
+    meta = re.sub(r'"version": "[^"]*",(\n  "datePublished": "[^"]*",)?', f'"version": "{VERSION}",{date}', text("codemeta.json"))
     yield ROOT / "codemeta.json", re.sub(r'"codeRepository": "[^"]*"', f'"codeRepository": "{ADDRESS}"', meta)
     project = re.sub(r'(?m)^Repository = ".*"$', f'Repository = "{ADDRESS}"', text("crates/py/pyproject.toml"))
     yield ROOT / "crates/py/pyproject.toml", readdressed(project)
@@ -64,9 +68,6 @@ def problems() -> Iterator[str]:
     for path, text in expected():
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             yield f"{path.relative_to(ROOT)}: not what Cargo.toml and README.md say: python tests/release.py --write"
-    for name, dependency in tomllib.loads((ROOT / "Cargo.toml").read_text(encoding="utf-8"))["workspace"]["dependencies"].items():
-        if name.startswith("andoyer-") and dependency["version"] != VERSION:
-            yield f"Cargo.toml: workspace.dependencies has {name} {dependency['version']}, workspace.package {VERSION}"
     for crate in (*PUBLISHED, "py"):
         for licence in ("LICENSE-MIT", "LICENSE-APACHE"):
             path = ROOT / "crates" / crate / licence

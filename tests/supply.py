@@ -15,7 +15,7 @@ from collections import defaultdict
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-MANIFESTS = ("Cargo.toml", "fuzz/Cargo.toml", "benches/rivals/ode_solvers/Cargo.toml")
+MANIFESTS = ("Cargo.toml", "tests/fuzz/Cargo.toml", "benches/rivals/ode_solvers/Cargo.toml")
 
 
 def allowed(expression, licences):

@@ -132,6 +132,20 @@ def gravity_bounds() -> list[str]:
     return markdown(["averaged over", "level", "motions", "error / bound, median", "largest", "error / torque, median"], rows)
 
 
+def averaged_bodies() -> list[str]:
+    """Precessing orbits and several bodies by theory, against the integration, by regime."""
+    groups: dict[str, list[Row]] = {}
+    for row in read("averaged-bodies.csv"):
+        groups.setdefault(row["regime"], []).append(row)
+    rows = []
+    for regime, motions in groups.items():
+        shares = [float(row["error"]) / (float(row["bound"]) + float(row["integration_bound"])) for row in motions]
+        gains = [float(row["error"]) / float(row["effect"]) for row in motions]
+        largest = max(float(row["error"]) for row in motions)
+        rows.append([regime, str(len(motions)), f"{statistics.median(shares):.4f}", f"{max(shares):.2f}", f"{statistics.median(gains):.1e}", f"{largest:.1e}"])
+    return markdown(["orbits", "motions", "error / bound, median", "largest", "error / effect of the torque, median", "largest error [rad]"], rows)
+
+
 def gravity_climb() -> list[str]:
     """The largest error over bound that hill climbing finds, by family of scenes."""
     header = ["scenes", "mode", "averaged over", "level", "climbs", "scenes solved", "error [rad]", "bound [rad]", "largest error / bound"]
@@ -159,6 +173,7 @@ def light_curves() -> list[str]:
 
 
 TABLES: dict[str, Callable[[], list[str]]] = {
+    "averaged-bodies": averaged_bodies,
     "ensemble": ensemble,
     "gravity-bounds": gravity_bounds,
     "gravity-cases": gravity_cases,

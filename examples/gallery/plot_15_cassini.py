@@ -46,7 +46,7 @@ state = next(state for state in states if state.stable and state.obliquity < 0)
 tilt = inclination + state.obliquity
 attitude = [np.sin(tilt / 2), 0.0, 0.0, np.cos(tilt / 2)]
 period = 2 * np.pi / state.rate
-motion = andoyer.Scene(body, attitude, [0, 0, spin], orbit=orbit, span=(0, period / 2), tolerance=1e-6).solve()
+motion = andoyer.Scene(body, attitude, [0, 0, spin], orbit=orbit, span=(0, period / 2), tolerance=1e-6, method="integrated").solve()
 times = np.linspace(0, period / 2, 500)
 pole = motion.rotation(times).as_matrix()[:, :, 2]
 node = node_rate * times

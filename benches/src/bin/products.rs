@@ -1,4 +1,4 @@
-//! Sparse and dense products, and the brackets of a normal form: what `make rivals-products` sets beside other algebras.
+//! Sparse and dense products, the brackets of a normal form, and normal forms about L1: what `make rivals-products` sets beside other algebras.
 //!
 //! `products` reads the names of tasks from its standard input, a line each, and answers with processor seconds of the main thread, seconds on the clock, the number
 //! of terms, seconds on the clock for the first look at a coefficient, and that coefficient. Factors are made before. Whoever asks checks the answer.
@@ -8,10 +8,18 @@ use std::io::{BufRead, Write};
 use std::process::ExitCode;
 use std::time::Instant;
 
+use andoyer_series::birkhoff::Resonances;
 use andoyer_series::lie::Poisson;
 use andoyer_series::num_complex::Complex;
 use andoyer_series::num_rational::BigRational;
-use andoyer_series::{Coefficient, Monomial, Polynomial, Truncation};
+use andoyer_series::progress::quiet;
+use andoyer_series::{Coefficient, Monomial, Polynomial, Truncation, normalize_with};
+
+#[path = "../../../crates/series/tests/algebra/hamiltonians.rs"]
+mod hamiltonians;
+
+/// Mass of the Moon over the mass of Earth and Moon.
+const EARTH_MOON: f64 = 0.012150585609624;
 
 const NAMES: [&str; 5] = ["x", "y", "z", "t", "u"];
 
@@ -111,6 +119,16 @@ fn truncated(name: &str, degree: u32) {
     timed(name, &[3, 3], || whole.multiply_truncated(&whole, &kept).expect("small exponents"));
 }
 
+/// The normal form about L1 of Earth and Moon to a degree, in three degrees of freedom; its answer is a frequency of a centre times i.
+fn collinear_point(name: &str, degree: u32, resonances: &Resonances) {
+    let h = hamiltonians::collinear(EARTH_MOON, false, degree).expect("small exponents");
+    let space = hamiltonians::space().expect("three pairs");
+    timed(name, &[0, 0, 1, 1], || {
+        let form = normalize_with(&h, degree as usize - 2, &space, resonances, &mut quiet);
+        form.expect("no resonance").in_complex()
+    });
+}
+
 fn main() -> ExitCode {
     let sparse = std::cell::LazyCell::new(|| pearce::<f64>(12));
     let sparse_exact = std::cell::LazyCell::new(|| pearce::<BigRational>(12));
@@ -126,6 +144,10 @@ fn main() -> ExitCode {
             "brackets-12" => brackets(&name, 12),
             "brackets-16" => brackets(&name, 16),
             "truncated-12" => truncated(&name, 12),
+            "l1-12" => collinear_point(&name, 12, &Resonances::default()),
+            "l1-20" => collinear_point(&name, 20, &Resonances::default()),
+            "l1-centre-12" => collinear_point(&name, 12, &Resonances::default().with_centre()),
+            "l1-centre-20" => collinear_point(&name, 20, &Resonances::default().with_centre()),
             _ => return ExitCode::FAILURE,
         }
     }

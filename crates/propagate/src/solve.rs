@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use crate::error::Error;
+use crate::error::{Error, Kind};
 use crate::gravity_gradient::choice::chosen;
 use crate::gravity_gradient::osculating::{LARGEST_SEPARATRIX_RATIO, osculating};
 use crate::gravity_gradient::request::Request;
@@ -30,7 +30,7 @@ mod several;
 
 pub(crate) use several::several;
 
-use choice::{beyond_theory, cheapest, integrated, may_be_integrated};
+use choice::{beyond_theory, cheapest, in_ascii, integrated, is_sphere, may_be_integrated, without_span};
 
 /// Error bound below which the corrections are not held against their own effect \[rad\].
 const WORTH: f64 = 1e-3;
@@ -47,7 +47,7 @@ impl Scene {
     /// - [`Error::Separatrix`] where the series is asked for on the separatrix itself.
     /// - [`Error::Resonance`], [`Error::TorqueTooStrong`], [`Error::Unaveraged`] for an orbit whose gravity gradient cannot be averaged, without a span or with a method other than
     ///   [`Method::Auto`] and [`Method::Integrated`].
-    /// - [`Error::NoSpan`] where the motion is integrated and no span is given; [`Error::OnlyIntegrated`] for several bodies, a table or secular rates with another method.
+    /// - [`Error::NoSpan`] where the motion is integrated and no span is given; [`Error::OnlyIntegrated`] for a table of positions with another method.
     /// - [`Error::TooManySteps`], [`Error::Unpredictable`] where the integration takes too many steps, or nothing is known at its end; [`Error::TableSpan`].
     pub fn solve(&self) -> Result<Motion, Error> {
         self.solve_with(&SeriesTables::default())
@@ -91,7 +91,15 @@ impl Scene {
             (Method::Auto, Some(reason)) => integrated(self, tables, format!("theory: {reason}"), stop),
             (method, Some(reason)) => Err(Error::OnlyIntegrated { method: method.to_string(), reason }),
             (_, None) if may_be_integrated(&self) => cheapest(self, tables, stop),
-            (_, None) => self.solve_by_theory(tables),
+            (_, None) => {
+                let bodies = without_span(&self);
+                self.solve_by_theory(tables).map_err(|error| match bodies {
+                    Some(bodies) if error.kind() == Kind::Theory => {
+                        Error::NoSpan { reason: format!("theory for {bodies}: {}", in_ascii(&error)) }
+                    }
+                    _ => error,
+                })
+            }
         }
     }
 
@@ -104,19 +112,19 @@ impl Scene {
     fn solve_on(self, polhode: Option<&Polhode>, preparation: Preparation<'_>) -> Result<Motion, Error> {
         let scene = self;
         let Some(polhode) = polhode else {
-            return match scene.asked_orbit() {
-                Some(_) => Err(Error::Unaveraged {
+            return match scene.asked_orbits() {
+                Some(_) if !is_sphere(&scene) => Err(Error::Unaveraged {
                     mode: Mode::AtRest.to_string(),
                     ratio: 0.0,
                     bound: LARGEST_SEPARATRIX_RATIO,
                 }),
-                None => Ok(with_unused(at_rest(scene))),
+                _ => Ok(with_unused(at_rest(scene))),
             };
         };
         representable(polhode)?;
         let mode = Mode::of(polhode);
-        match (mode, scene.asked_orbit().copied()) {
-            (mode, Some(orbit)) if mode != Mode::Spherical => disturbed(scene, polhode, mode, &orbit),
+        match (mode, scene.asked_orbits()) {
+            (mode, Some(orbits)) if mode != Mode::Spherical => disturbed(scene, polhode, mode, &orbits),
             (Mode::Spherical | Mode::PrincipalAxis, _) => Ok(with_unused(steadily_rotating(scene, polhode, mode))),
             _ => wobbling((scene, preparation), polhode, mode).map(with_unused),
         }
@@ -258,12 +266,12 @@ fn assembled(scene: Scene, polhode: &Polhode, mut plan: Plan, solution: Solution
 }
 
 /// The motion under a gravity gradient.
-fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Result<Motion, Error> {
+fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbits: &[Orbit]) -> Result<Motion, Error> {
     let (ratio, osculating) = osculating(polhode)?;
     let exponent = polhode.scales.1;
     let rotation = polhode.invariants.mean_rate;
     let request = Request {
-        orbit,
+        orbits,
         averaging: scene.asked_averaging(),
         level: scene.asked_level(),
         tolerance: scene.asked_tolerance(),
@@ -292,8 +300,9 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbit: &Orbit) -> Resu
         trajectory: Trajectory::Gradient(Box::new(gradient)),
         scene,
     };
-    let orbits = request.duration * orbit.mean_motion() / std::f64::consts::TAU;
-    if !matches!(request.level, Level::Paper | Level::Moving) && orbits < 1.0 && error > WORTH.max(request.tolerance) {
+    let fastest = orbits.iter().map(Orbit::mean_motion).fold(0.0, f64::max);
+    let turns = request.duration * fastest / std::f64::consts::TAU;
+    if !matches!(request.level, Level::Paper | Level::Moving) && turns < 1.0 && error > WORTH.max(request.tolerance) {
         let effect = effect(&motion)?;
         if error > effect {
             return Err(Error::TorqueTooStrong { size: error, bound: effect });

@@ -30,7 +30,7 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 ///     Disturbing mass divided by the sum of both masses: 1 for the Sun on an asteroid, 1/82.3 for the Moon on the Earth.
 /// node_rate, pericentre_rate : float, optional
 ///     Secular rates of the node (about inertial axis 3) and of the argument of the pericentre, in rad per unit of time. `node` and `argument_of_pericentre` are then
-///     the values at `time_of_pericentre`, and `mean_motion` is the rate of the mean anomaly. A motion with such an orbit is integrated and needs a span.
+///     the values at `time_of_pericentre`, and `mean_motion` is the rate of the mean anomaly.
 /// attraction : float, optional
 ///     G × disturbing mass / a³, in 1/time², instead of mean_motion² × mass_fraction.
 ///

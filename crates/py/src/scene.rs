@@ -236,10 +236,10 @@ impl Scene {
     ///     Without a span, or with a fixed method, averaging or level: an orbit that is in resonance with the rotation or not much slower (the message names the
     ///     pair (k−j, m)); a torque that is too strong for an expansion; an orbit with a motion too near the separatrix, a body at rest or rotating about its middle axis, or
     ///     an axisymmetric body that rotates about a perpendicular axis; more orbits than ``averaging="spin"`` can solve. With a span ``method="auto"`` integrates these motions.
-    ///     ``method="closed"`` or ``"series"`` with several orbits, a table, or an orbit with secular rates.
+    ///     ``method="closed"`` or ``"series"`` with a table; a span that is too long for the averaged equations of several orbits, or of an orbit with secular rates.
     ///     An integration with more than 8,388,608 steps on one side of the epoch, or one that is so unstable that the final state is unknown.
     /// InputError
-    ///     An integration without a span, or with a span that a `TabulatedOrbit` does not cover.
+    ///     ``averaging="orbit"`` or ``level="second-order"`` with several orbits or an orbit with secular rates. An integration without a span, or with a span that a `TabulatedOrbit` does not cover.
     /// RepresentationError
     ///     The angular momentum, moment × rate, is not a normal double: ``1e-200 * 1e-200``.
     fn solve(&self, py: Python<'_>) -> PyResult<Motion> {

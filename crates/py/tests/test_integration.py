@@ -125,7 +125,7 @@ def test_integration_needs_a_span_and_ends_with_it():
     with pytest.raises(andoyer.InputError, match="span: none is given.*2 disturbing bodies") as caught:
         Scene(body, ATTITUDE, [0, 0, 1], orbit=bodies).solve()
     assert caught.value.argument == "span"
-    with pytest.raises(andoyer.TheoryError, match='method = "closed".*integrated'):
+    with pytest.raises(andoyer.TheoryError, match="spin resonance"):
         Scene(body, ATTITUDE, [0, 0, 1], orbit=bodies, span=(0, 1), method="closed").solve()
     motion = Scene(body, ATTITUDE, [0, 0, 1], epoch=1.0, orbit=bodies, span=(2, 5)).solve()
     assert motion.attitude([1.0, 5.0]).shape == (2, 4)

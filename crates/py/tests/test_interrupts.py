@@ -85,24 +85,41 @@ def test_ctrl_c_ends_the_evaluation_of_a_motion(method):
     assert seconds < DEADLINE
 
 
-@pytest.mark.parametrize("ending", ["csv", "npz", "parquet", "aem"])
+# The command that writes a file of each ending.
+WRITERS = {
+    "csv": ["propagate", "--samples", "2000"],
+    "npz": ["propagate", "--samples", "2000"],
+    "parquet": ["propagate", "--samples", "2000"],
+    "aem": ["propagate", "--samples", "2000"],
+    "html": ["plot"],
+    "svg": ["plot"],
+    "c": ["code"],
+    "rs": ["code"],
+    "py": ["code"],
+    "js": ["code"],
+}
+
+
+@pytest.mark.parametrize("ending", WRITERS)
 def test_ctrl_c_leaves_no_partial_file_and_the_old_one_as_it_was(tmp_path, ending):
     if ending == "parquet":
         pytest.importorskip("pyarrow")
     scene = andoyer.Scene(andoyer.Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1])
     (tmp_path / "scene.toml").write_text(scene.to_toml(), encoding="utf-8")
     (tmp_path / f"out.{ending}").write_text("old", encoding="utf-8")
-    # Writing does not end: the last step waits.
+    command, *options = WRITERS[ending]
+    # Writing does not end: the last step waits, when the new file is complete beside the old one.
     code = f"""
 import signal, sys, time
 import os
 import andoyer.cli
 signal.signal(signal.SIGINT, signal.default_int_handler)
-def slow(*arguments):
+def slow(source, target):
+    assert os.path.getsize(source) > 100 and os.path.basename(target) == "out.{ending}"
     print("started", flush=True)
     time.sleep(60)
 os.replace = slow
-sys.exit(andoyer.cli.main(["propagate", "scene.toml", "-o", "out.{ending}", "--samples", "2000", "--force"]))
+sys.exit(andoyer.cli.main([{command!r}, "scene.toml", "-o", "out.{ending}", *{options!r}, "--force"]))
 """
     printed, status, seconds = interrupted(code, tmp_path)
     assert status == 130 and printed.endswith("andoyer: interrupted\n") and seconds < DEADLINE

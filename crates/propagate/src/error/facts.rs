@@ -1,4 +1,6 @@
 //! The facts of an error as data: its kind, the argument, the given value and the bound that it breaks.
+//!
+//! `Kind` and `Value` are the types of the series crate. The four methods are inherent ones in both crates, so that a caller needs no trait in scope.
 
 use super::Error;
 pub use andoyer_series::error::{Kind, Value};
@@ -26,6 +28,7 @@ impl Error {
             | Self::Resonance { .. }
             | Self::TorqueTooStrong { .. }
             | Self::TooManyOrbits { .. }
+            | Self::SpanOfBodies { .. }
             | Self::OnlyIntegrated { .. }
             | Self::TooManySteps { .. }
             | Self::Unpredictable { .. }
@@ -60,6 +63,7 @@ impl Error {
             | Self::NoSpan { .. }
             | Self::Level { .. }
             | Self::LevelOfOrbit
+            | Self::OneFixedOrbit { .. }
             | Self::Averaging { .. }
             | Self::OnError { .. }
             | Self::Index { .. }
@@ -152,6 +156,9 @@ impl Error {
             Self::ModeName { value } => facts("mode", value, "short-axis, long-axis"),
             Self::Level { value } => facts("level", value, "auto, paper, moving, full, second-order"),
             Self::LevelOfOrbit => facts("averaging", "orbit", "auto, spin"),
+            Self::OneFixedOrbit { argument, value } => {
+                facts(argument, value, if *argument == "level" { "auto, paper, moving, full" } else { "auto, spin" })
+            }
             Self::Averaging { value } => facts("averaging", value, "auto, orbit, spin"),
             Self::OnError { value } => facts("errors", value, "raise, nan"),
             Self::Threads { value, problem } => facts("threads", *value, problem),
@@ -171,6 +178,7 @@ impl Error {
             Self::Resonance { divisor, bound, .. } => facts("orbit", *divisor, *bound),
             Self::TorqueTooStrong { size, bound } => facts("orbit", *size, *bound),
             Self::TooManyOrbits { orbits, bound } => facts("span", *orbits, *bound),
+            Self::SpanOfBodies { value, bound } => facts("span", *value, *bound),
             Self::Unaveraged { ratio, bound, .. } => facts("orbit", *ratio, *bound),
             Self::TableSpan { start, stop, first, last } => facts("span", [*start, *stop], [*first, *last]),
             Self::NoSpan { .. } => facts("span", "none", "start <= stop"),

@@ -10,39 +10,33 @@
 //! where J is the factor of Δ in the phases. `Slow::Spin` solves these equations on quarters of an orbit by Picard's iteration on Chebyshev points. The
 //! right-hand side is a trigonometric polynomial of f and κ is small, so a few iterations converge to rounding error. The result is a polynomial that can be
 //! evaluated at any time of the quarter. A quarter is solved when a time first needs it, and is kept. `Slow::Orbit` is the orbit average to first order in κ:
-//! steady precession about the orbit's normal, with the periodic part in closed form in f, without an expansion in e.
+//! steady precession about the orbit's normal, with the periodic part in closed form in f, without an expansion in e. `Slow::Bodies` has the sum over several
+//! disturbing bodies on orbits that may precess. It is averaged over the rotation only, and solved on arcs of time.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::sync::{Arc, RwLock};
 
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 
+use super::corrections::Demand;
+use super::course::{Elapsed, When};
 use super::second_order::hamiltonian::{Disturber, Hamiltonian};
-use crate::input::orbit::Orbit;
-use crate::numerics::phase::Phase;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::InstructionSet;
-use crate::simd::kepler::Place;
 use crate::simd::lanes::{Lanes, WIDEST};
 
+mod bodies;
+mod polynomial;
 mod precession;
+#[cfg(test)]
+mod tests;
 
+pub(crate) use bodies::{Bodies, Pull};
+use polynomial::{COLUMNS, Column, NODES, POINTS, Polynomial};
 pub(crate) use precession::Precession;
 
-/// Chebyshev points in a quarter. With degree 17 the interpolation error of cos 3f is 1e-15 of κ.
-const POINTS: usize = 18;
-/// Largest number of Picard iterations. Each one multiplies the error by κ, which [`super::disturbed::STRONGEST`] bounds, so a dozen are enough.
-const MOST_ITERATIONS: usize = 40;
-/// Number of quarters that are kept on each side of the epoch, 0.7 kB each.
+/// Number of quarters that are kept on each side of the epoch, 0.9 kB each.
 pub(crate) const MOST_QUARTERS: usize = 1 << 18;
-
-/// Smaller coefficients are dropped.
-const NEGLIGIBLE: f64 = 1e-17;
-
-/// Frame (quaternion x, y, z, w), and what the drifts of ℓ′ and y′ are multiples of: J twice, or the drifts themselves.
-type Column = [f64; COLUMNS];
-/// Components of a column.
-const COLUMNS: usize = 6;
 
 /// The orbit and the strength of its torque, in the units of the averaged motion.
 #[derive(Clone, Debug)]
@@ -51,28 +45,13 @@ pub(crate) struct AveragedOrbit {
     eta_cubed: f64,
     /// n in the units of the motion.
     mean_motion: f64,
+    /// G m/a³ over n².
+    fraction: f64,
     axes: [Vector3<f64>; 3],
     /// κ.
     strength: f64,
     /// ⟨D⟩ + K2, if the averaged equations are those of second order.
     second: Option<Box<Hamiltonian>>,
-}
-
-/// The position of the disturbing body at some times: whole turns since the pericentre before the epoch, and its place on the ellipse.
-#[derive(Clone, Copy)]
-pub(crate) struct When<S: InstructionSet> {
-    pub(crate) turns: Lanes<S>,
-    pub(crate) place: Place<S>,
-}
-
-/// Time since the epoch, with its rounding error.
-pub(super) type Elapsed<S> = (Lanes<S>, Lanes<S>);
-
-/// The position of the disturbing body at times after the epoch.
-#[inline(always)]
-pub(super) fn when<S: InstructionSet>(mean_anomaly: &Phase, elapsed: Elapsed<S>, eccentricity: f64) -> When<S> {
-    let (turns, angle) = mean_anomaly.turns_and_angle(elapsed);
-    When { turns, place: Place::of(angle, eccentricity) }
 }
 
 /// The averaged motion.
@@ -82,15 +61,17 @@ pub(crate) enum Slow {
     Spin(Box<Spin>),
     /// Averaged over the rotation and the orbit.
     Orbit(Box<Precession>),
+    /// Averaged over the rotation only, for several bodies or for orbits that precess.
+    Bodies(Box<Bodies>),
 }
 
 impl Slow {
-    /// The frame, and what the drifts of ℓ′ and y′ are multiples of, at times after the epoch.
+    /// The frame, and what the drifts of ℓ′ and y′ are multiples of, at times after the epoch; `when` is the position of the first body.
     #[inline(always)]
     pub(crate) fn at<S: InstructionSet>(
         &self,
         when: &When<S>,
-        elapsed: (Lanes<S>, Lanes<S>),
+        elapsed: Elapsed<S>,
     ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         match self {
             Self::Spin(spin) => spin.at(when),
@@ -98,18 +79,20 @@ impl Slow {
                 let (frame, phase) = precession.at(&when.place, elapsed);
                 (frame, [phase; 2])
             }
+            Self::Bodies(bodies) => bodies.at(elapsed.0),
         }
     }
 }
 
 impl AveragedOrbit {
-    /// The averaged orbit; `delta` is Δ times the mass fraction over M.
-    pub(crate) fn new(orbit: &Orbit, mean_motion: f64, delta: f64) -> Self {
-        let eccentricity = orbit.eccentricity();
+    /// The averaged orbit; `delta` is Δ/M.
+    pub(crate) fn new(demand: &Demand<'_>, delta: f64) -> Self {
+        let Demand { orbit, mean_motion, axes, .. } = *demand;
+        let (eccentricity, fraction) = (orbit.eccentricity(), orbit.disturbing_fraction());
         let eta = (1.0 - eccentricity * eccentricity).sqrt();
         let eta_cubed = eta * eta * eta;
-        let strength = 3.0 * mean_motion * delta / eta_cubed;
-        Self { eccentricity, eta_cubed, mean_motion, axes: orbit.axes(), strength, second: None }
+        let strength = 3.0 * mean_motion * (delta * fraction) / eta_cubed;
+        Self { eccentricity, eta_cubed, mean_motion, fraction, axes, strength, second: None }
     }
 
     /// With the averaged equations of second order.
@@ -120,6 +103,16 @@ impl AveragedOrbit {
     /// κ.
     pub(crate) fn strength(&self) -> f64 {
         self.strength
+    }
+
+    /// G m/a³ over n².
+    pub(crate) fn fraction(&self) -> f64 {
+        self.fraction
+    }
+
+    /// G m/a³, in the units of the motion.
+    pub(crate) fn attraction(&self) -> f64 {
+        self.mean_motion * self.mean_motion * self.fraction
     }
 
     /// η³.
@@ -178,16 +171,9 @@ pub(crate) struct Spin {
     ellipse: AveragedOrbit,
     /// The quarter that contains the epoch, counted from the pericentre before the epoch.
     first: i64,
-    epoch: Quarter,
+    epoch: Polynomial,
     /// The solved quarters after the epoch's quarter, and before it.
-    kept: Arc<[RwLock<Vec<Quarter>>; 2]>,
-}
-
-/// Chebyshev coefficients in one quarter.
-#[derive(Clone, Copy, Debug)]
-struct Quarter {
-    coefficients: [Column; POINTS],
-    terms: usize,
+    kept: Arc<[RwLock<Vec<Polynomial>>; 2]>,
 }
 
 impl Spin {
@@ -195,7 +181,7 @@ impl Spin {
     pub(crate) fn new(ellipse: AveragedOrbit, frame: UnitQuaternion<f64>, when: &When<pulp::Scalar>) -> Self {
         let (first, inside) = quarter(when.turns.values()[0], when.place.angle.values()[0]);
         let start: Column = [frame.i, frame.j, frame.k, frame.w, 0.0, 0.0];
-        let epoch = Quarter::solved(&ellipse, first, inside, &start);
+        let epoch = in_quarter(&ellipse, first, inside, &start);
         Self { ellipse, first, epoch, kept: Arc::default() }
     }
 
@@ -231,7 +217,7 @@ impl Spin {
     }
 
     /// The quarter at a distance from the epoch's quarter. If it is not known yet, it is solved together with all quarters between.
-    fn quarter(&self, distance: i64) -> Quarter {
+    fn quarter(&self, distance: i64) -> Polynomial {
         let (side, index) = match distance {
             0 => return self.epoch,
             later if later > 0 => (0, later as usize - 1),
@@ -242,13 +228,13 @@ impl Spin {
         known.unwrap_or_else(|| self.solved(side, index))
     }
 
-    fn solved(&self, side: usize, index: usize) -> Quarter {
+    fn solved(&self, side: usize, index: usize) -> Polynomial {
         let mut quarters = self.kept[side].write().unwrap_or_else(|poisoned| poisoned.into_inner());
         let (step, end) = if side == 0 { (1, 1.0) } else { (-1, -1.0) };
         while quarters.len() <= index {
             let start = quarters.last().unwrap_or(&self.epoch).at(end);
             let number = self.first + step * (quarters.len() as i64 + 1);
-            quarters.push(Quarter::solved(&self.ellipse, number, -end, &start));
+            quarters.push(in_quarter(&self.ellipse, number, -end, &start));
         }
         quarters[index]
     }
@@ -264,84 +250,10 @@ fn quarter(turns: f64, angle: f64) -> (i64, f64) {
     (4 * turns as i64 + part as i64, inside)
 }
 
-impl Quarter {
-    /// The solution that passes through `start` at a place of the quarter.
-    fn solved(ellipse: &AveragedOrbit, number: i64, place: f64, start: &Column) -> Self {
-        let middle = (number.rem_euclid(4) as f64 + 0.5) * FRAC_PI_2;
-        let nodes: [f64; POINTS] = std::array::from_fn(|i| (PI * (i as f64 + 0.5) / POINTS as f64).cos());
-        let circles = nodes.map(|x| (middle + FRAC_PI_4 * x).sin_cos());
-        let mut values = [*start; POINTS];
-        let mut quarter = Self { coefficients: [[0.0; COLUMNS]; POINTS], terms: POINTS };
-        for _ in 0..MOST_ITERATIONS {
-            let slopes: [Column; POINTS] = std::array::from_fn(|i| {
-                let [x, y, z, w, ..] = values[i];
-                ellipse.slope(&Quaternion::new(w, x, y, z), circles[i].0, circles[i].1)
-            });
-            quarter = Self::integral(&slopes);
-            let offset = quarter.at(place);
-            for c in 0..COLUMNS {
-                quarter.coefficients[0][c] += start[c] - offset[c];
-            }
-            let mut change = 0.0_f64;
-            for (value, &x) in values.iter_mut().zip(&nodes) {
-                let next = quarter.at(x);
-                change = (0..4).fold(change, |most, c| most.max((next[c] - value[c]).abs()));
-                *value = next;
-            }
-            if change <= 4.0 * f64::EPSILON {
-                break;
-            }
-        }
-        quarter.trimmed()
-    }
-
-    /// The primitive, up to a constant, of a function with the given values at the points.
-    fn integral(slopes: &[Column; POINTS]) -> Self {
-        let count = POINTS as f64;
-        let mut series = [[0.0; COLUMNS]; POINTS + 1];
-        for (k, sum) in series.iter_mut().enumerate().take(POINTS) {
-            let scale = if k == 0 { 1.0 } else { 2.0 } / count * FRAC_PI_4;
-            for (i, slope) in slopes.iter().enumerate() {
-                let weight = scale * (PI * k as f64 * (i as f64 + 0.5) / count).cos();
-                for c in 0..COLUMNS {
-                    sum[c] += weight * slope[c];
-                }
-            }
-        }
-        let mut coefficients = [[0.0; COLUMNS]; POINTS];
-        for k in 1..POINTS {
-            let lower = if k == 1 { 2.0 } else { 1.0 };
-            for c in 0..COLUMNS {
-                coefficients[k][c] = (lower * series[k - 1][c] - series[k + 1][c]) / (2.0 * k as f64);
-            }
-        }
-        Self { coefficients, terms: POINTS }
-    }
-
-    /// The sums of the Chebyshev series, by Clenshaw's rule.
-    #[inline(always)]
-    fn sums<S: InstructionSet>(&self, x: Lanes<S>) -> [Lanes<S>; COLUMNS] {
-        let twice = x + x;
-        let (mut next, mut after) = ([x.all(0.0); COLUMNS], [x.all(0.0); COLUMNS]);
-        for coefficient in self.coefficients[1..self.terms].iter().rev() {
-            for c in 0..COLUMNS {
-                (next[c], after[c]) = (twice.mul_add(next[c], x.all(coefficient[c]) - after[c]), next[c]);
-            }
-        }
-        for c in 0..COLUMNS {
-            next[c] = x.mul_add(next[c], x.all(self.coefficients[0][c]) - after[c]);
-        }
-        next
-    }
-
-    fn at(&self, x: f64) -> Column {
-        self.sums(Lanes::splat(pulp::Scalar, x)).map(|lanes| lanes.values()[0])
-    }
-
-    /// Drops the last terms if they are negligible.
-    fn trimmed(mut self) -> Self {
-        let something = |column: &Column| column.iter().any(|c| c.abs() > NEGLIGIBLE);
-        self.terms = self.coefficients.iter().rposition(something).map_or(1, |last| last + 1);
-        self
-    }
+/// The solution in a quarter that passes through `start` at a place of the quarter.
+fn in_quarter(ellipse: &AveragedOrbit, number: i64, place: f64, start: &Column) -> Polynomial {
+    let middle = (number.rem_euclid(4) as f64 + 0.5) * FRAC_PI_2;
+    let circles: [(f64, f64); POINTS] = NODES.map(|x| (middle + FRAC_PI_4 * x).sin_cos());
+    let slope = |i: usize, frame: &Quaternion<f64>| ellipse.slope(frame, circles[i].0, circles[i].1);
+    Polynomial::solved(FRAC_PI_4, (place, start), slope)
 }

@@ -19,6 +19,8 @@ use crate::input::options::{Averaging, Level};
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
+mod bodies;
+
 /// Number of samples of the first-order change.
 const SAMPLES: usize = 48;
 /// Safety factor of the second-order error. The largest change may exceed the largest sample, and enters squared; second order has a factor too. With this

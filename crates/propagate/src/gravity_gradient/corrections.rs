@@ -18,10 +18,11 @@
 //! second-order error or of the tolerance. A resonant term is dropped if its effect over the span is no larger than that; otherwise it is an error
 //! ([`super::resonance`]).
 
-use nalgebra::{Quaternion, UnitQuaternion};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use num_complex::Complex;
 
 use super::candidate::{Candidate, SMALLEST_RATIO};
+use super::course::fixed;
 use super::generator::{self, Generator, Harmonic, ORDERS, Orbital};
 use super::inertia::{HIGHEST, Inertia};
 use super::resonance::Commensurability;
@@ -75,12 +76,28 @@ impl Mean {
     }
 }
 
+impl Change {
+    /// The sum of two changes.
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        Self {
+            p: self.p + other.p,
+            longitude: self.longitude + other.longitude,
+            momentum: self.momentum + other.momentum,
+            rotation: [self.rotation[0] + other.rotation[0], self.rotation[1] + other.rotation[1]],
+        }
+    }
+}
+
 /// The requirements on the corrections.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Demand<'a> {
     pub(crate) orbit: &'a Orbit,
     /// Mean motion of the orbit, in the units of the tables.
     pub(crate) mean_motion: f64,
+    /// Rates of node and pericentre, in the units of the tables.
+    pub(crate) rates: [f64; 2],
+    /// The axes of the orbit at the epoch.
+    pub(crate) axes: [Vector3<f64>; 3],
     pub(crate) level: Level,
     /// Largest attitude error \[rad\].
     pub(crate) tolerance: f64,
@@ -110,38 +127,80 @@ pub(crate) struct Corrections {
     pub(crate) neglected: f64,
 }
 
-impl Corrections {
-    /// The corrections of a mean motion.
-    ///
-    /// # Errors
-    /// - [`Error::Resonance`] if a resonant term has an effect that cannot be corrected.
-    /// - [`Error::TorqueTooStrong`] if the corrections are not small.
-    pub(crate) fn new(inertia: &Inertia, demand: &Demand<'_>) -> Result<Self, Error> {
-        let Demand { orbit, mean_motion, level, duration, .. } = *demand;
+/// All terms for one body, before any is dropped.
+pub(super) struct Terms {
+    all: Vec<Candidate>,
+    response: Response,
+    /// 3n²/2 times the disturbing mass fraction.
+    strength: f64,
+    /// Four times the strength of the torque at the pericentre over M.
+    scale: f64,
+    /// Largest change of the frequencies of the torque by the rates of node and pericentre.
+    turning: f64,
+    /// The largest rate of twice the true anomaly, at the pericentre, and of the axes.
+    fastest: f64,
+    /// Sum of the sizes of the terms that are not resonant \[rad\].
+    pub(super) size: f64,
+}
+
+impl Terms {
+    pub(super) fn new(inertia: &Inertia, demand: &Demand<'_>) -> Self {
+        let Demand { orbit, mean_motion, level, rates, .. } = *demand;
         let eccentricity = orbit.eccentricity();
         let eta_cubed = (1.0 - eccentricity * eccentricity).powf(1.5);
-        // The largest rate of twice the true anomaly, at the pericentre.
-        let fastest = 2.0 * mean_motion * (1.0 + eccentricity).powi(2) / eta_cubed;
+        let turning = 2.0 * (rates[0].abs() + rates[1].abs());
+        let fastest = 2.0 * mean_motion * (1.0 + eccentricity).powi(2) / eta_cubed + turning;
         let strength = 1.5 * mean_motion * mean_motion * orbit.disturbing_fraction();
         let pericentre = strength * ((1.0 + eccentricity) / eta_cubed.powf(2.0 / 3.0)).powi(3);
         let response = Response::new(inertia);
         let scale = 4.0 * pericentre / inertia.momentum;
         let all = candidates(inertia, &response, scale, |m, h| level.tensor(inertia, m, h));
-        let commensurability = Commensurability { response: &response, mean_motion, eccentricity, fastest, duration };
-        let regular = |candidate: &Candidate| candidate.frequency.abs() > SMALLEST_RATIO * fastest;
-        let size: f64 = all.iter().filter(|candidate| regular(candidate)).map(Candidate::size).sum();
-        if size > LARGEST_SIZE {
-            return Err(Error::TorqueTooStrong { size, bound: LARGEST_SIZE });
+        let mut terms = Self { all, response, strength, scale, turning, fastest, size: 0.0 };
+        terms.size = terms.all.iter().filter(|candidate| terms.regular(candidate)).map(Candidate::size).sum();
+        terms
+    }
+
+    /// Whether a term is corrected.
+    fn regular(&self, candidate: &Candidate) -> bool {
+        candidate.frequency.abs() > SMALLEST_RATIO * self.fastest
+    }
+}
+
+impl Corrections {
+    /// The corrections of a mean motion under one body.
+    ///
+    /// # Errors
+    /// - [`Error::Resonance`] if a resonant term has an effect that cannot be corrected.
+    /// - [`Error::TorqueTooStrong`] if the corrections are not small.
+    pub(crate) fn new(inertia: &Inertia, demand: &Demand<'_>) -> Result<Self, Error> {
+        let terms = Terms::new(inertia, demand);
+        let size = terms.size;
+        Self::of(terms, inertia, demand, size)
+    }
+
+    /// The corrections of a mean motion for one of several bodies, for which all terms together sum to `whole`.
+    ///
+    /// # Errors
+    /// As [`Corrections::new`].
+    pub(super) fn of(terms: Terms, inertia: &Inertia, demand: &Demand<'_>, whole: f64) -> Result<Self, Error> {
+        if whole > LARGEST_SIZE {
+            return Err(Error::TorqueTooStrong { size: whole, bound: LARGEST_SIZE });
         }
-        let mut dropped = commensurability.left(&all, demand.tolerance.max(second_order(size, &response, duration)))?;
+        let Demand { orbit, mean_motion, level, duration, .. } = *demand;
+        let Terms { response, strength, scale, turning, fastest, size, .. } = terms;
+        let eccentricity = orbit.eccentricity();
+        let commensurability =
+            Commensurability { response: &response, mean_motion, eccentricity, turning, fastest, duration };
+        let allowed = demand.tolerance.max(second_order(whole, &response, duration));
+        let mut dropped = commensurability.left(&terms.all, allowed)?;
         let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
         let omitted = omitted.iter().map(|term| commensurability.whole(term)).sum();
-        let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * size * size);
+        let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * whole * whole);
         let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
-        let mut orbital = Orbital::new(eccentricity, mean_motion);
+        let mut orbital = Orbital::precessing(eccentricity, mean_motion, demand.rates);
         let most = if level == Level::Paper { 1 } else { ORDERS };
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
-        for candidate in all.into_iter().filter(regular) {
+        for candidate in terms.all.iter().filter(|candidate| terms.regular(candidate)) {
             let growth = response.growth(candidate.multiple, duration);
             if candidate.size() <= nothing {
                 dropped += growth * candidate.size();
@@ -164,7 +223,7 @@ impl Corrections {
             candidate.join(&mut harmonics[candidate.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2
         }
         orbital.keep(most_orders);
-        let [first, second, _] = orbit.axes();
+        let [first, second, _] = demand.axes;
         let per_momentum = orbit.disturbing_fraction() / inertia.momentum;
         let (level_axial, full_axial) = (level.axial(inertia), Level::Full.axial(inertia));
         let axial_omitted = [full_axial.0 - level_axial.0, full_axial.1 - level_axial.1];
@@ -180,14 +239,16 @@ impl Corrections {
         Ok(Self { generator, dropped, omitted, axial_omitted, rest, size, count, neglected })
     }
 
-    /// The changes from mean to osculating variables, for |p| = √σ.
+    /// The changes from mean to osculating variables, for |p| = √σ and the axes of the orbit at the epoch.
     pub(crate) fn at(&self, mean: &Mean, place: &Place<pulp::Scalar>) -> Change {
         let one = |value: f64| Lanes::splat(pulp::Scalar, value);
         let turn = if mean.p == C64::default() { C64::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
         let spin = C64::from_polar(1.0, mean.longitude);
         let point = |c: C64| ComplexLanes { re: one(c.re), im: one(c.im) };
         let frame = QuaternionLanes::all(one(0.0), &mean.frame);
-        let change = self.generator.at(&generator::MeanLanes { turn: point(turn), spin: point(spin), frame }, place);
+        let axes = fixed(&self.generator.axes, place.sine);
+        let mean = generator::MeanLanes { turn: point(turn), spin: point(spin), frame };
+        let change = self.generator.at(&mean, place, &axes);
         let value = |lanes: Lanes<pulp::Scalar>| lanes.values()[0];
         Change {
             p: turn * C64::new(value(change.p.re), value(change.p.im)),

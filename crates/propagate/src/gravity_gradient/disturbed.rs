@@ -1,7 +1,7 @@
-//! Rotation under the gravity gradient of a body on a Keplerian orbit (theory §9).
+//! Rotation under the gravity gradient of one or more bodies on Keplerian orbits (theory §9).
 //!
 //! The mean motion is the free motion at the mean σ and M, in an invariable frame that the averaged torque moves ([`super::averaged`]). Short-period
-//! [`super::corrections`] of first order lead from it to the motion. Both are regular at J = 0 and at any inclination. Validity: the rotation is much faster
+//! [`super::corrections`] of first order lead from it to the motion. To first order the torques of several bodies, and their corrections, add up. Both are regular at J = 0 and at any inclination. Validity: the rotation is much faster
 //! than the orbit, and the torque is weak. A divisor that is too small is [`Error::Resonance`]. The error is of second order in the torque and grows with time.
 
 #[cfg(test)]
@@ -14,9 +14,10 @@ use andoyer_double::DoubleDouble;
 use nalgebra::{UnitQuaternion, Vector3};
 use num_complex::Complex;
 
-use super::averaged::{AveragedOrbit, Precession, Slow, Spin, When, when};
+use super::averaged::{AveragedOrbit, Bodies, MOST_QUARTERS, Precession, Pull, Slow, Spin};
 use super::budget::{Budget, MOST_ORBITS, Subject};
-use super::corrections::{Change, Corrections, Demand, Mean, SECOND_SHARE, SHARE};
+use super::corrections::{Change, Corrections, Demand, Mean, SECOND_SHARE, SHARE, Terms};
+use super::course::{Course, When};
 use super::inertia::Inertia;
 use super::offset::Offset;
 use super::powers::Powers;
@@ -55,19 +56,25 @@ pub(crate) struct GradientPlan {
     pub(crate) neglected: f64,
 }
 
+/// A disturbing body and its corrections.
+#[derive(Clone, Debug)]
+pub(super) struct DisturbedBy {
+    pub(super) course: Course,
+    pub(super) corrections: Corrections,
+}
+
 /// A motion under the gravity gradient.
 #[derive(Clone, Debug)]
 pub(crate) struct Gradient {
     pub(super) inertia: Inertia,
     pub(super) pair: [Powers; 2],
-    pub(super) corrections: Corrections,
+    /// At least one.
+    pub(super) bodies: Vec<DisturbedBy>,
     pub(super) slow: Slow,
     /// Constants that correct the error of first order at the epoch.
     pub(super) offset: Offset,
     pub(super) anomaly: Phase,
     pub(super) half_longitude: Phase,
-    pub(super) mean_anomaly: Phase,
-    pub(super) eccentricity: f64,
     pub(super) root: f64,
     /// These times J, or in second order times the drifts, are added to ℓ′ and y′.
     pub(super) drifts: [f64; 2],
@@ -90,88 +97,120 @@ impl Gradient {
         request: &Request<'_>,
     ) -> Result<Self, Error> {
         let exponent = polhode.scales.1;
-        let orbit = request.orbit;
-        orbit.within_reach(request.epoch)?;
-        let mean_motion = scaled(orbit.mean_motion(), -exponent);
+        let Request { orbits, level, .. } = *request;
+        if level == Level::SecondOrder && !request.is_fixed() {
+            return Err(Error::OneFixedOrbit { argument: "level", value: level.to_string() });
+        }
         let momentum = polhode.invariants.momentum.to_f64();
         let duration = scaled(request.duration, exponent);
-        let share = if request.level == Level::SecondOrder { SECOND_SHARE } else { SHARE };
-        let demand = Demand { orbit, mean_motion, level: request.level, tolerance: request.tolerance, duration, share };
-        let size = strongest_torque(polhode, orbit, mean_motion / momentum);
+        let share = if level == Level::SecondOrder { SECOND_SHARE } else { SHARE };
+        let demands = orbits
+            .iter()
+            .map(|orbit| {
+                orbit.within_reach(request.epoch)?;
+                let [mean_motion, node, pericentre] =
+                    [orbit.mean_motion(), orbit.rates()[0], orbit.rates()[1]].map(|rate| scaled(rate, -exponent));
+                let (axes, tolerance) = (orbit.axes_at(request.epoch), request.tolerance);
+                Ok(Demand { orbit, mean_motion, rates: [node, pericentre], axes, level, tolerance, duration, share })
+            })
+            .collect::<Result<Vec<_>, Error>>()?;
+        let size = demands.iter().map(|demand| strongest_torque(polhode, demand.orbit, demand.mean_motion / momentum));
+        let size = size.sum::<f64>();
         if size > STRONGEST {
             // If there is a resonance, report that instead, because it explains more.
-            Corrections::new(&Inertia::new(polhode, osculating.0, momentum), &demand)?;
+            all_corrections(&Inertia::new(polhode, osculating.0, momentum), &demands)?;
             return Err(Error::TorqueTooStrong { size, bound: STRONGEST });
         }
-        let mean_anomaly = orbit.mean_anomaly(request.epoch);
+        let courses: Vec<Course> = orbits.iter().map(|orbit| Course::new(orbit, request.epoch)).collect();
         let none = Lanes::splat(pulp::Scalar, 0.0);
-        let start = when(&mean_anomaly, (none, none), orbit.eccentricity());
+        let starts: Vec<_> = courses.iter().map(|course| course.at((none, none))).collect();
         let (sigma, [anomaly, longitude]) = osculating;
         let p = C64::from_polar(sigma.sqrt(), anomaly);
         let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
-        let first = mean_motion_of(polhode, &state, &start, &demand)?;
-        let MeanMotion { mean, change, inertia, corrections, left } = if request.level == Level::SecondOrder {
-            second_order_of(polhode, first, &state, &start, &demand)?
+        let first = mean_motion_of(polhode, &state, &starts, &demands)?;
+        let MeanMotion { mean, change, inertia, corrections, left } = if level == Level::SecondOrder {
+            second_order_of(polhode, first, &state, &starts[0], &demands[0])?
         } else {
             first
         };
-        let (axial, axial_slope) = request.level.axial(&inertia);
-        let fraction = orbit.disturbing_fraction();
-        let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) * fraction;
-        let mut ellipse = AveragedOrbit::new(orbit, mean_motion, delta / mean.momentum);
-        if request.level == Level::SecondOrder {
-            ellipse = ellipse.with_second(second_order::epoch::hamiltonian(&inertia, &demand, polhode.moments));
-        }
+        let (axial, axial_slope) = level.axial(&inertia);
+        let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) / mean.momentum;
+        let ellipses: Vec<_> = demands
+            .iter()
+            .map(|demand| {
+                let ellipse = AveragedOrbit::new(demand, delta);
+                match level {
+                    Level::SecondOrder => {
+                        ellipse.with_second(second_order::epoch::hamiltonian(&inertia, demand, polhode.moments))
+                    }
+                    _ => ellipse,
+                }
+            })
+            .collect();
         // Rates are proportional to M. M rounded to a double would cause an error of 1e-16 of the phases.
         let precise = (polhode.invariants.momentum - change.momentum.into()) / mean.momentum.into();
         let rates = inertia.rates.map(|rate| rate * precise);
         // ⟨D⟩ = −½ (dJ/dt) Δ. Its derivatives with respect to L, and to M at fixed L, give the slopes.
-        let slope = -0.5 * 1.5 * axial_slope * fraction / mean.momentum;
+        let slope = -0.5 * 1.5 * axial_slope / mean.momentum;
         let response = Response::new(&inertia);
-        let anomaly = start.place.angle.values()[0] - start.place.centre.values()[0];
-        let subject = Subject {
+        let subject = |i: usize| Subject {
             mean: &mean,
             inertia: &inertia,
-            corrections: &corrections,
+            corrections: &corrections[i],
             response: &response,
-            ellipse: &ellipse,
-            anomaly,
-            drift: slope,
+            ellipse: &ellipses[i],
+            anomaly: starts[i].place.angle.values()[0] - starts[i].place.centre.values()[0],
+            drift: slope * demands[i].orbit.disturbing_fraction(),
             left,
-            cut: left.map_or(0.0, |_| second_order::cut(&inertia, &demand)),
+            cut: left.map_or(0.0, |_| second_order::cut(&inertia, &demands[i])),
         };
-        let budget = Budget::new(&subject, mean_motion, duration);
-        let by_orbit = budget.by_orbit(request)?;
-        let error = budget.error(by_orbit);
+        let (by_orbit, error) = if request.is_fixed() {
+            let budget = Budget::new(&subject(0), demands[0].mean_motion, duration);
+            let by_orbit = budget.by_orbit(request)?;
+            (by_orbit, budget.error(by_orbit))
+        } else {
+            within_arcs(&courses, request)?;
+            let subjects: Vec<_> = (0..courses.len()).map(subject).collect();
+            (false, Budget::of_bodies(&subjects, &demands, duration).error(false))
+        };
         let unit = scaled(1.0, exponent);
-        let secular = ellipse.secular(&(mean.frame * Vector3::z())) * unit;
-        let slow = |frame: UnitQuaternion<f64>| {
-            if by_orbit {
-                Slow::Orbit(Box::new(Precession::new(ellipse.clone(), frame, &start.place, unit)))
-            } else {
-                Slow::Spin(Box::new(Spin::new(ellipse.clone(), frame, &start)))
-            }
+        let axis = mean.frame * Vector3::z();
+        // J of a single fixed orbit is per mass fraction, which is in its slope.
+        let secular = ellipses.iter().map(|ellipse| ellipse.secular(&axis) * ellipse.fraction()).sum::<f64>() * unit;
+        let drifts_by = if request.is_fixed() { slope * ellipses[0].fraction() } else { slope };
+        let pulls = || {
+            courses
+                .iter()
+                .zip(&ellipses)
+                .map(|(course, ellipse)| Pull { course: course.clone(), attraction: ellipse.attraction() * unit })
+        };
+        let slow = |frame: UnitQuaternion<f64>| match (request.is_fixed(), by_orbit) {
+            (false, _) => Slow::Bodies(Box::new(Bodies::new(pulls().collect(), delta, frame))),
+            (true, true) => Slow::Orbit(Box::new(Precession::new(ellipses[0].clone(), frame, &starts[0].place, unit))),
+            (true, false) => Slow::Spin(Box::new(Spin::new(ellipses[0].clone(), frame, &starts[0]))),
         };
         let [anomaly_rate, longitude_rate] =
             rates.map(|rate| DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) });
-        let secular_drifts = [slope, -slope * inertia.sigma];
-        let drifts = if request.level == Level::SecondOrder { [1.0; 2] } else { secular_drifts };
+        let ratios = [1.0, -inertia.sigma];
+        let drifts = if level == Level::SecondOrder { [1.0; 2] } else { ratios.map(|ratio| ratio * drifts_by) };
         let mut gradient = Self {
             anomaly: Phase::new(anomaly_rate, mean.p.arg()),
             half_longitude: Phase::new(longitude_rate * 0.5.into(), 0.5 * mean.longitude),
-            mean_anomaly,
-            eccentricity: orbit.eccentricity(),
             root: mean.p.norm(),
             drifts,
-            secular: secular_drifts.map(|drift| drift * secular),
+            secular: ratios.map(|ratio| ratio * slope * secular),
             pair: inertia.pair.each_ref().map(|series| Powers::new(series, inertia.sigma.sqrt())),
             inertia,
-            corrections,
             slow: slow(mean.frame),
+            bodies: courses
+                .iter()
+                .zip(corrections)
+                .map(|(course, corrections)| DisturbedBy { course: course.clone(), corrections })
+                .collect(),
             offset: Offset::default(),
             frame: polhode.frame.clone(),
             moments: polhode.moments,
-            level: request.level,
+            level,
             units: [unit, polhode.user_momentum() / momentum],
             error,
         };
@@ -185,36 +224,46 @@ impl Gradient {
         [self.anomaly.frequency() * TAU + anomaly, 2.0 * self.half_longitude.frequency() * TAU + longitude]
     }
 
+    /// Whether there is one body, on an orbit that does not precess.
+    pub(crate) fn is_fixed(&self) -> bool {
+        !matches!(self.slow, Slow::Bodies(_))
+    }
+
     /// The longest time from the epoch for which quarters are kept, in the user's unit.
     pub(crate) fn bound(&self) -> f64 {
-        match self.slow {
-            Slow::Spin(_) => MOST_ORBITS / self.mean_anomaly.frequency(),
+        match &self.slow {
+            Slow::Spin(_) => MOST_ORBITS / self.bodies[0].course.mean_anomaly.frequency(),
             Slow::Orbit(_) => f64::INFINITY,
+            Slow::Bodies(_) => longest(self.bodies.iter().map(|body| &body.course)),
         }
     }
 
     /// The entries of the plan.
     pub(crate) fn plan(&self) -> GradientPlan {
+        let size = self.bodies.iter().map(|body| body.corrections.size).sum::<f64>();
+        let neglected = self.bodies.iter().map(|body| body.corrections.neglected);
         GradientPlan {
             averaging: match self.slow {
-                Slow::Spin(_) => Averaging::Spin,
+                Slow::Spin(_) | Slow::Bodies(_) => Averaging::Spin,
                 Slow::Orbit(_) => Averaging::Orbit,
             },
             level: self.level,
-            terms: self.corrections.count,
-            size: self.corrections.size,
-            neglected: self.corrections.neglected.max(self.corrections.size * self.corrections.size),
+            terms: self.bodies.iter().map(|body| body.corrections.count).sum(),
+            size,
+            neglected: neglected.fold(size * size, f64::max),
         }
     }
 
     /// The parts of the theory that this scene did not need.
     pub(crate) fn skipped(&self) -> Vec<String> {
         let mut skipped = Vec::new();
-        if self.corrections.dropped > 0.0 {
-            skipped.push(format!("short-period terms: the dropped terms sum to {:.1e} rad", self.corrections.dropped));
+        let dropped = self.bodies.iter().map(|body| body.corrections.dropped).sum::<f64>();
+        if dropped > 0.0 {
+            skipped.push(format!("short-period terms: the dropped terms sum to {dropped:.1e} rad"));
         }
-        if self.eccentricity == 0.0 {
-            skipped.push("Kepler's equation: the orbit is a circle".to_owned());
+        if self.bodies.iter().all(|body| body.course.eccentricity == 0.0) {
+            let orbits = if self.bodies.len() == 1 { "the orbit is a circle" } else { "the orbits are circles" };
+            skipped.push(format!("Kepler's equation: {orbits}"));
         }
         skipped
     }
@@ -225,9 +274,35 @@ struct MeanMotion {
     mean: Mean,
     change: Change,
     inertia: Inertia,
-    corrections: Corrections,
+    /// Of each body.
+    corrections: Vec<Corrections>,
     /// What is left of the mean M and L over M, if they are of second order.
     left: Option<[f64; 2]>,
+}
+
+/// The largest time from the epoch over which the averaged equations are solved, in the user's unit.
+fn longest<'a>(courses: impl Iterator<Item = &'a Course>) -> f64 {
+    // In a unit of time there are no more arcs than in all orbits together.
+    MOST_QUARTERS as f64 / courses.map(Course::arcs).sum::<f64>()
+}
+
+/// Checks that the averaged equations can be solved over the span.
+fn within_arcs(courses: &[Course], request: &Request<'_>) -> Result<(), Error> {
+    let bound = longest(courses.iter());
+    if request.averaging == Averaging::Orbit {
+        return Err(Error::OneFixedOrbit { argument: "averaging", value: Averaging::Orbit.to_string() });
+    }
+    if request.spanned && request.duration > bound {
+        return Err(Error::SpanOfBodies { value: request.duration, bound });
+    }
+    Ok(())
+}
+
+/// The corrections for each body at a mean motion.
+fn all_corrections(inertia: &Inertia, demands: &[Demand<'_>]) -> Result<Vec<Corrections>, Error> {
+    let all: Vec<_> = demands.iter().map(|demand| Terms::new(inertia, demand)).collect();
+    let whole = all.iter().map(|terms| terms.size).sum();
+    all.into_iter().zip(demands).map(|(terms, demand)| Corrections::of(terms, inertia, demand, whole)).collect()
 }
 
 /// The mean motion of second order from that of first order of a state.
@@ -239,14 +314,14 @@ fn second_order_of(
     demand: &Demand<'_>,
 ) -> Result<MeanMotion, Error> {
     let Refined { mean, momentum, left } = second_order::epoch::refined(
-        (&first.mean, &first.change, first.corrections.size),
+        (&first.mean, &first.change, first.corrections[0].size),
         state,
         &first.inertia,
         &start.place,
         (demand, polhode.moments),
     );
     let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
-    let corrections = Corrections::new(&inertia, demand)?;
+    let corrections = vec![Corrections::new(&inertia, demand)?];
     let change = Change { momentum, ..first.change };
     // The iteration leaves M and L its own threshold, which the rates multiply by the time.
     let left = left.map(|part| part + CONVERGED);
@@ -257,16 +332,17 @@ fn second_order_of(
 fn mean_motion_of(
     polhode: &Polhode,
     state: &Mean,
-    start: &When<pulp::Scalar>,
-    demand: &Demand<'_>,
+    starts: &[When<pulp::Scalar>],
+    demands: &[Demand<'_>],
 ) -> Result<MeanMotion, Error> {
     let (mut mean, mut change) = (*state, Change::default());
     let (mut step, mut first) = (0, 0.0_f64);
     // Each iteration reduces the error by the relative size of the corrections, which is below a fiftieth.
     loop {
         let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
-        let corrections = Corrections::new(&inertia, demand)?;
-        let next_change = corrections.at(&mean, &start.place);
+        let corrections = all_corrections(&inertia, demands)?;
+        let changes = corrections.iter().zip(starts).map(|(corrections, start)| corrections.at(&mean, &start.place));
+        let next_change = changes.reduce(|sum, change| sum.plus(&change)).unwrap_or_default();
         let next = state.changed(&next_change, -1.0);
         let moved = (next.p - mean.p).norm()
             + (next.longitude - mean.longitude).abs()

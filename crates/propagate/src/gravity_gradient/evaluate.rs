@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 
 use pulp::NullaryFnOnce;
 
-use super::averaged::{Elapsed, when};
-use super::disturbed::Gradient;
-use super::generator;
+use super::course::Elapsed;
+use super::disturbed::{DisturbedBy, Gradient};
+use super::generator::{self, Correction};
 use super::offset::Offset;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
@@ -33,13 +33,17 @@ impl Gradient {
     #[inline(always)]
     fn osculating<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
         let all = |value: f64| elapsed.0.all(value);
-        let when = when(&self.mean_anomaly, elapsed, self.eccentricity);
-        let (frame, [by_anomaly, by_longitude]) = self.slow.at(&when, elapsed);
+        let first = self.bodies[0].course.at(elapsed);
+        let (frame, [by_anomaly, by_longitude]) = self.slow.at(&first, elapsed);
         let plane = |(im, re): (Lanes<S>, Lanes<S>)| ComplexLanes { re, im };
         let turn = plane(self.anomaly.sin_cos_beyond(elapsed, by_anomaly * all(self.drifts[0] / TAU)));
         let half = plane(self.half_longitude.sin_cos_beyond(elapsed, by_longitude * all(0.5 * self.drifts[1] / TAU)));
-        let change =
-            self.corrections.generator.at(&generator::MeanLanes { turn, spin: half * half, frame }, &when.place);
+        let mean = generator::MeanLanes { turn, spin: half * half, frame };
+        let mut change = Correction::none(elapsed.0);
+        for (index, DisturbedBy { course, corrections }) in self.bodies.iter().enumerate() {
+            let when = if index == 0 { first } else { course.at(elapsed) };
+            change = change.plus(corrections.generator.at(&mean, &when.place, &when.axes));
+        }
         let Offset { p, momentum } = self.offset;
         let relative = ComplexLanes { re: change.p.re + all(self.root + p.re), im: change.p.im + all(p.im) };
         let [x, y] = change.rotation;

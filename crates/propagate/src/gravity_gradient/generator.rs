@@ -7,16 +7,17 @@
 
 use nalgebra::Vector3;
 
+mod orbital;
+
+use orbital::sum;
+pub(crate) use orbital::{ORDERS, Orbital};
+
+use super::course::{Axes, fixed};
 use super::inertia::HIGHEST;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
-
-/// Number of functions in G: g and its time derivatives.
-pub(crate) const ORDERS: usize = 7;
-/// Highest multiple of f in the last derivative.
-pub(crate) const WIDTH: usize = 5 + 2 * (ORDERS - 1);
 
 /// Number of sums over the terms: W, M ∂W/∂M, ∂W/∂p and ∂W/∂p̄.
 const SUMS: usize = 4;
@@ -49,7 +50,7 @@ impl Harmonic {
 pub(crate) struct Generator {
     pub(crate) harmonics: [Vec<Harmonic>; 3],
     pub(crate) orbital: Orbital,
-    /// Unit vectors to the pericentre and perpendicular to it, in inertial components.
+    /// Unit vectors to the pericentre and perpendicular to it at the epoch, in inertial components.
     pub(crate) axes: [Vector3<f64>; 2],
     /// 3n²/2 times the disturbing mass fraction.
     pub(crate) strength: f64,
@@ -74,79 +75,24 @@ pub(crate) struct Correction<S: InstructionSet> {
     pub(crate) rotation: [Lanes<S>; 2],
 }
 
-/// Time derivatives of (a/r)³ times 1, cos 2f and sin 2f; the indices are the order j and the function. Even derivatives of the first two and odd derivatives
-/// of the third are series in cos kf. The others are series in sin kf.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Orbital {
-    series: Vec<[Fourier; 3]>,
-    /// Highest k.
-    highest: usize,
-    /// Largest sum of the coefficients' magnitudes, by j; there is one entry more than there are derivatives.
-    pub(crate) norms: Vec<f64>,
-}
+impl<S: InstructionSet> Correction<S> {
+    /// No change.
+    #[inline(always)]
+    pub(crate) fn none(like: Lanes<S>) -> Self {
+        let none = like.all(0.0);
+        Self { p: ComplexLanes { re: none, im: none }, longitude: none, momentum: none, rotation: [none; 2] }
+    }
 
-/// The first k, and the coefficients from this k on.
-#[derive(Clone, Debug)]
-struct Fourier(usize, Vec<f64>);
-
-impl Orbital {
-    /// All derivatives for a mean motion n. d/dt = n η^(−3) w² d/df with w = 1 + e cos f.
-    pub(crate) fn new(eccentricity: f64, mean_motion: f64) -> Self {
-        let eta_square = 1.0 - eccentricity * eccentricity;
-        let rate = mean_motion / (eta_square * eta_square.sqrt());
-        let unit = |k: usize| -> Vec<f64> { (0..=WIDTH + 2).map(|i| if i == k { 1.0 } else { 0.0 }).collect() };
-        let mut current = [(unit(0), false), (unit(2), false), (unit(2), true)].map(|(series, odd)| {
-            let cubed = (0..3).fold(series, |series, _| times_w(&series, eccentricity, odd));
-            (cubed.iter().map(|c| c / eta_square.powi(3)).collect::<Vec<f64>>(), odd)
-        });
-        let (mut series, mut norms) = (Vec::new(), Vec::new());
-        for j in 0..=ORDERS {
-            let sums = current.each_ref().map(|(coefficients, _)| coefficients.iter().map(|c| c.abs()).sum::<f64>());
-            norms.push(sums.into_iter().fold(0.0, f64::max));
-            if j == ORDERS {
-                break;
-            }
-            series.push(current.each_ref().map(|(coefficients, _)| trimmed(coefficients)));
-            current = current.map(|(coefficients, odd)| {
-                let sign = if odd { rate } else { -rate };
-                let slope: Vec<f64> = coefficients.iter().enumerate().map(|(k, c)| sign * k as f64 * c).collect();
-                let weighted = (0..2).fold(slope, |series, _| times_w(&series, eccentricity, !odd));
-                (weighted, !odd)
-            });
+    /// The sum of two changes.
+    #[inline(always)]
+    pub(crate) fn plus(self, other: Self) -> Self {
+        Self {
+            p: self.p + other.p,
+            longitude: self.longitude + other.longitude,
+            momentum: self.momentum + other.momentum,
+            rotation: [self.rotation[0] + other.rotation[0], self.rotation[1] + other.rotation[1]],
         }
-        let mut orbital = Self { series, highest: 0, norms };
-        orbital.keep(ORDERS);
-        orbital
     }
-
-    /// Keeps the first `orders` derivatives.
-    pub(crate) fn keep(&mut self, orders: usize) {
-        self.series.truncate(orders);
-        let ends = self.series.iter().flatten().map(|Fourier(first, rest)| first + rest.len());
-        self.highest = ends.max().unwrap_or(1) - 1;
-    }
-}
-
-/// A series in cos kf, or in sin kf if `odd`, times 1 + e cos f.
-fn times_w(series: &[f64], eccentricity: f64, odd: bool) -> Vec<f64> {
-    let at = |k: usize| series.get(k).copied().unwrap_or_default();
-    let half = 0.5 * eccentricity;
-    let mut product: Vec<f64> = (0..series.len()).map(|k| at(k) + half * (at(k + 1) + at(k.wrapping_sub(1)))).collect();
-    // cos(−f) = cos f and sin(−f) = −sin f; the mean has only one coefficient.
-    match odd {
-        true => product[0] = 0.0,
-        false => product[1] += half * at(0),
-    }
-    product
-}
-
-/// Drops the lowest and the highest coefficients if they are negligible.
-fn trimmed(series: &[f64]) -> Fourier {
-    let largest = series.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
-    let something = |c: &f64| c.abs() > 1e-18 * largest;
-    let first = series.iter().position(something).unwrap_or(0);
-    let last = series.iter().rposition(something).map_or(first, |last| last + 1);
-    Fourier(first, series[first..last].to_vec())
 }
 
 /// The contraction of r̂r̂ for one multiple of y′ (r₃² − ⅓, r̄₊ r₃ or r̄₊²), and its derivatives when the frame turns about its axes 1 and 2. They are
@@ -154,12 +100,12 @@ fn trimmed(series: &[f64]) -> Fourier {
 type Contracted<S> = [ComplexLanes<S>; 3];
 
 impl Generator {
-    /// The changes from mean to osculating variables, for |p| = √σ.
+    /// The changes from mean to osculating variables, for |p| = √σ and an ellipse with these axes.
     #[inline(always)]
-    pub(crate) fn at<S: InstructionSet>(&self, mean: &MeanLanes<S>, place: &Place<S>) -> Correction<S> {
+    pub(crate) fn at<S: InstructionSet>(&self, mean: &MeanLanes<S>, place: &Place<S>, axes: &Axes<S>) -> Correction<S> {
         let none = place.sine.all(0.0);
         let zero = ComplexLanes { re: none, im: none };
-        let tensors = self.tensors(mean.frame, place);
+        let tensors = self.tensors_of(mean.frame, place, axes);
         let highest = self.harmonics.iter().flatten().map(|harmonic| harmonic.degree).max().unwrap_or(0);
         let turns = circle(mean.turn, highest);
         let orders = self.orbital.series.len();
@@ -184,20 +130,30 @@ impl Generator {
         self.change(&sums)
     }
 
-    /// r̂r̂ (a/r)³ and its time derivatives in the frame, as components 11, 22, 33, 12, 13, 23.
+    /// r̂r̂ (a/r)³ and its time derivatives in the frame at the epoch's axes, as components 11, 22, 33, 12, 13, 23.
     #[inline(always)]
     pub(crate) fn tensors<S: InstructionSet>(
         &self,
         frame: QuaternionLanes<S>,
         place: &Place<S>,
     ) -> [[Lanes<S>; 6]; ORDERS] {
+        self.tensors_of(frame, place, &fixed(&self.axes, place.sine))
+    }
+
+    #[inline(always)]
+    fn tensors_of<S: InstructionSet>(
+        &self,
+        frame: QuaternionLanes<S>,
+        place: &Place<S>,
+        inertial: &Axes<S>,
+    ) -> [[Lanes<S>; 6]; ORDERS] {
         let none = place.sine.all(0.0);
         let rows = frame.rows();
         let mut axes = [[none; 3]; 2];
-        for (components, axis) in axes.iter_mut().zip(&self.axes) {
+        for (components, [x, y, z]) in axes.iter_mut().zip(inertial) {
             for (c, component) in components.iter_mut().enumerate() {
-                let part = rows[0][c].mul_add(none.all(axis.x), rows[1][c] * none.all(axis.y));
-                *component = rows[2][c].mul_add(none.all(axis.z), part);
+                let part = rows[0][c].mul_add(*x, rows[1][c] * *y);
+                *component = rows[2][c].mul_add(*z, part);
             }
         }
         let [first, second] = axes;
@@ -216,6 +172,10 @@ impl Generator {
             for (slot, [first, second, mixed]) in tensor.iter_mut().zip(products) {
                 *slot = pp.mul_add(first, qq.mul_add(second, pq * mixed));
             }
+        }
+        if self.orbital.node_rate != 0.0 {
+            let rate = rows[2].map(|component| component * none.all(self.orbital.node_rate));
+            turned(&mut tensors, self.orbital.series.len(), &rate);
         }
         tensors
     }
@@ -241,33 +201,33 @@ impl Generator {
     }
 }
 
+/// Time derivatives of a tensor from those relative to axes that turn with an angular velocity, which is constant relative to them. The lists hold the orders
+/// from 0.
+#[inline(always)]
+fn turned<S: InstructionSet>(tensors: &mut [[Lanes<S>; 6]; ORDERS], orders: usize, [a, b, c]: &[Lanes<S>; 3]) {
+    let (a, b, c) = (*a, *b, *c);
+    for first in 1..orders {
+        // Each pass replaces the derivative j by (d/dt + ω×) of the derivative j − 1 of the pass before, beginning with the highest.
+        for j in (first..orders).rev() {
+            let [xx, yy, zz, xy, xz, yz] = tensors[j - 1];
+            let two = a.all(2.0);
+            let change = [
+                two * b.mul_add(xz, -(c * xy)),
+                two * c.mul_add(xy, -(a * yz)),
+                two * a.mul_add(yz, -(b * xz)),
+                c.mul_add(xx - yy, b.mul_add(yz, -(a * xz))),
+                b.mul_add(zz - xx, a.mul_add(xy, -(c * yz))),
+                a.mul_add(yy - zz, c.mul_add(xz, -(b * xy))),
+            ];
+            for (component, more) in tensors[j].iter_mut().zip(change) {
+                *component = *component + more;
+            }
+        }
+    }
+}
+
 /// Pairs of axes of a symmetric tensor.
 const COMPONENTS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
-
-impl Orbital {
-    /// cos kf and sin kf for k = 0, 1, …
-    #[inline(always)]
-    fn circle<S: InstructionSet>(&self, place: &Place<S>) -> [[Lanes<S>; 2]; WIDTH + 1] {
-        let mut circle = [[place.sine.all(1.0), place.sine.all(0.0)]; WIDTH + 1];
-        let step = ComplexLanes { re: place.cosine, im: place.sine };
-        let mut turn = step;
-        for slot in circle.iter_mut().take(self.highest + 1).skip(1) {
-            *slot = [turn.re, turn.im];
-            turn = turn * step;
-        }
-        circle
-    }
-}
-
-/// The sum of a series in cosines (part 0) or sines (part 1).
-#[inline(always)]
-fn sum<S: InstructionSet>(circle: &[[Lanes<S>; 2]], series: &Fourier, part: usize) -> Lanes<S> {
-    let mut sum = circle[0][1];
-    for (turn, coefficient) in circle[series.0..].iter().zip(&series.1) {
-        sum = turn[part].mul_add(sum.all(*coefficient), sum);
-    }
-    sum
-}
 
 /// e^(ihℓ′) for h = 0, 1, …
 #[inline(always)]

@@ -8,6 +8,7 @@ mod candidate;
 pub(crate) mod cassini;
 pub(crate) mod choice;
 mod corrections;
+mod course;
 pub(crate) mod disturbed;
 mod epoch;
 mod evaluate;

@@ -6,7 +6,8 @@ use crate::input::orbit::Orbit;
 /// The requested options of the perturbed motion.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Request<'a> {
-    pub(crate) orbit: &'a Orbit,
+    /// Of each disturbing body; at least one.
+    pub(crate) orbits: &'a [Orbit],
     pub(crate) averaging: Averaging,
     pub(crate) level: Level,
     pub(crate) tolerance: f64,
@@ -15,4 +16,11 @@ pub(crate) struct Request<'a> {
     pub(crate) duration: f64,
     /// Whether the scene has a span.
     pub(crate) spanned: bool,
+}
+
+impl Request<'_> {
+    /// Whether there is one body, on an orbit that does not precess.
+    pub(crate) fn is_fixed(&self) -> bool {
+        matches!(self.orbits, [orbit] if orbit.is_fixed())
+    }
 }

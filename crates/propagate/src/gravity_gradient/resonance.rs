@@ -24,6 +24,8 @@ pub(super) struct Commensurability<'a> {
     pub(super) response: &'a Response,
     pub(super) mean_motion: f64,
     pub(super) eccentricity: f64,
+    /// Largest change of the frequencies of the torque by the rates of node and pericentre.
+    pub(super) turning: f64,
     /// Largest rate of twice the true anomaly.
     pub(super) fastest: f64,
     pub(super) duration: f64,
@@ -73,6 +75,7 @@ impl Commensurability<'_> {
 
     /// The attitude error of a part of a term at its distance from a commensurability.
     fn turned(&self, term: &Candidate, amplitude: f64, distance: f64) -> f64 {
+        let distance = (distance - self.turning).max(0.0);
         let time = if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration };
         (amplitude * term.rate * time * self.response.growth(term.multiple, self.duration)).min(PI)
     }

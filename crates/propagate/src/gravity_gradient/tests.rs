@@ -42,7 +42,7 @@ impl Case {
     fn momenta(&self, state: &State, level: Level) -> [f64; 2] {
         let polhode = Polhode::new(&self.body, state).expect("turning");
         let request = Request {
-            orbit: &self.orbit,
+            orbits: &[self.orbit],
             averaging: Averaging::Spin,
             level,
             tolerance: 1e-12,
@@ -122,6 +122,8 @@ impl Stand {
         let demand = Demand {
             orbit: &self.orbit,
             mean_motion: MEAN_MOTION,
+            rates: [0.0; 2],
+            axes: self.orbit.axes(),
             level: Level::Full,
             tolerance: 1e-30,
             duration: 0.0,

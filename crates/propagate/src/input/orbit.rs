@@ -244,10 +244,22 @@ impl Orbit {
 
     /// Unit vectors in inertial components: to the pericentre, perpendicular to it in the direction of motion, and along the orbital angular momentum.
     pub(crate) fn axes(&self) -> [Vector3<f64>; 3] {
+        self.axes_of([self.node, self.argument_of_pericentre])
+    }
+
+    /// The same vectors at an epoch.
+    pub(crate) fn axes_at(&self, epoch: f64) -> [Vector3<f64>; 3] {
+        if self.is_fixed() {
+            return self.axes();
+        }
+        self.axes_of(self.node_and_argument(epoch).map(|phase| phase.angle((0.0, 0.0))))
+    }
+
+    fn axes_of(&self, [node, argument]: [f64; 2]) -> [Vector3<f64>; 3] {
         let about = UnitQuaternion::from_axis_angle;
-        let turn = about(&Vector3::z_axis(), self.node)
+        let turn = about(&Vector3::z_axis(), node)
             * about(&Vector3::x_axis(), self.inclination)
-            * about(&Vector3::z_axis(), self.argument_of_pericentre);
+            * about(&Vector3::z_axis(), argument);
         [turn * Vector3::x(), turn * Vector3::y(), turn * Vector3::z()]
     }
 

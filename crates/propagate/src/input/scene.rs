@@ -80,16 +80,15 @@ impl Scene {
         self.disturbing([orbit])
     }
 
-    /// Sets the bodies whose gravity gradients act, in place of those that the scene had. A scene with several bodies, a table, or an orbit with secular rates
-    /// is integrated.
+    /// Sets the bodies whose gravity gradients act, in place of those that the scene had. A scene with a table of positions is integrated.
     ///
     /// ```
     /// use andoyer_propagate::{Body, Method, Orbit, Scene, State};
     /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.01, 1.0])?;
     /// let bodies = [Orbit::new(2e-3, 0.1)?, Orbit::new(5e-3, 0.0)?.mass_fraction(0.01)?];
-    /// let motion = Scene::new(Body::new([1.0, 1.02, 1.05])?, state).disturbing(bodies).span(0.0, 100.0).solve()?;
-    /// assert_eq!(motion.plan().method(), Method::Integrated);
-    /// assert!(motion.plan().error_bound() < 1e-12);
+    /// let scene = Scene::new(Body::new([1.0, 1.02, 1.05])?, state).disturbing(bodies).span(0.0, 2000.0);
+    /// let [averaged, integrated] = [1e-5, 1e-12].map(|tolerance| scene.clone().tolerance(tolerance).solve());
+    /// assert_eq!((averaged?.plan().method(), integrated?.plan().method()), (Method::Closed, Method::Integrated));
     /// # Ok::<(), andoyer_propagate::Error>(())
     /// ```
     #[must_use]
@@ -176,6 +175,16 @@ impl Scene {
             [DisturbingBody::Orbit(orbit)] => Some(orbit),
             _ => None,
         }
+    }
+
+    /// The orbits of the disturbing bodies, or `None` if there is no body or if one has a table.
+    pub(crate) fn asked_orbits(&self) -> Option<Vec<Orbit>> {
+        let orbit = |body: &DisturbingBody| match body {
+            DisturbingBody::Orbit(orbit) => Some(*orbit),
+            DisturbingBody::Tabulated(_) => None,
+        };
+        let orbits: Option<Vec<_>> = self.disturbing.iter().map(orbit).collect();
+        orbits.filter(|orbits| !orbits.is_empty())
     }
 
     /// The bodies whose gravity gradients act.

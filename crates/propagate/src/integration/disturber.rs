@@ -63,6 +63,16 @@ impl Disturber {
         }
     }
 
+    /// With √(3μ) multiplied by a factor.
+    pub(super) fn strengthened(&self, factor: f64) -> Self {
+        match self {
+            Self::Orbiting(orbit) => {
+                Self::Orbiting(Box::new(Orbiting { strength: orbit.strength * factor, ..**orbit }))
+            }
+            Self::Tabulated(table) => Self::Tabulated(Box::new(table.strengthened(factor))),
+        }
+    }
+
     /// With an interpolation of lower degree, where there is one.
     pub(super) fn coarser(&self) -> Self {
         match self {

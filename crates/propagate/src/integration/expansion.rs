@@ -10,7 +10,7 @@
 //! that rounding of the norm is a relative rounding error of the torque.
 
 use super::disturber::Disturber;
-use super::series::{Coefficients, Row, Series, ZERO, add_product, add_scaled};
+use super::series::{Coefficients, Row, Series, ZERO, add_product, add_scaled, largest};
 use crate::input::scene::Scene;
 
 /// The equations, in the unit of the integration.
@@ -29,6 +29,27 @@ impl Equations {
         let epoch = scene.state().epoch;
         let bodies = scene.asked_disturbing().iter().map(|body| Disturber::new(body, epoch, exponent)).collect();
         Self { factors: [(c - b) / a, (a - c) / b, (b - a) / c, 0.0], bodies, scale }
+    }
+
+    /// The same with the relative errors of the constants: those of the ratios of the moments, and those of each torque.
+    pub(super) fn displaced(&self, [ratios, torques]: [f64; 2], signs: &Row) -> Self {
+        let factors = std::array::from_fn(|i| self.factors[i] * (1.0 + ratios * signs[i]));
+        let bodies = self.bodies.iter().zip(signs.iter().cycle());
+        let bodies = bodies.map(|(body, sign)| body.strengthened(1.0 + 0.5 * torques * sign)).collect();
+        Self { factors, bodies, ..*self }
+    }
+
+    /// Relative change of the integrals of the free motion, f2 ω1² − f1 ω2² and in turn: combinations of the energy and of the square of the angular momentum.
+    pub(super) fn drift(&self, one: &[f64; 3], other: &[f64; 3]) -> f64 {
+        let size = |rates: &[f64; 3]| rates.iter().map(|rate| rate * rate).sum::<f64>();
+        let scale = size(one) * largest(&self.factors);
+        let change = |i: usize| {
+            let j = (i + 1) % 3;
+            let by = |i: usize| (other[i] - one[i]) * (other[i] + one[i]);
+            (self.factors[j] * by(i) - self.factors[i] * by(j)).abs()
+        };
+        let changes = change(0).max(change(1)).max(change(2));
+        if scale > 0.0 { changes / scale } else { 0.0 }
     }
 
     /// The same with tables interpolated by polynomials of lower degree.

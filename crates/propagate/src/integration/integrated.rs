@@ -27,8 +27,6 @@ const COARSEST: f64 = 1e-6;
 const ENLARGED_ERROR: f64 = 1e-4;
 /// The second integration's truncation error relative to the first's, after as much as the tolerance asks for.
 const FINER: f64 = 0.05;
-/// An error bound up to which it is proportional to the errors of the steps \[rad\].
-const LINEAR: f64 = 0.5;
 /// Relative rounding error of the rates that a step of about half a radian leaves.
 const STEP_ROUNDING: f64 = 1e-16;
 
@@ -60,15 +58,15 @@ impl Integrated {
         let phase = problem.phase();
         // Truncation errors of the rates add up over the steps, and their effect on the angle over time.
         let first = (2.0 * tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST);
-        let (mut motion, mut measurement) = problem.solved(first, None, stop)?;
+        let (mut motion, mut profiles) = problem.solved(first, stop)?;
         if motion.error > tolerance && first > FINEST {
             let second = (FINER * first * tolerance / motion.error).clamp(FINEST, first);
-            (motion, measurement) = problem.solved(second, Some(&measurement), stop)?;
+            (motion, profiles) = problem.solved(second, stop)?;
         }
         if motion.error < PI {
             return Ok(motion);
         }
-        let [start, stop] = measurement.profiles.map(|profile| {
+        let [start, stop] = profiles.map(|profile| {
             let held = profile.iter().take_while(|(_, error)| *error <= tolerance).last();
             scene.state().epoch + scaled(held.map_or(0.0, |(time, _)| *time), -problem.exponent)
         });
@@ -158,33 +156,26 @@ impl Problem {
         longest * x.hypot(y).hypot(z).max(self.equations.scale)
     }
 
-    /// By steps of this relative error; `before`: what was measured with others.
-    fn solved(
-        &self,
-        error: f64,
-        before: Option<&Measurement>,
-        stop: &AtomicBool,
-    ) -> Result<(Integrated, Measurement), Error> {
+    /// By steps of this relative error, with the error bounds before and after the epoch.
+    fn solved(&self, error: f64, stop: &AtomicBool) -> Result<(Integrated, [Profile; 2]), Error> {
         let (arch, precision, equations) = (Arch::new(), Precision::of(error), &self.equations);
         let mut sides = [Side::default(), Side::default()];
-        let mut measurement = Measurement::default();
+        let mut profiles = [Profile::new(), Profile::new()];
         let mut bound = FLOOR;
         for (side, target) in self.ends.into_iter().enumerate() {
             let backward = side == 0;
             let runner = Runner::new(self.attitude, self.rates, backward);
             let (kept, runner) = dispatch(arch, Kept { equations, precision, runner, target, stop })?;
-            let profile = match before.and_then(|before| before.scaled(side, &runner)) {
-                Some(profile) if !self.tabulated() => profile,
-                _ => self.measured(&kept.steps, (precision, &runner), backward, stop)?,
-            };
-            bound = profile.last().map_or(bound, |(_, error)| bound.max(*error));
-            (measurement.errors[side], measurement.profiles[side]) = (runner.errors(), profile);
+            if kept.steps.len() > 1 {
+                profiles[side] = self.measured(&kept.steps, (precision, &runner), backward, stop)?;
+            }
+            bound = profiles[side].last().map_or(bound, |(_, error)| bound.max(*error));
             sides[side] = kept;
         }
         let Self { exponent, reach, .. } = *self;
         let equations = equations.clone();
         let motion = Integrated { equations, order: precision.order, sides, exponent, reach, error: bound };
-        Ok((motion, measurement))
+        Ok((motion, profiles))
     }
 
     /// The error bound of the steps in one direction.
@@ -221,25 +212,6 @@ impl Problem {
             merge(&mut whole, profile);
         }
         Ok(whole)
-    }
-}
-
-/// Error bounds, and the errors of the steps from which they follow, before and after the epoch.
-#[derive(Default)]
-struct Measurement {
-    profiles: [Profile; 2],
-    errors: [[f64; 2]; 2],
-}
-
-impl Measurement {
-    /// The bounds of other steps of the same motion: nearby states separate as they did. None where they were too far apart for that.
-    fn scaled(&self, side: usize, runner: &Runner) -> Option<Profile> {
-        let (profile, [angle, rate]) = (&self.profiles[side], self.errors[side]);
-        profile.last().filter(|(_, bound)| *bound < LINEAR)?;
-        let [new_angle, new_rate] = runner.errors();
-        let ratio = (new_angle / angle).max(new_rate / rate);
-        let usable = ratio.is_finite();
-        usable.then(|| profile.iter().map(|(time, bound)| (*time, bound.min(ratio * bound).max(FLOOR))).collect())
     }
 }
 

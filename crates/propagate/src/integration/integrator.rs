@@ -18,8 +18,6 @@ pub(crate) const MOST_STEPS: usize = 1 << 23;
 const AT_ONCE: usize = 64;
 /// An integration whose first steps would need more than this many times the steps that are kept is refused at once.
 const HOPELESS: f64 = 16.0;
-/// Relative rounding error of the constants of a torque, the same in every step.
-const CONSTANTS: f64 = 4.0 * 1.2e-16;
 /// The terms after the last, relative to it: steps are e^−2 of the radius of convergence, so that their sum is 0.16 of it.
 const OMITTED: f64 = 0.2;
 /// Relative rounding errors of a torque and of ω × Iω.
@@ -169,7 +167,6 @@ impl Runner {
         self.systematic[0] += 2.0 * OMITTED * largest(&workspace.attitude[order]) * last;
         self.systematic[1] += OMITTED * largest(&workspace.rates[order]) * last;
         let [torque, gyration] = &workspace.parts;
-        self.systematic[1] += CONSTANTS * largest(torque) * largest(&equations.factors) * length;
         let by_rates = ROUNDING[0] * largest(torque) + ROUNDING[1] * largest(gyration);
         let rate = by_rates * largest(&equations.factors) * length;
         let angle = ROUNDING[1] * largest(&self.rates) * length;

@@ -21,6 +21,9 @@ const LONGEST: f64 = 1e300;
 const SOLVED: &str =
     ": averaging = spin solves the averaged equations no farther; averaging over the orbit has no such bound";
 
+/// The same for several bodies and for orbits that precess.
+const SOLVED_ON_ARCS: &str = ": the averaged equations are solved no farther";
+
 /// The reasons why the times of an integrated motion are bounded.
 const BEFORE: &str = ": the motion is integrated over its span, and this is the part before the epoch";
 const AFTER: &str = ": the motion is integrated over its span, and this is the part after the epoch";
@@ -217,7 +220,9 @@ impl Motion {
         let phases = MOST_ROTATIONS * std::f64::consts::TAU / self.frequencies.longitude;
         let phases = if phases < LONGEST { (phases, ": farther away the motion has no phase") } else { (LONGEST, "") };
         match &self.trajectory {
-            Trajectory::Gradient(gradient) if gradient.bound() < phases.0 => (gradient.bound(), SOLVED),
+            Trajectory::Gradient(gradient) if gradient.bound() < phases.0 => {
+                (gradient.bound(), if gradient.is_fixed() { SOLVED } else { SOLVED_ON_ARCS })
+            }
             _ => phases,
         }
     }

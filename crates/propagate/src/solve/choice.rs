@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 use crate::error::{Error, Kind};
 use crate::input::disturbing_body::DisturbingBody;
 use crate::input::options::{Averaging, Level, Method};
+use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
 use crate::integration::integrated::{Integrated, prospect};
 use crate::integration::integrator::MOST_STEPS;
@@ -13,25 +14,41 @@ use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
 use crate::torque_free::series::tables::SeriesTables;
 
+/// Whether all moments are equal: no body exerts a torque on a sphere.
+pub(super) fn is_sphere(scene: &Scene) -> bool {
+    let [a, b, c] = scene.body().moments();
+    a == b && b == c
+}
+
 /// What in a scene no theory has, if there is something.
 pub(super) fn beyond_theory(scene: &Scene) -> Option<String> {
-    let [a, b, c] = scene.body().moments();
     match scene.asked_disturbing() {
-        // No body exerts a torque on a sphere.
-        _ if a == b && b == c => None,
-        [] => None,
-        [DisturbingBody::Orbit(orbit)] if orbit.is_fixed() => None,
-        [DisturbingBody::Orbit(_)] => Some("an orbit with a node_rate or a pericentre_rate is integrated".to_owned()),
-        [_] => Some("a table of positions is integrated".to_owned()),
-        bodies => Some(format!("{} disturbing bodies are integrated", bodies.len())),
+        _ if is_sphere(scene) => None,
+        bodies if bodies.iter().any(|body| matches!(body, DisturbingBody::Tabulated(_))) => {
+            Some("a table of positions is integrated".to_owned())
+        }
+        _ => None,
     }
 }
 
-/// Whether a scene with one orbit leaves the choice between theory and integration.
+/// What a scene would need the integration for if theory does not serve it, but gives no span: several bodies, or an orbit that precesses.
+pub(super) fn without_span(scene: &Scene) -> Option<String> {
+    if scene.asked_method() != Method::Auto || scene.asked_span().is_some() {
+        return None;
+    }
+    match scene.asked_disturbing() {
+        [] => None,
+        [DisturbingBody::Orbit(orbit)] if orbit.is_fixed() => None,
+        [_] => Some("an orbit that precesses".to_owned()),
+        bodies => Some(format!("{} disturbing bodies", bodies.len())),
+    }
+}
+
+/// Whether a scene with disturbing bodies leaves the choice between theory and integration.
 pub(super) fn may_be_integrated(scene: &Scene) -> bool {
     scene.asked_method() == Method::Auto
         && scene.asked_span().is_some()
-        && scene.asked_orbit().is_some()
+        && !scene.asked_disturbing().is_empty()
         && scene.asked_order().is_none()
         && scene.asked_averaging() == Averaging::default()
         && scene.asked_level() == Level::default()
@@ -47,8 +64,11 @@ pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -
         }
         Err(error) => return Err(error),
     };
+    // For several bodies and for orbits that precess the integration also counts where it only comes nearer to the tolerance.
+    let fixed = scene.asked_orbit().is_some_and(Orbit::is_fixed);
     let tolerance = scene.asked_tolerance().max(ROUNDED_TOLERANCE);
-    let promising = prospect(&scene).is_some_and(|(bound, steps)| bound <= tolerance && steps <= MOST_STEPS as f64);
+    let enough = if fixed { tolerance } else { tolerance.max(by_theory.plan.error_bound) };
+    let promising = prospect(&scene).is_some_and(|(bound, steps)| bound <= enough && steps <= MOST_STEPS as f64);
     if !promising {
         return Ok(by_theory);
     }

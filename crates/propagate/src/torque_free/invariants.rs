@@ -11,7 +11,7 @@ use pulp::Arch;
 use crate::numerics::theta::Theta;
 use crate::simd::double_double_lanes::DoubleDoubleLanes;
 use crate::simd::elliptic::{carlson_rf, mean, precise_mean};
-use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
+use crate::simd::instruction_set::{FEW, InstructionSet, Task, dispatch, dispatch_few};
 use crate::simd::lanes::{Lanes, WIDEST};
 
 /// A body and its rotation, on the sorted axes and in scaled units.
@@ -75,7 +75,8 @@ pub(crate) struct Invariants {
 impl Invariants {
     /// The constants of at most as many bodies as the widest vectors have lanes.
     pub(super) fn of(given: &[Given]) -> Vec<Self> {
-        dispatch(Arch::new(), Compute { given })
+        let compute = Compute { given };
+        if given.len() <= FEW { dispatch_few(Arch::new(), compute) } else { dispatch(Arch::new(), compute) }
     }
 }
 

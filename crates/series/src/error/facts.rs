@@ -106,6 +106,15 @@ fn nameless<'a>(value: impl Into<Value>, bound: impl Into<Value>) -> Facts<'a> {
     (None, Some(value.into()), Some(bound.into()))
 }
 
+/// The argument that a message calls `what`. It is `None` for a part of a file or of a result.
+fn argument_of(what: &str) -> Option<&str> {
+    match what {
+        "Hamiltonian" | "quadratic part" => Some("hamiltonian"),
+        "state" | "actions" | "parameters" | "times" => Some(what),
+        _ => None,
+    }
+}
+
 impl Error {
     /// What a caller can do about this error.
     #[must_use]
@@ -114,7 +123,6 @@ impl Error {
             Self::Json { .. }
             | Self::FormatUnknown { .. }
             | Self::RationalMalformed { .. }
-            | Self::CountMismatch { .. }
             | Self::NotSymplectic { .. }
             | Self::TermInconsistent { .. }
             | Self::CoefficientWrong { .. }
@@ -133,6 +141,7 @@ impl Error {
             | Self::SmallDivisor { .. }
             | Self::ResonantTerm { .. } => Kind::Theory,
             Self::Interrupted { .. } => Kind::Internal,
+            Self::CountMismatch { what, .. } if argument_of(what).is_none() => Kind::File,
             Self::SlotOutOfRange { .. }
             | Self::SlotRepeated { .. }
             | Self::DivisionByZero
@@ -144,6 +153,7 @@ impl Error {
             | Self::ParameterUnknown { .. }
             | Self::FrequencyParameter { .. }
             | Self::FrequencyLetter { .. }
+            | Self::CountMismatch { .. }
             | Self::NotFinite { .. }
             | Self::NotResonant { .. }
             | Self::ResonanceMalformed { .. }
@@ -186,7 +196,7 @@ impl Error {
             }
             Self::ParameterDegree { term, bound } => facts("degrees", term, *bound),
             Self::ParameterUnknown { name, known } => facts("degrees", name, known),
-            Self::NotFinite { what, term } => facts(what, term, "finite"),
+            Self::NotFinite { what, term } => (argument_of(what), Some(term.into()), Some("finite".into())),
             Self::SmallDivisor { divisor, bound, .. } => facts("resonances", *divisor, *bound),
             Self::NotResonant { vector, bound, .. } => facts("resonances", vector.as_slice(), *bound),
             Self::ResonanceMalformed { vector, bound } => facts("resonances", vector.as_slice(), *bound),
@@ -232,7 +242,9 @@ impl Error {
                 facts("text", format!("{format} version {version}"), format!("{known_format} version {known_version}"))
             }
             Self::RationalMalformed { text } => facts("text", text, "a reduced rational \"p/q\""),
-            Self::CountMismatch { found, expected, .. } => facts("text", *found, *expected),
+            Self::CountMismatch { what, found, expected } => {
+                facts(argument_of(what).unwrap_or("text"), *found, *expected)
+            }
             Self::NotSymplectic { error, .. } => facts("text", *error, 0.0),
             Self::TermInconsistent { exponents, problem, .. } => {
                 facts("text", exponents.as_slice(), problem.to_string())

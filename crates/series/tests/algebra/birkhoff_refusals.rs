@@ -1,6 +1,7 @@
 //! What is no equilibrium with a quadratic part that can be diagonalized, and what no order can normalize, is refused by name.
 
 use andoyer_series::birkhoff::Resonances;
+use andoyer_series::error::{Kind, Value};
 use andoyer_series::progress::quiet;
 use andoyer_series::{BirkhoffMap, Error, Monomial, PhaseSpace, Polynomial, SLOTS, normalize, normalize_with};
 use num_rational::BigRational;
@@ -171,6 +172,28 @@ fn numbers_that_are_none_are_refused() -> Result<(), Error> {
     assert!(matches!(normalize(&large, 2, &space), Err(Error::NotFinite { what: "normal form", .. })));
     let foreign = Polynomial::from_terms([(Monomial::new(&[0, 0, 3])?, 1.0)]);
     assert!(matches!(normalize(&foreign, 2, &space), Err(Error::ValueMissing { slot: 2, given: 2 })));
+    Ok(())
+}
+
+#[test]
+fn a_list_of_the_wrong_length_is_an_input_error_that_names_the_argument() -> Result<(), Error> {
+    let space = PhaseSpace::new(&[("x", "X")])?;
+    let form = normalize(&space.parse::<f64>("(x^2 + X^2)/2 + x^3")?, 2, &space)?;
+    let map = BirkhoffMap::new(&form, &[])?;
+    let refused = [
+        ("state", map.to_normal(&[0.1]).err(), 1, 2),
+        ("actions", map.frequencies(&[0.1, 0.2]).err(), 2, 1),
+        ("parameters", BirkhoffMap::new(&form, &[1.0]).err(), 1, 0),
+    ];
+    for (argument, error, found, expected) in refused {
+        let error = error.expect(argument);
+        assert_eq!((error.kind(), error.argument()), (Kind::Input, Some(argument)));
+        assert_eq!((error.value(), error.bound()), (Some(Value::Integer(found)), Some(Value::Integer(expected))));
+    }
+    let infinite = map.to_normal(&[f64::INFINITY, 0.0]).expect_err("infinite");
+    assert_eq!((infinite.kind(), infinite.argument()), (Kind::Input, Some("state")));
+    let overflowing = map.from_normal(&[1e200, 0.0]).expect_err("it overflows");
+    assert_eq!((overflowing.kind(), overflowing.argument()), (Kind::Input, None));
     Ok(())
 }
 

@@ -1,6 +1,6 @@
 //! JSON: what is written is read back, and what is malformed is refused with its reason.
 
-use andoyer_series::error::TermProblem;
+use andoyer_series::error::{Kind, TermProblem};
 use andoyer_series::rigid_body::Variable;
 use andoyer_series::{Error, NormalForm};
 
@@ -76,6 +76,8 @@ fn orders_that_do_not_fit_or_do_not_match_are_refused() {
     assert!(matches!(refused, Err(Error::CountMismatch { what: "triaxiality", found: 2, expected: 3 })));
     let refused = document("1", P, "[]");
     assert!(matches!(refused, Err(Error::CountMismatch { what: "generators", found: 0, expected: 1 })));
+    let refused = refused.expect_err("no generator");
+    assert_eq!((refused.kind(), refused.argument()), (Kind::File, Some("text")));
 }
 
 #[test]

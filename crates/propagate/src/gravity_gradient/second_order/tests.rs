@@ -58,6 +58,8 @@ impl Scene {
         Demand {
             orbit: &self.orbit,
             mean_motion: MEAN_MOTION,
+            rates: [0.0; 2],
+            axes: self.orbit.axes(),
             level: Level::Full,
             tolerance: 1e-30,
             duration: 0.0,

@@ -1,0 +1,101 @@
+//! The sentence of each error: the argument, its value, the bound, and what the caller can do.
+
+use std::fmt;
+
+use super::{Error, STEP_BYTES};
+
+impl fmt::Display for Error {
+    // A table: one line for each variant, in the order of the enumeration. rustfmt leaves it, since the sentences are longer than its width.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Moment { axis, value } => write!(f, "moments[{axis}] = {value}: a moment of inertia must be positive and finite"),
+            Self::InertiaSymmetry { row, column, value, mirrored } => write!(f, "tensor[{row}][{column}] = {value} and tensor[{column}][{row}] = {mirrored}: an inertia tensor must be finite and symmetric to 1e-12 of its largest entry"),
+            Self::InertiaMoments { moments } => write!(f, "tensor: its principal moments are {moments:?}, and each must be positive"),
+            Self::Positive { argument, value } => write!(f, "{argument} = {value}: it must be positive and finite"),
+            Self::MomentsTriangle { moments, ratio } => write!(f, "moments = {moments:?}: the largest must not exceed the sum of the other two (it is {ratio} times that sum)"),
+            Self::MomentsRatio { moments, ratio, bound } => write!(f, "moments = {moments:?}: the largest must not exceed {bound:e} times the smallest (it is {ratio:e} times it)"),
+            Self::Units { quantity, exponent } => write!(f, "moments and angular_velocity: {quantity}, 2^{exponent}, is not a normal double, or is too near the largest; choose other units"),
+            Self::Attitude { value, norm } => write!(f, "attitude = {value:?}: a quaternion [x, y, z, w] must be finite with a norm within 1e-6 of 1 (it is {norm}){}", advice(*norm)),
+            Self::AngularVelocity { axis, value } => write!(f, "angular_velocity[{axis}] = {value}: a rate must be finite"),
+            Self::Epoch { value } => write!(f, "epoch = {value}: it must be finite"),
+            Self::Tolerance { value } => write!(f, "tolerance = {value}: it must be positive and finite [rad]"),
+            Self::Span { start, stop } => write!(f, "span = [{start}, {stop}]: it must be finite with start ≤ stop"),
+            Self::Order { value, bound } => write!(f, "order = {value}: it must be at most {bound}"),
+            Self::Method { value } => write!(f, "method = {value:?}: it must be \"auto\", \"series\", \"closed\" or \"integrated\""),
+            Self::Time { index, value, bound, reason } => write!(f, "times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{reason}"),
+            Self::Length { argument, found, expected } => write!(f, "{argument} has {found} entries: it must have {expected}"),
+            Self::NearSeparatrix { ratio, tolerance, attainable, highest } => write!(f, "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {highest}, is good to {}, and the tolerance is {tolerance:e} rad", rounded_up(*attainable)),
+            Self::Separatrix => f.write_str("on the separatrix (falling away from rotation about the axis of middle inertia, or towards it): no order of the series is valid; use the closed form"),
+            Self::SeparatrixPartials => f.write_str("on the separatrix (falling away from rotation about the axis of middle inertia, or towards it) the frequencies have no derivatives; choose a state beside the separatrix"),
+            Self::CodeLanguage { value } => write!(f, "language = {value:?}: it must be \"c\", \"rust\", \"python\" or \"javascript\""),
+            Self::NoCode { motion } => write!(f, "no code is written of {motion}: rest, steady rotation and torque-free wobbles of both modes have code; a C-kernel or an attitude file holds any motion"),
+            Self::Convention { value } => write!(f, "convention = {value:?}: it must be \"extremal-axis\", \"long-axis\" or \"short-axis\""),
+            Self::ModeName { value } => write!(f, "mode = {value:?}: it must be \"short-axis\" or \"long-axis\""),
+            Self::NoSuchMode { mode, moments, pair } => write!(f, "mode = {mode:?}: a body with moments {moments:?} does not have this mode, since its {pair} moments are equal"),
+            Self::PeriodRatio { ratio, mode, convention, lower, upper } => write!(f, "rotation/precession = {ratio}: in the {mode} mode and the {convention} convention this body has P_ψ/P_φ from {lower} up to {upper}"),
+            Self::Direction { argument, value } => write!(f, "{argument} = {value:?}: it must be finite{}", if value.iter().any(|x| *x != 0.0) { "" } else { " and not 0" }),
+            Self::Andoyer { index, value, bound } => write!(f, "andoyer[{index}] = {value}: {bound}"),
+            Self::Orbit { argument, value, bound } => write!(f, "orbit.{argument} = {value}: it must be {bound}"),
+            Self::Level { value } => write!(f, "level = {value:?}: it must be \"auto\", \"paper\", \"moving\", \"full\" or \"second-order\""),
+            Self::LevelOfOrbit => f.write_str("level = \"second-order\" needs averaging = \"spin\" or \"auto\": the average over the orbit is of first order"),
+            Self::OneFixedOrbit { argument, value } => write!(f, "{argument} = \"{value}\" needs one disturbing body on an orbit without node_rate and pericentre_rate"),
+            Self::Averaging { value } => write!(f, "averaging = {value:?}: it must be \"auto\", \"orbit\" or \"spin\""),
+            Self::Resonance { harmonic, multiple, divisor, bound } => write!(f, "spin resonance (k−j, m) = ({harmonic}, {multiple}): its frequency is {divisor:.3} times the orbital angular rate at pericentre, and averaging needs more than {bound} or a shorter span"),
+            Self::TorqueTooStrong { size, bound } => write!(f, "the torque, or its effect on the motion, measures {size:.3e} at pericentre, and an expansion in it needs less than {bound:.3e}"),
+            Self::TooManyOrbits { orbits, bound } => write!(f, "averaging = spin: the span has {orbits:.0} orbits on one side of the epoch, and the averaged equations are solved for {bound} at most; averaging over the orbit has no such bound"),
+            Self::SpanOfBodies { value, bound } => write!(f, "span: it reaches {value} from the epoch, and the averaged equations of these orbits are solved up to {bound:.6e}"),
+            Self::Unaveraged { mode, ratio, bound } => write!(f, "orbit: no averaged theory is valid for this motion (mode {mode}, σ/σ_sep = {ratio:.6}, which must be at most {bound})"),
+            Self::Table { argument, index, value, bound } => write!(f, "orbit.{argument}[{index}] = {value}: it must be {bound}"),
+            Self::TableSpan { start, stop, first, last } => write!(f, "span: the integration goes from {start} to {stop}, and the table of positions only from {first} to {last}"),
+            Self::NoSpan { reason } => write!(f, "span: none is given, and the integrated method needs one{}", because(reason)),
+            Self::OnlyIntegrated { method, reason } => write!(f, "method = \"{method}\": {reason}; use method = \"integrated\" or \"auto\" with a span"),
+            Self::TooManySteps { steps, bound } => write!(f, "span: the integration needs about {steps:.1e} steps, which take {:.1} GB; at most {bound} are kept: use a span shorter by a factor of {:.1}", memory(*steps), steps / *bound as f64),
+            Self::Unpredictable { tolerance, start, stop } => write!(f, "tolerance = {tolerance:e}: nearby states separate so fast that the attitude is unknown at the end of the span; {tolerance:e} rad holds from {start} to {stop}"),
+            Self::Member { index, others, problem } => write!(f, "member {index}: {problem}{}", and_others(*others)),
+            Self::OnError { value } => write!(f, "errors = {value:?}: it must be \"raise\" or \"nan\""),
+            Self::Stopped => f.write_str("stopped before the end"),
+            Self::Index { index, members } => write!(f, "index = {index}: the ensemble has {members} members, counted from 0"),
+            Self::Threads { value, problem } => write!(f, "threads = {value}: {problem}"),
+            Self::UnknownBody { name, known } => write!(f, "body {name:?} is not in the catalogue{}: it has {}", did_you_mean(name, known), known.join(", ")),
+            Self::Series(error) => error.fmt(f),
+            Self::SceneFile { file, key, problem, .. } => write!(f, "{file}: {key}: {problem}"),
+        }
+    }
+}
+
+/// The known name most similar to an unknown one, if up to a third of its letters are wrong, missing, added or exchanged.
+fn did_you_mean(name: &str, known: &[&str]) -> String {
+    let name = name.to_lowercase();
+    let likeness = |known: &str| strsim::normalized_damerau_levenshtein(&known.to_lowercase(), &name);
+    let best = known.iter().max_by(|one, two| likeness(one).total_cmp(&likeness(two)));
+    let near = best.filter(|best| likeness(best) >= 2.0 / 3.0);
+    near.map_or_else(String::new, |best| format!("; did you mean {best:?}?"))
+}
+
+/// The reason why a motion is integrated, as the end of a sentence.
+fn because(reason: &str) -> String {
+    if reason.is_empty() { String::new() } else { format!(", by which this scene is solved: {reason}") }
+}
+
+/// Memory of a number of integration steps, in units of 1e9 bytes.
+fn memory(steps: f64) -> f64 {
+    steps * STEP_BYTES * 1e-9
+}
+
+fn and_others(others: usize) -> String {
+    if others == 0 { String::new() } else { format!(" (and {others} more bad members)") }
+}
+
+/// Advice for a quaternion that is not an attitude.
+fn advice(norm: f64) -> &'static str {
+    if norm > 0.0 && norm.is_finite() {
+        "; to normalize it, divide it by its norm; a quaternion [w, x, y, z] is read with scalar_first=True in Python"
+    } else {
+        ""
+    }
+}
+
+/// The tolerance as text with two digits, not rounded down.
+fn rounded_up(tolerance: f64) -> String {
+    if tolerance < 1.0 { format!("{:.1e} rad", tolerance * 1.05) } else { "no tolerance below 1 rad".to_owned() }
+}

@@ -1,0 +1,71 @@
+//! Tests of the averaged theory with several bodies and with precessing orbits, against the numerical integration.
+
+use crate::disturbers::DisturbingBody;
+use crate::{Body, Method, Motion, Orbit, Scene, State};
+
+/// A tumbling body under these orbits.
+fn scene(orbits: &[Orbit], duration: f64) -> Scene {
+    let state = State::new(1.0, [0.1, -0.2, 0.3, 0.927_361_849_549_570_4], [0.12, -0.05, 1.0]).expect("a state");
+    Scene::new(Body::new([0.85, 0.9, 1.0]).expect("a body"), state)
+        .disturbing(orbits.iter().copied().map(DisturbingBody::from))
+        .span(1.0 - duration, 1.0 + duration)
+}
+
+fn precessing() -> Orbit {
+    Orbit::new(4e-3, 0.2)
+        .and_then(|orbit| orbit.plane(0.4, 0.7, 1.1)?.secular_rates(-1e-3, 5e-4)?.time_of_pericentre(-300.0))
+        .expect("an orbit")
+}
+
+fn fixed() -> Orbit {
+    Orbit::new(1e-3, 0.5).and_then(|orbit| orbit.plane(1.2, 0.3, 2.0)?.attraction(4e-6)).expect("an orbit")
+}
+
+/// Largest angle between two motions.
+fn apart(one: &Motion, other: &Motion, duration: f64) -> f64 {
+    let angle = |k: i32| {
+        let time = 1.0 + duration * f64::from(k) / 100.0;
+        let [one, other] = [one, other].map(|motion| motion.at(time).expect("within the span").attitude);
+        one.angle_to(&other)
+    };
+    (-100..=100).map(angle).fold(0.0, f64::max)
+}
+
+/// Error over bound, and the torque's effect over the error, by integration.
+fn judged(orbits: &[Orbit], duration: f64) -> [f64; 2] {
+    let scene = scene(orbits, duration);
+    let by_theory = scene.clone().method(Method::Closed).solve().expect("averaged");
+    let exact = scene.clone().method(Method::Integrated).solve().expect("integrated");
+    let free = scene.disturbing([Orbit::new(1e-9, 0.0).expect("an orbit")]).solve().expect("nearly free");
+    assert_eq!(by_theory.plan().method(), Method::Closed);
+    let error = apart(&by_theory, &exact, duration);
+    [error / by_theory.plan().error_bound(), apart(&free, &exact, duration) / error]
+}
+
+#[test]
+fn two_bodies_leave_an_error_of_second_order_within_the_bound() {
+    let [share, gain] = judged(&[Orbit::new(4e-3, 0.2).expect("an orbit"), fixed()], 3000.0);
+    assert!(share < 1.0 && gain > 1e4, "{share} {gain}");
+}
+
+#[test]
+fn a_precessing_orbit_leaves_an_error_of_second_order_within_the_bound() {
+    let [share, gain] = judged(&[precessing()], 3000.0);
+    assert!(share < 1.0 && gain > 1e4, "{share} {gain}");
+}
+
+#[test]
+fn two_bodies_of_which_one_precesses_leave_an_error_of_second_order_within_the_bound() {
+    let [share, gain] = judged(&[precessing(), fixed()], 3000.0);
+    assert!(share < 1.0 && gain > 1e4, "{share} {gain}");
+}
+
+#[test]
+fn two_halves_of_a_body_act_as_the_whole() {
+    let half = fixed().attraction(2e-6).expect("an orbit");
+    let [whole, halves] = [&[fixed()][..], &[half, half]]
+        .map(|orbits| scene(orbits, 3000.0).method(Method::Closed).solve().expect("averaged"));
+    // The mean variables and the corrections are the same sums, so only rounding is left.
+    let error = apart(&whole, &halves, 3000.0);
+    assert!(error < 2e-13, "{error:e}");
+}

@@ -1,0 +1,167 @@
+//! Time derivatives of the orbit's functions in the torque, as Fourier polynomials in the true anomaly.
+
+use crate::simd::complex_quaternion::ComplexLanes;
+use crate::simd::instruction_set::InstructionSet;
+use crate::simd::kepler::Place;
+use crate::simd::lanes::Lanes;
+
+/// Number of functions in G: g and its time derivatives.
+pub(crate) const ORDERS: usize = 7;
+/// Highest multiple of f in the last derivative.
+pub(crate) const WIDTH: usize = 5 + 2 * (ORDERS - 1);
+
+/// Time derivatives of (a/r)³ times 1, cos 2f and sin 2f; the indices are the order j and the function. Even derivatives of the first two and odd derivatives
+/// of the third are series in cos kf. The others are series in sin kf.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Orbital {
+    pub(super) series: Vec<[Fourier; 3]>,
+    /// Rate of the node about inertial axis 3.
+    pub(super) node_rate: f64,
+    /// Highest k.
+    highest: usize,
+    /// Largest sum of the coefficients' magnitudes, by j; there is one entry more than there are derivatives.
+    pub(crate) norms: Vec<f64>,
+}
+
+/// The first k, and the coefficients from this k on.
+#[derive(Clone, Debug)]
+pub(super) struct Fourier(usize, Vec<f64>);
+
+impl Orbital {
+    /// All derivatives for a mean motion n. d/dt = n η^(−3) w² d/df with w = 1 + e cos f.
+    pub(crate) fn new(eccentricity: f64, mean_motion: f64) -> Self {
+        Self::precessing(eccentricity, mean_motion, [0.0; 2])
+    }
+
+    /// The same on an orbit whose node and pericentre precess with these rates. With the pericentre's rate ω̇, the derivatives of (a/r)³ e^(2i(f+ω)), times
+    /// e^(−2iω), are those of (d/dt + 2iω̇)^j; the rate of the node enters at the evaluation.
+    pub(crate) fn precessing(eccentricity: f64, mean_motion: f64, [node_rate, pericentre_rate]: [f64; 2]) -> Self {
+        let fixed = derivatives(eccentricity, mean_motion);
+        let turned: Vec<_> = (0..=ORDERS).map(|j| with_turning(&fixed, 2.0 * pericentre_rate, j)).collect();
+        let sizes: Vec<f64> = turned
+            .iter()
+            .map(|functions| {
+                let sums = functions.each_ref().map(|series| series.iter().map(|c| c.abs()).sum::<f64>());
+                sums.into_iter().fold(0.0, f64::max)
+            })
+            .collect();
+        // A rate of the axes turns a symmetric tensor of rank 2 at most twice as fast.
+        let norms = (0..=ORDERS).map(|j| leibniz(j, 2.0 * node_rate.abs()).zip(&sizes[..=j]).map(|(c, s)| c * s).sum());
+        let series = turned[..ORDERS].iter().map(|functions| functions.each_ref().map(|series| trimmed(series)));
+        let mut orbital = Self { series: series.collect(), node_rate, highest: 0, norms: norms.collect() };
+        orbital.keep(ORDERS);
+        orbital
+    }
+
+    /// Keeps the first `orders` derivatives.
+    pub(crate) fn keep(&mut self, orders: usize) {
+        self.series.truncate(orders);
+        let ends = self.series.iter().flatten().map(|Fourier(first, rest)| first + rest.len());
+        self.highest = ends.max().unwrap_or(1) - 1;
+    }
+}
+
+/// The time derivatives of (a/r)³, (a/r)³ cos 2f and (a/r)³ sin 2f on a fixed ellipse, as coefficients of Fourier series.
+fn derivatives(eccentricity: f64, mean_motion: f64) -> Vec<[Vec<f64>; 3]> {
+    let eta_square = 1.0 - eccentricity * eccentricity;
+    let rate = mean_motion / (eta_square * eta_square.sqrt());
+    let unit = |k: usize| -> Vec<f64> { (0..=WIDTH + 2).map(|i| if i == k { 1.0 } else { 0.0 }).collect() };
+    let mut current = [(unit(0), false), (unit(2), false), (unit(2), true)].map(|(series, odd)| {
+        let cubed = (0..3).fold(series, |series, _| times_w(&series, eccentricity, odd));
+        (cubed.iter().map(|c| c / eta_square.powi(3)).collect::<Vec<f64>>(), odd)
+    });
+    let mut all = Vec::with_capacity(ORDERS + 1);
+    for _ in 0..=ORDERS {
+        all.push(current.each_ref().map(|(coefficients, _)| coefficients.clone()));
+        current = current.map(|(coefficients, odd)| {
+            let sign = if odd { rate } else { -rate };
+            let slope: Vec<f64> = coefficients.iter().enumerate().map(|(k, c)| sign * k as f64 * c).collect();
+            let squared = (0..2).fold(slope, |series, _| times_w(&series, eccentricity, !odd));
+            (squared, !odd)
+        });
+    }
+    all
+}
+
+/// The j-th derivatives of the three functions, where e^(2if) also turns with `rate`.
+fn with_turning(fixed: &[[Vec<f64>; 3]], rate: f64, j: usize) -> [Vec<f64>; 3] {
+    let [one, cosine, sine] = &fixed[j];
+    let (mut real, mut imaginary) = (cosine.clone(), sine.clone());
+    if rate != 0.0 {
+        for (k, weight) in leibniz(j, rate).enumerate().take(j) {
+            let turns = j - k;
+            let [_, cosine, sine] = &fixed[k];
+            let sign = |quarter: usize| if (quarter / 2).is_multiple_of(2) { weight } else { -weight };
+            // i^m (A + iB), of which an odd m exchanges the two functions.
+            let (to_real, to_imaginary, signs) = if turns.is_multiple_of(2) {
+                (cosine, sine, [sign(turns), sign(turns)])
+            } else {
+                (sine, cosine, [sign(turns + 1), sign(turns - 1)])
+            };
+            for (sum, c) in real.iter_mut().zip(to_real) {
+                *sum += signs[0] * c;
+            }
+            for (sum, c) in imaginary.iter_mut().zip(to_imaginary) {
+                *sum += signs[1] * c;
+            }
+        }
+    }
+    [one.clone(), real, imaginary]
+}
+
+/// Binomial coefficients of (x + rate)^j, for x^0, x^1, … x^j.
+fn leibniz(j: usize, rate: f64) -> impl Iterator<Item = f64> {
+    let mut binomial = 1.0;
+    (0..=j).map(move |k| {
+        let weight = binomial * rate.powi((j - k) as i32); // j ≤ ORDERS
+        binomial *= (j - k) as f64 / (k + 1) as f64;
+        weight
+    })
+}
+
+/// A series in cos kf, or in sin kf if `odd`, times 1 + e cos f.
+fn times_w(series: &[f64], eccentricity: f64, odd: bool) -> Vec<f64> {
+    let at = |k: usize| series.get(k).copied().unwrap_or_default();
+    let half = 0.5 * eccentricity;
+    let mut product: Vec<f64> = (0..series.len()).map(|k| at(k) + half * (at(k + 1) + at(k.wrapping_sub(1)))).collect();
+    // cos(−f) = cos f and sin(−f) = −sin f; the mean has only one coefficient.
+    match odd {
+        true => product[0] = 0.0,
+        false => product[1] += half * at(0),
+    }
+    product
+}
+
+/// Drops the lowest and the highest coefficients if they are negligible.
+fn trimmed(series: &[f64]) -> Fourier {
+    let largest = series.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
+    let something = |c: &f64| c.abs() > 1e-18 * largest;
+    let first = series.iter().position(something).unwrap_or(0);
+    let last = series.iter().rposition(something).map_or(first, |last| last + 1);
+    Fourier(first, series[first..last].to_vec())
+}
+
+impl Orbital {
+    /// cos kf and sin kf for k = 0, 1, …
+    #[inline(always)]
+    pub(super) fn circle<S: InstructionSet>(&self, place: &Place<S>) -> [[Lanes<S>; 2]; WIDTH + 1] {
+        let mut circle = [[place.sine.all(1.0), place.sine.all(0.0)]; WIDTH + 1];
+        let step = ComplexLanes { re: place.cosine, im: place.sine };
+        let mut turn = step;
+        for slot in circle.iter_mut().take(self.highest + 1).skip(1) {
+            *slot = [turn.re, turn.im];
+            turn = turn * step;
+        }
+        circle
+    }
+}
+
+/// The sum of a series in cosines (part 0) or sines (part 1).
+#[inline(always)]
+pub(super) fn sum<S: InstructionSet>(circle: &[[Lanes<S>; 2]], series: &Fourier, part: usize) -> Lanes<S> {
+    let mut sum = circle[0][1];
+    for (turn, coefficient) in circle[series.0..].iter().zip(&series.1) {
+        sum = turn[part].mul_add(sum.all(*coefficient), sum);
+    }
+    sum
+}
