@@ -39,6 +39,39 @@ fn members_are_what_they_are_alone_to_the_bit_for_any_number_of_threads() {
     }
 }
 
+/// Bodies of every mode and of none, in an order that mixes them: a sphere, A = B, B = C, principal axes, at rest, on the separatrix and beside it.
+fn mixed() -> Ensemble {
+    const KINDS: [([f64; 3], [f64; 3]); 11] = [
+        ([0.5, 0.75, 1.0], [0.1, 0.2, 1.0]),
+        ([1.0, 1.0, 1.0], [0.1, 0.2, 1.0]),
+        ([0.75, 0.75, 1.0], [0.3, 0.2, 1.0]),
+        ([0.6, 1.0, 1.0], [0.7, 0.3, -0.2]),
+        ([0.5, 0.75, 1.0], [0.0, 0.0, 1.0]),
+        ([0.5, 0.75, 1.0], [0.0, 1.0, 0.0]),
+        ([0.5, 0.75, 1.0], [0.0, 0.0, 0.0]),
+        ([3.0, 4.0, 6.0], [2.0, 0.5, 1.0]),
+        ([3.0, 4.0, 6.0], [2.0, 0.5, 1.000_000_000_1]),
+        ([3.235, 3.0836, 1.0], [0.3, 0.2, -1.3]),
+        ([0.5, 0.75, 1.0], [1e-160, 0.0, 1.0]),
+    ];
+    let kind = |k: usize| KINDS[(5 * k + k / 11) % 11];
+    let (moments, rates) = (0..60).map(kind).unzip();
+    Ensemble::new(moments, vec![LEVEL; 60], rates).expect("bodies and states")
+}
+
+#[test]
+fn members_of_every_kind_side_by_side_are_what_they_are_alone_to_the_bit() {
+    let ensemble = mixed();
+    let times = [-10.0, 0.0, 3.0, 1e3];
+    let (mut attitudes, mut rates) = (vec![[0.0; 4]; 240], vec![[0.0; 3]; 240]);
+    ensemble.samples_into(&times, &mut attitudes, &mut rates).expect("solved");
+    let (mut of_one, mut rates_of_one) = ([[0.0; 4]; 4], [[0.0; 3]; 4]);
+    for k in 0..60 {
+        motion(&ensemble, k).samples_into(&times, &mut of_one, &mut rates_of_one).expect("finite times");
+        assert_eq!((&of_one[..], &rates_of_one[..]), (&attitudes[4 * k..4 * k + 4], &rates[4 * k..4 * k + 4]), "{k}");
+    }
+}
+
 #[test]
 fn every_member_may_have_its_own_times() {
     let ensemble = ensemble();

@@ -173,11 +173,13 @@ impl Div for DoubleDouble {
     type Output = Self;
     #[inline]
     fn div(self, other: Self) -> Self {
-        let first = self.high / other.high;
+        // The three digits of the long division are products with one reciprocal: each corrects the rounding of the one before.
+        let reciprocal = 1.0 / other.high;
+        let first = self.high * reciprocal;
         let rest = self - other * Self::from(first);
-        let second = rest.high / other.high;
+        let second = rest.high * reciprocal;
         let rest = rest - other * Self::from(second);
-        Self::renormalized(first, second) + Self::from(rest.high / other.high)
+        Self::renormalized(first, second) + Self::from(rest.high * reciprocal)
     }
 }
 

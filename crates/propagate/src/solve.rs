@@ -26,6 +26,9 @@ use crate::torque_free::steady::SteadyRotation;
 use crate::torque_free::wobble::{Wobble, WobbleEvaluator};
 
 mod choice;
+mod several;
+
+pub(crate) use several::several;
 
 use choice::{beyond_theory, cheapest, in_ascii, integrated, is_sphere, may_be_integrated, without_span};
 
@@ -101,8 +104,14 @@ impl Scene {
     }
 
     fn solve_by_theory(self, tables: &SeriesTables) -> Result<Motion, Error> {
+        let polhode = Polhode::new(self.body(), self.state());
+        self.solve_on(polhode.as_ref(), Preparation { tables, secular: None, remarks: true })
+    }
+
+    /// The motion on a polhode; `None` for a body at rest.
+    fn solve_on(self, polhode: Option<&Polhode>, preparation: Preparation<'_>) -> Result<Motion, Error> {
         let scene = self;
-        let Some(polhode) = Polhode::new(scene.body(), scene.state()) else {
+        let Some(polhode) = polhode else {
             return match scene.asked_orbits() {
                 Some(_) if !is_sphere(&scene) => Err(Error::Unaveraged {
                     mode: Mode::AtRest.to_string(),
@@ -112,14 +121,24 @@ impl Scene {
                 _ => Ok(with_unused(at_rest(scene))),
             };
         };
-        representable(&polhode)?;
-        let mode = Mode::of(&polhode);
+        representable(polhode)?;
+        let mode = Mode::of(polhode);
         match (mode, scene.asked_orbits()) {
-            (mode, Some(orbits)) if mode != Mode::Spherical => disturbed(scene, &polhode, mode, &orbits),
-            (Mode::Spherical | Mode::PrincipalAxis, _) => Ok(with_unused(steadily_rotating(scene, &polhode, mode))),
-            _ => wobbling((scene, tables), &polhode, mode).map(with_unused),
+            (mode, Some(orbits)) if mode != Mode::Spherical => disturbed(scene, polhode, mode, &orbits),
+            (Mode::Spherical | Mode::PrincipalAxis, _) => Ok(with_unused(steadily_rotating(scene, polhode, mode))),
+            _ => wobbling((scene, preparation), polhode, mode).map(with_unused),
         }
     }
+}
+
+/// What is ready before a scene is solved, and what its plan is to say.
+#[derive(Clone, Copy)]
+struct Preparation<'a> {
+    tables: &'a SeriesTables,
+    /// The frequencies, if they are computed already.
+    secular: Option<Secular>,
+    /// Whether the plan says what was skipped.
+    remarks: bool,
 }
 
 /// Whether the angular momentum and every rate of a motion are normal doubles in the user's units.
@@ -130,7 +149,7 @@ fn representable(polhode: &Polhode) -> Result<(), Error> {
     }
     // No rate or frequency of the motion is more than twice M over the smallest moment.
     let smallest = polhode.moments.iter().copied().fold(f64::INFINITY, f64::min);
-    let fastest = polhode.momentum.to_f64() / smallest;
+    let fastest = polhode.invariants.momentum.to_f64() / smallest;
     if !scaled(4.0 * fastest, rate).is_finite() {
         let exponent = exponent(fastest) + rate;
         return Err(Error::Units { quantity: "the rate that belongs to the smallest moment", exponent });
@@ -177,7 +196,8 @@ fn steadily_rotating(scene: Scene, polhode: &Polhode, mode: Mode) -> Motion {
 }
 
 /// The motion of a wobbling body, or of one on the separatrix.
-fn wobbling((scene, tables): (Scene, &SeriesTables), polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
+fn wobbling((scene, preparation): (Scene, Preparation<'_>), polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
+    let Preparation { tables, secular, remarks } = preparation;
     if mode == Mode::Separatrix {
         return match scene.asked_method() {
             Method::Series => Err(Error::Separatrix),
@@ -188,8 +208,8 @@ fn wobbling((scene, tables): (Scene, &SeriesTables), polhode: &Polhode, mode: Mo
             }
         };
     }
-    let exact = Secular::exact(polhode);
-    let ratio = (exact.kappa_sigma / polhode.kappa() / polhode.separatrix_action()).min(1.0);
+    let exact = secular.unwrap_or_else(|| Secular::exact(polhode));
+    let ratio = (exact.kappa_sigma / polhode.invariants.kappa / polhode.separatrix_action()).min(1.0);
     let by_series = match scene.asked_method() {
         Method::Series => true,
         Method::Closed | Method::Integrated => false,
@@ -199,7 +219,7 @@ fn wobbling((scene, tables): (Scene, &SeriesTables), polhode: &Polhode, mode: Mo
     let solution = if by_series {
         by_the_series((&scene, tables), polhode, exact, ratio, mode)?
     } else {
-        by_theta_functions(&scene, polhode, exact, ratio, mode)
+        by_theta_functions((&scene, remarks), polhode, exact, ratio, mode)
     };
     let phases = phase_rounding(&scene, exact.longitude_rate, polhode.scales.1);
     let mut plan = Plan::new(&scene, mode, ratio, solution.error_bound + phases);
@@ -209,7 +229,8 @@ fn wobbling((scene, tables): (Scene, &SeriesTables), polhode: &Polhode, mode: Mo
 
 /// The motion of a wobbling body by the closed form, with every harmonic that rounding leaves: what derivatives are taken of.
 pub(crate) fn untruncated(scene: &Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
-    wobbling((scene.clone().method(Method::Closed).tolerance(0.0), &SeriesTables::default()), polhode, mode)
+    let preparation = Preparation { tables: &SeriesTables::default(), secular: None, remarks: false };
+    wobbling((scene.clone().method(Method::Closed).tolerance(0.0), preparation), polhode, mode)
 }
 
 fn assembled(scene: Scene, polhode: &Polhode, mut plan: Plan, solution: Solution) -> Motion {
@@ -248,7 +269,7 @@ fn assembled(scene: Scene, polhode: &Polhode, mut plan: Plan, solution: Solution
 fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbits: &[Orbit]) -> Result<Motion, Error> {
     let (ratio, osculating) = osculating(polhode)?;
     let exponent = polhode.scales.1;
-    let rotation = polhode.mean_rate();
+    let rotation = polhode.invariants.mean_rate;
     let request = Request {
         orbits,
         averaging: scene.asked_averaging(),

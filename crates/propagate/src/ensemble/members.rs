@@ -11,11 +11,13 @@ use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::motion::solved::{Motion, length};
 use crate::simd::halt::GOING;
+use crate::simd::lanes::WIDEST;
+use crate::solve::several;
 
 use super::on_error::OnError;
 use super::pool::{MAX_THREADS, Pool};
 
-/// Members that a thread takes at least: 64 of them are some 300 µs.
+/// Members that a thread takes at least: 64 of them are some 100 µs.
 const BLOCK: usize = 64;
 /// The same under a gravity gradient, at 200 µs each.
 const DISTURBED_BLOCK: usize = 2;
@@ -319,8 +321,17 @@ impl Ensemble {
         if let Some((start, stop)) = self.span {
             scene = scene.span(start, stop);
         }
-        scene.validate()?;
-        Ok(scene)
+        scene.validated()
+    }
+
+    /// The motions of members, with plans that do not say what was skipped. There are at most [`Ensemble::group`] of them.
+    pub(super) fn motions(&self, indices: &[usize]) -> impl Iterator<Item = Result<Motion, Error>> + use<> {
+        several(indices.iter().map(|index| self.scene(*index)).collect())
+    }
+
+    /// Members that are solved at once. Those under a gravity gradient are solved one by one.
+    pub(super) fn group(&self) -> usize {
+        if self.orbits.is_empty() { WIDEST } else { 1 }
     }
 
     /// The motion of one member.
@@ -355,7 +366,7 @@ impl Ensemble {
         Pool::new(self.threads)
     }
 
-    /// Members that a thread takes at least.
+    /// Members that a thread takes at least, a multiple of the group.
     pub(super) fn block(&self) -> usize {
         if self.orbits.is_empty() { BLOCK } else { DISTURBED_BLOCK }
     }

@@ -1,8 +1,9 @@
-//! Many bodies at a few epochs each: solved and evaluated member by member, in memory proportional to the result.
+//! Many bodies at a few epochs each: solved in groups of sixteen, evaluated member by member, in memory proportional to the result.
 //!
-//! A member's motion lives while its rows are written; nothing of it is kept. Each member is computed by one thread alone, so that the bits
-//! do not depend on how many threads there are. A member costs its set-up, 4 to 6 µs, some 200 µs under the gravity gradient of an orbit, and its epochs.
-//! Every bad member is found before any is computed, and the error names the first with its index.
+//! The constants of the polhodes of a group and their frequencies are computed in lanes, one member a lane. No operation combines lanes and a group is computed by
+//! one thread, so that the bits depend neither on the number of threads nor on the other members. Members under the gravity gradient of an orbit are solved one by
+//! one, in some 200 µs. A member's motion lives while its rows are written; nothing of it is kept. Every bad member is found before any is computed, and the error
+//! names the first with its index.
 
 mod members;
 mod on_error;

@@ -239,22 +239,28 @@ impl<'a> Run<'a> {
         blank: impl Fn(&mut Rows) + Sync,
     ) -> Result<Outcome, Error> {
         let Self { ensemble, .. } = *self;
-        let one = |index: usize, rows: &mut Rows| {
-            self.going()?;
-            let motion = ensemble.motion(index)?;
-            evaluate(&motion, index, rows).map_err(|problem| Error::of_member(index, problem))?;
-            Ok(motion.plan().clone())
-        };
-        let told = |outcome: Outcome, (index, mut rows): (usize, Rows)| match one(index, &mut rows) {
-            Ok(plan) => outcome.solved(index, &plan),
-            Err(error) => {
-                blank(&mut rows);
-                outcome.refused(index, error)
+        let told = |outcome: Outcome, ((index, mut rows), motion): ((usize, Rows), Result<Motion, Error>)| {
+            let solved = motion.and_then(|motion| evaluate(&motion, index, &mut rows).map(|()| motion));
+            match solved {
+                Ok(motion) => outcome.solved(index, motion.plan()),
+                Err(error) => {
+                    blank(&mut rows);
+                    outcome.refused(index, Error::of_member(index, error))
+                }
             }
         };
-        let members = rows.enumerate().with_min_len(ensemble.block());
-        let outcome =
-            ensemble.pool()?.install(|| members.fold(Outcome::default, told).reduce(Outcome::default, Outcome::and));
+        let all_told = |outcome: Outcome, group: Vec<(usize, Rows)>| {
+            if let Err(stopped) = self.going() {
+                return outcome.refused(0, stopped);
+            }
+            let indices: Vec<usize> = group.iter().map(|(index, _)| *index).collect();
+            let motions = ensemble.motions(&indices);
+            group.into_iter().zip(motions).fold(outcome, told)
+        };
+        let members = rows.enumerate().chunks(ensemble.group()).with_min_len(ensemble.block() / ensemble.group());
+        let outcome = ensemble
+            .pool()?
+            .install(|| members.fold(Outcome::default, all_told).reduce(Outcome::default, Outcome::and));
         self.going()?;
         match ensemble.asked_on_error() {
             OnError::Nan => Ok(outcome),

@@ -103,7 +103,7 @@ impl Gradient {
         if level == Level::SecondOrder && !request.is_fixed() {
             return Err(Error::OneFixedOrbit { argument: "level", value: level.to_string() });
         }
-        let momentum = polhode.momentum.to_f64();
+        let momentum = polhode.invariants.momentum.to_f64();
         let duration = scaled(request.duration, exponent);
         let share = if level == Level::SecondOrder { SECOND_SHARE } else { SHARE };
         let courses: Vec<Course> = orbits.iter().map(|orbit| Course::new(orbit, request.epoch)).collect();
@@ -170,7 +170,7 @@ impl Gradient {
             })
             .collect();
         // Rates are proportional to M. M rounded to a double would cause an error of 1e-16 of the phases.
-        let precise = (polhode.momentum - change.momentum.into()) / mean.momentum.into();
+        let precise = (polhode.invariants.momentum - change.momentum.into()) / mean.momentum.into();
         let rates = inertia.rates.map(|rate| rate * precise);
         // ⟨D⟩ = −½ (dJ/dt) Δ. Its derivatives with respect to L, and to M at fixed L, give the slopes.
         let slope = -0.5 * 1.5 * axial_slope / mean.momentum;

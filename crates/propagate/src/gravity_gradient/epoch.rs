@@ -32,8 +32,8 @@ impl Gradient {
         slow: impl Fn(UnitQuaternion<f64>) -> Slow,
     ) {
         let none = Lanes::splat(pulp::Scalar, 0.0);
-        let momentum = polhode.momentum.to_f64();
-        let direction = Vector3::from(polhode.direction);
+        let momentum = polhode.invariants.momentum.to_f64();
+        let direction = Vector3::from(polhode.invariants.direction);
         let step = STEP * polhode.separatrix_action().sqrt();
         for _ in 0..MOST_STEPS {
             let state = self.state((none, none));

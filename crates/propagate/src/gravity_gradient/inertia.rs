@@ -148,7 +148,7 @@ impl Inertia {
 /// σ and the two rates. For J = 0 they are limits.
 fn rates(polhode: &Polhode) -> (f64, [DoubleDouble; 2]) {
     let secular = Secular::exact(polhode);
-    (secular.kappa_sigma / polhode.kappa(), [secular.anomaly_rate, secular.longitude_rate])
+    (secular.kappa_sigma / polhode.invariants.kappa, [secular.anomaly_rate, secular.longitude_rate])
 }
 
 /// sin²J at ℓ = 0 for a given σ, by Newton's method. σ is nearly linear and convex in sin²J.
@@ -176,7 +176,7 @@ fn square_of(polhode: &Polhode, sigma: f64) -> f64 {
 fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
     let tilted = polhode.tilted(square, momentum);
     let (sigma, rates) = rates(&tilted);
-    let theta = tilted.theta();
+    let theta = tilted.invariants.theta;
     let closed = ClosedForm::new(&tilted, &theta);
     let [few, many] = SAMPLES;
     let samples = if (-PI * theta.conjugate / theta.quarter).exp() < SMALL_NOME { few } else { many };

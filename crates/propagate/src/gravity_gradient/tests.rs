@@ -53,7 +53,10 @@ impl Case {
         };
         let (_, osculating) = crate::gravity_gradient::osculating::osculating(&polhode).expect("no separatrix");
         let gradient = Gradient::new(&polhode, state.attitude, osculating, &request).expect("averaged");
-        [polhode.user_momentum(), gradient.inertia.momentum * polhode.user_momentum() / polhode.momentum.to_f64()]
+        [
+            polhode.user_momentum(),
+            gradient.inertia.momentum * polhode.user_momentum() / polhode.invariants.momentum.to_f64(),
+        ]
     }
 
     /// The range of M over the range of the mean M.
@@ -109,7 +112,7 @@ impl Stand {
         let mean = Mean {
             p: C64::from_polar(sigma.sqrt(), anomaly),
             longitude,
-            momentum: polhode.momentum.to_f64(),
+            momentum: polhode.invariants.momentum.to_f64(),
             frame: polhode.invariable_frame(state.attitude),
         };
         Self { polhode, orbit, mean, place: Place::of(Lanes::splat(pulp::Scalar, 0.8), orbit.eccentricity()) }

@@ -2,6 +2,9 @@
 
 use andoyer_double::DoubleDouble;
 
+/// 1/2π: a radian in turns, to 107 bits.
+const RADIAN: DoubleDouble = DoubleDouble { high: 0.15915494309189535, low: -9.839338337591243e-18 };
+
 /// An angle in turns that grows linearly with time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Phase {
@@ -14,10 +17,14 @@ pub(crate) struct Phase {
 impl Phase {
     /// The phase with this rate [rad per unit of time] and this angle at the epoch \[rad\].
     pub(crate) fn new(rate: DoubleDouble, start: impl Into<DoubleDouble>) -> Self {
-        let turn = DoubleDouble::PI * DoubleDouble::from(2.0);
-        let start = start.into() / turn;
+        Self { frequency: rate * RADIAN, start: DoubleDouble::ONE }.starting_at(start)
+    }
+
+    /// The same frequency with this angle at the epoch \[rad\].
+    pub(crate) fn starting_at(&self, start: impl Into<DoubleDouble>) -> Self {
+        let start = start.into() * RADIAN;
         let whole = 1.0 - start.high.round();
-        Self { frequency: rate / turn, start: start + DoubleDouble::from(whole) }
+        Self { start: start + DoubleDouble::from(whole), ..*self }
     }
 
     /// The same frequency with a phase of 0 at the epoch.

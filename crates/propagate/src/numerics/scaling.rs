@@ -14,7 +14,15 @@ pub(crate) fn exponent(value: f64) -> i32 {
 /// value·2^power. Two factors are used so that neither overflows.
 pub(crate) fn scaled(value: f64, power: i32) -> f64 {
     let half = power / 2;
-    value * 2.0_f64.powi(half) * 2.0_f64.powi(power - half)
+    value * power_of_two(half) * power_of_two(power - half)
+}
+
+/// 2^power, from its bits if it is a normal double.
+fn power_of_two(power: i32) -> f64 {
+    match u64::try_from(power + 1023) {
+        Ok(biased @ 1..=2046) => f64::from_bits(biased << 52),
+        _ => 2.0_f64.powi(power),
+    }
 }
 
 /// A rate in the user's unit.

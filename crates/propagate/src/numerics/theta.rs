@@ -1,4 +1,4 @@
-//! Elliptic integrals for the closed form, in `f64`: the periods and arguments of the theta functions of one polhode.
+//! The periods and arguments of the theta functions of one polhode. [`crate::torque_free::invariants`] computes them in lanes.
 //!
 //! With m = k² = 1 − Q1/Q2 and 1 − m = k′² = Q1/Q2 from the polhode module, both computed without cancellation,
 //!
@@ -15,7 +15,7 @@ use andoyer_double::{DoubleDouble, arithmetic_geometric_mean, carlson_rf};
 
 /// K of a polhode with 0 < Q1, and the argument u of a state, counted from the maximum of cos J, 0 ≤ u ≤ K. Both are accurate to 1e-20 of K.
 ///
-/// Both are defined as in [`Theta::argument`]. Near the middle axis u is forty radians. Rounded to a double, it would change the time of the passage by 1e-14.
+/// u = √Q2 ∫ dℓ/√Q for ℓ in the first quadrant. Near the middle axis u is forty radians. Rounded to a double, it would change the time of the passage by 1e-14.
 pub(crate) fn precise_argument(
     cosine_squares: [DoubleDouble; 2],
     [cosine, sine]: [f64; 2],
@@ -59,49 +59,16 @@ pub(crate) struct Theta {
 }
 
 impl Theta {
-    /// The quantities from a and b, a − b, Q1 and Q2, Q2 − Q1, and 1 − Q1 and 1 − Q2.
-    pub(crate) fn new(
-        [first, second]: [DoubleDouble; 2],
-        difference: DoubleDouble,
-        cosine_squares: [DoubleDouble; 2],
-        spread: DoubleDouble,
-        sine_squares: [DoubleDouble; 2],
-    ) -> Self {
-        let roots = cosine_squares.map(|q| q.to_f64().max(0.0).sqrt());
-        let sines = sine_squares.map(|s| s.to_f64().sqrt());
-        let modulus = if difference == DoubleDouble::ZERO { 0.0 } else { (spread / cosine_squares[1]).to_f64() };
-        let conjugate = FRAC_PI_2 / arithmetic_geometric_mean(1.0, modulus.sqrt().min(1.0));
-        let sine = (second / first).to_f64();
-        let cosine = (difference / first).to_f64();
-        let eta =
-            if cosine == 0.0 { conjugate } else { sine.sqrt() * carlson_rf(cosine, cosine + modulus * sine, 1.0) };
-        // An axisymmetric body may rotate about an axis perpendicular to its symmetry axis: Q1 = Q2 = 0.
-        let round = difference == DoubleDouble::ZERO;
-        let ratio = if round { 1.0 } else { (roots[0] / roots[1]).min(1.0) };
+    /// The quantities for A = B, where the polhode is a circle, from the two cosines and half tangents.
+    pub(crate) fn round(cosines: [f64; 2], half_tangents: [f64; 2]) -> Self {
         Self {
-            cosines: roots,
-            half_tangents: [sines[0] / (1.0 + roots[0]), sines[1] / (1.0 + roots[1])],
-            quarter: FRAC_PI_2 / arithmetic_geometric_mean(1.0, ratio),
-            conjugate,
-            eta,
-            complement: if round { 1.0 } else { (cosine_squares[0] / cosine_squares[1]).to_f64() },
-            parameter: modulus,
-        }
-    }
-
-    /// The argument u of a state on the polhode, counted from the nearer extremum of cos J. Returns whether that extremum is the maximum, and the distance from
-    /// it.
-    ///
-    /// u = √Q2 ∫ dℓ/√Q for ℓ in the first quadrant. The integral starts at ℓ = 0, or at ℓ = π/2 and runs backwards.
-    pub(crate) fn argument(&self, [cosine, sine]: [f64; 2]) -> (bool, f64) {
-        let [least, greatest] = self.cosines;
-        let (x, y) = (least * cosine, greatest * sine);
-        let q = x * x + y * y;
-        // Both expressions are undefined only for Q1 = 0 at ℓ = 0.
-        if y > x {
-            (true, greatest * cosine * carlson_rf(y * y, q, greatest * greatest))
-        } else {
-            (false, greatest * sine * carlson_rf(x * x, q, least * least))
+            cosines,
+            half_tangents,
+            quarter: FRAC_PI_2,
+            conjugate: f64::INFINITY,
+            eta: f64::INFINITY,
+            complement: 1.0,
+            parameter: 0.0,
         }
     }
 }

@@ -203,7 +203,7 @@ impl Family {
 
     /// The ratio on the axis, where dℓ′/dt = γ M/C and dy′/dt = M/C.
     fn lowest(&self) -> f64 {
-        let gamma = self.axial.gamma();
+        let gamma = self.axial.invariants.gamma;
         let own = if self.own { DoubleDouble::ONE + gamma } else { DoubleDouble::ONE };
         (own / gamma).to_f64().abs()
     }
@@ -235,8 +235,8 @@ impl Family {
         let polhode = self.with_ratio(periods.rotation / periods.precession)?;
         let [precession, _] = self.rates(&polhode);
         let momentum = TAU / (precession.to_f64() * periods.precession);
-        let [_, sine] = polhode.sine_squares().map(|square| square.to_f64().sqrt());
-        let [_, cosine] = polhode.cosine_squares().map(|square| square.to_f64().sqrt());
+        let [_, sine] = polhode.invariants.sine_squares.map(|square| square.to_f64().sqrt());
+        let [_, cosine] = polhode.invariants.cosine_squares.map(|square| square.to_f64().sqrt());
         let direction = [-sine, 0.0, cosine];
         let rates = self.axial.frame.user(std::array::from_fn(|i| momentum * direction[i] / polhode.moments[i]));
         let pole = periods.momentum_direction.normalize();

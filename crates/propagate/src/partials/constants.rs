@@ -2,6 +2,7 @@
 
 use crate::numerics::scaling::scaled;
 use crate::numerics::theta::Theta;
+use crate::torque_free::invariants::Invariants;
 use crate::torque_free::polhode::Polhode;
 
 use super::integral::Integral;
@@ -50,11 +51,11 @@ pub(super) struct Setting {
 
 impl Setting {
     pub(super) fn new(polhode: &Polhode, moments: [f64; 3]) -> Self {
-        let Polhode { frame, direction, scales: (moment, rate), .. } = polhode;
-        let rates = polhode.moments.map(|value| (polhode.momentum / value.into()).to_f64());
-        let mean = polhode.mean_rate();
-        let [first, second] = polhode.excesses;
-        let slopes = [-second, first, -polhode.difference].map(|excess| (mean * excess).to_f64());
+        let Polhode { frame, scales: (moment, rate), .. } = polhode;
+        let Invariants { direction, rates, .. } = polhode.invariants;
+        let mean = polhode.invariants.mean_rate;
+        let [first, second] = polhode.invariants.excesses;
+        let slopes = [-second, first, -polhode.invariants.difference].map(|excess| (mean * excess).to_f64());
         let (mut user_slopes, mut user_rates, mut sorted) = ([0.0; 3], [0.0; 3], [0; 3]);
         for (index, &axis) in frame.axes.iter().enumerate() {
             user_slopes[axis] = frame.signs[0] * slopes[index];
@@ -89,16 +90,7 @@ impl Setting {
                 }
             }
         });
-        Self {
-            axes: frame.axes,
-            direction: *direction,
-            rates,
-            slopes,
-            user_slopes,
-            user_rates,
-            unit: scaled(1.0, *rate),
-            changes,
-        }
+        Self { axes: frame.axes, direction, rates, slopes, user_slopes, user_rates, unit: scaled(1.0, *rate), changes }
     }
 }
 

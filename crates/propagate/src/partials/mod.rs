@@ -135,9 +135,7 @@ impl Motion {
             Trajectory::Gradient(_) | Trajectory::Integrated(_) => {
                 differences::fill(self, &disturbed(), attitudes, rates)
             }
-            Trajectory::Wobble(_) | Trajectory::Passage(_) => {
-                target.wobbling(&self.scene, &polhode, mode, (attitudes, rates))
-            }
+            Trajectory::Wobble(_) | Trajectory::Passage(_) => target.wobbling(self, &polhode, (attitudes, rates)),
         }
     }
 }

@@ -97,7 +97,7 @@ fn growth(polhode: &Polhode, setting: &Setting, mode: Mode) -> Growth {
     } else if square > 0.0 {
         Growth::Exponential(square.sqrt())
     } else {
-        let rate = polhode.mean_rate() * polhode.gamma();
+        let rate = polhode.invariants.mean_rate * polhode.invariants.gamma;
         let half = user_rate(rate * DoubleDouble::from(0.5), polhode.scales.1);
         Growth::Oscillation(Phase::new(half, 0.0), rate.to_f64())
     }

@@ -2,7 +2,7 @@
 //!
 //! Sums and errors of products are exact, quotients and roots take the same steps as those of one double-double, and nothing is fused that is not fused there.
 
-use std::ops::{Add, Div, Mul, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use andoyer_double::DoubleDouble;
 
@@ -34,6 +34,47 @@ impl<S: InstructionSet> DoubleDoubleLanes<S> {
         DoubleDouble { high: self.high.values()[lane], low: self.low.values()[lane] }
     }
 
+    /// Doubles.
+    #[inline(always)]
+    pub(crate) fn from_lanes(high: Lanes<S>) -> Self {
+        Self { high, low: high.all(0.0) }
+    }
+
+    /// a + b without a rounding error.
+    #[inline(always)]
+    pub(crate) fn sum(a: Lanes<S>, b: Lanes<S>) -> Self {
+        let (high, low) = two_sum(a, b);
+        Self { high, low }
+    }
+
+    /// a·b without a rounding error.
+    #[inline(always)]
+    pub(crate) fn product(a: Lanes<S>, b: Lanes<S>) -> Self {
+        let high = a * b;
+        Self { high, low: a.product_error(b, high) }
+    }
+
+    /// self/divisor for a divisor in doubles.
+    #[inline(always)]
+    pub(crate) fn over(self, divisor: Lanes<S>) -> Self {
+        let first = self.high / divisor;
+        let product = first * divisor;
+        let error = first.product_error(divisor, product);
+        renormalized(first, ((self.high - product) - error + self.low) / divisor)
+    }
+
+    /// The nearest doubles.
+    #[inline(always)]
+    pub(crate) fn nearest(self) -> Lanes<S> {
+        self.high + self.low
+    }
+
+    /// In each lane `near` if `place` is at most 0, otherwise `far`.
+    #[inline(always)]
+    pub(crate) fn up_to_zero(place: Lanes<S>, near: Self, far: Self) -> Self {
+        Self { high: place.up_to(0.0, near.high, far.high), low: place.up_to(0.0, near.low, far.low) }
+    }
+
     /// √self for self > 0.
     #[inline(always)]
     pub(crate) fn root(self) -> Self {
@@ -43,8 +84,17 @@ impl<S: InstructionSet> DoubleDoubleLanes<S> {
         renormalized(root, residual.high / (root + root))
     }
 
+    /// √self, and 0 for self ≤ 0.
     #[inline(always)]
-    fn times(self, factor: Lanes<S>) -> Self {
+    pub(crate) fn root_or_zero(self) -> Self {
+        let root = self.root();
+        let zero = self.high.all(0.0);
+        Self { high: self.high.up_to(0.0, zero, root.high), low: self.high.up_to(0.0, zero, root.low) }
+    }
+
+    /// self·factor for a factor in doubles.
+    #[inline(always)]
+    pub(crate) fn times(self, factor: Lanes<S>) -> Self {
         let product = self.high * factor;
         renormalized(product, self.high.product_error(factor, product) + self.low * factor)
     }
@@ -88,7 +138,7 @@ impl<S: InstructionSet> Sub for DoubleDoubleLanes<S> {
 
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        self + Self { high: -other.high, low: -other.low }
+        self + -other
     }
 }
 
@@ -108,11 +158,21 @@ impl<S: InstructionSet> Div for DoubleDoubleLanes<S> {
 
     #[inline(always)]
     fn div(self, other: Self) -> Self {
-        let first = self.high / other.high;
+        let reciprocal = other.high.reciprocal();
+        let first = self.high * reciprocal;
         let rest = self - other.times(first);
-        let second = rest.high / other.high;
+        let second = rest.high * reciprocal;
         let rest = rest - other.times(second);
-        renormalized(first, second).plus(rest.high / other.high)
+        renormalized(first, second).plus(rest.high * reciprocal)
+    }
+}
+
+impl<S: InstructionSet> Neg for DoubleDoubleLanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { high: -self.high, low: -self.low }
     }
 }
 
@@ -124,13 +184,13 @@ mod tests {
     use crate::simd::instruction_set::{Task, dispatch};
     use crate::simd::lanes::WIDEST;
 
-    /// Sum, difference, product, quotient and root in lanes.
+    /// Sum, difference, product, quotient, root and quotient by a double in lanes.
     struct Operations {
         numbers: [[DoubleDouble; WIDEST]; 2],
     }
 
     impl Task for Operations {
-        type Output = Vec<[DoubleDouble; 5]>;
+        type Output = Vec<[DoubleDouble; 6]>;
 
         #[inline(always)]
         fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
@@ -143,7 +203,7 @@ mod tests {
             let mut found = Vec::new();
             for start in (0..WIDEST).step_by(width) {
                 let [a, b] = [0, 1].map(|which| load(&self.numbers[which][start..start + width]));
-                let results = [a + b, a - b, a * b, a / b, a.root()];
+                let results = [a + b, a - b, a * b, a / b, a.root(), a.over(b.high)];
                 found.extend((0..width).map(|lane| results.map(|result| result.lane(lane))));
             }
             found
@@ -161,8 +221,9 @@ mod tests {
         for _ in 0..200 {
             let mut number = || DoubleDouble::from(next()) * DoubleDouble::sum(next(), 1e-17 * next());
             let numbers = [0, 1].map(|_| std::array::from_fn(|_| number()));
-            let expected: Vec<_> =
-                std::iter::zip(numbers[0], numbers[1]).map(|(a, b)| [a + b, a - b, a * b, a / b, a.sqrt()]).collect();
+            let expected: Vec<_> = std::iter::zip(numbers[0], numbers[1])
+                .map(|(a, b)| [a + b, a - b, a * b, a / b, a.sqrt(), a.over(b.high)])
+                .collect();
             assert_eq!(dispatch(Arch::new(), Operations { numbers }), expected);
         }
     }

@@ -34,6 +34,9 @@ pub(crate) trait Task {
     fn run<S: InstructionSet>(self, simd: S) -> Self::Output;
 }
 
+/// Lanes that the second widest vectors have too.
+pub(crate) const FEW: usize = 8;
+
 struct On<S, T>(S, T);
 
 impl<S: InstructionSet, T: Task> NullaryFnOnce for On<S, T> {
@@ -55,6 +58,15 @@ pub(crate) fn dispatch<T: Task>(arch: Arch, task: T) -> T::Output {
         #[cfg(target_arch = "aarch64")]
         Arch::Neon(simd) => simd.vectorize(On(simd, task)),
         _ => task.run(pulp::Scalar),
+    }
+}
+
+/// Runs a task that has no more than [`FEW`] lanes to fill. Wide vectors divide and take roots at half the speed, and the bits are the same.
+pub(crate) fn dispatch_few<T: Task>(arch: Arch, task: T) -> T::Output {
+    match arch {
+        #[cfg(target_arch = "x86_64")]
+        Arch::V4(simd) => dispatch(Arch::V3(*simd), task),
+        _ => dispatch(arch, task),
     }
 }
 

@@ -4,6 +4,7 @@
 //! (a sample takes 3.9 ns instead of 4.6 with AVX-512, 7.3 instead of 8.7 with AVX2, 36 instead of 44 portably). No closure and no `array::map` is used around vectors: a function
 //! that is not inlined is compiled without the instructions of the set and is fifty times slower.
 
+use std::hint::black_box;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use pulp::bytemuck;
@@ -18,6 +19,9 @@ pub(crate) const WIDEST: usize = 8 * STRANDS;
 
 /// 1.5·2^52. Adding and subtracting it rounds a smaller number to the nearest integer; after the addition the lowest bits are those of that integer.
 pub(crate) const INTEGERS: f64 = 6_755_399_441_055_744.0;
+
+/// The bits of a double without its sign. The functions of pulp for magnitude and sign are not always inlined.
+const MAGNITUDE: f64 = f64::from_bits(!(1 << 63));
 
 /// Vectors of doubles. `mul_add` rounds once if the instruction set has a fused multiply-add, otherwise twice. All other operations give the same bits on every
 /// machine.
@@ -76,7 +80,7 @@ impl<S: InstructionSet> Neg for Lanes<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        strands!(self, i => self.simd.neg_f64s(self.strands[i]))
+        strands!(self, i => self.simd.xor_f64s(self.strands[i], self.simd.splat_f64s(-0.0)))
     }
 }
 
@@ -136,7 +140,7 @@ impl<S: InstructionSet> Lanes<S> {
     #[inline(always)]
     pub(crate) fn largest(self, other: Self) -> Self {
         strands!(self, i => {
-            let magnitude = self.simd.abs_f64s(other.strands[i]);
+            let magnitude = self.simd.and_f64s(other.strands[i], self.simd.splat_f64s(MAGNITUDE));
             let smaller = self.simd.less_than_or_equal_f64s(magnitude, self.strands[i]);
             self.simd.select_f64s(smaller, self.strands[i], magnitude)
         })
@@ -163,7 +167,7 @@ impl<S: InstructionSet> Lanes<S> {
     /// |self|.
     #[inline(always)]
     pub(crate) fn magnitude(self) -> Self {
-        strands!(self, i => self.simd.abs_f64s(self.strands[i]))
+        strands!(self, i => self.simd.and_f64s(self.strands[i], self.simd.splat_f64s(MAGNITUDE)))
     }
 
     /// The nearest integer; |self| must be below 2^51.
@@ -254,6 +258,27 @@ impl<S: InstructionSet> Lanes<S> {
         for (i, rows) in rows.chunks_exact_mut(S::F64_LANES).enumerate().take(STRANDS) {
             let vectors = x.simd.fours([x.strands[i], y.strands[i], z.strands[i], w.strands[i]]);
             S::as_mut_simd_f64s(rows.as_flattened_mut()).0.copy_from_slice(&vectors);
+        }
+    }
+
+    /// Four columns to the places from `FIRST` on of rows of N numbers, one row for each lane.
+    #[inline(always)]
+    pub(crate) fn store_fours_at<const N: usize, const FIRST: usize>(
+        [x, y, z, w]: [Self; 4],
+        rows: &mut [[f64; N]; WIDEST],
+    ) {
+        let mut i = 0;
+        while i < STRANDS {
+            // The compiler must not see through the permutations: it would make pairs of doubles of them.
+            let vectors = black_box(x.simd.fours([x.strands[i], y.strands[i], z.strands[i], w.strands[i]]));
+            let fours: &[[f64; 4]] = bytemuck::cast_slice(&vectors);
+            let mut lane = 0;
+            while lane < S::F64_LANES {
+                let row = &mut rows[i * S::F64_LANES + lane];
+                [row[FIRST], row[FIRST + 1], row[FIRST + 2], row[FIRST + 3]] = fours[lane];
+                lane += 1;
+            }
+            i += 1;
         }
     }
 

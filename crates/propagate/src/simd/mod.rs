@@ -1,11 +1,12 @@
 //! Evaluation at several times at once with the best instruction set available. The folder has lanes, instruction sets, sines and cosines, complex numbers and
-//! quaternions in lanes, phases and Kepler's equation in lanes, the table of a uniform grid, and the loop over times for any type of motion.
+//! quaternions in lanes, double-doubles, the arithmetic-geometric mean and Carlson's R_F in lanes, phases and Kepler's equation in lanes, the table of a uniform grid, and the loop over times for any type of motion.
 //!
 //! Imports errors and numerics.
 
 pub(crate) mod circles;
 pub(crate) mod complex_quaternion;
 pub(crate) mod double_double_lanes;
+pub(crate) mod elliptic;
 pub(crate) mod grid;
 pub(crate) mod halt;
 pub(crate) mod instruction_set;

@@ -49,14 +49,20 @@ impl ClosedForm {
         // e^(−2χ), and e^(2χ) q ≤ 1. Both are 0 for a circular polhode, where χ = ∞.
         let small = (-2.0 * chi).exp();
         let large = if q == 0.0 { 0.0 } else { (2.0 * chi + logarithm).exp().min(1.0) };
-        let tanh = chi.tanh();
-        let mut terms = vec![([1.0, 0.0], [1.0, tanh])];
-        for n in 1..MOST_TERMS {
-            let n = n as i32;
-            let (square, up, down) = (2 * n * n, large.powi(n), small.powi(n));
-            let (rising, falling) = (up * q.powi(square - n), down * q.powi(square));
+        let mut terms = Vec::with_capacity(MOST_TERMS);
+        terms.push(([1.0, 0.0], [1.0, (1.0 - small) / (1.0 + small)]));
+        // q^(2n²−n), q^(2n²), q^(2n²+n) and q^(2n²+2n) grow by q^(4n) times q, q², q³ and q⁴; then e^(±2nχ).
+        let (mut powers, mut growth) = ([1.0; 4], 1.0);
+        let (mut up, mut down) = (1.0, 1.0);
+        for _ in 1..MOST_TERMS {
+            for power in &mut powers {
+                growth *= q;
+                *power *= growth;
+            }
+            (up, down) = (up * large, down * small);
+            let (rising, falling) = (up * powers[0], down * powers[1]);
             let even = [rising + falling, rising - falling];
-            let (rising, falling) = (up * q.powi(square + n), down * small * q.powi(square + 2 * n));
+            let (rising, falling) = (up * powers[2], down * small * powers[3]);
             let odd = [(rising + falling) / (1.0 + small), (rising - falling) / (1.0 + small)];
             if even[0].max(odd[0]) < NEGLIGIBLE {
                 break;
@@ -80,7 +86,7 @@ pub(crate) fn anomaly(polhode: &Polhode, theta: &Theta) -> f64 {
     let (position, [cosine_sign, sine_sign]) = polhode.quadrant();
     let (from_the_top, distance) = match theta.complement {
         1.0 => (false, theta.quarter * position[1].atan2(position[0]) / FRAC_PI_2), // a circle
-        _ => theta.argument(position),
+        _ => polhode.invariants.argument,
     };
     let distance = FRAC_PI_2 * distance / theta.quarter;
     let angle = if from_the_top { FRAC_PI_2 - distance } else { distance };

@@ -32,12 +32,12 @@ pub(crate) fn rounding(series: &CayleyKleinSeries) -> f64 {
 /// half the relative error of Q1.
 pub(crate) fn conditioning(scene: &Scene, polhode: &Polhode, rates: &Secular) -> f64 {
     // For an axisymmetric body Q is constant, and Q1 is not computed as a difference.
-    if polhode.difference == DoubleDouble::ZERO {
+    if polhode.invariants.difference == DoubleDouble::ZERO {
         return 0.0;
     }
     let half_turns =
-        (rates.anomaly_rate / rates.longitude_rate).to_f64().abs() * rotations(scene, rates, polhode) * 2.0;
-    COSINE_ROUNDING * polhode.cancellation() * half_turns
+        (rates.anomaly_rate.to_f64() / rates.longitude_rate.to_f64()).abs() * rotations(scene, rates, polhode) * 2.0;
+    COSINE_ROUNDING * polhode.invariants.cancellation * half_turns
 }
 
 fn rotations(scene: &Scene, rates: &Secular, polhode: &Polhode) -> f64 {
@@ -53,10 +53,10 @@ pub(crate) fn departure(scene: &Scene, polhode: &Polhode) -> f64 {
     if rates.iter().filter(|rate| **rate != 0.0).count() == 1 {
         return 0.0;
     }
-    let [_, second] = polhode.excesses;
-    let rate = (polhode.mean_rate() * (second * polhode.difference).sqrt()).to_f64();
-    let stretch = (polhode.difference / second).to_f64().sqrt();
-    let [g1, _, g3] = polhode.direction.map(f64::abs);
+    let [_, second] = polhode.invariants.excesses;
+    let rate = (polhode.invariants.mean_rate * (second * polhode.invariants.difference).sqrt()).to_f64();
+    let stretch = (polhode.invariants.difference / second).to_f64().sqrt();
+    let [g1, _, g3] = polhode.invariants.direction.map(f64::abs);
     // Scaling may underflow the smallest rates to 0.
     let tilt = (g1 * (1.0 + stretch) + g3 * (1.0 + 1.0 / stretch)).max(f64::MIN_POSITIVE);
     2.0 * (tilt.ln() + rate * duration(scene, polhode.middle_rate(), polhode.scales.1)).exp()

@@ -10,10 +10,11 @@
 //! Here ⟨⟩_ℓ is the mean over ℓ, and ⟨⟩_t the mean with the weight 1/√Q (dt is proportional to dℓ/√Q). The last equation follows from dy/dt = ∂H/∂M = (M/C)[1 +
 //! α(1−cosJ)(1−β cos 2ν)] at fixed (x, X). Every term is positive, and all terms are in double-double. `truncated` is the series of theory §7 at a fixed order.
 
-use andoyer_double::{DoubleDouble, arithmetic_geometric_mean};
+use andoyer_double::DoubleDouble;
 
+use super::invariants::Invariants;
 use super::polhode::Polhode;
-use super::quadrature::{nodes, trapezoidal};
+use super::quadrature::{Means, nodes, trapezoidal};
 
 /// Step of the logarithmic sum: its error is e^(−π²/step), 1e-33.
 const LOGARITHMIC_STEP: f64 = 0.125;
@@ -32,34 +33,36 @@ pub(crate) struct Secular {
 impl Secular {
     /// The frequencies by quadrature, for 0 < Q1 or A = B.
     pub(crate) fn exact(polhode: &Polhode) -> Self {
-        let mean_rate = polhode.mean_rate();
-        let [q1, q2] = polhode.cosine_squares();
-        let (anomaly_mean, time_mean, agm) = if polhode.difference == DoubleDouble::ZERO {
-            let cosine = q2.sqrt();
-            let mean = DoubleDouble::ONE / (DoubleDouble::ONE + cosine);
-            (mean, mean, cosine)
-        } else {
-            means(q1, q2)
-        };
+        Self::from_means(&polhode.invariants, means(&[polhode.invariants])[0])
+    }
+
+    /// The frequencies of at most as many polhodes as the widest vectors have lanes, each to the bits of [`Secular::exact`].
+    pub(crate) fn several(polhodes: &[&Polhode]) -> Vec<Self> {
+        let all: Vec<Invariants> = polhodes.iter().map(|polhode| polhode.invariants).collect();
+        all.iter().zip(means(&all)).map(|(invariants, means)| Self::from_means(invariants, means)).collect()
+    }
+
+    fn from_means(invariants: &Invariants, [by_anomaly, by_time]: [DoubleDouble; 2]) -> Self {
+        let Invariants { mean_rate, gamma, gamma_energy, kappa_energy, .. } = *invariants;
         Self {
-            kappa_sigma: (polhode.kappa_energy() * anomaly_mean).to_f64(),
-            anomaly_rate: mean_rate * polhode.gamma() * agm,
-            longitude_rate: mean_rate * (DoubleDouble::ONE + polhode.gamma_energy() * time_mean),
+            kappa_sigma: (kappa_energy * by_anomaly).to_f64(),
+            anomaly_rate: mean_rate * gamma * agm(invariants),
+            longitude_rate: mean_rate * (DoubleDouble::ONE + gamma_energy * by_time),
         }
     }
 
     /// The frequencies by the series truncated after P_N, with `polynomials` = P_0 … P_N (theory §7), in double-double. In `f64` the phase would be wrong by
     /// 1e-13 rad after 100 rotations.
     pub(crate) fn truncated(polhode: &Polhode, polynomials: &[DoubleDouble]) -> Self {
-        let s = invert_energy(polynomials, polhode.kappa_energy());
+        let s = invert_energy(polynomials, polhode.invariants.kappa_energy);
         let (mut slope, mut rest) = (DoubleDouble::ZERO, DoubleDouble::ZERO);
         for (n, &p) in polynomials.iter().enumerate().rev() {
             slope = slope * s + p.times_double(n as f64 + 1.0);
             rest = rest * s + p.times_double(1.0 - n as f64);
         }
-        let half = polhode.gamma().times_double(0.5);
-        let kappa = polhode.alpha() / polhode.gamma();
-        let mean_rate = polhode.mean_rate();
+        let half = polhode.invariants.gamma.times_double(0.5);
+        let kappa = polhode.alpha() / polhode.invariants.gamma;
+        let mean_rate = polhode.invariants.mean_rate;
         Self {
             kappa_sigma: s.to_f64(),
             anomaly_rate: mean_rate * half * slope,
@@ -103,23 +106,40 @@ fn value_and_slope(polynomials: &[DoubleDouble], s: f64) -> (f64, f64) {
     terms.fold((0.0, 0.0), |(value, slope), (n, &p)| (value * s + p.high, slope * s + (n as f64 + 1.0) * p.high))
 }
 
-/// ⟨1/(1+√Q)⟩_ℓ, ⟨1/(1+√Q)⟩_t and agm(√Q1, √Q2), for 0 < Q1 ≤ Q2.
-fn means(q1: DoubleDouble, q2: DoubleDouble) -> (DoubleDouble, DoubleDouble, DoubleDouble) {
-    let (root1, root2) = (q1.sqrt(), q2.sqrt());
-    let agm = arithmetic_geometric_mean(root1, root2);
-    let stretch = root1 / root2;
-    let (by_anomaly, by_time) = match nodes(stretch.to_f64()) {
-        Some(count) => trapezoidal([q1, q2], stretch, count),
-        None => logarithmic(q1, q2),
+/// agm(√Q1, √Q2).
+fn agm(invariants: &Invariants) -> DoubleDouble {
+    // For A = B, Q1 is not computed as a difference.
+    if invariants.difference == DoubleDouble::ZERO { invariants.cosine_squares[1].sqrt() } else { invariants.agm }
+}
+
+/// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(1+√Q)⟩_t of several polhodes, for 0 < Q1 ≤ Q2 or A = B.
+fn means(several: &[Invariants]) -> Vec<[DoubleDouble; 2]> {
+    let summed = |invariants: &Invariants| {
+        let Invariants { cosine_squares: squares, stretch, difference, .. } = *invariants;
+        let count = if difference == DoubleDouble::ZERO { None } else { nodes(stretch.to_f64()) };
+        count.map(|count| Means { squares, stretch, count })
     };
-    (by_anomaly, by_time * agm, agm)
+    let asked: Vec<Option<Means>> = several.iter().map(summed).collect();
+    let mut found = trapezoidal(&asked.iter().copied().flatten().collect::<Vec<_>>()).into_iter();
+    let both = |(invariants, asked): (&Invariants, Option<Means>)| {
+        let agm = agm(invariants);
+        if invariants.difference == DoubleDouble::ZERO {
+            return [DoubleDouble::ONE / (DoubleDouble::ONE + agm); 2];
+        }
+        let [by_anomaly, by_time] = match asked.and_then(|_| found.next()) {
+            Some(sums) => sums,
+            None => logarithmic(invariants.cosine_squares),
+        };
+        [by_anomaly, by_time * agm]
+    };
+    several.iter().zip(asked).map(both).collect()
 }
 
 /// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(√Q(1+√Q))⟩_ℓ next to the separatrix, by the trapezoidal rule in t = ln tan ℓ.
 ///
 /// dℓ = dt/(2 cosh t) and Q = (Q1 + Q2 e^2t)/(1 + e^2t). The integrands are analytic in |Im t| < π/2 for any Q1, and fall as e^(−|t|) outside the interval
 /// between 0 and ln √(Q1/Q2). The nodes e^t = e^(first) e^(jh) are products, so only two exponentials are computed.
-fn logarithmic(q1: DoubleDouble, q2: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
+fn logarithmic([q1, q2]: [DoubleDouble; 2]) -> [DoubleDouble; 2] {
     let tail = 76.0;
     let first = 0.5 * (q1.to_f64() / q2.to_f64()).ln() - tail;
     let count = ((tail - first) / LOGARITHMIC_STEP).ceil() as usize;
@@ -137,7 +157,7 @@ fn logarithmic(q1: DoubleDouble, q2: DoubleDouble) -> (DoubleDouble, DoubleDoubl
     }
     // (2/π) ∫ dt h w with w = dℓ/dt = tan ℓ/(1 + tan² ℓ).
     let factor = DoubleDouble::from(2.0 * LOGARITHMIC_STEP) / DoubleDouble::PI;
-    (by_anomaly * factor, by_time * factor)
+    [by_anomaly * factor, by_time * factor]
 }
 
 /// e^(1/8) by its Taylor series.
@@ -150,18 +170,34 @@ fn exponential_of_the_step() -> DoubleDouble {
 
 #[cfg(test)]
 mod tests {
+    use andoyer_double::arithmetic_geometric_mean;
     use andoyer_series::NumericNormalForm;
 
     use super::*;
     use crate::{Body, State};
 
+    /// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(√Q(1+√Q))⟩_ℓ by either sum, and agm(√Q1, √Q2).
+    fn sums([q1, q2]: [f64; 2], by_nodes: bool) -> ([DoubleDouble; 2], DoubleDouble) {
+        let squares = [q1, q2].map(DoubleDouble::from);
+        let [least, greatest] = squares.map(DoubleDouble::sqrt);
+        let stretch = least / greatest;
+        let found = if by_nodes {
+            // 1e-6 takes more nodes than are kept in a table.
+            let count = nodes(stretch.to_f64()).expect("few enough");
+            trapezoidal(&[Means { squares, stretch, count }])[0]
+        } else {
+            logarithmic(squares)
+        };
+        (found, arithmetic_geometric_mean(least, greatest))
+    }
+
     #[test]
     fn the_mean_of_one_over_the_cosine_is_one_over_the_agm_to_thirty_digits() {
         // ⟨1/√Q⟩_ℓ = 1/agm (Gauss). The identity 1/(√Q(1+√Q)) + 1/(1+√Q) = 1/√Q connects the two sums with it.
-        for (q1, q2) in [(0.9, 0.95), (0.3, 0.8), (0.01, 0.7), (1e-4, 0.5)] {
-            let (by_anomaly, by_time, agm) = means(q1.into(), q2.into());
-            let whole = by_time + by_anomaly * agm;
-            assert!((whole - DoubleDouble::ONE).to_f64().abs() < 1e-28, "{q1} {q2}: {whole:?}");
+        for squares in [[0.9, 0.95], [0.3, 0.8], [0.01, 0.7], [1e-4, 0.5]] {
+            let ([by_anomaly, by_time], agm) = sums(squares, true);
+            let whole = (by_time + by_anomaly) * agm;
+            assert!((whole - DoubleDouble::ONE).to_f64().abs() < 1e-28, "{squares:?}: {whole:?}");
         }
     }
 
@@ -182,14 +218,10 @@ mod tests {
 
     #[test]
     fn both_sums_agree_to_twenty_eight_digits_where_both_converge() {
-        for (q1, q2) in [(0.9, 0.95), (0.3, 0.8), (1e-3, 0.7), (1e-6, 0.5)] {
-            let (q1, q2) = (DoubleDouble::from(q1), DoubleDouble::from(q2));
-            let stretch = q1.sqrt() / q2.sqrt();
-            // 1e-6 takes more nodes than are kept in a table.
-            let count = nodes(stretch.to_f64()).expect("few enough");
-            let (a, b) = (trapezoidal([q1, q2], stretch, count), logarithmic(q1, q2));
-            assert!((a.0 - b.0).to_f64().abs() < 1e-28 * a.0.high, "{q1:?}: {:?} {:?}", a.0, b.0);
-            assert!((a.1 - b.1).to_f64().abs() < 1e-28 * a.1.high, "{q1:?}: {:?} {:?}", a.1, b.1);
+        for squares in [[0.9, 0.95], [0.3, 0.8], [1e-3, 0.7], [1e-6, 0.5]] {
+            let ((a, _), (b, _)) = (sums(squares, true), sums(squares, false));
+            assert!((a[0] - b[0]).to_f64().abs() < 1e-28 * a[0].high, "{squares:?}: {:?} {:?}", a[0], b[0]);
+            assert!((a[1] - b[1]).to_f64().abs() < 1e-28 * a[1].high, "{squares:?}: {:?} {:?}", a[1], b[1]);
         }
     }
 
@@ -197,8 +229,8 @@ mod tests {
     fn the_sums_hold_down_to_the_separatrix() {
         // ⟨1/√Q⟩ = 1/agm again, now for Q1 → 0 where only the logarithmic sum converges.
         for q1 in [1e-8, 1e-16, 1e-100, 1e-280] {
-            let (by_anomaly, by_time, agm) = means(q1.into(), 0.5.into());
-            let whole = by_time + by_anomaly * agm;
+            let ([by_anomaly, by_time], agm) = sums([q1, 0.5], false);
+            let whole = (by_time + by_anomaly) * agm;
             assert!((whole - DoubleDouble::ONE).to_f64().abs() < 1e-28, "{q1}: {whole:?}");
         }
     }

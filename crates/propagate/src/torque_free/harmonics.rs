@@ -53,11 +53,15 @@ impl CayleyKleinSeries {
     /// a e^(−iy′/2) and b e^(−iy′/2) at ℓ′, normalized.
     pub(crate) fn pair(&self, angle: f64) -> [Complex<f64>; 2] {
         let (mut a, mut b) = (Complex::new(0.0, 0.0), Complex::new(0.0, 0.0));
-        for (k, (even, odd)) in self.terms.iter().enumerate().rev() {
-            let (sine, cosine) = (2.0 * k as f64 * angle).sin_cos();
-            a += Complex::new(even[0] * cosine, even[1] * sine);
-            let (sine, cosine) = ((2.0 * k as f64 + 1.0) * angle).sin_cos();
-            b += Complex::new(odd[0] * cosine, odd[1] * sine);
+        // e^(iℓ′), and e^(2ikℓ′) by rotation from one harmonic to the next.
+        let single = Complex::cis(angle);
+        let double = single * single;
+        let mut even_turn = Complex::new(1.0, 0.0);
+        for (even, odd) in &self.terms {
+            let odd_turn = even_turn * single;
+            a += Complex::new(even[0] * even_turn.re, even[1] * even_turn.im);
+            b += Complex::new(odd[0] * odd_turn.re, odd[1] * odd_turn.im);
+            even_turn *= double;
         }
         let scale = (a.norm_sqr() + b.norm_sqr()).sqrt().recip();
         [a * scale, b * scale]

@@ -7,6 +7,7 @@ pub(crate) mod closed_form;
 pub(crate) mod error_budget;
 pub(crate) mod frequencies;
 pub(crate) mod harmonics;
+pub(crate) mod invariants;
 pub(crate) mod mode;
 pub(crate) mod polhode;
 pub(crate) mod quadrature;

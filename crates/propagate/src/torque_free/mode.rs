@@ -60,20 +60,21 @@ impl FromStr for Mode {
 impl Mode {
     /// The mode of a rotating body.
     pub(crate) fn of(polhode: &Polhode) -> Self {
-        let [g1, g2, g3] = polhode.direction.map(|g| g.abs() < SMALLEST_TILT);
-        let [first, second] = polhode.excesses;
+        let [g1, g2, g3] = polhode.invariants.direction.map(|g| g.abs() < SMALLEST_TILT);
+        let [first, second] = polhode.invariants.excesses;
         if first == DoubleDouble::ZERO {
             return Self::Spherical;
         }
         // If B = C, every axis perpendicular to axis 1 has the greatest inertia. If A = B, every axis perpendicular to axis 3 has the least inertia. Rotation
         // exactly about the axis of B is steady too.
-        if g1 && (g2 || g3 || second == DoubleDouble::ZERO) || g3 && polhode.difference == DoubleDouble::ZERO {
+        if g1 && (g2 || g3 || second == DoubleDouble::ZERO) || g3 && polhode.invariants.difference == DoubleDouble::ZERO
+        {
             return Self::PrincipalAxis;
         }
-        if polhode.difference == DoubleDouble::ZERO {
+        if polhode.invariants.difference == DoubleDouble::ZERO {
             return Self::Axisymmetric;
         }
-        let lost = polhode.cancellation() * COSINE_ROUNDING;
+        let lost = polhode.invariants.cancellation * COSINE_ROUNDING;
         if lost >= 1.0 || lost.is_nan() {
             return Self::Separatrix;
         }

@@ -17,10 +17,10 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use andoyer_double::DoubleDouble;
 
+use super::invariants::{Given, Invariants, Rotation};
 use crate::input::body::Body;
 use crate::input::state::State;
 use crate::numerics::scaling::{exponent, scaled};
-use crate::numerics::theta::Theta;
 
 /// The body axes in the order of the theory. Axis C points along the user's axis, or against it if N < 0. Axis A is reversed if the axes would be left-handed
 /// otherwise.
@@ -82,46 +82,18 @@ pub(crate) struct UserFrame {
 /// sin J below which the wobble is neglected, because its square is not a normal double.
 pub(crate) const SMALLEST_TILT: f64 = 1e-150;
 
-/// A state reduced to the quantities of theory §1, §5 and §7.
-#[derive(Clone, Debug)]
-pub(crate) struct Polhode {
-    pub(crate) frame: Frame,
-    /// Whether the axes are in the opposite order (long-axis mode).
-    pub(crate) long_axis: bool,
-    /// A, B, C divided by a power of two; C, B, A in the long-axis mode.
-    pub(crate) moments: [f64; 3],
-    /// M in scaled units.
-    pub(crate) momentum: DoubleDouble,
-    /// Binary exponents by which the moments and the rates were scaled.
-    pub(crate) scales: (i32, i32),
-    /// g on the sorted axes.
-    pub(crate) direction: [f64; 3],
-    /// G in scaled units.
-    parts: [DoubleDouble; 3],
-    squares: [DoubleDouble; 3],
-    /// a = C/A − 1 and b = C/B − 1.
-    pub(crate) excesses: [DoubleDouble; 2],
-    /// a − b = (C/B)(B/A − 1).
-    pub(crate) difference: DoubleDouble,
+/// The axes of a state, and its body and rates on them in scaled units.
+struct Placed {
+    frame: Frame,
+    long_axis: bool,
+    moments: [f64; 3],
+    rates: [f64; 3],
+    scales: (i32, i32),
 }
 
-impl Polhode {
-    /// The polhode of a valid state, or `None` for a body at rest.
-    ///
-    /// The motion is in the long-axis mode if Q1 < 0. If B = C, it is in the long-axis mode unless the rotation is about an axis perpendicular to axis 1.
-    pub(crate) fn new(body: &Body, state: &State) -> Option<Self> {
-        let short = Self::in_order(body, state, false)?;
-        let [first, second] = short.excesses;
-        let round = first == DoubleDouble::ZERO;
-        let beyond = if second == DoubleDouble::ZERO {
-            !round && short.direction[0].abs() >= SMALLEST_TILT
-        } else {
-            short.cosine_squares()[0].high < 0.0
-        };
-        if beyond { Self::in_order(body, state, true) } else { Some(short) }
-    }
-
-    fn in_order(body: &Body, state: &State, long_axis: bool) -> Option<Self> {
+impl Placed {
+    /// `None` for a body at rest.
+    fn new(body: &Body, state: &State, long_axis: bool) -> Option<Self> {
         let rates: [f64; 3] = state.angular_velocity.into();
         let largest = rates.iter().fold(0.0_f64, |m, w| m.max(w.abs()));
         if largest == 0.0 {
@@ -131,22 +103,72 @@ impl Polhode {
         let frame = Frame::new(body.moments(), rates, long_axis);
         let moments = frame.axes.map(|axis| scaled(body.moments()[axis], -scales.0));
         let rates = frame.sorted(rates).map(|w| scaled(w, -scales.1));
-        let parts: [_; 3] = std::array::from_fn(|i| DoubleDouble::product(moments[i], rates[i]));
-        let total = parts[0] * parts[0] + parts[1] * parts[1] + parts[2] * parts[2];
-        let momentum = total.sqrt();
-        let [a, b, c] = moments;
-        Some(Self {
-            frame,
-            long_axis,
-            moments,
-            momentum,
-            scales,
-            direction: parts.map(|g| (g / momentum).to_f64()),
-            parts,
-            squares: parts.map(|g| g * g / total),
-            excesses: [DoubleDouble::sum(c, -a) / a.into(), DoubleDouble::sum(c, -b) / b.into()],
-            difference: DoubleDouble::from(c) * DoubleDouble::sum(b, -a) / DoubleDouble::product(a, b),
-        })
+        Some(Self { frame, long_axis, moments, rates, scales })
+    }
+
+    fn given(&self) -> Given {
+        Given { moments: self.moments, rotation: Rotation::Rates(self.rates), long_axis: self.long_axis }
+    }
+}
+
+/// Whether a motion, with its axes in the order of the short-axis mode, is in the long-axis mode.
+fn beyond(short: &Invariants) -> bool {
+    let [first, second] = short.excesses;
+    if second == DoubleDouble::ZERO {
+        first != DoubleDouble::ZERO && short.direction[0].abs() >= SMALLEST_TILT
+    } else {
+        short.cosine_squares[0].high < 0.0
+    }
+}
+
+fn with_invariants(placed: Vec<Option<Placed>>, invariants: Vec<Invariants>) -> Vec<Option<Polhode>> {
+    let mut invariants = invariants.into_iter();
+    let mut polhode = |placed: Placed| {
+        let Placed { frame, long_axis, moments, scales, .. } = placed;
+        invariants.next().map(|invariants| Polhode { frame, long_axis, moments, scales, invariants })
+    };
+    placed.into_iter().map(|place| place.and_then(&mut polhode)).collect()
+}
+
+/// A state reduced to the quantities of theory §1, §5 and §7.
+#[derive(Clone, Debug)]
+pub(crate) struct Polhode {
+    pub(crate) frame: Frame,
+    /// Whether the axes are in the opposite order (long-axis mode).
+    pub(crate) long_axis: bool,
+    /// A, B, C divided by a power of two; C, B, A in the long-axis mode.
+    pub(crate) moments: [f64; 3],
+    /// Binary exponents by which the moments and the rates were scaled.
+    pub(crate) scales: (i32, i32),
+    /// The constants that several bodies have computed at once.
+    pub(crate) invariants: Invariants,
+}
+
+impl Polhode {
+    /// The polhode of a valid state, or `None` for a body at rest.
+    ///
+    /// The motion is in the long-axis mode if Q1 < 0. If B = C, it is in the long-axis mode unless the rotation is about an axis perpendicular to axis 1.
+    pub(crate) fn new(body: &Body, state: &State) -> Option<Self> {
+        Self::several(&[(body, state)]).pop().flatten()
+    }
+
+    /// The polhodes of at most as many valid states as the widest vectors have lanes, each to the bits of [`Polhode::new`].
+    pub(crate) fn several(states: &[(&Body, &State)]) -> Vec<Option<Self>> {
+        let mut placed: Vec<Option<Placed>> =
+            states.iter().map(|(body, state)| Placed::new(body, state, false)).collect();
+        let given: Vec<Given> = placed.iter().flatten().map(Placed::given).collect();
+        let short = Invariants::of(&given);
+        if placed.iter().flatten().zip(&short).all(|(_, invariants)| !beyond(invariants)) {
+            return with_invariants(placed, short);
+        }
+        let mut invariants = short.iter();
+        for (place, (body, state)) in placed.iter_mut().zip(states) {
+            if place.is_some() && invariants.next().is_some_and(beyond) {
+                *place = Placed::new(body, state, true);
+            }
+        }
+        let given: Vec<Given> = placed.iter().flatten().map(Placed::given).collect();
+        with_invariants(placed, Invariants::of(&given))
     }
 
     /// The same body rotating with M and sin²J = `square` at ℓ = 0.
@@ -156,54 +178,17 @@ impl Polhode {
 
     /// The same body rotating with M and these sin²J and cos²J at ℓ = 0.
     pub(crate) fn with_squares(&self, squares: [DoubleDouble; 2], momentum: f64) -> Self {
-        let [sine, cosine] = squares.map(|square| square.to_f64().sqrt());
-        let direction = [0.0, sine, cosine];
-        let momentum = DoubleDouble::from(momentum);
         let squares = [DoubleDouble::ZERO, squares[0], squares[1]];
-        let parts = squares.map(|g| g.sqrt() * momentum);
-        Self { direction, squares, parts, momentum, ..self.clone() }
-    }
-
-    /// Q1 and Q2 for B < C.
-    ///
-    /// Q1 = [G3² A (C−B) − G1² C (B−A)]/(A (C−B) M²). The division follows the difference, so Q1 is exactly 0 on the separatrix if double-double holds the two
-    /// terms exactly.
-    pub(crate) fn cosine_squares(&self) -> [DoubleDouble; 2] {
-        let (terms, divisor) = self.separatrix_terms();
-        let [_, second, third] = self.parts.map(|part| part * part);
-        let square = self.momentum * self.momentum;
-        [(terms[0] - terms[1]) / (divisor * square), (third + second * (self.difference / self.excesses[0])) / square]
-    }
-
-    /// The two terms of Q1 and their common denominator, without M².
-    fn separatrix_terms(&self) -> ([DoubleDouble; 2], DoubleDouble) {
-        let [a, b, c] = self.moments;
-        let [first, _, third] = self.parts.map(|part| part * part);
-        let divisor = DoubleDouble::from(a) * DoubleDouble::sum(c, -b);
-        ([third * divisor, first * (DoubleDouble::from(c) * DoubleDouble::sum(b, -a))], divisor)
-    }
-
-    /// The sum of the two terms of Q1 over Q1: the factor by which its relative error grows. It is infinite on the separatrix.
-    pub(crate) fn cancellation(&self) -> f64 {
-        let ([third, first], _) = self.separatrix_terms();
-        ((third + first) / (third - first)).to_f64().abs()
-    }
-
-    /// Q2 − Q1, a sum of two terms with equal signs.
-    pub(crate) fn spread(&self) -> DoubleDouble {
-        self.difference * (self.squares[0] / self.excesses[1] + self.squares[1] / self.excesses[0])
-    }
-
-    /// 1 − Q1 and 1 − Q2: the maximum and the minimum of sin²J.
-    pub(crate) fn sine_squares(&self) -> [DoubleDouble; 2] {
-        let [g1, g2, _] = self.squares;
-        let [a, b] = self.excesses;
-        [g1 * a / b + g2, g1 + g2 * b / a]
+        let rotation = Rotation::Squares(squares, momentum.into());
+        let given = Given { moments: self.moments, rotation, long_axis: self.long_axis };
+        let invariants = Invariants::of(&[given]).pop().unwrap_or(self.invariants);
+        Self { invariants, ..self.clone() }
     }
 
     /// β of theory §1 to 32 digits, for the axes in this order.
     pub(crate) fn precise_beta(&self) -> DoubleDouble {
-        let beta = self.difference / (self.excesses[0] + self.excesses[1]);
+        let [first, second] = self.invariants.excesses;
+        let beta = self.invariants.difference / (first + second);
         if beta.to_f64() >= 1.0 { DoubleDouble::ONE } else { beta }
     }
 
@@ -211,62 +196,37 @@ impl Polhode {
     ///
     /// It is computed from the moments, (1−β)/2β = b/(a−b), so that it keeps its relative accuracy when β is close to 1.
     pub(crate) fn separatrix_action(&self) -> f64 {
-        let [second, difference] = [self.excesses[1], self.difference].map(|x| x.to_f64().abs().sqrt());
+        let Invariants { excesses, difference, .. } = self.invariants;
+        let [second, difference] = [excesses[1], difference].map(|x| x.to_f64().abs().sqrt());
         FRAC_2_PI * second.atan2(difference)
-    }
-
-    /// γE of theory §5.
-    pub(crate) fn gamma_energy(&self) -> DoubleDouble {
-        self.squares[0] * self.excesses[0] + self.squares[1] * self.excesses[1]
-    }
-
-    /// κE of theory §5, for B < C.
-    pub(crate) fn kappa_energy(&self) -> DoubleDouble {
-        self.alpha() * (self.squares[0] / self.excesses[1] + self.squares[1] / self.excesses[0])
     }
 
     /// α of theory §1.
     pub(crate) fn alpha(&self) -> DoubleDouble {
-        (self.excesses[0] + self.excesses[1]) * DoubleDouble::from(0.5)
-    }
-
-    /// γ of theory §1, with the sign of α.
-    pub(crate) fn gamma(&self) -> DoubleDouble {
-        let root = (self.excesses[0] * self.excesses[1]).sqrt();
-        if self.long_axis { -root } else { root }
-    }
-
-    /// κ = α/γ of theory §1, for B < C.
-    pub(crate) fn kappa(&self) -> f64 {
-        (self.alpha() / self.gamma()).to_f64()
-    }
-
-    /// M/C in scaled units of rate.
-    pub(crate) fn mean_rate(&self) -> DoubleDouble {
-        self.momentum / self.moments[2].into()
+        let [first, second] = self.invariants.excesses;
+        (first + second).times_double(0.5)
     }
 
     /// M/B in scaled units of rate.
     pub(crate) fn middle_rate(&self) -> DoubleDouble {
-        self.momentum / self.moments[1].into()
+        self.invariants.momentum.over(self.moments[1])
     }
 
     /// ζ = (X + ix)/√M of theory §8: (g2 − i g1)/cos(J/2), real and imaginary part.
     pub(crate) fn zeta(&self) -> [f64; 2] {
-        let [g1, g2, g3] = self.direction;
+        let [g1, g2, g3] = self.invariants.direction;
         let half_cosine = (0.5 * (1.0 + g3)).sqrt();
         [g2 / half_cosine, -g1 / half_cosine]
     }
 
     /// M in the user's units.
     pub(crate) fn user_momentum(&self) -> f64 {
-        scaled(self.momentum.to_f64(), self.scales.0 + self.scales.1)
+        scaled(self.invariants.momentum.to_f64(), self.scales.0 + self.scales.1)
     }
 
     /// M/A, M/B, M/C in the user's units. The rates are these numbers times g.
     pub(crate) fn user_rates(&self) -> Vector3<f64> {
-        let rates = self.moments.map(|m| scaled((self.momentum / m.into()).to_f64(), self.scales.1));
-        Vector3::from(rates)
+        Vector3::from(self.invariants.rates.map(|rate| scaled(rate, self.scales.1)))
     }
 
     /// The frame of theory §8 at a state: axis 3 along the angular momentum, y = 0.
@@ -279,23 +239,12 @@ impl Polhode {
 
     /// The angular momentum at an attitude, inertial components, in the user's units.
     pub(crate) fn angular_momentum(&self, attitude: UnitQuaternion<f64>) -> Vector3<f64> {
-        attitude * Vector3::from(self.frame.user(self.direction)) * self.user_momentum()
-    }
-
-    /// The theta quantities of theory §10.
-    pub(crate) fn theta(&self) -> Theta {
-        Theta::new(self.excesses, self.difference, self.cosine_squares(), self.spread(), self.sine_squares())
+        attitude * Vector3::from(self.frame.user(self.invariants.direction)) * self.user_momentum()
     }
 
     /// (cos ℓ, sin ℓ) of the state, moved to the first quadrant, and the two signs that were removed (theory §1: G2 ~ cos ℓ, −G1 ~ sin ℓ).
     pub(crate) fn quadrant(&self) -> ([f64; 2], [f64; 2]) {
-        let [g1, g2, _] = self.direction;
-        let [first, second]: [DoubleDouble; 2] = self.excesses;
-        let (cosine, sine) = (g2, -g1 * (first / second).to_f64().sqrt());
-        // The components are scaled first, because the squares of a small wobble would underflow.
-        let largest = cosine.abs().max(sine.abs());
-        let (x, y) = (cosine.abs() / largest, sine.abs() / largest);
-        let length = x.hypot(y);
-        ([x / length, y / length], [1.0_f64.copysign(cosine), 1.0_f64.copysign(sine)])
+        let Invariants { direction: [g1, g2, _], quadrant, .. } = self.invariants;
+        (quadrant, [1.0_f64.copysign(g2), 1.0_f64.copysign(-g1)])
     }
 }

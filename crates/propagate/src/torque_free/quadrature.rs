@@ -48,60 +48,109 @@ pub(super) fn nodes(stretch: f64) -> Option<usize> {
     (nodes <= MOST_NODES as f64).then(|| (nodes as usize).next_multiple_of(WIDEST))
 }
 
-/// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(√Q(1+√Q))⟩_ℓ for 0 < Q1 ≤ Q2 and `stretch` = √(Q1/Q2); `count`, a multiple of the widest vectors, is half the number of nodes, and symmetry leaves that
-/// many to compute.
-pub(super) fn trapezoidal(
-    [q1, q2]: [DoubleDouble; 2],
-    stretch: DoubleDouble,
-    count: usize,
-) -> (DoubleDouble, DoubleDouble) {
+/// The means that are asked for: Q1, Q2 and √(Q1/Q2), 0 < Q1 ≤ Q2, and half the number of nodes, of which symmetry leaves as many to compute.
+#[derive(Clone, Copy)]
+pub(super) struct Means {
+    pub(super) squares: [DoubleDouble; 2],
+    pub(super) stretch: DoubleDouble,
+    /// A multiple of the widest vectors, from [`nodes`].
+    pub(super) count: usize,
+}
+
+/// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(√Q(1+√Q))⟩_ℓ of at most as many as the widest vectors have lanes.
+pub(super) fn trapezoidal(asked: &[Means]) -> [[DoubleDouble; 2]; WIDEST] {
     static TABLES: [OnceLock<Nodes>; KEPT] = [const { OnceLock::new() }; KEPT];
-    let nodes = TABLES[count / WIDEST - 1].get_or_init(|| Nodes::new(count));
-    let sums = dispatch(Arch::new(), Sums { nodes, values: [q1, q2 * stretch, stretch] });
-    // cos2 and sin2 are twice the squares, so the weight carries ½ and the mean 2c/n.
-    let factor = stretch.sqrt().over(0.5 * count as f64);
-    (sums[0] * factor, sums[1] * factor)
+    let table = |count: usize| TABLES[count / WIDEST - 1].get_or_init(|| Nodes::new(count));
+    dispatch(Arch::new(), Sums { asked, table })
 }
 
-/// Σ w/(1+√Q) and Σ w/(√Q(1+√Q)) over the nodes, with Q1, Q2 c² and c².
-struct Sums<'a> {
-    nodes: &'a Nodes,
-    values: [DoubleDouble; 3],
+/// Sums over the nodes.
+struct Sums<'a, T> {
+    asked: &'a [Means],
+    table: T,
 }
 
-impl Task for Sums<'_> {
-    type Output = [DoubleDouble; 2];
+/// Partial sums of two means: high and low parts of each, by the lane of the widest vectors and then by what was asked for.
+type Partial = [[[[f64; WIDEST]; WIDEST]; 2]; 2];
+
+impl<T: Fn(usize) -> &'static Nodes> Task for Sums<'_, T> {
+    type Output = [[DoubleDouble; 2]; WIDEST];
 
     #[inline(always)]
-    fn run<S: InstructionSet>(self, simd: S) -> [DoubleDouble; 2] {
-        let Self { nodes: Nodes { cosines, sines }, values } = self;
-        let width = Lanes::<S>::WIDTH;
-        let [one, q1, q2, stretch] =
-            [DoubleDouble::ONE, values[0], values[1], values[2]].map(|value| DoubleDoubleLanes::splat(simd, value));
-        let mut totals = [DoubleDouble::ZERO; 2];
-        let mut offset = 0;
-        // Nodes that lie WIDEST apart are summed in lanes, then the lanes in their order: the same for vectors of any width.
-        while offset < WIDEST {
-            let zero = DoubleDoubleLanes::splat(simd, DoubleDouble::ZERO);
-            let (mut by_anomaly, mut by_time) = (zero, zero);
-            let mut start = offset;
-            while start < cosines[0].len() {
-                let range = start..start + width;
-                let cosine = DoubleDoubleLanes::load(simd, &cosines[0][range.clone()], &cosines[1][range.clone()]);
-                let sine = DoubleDoubleLanes::load(simd, &sines[0][range.clone()], &sines[1][range]);
-                let weight = one / (cosine + stretch * sine);
-                let root = ((q1 * cosine + q2 * sine) * weight).root();
-                let term = weight / (one + root);
-                by_anomaly = by_anomaly + term;
-                by_time = by_time + term / root;
-                start += WIDEST;
-            }
-            for lane in 0..width {
-                totals[0] = totals[0] + by_anomaly.lane(lane);
-                totals[1] = totals[1] + by_time.lane(lane);
-            }
-            offset += width;
+    fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
+        let mut partial = [[[[0.0; WIDEST]; WIDEST]; 2]; 2];
+        for (index, means) in self.asked.iter().enumerate() {
+            each_node(simd, means, (self.table)(means.count), index, &mut partial);
         }
-        totals
+        let mut found = [[DoubleDouble::ZERO; 2]; WIDEST];
+        for start in (0..self.asked.len()).step_by(Lanes::<S>::WIDTH) {
+            for (which, parts) in partial.iter().enumerate() {
+                let sum = total(simd, parts, start);
+                for lane in 0..Lanes::<S>::WIDTH {
+                    found[start + lane][which] = sum.lane(lane);
+                }
+            }
+        }
+        for (found, means) in found.iter_mut().zip(self.asked) {
+            // cos2 and sin2 are twice the squares, so the weight carries ½ and the mean 2c/n.
+            let factor = means.stretch.sqrt().over(0.5 * means.count as f64);
+            *found = [found[0] * factor, found[1] * factor];
+        }
+        found
     }
+}
+
+/// The sums of one pair of means, of the nodes that lie as many apart as the widest vectors have lanes.
+///
+/// With s = cos² φ + c² sin² φ and r = s√Q the integrands are 1/(s + r) and s/(r(s + r)): one quotient gives both.
+#[inline(always)]
+fn each_node<S: InstructionSet>(simd: S, means: &Means, nodes: &Nodes, index: usize, partial: &mut Partial) {
+    let Nodes { cosines, sines } = nodes;
+    let [q1, q2] = means.squares;
+    let [one, q1, q2, stretch] =
+        [DoubleDouble::ONE, q1, q2 * means.stretch, means.stretch].map(|value| DoubleDoubleLanes::splat(simd, value));
+    let width = Lanes::<S>::WIDTH;
+    let mut offset = 0;
+    // The same for vectors of any width.
+    while offset < WIDEST {
+        let zero = DoubleDoubleLanes::splat(simd, DoubleDouble::ZERO);
+        let (mut by_anomaly, mut by_time) = (zero, zero);
+        let mut start = offset;
+        while start < cosines[0].len() {
+            let range = start..start + width;
+            let cosine = DoubleDoubleLanes::load(simd, &cosines[0][range.clone()], &cosines[1][range.clone()]);
+            let sine = DoubleDoubleLanes::load(simd, &sines[0][range.clone()], &sines[1][range]);
+            let scale = cosine + stretch * sine;
+            let root = ((q1 * cosine + q2 * sine) * scale).root();
+            let quotient = one / (root * (scale + root));
+            by_anomaly = by_anomaly + root * quotient;
+            by_time = by_time + scale * quotient;
+            start += WIDEST;
+        }
+        for (which, sum) in [by_anomaly, by_time].into_iter().enumerate() {
+            for lane in 0..width {
+                let sum = sum.lane(lane);
+                partial[which][0][offset + lane][index] = sum.high;
+                partial[which][1][offset + lane][index] = sum.low;
+            }
+        }
+        offset += width;
+    }
+}
+
+/// The sum of the partial sums, in pairs of lanes that lie half, a quarter, and so on, of the widest vectors apart.
+#[inline(always)]
+fn total<S: InstructionSet>(simd: S, parts: &[[[f64; WIDEST]; WIDEST]; 2], start: usize) -> DoubleDoubleLanes<S> {
+    let mut sums = [DoubleDoubleLanes::splat(simd, DoubleDouble::ZERO); WIDEST];
+    for (lane, sum) in sums.iter_mut().enumerate() {
+        *sum = DoubleDoubleLanes::load(simd, &parts[0][lane][start..], &parts[1][lane][start..]);
+    }
+    let mut half = WIDEST / 2;
+    while half > 0 {
+        for lane in 0..half {
+            sums[lane] = sums[lane] + sums[lane + half];
+        }
+        half /= 2;
+    }
+    sums[0]
 }

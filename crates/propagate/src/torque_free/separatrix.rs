@@ -121,7 +121,7 @@ impl PassageTheta {
     /// u of the state, K, and whether b changes its sign. u = 0 is the place where the axis is nearest to the angular momentum.
     pub(crate) fn place(polhode: &Polhode) -> (DoubleDouble, DoubleDouble, bool) {
         let (position, [cosine_sign, sine_sign]) = polhode.quadrant();
-        let (quarter, distance) = precise_argument(polhode.cosine_squares(), position);
+        let (quarter, distance) = precise_argument(polhode.invariants.cosine_squares, position);
         // The values of ℓ from −π/2 to 0 correspond to ℓ′ → ℓ′ + π.
         (distance.times_double(-cosine_sign * sine_sign), quarter, sine_sign < 0.0)
     }

@@ -41,9 +41,15 @@ pub(crate) struct Solution {
     pub(crate) skipped: Vec<String>,
 }
 
-/// The solution by theta functions for any polhode that is not on the separatrix; `ratio` is σ/σ_sep.
-pub(crate) fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secular, ratio: f64, mode: Mode) -> Solution {
-    let theta = polhode.theta();
+/// The solution by theta functions for any polhode that is not on the separatrix; `ratio` is σ/σ_sep. `remarks` is whether the plan is to say what was skipped.
+pub(crate) fn by_theta_functions(
+    (scene, remarks): (&Scene, bool),
+    polhode: &Polhode,
+    rates: Secular,
+    ratio: f64,
+    mode: Mode,
+) -> Solution {
+    let theta = polhode.invariants.theta;
     if theta.complement < NEAREST_COMPLEMENT {
         return beside_the_separatrix(scene, polhode, rates, &theta);
     }
@@ -54,7 +60,9 @@ pub(crate) fn by_theta_functions(scene: &Scene, polhode: &Polhode, rates: Secula
     let (series, dropped) = if budget == 0.0 { (closed.series, 0.0) } else { closed.series.truncated(budget) };
     let error_bound =
         (2.0 * dropped + rounding(&series)) / closed.least_norm.min(1.0) + conditioning(scene, polhode, &rates);
-    let skipped = if mode == Mode::Axisymmetric {
+    let skipped = if !remarks {
+        Vec::new()
+    } else if mode == Mode::Axisymmetric {
         round_body()
     } else {
         let reason = match first_order(ratio, scene.asked_tolerance()) {
@@ -84,9 +92,9 @@ fn beside_the_separatrix(scene: &Scene, polhode: &Polhode, rates: Secular, theta
 pub(crate) fn on_the_separatrix(scene: &Scene, polhode: &Polhode) -> Solution {
     let (place, _, turned) = PassageTheta::place(polhode);
     // K is infinite on the separatrix, even if rounding leaves Q1 different from 0.
-    let theta = Theta { quarter: f64::INFINITY, ..polhode.theta() };
-    let [least, greatest] = polhode.cosine_squares();
-    let rate = polhode.mean_rate() * polhode.gamma() * greatest.sqrt();
+    let theta = Theta { quarter: f64::INFINITY, ..polhode.invariants.theta };
+    let [least, greatest] = polhode.invariants.cosine_squares;
+    let rate = polhode.invariants.mean_rate * polhode.invariants.gamma * greatest.sqrt();
     let clock = Clock::Once(place.times_double(0.5), user_rate(rate.times_double(0.5), polhode.scales.1));
     let rates = Secular { kappa_sigma: 0.0, anomaly_rate: DoubleDouble::ZERO, longitude_rate: polhode.middle_rate() };
     // A distance from the separatrix below the resolution of double-double grows like e^u.

@@ -48,12 +48,12 @@ impl SteadyRotation {
 
     /// The rotation of a spherical body, or about a principal axis.
     pub(crate) fn new(scene: &Scene, polhode: &Polhode, mode: Mode) -> Self {
-        let [_, g2, g3] = polhode.direction;
-        let [_, second] = polhode.excesses;
+        let [_, g2, g3] = polhode.invariants.direction;
+        let [_, second] = polhode.invariants.excesses;
         // If A = B, every axis perpendicular to axis 3 is a principal axis, and the rate is M over its moment. If the three moments differ, only the middle
         // axis is perpendicular to axis 3 here.
         let across = mode == Mode::PrincipalAxis && second != DoubleDouble::ZERO && g3.abs() < SMALLEST_TILT;
-        let middle = across && polhode.difference != DoubleDouble::ZERO;
+        let middle = across && polhode.invariants.difference != DoubleDouble::ZERO;
         let reason = match mode {
             Mode::Spherical => "every axis of a sphere is a principal axis",
             _ if middle => "the rotation is about the axis of middle inertia, its unstable equilibrium",
@@ -62,13 +62,13 @@ impl SteadyRotation {
             _ if g2.abs() < SMALLEST_TILT => "the rotation is about the axis of greatest inertia (J = 0)",
             _ => "B = C and the rotation is about one of their axes",
         };
-        let rate = if across { polhode.middle_rate() } else { polhode.mean_rate() };
+        let rate = if across { polhode.middle_rate() } else { polhode.invariants.mean_rate };
         let error_bound = ROUNDING + phase_rounding(scene, rate, polhode.scales.1);
         let departure = if middle { departure(scene, polhode) } else { 0.0 };
         Self {
-            axis: Vector3::from(polhode.frame.user(polhode.direction)),
+            axis: Vector3::from(polhode.frame.user(polhode.invariants.direction)),
             rate,
-            anomaly_rate: if across { DoubleDouble::ZERO } else { rate * polhode.gamma() },
+            anomaly_rate: if across { DoubleDouble::ZERO } else { rate * polhode.invariants.gamma },
             separatrix_ratio: if across { 1.0 } else { 0.0 },
             error_bound: (error_bound + departure).min(std::f64::consts::PI),
             reason,

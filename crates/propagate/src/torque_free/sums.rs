@@ -92,7 +92,7 @@ fn powers(harmonics: &[[f64; 4]]) -> Option<Vec<[f64; 4]>> {
             _ => {
                 for family in 0..4 {
                     let mut next = before[family].map(|p| -p);
-                    for power in 1..MOST_POWERS {
+                    for power in 1..terms {
                         next[power] += 2.0 * current[family][power - 1];
                     }
                     (before[family], current[family]) = (current[family], next);

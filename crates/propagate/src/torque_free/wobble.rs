@@ -60,6 +60,13 @@ impl WobbleEvaluator {
             rates,
         }
     }
+
+    /// The same motion by a series with other harmonics, normalized at the ℓ′ of the epoch to the same attitude.
+    pub(crate) fn with_series(&self, series: &CayleyKleinSeries, anomaly: f64) -> Self {
+        let Self { anomaly: phase, half_longitude, map, rates, .. } = *self;
+        let half_longitude = half_longitude.starting_at(-series.pair(anomaly)[0].arg());
+        Self { anomaly: phase, half_longitude, sums: Sums::new(series), map, rates }
+    }
 }
 
 impl Evaluate for WobbleEvaluator {

@@ -50,7 +50,7 @@ impl Scene {
         let mean = Mean {
             p: C64::from_polar(sigma.sqrt(), anomaly),
             longitude,
-            momentum: polhode.momentum.to_f64(),
+            momentum: polhode.invariants.momentum.to_f64(),
             frame: polhode.invariable_frame(state.attitude),
         };
         let place = Place::of(Lanes::splat(pulp::Scalar, 0.8), ECCENTRICITY);

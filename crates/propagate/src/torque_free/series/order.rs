@@ -51,8 +51,8 @@ pub(crate) fn expanded(
         let tables = tables.reaching(order, polhode.precise_beta())?;
         let fixed = mode != Mode::Axisymmetric && scene.asked_order().is_some();
         let secular = if fixed { Secular::truncated(polhode, tables.polynomials(order)?) } else { *exact };
-        let expansion = tables.expand(order, secular.kappa_sigma, polhode.kappa());
-        let [first, second] = polhode.excesses;
+        let expansion = tables.expand(order, secular.kappa_sigma, polhode.invariants.kappa);
+        let [first, second] = polhode.invariants.excesses;
         let ellipse = Ellipse::new((first / second).to_f64());
         let truncation = truncation(&expansion, ellipse, ratio, mode);
         if (fixed && ratio < 1.0) || truncation <= TRUNCATION_SHARE * target {

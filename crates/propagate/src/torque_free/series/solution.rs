@@ -28,7 +28,7 @@ pub(crate) fn by_the_series(
     let expanded = expanded((scene, tables), polhode, &exact, ratio, mode)?;
     let Expanded { order, expansion, secular, ellipse, truncation } = expanded;
     let (series, dropped) = harmonics(&expansion, ellipse).truncated(HARMONICS_SHARE * scene.asked_tolerance());
-    let theta = polhode.theta();
+    let theta = polhode.invariants.theta;
     // The truncated series of a fixed order has its own ℓ′, found by iteration. Near the separatrix this is ill-conditioned; the elliptic integral is not.
     let anomaly = match scene.asked_order() {
         Some(_) => initial_anomaly(&expansion, ellipse.oscillator(polhode.zeta())),

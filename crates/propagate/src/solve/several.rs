@@ -1,0 +1,44 @@
+//! The motions of several free bodies at once: the constants of their polhodes and their frequencies are computed in lanes.
+
+use super::Preparation;
+use crate::error::Error;
+use crate::input::body::Body;
+use crate::input::options::Method;
+use crate::input::scene::Scene;
+use crate::input::state::State;
+use crate::motion::solved::Motion;
+use crate::torque_free::frequencies::Secular;
+use crate::torque_free::mode::Mode;
+use crate::torque_free::polhode::Polhode;
+use crate::torque_free::series::tables::SeriesTables;
+
+/// The motions of at most as many valid scenes as the widest vectors have lanes, each to the bits of [`Scene::solve`]. The plans of free motions do not say what was
+/// skipped.
+pub(crate) fn several(scenes: Vec<Result<Scene, Error>>) -> impl Iterator<Item = Result<Motion, Error>> {
+    let tables = SeriesTables::default();
+    let states: Vec<(&Body, &State)> =
+        scenes.iter().flatten().filter(|scene| is_free(scene)).map(|scene| (scene.body(), scene.state())).collect();
+    let polhodes = Polhode::several(&states);
+    let frequencies = Secular::several(&polhodes.iter().flatten().filter(wobbles).collect::<Vec<_>>());
+    let (mut place, mut secular) = (0, frequencies.into_iter());
+    let mut solve = move |scene: Scene| {
+        if !is_free(&scene) {
+            return scene.solve();
+        }
+        let polhode = polhodes[place].as_ref();
+        place += 1;
+        let secular = polhode.filter(wobbles).and_then(|_| secular.next());
+        scene.solve_on(polhode, Preparation { tables: &tables, secular, remarks: false })
+    };
+    scenes.into_iter().map(move |scene| scene.and_then(&mut solve))
+}
+
+/// Whether a motion is a wobble, which has frequencies.
+fn wobbles(polhode: &&Polhode) -> bool {
+    matches!(Mode::of(polhode), Mode::ShortAxis | Mode::LongAxis | Mode::Axisymmetric)
+}
+
+/// Whether a scene has neither a torque nor a choice of method.
+fn is_free(scene: &Scene) -> bool {
+    scene.asked_disturbing().is_empty() && scene.asked_method() == Method::Auto && scene.body().turn().is_none()
+}
