@@ -45,8 +45,8 @@ use crate::foreign::Calendar;
 ///     "auto" uses "orbit" if it meets the tolerance.
 /// level : {"auto", "full", "second-order", "moving", "paper"}, optional
 ///     How much of the theory of the gravity gradient is used. "full": first order in the torque, to all orders in J. "second-order": the
-///     averaged motion to second order too, averaged over the rotation only (theory, section 9). "auto": "full" where it meets the tolerance, else
-///     "second-order" where its error bound is smaller. "moving": corrections at J = 0 alone. "paper": those with the disturbing body held fixed.
+///     averaged motion to second order too, averaged over the rotation only (theory, section 9). "auto" (default): "full" where it meets the
+///     tolerance, else "second-order" where its error bound is smaller. "moving": corrections at J = 0 alone. "paper": those with the disturbing body held fixed.
 /// name, source : str, optional
 ///     A name and a source of the figures, kept with the scene and printed.
 ///
