@@ -16,16 +16,17 @@ use num_complex::Complex;
 
 use super::averaged::{AveragedOrbit, Bodies, MOST_QUARTERS, Precession, Pull, Slow, Spin};
 use super::budget::{Budget, Further, MOST_ORBITS, Subject};
-use super::corrections::{Change, Corrections, Demand, Mean, SECOND_SHARE, SHARE, Terms};
+use super::corrections::{Corrections, Demand, Mean, SECOND_SHARE, SHARE};
 use super::course::{Course, When};
 use super::envelope::{Envelope, Reach};
 use super::inertia::Inertia;
+use super::mean_motion::{MeanMotion, Refinement, STRONGEST, corrections_of, first_order, refined, strongest_torque};
 use super::offset::Offset;
 use super::powers::Powers;
 use super::request::Request;
 use super::response::Response;
+use super::second_order;
 use super::second_order::drift::Drift;
-use super::second_order::{self, epoch::Refined};
 use crate::error::Error;
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
@@ -35,15 +36,6 @@ use crate::simd::lanes::Lanes;
 use crate::torque_free::polhode::{Frame, Polhode};
 
 type C64 = Complex<f64>;
-
-/// The iteration has converged if the mean variables change by less than this.
-const CONVERGED: f64 = 1e-15;
-/// Largest number of iterations for the mean variables.
-const MOST_STEPS: usize = 24;
-/// Largest mean ratio of the changes of successive iterations. With a larger ratio there is no mean motion.
-const CONTRACTION: f64 = 0.5;
-/// Largest torque over M²/C for which first order in the torque is accepted.
-pub(crate) const STRONGEST: f64 = 0.02;
 
 /// The entries of a plan that concern the gravity gradient.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -99,144 +91,47 @@ impl Gradient {
         request: &Request<'_>,
     ) -> Result<Self, Error> {
         let exponent = polhode.scales.1;
-        let Request { orbits, level, .. } = *request;
+        let level = request.level;
         if level == Level::SecondOrder && !request.is_fixed() {
             return Err(Error::OneFixedOrbit { argument: "level", value: level.to_string() });
         }
         let momentum = polhode.invariants.momentum.to_f64();
-        let duration = scaled(request.duration, exponent);
-        let share = if level == Level::SecondOrder { SECOND_SHARE } else { SHARE };
-        let courses: Vec<Course> = orbits.iter().map(|orbit| Course::new(orbit, request.epoch)).collect();
-        let none = Lanes::splat(pulp::Scalar, 0.0);
-        let starts: Vec<_> = courses.iter().map(|course| course.at((none, none))).collect();
-        let reaches: Vec<Reach> = orbits
-            .iter()
-            .zip(&starts)
-            .map(|(orbit, start)| Reach {
-                eccentricity: orbit.eccentricity(),
-                anomaly: start.place.angle.values()[0] - start.place.centre.values()[0],
-                orbital: scaled(orbit.mean_motion(), -exponent) * duration,
-            })
-            .collect();
-        let envelopes: Vec<Envelope> = orbits
-            .iter()
-            .zip(&reaches)
-            .map(|(orbit, reach)| Envelope::new(orbit.eccentricity(), scaled(orbit.mean_motion(), -exponent), reach))
-            .collect();
-        let demands = orbits
-            .iter()
-            .zip(&envelopes)
-            .map(|(orbit, envelope)| {
-                orbit.within_reach(request.epoch)?;
-                let [mean_motion, node, pericentre] =
-                    [orbit.mean_motion(), orbit.rates()[0], orbit.rates()[1]].map(|rate| scaled(rate, -exponent));
-                let (axes, rates, tolerance) = (orbit.axes_at(request.epoch), [node, pericentre], request.tolerance);
-                Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, envelope })
-            })
-            .collect::<Result<Vec<_>, Error>>()?;
-        let size = demands.iter().map(|demand| {
-            let share = demand.envelope.span[0] / demand.envelope.most[0];
-            share * strongest_torque(polhode, demand.orbit, demand.mean_motion / momentum)
-        });
-        let size = size.sum::<f64>();
-        if size > STRONGEST {
-            // If there is a resonance, report that instead, because it explains more.
-            all_corrections(&Inertia::new(polhode, osculating.0, momentum), &demands)?;
-            return Err(Error::TorqueTooStrong { size, bound: STRONGEST });
-        }
+        let paths = Paths::new(request, exponent);
+        let demands = paths.demands(request, exponent)?;
+        weak_enough(polhode, osculating.0, &demands)?;
         let (sigma, [anomaly, longitude]) = osculating;
         let p = C64::from_polar(sigma.sqrt(), anomaly);
         let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
-        let first = mean_motion_of(polhode, &state, &starts, &demands)?;
+        let first = first_order(polhode, &state, &paths.starts, &demands)?;
         let refines = request.is_fixed() && matches!(level, Level::Full | Level::SecondOrder);
-        let (MeanMotion { mean, change, inertia, corrections }, refinement) = if refines {
-            let (motion, refinement) = refined_of(polhode, first, &state, &starts[0], &demands[0])?;
+        let (motion, refinement) = if refines {
+            let (motion, refinement) = refined(polhode, first, &state, &paths.starts[0], &demands[0])?;
             (motion, Some(refinement))
         } else {
             (first, None)
         };
-        let (axial, axial_slope) = level.axial(&inertia);
-        let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) / mean.momentum;
-        let ellipses: Vec<_> = demands
-            .iter()
-            .map(|demand| {
-                let ellipse = AveragedOrbit::new(demand, delta);
-                match level {
-                    Level::SecondOrder => {
-                        ellipse.with_second(second_order::epoch::hamiltonian(&inertia, demand, polhode.moments))
-                    }
-                    _ => ellipse,
-                }
-            })
-            .collect();
+        let averages = Averages::new(polhode, &motion, &demands);
+        let (by_orbit, error) = error_bound(request, &motion, refinement, &averages, (&paths, &demands))?;
+        let MeanMotion { mean, change, inertia, corrections } = motion;
         // Rates are proportional to M. M rounded to a double would cause an error of 1e-16 of the phases.
         let precise = (polhode.invariants.momentum - change.momentum.into()) / mean.momentum.into();
-        let rates = inertia.rates.map(|rate| rate * precise);
-        // ⟨D⟩ = −½ (dJ/dt) Δ. Its derivatives with respect to L, and to M at fixed L, give the slopes.
-        let slope = -0.5 * 1.5 * axial_slope / mean.momentum;
-        let response = Response::new(&inertia);
-        let further = refinement.map(|Refinement { left, apart }| {
-            let hamiltonian = second_order::epoch::hamiltonian(&inertia, &demands[0], polhode.moments);
-            let drift = Drift {
-                hamiltonian: &hamiltonian.without_first(),
-                demand: &demands[0],
-                reach: &reaches[0],
-                axis: mean.frame * Vector3::z(),
-                rates: apart,
-                visible: response.visible,
-            };
-            let apart = if level == Level::SecondOrder { 0.0 } else { drift.largest() };
-            Further { left, cut: second_order::cut(&inertia, &demands[0]), apart }
+        let [anomaly_rate, longitude_rate] = inertia.rates.map(|rate| {
+            let rate = rate * precise;
+            DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) }
         });
-        let subject = |i: usize| Subject {
-            mean: &mean,
-            inertia: &inertia,
-            corrections: &corrections[i],
-            response: &response,
-            ellipse: &ellipses[i],
-            anomaly: reaches[i].anomaly,
-            drift: slope * demands[i].orbit.disturbing_fraction(),
-            further,
-        };
-        let (by_orbit, error) = if request.is_fixed() {
-            let budget = Budget::new(&subject(0), demands[0].mean_motion, duration);
-            let by_orbit = budget.by_orbit(request)?;
-            (by_orbit, budget.error(by_orbit))
-        } else {
-            within_arcs(&courses, request)?;
-            let subjects: Vec<_> = (0..courses.len()).map(subject).collect();
-            (false, Budget::of_bodies(&subjects, &demands, duration).error(false))
-        };
         let unit = scaled(1.0, exponent);
-        let axis = mean.frame * Vector3::z();
-        // J of a single fixed orbit is per mass fraction, which is in its slope.
-        let secular = ellipses.iter().map(|ellipse| ellipse.secular(&axis) * ellipse.fraction()).sum::<f64>() * unit;
-        let drifts_by = if request.is_fixed() { slope * ellipses[0].fraction() } else { slope };
-        let pulls = || {
-            courses
-                .iter()
-                .zip(&ellipses)
-                .map(|(course, ellipse)| Pull { course: course.clone(), attraction: ellipse.attraction() * unit })
-        };
-        let slow = |frame: UnitQuaternion<f64>| match (request.is_fixed(), by_orbit) {
-            (false, _) => Slow::Bodies(Box::new(Bodies::new(pulls().collect(), delta, frame))),
-            (true, true) => Slow::Orbit(Box::new(Precession::new(ellipses[0].clone(), frame, &starts[0].place, unit))),
-            (true, false) => Slow::Spin(Box::new(Spin::new(ellipses[0].clone(), frame, &starts[0]))),
-        };
-        let [anomaly_rate, longitude_rate] =
-            rates.map(|rate| DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) });
-        let ratios = [1.0, -inertia.sigma];
-        let drifts = if level == Level::SecondOrder { [1.0; 2] } else { ratios.map(|ratio| ratio * drifts_by) };
+        let slow = |frame| averages.slow(frame, (request, by_orbit), &paths, unit);
         let mut gradient = Self {
             anomaly: Phase::new(anomaly_rate, mean.p.arg()),
             half_longitude: Phase::new(longitude_rate * 0.5.into(), 0.5 * mean.longitude),
             root: mean.p.norm(),
-            drifts,
-            secular: ratios.map(|ratio| ratio * slope * secular),
+            drifts: averages.drifts(&inertia, request),
+            secular: averages.secular(&inertia, &mean).map(|rate| rate * unit),
             pair: inertia.pair.each_ref().map(|series| Powers::new(series, inertia.sigma.sqrt())),
             inertia,
             slow: slow(mean.frame),
-            bodies: courses
+            bodies: paths
+                .courses
                 .iter()
                 .zip(corrections)
                 .map(|(course, corrections)| DisturbedBy { course: course.clone(), corrections })
@@ -303,21 +198,174 @@ impl Gradient {
     }
 }
 
-/// A mean state, its change to the osculating state, and its tables.
-struct MeanMotion {
-    mean: Mean,
-    change: Change,
-    inertia: Inertia,
-    /// Of each body.
-    corrections: Vec<Corrections>,
+/// The orbits of the disturbing bodies from the epoch.
+struct Paths {
+    courses: Vec<Course>,
+    /// Positions at the epoch.
+    starts: Vec<When<pulp::Scalar>>,
+    reaches: Vec<Reach>,
+    envelopes: Vec<Envelope>,
+    /// Longest time from the epoch, in the units of the tables.
+    duration: f64,
 }
 
-/// What the second order in the torque says of a mean motion.
-struct Refinement {
-    /// What is left of the mean M and L, over M.
-    left: [f64; 2],
-    /// Rates of ℓ′ and y′ at the mean M and σ of second order, less those of first order.
-    apart: [f64; 2],
+impl Paths {
+    fn new(request: &Request<'_>, exponent: i32) -> Self {
+        let duration = scaled(request.duration, exponent);
+        let none = Lanes::splat(pulp::Scalar, 0.0);
+        let mut paths = Self { courses: vec![], starts: vec![], reaches: vec![], envelopes: vec![], duration };
+        for orbit in request.orbits {
+            let course = Course::new(orbit, request.epoch);
+            let start = course.at((none, none));
+            let (mean_motion, eccentricity) = (scaled(orbit.mean_motion(), -exponent), orbit.eccentricity());
+            let anomaly = start.place.angle.values()[0] - start.place.centre.values()[0];
+            let reach = Reach { eccentricity, anomaly, orbital: mean_motion * duration };
+            paths.envelopes.push(Envelope::new(eccentricity, mean_motion, &reach));
+            paths.reaches.push(reach);
+            paths.starts.push(start);
+            paths.courses.push(course);
+        }
+        paths
+    }
+
+    /// What the corrections for each body are to be.
+    fn demands<'a>(&'a self, request: &Request<'a>, exponent: i32) -> Result<Vec<Demand<'a>>, Error> {
+        let Request { level, tolerance, epoch, .. } = *request;
+        let share = if level == Level::SecondOrder { SECOND_SHARE } else { SHARE };
+        let demand = |(orbit, envelope): (&'a Orbit, &'a Envelope)| {
+            orbit.within_reach(epoch)?;
+            let [node, pericentre] = orbit.rates();
+            let [mean_motion, node, pericentre] =
+                [orbit.mean_motion(), node, pericentre].map(|rate| scaled(rate, -exponent));
+            let (axes, rates, duration) = (orbit.axes_at(epoch), [node, pericentre], self.duration);
+            Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, envelope })
+        };
+        request.orbits.iter().zip(&self.envelopes).map(demand).collect()
+    }
+}
+
+/// Checks that the torques are weak enough for first order.
+fn weak_enough(polhode: &Polhode, sigma: f64, demands: &[Demand<'_>]) -> Result<(), Error> {
+    let momentum = polhode.invariants.momentum.to_f64();
+    let size = |demand: &Demand<'_>| {
+        let share = demand.envelope.span[0] / demand.envelope.most[0];
+        share * strongest_torque(polhode, demand.orbit, demand.mean_motion / momentum)
+    };
+    let size = demands.iter().map(size).sum::<f64>();
+    if size <= STRONGEST {
+        return Ok(());
+    }
+    // If there is a resonance, report that instead, because it explains more.
+    corrections_of(&Inertia::new(polhode, sigma, momentum), demands)?;
+    Err(Error::TorqueTooStrong { size, bound: STRONGEST })
+}
+
+/// The averaged torques.
+struct Averages {
+    ellipses: Vec<AveragedOrbit>,
+    /// Δ over M.
+    delta: f64,
+    /// ⟨D⟩ = −½ (dJ/dt) Δ: dΔ/dσ times −½ over M. The derivatives of ⟨D⟩ with respect to L, and to M at fixed L, follow from it.
+    slope: f64,
+    level: Level,
+}
+
+impl Averages {
+    fn new(polhode: &Polhode, motion: &MeanMotion, demands: &[Demand<'_>]) -> Self {
+        let MeanMotion { mean, inertia, .. } = motion;
+        let level = demands[0].level;
+        let (axial, axial_slope) = level.axial(inertia);
+        let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) / mean.momentum;
+        let ellipses = demands.iter().map(|demand| {
+            let ellipse = AveragedOrbit::new(demand, delta);
+            match level {
+                Level::SecondOrder => {
+                    ellipse.with_second(second_order::epoch::hamiltonian(inertia, demand, polhode.moments))
+                }
+                _ => ellipse,
+            }
+        });
+        Self { ellipses: ellipses.collect(), delta, slope: -0.5 * 1.5 * axial_slope / mean.momentum, level }
+    }
+
+    /// What J, or in second order the drifts themselves, is multiplied by in ℓ′ and y′.
+    fn drifts(&self, inertia: &Inertia, request: &Request<'_>) -> [f64; 2] {
+        // J of a single fixed orbit is per mass fraction, which is in its slope.
+        let slope = if request.is_fixed() { self.slope * self.ellipses[0].fraction() } else { self.slope };
+        if self.level == Level::SecondOrder { [1.0; 2] } else { [slope, -inertia.sigma * slope] }
+    }
+
+    /// The rates of ℓ′ and y′ in the orbit average.
+    fn secular(&self, inertia: &Inertia, mean: &Mean) -> [f64; 2] {
+        let axis = mean.frame * Vector3::z();
+        let rate = self.ellipses.iter().map(|ellipse| ellipse.secular(&axis) * ellipse.fraction()).sum::<f64>();
+        [self.slope * rate, -inertia.sigma * self.slope * rate]
+    }
+
+    /// The averaged motion from a frame at the epoch.
+    fn slow(
+        &self,
+        frame: UnitQuaternion<f64>,
+        (request, by_orbit): (&Request<'_>, bool),
+        paths: &Paths,
+        unit: f64,
+    ) -> Slow {
+        let ellipse = &self.ellipses[0];
+        match (request.is_fixed(), by_orbit) {
+            (false, _) => {
+                let bodies = paths.courses.iter().zip(&self.ellipses);
+                let pulls = bodies
+                    .map(|(course, ellipse)| Pull { course: course.clone(), attraction: ellipse.attraction() * unit });
+                Slow::Bodies(Box::new(Bodies::new(pulls.collect(), self.delta, frame)))
+            }
+            (true, true) => {
+                Slow::Orbit(Box::new(Precession::new(ellipse.clone(), frame, &paths.starts[0].place, unit)))
+            }
+            (true, false) => Slow::Spin(Box::new(Spin::new(ellipse.clone(), frame, &paths.starts[0]))),
+        }
+    }
+}
+
+/// Whether the equations are averaged over the orbit as well, and the error bound.
+fn error_bound(
+    request: &Request<'_>,
+    motion: &MeanMotion,
+    refinement: Option<Refinement>,
+    averages: &Averages,
+    (paths, demands): (&Paths, &[Demand<'_>]),
+) -> Result<(bool, f64), Error> {
+    let MeanMotion { mean, inertia, corrections, .. } = motion;
+    let response = Response::new(inertia);
+    let further = refinement.map(|Refinement { left, apart, hamiltonian }| {
+        let drift = Drift {
+            hamiltonian: &hamiltonian.without_first(),
+            demand: &demands[0],
+            reach: &paths.reaches[0],
+            axis: mean.frame * Vector3::z(),
+            rates: apart,
+            visible: response.visible,
+        };
+        let apart = if request.level == Level::SecondOrder { 0.0 } else { drift.largest() };
+        Further { left, cut: second_order::cut(inertia, &demands[0]), apart }
+    });
+    let subject = |i: usize| Subject {
+        mean,
+        inertia,
+        corrections: &corrections[i],
+        response: &response,
+        ellipse: &averages.ellipses[i],
+        anomaly: paths.reaches[i].anomaly,
+        drift: averages.slope * demands[i].orbit.disturbing_fraction(),
+        further,
+    };
+    if request.is_fixed() {
+        let budget = Budget::new(&subject(0), demands[0].mean_motion, paths.duration);
+        let by_orbit = budget.by_orbit(request)?;
+        return Ok((by_orbit, budget.error(by_orbit)));
+    }
+    within_arcs(&paths.courses, request)?;
+    let subjects: Vec<_> = (0..demands.len()).map(subject).collect();
+    Ok((false, Budget::of_bodies(&subjects, demands, paths.duration).error(false)))
 }
 
 /// The largest time from the epoch over which the averaged equations are solved, in the user's unit.
@@ -336,81 +384,4 @@ fn within_arcs(courses: &[Course], request: &Request<'_>) -> Result<(), Error> {
         return Err(Error::SpanOfBodies { value: request.duration, bound });
     }
     Ok(())
-}
-
-/// The corrections for each body at a mean motion.
-fn all_corrections(inertia: &Inertia, demands: &[Demand<'_>]) -> Result<Vec<Corrections>, Error> {
-    let all: Vec<_> = demands.iter().map(|demand| Terms::new(inertia, demand)).collect();
-    let whole = all.iter().map(|terms| terms.size).sum();
-    all.into_iter().zip(demands).map(|(terms, demand)| Corrections::of(terms, inertia, demand, whole)).collect()
-}
-
-/// The mean motion with the mean M and L of all terms, to second order if the level is, and how far the rates of second order are from those of first.
-fn refined_of(
-    polhode: &Polhode,
-    first: MeanMotion,
-    state: &Mean,
-    start: &When<pulp::Scalar>,
-    demand: &Demand<'_>,
-) -> Result<(MeanMotion, Refinement), Error> {
-    let (both, [by_momentum, by_sigma]) = second_order::epoch::refined(
-        (&first.mean, &first.change, first.corrections[0].size),
-        state,
-        &first.inertia,
-        &start.place,
-        (demand, polhode.moments),
-    );
-    let Refined { mean, momentum, left } = both[usize::from(demand.level == Level::SecondOrder)];
-    let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
-    let apart = [0, 1].map(|i| inertia.rates[i].to_f64() * by_momentum + inertia.rate_slopes[i] * by_sigma);
-    let corrections = vec![Corrections::new(&inertia, demand)?];
-    let change = Change { momentum, ..first.change };
-    // The iteration leaves M and L its own threshold, which the rates multiply by the time.
-    let left = left.map(|part| part + CONVERGED);
-    Ok((MeanMotion { mean, change, inertia, corrections }, Refinement { left, apart }))
-}
-
-/// The mean variables whose corrections give a state, by fixed-point iteration.
-fn mean_motion_of(
-    polhode: &Polhode,
-    state: &Mean,
-    starts: &[When<pulp::Scalar>],
-    demands: &[Demand<'_>],
-) -> Result<MeanMotion, Error> {
-    let (mut mean, mut change) = (*state, Change::default());
-    let (mut step, mut first) = (0, 0.0_f64);
-    // Each iteration reduces the error by the relative size of the corrections, which is below a fiftieth.
-    loop {
-        let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
-        let corrections = all_corrections(&inertia, demands)?;
-        let changes = corrections.iter().zip(starts).map(|(corrections, start)| corrections.at(&mean, &start.place));
-        let next_change = changes.reduce(|sum, change| sum.plus(&change)).unwrap_or_default();
-        let next = state.changed(&next_change, -1.0);
-        let moved = (next.p - mean.p).norm()
-            + (next.longitude - mean.longitude).abs()
-            + (next.momentum / mean.momentum - 1.0).abs()
-            + next.frame.angle_to(&mean.frame);
-        if moved <= CONVERGED {
-            return Ok(MeanMotion { mean, change, inertia, corrections });
-        }
-        first = first.max(moved);
-        if step == MOST_STEPS {
-            // Rounding of large corrections may prevent full convergence. A motion without contraction has no mean motion.
-            let contraction = (moved / first).powf(1.0 / MOST_STEPS as f64);
-            return if contraction <= CONTRACTION {
-                Ok(MeanMotion { mean, change, inertia, corrections })
-            } else {
-                Err(Error::TorqueTooStrong { size: contraction, bound: CONTRACTION })
-            };
-        }
-        (mean, change) = (next, next_change);
-        step += 1;
-    }
-}
-
-/// The largest torque over M²/C: 3n²C(C − A)/2M² at the pericentre times the mass fraction, where C is the largest and A the smallest moment; `rate` is n/M.
-fn strongest_torque(polhode: &Polhode, orbit: &Orbit, rate: f64) -> f64 {
-    let [first, _, third] = polhode.moments;
-    let product = first.max(third) * (first - third).abs();
-    1.5 * rate * rate * product * orbit.disturbing_fraction() / (1.0 - orbit.eccentricity()).powi(3)
 }

@@ -15,6 +15,7 @@ mod epoch;
 mod evaluate;
 mod generator;
 mod inertia;
+mod mean_motion;
 mod offset;
 pub(crate) mod osculating;
 mod powers;

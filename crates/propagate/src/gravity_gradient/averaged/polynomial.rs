@@ -10,7 +10,7 @@ use crate::simd::lanes::Lanes;
 
 /// Chebyshev points in an interval. With degree 17 the interpolation error of cos 3f in a quarter of the orbit is 1e-15 of κ.
 pub(super) const POINTS: usize = 18;
-/// Largest number of Picard iterations. Each one multiplies the error by κ, which [`super::super::disturbed::STRONGEST`] bounds, so a dozen are enough.
+/// Largest number of Picard iterations. Each one multiplies the error by κ, which [`super::super::mean_motion::STRONGEST`] bounds, so a dozen are enough.
 const MOST_ITERATIONS: usize = 40;
 /// Smaller coefficients are dropped.
 const NEGLIGIBLE: f64 = 1e-17;

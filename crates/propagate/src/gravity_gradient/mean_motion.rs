@@ -1,0 +1,117 @@
+//! The mean motion from which the corrections lead to a state: its mean variables, tables, and corrections, and how far first order is from second.
+
+use super::corrections::{Change, Corrections, Demand, Mean, Terms};
+use super::course::When;
+use super::inertia::Inertia;
+use super::second_order::epoch::{self, Refined};
+use super::second_order::hamiltonian::Hamiltonian;
+use crate::error::Error;
+use crate::input::options::Level;
+use crate::input::orbit::Orbit;
+use crate::torque_free::polhode::Polhode;
+
+/// The iteration has converged if the mean variables change by less than this.
+const CONVERGED: f64 = 1e-15;
+/// Largest number of iterations for the mean variables.
+const MOST_STEPS: usize = 24;
+/// Largest mean ratio of the changes of successive iterations. With a larger ratio there is no mean motion.
+const CONTRACTION: f64 = 0.5;
+/// Largest torque over M²/C for which first order in the torque is accepted.
+pub(crate) const STRONGEST: f64 = 0.02;
+
+/// A mean state, its change to the osculating state, and its tables.
+pub(super) struct MeanMotion {
+    pub(super) mean: Mean,
+    pub(super) change: Change,
+    pub(super) inertia: Inertia,
+    /// Of each body.
+    pub(super) corrections: Vec<Corrections>,
+}
+
+/// What the second order in the torque says of a mean motion.
+pub(super) struct Refinement {
+    /// What is left of the mean M and L, over M.
+    pub(super) left: [f64; 2],
+    /// Rates of ℓ′ and y′ at the mean M and σ of second order, less those of first order.
+    pub(super) apart: [f64; 2],
+    /// K2.
+    pub(super) hamiltonian: Hamiltonian,
+}
+
+/// The corrections for each body at a mean motion.
+pub(super) fn corrections_of(inertia: &Inertia, demands: &[Demand<'_>]) -> Result<Vec<Corrections>, Error> {
+    let all: Vec<_> = demands.iter().map(|demand| Terms::new(inertia, demand)).collect();
+    let whole = all.iter().map(|terms| terms.size).sum();
+    all.into_iter().zip(demands).map(|(terms, demand)| Corrections::of(terms, inertia, demand, whole)).collect()
+}
+
+/// The mean motion with the mean M and L of all terms, to second order if the level is, and how far the rates of second order are from those of first.
+pub(super) fn refined(
+    polhode: &Polhode,
+    first: MeanMotion,
+    state: &Mean,
+    start: &When<pulp::Scalar>,
+    demand: &Demand<'_>,
+) -> Result<(MeanMotion, Refinement), Error> {
+    let (both, [by_momentum, by_sigma]) = epoch::refined(
+        (&first.mean, &first.change, first.corrections[0].size),
+        state,
+        &first.inertia,
+        &start.place,
+        (demand, polhode.moments),
+    );
+    let Refined { mean, momentum, left } = both[usize::from(demand.level == Level::SecondOrder)];
+    let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
+    let apart = [0, 1].map(|i| inertia.rates[i].to_f64() * by_momentum + inertia.rate_slopes[i] * by_sigma);
+    let corrections = vec![Corrections::new(&inertia, demand)?];
+    let change = Change { momentum, ..first.change };
+    // The iteration leaves M and L its own threshold, which the rates multiply by the time.
+    let left = left.map(|part| part + CONVERGED);
+    let hamiltonian = epoch::hamiltonian(&inertia, demand, polhode.moments);
+    Ok((MeanMotion { mean, change, inertia, corrections }, Refinement { left, apart, hamiltonian }))
+}
+
+/// The mean variables whose corrections give a state, by fixed-point iteration.
+pub(super) fn first_order(
+    polhode: &Polhode,
+    state: &Mean,
+    starts: &[When<pulp::Scalar>],
+    demands: &[Demand<'_>],
+) -> Result<MeanMotion, Error> {
+    let (mut mean, mut change) = (*state, Change::default());
+    let (mut step, mut first) = (0, 0.0_f64);
+    // Each iteration reduces the error by the relative size of the corrections, which is below a fiftieth.
+    loop {
+        let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
+        let corrections = corrections_of(&inertia, demands)?;
+        let changes = corrections.iter().zip(starts).map(|(corrections, start)| corrections.at(&mean, &start.place));
+        let next_change = changes.reduce(|sum, change| sum.plus(&change)).unwrap_or_default();
+        let next = state.changed(&next_change, -1.0);
+        let moved = (next.p - mean.p).norm()
+            + (next.longitude - mean.longitude).abs()
+            + (next.momentum / mean.momentum - 1.0).abs()
+            + next.frame.angle_to(&mean.frame);
+        if moved <= CONVERGED {
+            return Ok(MeanMotion { mean, change, inertia, corrections });
+        }
+        first = first.max(moved);
+        if step == MOST_STEPS {
+            // Rounding of large corrections may prevent full convergence. A motion without contraction has no mean motion.
+            let contraction = (moved / first).powf(1.0 / MOST_STEPS as f64);
+            return if contraction <= CONTRACTION {
+                Ok(MeanMotion { mean, change, inertia, corrections })
+            } else {
+                Err(Error::TorqueTooStrong { size: contraction, bound: CONTRACTION })
+            };
+        }
+        (mean, change) = (next, next_change);
+        step += 1;
+    }
+}
+
+/// The largest torque over M²/C: 3n²C(C − A)/2M² at the pericentre times the mass fraction, where C is the largest and A the smallest moment; `rate` is n/M.
+pub(super) fn strongest_torque(polhode: &Polhode, orbit: &Orbit, rate: f64) -> f64 {
+    let [first, _, third] = polhode.moments;
+    let product = first.max(third) * (first - third).abs();
+    1.5 * rate * rate * product * orbit.disturbing_fraction() / (1.0 - orbit.eccentricity()).powi(3)
+}
