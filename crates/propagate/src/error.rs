@@ -314,6 +314,8 @@ pub enum Error {
         steps: f64,
         /// The largest number of steps.
         bound: usize,
+        /// Why the scene is integrated, or empty.
+        reason: String,
     },
     /// A motion whose nearby states separate so fast that the attitude at the end of the span is unknown.
     Unpredictable {

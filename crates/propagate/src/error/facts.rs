@@ -183,7 +183,7 @@ impl Error {
             Self::TableSpan { start, stop, first, last } => facts("span", [*start, *stop], [*first, *last]),
             Self::NoSpan { .. } => facts("span", "none", "start <= stop"),
             Self::OnlyIntegrated { method, .. } => facts("method", method, "integrated"),
-            Self::TooManySteps { steps, bound } => facts("span", *steps, *bound as f64),
+            Self::TooManySteps { steps, bound, .. } => facts("span", *steps, *bound as f64),
             Self::Unpredictable { tolerance, start, stop } => facts("tolerance", *tolerance, [*start, *stop]),
             _ => (None, None, None),
         }

@@ -1,6 +1,7 @@
 //! Tests of the corrections with the mean variables, which are not public: the mean M is nearly constant, and the brackets are preserved.
 
 use super::*;
+use crate::gravity_gradient::corrections::Change;
 use crate::gravity_gradient::envelope::whole;
 use crate::simd::kepler::Place;
 use crate::{Body, State};

@@ -236,7 +236,7 @@ impl Task for Kept<'_> {
             let length = runner.advance((equations, precision), end, &mut workspace);
             // A table whose polynomial meets the origin leaves no number.
             if length.is_nan() {
-                return Err(Error::TooManySteps { steps: f64::INFINITY, bound: MOST_STEPS });
+                return Err(Error::TooManySteps { steps: f64::INFINITY, bound: MOST_STEPS, reason: String::new() });
             }
             kept &= coefficients.len() + precision.order < MOST_COEFFICIENTS;
             if kept {
@@ -265,7 +265,7 @@ fn affordable(steps: &[Step], runner: &Runner, target: (f64, f64)) -> Result<(),
     let whole = steps.len() as f64 * (target.0.abs() / done);
     let bound = MOST_STEPS as f64;
     if whole > HOPELESS * bound || steps.len() >= MOST_STEPS {
-        return Err(Error::TooManySteps { steps: whole, bound: MOST_STEPS });
+        return Err(Error::TooManySteps { steps: whole, bound: MOST_STEPS, reason: String::new() });
     }
     Ok(())
 }

@@ -61,3 +61,11 @@ fn steps_that_are_expanded_again_give_the_bits_of_those_that_were_kept() {
         assert_eq!(one.at((time, 0.0)), other.at((time, 0.0)));
     }
 }
+
+#[test]
+fn a_span_of_too_many_steps_says_why_theory_does_not_serve() {
+    let orbit = Orbit::new(0.5, 0.1).expect("an orbit");
+    let error = scene([1.0, 1.5, 2.0], [0.1, 0.2, 1.0]).orbit(orbit).span(0.0, 1e9).solve().expect_err("too long");
+    assert!(matches!(&error, Error::TooManySteps { reason, .. } if reason.contains("resonance")), "{error}");
+    assert!(error.to_string().contains("by which this scene is solved: theory: "), "{error}");
+}

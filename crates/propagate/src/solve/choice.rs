@@ -93,7 +93,10 @@ pub(super) fn integrated(
     stop: &AtomicBool,
 ) -> Result<Motion, Error> {
     let free = Scene::new(scene.body().clone(), *scene.state()).solve_by_theory(tables)?;
-    let motion = Integrated::new(&scene, &reason, stop)?;
+    let motion = Integrated::new(&scene, &reason, stop).map_err(|error| match error {
+        Error::TooManySteps { steps, bound, .. } => Error::TooManySteps { steps, bound, reason: reason.clone() },
+        error => error,
+    })?;
     let mut plan = Plan::new(&scene, free.plan.mode, free.plan.separatrix_ratio, motion.error);
     plan.method = Method::Integrated;
     plan.order = motion.order();
