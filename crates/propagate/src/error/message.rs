@@ -49,7 +49,7 @@ impl fmt::Display for Error {
             Self::TableSpan { start, stop, first, last } => write!(f, "span: the integration goes from {start} to {stop}, and the table of positions only from {first} to {last}"),
             Self::NoSpan { reason } => write!(f, "span: none is given, and the integrated method needs one{}", because(reason)),
             Self::OnlyIntegrated { method, reason } => write!(f, "method = \"{method}\": {reason}; use method = \"integrated\" or \"auto\" with a span"),
-            Self::TooManySteps { steps, bound, reason } => write!(f, "span: the integration{} needs about {steps:.1e} steps, which take {:.1} GB; at most {bound} are kept: use a span shorter by a factor of {:.1}", because(reason), memory(*steps), steps / *bound as f64),
+            Self::TooManySteps { steps, bound, reason } => write!(f, "span: the integration needs about {steps:.1e} steps, which take {:.1} GB; at most {bound} are kept: use a span shorter by a factor of {:.1}{}", memory(*steps), steps / *bound as f64, instead_of(reason)),
             Self::Unpredictable { tolerance, start, stop } => write!(f, "tolerance = {tolerance:e}: nearby states separate so fast that the attitude is unknown at the end of the span; {tolerance:e} rad holds from {start} to {stop}"),
             Self::Member { index, others, problem } => write!(f, "member {index}: {problem}{}", and_others(*others)),
             Self::OnError { value } => write!(f, "errors = {value:?}: it must be \"raise\" or \"nan\""),
@@ -75,6 +75,11 @@ fn did_you_mean(name: &str, known: &[&str]) -> String {
 /// The reason why a motion is integrated, as the end of a sentence.
 fn because(reason: &str) -> String {
     if reason.is_empty() { String::new() } else { format!(", by which this scene is solved: {reason}") }
+}
+
+/// Why the theory does not serve a motion, as a sentence after another.
+fn instead_of(reason: &str) -> String {
+    if reason.is_empty() { String::new() } else { format!(". The scene is integrated because of the {reason}") }
 }
 
 /// Memory of a number of integration steps, in units of 1e9 bytes.

@@ -34,6 +34,14 @@ fn by_derivatives<C: Coefficient>(
 
 proptest! {
     #[test]
+    fn a_bracket_of_long_integers_is_that_of_short_ones_times_the_factor(f in rational_polynomial(), g in rational_polynomial()) {
+        let poisson = Poisson::new(&[(0, 1), (2, 3)])?;
+        let factor = BigRational::from_integer(num_bigint::BigInt::from(1) << 200);
+        let long = |polynomial: &Polynomial<BigRational>| polynomial.map(|c| c * &factor);
+        prop_assert_eq!(poisson.bracket(&long(&f), &g)?, long(&poisson.bracket(&f, &g)?));
+    }
+
+    #[test]
     fn two_canonical_pairs_make_a_lie_algebra(f in rational_polynomial(), g in rational_polynomial(), h in rational_polynomial()) {
         let poisson = Poisson::new(&[(0, 1), (2, 3)])?;
         laws(&poisson, [&f, &g, &h])?;
