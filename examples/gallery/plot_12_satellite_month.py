@@ -11,6 +11,7 @@ import math
 import tempfile
 import time
 from pathlib import Path
+from typing import Literal
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -71,13 +72,14 @@ orbit = andoyer.Orbit.around_oblate(3.986004415e14, semi_major_axis, 0.001, incl
 still = andoyer.Orbit(orbit.mean_motion, orbit.eccentricity, inclination=inclination, attraction=orbit.attraction)
 print(f"node {math.degrees(orbit.node_rate) * DAY:.3f} °/day")
 fast = ([0, 0, 0, 1], [0.02 * 12 * spin, 0.0, 12 * spin])
+runs: list[tuple[Literal["closed", "integrated"], andoyer.Orbit]] = [("closed", orbit), ("integrated", orbit), ("closed", still)]
 print("days  attitude error  error bound  pole error  pole in a fixed orbit  theory [s]  integration [s]")
 for days in (1, 7):
     times = np.linspace(0, days * DAY, 1000)
     attitudes, poles, seconds, bounds = [], [], [], []
-    for name, path in (("closed", orbit), ("integrated", orbit), ("closed", still)):
+    for name, disturbing in runs:
         clock = time.perf_counter()
-        solved = andoyer.Scene(box, *fast, orbit=path, span=(0, days * DAY), tolerance=1e-2 if name == "closed" else 1e-7, method=name).solve()
+        solved = andoyer.Scene(box, *fast, orbit=disturbing, span=(0, days * DAY), tolerance=1e-2 if name == "closed" else 1e-7, method=name).solve()
         solved.attitude(times)
         seconds.append(time.perf_counter() - clock)
         attitudes.append(solved.rotation(times))

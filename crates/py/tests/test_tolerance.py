@@ -11,7 +11,7 @@ import pytest
 import andoyer
 
 LEVEL = [0, 0, 0, 1]
-SUN = andoyer.Orbit(2e-3, 0.1)
+SUN = andoyer.Orbit(1e-2, 0.1)
 DISTURBED = andoyer.Body([1, 1.02, 1.05])
 
 
@@ -78,7 +78,7 @@ moments = [1.0, 1.02, 1.05]
 attitude = [0.0, 0.0, 0.0, 1.0]
 angular_velocity = [0.0, 0.01, 1.0]
 [orbit]
-mean_motion = 2e-3
+mean_motion = 1e-2
 """
 
 

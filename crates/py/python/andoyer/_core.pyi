@@ -428,7 +428,7 @@ class Partials:
 
 @final
 class Ensemble:
-    """Many bodies with their states. They are solved and evaluated member by member on all cores, in memory proportional to the result."""
+    """Many bodies with their states. They are solved in groups and evaluated on all cores, in memory proportional to the result."""
 
     def __new__(
         cls,
