@@ -32,7 +32,7 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// Raises
 /// ------
 /// RepresentationError
-///     A time more than 1e15 rotations from the epoch, with ``averaging="spin"`` more than 65,534 orbits from it, or outside the span of an integrated motion. The message states
+///     A time more than 1e15 rotations from the epoch, with ``averaging="spin"`` more than 65,534 orbits from it (262,144 arcs with several bodies or an orbit that precesses), or outside the span of an integrated motion. The message states
 ///     the index of the time and the limit.
 /// InputError
 ///     A time that is NaN or infinite; a Time if the epoch is a number; a Quantity if the epoch is a Time; an array of times with two axes.
