@@ -34,7 +34,7 @@ pub(super) struct Stand<'a> {
     pub(super) tensors: &'a [Tensor; ORDERS],
     /// Largest sizes of the time derivatives, as many and one more.
     pub(super) norms: &'a [f64],
-    /// Frequency below which pairs are left out: the fastest of the orbit's times [`SMALLEST_RATIO`].
+    /// Frequency below which pairs are left out: the fastest of the orbit's times [`SMALLEST_RATIO`](crate::gravity_gradient::candidate::SMALLEST_RATIO).
     pub(super) slowest: f64,
     /// Mean motion of the disturbing body.
     pub(super) mean_motion: f64,
