@@ -154,22 +154,27 @@ impl Subject<'_> {
         for k in 0..SAMPLES {
             let [first, second, third, fourth] = kronecker(k);
             let anomaly = self.place(k, third, orbital);
-            let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), self.ellipse.eccentricity);
             let turn = UnitQuaternion::from_axis_angle(&self.ellipse.normal(), precession * (2.0 * fourth - 1.0));
-            let mean = Mean {
-                p: Complex::from_polar(self.mean.p.norm(), TAU * first),
-                longitude: TAU * second,
-                momentum: self.mean.momentum,
-                frame: turn * self.mean.frame,
-            };
-            let change = self.corrections.at(&mean, &place);
-            let p = change.p.norm();
-            let [x, y] = change.rotation;
-            let parts = [self.response.gain * p, change.longitude, x, y, change.momentum / self.mean.momentum];
-            largest = largest.max(parts.iter().map(|part| part * part).sum::<f64>().sqrt());
-            largest_p = largest_p.max(p);
+            let [size, p] = self.change_at([first, second], anomaly, turn);
+            (largest, largest_p) = (largest.max(size), largest_p.max(p));
         }
         [largest, largest_p]
+    }
+
+    /// The first-order change of the attitude, and the change of p, with ℓ′ and y′ in turns, at a mean anomaly of the disturbing body, the mean frame turned.
+    fn change_at(&self, [anomaly, longitude]: [f64; 2], orbital: f64, turn: UnitQuaternion<f64>) -> [f64; 2] {
+        let place = Place::of(Lanes::splat(pulp::Scalar, orbital), self.ellipse.eccentricity);
+        let mean = Mean {
+            p: Complex::from_polar(self.mean.p.norm(), TAU * anomaly),
+            longitude: TAU * longitude,
+            momentum: self.mean.momentum,
+            frame: turn * self.mean.frame,
+        };
+        let change = self.corrections.at(&mean, &place);
+        let p = change.p.norm();
+        let [x, y] = change.rotation;
+        let parts = [self.response.gain * p, change.longitude, x, y, change.momentum / self.mean.momentum];
+        [parts.iter().map(|part| part * part).sum::<f64>().sqrt(), p]
     }
 
     /// A mean anomaly within the span. Of two samples, one is uniform in the mean anomaly and one in the true anomaly.

@@ -1,6 +1,7 @@
 use std::sync::atomic::AtomicBool;
 
 use super::dense::Cursor;
+use super::expansion::Equations;
 use super::integrated::Integrated;
 use super::integrator::Step;
 use crate::error::STEP_BYTES;
@@ -68,4 +69,17 @@ fn a_span_of_too_many_steps_says_why_theory_does_not_serve() {
     let error = scene([1.0, 1.02, 1.05], [0.0, 0.01, 1.0]).orbit(orbit).span(0.0, 1e9).solve().expect_err("too long");
     assert!(matches!(&error, Error::TooManySteps { reason, .. } if reason.contains("resonance")), "{error}");
     assert!(error.to_string().contains("The scene is integrated because of the theory: "), "{error}");
+}
+
+#[test]
+fn the_integrals_of_the_free_motion_drift_by_twice_the_relative_error_of_the_rates() {
+    let free = scene([1.0, 1.5, 2.0], [0.1, 0.2, 1.0]).span(0.0, 500.0).method(Method::Integrated);
+    let motion = Integrated::new(&free, "", &AtomicBool::new(false)).expect("a motion");
+    let [first, last] = [&motion.sides[1].steps[0], &motion.sides[1].steps[motion.sides[1].steps.len() - 1]];
+    let equations = Equations::new(&free, 0, 1.0);
+    // Along the motion the energy and the angular momentum stay; with rates 1e-9 larger the largest integral, f2 ω1² − f1 ω2² or another, changes by 2e-9 of it.
+    assert!(equations.drift(&first.rates, &last.rates) < 1e-14);
+    let wrong = last.rates.map(|rate| rate * (1.0 + 1e-9));
+    let drift = equations.drift(&first.rates, &wrong);
+    assert!(drift > 1e-9 && drift < 2.001e-9, "{drift:e}");
 }

@@ -1,5 +1,6 @@
 //! Products against the schoolbook's: arrays and tables, one word and two, machine words and big integers, truncations, threads.
 
+use crate::strategies::schoolbook;
 use andoyer_double::DoubleDouble;
 use andoyer_series::lie::Poisson;
 use andoyer_series::num_complex::Complex;
@@ -8,19 +9,6 @@ use andoyer_series::{Coefficient, Error, MAX_EXPONENT, Monomial, Polynomial, Tru
 use num_bigint::BigInt;
 use proptest::collection::vec;
 use proptest::prelude::*;
-
-/// The product by its definition.
-fn schoolbook<C: Coefficient>(a: &Polynomial<C>, b: &Polynomial<C>) -> Result<Polynomial<C>, Error> {
-    let mut sum = Polynomial::zero();
-    for (m, x) in a.terms() {
-        for (n, y) in b.terms() {
-            let mut product = x.clone();
-            product *= y;
-            sum.add_term(m.checked_mul(n)?, &product);
-        }
-    }
-    Ok(sum)
-}
 
 /// Up to 60 terms whose exponents are below `bound` in each of the eight slots.
 fn monomials(bound: u32) -> impl Strategy<Value = Vec<Monomial>> {

@@ -1,6 +1,6 @@
 //! The ring laws, and identities that a wrong product would break.
 
-use crate::strategies::{gaussian_polynomial, rational_polynomial};
+use crate::strategies::{gaussian_polynomial, rational_polynomial, schoolbook};
 use andoyer_series::{Coefficient, Error, Monomial, Polynomial, Truncation};
 use num_rational::BigRational;
 use proptest::prelude::*;
@@ -23,19 +23,6 @@ fn laws<C: Coefficient>(a: &Polynomial<C>, b: &Polynomial<C>, c: &Polynomial<C>)
     let kept = Truncation::partial(&[1, 2], 4)?;
     prop_assert_eq!(a.multiply_truncated(b, &kept)?, a.multiply(b)?.truncate(&kept));
     Ok(())
-}
-
-/// The product by its definition, with reduced fractions throughout.
-fn schoolbook<C: Coefficient>(a: &Polynomial<C>, b: &Polynomial<C>) -> Result<Polynomial<C>, Error> {
-    let mut sum = Polynomial::zero();
-    for (m, x) in a.terms() {
-        for (n, y) in b.terms() {
-            let mut product = x.clone();
-            product *= y;
-            sum.add_term(m.checked_mul(n)?, &product);
-        }
-    }
-    Ok(sum)
 }
 
 proptest! {

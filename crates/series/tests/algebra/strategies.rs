@@ -1,7 +1,7 @@
 //! Random exact polynomials: few terms, small exponents and small fractions, so that like terms and cancellations are
-//! common.
+//! common; and the product by its definition, against which products are tested.
 
-use andoyer_series::{Monomial, Polynomial};
+use andoyer_series::{Coefficient, Error, Monomial, Polynomial};
 use num_complex::Complex;
 use num_rational::BigRational;
 use proptest::collection::vec;
@@ -24,4 +24,17 @@ pub(crate) fn rational_polynomial() -> impl Strategy<Value = Polynomial<BigRatio
 pub(crate) fn gaussian_polynomial() -> impl Strategy<Value = Polynomial<Complex<BigRational>>> {
     let coefficient = (rational(), rational()).prop_map(|(re, im)| Complex::new(re, im));
     vec((monomial(), coefficient), 0..6).prop_map(Polynomial::from_terms)
+}
+
+/// The product by its definition, with reduced fractions throughout.
+pub(crate) fn schoolbook<C: Coefficient>(a: &Polynomial<C>, b: &Polynomial<C>) -> Result<Polynomial<C>, Error> {
+    let mut sum = Polynomial::zero();
+    for (m, x) in a.terms() {
+        for (n, y) in b.terms() {
+            let mut product = x.clone();
+            product *= y;
+            sum.add_term(m.checked_mul(n)?, &product);
+        }
+    }
+    Ok(sum)
 }

@@ -7,12 +7,9 @@
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
-use num_complex::Complex;
 
 use super::{Budget, MARGIN, SAMPLES, SLOPE_SHARE, Subject, kronecker};
-use crate::gravity_gradient::corrections::{Demand, Mean};
-use crate::simd::kepler::Place;
-use crate::simd::lanes::Lanes;
+use crate::gravity_gradient::corrections::Demand;
 
 /// Samples of one body over those of a fixed orbit: the orientations are more.
 const MORE: usize = 2;
@@ -67,7 +64,6 @@ impl Subject<'_> {
             let [first, second, third, fourth] = kronecker(k);
             let fifth = (GOLDEN * (k as f64 + 0.5)).fract();
             let anomaly = self.place(k, third, demand.mean_motion * duration);
-            let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), self.ellipse.eccentricity);
             let about = |axis: &Unit<Vector3<f64>>, angle: f64, part: f64| {
                 UnitQuaternion::from_axis_angle(axis, angle * (2.0 * part - 1.0))
             };
@@ -75,18 +71,8 @@ impl Subject<'_> {
             let turn = about(&self.ellipse.normal(), pericentre, (fifth + 0.5 * fourth).fract())
                 * about(&Vector3::z_axis(), node, fifth)
                 * about(&normals[k % normals.len()], precession, fourth);
-            let mean = Mean {
-                p: Complex::from_polar(self.mean.p.norm(), TAU * first),
-                longitude: TAU * second,
-                momentum: self.mean.momentum,
-                frame: turn * self.mean.frame,
-            };
-            let change = self.corrections.at(&mean, &place);
-            let p = change.p.norm();
-            let [x, y] = change.rotation;
-            let parts = [self.response.gain * p, change.longitude, x, y, change.momentum / self.mean.momentum];
-            largest = largest.max(parts.iter().map(|part| part * part).sum::<f64>().sqrt());
-            largest_p = largest_p.max(p);
+            let [size, p] = self.change_at([first, second], anomaly, turn);
+            (largest, largest_p) = (largest.max(size), largest_p.max(p));
         }
         [largest, largest_p]
     }
