@@ -52,7 +52,12 @@ class Visit:
         page.on("console", lambda message: self.said.append((message.type, message.text)))
         page.on("pageerror", lambda error: self.said.append(("error", str(error))))
         page.on("requestfinished", lambda request: self.fetched.append(request.url))
-        page.on("requestfailed", lambda request: self.said.append(("error", f"failed: {request.url}")))
+        page.on("requestfailed", self.failed)
+
+    def failed(self, request):
+        """Note a request that failed. One that the browser gave up because the page was left (a favicon, say) is no fault of the next page."""
+        if request.failure != "net::ERR_ABORTED":
+            self.said.append(("error", f"failed: {request.url}: {request.failure}"))
 
     def open(self, path):
         """Load a page of the site, with all its pictures."""
