@@ -6,8 +6,11 @@
 //! It is emptied in the order of the codes. The result is therefore sorted, the windows are independent, and any number of threads adds the same numbers in the
 //! same order.
 
+use std::sync::{Mutex, PoisonError};
+
 use super::arithmetic::Arithmetic;
 use super::code::{Key, Layout};
+use super::piece::{Collection, Piece};
 use super::store::{Array, Store, Table};
 use super::{PRODUCTS_PER_PAUSE, Pause};
 use crate::Error;
@@ -15,8 +18,11 @@ use rayon::prelude::*;
 
 /// Smallest number of products for which several threads are used.
 const PARALLEL_PRODUCTS: usize = 1 << 18;
-/// Number of windows for each thread between two pauses.
-const WINDOWS_PER_BATCH: usize = 16;
+/// Number of windows for each thread between two pauses, for numbers and for sums that own memory. At the end of a batch a thread waits for half a window on
+/// average.
+const WINDOWS_PER_BATCH: [usize; 2] = [128, 16];
+/// Number of windows, evenly distributed, that are computed in advance to count their terms, if there are many times more.
+const PROBES: usize = 16;
 /// Cells of the array of a window: a megabyte of 16-byte sums.
 const ARRAY_CELLS: i128 = 1 << 16;
 /// Products of one window with an array: some milliseconds.
@@ -153,18 +159,6 @@ impl<K: Key, F> Part<'_, K, F> {
     }
 }
 
-/// The terms of a part of the result, in the order of their codes.
-pub(super) struct Piece<V> {
-    pub(super) keys: Vec<u128>,
-    pub(super) values: Vec<V>,
-}
-
-impl<V> Piece<V> {
-    fn new() -> Self {
-        Piece { keys: Vec::new(), values: Vec::new() }
-    }
-}
-
 /// A sum of products, ready to be computed.
 pub(super) struct Sum<'a, K, A: Arithmetic> {
     pub(super) arithmetic: &'a A,
@@ -175,15 +169,15 @@ pub(super) struct Sum<'a, K, A: Arithmetic> {
 }
 
 impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
-    /// All terms of the sum, in pieces.
-    pub(super) fn form(&self, pause: &mut Pause<'_>) -> Result<Vec<Piece<A::Value>>, Error> {
+    /// All terms of the sum.
+    pub(super) fn form(&self, pause: &mut Pause<'_>) -> Result<Piece<A::Value>, Error> {
         let ranges = || self.parts.iter().filter_map(Part::range);
         let (Some(low), Some(high)) = (ranges().map(|r| r.0).min(), ranges().map(|r| r.1).max()) else {
-            return Ok(Vec::new());
+            return Ok(Piece::new());
         };
         let high = self.last_kept.map_or(high.widened(), |last| high.widened().min(last)) + 1;
         if low.widened() >= high {
-            return Ok(Vec::new());
+            return Ok(Piece::new());
         }
         let whole = Window { low, high: K::narrowed(high) };
         let pairs = self.parts.iter().fold(0_usize, |pairs, part| pairs.saturating_add(part.pairs()));
@@ -212,7 +206,7 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
             }
         }
         sums.retain(|&code| code > whole.low && code < whole.high);
-        sums.sort_unstable();
+        sums.par_sort_unstable();
         let mut boundaries = vec![whole.low];
         boundaries.extend((1..count).filter_map(|at| sums.get(at * sums.len() / count)));
         boundaries.push(whole.high);
@@ -221,30 +215,17 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
     }
 
     /// Computes the windows in order, with several threads if the work is large enough.
-    fn windows<S: Store<K, A::Sum>>(
+    fn windows<S: Store<K, A::Sum> + Send>(
         &self,
         store: impl Fn() -> S + Sync,
         windows: &[Window<K>],
         pairs: usize,
         pause: &mut Pause<'_>,
-    ) -> Result<Vec<Piece<A::Value>>, Error> {
+    ) -> Result<Piece<A::Value>, Error> {
         let threads = if pairs < PARALLEL_PRODUCTS { 1 } else { rayon::current_num_threads().min(windows.len()) };
         let expected = pairs / windows.len().max(1);
         if threads > 1 {
-            let mut pieces = Vec::new();
-            for batch in windows.chunks(threads * WINDOWS_PER_BATCH) {
-                pause()?;
-                let stretches: Vec<Piece<A::Value>> = batch
-                    .par_iter()
-                    .map_init(&store, |store, &window| {
-                        let mut piece = Piece::new();
-                        self.window(window, expected, store, &mut piece, &mut |_| Ok(()))?;
-                        Ok(piece)
-                    })
-                    .collect::<Result<_, Error>>()?;
-                pieces.extend(stretches);
-            }
-            return Ok(pieces);
+            return self.windows_of_threads(store, windows, (threads, expected), pause);
         }
         let (mut piece, mut store, mut done) = (Piece::new(), store(), 0);
         let mut count = |products| {
@@ -258,7 +239,45 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
         for &window in windows {
             self.window(window, expected, &mut store, &mut piece, &mut count)?;
         }
-        Ok(vec![piece])
+        Ok(piece)
+    }
+
+    /// Computes the windows with `threads` threads. Stores and pieces are used again, since memory that is new to a process costs as much time as the sums.
+    fn windows_of_threads<S: Store<K, A::Sum> + Send>(
+        &self,
+        store: impl Fn() -> S + Sync,
+        windows: &[Window<K>],
+        (threads, products): (usize, usize),
+        pause: &mut Pause<'_>,
+    ) -> Result<Piece<A::Value>, Error> {
+        let stores = Mutex::new(Vec::new());
+        let held = || stores.lock().unwrap_or_else(PoisonError::into_inner);
+        let compute = |windows: &[Window<K>], pieces: &mut [Piece<A::Value>]| {
+            windows.par_iter().zip(pieces).with_max_len(1).try_for_each(|(&window, piece)| {
+                let free = held().pop();
+                let mut store = free.unwrap_or_else(&store);
+                self.window(window, products, &mut store, piece, &mut |_| Ok(()))?;
+                held().push(store);
+                Ok(())
+            })
+        };
+        let in_batch = threads * WINDOWS_PER_BATCH[usize::from(!A::LIGHT)];
+        let mut pieces: Vec<_> = std::iter::repeat_with(Piece::new).take(in_batch.min(windows.len())).collect();
+        let mut expected = 0;
+        if windows.len() > 32 * PROBES && A::LIGHT {
+            let probes: Vec<_> = windows.iter().copied().step_by(windows.len() / PROBES).collect();
+            compute(&probes, &mut pieces)?;
+            let terms: usize = pieces.iter().map(|piece| piece.keys.len()).sum();
+            expected = terms * windows.len() / probes.len() * 9 / 8;
+            pieces.iter_mut().for_each(Piece::clear);
+        }
+        let mut collection = Collection::new(expected);
+        for batch in windows.chunks(in_batch) {
+            pause()?;
+            compute(batch, &mut pieces)?;
+            collection.append(&mut pieces[..batch.len()], &A::zero());
+        }
+        Ok(collection.finish())
     }
 
     /// Computes the sums of one window, which has about `expected` products.

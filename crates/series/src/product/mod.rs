@@ -9,6 +9,7 @@ mod arithmetic;
 mod code;
 mod engine;
 mod operands;
+mod piece;
 mod store;
 
 use crate::monomial::Monomial;
@@ -17,9 +18,9 @@ use crate::words::{FactorList, Factors, Numerators, Words};
 use crate::{Coefficient, Error, MAX_EXPONENT, Polynomial, SLOTS, Truncation};
 use arithmetic::{Arithmetic, GaussianIntegers, Integers, Lifted};
 use code::{Key, Layout};
-use engine::{CELLS_PER_PRODUCT, Part, Piece, Sum};
+use engine::{CELLS_PER_PRODUCT, Part, Sum};
 use operands::Sides;
-use rayon::prelude::*;
+use piece::Piece;
 
 /// The factors of both sides, polynomial by polynomial.
 type OperandFactors<A> = (Vec<Vec<<A as Arithmetic>::Factor>>, Vec<Vec<<A as Arithmetic>::Factor>>);
@@ -265,14 +266,13 @@ impl<'a, C: Coefficient> Accumulator<'a, C> {
         let parts: Vec<Part<'_, K, A::Factor>> =
             self.products.iter().map(|product| sides.part(product, layout)).collect();
         let last_kept = self.truncation.map(|truncation| layout.last_of_degree(truncation.degree()));
-        let pieces = Sum { arithmetic, parts: &parts, layout, last_kept }.form(pause)?;
-        Ok(gather(pieces, &A::zero(), layout.canonical))
+        let terms = Sum { arithmetic, parts: &parts, layout, last_kept }.form(pause)?;
+        Ok(in_order(terms, layout.canonical))
     }
 }
 
-/// The terms of all pieces in canonical order.
-fn gather<V: Clone + Send + Sync>(pieces: Vec<Piece<V>>, zero: &V, ordered: bool) -> (Vec<Monomial>, Vec<V>) {
-    let Piece { keys, values } = join(pieces, zero);
+/// The terms in canonical order.
+fn in_order<V>(Piece { keys, values }: Piece<V>, ordered: bool) -> (Vec<Monomial>, Vec<V>) {
     // This conversion reuses the memory.
     let monomials: Vec<_> = keys.into_iter().map(Monomial::from_key).collect();
     if ordered {
@@ -281,36 +281,6 @@ fn gather<V: Clone + Send + Sync>(pieces: Vec<Piece<V>>, zero: &V, ordered: bool
     let mut terms: Vec<_> = monomials.into_iter().zip(values).collect();
     terms.sort_by_cached_key(|(monomial, _)| monomial.rank());
     terms.into_iter().unzip()
-}
-
-/// Joins the pieces. All threads copy numbers; values that own memory are moved.
-fn join<V: Clone + Send + Sync>(pieces: Vec<Piece<V>>, zero: &V) -> Piece<V> {
-    if pieces.len() < 2 || std::mem::needs_drop::<V>() {
-        let mut whole = Piece { keys: Vec::new(), values: Vec::new() };
-        for mut piece in pieces {
-            if whole.keys.is_empty() {
-                whole = piece;
-            } else {
-                whole.keys.append(&mut piece.keys);
-                whole.values.append(&mut piece.values);
-            }
-        }
-        return whole;
-    }
-    let length = pieces.iter().map(|piece| piece.keys.len()).sum();
-    let (mut keys, mut values) = (vec![0; length], vec![zero.clone(); length]);
-    let (mut free_keys, mut free_values, mut places) = (&mut keys[..], &mut values[..], Vec::new());
-    for piece in &pieces {
-        let (keys, rest_of_keys) = free_keys.split_at_mut(piece.keys.len());
-        let (values, rest_of_values) = free_values.split_at_mut(piece.keys.len());
-        places.push((piece, keys, values));
-        (free_keys, free_values) = (rest_of_keys, rest_of_values);
-    }
-    places.into_par_iter().for_each(|(piece, keys, values)| {
-        keys.copy_from_slice(&piece.keys);
-        values.clone_from_slice(&piece.values);
-    });
-    Piece { keys, values }
 }
 
 /// The largest exponent in each slot.
