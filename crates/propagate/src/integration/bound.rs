@@ -21,7 +21,7 @@ use crate::simd::halt::going;
 use crate::simd::instruction_set::{InstructionSet, Task};
 
 /// The least and the most that the bound is of the largest distance of the displaced state.
-const SAFETY: [f64; 2] = [2.0, 8.0];
+pub(super) const SAFETY: [f64; 2] = [2.0, 8.0];
 /// Times at which the two are compared.
 const COMPARISONS: usize = 256;
 /// Relative rounding error of the integrals of the free motion, computed from rounded rates.
@@ -33,7 +33,7 @@ const LOST: f64 = 0.5;
 /// Rounding errors of the evaluation \[rad\].
 pub(super) const FLOOR: f64 = 1e-14;
 /// Relative rounding errors of the state.
-const INPUT: f64 = 1.2e-16;
+pub(super) const INPUT: f64 = 1.2e-16;
 /// Relative rounding errors of the ratios of the moments and of each torque, the same in every step.
 const CONSTANTS: [f64; 2] = [2.4e-16, 4.8e-16];
 

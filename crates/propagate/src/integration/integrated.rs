@@ -6,11 +6,11 @@ use std::sync::atomic::AtomicBool;
 use andoyer_double::two_sum;
 use pulp::Arch;
 
-use super::bound::{FLOOR, Measured, PATTERNS, Profile};
+use super::bound::{FLOOR, INPUT, Measured, PATTERNS, Profile, SAFETY};
 use super::disturber::Disturber;
 use super::expansion::Equations;
-use super::integrator::{Kept, Precision, Runner, Side, Step};
-use super::series::Row;
+use super::integrator::{Kept, Precision, ROUNDING, Runner, Side, Step};
+use super::series::{Row, largest};
 use crate::error::Error;
 use crate::input::disturbing_body::DisturbingBody;
 use crate::input::orbit::Orbit;
@@ -27,8 +27,6 @@ const COARSEST: f64 = 1e-6;
 const ENLARGED_ERROR: f64 = 1e-4;
 /// The second integration's truncation error relative to the first's, after as much as the tolerance asks for.
 const FINER: f64 = 0.05;
-/// Relative rounding error of the rates that a step of about half a radian leaves.
-const STEP_ROUNDING: f64 = 1e-16;
 
 /// What a plan says of an integration.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -85,12 +83,15 @@ impl Integrated {
     }
 }
 
-/// The error bound that rounding leaves a motion without growth of its own, and how many steps it takes, both from above by guess: for the choice of a method.
+/// A guess of the error bound, and how many steps there will be at most: for the choice of a method.
+///
+/// The guess has the parts of the bound that a regular motion has without truncation errors: the rounded state at the epoch, and the rounding of ω × Iω in steps of about a radian, of which the
+/// errors of the rates add up by chance and turn the body ever after. For scenes of which the theory holds the guess is 0.8 of the bound in the median, and 0.3 to 1.4 of it in 90 % of them.
 pub(crate) fn prospect(scene: &Scene) -> Option<(f64, f64)> {
     let problem = Problem::new(scene, "").ok()?;
     let phase = problem.phase();
-    let steps = 10.0 + 2.0 * phase;
-    Some((STEP_ROUNDING * (10.0 + steps.sqrt() * phase), steps))
+    let rates = INPUT + ROUNDING[1] * problem.gyration() * phase.sqrt();
+    Some((FLOOR + SAFETY[0] * rates * phase, 10.0 + 2.0 * phase))
 }
 
 /// The equations with the state and the times.
@@ -154,6 +155,14 @@ impl Problem {
         let longest = self.ends[0].0.abs().max(self.ends[1].0.abs());
         let [x, y, z, _] = self.rates;
         longest * x.hypot(y).hypot(z).max(self.equations.scale)
+    }
+
+    /// ω × Iω in Euler's equations at the epoch, relative to the square of the rates.
+    fn gyration(&self) -> f64 {
+        let [x, y, z, _] = self.rates;
+        let square = x * x + y * y + z * z;
+        let products = [y * z, z * x, x * y, 0.0];
+        if square > 0.0 { largest(&self.equations.factors) * largest(&products) / square } else { 0.0 }
     }
 
     /// By steps of this relative error, with the error bounds before and after the epoch.

@@ -21,7 +21,7 @@ const HOPELESS: f64 = 16.0;
 /// The terms after the last, relative to it: steps are e^−2 of the radius of convergence, so that their sum is 0.16 of it.
 const OMITTED: f64 = 0.2;
 /// Relative rounding errors of a torque and of ω × Iω.
-const ROUNDING: [f64; 2] = [4.0 * 1.2e-16, 2.0 * 1.2e-16];
+pub(super) const ROUNDING: [f64; 2] = [4.0 * 1.2e-16, 2.0 * 1.2e-16];
 
 /// The start of a step: 72 bytes.
 #[derive(Clone, Copy, Debug)]

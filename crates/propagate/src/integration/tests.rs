@@ -2,7 +2,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::dense::Cursor;
 use super::expansion::Equations;
-use super::integrated::Integrated;
+use super::integrated::{Integrated, prospect};
 use super::integrator::Step;
 use crate::error::STEP_BYTES;
 use crate::{Body, Error, Method, Orbit, Scene, State};
@@ -82,4 +82,64 @@ fn the_integrals_of_the_free_motion_drift_by_twice_the_relative_error_of_the_rat
     let wrong = last.rates.map(|rate| rate * (1.0 + 1e-9));
     let drift = equations.drift(&first.rates, &wrong);
     assert!(drift > 1e-9 && drift < 2.001e-9, "{drift:e}");
+}
+
+/// Fast rotations of random bodies under a weak torque, over 20 to 3,000 radians, as the theory serves them.
+fn random_scenes(count: usize) -> impl Iterator<Item = Scene> {
+    let mut random = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut uniform = move |from: f64, to: f64| {
+        random ^= random << 13;
+        random ^= random >> 7;
+        random ^= random << 17;
+        from + (to - from) * (random >> 11) as f64 / 2.0_f64.powi(53)
+    };
+    (0..count).map(move |_| {
+        let [middle, span] = [uniform(0.55, 0.99), 10.0_f64.powf(uniform(1.3, 3.5))];
+        let least = uniform(1.02 - middle, middle - 0.02);
+        let rates = [uniform(-0.2, 0.2), uniform(-0.2, 0.2), 1.0];
+        let orbit = Orbit::new(uniform(1e-3, 3e-2), uniform(0.0, 0.3))
+            .and_then(|orbit| orbit.plane(uniform(0.0, 3.0), 1.0, 2.0))
+            .expect("an orbit");
+        scene([least, middle, 1.0], rates).orbit(orbit).span(0.0, span)
+    })
+}
+
+#[test]
+fn the_guess_of_the_bound_is_near_the_bound_and_not_above_it_in_the_median() {
+    let mut ratios: Vec<f64> = random_scenes(60)
+        .map(|scene| {
+            let (guess, steps) = prospect(&scene).expect("a guess");
+            let motion = Integrated::new(&scene.tolerance(1e-15), "", &AtomicBool::new(false)).expect("a motion");
+            assert!(motion.plan().steps as f64 <= 1.3 * steps, "{} and {steps}", motion.plan().steps);
+            guess / motion.error
+        })
+        .collect();
+    ratios.sort_by(f64::total_cmp);
+    println!("guess / bound: {:.2} {:.2} {:.2} {:.2} {:.2}", ratios[0], ratios[3], ratios[30], ratios[56], ratios[59]);
+    assert!(ratios[30] > 0.4 && ratios[30] <= 1.0, "{}", ratios[30]);
+    assert!(ratios[3] > 0.1 && ratios[56] < 3.0, "{} {}", ratios[3], ratios[56]);
+}
+
+#[test]
+fn a_scene_of_a_hundred_rotations_whose_theory_misses_a_tolerance_of_1e_12_is_integrated_and_meets_it() {
+    let orbit = Orbit::new(0.01, 0.1).expect("an orbit");
+    let scene = scene([0.5, 0.8, 1.0], [0.05, 0.05, 1.0]).orbit(orbit).span(0.0, 700.0).tolerance(1e-12);
+    let theory = scene.clone().method(Method::Closed).solve().expect("a motion");
+    assert!(!theory.plan().meets_tolerance(), "{}", theory.plan());
+    let plan = scene.solve().expect("a motion").plan().clone();
+    assert!(plan.method() == Method::Integrated && plan.meets_tolerance(), "{plan}");
+}
+
+#[test]
+fn a_plan_by_theory_that_misses_the_tolerance_says_what_bound_the_integration_would_have() {
+    let orbit = Orbit::new(0.01, 0.1).expect("an orbit");
+    let scene = scene([0.5, 0.8, 1.0], [0.05, 0.05, 1.0]).orbit(orbit).tolerance(1e-12);
+    let long = scene.clone().span(0.0, 7e4).solve().expect("a motion");
+    assert_eq!(long.plan().method(), Method::Closed);
+    let (guess, _) = prospect(&scene.clone().span(0.0, 7e4)).expect("a guess");
+    let said = long.plan().skipped().last().expect("a reason").clone();
+    assert_eq!(said, format!("integration: its error bound would be about {guess:.1e} rad"));
+    let longest = scene.span(0.0, 7e7).solve().expect("a motion");
+    let said = longest.plan().skipped().last().expect("a reason");
+    assert_eq!(said, "integration: it would take about 1.4e8 steps, and at most 8388608 are kept");
 }
