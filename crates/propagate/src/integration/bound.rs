@@ -41,9 +41,10 @@ const CONSTANTS: [f64; 2] = [2.4e-16, 4.8e-16];
 /// do the two displacements lie near the same line.
 const WEIGHTS: [Row; PATTERNS] = [[0.8, 1.0, 0.9, 0.0], [1.0, -0.4, 0.2, 0.0]];
 /// Where the signs of the displacements of each step begin.
-const SEEDS: [u64; PATTERNS] = [0x9e37_79b9_7f4a_7c15, 0xd1b5_4a32_d192_ed03];
-/// How many displacements are integrated.
-pub(super) const PATTERNS: usize = 2;
+const SEED: u64 = 0x9e37_79b9_7f4a_7c15;
+/// How many displacements are integrated, and the lanes of their states.
+const PATTERNS: usize = 2;
+const LANES: usize = 4 * PATTERNS;
 
 /// Distance at the end of linear growth, of an enlarged displacement \[rad\].
 const ENLARGED: f64 = 1e-3;
@@ -56,7 +57,7 @@ pub(super) type Profile = Vec<(f64, f64)>;
 /// The steps of a motion in one direction, and what measures their error.
 #[derive(Clone, Copy)]
 pub(super) struct Measured<'a> {
-    pub(super) equations: &'a Equations,
+    pub(super) equations: &'a Equations<4>,
     pub(super) precision: Precision,
     pub(super) steps: &'a [Step],
     /// Of attitude \[rad\] and rates.
@@ -64,9 +65,7 @@ pub(super) struct Measured<'a> {
     /// The displacements of a step relative to its rounding errors.
     pub(super) noise: [f64; 2],
     pub(super) backward: bool,
-    /// The index of the displacement.
-    pub(super) pattern: usize,
-    /// Whether the displacement is enlarged.
+    /// Whether the displacements are enlarged.
     pub(super) enlarged: bool,
     pub(super) stop: &'a AtomicBool,
 }
@@ -79,7 +78,7 @@ impl Measured<'_> {
         [angle + INPUT, rate + INPUT * first.abs().max(second.abs()).max(third.abs())]
     }
 
-    fn displaced(&self, [angle, rate]: [f64; 2]) -> Runner {
+    fn displaced(&self, [angle, rate]: [f64; 2]) -> Runner<LANES> {
         let first = self.steps[0].start(self.backward);
         let angle = 0.5 * angle;
         let [x, y, z, w] = first.attitude;
@@ -90,9 +89,11 @@ impl Measured<'_> {
             z + w * turn[2] + x * turn[1] - y * turn[0],
             w - x * turn[0] - y * turn[1] - z * turn[2],
         ];
-        let weights = WEIGHTS[self.pattern];
-        let rates: Row = std::array::from_fn(|i| first.rates[i] + rate * weights[i] * 1.0_f64.copysign(first.rates[i]));
-        Runner::new(attitude, rates, self.backward)
+        let rates = std::array::from_fn(|lane| {
+            let own = first.rates[lane % 4];
+            own + rate * WEIGHTS[lane / 4][lane % 4] * 1.0_f64.copysign(own)
+        });
+        Runner::new(std::array::from_fn(|lane| attitude[lane % 4]), rates, self.backward)
     }
 }
 
@@ -107,12 +108,12 @@ impl Task for Measured<'_> {
         let duration = steps[steps.len() - 1].time.0.abs();
         let scale = if enlarged { ENLARGED / (displacement[0] + displacement[1] * duration) } else { 1.0 };
         let displacement = displacement.map(|displacement| scale * displacement);
-        let equations = &equations.displaced(CONSTANTS.map(|error| scale * error), &WEIGHTS[self.pattern]);
+        let equations = &equations.displaced(CONSTANTS.map(|error| scale * error), &WEIGHTS);
         let mut runner = self.displaced(displacement);
-        let precision = Precision { factor: if enlarged { 1.0 } else { SHORTER }, ..precision };
+        let precision = precision.shorter(if enlarged { 1.0 } else { SHORTER });
         let mut workspace = Workspace::new(equations.bodies.len());
         let (mut profile, mut bound) = (Profile::new(), 0.0_f64);
-        let mut random = SEEDS[self.pattern];
+        let mut random = SEED;
         let (free, fastest) = (equations.bodies.is_empty(), norm(&steps[0].start(backward).rates));
         let stride = steps.len().div_ceil(COMPARISONS);
         for group in steps[1..].chunks(stride) {
@@ -134,7 +135,7 @@ impl Task for Measured<'_> {
                     bound = bound.max(0.5 * drift * fastest * step.time.0.abs());
                 }
             }
-            let distance = angle(&target.attitude, &runner.step().attitude);
+            let distance = runner.attitudes().map(|displaced| angle(&target.attitude, &displaced)).fold(0.0, worse);
             let linear = displacement[0] + displacement[1] * target.time.0.abs();
             let safety = (SAFETY[0] * distance / linear).clamp(SAFETY[0], SAFETY[1]);
             if enlarged && (distance >= UNSCALED || distance.is_nan()) {
@@ -149,6 +150,11 @@ impl Task for Measured<'_> {
 
 fn norm(attitude: &Row) -> f64 {
     attitude.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// The larger of two distances; not a number where one is none.
+fn worse(one: f64, other: f64) -> f64 {
+    if one.is_nan() || one > other { one } else { other }
 }
 
 /// The angle between two attitudes.

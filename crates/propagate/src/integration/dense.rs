@@ -11,7 +11,7 @@ use crate::numerics::scaling::scaled;
 /// Where the last time was.
 pub(crate) struct Cursor<'a> {
     motion: &'a Integrated,
-    workspace: Box<Workspace>,
+    workspace: Box<Workspace<4>>,
     /// Side and step that are expanded.
     expanded: Option<(usize, usize)>,
 }

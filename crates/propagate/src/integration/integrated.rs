@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use andoyer_double::two_sum;
 use pulp::Arch;
 
-use super::bound::{FLOOR, INPUT, Measured, PATTERNS, Profile, SAFETY};
+use super::bound::{FLOOR, INPUT, Measured, Profile, SAFETY};
 use super::disturber::Disturber;
 use super::expansion::Equations;
 use super::integrator::{Kept, Precision, ROUNDING, Runner, Side, Step};
@@ -38,7 +38,7 @@ pub(crate) struct IntegrationPlan {
 /// A motion by integration. Times are those from the epoch in its own unit.
 #[derive(Clone, Debug)]
 pub(crate) struct Integrated {
-    pub(super) equations: Equations,
+    pub(super) equations: Equations<4>,
     pub(super) order: usize,
     /// Before and after the epoch.
     pub(super) sides: [Side; 2],
@@ -96,7 +96,7 @@ pub(crate) fn prospect(scene: &Scene) -> Option<(f64, f64)> {
 
 /// The equations with the state and the times.
 struct Problem {
-    equations: Equations,
+    equations: Equations<4>,
     attitude: Row,
     rates: Row,
     exponent: i32,
@@ -191,47 +191,30 @@ impl Problem {
     fn measured(
         &self,
         steps: &[Step],
-        (precision, runner): (Precision, &Runner),
+        (precision, runner): (Precision, &Runner<4>),
         backward: bool,
         stop: &AtomicBool,
     ) -> Result<Profile, Error> {
         let phase = self.phase();
         let coarse = Precision::of((ENLARGED_ERROR / (10.0 + phase * phase)).clamp(FINEST, COARSEST));
         let coarser = self.equations.coarser();
-        let mut whole = Profile::new();
-        for pattern in 0..PATTERNS {
-            let enlarged = Measured {
-                equations: &self.equations,
-                precision: coarse,
-                steps,
-                errors: runner.errors(),
-                noise: runner.systematic_share(),
-                backward,
-                pattern,
-                enlarged: true,
-                stop,
-            };
-            let exact = Measured { equations: &coarser, precision, enlarged: false, ..enlarged };
-            let cheap = !self.tabulated() && coarse.order < precision.order;
-            let profile = if cheap { dispatch(Arch::new(), enlarged)? } else { None };
-            let profile = match profile {
-                Some(profile) => profile,
-                None => dispatch(Arch::new(), exact)?.unwrap_or_default(),
-            };
-            merge(&mut whole, profile);
-        }
-        Ok(whole)
-    }
-}
-
-/// The larger of two error bounds at each time.
-fn merge(whole: &mut Profile, profile: Profile) {
-    if whole.is_empty() {
-        *whole = profile;
-        return;
-    }
-    for ((_, bound), (_, other)) in whole.iter_mut().zip(profile) {
-        *bound = bound.max(other);
+        let enlarged = Measured {
+            equations: &self.equations,
+            precision: coarse,
+            steps,
+            errors: runner.errors(),
+            noise: runner.systematic_share(),
+            backward,
+            enlarged: true,
+            stop,
+        };
+        let exact = Measured { equations: &coarser, precision, enlarged: false, ..enlarged };
+        let cheap = !self.tabulated() && coarse.order < precision.order;
+        let profile = if cheap { dispatch(Arch::new(), enlarged)? } else { None };
+        Ok(match profile {
+            Some(profile) => profile,
+            None => dispatch(Arch::new(), exact)?.unwrap_or_default(),
+        })
     }
 }
 

@@ -1,12 +1,14 @@
-//! Taylor coefficients in rows of four lanes, and sums of products of them.
+//! Taylor coefficients in rows of lanes, four for each state, and sums of products of them.
 
 /// The highest order of a step.
 pub(super) const MAX: usize = 24;
 /// Rows of a series.
 pub(super) const ROWS: usize = MAX + 1;
 
-/// Four lanes: a quaternion, or a vector and 0.
-pub(super) type Row = [f64; 4];
+/// Four lanes of each state: a quaternion, or a vector and 0. Several states go on with the same steps.
+pub(super) type Rows<const W: usize> = [f64; W];
+/// The lanes of one state.
+pub(super) type Row = Rows<4>;
 /// The coefficients of four functions.
 pub(super) type Series = [Row; ROWS];
 /// The coefficients of one function.
@@ -20,23 +22,23 @@ pub(super) const ZERO: Series = [[0.0; 4]; ROWS];
 
 /// sum += factor · row.
 #[inline(always)]
-pub(super) fn add_scaled(sum: &mut Row, factor: f64, row: &Row) {
-    for lane in 0..4 {
+pub(super) fn add_scaled<const W: usize>(sum: &mut Rows<W>, factor: f64, row: &Rows<W>) {
+    for lane in 0..W {
         sum[lane] = factor.mul_add(row[lane], sum[lane]);
     }
 }
 
 /// sum += one · other, lane by lane.
 #[inline(always)]
-pub(super) fn add_product(sum: &mut Row, one: &Row, other: &Row) {
-    for lane in 0..4 {
+pub(super) fn add_product<const W: usize>(sum: &mut Rows<W>, one: &Rows<W>, other: &Rows<W>) {
+    for lane in 0..W {
         sum[lane] = one[lane].mul_add(other[lane], sum[lane]);
     }
 }
 
 /// The largest magnitude in a row.
 #[inline(always)]
-pub(super) fn largest(row: &Row) -> f64 {
+pub(super) fn largest(row: &[f64]) -> f64 {
     row.iter().fold(0.0_f64, |most, value| most.max(value.abs()))
 }
 
