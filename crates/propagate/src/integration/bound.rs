@@ -28,6 +28,8 @@ const COMPARISONS: usize = 256;
 const DRIFT: f64 = 1e-15;
 /// Length of the steps of the displaced state, relative to those of the motion.
 const SHORTER: f64 = 0.9;
+/// The same where the displacement is enlarged: one step of the displaced states for one of the motion, whose order is higher.
+const LONGER: f64 = 1.15;
 /// A distance beyond which nothing is known \[rad\].
 const LOST: f64 = 0.5;
 /// Rounding errors of the evaluation \[rad\].
@@ -110,7 +112,7 @@ impl Task for Measured<'_> {
         let displacement = displacement.map(|displacement| scale * displacement);
         let equations = &equations.displaced(CONSTANTS.map(|error| scale * error), &WEIGHTS);
         let mut runner = self.displaced(displacement);
-        let precision = precision.shorter(if enlarged { 1.0 } else { SHORTER });
+        let precision = precision.shorter(if enlarged { LONGER } else { SHORTER });
         let mut workspace = Workspace::new(equations.bodies.len());
         let (mut profile, mut bound) = (Profile::new(), 0.0_f64);
         let mut random = SEED;

@@ -24,7 +24,7 @@ const FINEST: f64 = 1e-19;
 /// The largest one that is used.
 const COARSEST: f64 = 1e-6;
 /// Error at the end that the steps of an enlarged displacement may leave, before its division by the square of the phase \[rad\].
-const ENLARGED_ERROR: f64 = 1e-4;
+const ENLARGED_ERROR: f64 = 3e-5;
 /// The second integration's truncation error relative to the first's, after as much as the tolerance asks for.
 const FINER: f64 = 0.05;
 
