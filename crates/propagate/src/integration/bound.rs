@@ -104,7 +104,7 @@ impl Task for Measured<'_> {
     type Output = Result<Option<Profile>, Error>;
 
     #[inline(always)]
-    fn run<S: InstructionSet>(self, _simd: S) -> Self::Output {
+    fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
         let displacement = self.displacement();
         let Self { equations, precision, steps, noise, backward, enlarged, stop, .. } = self;
         let duration = steps[steps.len() - 1].time.0.abs();
@@ -124,7 +124,7 @@ impl Task for Measured<'_> {
                 going(stop).map_err(|_| Error::Stopped)?;
                 let knot = next_knot(equations, runner.time.0, !backward);
                 let end = knot.filter(|knot| knot.0.abs() < target.time.0.abs()).unwrap_or(target.time);
-                if runner.advance((equations, precision), end, &mut workspace).is_nan() {
+                if runner.advance(simd, (equations, precision), end, &mut workspace).is_nan() {
                     bound = PI;
                 }
                 runner.disturb(noise.map(|noise| scale * noise), &mut random);

@@ -9,6 +9,7 @@ use crate::input::disturbing_body::DisturbingBody;
 use crate::input::orbit::Orbit;
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
+use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::eccentric_anomaly;
 use crate::simd::lanes::Lanes;
 
@@ -50,9 +51,15 @@ impl Disturber {
 
     /// The first `order` coefficients about a time after the epoch, from which a step goes on or backwards.
     #[inline(always)]
-    pub(super) fn series(&self, (time, backward): ((f64, f64), bool), order: usize, out: &mut Series) {
+    pub(super) fn series<S: InstructionSet>(
+        &self,
+        simd: S,
+        (time, backward): ((f64, f64), bool),
+        order: usize,
+        out: &mut Series,
+    ) {
         match self {
-            Self::Orbiting(orbit) => orbit.series(time, order, out),
+            Self::Orbiting(orbit) => orbit.series(simd, time, order, out),
             Self::Tabulated(table) => table.series((time, backward), order, out),
         }
     }
@@ -94,23 +101,23 @@ impl Orbiting {
     }
 
     #[inline(always)]
-    fn series(&self, (high, low): (f64, f64), order: usize, out: &mut Series) {
+    fn series<S: InstructionSet>(&self, simd: S, (high, low): (f64, f64), order: usize, out: &mut Series) {
         let elapsed = (scaled(high, -self.exponent), scaled(low, -self.exponent));
-        let (ellipse, factor) = self.ellipse(elapsed, order);
+        let (ellipse, factor) = self.ellipse(simd, elapsed, order);
         let mut place = ZERO;
         for k in 0..order {
             for j in 0..=k {
-                add_scaled(&mut place[k], factor[k - j], &ellipse[j]);
+                add_scaled(simd, &mut place[k], factor[k - j], &ellipse[j]);
             }
         }
-        self.turn(&mut place, 1, elapsed, order);
+        self.turn(simd, &mut place, 1, (elapsed, order));
         let (sine, cosine) = self.tilt;
         let mut heights = [0.0; ROWS];
         for k in 0..order {
             let [x, y, ..] = place[k];
             (place[k], heights[k]) = ([x, y * cosine, 0.0, 0.0], y * sine);
         }
-        self.turn(&mut place, 0, elapsed, order);
+        self.turn(simd, &mut place, 0, (elapsed, order));
         for k in 0..order {
             let [x, y, ..] = place[k];
             out[k] = [x, y, heights[k], 0.0];
@@ -119,7 +126,7 @@ impl Orbiting {
 
     /// Position in the orbit's axes, and √(3μ) ρ^(−5/2).
     #[inline(always)]
-    fn ellipse(&self, elapsed: (f64, f64), order: usize) -> (Series, Scalars) {
+    fn ellipse<S: InstructionSet>(&self, simd: S, elapsed: (f64, f64), order: usize) -> (Series, Scalars) {
         let mean = self.mean_anomaly.angle(elapsed);
         let e = self.eccentricity;
         let anomaly = if e == 0.0 { mean } else { eccentric_anomaly(Lanes::splat(pulp::Scalar, mean), e).values()[0] };
@@ -137,14 +144,8 @@ impl Orbiting {
         rows[0] = [x, sine, radius, 0.0];
         ellipse[0] = [x, self.root * sine, 0.0, 0.0];
         for k in 0..order {
-            // Two sums of each, so that they need not wait for each other.
-            let (mut by_rate, mut by_factor) = ([[0.0; 4]; 2], [[0.0; 4]; 2]);
-            for j in 1..=k {
-                add_scaled(&mut by_rate[j % 2], rate[k - j], &rows[j]);
-                add_scaled(&mut by_factor[j % 2], factor[k - j], &rows[j]);
-            }
-            let by_rate: Row = std::array::from_fn(|i| by_rate[0][i] + by_rate[1][i]);
-            let by_factor: Row = std::array::from_fn(|i| by_factor[0][i] + by_factor[1][i]);
+            let by_rate = convolved(simd, &rate, &rows, k);
+            let by_factor = convolved(simd, &factor, &rows, k);
             if k > 0 {
                 rate[k] = -by_rate[2] * inverse;
                 factor[k] = -inverse * (1.5 * by_factor[3] / k as f64 + by_factor[2]);
@@ -161,7 +162,13 @@ impl Orbiting {
 
     /// Turns the first two lanes by the node, 0, or the argument of the pericentre, 1, which may grow with time.
     #[inline(always)]
-    fn turn(&self, place: &mut Series, angle: usize, elapsed: (f64, f64), order: usize) {
+    fn turn<S: InstructionSet>(
+        &self,
+        simd: S,
+        place: &mut Series,
+        angle: usize,
+        (elapsed, order): ((f64, f64), usize),
+    ) {
         let rate = self.rates[angle];
         let across = |[x, y, ..]: Row| [-y, x, 0.0, 0.0];
         if rate == 0.0 {
@@ -179,11 +186,27 @@ impl Orbiting {
         *place = ZERO;
         for j in 0..order {
             for k in j..order {
-                add_scaled(&mut place[k], cosine, &given[k - j]);
-                add_scaled(&mut place[k], sine, &crossed[k - j]);
+                add_scaled(simd, &mut place[k], cosine, &given[k - j]);
+                add_scaled(simd, &mut place[k], sine, &crossed[k - j]);
             }
             let share = rate / (j + 1) as f64;
             (cosine, sine) = (-share * sine, share * cosine);
         }
     }
+}
+
+/// Coefficient k of a product without the first coefficient of the rows: in two sums, which need not wait for each other.
+#[inline(always)]
+fn convolved<S: InstructionSet>(simd: S, scalars: &Scalars, rows: &Series, k: usize) -> Row {
+    let (mut one, mut other) = ([0.0; 4], [0.0; 4]);
+    let mut j = 1;
+    while j < k {
+        add_scaled(simd, &mut one, scalars[k - j], &rows[j]);
+        add_scaled(simd, &mut other, scalars[k - j - 1], &rows[j + 1]);
+        j += 2;
+    }
+    if j == k {
+        add_scaled(simd, &mut one, scalars[0], &rows[j]);
+    }
+    std::array::from_fn(|lane| one[lane] + other[lane])
 }

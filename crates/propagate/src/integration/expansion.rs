@@ -12,6 +12,7 @@
 use super::disturber::Disturber;
 use super::series::{Coefficients, ROWS, Row, Rows, Series, ZERO, add_product, add_scaled, largest};
 use crate::input::scene::Scene;
+use crate::simd::instruction_set::{InstructionSet, Task};
 
 /// The equations of one state, W = 4, or more, in the unit of the integration.
 #[derive(Clone, Debug)]
@@ -105,14 +106,14 @@ impl<const W: usize> Sums<W> {
         Self { turning: [[0.0; W]; 3], gyration: [0.0; W], squares: [0.0; W], mixed: [0.0; W], axial: [0.0; W] };
 
     #[inline(always)]
-    fn add(&mut self, one: &Factors<W>, other: &Factors<W>) {
+    fn add<S: InstructionSet>(&mut self, simd: S, one: &Factors<W>, other: &Factors<W>) {
         for axis in 0..3 {
-            add_product(&mut self.turning[axis], &one.columns[axis], &other.rates[axis]);
+            add_product(simd, &mut self.turning[axis], &one.columns[axis], &other.rates[axis]);
         }
-        add_product(&mut self.gyration, &one.neighbours[0], &other.neighbours[1]);
-        add_product(&mut self.squares, &one.attitude, &other.attitude);
-        add_product(&mut self.mixed, &one.mixed[0], &other.mixed[1]);
-        add_product(&mut self.axial, &one.scalar, &other.attitude);
+        add_product(simd, &mut self.gyration, &one.neighbours[0], &other.neighbours[1]);
+        add_product(simd, &mut self.squares, &one.attitude, &other.attitude);
+        add_product(simd, &mut self.mixed, &one.mixed[0], &other.mixed[1]);
+        add_product(simd, &mut self.axial, &one.scalar, &other.attitude);
     }
 
     /// The rows of the matrix.
@@ -202,9 +203,15 @@ impl<const W: usize> Workspace<W> {
 
     /// Coefficients 0 to `order`.
     #[inline(always)]
-    pub(super) fn expand(&mut self, equations: &Equations<W>, start: &Start<W>, order: usize) {
+    pub(super) fn expand<S: InstructionSet>(
+        &mut self,
+        simd: S,
+        equations: &Equations<W>,
+        start: &Start<W>,
+        order: usize,
+    ) {
         for (body, place) in equations.bodies.iter().zip(&mut self.places) {
-            body.series((start.time, start.backward), order, place);
+            body.series(simd.four(), (start.time, start.backward), order, place);
         }
         self.attitude[0] = start.attitude;
         self.rates[0] = start.rates;
@@ -213,13 +220,13 @@ impl<const W: usize> Workspace<W> {
             let mut sums = Sums::ZERO;
             // The newest coefficient comes last, so that the sums need not wait for it.
             for j in 1..k {
-                sums.add(&self.factors[j], &self.factors[k - j]);
+                sums.add(simd, &self.factors[j], &self.factors[k - j]);
             }
-            sums.add(&self.factors[0], &self.factors[k]);
+            sums.add(simd, &self.factors[0], &self.factors[k]);
             if k > 0 {
-                sums.add(&self.factors[k], &self.factors[0]);
+                sums.add(simd, &self.factors[k], &self.factors[0]);
             }
-            let torque = self.torque(k, sums.matrix(), &equations.strengths);
+            let torque = self.torque(simd, (k, sums.matrix()), &equations.strengths);
             if k == 0 {
                 self.parts = [torque, sums.gyration];
             }
@@ -234,20 +241,25 @@ impl<const W: usize> Workspace<W> {
 
     /// Coefficient k of Σ s2 s3 and in turn.
     #[inline(always)]
-    fn torque(&mut self, k: usize, matrix: [Rows<W>; 3], strengths: &[Rows<W>]) -> Rows<W> {
+    fn torque<S: InstructionSet>(
+        &mut self,
+        simd: S,
+        (k, matrix): (usize, [Rows<W>; 3]),
+        strengths: &[Rows<W>],
+    ) -> Rows<W> {
         let mut torque = [0.0; W];
         for ((place, directions), strength) in self.places.iter().zip(&mut self.directions).zip(strengths) {
             let (mut sums, mut products) = ([[0.0; W]; 3], [0.0; W]);
             for j in 0..k {
                 for (axis, sum) in sums.iter_mut().enumerate() {
-                    add_scaled(sum, place[k - j][axis], &self.factors[j].matrix[axis]);
+                    add_scaled(simd, sum, place[k - j][axis], &self.factors[j].matrix[axis]);
                 }
             }
             for j in 1..k {
-                add_product(&mut products, &directions[j][0], &directions[k - j][1]);
+                add_product(simd, &mut products, &directions[j][0], &directions[k - j][1]);
             }
             for (axis, sum) in sums.iter_mut().enumerate() {
-                add_scaled(sum, place[0][axis], &matrix[axis]);
+                add_scaled(simd, sum, place[0][axis], &matrix[axis]);
             }
             let newest = &mut directions[k];
             for at in (0..W).step_by(4) {
@@ -257,11 +269,11 @@ impl<const W: usize> Workspace<W> {
                 put(&mut newest[1], at, [third, first, second, 0.0]);
             }
             let [one, other] = directions[k];
-            add_product(&mut products, &directions[0][0], &other);
+            add_product(simd, &mut products, &directions[0][0], &other);
             if k > 0 {
-                add_product(&mut products, &one, &directions[0][1]);
+                add_product(simd, &mut products, &one, &directions[0][1]);
             }
-            add_product(&mut torque, strength, &products);
+            add_product(simd, &mut torque, strength, &products);
         }
         self.factors[k].matrix = matrix;
         torque
@@ -297,5 +309,22 @@ impl Workspace<4> {
             }
         }
         (attitude, rates)
+    }
+}
+
+/// The series of one step, for the best instruction set available.
+pub(super) struct Expansion<'a> {
+    pub(super) workspace: &'a mut Workspace<4>,
+    pub(super) equations: &'a Equations<4>,
+    pub(super) start: Start<4>,
+    pub(super) order: usize,
+}
+
+impl Task for Expansion<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, simd: S) {
+        self.workspace.expand(simd, self.equations, &self.start, self.order);
     }
 }

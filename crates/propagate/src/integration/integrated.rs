@@ -17,7 +17,7 @@ use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
 use crate::input::tabulated::TabulatedOrbit;
 use crate::numerics::scaling::{exponent, scaled};
-use crate::simd::instruction_set::dispatch;
+use crate::simd::instruction_set::{dispatch, dispatch_few};
 
 /// Relative truncation error of a step. The sum of such errors over all steps is below the rounding error.
 const FINEST: f64 = 1e-19;
@@ -174,7 +174,7 @@ impl Problem {
         for (side, target) in self.ends.into_iter().enumerate() {
             let backward = side == 0;
             let runner = Runner::new(self.attitude, self.rates, backward);
-            let (kept, runner) = dispatch(arch, Kept { equations, precision, runner, target, stop })?;
+            let (kept, runner) = dispatch_few(arch, Kept { equations, precision, runner, target, stop })?;
             if kept.steps.len() > 1 {
                 profiles[side] = self.measured(&kept.steps, (precision, &runner), backward, stop)?;
             }

@@ -125,15 +125,16 @@ impl<const W: usize> Runner<W> {
     /// Goes on by one step, to the target at most. Returns the length of the step without a target, or NaN where the state has become
     /// none.
     #[inline(always)]
-    pub(super) fn advance(
+    pub(super) fn advance<S: InstructionSet>(
         &mut self,
+        simd: S,
         (equations, precision): (&Equations<W>, Precision),
         target: (f64, f64),
         workspace: &mut Workspace<W>,
     ) -> f64 {
         let Precision { order, shrinkage } = precision;
         let start = Start { time: self.time, backward: self.backward, attitude: self.attitude, rates: self.rates };
-        workspace.expand(equations, &start, order);
+        workspace.expand(simd, equations, &start, order);
         let scale = largest(&self.rates).max(equations.scale);
         let [before, last] = [order - 1, order].map(|k| {
             let ratio = (largest(&workspace.rates[k]) / scale).max(largest(&workspace.attitude[k]));
@@ -232,7 +233,7 @@ impl Task for Kept<'_> {
     type Output = Result<(Side, Runner<4>), Error>;
 
     #[inline(always)]
-    fn run<S: InstructionSet>(self, _simd: S) -> Self::Output {
+    fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
         let Self { equations, precision, mut runner, target, stop } = self;
         let mut workspace = Workspace::new(equations.bodies.len());
         let (mut steps, mut coefficients) = (Vec::new(), Vec::new());
@@ -245,7 +246,7 @@ impl Task for Kept<'_> {
             let knot = next_knot(equations, runner.time.0, forward);
             let end = knot.filter(|knot| knot.0.abs() < target.0.abs()).unwrap_or(target);
             steps.push(runner.step());
-            let length = runner.advance((equations, precision), end, &mut workspace);
+            let length = runner.advance(simd, (equations, precision), end, &mut workspace);
             // A table whose polynomial meets the origin leaves no number.
             if length.is_nan() {
                 return Err(Error::TooManySteps { steps: f64::INFINITY, bound: MOST_STEPS, reason: String::new() });

@@ -1,5 +1,7 @@
 //! Taylor coefficients in rows of lanes, four for each state, and sums of products of them.
 
+use pulp::Simd;
+
 /// The highest order of a step.
 pub(super) const MAX: usize = 24;
 /// Rows of a series.
@@ -22,17 +24,20 @@ pub(super) const ZERO: Series = [[0.0; 4]; ROWS];
 
 /// sum += factor · row.
 #[inline(always)]
-pub(super) fn add_scaled<const W: usize>(sum: &mut Rows<W>, factor: f64, row: &Rows<W>) {
-    for lane in 0..W {
-        sum[lane] = factor.mul_add(row[lane], sum[lane]);
+pub(super) fn add_scaled<S: Simd, const W: usize>(simd: S, sum: &mut Rows<W>, factor: f64, row: &Rows<W>) {
+    let ((sums, _), (rows, _)) = (S::as_mut_simd_f64s(sum), S::as_simd_f64s(row));
+    let factor = simd.splat_f64s(factor);
+    for (sum, row) in sums.iter_mut().zip(rows) {
+        *sum = simd.mul_add_f64s(factor, *row, *sum);
     }
 }
 
-/// sum += one · other, lane by lane.
+/// sum += one · other, lane by lane. The rows are whole vectors: compilers would take them apart where their lanes are used apart later.
 #[inline(always)]
-pub(super) fn add_product<const W: usize>(sum: &mut Rows<W>, one: &Rows<W>, other: &Rows<W>) {
-    for lane in 0..W {
-        sum[lane] = one[lane].mul_add(other[lane], sum[lane]);
+pub(super) fn add_product<S: Simd, const W: usize>(simd: S, sum: &mut Rows<W>, one: &Rows<W>, other: &Rows<W>) {
+    let ((sums, _), (ones, _), (others, _)) = (S::as_mut_simd_f64s(sum), S::as_simd_f64s(one), S::as_simd_f64s(other));
+    for ((sum, one), other) in sums.iter_mut().zip(ones).zip(others) {
+        *sum = simd.mul_add_f64s(*one, *other, *sum);
     }
 }
 
