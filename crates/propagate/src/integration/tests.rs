@@ -84,7 +84,7 @@ fn the_integrals_of_the_free_motion_drift_by_twice_the_relative_error_of_the_rat
     assert!(drift > 1e-9 && drift < 2.001e-9, "{drift:e}");
 }
 
-/// Fast rotations of random bodies under a weak torque, over 20 to 3,000 radians, as the theory serves them.
+/// Fast rotations of random bodies under a weak torque, over 30 to 1,600 radians, as the theory serves them.
 fn random_scenes(count: usize) -> impl Iterator<Item = Scene> {
     let mut random = 0x9e37_79b9_7f4a_7c15_u64;
     let mut uniform = move |from: f64, to: f64| {
@@ -94,7 +94,7 @@ fn random_scenes(count: usize) -> impl Iterator<Item = Scene> {
         from + (to - from) * (random >> 11) as f64 / 2.0_f64.powi(53)
     };
     (0..count).map(move |_| {
-        let [middle, span] = [uniform(0.55, 0.99), 10.0_f64.powf(uniform(1.3, 3.5))];
+        let [middle, span] = [uniform(0.55, 0.99), 10.0_f64.powf(uniform(1.5, 3.2))];
         let least = uniform(1.02 - middle, middle - 0.02);
         let rates = [uniform(-0.2, 0.2), uniform(-0.2, 0.2), 1.0];
         let orbit = Orbit::new(uniform(1e-3, 3e-2), uniform(0.0, 0.3))
@@ -106,7 +106,7 @@ fn random_scenes(count: usize) -> impl Iterator<Item = Scene> {
 
 #[test]
 fn the_guess_of_the_bound_is_near_the_bound_and_not_above_it_in_the_median() {
-    let mut ratios: Vec<f64> = random_scenes(60)
+    let mut ratios: Vec<f64> = random_scenes(30)
         .map(|scene| {
             let (guess, steps) = prospect(&scene).expect("a guess");
             let motion = Integrated::new(&scene.tolerance(1e-15), "", &AtomicBool::new(false)).expect("a motion");
@@ -115,9 +115,9 @@ fn the_guess_of_the_bound_is_near_the_bound_and_not_above_it_in_the_median() {
         })
         .collect();
     ratios.sort_by(f64::total_cmp);
-    println!("guess / bound: {:.2} {:.2} {:.2} {:.2} {:.2}", ratios[0], ratios[3], ratios[30], ratios[56], ratios[59]);
-    assert!(ratios[30] > 0.4 && ratios[30] <= 1.0, "{}", ratios[30]);
-    assert!(ratios[3] > 0.1 && ratios[56] < 3.0, "{} {}", ratios[3], ratios[56]);
+    println!("guess / bound: {:.2} {:.2} {:.2} {:.2} {:.2}", ratios[0], ratios[2], ratios[15], ratios[27], ratios[29]);
+    assert!(ratios[15] > 0.4 && ratios[15] <= 1.0, "{}", ratios[15]);
+    assert!(ratios[2] > 0.1 && ratios[27] < 3.0, "{} {}", ratios[2], ratios[27]);
 }
 
 #[test]
