@@ -25,6 +25,8 @@ const FINEST: f64 = 1e-19;
 const COARSEST: f64 = 1e-6;
 /// Error at the end that the steps of an enlarged displacement may leave, before its division by the square of the phase \[rad\].
 const ENLARGED_ERROR: f64 = 3e-5;
+/// The first integration's truncation error relative to the tolerance and the square of the phase. A smaller part takes a higher order, 8 % of the time for a third, and fewer motions twice.
+const CAREFUL: f64 = 0.06;
 /// The second integration's truncation error relative to the first's, after as much as the tolerance asks for.
 const FINER: f64 = 0.05;
 
@@ -58,7 +60,7 @@ impl Integrated {
         let tolerance = scene.asked_tolerance();
         let phase = problem.phase();
         // Truncation errors of the rates add up over the steps, and their effect on the angle over time.
-        let first = (2.0 * tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST);
+        let first = (CAREFUL * tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST);
         let (mut motion, mut profiles) = problem.solved(first, stop)?;
         if motion.error > tolerance && first > FINEST {
             let second = (FINER * first * tolerance / motion.error).clamp(FINEST, first);

@@ -104,6 +104,19 @@ impl<const W: usize> Runner<W> {
         }
     }
 
+    /// Brings all states nearer to one, to this part of their distance.
+    pub(super) fn bring_nearer(&mut self, to: &Start<4>, part: f64) {
+        for lane in 0..W {
+            let (attitude, rate) = (to.attitude[lane % 4], to.rates[lane % 4]);
+            self.attitude[lane] = attitude + part * (self.attitude[lane] - attitude);
+            self.rates[lane] = rate + part * (self.rates[lane] - rate);
+        }
+        for at in (0..W).step_by(4) {
+            let norm = four(&self.attitude, at).iter().map(|x| x * x).sum::<f64>().sqrt();
+            self.attitude[at..at + 4].iter_mut().for_each(|x| *x /= norm);
+        }
+    }
+
     /// The attitude of each state.
     pub(super) fn attitudes(&self) -> impl Iterator<Item = Row> + '_ {
         (0..W).step_by(4).map(|at| four(&self.attitude, at))
