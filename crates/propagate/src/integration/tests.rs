@@ -115,7 +115,7 @@ fn the_guess_of_the_bound_is_near_the_bound_and_not_above_it_in_the_median() {
         })
         .collect();
     ratios.sort_by(f64::total_cmp);
-    println!("guess / bound: {:.2} {:.2} {:.2} {:.2} {:.2}", ratios[0], ratios[2], ratios[15], ratios[27], ratios[29]);
+    eprintln!("guess / bound: {:.2} {:.2} {:.2} {:.2} {:.2}", ratios[0], ratios[2], ratios[15], ratios[27], ratios[29]);
     assert!(ratios[15] > 0.4 && ratios[15] <= 1.0, "{}", ratios[15]);
     assert!(ratios[2] > 0.1 && ratios[27] < 3.0, "{} {}", ratios[2], ratios[27]);
 }
