@@ -208,5 +208,8 @@ fn convolved<S: InstructionSet>(simd: S, scalars: &Scalars, rows: &Series, k: us
     if j == k {
         add_scaled(simd, &mut one, scalars[0], &rows[j]);
     }
-    std::array::from_fn(|lane| one[lane] + other[lane])
+    for lane in 0..4 {
+        one[lane] += other[lane];
+    }
+    one
 }

@@ -120,7 +120,8 @@ impl<const W: usize> Sums<W> {
     #[inline(always)]
     fn matrix(&self) -> [Rows<W>; 3] {
         let mut matrix = [[0.0; W]; 3];
-        for at in (0..W).step_by(4) {
+        for state in 0..W / 4 {
+            let at = 4 * state;
             let [xx, yy, zz, ww] = four(&self.squares, at);
             let [xy, xz, yz, _] = four(&self.mixed, at);
             let [xw, yw, zw, _] = four(&self.axial, at);
@@ -140,7 +141,9 @@ pub(super) fn four<const W: usize>(row: &Rows<W>, at: usize) -> Row {
 
 #[inline(always)]
 fn put<const W: usize>(row: &mut Rows<W>, at: usize, values: Row) {
-    row[at..at + 4].copy_from_slice(&values);
+    for i in 0..4 {
+        row[at + i] = values[i];
+    }
 }
 
 impl<const W: usize> Factors<W> {
@@ -158,7 +161,8 @@ impl<const W: usize> Factors<W> {
     #[inline(always)]
     fn set(&mut self, attitude: &Rows<W>, rates: &Rows<W>) {
         self.attitude = *attitude;
-        for at in (0..W).step_by(4) {
+        for state in 0..W / 4 {
+            let at = 4 * state;
             let [x, y, z, w] = four(attitude, at);
             put(&mut self.columns[0], at, [w, z, -y, -x]);
             put(&mut self.columns[1], at, [-z, w, x, -y]);
@@ -248,23 +252,27 @@ impl<const W: usize> Workspace<W> {
         strengths: &[Rows<W>],
     ) -> Rows<W> {
         let mut torque = [0.0; W];
-        for ((place, directions), strength) in self.places.iter().zip(&mut self.directions).zip(strengths) {
+        for body in 0..self.places.len() {
+            let (place, directions) = (&self.places[body], &mut self.directions[body]);
             let (mut sums, mut products) = ([[0.0; W]; 3], [0.0; W]);
             for j in 0..k {
-                for (axis, sum) in sums.iter_mut().enumerate() {
-                    add_scaled(simd, sum, place[k - j][axis], &self.factors[j].matrix[axis]);
+                for axis in 0..3 {
+                    add_scaled(simd, &mut sums[axis], place[k - j][axis], &self.factors[j].matrix[axis]);
                 }
             }
             for j in 1..k {
                 add_product(simd, &mut products, &directions[j][0], &directions[k - j][1]);
             }
-            for (axis, sum) in sums.iter_mut().enumerate() {
-                add_scaled(simd, sum, place[0][axis], &matrix[axis]);
+            for axis in 0..3 {
+                add_scaled(simd, &mut sums[axis], place[0][axis], &matrix[axis]);
             }
             let newest = &mut directions[k];
-            for at in (0..W).step_by(4) {
-                let [first, second, third]: [f64; 3] =
-                    std::array::from_fn(|i| sums[0][at + i] + sums[1][at + i] + sums[2][at + i]);
+            for state in 0..W / 4 {
+                let at = 4 * state;
+                let [one, two, three] = &sums;
+                let first = one[at] + two[at] + three[at];
+                let second = one[at + 1] + two[at + 1] + three[at + 1];
+                let third = one[at + 2] + two[at + 2] + three[at + 2];
                 put(&mut newest[0], at, [second, third, first, 0.0]);
                 put(&mut newest[1], at, [third, first, second, 0.0]);
             }
@@ -273,7 +281,7 @@ impl<const W: usize> Workspace<W> {
             if k > 0 {
                 add_product(simd, &mut products, &one, &directions[0][1]);
             }
-            add_product(simd, &mut torque, strength, &products);
+            add_product(simd, &mut torque, &strengths[body], &products);
         }
         self.factors[k].matrix = matrix;
         torque

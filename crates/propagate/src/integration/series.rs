@@ -27,8 +27,9 @@ pub(super) const ZERO: Series = [[0.0; 4]; ROWS];
 pub(super) fn add_scaled<S: Simd, const W: usize>(simd: S, sum: &mut Rows<W>, factor: f64, row: &Rows<W>) {
     let ((sums, _), (rows, _)) = (S::as_mut_simd_f64s(sum), S::as_simd_f64s(row));
     let factor = simd.splat_f64s(factor);
-    for (sum, row) in sums.iter_mut().zip(rows) {
-        *sum = simd.mul_add_f64s(factor, *row, *sum);
+    // Loops over indices here and in the callers: compilers do not always inline iterators into functions as long as these.
+    for i in 0..W / S::F64_LANES {
+        sums[i] = simd.mul_add_f64s(factor, rows[i], sums[i]);
     }
 }
 
@@ -36,8 +37,8 @@ pub(super) fn add_scaled<S: Simd, const W: usize>(simd: S, sum: &mut Rows<W>, fa
 #[inline(always)]
 pub(super) fn add_product<S: Simd, const W: usize>(simd: S, sum: &mut Rows<W>, one: &Rows<W>, other: &Rows<W>) {
     let ((sums, _), (ones, _), (others, _)) = (S::as_mut_simd_f64s(sum), S::as_simd_f64s(one), S::as_simd_f64s(other));
-    for ((sum, one), other) in sums.iter_mut().zip(ones).zip(others) {
-        *sum = simd.mul_add_f64s(*one, *other, *sum);
+    for i in 0..W / S::F64_LANES {
+        sums[i] = simd.mul_add_f64s(ones[i], others[i], sums[i]);
     }
 }
 
