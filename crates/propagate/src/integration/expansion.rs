@@ -140,10 +140,8 @@ pub(super) fn four<const W: usize>(row: &Rows<W>, at: usize) -> Row {
 }
 
 #[inline(always)]
-fn put<const W: usize>(row: &mut Rows<W>, at: usize, values: Row) {
-    for i in 0..4 {
-        row[at + i] = values[i];
-    }
+fn put<const W: usize>(row: &mut Rows<W>, at: usize, [x, y, z, w]: Row) {
+    (row[at], row[at + 1], row[at + 2], row[at + 3]) = (x, y, z, w);
 }
 
 impl<const W: usize> Factors<W> {
@@ -252,7 +250,7 @@ impl<const W: usize> Workspace<W> {
         strengths: &[Rows<W>],
     ) -> Rows<W> {
         let mut torque = [0.0; W];
-        for body in 0..self.places.len() {
+        for (body, strength) in strengths.iter().enumerate() {
             let (place, directions) = (&self.places[body], &mut self.directions[body]);
             let (mut sums, mut products) = ([[0.0; W]; 3], [0.0; W]);
             for j in 0..k {
@@ -281,7 +279,7 @@ impl<const W: usize> Workspace<W> {
             if k > 0 {
                 add_product(simd, &mut products, &one, &directions[0][1]);
             }
-            add_product(simd, &mut torque, &strengths[body], &products);
+            add_product(simd, &mut torque, strength, &products);
         }
         self.factors[k].matrix = matrix;
         torque

@@ -1,9 +1,9 @@
 use std::sync::atomic::AtomicBool;
 
 use super::dense::Cursor;
-use super::expansion::Equations;
+use super::expansion::{Equations, Start};
 use super::integrated::{Integrated, prospect};
-use super::integrator::Step;
+use super::integrator::{Runner, Step};
 use crate::error::STEP_BYTES;
 use crate::{Body, Error, Method, Orbit, Scene, State};
 
@@ -142,4 +142,33 @@ fn a_plan_by_theory_that_misses_the_tolerance_says_what_bound_the_integration_wo
     let longest = scene.span(0.0, 7e7).solve().expect("a motion");
     let said = longest.plan().skipped().last().expect("a reason");
     assert_eq!(said, "integration: it would take about 1.4e8 steps, and at most 8388608 are kept");
+}
+
+#[test]
+fn the_bound_is_above_the_error_where_the_growing_part_of_two_displacements_cancels() {
+    // The error is 2.6e-13 rad, from heyoka in 80-bit reals. With the first two displacements alone the bound was 1.1e-13 rad.
+    let body = Body::new([0.6202456483879164, 0.635177999441624, 1.0]).expect("a body");
+    let attitude = [-0.5313757539174283, 0.8341287700229608, -0.12382792437491055, -0.08084335664523602];
+    let rates = [-0.6601261343167897, -2.513909762957775, 2.0898569550164714];
+    let orbit = Orbit::new(1.0, 0.8155727155073406);
+    let orbit = orbit.and_then(|orbit| orbit.plane(1.4677893172430838, 3.1874226752304695, 4.598141704624689));
+    let scene = Scene::new(body, State::new(0.0, attitude, rates).expect("a state")).orbit(orbit.expect("an orbit"));
+    let scene = scene.span(0.0, 10.170380595942394).tolerance(1e-10);
+    let motion = Integrated::new(&scene, "", &AtomicBool::new(false)).expect("a motion");
+    assert!(motion.error > 2.6e-13 && motion.error < 1e-10, "{:e}", motion.error);
+}
+
+#[test]
+fn states_that_are_brought_nearer_keep_their_direction_and_their_norm() {
+    let middle =
+        Start { time: (0.0, 0.0), backward: false, attitude: [0.0, 0.0, 0.6, 0.8], rates: [0.1, 0.2, 1.0, 0.0] };
+    let attitude =
+        [0.02, 0.0, 0.6, (1.0 - 0.0004 - 0.36_f64).sqrt(), 0.0, -0.02, 0.6, (1.0 - 0.0004 - 0.36_f64).sqrt()];
+    let mut runner = Runner::new(attitude, [0.1, 0.3, 1.0, 0.0, 0.1, 0.2, 0.9, 0.0], false);
+    runner.bring_nearer(&middle, 0.1);
+    let [one, other]: [[f64; 4]; 2] = runner.attitudes().collect::<Vec<_>>().try_into().expect("two states");
+    assert!((one[0] - 0.002).abs() < 1e-6 && (other[1] + 0.002).abs() < 1e-6, "{one:?} {other:?}");
+    for attitude in [one, other] {
+        assert!((attitude.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-15);
+    }
 }
