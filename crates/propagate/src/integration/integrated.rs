@@ -91,7 +91,7 @@ impl Integrated {
 /// A guess of the error bound, and how many steps there will be at most: for the choice of a method.
 ///
 /// The guess has the parts of the bound that a regular motion has without truncation errors: the rounded state at the epoch, and the rounding of ω × Iω in each step. The errors of the
-/// rates add up by chance and turn the body ever after. For scenes of which the theory holds the guess is 0.8 of the bound in the median, and 0.3 to 1.4 of it in 90 % of them.
+/// rates add up by chance and turn the body ever after. For scenes of which the theory holds the guess is 0.7 of the bound in the median, and 0.3 to 1.2 of it in 90 % of them.
 pub(crate) fn prospect(scene: &Scene) -> Option<(f64, f64)> {
     let problem = Problem::new(scene, "").ok()?;
     let phase = problem.phase();
