@@ -3,15 +3,18 @@
 //! Of an integration whose coefficients are not kept a step is expanded again when a time falls into it, which takes as long as the step took and gives the same bits; times in
 //! order share the expansion.
 
-use super::expansion::Workspace;
+use pulp::Arch;
+
+use super::expansion::{Expansion, Workspace};
 use super::integrated::Integrated;
 use super::integrator::{Side, Step};
 use crate::numerics::scaling::scaled;
+use crate::simd::instruction_set::dispatch_few;
 
 /// Where the last time was.
 pub(crate) struct Cursor<'a> {
     motion: &'a Integrated,
-    workspace: Box<Workspace>,
+    workspace: Box<Workspace<4>>,
     /// Side and step that are expanded.
     expanded: Option<(usize, usize)>,
 }
@@ -39,7 +42,10 @@ impl<'a> Cursor<'a> {
             let rows = *order + 1;
             match coefficients.get(place * rows..(place + 1) * rows) {
                 Some(kept) => self.workspace.restore(kept),
-                None => self.workspace.expand(equations, &start.start(side == 0), *order),
+                None => {
+                    let (workspace, start) = (&mut *self.workspace, start.start(side == 0));
+                    dispatch_few(Arch::new(), Expansion { workspace, equations, start, order: *order });
+                }
             }
             self.expanded = Some((side, place));
         }

@@ -4,11 +4,12 @@
 //! multiplies by the series of a rotation. μ is the attraction G m/a³.
 
 use super::interpolation::Table;
-use super::series::{ROWS, Row, Scalars, Series, power, product};
+use super::series::{ROWS, Row, Scalars, Series, ZERO, add_scaled};
 use crate::input::disturbing_body::DisturbingBody;
 use crate::input::orbit::Orbit;
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
+use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::eccentric_anomaly;
 use crate::simd::lanes::Lanes;
 
@@ -25,6 +26,8 @@ pub(super) struct Orbiting {
     mean_anomaly: Phase,
     node: Phase,
     argument: Phase,
+    /// Sine and cosine of node and argument at the epoch.
+    still: [(f64, f64); 2],
     /// Of node and argument; in the unit of the integration, as the mean motion.
     rates: [f64; 2],
     mean_motion: f64,
@@ -48,9 +51,15 @@ impl Disturber {
 
     /// The first `order` coefficients about a time after the epoch, from which a step goes on or backwards.
     #[inline(always)]
-    pub(super) fn series(&self, (time, backward): ((f64, f64), bool), order: usize, out: &mut Series) {
+    pub(super) fn series<S: InstructionSet>(
+        &self,
+        simd: S,
+        (time, backward): ((f64, f64), bool),
+        order: usize,
+        out: &mut Series,
+    ) {
         match self {
-            Self::Orbiting(orbit) => orbit.series(time, order, out),
+            Self::Orbiting(orbit) => orbit.series(simd, time, order, out),
             Self::Tabulated(table) => table.series((time, backward), order, out),
         }
     }
@@ -60,16 +69,6 @@ impl Disturber {
         match self {
             Self::Orbiting(_) => None,
             Self::Tabulated(table) => table.next_knot(time, forward),
-        }
-    }
-
-    /// With √(3μ) multiplied by a factor.
-    pub(super) fn strengthened(&self, factor: f64) -> Self {
-        match self {
-            Self::Orbiting(orbit) => {
-                Self::Orbiting(Box::new(Orbiting { strength: orbit.strength * factor, ..**orbit }))
-            }
-            Self::Tabulated(table) => Self::Tabulated(Box::new(table.strengthened(factor))),
         }
     }
 
@@ -88,6 +87,7 @@ impl Orbiting {
         let eccentricity = orbit.eccentricity();
         Self {
             mean_anomaly: orbit.mean_anomaly(epoch),
+            still: [node, argument].map(|phase| phase.angle((0.0, 0.0)).sin_cos()),
             node,
             argument,
             rates: orbit.rates().map(|rate| scaled(rate, -exponent)),
@@ -101,94 +101,115 @@ impl Orbiting {
     }
 
     #[inline(always)]
-    fn series(&self, (high, low): (f64, f64), order: usize, out: &mut Series) {
+    fn series<S: InstructionSet>(&self, simd: S, (high, low): (f64, f64), order: usize, out: &mut Series) {
         let elapsed = (scaled(high, -self.exponent), scaled(low, -self.exponent));
+        let (ellipse, factor) = self.ellipse(simd, elapsed, order);
+        let mut place = ZERO;
+        for k in 0..order {
+            for j in 0..=k {
+                add_scaled(simd, &mut place[k], factor[k - j], &ellipse[j]);
+            }
+        }
+        self.turn(simd, &mut place, 1, (elapsed, order));
+        let (sine, cosine) = self.tilt;
+        let mut heights = [0.0; ROWS];
+        for k in 0..order {
+            let [x, y, ..] = place[k];
+            (place[k], heights[k]) = ([x, y * cosine, 0.0, 0.0], y * sine);
+        }
+        self.turn(simd, &mut place, 0, (elapsed, order));
+        for k in 0..order {
+            let [x, y, ..] = place[k];
+            out[k] = [x, y, heights[k], 0.0];
+        }
+    }
+
+    /// Position in the orbit's axes, and √(3μ) ρ^(−5/2).
+    #[inline(always)]
+    fn ellipse<S: InstructionSet>(&self, simd: S, elapsed: (f64, f64), order: usize) -> (Series, Scalars) {
         let mean = self.mean_anomaly.angle(elapsed);
         let e = self.eccentricity;
         let anomaly = if e == 0.0 { mean } else { eccentric_anomaly(Lanes::splat(pulp::Scalar, mean), e).values()[0] };
-        let mut sine = [0.0; ROWS + 1];
-        let mut x = [0.0; ROWS + 1];
-        let (mut rate, mut radius, mut factor): (Scalars, Scalars, Scalars) = ([0.0; ROWS], [0.0; ROWS], [0.0; ROWS]);
         let (half_sine, half_cosine) = (0.5 * anomaly).sin_cos();
         let versed = 2.0 * half_sine * half_sine;
         let cosine = 1.0 - versed;
-        sine[0] = 2.0 * half_sine * half_cosine;
-        x[0] = (1.0 - e) - versed;
-        radius[0] = (1.0 - e) + e * versed;
-        rate[0] = self.mean_motion / radius[0];
-        factor[0] = self.strength / (radius[0] * radius[0] * radius[0].sqrt());
-        let inverse = 1.0 / radius[0];
+        let (x, sine, radius) = ((1.0 - e) - versed, 2.0 * half_sine * half_cosine, (1.0 - e) + e * versed);
+        let inverse = 1.0 / radius;
+        let (mut rate, mut factor): (Scalars, Scalars) = ([0.0; ROWS], [0.0; ROWS]);
+        rate[0] = self.mean_motion * inverse;
+        factor[0] = self.strength * inverse * inverse / radius.sqrt();
+        // x, sin E, ρ and k ρ of order k.
+        let mut rows = ZERO;
+        let mut ellipse = ZERO;
+        rows[0] = [x, sine, radius, 0.0];
+        ellipse[0] = [x, self.root * sine, 0.0, 0.0];
         for k in 0..order {
+            let by_rate = convolved(simd, &rate, &rows, k);
+            let by_factor = convolved(simd, &factor, &rows, k);
             if k > 0 {
-                let mut sum = 0.0_f64;
-                for j in 1..=k {
-                    sum = radius[j].mul_add(rate[k - j], sum);
-                }
-                rate[k] = -sum * inverse;
-                factor[k] = power(&radius, &factor, -2.5, k);
+                rate[k] = -by_rate[2] * inverse;
+                factor[k] = -inverse * (1.5 * by_factor[3] / k as f64 + by_factor[2]);
             }
-            if k + 1 < order {
-                // The cosine is x + e.
-                let (mut of_sine, mut of_cosine) = (0.0_f64, cosine * rate[k]);
-                for j in 0..=k {
-                    of_sine = sine[j].mul_add(rate[k - j], of_sine);
-                }
-                for j in 1..=k {
-                    of_cosine = x[j].mul_add(rate[k - j], of_cosine);
-                }
-                let share = 1.0 / (k + 1) as f64;
-                x[k + 1] = -of_sine * share;
-                sine[k + 1] = of_cosine * share;
-                radius[k + 1] = -e * x[k + 1];
-            }
+            let share = 1.0 / (k + 1) as f64;
+            // The cosine is x + e.
+            let next = -share * sine.mul_add(rate[k], by_rate[1]);
+            let next_sine = share * cosine.mul_add(rate[k], by_rate[0]);
+            rows[k + 1] = [next, next_sine, -e * next, -e * next * (k + 1) as f64];
+            ellipse[k + 1] = [next, self.root * next_sine, 0.0, 0.0];
         }
-        let (mut along, mut across): (Scalars, Scalars) = ([0.0; ROWS], [0.0; ROWS]);
-        for k in 0..order {
-            let (mut a, mut b) = (0.0_f64, 0.0_f64);
-            for j in 0..=k {
-                a = x[j].mul_add(factor[k - j], a);
-                b = sine[j].mul_add(factor[k - j], b);
-            }
-            (along[k], across[k]) = (a, self.root * b);
-        }
-        self.turned(elapsed, order, (along, across), out);
+        (ellipse, factor)
     }
 
-    /// From the orbit's axes to the inertial ones.
+    /// Turns the first two lanes by the node, 0, or the argument of the pericentre, 1, which may grow with time.
     #[inline(always)]
-    fn turned(&self, elapsed: (f64, f64), order: usize, (along, across): (Scalars, Scalars), out: &mut Series) {
-        let (x, y) = rotated((along, across), self.argument.angle(elapsed), self.rates[1], order);
-        let (sine, cosine) = self.tilt;
-        let level: Scalars = std::array::from_fn(|k| y[k] * cosine);
-        let (first, second) = rotated((x, level), self.node.angle(elapsed), self.rates[0], order);
-        for k in 0..order {
-            let row: Row = [first[k], second[k], y[k] * sine, 0.0];
-            out[k] = row;
+    fn turn<S: InstructionSet>(
+        &self,
+        simd: S,
+        place: &mut Series,
+        angle: usize,
+        (elapsed, order): ((f64, f64), usize),
+    ) {
+        let rate = self.rates[angle];
+        let across = |[x, y, ..]: Row| [-y, x, 0.0, 0.0];
+        if rate == 0.0 {
+            let (sine, cosine) = self.still[angle];
+            for row in place.iter_mut().take(order) {
+                let [x, y, ..] = *row;
+                *row = [cosine * x - sine * y, sine * x + cosine * y, 0.0, 0.0];
+            }
+            return;
+        }
+        let phase = if angle == 0 { &self.node } else { &self.argument };
+        let (mut sine, mut cosine) = phase.angle(elapsed).sin_cos();
+        let given = *place;
+        let crossed = given.map(across);
+        *place = ZERO;
+        for j in 0..order {
+            for k in j..order {
+                add_scaled(simd, &mut place[k], cosine, &given[k - j]);
+                add_scaled(simd, &mut place[k], sine, &crossed[k - j]);
+            }
+            let share = rate / (j + 1) as f64;
+            (cosine, sine) = (-share * sine, share * cosine);
         }
     }
 }
 
-/// Two components turned by an angle that grows with a rate.
+/// Coefficient k of a product without the first coefficient of the rows: in two sums, which need not wait for each other.
 #[inline(always)]
-fn rotated((x, y): (Scalars, Scalars), angle: f64, rate: f64, order: usize) -> (Scalars, Scalars) {
-    let (sine, cosine) = angle.sin_cos();
-    let (mut first, mut second): (Scalars, Scalars) = ([0.0; ROWS], [0.0; ROWS]);
-    if rate == 0.0 {
-        for k in 0..order {
-            first[k] = cosine * x[k] - sine * y[k];
-            second[k] = sine * x[k] + cosine * y[k];
-        }
-        return (first, second);
+fn convolved<S: InstructionSet>(simd: S, scalars: &Scalars, rows: &Series, k: usize) -> Row {
+    let (mut one, mut other) = ([0.0; 4], [0.0; 4]);
+    let mut j = 1;
+    while j < k {
+        add_scaled(simd, &mut one, scalars[k - j], &rows[j]);
+        add_scaled(simd, &mut other, scalars[k - j - 1], &rows[j + 1]);
+        j += 2;
     }
-    let (mut c, mut s): (Scalars, Scalars) = ([0.0; ROWS], [0.0; ROWS]);
-    (c[0], s[0]) = (cosine, sine);
-    for k in 1..order {
-        let share = rate / k as f64;
-        (c[k], s[k]) = (-share * s[k - 1], share * c[k - 1]);
+    if j == k {
+        add_scaled(simd, &mut one, scalars[0], &rows[j]);
     }
-    for k in 0..order {
-        first[k] = product(&c, &x, k) - product(&s, &y, k);
-        second[k] = product(&s, &x, k) + product(&c, &y, k);
+    for lane in 0..4 {
+        one[lane] += other[lane];
     }
-    (first, second)
+    one
 }

@@ -10,33 +10,39 @@
 //! that rounding of the norm is a relative rounding error of the torque.
 
 use super::disturber::Disturber;
-use super::series::{Coefficients, Row, Series, ZERO, add_product, add_scaled, largest};
+use super::series::{Coefficients, ROWS, Row, Rows, Series, ZERO, add_product, add_scaled, largest};
 use crate::input::scene::Scene;
+use crate::simd::instruction_set::{InstructionSet, Task};
 
-/// The equations, in the unit of the integration.
+/// The equations of one state, W = 4, or more, in the unit of the integration.
 #[derive(Clone, Debug)]
-pub(super) struct Equations {
+pub(super) struct Equations<const W: usize> {
     /// (I3 − I2)/I1 and so on.
-    pub(super) factors: Row,
+    pub(super) factors: Rows<W>,
     pub(super) bodies: Vec<Disturber>,
+    /// What multiplies the torque of each body: 1, or nearly so for a state with displaced constants.
+    pub(super) strengths: Vec<Rows<W>>,
     /// √(3 Σμ) at the mean distance: the least rate that errors of rates are relative to.
     pub(super) scale: f64,
 }
 
-impl Equations {
+impl Equations<4> {
     pub(super) fn new(scene: &Scene, exponent: i32, scale: f64) -> Self {
         let [a, b, c] = scene.body().moments();
         let epoch = scene.state().epoch;
-        let bodies = scene.asked_disturbing().iter().map(|body| Disturber::new(body, epoch, exponent)).collect();
-        Self { factors: [(c - b) / a, (a - c) / b, (b - a) / c, 0.0], bodies, scale }
+        let bodies: Vec<_> =
+            scene.asked_disturbing().iter().map(|body| Disturber::new(body, epoch, exponent)).collect();
+        let strengths = vec![[1.0; 4]; bodies.len()];
+        Self { factors: [(c - b) / a, (a - c) / b, (b - a) / c, 0.0], bodies, strengths, scale }
     }
 
-    /// The same with the relative errors of the constants: those of the ratios of the moments, and those of each torque.
-    pub(super) fn displaced(&self, [ratios, torques]: [f64; 2], signs: &Row) -> Self {
-        let factors = std::array::from_fn(|i| self.factors[i] * (1.0 + ratios * signs[i]));
-        let bodies = self.bodies.iter().zip(signs.iter().cycle());
-        let bodies = bodies.map(|(body, sign)| body.strengthened(1.0 + 0.5 * torques * sign)).collect();
-        Self { factors, bodies, ..*self }
+    /// The same for several states with the relative errors of the constants, each with signs of its own: those of the ratios of the moments, and those of each torque.
+    pub(super) fn displaced<const W: usize>(&self, [ratios, torques]: [f64; 2], signs: &[Row]) -> Equations<W> {
+        let factors = std::array::from_fn(|i| self.factors[i % 4] * (1.0 + ratios * signs[i / 4][i % 4]));
+        let strengths = (0..self.bodies.len())
+            .map(|body| std::array::from_fn(|i| 1.0 + torques * signs[i / 4][body % 4]))
+            .collect();
+        Equations { factors, bodies: self.bodies.clone(), strengths, scale: self.scale }
     }
 
     /// Relative change of the integrals of the free motion, f2 ω1² − f1 ω2² and in turn: combinations of the energy and of the square of the angular momentum.
@@ -58,125 +64,229 @@ impl Equations {
     }
 }
 
-/// Where a step begins.
+/// Where a step of one or more states begins.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Start {
+pub(super) struct Start<const W: usize> {
     /// Time from the epoch, in double-double.
     pub(super) time: (f64, f64),
     pub(super) backward: bool,
-    pub(super) attitude: Row,
-    pub(super) rates: Row,
+    pub(super) attitude: Rows<W>,
+    pub(super) rates: Rows<W>,
 }
 
-/// The series of a step.
-pub(super) struct Workspace {
-    pub(super) attitude: Series,
-    pub(super) rates: Series,
+/// One coefficient of everything that is multiplied, in the lanes of the products. A product of two series is the sum of the first factors of one coefficient times the second factors of another.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+struct Factors<const W: usize> {
+    attitude: Rows<W>,
+    /// q times the unit quaternions of the axes, and the rates of the axes.
+    columns: [Rows<W>; 3],
+    rates: [Rows<W>; 3],
+    /// The next and the next but one of ω1, ω2, ω3.
+    neighbours: [Rows<W>; 2],
+    /// The factors of xy, xz, yz, and w.
+    mixed: [Rows<W>; 2],
+    scalar: Rows<W>,
+    /// The rows of R.
+    matrix: [Rows<W>; 3],
+}
+
+/// Sums of products of factors.
+struct Sums<const W: usize> {
+    turning: [Rows<W>; 3],
+    gyration: Rows<W>,
+    /// xx, yy, zz, ww; xy, xz, yz; xw, yw, zw.
+    squares: Rows<W>,
+    mixed: Rows<W>,
+    axial: Rows<W>,
+}
+
+impl<const W: usize> Sums<W> {
+    const ZERO: Self =
+        Self { turning: [[0.0; W]; 3], gyration: [0.0; W], squares: [0.0; W], mixed: [0.0; W], axial: [0.0; W] };
+
+    #[inline(always)]
+    fn add<S: InstructionSet>(&mut self, simd: S, one: &Factors<W>, other: &Factors<W>) {
+        for axis in 0..3 {
+            add_product(simd, &mut self.turning[axis], &one.columns[axis], &other.rates[axis]);
+        }
+        add_product(simd, &mut self.gyration, &one.neighbours[0], &other.neighbours[1]);
+        add_product(simd, &mut self.squares, &one.attitude, &other.attitude);
+        add_product(simd, &mut self.mixed, &one.mixed[0], &other.mixed[1]);
+        add_product(simd, &mut self.axial, &one.scalar, &other.attitude);
+    }
+
+    /// The rows of the matrix.
+    #[inline(always)]
+    fn matrix(&self) -> [Rows<W>; 3] {
+        let mut matrix = [[0.0; W]; 3];
+        for state in 0..W / 4 {
+            let at = 4 * state;
+            let [xx, yy, zz, ww] = four(&self.squares, at);
+            let [xy, xz, yz, _] = four(&self.mixed, at);
+            let [xw, yw, zw, _] = four(&self.axial, at);
+            put(&mut matrix[0], at, [ww + xx - yy - zz, 2.0 * (xy - zw), 2.0 * (xz + yw), 0.0]);
+            put(&mut matrix[1], at, [2.0 * (xy + zw), ww - xx + yy - zz, 2.0 * (yz - xw), 0.0]);
+            put(&mut matrix[2], at, [2.0 * (xz - yw), 2.0 * (yz + xw), ww - xx - yy + zz, 0.0]);
+        }
+        matrix
+    }
+}
+
+/// The lanes of one state.
+#[inline(always)]
+pub(super) fn four<const W: usize>(row: &Rows<W>, at: usize) -> Row {
+    [row[at], row[at + 1], row[at + 2], row[at + 3]]
+}
+
+#[inline(always)]
+fn put<const W: usize>(row: &mut Rows<W>, at: usize, [x, y, z, w]: Row) {
+    (row[at], row[at + 1], row[at + 2], row[at + 3]) = (x, y, z, w);
+}
+
+impl<const W: usize> Factors<W> {
+    const ZERO: Self = Self {
+        attitude: [0.0; W],
+        columns: [[0.0; W]; 3],
+        rates: [[0.0; W]; 3],
+        neighbours: [[0.0; W]; 2],
+        mixed: [[0.0; W]; 2],
+        scalar: [0.0; W],
+        matrix: [[0.0; W]; 3],
+    };
+
+    /// What follows from one coefficient of attitude and rates alone.
+    #[inline(always)]
+    fn set(&mut self, attitude: &Rows<W>, rates: &Rows<W>) {
+        self.attitude = *attitude;
+        for state in 0..W / 4 {
+            let at = 4 * state;
+            let [x, y, z, w] = four(attitude, at);
+            put(&mut self.columns[0], at, [w, z, -y, -x]);
+            put(&mut self.columns[1], at, [-z, w, x, -y]);
+            put(&mut self.columns[2], at, [y, -x, w, -z]);
+            put(&mut self.mixed[0], at, [x, x, y, 0.0]);
+            put(&mut self.mixed[1], at, [y, z, z, 0.0]);
+            put(&mut self.scalar, at, [w; 4]);
+            let [first, second, third, _] = four(rates, at);
+            put(&mut self.rates[0], at, [first; 4]);
+            put(&mut self.rates[1], at, [second; 4]);
+            put(&mut self.rates[2], at, [third; 4]);
+            put(&mut self.neighbours[0], at, [second, third, first, 0.0]);
+            put(&mut self.neighbours[1], at, [third, first, second, 0.0]);
+        }
+    }
+}
+
+/// The series of a step of one state, W = 4, or more.
+#[repr(align(64))]
+pub(super) struct Workspace<const W: usize> {
+    pub(super) attitude: [Rows<W>; ROWS],
+    pub(super) rates: [Rows<W>; ROWS],
     /// First coefficients of the parts of Euler's equations: Σ s2 s3 and ω2 ω3.
-    pub(super) parts: [Row; 2],
-    columns: [Series; 3],
-    neighbours: [Series; 2],
-    matrix: [Series; 3],
+    pub(super) parts: [Rows<W>; 2],
+    factors: [Factors<W>; ROWS],
     places: Vec<Series>,
-    directions: Vec<[Series; 2]>,
+    /// The next and the next but one of s1, s2, s3 of each body.
+    directions: Vec<[[Rows<W>; 2]; ROWS]>,
 }
 
-impl Workspace {
+impl<const W: usize> Workspace<W> {
     pub(super) fn new(bodies: usize) -> Box<Self> {
         Box::new(Self {
-            attitude: ZERO,
-            rates: ZERO,
-            parts: [[0.0; 4]; 2],
-            columns: [ZERO; 3],
-            neighbours: [ZERO; 2],
-            matrix: [ZERO; 3],
+            attitude: [[0.0; W]; ROWS],
+            rates: [[0.0; W]; ROWS],
+            parts: [[0.0; W]; 2],
+            factors: [Factors::ZERO; ROWS],
             places: vec![ZERO; bodies],
-            directions: vec![[ZERO; 2]; bodies],
+            directions: vec![[[[0.0; W]; 2]; ROWS]; bodies],
         })
     }
 
     /// Coefficients 0 to `order`.
     #[inline(always)]
-    pub(super) fn expand(&mut self, equations: &Equations, start: &Start, order: usize) {
+    pub(super) fn expand<S: InstructionSet>(
+        &mut self,
+        simd: S,
+        equations: &Equations<W>,
+        start: &Start<W>,
+        order: usize,
+    ) {
         for (body, place) in equations.bodies.iter().zip(&mut self.places) {
-            body.series((start.time, start.backward), order, place);
+            body.series(simd.four(), (start.time, start.backward), order, place);
         }
         self.attitude[0] = start.attitude;
         self.rates[0] = start.rates;
         for k in 0..order {
-            self.next_rows(k);
-            let torque = self.torque(k);
-            let mut gyration = [0.0; 4];
-            let mut turning = [[0.0; 4]; 3];
-            for j in 0..=k {
-                add_product(&mut gyration, &self.neighbours[0][j], &self.neighbours[1][k - j]);
-                let rates = &self.rates[k - j];
-                for (axis, sum) in turning.iter_mut().enumerate() {
-                    add_scaled(sum, rates[axis], &self.columns[axis][j]);
-                }
+            self.factors[k].set(&self.attitude[k], &self.rates[k]);
+            let mut sums = Sums::ZERO;
+            // The newest coefficient comes last, so that the sums need not wait for it.
+            for j in 1..k {
+                sums.add(simd, &self.factors[j], &self.factors[k - j]);
             }
+            sums.add(simd, &self.factors[0], &self.factors[k]);
+            if k > 0 {
+                sums.add(simd, &self.factors[k], &self.factors[0]);
+            }
+            let torque = self.torque(simd, (k, sums.matrix()), &equations.strengths);
             if k == 0 {
-                self.parts = [torque, gyration];
+                self.parts = [torque, sums.gyration];
             }
             let share = 1.0 / (k + 1) as f64;
-            let [one, two, three] = turning;
-            for lane in 0..4 {
-                self.rates[k + 1][lane] = equations.factors[lane] * (torque[lane] - gyration[lane]) * share;
+            let [one, two, three] = sums.turning;
+            for lane in 0..W {
+                self.rates[k + 1][lane] = equations.factors[lane] * (torque[lane] - sums.gyration[lane]) * share;
                 self.attitude[k + 1][lane] = 0.5 * share * (one[lane] + two[lane] + three[lane]);
             }
         }
     }
 
-    /// What follows from row k of attitude and rates alone.
+    /// Coefficient k of Σ s2 s3 and in turn.
     #[inline(always)]
-    fn next_rows(&mut self, k: usize) {
-        let [x, y, z, w] = self.attitude[k];
-        self.columns[0][k] = [w, z, -y, -x];
-        self.columns[1][k] = [-z, w, x, -y];
-        self.columns[2][k] = [y, -x, w, -z];
-        let [first, second, third, _] = self.rates[k];
-        self.neighbours[0][k] = [second, third, first, 0.0];
-        self.neighbours[1][k] = [third, first, second, 0.0];
-    }
-
-    /// Row k of the matrix, and of Σ s2 s3 and in turn.
-    #[inline(always)]
-    fn torque(&mut self, k: usize) -> Row {
-        let mut torque = [0.0; 4];
-        if self.places.is_empty() {
-            return torque;
-        }
-        let (mut squares, mut products, mut axial) = ([0.0; 4], [0.0; 4], [0.0; 4]);
-        for j in 0..=k {
-            let (one, other) = (&self.attitude[j], &self.attitude[k - j]);
-            add_product(&mut squares, one, other);
-            add_product(&mut products, &[one[0], one[0], one[1], 0.0], &[other[1], other[2], other[2], 0.0]);
-            add_scaled(&mut axial, one[3], other);
-        }
-        let [xx, yy, zz, ww] = squares;
-        let [xy, xz, yz, _] = products;
-        let [xw, yw, zw, _] = axial;
-        self.matrix[0][k] = [ww + xx - yy - zz, 2.0 * (xy - zw), 2.0 * (xz + yw), 0.0];
-        self.matrix[1][k] = [2.0 * (xy + zw), ww - xx + yy - zz, 2.0 * (yz - xw), 0.0];
-        self.matrix[2][k] = [2.0 * (xz - yw), 2.0 * (yz + xw), ww - xx - yy + zz, 0.0];
-        for (place, [one, other]) in self.places.iter().zip(&mut self.directions) {
-            let mut sums = [[0.0; 4]; 3];
-            for j in 0..=k {
-                let place = &place[k - j];
-                for (axis, sum) in sums.iter_mut().enumerate() {
-                    add_scaled(sum, place[axis], &self.matrix[axis][j]);
+    fn torque<S: InstructionSet>(
+        &mut self,
+        simd: S,
+        (k, matrix): (usize, [Rows<W>; 3]),
+        strengths: &[Rows<W>],
+    ) -> Rows<W> {
+        let mut torque = [0.0; W];
+        for (body, strength) in strengths.iter().enumerate() {
+            let (place, directions) = (&self.places[body], &mut self.directions[body]);
+            let (mut sums, mut products) = ([[0.0; W]; 3], [0.0; W]);
+            for j in 0..k {
+                for axis in 0..3 {
+                    add_scaled(simd, &mut sums[axis], place[k - j][axis], &self.factors[j].matrix[axis]);
                 }
             }
-            let [first, second, third]: [f64; 3] = std::array::from_fn(|i| sums[0][i] + sums[1][i] + sums[2][i]);
-            one[k] = [second, third, first, 0.0];
-            other[k] = [third, first, second, 0.0];
-            for j in 0..=k {
-                add_product(&mut torque, &one[j], &other[k - j]);
+            for j in 1..k {
+                add_product(simd, &mut products, &directions[j][0], &directions[k - j][1]);
             }
+            for axis in 0..3 {
+                add_scaled(simd, &mut sums[axis], place[0][axis], &matrix[axis]);
+            }
+            let newest = &mut directions[k];
+            for state in 0..W / 4 {
+                let at = 4 * state;
+                let [one, two, three] = &sums;
+                let first = one[at] + two[at] + three[at];
+                let second = one[at + 1] + two[at + 1] + three[at + 1];
+                let third = one[at + 2] + two[at + 2] + three[at + 2];
+                put(&mut newest[0], at, [second, third, first, 0.0]);
+                put(&mut newest[1], at, [third, first, second, 0.0]);
+            }
+            let [one, other] = directions[k];
+            add_product(simd, &mut products, &directions[0][0], &other);
+            if k > 0 {
+                add_product(simd, &mut products, &one, &directions[0][1]);
+            }
+            add_product(simd, &mut torque, strength, &products);
         }
+        self.factors[k].matrix = matrix;
         torque
     }
+}
 
+impl Workspace<4> {
     /// The coefficients of the motion up to an order.
     pub(super) fn coefficients(&self, order: usize) -> impl Iterator<Item = Coefficients> + '_ {
         self.attitude
@@ -205,5 +315,22 @@ impl Workspace {
             }
         }
         (attitude, rates)
+    }
+}
+
+/// The series of one step, for the best instruction set available.
+pub(super) struct Expansion<'a> {
+    pub(super) workspace: &'a mut Workspace<4>,
+    pub(super) equations: &'a Equations<4>,
+    pub(super) start: Start<4>,
+    pub(super) order: usize,
+}
+
+impl Task for Expansion<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, simd: S) {
+        self.workspace.expand(simd, self.equations, &self.start, self.order);
     }
 }

@@ -6,29 +6,32 @@ use std::sync::atomic::AtomicBool;
 use andoyer_double::two_sum;
 use pulp::Arch;
 
-use super::bound::{FLOOR, Measured, PATTERNS, Profile};
+use super::bound::{FLOOR, INPUT, Measured, Profile, SAFETY};
 use super::disturber::Disturber;
 use super::expansion::Equations;
-use super::integrator::{Kept, Precision, Runner, Side, Step};
-use super::series::Row;
+use super::integrator::{Kept, Precision, ROUNDING, Runner, Side, Step};
+use super::series::{Row, largest};
 use crate::error::Error;
 use crate::input::disturbing_body::DisturbingBody;
 use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
 use crate::input::tabulated::TabulatedOrbit;
 use crate::numerics::scaling::{exponent, scaled};
-use crate::simd::instruction_set::dispatch;
+use crate::simd::instruction_set::{dispatch, dispatch_few};
 
 /// Relative truncation error of a step. The sum of such errors over all steps is below the rounding error.
 const FINEST: f64 = 1e-19;
 /// The largest one that is used.
 const COARSEST: f64 = 1e-6;
 /// Error at the end that the steps of an enlarged displacement may leave, before its division by the square of the phase \[rad\].
-const ENLARGED_ERROR: f64 = 1e-4;
+const ENLARGED_ERROR: f64 = 3e-5;
+/// The first integration's truncation error relative to the tolerance and the square of the phase. A smaller part takes a higher order, 8 % of the time for a third, and fewer motions twice.
+const CAREFUL: f64 = 0.06;
 /// The second integration's truncation error relative to the first's, after as much as the tolerance asks for.
 const FINER: f64 = 0.05;
-/// Relative rounding error of the rates that a step of about half a radian leaves.
-const STEP_ROUNDING: f64 = 1e-16;
+
+/// Length of a step \[rad\], from below.
+const STEP: f64 = 0.65;
 
 /// What a plan says of an integration.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -40,7 +43,7 @@ pub(crate) struct IntegrationPlan {
 /// A motion by integration. Times are those from the epoch in its own unit.
 #[derive(Clone, Debug)]
 pub(crate) struct Integrated {
-    pub(super) equations: Equations,
+    pub(super) equations: Equations<4>,
     pub(super) order: usize,
     /// Before and after the epoch.
     pub(super) sides: [Side; 2],
@@ -57,7 +60,7 @@ impl Integrated {
         let tolerance = scene.asked_tolerance();
         let phase = problem.phase();
         // Truncation errors of the rates add up over the steps, and their effect on the angle over time.
-        let first = (2.0 * tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST);
+        let first = (CAREFUL * tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST);
         let (mut motion, mut profiles) = problem.solved(first, stop)?;
         if motion.error > tolerance && first > FINEST {
             let second = (FINER * first * tolerance / motion.error).clamp(FINEST, first);
@@ -85,17 +88,20 @@ impl Integrated {
     }
 }
 
-/// The error bound that rounding leaves a motion without growth of its own, and how many steps it takes, both from above by guess: for the choice of a method.
+/// A guess of the error bound, and how many steps there will be at most: for the choice of a method.
+///
+/// The guess has the parts of the bound that a regular motion has without truncation errors: the rounded state at the epoch, and the rounding of ω × Iω in each step. The errors of the
+/// rates add up by chance and turn the body ever after. For scenes of which the theory holds the guess is 0.7 of the bound in the median, and 0.3 to 1.2 of it in 90 % of them.
 pub(crate) fn prospect(scene: &Scene) -> Option<(f64, f64)> {
     let problem = Problem::new(scene, "").ok()?;
     let phase = problem.phase();
-    let steps = 10.0 + 2.0 * phase;
-    Some((STEP_ROUNDING * (10.0 + steps.sqrt() * phase), steps))
+    let rates = INPUT + ROUNDING[1] * problem.gyration() * (STEP * phase).sqrt();
+    Some((FLOOR + SAFETY[0] * rates * phase, 10.0 + 2.0 * phase))
 }
 
 /// The equations with the state and the times.
 struct Problem {
-    equations: Equations,
+    equations: Equations<4>,
     attitude: Row,
     rates: Row,
     exponent: i32,
@@ -156,6 +162,14 @@ impl Problem {
         longest * x.hypot(y).hypot(z).max(self.equations.scale)
     }
 
+    /// ω × Iω in Euler's equations at the epoch, relative to the square of the rates.
+    fn gyration(&self) -> f64 {
+        let [x, y, z, _] = self.rates;
+        let square = x * x + y * y + z * z;
+        let products = [y * z, z * x, x * y, 0.0];
+        if square > 0.0 { largest(&self.equations.factors) * largest(&products) / square } else { 0.0 }
+    }
+
     /// By steps of this relative error, with the error bounds before and after the epoch.
     fn solved(&self, error: f64, stop: &AtomicBool) -> Result<(Integrated, [Profile; 2]), Error> {
         let (arch, precision, equations) = (Arch::new(), Precision::of(error), &self.equations);
@@ -165,7 +179,7 @@ impl Problem {
         for (side, target) in self.ends.into_iter().enumerate() {
             let backward = side == 0;
             let runner = Runner::new(self.attitude, self.rates, backward);
-            let (kept, runner) = dispatch(arch, Kept { equations, precision, runner, target, stop })?;
+            let (kept, runner) = dispatch_few(arch, Kept { equations, precision, runner, target, stop })?;
             if kept.steps.len() > 1 {
                 profiles[side] = self.measured(&kept.steps, (precision, &runner), backward, stop)?;
             }
@@ -182,47 +196,30 @@ impl Problem {
     fn measured(
         &self,
         steps: &[Step],
-        (precision, runner): (Precision, &Runner),
+        (precision, runner): (Precision, &Runner<4>),
         backward: bool,
         stop: &AtomicBool,
     ) -> Result<Profile, Error> {
         let phase = self.phase();
         let coarse = Precision::of((ENLARGED_ERROR / (10.0 + phase * phase)).clamp(FINEST, COARSEST));
         let coarser = self.equations.coarser();
-        let mut whole = Profile::new();
-        for pattern in 0..PATTERNS {
-            let enlarged = Measured {
-                equations: &self.equations,
-                precision: coarse,
-                steps,
-                errors: runner.errors(),
-                noise: runner.systematic_share(),
-                backward,
-                pattern,
-                enlarged: true,
-                stop,
-            };
-            let exact = Measured { equations: &coarser, precision, enlarged: false, ..enlarged };
-            let cheap = !self.tabulated() && coarse.order < precision.order;
-            let profile = if cheap { dispatch(Arch::new(), enlarged)? } else { None };
-            let profile = match profile {
-                Some(profile) => profile,
-                None => dispatch(Arch::new(), exact)?.unwrap_or_default(),
-            };
-            merge(&mut whole, profile);
-        }
-        Ok(whole)
-    }
-}
-
-/// The larger of two error bounds at each time.
-fn merge(whole: &mut Profile, profile: Profile) {
-    if whole.is_empty() {
-        *whole = profile;
-        return;
-    }
-    for ((_, bound), (_, other)) in whole.iter_mut().zip(profile) {
-        *bound = bound.max(other);
+        let enlarged = Measured {
+            equations: &self.equations,
+            precision: coarse,
+            steps,
+            errors: runner.errors(),
+            noise: runner.systematic_share(),
+            backward,
+            enlarged: true,
+            stop,
+        };
+        let exact = Measured { equations: &coarser, precision, enlarged: false, ..enlarged };
+        let cheap = !self.tabulated() && coarse.order < precision.order;
+        let profile = if cheap { dispatch(Arch::new(), enlarged)? } else { None };
+        Ok(match profile {
+            Some(profile) => profile,
+            None => dispatch(Arch::new(), exact)?.unwrap_or_default(),
+        })
     }
 }
 

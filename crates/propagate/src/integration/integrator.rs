@@ -6,8 +6,8 @@ use std::sync::atomic::AtomicBool;
 
 use andoyer_double::two_sum;
 
-use super::expansion::{Equations, Start, Workspace};
-use super::series::{Coefficients, MAX, Row, largest};
+use super::expansion::{Equations, Start, Workspace, four};
+use super::series::{Coefficients, MAX, Row, Rows, largest};
 use crate::error::Error;
 use crate::simd::halt::going;
 use crate::simd::instruction_set::{InstructionSet, Task};
@@ -21,7 +21,7 @@ const HOPELESS: f64 = 16.0;
 /// The terms after the last, relative to it: steps are e^−2 of the radius of convergence, so that their sum is 0.16 of it.
 const OMITTED: f64 = 0.2;
 /// Relative rounding errors of a torque and of ω × Iω.
-const ROUNDING: [f64; 2] = [4.0 * 1.2e-16, 2.0 * 1.2e-16];
+pub(super) const ROUNDING: [f64; 2] = [4.0 * 1.2e-16, 2.0 * 1.2e-16];
 
 /// The start of a step: 72 bytes.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +33,7 @@ pub(super) struct Step {
 }
 
 impl Step {
-    pub(super) fn start(&self, backward: bool) -> Start {
+    pub(super) fn start(&self, backward: bool) -> Start<4> {
         let [first, second, third] = self.rates;
         Start { time: self.time, backward, attitude: self.attitude, rates: [first, second, third, 0.0] }
     }
@@ -50,31 +50,37 @@ pub(super) struct Side {
     pub(super) coefficients: Vec<Coefficients>,
 }
 
-/// The order and the factor of the lengths of steps.
+/// The order and the lengths of steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Precision {
     pub(super) order: usize,
-    /// 1, or less for shorter steps.
-    pub(super) factor: f64,
+    /// Logarithm of the length of a step relative to the radius of convergence.
+    shrinkage: f64,
 }
 
 impl Precision {
     /// For a relative error of a step (Jorba and Zou, eq. 3-7).
     pub(super) fn of(error: f64) -> Self {
         let order = (-0.5 * error.ln()).ceil() + 1.0;
-        Self { order: (order as usize).clamp(4, MAX), factor: 1.0 }
+        let order = (order as usize).clamp(4, MAX);
+        Self { order, shrinkage: -2.0 - 0.7 / (order - 1) as f64 }
+    }
+
+    /// With steps of this length relative to those before.
+    pub(super) fn shorter(self, factor: f64) -> Self {
+        Self { shrinkage: self.shrinkage + factor.ln(), ..self }
     }
 }
 
-/// A state on its way.
+/// One state on its way, W = 4, or more that take the same steps.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Runner {
+pub(super) struct Runner<const W: usize> {
     pub(super) time: (f64, f64),
     backward: bool,
-    attitude: Row,
-    attitude_rest: Row,
-    rates: Row,
-    rates_rest: Row,
+    attitude: Rows<W>,
+    attitude_rest: Rows<W>,
+    rates: Rows<W>,
+    rates_rest: Rows<W>,
     /// Sums of squares of the rounding errors, and sums of the errors that do not change their sign by chance, of attitude \[rad\] and rates.
     rounded: [f64; 2],
     systematic: [f64; 2],
@@ -82,9 +88,9 @@ pub(super) struct Runner {
     last: [f64; 2],
 }
 
-impl Runner {
-    pub(super) fn new(attitude: Row, rates: Row, backward: bool) -> Self {
-        let none = [0.0; 4];
+impl<const W: usize> Runner<W> {
+    pub(super) fn new(attitude: Rows<W>, rates: Rows<W>, backward: bool) -> Self {
+        let none = [0.0; W];
         Self {
             time: (0.0, 0.0),
             backward,
@@ -98,9 +104,22 @@ impl Runner {
         }
     }
 
-    pub(super) fn step(&self) -> Step {
-        let [first, second, third, _] = self.rates;
-        Step { time: self.time, attitude: self.attitude, rates: [first, second, third] }
+    /// Brings all states nearer to one, to this part of their distance.
+    pub(super) fn bring_nearer(&mut self, to: &Start<4>, part: f64) {
+        for lane in 0..W {
+            let (attitude, rate) = (to.attitude[lane % 4], to.rates[lane % 4]);
+            self.attitude[lane] = attitude + part * (self.attitude[lane] - attitude);
+            self.rates[lane] = rate + part * (self.rates[lane] - rate);
+        }
+        for at in (0..W).step_by(4) {
+            let norm = four(&self.attitude, at).iter().map(|x| x * x).sum::<f64>().sqrt();
+            self.attitude[at..at + 4].iter_mut().for_each(|x| *x /= norm);
+        }
+    }
+
+    /// The attitude of each state.
+    pub(super) fn attitudes(&self) -> impl Iterator<Item = Row> + '_ {
+        (0..W).step_by(4).map(|at| four(&self.attitude, at))
     }
 
     /// Estimates of the errors of attitude \[rad\] and rates that all steps leave together.
@@ -119,22 +138,22 @@ impl Runner {
     /// Goes on by one step, to the target at most. Returns the length of the step without a target, or NaN where the state has become
     /// none.
     #[inline(always)]
-    pub(super) fn advance(
+    pub(super) fn advance<S: InstructionSet>(
         &mut self,
-        (equations, precision): (&Equations, Precision),
+        simd: S,
+        (equations, precision): (&Equations<W>, Precision),
         target: (f64, f64),
-        workspace: &mut Workspace,
+        workspace: &mut Workspace<W>,
     ) -> f64 {
-        let Precision { order, factor } = precision;
+        let Precision { order, shrinkage } = precision;
         let start = Start { time: self.time, backward: self.backward, attitude: self.attitude, rates: self.rates };
-        workspace.expand(equations, &start, order);
+        workspace.expand(simd, equations, &start, order);
         let scale = largest(&self.rates).max(equations.scale);
-        let mut length = f64::INFINITY;
-        for k in [order - 1, order] {
+        let [before, last] = [order - 1, order].map(|k| {
             let ratio = (largest(&workspace.rates[k]) / scale).max(largest(&workspace.attitude[k]));
-            length = length.min(ratio.powf(-1.0 / k as f64));
-        }
-        let whole = length * factor * (-2.0 - 0.7 / (order - 1) as f64).exp();
+            -ratio.ln() / k as f64
+        });
+        let whole = (before.min(last) + shrinkage).exp();
         let left = (target.0 - self.time.0) + (target.1 - self.time.1);
         let last = whole >= left.abs();
         let length = if last { left } else { whole.copysign(left) };
@@ -146,15 +165,15 @@ impl Runner {
     }
 
     #[inline(always)]
-    fn add(&mut self, length: f64, order: usize, workspace: &Workspace) {
+    fn add(&mut self, length: f64, order: usize, workspace: &Workspace<W>) {
         let (mut attitude, mut rates) = (workspace.attitude[order], workspace.rates[order]);
         for k in (1..order).rev() {
-            for lane in 0..4 {
+            for lane in 0..W {
                 attitude[lane] = attitude[lane].mul_add(length, workspace.attitude[k][lane]);
                 rates[lane] = rates[lane].mul_add(length, workspace.rates[k][lane]);
             }
         }
-        for lane in 0..4 {
+        for lane in 0..W {
             compensated(&mut self.attitude[lane], &mut self.attitude_rest[lane], attitude[lane] * length);
             compensated(&mut self.rates[lane], &mut self.rates_rest[lane], rates[lane] * length);
         }
@@ -162,7 +181,7 @@ impl Runner {
 
     /// Adds the errors that the step may have made.
     #[inline(always)]
-    fn account(&mut self, length: f64, order: usize, (equations, workspace): (&Equations, &Workspace)) {
+    fn account(&mut self, length: f64, order: usize, (equations, workspace): (&Equations<W>, &Workspace<W>)) {
         let last = length.powi(order as i32);
         self.systematic[0] += 2.0 * OMITTED * largest(&workspace.attitude[order]) * last;
         self.systematic[1] += OMITTED * largest(&workspace.rates[order]) * last;
@@ -183,12 +202,19 @@ impl Runner {
         *random ^= *random >> 7;
         *random ^= *random << 17;
         let (angle, rate) = (of_angle * self.last[0], of_rate * self.last[1]);
-        for lane in 0..4 {
+        for lane in 0..W {
             let sign = |bit: u32| if (*random >> bit) & 1 == 0 { 1.0 } else { -1.0 };
             self.attitude[lane] += 0.5 * angle * sign(8 + lane as u32);
             // The fourth rate is 0.
-            self.rates[lane] += if lane < 3 { rate * sign(40 + lane as u32) } else { 0.0 };
+            self.rates[lane] += if lane % 4 < 3 { rate * sign(40 + lane as u32) } else { 0.0 };
         }
+    }
+}
+
+impl Runner<4> {
+    pub(super) fn step(&self) -> Step {
+        let [first, second, third, _] = self.rates;
+        Step { time: self.time, attitude: self.attitude, rates: [first, second, third] }
     }
 }
 
@@ -209,18 +235,18 @@ fn compensated(value: &mut f64, rest: &mut f64, change: f64) {
 
 /// The integration to a time, every step of it kept.
 pub(super) struct Kept<'a> {
-    pub(super) equations: &'a Equations,
+    pub(super) equations: &'a Equations<4>,
     pub(super) precision: Precision,
-    pub(super) runner: Runner,
+    pub(super) runner: Runner<4>,
     pub(super) target: (f64, f64),
     pub(super) stop: &'a AtomicBool,
 }
 
 impl Task for Kept<'_> {
-    type Output = Result<(Side, Runner), Error>;
+    type Output = Result<(Side, Runner<4>), Error>;
 
     #[inline(always)]
-    fn run<S: InstructionSet>(self, _simd: S) -> Self::Output {
+    fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
         let Self { equations, precision, mut runner, target, stop } = self;
         let mut workspace = Workspace::new(equations.bodies.len());
         let (mut steps, mut coefficients) = (Vec::new(), Vec::new());
@@ -233,7 +259,7 @@ impl Task for Kept<'_> {
             let knot = next_knot(equations, runner.time.0, forward);
             let end = knot.filter(|knot| knot.0.abs() < target.0.abs()).unwrap_or(target);
             steps.push(runner.step());
-            let length = runner.advance((equations, precision), end, &mut workspace);
+            let length = runner.advance(simd, (equations, precision), end, &mut workspace);
             // A table whose polynomial meets the origin leaves no number.
             if length.is_nan() {
                 return Err(Error::TooManySteps { steps: f64::INFINITY, bound: MOST_STEPS, reason: String::new() });
@@ -251,13 +277,13 @@ impl Task for Kept<'_> {
 }
 
 /// The nearest time at which the series of a body ends.
-pub(super) fn next_knot(equations: &Equations, time: f64, forward: bool) -> Option<(f64, f64)> {
+pub(super) fn next_knot<const W: usize>(equations: &Equations<W>, time: f64, forward: bool) -> Option<(f64, f64)> {
     let knots = equations.bodies.iter().filter_map(|body| body.next_knot(time, forward));
     knots.min_by(|one, other| one.0.abs().total_cmp(&other.0.abs()))
 }
 
 /// Whether the steps so far leave the whole within the bound.
-fn affordable(steps: &[Step], runner: &Runner, target: (f64, f64)) -> Result<(), Error> {
+fn affordable(steps: &[Step], runner: &Runner<4>, target: (f64, f64)) -> Result<(), Error> {
     let done = runner.time.0.abs();
     if steps.is_empty() || done == 0.0 {
         return Ok(());

@@ -36,10 +36,6 @@ impl Table {
         Self { orbit: orbit.clone(), knots: Arc::new(knots.collect()), length, strength, nodes: NODES }
     }
 
-    pub(super) fn strengthened(&self, factor: f64) -> Self {
-        Self { strength: self.strength * factor, ..self.clone() }
-    }
-
     pub(super) fn coarser(&self) -> Self {
         Self { nodes: NODES - 2, ..self.clone() }
     }

@@ -1,12 +1,16 @@
-//! Taylor coefficients in rows of four lanes, and sums of products of them.
+//! Taylor coefficients in rows of lanes, four for each state, and sums of products of them.
+
+use pulp::Simd;
 
 /// The highest order of a step.
 pub(super) const MAX: usize = 24;
 /// Rows of a series.
 pub(super) const ROWS: usize = MAX + 1;
 
-/// Four lanes: a quaternion, or a vector and 0.
-pub(super) type Row = [f64; 4];
+/// Four lanes of each state: a quaternion, or a vector and 0. Several states go on with the same steps.
+pub(super) type Rows<const W: usize> = [f64; W];
+/// The lanes of one state.
+pub(super) type Row = Rows<4>;
 /// The coefficients of four functions.
 pub(super) type Series = [Row; ROWS];
 /// The coefficients of one function.
@@ -20,23 +24,27 @@ pub(super) const ZERO: Series = [[0.0; 4]; ROWS];
 
 /// sum += factor · row.
 #[inline(always)]
-pub(super) fn add_scaled(sum: &mut Row, factor: f64, row: &Row) {
-    for lane in 0..4 {
-        sum[lane] = factor.mul_add(row[lane], sum[lane]);
+pub(super) fn add_scaled<S: Simd, const W: usize>(simd: S, sum: &mut Rows<W>, factor: f64, row: &Rows<W>) {
+    let ((sums, _), (rows, _)) = (S::as_mut_simd_f64s(sum), S::as_simd_f64s(row));
+    let factor = simd.splat_f64s(factor);
+    // Loops over indices here and in the callers: compilers do not always inline iterators into functions as long as these.
+    for i in 0..W / S::F64_LANES {
+        sums[i] = simd.mul_add_f64s(factor, rows[i], sums[i]);
     }
 }
 
-/// sum += one · other, lane by lane.
+/// sum += one · other, lane by lane. The rows are whole vectors: compilers would take them apart where their lanes are used apart later.
 #[inline(always)]
-pub(super) fn add_product(sum: &mut Row, one: &Row, other: &Row) {
-    for lane in 0..4 {
-        sum[lane] = one[lane].mul_add(other[lane], sum[lane]);
+pub(super) fn add_product<S: Simd, const W: usize>(simd: S, sum: &mut Rows<W>, one: &Rows<W>, other: &Rows<W>) {
+    let ((sums, _), (ones, _), (others, _)) = (S::as_mut_simd_f64s(sum), S::as_simd_f64s(one), S::as_simd_f64s(other));
+    for i in 0..W / S::F64_LANES {
+        sums[i] = simd.mul_add_f64s(ones[i], others[i], sums[i]);
     }
 }
 
 /// The largest magnitude in a row.
 #[inline(always)]
-pub(super) fn largest(row: &Row) -> f64 {
+pub(super) fn largest(row: &[f64]) -> f64 {
     row.iter().fold(0.0_f64, |most, value| most.max(value.abs()))
 }
 

@@ -10,6 +10,12 @@ pub(crate) trait InstructionSet: Simd {
     /// Whether `mul_add` rounds once.
     const FUSED: bool = true;
 
+    /// The set itself, or one of its machine whose vectors have four lanes.
+    type Four: InstructionSet;
+
+    /// The set for rows of four lanes.
+    fn four(self) -> Self::Four;
+
     /// (sine, cosine) of the angle plus as many quarter turns as the lowest two bits of `quarters` say.
     fn turned(self, sine: Self::f64s, cosine: Self::f64s, quarters: Self::u64s) -> (Self::f64s, Self::f64s);
 
@@ -87,6 +93,13 @@ fn rows<S: Simd, const N: usize>(columns: [S::f64s; N]) -> [S::f64s; N] {
 impl InstructionSet for pulp::Scalar {
     const FUSED: bool = false;
 
+    type Four = Self;
+
+    #[inline(always)]
+    fn four(self) -> Self {
+        self
+    }
+
     #[inline(always)]
     fn turned(self, sine: f64, cosine: f64, quarters: u64) -> (f64, f64) {
         // Without a branch: it would be mispredicted every other time.
@@ -105,6 +118,13 @@ mod x86 {
 
     /// AVX2 and FMA: four lanes.
     impl InstructionSet for V3 {
+        type Four = Self;
+
+        #[inline(always)]
+        fn four(self) -> Self {
+            self
+        }
+
         #[inline(always)]
         fn turned(self, sine: f64x4, cosine: f64x4, quarters: u64x4) -> (f64x4, f64x4) {
             let odd = cast(self.shl_const_u64x4::<63>(quarters));
@@ -149,6 +169,13 @@ mod x86 {
 
     /// AVX-512: eight lanes.
     impl InstructionSet for V4 {
+        type Four = V3;
+
+        #[inline(always)]
+        fn four(self) -> V3 {
+            *self
+        }
+
         #[inline(always)]
         fn turned(self, sine: f64x8, cosine: f64x8, quarters: u64x8) -> (f64x8, f64x8) {
             let odd = self.avx512f._mm512_test_epi64_mask(cast(quarters), cast(self.splat_u64s(1)));
@@ -210,6 +237,13 @@ mod aarch64 {
 
     /// NEON: two lanes.
     impl InstructionSet for Neon {
+        type Four = Self;
+
+        #[inline(always)]
+        fn four(self) -> Self {
+            self
+        }
+
         #[inline(always)]
         fn turned(self, sine: f64x2, cosine: f64x2, quarters: u64x2) -> (f64x2, f64x2) {
             let one = self.splat_u64s(1);

@@ -56,7 +56,7 @@ pub(super) fn may_be_integrated(scene: &Scene) -> bool {
 
 /// The theory where it meets the tolerance, else the integration where that does, else whichever has the smaller error bound.
 pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
-    let by_theory = match scene.clone().solve_by_theory(tables) {
+    let mut by_theory = match scene.clone().solve_by_theory(tables) {
         Ok(motion) if motion.plan.meets_tolerance() => return Ok(motion),
         Ok(motion) => motion,
         Err(error) if error.kind() == Kind::Theory => {
@@ -68,16 +68,23 @@ pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -
     let fixed = scene.asked_orbit().is_some_and(Orbit::is_fixed);
     let tolerance = scene.asked_tolerance().max(ROUNDED_TOLERANCE);
     let enough = if fixed { tolerance } else { tolerance.max(by_theory.plan.error_bound) };
-    let promising = prospect(&scene).is_some_and(|(bound, steps)| bound <= enough && steps <= MOST_STEPS as f64);
-    if !promising {
-        return Ok(by_theory);
-    }
-    let reason = format!("theory: its error bound is {:.1e} rad", by_theory.plan.error_bound);
-    match integrated(scene, tables, reason, stop) {
-        Ok(motion) if motion.plan.error_bound < by_theory.plan.error_bound => Ok(motion),
-        Err(Error::Stopped) => Err(Error::Stopped),
-        _ => Ok(by_theory),
-    }
+    let unused = match prospect(&scene) {
+        Some((_, steps)) if steps > MOST_STEPS as f64 => {
+            format!("it would take about {steps:.1e} steps, and at most {MOST_STEPS} are kept")
+        }
+        Some((bound, _)) if bound > enough => format!("its error bound would be about {bound:.1e} rad"),
+        _ => {
+            let reason = format!("theory: its error bound is {:.1e} rad", by_theory.plan.error_bound);
+            match integrated(scene, tables, reason, stop) {
+                Ok(motion) if motion.plan.error_bound < by_theory.plan.error_bound => return Ok(motion),
+                Ok(motion) => format!("its error bound is {:.1e} rad", motion.plan.error_bound),
+                Err(Error::Stopped) => return Err(Error::Stopped),
+                Err(error) => in_ascii(&error.to_string()),
+            }
+        }
+    };
+    by_theory.plan.skipped.push(format!("integration: {unused}"));
+    Ok(by_theory)
 }
 
 /// A message without the signs that a plan does not print.
