@@ -11,7 +11,7 @@ use pulp::Arch;
 use crate::numerics::theta::Theta;
 use crate::simd::double_double_lanes::DoubleDoubleLanes;
 use crate::simd::elliptic::{carlson_rf, mean, precise_mean};
-use crate::simd::instruction_set::{FEW, InstructionSet, Task, dispatch, dispatch_few};
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch, dispatch_one};
 use crate::simd::lanes::{Lanes, WIDEST};
 
 /// A body and its rotation, on the sorted axes and in scaled units.
@@ -73,73 +73,130 @@ pub(crate) struct Invariants {
 }
 
 impl Invariants {
-    /// The constants of at most as many bodies as the widest vectors have lanes.
-    pub(super) fn of(given: &[Given]) -> Vec<Self> {
-        let compute = Compute { given };
-        if given.len() <= FEW { dispatch_few(Arch::new(), compute) } else { dispatch(Arch::new(), compute) }
+    /// The constants of one body.
+    pub(super) fn of(given: &Given) -> Self {
+        dispatch_one(Arch::new(), One { given })
+    }
+
+    /// The constants of several bodies, each to the bits of [`Invariants::of`].
+    pub(super) fn several(given: &[Given]) -> Vec<Self> {
+        dispatch(Arch::new(), Several { given })
     }
 }
 
-struct Compute<'a> {
+struct One<'a> {
+    given: &'a Given,
+}
+
+impl Task for One<'_> {
+    type Output = Invariants;
+
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, simd: S) -> Invariants {
+        together(simd, &Columns::all(simd, self.given)).lane(0)
+    }
+}
+
+struct Several<'a> {
     given: &'a [Given],
 }
 
-impl Task for Compute<'_> {
+impl Task for Several<'_> {
     type Output = Vec<Invariants>;
 
     #[inline(always)]
     fn run<S: InstructionSet>(self, simd: S) -> Vec<Invariants> {
         let mut found = Vec::with_capacity(self.given.len());
         for given in self.given.chunks(Lanes::<S>::WIDTH) {
-            let together = together(simd, given);
-            found.extend((0..given.len()).map(|lane| together.lane(lane)));
+            let together = together(simd, &Columns::load(simd, given));
+            for lane in 0..given.len() {
+                found.push(together.lane(lane));
+            }
         }
         found
     }
 }
 
-/// The bodies in lanes. A lane without a body has the first one.
-struct Columns {
-    moments: [[f64; WIDEST]; 3],
-    rates: [[f64; WIDEST]; 3],
-    /// Squares of g and M, high and low parts.
-    squares: [[[f64; WIDEST]; 2]; 4],
+/// The bodies in lanes.
+struct Columns<S: InstructionSet> {
+    moments: [Lanes<S>; 3],
+    rates: [Lanes<S>; 3],
+    /// Squares of g and M.
+    squares: [DoubleDoubleLanes<S>; 4],
     /// 0 where the rates are given, 1 where the squares are.
-    by_squares: [f64; WIDEST],
+    by_squares: Lanes<S>,
     /// −1 for the long-axis mode, otherwise 1.
-    sign: [f64; WIDEST],
+    sign: Lanes<S>,
 }
 
-impl Columns {
-    fn new(given: &[Given]) -> Self {
-        let mut columns = Self {
-            moments: [[1.0; WIDEST]; 3],
-            rates: [[1.0; WIDEST]; 3],
-            squares: [[[1.0; WIDEST]; 2]; 4],
-            by_squares: [0.0; WIDEST],
-            sign: [1.0; WIDEST],
+/// −1 for the long-axis mode, otherwise 1.
+fn sign(body: &Given) -> f64 {
+    if body.long_axis { -1.0 } else { 1.0 }
+}
+
+impl<S: InstructionSet> Columns<S> {
+    /// One body in all lanes.
+    #[inline(always)]
+    fn all(simd: S, body: &Given) -> Self {
+        let (rates, squares, momentum, by_squares) = match body.rotation {
+            Rotation::Rates(rates) => (rates, [DoubleDouble::ONE; 3], DoubleDouble::ONE, 0.0),
+            Rotation::Squares(squares, momentum) => ([1.0; 3], squares, momentum, 1.0),
         };
-        for lane in 0..WIDEST {
+        let [x, y, z] = squares;
+        let mut columns = [DoubleDoubleLanes::splat(simd, momentum); 4];
+        for (column, square) in columns.iter_mut().zip([x, y, z]) {
+            *column = DoubleDoubleLanes::splat(simd, square);
+        }
+        Self {
+            moments: Lanes::splats(simd, body.moments),
+            rates: Lanes::splats(simd, rates),
+            squares: columns,
+            by_squares: Lanes::splat(simd, by_squares),
+            sign: Lanes::splat(simd, sign(body)),
+        }
+    }
+
+    /// A body in each lane. A lane without a body has the first one.
+    #[inline(always)]
+    fn load(simd: S, given: &[Given]) -> Self {
+        let (mut moments, mut rates) = ([[1.0; WIDEST]; 3], [[1.0; WIDEST]; 3]);
+        let mut squares = [[[1.0; WIDEST]; 2]; 4];
+        let (mut by_squares, mut signs) = ([0.0; WIDEST], [1.0; WIDEST]);
+        for lane in 0..Lanes::<S>::WIDTH {
             let Some(body) = given.get(lane).or(given.first()) else { break };
-            columns.sign[lane] = if body.long_axis { -1.0 } else { 1.0 };
-            for (column, moment) in columns.moments.iter_mut().zip(body.moments) {
+            signs[lane] = sign(body);
+            for (column, moment) in moments.iter_mut().zip(body.moments) {
                 column[lane] = moment;
             }
             match body.rotation {
-                Rotation::Rates(rates) => {
-                    for (column, rate) in columns.rates.iter_mut().zip(rates) {
+                Rotation::Rates(given) => {
+                    for (column, rate) in rates.iter_mut().zip(given) {
                         column[lane] = rate;
                     }
                 }
                 Rotation::Squares([x, y, z], momentum) => {
-                    columns.by_squares[lane] = 1.0;
-                    for (column, value) in columns.squares.iter_mut().zip([x, y, z, momentum]) {
+                    by_squares[lane] = 1.0;
+                    for (column, value) in squares.iter_mut().zip([x, y, z, momentum]) {
                         (column[0][lane], column[1][lane]) = (value.high, value.low);
                     }
                 }
             }
         }
-        columns
+        let mut columns = [DoubleDoubleLanes::splat(simd, DoubleDouble::ONE); 4];
+        for (column, [high, low]) in columns.iter_mut().zip(&squares) {
+            *column = DoubleDoubleLanes::load(simd, high, low);
+        }
+        let [mut by_axis, mut by_rate] = [[columns[0].high; 3]; 2];
+        for axis in 0..3 {
+            (by_axis[axis], by_rate[axis]) = (Lanes::load(simd, &moments[axis]), Lanes::load(simd, &rates[axis]));
+        }
+        Self {
+            moments: by_axis,
+            rates: by_rate,
+            squares: columns,
+            by_squares: Lanes::load(simd, &by_squares),
+            sign: Lanes::load(simd, &signs),
+        }
     }
 }
 
@@ -153,13 +210,12 @@ struct Turning<S: InstructionSet> {
 }
 
 #[inline(always)]
-fn turning<S: InstructionSet>(simd: S, columns: &Columns, moments: [Lanes<S>; 3]) -> Turning<S> {
+fn turning<S: InstructionSet>(simd: S, columns: &Columns<S>) -> Turning<S> {
     let one = DoubleDoubleLanes::splat(simd, DoubleDouble::ONE);
-    let by_squares = Lanes::load(simd, &columns.by_squares);
-    let magnitude = DoubleDoubleLanes::load(simd, &columns.squares[3][0], &columns.squares[3][1]);
+    let by_squares = columns.by_squares;
     let mut parts = [one; 3];
     for axis in 0..3 {
-        parts[axis] = DoubleDoubleLanes::product(moments[axis], Lanes::load(simd, &columns.rates[axis]));
+        parts[axis] = DoubleDoubleLanes::product(columns.moments[axis], columns.rates[axis]);
     }
     let (x, y, z) = (parts[0] * parts[0], parts[1] * parts[1], parts[2] * parts[2]);
     let total = x + y + z;
@@ -169,14 +225,14 @@ fn turning<S: InstructionSet>(simd: S, columns: &Columns, moments: [Lanes<S>; 3]
     let mut direction = [one.high; 3];
     for axis in 0..3 {
         let component = parts[axis] * inverse;
-        let given = DoubleDoubleLanes::load(simd, &columns.squares[axis][0], &columns.squares[axis][1]);
+        let given = columns.squares[axis];
         // Where the squares are given, the components are their roots.
         direction[axis] = by_squares.up_to(0.0, component.nearest(), given.high.root());
         parts[axis] = DoubleDoubleLanes::up_to_zero(by_squares, squares[axis], given);
         squares[axis] = DoubleDoubleLanes::up_to_zero(by_squares, component * component, given);
     }
     Turning {
-        momentum: DoubleDoubleLanes::up_to_zero(by_squares, momentum, magnitude),
+        momentum: DoubleDoubleLanes::up_to_zero(by_squares, momentum, columns.squares[3]),
         direction,
         squares,
         parts,
@@ -206,12 +262,10 @@ struct Together<S: InstructionSet> {
 }
 
 #[inline(always)]
-fn together<S: InstructionSet>(simd: S, given: &[Given]) -> Together<S> {
-    let columns = Columns::new(given);
+fn together<S: InstructionSet>(simd: S, columns: &Columns<S>) -> Together<S> {
     let one = DoubleDoubleLanes::splat(simd, DoubleDouble::ONE);
-    let [first, second, third] = &columns.moments;
-    let (a, b, c) = (Lanes::load(simd, first), Lanes::load(simd, second), Lanes::load(simd, third));
-    let turning = turning(simd, &columns, [a, b, c]);
+    let [a, b, c] = columns.moments;
+    let turning = turning(simd, columns);
     let (parts, momentum, [s1, s2, _]) = (turning.parts, turning.momentum, turning.squares);
     // Differences of moments are exact, and are divided last.
     let excesses = [DoubleDoubleLanes::sum(c, -a).over(a), DoubleDoubleLanes::sum(c, -b).over(b)];
@@ -228,8 +282,7 @@ fn together<S: InstructionSet>(simd: S, given: &[Given]) -> Together<S> {
     let sine_squares = [s1 * (first * inverse_second) + s2, s1 + s2 * (second * inverse_first)];
     let alpha = (first + second).times(a.all(0.5));
     let gamma = (first * second).root_or_zero();
-    let sign = Lanes::load(simd, &columns.sign);
-    let gamma = DoubleDoubleLanes { high: gamma.high * sign, low: gamma.low * sign };
+    let gamma = DoubleDoubleLanes { high: gamma.high * columns.sign, low: gamma.low * columns.sign };
     let mean_rate = momentum.over(c);
     let (least, greatest) = (q1.root_or_zero(), q2.root_or_zero());
     let elliptic = elliptic([q1, q2], [difference * weights, second * inverse_first, difference * inverse_first]);
