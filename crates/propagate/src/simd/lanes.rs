@@ -4,7 +4,6 @@
 //! (a sample takes 3.9 ns instead of 4.6 with AVX-512, 7.3 instead of 8.7 with AVX2, 36 instead of 44 portably). No closure and no `array::map` is used around vectors: a function
 //! that is not inlined is compiled without the instructions of the set and is fifty times slower.
 
-use std::hint::black_box;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use pulp::bytemuck;
@@ -188,6 +187,19 @@ impl<S: InstructionSet> Lanes<S> {
         })
     }
 
+    /// Whether a value is above 0; NaN is not.
+    #[inline(always)]
+    pub(crate) fn any_above_zero(self) -> bool {
+        let zero = self.simd.splat_f64s(0.0);
+        let mut found = false;
+        let mut i = 0;
+        while i < S::STRANDS {
+            found |= self.simd.first_true_m64s(self.simd.less_than_f64s(zero, self.strands[i])) < S::F64_LANES;
+            i += 1;
+        }
+        found
+    }
+
     /// A scalar function of each value.
     #[inline(always)]
     pub(crate) fn each(self, function: impl Fn(f64) -> f64) -> Self {
@@ -262,25 +274,27 @@ impl<S: InstructionSet> Lanes<S> {
         }
     }
 
-    /// Four columns to the places from `FIRST` on of rows of N numbers, one row for each lane.
+    /// Writes the values, one for each lane.
     #[inline(always)]
-    pub(crate) fn store_fours_at<const N: usize, const FIRST: usize>(
-        [x, y, z, w]: [Self; 4],
-        rows: &mut [[f64; N]; WIDEST],
-    ) {
+    pub(crate) fn store(self, out: &mut [f64]) {
+        let vectors = S::as_mut_simd_f64s(out).0;
         let mut i = 0;
         while i < S::STRANDS {
-            // The compiler must not see through the permutations: it would make pairs of doubles of them.
-            let vectors = black_box(x.simd.fours([x.strands[i], y.strands[i], z.strands[i], w.strands[i]]));
-            let fours: &[[f64; 4]] = bytemuck::cast_slice(&vectors);
-            let mut lane = 0;
-            while lane < S::F64_LANES {
-                let row = &mut rows[i * S::F64_LANES + lane];
-                [row[FIRST], row[FIRST + 1], row[FIRST + 2], row[FIRST + 3]] = fours[lane];
-                lane += 1;
-            }
+            vectors[i] = self.strands[i];
             i += 1;
         }
+    }
+
+    /// `first` in the lanes of one strand, `second` in those of the other.
+    #[inline(always)]
+    pub(crate) fn of_two(simd: S, first: f64, second: f64) -> Self {
+        Self { simd, strands: [simd.splat_f64s(first), simd.splat_f64s(second)] }
+    }
+
+    /// The lanes of one strand, to as many places.
+    #[inline(always)]
+    pub(crate) fn store_strand(self, strand: usize, out: &mut [f64]) {
+        S::as_mut_simd_f64s(out).0[0] = self.strands[strand];
     }
 
     /// Three columns to rows, one row for each lane.

@@ -10,7 +10,7 @@ use pulp::Arch;
 
 use crate::numerics::theta::Theta;
 use crate::simd::double_double_lanes::DoubleDoubleLanes;
-use crate::simd::elliptic::{carlson_rf, mean, precise_mean};
+use crate::simd::elliptic::{carlson_rf, means, precise_mean};
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch, dispatch_one};
 use crate::simd::lanes::{Lanes, WIDEST};
 
@@ -220,7 +220,7 @@ fn turning<S: InstructionSet>(simd: S, columns: &Columns<S>) -> Turning<S> {
     let (x, y, z) = (parts[0] * parts[0], parts[1] * parts[1], parts[2] * parts[2]);
     let total = x + y + z;
     let momentum = total.root();
-    let inverse = one / momentum;
+    let inverse = momentum.reciprocal();
     let mut squares = [x, y, z];
     let mut direction = [one.high; 3];
     for axis in 0..3 {
@@ -257,8 +257,10 @@ struct Together<S: InstructionSet> {
     agm: DoubleDoubleLanes<S>,
     stretch: DoubleDoubleLanes<S>,
     elliptic: Elliptic<S>,
+    eta: Lanes<S>,
     half_tangents: [Lanes<S>; 2],
     argument: Argument<S>,
+    distance: Lanes<S>,
 }
 
 #[inline(always)]
@@ -270,7 +272,7 @@ fn together<S: InstructionSet>(simd: S, columns: &Columns<S>) -> Together<S> {
     // Differences of moments are exact, and are divided last.
     let excesses = [DoubleDoubleLanes::sum(c, -a).over(a), DoubleDoubleLanes::sum(c, -b).over(b)];
     let [first, second] = excesses;
-    let (inverse_first, inverse_second) = (one / first, one / second);
+    let (inverse_first, inverse_second) = (first.reciprocal(), second.reciprocal());
     let between = DoubleDoubleLanes::from_lanes(c) * DoubleDoubleLanes::sum(b, -a);
     let difference = between / DoubleDoubleLanes::product(a, b);
     let divisor = DoubleDoubleLanes::from_lanes(a) * DoubleDoubleLanes::sum(c, -b);
@@ -287,6 +289,8 @@ fn together<S: InstructionSet>(simd: S, columns: &Columns<S>) -> Together<S> {
     let (least, greatest) = (q1.root_or_zero(), q2.root_or_zero());
     let elliptic = elliptic([q1, q2], [difference * weights, second * inverse_first, difference * inverse_first]);
     let [lower, upper] = elliptic.cosines;
+    let argument = argument(turning.direction, (first * inverse_second).nearest().root(), [lower, upper]);
+    let [from_the_axis, distance] = carlson_rf([elliptic.from_the_axis, argument.from_the_extremum]);
     Together {
         excesses,
         difference,
@@ -305,7 +309,9 @@ fn together<S: InstructionSet>(simd: S, columns: &Columns<S>) -> Together<S> {
             sine_squares[0].nearest().root() / (lower + one.high),
             sine_squares[1].nearest().root() / (upper + one.high),
         ],
-        argument: argument(turning.direction, (first * inverse_second).nearest().root(), [lower, upper]),
+        eta: elliptic.root * from_the_axis,
+        distance: argument.factor * distance,
+        argument,
         elliptic,
         turning,
     }
@@ -327,12 +333,12 @@ impl<S: InstructionSet> Together<S> {
         let theta = if difference == DoubleDouble::ZERO {
             Theta::round(cosines, half_tangents)
         } else {
-            let Elliptic { quarter, conjugate, eta, complement, parameter, .. } = self.elliptic;
+            let Elliptic { quarter, conjugate, complement, parameter, .. } = self.elliptic;
             let [quarter, conjugate, eta, complement, parameter] =
-                each(&[quarter, conjugate, eta, complement, parameter], lane);
+                each(&[quarter, conjugate, self.eta, complement, parameter], lane);
             Theta { cosines, half_tangents, quarter, conjugate, eta, complement, parameter }
         };
-        let Argument { quadrant, from_the_top, distance } = &self.argument;
+        let Argument { quadrant, from_the_top, .. } = &self.argument;
         Invariants {
             momentum: self.turning.momentum.lane(lane),
             direction: each(&self.turning.direction, lane),
@@ -351,7 +357,7 @@ impl<S: InstructionSet> Together<S> {
             stretch: self.stretch.lane(lane),
             theta,
             quadrant: each(quadrant, lane),
-            argument: (from_the_top.values()[lane] > 0.0, distance.values()[lane]),
+            argument: (from_the_top.values()[lane] > 0.0, self.distance.values()[lane]),
         }
     }
 }
@@ -361,9 +367,11 @@ struct Elliptic<S: InstructionSet> {
     cosines: [Lanes<S>; 2],
     quarter: Lanes<S>,
     conjugate: Lanes<S>,
-    eta: Lanes<S>,
     complement: Lanes<S>,
     parameter: Lanes<S>,
+    /// η is this root times R_F of these arguments.
+    root: Lanes<S>,
+    from_the_axis: [Lanes<S>; 3],
 }
 
 /// The theta quantities from Q1 and Q2; Q2 − Q1, b/a and (a − b)/a.
@@ -379,22 +387,23 @@ fn elliptic<S: InstructionSet>(
     for cosine in &mut cosines {
         *cosine = cosine.up_to(0.0, zero, *cosine).root();
     }
-    let parameter = (spread / q2).nearest();
+    let inverse = q2.reciprocal();
+    let parameter = (spread * inverse).nearest();
     let capped = parameter.up_to(1.0, parameter, one);
-    let conjugate = quarter_turn / mean(one, capped.root());
     let (sine, cosine) = (sine.nearest(), cosine.nearest());
     // Two arguments that are 0 would never converge; such a body has A = B.
     let cosine = cosine.up_to(0.0, one, cosine);
-    let eta = sine.root() * carlson_rf(cosine, cosine + parameter * sine, one);
     let ratio = cosines[0] / cosines[1];
     let ratio = ratio.up_to(1.0, ratio, one);
+    let [conjugate, quarter] = means([one; 2], [capped.root(), ratio]);
     Elliptic {
         cosines,
-        quarter: quarter_turn / mean(one, ratio),
-        conjugate,
-        eta,
-        complement: (q1 / q2).nearest(),
+        quarter: quarter_turn / quarter,
+        conjugate: quarter_turn / conjugate,
+        complement: (q1 * inverse).nearest(),
         parameter,
+        root: sine.root(),
+        from_the_axis: [cosine, cosine + parameter * sine, one],
     }
 }
 
@@ -404,8 +413,9 @@ struct Argument<S: InstructionSet> {
     quadrant: [Lanes<S>; 2],
     /// Above 0 where the maximum of cos J is the nearer extremum.
     from_the_top: Lanes<S>,
-    /// The argument from there.
-    distance: Lanes<S>,
+    /// The argument from there is this factor times R_F of these arguments.
+    factor: Lanes<S>,
+    from_the_extremum: [Lanes<S>; 3],
 }
 
 /// The place from g, √(a/b) and the least and the greatest cos J.
@@ -427,7 +437,10 @@ fn argument<S: InstructionSet>(
     // Both expressions are undefined only for Q1 = 0 at ℓ = 0.
     let start = from_the_top.up_to(0.0, x_square, y_square);
     let end = from_the_top.up_to(0.0, least * least, greatest * greatest);
-    let factor = greatest * from_the_top.up_to(0.0, sine, cosine);
-    let distance = factor * carlson_rf(start, x_square + y_square, end);
-    Argument { quadrant: [cosine, sine], from_the_top, distance }
+    Argument {
+        quadrant: [cosine, sine],
+        from_the_top,
+        factor: greatest * from_the_top.up_to(0.0, sine, cosine),
+        from_the_extremum: [start, x_square + y_square, end],
+    }
 }

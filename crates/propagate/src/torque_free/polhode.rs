@@ -257,3 +257,31 @@ impl Polhode {
         (quadrant, [1.0_f64.copysign(g2), 1.0_f64.copysign(-g1)])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_comparison_of_two_terms_decides_as_the_sign_of_the_least_squared_cosine_does() {
+        // Rates that differ from the separatrix by a part between 1e-1 and 1e-32, on both sides of it.
+        let (mut seed, mut long) = (7_u64, 0);
+        let mut next = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for k in 0..2000 {
+            let (a, b) = (0.5 + 0.2 * next(), 0.75 + 0.2 * next());
+            let x = 0.1 + next();
+            // On the separatrix c ω3² a (c − b) c = a ω1² a (b − a) c, with c = 1.
+            let z = x * (a * (b - a) / (1.0 - b)).sqrt();
+            let part = if k % 2 == 0 { 1.0 } else { -1.0 } * 10.0_f64.powi(-(k % 33));
+            let (moments, rates) = ([a, b, 1.0], [x, next() - 0.5, z * (1.0 + part)]);
+            let given = Given { moments, rotation: Rotation::Rates(rates), long_axis: false };
+            let negative = Invariants::of(&given).cosine_squares[0].high < 0.0;
+            assert_eq!(beyond(moments, rates), negative, "{moments:?} {rates:?}");
+            long += usize::from(negative);
+        }
+        assert!((500..1500).contains(&long), "{long} of 2000");
+    }
+}

@@ -113,8 +113,8 @@ impl<T: Fn(usize) -> &'static Nodes> Task for Sums<'_, T> {
 fn each_node<S: InstructionSet>(simd: S, means: &Means, nodes: &Nodes) -> Partial {
     let Nodes { cosines, sines } = nodes;
     let [q1, q2] = means.squares;
-    let [one, q1, q2, stretch] =
-        [DoubleDouble::ONE, q1, q2 * means.stretch, means.stretch].map(|value| DoubleDoubleLanes::splat(simd, value));
+    let [q1, q2, stretch] =
+        [q1, q2 * means.stretch, means.stretch].map(|value| DoubleDoubleLanes::splat(simd, value));
     let width = Lanes::<S>::WIDTH;
     let mut partial = [[[0.0; WIDEST]; 2]; 2];
     let mut offset = 0;
@@ -127,11 +127,12 @@ fn each_node<S: InstructionSet>(simd: S, means: &Means, nodes: &Nodes) -> Partia
             let range = start..start + width;
             let cosine = DoubleDoubleLanes::load(simd, &cosines[0][range.clone()], &cosines[1][range.clone()]);
             let sine = DoubleDoubleLanes::load(simd, &sines[0][range.clone()], &sines[1][range]);
-            let scale = cosine + stretch * sine;
-            let root = ((q1 * cosine + q2 * sine) * scale).root();
-            let quotient = one / (root * (scale + root));
-            by_anomaly = by_anomaly + root * quotient;
-            by_time = by_time + scale * quotient;
+            // All terms are positive.
+            let scale = cosine.plus_alike(stretch * sine);
+            let root = ((q1 * cosine).plus_alike(q2 * sine) * scale).root();
+            let quotient = (root * scale.plus_alike(root)).reciprocal();
+            by_anomaly = by_anomaly.plus_alike(root * quotient);
+            by_time = by_time.plus_alike(scale * quotient);
             start += WIDEST;
         }
         for (sums, sum) in partial.iter_mut().zip([by_anomaly, by_time]) {
