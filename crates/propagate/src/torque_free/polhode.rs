@@ -39,7 +39,11 @@ impl Frame {
     /// mode.
     pub(crate) fn new(moments: [f64; 3], momentum: [f64; 3], long_axis: bool) -> Self {
         let mut axes = [0, 1, 2];
-        axes.sort_by(|&i, &j| moments[i].total_cmp(&moments[j]));
+        for (i, j) in [(0, 1), (1, 2), (0, 1)] {
+            if moments[axes[i]] > moments[axes[j]] {
+                axes.swap(i, j);
+            }
+        }
         if long_axis {
             axes.reverse();
         }

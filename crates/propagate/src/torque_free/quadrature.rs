@@ -113,8 +113,8 @@ impl<T: Fn(usize) -> &'static Nodes> Task for Sums<'_, T> {
 fn each_node<S: InstructionSet>(simd: S, means: &Means, nodes: &Nodes) -> Partial {
     let Nodes { cosines, sines } = nodes;
     let [q1, q2] = means.squares;
-    let [q1, q2, stretch] =
-        [q1, q2 * means.stretch, means.stretch].map(|value| DoubleDoubleLanes::splat(simd, value));
+    let (q1, q2) = (DoubleDoubleLanes::splat(simd, q1), DoubleDoubleLanes::splat(simd, q2 * means.stretch));
+    let stretch = DoubleDoubleLanes::splat(simd, means.stretch);
     let width = Lanes::<S>::WIDTH;
     let mut partial = [[[0.0; WIDEST]; 2]; 2];
     let mut offset = 0;
