@@ -7,7 +7,8 @@
 //! δθ = g × (RᵀR0 δg0 − δg) + g (g·δθ)
 //! ```
 //!
-//! All quantities are in units of M = 1 and of the scaled time.
+//! Attitude, rates and the numbers of theory §12 are computed with a time in each lane, the matrices ([`super::matrices`]) with a parameter in each lane. All
+//! quantities are in units of M = 1 and of the scaled time.
 
 use nalgebra::UnitQuaternion;
 use pulp::Arch;
@@ -26,10 +27,11 @@ use crate::solve::untruncated;
 use crate::torque_free::closed_form::ClosedForm;
 use crate::torque_free::polhode::Polhode;
 
-use super::constants::{CHANGES, Change, Constants, Setting};
+use super::Derivatives;
+use super::constants::{Constants, Setting};
 use super::integral::Integral;
-use super::sources::{Amplitudes, COLUMNS, NUMBERS, Passing, Place, Source, Wobbling, direction, parameters};
-use super::{Derivatives, PARAMETERS};
+use super::matrices::{Block, Part};
+use super::sources::{Amplitudes, Passing, Source, Wobbling};
 
 /// Smallest number of samples for each thread. With fewer samples another thread costs more than it saves.
 const SAMPLES_PER_THREAD: usize = 1024;
@@ -117,209 +119,18 @@ impl<T: Source> Task for Run<'_, T> {
         let width = if T::VECTORS { Lanes::<S>::WIDTH } else { 1 };
         let origin = Lanes::splat(simd, epoch);
         let initial = QuaternionLanes::all(origin, &initial);
-        let mut parts = [Part::<S, T>::new(simd, source, setting, 0); MOST_PARTS];
-        for (index, part) in parts.iter_mut().enumerate().take(parts_of::<S>()).skip(1) {
-            *part = Part::new(simd, source, setting, index * Lanes::<S>::WIDTH);
-        }
-        let mut numbers = [[0.0; WIDEST]; TOGETHER];
-        let mut rows = [[0.0; LENGTH]; 2];
+        let parts = Part::<S, T>::all(simd, source, setting);
+        let mut block = Block::new();
         let mut start = 0;
         while start < times.len() {
             let stop = times.len().min(start + width);
-            let mut block = [times[start]; WIDEST];
-            block[..stop - start].copy_from_slice(&times[start..stop]);
-            let elapsed = elapsed(Lanes::load(simd, &block), origin);
-            gather(setting, initial, &source.place(simd, setting, elapsed), &mut numbers);
-            for place in (0..stop - start).step_by(at_once::<S>()) {
-                matrices(simd, setting.user_rates, &parts, (&numbers, place), &mut rows);
-            }
-            for (rows, out) in rows.iter().zip([&mut attitudes[start..stop], &mut rates[start..stop]]) {
-                let out = out.as_flattened_mut().as_flattened_mut();
-                out.copy_from_slice(&rows[..out.len()]);
-            }
+            let mut now = [times[start]; WIDEST];
+            now[..stop - start].copy_from_slice(&times[start..stop]);
+            let elapsed = elapsed(Lanes::load(simd, &now), origin);
+            block.gather(setting, initial, &source.place(simd, setting, elapsed));
+            block.fill(simd, &parts, stop - start);
+            block.copy_to(&mut attitudes[start..stop], &mut rates[start..stop]);
             start = stop;
         }
-    }
-}
-
-/// Numbers of a matrix.
-const ROW: usize = 3 * PARAMETERS;
-/// Numbers of the matrices of two times, and two more that a vector writes beyond the last one.
-const WINDOW: usize = 2 * ROW + COLUMNS - CHANGES;
-/// The matrices of as many times as the widest vectors have lanes, and the window of the last.
-///
-/// They are collected here, in the nearest cache, and copied in one piece.
-const LENGTH: usize = (WIDEST - 1) * ROW + WINDOW;
-/// Parts into which the narrowest vectors, two lanes, divide the parameters.
-const MOST_PARTS: usize = CHANGES.div_ceil(2);
-
-/// Parts into which the parameters are divided: one if they fit into the lanes.
-const fn parts_of<S: InstructionSet>() -> usize {
-    CHANGES.div_ceil(Lanes::<S>::WIDTH)
-}
-
-/// Times whose parameters are computed at once.
-const fn at_once<S: InstructionSet>() -> usize {
-    if Lanes::<S>::WIDTH > COLUMNS { 2 } else { 1 }
-}
-
-/// The elements of Rᵀ R0, g, the rates, and the numbers of the source: for each the times of a block.
-type Numbers = [[f64; WIDEST]; TOGETHER];
-const DIRECTION: usize = 9;
-const RATES: usize = 12;
-const REST: usize = 15;
-const TOGETHER: usize = REST + NUMBERS;
-
-/// Writes the numbers of the times of a block, a time a lane.
-#[inline(always)]
-fn gather<S: InstructionSet>(
-    setting: &Setting,
-    initial: QuaternionLanes<S>,
-    place: &Place<S>,
-    numbers: &mut Numbers,
-) {
-    let Place { attitude: [x, y, z, w], rates, numbers: rest } = place;
-    let carried = (QuaternionLanes([-*x, -*y, -*z, *w]) * initial).rows();
-    for row in 0..3 {
-        for axis in 0..3 {
-            carried[row][axis].store(&mut numbers[3 * row + axis]);
-        }
-    }
-    let direction = direction(setting, *rates);
-    for axis in 0..3 {
-        direction[axis].store(&mut numbers[DIRECTION + axis]);
-        rates[axis].store(&mut numbers[RATES + axis]);
-    }
-    for index in 0..NUMBERS {
-        rest[index].store(&mut numbers[REST + index]);
-    }
-}
-
-/// The constants of some parameters, one a lane.
-struct Part<S: InstructionSet, T: Source> {
-    first: usize,
-    source: T::Columns<S>,
-    /// For each axis, δg at the epoch along it.
-    lever: [Lanes<S>; 3],
-    /// For each axis, −1 over its moment where the parameter is this moment.
-    inverse_moment: [Lanes<S>; 3],
-}
-
-impl<S: InstructionSet, T: Source> Clone for Part<S, T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: InstructionSet, T: Source> Copy for Part<S, T> {}
-
-impl<S: InstructionSet, T: Source> Part<S, T> {
-    #[inline(always)]
-    fn new(simd: S, source: &T, setting: &Setting, first: usize) -> Self {
-        let on = |axis: usize, value: fn(&Change) -> f64| {
-            move |parameter: usize| {
-                let change = &setting.changes[parameter];
-                if change.axis == axis { value(change) } else { 0.0 }
-            }
-        };
-        let (lever, inverse): (fn(&Change) -> f64, fn(&Change) -> f64) = (|c| c.lever, |c| c.inverse_moment);
-        let mut part = Self {
-            first,
-            source: source.columns(simd, first),
-            lever: [Lanes::splat(simd, 0.0); 3],
-            inverse_moment: [Lanes::splat(simd, 0.0); 3],
-        };
-        for axis in 0..3 {
-            part.lever[axis] = parameters(simd, first, on(axis, lever));
-            part.inverse_moment[axis] = parameters(simd, first, on(axis, inverse));
-        }
-        part
-    }
-}
-
-/// A number at the time `place` of a block, or at this and the next one if vectors have lanes for the parameters of both.
-#[inline(always)]
-fn at<S: InstructionSet>(simd: S, number: &[f64; WIDEST], place: usize) -> Lanes<S> {
-    match at_once::<S>() {
-        2 => Lanes::of_two(simd, number[place], number[(place + 1) % WIDEST]),
-        _ => Lanes::splat(simd, number[place]),
-    }
-}
-
-/// Writes the matrices of one time, or of two.
-#[inline(always)]
-fn matrices<S: InstructionSet, T: Source>(
-    simd: S,
-    nu: [f64; 3],
-    parts: &[Part<S, T>; MOST_PARTS],
-    (numbers, place): (&Numbers, usize),
-    [attitudes, rates]: &mut [[f64; LENGTH]; 2],
-) {
-    let first = place * ROW;
-    let (Some(attitudes), Some(rates)) =
-        (attitudes[first..].first_chunk_mut::<WINDOW>(), rates[first..].first_chunk_mut::<WINDOW>())
-    else {
-        return;
-    };
-    let mut carried = [[Lanes::splat(simd, 0.0); 3]; 3];
-    let mut direction = [Lanes::splat(simd, 0.0); 3];
-    let mut rate = direction;
-    let mut rest = [direction[0]; NUMBERS];
-    for row in 0..3 {
-        for axis in 0..3 {
-            carried[row][axis] = at(simd, &numbers[3 * row + axis], place);
-        }
-        direction[row] = at(simd, &numbers[DIRECTION + row], place);
-        rate[row] = at(simd, &numbers[RATES + row], place);
-    }
-    for index in 0..NUMBERS {
-        rest[index] = at(simd, &numbers[REST + index], place);
-    }
-    let [g, h, k] = direction;
-    let mut index = 0;
-    while index < parts_of::<S>() {
-        let Part { first, source, lever, inverse_moment } = &parts[index];
-        let (change, along) = T::change(source, direction, rest);
-        let mut moved = change;
-        for row in 0..3 {
-            // One of the three levers is not 0.
-            let [a, b, c] = carried[row];
-            moved[row] = lever[2].mul_add(c, lever[1].mul_add(b, lever[0].mul_add(a, -change[row])));
-        }
-        let [a, b, c] = moved;
-        let turned = [
-            along.mul_add(g, k.negate_mul_add(b, h * c)),
-            along.mul_add(h, g.negate_mul_add(c, k * a)),
-            along.mul_add(k, h.negate_mul_add(a, g * b)),
-        ];
-        for row in 0..3 {
-            store(turned[row], attitudes, row, *first);
-            let by_moment = rate[row].mul_add(inverse_moment[row], change[row] * rate[row].all(nu[row]));
-            store(by_moment, rates, row, *first);
-        }
-        index += 1;
-    }
-    // The columns of the initial attitude come last: vectors have written beyond the rows before them.
-    for time in 0..at_once::<S>() {
-        for row in 0..3 {
-            for axis in 0..3 {
-                let entry = time * ROW + PARAMETERS * row + axis;
-                attitudes[entry] = numbers[3 * row + axis][(place + time) % WIDEST];
-                // Rates do not depend on the initial attitude.
-                rates[entry] = 0.0;
-            }
-        }
-    }
-}
-
-/// Writes the parameters from `first` on in one row of the matrices of one time, or of two.
-#[inline(always)]
-fn store<S: InstructionSet>(parameters: Lanes<S>, window: &mut [f64; WINDOW], row: usize, first: usize) {
-    let mut strand = 0;
-    while strand < S::STRANDS {
-        let column = first + strand * S::F64_LANES;
-        let place = column / COLUMNS * ROW + PARAMETERS * row + 3 + column % COLUMNS;
-        parameters.store_strand(strand, &mut window[place..place + S::F64_LANES]);
-        strand += 1;
     }
 }

@@ -50,11 +50,7 @@ pub(super) trait Source {
 
 /// A number of each parameter, in lanes from the parameter `first` on. If a vector has more lanes than there are places, the numbers are repeated.
 #[inline(always)]
-pub(super) fn parameters<S: InstructionSet>(
-    simd: S,
-    first: usize,
-    value: impl Fn(usize) -> f64,
-) -> Lanes<S> {
+pub(super) fn parameters<S: InstructionSet>(simd: S, first: usize, value: impl Fn(usize) -> f64) -> Lanes<S> {
     let mut lanes = [0.0; WIDEST];
     for (lane, place) in lanes.iter_mut().enumerate() {
         let parameter = (first + lane) % COLUMNS;

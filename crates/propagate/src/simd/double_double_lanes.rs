@@ -252,7 +252,9 @@ mod tests {
             let expected: Vec<_> = std::iter::zip(numbers[0], numbers[1])
                 .map(|(a, b)| [a + b, a - b, a * b, a / b, a.sqrt(), a.over(b.high)])
                 .collect();
-            for found in [dispatch(Arch::new(), Operations { numbers }), dispatch_one(Arch::new(), Operations { numbers })] {
+            for found in
+                [dispatch(Arch::new(), Operations { numbers }), dispatch_one(Arch::new(), Operations { numbers })]
+            {
                 assert!(found.iter().map(|(bits, _)| bits).eq(&expected));
             }
         }

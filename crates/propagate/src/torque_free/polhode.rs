@@ -17,7 +17,8 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use andoyer_double::DoubleDouble;
 
-use super::invariants::{Given, Invariants, Rotation};
+use super::columns::{Given, Rotation};
+use super::invariants::Invariants;
 use crate::input::body::Body;
 use crate::input::state::State;
 use crate::numerics::scaling::{exponent, scaled};
