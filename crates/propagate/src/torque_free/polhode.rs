@@ -278,7 +278,7 @@ mod tests {
         for k in 0..2000 {
             let (a, b) = (0.5 + 0.2 * next(), 0.75 + 0.2 * next());
             let x = 0.1 + next();
-            // On the separatrix c ω3² a (c − b) c = a ω1² a (b − a) c, with c = 1.
+            // With C = 1 the motion on the separatrix has ω3² = ω1² A (B − A)/(1 − B).
             let z = x * (a * (b - a) / (1.0 - b)).sqrt();
             let part = if k % 2 == 0 { 1.0 } else { -1.0 } * 10.0_f64.powi(-(k % 33));
             let (moments, rates) = ([a, b, 1.0], [x, next() - 0.5, z * (1.0 + part)]);
