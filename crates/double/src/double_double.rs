@@ -80,13 +80,16 @@ impl DoubleDouble {
 
     /// √self for self ≥ 0, and 0 for self < 0. The method is one Newton step from the root in `f64`.
     #[must_use]
+    #[inline]
     pub fn sqrt(self) -> Self {
         if self.high <= 0.0 {
             return Self::ZERO;
         }
         let root = self.high.sqrt();
-        let residual = self - Self::product(root, root);
-        Self::renormalized(root, residual.high / (2.0 * root))
+        let (square, error) = two_product(root, root);
+        // The residual of the high part is a double.
+        let residual = ((self.high - square) - error) + self.low;
+        Self::renormalized(root, residual / (root + root))
     }
 
     /// self/divisor for a divisor in `f64`. It costs a third of a quotient of two double-doubles.

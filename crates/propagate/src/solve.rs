@@ -118,16 +118,26 @@ impl Scene {
                     ratio: 0.0,
                     bound: LARGEST_SEPARATRIX_RATIO,
                 }),
-                _ => Ok(with_unused(at_rest(scene))),
+                _ => {
+                    let mut motion = at_rest(scene);
+                    remark_unused(&mut motion);
+                    Ok(motion)
+                }
             };
         };
         representable(polhode)?;
         let mode = Mode::of(polhode);
-        match (mode, scene.asked_orbits()) {
-            (mode, Some(orbits)) if mode != Mode::Spherical => disturbed(scene, polhode, mode, &orbits),
-            (Mode::Spherical | Mode::PrincipalAxis, _) => Ok(with_unused(steadily_rotating(scene, polhode, mode))),
-            _ => wobbling((scene, preparation), polhode, mode).map(with_unused),
+        if mode != Mode::Spherical
+            && let Some(orbits) = scene.asked_orbits()
+        {
+            return disturbed(scene, polhode, mode, &orbits);
         }
+        let mut motion = match mode {
+            Mode::Spherical | Mode::PrincipalAxis => steadily_rotating(scene, polhode, mode),
+            _ => wobbling((scene, preparation), polhode, mode)?,
+        };
+        remark_unused(&mut motion);
+        Ok(motion)
     }
 }
 
@@ -322,31 +332,27 @@ fn effect(motion: &Motion) -> Result<f64, Error> {
     })
 }
 
-/// The motion with what its scene asked for and did not need among what was skipped.
-fn with_unused(mut motion: Motion) -> Motion {
-    let scene = &motion.scene;
-    let mut unused: Vec<String> = match (motion.plan.method, motion.plan.mode) {
+/// Adds what the scene of a motion asked for and did not need to what was skipped.
+fn remark_unused(motion: &mut Motion) {
+    let Motion { scene, plan, .. } = motion;
+    plan.skipped.extend(match (plan.method, plan.mode) {
         (Method::Series, Mode::ShortAxis | Mode::LongAxis) => None,
         (_, Mode::ShortAxis | Mode::LongAxis) => {
             scene.asked_order().map(|order| format!("order {order}, which was asked for: the closed form has none"))
         }
         _ => unused_order(scene),
-    }
-    .into_iter()
-    .collect();
+    });
     if !scene.asked_disturbing().is_empty() {
-        unused.push("gravity gradient: it exerts no torque on a sphere".to_owned());
-    } else {
-        let (averaging, level) = (scene.asked_averaging(), scene.asked_level());
-        if averaging != Averaging::default() {
-            unused.push(format!("averaging {averaging}, which was asked for: there is no orbit"));
-        }
-        if level != Level::default() {
-            unused.push(format!("level {level}, which was asked for: there is no orbit"));
-        }
+        plan.skipped.push("gravity gradient: it exerts no torque on a sphere".to_owned());
+        return;
     }
-    motion.plan.skipped.extend(unused);
-    motion
+    let (averaging, level) = (scene.asked_averaging(), scene.asked_level());
+    if averaging != Averaging::default() {
+        plan.skipped.push(format!("averaging {averaging}, which was asked for: there is no orbit"));
+    }
+    if level != Level::default() {
+        plan.skipped.push(format!("level {level}, which was asked for: there is no orbit"));
+    }
 }
 
 fn unused_order(scene: &Scene) -> Option<String> {

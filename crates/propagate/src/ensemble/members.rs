@@ -321,7 +321,7 @@ impl Ensemble {
         if let Some((start, stop)) = self.span {
             scene = scene.span(start, stop);
         }
-        scene.validated()
+        scene.into_validated()
     }
 
     /// The motions of members, with plans that do not say what was skipped. There are at most [`Ensemble::group`] of them.

@@ -240,13 +240,18 @@ impl<'a> Run<'a> {
     ) -> Result<Outcome, Error> {
         let Self { ensemble, .. } = *self;
         let told = |outcome: Outcome, ((index, mut rows), motion): ((usize, Rows), Result<Motion, Error>)| {
-            let solved = motion.and_then(|motion| evaluate(&motion, index, &mut rows).map(|()| motion));
-            match solved {
-                Ok(motion) => outcome.solved(index, motion.plan()),
-                Err(error) => {
-                    blank(&mut rows);
-                    outcome.refused(index, Error::of_member(index, error))
-                }
+            // The motion is not moved: it has some hundreds of bytes.
+            let refused = match &motion {
+                Ok(motion) => match evaluate(motion, index, &mut rows) {
+                    Ok(()) => return outcome.solved(index, motion.plan()),
+                    Err(error) => Some(error),
+                },
+                Err(_) => None,
+            };
+            blank(&mut rows);
+            match refused.or(motion.err()) {
+                Some(error) => outcome.refused(index, Error::of_member(index, error)),
+                None => outcome,
             }
         };
         let all_told = |outcome: Outcome, group: Vec<(usize, Rows)>| {

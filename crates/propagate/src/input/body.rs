@@ -222,9 +222,9 @@ impl Body {
 
     /// The sorted moments A ≤ B ≤ C.
     pub(crate) fn sorted(&self) -> [f64; 3] {
-        let mut sorted = self.moments;
-        sorted.sort_by(f64::total_cmp);
-        sorted
+        let [first, second, third] = self.moments;
+        let (low, high) = (first.min(second), first.max(second));
+        [low.min(third), low.max(third).min(high), high.max(third)]
     }
 
     /// C/A − 1 and C/B − 1 (theory §1), accurate to rounding.

@@ -230,7 +230,12 @@ impl Scene {
 
     /// The validated scene, with the quaternion of its state normalized.
     pub(crate) fn validated(&self) -> Result<Self, Error> {
-        let state = self.state.validated()?;
+        self.clone().into_validated()
+    }
+
+    /// The same, without a copy.
+    pub(crate) fn into_validated(mut self) -> Result<Self, Error> {
+        self.state = self.state.validated()?;
         if !(self.tolerance.is_finite() && self.tolerance > 0.0) {
             return Err(Error::Tolerance { value: self.tolerance });
         }
@@ -242,6 +247,6 @@ impl Scene {
         {
             return Err(Error::Span { start, stop });
         }
-        Ok(Self { state, ..self.clone() })
+        Ok(self)
     }
 }

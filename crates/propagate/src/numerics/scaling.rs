@@ -17,11 +17,13 @@ pub(crate) fn scaled(value: f64, power: i32) -> f64 {
     value * power_of_two(half) * power_of_two(power - half)
 }
 
-/// 2^power, from its bits if it is a normal double.
+/// 2^power, from its bits: infinite above the largest double, and 0 below the smallest. A function call, even for powers that never occur, would be made for each number.
 fn power_of_two(power: i32) -> f64 {
-    match u64::try_from(power + 1023) {
-        Ok(biased @ 1..=2046) => f64::from_bits(biased << 52),
-        _ => 2.0_f64.powi(power),
+    match power {
+        -1022..=1023 => f64::from_bits(((power + 1023) as u64) << 52),
+        -1074..=-1023 => f64::from_bits(1 << (power + 1074)),
+        1024.. => f64::INFINITY,
+        _ => 0.0,
     }
 }
 

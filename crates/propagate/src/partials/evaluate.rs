@@ -7,7 +7,8 @@
 //! δθ = g × (RᵀR0 δg0 − δg) + g (g·δθ)
 //! ```
 //!
-//! All quantities are in units of M = 1 and of the scaled time.
+//! Attitude, rates and the numbers of theory §12 are computed with a time in each lane, the matrices ([`super::matrices`]) with a parameter in each lane. All
+//! quantities are in units of M = 1 and of the scaled time.
 
 use nalgebra::UnitQuaternion;
 use pulp::Arch;
@@ -26,10 +27,11 @@ use crate::solve::untruncated;
 use crate::torque_free::closed_form::ClosedForm;
 use crate::torque_free::polhode::Polhode;
 
-use super::constants::{CHANGES, Change, Constants, Setting};
+use super::Derivatives;
+use super::constants::{Constants, Setting};
 use super::integral::Integral;
-use super::sources::{Amplitudes, Passing, Place, Source, Wobbling};
-use super::{Derivatives, PARAMETERS};
+use super::matrices::{Block, Part};
+use super::sources::{Amplitudes, Passing, Source, Wobbling};
 
 /// Smallest number of samples for each thread. With fewer samples another thread costs more than it saves.
 const SAMPLES_PER_THREAD: usize = 1024;
@@ -117,97 +119,18 @@ impl<T: Source> Task for Run<'_, T> {
         let width = if T::VECTORS { Lanes::<S>::WIDTH } else { 1 };
         let origin = Lanes::splat(simd, epoch);
         let initial = QuaternionLanes::all(origin, &initial);
-        // Rates do not depend on the initial attitude, so these entries remain 0.
-        let mut entries = [[Lanes::splat(simd, 0.0); ROW]; 2];
-        let mut rows = [[0.0; ROW]; WIDEST];
+        let parts = Part::<S, T>::all(simd, source, setting);
+        let mut block = Block::new();
         let mut start = 0;
         while start < times.len() {
             let stop = times.len().min(start + width);
-            let mut block = [times[start]; WIDEST];
-            block[..stop - start].copy_from_slice(&times[start..stop]);
-            let elapsed = elapsed(Lanes::load(simd, &block), origin);
-            let place = source.place(simd, setting, elapsed);
-            columns(&place, source, setting, initial, &mut entries);
-            store(&entries[0], &mut rows, &mut attitudes[start..stop]);
-            store(&entries[1], &mut rows, &mut rates[start..stop]);
+            let mut now = [times[start]; WIDEST];
+            now[..stop - start].copy_from_slice(&times[start..stop]);
+            let elapsed = elapsed(Lanes::load(simd, &now), origin);
+            block.gather(setting, initial, &source.place(simd, setting, elapsed));
+            block.fill(simd, &parts, stop - start);
+            block.copy_to(&mut attitudes[start..stop], &mut rates[start..stop]);
             start = stop;
         }
     }
-}
-
-/// The derivatives of one vector in lanes, row by row as in memory.
-type Entries<S> = [Lanes<S>; ROW];
-
-/// Derivatives of attitude and rates at some times.
-#[inline(always)]
-fn columns<S: InstructionSet, T: Source>(
-    place: &Place<S, T::Rest<S>>,
-    source: &T,
-    setting: &Setting,
-    initial: QuaternionLanes<S>,
-    [attitudes, rates]: &mut [Entries<S>; 2],
-) {
-    let Place { attitude: [x, y, z, w], rates: rate, rest } = place;
-    let one = x.all(1.0);
-    let carried = (QuaternionLanes([-*x, -*y, -*z, *w]) * initial).rows();
-    let nu = setting.user_rates;
-    let [g, h, k] = [rate[0] * one.all(1.0 / nu[0]), rate[1] * one.all(1.0 / nu[1]), rate[2] * one.all(1.0 / nu[2])];
-    for row in 0..3 {
-        for axis in 0..3 {
-            attitudes[PARAMETERS * row + axis] = carried[row][axis];
-        }
-    }
-    for parameter in 0..CHANGES {
-        let Change { axis, lever, inverse_moment, .. } = setting.changes[parameter];
-        let (change, along) = source.change(rest, parameter);
-        let lever = one.all(lever);
-        let [a, b, c] = [
-            lever.mul_add(carried[0][axis], -change[0]),
-            lever.mul_add(carried[1][axis], -change[1]),
-            lever.mul_add(carried[2][axis], -change[2]),
-        ];
-        let turned = [
-            along.mul_add(g, k.negate_mul_add(b, h * c)),
-            along.mul_add(h, g.negate_mul_add(c, k * a)),
-            along.mul_add(k, h.negate_mul_add(a, g * b)),
-        ];
-        for row in 0..3 {
-            attitudes[PARAMETERS * row + 3 + parameter] = turned[row];
-            rates[PARAMETERS * row + 3 + parameter] = change[row] * one.all(nu[row]);
-        }
-        let entry = PARAMETERS * axis + 3 + parameter;
-        rates[entry] = rate[axis].mul_add(one.all(inverse_moment), rates[entry]);
-    }
-}
-
-/// The matrices of some times in memory order, one row of `ROW` numbers for each lane.
-///
-/// They are collected here, in the nearest cache, and copied in one piece. Writing four numbers of each matrix in turn to the outputs themselves, which are beyond
-/// the second cache for 20,000 times, took 29 ns a sample for the stores alone instead of 17.
-type Rows = [[f64; ROW]; WIDEST];
-
-/// Numbers of a matrix.
-const ROW: usize = 3 * PARAMETERS;
-
-/// Transposes the entries and copies the matrices to the output.
-#[inline(always)]
-fn store<S: InstructionSet>(entries: &Entries<S>, rows: &mut Rows, matrices: &mut [Derivatives]) {
-    four::<S, 0>(entries, rows);
-    four::<S, 4>(entries, rows);
-    four::<S, 8>(entries, rows);
-    four::<S, 12>(entries, rows);
-    four::<S, 16>(entries, rows);
-    four::<S, 20>(entries, rows);
-    // They overlap those before them.
-    four::<S, 23>(entries, rows);
-    let out = matrices.as_flattened_mut().as_flattened_mut();
-    let length = out.len();
-    out.copy_from_slice(&rows.as_flattened()[..length]);
-}
-
-/// Four entries of each matrix. The place is a constant, so that every store has a constant address.
-#[inline(always)]
-fn four<S: InstructionSet, const FIRST: usize>(entries: &Entries<S>, rows: &mut Rows) {
-    let columns = [entries[FIRST], entries[FIRST + 1], entries[FIRST + 2], entries[FIRST + 3]];
-    Lanes::store_fours_at::<ROW, FIRST>(columns, rows);
 }

@@ -11,6 +11,7 @@ mod constants;
 mod differences;
 mod evaluate;
 mod integral;
+mod matrices;
 mod sources;
 mod steady;
 

@@ -1,11 +1,12 @@
 //! The time-dependent quantities of the derivatives: attitude, rates, and δg and g·δθ for each parameter (theory §12).
 //!
-//! All quantities are in units of M = 1 and of the scaled time.
+//! Attitude, rates and a few numbers are computed with a time in each lane, δg and g·δθ with a parameter in each lane. All quantities are in units of M = 1 and of the
+//! scaled time.
 
 use crate::numerics::phase::Phase;
 use crate::simd::circles::{Circle, Circles, Evaluate};
 use crate::simd::instruction_set::InstructionSet;
-use crate::simd::lanes::Lanes;
+use crate::simd::lanes::{Lanes, WIDEST};
 use crate::torque_free::separatrix::Passage;
 use crate::torque_free::steady::Steady;
 use crate::torque_free::wobble::WobbleEvaluator;
@@ -14,29 +15,50 @@ use super::constants::{CHANGES, Constants, Setting};
 use super::integral::Integral;
 use super::steady::{Growth, Varied};
 
-/// Attitude, rates, and the quantities from which the derivatives of g at some times are computed.
-pub(super) struct Place<S: InstructionSet, T> {
+/// Numbers of one time from which the changes of g are computed, at most.
+pub(super) const NUMBERS: usize = 8;
+
+/// Places for parameters in a vector: those beyond [`CHANGES`] hold 0.
+pub(super) const COLUMNS: usize = 8;
+
+/// Attitude, rates, and the numbers from which the derivatives of g are computed, with a time in each lane.
+pub(super) struct Place<S: InstructionSet> {
     pub(super) attitude: [Lanes<S>; 4],
     pub(super) rates: [Lanes<S>; 3],
-    pub(super) rest: T,
+    pub(super) numbers: [Lanes<S>; NUMBERS],
 }
 
 /// A type of motion: gives attitude, rates and their derivatives from the time since the epoch.
 pub(super) trait Source {
-    /// The quantities from which derivatives of g at some times are computed.
-    type Rest<S: InstructionSet>: Copy;
+    /// Constants with a parameter in each lane.
+    type Columns<S: InstructionSet>: Copy;
     /// Whether several times are computed at once.
     const VECTORS: bool = true;
 
-    fn place<S: InstructionSet>(
-        &self,
-        simd: S,
-        setting: &Setting,
-        elapsed: (Lanes<S>, Lanes<S>),
-    ) -> Place<S, Self::Rest<S>>;
+    fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S>;
 
-    /// δg and g·δθ for a unit of one parameter.
-    fn change<S: InstructionSet>(&self, rest: &Self::Rest<S>, parameter: usize) -> ([Lanes<S>; 3], Lanes<S>);
+    /// The constants from the parameter `first` on.
+    fn columns<S: InstructionSet>(&self, simd: S, first: usize) -> Self::Columns<S>;
+
+    /// δg and g·δθ for a unit of each parameter, from g and the numbers of the time.
+    fn change<S: InstructionSet>(
+        columns: &Self::Columns<S>,
+        direction: [Lanes<S>; 3],
+        numbers: [Lanes<S>; NUMBERS],
+    ) -> ([Lanes<S>; 3], Lanes<S>);
+}
+
+/// A number of each parameter, in lanes from the parameter `first` on. If a vector has more lanes than there are places, the numbers are repeated.
+#[inline(always)]
+pub(super) fn parameters<S: InstructionSet>(simd: S, first: usize, value: impl Fn(usize) -> f64) -> Lanes<S> {
+    let mut lanes = [0.0; WIDEST];
+    for (lane, place) in lanes.iter_mut().enumerate() {
+        let parameter = (first + lane) % COLUMNS;
+        if parameter < CHANGES {
+            *place = value(parameter);
+        }
+    }
+    Lanes::load(simd, &lanes)
 }
 
 /// Sines and cosines of ℓ′ and y′/2 that are already computed.
@@ -58,18 +80,6 @@ impl<S: InstructionSet> Circles<S> for Ready<S> {
 #[inline(always)]
 fn ready<S: InstructionSet>(phases: [&Phase; 2], elapsed: (Lanes<S>, Lanes<S>)) -> Ready<S> {
     Ready([phases[0].sin_cos(elapsed), phases[1].sin_cos(elapsed)])
-}
-
-/// g, ġ and the time-dependent amplitudes on a polhode.
-#[derive(Clone, Copy)]
-pub(super) struct Polhodic<S: InstructionSet> {
-    direction: [Lanes<S>; 3],
-    slope: [Lanes<S>; 3],
-    /// The r_i of each of the user's axes.
-    squares: [Lanes<S>; 3],
-    /// The scaled time; `swing` is the periodic part of ∫w dt.
-    time: Lanes<S>,
-    swing: Lanes<S>,
 }
 
 /// The amplitudes of a wobble and of a passage.
@@ -110,41 +120,86 @@ impl Amplitudes {
         }
     }
 
+    /// Attitude, rates, and ġ, the r_i of each of the user's axes, the scaled time and the periodic part of ∫w dt.
     #[inline(always)]
-    fn polhodic<S: InstructionSet>(
+    fn place<S: InstructionSet>(
         &self,
         setting: &Setting,
-        rates: [Lanes<S>; 3],
+        (attitude, rates): ([Lanes<S>; 4], [Lanes<S>; 3]),
         time: Lanes<S>,
         zeta: Lanes<S>,
-    ) -> Polhodic<S> {
+    ) -> Place<S> {
         let one = time.all(1.0);
-        let nu = setting.user_rates;
-        let direction =
-            [rates[0] * one.all(1.0 / nu[0]), rates[1] * one.all(1.0 / nu[1]), rates[2] * one.all(1.0 / nu[2])];
+        let direction = direction(setting, rates);
         let [x, y, z] = direction;
         let [a, b, c] = setting.user_slopes;
-        let slope = [y * z * one.all(a), z * x * one.all(b), x * y * one.all(c)];
-        let [(first, a), (second, b)] = self.invariants;
+        let [(first, p), (second, q)] = self.invariants;
         let square =
-            [direction[first] * direction[first] * one.all(a), direction[second] * direction[second] * one.all(b)];
-        let squares = [square[self.owners[0]], square[self.owners[1]], square[self.owners[2]]];
+            [direction[first] * direction[first] * one.all(p), direction[second] * direction[second] * one.all(q)];
+        let [u, v, w] = self.owners;
         let swing = (zeta - one.all(self.start)) * one.all(self.swing);
-        Polhodic { direction, slope, squares, time: time * one.all(setting.unit), swing }
+        let numbers = [
+            y * z * one.all(a),
+            z * x * one.all(b),
+            x * y * one.all(c),
+            square[u],
+            square[v],
+            square[w],
+            time * one.all(setting.unit),
+            swing,
+        ];
+        Place { attitude, rates, numbers }
     }
 
     #[inline(always)]
-    fn change<S: InstructionSet>(&self, rest: &Polhodic<S>, parameter: usize) -> ([Lanes<S>; 3], Lanes<S>) {
-        let Polhodic { direction, slope, squares, time, swing } = *rest;
-        let Constants { growth, half_beta, delay, drift, turn, swing: work } = self.constants[parameter];
-        let half = time.all(half_beta);
-        let delay = time.mul_add(time.all(drift), (half + half).negate_mul_add(swing, time.all(delay)));
+    fn columns<S: InstructionSet>(&self, simd: S, first: usize) -> Amplitude<S> {
+        let all = &self.constants;
+        Amplitude {
+            growth: [
+                parameters(simd, first, |parameter| all[parameter].growth[0]),
+                parameters(simd, first, |parameter| all[parameter].growth[1]),
+                parameters(simd, first, |parameter| all[parameter].growth[2]),
+            ],
+            half_beta: parameters(simd, first, |parameter| all[parameter].half_beta),
+            delay: parameters(simd, first, |parameter| all[parameter].delay),
+            drift: parameters(simd, first, |parameter| all[parameter].drift),
+            turn: parameters(simd, first, |parameter| all[parameter].turn),
+            swing: parameters(simd, first, |parameter| all[parameter].swing),
+        }
+    }
+}
+
+/// g from the rates.
+#[inline(always)]
+pub(super) fn direction<S: InstructionSet>(setting: &Setting, [p, q, r]: [Lanes<S>; 3]) -> [Lanes<S>; 3] {
+    let nu = setting.user_rates;
+    [p * p.all(1.0 / nu[0]), q * q.all(1.0 / nu[1]), r * r.all(1.0 / nu[2])]
+}
+
+/// The constants of theory §12 with a parameter in each lane.
+#[derive(Clone, Copy)]
+pub(super) struct Amplitude<S: InstructionSet> {
+    growth: [Lanes<S>; 3],
+    half_beta: Lanes<S>,
+    delay: Lanes<S>,
+    drift: Lanes<S>,
+    turn: Lanes<S>,
+    swing: Lanes<S>,
+}
+
+impl<S: InstructionSet> Amplitude<S> {
+    #[inline(always)]
+    fn change(&self, direction: [Lanes<S>; 3], numbers: [Lanes<S>; NUMBERS]) -> ([Lanes<S>; 3], Lanes<S>) {
+        let Self { growth, half_beta: half, delay, drift, turn, swing: work } = *self;
+        let [a, b, c, u, v, w, time, swing] = numbers;
+        let (slope, squares) = ([a, b, c], [u, v, w]);
+        let delay = time.mul_add(drift, (half + half).negate_mul_add(swing, delay));
         let mut change = direction;
         for i in 0..3 {
-            let amplitude = half.mul_add(squares[i], time.all(growth[i]));
+            let amplitude = half.mul_add(squares[i], growth[i]);
             change[i] = amplitude.mul_add(direction[i], delay * slope[i]);
         }
-        (change, time.mul_add(time.all(turn), swing * time.all(work)))
+        (change, time.mul_add(turn, swing * work))
     }
 }
 
@@ -156,17 +211,12 @@ pub(super) struct Wobbling<'a> {
 }
 
 impl Source for Wobbling<'_> {
-    type Rest<S: InstructionSet> = Polhodic<S>;
+    type Columns<S: InstructionSet> = Amplitude<S>;
 
     #[inline(always)]
-    fn place<S: InstructionSet>(
-        &self,
-        simd: S,
-        setting: &Setting,
-        elapsed: (Lanes<S>, Lanes<S>),
-    ) -> Place<S, Polhodic<S>> {
+    fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S> {
         let circles = ready(self.tables.phases(), elapsed);
-        let (attitude, rates) = self.tables.evaluate::<S, true, true>(simd, circles);
+        let sample = self.tables.evaluate::<S, true, true>(simd, circles);
         let (sine, cosine) = circles.anomaly();
         let one = sine.all(1.0);
         let twice = sine + sine;
@@ -177,13 +227,21 @@ impl Source for Wobbling<'_> {
             denominator = c.mul_add(one.all(*even), denominator);
             (c, s) = (s.negate_mul_add(sine, c * cosine), s.mul_add(cosine, c * sine));
         }
-        let rest = self.amplitudes.polhodic(setting, rates, elapsed.0, numerator / denominator);
-        Place { attitude, rates, rest }
+        self.amplitudes.place(setting, sample, elapsed.0, numerator / denominator)
     }
 
     #[inline(always)]
-    fn change<S: InstructionSet>(&self, rest: &Polhodic<S>, parameter: usize) -> ([Lanes<S>; 3], Lanes<S>) {
-        self.amplitudes.change(rest, parameter)
+    fn columns<S: InstructionSet>(&self, simd: S, first: usize) -> Amplitude<S> {
+        self.amplitudes.columns(simd, first)
+    }
+
+    #[inline(always)]
+    fn change<S: InstructionSet>(
+        columns: &Amplitude<S>,
+        direction: [Lanes<S>; 3],
+        numbers: [Lanes<S>; NUMBERS],
+    ) -> ([Lanes<S>; 3], Lanes<S>) {
+        columns.change(direction, numbers)
     }
 }
 
@@ -196,26 +254,29 @@ pub(super) struct Passing<'a> {
 
 impl Source for Passing<'_> {
     const VECTORS: bool = false;
-    type Rest<S: InstructionSet> = Polhodic<S>;
+    type Columns<S: InstructionSet> = Amplitude<S>;
 
     #[inline(always)]
-    fn place<S: InstructionSet>(
-        &self,
-        simd: S,
-        setting: &Setting,
-        elapsed: (Lanes<S>, Lanes<S>),
-    ) -> Place<S, Polhodic<S>> {
+    fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S> {
         let now = (elapsed.0.values()[0], elapsed.1.values()[0]);
         let (attitude, rates) = self.flip.evaluate(now);
         let zeta = self.integral.zeta_of_passages(self.flip.passage.angle(now));
-        let rates = Lanes::splats(simd, rates);
-        let rest = self.amplitudes.polhodic(setting, rates, elapsed.0, Lanes::splat(simd, zeta));
-        Place { attitude: Lanes::splats(simd, attitude), rates, rest }
+        let sample = (Lanes::splats(simd, attitude), Lanes::splats(simd, rates));
+        self.amplitudes.place(setting, sample, elapsed.0, Lanes::splat(simd, zeta))
     }
 
     #[inline(always)]
-    fn change<S: InstructionSet>(&self, rest: &Polhodic<S>, parameter: usize) -> ([Lanes<S>; 3], Lanes<S>) {
-        self.amplitudes.change(rest, parameter)
+    fn columns<S: InstructionSet>(&self, simd: S, first: usize) -> Amplitude<S> {
+        self.amplitudes.columns(simd, first)
+    }
+
+    #[inline(always)]
+    fn change<S: InstructionSet>(
+        columns: &Amplitude<S>,
+        direction: [Lanes<S>; 3],
+        numbers: [Lanes<S>; NUMBERS],
+    ) -> ([Lanes<S>; 3], Lanes<S>) {
+        columns.change(direction, numbers)
     }
 }
 
@@ -225,17 +286,20 @@ pub(super) struct Steadily<'a> {
     pub(super) varied: &'a Varied,
 }
 
-impl Source for Steadily<'_> {
-    /// S, C and the time, scaled.
-    type Rest<S: InstructionSet> = [Lanes<S>; 3];
+/// The vectors of a steady rotation with a parameter in each lane.
+#[derive(Clone, Copy)]
+pub(super) struct Vectors<S: InstructionSet> {
+    /// Factors of 1, S, C and t in δg.
+    change: [[Lanes<S>; 3]; 4],
+    turn: Lanes<S>,
+}
 
+impl Source for Steadily<'_> {
+    type Columns<S: InstructionSet> = Vectors<S>;
+
+    /// The numbers are S, C and the time, scaled.
     #[inline(always)]
-    fn place<S: InstructionSet>(
-        &self,
-        simd: S,
-        setting: &Setting,
-        elapsed: (Lanes<S>, Lanes<S>),
-    ) -> Place<S, [Lanes<S>; 3]> {
+    fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S> {
         let (attitude, rates) = self.course.evaluate::<S, true, true>(simd, ready(self.course.phases(), elapsed));
         let time = elapsed.0 * elapsed.0.all(setting.unit);
         let [first, second] = match &self.varied.growth {
@@ -252,19 +316,34 @@ impl Source for Steadily<'_> {
             }
             Growth::Polynomial => [time, time * time * time.all(0.5)],
         };
-        Place { attitude, rates, rest: [first, second, time] }
+        let zero = time.all(0.0);
+        Place { attitude, rates, numbers: [first, second, time, zero, zero, zero, zero, zero] }
     }
 
     #[inline(always)]
-    fn change<S: InstructionSet>(&self, rest: &[Lanes<S>; 3], parameter: usize) -> ([Lanes<S>; 3], Lanes<S>) {
-        let [first, second, time] = *rest;
-        let vectors = &self.varied.vectors[parameter];
-        let [start, once, twice, pushed] = vectors.change;
-        let mut change = [time; 3];
-        for i in 0..3 {
-            let linear = time.mul_add(time.all(pushed[i]), time.all(start[i]));
-            change[i] = second.mul_add(time.all(twice[i]), first.mul_add(time.all(once[i]), linear));
+    fn columns<S: InstructionSet>(&self, simd: S, first: usize) -> Vectors<S> {
+        let all = &self.varied.vectors;
+        let mut change = [[Lanes::splat(simd, 0.0); 3]; 4];
+        for (factor, vector) in change.iter_mut().enumerate() {
+            for (axis, lanes) in vector.iter_mut().enumerate() {
+                *lanes = parameters(simd, first, |parameter| all[parameter].change[factor][axis]);
+            }
         }
-        (change, time * time.all(vectors.turn))
+        Vectors { change, turn: parameters(simd, first, |parameter| all[parameter].turn) }
+    }
+
+    #[inline(always)]
+    fn change<S: InstructionSet>(
+        columns: &Vectors<S>,
+        _direction: [Lanes<S>; 3],
+        [first, second, time, ..]: [Lanes<S>; NUMBERS],
+    ) -> ([Lanes<S>; 3], Lanes<S>) {
+        let [start, once, twice, pushed] = columns.change;
+        let mut change = start;
+        for i in 0..3 {
+            let linear = time.mul_add(pushed[i], start[i]);
+            change[i] = second.mul_add(twice[i], first.mul_add(once[i], linear));
+        }
+        (change, time * columns.turn)
     }
 }

@@ -15,26 +15,28 @@ const SPREAD: f64 = 3e-3;
 /// Most steps of R_F.
 const MOST_DUPLICATIONS: usize = 600;
 
-/// Whether a lane is above 0; NaN is not.
+/// The arithmetic-geometric means of two pairs a > 0 and b ≥ 0; 0 if b is 0. Each pair waits for the divisions and roots of the other.
 #[inline(always)]
-fn any_above_zero<S: InstructionSet>(place: Lanes<S>) -> bool {
-    place.values().iter().any(|value| *value > 0.0)
-}
-
-/// The arithmetic-geometric mean of a > 0 and b ≥ 0; 0 if b is 0.
-#[inline(always)]
-pub(crate) fn mean<S: InstructionSet>(mut a: Lanes<S>, mut b: Lanes<S>) -> Lanes<S> {
-    let half = a.all(0.5);
-    let none = b;
+pub(crate) fn means<S: InstructionSet>(mut a: [Lanes<S>; 2], mut b: [Lanes<S>; 2]) -> [Lanes<S>; 2] {
+    let (half, close) = (a[0].all(0.5), a[0].all(EQUAL_MEANS[0]));
+    let mut found = b;
+    let mut apart = a;
     for _ in 0..MOST_STEPS {
-        let apart = (a - b).magnitude() - a * a.all(EQUAL_MEANS[0]);
-        if !any_above_zero(apart) {
+        for i in 0..2 {
+            apart[i] = (a[i] - b[i]).magnitude() - a[i] * close;
+        }
+        if !(apart[0].any_above_zero() || apart[1].any_above_zero()) {
             break;
         }
-        let (arithmetic, geometric) = ((a + b) * half, (a * b).root());
-        (a, b) = (apart.up_to(0.0, a, arithmetic), apart.up_to(0.0, b, geometric));
+        for i in 0..2 {
+            let (arithmetic, geometric) = ((a[i] + b[i]) * half, (a[i] * b[i]).root());
+            (a[i], b[i]) = (apart[i].up_to(0.0, a[i], arithmetic), apart[i].up_to(0.0, b[i], geometric));
+        }
     }
-    none.up_to(0.0, none, (a + b) * half)
+    for i in 0..2 {
+        found[i] = found[i].up_to(0.0, found[i], (a[i] + b[i]) * half);
+    }
+    found
 }
 
 /// The arithmetic-geometric mean of two positive double-doubles.
@@ -47,7 +49,7 @@ pub(crate) fn precise_mean<S: InstructionSet>(
     for _ in 0..MOST_STEPS {
         let first = a.nearest();
         let apart = (first - b.nearest()).magnitude() - first * half.all(EQUAL_MEANS[1]);
-        if !any_above_zero(apart) {
+        if !apart.any_above_zero() {
             break;
         }
         let (arithmetic, geometric) = ((a + b).times(half), (a * b).root());
@@ -57,26 +59,46 @@ pub(crate) fn precise_mean<S: InstructionSet>(
     (a + b).times(half)
 }
 
-/// R_F(x, y, z) for arguments ≥ 0, of which at most one is 0.
+/// R_F(x, y, z) for two triples of arguments ≥ 0, of which at most one is 0. Each triple waits for the roots of the other.
 #[inline(always)]
-pub(crate) fn carlson_rf<S: InstructionSet>(mut x: Lanes<S>, mut y: Lanes<S>, mut z: Lanes<S>) -> Lanes<S> {
-    let (third, quarter) = (x.all(3.0), x.all(0.25));
-    let mut mean = (x + y + z) / third;
+pub(crate) fn carlson_rf<S: InstructionSet>(mut triples: [[Lanes<S>; 3]; 2]) -> [Lanes<S>; 2] {
+    let [x, _, _] = triples[0];
+    let (third, quarter, spread) = (x.all(1.0 / 3.0), x.all(0.25), x.all(SPREAD));
+    let mut mean = [x; 2];
+    let mut apart = mean;
+    for (mean, [x, y, z]) in mean.iter_mut().zip(triples) {
+        *mean = (x + y + z) * third;
+    }
     for _ in 0..MOST_DUPLICATIONS {
-        let most = (x - mean).magnitude().largest(y - mean).largest(z - mean);
-        let apart = most - mean * mean.all(SPREAD);
-        if !any_above_zero(apart) {
+        for i in 0..2 {
+            let ([x, y, z], mean) = (triples[i], mean[i]);
+            let most = (x - mean).magnitude().largest(y - mean).largest(z - mean);
+            apart[i] = most - mean * spread;
+        }
+        if !(apart[0].any_above_zero() || apart[1].any_above_zero()) {
             break;
         }
-        let (rx, ry, rz) = (x.root(), y.root(), z.root());
-        let lambda = rx * (ry + rz) + ry * rz;
-        x = apart.up_to(0.0, x, (x + lambda) * quarter);
-        y = apart.up_to(0.0, y, (y + lambda) * quarter);
-        z = apart.up_to(0.0, z, (z + lambda) * quarter);
-        mean = (x + y + z) / third;
+        for i in 0..2 {
+            let ([x, y, z], apart) = (triples[i], apart[i]);
+            let (rx, ry, rz) = (x.root(), y.root(), z.root());
+            let lambda = rx * (ry + rz) + ry * rz;
+            let [x, y, z] = [
+                apart.up_to(0.0, x, (x + lambda) * quarter),
+                apart.up_to(0.0, y, (y + lambda) * quarter),
+                apart.up_to(0.0, z, (z + lambda) * quarter),
+            ];
+            triples[i] = [x, y, z];
+            mean[i] = (x + y + z) * third;
+        }
     }
-    let (u, v) = ((mean - x) / mean, (mean - y) / mean);
-    (x.all(1.0) + beyond_one(u, v)) / mean.root()
+    let mut found = mean;
+    for (found, [x, y, _]) in found.iter_mut().zip(triples) {
+        let mean = *found;
+        let inverse = mean.reciprocal();
+        let (u, v) = ((mean - x) * inverse, (mean - y) * inverse);
+        *found = (x.all(1.0) + beyond_one(u, v)) / mean.root();
+    }
+    found
 }
 
 /// Carlson's series for R_F times the square root of the mean, minus 1, through order 7 in the spread.
@@ -111,9 +133,10 @@ mod tests {
             for start in (0..WIDEST).step_by(Lanes::<S>::WIDTH) {
                 let x = Lanes::load(simd, &self.0[start..]);
                 let one = x.all(1.0);
-                let means = mean(one, x);
+                // The other one of each pair converges at once.
+                let [means, _] = means([one; 2], [x, one]);
                 let precise = precise_mean(DoubleDoubleLanes::from_lanes(one), DoubleDoubleLanes::from_lanes(x));
-                let integrals = carlson_rf(x, x + x.all(0.5), one);
+                let [_, integrals] = carlson_rf([[one; 3], [x, x + x.all(0.5), one]]);
                 for lane in 0..Lanes::<S>::WIDTH {
                     found.push((means.values()[lane], precise.lane(lane), integrals.values()[lane]));
                 }

@@ -3,12 +3,16 @@
 //! The program contains the kernels for every instruction set of its architecture and selects the best one at run time. All sets with a fused multiply-add give the same bits,
 //! whatever their width, because only the stores combine lanes.
 
+#[cfg(target_arch = "x86_64")]
+use pulp::x86::V3_128b;
 use pulp::{Arch, NullaryFnOnce, Simd, bytemuck, cast};
 
 /// An instruction set.
 pub(crate) trait InstructionSet: Simd {
     /// Whether `mul_add` rounds once.
     const FUSED: bool = true;
+    /// Vectors that are processed side by side, one or two.
+    const STRANDS: usize = 2;
 
     /// The set itself, or one of its machine whose vectors have four lanes.
     type Four: InstructionSet;
@@ -40,9 +44,6 @@ pub(crate) trait Task {
     fn run<S: InstructionSet>(self, simd: S) -> Self::Output;
 }
 
-/// Lanes that the second widest vectors have too.
-pub(crate) const FEW: usize = 8;
-
 struct On<S, T>(S, T);
 
 impl<S: InstructionSet, T: Task> NullaryFnOnce for On<S, T> {
@@ -67,12 +68,16 @@ pub(crate) fn dispatch<T: Task>(arch: Arch, task: T) -> T::Output {
     }
 }
 
-/// Runs a task that has no more than [`FEW`] lanes to fill. Wide vectors divide and take roots at half the speed, and the bits are the same.
-pub(crate) fn dispatch_few<T: Task>(arch: Arch, task: T) -> T::Output {
+/// Runs a task that has one lane to fill, to the same bits. Narrow vectors divide and take roots up to four times as fast as wide ones, and a second vector would be idle.
+pub(crate) fn dispatch_one<T: Task>(arch: Arch, task: T) -> T::Output {
     match arch {
         #[cfg(target_arch = "x86_64")]
-        Arch::V4(simd) => dispatch(Arch::V3(*simd), task),
-        _ => dispatch(arch, task),
+        Arch::V4(simd) => simd.vectorize(On(V3_128b(*simd), task)),
+        #[cfg(target_arch = "x86_64")]
+        Arch::V3(simd) => simd.vectorize(On(V3_128b(simd), task)),
+        #[cfg(target_arch = "aarch64")]
+        Arch::Neon(simd) => simd.vectorize(On(simd, task)),
+        _ => task.run(pulp::Scalar),
     }
 }
 
@@ -113,8 +118,24 @@ impl InstructionSet for pulp::Scalar {
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use super::{InstructionSet, Simd, cast};
-    use pulp::x86::{V3, V4};
-    use pulp::{f64x4, f64x8, u64x4, u64x8};
+    use pulp::x86::{V3, V3_128b, V4};
+    use pulp::{f64x2, f64x4, f64x8, u64x2, u64x4, u64x8};
+
+    /// One vector of two lanes, with fused multiply-add.
+    impl InstructionSet for V3_128b {
+        const STRANDS: usize = 1;
+
+        #[inline(always)]
+        fn turned(self, sine: f64x2, cosine: f64x2, quarters: u64x2) -> (f64x2, f64x2) {
+            let one = self.splat_u64s(1);
+            let odd = self.equal_u64s(self.and_u64s(quarters, one), one);
+            let (s, c) = (self.select_f64s(odd, cosine, sine), self.select_f64s(odd, sine, cosine));
+            let top = self.splat_u64s(1 << 63);
+            let s_sign = self.and_u64s(self.shl_const_u64x2::<62>(quarters), top);
+            let c_sign = self.and_u64s(self.shl_const_u64x2::<62>(self.add_u64s(quarters, one)), top);
+            (self.xor_f64s(s, cast(s_sign)), self.xor_f64s(c, cast(c_sign)))
+        }
+    }
 
     /// AVX2 and FMA: four lanes.
     impl InstructionSet for V3 {

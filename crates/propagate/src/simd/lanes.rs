@@ -1,18 +1,17 @@
 //! Several doubles at a time, with the arithmetic of the kernels.
 //!
-//! A value consists of [`STRANDS`] vectors. A kernel is one long chain of dependent operations; two chains side by side use the time that each one waits
+//! A value consists of one or two vectors. A kernel is one long chain of dependent operations; two chains side by side use the time that each one waits
 //! (a sample takes 3.9 ns instead of 4.6 with AVX-512, 7.3 instead of 8.7 with AVX2, 36 instead of 44 portably). No closure and no `array::map` is used around vectors: a function
 //! that is not inlined is compiled without the instructions of the set and is fifty times slower.
 
-use std::hint::black_box;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use pulp::bytemuck;
 
 use super::instruction_set::InstructionSet;
 
-/// Vectors that are processed side by side.
-pub(crate) const STRANDS: usize = 2;
+/// Most vectors that any instruction set processes side by side.
+const STRANDS: usize = 2;
 
 /// Most lanes of any instruction set.
 pub(crate) const WIDEST: usize = 8 * STRANDS;
@@ -23,7 +22,7 @@ pub(crate) const INTEGERS: f64 = 6_755_399_441_055_744.0;
 /// The bits of a double without its sign. The functions of pulp for magnitude and sign are not always inlined.
 const MAGNITUDE: f64 = f64::from_bits(!(1 << 63));
 
-/// Vectors of doubles. `mul_add` rounds once if the instruction set has a fused multiply-add, otherwise twice. All other operations give the same bits on every
+/// Vectors of doubles. A set with one strand leaves the second vector unused. `mul_add` rounds once if the instruction set has a fused multiply-add, otherwise twice. All other operations give the same bits on every
 /// machine.
 #[derive(Clone, Copy)]
 pub(crate) struct Lanes<S: InstructionSet> {
@@ -36,7 +35,7 @@ macro_rules! strands {
     ($lanes:expr, $index:ident => $value:expr) => {{
         let mut lanes = $lanes;
         let mut $index = 0;
-        while $index < STRANDS {
+        while $index < S::STRANDS {
             lanes.strands[$index] = $value;
             $index += 1;
         }
@@ -86,7 +85,7 @@ impl<S: InstructionSet> Neg for Lanes<S> {
 
 impl<S: InstructionSet> Lanes<S> {
     /// Number of doubles.
-    pub(crate) const WIDTH: usize = STRANDS * S::F64_LANES;
+    pub(crate) const WIDTH: usize = S::STRANDS * S::F64_LANES;
 
     /// `value` in each lane.
     #[inline(always)]
@@ -109,6 +108,7 @@ impl<S: InstructionSet> Lanes<S> {
     pub(crate) fn load(simd: S, values: &[f64]) -> Self {
         let zeros = Self::splat(simd, 0.0);
         match S::as_simd_f64s(values).0 {
+            [first, ..] if S::STRANDS == 1 => Self { strands: [*first; STRANDS], ..zeros },
             [first, second, ..] => Self { strands: [*first, *second], ..zeros },
             _ => {
                 let middle = S::F64_LANES.min(values.len());
@@ -149,7 +149,7 @@ impl<S: InstructionSet> Lanes<S> {
     /// The values as a slice.
     #[inline(always)]
     pub(crate) fn values(&self) -> &[f64] {
-        bytemuck::cast_slice(&self.strands)
+        bytemuck::cast_slice(&self.strands[..S::STRANDS])
     }
 
     /// self·factor + term.
@@ -187,11 +187,24 @@ impl<S: InstructionSet> Lanes<S> {
         })
     }
 
+    /// Whether a value is above 0; NaN is not.
+    #[inline(always)]
+    pub(crate) fn any_above_zero(self) -> bool {
+        let zero = self.simd.splat_f64s(0.0);
+        let mut found = false;
+        let mut i = 0;
+        while i < S::STRANDS {
+            found |= self.simd.first_true_m64s(self.simd.less_than_f64s(zero, self.strands[i])) < S::F64_LANES;
+            i += 1;
+        }
+        found
+    }
+
     /// A scalar function of each value.
     #[inline(always)]
     pub(crate) fn each(self, function: impl Fn(f64) -> f64) -> Self {
         let mut lanes = self;
-        for value in bytemuck::cast_slice_mut(&mut lanes.strands) {
+        for value in bytemuck::cast_slice_mut(&mut lanes.strands[..S::STRANDS]) {
             *value = function(*value);
         }
         lanes
@@ -245,7 +258,7 @@ impl<S: InstructionSet> Lanes<S> {
     #[inline(always)]
     pub(crate) fn turned(self, cosine: Self, quarters: Self) -> (Self, Self) {
         let (mut sines, mut cosines) = (self, cosine);
-        for i in 0..STRANDS {
+        for i in 0..S::STRANDS {
             let quarters = self.simd.transmute_u64s_f64s(quarters.strands[i]);
             (sines.strands[i], cosines.strands[i]) = self.simd.turned(self.strands[i], cosine.strands[i], quarters);
         }
@@ -255,37 +268,39 @@ impl<S: InstructionSet> Lanes<S> {
     /// Four columns to rows, one row for each lane.
     #[inline(always)]
     pub(crate) fn store_fours([x, y, z, w]: [Self; 4], rows: &mut [[f64; 4]]) {
-        for (i, rows) in rows.chunks_exact_mut(S::F64_LANES).enumerate().take(STRANDS) {
+        for (i, rows) in rows.chunks_exact_mut(S::F64_LANES).enumerate().take(S::STRANDS) {
             let vectors = x.simd.fours([x.strands[i], y.strands[i], z.strands[i], w.strands[i]]);
             S::as_mut_simd_f64s(rows.as_flattened_mut()).0.copy_from_slice(&vectors);
         }
     }
 
-    /// Four columns to the places from `FIRST` on of rows of N numbers, one row for each lane.
+    /// Writes the values, one for each lane.
     #[inline(always)]
-    pub(crate) fn store_fours_at<const N: usize, const FIRST: usize>(
-        [x, y, z, w]: [Self; 4],
-        rows: &mut [[f64; N]; WIDEST],
-    ) {
+    pub(crate) fn store(self, out: &mut [f64]) {
+        let vectors = S::as_mut_simd_f64s(out).0;
         let mut i = 0;
-        while i < STRANDS {
-            // The compiler must not see through the permutations: it would make pairs of doubles of them.
-            let vectors = black_box(x.simd.fours([x.strands[i], y.strands[i], z.strands[i], w.strands[i]]));
-            let fours: &[[f64; 4]] = bytemuck::cast_slice(&vectors);
-            let mut lane = 0;
-            while lane < S::F64_LANES {
-                let row = &mut rows[i * S::F64_LANES + lane];
-                [row[FIRST], row[FIRST + 1], row[FIRST + 2], row[FIRST + 3]] = fours[lane];
-                lane += 1;
-            }
+        while i < S::STRANDS {
+            vectors[i] = self.strands[i];
             i += 1;
         }
+    }
+
+    /// `first` in the lanes of one strand, `second` in those of the other.
+    #[inline(always)]
+    pub(crate) fn of_two(simd: S, first: f64, second: f64) -> Self {
+        Self { simd, strands: [simd.splat_f64s(first), simd.splat_f64s(second)] }
+    }
+
+    /// The lanes of one strand, to as many places.
+    #[inline(always)]
+    pub(crate) fn store_strand(self, strand: usize, out: &mut [f64]) {
+        S::as_mut_simd_f64s(out).0[0] = self.strands[strand];
     }
 
     /// Three columns to rows, one row for each lane.
     #[inline(always)]
     pub(crate) fn store_threes([x, y, z]: [Self; 3], rows: &mut [[f64; 3]]) {
-        for (i, rows) in rows.chunks_exact_mut(S::F64_LANES).enumerate().take(STRANDS) {
+        for (i, rows) in rows.chunks_exact_mut(S::F64_LANES).enumerate().take(S::STRANDS) {
             let vectors = x.simd.threes([x.strands[i], y.strands[i], z.strands[i]]);
             S::as_mut_simd_f64s(rows.as_flattened_mut()).0.copy_from_slice(&vectors);
         }

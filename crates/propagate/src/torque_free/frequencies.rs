@@ -33,13 +33,27 @@ pub(crate) struct Secular {
 impl Secular {
     /// The frequencies by quadrature, for 0 < Q1 or A = B.
     pub(crate) fn exact(polhode: &Polhode) -> Self {
-        Self::from_means(&polhode.invariants, means(&[polhode.invariants])[0])
+        let invariants = &polhode.invariants;
+        let mut found = [[DoubleDouble::ZERO; 2]];
+        let asked = asked(invariants);
+        if let Some(asked) = asked {
+            trapezoidal(&[asked], &mut found);
+        }
+        Self::from_means(invariants, means(invariants, asked.map(|_| found[0])))
     }
 
     /// The frequencies of at most as many polhodes as the widest vectors have lanes, each to the bits of [`Secular::exact`].
     pub(crate) fn several(polhodes: &[&Polhode]) -> Vec<Self> {
-        let all: Vec<Invariants> = polhodes.iter().map(|polhode| polhode.invariants).collect();
-        all.iter().zip(means(&all)).map(|(invariants, means)| Self::from_means(invariants, means)).collect()
+        let all: Vec<Option<Means>> = polhodes.iter().map(|polhode| asked(&polhode.invariants)).collect();
+        let together: Vec<Means> = all.iter().copied().flatten().collect();
+        let mut found = vec![[DoubleDouble::ZERO; 2]; together.len()];
+        trapezoidal(&together, &mut found);
+        let mut found = found.into_iter();
+        let mut each = |(polhode, asked): (&&Polhode, Option<Means>)| {
+            let sums = asked.and_then(|_| found.next());
+            Self::from_means(&polhode.invariants, means(&polhode.invariants, sums))
+        };
+        polhodes.iter().zip(all).map(&mut each).collect()
     }
 
     fn from_means(invariants: &Invariants, [by_anomaly, by_time]: [DoubleDouble; 2]) -> Self {
@@ -112,27 +126,21 @@ fn agm(invariants: &Invariants) -> DoubleDouble {
     if invariants.difference == DoubleDouble::ZERO { invariants.cosine_squares[1].sqrt() } else { invariants.agm }
 }
 
-/// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(1+√Q)⟩_t of several polhodes, for 0 < Q1 ≤ Q2 or A = B.
-fn means(several: &[Invariants]) -> Vec<[DoubleDouble; 2]> {
-    let summed = |invariants: &Invariants| {
-        let Invariants { cosine_squares: squares, stretch, difference, .. } = *invariants;
-        let count = if difference == DoubleDouble::ZERO { None } else { nodes(stretch.to_f64()) };
-        count.map(|count| Means { squares, stretch, count })
-    };
-    let asked: Vec<Option<Means>> = several.iter().map(summed).collect();
-    let mut found = trapezoidal(&asked.iter().copied().flatten().collect::<Vec<_>>()).into_iter();
-    let both = |(invariants, asked): (&Invariants, Option<Means>)| {
-        let agm = agm(invariants);
-        if invariants.difference == DoubleDouble::ZERO {
-            return [DoubleDouble::ONE / (DoubleDouble::ONE + agm); 2];
-        }
-        let [by_anomaly, by_time] = match asked.and_then(|_| found.next()) {
-            Some(sums) => sums,
-            None => logarithmic(invariants.cosine_squares),
-        };
-        [by_anomaly, by_time * agm]
-    };
-    several.iter().zip(asked).map(both).collect()
+/// The means of a polhode that the trapezoidal rule over the nodes has to sum, if it has to sum any.
+fn asked(invariants: &Invariants) -> Option<Means> {
+    let Invariants { cosine_squares: squares, stretch, difference, .. } = *invariants;
+    let count = if difference == DoubleDouble::ZERO { None } else { nodes(stretch.to_f64()) };
+    count.map(|count| Means { squares, stretch, count })
+}
+
+/// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(1+√Q)⟩_t of a polhode with 0 < Q1 ≤ Q2 or A = B, from the sums over the nodes if they were asked for.
+fn means(invariants: &Invariants, sums: Option<[DoubleDouble; 2]>) -> [DoubleDouble; 2] {
+    let agm = agm(invariants);
+    if invariants.difference == DoubleDouble::ZERO {
+        return [DoubleDouble::ONE / (DoubleDouble::ONE + agm); 2];
+    }
+    let [by_anomaly, by_time] = sums.unwrap_or_else(|| logarithmic(invariants.cosine_squares));
+    [by_anomaly, by_time * agm]
 }
 
 /// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(√Q(1+√Q))⟩_ℓ next to the separatrix, by the trapezoidal rule in t = ln tan ℓ.
@@ -184,7 +192,9 @@ mod tests {
         let found = if by_nodes {
             // 1e-6 takes more nodes than are kept in a table.
             let count = nodes(stretch.to_f64()).expect("few enough");
-            trapezoidal(&[Means { squares, stretch, count }])[0]
+            let mut found = [[DoubleDouble::ZERO; 2]];
+            trapezoidal(&[Means { squares, stretch, count }], &mut found);
+            found[0]
         } else {
             logarithmic(squares)
         };

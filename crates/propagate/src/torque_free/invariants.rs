@@ -8,29 +8,12 @@ use std::f64::consts::FRAC_PI_2;
 use andoyer_double::DoubleDouble;
 use pulp::Arch;
 
+use super::columns::{Columns, Given};
 use crate::numerics::theta::Theta;
 use crate::simd::double_double_lanes::DoubleDoubleLanes;
-use crate::simd::elliptic::{carlson_rf, mean, precise_mean};
-use crate::simd::instruction_set::{FEW, InstructionSet, Task, dispatch, dispatch_few};
-use crate::simd::lanes::{Lanes, WIDEST};
-
-/// A body and its rotation, on the sorted axes and in scaled units.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Given {
-    pub(super) moments: [f64; 3],
-    /// The parts of G, products of a moment and a rate; or g, with M = 1.
-    pub(super) rotation: Rotation,
-    pub(super) long_axis: bool,
-}
-
-/// The rotation of a body.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Rotation {
-    /// Its rates.
-    Rates([f64; 3]),
-    /// The squares of g, and M.
-    Squares([DoubleDouble; 3], DoubleDouble),
-}
+use crate::simd::elliptic::{carlson_rf, means, precise_mean};
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch, dispatch_one};
+use crate::simd::lanes::Lanes;
 
 /// The constants of a polhode, in scaled units.
 #[derive(Clone, Copy, Debug)]
@@ -73,73 +56,47 @@ pub(crate) struct Invariants {
 }
 
 impl Invariants {
-    /// The constants of at most as many bodies as the widest vectors have lanes.
-    pub(super) fn of(given: &[Given]) -> Vec<Self> {
-        let compute = Compute { given };
-        if given.len() <= FEW { dispatch_few(Arch::new(), compute) } else { dispatch(Arch::new(), compute) }
+    /// The constants of one body.
+    pub(super) fn of(given: &Given) -> Self {
+        dispatch_one(Arch::new(), One { given })
+    }
+
+    /// The constants of several bodies, each to the bits of [`Invariants::of`].
+    pub(super) fn several(given: &[Given]) -> Vec<Self> {
+        dispatch(Arch::new(), Several { given })
     }
 }
 
-struct Compute<'a> {
+struct One<'a> {
+    given: &'a Given,
+}
+
+impl Task for One<'_> {
+    type Output = Invariants;
+
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, simd: S) -> Invariants {
+        together(simd, &Columns::all(simd, self.given)).lane(0)
+    }
+}
+
+struct Several<'a> {
     given: &'a [Given],
 }
 
-impl Task for Compute<'_> {
+impl Task for Several<'_> {
     type Output = Vec<Invariants>;
 
     #[inline(always)]
     fn run<S: InstructionSet>(self, simd: S) -> Vec<Invariants> {
         let mut found = Vec::with_capacity(self.given.len());
         for given in self.given.chunks(Lanes::<S>::WIDTH) {
-            let together = together(simd, given);
-            found.extend((0..given.len()).map(|lane| together.lane(lane)));
+            let together = together(simd, &Columns::load(simd, given));
+            for lane in 0..given.len() {
+                found.push(together.lane(lane));
+            }
         }
         found
-    }
-}
-
-/// The bodies in lanes. A lane without a body has the first one.
-struct Columns {
-    moments: [[f64; WIDEST]; 3],
-    rates: [[f64; WIDEST]; 3],
-    /// Squares of g and M, high and low parts.
-    squares: [[[f64; WIDEST]; 2]; 4],
-    /// 0 where the rates are given, 1 where the squares are.
-    by_squares: [f64; WIDEST],
-    /// −1 for the long-axis mode, otherwise 1.
-    sign: [f64; WIDEST],
-}
-
-impl Columns {
-    fn new(given: &[Given]) -> Self {
-        let mut columns = Self {
-            moments: [[1.0; WIDEST]; 3],
-            rates: [[1.0; WIDEST]; 3],
-            squares: [[[1.0; WIDEST]; 2]; 4],
-            by_squares: [0.0; WIDEST],
-            sign: [1.0; WIDEST],
-        };
-        for lane in 0..WIDEST {
-            let Some(body) = given.get(lane).or(given.first()) else { break };
-            columns.sign[lane] = if body.long_axis { -1.0 } else { 1.0 };
-            for (column, moment) in columns.moments.iter_mut().zip(body.moments) {
-                column[lane] = moment;
-            }
-            match body.rotation {
-                Rotation::Rates(rates) => {
-                    for (column, rate) in columns.rates.iter_mut().zip(rates) {
-                        column[lane] = rate;
-                    }
-                }
-                Rotation::Squares([x, y, z], momentum) => {
-                    columns.by_squares[lane] = 1.0;
-                    for (column, value) in columns.squares.iter_mut().zip([x, y, z, momentum]) {
-                        (column[0][lane], column[1][lane]) = (value.high, value.low);
-                    }
-                }
-            }
-        }
-        columns
     }
 }
 
@@ -153,30 +110,29 @@ struct Turning<S: InstructionSet> {
 }
 
 #[inline(always)]
-fn turning<S: InstructionSet>(simd: S, columns: &Columns, moments: [Lanes<S>; 3]) -> Turning<S> {
+fn turning<S: InstructionSet>(simd: S, columns: &Columns<S>) -> Turning<S> {
     let one = DoubleDoubleLanes::splat(simd, DoubleDouble::ONE);
-    let by_squares = Lanes::load(simd, &columns.by_squares);
-    let magnitude = DoubleDoubleLanes::load(simd, &columns.squares[3][0], &columns.squares[3][1]);
+    let by_squares = columns.by_squares;
     let mut parts = [one; 3];
-    for axis in 0..3 {
-        parts[axis] = DoubleDoubleLanes::product(moments[axis], Lanes::load(simd, &columns.rates[axis]));
+    for (axis, part) in parts.iter_mut().enumerate() {
+        *part = DoubleDoubleLanes::product(columns.moments[axis], columns.rates[axis]);
     }
     let (x, y, z) = (parts[0] * parts[0], parts[1] * parts[1], parts[2] * parts[2]);
     let total = x + y + z;
     let momentum = total.root();
-    let inverse = one / momentum;
+    let inverse = momentum.reciprocal();
     let mut squares = [x, y, z];
     let mut direction = [one.high; 3];
     for axis in 0..3 {
         let component = parts[axis] * inverse;
-        let given = DoubleDoubleLanes::load(simd, &columns.squares[axis][0], &columns.squares[axis][1]);
+        let given = columns.squares[axis];
         // Where the squares are given, the components are their roots.
         direction[axis] = by_squares.up_to(0.0, component.nearest(), given.high.root());
         parts[axis] = DoubleDoubleLanes::up_to_zero(by_squares, squares[axis], given);
         squares[axis] = DoubleDoubleLanes::up_to_zero(by_squares, component * component, given);
     }
     Turning {
-        momentum: DoubleDoubleLanes::up_to_zero(by_squares, momentum, magnitude),
+        momentum: DoubleDoubleLanes::up_to_zero(by_squares, momentum, columns.squares[3]),
         direction,
         squares,
         parts,
@@ -201,22 +157,22 @@ struct Together<S: InstructionSet> {
     agm: DoubleDoubleLanes<S>,
     stretch: DoubleDoubleLanes<S>,
     elliptic: Elliptic<S>,
+    eta: Lanes<S>,
     half_tangents: [Lanes<S>; 2],
     argument: Argument<S>,
+    distance: Lanes<S>,
 }
 
 #[inline(always)]
-fn together<S: InstructionSet>(simd: S, given: &[Given]) -> Together<S> {
-    let columns = Columns::new(given);
+fn together<S: InstructionSet>(simd: S, columns: &Columns<S>) -> Together<S> {
     let one = DoubleDoubleLanes::splat(simd, DoubleDouble::ONE);
-    let [first, second, third] = &columns.moments;
-    let (a, b, c) = (Lanes::load(simd, first), Lanes::load(simd, second), Lanes::load(simd, third));
-    let turning = turning(simd, &columns, [a, b, c]);
+    let [a, b, c] = columns.moments;
+    let turning = turning(simd, columns);
     let (parts, momentum, [s1, s2, _]) = (turning.parts, turning.momentum, turning.squares);
     // Differences of moments are exact, and are divided last.
     let excesses = [DoubleDoubleLanes::sum(c, -a).over(a), DoubleDoubleLanes::sum(c, -b).over(b)];
     let [first, second] = excesses;
-    let (inverse_first, inverse_second) = (one / first, one / second);
+    let (inverse_first, inverse_second) = (first.reciprocal(), second.reciprocal());
     let between = DoubleDoubleLanes::from_lanes(c) * DoubleDoubleLanes::sum(b, -a);
     let difference = between / DoubleDoubleLanes::product(a, b);
     let divisor = DoubleDoubleLanes::from_lanes(a) * DoubleDoubleLanes::sum(c, -b);
@@ -228,12 +184,13 @@ fn together<S: InstructionSet>(simd: S, given: &[Given]) -> Together<S> {
     let sine_squares = [s1 * (first * inverse_second) + s2, s1 + s2 * (second * inverse_first)];
     let alpha = (first + second).times(a.all(0.5));
     let gamma = (first * second).root_or_zero();
-    let sign = Lanes::load(simd, &columns.sign);
-    let gamma = DoubleDoubleLanes { high: gamma.high * sign, low: gamma.low * sign };
+    let gamma = DoubleDoubleLanes { high: gamma.high * columns.sign, low: gamma.low * columns.sign };
     let mean_rate = momentum.over(c);
     let (least, greatest) = (q1.root_or_zero(), q2.root_or_zero());
     let elliptic = elliptic([q1, q2], [difference * weights, second * inverse_first, difference * inverse_first]);
     let [lower, upper] = elliptic.cosines;
+    let argument = argument(turning.direction, (first * inverse_second).nearest().root(), [lower, upper]);
+    let [from_the_axis, distance] = carlson_rf([elliptic.from_the_axis, argument.from_the_extremum]);
     Together {
         excesses,
         difference,
@@ -252,7 +209,9 @@ fn together<S: InstructionSet>(simd: S, given: &[Given]) -> Together<S> {
             sine_squares[0].nearest().root() / (lower + one.high),
             sine_squares[1].nearest().root() / (upper + one.high),
         ],
-        argument: argument(turning.direction, (first * inverse_second).nearest().root(), [lower, upper]),
+        eta: elliptic.root * from_the_axis,
+        distance: argument.factor * distance,
+        argument,
         elliptic,
         turning,
     }
@@ -274,12 +233,12 @@ impl<S: InstructionSet> Together<S> {
         let theta = if difference == DoubleDouble::ZERO {
             Theta::round(cosines, half_tangents)
         } else {
-            let Elliptic { quarter, conjugate, eta, complement, parameter, .. } = self.elliptic;
+            let Elliptic { quarter, conjugate, complement, parameter, .. } = self.elliptic;
             let [quarter, conjugate, eta, complement, parameter] =
-                each(&[quarter, conjugate, eta, complement, parameter], lane);
+                each(&[quarter, conjugate, self.eta, complement, parameter], lane);
             Theta { cosines, half_tangents, quarter, conjugate, eta, complement, parameter }
         };
-        let Argument { quadrant, from_the_top, distance } = &self.argument;
+        let Argument { quadrant, from_the_top, .. } = &self.argument;
         Invariants {
             momentum: self.turning.momentum.lane(lane),
             direction: each(&self.turning.direction, lane),
@@ -298,7 +257,7 @@ impl<S: InstructionSet> Together<S> {
             stretch: self.stretch.lane(lane),
             theta,
             quadrant: each(quadrant, lane),
-            argument: (from_the_top.values()[lane] > 0.0, distance.values()[lane]),
+            argument: (from_the_top.values()[lane] > 0.0, self.distance.values()[lane]),
         }
     }
 }
@@ -308,9 +267,11 @@ struct Elliptic<S: InstructionSet> {
     cosines: [Lanes<S>; 2],
     quarter: Lanes<S>,
     conjugate: Lanes<S>,
-    eta: Lanes<S>,
     complement: Lanes<S>,
     parameter: Lanes<S>,
+    /// η is this root times R_F of these arguments.
+    root: Lanes<S>,
+    from_the_axis: [Lanes<S>; 3],
 }
 
 /// The theta quantities from Q1 and Q2; Q2 − Q1, b/a and (a − b)/a.
@@ -326,22 +287,23 @@ fn elliptic<S: InstructionSet>(
     for cosine in &mut cosines {
         *cosine = cosine.up_to(0.0, zero, *cosine).root();
     }
-    let parameter = (spread / q2).nearest();
+    let inverse = q2.reciprocal();
+    let parameter = (spread * inverse).nearest();
     let capped = parameter.up_to(1.0, parameter, one);
-    let conjugate = quarter_turn / mean(one, capped.root());
     let (sine, cosine) = (sine.nearest(), cosine.nearest());
     // Two arguments that are 0 would never converge; such a body has A = B.
     let cosine = cosine.up_to(0.0, one, cosine);
-    let eta = sine.root() * carlson_rf(cosine, cosine + parameter * sine, one);
     let ratio = cosines[0] / cosines[1];
     let ratio = ratio.up_to(1.0, ratio, one);
+    let [conjugate, quarter] = means([one; 2], [capped.root(), ratio]);
     Elliptic {
         cosines,
-        quarter: quarter_turn / mean(one, ratio),
-        conjugate,
-        eta,
-        complement: (q1 / q2).nearest(),
+        quarter: quarter_turn / quarter,
+        conjugate: quarter_turn / conjugate,
+        complement: (q1 * inverse).nearest(),
         parameter,
+        root: sine.root(),
+        from_the_axis: [cosine, cosine + parameter * sine, one],
     }
 }
 
@@ -351,8 +313,9 @@ struct Argument<S: InstructionSet> {
     quadrant: [Lanes<S>; 2],
     /// Above 0 where the maximum of cos J is the nearer extremum.
     from_the_top: Lanes<S>,
-    /// The argument from there.
-    distance: Lanes<S>,
+    /// The argument from there is this factor times R_F of these arguments.
+    factor: Lanes<S>,
+    from_the_extremum: [Lanes<S>; 3],
 }
 
 /// The place from g, √(a/b) and the least and the greatest cos J.
@@ -374,7 +337,10 @@ fn argument<S: InstructionSet>(
     // Both expressions are undefined only for Q1 = 0 at ℓ = 0.
     let start = from_the_top.up_to(0.0, x_square, y_square);
     let end = from_the_top.up_to(0.0, least * least, greatest * greatest);
-    let factor = greatest * from_the_top.up_to(0.0, sine, cosine);
-    let distance = factor * carlson_rf(start, x_square + y_square, end);
-    Argument { quadrant: [cosine, sine], from_the_top, distance }
+    Argument {
+        quadrant: [cosine, sine],
+        from_the_top,
+        factor: greatest * from_the_top.up_to(0.0, sine, cosine),
+        from_the_extremum: [start, x_square + y_square, end],
+    }
 }

@@ -4,6 +4,7 @@
 //! Imports errors, numerics, simd and input.
 
 pub(crate) mod closed_form;
+mod columns;
 pub(crate) mod error_budget;
 pub(crate) mod frequencies;
 pub(crate) mod harmonics;

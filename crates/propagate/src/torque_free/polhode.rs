@@ -17,7 +17,8 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use andoyer_double::DoubleDouble;
 
-use super::invariants::{Given, Invariants, Rotation};
+use super::columns::{Given, Rotation};
+use super::invariants::Invariants;
 use crate::input::body::Body;
 use crate::input::state::State;
 use crate::numerics::scaling::{exponent, scaled};
@@ -39,7 +40,11 @@ impl Frame {
     /// mode.
     pub(crate) fn new(moments: [f64; 3], momentum: [f64; 3], long_axis: bool) -> Self {
         let mut axes = [0, 1, 2];
-        axes.sort_by(|&i, &j| moments[i].total_cmp(&moments[j]));
+        for (i, j) in [(0, 1), (1, 2), (0, 1)] {
+            if moments[axes[i]] > moments[axes[j]] {
+                axes.swap(i, j);
+            }
+        }
         if long_axis {
             axes.reverse();
         }
@@ -81,6 +86,10 @@ pub(crate) struct UserFrame {
 
 /// sin J below which the wobble is neglected, because its square is not a normal double.
 pub(crate) const SMALLEST_TILT: f64 = 1e-150;
+/// Relative difference of two terms above which their rounding errors in doubles do not exchange them.
+const DECIDED: f64 = 1e-14;
+/// Sums of squares above this have normal doubles for terms, but for negligible ones.
+const SMALLEST_SQUARE: f64 = 1e-290;
 
 /// The axes of a state, and its body and rates on them in scaled units.
 struct Placed {
@@ -93,41 +102,55 @@ struct Placed {
 
 impl Placed {
     /// `None` for a body at rest.
-    fn new(body: &Body, state: &State, long_axis: bool) -> Option<Self> {
+    fn new(body: &Body, state: &State) -> Option<Self> {
         let rates: [f64; 3] = state.angular_velocity.into();
         let largest = rates.iter().fold(0.0_f64, |m, w| m.max(w.abs()));
         if largest == 0.0 {
             return None;
         }
         let scales = (exponent(body.sorted()[2]), exponent(largest));
-        let frame = Frame::new(body.moments(), rates, long_axis);
-        let moments = frame.axes.map(|axis| scaled(body.moments()[axis], -scales.0));
-        let rates = frame.sorted(rates).map(|w| scaled(w, -scales.1));
-        Some(Self { frame, long_axis, moments, rates, scales })
+        let given = body.moments();
+        let moments = given.map(|moment| scaled(moment, -scales.0));
+        let scaled_rates = rates.map(|rate| scaled(rate, -scales.1));
+        let place = |long_axis: bool| {
+            let frame = Frame::new(given, rates, long_axis);
+            Self {
+                moments: frame.axes.map(|axis| moments[axis]),
+                rates: frame.sorted(scaled_rates),
+                frame,
+                long_axis,
+                scales,
+            }
+        };
+        let short = place(false);
+        Some(if beyond(short.moments, short.rates) { place(true) } else { short })
     }
 
     fn given(&self) -> Given {
         Given { moments: self.moments, rotation: Rotation::Rates(self.rates), long_axis: self.long_axis }
     }
-}
 
-/// Whether a motion, with its axes in the order of the short-axis mode, is in the long-axis mode.
-fn beyond(short: &Invariants) -> bool {
-    let [first, second] = short.excesses;
-    if second == DoubleDouble::ZERO {
-        first != DoubleDouble::ZERO && short.direction[0].abs() >= SMALLEST_TILT
-    } else {
-        short.cosine_squares[0].high < 0.0
+    fn with(self, invariants: Invariants) -> Polhode {
+        let Self { frame, long_axis, moments, scales, .. } = self;
+        Polhode { frame, long_axis, moments, scales, invariants }
     }
 }
 
-fn with_invariants(placed: Vec<Option<Placed>>, invariants: Vec<Invariants>) -> Vec<Option<Polhode>> {
-    let mut invariants = invariants.into_iter();
-    let mut polhode = |placed: Placed| {
-        let Placed { frame, long_axis, moments, scales, .. } = placed;
-        invariants.next().map(|invariants| Polhode { frame, long_axis, moments, scales, invariants })
-    };
-    placed.into_iter().map(|place| place.and_then(&mut polhode)).collect()
+/// Whether a motion, with its axes in the order of the short-axis mode, is in the long-axis mode: Q1 < 0. The two terms of Q1 are compared in doubles, and in
+/// double-double if rounding might decide.
+fn beyond([a, b, c]: [f64; 3], [first, second, third]: [f64; 3]) -> bool {
+    let (x, y, z) = (a * first, b * second, c * third);
+    if b == c {
+        return a != c && x.abs() >= SMALLEST_TILT * (x * x + y * y + z * z).sqrt();
+    }
+    let (least, greatest) = (z * z * (a * (c - b)), x * x * (c * (b - a)));
+    if (least - greatest).abs() > DECIDED * (least + greatest) && least + greatest > SMALLEST_SQUARE {
+        return least < greatest;
+    }
+    let [x, z] = [(a, first), (c, third)].map(|(moment, rate)| DoubleDouble::product(moment, rate));
+    let least = z * z * (DoubleDouble::from(a) * DoubleDouble::sum(c, -b));
+    let greatest = x * x * (DoubleDouble::from(c) * DoubleDouble::sum(b, -a));
+    (least - greatest).high < 0.0
 }
 
 /// A state reduced to the quantities of theory §1, §5 and §7.
@@ -149,26 +172,18 @@ impl Polhode {
     ///
     /// The motion is in the long-axis mode if Q1 < 0. If B = C, it is in the long-axis mode unless the rotation is about an axis perpendicular to axis 1.
     pub(crate) fn new(body: &Body, state: &State) -> Option<Self> {
-        Self::several(&[(body, state)]).pop().flatten()
+        let placed = Placed::new(body, state)?;
+        let invariants = Invariants::of(&placed.given());
+        Some(placed.with(invariants))
     }
 
-    /// The polhodes of at most as many valid states as the widest vectors have lanes, each to the bits of [`Polhode::new`].
+    /// The polhodes of several valid states, each to the bits of [`Polhode::new`].
     pub(crate) fn several(states: &[(&Body, &State)]) -> Vec<Option<Self>> {
-        let mut placed: Vec<Option<Placed>> =
-            states.iter().map(|(body, state)| Placed::new(body, state, false)).collect();
+        let placed: Vec<Option<Placed>> = states.iter().map(|(body, state)| Placed::new(body, state)).collect();
         let given: Vec<Given> = placed.iter().flatten().map(Placed::given).collect();
-        let short = Invariants::of(&given);
-        if placed.iter().flatten().zip(&short).all(|(_, invariants)| !beyond(invariants)) {
-            return with_invariants(placed, short);
-        }
-        let mut invariants = short.iter();
-        for (place, (body, state)) in placed.iter_mut().zip(states) {
-            if place.is_some() && invariants.next().is_some_and(beyond) {
-                *place = Placed::new(body, state, true);
-            }
-        }
-        let given: Vec<Given> = placed.iter().flatten().map(Placed::given).collect();
-        with_invariants(placed, Invariants::of(&given))
+        let mut invariants = Invariants::several(&given).into_iter();
+        let mut with = |placed: Placed| invariants.next().map(|invariants| placed.with(invariants));
+        placed.into_iter().map(|place| place.and_then(&mut with)).collect()
     }
 
     /// The same body rotating with M and sin²J = `square` at ℓ = 0.
@@ -181,8 +196,7 @@ impl Polhode {
         let squares = [DoubleDouble::ZERO, squares[0], squares[1]];
         let rotation = Rotation::Squares(squares, momentum.into());
         let given = Given { moments: self.moments, rotation, long_axis: self.long_axis };
-        let invariants = Invariants::of(&[given]).pop().unwrap_or(self.invariants);
-        Self { invariants, ..self.clone() }
+        Self { invariants: Invariants::of(&given), ..self.clone() }
     }
 
     /// β of theory §1 to 32 digits, for the axes in this order.
@@ -246,5 +260,33 @@ impl Polhode {
     pub(crate) fn quadrant(&self) -> ([f64; 2], [f64; 2]) {
         let Invariants { direction: [g1, g2, _], quadrant, .. } = self.invariants;
         (quadrant, [1.0_f64.copysign(g2), 1.0_f64.copysign(-g1)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_comparison_of_two_terms_decides_as_the_sign_of_the_least_squared_cosine_does() {
+        // Rates that differ from the separatrix by a part between 1e-1 and 1e-32, on both sides of it.
+        let (mut seed, mut long) = (7_u64, 0);
+        let mut next = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for k in 0..2000 {
+            let (a, b) = (0.5 + 0.2 * next(), 0.75 + 0.2 * next());
+            let x = 0.1 + next();
+            // With C = 1 the motion on the separatrix has ω3² = ω1² A (B − A)/(1 − B).
+            let z = x * (a * (b - a) / (1.0 - b)).sqrt();
+            let part = if k % 2 == 0 { 1.0 } else { -1.0 } * 10.0_f64.powi(-(k % 33));
+            let (moments, rates) = ([a, b, 1.0], [x, next() - 0.5, z * (1.0 + part)]);
+            let given = Given { moments, rotation: Rotation::Rates(rates), long_axis: false };
+            let negative = Invariants::of(&given).cosine_squares[0].high < 0.0;
+            assert_eq!(beyond(moments, rates), negative, "{moments:?} {rates:?}");
+            long += usize::from(negative);
+        }
+        assert!((500..1500).contains(&long), "{long} of 2000");
     }
 }

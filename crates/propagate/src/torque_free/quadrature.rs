@@ -57,46 +57,52 @@ pub(super) struct Means {
     pub(super) count: usize,
 }
 
-/// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(√Q(1+√Q))⟩_ℓ of at most as many as the widest vectors have lanes.
-pub(super) fn trapezoidal(asked: &[Means]) -> [[DoubleDouble; 2]; WIDEST] {
+/// ⟨1/(1+√Q)⟩_ℓ and ⟨1/(√Q(1+√Q))⟩_ℓ of at most as many as the widest vectors have lanes, written to as many places.
+pub(super) fn trapezoidal(asked: &[Means], found: &mut [[DoubleDouble; 2]]) {
     static TABLES: [OnceLock<Nodes>; KEPT] = [const { OnceLock::new() }; KEPT];
     let table = |count: usize| TABLES[count / WIDEST - 1].get_or_init(|| Nodes::new(count));
-    dispatch(Arch::new(), Sums { asked, table })
+    dispatch(Arch::new(), Sums { asked, table, found });
 }
 
 /// Sums over the nodes.
 struct Sums<'a, T> {
     asked: &'a [Means],
     table: T,
+    found: &'a mut [[DoubleDouble; 2]],
 }
 
-/// Partial sums of two means: high and low parts of each, by the lane of the widest vectors and then by what was asked for.
-type Partial = [[[[f64; WIDEST]; WIDEST]; 2]; 2];
+/// Partial sums of two means: high and low parts of each, by the lane of the widest vectors.
+type Partial = [[[f64; WIDEST]; 2]; 2];
 
 impl<T: Fn(usize) -> &'static Nodes> Task for Sums<'_, T> {
-    type Output = [[DoubleDouble; 2]; WIDEST];
+    type Output = ();
 
     #[inline(always)]
-    fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
-        let mut partial = [[[[0.0; WIDEST]; WIDEST]; 2]; 2];
-        for (index, means) in self.asked.iter().enumerate() {
-            each_node(simd, means, (self.table)(means.count), index, &mut partial);
+    fn run<S: InstructionSet>(self, simd: S) {
+        let Self { asked, table, found } = self;
+        let alone = asked.len() == 1;
+        let mut partial: Vec<Partial> = Vec::with_capacity(if alone { 0 } else { WIDEST });
+        for means in asked {
+            let sums = each_node(simd, means, table(means.count));
+            if alone {
+                found[0] = [folded(sums[0]), folded(sums[1])];
+            } else {
+                partial.push(sums);
+            }
         }
-        let mut found = [[DoubleDouble::ZERO; 2]; WIDEST];
-        for start in (0..self.asked.len()).step_by(Lanes::<S>::WIDTH) {
-            for (which, parts) in partial.iter().enumerate() {
-                let sum = total(simd, parts, start);
-                for lane in 0..Lanes::<S>::WIDTH {
-                    found[start + lane][which] = sum.lane(lane);
+        for start in (0..partial.len()).step_by(Lanes::<S>::WIDTH) {
+            for which in 0..2 {
+                let sum = total(simd, &partial[start..], which);
+                for (lane, found) in found[start..].iter_mut().enumerate().take(Lanes::<S>::WIDTH) {
+                    found[which] = sum.lane(lane);
                 }
             }
         }
-        for (found, means) in found.iter_mut().zip(self.asked) {
+        for (found, means) in found.iter_mut().zip(asked) {
             // cos2 and sin2 are twice the squares, so the weight carries ½ and the mean 2c/n.
             let factor = means.stretch.sqrt().over(0.5 * means.count as f64);
             *found = [found[0] * factor, found[1] * factor];
         }
-        found
     }
 }
 
@@ -104,12 +110,13 @@ impl<T: Fn(usize) -> &'static Nodes> Task for Sums<'_, T> {
 ///
 /// With s = cos² φ + c² sin² φ and r = s√Q the integrands are 1/(s + r) and s/(r(s + r)): one quotient gives both.
 #[inline(always)]
-fn each_node<S: InstructionSet>(simd: S, means: &Means, nodes: &Nodes, index: usize, partial: &mut Partial) {
+fn each_node<S: InstructionSet>(simd: S, means: &Means, nodes: &Nodes) -> Partial {
     let Nodes { cosines, sines } = nodes;
     let [q1, q2] = means.squares;
-    let [one, q1, q2, stretch] =
-        [DoubleDouble::ONE, q1, q2 * means.stretch, means.stretch].map(|value| DoubleDoubleLanes::splat(simd, value));
+    let (q1, q2) = (DoubleDoubleLanes::splat(simd, q1), DoubleDoubleLanes::splat(simd, q2 * means.stretch));
+    let stretch = DoubleDoubleLanes::splat(simd, means.stretch);
     let width = Lanes::<S>::WIDTH;
+    let mut partial = [[[0.0; WIDEST]; 2]; 2];
     let mut offset = 0;
     // The same for vectors of any width.
     while offset < WIDEST {
@@ -120,30 +127,54 @@ fn each_node<S: InstructionSet>(simd: S, means: &Means, nodes: &Nodes, index: us
             let range = start..start + width;
             let cosine = DoubleDoubleLanes::load(simd, &cosines[0][range.clone()], &cosines[1][range.clone()]);
             let sine = DoubleDoubleLanes::load(simd, &sines[0][range.clone()], &sines[1][range]);
-            let scale = cosine + stretch * sine;
-            let root = ((q1 * cosine + q2 * sine) * scale).root();
-            let quotient = one / (root * (scale + root));
-            by_anomaly = by_anomaly + root * quotient;
-            by_time = by_time + scale * quotient;
+            // All terms are positive.
+            let scale = cosine.plus_alike(stretch * sine);
+            let root = ((q1 * cosine).plus_alike(q2 * sine) * scale).root();
+            let quotient = (root * scale.plus_alike(root)).reciprocal();
+            by_anomaly = by_anomaly.plus_alike(root * quotient);
+            by_time = by_time.plus_alike(scale * quotient);
             start += WIDEST;
         }
-        for (which, sum) in [by_anomaly, by_time].into_iter().enumerate() {
-            for lane in 0..width {
-                let sum = sum.lane(lane);
-                partial[which][0][offset + lane][index] = sum.high;
-                partial[which][1][offset + lane][index] = sum.low;
-            }
+        for (sums, sum) in partial.iter_mut().zip([by_anomaly, by_time]) {
+            sums[0][offset..offset + width].copy_from_slice(sum.high.values());
+            sums[1][offset..offset + width].copy_from_slice(sum.low.values());
         }
         offset += width;
     }
+    partial
 }
 
-/// The sum of the partial sums, in pairs of lanes that lie half, a quarter, and so on, of the widest vectors apart.
+/// The sum of the partial sums of one mean, in pairs of lanes that lie half, a quarter, and so on, of the widest vectors apart.
 #[inline(always)]
-fn total<S: InstructionSet>(simd: S, parts: &[[[f64; WIDEST]; WIDEST]; 2], start: usize) -> DoubleDoubleLanes<S> {
+fn folded([high, low]: [[f64; WIDEST]; 2]) -> DoubleDouble {
+    let mut sums = [DoubleDouble::ZERO; WIDEST];
+    for (lane, sum) in sums.iter_mut().enumerate() {
+        *sum = DoubleDouble { high: high[lane], low: low[lane] };
+    }
+    let mut half = WIDEST / 2;
+    while half > 0 {
+        for lane in 0..half {
+            sums[lane] = sums[lane] + sums[lane + half];
+        }
+        half /= 2;
+    }
+    sums[0]
+}
+
+/// The same of as many means as there are lanes, to the same bits.
+#[inline(always)]
+fn total<S: InstructionSet>(simd: S, partial: &[Partial], which: usize) -> DoubleDoubleLanes<S> {
+    let mut columns = [[[0.0; WIDEST]; WIDEST]; 2];
+    for (index, sums) in partial.iter().enumerate().take(Lanes::<S>::WIDTH) {
+        for part in 0..2 {
+            for lane in 0..WIDEST {
+                columns[part][lane][index] = sums[which][part][lane];
+            }
+        }
+    }
     let mut sums = [DoubleDoubleLanes::splat(simd, DoubleDouble::ZERO); WIDEST];
     for (lane, sum) in sums.iter_mut().enumerate() {
-        *sum = DoubleDoubleLanes::load(simd, &parts[0][lane][start..], &parts[1][lane][start..]);
+        *sum = DoubleDoubleLanes::load(simd, &columns[0][lane], &columns[1][lane]);
     }
     let mut half = WIDEST / 2;
     while half > 0 {

@@ -25,10 +25,9 @@ pub(crate) enum Sums {
 
 impl Sums {
     pub(crate) fn new(series: &CayleyKleinSeries) -> Self {
-        let harmonics: Vec<[f64; 4]> = series.terms().iter().map(|(a, b)| [a[0], a[1], b[0], b[1]]).collect();
-        match powers(&harmonics) {
+        match powers(series.terms()) {
             Some(powers) => Self::Powers(powers),
-            None => Self::Harmonics(harmonics),
+            None => Self::Harmonics(series.terms().iter().map(|(a, b)| [a[0], a[1], b[0], b[1]]).collect()),
         }
     }
 
@@ -70,42 +69,48 @@ impl Sums {
     }
 }
 
+/// The coefficients of the powers of c in T_k, U_{k−1}, V_k and W_k, by k, power and family. They are integers below 2^53.
+static CHEBYSHEV: [[[f64; 4]; MOST_POWERS]; MOST_POWERS] = {
+    let mut table = [[[0.0; 4]; MOST_POWERS]; MOST_POWERS];
+    table[0][0] = [1.0, 0.0, 1.0, 1.0];
+    table[1][0] = [0.0, 1.0, -1.0, 1.0];
+    table[1][1] = [1.0, 0.0, 2.0, 2.0];
+    let mut k = 2;
+    while k < MOST_POWERS {
+        let mut power = 0;
+        while power <= k {
+            let mut family = 0;
+            while family < 4 {
+                let raised = if power == 0 { 0.0 } else { 2.0 * table[k - 1][power - 1][family] };
+                table[k][power][family] = raised - table[k - 2][power][family];
+                family += 1;
+            }
+            power += 1;
+        }
+        k += 1;
+    }
+    table
+};
+
 /// The coefficients of the powers of c = cos 2ℓ′, or `None` if they are too large.
-fn powers(harmonics: &[[f64; 4]]) -> Option<Vec<[f64; 4]>> {
+fn powers(harmonics: &[([f64; 2], [f64; 2])]) -> Option<Vec<[f64; 4]>> {
     let terms = harmonics.len();
     if terms > MOST_POWERS {
         return None;
     }
-    // The current and the previous polynomials T_k, U_{k−1}, V_k and W_k, as coefficients of powers.
-    let mut current = [[0.0; MOST_POWERS]; 4];
-    let mut before = [[0.0; MOST_POWERS]; 4];
-    let mut powers = vec![[0.0; 4]; terms];
-    for (k, coefficients) in harmonics.iter().enumerate() {
-        match k {
-            0 => (current[0][0], current[2][0], current[3][0]) = (1.0, 1.0, 1.0),
-            1 => {
-                before = current;
-                current = [[0.0; MOST_POWERS]; 4];
-                (current[0][1], current[1][0]) = (1.0, 1.0);
-                (current[2][0], current[2][1], current[3][0], current[3][1]) = (-1.0, 2.0, 1.0, 2.0);
-            }
-            _ => {
-                for family in 0..4 {
-                    let mut next = before[family].map(|p| -p);
-                    for power in 1..terms {
-                        next[power] += 2.0 * current[family][power - 1];
-                    }
-                    (before[family], current[family]) = (current[family], next);
-                }
-            }
-        }
-        for (power, sums) in powers.iter_mut().enumerate() {
+    let mut sums = [[0.0; 4]; MOST_POWERS];
+    let mut norms = [0.0; 2];
+    for (&(a, b), polynomials) in harmonics.iter().zip(&CHEBYSHEV) {
+        let coefficients = [a[0], a[1], b[0], b[1]];
+        for (sums, polynomial) in sums[..terms].iter_mut().zip(polynomials) {
             for family in 0..4 {
-                sums[family] += coefficients[family] * current[family][power];
+                sums[family] += coefficients[family] * polynomial[family];
             }
         }
+        norms = [norms[0] + a[0], norms[1] + b[0]];
     }
-    let square: f64 = (0..4).step_by(2).map(|f| harmonics.iter().map(|c| c[f]).sum::<f64>().powi(2)).sum();
+    let powers = &sums[..terms];
+    let square = norms[0] * norms[0] + norms[1] * norms[1];
     let weight: f64 = powers.iter().enumerate().map(|(k, c)| k as f64 * c.iter().map(|c| c.abs()).sum::<f64>()).sum();
-    (weight <= LARGEST_POWERS * square.sqrt()).then_some(powers)
+    (weight <= LARGEST_POWERS * square.sqrt()).then(|| powers.to_vec())
 }

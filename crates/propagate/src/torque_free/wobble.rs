@@ -37,12 +37,11 @@ pub(crate) struct WobbleEvaluator {
 impl WobbleEvaluator {
     pub(crate) fn new(wobble: &Wobble) -> Self {
         let mut map = [[0.0; 4]; 4];
-        for column in 0..4 {
-            let mut unit = [0.0; 4];
-            unit[column] = 1.0;
-            let turned = wobble.place.inertial.into_inner()
-                * Quaternion::from(unit)
-                * wobble.place.frame.quaternion.into_inner();
+        let [x, y, z, w] = wobble.place.inertial.coords.into();
+        // The products of the first rotation and the units i, j, k and 1.
+        let units = [[w, z, -y, -x], [-z, w, x, -y], [y, -x, w, -z], [x, y, z, w]];
+        for (column, unit) in units.into_iter().enumerate() {
+            let turned = Quaternion::from(unit) * wobble.place.frame.quaternion.into_inner();
             for (row, entry) in map.iter_mut().zip(&turned.coords) {
                 row[column] = *entry;
             }

@@ -17,6 +17,7 @@ from andoyer._core import InputError
 
 UNITS = {
     "times": "s",
+    "periods": "s",
     "epoch": "s",
     "epochs": "s",
     "span": "s",

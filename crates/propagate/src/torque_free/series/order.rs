@@ -16,8 +16,11 @@ const SMALLEST_TOLERANCE: f64 = 1e-15;
 
 /// The first order to try: the lowest N with (σ/σ_sep)^(N+1)/(N+1) below the tolerance. The power is from theory §5, the factor 1/(N+1) was measured.
 pub(crate) fn first_order(ratio: f64, tolerance: f64) -> Option<usize> {
-    (0..=MAX_ORDER)
-        .find(|&order| ratio.powi(order as i32 + 1) <= tolerance.max(SMALLEST_TOLERANCE) * (order as f64 + 1.0))
+    let mut power = 1.0;
+    (0..=MAX_ORDER).find(|&order| {
+        power *= ratio;
+        power <= tolerance.max(SMALLEST_TOLERANCE) * (order as f64 + 1.0)
+    })
 }
 
 /// The series of one order, with its truncation error.

@@ -1,11 +1,13 @@
 """Arguments of the fits: arrays of the right shapes, or an `InputError` that names the argument, its value and the bound."""
 
+import sys
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from andoyer._core import InputError
+from andoyer._foreign import joined, plain, since
 from andoyer._quaternions import Array
 
 NEAR_UNIT = 1e-6
@@ -30,6 +32,40 @@ def numbers(argument: str, value: ArrayLike) -> Array:
         place = "".join(f"[{index}]" for index in bad[0])
         raise refusal(argument, float(array[tuple(bad[0])]), "finite", f"{place} = {array[tuple(bad[0])]}: it must be finite")
     return array
+
+
+def from_first(argument: str, times: Any) -> tuple[Array, Any]:
+    """Times since the first one, shape (n,), and the first one.
+
+    The unit is that of plain numbers; it is the second for times, durations and quantities of astropy. The first one is a Time for times of astropy, otherwise a number.
+    """
+    astropy = sys.modules.get("astropy.time")
+    value = _of_astropy(argument, times)
+    calendar = astropy is not None and isinstance(value, astropy.Time)
+    shape = value.shape if calendar else np.shape(value)
+    if len(shape) != 1 or not shape[0]:
+        raise refusal(argument, shape, "(n,)", f"has shape {shape}: it must be (n,) with n above 0")
+    if calendar:
+        epoch = value[0]
+        seconds, _, _ = since(argument, value, [epoch.tdb.jd1], [epoch.tdb.jd2])
+        return numbers(argument, seconds), epoch
+    at = numbers(argument, _numbers_of(argument, value))
+    return at - at[0], float(at[0])
+
+
+def span(argument: str, value: Any) -> Array:
+    """Two numbers above 0, seconds for durations and quantities of astropy."""
+    return positive(argument, _numbers_of(argument, _of_astropy(argument, value)), (2,))
+
+
+def _numbers_of(argument: str, value: Any) -> Any:
+    return value if isinstance(value, (list, tuple)) else plain(argument, value)
+
+
+def _of_astropy(argument: str, value: Any) -> Any:
+    """A list of times or quantities as one object. Any other value is returned unchanged."""
+    first = value[0] if isinstance(value, (list, tuple)) and len(value) else value
+    return joined(argument, value) if hasattr(first, "unit") or hasattr(first, "jd1") else value
 
 
 def shaped(argument: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Array:

@@ -9,7 +9,7 @@ from andoyer._core import Body, Ensemble, Scene
 from andoyer._extra import extra
 from andoyer._quaternions import Array, angle_between, product
 from andoyer.fit._curve import Curve, States
-from andoyer.fit._given import enough, numbers, positive, refusal, shaped
+from andoyer.fit._given import enough, from_first, positive, refusal, shaped, span
 from andoyer.fit._result import Fit, Optimum, judged
 from andoyer.fit._rotations import right_jacobian
 from andoyer.fit._scattering import directions, law
@@ -26,13 +26,13 @@ SAME = 0.02
 
 def light_curve(
     axes: ArrayLike,
-    times: ArrayLike,
+    times: Any,
     brightness: ArrayLike,
     *,
     sun: ArrayLike,
     observer: ArrayLike,
     sigma: ArrayLike,
-    periods: tuple[float, float] | None = None,
+    periods: Any = None,
     curves: ArrayLike | None = None,
     scattering: str = "lommel-seeliger",
     shape: bool = False,
@@ -53,7 +53,7 @@ def light_curve(
     axes : array_like, shape (3,)
         Semi-axes along body axes 1, 2, 3; only their ratios matter.
     times : array_like, shape (n,)
-        Times, in the unit of `periods`. The first time is the epoch of the scene.
+        Times, in the unit of `periods`; for a Time, a TimeDelta or a Quantity of astropy the unit is the second. The first time is the epoch of the scene.
     brightness : array_like, shape (n,)
         Brightnesses as intensities (not magnitudes), each in the unit of its curve.
     sun, observer : array_like, shape (3,) or (n, 3)
@@ -61,7 +61,8 @@ def light_curve(
     sigma : float or array_like, shape (n,)
         Standard deviations of the brightnesses.
     periods : (float, float)
-        The shortest and the longest mean precession period P_φ of the starts, in the convention "extremal-axis" of `Motion.periods`. Not needed with `scene`.
+        The shortest and the longest mean precession period P_φ of the starts, in the convention "extremal-axis" of `Motion.periods`; also a Quantity of astropy. Not needed with
+        `scene`.
     curves : array_like of int, shape (n,), optional
         Number of the curve of each point, 0, 1, …; by default all points belong to one curve.
     scattering : {"lommel-seeliger", "geometric"}, optional
@@ -118,12 +119,10 @@ def light_curve(
 
 
 def _curve(
-    times: ArrayLike, brightness: ArrayLike, seen: tuple[ArrayLike, ArrayLike], sigma: ArrayLike, curves: ArrayLike | None, model: tuple[str, bool]
-) -> tuple[Curve, float]:
-    """The data, and the epoch."""
-    at = numbers("times", times)
-    if at.ndim != 1 or not len(at):
-        raise refusal("times", at.shape, "(n,)", f"has shape {at.shape}: it must be (n,) with n above 0")
+    times: Any, brightness: ArrayLike, seen: tuple[ArrayLike, ArrayLike], sigma: ArrayLike, curves: ArrayLike | None, model: tuple[str, bool]
+) -> tuple[Curve, Any]:
+    """The data, and the epoch: a number, or a Time for times of astropy."""
+    at, epoch = from_first("times", times)
     count = len(at)
     values = positive("brightness", brightness, (count,))
     deviations = np.broadcast_to(positive("sigma", sigma, (), (count,)), (count,))
@@ -132,13 +131,13 @@ def _curve(
     sun, observer = (np.atleast_2d(vectors).T for vectors in directions(*seen))
     labels = np.zeros(count) if curves is None else shaped("curves", curves, (count,))
     members = (labels[:, None] == np.unique(labels)).astype(float)
-    return Curve(at - at[0], values, deviations**-2.0, sun, observer, members, *model), float(at[0])
+    return Curve(at, values, deviations**-2.0, sun, observer, members, *model), epoch
 
 
-def _range(periods: tuple[float, float] | None) -> tuple[float, float]:
+def _range(periods: Any) -> tuple[float, float]:
     if periods is None:
         raise refusal("periods", None, "(shortest, longest)", "is missing: give the shortest and the longest precession period, or a scene to begin from")
-    shortest, longest = positive("periods", periods, (2,))
+    shortest, longest = span("periods", periods)
     if not shortest <= longest:
         raise refusal("periods", (float(shortest), float(longest)), "(shortest, longest)", f"= ({shortest}, {longest}): the first must not exceed the second")
     return float(shortest), float(longest)
@@ -150,7 +149,7 @@ def _count(starts: int) -> int:
     return int(starts)
 
 
-def _state_of(scene: Scene, axes: Array, epoch: float) -> States:
+def _state_of(scene: Scene, axes: Array, epoch: Any) -> States:
     """The state of a scene at the epoch."""
     if scene.orbit is not None:
         raise refusal("scene", "orbit", "none", "has an orbit: light curves are fitted without torques")
@@ -209,7 +208,7 @@ def _jacobian(step: Array, curve: Curve, state: States) -> Array:
     return jacobian
 
 
-def _result(curve: Curve, population: Population, epoch: float, times: Any, delta_chi_square: float) -> Fit:
+def _result(curve: Curve, population: Population, epoch: Any, times: Any, delta_chi_square: float) -> Fit:
     optima = tuple(
         _optimum(population.states.part(slice(place, place + 1)), float(chi_square), epoch)
         for place, chi_square in enumerate(population.chi_squares)
@@ -225,7 +224,7 @@ def _result(curve: Curve, population: Population, epoch: float, times: Any, delt
     return Fit(optima[0].scene, steps.labels, covariance, lost, residuals, optima[0].chi_square, degrees, message, times, optima, state.axes[0])
 
 
-def _optimum(state: States, chi_square: float, epoch: float) -> Optimum:
+def _optimum(state: States, chi_square: float, epoch: Any) -> Optimum:
     body = Body(moments_of_ellipsoid(state.axes)[0])
     scene = Scene(body, state.attitudes[0], state.rates[0], epoch=epoch)
     return Optimum(scene, scene.solve().plan.mode, chi_square)
