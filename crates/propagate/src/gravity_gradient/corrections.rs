@@ -108,6 +108,8 @@ pub(crate) struct Demand<'a> {
     pub(crate) duration: f64,
     /// Terms smaller than this fraction of the second-order error are dropped.
     pub(crate) share: f64,
+    /// Whether the mean M and L at the epoch have the orbit's harmonics with their divisors.
+    pub(crate) exact: bool,
     /// What the span has of the orbit.
     pub(crate) envelope: &'a Envelope,
 }
@@ -194,11 +196,19 @@ impl Corrections {
         if whole > LARGEST_SIZE {
             return Err(Error::TorqueTooStrong { size: whole, bound: LARGEST_SIZE });
         }
-        let Demand { orbit, mean_motion, level, duration, envelope, .. } = *demand;
+        let Demand { orbit, mean_motion, level, duration, envelope, exact, .. } = *demand;
         let Terms { response, strength, scale, turning, fastest, size, .. } = terms;
         let eccentricity = orbit.eccentricity();
-        let commensurability =
-            Commensurability { response: &response, mean_motion, eccentricity, turning, fastest, envelope, duration };
+        let commensurability = Commensurability {
+            response: &response,
+            mean_motion,
+            eccentricity,
+            turning,
+            fastest,
+            envelope,
+            duration,
+            exact,
+        };
         let allowed = demand.tolerance.max(second_order(whole, &response, duration));
         let mut dropped = commensurability.left(&terms.all, allowed)?;
         let resonant = dropped;

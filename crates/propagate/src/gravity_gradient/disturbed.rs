@@ -27,6 +27,7 @@ use super::request::Request;
 use super::response::Response;
 use super::second_order;
 use super::second_order::drift::Drift;
+use super::second_order::harmonics::serves;
 use crate::error::Error;
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
@@ -103,8 +104,7 @@ impl Gradient {
         let p = C64::from_polar(sigma.sqrt(), anomaly);
         let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
         let first = first_order(polhode, &state, &paths.starts, &demands)?;
-        let refines = request.is_fixed() && matches!(level, Level::Full | Level::SecondOrder);
-        let (motion, refinement) = if refines {
+        let (motion, refinement) = if refines(request) {
             let (motion, refinement) = refined(polhode, first, &state, &paths.starts[0], &demands[0])?;
             (motion, Some(refinement))
         } else {
@@ -198,6 +198,11 @@ impl Gradient {
     }
 }
 
+/// Whether the mean M and L at the epoch are those of all terms.
+fn refines(request: &Request<'_>) -> bool {
+    request.is_fixed() && matches!(request.level, Level::Full | Level::SecondOrder)
+}
+
 /// The orbits of the disturbing bodies from the epoch.
 struct Paths {
     courses: Vec<Course>,
@@ -238,7 +243,8 @@ impl Paths {
             let [mean_motion, node, pericentre] =
                 [orbit.mean_motion(), node, pericentre].map(|rate| scaled(rate, -exponent));
             let (axes, rates, duration) = (orbit.axes_at(epoch), [node, pericentre], self.duration);
-            Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, envelope })
+            let exact = refines(request) && serves(orbit.eccentricity());
+            Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, exact, envelope })
         };
         request.orbits.iter().zip(&self.envelopes).map(demand).collect()
     }
@@ -346,7 +352,9 @@ fn error_bound(
             visible: response.visible,
         };
         let apart = if request.level == Level::SecondOrder { 0.0 } else { drift.largest() };
-        Further { left, cut: second_order::cut(inertia, &demands[0]), apart }
+        let envelope = &paths.envelopes[0];
+        let cut = second_order::cut(inertia, &demands[0]) * envelope.share.truncation;
+        Further { left, cut, acting: envelope.share.third, apart }
     });
     let subject = |i: usize| Subject {
         mean,

@@ -31,6 +31,8 @@ pub(super) struct Commensurability<'a> {
     pub(super) fastest: f64,
     pub(super) envelope: &'a Envelope,
     pub(super) duration: f64,
+    /// Whether the mean M and L at the epoch have all harmonics of the orbit that return within the span.
+    pub(super) exact: bool,
 }
 
 impl Commensurability<'_> {
@@ -81,7 +83,8 @@ impl Commensurability<'_> {
         let time = self.acting(amplitude, distance);
         let (h, m) = (f64::from(term.harmonic.abs()), f64::from(term.multiple));
         // M and L are off by half of what they swing, or half as long by all of it; the swings themselves last for that time.
-        let drifting = self.response.of_actions([m * term.action, h * term.action], 0.5 * (self.duration + time));
+        let off = if self.exact && amplitude < 1.0 { time } else { self.duration };
+        let drifting = self.response.of_actions([m * term.action, h * term.action], 0.5 * (off + time));
         (amplitude * time * (term.rate + drifting)).min(PI)
     }
 

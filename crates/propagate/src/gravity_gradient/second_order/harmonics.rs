@@ -1,0 +1,120 @@
+//! The disturbing body's part of the torque as a Fourier series in its mean anomaly l, and the divisors that belong to it.
+//!
+//! With U = (a/r)³ r̂r̂ᵀ = Σ_j U_j e^(ijl), the solution of V̇ + iΩV = U is Σ_j U_j e^(ijl)/(i(Ω + jn)). The sums over time derivatives are its expansion in jn/Ω: they have low harmonics to a few
+//! powers, and high ones not at all. Here nothing is expanded. A harmonic with a divisor x = Ω + jn has the factor −ix/(x² + 6/T²) for the time T: that is 1/(ix) where |x|T is large; a harmonic that
+//! does not return within T is no part of the mean. 1 − sin(xT)/(xT), the factor of the mean over (−T, T), is the same to third order in xT.
+
+use nalgebra::Vector3;
+use num_complex::Complex;
+
+use super::pairs::{Tensor, contraction};
+use crate::gravity_gradient::corrections::{Demand, Mean};
+use crate::simd::kepler::Place;
+
+type C64 = Complex<f64>;
+
+/// Logarithm of the largest harmonic over the first that is left out.
+const RANGE: f64 = 28.0;
+/// Most harmonics; more are needed from an eccentricity of 0.8 on.
+const MOST: f64 = 320.0;
+
+/// The series of one orbit at one place of the disturbing body.
+pub(super) struct Harmonics {
+    /// U_j e^(ijl) of (a/r)³ times 1, cos 2f and sin 2f, from −j to j.
+    turned: Vec<[C64; 3]>,
+    /// c_m for m = 0, 1, 2 of the tensors that belong to these functions.
+    contracted: [[C64; 3]; 3],
+    mean_motion: f64,
+    /// 6/T².
+    least: f64,
+}
+
+/// Number of harmonics on each side of 0: they fall like e^(−|j|(arcosh 1/e − η)), as Hansen's coefficients do.
+fn count(eccentricity: f64) -> Option<usize> {
+    if eccentricity == 0.0 {
+        return Some(2);
+    }
+    let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
+    let count = 6.0 + RANGE / ((1.0 / eccentricity).acosh() - eta);
+    (count <= MOST).then_some(count as usize)
+}
+
+/// Whether the orbit has a series that is short enough.
+pub(crate) fn serves(eccentricity: f64) -> bool {
+    count(eccentricity).is_some()
+}
+
+impl Harmonics {
+    /// The series in the frame of a mean state; `None` where it is too long.
+    pub(super) fn new(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<'_>) -> Option<Self> {
+        let eccentricity = demand.orbit.eccentricity();
+        let count = count(eccentricity)?;
+        let coefficients = coefficients(eccentricity, count);
+        let at = place.angle.values()[0] - place.centre.values()[0];
+        let turned = (0..=2 * count).map(|i| {
+            let j = i as f64 - count as f64;
+            let [one, cosine, sine] = coefficients[i.abs_diff(count)];
+            let turn = C64::from_polar(1.0, j * at);
+            [turn * one, turn * cosine, turn * C64::new(0.0, -sine * j.signum())]
+        });
+        let [first, second, _] = demand.orbit.axes().map(|axis| mean.frame.inverse() * axis);
+        let tensors = [
+            [(first, first, 0.5), (second, second, 0.5)],
+            [(first, first, 0.5), (second, second, -0.5)],
+            [(first, second, 0.5), (second, first, 0.5)],
+        ]
+        .map(|[one, other]| -> Tensor { std::array::from_fn(|i| product(&one, i) + product(&other, i)) });
+        Some(Self {
+            turned: turned.collect(),
+            contracted: [0, 1, 2].map(|m| tensors.map(|tensor| contraction(&tensor, m)[0])),
+            mean_motion: demand.mean_motion,
+            least: 6.0 / (demand.duration * demand.duration).max(f64::MIN_POSITIVE),
+        })
+    }
+
+    /// c_m of V for a frequency Ω.
+    pub(super) fn solution(&self, omega: f64, multiple: i32) -> C64 {
+        let count = (self.turned.len() / 2) as f64;
+        let mut sums = [C64::default(); 3];
+        for (i, harmonic) in self.turned.iter().enumerate() {
+            let divisor = omega + (i as f64 - count) * self.mean_motion;
+            let inverse = divisor / (divisor * divisor + self.least);
+            for (sum, part) in sums.iter_mut().zip(harmonic) {
+                *sum += part * inverse;
+            }
+        }
+        let contracted = &self.contracted[multiple as usize]; // 0 ≤ m ≤ 2
+        sums.iter().zip(contracted).map(|(sum, part)| sum * part).sum::<C64>() * -C64::i()
+    }
+}
+
+/// A component of a product of two vectors: 11, 22, 33, 12, 13, 23.
+fn product((a, b, factor): &(Vector3<f64>, Vector3<f64>, f64), component: usize) -> f64 {
+    const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+    let (i, k) = PAIRS[component];
+    factor * a[i] * b[k]
+}
+
+/// The coefficients of cos jl in (a/r)³ and (a/r)³ cos 2f and of sin jl in (a/r)³ sin 2f, halved but for j = 0.
+fn coefficients(eccentricity: f64, count: usize) -> Vec<[f64; 3]> {
+    // An even sum over more points than the integrand has harmonics in the eccentric anomaly is exact.
+    let points = 32 + (1.25 * count as f64) as usize;
+    let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
+    let mut sums = vec![[0.0; 3]; count + 1];
+    for k in 0..points {
+        // Half the orbit: the other half is its mirror image.
+        let (sine, cosine) = (std::f64::consts::PI * (k as f64 + 0.5) / points as f64).sin_cos();
+        let anomaly = std::f64::consts::PI * (k as f64 + 0.5) / points as f64;
+        let distance = 1.0 - eccentricity * cosine;
+        let (x, y) = ((cosine - eccentricity) / distance, eta * sine / distance);
+        let weight = 1.0 / (distance * distance * points as f64);
+        let [even, odd] = [weight * (x * x - y * y), weight * 2.0 * x * y];
+        let turn = C64::from_polar(1.0, anomaly - eccentricity * sine);
+        let mut wave = C64::new(1.0, 0.0);
+        for sum in &mut sums {
+            *sum = [sum[0] + weight * wave.re, sum[1] + even * wave.re, sum[2] + odd * wave.im];
+            wave *= turn;
+        }
+    }
+    sums
+}
