@@ -237,16 +237,16 @@ impl Paths {
     fn demands<'a>(&'a self, request: &Request<'a>, exponent: i32) -> Result<Vec<Demand<'a>>, Error> {
         let Request { level, tolerance, epoch, .. } = *request;
         let share = if level == Level::SecondOrder { SECOND_SHARE } else { SHARE };
-        let demand = |(orbit, envelope): (&'a Orbit, &'a Envelope)| {
+        let demand = |((orbit, envelope), reach): ((&'a Orbit, &'a Envelope), &Reach)| {
             orbit.within_reach(epoch)?;
             let [node, pericentre] = orbit.rates();
             let [mean_motion, node, pericentre] =
                 [orbit.mean_motion(), node, pericentre].map(|rate| scaled(rate, -exponent));
             let (axes, rates, duration) = (orbit.axes_at(epoch), [node, pericentre], self.duration);
-            let exact = refines(request) && serves(orbit.eccentricity());
+            let exact = refines(request) && serves(reach);
             Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, exact, envelope })
         };
-        request.orbits.iter().zip(&self.envelopes).map(demand).collect()
+        request.orbits.iter().zip(&self.envelopes).zip(&self.reaches).map(demand).collect()
     }
 }
 

@@ -168,4 +168,27 @@ mod tests {
         assert!(near.passes && near.span[0] >= 0.98 * near.most[0]);
         assert!((near.fastest - 2e-3 * 1.9_f64.powi(2) / 0.19_f64.powf(1.5)).abs() <= 1e-12);
     }
+
+    #[test]
+    fn drifts_of_an_eccentric_orbit_act_near_the_pericentre_alone() {
+        let eccentricity: f64 = 0.6;
+        let share = |anomaly: f64, orbital: f64| {
+            Envelope::new(eccentricity, 1e-3, &Reach { eccentricity, anomaly, orbital }).share
+        };
+        // ⟨(a/r)⁹⟩ = η⁻¹⁵ (1 + 21e²/2 + 105e⁴/8 + 35e⁶/16).
+        let square = eccentricity * eccentricity;
+        let mean = (1.0 - square).powf(-7.5)
+            * (1.0 + 10.5 * square + 13.125 * square.powi(2) + 2.1875 * square.powi(3))
+            * (1.0 - eccentricity).powi(9);
+        let at_apocentre = 4.0_f64.powi(-9);
+        let found = share(PI, TAU * 99.5).third;
+        assert!((found - (mean * 100.0 / 99.5 + at_apocentre)).abs() <= 1e-12, "{found:e} {mean:e}");
+        // From the pericentre the mean variables are as far off as they can be. On a circle every place is alike.
+        assert_eq!(share(0.0, 1e3).third, 1.0);
+        let circle = Envelope::new(0.0, 1e-3, &Reach { eccentricity: 0.0, anomaly: 1.0, orbital: 0.1 }).share;
+        assert!(circle.third == 1.0 && circle.truncation >= 1.0 - 1e-12);
+        // Half an orbit past the apocentre sees nothing of the pericentre, and is measured by its own nearest place.
+        let far = share(PI, 0.5);
+        assert!(far.third >= 0.9 && far.truncation <= 1.0);
+    }
 }

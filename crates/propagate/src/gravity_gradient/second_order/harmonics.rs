@@ -5,11 +5,14 @@
 //! The factor must reach 1 fast: with 1 − sin(xT)/(xT), which is that of the mean over (−T, T), the error of the attitude was four times as large in scenes without a resonance, because the corrections
 //! take the regular harmonics as a whole.
 
+use std::f64::consts::{PI, TAU};
+
 use nalgebra::Vector3;
 use num_complex::Complex;
 
 use super::pairs::{Tensor, contraction};
 use crate::gravity_gradient::corrections::{Demand, Mean};
+use crate::gravity_gradient::envelope::Reach;
 use crate::simd::kepler::Place;
 
 type C64 = Complex<f64>;
@@ -19,6 +22,8 @@ const RANGE: f64 = 28.0;
 /// Most harmonics; more are needed from an eccentricity of 0.8 on.
 const MOST: f64 = 320.0;
 
+/// Least span in orbits.
+const FEWEST_ORBITS: f64 = 1.5;
 /// From this xT/2 on, 1 − e^(−x²T²/4) is 1.
 const WHOLE: f64 = 6.1;
 /// Harmonics with a larger divisor, over Ω, are in the sums over time derivatives: the corrections take them out at any time.
@@ -45,9 +50,10 @@ fn count(eccentricity: f64) -> Option<usize> {
     (count <= MOST).then_some(count as usize)
 }
 
-/// Whether the orbit has a series that is short enough.
-pub(crate) fn serves(eccentricity: f64) -> bool {
-    count(eccentricity).is_some()
+/// Whether the series is better than the sums: it is short enough, and the span has several orbits. Far from the pericentre the sums lack nothing until the next passage, while the series takes the
+/// mean over all passages.
+pub(crate) fn serves(reach: &Reach) -> bool {
+    reach.orbital >= FEWEST_ORBITS * TAU && count(reach.eccentricity).is_some()
 }
 
 impl Harmonics {
@@ -121,8 +127,8 @@ fn coefficients(eccentricity: f64, count: usize) -> Vec<[f64; 3]> {
     let mut sums = vec![[0.0; 3]; count + 1];
     for k in 0..points {
         // Half the orbit: the other half is its mirror image.
-        let (sine, cosine) = (std::f64::consts::PI * (k as f64 + 0.5) / points as f64).sin_cos();
-        let anomaly = std::f64::consts::PI * (k as f64 + 0.5) / points as f64;
+        let anomaly = PI * (k as f64 + 0.5) / points as f64;
+        let (sine, cosine) = anomaly.sin_cos();
         let distance = 1.0 - eccentricity * cosine;
         let (x, y) = ((cosine - eccentricity) / distance, eta * sine / distance);
         let weight = 1.0 / (distance * distance * points as f64);
@@ -135,4 +141,89 @@ fn coefficients(eccentricity: f64, count: usize) -> Vec<[f64; 3]> {
         }
     }
     sums
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::UnitQuaternion;
+
+    use super::*;
+    use crate::gravity_gradient::envelope::whole;
+    use crate::gravity_gradient::second_order::epoch::tensors;
+    use crate::input::options::Level;
+    use crate::input::orbit::Orbit;
+    use crate::simd::lanes::Lanes;
+
+    const MEAN_MOTION: f64 = 0.02;
+
+    /// c_m of V for T, and by the quadrature ∫ e^(iΩs) U(s) ds over the period before, over 1 − e^(−iΩP).
+    fn solutions(eccentricity: f64, omega: f64, multiple: i32, duration: f64) -> [C64; 2] {
+        let orbit =
+            Orbit::new(MEAN_MOTION, eccentricity).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
+        let envelope = whole(eccentricity, MEAN_MOTION);
+        let demand = Demand {
+            orbit: &orbit,
+            mean_motion: MEAN_MOTION,
+            rates: [0.0; 2],
+            axes: orbit.axes(),
+            level: Level::Full,
+            tolerance: 1e-30,
+            duration,
+            share: 0.0,
+            exact: true,
+            envelope: &envelope,
+        };
+        let frame = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.1);
+        let mean = Mean { p: C64::new(0.1, 0.0), longitude: 0.0, momentum: 1.0, frame };
+        let place = |anomaly: f64| Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
+        let (points, start, period) = (4000, 0.8, TAU / MEAN_MOTION);
+        let sum: C64 = (0..points)
+            .map(|k| {
+                let back = k as f64 / points as f64;
+                let wrapped = start - TAU * back;
+                let wrapped = wrapped - TAU * (wrapped / TAU).round();
+                let tensor = tensors(&mean, &place(wrapped), &demand).0[0];
+                let value = |tensor: &Tensor| contraction(tensor, multiple)[0];
+                C64::from_polar(1.0, -omega * period * back) * value(&tensor)
+            })
+            .sum();
+        // The integrand jumps by 1 − e^(−iΩP) of its value at the end: the trapezoidal rule and its first correction.
+        let now = tensors(&mean, &place(start), &demand);
+        let value = |j: usize| contraction(&now.0[j], multiple)[0];
+        let jump = 1.0 - C64::from_polar(1.0, -omega * period);
+        let step = period / points as f64;
+        let slope = C64::i() * omega * value(0) + value(1);
+        let quadrature = (sum * step - value(0) * jump * (0.5 * step) - slope * jump * (step * step / 12.0)) / jump;
+        let series = Harmonics::new(&mean, &place(start), &demand).expect("few harmonics");
+        [series.solution(omega, multiple), quadrature]
+    }
+
+    #[test]
+    fn the_series_solves_the_equation_of_the_generator_between_harmonics() {
+        for (eccentricity, number) in [(0.0, 1.6), (0.1, 3.3), (0.6, 7.3), (0.6, -12.6), (0.75, 20.4)] {
+            for multiple in 0..3 {
+                let [series, quadrature] = solutions(eccentricity, number * MEAN_MOTION, multiple, 1e6);
+                // Series left out at 1e-12, and (Ω step)⁴/720 of the quadrature.
+                let gap = (series - quadrature).norm() / quadrature.norm();
+                assert!(gap <= 1e-8, "{eccentricity} {number} {multiple}: {gap:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_harmonic_that_does_not_return_is_no_part_of_the_mean() {
+        // Ω = −6.9999 n: the divisor of the seventh harmonic is 2e-6, which returns in 3e6 units of time.
+        let at = |duration: f64| solutions(0.3, -6.9999 * MEAN_MOTION, 2, duration)[0].norm();
+        let [short, long] = [at(1e3), at(1e8)];
+        assert!(long >= 100.0 * short, "{short:e} {long:e}");
+        // Those that the sums have are there in any time.
+        assert!(at(1e-3) >= 0.1 * short, "{:e} {short:e}", at(1e-3));
+    }
+
+    #[test]
+    fn orbits_with_too_many_harmonics_and_spans_of_one_orbit_are_left_to_the_sums() {
+        let serves =
+            |eccentricity: f64, orbits: f64| serves(&Reach { eccentricity, anomaly: 0.0, orbital: TAU * orbits });
+        assert!(serves(0.0, 3.0) && serves(0.8, 3.0) && !serves(0.82, 3.0) && !serves(0.3, 1.4));
+    }
 }
