@@ -177,14 +177,17 @@ mod tests {
         let mean = Mean { p: C64::new(0.1, 0.0), longitude: 0.0, momentum: 1.0, frame };
         let place = |anomaly: f64| Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
         let (points, start, period) = (4000, 0.8, TAU / MEAN_MOTION);
+        let [first, second, _] = orbit.axes().map(|axis| frame.inverse() * axis);
         let sum: C64 = (0..points)
             .map(|k| {
                 let back = k as f64 / points as f64;
                 let wrapped = start - TAU * back;
-                let wrapped = wrapped - TAU * (wrapped / TAU).round();
-                let tensor = tensors(&mean, &place(wrapped), &demand).0[0];
-                let value = |tensor: &Tensor| contraction(tensor, multiple)[0];
-                C64::from_polar(1.0, -omega * period * back) * value(&tensor)
+                let place = place(wrapped - TAU * (wrapped / TAU).round());
+                let (sine, cosine) = (place.sine.values()[0], place.cosine.values()[0]);
+                let to_body = first * cosine + second * sine;
+                let cube = ((1.0 + eccentricity * cosine) / (1.0 - eccentricity * eccentricity)).powi(3);
+                let tensor: Tensor = std::array::from_fn(|i| product(&(to_body, to_body, cube), i));
+                C64::from_polar(1.0, -omega * period * back) * contraction(&tensor, multiple)[0]
             })
             .sum();
         // The integrand jumps by 1 − e^(−iΩP) of its value at the end: the trapezoidal rule and its first correction.
