@@ -80,8 +80,7 @@ impl Commensurability<'_> {
         let distance = (distance - self.turning).max(0.0);
         let time = self.acting(amplitude, distance);
         let (h, m) = (f64::from(term.harmonic.abs()), f64::from(term.multiple));
-        // M and L are off by half of what they swing, or half as long by all of it; the swings themselves last for that time. Exact divisors at the epoch are no reason to charge less: with half of twice that
-        // time here one bound of 24 scenes was exceeded by 5 % (n/spin = 3e-2, e = 0.6).
+        // M and L are off by half of what they swing, or half as long by all of it; the swings themselves last for that time.
         let drifting = self.response.of_actions([m * term.action, h * term.action], 0.5 * (self.duration + time));
         (amplitude * time * (term.rate + drifting)).min(PI)
     }
