@@ -98,6 +98,7 @@ gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory le
 	target/release/gradient climb 2 90 11 > docs/data/gravity-climb.csv
 	target/release/gradient table 40 1 > docs/data/gravity-table.csv
 	$(BIN)/python benches/averaged.py --scenes 30 --seed 2 --output docs/data/averaged-bodies.csv
+	$(BIN)/python benches/long_spans.py --output docs/data/gravity-spans.csv
 	$(BIN)/python benches/gravity.py
 
 bounds: $(VENV)/installed  ## errors of 3000 random scenes against their bounds; one to two minutes

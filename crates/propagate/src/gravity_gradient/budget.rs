@@ -31,7 +31,7 @@ const MARGIN: f64 = 2.0;
 /// The safety factor of what an averaged motion of second order leaves.
 const THIRD_MARGIN: f64 = 6.0;
 /// The same for the distance between the motions of first and of second order.
-const FIRST_MARGIN: f64 = 1.4;
+const FIRST_MARGIN: f64 = 1.6;
 /// The derivatives of the change, as a fraction of the sum of the largest sizes of all terms.
 const SLOPE_SHARE: f64 = 0.25;
 /// Number of orbits on each side of the epoch for which quarters are kept.
@@ -73,8 +73,10 @@ pub(super) struct Subject<'a> {
 pub(super) struct Further {
     /// What the mean M and L lack, over M.
     pub(super) left: [f64; 2],
-    /// The part of the drifts of second order that K2 lacks.
+    /// The part of the drifts of second order that K2 lacks over the span.
     pub(super) cut: f64,
+    /// The share of the span in which the drift of third order acts as where it is strongest.
+    pub(super) acting: f64,
     /// The distance from the motion of second order over the span, 0 for that motion \[rad\].
     pub(super) apart: f64,
 }
@@ -92,8 +94,8 @@ impl Budget {
         let by_phase = subject.phase() * mean_motion / ellipse.eta_cubed();
         let sizes = [size, slope];
         let (spin, dropped) = match subject.further {
-            Some(Further { left, cut, apart }) => {
-                let third: f64 = response.third_order(sizes, p, duration, cut).iter().sum();
+            Some(Further { left, cut, acting, apart }) => {
+                let third: f64 = response.third_order(sizes, p, duration, [acting, cut]).iter().sum();
                 let left = response.of_actions(left, duration);
                 (THIRD_MARGIN * third + left + FIRST_MARGIN * apart, corrections.at_once + corrections.resonant)
             }

@@ -108,6 +108,8 @@ pub(crate) struct Demand<'a> {
     pub(crate) duration: f64,
     /// Terms smaller than this fraction of the second-order error are dropped.
     pub(crate) share: f64,
+    /// Whether the mean M and L at the epoch have the orbit's harmonics with their divisors.
+    pub(crate) exact: bool,
     /// What the span has of the orbit.
     pub(crate) envelope: &'a Envelope,
 }

@@ -27,6 +27,7 @@ use super::request::Request;
 use super::response::Response;
 use super::second_order;
 use super::second_order::drift::Drift;
+use super::second_order::harmonics::serves;
 use crate::error::Error;
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
@@ -103,8 +104,7 @@ impl Gradient {
         let p = C64::from_polar(sigma.sqrt(), anomaly);
         let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
         let first = first_order(polhode, &state, &paths.starts, &demands)?;
-        let refines = request.is_fixed() && matches!(level, Level::Full | Level::SecondOrder);
-        let (motion, refinement) = if refines {
+        let (motion, refinement) = if refines(request) {
             let (motion, refinement) = refined(polhode, first, &state, &paths.starts[0], &demands[0])?;
             (motion, Some(refinement))
         } else {
@@ -198,6 +198,11 @@ impl Gradient {
     }
 }
 
+/// Whether the mean M and L at the epoch are those of all terms.
+fn refines(request: &Request<'_>) -> bool {
+    request.is_fixed() && matches!(request.level, Level::Full | Level::SecondOrder)
+}
+
 /// The orbits of the disturbing bodies from the epoch.
 struct Paths {
     courses: Vec<Course>,
@@ -232,15 +237,16 @@ impl Paths {
     fn demands<'a>(&'a self, request: &Request<'a>, exponent: i32) -> Result<Vec<Demand<'a>>, Error> {
         let Request { level, tolerance, epoch, .. } = *request;
         let share = if level == Level::SecondOrder { SECOND_SHARE } else { SHARE };
-        let demand = |(orbit, envelope): (&'a Orbit, &'a Envelope)| {
+        let demand = |((orbit, envelope), reach): ((&'a Orbit, &'a Envelope), &Reach)| {
             orbit.within_reach(epoch)?;
             let [node, pericentre] = orbit.rates();
             let [mean_motion, node, pericentre] =
                 [orbit.mean_motion(), node, pericentre].map(|rate| scaled(rate, -exponent));
             let (axes, rates, duration) = (orbit.axes_at(epoch), [node, pericentre], self.duration);
-            Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, envelope })
+            let exact = refines(request) && serves(reach);
+            Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, exact, envelope })
         };
-        request.orbits.iter().zip(&self.envelopes).map(demand).collect()
+        request.orbits.iter().zip(&self.envelopes).zip(&self.reaches).map(demand).collect()
     }
 }
 
@@ -346,7 +352,9 @@ fn error_bound(
             visible: response.visible,
         };
         let apart = if request.level == Level::SecondOrder { 0.0 } else { drift.largest() };
-        Further { left, cut: second_order::cut(inertia, &demands[0]), apart }
+        let envelope = &paths.envelopes[0];
+        let cut = second_order::cut(inertia, &demands[0]) * envelope.share.truncation;
+        Further { left, cut, acting: envelope.share.third, apart }
     });
     let subject = |i: usize| Subject {
         mean,

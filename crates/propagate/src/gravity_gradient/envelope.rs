@@ -16,9 +16,19 @@ pub(crate) struct Envelope {
     pub(crate) fastest: f64,
     /// Whether the pericentre is within the span.
     pub(crate) passes: bool,
+    pub(crate) share: Share,
     pub(crate) epoch: [f64; ORDERS + 1],
     pub(crate) span: [f64; ORDERS + 1],
     pub(crate) most: [f64; ORDERS + 1],
+}
+
+/// What the drifts over a span are, over those with the disturbing body always where it is nearest within the span. With u = (a/r)³ and the rate of the true anomaly ḟ:
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Share {
+    /// The drift of third order: the mean of u³ over the span, and what mean variables that are off by u³ at the epoch make.
+    pub(crate) third: f64,
+    /// The drift that the terms of K2 with (ḟ/Ω)² make: the mean of u²ḟ².
+    pub(crate) truncation: f64,
 }
 
 /// The part of an orbit that a span has.
@@ -42,6 +52,30 @@ impl Reach {
         let first = if first > middle { first - TAU } else { first };
         let last = if last < middle { last + TAU } else { last };
         (0..=POINTS).map(|k| first + (last - first) * k as f64 / POINTS as f64).collect()
+    }
+
+    /// The shares of the drifts.
+    fn share(&self) -> Share {
+        // (a/r) over η^(−2), at a true anomaly.
+        let near = |f: f64| 1.0 + self.eccentricity * f.cos();
+        let places = self.places();
+        let whole = self.orbital >= PI;
+        let nearest = if self.passes() { near(0.0) } else { places.iter().map(|&f| near(f)).fold(0.0, f64::max) };
+        let mean = |power: i32| {
+            let sum: f64 = if whole {
+                places.iter().map(|&f| (near(f) / nearest).powi(power) / near(f).powi(2)).sum::<f64>() * TAU
+            } else {
+                let ends = [places[0], places[POINTS]];
+                let steps = places.windows(2).map(|pair| near(0.5 * (pair[0] + pair[1])));
+                steps.map(|n| (n / nearest).powi(power) / n.powi(2)).sum::<f64>() * (ends[1] - ends[0])
+            };
+            // dl = η³/(1 + e cos f)² df.
+            let eta_square = (1.0 - self.eccentricity) * (1.0 + self.eccentricity);
+            let passages = if whole { 1.0 + (self.orbital / TAU).floor() } else { 1.0 };
+            (sum / POINTS as f64 * eta_square.powf(1.5) * passages / self.orbital.max(f64::MIN_POSITIVE)).min(1.0)
+        };
+        let epoch = near(self.true_anomaly(self.anomaly)) / nearest;
+        Share { third: (mean(9) + epoch.powi(9)).min(1.0), truncation: mean(10) }
     }
 
     /// Whether the span has the pericentre.
@@ -77,7 +111,7 @@ impl Envelope {
         // (a/r)³ is the cube of what the rate is the square of.
         let nearest = if passes { (1.0 + eccentricity) / eta_square } else { span[0].cbrt() };
         let fastest = 2.0 * mean_motion * eta_square.sqrt() * nearest * nearest;
-        Self { fastest, passes, epoch, span, most }
+        Self { fastest, passes, share: reach.share(), epoch, span, most }
     }
 }
 
@@ -133,5 +167,28 @@ mod tests {
         let near = at(-0.2, 0.3);
         assert!(near.passes && near.span[0] >= 0.98 * near.most[0]);
         assert!((near.fastest - 2e-3 * 1.9_f64.powi(2) / 0.19_f64.powf(1.5)).abs() <= 1e-12);
+    }
+
+    #[test]
+    fn drifts_of_an_eccentric_orbit_act_near_the_pericentre_alone() {
+        let eccentricity: f64 = 0.6;
+        let share = |anomaly: f64, orbital: f64| {
+            Envelope::new(eccentricity, 1e-3, &Reach { eccentricity, anomaly, orbital }).share
+        };
+        // ⟨(a/r)⁹⟩ = η⁻¹⁵ (1 + 21e²/2 + 105e⁴/8 + 35e⁶/16).
+        let square = eccentricity * eccentricity;
+        let mean = (1.0 - square).powf(-7.5)
+            * (1.0 + 10.5 * square + 13.125 * square.powi(2) + 2.1875 * square.powi(3))
+            * (1.0 - eccentricity).powi(9);
+        let at_apocentre = 4.0_f64.powi(-9);
+        let found = share(PI, TAU * 99.5).third;
+        assert!((found - (mean * 100.0 / 99.5 + at_apocentre)).abs() <= 1e-12, "{found:e} {mean:e}");
+        // From the pericentre the mean variables are as far off as they can be. On a circle every place is alike.
+        assert_eq!(share(0.0, 1e3).third, 1.0);
+        let circle = Envelope::new(0.0, 1e-3, &Reach { eccentricity: 0.0, anomaly: 1.0, orbital: 0.1 }).share;
+        assert!(circle.third == 1.0 && circle.truncation >= 1.0 - 1e-12);
+        // Half an orbit past the apocentre sees nothing of the pericentre, and is measured by its own nearest place.
+        let far = share(PI, 0.5);
+        assert!(far.third >= 0.9 && far.truncation <= 1.0);
     }
 }

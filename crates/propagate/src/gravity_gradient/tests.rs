@@ -130,6 +130,7 @@ impl Stand {
             tolerance: 1e-30,
             duration: 0.0,
             share: 0.0,
+            exact: false,
             envelope: &whole(self.orbit.eccentricity(), MEAN_MOTION),
         };
         Corrections::new(&inertia, &demand).expect("no resonance").at(mean, &self.place)

@@ -4,6 +4,7 @@
 
 use num_complex::Complex;
 
+use super::harmonics::Harmonics;
 use super::modes::Mode;
 use super::pairs::{Stand, contraction};
 use crate::gravity_gradient::generator::ORDERS;
@@ -19,7 +20,11 @@ pub(super) struct FirstActions {
     pub(super) left: [f64; 2],
 }
 
-pub(super) fn first_actions(stand: &Stand<'_>, modes: &[Mode], sizes: &[f64; ORDERS + 1]) -> FirstActions {
+pub(super) fn first_actions(
+    stand: &Stand<'_>,
+    modes: &[Mode],
+    (harmonics, sizes): (Option<&Harmonics>, &[f64; ORDERS + 1]),
+) -> FirstActions {
     let mut actions = FirstActions::default();
     let angle = if stand.mean.p == C64::default() { 0.0 } else { stand.mean.p.arg() };
     let root = stand.inertia.sigma.sqrt();
@@ -27,23 +32,32 @@ pub(super) fn first_actions(stand: &Stand<'_>, modes: &[Mode], sizes: &[f64; ORD
         let (h, m) = (f64::from(mode.harmonic), f64::from(mode.multiple));
         let omega = stand.mean.momentum * mode.frequency[0];
         let amplitude = 2.0 * stand.strength * mode.function[0] * root.powi(mode.harmonic.abs());
-        let left = |orders: usize| sizes[orders] / omega.abs().powi(orders as i32);
-        let orders = (1..=ORDERS).min_by(|&a, &b| left(a).total_cmp(&left(b))).unwrap_or(1);
-        let mut factor = (C64::i() * omega).inv();
-        let inverse = factor;
-        let mut sum = C64::default();
-        for tensor in stand.tensors.iter().take(orders) {
-            sum += factor * contraction(tensor, mode.multiple)[0];
-            factor *= -inverse;
-        }
+        let (sum, rest) = match harmonics {
+            Some(harmonics) => (harmonics.solution(omega, mode.multiple), 0.0),
+            None => solution_by_sums(stand, omega, mode.multiple, sizes),
+        };
         let phase = C64::from_polar(amplitude, h * angle + m * stand.mean.longitude);
         let phase = if mode.multiple == 1 { phase * -C64::i() } else { phase };
         // −i W, of which δM has m times the real part and δL h times.
         let turned = (phase * sum * -C64::i()).re;
         actions.momentum += m * turned;
         actions.action += h * turned;
-        let rest = amplitude.abs() * left(orders) / omega.abs();
+        let rest = amplitude.abs() * rest;
         actions.left = [actions.left[0] + m * rest, actions.left[1] + h.abs() * rest];
     }
     actions
+}
+
+/// c_m of V by the sum over time derivatives, and the size of the first term that the sum lacks.
+fn solution_by_sums(stand: &Stand<'_>, omega: f64, multiple: i32, sizes: &[f64; ORDERS + 1]) -> (C64, f64) {
+    let left = |orders: usize| sizes[orders] / omega.abs().powi(orders as i32);
+    let orders = (1..=ORDERS).min_by(|&a, &b| left(a).total_cmp(&left(b))).unwrap_or(1);
+    let mut factor = (C64::i() * omega).inv();
+    let inverse = factor;
+    let mut sum = C64::default();
+    for tensor in stand.tensors.iter().take(orders) {
+        sum += factor * contraction(tensor, multiple)[0];
+        factor *= -inverse;
+    }
+    (sum, left(orders) / omega.abs())
 }

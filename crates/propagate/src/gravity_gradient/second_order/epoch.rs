@@ -4,6 +4,7 @@ use num_complex::Complex;
 
 use super::actions::first_actions;
 use super::hamiltonian::Hamiltonian;
+use super::harmonics::Harmonics;
 use super::modes::modes;
 use super::pairs::{Stand, Tensor, second_actions};
 use crate::gravity_gradient::candidate::SMALLEST_RATIO;
@@ -47,7 +48,7 @@ pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, moments: [f64;
 
 /// The mean states with |p| and M from all terms of first order, and to second order, and the difference of their M, over M, and σ: from the mean state of the corrections at the epoch.
 pub(crate) fn refined(
-    (mean, change, size): (&Mean, &Change, f64),
+    (mean, change): (&Mean, &Change),
     state: &Mean,
     inertia: &Inertia,
     place: &Place<pulp::Scalar>,
@@ -68,10 +69,11 @@ pub(crate) fn refined(
         bend: demand.envelope.epoch[2] / demand.envelope.epoch[0],
         trace: moments.iter().sum(),
     };
-    let first = first_actions(&stand, &modes(inertia, SMALLEST_FIRST, slowest), &demand.envelope.epoch);
+    let harmonics = if demand.exact { Harmonics::new(mean, place, demand) } else { None };
+    let sums = (harmonics.as_ref(), &demand.envelope.epoch);
+    let first = first_actions(&stand, &modes(inertia, SMALLEST_FIRST, slowest), sums);
     let second = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest));
     let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
-    let pruned = second.pruned * size * size;
     let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };
     // What the corrections of the motion, which drop terms and end their sums early, lack of M and L.
     let used = mean.momentum * 2.0 * (mean.p.conj() * change.p).re + inertia.sigma * change.momentum;
@@ -87,7 +89,7 @@ pub(crate) fn refined(
     let higher = Refined {
         mean: at((state.momentum * state.p.norm_sqr() - first.action - second.action) / momentum, momentum),
         momentum: by_momentum,
-        left: [0, 1].map(|i| (first.left[i] + second.left[i]) / momentum + pruned),
+        left: [0, 1].map(|i| (first.left[i] + second.left[i]) / momentum),
     };
     let apart = [-second.momentum / momentum, higher.mean.p.norm_sqr() - lower.mean.p.norm_sqr()];
     ([lower, higher], apart)

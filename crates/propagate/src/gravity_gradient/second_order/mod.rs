@@ -10,6 +10,7 @@ mod actions;
 pub(super) mod drift;
 pub(super) mod epoch;
 pub(crate) mod hamiltonian;
+pub(super) mod harmonics;
 mod modes;
 mod pairs;
 #[cfg(test)]

@@ -56,10 +56,10 @@ const SMALLEST_PRODUCT: f64 = 1e-6;
 pub(super) struct Actions {
     pub(super) momentum: f64,
     pub(super) action: f64,
-    /// What the sum leaves of them: pairs that are too slow, and the rest of the two terms in d/dt.
+    /// What the sum leaves of them: pairs that are too slow, the rest of the two terms in d/dt, and pairs that are left out for their size.
     pub(super) left: [f64; 2],
-    /// Sum of the products of the relative sizes of the pairs that are left out.
-    pub(super) pruned: f64,
+    /// The largest changes by one pair over the product of its relative sizes.
+    largest: [f64; 2],
 }
 
 /// A contraction and its derivative with respect to Ω.
@@ -95,19 +95,21 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode]) -> Actions {
     half.iter_mut().for_each(|row| row.size /= largest);
     let rows: Vec<Row> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
     let average = Row::average(stand);
-    let mut actions = Actions::default();
+    let (mut actions, mut pruned) = (Actions::default(), 0.0);
     for b in &rows {
         // The other half of the sum is its conjugate.
         for a in &half {
             let product = a.size * b.size;
             if product < SMALLEST_PRODUCT {
-                actions.pruned += product;
+                pruned += product;
             } else {
                 actions.add(stand, a, b, 2.0, true);
             }
         }
         actions.add(stand, &average, b, 1.0, false);
     }
+    // A pair that is left out changes M and L by no more than its product times what the pairs of the sum do.
+    actions.left = [0, 1].map(|i| actions.left[i] + pruned * actions.largest[i]);
     actions
 }
 
@@ -132,18 +134,22 @@ impl Actions {
             let left = 0.5 * factor * source.norm() * stand.left(omega);
             self.left = [self.left[0] + left * m.abs(), self.left[1] + left * h.abs()];
             if omega.abs() <= stand.slowest {
-                return self.sum(factor, both, chi, (a, [h, m]));
+                return self.sum(factor, both, chi, (a, b, [h, m]));
             }
             let inverse = (i * omega).inv();
             let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
             chi = (source - change * inverse) * inverse * 0.5 * -i;
         }
-        self.sum(factor, both, chi, (a, [h, m]));
+        self.sum(factor, both, chi, (a, b, [h, m]));
     }
 
-    fn sum(&mut self, factor: f64, both: C64, chi: C64, (a, [h, m]): (&Row, [f64; 2])) {
-        self.momentum += factor * (both * a.multiple + chi * m).re;
-        self.action += factor * (both * a.harmonic + chi * h).re;
+    fn sum(&mut self, factor: f64, both: C64, chi: C64, (a, b, [h, m]): (&Row, &Row, [f64; 2])) {
+        let parts = [both * a.multiple + chi * m, both * a.harmonic + chi * h].map(|part| factor * part);
+        self.momentum += parts[0].re;
+        self.action += parts[1].re;
+        if a.multiple != 0.0 || a.harmonic != 0.0 {
+            self.largest = [0, 1].map(|i| self.largest[i].max(parts[i].norm() / (a.size * b.size)));
+        }
     }
 }
 
