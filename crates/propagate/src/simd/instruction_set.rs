@@ -68,6 +68,15 @@ pub(crate) fn dispatch<T: Task>(arch: Arch, task: T) -> T::Output {
     }
 }
 
+/// Runs a task whose work has rows of eight lanes or fewer. Wide vectors divide and take roots at half the speed, and the bits are the same.
+pub(crate) fn dispatch_few<T: Task>(arch: Arch, task: T) -> T::Output {
+    match arch {
+        #[cfg(target_arch = "x86_64")]
+        Arch::V4(simd) => dispatch(Arch::V3(*simd), task),
+        _ => dispatch(arch, task),
+    }
+}
+
 /// Runs a task that has one lane to fill, to the same bits. Narrow vectors divide and take roots up to four times as fast as wide ones, and a second vector would be idle.
 pub(crate) fn dispatch_one<T: Task>(arch: Arch, task: T) -> T::Output {
     match arch {
@@ -124,6 +133,13 @@ mod x86 {
     /// One vector of two lanes, with fused multiply-add.
     impl InstructionSet for V3_128b {
         const STRANDS: usize = 1;
+
+        type Four = V3;
+
+        #[inline(always)]
+        fn four(self) -> V3 {
+            self.0
+        }
 
         #[inline(always)]
         fn turned(self, sine: f64x2, cosine: f64x2, quarters: u64x2) -> (f64x2, f64x2) {
