@@ -121,7 +121,10 @@ def main():
                         best = min(best or (price, each, iterations), (price, each, iterations))
                         break
             price = "-" if best is None else f"{best[1]}, {best[2]}, {best[0] * 1e6:.1f}"
-            print(f"{tilt:<6}{strength:<10.0e}{theory:<9.1e}{integrated.plan.error_bound:.1e}, {seconds(full.solve, 3) / rotations * 1e6:<25.1f}{smallest:.1e}, {price}", flush=True)
+            print(
+                f"{tilt:<6}{strength:<10.0e}{theory:<9.1e}{integrated.plan.error_bound:.1e}, {seconds(full.solve, 3) / rotations * 1e6:<25.1f}{smallest:.1e}, {price}",
+                flush=True,
+            )
         print(f"attitude and partials {node * 1e9:.0f} ns, set-up {setup * 1e6:.1f} us")
 
 

@@ -246,7 +246,9 @@ def main():
         quantiles = ", ".join(f"{q:.0f}" for q in np.quantile(bounds / np.maximum(errors, 1e-17), [0.05, 0.5, 0.95]))
         clear = errors > 2 * FLOOR
         least = f"{((bounds - FLOOR)[clear] / errors[clear]).min():.1f}" if clear.any() else "-"
-        lines.append(f"{regime:<13}{errors[worst]:>12.1e}{bounds[worst]:>11.1e}{outside:>14}{beyond:>18}{missed:>8}{refused:>9}  {quantiles:>26}{least:>9}  {priced}")
+        lines.append(
+            f"{regime:<13}{errors[worst]:>12.1e}{bounds[worst]:>11.1e}{outside:>14}{beyond:>18}{missed:>8}{refused:>9}  {quantiles:>26}{least:>9}  {priced}"
+        )
     text = "\n".join(lines)
     print(text)
     if asked.output:
