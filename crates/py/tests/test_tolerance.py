@@ -26,12 +26,12 @@ def shown(bound):
 
 
 def test_missed_tolerance_warns_once_at_solve_with_both_numbers():
-    scene = disturbed(tolerance=1e-9, span=(0, 1e5))
+    scene = disturbed(tolerance=1e-12, span=(0, 1e5))
     with pytest.warns(andoyer.ToleranceWarning) as caught:
         motion = scene.solve()
     [warning] = caught
-    assert motion.plan.error_bound > 1e-9 and not motion.plan.meets_tolerance and motion.plan.tolerance == 1e-9
-    for said in [shown(motion.plan.error_bound), "1e-9 rad", "over the span"]:
+    assert motion.plan.error_bound > 1e-12 and not motion.plan.meets_tolerance and motion.plan.tolerance == 1e-12
+    for said in [shown(motion.plan.error_bound), "1e-12 rad", "over the span"]:
         assert said in str(warning.message)
     assert warning.filename == __file__ and issubclass(andoyer.ToleranceWarning, UserWarning)
     assert motion.plan.missed_tolerance == str(warning.message)
@@ -70,7 +70,7 @@ def test_ensemble_warns_once_with_the_number_of_members_and_the_worst():
 
 
 SCENE = """\
-tolerance = 1e-9
+tolerance = 1e-12
 span = [0.0, 1e5]
 [body]
 moments = [1.0, 1.02, 1.05]
@@ -91,7 +91,7 @@ def test_command_says_so_in_one_line_and_fails_only_when_strict(tmp_path, comman
     (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
     done = run(tmp_path, *command)
     [line] = done.stderr.splitlines()
-    assert done.returncode == 0 and line.startswith("andoyer: warning: the error bound of the attitude, ") and "1e-9 rad" in line
+    assert done.returncode == 0 and line.startswith("andoyer: warning: the error bound of the attitude, ") and "1e-12 rad" in line
     strict = run(tmp_path, *command, "--strict")
     assert strict.returncode == 3 and strict.stderr == done.stderr
     (tmp_path / "scene.toml").write_text(SCENE.partition("[orbit]")[0], encoding="utf-8")
@@ -110,6 +110,6 @@ def test_files_that_have_comments_say_so_too(tmp_path):
     handle = kernel.dafopr(str(tmp_path / "out.bc"))
     _, lines, _ = kernel.dafec(handle, 200, 200)
     kernel.dafcls(handle)
-    assert "".join(lines).count("exceeds the tolerance, 1e-9 rad") == 1  # lines of 80
-    assert "exceeds the tolerance, 1e-9 rad" in str(np.load(tmp_path / "out.npz")["remark"])
-    assert b"exceeds the tolerance, 1e-9 rad" in parquet.read_schema(tmp_path / "out.parquet").metadata[b"remark"]
+    assert "".join(lines).count("exceeds the tolerance, 1e-12 rad") == 1  # lines of 80
+    assert "exceeds the tolerance, 1e-12 rad" in str(np.load(tmp_path / "out.npz")["remark"])
+    assert b"exceeds the tolerance, 1e-12 rad" in parquet.read_schema(tmp_path / "out.parquet").metadata[b"remark"]
