@@ -257,3 +257,22 @@ fn a_harmonic_of_the_orbit_near_a_slow_term_is_no_part_of_the_mean_momentum() {
     let Measured { error, bound, .. } = scene.measured().expect("served");
     assert!(error <= 4e-5 && error <= bound, "{error:e} {bound:e}");
 }
+
+#[test]
+fn a_slow_term_at_resonance_with_a_high_harmonic_of_the_orbit_is_refused() {
+    // Ω(−1, 1) is 1.4 times the fastest rate of the orbit, too slow for a correction, and 13.988 n: the fourteenth harmonic, 5 % of the torque at e = 0.6, acts in one sense over all of the six orbits.
+    // The bound charged the term by its distance from the third harmonic alone, 0.135 rad. The error was 0.141 rad, a quarter of the torque's effect.
+    let scene = Disturbed::new(
+        [0.602_225_332_664_735_9, 0.628_701_977_995_834_9, 1.0],
+        normalized([0.381_279_363_555_069_5, 0.0, 0.0, 0.924_459_866_867_083_3]),
+        [0.169_026_219_644_444_86, -0.395_795_273_506_530_2, 0.963_181_409_351_703_5],
+        [3e-2, 0.6, -53.779_878_612_779_854, 0.0, 0.0, 0.294_883_531_511_145],
+        1_256.637_061_435_917_3,
+    );
+    for level in [Level::Full, Level::SecondOrder] {
+        match (Disturbed { averaging: Averaging::Spin, level, ..scene }).solve() {
+            Err(Error::Resonance { harmonic, multiple, .. }) => assert_eq!((harmonic, multiple), (-1, 1), "{level}"),
+            other => panic!("{level}: {other:?}"),
+        }
+    }
+}

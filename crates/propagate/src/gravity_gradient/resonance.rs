@@ -70,9 +70,14 @@ impl Commensurability<'_> {
         }
     }
 
-    /// The attitude error over the span if the term is not corrected at all \[rad\], at most π.
+    /// The attitude error over the span if the term is not corrected at all \[rad\]: by the low harmonics of the orbit, and by the nearest one above them.
     pub(super) fn whole(&self, term: &Candidate) -> f64 {
-        self.turned(term, 1.0, self.slow_distance(term))
+        let low = self.turned(term, 1.0, self.slow_distance(term));
+        if (term.frequency / self.mean_motion).abs() < f64::from(SLOW_HARMONICS) + 0.5 {
+            return low;
+        }
+        let (amplitude, distance) = self.beyond_the_sum(term);
+        low + self.turned(term, amplitude, distance)
     }
 
     /// The attitude error of a part of a term at its distance from a commensurability: at once, and by the drift that the changes of M and L make.
