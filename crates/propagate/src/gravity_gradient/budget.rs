@@ -31,7 +31,7 @@ const MARGIN: f64 = 2.0;
 /// The safety factor of what an averaged motion of second order leaves.
 const THIRD_MARGIN: f64 = 6.0;
 /// The same for the distance between the motions of first and of second order.
-const FIRST_MARGIN: f64 = 1.6;
+const FIRST_MARGIN: f64 = 1.4;
 /// The derivatives of the change, as a fraction of the sum of the largest sizes of all terms.
 const SLOPE_SHARE: f64 = 0.25;
 /// Number of orbits on each side of the epoch for which quarters are kept.

@@ -196,11 +196,19 @@ impl Corrections {
         if whole > LARGEST_SIZE {
             return Err(Error::TorqueTooStrong { size: whole, bound: LARGEST_SIZE });
         }
-        let Demand { orbit, mean_motion, level, duration, envelope, .. } = *demand;
+        let Demand { orbit, mean_motion, level, duration, envelope, exact, .. } = *demand;
         let Terms { response, strength, scale, turning, fastest, size, .. } = terms;
         let eccentricity = orbit.eccentricity();
-        let commensurability =
-            Commensurability { response: &response, mean_motion, eccentricity, turning, fastest, envelope, duration };
+        let commensurability = Commensurability {
+            response: &response,
+            mean_motion,
+            eccentricity,
+            turning,
+            fastest,
+            envelope,
+            duration,
+            exact,
+        };
         let allowed = demand.tolerance.max(second_order(whole, &response, duration));
         let mut dropped = commensurability.left(&terms.all, allowed)?;
         let resonant = dropped;

@@ -31,6 +31,8 @@ pub(super) struct Commensurability<'a> {
     pub(super) fastest: f64,
     pub(super) envelope: &'a Envelope,
     pub(super) duration: f64,
+    /// Whether the mean M and L at the epoch have the orbit's harmonics with their divisors.
+    pub(super) exact: bool,
 }
 
 impl Commensurability<'_> {
@@ -86,7 +88,13 @@ impl Commensurability<'_> {
         let time = self.acting(amplitude, distance);
         let (h, m) = (f64::from(term.harmonic.abs()), f64::from(term.multiple));
         // M and L are off by half of what they swing, or half as long by all of it; the swings themselves last for that time.
-        let drifting = self.response.of_actions([m * term.action, h * term.action], 0.5 * (self.duration + time));
+        // With exact divisors at the epoch the mean M and L have no part of a swing that returns within the span, but for other harmonics of the term.
+        let lasting = if self.exact {
+            0.5 * ((-0.25 * (distance * self.duration).powi(2)).exp() * self.duration) + time
+        } else {
+            0.5 * (self.duration + time)
+        };
+        let drifting = self.response.of_actions([m * term.action, h * term.action], lasting);
         (amplitude * time * (term.rate + drifting)).min(PI)
     }
 

@@ -5,7 +5,7 @@ use num_complex::Complex;
 use super::actions::first_actions;
 use super::hamiltonian::Hamiltonian;
 use super::harmonics::Harmonics;
-use super::modes::modes;
+use super::modes::{modes, slow_modes};
 use super::pairs::{Stand, Tensor, second_actions};
 use crate::gravity_gradient::candidate::SMALLEST_RATIO;
 use crate::gravity_gradient::corrections::{Change, Demand, Mean};
@@ -71,7 +71,11 @@ pub(crate) fn refined(
     };
     let harmonics = if demand.exact { Harmonics::new(mean, place, demand) } else { None };
     let sums = (harmonics.as_ref(), &demand.envelope.epoch);
-    let first = first_actions(&stand, &modes(inertia, SMALLEST_FIRST, slowest), sums);
+    let mut terms = modes(inertia, SMALLEST_FIRST, slowest);
+    if harmonics.is_some() {
+        terms.extend(slow_modes(inertia, slowest));
+    }
+    let first = first_actions(&stand, &terms, sums);
     let second = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest));
     let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
     let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };

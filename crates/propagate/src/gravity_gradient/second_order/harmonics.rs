@@ -10,6 +10,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::Vector3;
 use num_complex::Complex;
 
+use super::epoch::slowest;
 use super::pairs::{Tensor, contraction};
 use crate::gravity_gradient::corrections::{Demand, Mean};
 use crate::gravity_gradient::envelope::Reach;
@@ -38,6 +39,8 @@ pub(super) struct Harmonics {
     mean_motion: f64,
     /// T.
     duration: f64,
+    /// Terms of a lower frequency have no sum over time derivatives.
+    slowest: f64,
 }
 
 /// Number of harmonics on each side of 0: they fall like e^(−|j|(arcosh 1/e − η)), as Hansen's coefficients do.
@@ -81,6 +84,7 @@ impl Harmonics {
             contracted: [0, 1, 2].map(|m| tensors.map(|tensor| contraction(&tensor, m)[0])),
             mean_motion: demand.mean_motion,
             duration: demand.duration,
+            slowest: slowest(demand),
         })
     }
 
@@ -102,7 +106,8 @@ impl Harmonics {
     /// The reciprocal of a divisor, with its factor where the sums over time derivatives lack the harmonic.
     fn inverse(&self, divisor: f64, omega: f64) -> f64 {
         let turn = 0.5 * divisor * self.duration;
-        if turn.abs() > WHOLE || divisor.abs() > NEAR * omega.abs() {
+        let summed = omega.abs() > self.slowest && divisor.abs() > NEAR * omega.abs();
+        if turn.abs() > WHOLE || summed {
             1.0 / divisor
         } else if turn == 0.0 {
             0.0

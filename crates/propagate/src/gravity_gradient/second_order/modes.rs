@@ -39,16 +39,28 @@ impl Mode {
 
 /// The modes with m > 0, and those with m = 0 and h > 0, that are larger than `share` of the largest and faster than `slowest`, a frequency.
 pub(super) fn modes(inertia: &Inertia, share: f64, slowest: f64) -> Vec<Mode> {
-    let highest = HIGHEST as i32;
     let root = inertia.sigma.sqrt().max(SMALLEST_ROOT);
+    let mut modes = all(inertia);
+    modes.retain(|mode| mode.frequency[0].abs() * inertia.momentum > slowest && mode.size(root) > 0.0);
+    let largest = modes.iter().fold(0.0_f64, |most, mode| most.max(mode.size(root)));
+    modes.retain(|mode| mode.size(root) >= share * largest);
+    modes
+}
+
+/// The modes that are not faster than `slowest`, of any size.
+pub(super) fn slow_modes(inertia: &Inertia, slowest: f64) -> Vec<Mode> {
+    let mut modes = all(inertia);
+    modes.retain(|mode| mode.frequency[0].abs() * inertia.momentum <= slowest);
+    modes
+}
+
+fn all(inertia: &Inertia) -> Vec<Mode> {
+    let highest = HIGHEST as i32;
     let mut modes = Vec::new();
     for multiple in 0..=2_i32 {
         let lowest = if multiple == 0 { 1 } else { -highest };
         let harmonics = (lowest..=highest).filter(|h| (h + multiple) % 2 == 0);
         modes.extend(harmonics.map(|harmonic| Mode::new(inertia, harmonic, multiple)));
     }
-    modes.retain(|mode| mode.frequency[0].abs() * inertia.momentum > slowest && mode.size(root) > 0.0);
-    let largest = modes.iter().fold(0.0_f64, |most, mode| most.max(mode.size(root)));
-    modes.retain(|mode| mode.size(root) >= share * largest);
     modes
 }
