@@ -48,6 +48,8 @@ pub(super) struct Stand<'a> {
     pub(super) trace: f64,
 }
 
+/// Safety factor of slow pairs. S is taken at the epoch, and elsewhere on the orbit the directions to the disturbing body may make it larger.
+const SOURCE_MARGIN: f64 = 3.0;
 /// Pairs whose sizes, over the largest, have a smaller product are left out.
 const SMALLEST_PRODUCT: f64 = 1e-6;
 
@@ -161,7 +163,7 @@ impl Stand<'_> {
             return (4.0 * self.bend / (omega * omega)).min(1.0) / omega.abs();
         }
         let distance = (omega - self.mean_motion * (omega / self.mean_motion).round()).abs();
-        self.closest * self.closest * if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration }
+        SOURCE_MARGIN * self.closest * self.closest * if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration }
     }
 
     /// The bracket of a part of one term with a part of another, with the phases.
