@@ -163,7 +163,8 @@ impl Stand<'_> {
             return (4.0 * self.bend / (omega * omega)).min(1.0) / omega.abs();
         }
         let distance = (omega - self.mean_motion * (omega / self.mean_motion).round()).abs();
-        SOURCE_MARGIN * self.closest * self.closest * if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration }
+        let time = if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration };
+        SOURCE_MARGIN * self.closest * self.closest * time
     }
 
     /// The bracket of a part of one term with a part of another, with the phases.
