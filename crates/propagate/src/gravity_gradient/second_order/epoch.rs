@@ -5,9 +5,8 @@ use num_complex::Complex;
 use super::actions::first_actions;
 use super::hamiltonian::Hamiltonian;
 use super::harmonics::Harmonics;
-use super::modes::{modes, slow_modes};
+use super::modes::{modes, slow_modes, slowest};
 use super::pairs::{Stand, Tensor, second_actions};
-use crate::gravity_gradient::candidate::SMALLEST_RATIO;
 use crate::gravity_gradient::corrections::{Change, Demand, Mean};
 use crate::gravity_gradient::generator::{Generator, ORDERS, Orbital};
 use crate::gravity_gradient::inertia::Inertia;
@@ -30,11 +29,6 @@ pub(crate) struct Refined {
     pub(crate) momentum: f64,
     /// What is left of the mean M and L, over M.
     pub(crate) left: [f64; 2],
-}
-
-/// The largest rate of twice the true anomaly within the span, times the ratio below which sums over time derivatives do not converge.
-pub(super) fn slowest(demand: &Demand<'_>) -> f64 {
-    SMALLEST_RATIO * demand.envelope.fastest
 }
 
 fn strength(demand: &Demand<'_>) -> f64 {

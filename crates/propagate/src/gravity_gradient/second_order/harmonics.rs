@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::Vector3;
 use num_complex::Complex;
 
-use super::epoch::slowest;
+use super::modes::slowest;
 use super::pairs::{Tensor, contraction};
 use crate::gravity_gradient::corrections::{Demand, Mean};
 use crate::gravity_gradient::envelope::Reach;

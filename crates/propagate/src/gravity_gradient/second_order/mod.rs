@@ -21,7 +21,7 @@ const SMALLEST_WEIGHT: f64 = 1e-6;
 
 /// The part of the drifts of second order that K2 to first order in n/Ω lacks: (fastest/Ω)², each term by its weight in K2.
 pub(super) fn cut(inertia: &Inertia, demand: &Demand<'_>) -> f64 {
-    let slowest = epoch::slowest(demand);
+    let slowest = modes::slowest(demand);
     let fastest = demand.envelope.fastest;
     let root = inertia.sigma.sqrt().max(modes::SMALLEST_ROOT);
     let (mut sum, mut whole) = (0.0, f64::MIN_POSITIVE);

@@ -1,5 +1,7 @@
 //! The terms of the disturbing function that the second order has: those that are large enough, and fast enough for the sums over time derivatives.
 
+use crate::gravity_gradient::candidate::SMALLEST_RATIO;
+use crate::gravity_gradient::corrections::Demand;
 use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
 
 /// Smallest √σ in the size of a term: forced wobble has no smaller one.
@@ -35,6 +37,11 @@ impl Mode {
         let [value, slope, _] = self.function.map(f64::abs);
         (value + root * root * slope) * root.powi((degree - 1).max(0)) * f64::from(degree + 1) / self.frequency[0].abs()
     }
+}
+
+/// The largest rate of twice the true anomaly within the span, times the ratio below which sums over time derivatives do not converge.
+pub(super) fn slowest(demand: &Demand<'_>) -> f64 {
+    SMALLEST_RATIO * demand.envelope.fastest
 }
 
 /// The modes with m > 0, and those with m = 0 and h > 0, that are larger than `share` of the largest and faster than `slowest`, a frequency.

@@ -3,9 +3,9 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use num_complex::Complex;
 
-use super::epoch::{slowest, tensors};
+use super::epoch::tensors;
 use super::hamiltonian::{Disturber, Hamiltonian};
-use super::modes::modes;
+use super::modes::{modes, slowest};
 use super::pairs::{Stand, Tensor, averaged};
 use crate::gravity_gradient::corrections::{Change, Corrections, Demand, Mean};
 use crate::gravity_gradient::envelope::{Envelope, whole};
