@@ -52,7 +52,8 @@ pub struct CassiniState {
 /// The Cassini states of a body with a rate of rotation, in the order of their obliquities.
 ///
 /// The orbit must have a rate of its node. The body rotates about its axis of greatest inertia, either much faster than its orbit or in a spin–orbit resonance: with p rotations an orbit, where
-/// 2p is a whole number up to 4096. The body is taken to be in resonance if its spin rate differs from the resonant one by less than the largest rate of a libration, √(3 (G m/a³) (B − A)/C |G_p|).
+/// 2p is a whole number up to 4096. The body is taken to be in resonance if its spin rate differs from the resonant one by less than the largest rate of a libration, √(3 (G m/a³) (B − A)/C |G_p|), at the
+/// obliquity 0. At the obliquity θ the resonance is narrower by (1 + cos θ)/2.
 ///
 /// # Errors
 /// - [`Error::Orbit`] for a node rate of 0.
@@ -74,7 +75,7 @@ pub fn cassini_states(body: &Body, orbit: &Orbit, spin_rate: f64) -> Result<Vec<
     }
     let [node_rate, _] = orbit.rates();
     if node_rate == 0.0 {
-        return Err(Error::Orbit { argument: "node_rate", value: node_rate, bound: "not 0 for Cassini states" });
+        return Err(Error::Orbit { argument: "node_rate", value: node_rate, bound: "other than 0" });
     }
     let top = Top::new(body, orbit, spin_rate);
     let extremes = roots(&evenly(), |theta| top.curvatures(theta)[0]);
