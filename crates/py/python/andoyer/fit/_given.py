@@ -41,7 +41,7 @@ def from_first(argument: str, times: Any) -> tuple[Array, Any]:
     epoch of a scene, otherwise a number.
     """
     astropy = sys.modules.get("astropy.time")
-    value = _of_astropy(argument, times)
+    value = as_one(argument, times)
     duration = astropy is not None and isinstance(value, astropy.TimeDelta)
     calendar = astropy is not None and isinstance(value, astropy.Time) and not duration
     shape = value.shape if calendar else np.shape(value)
@@ -59,16 +59,27 @@ def from_first(argument: str, times: Any) -> tuple[Array, Any]:
     return at - at[0], None if duration else float(at[0])
 
 
+def from_epoch(argument: str, times: Any, epoch: Any, number: float) -> Array:
+    """Times from an epoch, which is a Time or a number; `number` is the epoch as a number."""
+    value = as_one(argument, times)
+    astropy = sys.modules.get("astropy.time")
+    if astropy is None or not isinstance(value, (astropy.Time, astropy.TimeDelta)):
+        return np.asarray(_numbers_of(argument, value), dtype=np.float64) - number
+    first = [epoch.tdb] if hasattr(epoch, "jd1") else []
+    seconds, _, _ = since(argument, value, [date.jd1 for date in first], [date.jd2 for date in first])
+    return np.asarray(seconds, dtype=np.float64)
+
+
 def span(argument: str, value: Any) -> Array:
     """Two numbers above 0, seconds for durations and quantities of astropy."""
-    return positive(argument, _numbers_of(argument, _of_astropy(argument, value)), (2,))
+    return positive(argument, _numbers_of(argument, as_one(argument, value)), (2,))
 
 
 def _numbers_of(argument: str, value: Any) -> Any:
     return value if isinstance(value, (list, tuple)) else plain(argument, value)
 
 
-def _of_astropy(argument: str, value: Any) -> Any:
+def as_one(argument: str, value: Any) -> Any:
     """A list of times or quantities as one object. Any other value is returned unchanged."""
     first = value[0] if isinstance(value, (list, tuple)) and len(value) else value
     return joined(argument, value) if hasattr(first, "unit") or hasattr(first, "jd1") else value
