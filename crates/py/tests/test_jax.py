@@ -6,7 +6,9 @@ import sys
 import numpy as np
 import pytest
 
-jax = pytest.importorskip("jax")
+pytest.importorskip("jax")
+
+import jax
 import jax.numpy as jnp
 
 import andoyer
