@@ -30,8 +30,8 @@ def attitude(moments: Any, attitude: Any, angular_velocity: Any, times: Any) -> 
 
     Leading axes are broadcast, as by NumPy's generalized functions: ``(..., 3), (..., 4), (..., 3), (..., n) -> (..., n, 4)``.
 
-    The initial attitude is normalized, q0/|q0|, and the derivative is that of the normalized quaternion: of a tangent of the initial attitude only the part perpendicular to q0 counts, tangents of
-    the result are perpendicular to it, and so is a gradient with respect to the initial attitude.
+    The initial attitude q0 is divided by its norm, and the derivative is that of the normalized quaternion. Only the part of a tangent of q0 that is perpendicular to q0 has an effect. A gradient with
+    respect to q0 is perpendicular to q0, and a tangent of the result is perpendicular to the result.
 
     Parameters
     ----------
