@@ -33,16 +33,24 @@ impl CassiniState {
         self.0.rate
     }
 
+    /// p, the number of rotations an orbit if the body is in a spin–orbit resonance, otherwise None.
+    #[getter]
+    fn resonance(&self) -> Option<f64> {
+        self.0.resonance
+    }
+
     fn __repr__(&self) -> String {
         let kind = if self.0.stable { "stable" } else { "unstable" };
-        format!("<CassiniState, {kind}, obliquity {:.6} rad, rate {:.3e}>", self.0.obliquity, self.0.rate)
+        let locked = self.0.resonance.map(|p| format!(", resonance {p}")).unwrap_or_default();
+        format!("<CassiniState, {kind}{locked}, obliquity {:.6} rad, rate {:.3e}>", self.0.obliquity, self.0.rate)
     }
 }
 
 /// The Cassini states of a body: places of its pole that turn with the node of a precessing orbit (theory, section 9).
 ///
-/// The body rotates about its axis of greatest inertia, much faster than its orbit and not in resonance with it. Four states exist if the node is slow compared with the
-/// precession of the pole, otherwise two.
+/// The body rotates about its axis of greatest inertia, either much faster than its orbit or in a spin–orbit resonance, with p rotations an orbit, where 2p is a whole number. It is
+/// taken to be in resonance if its spin rate differs from the resonant one by less than the largest rate of a libration in longitude; the states then say so. Four states exist
+/// if the node is slow compared with the precession of the pole, otherwise two.
 ///
 /// Parameters
 /// ----------

@@ -117,6 +117,11 @@ impl Envelope {
 
 /// The largest size of the Fourier coefficient of e^(ijl) in (a/r)³ times 1, e^(2if) and e^(−2if), for the mean anomaly l.
 pub(crate) fn harmonic(eccentricity: f64, number: f64) -> f64 {
+    harmonics(eccentricity, number).into_iter().fold(0.0, |most: f64, size| most.max(size.abs()))
+}
+
+/// The Fourier coefficients of e^(ijl) in (a/r)³ times 1, e^(2if) and e^(−2if): Hansen's coefficients X_j of (−3, 0), (−3, 2) and (−3, −2).
+pub(crate) fn harmonics(eccentricity: f64, number: f64) -> [f64; 3] {
     // An even sum over more points than the integrand has harmonics in the eccentric anomaly is exact.
     let points = 32 + (1.25 * number.abs().min(4096.0)) as usize;
     let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
@@ -134,7 +139,7 @@ pub(crate) fn harmonic(eccentricity: f64, number: f64) -> f64 {
         sums[1] += weight * (by_cosine * double_cosine + by_sine * double_sine);
         sums[2] += weight * (by_cosine * double_cosine - by_sine * double_sine);
     }
-    sums.into_iter().fold(0.0, |most: f64, sum| most.max(sum.abs()))
+    sums
 }
 
 /// The sizes for a span of a whole orbit.

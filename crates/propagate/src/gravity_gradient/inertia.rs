@@ -7,6 +7,7 @@
 //! Their step is 0.2 % of the distance to the separatrix (sin²J = 1), and at most 40 % of sin²J. A smaller step at small J would amplify rounding. The relative error is 1e-10.
 
 use std::f64::consts::{PI, TAU};
+use std::sync::LazyLock;
 
 use andoyer_double::DoubleDouble;
 use num_complex::Complex;
@@ -33,6 +34,8 @@ const SMALLEST_SQUARE: f64 = 1e-6;
 const STEP: f64 = 2e-3;
 /// Largest step, over sin²J: two of them leave it positive.
 const LARGEST_STEP: f64 = 0.4;
+/// Largest change of σ, over the distance to the separatrix, that a Taylor polynomial of second order bridges: the third order is 1e-17.
+const NEAR: f64 = 2e-6;
 
 /// The series Σ_h f_h(σ) P_h, with P_h = p^h for h ≥ 0 and P_h = p̄^(−h) for h < 0.
 #[derive(Clone, Debug)]
@@ -139,6 +142,36 @@ impl Inertia {
         }
     }
 
+    /// The tables at another σ and M of the same body: from Taylor's polynomial if σ is near enough for all digits. The rates are exact in any case.
+    pub(crate) fn moved(&self, polhode: &Polhode, sigma: f64, momentum: f64) -> Self {
+        let by = sigma - self.sigma;
+        if by.abs() > NEAR * (self.separatrix - self.sigma) {
+            return Self::new(polhode, sigma, momentum);
+        }
+        // The tables of the tensor and of a and b do not depend on M, and the rates are proportional to it.
+        let scale = momentum / self.momentum;
+        let shifted = |series: &Harmonics| {
+            let mut shifted = series.clone();
+            for ((value, slope), curvature) in
+                shifted.values.iter_mut().zip(&mut shifted.slopes).zip(&series.curvatures)
+            {
+                *value += by * (*slope + 0.5 * by * curvature);
+                *slope += by * curvature;
+            }
+            shifted
+        };
+        Self {
+            momentum,
+            sigma,
+            rates: rates(&polhode.tilted(square_of(polhode, sigma), momentum)).1,
+            rate_slopes: [0, 1].map(|i| scale * (self.rate_slopes[i] + by * self.rate_curvatures[i])),
+            rate_curvatures: self.rate_curvatures.map(|curvature| scale * curvature),
+            tensor: self.tensor.each_ref().map(shifted),
+            pair: self.pair.each_ref().map(shifted),
+            ..*self
+        }
+    }
+
     /// T33 averaged over ℓ′, and its slope.
     pub(crate) fn mean_axial(&self) -> (f64, f64) {
         self.tensor[0].at(0)
@@ -173,6 +206,10 @@ fn square_of(polhode: &Polhode, sigma: f64) -> f64 {
     square
 }
 
+/// Sine and cosine of the angles of the larger number of samples. Those of the smaller number are among them.
+static CIRCLE: LazyLock<Vec<(f64, f64)>> =
+    LazyLock::new(|| (0..SAMPLES[1]).map(|k| (TAU * k as f64 / SAMPLES[1] as f64).sin_cos()).collect());
+
 fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
     let tilted = polhode.tilted(square, momentum);
     let (sigma, rates) = rates(&tilted);
@@ -180,7 +217,7 @@ fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
     let closed = ClosedForm::new(&tilted, &theta);
     let [few, many] = SAMPLES;
     let samples = if (-PI * theta.conjugate / theta.quarter).exp() < SMALL_NOME { few } else { many };
-    let circle: Vec<(f64, f64)> = (0..samples).map(|k| (TAU * k as f64 / samples as f64).sin_cos()).collect();
+    let stride = many / samples;
     let mut sums = vec![0.0; 5 * COUNT];
     for k in 0..=samples / 4 {
         // A period contains an end point twice and an inner point four times.
@@ -188,7 +225,7 @@ fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
         let functions = sample(&closed, TAU * k as f64 / samples as f64, tilted.moments).map(|f| f * weight);
         for ((function, series), odd) in functions.iter().zip(sums.chunks_exact_mut(COUNT)).zip(ODD) {
             for h in (usize::from(odd)..=samples / 4).step_by(2) {
-                let (sine, cosine) = circle[h * k % samples];
+                let (sine, cosine) = CIRCLE[stride * h * k % many];
                 let (even, odd) = (function.re * cosine, function.im * sine);
                 series[HIGHEST + h] += even + odd;
                 if h > 0 {
@@ -210,10 +247,11 @@ fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
     // factor grows like σ_sep^(−h/2).
     let noise = 4.0 * f64::EPSILON;
     let root = sigma.sqrt();
-    for (index, sum) in sums.iter_mut().enumerate() {
-        let h = (index % COUNT) as i32 - HIGHEST as i32; // small
-        let power = root.powi(h.abs());
-        *sum = if sum.abs() < noise { 0.0 } else { *sum / power };
+    let powers: Vec<f64> = std::iter::successors(Some(1.0), |power| Some(power * root)).take(HIGHEST + 1).collect();
+    for series in sums.chunks_exact_mut(COUNT) {
+        for (index, sum) in series.iter_mut().enumerate() {
+            *sum = if sum.abs() < noise { 0.0 } else { *sum / powers[index.abs_diff(HIGHEST)] };
+        }
     }
     Member { sigma, rates, harmonics: sums }
 }
@@ -232,4 +270,38 @@ fn sample(closed: &ClosedForm, angle: f64, moments: [f64; 3]) -> [C64; 3] {
     let turned = C64::new(-entry(1, 2), entry(0, 2));
     let t2 = C64::new(entry(0, 0) - entry(1, 1), 2.0 * entry(0, 1)) / 4.0;
     [entry(2, 2).into(), turned, t2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::body::Body;
+    use crate::input::state::State;
+
+    #[test]
+    fn tables_moved_to_a_near_sigma_have_the_digits_of_new_tables() {
+        for rates in [[1e-3, 2e-3, 1.0], [0.1, 0.2, 1.0], [0.5, 0.3, 0.8]] {
+            let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], rates).expect("a state");
+            let polhode = Polhode::new(&Body::new([0.8, 0.9, 1.0]).expect("a body"), &state).expect("turning");
+            let (sigma, _) = super::rates(&polhode);
+            let tables = Inertia::new(&polhode, sigma, 0.7);
+            let to = sigma + 0.9 * NEAR * (tables.separatrix - sigma);
+            let (moved, new) = (tables.moved(&polhode, to, 0.71), Inertia::new(&polhode, to, 0.71));
+            assert_eq!((moved.rates, moved.sigma, moved.momentum), (new.rates, to, 0.71));
+            for (moved, new) in moved.tensor.iter().zip(&new.tensor).chain(moved.pair.iter().zip(&new.pair)) {
+                // Rounding of the samples, over σ^(|h|/2).
+                for h in -4..=4_i32 {
+                    let rounding = 4e-15 / to.powf(0.5 * f64::from(h.abs()));
+                    assert!(
+                        (moved.at(h).0 - new.at(h).0).abs() <= rounding,
+                        "{h} {:e} {:e}",
+                        moved.at(h).0,
+                        new.at(h).0
+                    );
+                }
+            }
+            let slope = |tables: &Inertia| tables.rate_slopes[0];
+            assert!((slope(&moved) / slope(&new) - 1.0).abs() <= 1e-8);
+        }
+    }
 }

@@ -56,7 +56,7 @@ pub(super) fn refined(
     let (both, [by_momentum, by_sigma]) =
         epoch::refined((&first.mean, &first.change), state, &first.inertia, &start.place, (demand, polhode.moments));
     let Refined { mean, momentum, left } = both[usize::from(demand.level == Level::SecondOrder)];
-    let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
+    let inertia = first.inertia.moved(polhode, mean.p.norm_sqr(), mean.momentum);
     let apart = [0, 1].map(|i| inertia.rates[i].to_f64() * by_momentum + inertia.rate_slopes[i] * by_sigma);
     let corrections = vec![Corrections::new(&inertia, demand)?];
     let change = Change { momentum, ..first.change };
@@ -75,9 +75,9 @@ pub(super) fn first_order(
 ) -> Result<MeanMotion, Error> {
     let (mut mean, mut change) = (*state, Change::default());
     let (mut step, mut first) = (0, 0.0_f64);
+    let mut inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
     // Each iteration reduces the error by the relative size of the corrections, which is below a fiftieth.
     loop {
-        let inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
         let corrections = corrections_of(&inertia, demands)?;
         let changes = corrections.iter().zip(starts).map(|(corrections, start)| corrections.at(&mean, &start.place));
         let next_change = changes.reduce(|sum, change| sum.plus(&change)).unwrap_or_default();
@@ -100,6 +100,7 @@ pub(super) fn first_order(
             };
         }
         (mean, change) = (next, next_change);
+        inertia = inertia.moved(polhode, mean.p.norm_sqr(), mean.momentum);
         step += 1;
     }
 }

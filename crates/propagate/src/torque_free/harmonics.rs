@@ -72,3 +72,19 @@ impl CayleyKleinSeries {
         2 * self.terms.len() - 1
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::CayleyKleinSeries;
+
+    #[test]
+    fn a_dropped_harmonic_turns_the_attitude_by_twice_the_sizes_of_both_parameters() {
+        let terms = vec![([1.0, 0.0], [0.1, 0.0]), ([1e-5, -2e-5], [4e-5, 3e-5])];
+        let truncated = |budget: f64| CayleyKleinSeries::from_terms(terms.clone()).truncated(budget);
+        let (kept, nothing) = truncated(1.19e-4);
+        assert_eq!((kept.terms().len(), nothing), (2, 0.0));
+        let (kept, dropped) = truncated(1.21e-4);
+        assert_eq!(kept.terms().len(), 1);
+        assert!((dropped - 1.2e-4).abs() <= 1e-18, "{dropped:e}");
+    }
+}

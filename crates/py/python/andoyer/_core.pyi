@@ -551,6 +551,9 @@ class CassiniState:
     @property
     def rate(self) -> float:
         """Frequency of small librations about a stable state, or the rate at which poles leave an unstable one [rad/time]."""
+    @property
+    def resonance(self) -> float | None:
+        """p, the number of rotations an orbit if the body is in a spin–orbit resonance, otherwise None."""
     def __eq__(self, other: object, /) -> bool: ...
 
 def cassini_states(body: Body, orbit: Orbit, spin_rate: float) -> list[CassiniState]:

@@ -130,3 +130,15 @@ pub(crate) fn initial_anomaly(expansion: &Expansion, target: [f64; 2]) -> f64 {
     let upper = if target[0] < 0.0 { std::f64::consts::PI - angle } else { angle };
     if target[1] < 0.0 { -upper } else { upper }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::first_order;
+
+    #[test]
+    fn the_first_order_to_try_is_the_lowest_whose_power_over_its_number_is_below_the_tolerance() {
+        // ½⁴/4 = 0.015625, and ½³/3 is above all three tolerances.
+        assert_eq!([0.0156, 0.01563, 0.04].map(|tolerance| first_order(0.5, tolerance)), [Some(4), Some(3), Some(3)]);
+        assert_eq!(first_order(1.0, 1e-9), None);
+    }
+}
