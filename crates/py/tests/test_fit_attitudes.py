@@ -161,6 +161,20 @@ def test_draws_have_the_covariance(truth):
 QUATERNIONS = TRUTH.solve().attitude(TIMES)
 
 
+def test_times_are_those_that_a_motion_takes():
+    """Quantities and durations from an epoch other than 0, lists of them, and durations from a calendar epoch."""
+    units, time = pytest.importorskip("astropy.units"), pytest.importorskip("astropy.time")
+    calendar = time.Time("1992-12-02T21:40:00", scale="utc")
+    since = time.TimeDelta(TIMES, format="sec")
+    listed = [second * units.s for second in TIMES + 100.0]
+    cases = [(100.0, (TIMES + 100.0) * units.s), (100.0, listed), (100.0, since), (calendar, since), (calendar, [calendar + part for part in since])]
+    for epoch, times in cases:
+        truth = Scene(TRUTH.body, TRUTH.attitude, TRUTH.angular_velocity, epoch=epoch)
+        guess = Scene(TRUTH.body, TRUTH.attitude, 1.01 * np.array(TRUTH.angular_velocity), epoch=epoch)
+        found = fit.attitudes(guess, times, truth.solve().attitude(times), sigma=0.01, free=("attitude", "angular_velocity"))
+        assert np.abs(found.scene.angular_velocity - TRUTH.angular_velocity).max() < 1e-10
+
+
 @pytest.mark.parametrize(
     ("changed", "argument", "message"),
     [

@@ -154,6 +154,23 @@ def test_random_states_have_the_periods_and_both_modes():
     assert 0.8 <= min(periods) < 0.83 and 1.5 < max(periods) <= 1.6
 
 
+def test_durations_count_from_the_epoch_of_the_scene():
+    astropy_time = pytest.importorskip("astropy.time")
+    truth, times, sun, observer, values, sigma = observed("short-axis")
+    guess = Scene(Body.ellipsoid(*AXES), truth.attitude, truth.angular_velocity, epoch=100.0)
+    since = astropy_time.TimeDelta(times - times[0], format="sec")
+    given = {"sun": sun, "observer": observer, "sigma": sigma, "scene": guess}
+    found = fit.light_curve(AXES, since, values, **given)
+    # With the epoch 0, or with the first duration as the epoch, the motion at the same durations would be another one.
+    assert found.scene.epoch == 100.0
+    model = fit.brightness(AXES, found.scene.solve().attitude(since), sun, observer)
+    factor = np.sum(values * model / sigma**2) / np.sum((model / sigma) ** 2)
+    assert np.sum(((values - factor * model) / sigma) ** 2) == pytest.approx(found.chi_square, rel=1e-6)
+    with pytest.raises(andoyer.InputError) as error:
+        fit.light_curve(AXES, since + astropy_time.TimeDelta(1, format="sec"), values, **given)
+    assert error.value.argument == "times"
+
+
 @pytest.mark.parametrize(
     ("changed", "argument"),
     [
@@ -170,6 +187,12 @@ def test_random_states_have_the_periods_and_both_modes():
         ({"curves": [0, 1]}, "curves"),
         ({"starts": 0}, "starts"),
         ({"scattering": "hapke"}, "scattering"),
+        ({"shape": "yes"}, "shape"),
+        ({"delta_chi_square": -1.0}, "delta_chi_square"),
+        ({"delta_chi_square": np.nan}, "delta_chi_square"),
+        ({"rng": -1}, "rng"),
+        ({"scene": 5}, "scene"),
+        ({"scene": Scene(Body.ellipsoid(*AXES), [0, 0, 0, 1], [0, 0, 0])}, "scene"),
         ({"times": np.arange(6.0), "brightness": np.ones(6), "sun": [1, 0, 0], "observer": [1, 0, 0]}, "times"),
     ],
 )

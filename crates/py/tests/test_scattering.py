@@ -89,6 +89,14 @@ def test_derivatives_are_those_of_differences(scattering):
         assert np.allclose(found.by_turn, by_turn, atol=1e-8) and np.allclose(found.by_shape, by_shape, atol=1e-8)
 
 
+def test_brightness_does_not_depend_on_the_lengths_of_directions_and_has_the_square_of_the_unit_of_the_axes():
+    axes, sun, observer = np.array([1, 0.8, 0.5]), np.array([1.0, 0.2, 0.0]), [1, 0, 0.3]
+    expected = fit.brightness(axes, LEVEL, sun, observer)
+    for scale in (1e-200, 1e200):
+        assert np.isclose(fit.brightness(axes, LEVEL, scale * sun, observer), expected, rtol=1e-14)
+    assert np.isclose(fit.brightness(1e-150 * axes, LEVEL, sun, observer), 1e-300 * expected, rtol=1e-13, atol=0)
+
+
 @pytest.mark.parametrize(
     ("changed", "argument"),
     [
@@ -99,6 +107,10 @@ def test_derivatives_are_those_of_differences(scattering):
         ({"observer": [1, 0]}, "observer"),
         ({"observer": [np.nan, 0, 1]}, "observer"),
         ({"scattering": "lambert"}, "scattering"),
+        ({"scattering": ["lambert"]}, "scattering"),
+        ({"axes": [1e-7, 1, 1]}, "axes"),
+        ({"attitudes": [0, 0, 0, 2]}, "attitudes"),
+        ({"attitudes": [LEVEL] * 2, "sun": [[1, 0, 0]] * 3}, "sun"),
     ],
 )
 def test_bad_input_is_an_error_that_names_it(changed, argument):

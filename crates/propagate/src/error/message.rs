@@ -32,7 +32,7 @@ impl fmt::Display for Error {
             Self::Convention { value } => write!(f, "convention = {value:?}: it must be \"extremal-axis\", \"long-axis\" or \"short-axis\""),
             Self::ModeName { value } => write!(f, "mode = {value:?}: it must be \"short-axis\" or \"long-axis\""),
             Self::NoSuchMode { mode, moments, pair } => write!(f, "mode = {mode:?}: a body with moments {moments:?} does not have this mode, since its {pair} moments are equal"),
-            Self::PeriodRatio { ratio, mode, convention, lower, upper } => write!(f, "rotation/precession = {ratio}: in the {mode} mode and the {convention} convention this body has P_ψ/P_φ from {lower} up to {upper}"),
+            Self::PeriodRatio { ratio, mode, convention, lower, upper } => write!(f, "rotation/precession = {ratio}: in the {mode} mode and the {convention} convention this body has P_ψ/P_φ from {lower} up to {upper:.6e}"),
             Self::Direction { argument, value } => write!(f, "{argument} = {value:?}: it must be finite{}", if value.iter().any(|x| *x != 0.0) { "" } else { " and not 0" }),
             Self::Andoyer { index, value, bound } => write!(f, "andoyer[{index}] = {value}: {bound}"),
             Self::Orbit { argument, value, bound } => write!(f, "orbit.{argument} = {value}: it must be {bound}"),

@@ -52,7 +52,8 @@ pub struct CassiniState {
 /// The Cassini states of a body with a rate of rotation, in the order of their obliquities.
 ///
 /// The orbit must have a rate of its node. The body rotates about its axis of greatest inertia, either much faster than its orbit or in a spin–orbit resonance: with p rotations an orbit, where
-/// 2p is a whole number. The body is taken to be in resonance if its spin rate differs from the resonant one by less than the largest rate of a libration, √(3 (G m/a³) (B − A)/C |G_p|).
+/// 2p is a whole number up to 4096. The body is taken to be in resonance if its spin rate differs from the resonant one by less than the largest rate of a libration, √(3 (G m/a³) (B − A)/C |G_p|), at the
+/// obliquity 0. At the obliquity θ the resonance is narrower by (1 + cos θ)/2.
 ///
 /// # Errors
 /// - [`Error::Orbit`] for a node rate of 0.
@@ -74,7 +75,7 @@ pub fn cassini_states(body: &Body, orbit: &Orbit, spin_rate: f64) -> Result<Vec<
     }
     let [node_rate, _] = orbit.rates();
     if node_rate == 0.0 {
-        return Err(Error::Orbit { argument: "node_rate", value: node_rate, bound: "not 0 for Cassini states" });
+        return Err(Error::Orbit { argument: "node_rate", value: node_rate, bound: "other than 0" });
     }
     let top = Top::new(body, orbit, spin_rate);
     let extremes = roots(&evenly(), |theta| top.curvatures(theta)[0]);
@@ -102,7 +103,8 @@ impl Resonance {
         let from_inertial = node_rate * orbit.elements()[3].cos();
         let half = 0.5 * orbit.mean_motion();
         let rotations = 0.5 * ((spin_rate - pericentre_rate - from_inertial) / half).round();
-        if rotations < 0.5 {
+        // The width of a resonance with more rotations is far below the rounding error of the rates, but for e beyond 0.97.
+        if rotations < 0.5 || 2.0 * rotations > envelope::LARGEST_NUMBER {
             return None;
         }
         let [_, coefficient, _] = envelope::harmonics(orbit.eccentricity(), 2.0 * rotations).map(f64::abs);
@@ -264,5 +266,20 @@ mod tests {
         assert_eq!([-1.001, -0.999, 0.0, 0.999, 1.001].map(resonance), [None, Some(1.0), Some(1.0), Some(1.0), None]);
         // On a circle no other multiple of half a rotation is a resonance.
         assert_eq!(state([0.98, 0.99, 1.0], &orbit, 0.03).resonance, None);
+    }
+
+    #[test]
+    fn a_body_with_thousands_of_rotations_an_orbit_is_in_no_resonance() {
+        // Quadratures with fewer points than twice the harmonic gave false coefficients, 1 for 2p = 10,306 on a circle.
+        for eccentricity in [0.0, 0.2229, 0.5] {
+            let orbit = Orbit::new(1e-4, eccentricity)
+                .and_then(|orbit| orbit.plane(0.2, 0.0, 0.0)?.secular_rates(-1e-9, 0.0))
+                .expect("an orbit");
+            for double in (3000..11_000).step_by(7).chain([10_306]) {
+                let spin_rate = 0.5e-4 * f64::from(double);
+                let states = cassini_states(&Body::new([0.5, 0.8, 1.0]).expect("a body"), &orbit, spin_rate);
+                assert_eq!(states.expect("states")[0].resonance, None, "{eccentricity} {double}");
+            }
+        }
     }
 }

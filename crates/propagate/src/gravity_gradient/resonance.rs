@@ -9,7 +9,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::candidate::{Candidate, SMALLEST_RATIO};
-use super::envelope::{Envelope, harmonic};
+use super::envelope::{Envelope, LARGEST_NUMBER, harmonic};
 use super::response::Response;
 use crate::error::Error;
 
@@ -114,6 +114,6 @@ impl Commensurability<'_> {
             return (upper, distance);
         }
         let most = ((1.0 + e) / (eta * eta)).powi(3);
-        (harmonic(e, number.floor()) / most, distance)
+        (harmonic(e, number.floor().min(LARGEST_NUMBER)) / most, distance)
     }
 }

@@ -68,8 +68,9 @@ impl ObservedPeriods {
 }
 
 impl Body {
-    /// The smallest and the largest P_ψ/P_φ of a mode. The smallest is that of rotation about the axis; the largest is the last one before the separatrix that
-    /// doubles can represent. Every ratio between them belongs to one motion.
+    /// The smallest and the largest P_ψ/P_φ of a mode. The smallest is that of rotation about the axis; the largest is that at cos²J = 1e-290, next to the
+    /// separatrix. Every ratio between them belongs to one motion. From about ten times the smallest on, the state of a scene in doubles does not hold the period: it is off by 1e-16 over
+    /// cos²J, and may be in the other mode.
     ///
     /// # Errors
     /// - [`Error::ModeName`] for a mode other than the short-axis mode and the long-axis mode.
@@ -117,7 +118,7 @@ impl Scene {
         let passed = Scene::new(principal, start).solve()?.at(periods.phases[0].rem_euclid(1.0) * periods.rotation)?;
         // The precession during the phase along the polhode is subtracted.
         let turns = periods.phases[1] - periods.phases[0].rem_euclid(1.0) * periods.rotation / periods.precession;
-        let axis = nalgebra::Unit::new_normalize(periods.momentum_direction);
+        let axis = nalgebra::Unit::new_unchecked(unit(periods.momentum_direction));
         let turned = UnitQuaternion::from_axis_angle(&axis, TAU * (turns - turns.round()));
         Ok(scene_about_principal_axes(body, periods.epoch, turned * passed.attitude, passed.angular_velocity))
     }
@@ -142,6 +143,11 @@ impl ObservedPeriods {
         }
         Ok(())
     }
+}
+
+/// The unit vector of a vector other than 0. The vector is scaled first, since squares of large components are infinite and of small ones 0.
+fn unit(vector: Vector3<f64>) -> Vector3<f64> {
+    (vector / vector.amax()).normalize()
 }
 
 /// The motions of a body in one mode, with M = 1 and scaled moments.
@@ -239,9 +245,9 @@ impl Family {
         let [_, cosine] = polhode.invariants.cosine_squares.map(|square| square.to_f64().sqrt());
         let direction = [-sine, 0.0, cosine];
         let rates = self.axial.frame.user(std::array::from_fn(|i| momentum * direction[i] / polhode.moments[i]));
-        let pole = periods.momentum_direction.normalize();
+        let pole = unit(periods.momentum_direction);
         let node = Vector3::z().cross(&pole);
-        let node = if node.amax() == 0.0 { Vector3::x() } else { node.normalize() };
+        let node = if node.amax() == 0.0 { Vector3::x() } else { unit(node) };
         let columns = [pole * -sine + node * cosine, pole.cross(&node), pole * cosine + node * sine];
         let sorted = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&columns));
         let attitude = UnitQuaternion::from_rotation_matrix(&sorted) * self.axial.frame.quaternion;

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from andoyer._core import InputError, Motion, Scene
 from andoyer._extra import extra
 from andoyer._quaternions import Array, conjugate, product
-from andoyer.fit._given import enough, freed, quaternions, whitening
+from andoyer.fit._given import as_one, enough, epoch_of, freed, from_epoch, quaternions, scene_of, whitening
 from andoyer.fit._result import Fit, judged
 from andoyer.fit._rotations import inverse_left_jacobian, logarithm
 from andoyer.fit._steps import Steps
@@ -75,7 +75,7 @@ def attitudes(
     """
     optimize = extra("scipy.optimize", "andoyer.fit")
     names = freed(free, KNOWN)
-    problem = _Problem(scene, times, attitudes, sigma, names)
+    problem = _Problem(scene_of(scene), times, attitudes, sigma, names)
     first = np.zeros(problem.basis.shape[1])
     problem.motion(first).attitude(times)  # what is wrong with the scene or the times is told here
     for window in problem.windows():
@@ -88,14 +88,14 @@ class _Problem:
     """Residuals and their derivatives as functions of reduced steps, without the common factor of the moments, which attitudes do not determine."""
 
     def __init__(self, scene: Scene, times: Any, measured: Any, sigma: ArrayLike, names: tuple[str, ...]) -> None:
-        count = np.size(times) if np.ndim(times) else 1
-        self.times = times
+        self.times = as_one("times", times)
+        count = np.size(self.times) if np.ndim(self.times) else 1
         self.measured = quaternions("attitudes", measured, count)
         self.whiten = whitening(sigma, count)
-        self.elapsed = elapsed(scene, times)
+        self.elapsed = elapsed(scene, self.times)
         self.steps = Steps(scene, names, pace=1 / max(self.elapsed.max(initial=0.0), np.finfo(float).tiny))
         self.basis = _without_factor(self.steps.labels)
-        enough(3 * count, self.basis.shape[1], "attitudes", "more attitudes")
+        enough(3 * count, self.basis.shape[1], "attitudes", "give more attitudes, or name fewer in free")
 
     def windows(self) -> list[Places]:
         """The data next to the epoch, twice as many each time, and not all of them: what a poor state still predicts comes first."""
@@ -150,14 +150,8 @@ class _Problem:
 
 
 def elapsed(scene: Scene, times: Any) -> Array:
-    """Times from the epoch, without their signs: in units of time, or in days for calendar times, shape (n,)."""
-    since = np.atleast_1d(times) - _epoch(scene)
-    return np.abs(np.asarray(getattr(since, "jd", since), dtype=np.float64))
-
-
-def _epoch(scene: Scene) -> Any:
-    _, options = scene.__getnewargs_ex__()
-    return options.get("epoch", 0.0)
+    """Times from the epoch, without their signs, in units of time, or in seconds for values of astropy, shape (n,)."""
+    return np.abs(np.atleast_1d(from_epoch("times", times, epoch_of(scene), scene.epoch)))
 
 
 def _without_factor(labels: tuple[str, ...]) -> Array:

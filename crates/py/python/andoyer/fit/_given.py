@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from andoyer._core import InputError
+from andoyer._core import InputError, Scene
 from andoyer._foreign import joined, plain, since
 from andoyer._quaternions import Array
 
@@ -16,7 +16,7 @@ NEAR_UNIT = 1e-6
 
 def refusal(argument: str, value: Any, bound: Any, message: str) -> InputError:
     """The error of an argument."""
-    error = InputError(f"{argument} {message}")
+    error = InputError(f"{argument}{message}" if message.startswith("[") else f"{argument} {message}")
     error.argument, error.value, error.bound = argument, value, bound
     return error
 
@@ -30,18 +30,20 @@ def numbers(argument: str, value: ArrayLike) -> Array:
     bad = np.argwhere(~np.isfinite(array))
     if len(bad):
         place = "".join(f"[{index}]" for index in bad[0])
-        raise refusal(argument, float(array[tuple(bad[0])]), "finite", f"{place} = {array[tuple(bad[0])]}: it must be finite")
+        raise refusal(argument, float(array[tuple(bad[0])]), "finite", f"{place} = {array[tuple(bad[0])]}: it must be finite".lstrip())
     return array
 
 
 def from_first(argument: str, times: Any) -> tuple[Array, Any]:
     """Times since the first one, shape (n,), and the first one.
 
-    The unit is that of plain numbers; it is the second for times, durations and quantities of astropy. The first one is a Time for times of astropy, otherwise a number.
+    The unit is that of plain numbers; it is the second for times, durations and quantities of astropy. The first one is a Time for times of astropy, None for durations, which count from the
+    epoch of a scene, otherwise a number.
     """
     astropy = sys.modules.get("astropy.time")
-    value = _of_astropy(argument, times)
-    calendar = astropy is not None and isinstance(value, astropy.Time)
+    value = as_one(argument, times)
+    duration = astropy is not None and isinstance(value, astropy.TimeDelta)
+    calendar = astropy is not None and isinstance(value, astropy.Time) and not duration
     shape = value.shape if calendar else np.shape(value)
     if len(shape) != 1 or not shape[0]:
         raise refusal(argument, shape, "(n,)", f"has shape {shape}: it must be (n,) with n above 0")
@@ -50,19 +52,34 @@ def from_first(argument: str, times: Any) -> tuple[Array, Any]:
         seconds, _, _ = since(argument, value, [epoch.tdb.jd1], [epoch.tdb.jd2])
         return numbers(argument, seconds), epoch
     at = numbers(argument, _numbers_of(argument, value))
-    return at - at[0], float(at[0])
+    if duration and at[0] != 0:
+        raise refusal(
+            argument, float(at[0]), 0.0, f"[0] = {at[0]} s: durations count from the epoch of the scene, which is the first time, so the first must be 0"
+        )
+    return at - at[0], None if duration else float(at[0])
+
+
+def from_epoch(argument: str, times: Any, epoch: Any, number: float) -> Array:
+    """Times from an epoch, which is a Time or a number; `number` is the epoch as a number."""
+    value = as_one(argument, times)
+    astropy = sys.modules.get("astropy.time")
+    if astropy is None or not isinstance(value, (astropy.Time, astropy.TimeDelta)):
+        return np.asarray(_numbers_of(argument, value), dtype=np.float64) - number
+    first = [epoch.tdb] if hasattr(epoch, "jd1") else []
+    seconds, _, _ = since(argument, value, [date.jd1 for date in first], [date.jd2 for date in first])
+    return np.asarray(seconds, dtype=np.float64)
 
 
 def span(argument: str, value: Any) -> Array:
     """Two numbers above 0, seconds for durations and quantities of astropy."""
-    return positive(argument, _numbers_of(argument, _of_astropy(argument, value)), (2,))
+    return positive(argument, _numbers_of(argument, as_one(argument, value)), (2,))
 
 
 def _numbers_of(argument: str, value: Any) -> Any:
     return value if isinstance(value, (list, tuple)) else plain(argument, value)
 
 
-def _of_astropy(argument: str, value: Any) -> Any:
+def as_one(argument: str, value: Any) -> Any:
     """A list of times or quantities as one object. Any other value is returned unchanged."""
     first = value[0] if isinstance(value, (list, tuple)) and len(value) else value
     return joined(argument, value) if hasattr(first, "unit") or hasattr(first, "jd1") else value
@@ -101,8 +118,7 @@ def quaternions(argument: str, value: Any, count: int) -> Array:
 
 def whitening(sigma: ArrayLike, count: int) -> Array:
     """Matrices W of shape (count, 3, 3) with WᵀW the inverse covariance of each measurement, from sigma: a number, one for each or 3 × 3 covariances."""
-    array = np.asarray(sigma, dtype=np.float64)
-    if array.ndim < 3:
+    if np.ndim(sigma) < 3:
         each = np.broadcast_to(positive("sigma", sigma, (), (count,)), (count,))
         scaled: Array = np.eye(3) / each[:, None, None]
         return scaled
@@ -119,7 +135,10 @@ def whitening(sigma: ArrayLike, count: int) -> Array:
 
 def freed(free: Any, known: tuple[str, ...]) -> tuple[str, ...]:
     """The names of what is fitted, in canonical order."""
-    names = (free,) if isinstance(free, str) else tuple(free)
+    try:
+        names = (free,) if isinstance(free, str) else tuple(free)
+    except TypeError:
+        raise refusal("free", repr(free), ", ".join(known), f"= {free!r}: it must name some of {', '.join(known)}") from None
     for name in names:
         if name not in known:
             raise refusal("free", name, ", ".join(known), f"has {name!r}: it must be of {', '.join(known)}")
@@ -128,7 +147,20 @@ def freed(free: Any, known: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(name for name in known if name in names)
 
 
-def enough(data: int, parameters: int, argument: str, each: str) -> None:
+def enough(data: int, parameters: int, argument: str, advice: str) -> None:
     """Refuses fewer data than parameters."""
     if data < parameters:
-        raise refusal(argument, data, parameters, f"are {data} numbers for {parameters} parameters: give {each}, or name fewer in free")
+        raise refusal(argument, data, parameters, f"are {data} numbers for {parameters} parameters: {advice}")
+
+
+def scene_of(value: Any) -> Scene:
+    """A scene."""
+    if not isinstance(value, Scene):
+        raise refusal("scene", type(value).__name__, "Scene", f"= {value!r}: it must be an andoyer.Scene")
+    return value
+
+
+def epoch_of(scene: Scene) -> Any:
+    """The epoch of a scene as given: a number or a Time."""
+    _, options = scene.__getnewargs_ex__()
+    return options.get("epoch", 0.0)

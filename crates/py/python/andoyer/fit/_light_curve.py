@@ -9,10 +9,10 @@ from andoyer._core import Body, Ensemble, Scene
 from andoyer._extra import extra
 from andoyer._quaternions import Array, angle_between, product
 from andoyer.fit._curve import Curve, States
-from andoyer.fit._given import enough, from_first, positive, refusal, shaped, span
+from andoyer.fit._given import enough, epoch_of, from_first, positive, refusal, scene_of, shaped, span
 from andoyer.fit._result import Fit, Optimum, judged
 from andoyer.fit._rotations import right_jacobian
-from andoyer.fit._scattering import directions, law
+from andoyer.fit._scattering import axes_of, directions, law
 from andoyer.fit._search import Population, best, improve, moved, random_states, search
 from andoyer.fit._steps import LABELS, Steps, moments_of_ellipsoid
 
@@ -53,7 +53,8 @@ def light_curve(
     axes : array_like, shape (3,)
         Semi-axes along body axes 1, 2, 3; only their ratios matter.
     times : array_like, shape (n,)
-        Times, in the unit of `periods`; for a Time, a TimeDelta or a Quantity of astropy the unit is the second. The first time is the epoch of the scene.
+        Times, in the unit of `periods`; for a Time, a TimeDelta or a Quantity of astropy the unit is the second. The first time is the epoch of the fitted scene. A TimeDelta counts from the
+        epoch of `scene`, or from 0 without it; the first one must be 0.
     brightness : array_like, shape (n,)
         Brightnesses as intensities (not magnitudes), each in the unit of its curve.
     sun, observer : array_like, shape (3,) or (n, 3)
@@ -70,11 +71,11 @@ def light_curve(
     shape : bool, optional
         If True, the axis ratios b/a and c/a are fitted too.
     scene : Scene, optional
-        A torque-free first state, instead of random states; its moments are replaced by those of the ellipsoid.
+        A torque-free first state that rotates, instead of random states; its moments are replaced by those of the ellipsoid.
     starts : int, optional
         Number of random starts.
     delta_chi_square : float, optional
-        Largest difference of χ² from the least χ² in `Fit.optima`; by default all minima are listed.
+        Largest difference of χ² from the least χ² in `Fit.optima`, 0 or more; by default all minima are listed.
     rng : int or numpy.random.Generator, optional
         A seed or a generator of the starts.
 
@@ -86,7 +87,8 @@ def light_curve(
     Raises
     ------
     InputError
-        Fewer points than parameters; a brightness or a `sigma` that is not positive; a shortest period above the longest; a direction of length 0; Sun and observer on opposite sides.
+        Fewer points than parameters; a brightness or a `sigma` that is not positive; a shortest period above the longest; a direction of length 0; Sun and observer on opposite sides; a first
+        TimeDelta other than 0; a `scene` with an orbit or at rest.
 
     Examples
     --------
@@ -104,24 +106,29 @@ def light_curve(
     array([0.3, 0.1, 6. ])
     """
     extra("scipy.optimize", "andoyer.fit")
-    semi_axes = positive("axes", axes, (3,))
+    semi_axes = axes_of(axes)
     law(scattering)
+    if not isinstance(shape, (bool, np.bool_)):
+        raise refusal("shape", repr(shape), "True or False", f"= {shape!r}: it must be True or False")
+    largest = _difference(delta_chi_square)
     curve, epoch = _curve(times, brightness, (sun, observer), sigma, curves, (scattering, shape))
-    enough(len(curve.times), 6 + 2 * shape + curve.members.shape[1], "times", "more points")
+    enough(len(curve.times), 6 + 2 * shape + curve.members.shape[1], "times", "give more points")
+    if epoch is None:
+        epoch = 0.0 if scene is None else epoch_of(scene_of(scene))
     if scene is not None:
-        first = _state_of(scene, semi_axes, epoch)
+        first = _state_of(scene_of(scene), semi_axes, epoch)
         population = improve(curve, Population(first, curve.chi_squares(first)), SETTLING)
     else:
-        drawn = random_states(semi_axes, _range(periods), _count(starts), np.random.default_rng(rng))
+        drawn = random_states(semi_axes, _range(periods), _count(starts), _generator(rng))
         population = search(curve, drawn)
         population = improve(curve, best(_distinct(curve, population), POLISHED), SETTLING)
-    return _result(curve, _polished(curve, population), epoch, times, delta_chi_square)
+    return _result(curve, _polished(curve, population), epoch, times, largest)
 
 
 def _curve(
     times: Any, brightness: ArrayLike, seen: tuple[ArrayLike, ArrayLike], sigma: ArrayLike, curves: ArrayLike | None, model: tuple[str, bool]
 ) -> tuple[Curve, Any]:
-    """The data, and the epoch: a number, or a Time for times of astropy."""
+    """The data, and the epoch: a number, a Time for times of astropy, or None for durations."""
     at, epoch = from_first("times", times)
     count = len(at)
     values = positive("brightness", brightness, (count,))
@@ -149,10 +156,28 @@ def _count(starts: int) -> int:
     return int(starts)
 
 
+def _difference(delta_chi_square: Any) -> float:
+    if np.ndim(delta_chi_square) == 0 and delta_chi_square == np.inf:
+        return np.inf
+    difference = float(shaped("delta_chi_square", delta_chi_square, ()))
+    if difference < 0:
+        raise refusal("delta_chi_square", difference, 0.0, f"= {difference}: it must be 0 or more")
+    return difference
+
+
+def _generator(rng: Any) -> np.random.Generator:
+    try:
+        return np.random.default_rng(rng)
+    except (TypeError, ValueError):
+        raise refusal("rng", repr(rng), "a seed or a Generator", f"= {rng!r}: it must be a whole number, 0 or more, or a numpy.random.Generator") from None
+
+
 def _state_of(scene: Scene, axes: Array, epoch: Any) -> States:
     """The state of a scene at the epoch."""
     if scene.orbit is not None:
         raise refusal("scene", "orbit", "none", "has an orbit: light curves are fitted without torques")
+    if not np.any(scene.angular_velocity):
+        raise refusal("scene", "at rest", "a rotation", "is at rest: give a state that rotates")
     sample = scene.solve().at(epoch)
     return States(axes[None].copy(), sample.attitude[None], sample.angular_velocity[None])
 

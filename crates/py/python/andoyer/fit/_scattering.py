@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from andoyer._quaternions import Array, conjugate, rotate
-from andoyer.fit._given import numbers, positive, refusal
+from andoyer.fit._given import numbers, positive, quaternions, refusal
 
 TINY = 1e-300
 
@@ -101,7 +101,7 @@ def brightness(axes: ArrayLike, attitudes: ArrayLike, sun: ArrayLike, observer: 
     Raises
     ------
     InputError
-        Semi-axes that are not positive, a direction of length 0, Sun and observer on opposite sides, an unknown law.
+        Semi-axes that are not positive, quaternions whose norm is not 1, shapes that do not fit, a direction of length 0, Sun and observer on opposite sides, an unknown law.
 
     Examples
     --------
@@ -111,19 +111,40 @@ def brightness(axes: ArrayLike, attitudes: ArrayLike, sun: ArrayLike, observer: 
     >>> float(brightness([1, 1, 1], [0, 0, 0, 1], [1, 0, 0], [1, 0, 0], scattering="geometric").round(12))
     3.14159265359
     """
-    semi_axes = positive("axes", axes, (3,))
+    semi_axes = axes_of(axes)
     to_sun, to_observer = directions(sun, observer)
     formula = law(scattering)
-    turn = conjugate(numbers("attitudes", attitudes))
-    if turn.shape[-1:] != (4,):
-        raise refusal("attitudes", turn.shape, "(…, 4)", f"has shape {turn.shape}: it must be (…, 4)")
+    given = numbers("attitudes", attitudes)
+    if given.shape[-1:] != (4,):
+        raise refusal("attitudes", given.shape, "(…, 4)", f"has shape {given.shape}: it must be (…, 4)")
+    turn = conjugate(quaternions("attitudes", given.reshape(-1, 4), given.size // 4).reshape(given.shape))
+    for argument, vectors in (("sun", to_sun), ("observer", to_observer)):
+        if turn.ndim > 1 and vectors.ndim > 1 and vectors.shape[:-1] != turn.shape[:-1]:
+            allowed = (*turn.shape[:-1], 3)
+            raise refusal(argument, vectors.shape, allowed, f"has shape {vectors.shape}: it must be (3,) or, as the attitudes have, {allowed}")
+    # Scaled: squares of large axes would be infinite, of small ones 0.
+    largest = float(semi_axes.max())
+    semi_axes = semi_axes / largest
     lit = forms(semi_axes, np.moveaxis(rotate(turn, to_sun), -1, 0), np.moveaxis(rotate(turn, to_observer), -1, 0))
-    return size(semi_axes) * formula(*lit).value
+    return largest * largest * size(semi_axes) * formula(*lit).value
+
+
+THINNEST = 1e-6
+"""Least ratio of two semi-axes; beyond it d² cancels."""
+
+
+def axes_of(axes: ArrayLike) -> Array:
+    """Semi-axes."""
+    given = positive("axes", axes, (3,))
+    ratio = float(given.min() / given.max())
+    if not ratio >= THINNEST:
+        raise refusal("axes", ratio, THINNEST, f"have the ratio {ratio} of the smallest to the largest: it must be {THINNEST} at least")
+    return given
 
 
 def law(scattering: str) -> Callable[[Array, Array, Array], Law]:
     """The law of this name."""
-    if scattering not in LAWS:
+    if not isinstance(scattering, str) or scattering not in LAWS:
         raise refusal("scattering", scattering, ", ".join(LAWS), f"= {scattering!r}: it must be of {', '.join(LAWS)}")
     return LAWS[scattering]
 
@@ -139,10 +160,12 @@ def directions(sun: ArrayLike, observer: ArrayLike) -> tuple[Array, Array]:
         vector = numbers(argument, value)
         if vector.shape[-1:] != (3,):
             raise refusal(argument, vector.shape, "(3,) or (n, 3)", f"has shape {vector.shape}: it must be (3,) or (n, 3)")
-        length = np.linalg.norm(vector, axis=-1, keepdims=True)
-        if not np.all(length > 0):
+        # Scaled first: squares of large components would be infinite, of small ones 0.
+        largest = np.max(np.abs(vector), axis=-1, keepdims=True)
+        if not np.all(largest > 0):
             raise refusal(argument, 0.0, "above 0", "has a direction of length 0")
-        units.append(vector / length)
+        scaled = vector / largest
+        units.append(scaled / np.linalg.norm(scaled, axis=-1, keepdims=True))
     if units[0].ndim > 1 and units[1].ndim > 1 and units[0].shape != units[1].shape:
         raise refusal("observer", units[1].shape, units[0].shape, f"has shape {units[1].shape}: it must be (3,) or as sun has, {units[0].shape}")
     cosine = float(np.min(np.sum(units[0] * units[1], axis=-1)))
