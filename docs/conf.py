@@ -41,6 +41,7 @@ html_copy_source = False
 
 autodoc_member_order = "groupwise"
 autodoc_typehints = "none"
+autodoc_mock_imports = ["jax"]
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 

@@ -133,8 +133,11 @@ fn the_lowest_ratio_is_rotation_about_the_axis_and_the_highest_lies_next_to_the_
             assert!((periods_of(&motion, convention).rotation / (2.0 * lower) - 1.0).abs() < 1e-14);
             let beside = scene(&body, &stated(lower * (1.0 + 1e-9))).solve().expect("a motion");
             assert!((periods_of(&beside, convention).rotation / (2.0 * lower) - 1.0).abs() < 2e-9);
-            // The state cannot hold the farthest: it is nearer to the separatrix than a double is to the next.
-            assert!(scene(&body, &stated(upper)).solve().expect("a motion").plan().separatrix_ratio() > 0.9999);
+            // The farthest is next to the separatrix, and the state still has its periods.
+            let farthest = scene(&body, &stated(upper)).solve().expect("a motion");
+            assert!(farthest.plan().mode() == mode && farthest.plan().separatrix_ratio() > 0.9999);
+            let found = periods_of(&farthest, convention);
+            assert!((found.rotation / (2.0 * upper) - 1.0).abs() < 1e-9 && (found.precession / 2.0 - 1.0).abs() < 1e-9);
             for ratio in [0.999 * lower, 1.001 * upper] {
                 let Err(Error::PeriodRatio { ratio: said, lower: least, upper: most, .. }) =
                     Scene::from_periods(body.clone(), &stated(ratio))

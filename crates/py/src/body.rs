@@ -166,7 +166,8 @@ impl Body {
     /// Returns
     /// -------
     /// (float, float)
-    ///     The ratio for rotation about the axis of the mode, and the largest ratio that doubles can represent. On the separatrix the ratio is infinite.
+    ///     The ratio for rotation about the axis of the mode, and that of the motion nearest to the separatrix whose periods a state in doubles holds to 1e-9. On the separatrix the
+    ///     ratio is infinite.
     ///
     /// Raises
     /// ------

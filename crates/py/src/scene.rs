@@ -85,8 +85,8 @@ impl Scene {
 
     /// The scene of a torque-free body that tumbles with these periods (theory §7). In each mode there is one such motion.
     ///
-    /// The relative error of the periods is 1e-16 over cos²J, from the rounding of the state. If P_ψ/P_φ is ten times its smallest value or more, the motion can be so near the separatrix
-    /// that the scene has other periods, or the other mode: compare `Motion.periods`.
+    /// The scene has these periods to a relative 1e-9 near the separatrix and 1e-14 elsewhere. Motions nearer to the separatrix are refused, because a state in doubles does not hold their
+    /// periods (`Body.period_ratios`).
     ///
     /// Parameters
     /// ----------

@@ -2,6 +2,7 @@
 
 import doctest
 import inspect
+from importlib.util import find_spec
 
 import pytest
 
@@ -9,6 +10,12 @@ import andoyer
 from andoyer import fit, output
 
 NEEDS = {"output.write_ck": "spiceypy"} | dict.fromkeys(("fit.attitudes", "fit.light_curve", "fit.Fit", "fit.Fit.ensemble"), "scipy")
+
+
+def of_jax():
+    """The functions of andoyer.jax, where there is JAX."""
+    if find_spec("jax"):
+        yield from ((f"jax.{name}", getattr(andoyer.jax, name)) for name in andoyer.jax.__all__)
 
 
 def documented():
@@ -22,6 +29,7 @@ def documented():
             )
     for name in fit.__all__:
         yield f"fit.{name}", getattr(fit, name)
+    yield from of_jax()
     yield from ((f"fit.Fit.{member}", value) for member, value in vars(fit.Fit).items() if not member.startswith("_") and callable(value))
     yield from ((f"output.{name}", getattr(output, name)) for name in output.__all__ if callable(getattr(output, name)) and name != "Progress")
 

@@ -17,6 +17,8 @@ FORMATS = ["csv", "npz", "parquet", "aem", "bc", "png", "svg", "html", "c", "js"
 NEEDS = {"parquet": "pyarrow", "bc": "spiceypy", "png": "matplotlib", "svg": "matplotlib"}
 OLD = b"what was there"
 
+# The processes of `child` do not use JAX, which warns of every fork once another test has imported it.
+pytestmark = pytest.mark.filterwarnings("ignore:os.fork:RuntimeWarning")
 unix = pytest.mark.skipif(sys.platform == "win32", reason="limits and users of Unix")
 
 

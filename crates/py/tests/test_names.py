@@ -40,7 +40,7 @@ def test_names_users_rely_on_are_there(owner):
 
 
 def test_all_lists_everything_public_and_nothing_else():
-    modules = {"cli", "fit", "mean", "output", "plot", "selftest"}
+    modules = {"cli", "fit", "jax", "mean", "output", "plot", "selftest"}
     assert public(andoyer.__all__) == public(vars(andoyer)) - modules - aliases()
     assert andoyer.__all__ == sorted(andoyer.__all__)
 
@@ -76,7 +76,7 @@ def test_every_exception_is_an_error_and_a_value_error():
 
 
 def test_import_prints_nothing_and_loads_numpy_alone():
-    code = "import sys, andoyer; sys.exit(bool({'scipy', 'matplotlib', 'mpmath', 'sympy', 'pyarrow'} & set(sys.modules)))"
+    code = "import sys, andoyer; sys.exit(bool({'scipy', 'jax', 'matplotlib', 'mpmath', 'sympy', 'pyarrow'} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 

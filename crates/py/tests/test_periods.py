@@ -22,6 +22,12 @@ def test_a_motion_has_the_periods_that_it_was_made_from(mode, convention):
     scene = Scene.from_periods(body, 7.0, 7.0 * 1.2 * low, mode=mode, convention=convention, phases=(0.3, 0.8))
     assert scene.solve().plan.mode == mode
     assert scene.solve().periods[convention] == pytest.approx((7.0, 7.0 * 1.2 * low), rel=1e-12)
+    for ratio in np.geomspace(1.5 * low, high, 7)[:-1]:
+        motion = Scene.from_periods(body, 7.0, 7.0 * ratio, mode=mode, convention=convention, phases=(0.3, 0.8)).solve()
+        assert motion.plan.mode == mode
+        assert motion.periods[convention] == pytest.approx((7.0, 7.0 * ratio), rel=1e-9)
+    with pytest.raises(InputError, match="P_ψ/P_φ from"):
+        Scene.from_periods(body, 7.0, 7.0 * 1.01 * high, mode=mode, convention=convention)
 
 
 def test_options_are_those_of_a_scene():

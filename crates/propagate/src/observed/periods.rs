@@ -1,8 +1,10 @@
 //! A scene from the periods of a tumbler (theory §7), as light curves and radar observations give them.
 //!
 //! In each mode P_ψ/P_φ is a function of sin²J alone. It grows from its value on the axis to infinity on the separatrix, so bisection in ln(sin²J/cos²J) finds
-//! its root. The magnitude of the angular momentum then follows from either period. Frequencies come from the quadrature in double-double. The scene therefore
-//! has the given periods, to the rounding error of its state: 1e-16, or 1e-16 over cos²J near the separatrix.
+//! its root. The magnitude of the angular momentum then follows from either period. Frequencies come from the quadrature in double-double.
+//!
+//! The rounding of the state at ℓ = π/2 changes cos²J there by 1e-16 of itself, and cos²J at ℓ = 0, on which the periods depend, by as much absolutely. The relative error of the periods
+//! is therefore at most 1e-16 times the quotient of both. Ratios for which this quotient is above 1e7 are refused, because a state in doubles does not have such periods to 1e-9.
 
 use std::f64::consts::TAU;
 
@@ -21,6 +23,8 @@ use crate::torque_free::polhode::Polhode;
 
 /// Interval of ln(sin²J/cos²J) at ℓ = 0 in which roots are searched: from J = 1e-17 rad to cos²J = 1e-290.
 const RANGE: [f64; 2] = [-78.0, 667.0];
+/// Largest quotient of cos²J at ℓ = π/2 and at ℓ = 0 for which the state holds the periods to 1e-9.
+const LARGEST_QUOTIENT: f64 = 1e7;
 /// A ratio this near to that on the axis counts as equal to it.
 const RATIO_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -68,9 +72,8 @@ impl ObservedPeriods {
 }
 
 impl Body {
-    /// The smallest and the largest P_ψ/P_φ of a mode. The smallest is that of rotation about the axis; the largest is that at cos²J = 1e-290, next to the
-    /// separatrix. Every ratio between them belongs to one motion. From about ten times the smallest on, the state of a scene in doubles does not hold the period: it is off by 1e-16 over
-    /// cos²J, and may be in the other mode.
+    /// The smallest and the largest P_ψ/P_φ of a mode. The smallest is that of rotation about the axis. The ratio grows to infinity on the separatrix; the largest is that of the motion
+    /// nearest to it whose periods a state in doubles holds to 1e-9. Every ratio between them belongs to one motion.
     ///
     /// # Errors
     /// - [`Error::ModeName`] for a mode other than the short-axis mode and the long-axis mode.
@@ -87,7 +90,7 @@ impl Body {
     /// ```
     pub fn period_ratios(&self, mode: Mode, convention: Convention) -> Result<[f64; 2], Error> {
         let family = Family::new(self, mode, convention)?;
-        Ok([family.lowest(), family.ratio(RANGE[1])])
+        Ok([family.lowest(), family.ratio(family.highest())])
     }
 }
 
@@ -148,6 +151,17 @@ impl ObservedPeriods {
 /// The unit vector of a vector other than 0. The vector is scaled first, since squares of large components are infinite and of small ones 0.
 fn unit(vector: Vector3<f64>) -> Vector3<f64> {
     (vector / vector.amax()).normalize()
+}
+
+/// The end of the part of an interval in which a condition holds that holds at its start.
+fn bisected([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return low;
+        }
+        if holds(middle) { low = middle } else { high = middle }
+    }
 }
 
 /// The motions of a body in one mode, with M = 1 and scaled moments.
@@ -216,8 +230,8 @@ impl Family {
 
     /// The polhode with M = 1 and this ratio of periods.
     fn with_ratio(&self, ratio: f64) -> Result<Polhode, Error> {
-        let [mut low, mut high] = RANGE;
-        let (lower, upper) = (self.lowest(), self.ratio(high));
+        let highest = self.highest();
+        let (lower, upper) = (self.lowest(), self.ratio(highest));
         // This condition is false for NaN.
         let within = ratio >= lower * (1.0 - RATIO_ROUNDING) && ratio <= upper;
         if !within {
@@ -227,13 +241,16 @@ impl Family {
         if ratio <= lower * (1.0 + RATIO_ROUNDING) {
             return Ok(self.axial.with_squares([DoubleDouble::ZERO, DoubleDouble::ONE], 1.0));
         }
-        loop {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                return Ok(self.polhode(middle));
-            }
-            if self.ratio(middle) < ratio { low = middle } else { high = middle }
-        }
+        Ok(self.polhode(bisected([RANGE[0], highest], |logarithm| self.ratio(logarithm) < ratio)))
+    }
+
+    /// The largest ln(sin²J/cos²J) at ℓ = 0 for which the state holds the periods.
+    fn highest(&self) -> f64 {
+        let holds = |logarithm: f64| {
+            let [least, most] = self.polhode(logarithm).invariants.cosine_squares;
+            most.to_f64() <= LARGEST_QUOTIENT * least.to_f64()
+        };
+        if holds(RANGE[1]) { RANGE[1] } else { bisected(RANGE, holds) }
     }
 
     /// The state at time 0 with phases 0: ℓ = π/2, where cos J has its maximum.

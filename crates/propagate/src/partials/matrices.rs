@@ -114,7 +114,8 @@ struct Moment<S: InstructionSet> {
 
 /// Quantities with a time in each lane, and the matrices of these times.
 ///
-/// The matrices are collected here, in the nearest cache, and copied in one piece.
+/// The matrices are collected here, in the nearest cache, and copied in one piece. To copy them while the next ones are computed took longer: 44 to 46 ns a sample instead of 37 to 40
+/// with 2,000 times, and no less with 20,001.
 pub(super) struct Block {
     /// Rᵀ R0.
     carried: [[[f64; WIDEST]; 3]; 3],

@@ -39,6 +39,33 @@ impl Frame {
     /// The frame for these moments. `momentum` is a body vector whose component on axis 3 must become ≥ 0. Axis 3 is the axis of C, or of A for the long-axis
     /// mode.
     pub(crate) fn new(moments: [f64; 3], momentum: [f64; 3], long_axis: bool) -> Self {
+        Order::new(moments, momentum, long_axis).frame()
+    }
+
+    /// Components on the sorted axes.
+    pub(crate) fn sorted(&self, vector: [f64; 3]) -> [f64; 3] {
+        Order { axes: self.axes, signs: self.signs }.sorted(vector)
+    }
+
+    /// Components on the user's axes.
+    pub(crate) fn user(&self, sorted: [f64; 3]) -> [f64; 3] {
+        let mut vector = [0.0; 3];
+        for i in 0..3 {
+            vector[self.axes[i]] = self.signs[i] * sorted[i];
+        }
+        vector
+    }
+}
+
+/// The axes and signs of a frame.
+#[derive(Clone, Copy)]
+struct Order {
+    axes: [usize; 3],
+    signs: [f64; 3],
+}
+
+impl Order {
+    fn new(moments: [f64; 3], momentum: [f64; 3], long_axis: bool) -> Self {
         let mut axes = [0, 1, 2];
         for (i, j) in [(0, 1), (1, 2), (0, 1)] {
             if moments[axes[i]] > moments[axes[j]] {
@@ -51,27 +78,22 @@ impl Frame {
         let even = (axes[0] + 1) % 3 == axes[1];
         let first = if even { 1.0 } else { -1.0 };
         let upright = if momentum[axes[2]] < 0.0 { -1.0 } else { 1.0 };
-        let signs = [first, upright, upright];
+        Self { axes, signs: [first, upright, upright] }
+    }
+
+    fn frame(self) -> Frame {
+        let Self { axes, signs } = self;
         let mut matrix = Matrix3::zeros();
         for i in 0..3 {
             matrix[(i, axes[i])] = signs[i];
         }
         let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix));
-        Self { axes, signs, quaternion }
+        Frame { axes, signs, quaternion }
     }
 
     /// Components on the sorted axes.
-    pub(crate) fn sorted(&self, vector: [f64; 3]) -> [f64; 3] {
+    fn sorted(&self, vector: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|i| self.signs[i] * vector[self.axes[i]])
-    }
-
-    /// Components on the user's axes.
-    pub(crate) fn user(&self, sorted: [f64; 3]) -> [f64; 3] {
-        let mut vector = [0.0; 3];
-        for i in 0..3 {
-            vector[self.axes[i]] = self.signs[i] * sorted[i];
-        }
-        vector
     }
 }
 
@@ -112,18 +134,14 @@ impl Placed {
         let given = body.moments();
         let moments = given.map(|moment| scaled(moment, -scales.0));
         let scaled_rates = rates.map(|rate| scaled(rate, -scales.1));
-        let place = |long_axis: bool| {
-            let frame = Frame::new(given, rates, long_axis);
-            Self {
-                moments: frame.axes.map(|axis| moments[axis]),
-                rates: frame.sorted(scaled_rates),
-                frame,
-                long_axis,
-                scales,
-            }
+        let order = |long_axis: bool| {
+            let order = Order::new(given, rates, long_axis);
+            (order, order.axes.map(|axis| moments[axis]), order.sorted(scaled_rates))
         };
-        let short = place(false);
-        Some(if beyond(short.moments, short.rates) { place(true) } else { short })
+        let short = order(false);
+        let long_axis = beyond(short.1, short.2);
+        let (order, moments, rates) = if long_axis { order(true) } else { short };
+        Some(Self { frame: order.frame(), long_axis, moments, rates, scales })
     }
 
     fn given(&self) -> Given {

@@ -109,7 +109,7 @@ __all__ = [
 if not _TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:
-        """`andoyer.fit` and `andoyer.output` are imported when they are first used; type checkers want the import written."""
-        if name in ("fit", "output"):
+        """`andoyer.fit`, `andoyer.jax` and `andoyer.output` are imported when they are first used; type checkers want the import written."""
+        if name in ("fit", "jax", "output"):
             return _importlib.import_module(f"andoyer.{name}")
         raise AttributeError(f"module 'andoyer' has no attribute {name!r}")
