@@ -3,8 +3,8 @@
 //! In each mode P_ψ/P_φ is a function of sin²J alone. It grows from its value on the axis to infinity on the separatrix, so bisection in ln(sin²J/cos²J) finds
 //! its root. The magnitude of the angular momentum then follows from either period. Frequencies come from the quadrature in double-double.
 //!
-//! The rounding of the state at ℓ = π/2 changes cos²J there by 1e-16 of itself, and cos²J at ℓ = 0, on which the periods depend, by as much absolutely. The relative error of the periods
-//! is therefore at most 1e-16 times the quotient of both. Ratios for which this quotient is above 1e7 are refused, because a state in doubles does not have such periods to 1e-9.
+//! The components of a state have rounding errors of 1e-16. With f = (cos²J₁ − cos²J₀)/sin²J₁, for J₀ at ℓ = 0 and J₁ at ℓ = π/2, these change cos²J₀, on which the periods depend, by up to
+//! 2e-16 (cos J₁ + √f √(cos²J₁ − cos²J₀)). Motions are refused if this is more than 2e-10 of cos²J₀, because a state in doubles does not hold their periods to 1e-9.
 
 use std::f64::consts::TAU;
 
@@ -23,8 +23,8 @@ use crate::torque_free::polhode::Polhode;
 
 /// Interval of ln(sin²J/cos²J) at ℓ = 0 in which roots are searched: from J = 1e-17 rad to cos²J = 1e-290.
 const RANGE: [f64; 2] = [-78.0, 667.0];
-/// Largest quotient of cos²J at ℓ = π/2 and at ℓ = 0 for which the state holds the periods to 1e-9.
-const LARGEST_QUOTIENT: f64 = 1e7;
+/// Largest relative change of cos²J at ℓ = 0, over that of a component of the state, for which the state holds the periods to 1e-9.
+const LARGEST_GAIN: f64 = 1e6;
 /// A ratio this near to that on the axis counts as equal to it.
 const RATIO_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -247,8 +247,10 @@ impl Family {
     /// The largest ln(sin²J/cos²J) at ℓ = 0 for which the state holds the periods.
     fn highest(&self) -> f64 {
         let holds = |logarithm: f64| {
-            let [least, most] = self.polhode(logarithm).invariants.cosine_squares;
-            most.to_f64() <= LARGEST_QUOTIENT * least.to_f64()
+            let invariants = self.polhode(logarithm).invariants;
+            let [least, most] = invariants.cosine_squares.map(|square| square.to_f64());
+            let sine = invariants.sine_squares[1].to_f64().sqrt();
+            most.sqrt() + (most - least) / sine <= LARGEST_GAIN * least
         };
         if holds(RANGE[1]) { RANGE[1] } else { bisected(RANGE, holds) }
     }
