@@ -166,7 +166,7 @@ impl Body {
     /// Returns
     /// -------
     /// (float, float)
-    ///     The ratio for rotation about the axis of the mode, and that of the motion nearest to the separatrix whose periods a state in doubles holds to 1e-9. On the separatrix the
+    ///     The ratio for rotation about the axis of the mode, and that of the motion nearest to the separatrix whose periods a state in doubles holds to 1e-5. On the separatrix the
     ///     ratio is infinite.
     ///
     /// Raises

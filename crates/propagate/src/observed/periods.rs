@@ -4,7 +4,7 @@
 //! its root. The magnitude of the angular momentum then follows from either period. Frequencies come from the quadrature in double-double.
 //!
 //! The components of a state have rounding errors of 1e-16. With f = (cos²J₁ − cos²J₀)/sin²J₁, for J₀ at ℓ = 0 and J₁ at ℓ = π/2, these change cos²J₀, on which the periods depend, by up to
-//! 2e-16 (cos J₁ + √f √(cos²J₁ − cos²J₀)). Motions are refused if this is more than 2e-11 of cos²J₀, because a state in doubles does not hold their periods to 1e-9.
+//! 2e-16 (cos J₁ + √f √(cos²J₁ − cos²J₀)). Motions are refused if this is more than 2e-6 of cos²J₀, because a state in doubles does not hold their periods to 1e-5.
 
 use std::f64::consts::TAU;
 
@@ -23,8 +23,8 @@ use crate::torque_free::polhode::Polhode;
 
 /// Interval of ln(sin²J/cos²J) at ℓ = 0 in which roots are searched: from J = 1e-17 rad to cos²J = 1e-290.
 const RANGE: [f64; 2] = [-78.0, 667.0];
-/// Largest relative change of cos²J at ℓ = 0, over that of a component of the state, for which the state holds the periods to 1e-9.
-const LARGEST_GAIN: f64 = 1e5;
+/// Largest relative change of cos²J at ℓ = 0, over that of a component of the state, for which the state holds the periods to 1e-5.
+const LARGEST_GAIN: f64 = 1e10;
 /// A ratio this near to that on the axis counts as equal to it.
 const RATIO_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -73,7 +73,7 @@ impl ObservedPeriods {
 
 impl Body {
     /// The smallest and the largest P_ψ/P_φ of a mode. The smallest is that of rotation about the axis. The ratio grows to infinity on the separatrix; the largest is that of the motion
-    /// nearest to it whose periods a state in doubles holds to 1e-9. Every ratio between them belongs to one motion.
+    /// nearest to it whose periods a state in doubles holds to 1e-5. Every ratio between them belongs to one motion.
     ///
     /// # Errors
     /// - [`Error::ModeName`] for a mode other than the short-axis mode and the long-axis mode.
