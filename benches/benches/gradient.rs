@@ -1,4 +1,5 @@
-//! Under a gravity gradient: solving, and evaluating, by level and averaging, on a circle and on an ellipse. The size is orbit and level, the engine the averaging.
+//! Under a gravity gradient: solving, and evaluating, by level and averaging, on a circle and on an ellipse. The size is orbit and level, the engine the
+//! averaging.
 
 use std::hint::black_box;
 

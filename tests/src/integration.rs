@@ -1,8 +1,9 @@
 //! The full equations of a rigid body under a gravity gradient, integrated: Gauss's collocation of order 16, fixed step, compensated sums.
 //!
-//! Attitude and Euler's equations with the torque 3 n² (a/r)³ r̂ × I r̂ times the mass fraction, the disturbing body on Kepler's orbit. It shares no formula with the averaged
-//! theory. Steps of at most 1 rad of the fastest rate: the method leaves 1e-23 h^17 of a step, so that rounding is all that is left. Coefficients in plain doubles
-//! would make the energy drift by 1e-16 a step, and the phase by that times the square of their number: they carry a second double.
+//! Attitude and Euler's equations with the torque 3 n² (a/r)³ r̂ × I r̂ times the mass fraction, the disturbing body on Kepler's orbit. It shares no formula
+//! with the averaged theory. Steps of at most 1 rad of the fastest rate: the method leaves 1e-23 h^17 of a step, so that rounding is all that is left.
+//! Coefficients in plain doubles would make the energy drift by 1e-16 a step, and the phase by that times the square of their number: they carry a second
+//! double.
 
 use andoyer_double::DoubleDouble;
 use andoyer_propagate::Orbit;

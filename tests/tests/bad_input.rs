@@ -78,7 +78,7 @@ fn tolerance_order_span_and_method_have_bounds() {
     for bad in [0.0, -1e-12, NAN, INFINITY] {
         let error = scene().tolerance(bad).solve().expect_err("no tolerance");
         assert!(matches!(error, Error::Tolerance { .. }), "{error}");
-        assert!(error.to_string().contains(&format!("tolerance = {bad}")), "{error}");
+        assert!(error.to_string().contains(&format!("tolerance = {bad:?}")), "{error}");
     }
     assert!(matches!(scene().order(MAX_ORDER + 1).solve(), Err(Error::Order { value: 61, bound: MAX_ORDER })));
     assert!(scene().order(MAX_ORDER).solve().is_ok());

@@ -116,7 +116,8 @@ fn a_small_torque_on_a_nearly_prolate_body_moves_it_far() {
 
 #[test]
 fn second_order_is_bounded_where_the_first_order_change_vanishes() {
-    // Found by the climb: the angular momentum is along the line to the disturbing body, where the change is a hundredth of the sum of its terms and its derivatives are not.
+    // Found by the climb: the angular momentum is along the line to the disturbing body, where the change is a hundredth of the sum of its terms and its
+    // derivatives are not.
     let scene = Disturbed::new(
         [0.485_212_849_097_711_2, 0.997_500_734_702_296_5, 1.0],
         normalized([
@@ -245,7 +246,8 @@ fn what_is_bounded_in_second_order_is_below_its_part_of_the_bound() {
 
 #[test]
 fn a_harmonic_of_the_orbit_near_a_slow_term_is_no_part_of_the_mean_momentum() {
-    // Ω(−2, 0) is 8.4 n, where (a/r)³ e^(2if) still has a percent at e = 0.3. With sums over time derivatives alone the mean M was off by such harmonics, and the error 1.6e-4 rad.
+    // Ω(−2, 0) is 8.4 n, where (a/r)³ e^(2if) still has a percent at e = 0.3. With sums over time derivatives alone the mean M was off by such harmonics, and
+    // the error 1.6e-4 rad.
     let scene = Disturbed::new(
         [0.855_264_812_480_961_8, 0.907_975_751_165_231_1, 1.0],
         normalized([0.507_723_077_117_78, 0.0, 0.0, 0.861_520_328_815_317_6]),
@@ -260,8 +262,9 @@ fn a_harmonic_of_the_orbit_near_a_slow_term_is_no_part_of_the_mean_momentum() {
 
 #[test]
 fn a_slow_term_at_resonance_with_a_high_harmonic_of_the_orbit_is_refused() {
-    // Ω(−1, 1) is 1.4 times the fastest rate of the orbit, too slow for a correction, and 13.988 n: the fourteenth harmonic, 5 % of the torque at e = 0.6, acts in one sense over all of the six orbits.
-    // The bound charged the term by its distance from the third harmonic alone, 0.135 rad. The error was 0.141 rad, a quarter of the torque's effect.
+    // Ω(−1, 1) is 1.4 times the fastest rate of the orbit, too slow for a correction, and 13.988 n: the fourteenth harmonic, 5 % of the torque at e = 0.6, acts
+    // in one sense over all of the six orbits. The bound charged the term by its distance from the third harmonic alone, 0.135 rad. The error was 0.141 rad, a
+    // quarter of the torque's effect.
     let scene = Disturbed::new(
         [0.602_225_332_664_735_9, 0.628_701_977_995_834_9, 1.0],
         normalized([0.381_279_363_555_069_5, 0.0, 0.0, 0.924_459_866_867_083_3]),

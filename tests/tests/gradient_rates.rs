@@ -1,4 +1,5 @@
-//! Secular precession under the gravity gradient of the Sun, "/yr (theory §9), of the bodies of the catalogue, whose moments, spins, poles and orbits were read in their sources.
+//! Secular precession under the gravity gradient of the Sun, "/yr (theory §9), of the bodies of the catalogue, whose moments, spins, poles and orbits were read
+//! in their sources.
 
 use andoyer_propagate::nalgebra::{UnitQuaternion, Vector3};
 use andoyer_propagate::options::Averaging;
@@ -42,8 +43,8 @@ fn heliocentric(axis: f64, eccentricity: f64) -> Orbit {
 
 #[test]
 fn planets_and_asteroids_precess_at_the_rates_of_theory_9_by_either_average() {
-    // Whole orbits, so that nothing periodic is left in the change. The obliquity is that of the start and differs from the mean one by κ at most, which at 89° is 1.4 % of
-    // the cosine for Eros. Expected: −(3/2)(n²/ω)(1−e²)^(−3/2) (C − (A+B)/2)/C cos I, computed by hand from the same figures.
+    // Whole orbits, so that nothing periodic is left in the change. The obliquity is that of the start and differs from the mean one by κ at most, which at 89°
+    // is 1.4 % of the cosine for Eros. Expected: −(3/2)(n²/ω)(1−e²)^(−3/2) (C − (A+B)/2)/C cos I, computed by hand from the same figures.
     let bodies = [
         ("Earth", 0.997_269_66, 23.4393, 1.000_002_61, 0.016_711_23, -15.95),
         ("Ceres", 9.074_17 / 24.0, 4.04, 2.765_552_6, 0.079_692_3, -6.55),

@@ -91,7 +91,8 @@ fn motions_beside_the_separatrix_are_within_their_bound_up_to_a_thousand_million
 
 #[test]
 fn a_passage_that_begins_beside_the_middle_axis_is_on_time_to_rounding() {
-    // u = 43 at the epoch, rounded to a double, made the time of the passage wrong by 1.9e-14 rad at −230.6, over a bound of 1.5e-14. By enclosures.py, 40 digits.
+    // u = 43 at the epoch, rounded to a double, made the time of the passage wrong by 1.9e-14 rad at −230.6, over a bound of 1.5e-14. By enclosures.py, 40
+    // digits.
     let (moments, rates) =
         ([0.986_526_113_702_966_8, 0.094_589_317_586_110_75, 1.0], [0.497_211_080_823_163_6, -1.8566e-18, 6.1004e-20]);
     let states = [

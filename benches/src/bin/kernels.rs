@@ -1,7 +1,7 @@
 //! One kernel, run so often: what `make gate` counts the instructions of.
 //!
-//! `kernels NAME REPEATS`. The count of a kernel is the difference between two numbers of repeats, which leaves out the start of the process. One thread, no clock, no
-//! random numbers: the same binary always takes the same number of instructions.
+//! `kernels NAME REPEATS`. The count of a kernel is the difference between two numbers of repeats, which leaves out the start of the process. One thread, no
+//! clock, no random numbers: the same binary always takes the same number of instructions.
 
 use std::hint::black_box;
 use std::process::ExitCode;

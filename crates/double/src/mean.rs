@@ -4,7 +4,8 @@ use crate::real::Real;
 
 /// The arithmetic-geometric mean of two numbers a, b ≥ 0 that are not both 0. The result is 0 if `b` is 0.
 ///
-/// Gauss: (1/2π) ∮ dφ/√(a² cos²φ + b² sin²φ) = 1/agm(a, b). The relative error is below 8·2^−53 in `f64` (at most 6.2·2^−53 in eight million random pairs) and 2^−99 in double-double, for b/a down to 1e-300.
+/// Gauss: (1/2π) ∮ dφ/√(a² cos²φ + b² sin²φ) = 1/agm(a, b). The relative error is below 8·2^−53 in `f64` (at most 6.2·2^−53 in eight million random pairs) and
+/// 2^−99 in double-double, for b/a down to 1e-300.
 ///
 /// ```
 /// use andoyer_double::arithmetic_geometric_mean;

@@ -131,6 +131,15 @@ pub enum Error {
         /// The required length.
         expected: usize,
     },
+    /// A table that is too short.
+    TooFew {
+        /// The argument.
+        argument: &'static str,
+        /// Its length.
+        found: usize,
+        /// The least length.
+        least: usize,
+    },
     /// The series is requested too near the separatrix for the tolerance.
     NearSeparatrix {
         /// σ/σ_sep.

@@ -45,16 +45,16 @@ impl Scene {
     /// - [`Error::Units`] where the angular momentum over- or underflows, or a rate that belongs to it does.
     /// - [`Error::NearSeparatrix`] where the series is asked for and the tolerance needs an order above [`MAX_ORDER`](crate::options::MAX_ORDER).
     /// - [`Error::Separatrix`] where the series is asked for on the separatrix itself.
-    /// - [`Error::Resonance`], [`Error::TorqueTooStrong`], [`Error::Unaveraged`] for an orbit whose gravity gradient cannot be averaged, without a span or with a method other than
-    ///   [`Method::Auto`] and [`Method::Integrated`].
+    /// - [`Error::Resonance`], [`Error::TorqueTooStrong`], [`Error::Unaveraged`] for an orbit whose gravity gradient cannot be averaged, without a span or with
+    ///   a method other than [`Method::Auto`] and [`Method::Integrated`].
     /// - [`Error::NoSpan`] where the motion is integrated and no span is given; [`Error::OnlyIntegrated`] for a table of positions with another method.
     /// - [`Error::TooManySteps`], [`Error::Unpredictable`] where the integration takes too many steps, or nothing is known at its end; [`Error::TableSpan`].
     pub fn solve(&self) -> Result<Motion, Error> {
         self.solve_with(&SeriesTables::default())
     }
 
-    /// The same motion, to the same bits, with tables of the series that serve the scenes of the same body after it: a second solution by the series costs a fraction
-    /// of the first.
+    /// The same motion, to the same bits, with tables of the series that serve the scenes of the same body after it: a second solution by the series costs a
+    /// fraction of the first.
     ///
     /// # Errors
     /// As [`Scene::solve`].

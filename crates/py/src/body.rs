@@ -72,8 +72,8 @@ impl Body {
 
     /// A body from its inertia tensor about axes that you choose. Attitudes, rates, momenta and derivatives of its scenes are about these axes.
     ///
-    /// `moments` has the principal moments, and `principal_axes` the principal axes, each nearest to one of your axes. Two axes with equal moments (to 1e-12 of the largest) and without a
-    /// product of inertia are not changed.
+    /// `moments` has the principal moments, and `principal_axes` the principal axes, each nearest to one of your axes. Two axes with equal moments (to 1e-12 of
+    /// the largest) and without a product of inertia are not changed.
     ///
     /// Parameters
     /// ----------

@@ -48,9 +48,10 @@ impl CassiniState {
 
 /// The Cassini states of a body: places of its pole that turn with the node of a precessing orbit (theory, section 9).
 ///
-/// The body rotates about its axis of greatest inertia, either much faster than its orbit or in a spin–orbit resonance, with p rotations an orbit, where 2p is a whole number up to 4096. It is
-/// taken to be in resonance if its spin rate differs from the resonant one by less than the largest rate of a libration in longitude at the obliquity 0; the states then say so. At the
-/// obliquity θ the resonance is narrower by (1 + cos θ)/2. Four states exist if the node is slow compared with the precession of the pole, otherwise two.
+/// The body rotates about its axis of greatest inertia, either much faster than its orbit or in a spin–orbit resonance, with p rotations an orbit, where 2p is
+/// a whole number up to 4096. It is taken to be in resonance if its spin rate differs from the resonant one by less than the largest rate of a libration in
+/// longitude at the obliquity 0; the states then say so. At the obliquity θ the resonance is narrower by (1 + cos θ)/2. Four states exist if the node is slow
+/// compared with the precession of the pole, otherwise two.
 ///
 /// Parameters
 /// ----------

@@ -28,8 +28,8 @@ pub(crate) fn detached<T: Send, E: Send>(
 /// Time between two checks of the main thread for Ctrl-C while another thread computes.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// As [`detached`]. A `long` call is computed by its own thread. Meanwhile this thread checks for signals, because Python runs signal handlers only in the main thread. If a
-/// handler raises, this thread sets the stop flag of `compute`. Starting the thread takes 30 µs.
+/// As [`detached`]. A `long` call is computed by its own thread. Meanwhile this thread checks for signals, because Python runs signal handlers only in the main
+/// thread. If a handler raises, this thread sets the stop flag of `compute`. Starting the thread takes 30 µs.
 pub(crate) fn interruptible<T: Send, E: Send>(
     py: Python<'_>,
     long: bool,

@@ -7,8 +7,8 @@ use crate::error;
 
 /// An estimate of the range of validity of a normal form by the sizes of its orders, from `BirkhoffNormalForm.domain`.
 ///
-/// The series diverge. At a given amplitude a = √(2|I|) of all modes the sizes of the orders first fall and then rise. The best order is the one with the least size. This is
-/// an estimate, not a bound; `BirkhoffNormalForm.actions` along an integrated orbit shows the true accuracy.
+/// The series diverge. At a given amplitude a = √(2|I|) of all modes the sizes of the orders first fall and then rise. The best order is the one with the least
+/// size. This is an estimate, not a bound; `BirkhoffNormalForm.actions` along an integrated orbit shows the true accuracy.
 ///
 /// Examples
 /// --------

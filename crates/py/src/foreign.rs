@@ -40,7 +40,8 @@ fn is_time(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     value.hasattr(intern!(value.py(), "jd1"))
 }
 
-/// True if `value` is a value of another package, or a list of such values. Numbers and plain arrays are recognized by their type, because looking up a missing attribute takes 0.2 µs.
+/// True if `value` is a value of another package, or a list of such values. Numbers and plain arrays are recognized by their type, because looking up a missing
+/// attribute takes 0.2 µs.
 fn holds_times(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     if value.is_exact_instance_of::<PyFloat>()
         || value.is_exact_instance_of::<PyInt>()

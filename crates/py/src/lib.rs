@@ -1,10 +1,9 @@
 //! The Python bindings of andoyer: the extension module `andoyer._core`.
 //!
-//! There is one file for each class of the Python package. Each class is a thin frozen wrapper of the Rust type of the same name. `array`, `expression` and `order`
-//! convert arguments, and `error` converts errors. The bindings contain no mathematics; every function of the Python package exists in Rust too.
-//! Arrays are float64 in C order: times (n,), attitudes (n, 4) as [x, y, z, w], vectors (n, 3),
-//! ensembles (m, n, …). The interpreter lock is released during
-//! all computations. Doc comments of `#[pyclass]` and `#[pymethods]` items are the Python docstrings, in the style of NumPy. The stub is
+//! There is one file for each class of the Python package. Each class is a thin frozen wrapper of the Rust type of the same name. `array`, `expression` and
+//! `order` convert arguments, and `error` converts errors. The bindings contain no mathematics; every function of the Python package exists in Rust too. Arrays
+//! are float64 in C order: times (n,), attitudes (n, 4) as [x, y, z, w], vectors (n, 3), ensembles (m, n, …). The interpreter lock is released during all
+//! computations. Doc comments of `#[pyclass]` and `#[pymethods]` items are the Python docstrings, in the style of NumPy. The stub is
 //! `python/andoyer/_core.pyi`; a test compares it with the module.
 
 // Docstrings speak of Python's names and of arrays like [x, y, z, w].

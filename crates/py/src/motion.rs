@@ -25,9 +25,9 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
 /// A solved motion, from `Scene.solve`. It is immutable, and several threads can evaluate it in parallel.
 ///
-/// The argument `times` of every method is a scalar or an array_like of shape (n,), of floats or integers, in the unit of time of the scene. For a scalar the results have no
-/// leading axis. If the epoch of the scene is a Time of astropy, the times may be Time objects too. A TimeDelta is a duration from the epoch. The difference
-/// from the epoch is formed in the two doubles of astropy, and `Samples.times` has the times as given. Ctrl-C ends every call within a second.
+/// The argument `times` of every method is a scalar or an array_like of shape (n,), of floats or integers, in the unit of time of the scene. For a scalar the
+/// results have no leading axis. If the epoch of the scene is a Time of astropy, the times may be Time objects too. A TimeDelta is a duration from the epoch.
+/// The difference from the epoch is formed in the two doubles of astropy, and `Samples.times` has the times as given. Ctrl-C ends every call within a second.
 ///
 /// Raises
 /// ------
@@ -174,11 +174,11 @@ impl Motion {
 
     /// Evaluates the Andoyer variables (λ, μ, ν, Λ, M, N) (theory §1).
     ///
-    /// The attitude is Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν) with cos I = Λ/M, cos J = N/M. Axis 3 is the user's axis of greatest inertia with the same
-    /// direction, axis 2 is the axis of B, and axis 1 is the axis of A. Axis 1 is reversed if the user's order A, B, C is left-handed. N < 0 means that the body rotates
-    /// backwards about its axis 3. For N > 0, y = μ + ν has the mean rate `frequencies.longitude` and ν the mean rate −dℓ′/dt. For N < 0, y = μ − ν
-    /// has the mean rate `frequencies.longitude` and ν the mean rate +dℓ′/dt. In both cases the mean rate of μ is the sum of the two frequencies. Angles are in
-    /// (−π, π]. If a node is not defined (I or J is 0 or π), its angle is 0 and μ is the sum of the angles. All variables are 0 for a body at rest.
+    /// The attitude is Rz(λ) Rx(I) Rz(μ) Rx(J) Rz(ν) with cos I = Λ/M, cos J = N/M. Axis 3 is the user's axis of greatest inertia with the same direction, axis
+    /// 2 is the axis of B, and axis 1 is the axis of A. Axis 1 is reversed if the user's order A, B, C is left-handed. N < 0 means that the body rotates
+    /// backwards about its axis 3. For N > 0, y = μ + ν has the mean rate `frequencies.longitude` and ν the mean rate −dℓ′/dt. For N < 0, y = μ − ν has the
+    /// mean rate `frequencies.longitude` and ν the mean rate +dℓ′/dt. In both cases the mean rate of μ is the sum of the two frequencies. Angles are in (−π,
+    /// π]. If a node is not defined (I or J is 0 or π), its angle is 0 and μ is the sum of the angles. All variables are 0 for a body at rest.
     ///
     /// Parameters
     /// ----------
@@ -219,9 +219,9 @@ impl Motion {
 
     /// Evaluates the derivatives of attitude and angular velocity with respect to the initial state and the moments (theory §12).
     ///
-    /// The nine columns are the initial attitude (a small rotation about body axes 1, 2, 3), the initial angular velocity, and the moments as given. A change of attitude
-    /// is a rotation vector δθ about body axes, R → R exp([δθ]×); rates are body components. The derivatives are in closed form at any time and in every mode. A scene with an
-    /// orbit uses differences (see `Plan.partials`).
+    /// The nine columns are the initial attitude (a small rotation about body axes 1, 2, 3), the initial angular velocity, and the moments as given. A change
+    /// of attitude is a rotation vector δθ about body axes, R → R exp([δθ]×); rates are body components. The derivatives are in closed form at any time and in
+    /// every mode. A scene with an orbit uses differences (see `Plan.partials`).
     ///
     /// Parameters
     /// ----------
@@ -260,9 +260,10 @@ impl Motion {
 
     /// Writes a source file with a self-contained function `rotation(time)` that evaluates this motion (theory §8).
     ///
-    /// The function returns the attitude [x, y, z, w] and the angular velocity in body components. It needs only its language: C99 with math.h, Rust with `core`,
-    /// Python with math, or JavaScript. The C and Rust functions do not allocate memory. Phases are in double-double arithmetic and are accurate after 1e9 rotations. The head of the file names the scene,
-    /// the mode, the validity interval and the largest difference from the library. Times are those of the scene, or TDB seconds since J2000 if the epoch is a Time of astropy.
+    /// The function returns the attitude [x, y, z, w] and the angular velocity in body components. It needs only its language: C99 with math.h, Rust with
+    /// `core`, Python with math, or JavaScript. The C and Rust functions do not allocate memory. Phases are in double-double arithmetic and are accurate after
+    /// 1e9 rotations. The head of the file names the scene, the mode, the validity interval and the largest difference from the library. Times are those of the
+    /// scene, or TDB seconds since J2000 if the epoch is a Time of astropy.
     ///
     /// Parameters
     /// ----------
@@ -318,7 +319,8 @@ impl Motion {
     ///
     /// The frequencies and `periods` of an integrated motion are those of the free motion at the epoch.
     ///
-    /// Both are at least 0; a frequency that does not exist in this mode is 0. y = μ + ν for N ≥ 0. For N < 0 axis 3 points away from the angular momentum, and y = μ − ν (see `andoyer`).
+    /// Both are at least 0; a frequency that does not exist in this mode is 0. y = μ + ν for N ≥ 0. For N < 0 axis 3 points away from the angular momentum, and
+    /// y = μ − ν (see `andoyer`).
     #[getter]
     fn frequencies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         static FREQUENCIES: PyOnceLock<Py<PyType>> = PyOnceLock::new();
@@ -330,9 +332,9 @@ impl Motion {
     ///
     /// The values are named tuples (precession, rotation) in units of time. A period that does not exist in this mode is infinite.
     ///
-    /// - "short-axis" is the convention of the Andoyer variables. P_φ is the mean period with which the short axis precesses about the angular momentum.
-    ///   P_ψ is the mean period of the rotation about the short axis, or of the oscillation about it in the long-axis mode. In the short-axis mode P_φ = 2π/(dy′/dt + dℓ′/dt) is
-    ///   the period of μ, and P_ψ = 2π/(dℓ′/dt) is the period of ν; ν decreases for N > 0 and increases for N < 0.
+    /// - "short-axis" is the convention of the Andoyer variables. P_φ is the mean period with which the short axis precesses about the angular momentum. P_ψ is
+    ///   the mean period of the rotation about the short axis, or of the oscillation about it in the long-axis mode. In the short-axis mode P_φ = 2π/(dy′/dt +
+    ///   dℓ′/dt) is the period of μ, and P_ψ = 2π/(dℓ′/dt) is the period of ν; ν decreases for N > 0 and increases for N < 0.
     /// - "long-axis" has the periods of the long axis: in the short-axis mode P_φ = 2π/(dy′/dt). Radar papers use this convention.
     /// - "extremal-axis" is the convention of light-curve papers (Pravec et al. 2014): "short-axis" in the short-axis mode and "long-axis"
     ///   in the long-axis mode.
@@ -361,7 +363,8 @@ impl Motion {
 
     /// E/E0: the rotational energy divided by the energy of rotation about the axis of greatest inertia with the same angular momentum (theory §5).
     ///
-    /// It is 1 for rotation about this axis, C/B on the separatrix, and C/A for rotation about the axis of least inertia. With an orbit it is the value at the epoch.
+    /// It is 1 for rotation about this axis, C/B on the separatrix, and C/A for rotation about the axis of least inertia. With an orbit it is the value at the
+    /// epoch.
     #[getter]
     fn energy_ratio(&self) -> f64 {
         self.0.energy_ratio()

@@ -96,9 +96,9 @@ impl Orbit {
 
     /// The orbit of a satellite about an oblate primary, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3).
     ///
-    /// Let n0² = GM/a³, p = a (1 − e²) and k = (3/2) n0 J2 (R/p)². The rate of the node is −k cos i, the rate of the argument of the pericentre is k (2 − (5/2) sin² i), and the rate of the mean anomaly is
-    /// n0 + k √(1 − e²) (1 − (3/2) sin² i), which is `mean_motion`. Periodic terms of relative size J2 (R/p)² are omitted. The function does not check that the orbit is above the
-    /// ground, because the radius is only the reference radius of J2.
+    /// Let n0² = GM/a³, p = a (1 − e²) and k = (3/2) n0 J2 (R/p)². The rate of the node is −k cos i, the rate of the argument of the pericentre is k (2 − (5/2)
+    /// sin² i), and the rate of the mean anomaly is n0 + k √(1 − e²) (1 − (3/2) sin² i), which is `mean_motion`. Periodic terms of relative size J2 (R/p)² are
+    /// omitted. The function does not check that the orbit is above the ground, because the radius is only the reference radius of J2.
     ///
     /// Parameters
     /// ----------

@@ -13,8 +13,8 @@ pub(crate) fn order(argument: &str, value: &Bound<'_, PyAny>, minimum: usize, ma
     whole_number(argument, value, minimum, maximum, above)
 }
 
-/// `value` as a number. The Rust crates check that it is within `minimum..=maximum`. This function refuses only a value that does not fit a `usize`, with an error of the kind
-/// `above` if it is too large.
+/// `value` as a number. The Rust crates check that it is within `minimum..=maximum`. This function refuses only a value that does not fit a `usize`, with an
+/// error of the kind `above` if it is too large.
 pub(crate) fn whole_number(
     argument: &str,
     value: &Bound<'_, PyAny>,

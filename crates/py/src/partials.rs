@@ -11,9 +11,9 @@ type Array = Py<PyArrayDyn<f64>>;
 
 /// Derivatives of attitude and angular velocity at given times, from `Motion.partials` and `Ensemble.partials`.
 ///
-/// The last axis has nine parameters: initial attitude (3), initial angular velocity (3), moments as given (3). The object owns its arrays. Those of an ensemble have a leading
-/// axis of members, and `len` is the number of members; `len` of a motion's partials is the number of times. For a scalar time there is no axis of times, and a motion's partials
-/// have no `len`.
+/// The last axis has nine parameters: initial attitude (3), initial angular velocity (3), moments as given (3). The object owns its arrays. Those of an
+/// ensemble have a leading axis of members, and `len` is the number of members; `len` of a motion's partials is the number of times. For a scalar time there is
+/// no axis of times, and a motion's partials have no `len`.
 ///
 /// Examples
 /// --------

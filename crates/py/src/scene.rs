@@ -85,8 +85,8 @@ impl Scene {
 
     /// The scene of a torque-free body that tumbles with these periods (theory §7). In each mode there is one such motion.
     ///
-    /// The scene has these periods to a relative 1e-14, and less near the separatrix, where the rounding of the state counts: 1e-5 for the largest ratio of `Body.period_ratios`. Larger
-    /// ratios are refused.
+    /// The scene has these periods to a relative 1e-14, and less near the separatrix, where the rounding of the state counts: 1e-5 for the largest ratio of
+    /// `Body.period_ratios`. Larger ratios are refused.
     ///
     /// Parameters
     /// ----------

@@ -154,7 +154,7 @@ def test_chaotic_motion_says_over_which_span_the_tolerance_can_be_had():
 def test_what_is_no_table_is_refused():
     times, positions = np.arange(10.0), np.ones((10, 3))
     for bad, argument, message in [
-        ((times[:7], positions[:7], 1.0), "times", "at least 8"),
+        ((times[:7], positions[:7], 1.0), "times", "8 or more"),
         ((times[::-1], positions, 1.0), "times", "greater than the one before it"),
         ((times, positions[:9], 1.0), "positions", "10"),
         ((times, 0 * positions, 1.0), "positions", "origin"),

@@ -265,7 +265,7 @@ pub enum Error {
         known: &'static str,
     },
     /// A number outside its interval (NaN is outside every interval).
-    #[error("{argument} = {value} is outside [{lower}, {upper}]")]
+    #[error("{argument} = {value:?} is outside [{lower:?}, {upper:?}]")]
     OutsideInterval {
         /// Name of the argument.
         argument: &'static str,

@@ -1,10 +1,10 @@
 //! Figures of the gravity-gradient theory against an integration of the full equations, as CSV on standard output.
 //!
-//! `cases`: the share of the torque's effect on the attitude that each level leaves in the reference cases.
-//! `levels`: the share of the torque's effect on the attitude that each level leaves, against J, n/spin, e and B − A, one of them varied at a time.
-//! `climb STARTS STEPS SEED`: the largest error over its bound that hill climbing finds, by family, mode and averaging.
-//! `bounds N SEED`: the error of N random scenes and the bound that the plan states, for both averagings and for second order, and what the integration loses of the free motion over the span.
-//! `table N SEED`: by n/spin and e, how many of N random scenes are served, the share of the torque's effect that is left, and the bound over the error.
+//! `cases`: the share of the torque's effect on the attitude that each level leaves in the reference cases. `levels`: the share of the torque's effect on the
+//! attitude that each level leaves, against J, n/spin, e and B − A, one of them varied at a time. `climb STARTS STEPS SEED`: the largest error over its bound
+//! that hill climbing finds, by family, mode and averaging. `bounds N SEED`: the error of N random scenes and the bound that the plan states, for both
+//! averagings and for second order, and what the integration loses of the free motion over the span. `table N SEED`: by n/spin and e, how many of N random
+//! scenes are served, the share of the torque's effect that is left, and the bound over the error.
 
 use std::f64::consts::TAU;
 use std::io::{self, Write};

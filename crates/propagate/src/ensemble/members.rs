@@ -52,7 +52,8 @@ pub struct Ensemble {
 }
 
 impl Ensemble {
-    /// An ensemble from moments, attitudes [x, y, z, w] and body rates of its members, each as a [`Body`] and a [`State`] take them, with a tolerance of 1e-12 rad.
+    /// An ensemble from moments, attitudes [x, y, z, w] and body rates of its members, each as a [`Body`] and a [`State`] take them, with a tolerance of 1e-12
+    /// rad.
     ///
     /// # Errors
     /// - [`Error::Length`] for slices of unequal lengths.
@@ -173,8 +174,8 @@ impl Ensemble {
 
     /// Orbits of bodies whose gravity gradient acts on the members: one for all, or one or none for each, as for [`Scene::orbit`].
     ///
-    /// What averaging leaves grows with time: without [`Ensemble::span`] the error bounds are those after 1e9 rotations. Which motions are served is known only when they are
-    /// solved.
+    /// What averaging leaves grows with time: without [`Ensemble::span`] the error bounds are those after 1e9 rotations. Which motions are served is known only
+    /// when they are solved.
     ///
     /// ```
     /// use andoyer_propagate::{Ensemble, Orbit};

@@ -1,9 +1,9 @@
 //! Many bodies at a few epochs each: solved in groups of sixteen, evaluated member by member, in memory proportional to the result.
 //!
-//! The constants of the polhodes of a group and their frequencies are computed in lanes, one member a lane. No operation combines lanes and a group is computed by
-//! one thread, so that the bits depend neither on the number of threads nor on the other members. Members under the gravity gradient of an orbit are solved one by
-//! one, in some 200 µs. A member's motion lives while its rows are written; nothing of it is kept. Every bad member is found before any is computed, and the error
-//! names the first with its index.
+//! The constants of the polhodes of a group and their frequencies are computed in lanes, one member a lane. No operation combines lanes and a group is computed
+//! by one thread, so that the bits depend neither on the number of threads nor on the other members. Members under the gravity gradient of an orbit are solved
+//! one by one, in some 200 µs. A member's motion lives while its rows are written; nothing of it is kept. Every bad member is found before any is computed, and
+//! the error names the first with its index.
 
 mod members;
 mod on_error;

@@ -51,6 +51,7 @@ impl Error {
             | Self::CodeLanguage { .. }
             | Self::Time { .. }
             | Self::Length { .. }
+            | Self::TooFew { .. }
             | Self::Convention { .. }
             | Self::ModeName { .. }
             | Self::NoSuchMode { .. }
@@ -164,6 +165,7 @@ impl Error {
             Self::Threads { value, problem } => facts("threads", *value, problem),
             Self::Index { index, members } => facts("index", *index, members.saturating_sub(1)),
             Self::Length { argument, found, expected } => facts(argument, *found, *expected),
+            Self::TooFew { argument, found, least } => facts(argument, *found, *least),
             _ => return None,
         })
     }

@@ -1,9 +1,11 @@
-//! Cassini states: the axis of a body that keeps its place relative to a precessing orbit (Colombo 1966, Peale 1969). The equations are derived here from theory §9.
+//! Cassini states: the axis of a body that keeps its place relative to a precessing orbit (Colombo 1966, Peale 1969). The equations are derived here from
+//! theory §9.
 //!
-//! The body rotates about its axis of greatest inertia. Its pole k precesses about the normal N of the orbit, and N goes about inertial axis 3, ẑ, with the rate g of the node at the inclination i.
-//! θ is the angle from N to a pole in the plane of ẑ and N, counted away from ẑ.
+//! The body rotates about its axis of greatest inertia. Its pole k precesses about the normal N of the orbit, and N goes about inertial axis 3, ẑ, with the
+//! rate g of the node at the inclination i. θ is the angle from N to a pole in the plane of ẑ and N, counted away from ẑ.
 //!
-//! A body that rotates fast and out of resonance precesses with −α (k·N), where α = (3/2) (G m/a³) η^(−3) (C − (A+B)/2)/(C ω) (theory §9). In the frame that turns with the node
+//! A body that rotates fast and out of resonance precesses with −α (k·N), where α = (3/2) (G m/a³) η^(−3) (C − (A+B)/2)/(C ω) (theory §9). In the frame that
+//! turns with the node
 //!
 //! ```text
 //! dk/dt = −α (k·N) N × k − g ẑ × k,        h = −½ α cos²θ − g cos(i + θ),        dh/dθ = α cos θ sin θ + g sin(i + θ) = 0
@@ -11,17 +13,17 @@
 //!
 //! There are four states if |g/α| is below (sin^(2/3) i + cos^(2/3) i)^(−3/2), else two. A state is stable where h has an extremum on the sphere.
 //!
-//! A body in a spin–orbit resonance makes p rotations an orbit relative to the pericentre, p = ½, 1, 1½, …, and its long axis points to the disturbing body at the pericentre (or is across,
-//! where the coefficient G_p is negative). Of the potential (3/2) (G m/r³) (A x² + B y² + C z²), for the direction (x, y, z) of the disturbing body about the axes of the body, the part with
-//! x² − y² then has a mean as well: −(3/2) (G m/a³) ½ (B − A) ((1 + cos θ)/2)² |G_p|, with Hansen's coefficient G_p(e) = X_2p of (−3, 2), which is 1 − 5e²/2 + … for p = 1 and 7e/2 − … for
-//! p = 3/2. With γ = (3/2) (G m/a³) |G_p| (B − A)/(2 C ω)
+//! A body in a spin–orbit resonance makes p rotations an orbit relative to the pericentre, p = ½, 1, 1½, …, and its long axis points to the disturbing body at
+//! the pericentre (or is across, where the coefficient G_p is negative). Of the potential (3/2) (G m/r³) (A x² + B y² + C z²), for the direction (x, y, z) of
+//! the disturbing body about the axes of the body, the part with x² − y² then has a mean as well: −(3/2) (G m/a³) ½ (B − A) ((1 + cos θ)/2)² |G_p|, with
+//! Hansen's coefficient G_p(e) = X_2p of (−3, 2), which is 1 − 5e²/2 + … for p = 1 and 7e/2 − … for p = 3/2. With γ = (3/2) (G m/a³) |G_p| (B − A)/(2 C ω)
 //!
 //! ```text
 //! h = −½ α cos²θ − ¼ γ (1 + cos θ)² − g cos(i + θ),        dh/dθ = α cos θ sin θ + ½ γ (1 + cos θ) sin θ + g sin(i + θ)
 //! ```
 //!
-//! Here ω is the rate of rotation relative to the node, p times the rate of the mean anomaly plus the rate of the pericentre. The terms of h with the argument of the pericentre are left out; they
-//! average out as the pericentre goes around. For the circular orbit of the Moon this is the condition of Peale (1969).
+//! Here ω is the rate of rotation relative to the node, p times the rate of the mean anomaly plus the rate of the pericentre. The terms of h with the argument
+//! of the pericentre are left out; they average out as the pericentre goes around. For the circular orbit of the Moon this is the condition of Peale (1969).
 
 use std::f64::consts::{PI, TAU};
 
@@ -51,9 +53,9 @@ pub struct CassiniState {
 
 /// The Cassini states of a body with a rate of rotation, in the order of their obliquities.
 ///
-/// The orbit must have a rate of its node. The body rotates about its axis of greatest inertia, either much faster than its orbit or in a spin–orbit resonance: with p rotations an orbit, where
-/// 2p is a whole number up to 4096. The body is taken to be in resonance if its spin rate differs from the resonant one by less than the largest rate of a libration, √(3 (G m/a³) (B − A)/C |G_p|), at the
-/// obliquity 0. At the obliquity θ the resonance is narrower by (1 + cos θ)/2.
+/// The orbit must have a rate of its node. The body rotates about its axis of greatest inertia, either much faster than its orbit or in a spin–orbit resonance:
+/// with p rotations an orbit, where 2p is a whole number up to 4096. The body is taken to be in resonance if its spin rate differs from the resonant one by
+/// less than the largest rate of a libration, √(3 (G m/a³) (B − A)/C |G_p|), at the obliquity 0. At the obliquity θ the resonance is narrower by (1 + cos θ)/2.
 ///
 /// # Errors
 /// - [`Error::Orbit`] for a node rate of 0.
@@ -224,7 +226,8 @@ mod tests {
 
     #[test]
     fn the_moon_is_inclined_to_the_ecliptic_as_observed() {
-        // The equator of the Moon is inclined to the ecliptic by 1.54°. Input: the observed (C − A)/B, (B − A)/C, G m of the Earth, distance and months. Rates in rad/day.
+        // The equator of the Moon is inclined to the ecliptic by 1.54°. Input: the observed (C − A)/B, (B − A)/C, G m of the Earth, distance and months. Rates
+        // in rad/day.
         let day = |period: f64| std::f64::consts::TAU / period;
         let (anomalistic, draconic, node) = (day(27.554_550), day(27.212_221), -day(6798.38));
         let attraction = 398_600.435 / 384_399.014_f64.powi(3) * 86_400.0 * 86_400.0;
@@ -242,7 +245,8 @@ mod tests {
 
     #[test]
     fn mercury_is_inclined_to_its_orbit_as_observed() {
-        // Margot et al. 2012: C/M R² = 0.346 from the observed obliquity of 2.04 ± 0.08′. Gravity field: J₂ = 5.03e-5, C₂₂ = 0.81e-5; Laplace plane at 8.53°, node in 325,513 years (Stark et al. 2015).
+        // Margot et al. 2012: C/M R² = 0.346 from the observed obliquity of 2.04 ± 0.08′. Gravity field: J₂ = 5.03e-5, C₂₂ = 0.81e-5; Laplace plane at 8.53°,
+        // node in 325,513 years (Stark et al. 2015).
         let (polar, oblateness, triaxiality) = (0.346, 5.03e-5, 4.0 * 0.81e-5);
         let a = 1.0 - (oblateness + 0.5 * triaxiality) / polar;
         let motion = std::f64::consts::TAU / 87.969_349_6;

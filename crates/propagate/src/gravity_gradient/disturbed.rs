@@ -1,8 +1,9 @@
 //! Rotation under the gravity gradient of one or more bodies on Keplerian orbits (theory §9).
 //!
 //! The mean motion is the free motion at the mean σ and M, in an invariable frame that the averaged torque moves ([`super::averaged`]). Short-period
-//! [`super::corrections`] of first order lead from it to the motion. To first order the torques of several bodies, and their corrections, add up. Both are regular at J = 0 and at any inclination. Validity: the rotation is much faster
-//! than the orbit, and the torque is weak. A divisor that is too small is [`Error::Resonance`]. The error is of second order in the torque and grows with time.
+//! [`super::corrections`] of first order lead from it to the motion. To first order the torques of several bodies, and their corrections, add up. Both are
+//! regular at J = 0 and at any inclination. Validity: the rotation is much faster than the orbit, and the torque is weak. A divisor that is too small is
+//! [`Error::Resonance`]. The error is of second order in the torque and grows with time.
 
 #[cfg(test)]
 #[path = "tests.rs"]

@@ -24,7 +24,8 @@ pub(crate) struct Envelope {
     pub(crate) most: [f64; ORDERS + 1],
 }
 
-/// What the drifts over a span are, over those with the disturbing body always where it is nearest within the span. With u = (a/r)³ and the rate of the true anomaly ḟ:
+/// What the drifts over a span are, over those with the disturbing body always where it is nearest within the span. With u = (a/r)³ and the rate of the true
+/// anomaly ḟ:
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Share {
     /// The drift of third order: the mean of u³ over the span, and what mean variables that are off by u³ at the epoch make.
@@ -122,7 +123,8 @@ pub(crate) fn harmonic(eccentricity: f64, number: f64) -> f64 {
     harmonics(eccentricity, number).into_iter().fold(0.0, |most: f64, size| most.max(size.abs()))
 }
 
-/// The Fourier coefficients of e^(ijl) in (a/r)³ times 1, e^(2if) and e^(−2if): Hansen's coefficients X_j of (−3, 0), (−3, 2) and (−3, −2), for |j| up to [`LARGEST_NUMBER`].
+/// The Fourier coefficients of e^(ijl) in (a/r)³ times 1, e^(2if) and e^(−2if): Hansen's coefficients X_j of (−3, 0), (−3, 2) and (−3, −2), for |j| up to
+/// [`LARGEST_NUMBER`].
 pub(crate) fn harmonics(eccentricity: f64, number: f64) -> [f64; 3] {
     // An even sum over more points than the integrand has harmonics in the eccentric anomaly is exact. Those of (a/r)² fall like ((1 − η)/e)^k, about e^(−ηk).
     let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();

@@ -3,8 +3,9 @@
 //! T = Q diag(A, B, C) Qᵀ is sampled over a quarter turn of ℓ′ on the closed form at y′ = 0: T33, i t1 e^(−iy′), t2 e^(−2iy′). The parameters a and b of theory
 //! §8 need no normalization here. They are the theta series themselves, which have a few harmonics where the tensor has tens. Time reversal makes all
 //! coefficients real, and ℓ′ → ℓ′ + π leaves only the odd or only the even ones. A harmonic h is σ^(|h|/2) times a function that is analytic in σ at 0. This
-//! function and its slope are tabulated, so that with p = √σ e^(iℓ′) everything is regular at J = 0. Slopes are differences of fourth order in sin²J.
-//! Their step is 0.2 % of the distance to the separatrix (sin²J = 1), and at most 40 % of sin²J. A smaller step at small J would amplify rounding. The relative error is 1e-10.
+//! function and its slope are tabulated, so that with p = √σ e^(iℓ′) everything is regular at J = 0. Slopes are differences of fourth order in sin²J. Their
+//! step is 0.2 % of the distance to the separatrix (sin²J = 1), and at most 40 % of sin²J. A smaller step at small J would amplify rounding. The relative error
+//! is 1e-10.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::LazyLock;

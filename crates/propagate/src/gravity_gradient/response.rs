@@ -61,8 +61,8 @@ impl Response {
         size * slope * (1.0 + self.by_momentum * duration) + self.by_sigma * sigma * duration
     }
 
-    /// What an averaged motion of second order leaves of that: what is bounded, and the drift of third order. `parts` are the shares of the span in which the drift of third order acts, and of
-    /// the drifts of second order the part that K2 lacks over the span.
+    /// What an averaged motion of second order leaves of that: what is bounded, and the drift of third order. `parts` are the shares of the span in which the
+    /// drift of third order acts, and of the drifts of second order the part that K2 lacks over the span.
     pub(super) fn third_order(&self, [size, slope]: [f64; 2], p: f64, duration: f64, parts: [f64; 2]) -> [f64; 2] {
         let of_sigma = self.of_sigma(p);
         let further = slope + p / self.distance.sqrt() + of_sigma / self.distance;

@@ -32,7 +32,8 @@ impl TabulatedOrbit {
     ///
     /// # Errors
     /// - [`Error::Length`] for times and positions of different lengths.
-    /// - [`Error::Table`] for fewer than eight times, a time that is not after the one before it, a number that is not finite, or a position at the origin.
+    /// - [`Error::TooFew`] for fewer than eight times.
+    /// - [`Error::Table`] for a time that is not after the one before it, a number that is not finite, or a position at the origin.
     /// - [`Error::Orbit`] for a gm of 0, −1 or NaN.
     pub fn new(times: Vec<f64>, positions: Vec<[f64; 3]>, gm: f64) -> Result<Self, Error> {
         if positions.len() != times.len() {
@@ -40,7 +41,7 @@ impl TabulatedOrbit {
         }
         let refused = |argument, index, value, bound| Err(Error::Table { argument, index, value, bound });
         if times.len() < NODES {
-            return refused("times", 0, times.len() as f64, "at least 8 of them");
+            return Err(Error::TooFew { argument: "times", found: times.len(), least: NODES });
         }
         for (index, &time) in times.iter().enumerate() {
             if !time.is_finite() {

@@ -1,14 +1,17 @@
 //! The error bound of an integration: what becomes of displaced states.
 //!
-//! The state at the epoch is displaced in four directions by the size of all errors of the steps together: the root of the sum of squares of the rounding errors, plus the sum of the truncation errors. Every
-//! step adds a displacement of the size of its own errors, because a later displacement may grow more. The constants of the equations (the ratios of the moments and the strength of each
-//! torque) are displaced by their rounding errors, which are the same in every step. The displaced states separate from the motion as errors do; the bound is a safety factor times their largest distance so far. This covers phases, whose errors grow linearly with time,
-//! resonances, and chaotic motion, where errors grow exponentially. The factor is 2 for linear growth. For faster growth it rises to 8, because the displacement may lie across the direction
-//! that grows. Of 450 random scenes at two tolerances each the smallest ratio of bound and error is 5.3 above the floor.
+//! The state at the epoch is displaced in four directions by the size of all errors of the steps together: the root of the sum of squares of the rounding
+//! errors, plus the sum of the truncation errors. Every step adds a displacement of the size of its own errors, because a later displacement may grow more. The
+//! constants of the equations (the ratios of the moments and the strength of each torque) are displaced by their rounding errors, which are the same in every
+//! step. The displaced states separate from the motion as errors do; the bound is a safety factor times their largest distance so far. This covers phases,
+//! whose errors grow linearly with time, resonances, and chaotic motion, where errors grow exponentially. The factor is 2 for linear growth. For faster growth
+//! it rises to 8, because the displacement may lie across the direction that grows. Of 450 random scenes at two tolerances each the smallest ratio of bound and
+//! error is 5.3 above the floor.
 //!
-//! First the displacements are enlarged to about 1e-3 rad at the end, where steps of low order are enough, and the distance is scaled back. Where the displaced states go far away, they are
-//! brought nearer to the motion, in the same direction, and the scale changes, as for Lyapunov exponents. The four are integrated at once, in lanes. If no scale is left, and with tables, the
-//! displacements themselves are integrated, with shorter steps, and tables are interpolated by polynomials of lower degree.
+//! First the displacements are enlarged to about 1e-3 rad at the end, where steps of low order are enough, and the distance is scaled back. Where the displaced
+//! states go far away, they are brought nearer to the motion, in the same direction, and the scale changes, as for Lyapunov exponents. The four are integrated
+//! at once, in lanes. If no scale is left, and with tables, the displacements themselves are integrated, with shorter steps, and tables are interpolated by
+//! polynomials of lower degree.
 
 use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
@@ -39,9 +42,9 @@ pub(super) const INPUT: f64 = 1.2e-16;
 /// Relative rounding errors of the ratios of the moments and of each torque, the same in every step.
 const CONSTANTS: [f64; 2] = [2.4e-16, 4.8e-16];
 
-/// Displacements of the rates, with the sign of each. Where nearby states separate in a plane of two axes, beside the middle axis, one line in the plane does not grow: for no plane
-/// do all displacements lie near the same line. With the first two alone the distance of one scene in some hundred was too small by a factor of ten, because the displacements of the
-/// steps happened to cancel the growing part of both.
+/// Displacements of the rates, with the sign of each. Where nearby states separate in a plane of two axes, beside the middle axis, one line in the plane does
+/// not grow: for no plane do all displacements lie near the same line. With the first two alone the distance of one scene in some hundred was too small by a
+/// factor of ten, because the displacements of the steps happened to cancel the growing part of both.
 const WEIGHTS: [Row; PATTERNS] =
     [[0.8, 1.0, 0.9, 0.0], [1.0, -0.4, 0.2, 0.0], [-0.3, 0.9, -1.0, 0.0], [0.5, 0.3, -0.8, 0.0]];
 /// Where the signs of the displacements of each step begin.

@@ -1,7 +1,7 @@
 //! Evaluation at any time by the series of the step that contains it.
 //!
-//! Of an integration whose coefficients are not kept a step is expanded again when a time falls into it, which takes as long as the step took and gives the same bits; times in
-//! order share the expansion.
+//! Of an integration whose coefficients are not kept a step is expanded again when a time falls into it, which takes as long as the step took and gives the
+//! same bits; times in order share the expansion.
 
 use pulp::Arch;
 

@@ -1,7 +1,7 @@
 //! The series of a disturbing body about a time: r̃ = √(3μ) ρ^(−5/2) r, whose products with itself are the torque.
 //!
-//! On an orbit, with E′ = n/ρ and ρ = 1 − e cos E, r is (cos E − e, √(1−e²) sin E) in units of a, turned by the argument of the pericentre, the inclination and the node; a secular rate
-//! multiplies by the series of a rotation. μ is the attraction G m/a³.
+//! On an orbit, with E′ = n/ρ and ρ = 1 − e cos E, r is (cos E − e, √(1−e²) sin E) in units of a, turned by the argument of the pericentre, the inclination and
+//! the node; a secular rate multiplies by the series of a rotation. μ is the attraction G m/a³.
 
 use super::interpolation::Table;
 use super::series::{ROWS, Row, Scalars, Series, ZERO, add_scaled};

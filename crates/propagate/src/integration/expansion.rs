@@ -6,8 +6,8 @@
 //! q′ = ½ q ω,   ω1′ = f1 (Σ s2 s3 − ω2 ω3) with f1 = (I3 − I2)/I1, and in turn
 //! ```
 //!
-//! Products of series are sums over four lanes at once: q with three permuted columns, the rows of R, cyclic neighbours of ω and s. The matrix of a quaternion of norm 1 + ε is R (1 + 2ε), so
-//! that rounding of the norm is a relative rounding error of the torque.
+//! Products of series are sums over four lanes at once: q with three permuted columns, the rows of R, cyclic neighbours of ω and s. The matrix of a quaternion
+//! of norm 1 + ε is R (1 + 2ε), so that rounding of the norm is a relative rounding error of the torque.
 
 use super::disturber::Disturber;
 use super::series::{Coefficients, ROWS, Row, Rows, Series, ZERO, add_product, add_scaled, largest};
@@ -36,7 +36,8 @@ impl Equations<4> {
         Self { factors: [(c - b) / a, (a - c) / b, (b - a) / c, 0.0], bodies, strengths, scale }
     }
 
-    /// The same for several states with the relative errors of the constants, each with signs of its own: those of the ratios of the moments, and those of each torque.
+    /// The same for several states with the relative errors of the constants, each with signs of its own: those of the ratios of the moments, and those of each
+    /// torque.
     pub(super) fn displaced<const W: usize>(&self, [ratios, torques]: [f64; 2], signs: &[Row]) -> Equations<W> {
         let factors = std::array::from_fn(|i| self.factors[i % 4] * (1.0 + ratios * signs[i / 4][i % 4]));
         let strengths = (0..self.bodies.len())
@@ -74,7 +75,8 @@ pub(super) struct Start<const W: usize> {
     pub(super) rates: Rows<W>,
 }
 
-/// One coefficient of everything that is multiplied, in the lanes of the products. A product of two series is the sum of the first factors of one coefficient times the second factors of another.
+/// One coefficient of everything that is multiplied, in the lanes of the products. A product of two series is the sum of the first factors of one coefficient
+/// times the second factors of another.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 struct Factors<const W: usize> {

@@ -25,7 +25,8 @@ const FINEST: f64 = 1e-19;
 const COARSEST: f64 = 1e-6;
 /// Error at the end that the steps of an enlarged displacement may leave, before its division by the square of the phase \[rad\].
 const ENLARGED_ERROR: f64 = 3e-5;
-/// The first integration's truncation error relative to the tolerance and the square of the phase. A smaller part takes a higher order, 8 % of the time for a third, and fewer motions twice.
+/// The first integration's truncation error relative to the tolerance and the square of the phase. A smaller part takes a higher order, 8 % of the time for a
+/// third, and fewer motions twice.
 const CAREFUL: f64 = 0.06;
 /// The second integration's truncation error relative to the first's, after as much as the tolerance asks for.
 const FINER: f64 = 0.05;
@@ -90,8 +91,9 @@ impl Integrated {
 
 /// A guess of the error bound, and how many steps there will be at most: for the choice of a method.
 ///
-/// The guess has the parts of the bound that a regular motion has without truncation errors: the rounded state at the epoch, and the rounding of ω × Iω in each step. The errors of the
-/// rates add up by chance and turn the body ever after. For scenes of which the theory holds the guess is 0.7 of the bound in the median, and 0.3 to 1.2 of it in 90 % of them.
+/// The guess has the parts of the bound that a regular motion has without truncation errors: the rounded state at the epoch, and the rounding of ω × Iω in each
+/// step. The errors of the rates add up by chance and turn the body ever after. For scenes of which the theory holds the guess is 0.7 of the bound in the
+/// median, and 0.3 to 1.2 of it in 90 % of them.
 pub(crate) fn prospect(scene: &Scene) -> Option<(f64, f64)> {
     let problem = Problem::new(scene, "").ok()?;
     let phase = problem.phase();

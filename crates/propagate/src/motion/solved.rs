@@ -165,7 +165,8 @@ impl Motion {
     ///
     /// # Errors
     /// - [`Error::Time`] for a time that is NaN, infinite, or more than 1e15 rotations from the epoch. For a scene averaged over the spin, also for a time more
-    ///   than 65,534 orbits from the epoch, or than 262,144 arcs with several bodies or an orbit that precesses; for an integrated motion, also for a time outside the span.
+    ///   than 65,534 orbits from the epoch, or than 262,144 arcs with several bodies or an orbit that precesses; for an integrated motion, also for a time
+    ///   outside the span.
     pub fn at(&self, time: f64) -> Result<Sample, Error> {
         let (mut attitude, mut rates) = ([[0.0; 4]], [[0.0; 3]]);
         self.batch().samples_into(&[time], &mut attitude, &mut rates)?;

@@ -1,8 +1,9 @@
 //! One motion as source text: an evaluator in C, Rust, Python or JavaScript that needs nothing but the language.
 //!
-//! The text is a head, the constants of the motion (`constants`) and a kernel that is the same for all motions (`kernel/`): two phases in turns with products in two doubles by
-//! Veltkamp's and Dekker's splitting, one sine and cosine a phase, the sums of theory §8 and the constant frame. The kernel in Rust is compiled here too (`measured`), and its largest
-//! difference from the library stands in the head. The text is the same in every run and holds no date. Imports error, numerics, simd, torque_free and motion.
+//! The text is a head, the constants of the motion (`constants`) and a kernel that is the same for all motions (`kernel/`): two phases in turns with products
+//! in two doubles by Veltkamp's and Dekker's splitting, one sine and cosine a phase, the sums of theory §8 and the constant frame. The kernel in Rust is
+//! compiled here too (`measured`), and its largest difference from the library stands in the head. The text is the same in every run and holds no date. Imports
+//! error, numerics, simd, torque_free and motion.
 
 mod constants;
 mod head;
@@ -72,9 +73,9 @@ impl MotionCode {
 impl Motion {
     /// A self-contained function `rotation(time)` that evaluates this motion, as the text of a file (theory §8).
     ///
-    /// It returns the attitude [x, y, z, w] and the angular velocity in body components. Phases have products in two doubles, so that they hold after 1e9 rotations, and the sine and the
-    /// cosine are its own: the same bits in every language, but for the last of a square root. The head of the file names the scene, the mode, the validity interval and the largest
-    /// difference from the library. The caller compiles C without `-ffast-math`.
+    /// It returns the attitude [x, y, z, w] and the angular velocity in body components. Phases have products in two doubles, so that they hold after 1e9
+    /// rotations, and the sine and the cosine are its own: the same bits in every language, but for the last of a square root. The head of the file names the
+    /// scene, the mode, the validity interval and the largest difference from the library. The caller compiles C without `-ffast-math`.
     ///
     /// ```
     /// use andoyer_propagate::{Body, Scene, State};

@@ -17,7 +17,8 @@ pub(crate) fn scaled(value: f64, power: i32) -> f64 {
     value * power_of_two(half) * power_of_two(power - half)
 }
 
-/// 2^power, from its bits: infinite above the largest double, and 0 below the smallest. A function call, even for powers that never occur, would be made for each number.
+/// 2^power, from its bits: infinite above the largest double, and 0 below the smallest. A function call, even for powers that never occur, would be made for
+/// each number.
 fn power_of_two(power: i32) -> f64 {
     match power {
         -1022..=1023 => f64::from_bits(((power + 1023) as u64) << 52),

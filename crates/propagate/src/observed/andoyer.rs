@@ -31,18 +31,18 @@ impl Scene {
     pub fn from_andoyer(body: Body, variables: [f64; 6], epoch: f64) -> Result<Self, Error> {
         let refused = |index: usize, bound| Error::Andoyer { index, value: variables[index], bound };
         if let Some(index) = variables.iter().position(|value| !value.is_finite()) {
-            return Err(refused(index, "it must be finite"));
+            return Err(refused(index, "finite"));
         }
         if !epoch.is_finite() {
             return Err(Error::Epoch { value: epoch });
         }
         let [node, angle, spin, vertical, momentum, axial] = variables;
         if momentum <= 0.0 {
-            return Err(refused(4, "M must be positive; a body at rest has no such variables"));
+            return Err(refused(4, "positive, since a body at rest has no such variables"));
         }
         for (index, part) in [(3, vertical), (5, axial)] {
             if part.abs() > momentum * (1.0 + SLACK) {
-                return Err(refused(index, "its magnitude must not exceed M"));
+                return Err(refused(index, "at most M in magnitude"));
             }
         }
         // Sine and cosine of an inclination, and the rotation by it, from M and one of its components.

@@ -3,8 +3,9 @@
 //! In each mode P_ψ/P_φ is a function of sin²J alone. It grows from its value on the axis to infinity on the separatrix, so bisection in ln(sin²J/cos²J) finds
 //! its root. The magnitude of the angular momentum then follows from either period. Frequencies come from the quadrature in double-double.
 //!
-//! The components of a state have rounding errors of 1e-16. With f = (cos²J₁ − cos²J₀)/sin²J₁, for J₀ at ℓ = 0 and J₁ at ℓ = π/2, these change cos²J₀, on which the periods depend, by up to
-//! 2e-16 (cos J₁ + √f √(cos²J₁ − cos²J₀)). Motions are refused if this is more than 2e-6 of cos²J₀, because a state in doubles does not hold their periods to 1e-5.
+//! The components of a state have rounding errors of 1e-16. With f = (cos²J₁ − cos²J₀)/sin²J₁, for J₀ at ℓ = 0 and J₁ at ℓ = π/2, these change cos²J₀, on which
+//! the periods depend, by up to 2e-16 (cos J₁ + √f √(cos²J₁ − cos²J₀)). Motions are refused if this is more than 2e-6 of cos²J₀, because a state in doubles
+//! does not hold their periods to 1e-5.
 
 use std::f64::consts::TAU;
 
@@ -72,8 +73,8 @@ impl ObservedPeriods {
 }
 
 impl Body {
-    /// The smallest and the largest P_ψ/P_φ of a mode. The smallest is that of rotation about the axis. The ratio grows to infinity on the separatrix; the largest is that of the motion
-    /// nearest to it whose periods a state in doubles holds to 1e-5. Every ratio between them belongs to one motion.
+    /// The smallest and the largest P_ψ/P_φ of a mode. The smallest is that of rotation about the axis. The ratio grows to infinity on the separatrix; the
+    /// largest is that of the motion nearest to it whose periods a state in doubles holds to 1e-5. Every ratio between them belongs to one motion.
     ///
     /// # Errors
     /// - [`Error::ModeName`] for a mode other than the short-axis mode and the long-axis mode.

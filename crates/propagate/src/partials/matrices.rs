@@ -1,7 +1,8 @@
 //! The matrices of derivatives of some times, with a parameter in each lane (theory §12).
 //!
-//! Eight lanes have the six parameters that change the polhode; sixteen lanes have them for two times. A row of a matrix is then a vector, which is stored where it belongs. With
-//! a time in each lane, as attitudes and rates are computed, the matrices had to be transposed through the memory: calls with 2,000 times took 61 ns a sample instead of 40.
+//! Eight lanes have the six parameters that change the polhode; sixteen lanes have them for two times. A row of a matrix is then a vector, which is stored
+//! where it belongs. With a time in each lane, as attitudes and rates are computed, the matrices had to be transposed through the memory: calls with 2,000
+//! times took 61 ns a sample instead of 40.
 
 use super::constants::{CHANGES, Change, Setting};
 use super::sources::{COLUMNS, NUMBERS, Place, Source, direction, parameters};
@@ -114,8 +115,8 @@ struct Moment<S: InstructionSet> {
 
 /// Quantities with a time in each lane, and the matrices of these times.
 ///
-/// The matrices are collected here, in the nearest cache, and copied in one piece. To copy them while the next ones are computed took longer: 44 to 46 ns a sample instead of 37 to 40
-/// with 2,000 times, and no less with 20,001.
+/// The matrices are collected here, in the nearest cache, and copied in one piece. To copy them while the next ones are computed took longer: 44 to 46 ns a
+/// sample instead of 37 to 40 with 2,000 times, and no less with 20,001.
 pub(super) struct Block {
     /// Rᵀ R0.
     carried: [[[f64; WIDEST]; 3]; 3],

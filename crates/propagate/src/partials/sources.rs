@@ -1,7 +1,7 @@
 //! The time-dependent quantities of the derivatives: attitude, rates, and δg and g·δθ for each parameter (theory §12).
 //!
-//! Attitude, rates and a few numbers are computed with a time in each lane, δg and g·δθ with a parameter in each lane. All quantities are in units of M = 1 and of the
-//! scaled time.
+//! Attitude, rates and a few numbers are computed with a time in each lane, δg and g·δθ with a parameter in each lane. All quantities are in units of M = 1 and
+//! of the scaled time.
 
 use crate::numerics::phase::Phase;
 use crate::simd::circles::{Circle, Circles, Evaluate};

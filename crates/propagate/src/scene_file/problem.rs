@@ -26,9 +26,10 @@ impl Refusal {
     /// A value that a constructor refuses, under its key in the file.
     pub(super) fn of(error: &Error) -> Self {
         let key = match error {
-            Error::Orbit { argument, .. } | Error::Table { argument, .. } | Error::Length { argument, .. } => {
-                &format!("orbit.{argument}")
-            }
+            Error::Orbit { argument, .. }
+            | Error::Table { argument, .. }
+            | Error::Length { argument, .. }
+            | Error::TooFew { argument, .. } => &format!("orbit.{argument}"),
             Error::Averaging { .. } => "averaging",
             Error::Level { .. } => "level",
             Error::Moment { .. } | Error::MomentsTriangle { .. } | Error::MomentsRatio { .. } => "body.moments",

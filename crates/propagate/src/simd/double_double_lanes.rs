@@ -1,7 +1,7 @@
 //! Double-doubles in lanes: several at once, to the bits of [`DoubleDouble`].
 //!
-//! Sums and errors of products are exact, quotients and roots take the same steps as those of one double-double, and nothing is fused that is not fused there. Reciprocals
-//! and sums of numbers of the same sign, which take fewer steps, are found in lanes only.
+//! Sums and errors of products are exact, quotients and roots take the same steps as those of one double-double, and nothing is fused that is not fused there.
+//! Reciprocals and sums of numbers of the same sign, which take fewer steps, are found in lanes only.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -107,8 +107,8 @@ impl<S: InstructionSet> DoubleDoubleLanes<S> {
         renormalized(first.high, first.low)
     }
 
-    /// 1/self with an error of at most 6 u², by one Newton step from the reciprocal in doubles (Joldes, Muller, Popescu 2017, Algorithm 18). A quotient takes three times as many
-    /// operations; it is exact where the result is a double.
+    /// 1/self with an error of at most 6 u², by one Newton step from the reciprocal in doubles (Joldes, Muller, Popescu 2017, Algorithm 18). A quotient takes
+    /// three times as many operations; it is exact where the result is a double.
     #[inline(always)]
     pub(crate) fn reciprocal(self) -> Self {
         let one = self.high.all(1.0);
@@ -120,7 +120,8 @@ impl<S: InstructionSet> DoubleDoubleLanes<S> {
         renormalized(high, error + rest.low)
     }
 
-    /// self + other for two numbers of the same sign. As nothing cancels, half of the operations suffice for the same bound, 3 u² (Joldes, Muller, Popescu 2017, Algorithm 5).
+    /// self + other for two numbers of the same sign. As nothing cancels, half of the operations suffice for the same bound, 3 u² (Joldes, Muller, Popescu
+    /// 2017, Algorithm 5).
     #[inline(always)]
     pub(crate) fn plus_alike(self, other: Self) -> Self {
         let (high, error) = two_sum(self.high, other.high);

@@ -1,9 +1,10 @@
 //! Uniform times: sines and cosines by one product with a table instead of two phases and two polynomials.
 //!
-//! With times t_b + jh in a block of 64, e^(iφ(t_b + jh)) = e^(iφ(t_b)) e^(i2πf·jh): the second factor is the same for all blocks. The first is
-//! computed for each block, so that no error accumulates. Times are seldom uniform to the last bit (`linspace` and `arange` round each), so the product is corrected by
-//! 1 + i2πfδ for the deviation δ = t − t_b − jh. A block is evaluated by the table if δ is exact (the block is short beside t_b, by Sterbenz' lemma, or t_b = 0) and if
-//! 2πf|δ| ≤ 2e-8: the neglected square is then 2e-16 rad. Rounding adds 5e-16 rad to the error of the direct path in [`super::run`], which evaluates all other blocks.
+//! With times t_b + jh in a block of 64, e^(iφ(t_b + jh)) = e^(iφ(t_b)) e^(i2πf·jh): the second factor is the same for all blocks. The first is computed for
+//! each block, so that no error accumulates. Times are seldom uniform to the last bit (`linspace` and `arange` round each), so the product is corrected by 1 +
+//! i2πfδ for the deviation δ = t − t_b − jh. A block is evaluated by the table if δ is exact (the block is short beside t_b, by Sterbenz' lemma, or t_b = 0)
+//! and if 2πf|δ| ≤ 2e-8: the neglected square is then 2e-16 rad. Rounding adds 5e-16 rad to the error of the direct path in [`super::run`], which evaluates all
+//! other blocks.
 
 use pulp::Arch;
 

@@ -1,7 +1,7 @@
 //! Instruction sets: the operations of a kernel that `pulp` does not have for all sets.
 //!
-//! The program contains the kernels for every instruction set of its architecture and selects the best one at run time. All sets with a fused multiply-add give the same bits,
-//! whatever their width, because only the stores combine lanes.
+//! The program contains the kernels for every instruction set of its architecture and selects the best one at run time. All sets with a fused multiply-add give
+//! the same bits, whatever their width, because only the stores combine lanes.
 
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::V3_128b;
@@ -77,7 +77,8 @@ pub(crate) fn dispatch_few<T: Task>(arch: Arch, task: T) -> T::Output {
     }
 }
 
-/// Runs a task that has one lane to fill, to the same bits. Narrow vectors divide and take roots up to four times as fast as wide ones, and a second vector would be idle.
+/// Runs a task that has one lane to fill, to the same bits. Narrow vectors divide and take roots up to four times as fast as wide ones, and a second vector
+/// would be idle.
 pub(crate) fn dispatch_one<T: Task>(arch: Arch, task: T) -> T::Output {
     match arch {
         #[cfg(target_arch = "x86_64")]

@@ -1,7 +1,8 @@
 //! Kepler's equation and the true anomaly, in lanes.
 //!
-//! Kepler's equation is solved with a fixed number of steps. Markley's starter (Celest. Mech. Dyn. Astron. 63 (1995) 101) is accurate to 1e-4. Where e is small M + e sin M is enough, with a
-//! polynomial for the sine. Two steps of third order follow, with the residual (1−e)E + e(E − sin E) − M, which is computed without cancellation.
+//! Kepler's equation is solved with a fixed number of steps. Markley's starter (Celest. Mech. Dyn. Astron. 63 (1995) 101) is accurate to 1e-4. Where e is small
+//! M + e sin M is enough, with a polynomial for the sine. Two steps of third order follow, with the residual (1−e)E + e(E − sin E) − M, which is computed
+//! without cancellation.
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,8 +1,8 @@
 //! Several doubles at a time, with the arithmetic of the kernels.
 //!
-//! A value consists of one or two vectors. A kernel is one long chain of dependent operations; two chains side by side use the time that each one waits
-//! (a sample takes 3.9 ns instead of 4.6 with AVX-512, 7.3 instead of 8.7 with AVX2, 36 instead of 44 portably). No closure and no `array::map` is used around vectors: a function
-//! that is not inlined is compiled without the instructions of the set and is fifty times slower.
+//! A value consists of one or two vectors. A kernel is one long chain of dependent operations; two chains side by side use the time that each one waits (a
+//! sample takes 3.9 ns instead of 4.6 with AVX-512, 7.3 instead of 8.7 with AVX2, 36 instead of 44 portably). No closure and no `array::map` is used around
+//! vectors: a function that is not inlined is compiled without the instructions of the set and is fifty times slower.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -22,8 +22,8 @@ pub(crate) const INTEGERS: f64 = 6_755_399_441_055_744.0;
 /// The bits of a double without its sign. The functions of pulp for magnitude and sign are not always inlined.
 const MAGNITUDE: f64 = f64::from_bits(!(1 << 63));
 
-/// Vectors of doubles. A set with one strand leaves the second vector unused. `mul_add` rounds once if the instruction set has a fused multiply-add, otherwise twice. All other operations give the same bits on every
-/// machine.
+/// Vectors of doubles. A set with one strand leaves the second vector unused. `mul_add` rounds once if the instruction set has a fused multiply-add, otherwise
+/// twice. All other operations give the same bits on every machine.
 #[derive(Clone, Copy)]
 pub(crate) struct Lanes<S: InstructionSet> {
     simd: S,
@@ -244,7 +244,8 @@ impl<S: InstructionSet> Lanes<S> {
         (((a * b - product) + a * b_low) + a_low * b) + a_low * b_low
     }
 
-    /// The first 26 bits and the other 27 bits. Their products are exact except for the last bit of the smallest. The bits are cut off, because Veltkamp's factor would overflow.
+    /// The first 26 bits and the other 27 bits. Their products are exact except for the last bit of the smallest. The bits are cut off, because Veltkamp's
+    /// factor would overflow.
     #[inline(always)]
     fn halves(self) -> (Self, Self) {
         let high = strands!(self, i => {

@@ -1,8 +1,9 @@
 //! Sine and cosine of an angle in turns.
 //!
-//! A multiple k/4 of a quarter turn is subtracted exactly. For |x| ≤ 1/8, sin 2πx = 2πx + x³ p(x²) and cos 2πx = 1 + x² q(x²), with p and q the
-//! minimax polynomials of degree 5 and 6. They were found by Remez' exchange in 60 digits; the coefficients were rounded one after another, and the remaining ones were fitted
-//! again each time. Truncation: 1.6e-18 and 3.5e-19. 2π is carried with its tail, so with a fused product the sine is rounded once. Largest error 1.2e-16.
+//! A multiple k/4 of a quarter turn is subtracted exactly. For |x| ≤ 1/8, sin 2πx = 2πx + x³ p(x²) and cos 2πx = 1 + x² q(x²), with p and q the minimax
+//! polynomials of degree 5 and 6. They were found by Remez' exchange in 60 digits; the coefficients were rounded one after another, and the remaining ones were
+//! fitted again each time. Truncation: 1.6e-18 and 3.5e-19. 2π is carried with its tail, so with a fused product the sine is rounded once. Largest error
+//! 1.2e-16.
 
 use super::instruction_set::InstructionSet;
 use super::lanes::{INTEGERS, Lanes};

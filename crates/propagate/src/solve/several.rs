@@ -12,8 +12,8 @@ use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
 use crate::torque_free::series::tables::SeriesTables;
 
-/// The motions of at most as many valid scenes as the widest vectors have lanes, each to the bits of [`Scene::solve`]. The plans of free motions do not say what was
-/// skipped.
+/// The motions of at most as many valid scenes as the widest vectors have lanes, each to the bits of [`Scene::solve`]. The plans of free motions do not say
+/// what was skipped.
 pub(crate) fn several(scenes: Vec<Result<Scene, Error>>) -> impl Iterator<Item = Result<Motion, Error>> {
     let tables = SeriesTables::default();
     let states: Vec<(&Body, &State)> =

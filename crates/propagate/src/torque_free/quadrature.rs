@@ -1,8 +1,8 @@
 //! The two means of theory §5 by the trapezoidal rule, several nodes at once.
 //!
-//! With tan ℓ = c tan φ and c² = √(Q1/Q2) the integrands are analytic in |Im φ| < atanh c, and n nodes in half a turn leave an error of e^(−2n atanh c). Unstretched the strip is
-//! atanh c², and the nodes are many more. Sines and cosines of the nodes belong to their number alone and are computed once. Nodes that lie as many apart as the widest vectors have lanes
-//! are summed together, so that all instruction sets with a fused multiply-add give the same bits.
+//! With tan ℓ = c tan φ and c² = √(Q1/Q2) the integrands are analytic in |Im φ| < atanh c, and n nodes in half a turn leave an error of e^(−2n atanh c).
+//! Unstretched the strip is atanh c², and the nodes are many more. Sines and cosines of the nodes belong to their number alone and are computed once. Nodes
+//! that lie as many apart as the widest vectors have lanes are summed together, so that all instruction sets with a fused multiply-add give the same bits.
 
 use std::sync::OnceLock;
 

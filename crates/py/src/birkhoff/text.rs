@@ -104,8 +104,8 @@ impl BirkhoffNormalForm {
 
     /// Writes a source file with functions that evaluate this normal form. The file needs only the standard library of its language.
     ///
-    /// ``from_normal(normal)`` and ``to_normal(state)`` transform arrays q₁, p₁, q₂, …; ``actions(normal)`` returns the actions, and ``frequencies(actions)`` the rates
-    /// ∂K/∂I. ``frequencies`` is absent if K has resonant terms. Parameters are an array after the first argument.
+    /// ``from_normal(normal)`` and ``to_normal(state)`` transform arrays q₁, p₁, q₂, …; ``actions(normal)`` returns the actions, and ``frequencies(actions)``
+    /// the rates ∂K/∂I. ``frequencies`` is absent if K has resonant terms. Parameters are an array after the first argument.
     ///
     /// Parameters
     /// ----------

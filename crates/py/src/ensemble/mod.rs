@@ -261,8 +261,8 @@ impl Ensemble {
 
     /// Mean periods (P_φ, P_ψ) of all members in three conventions, as defined in `Motion.periods`.
     ///
-    /// A dict with the keys "long-axis", "short-axis" and "extremal-axis"; values are named tuples (precession, rotation) of arrays, shape (m,), infinite if a member has no
-    /// such period.
+    /// A dict with the keys "long-axis", "short-axis" and "extremal-axis"; values are named tuples (precession, rotation) of arrays, shape (m,), infinite if a
+    /// member has no such period.
     ///
     /// Examples
     /// --------
@@ -283,7 +283,8 @@ impl Ensemble {
         )
     }
 
-    /// E/E0 of all members, shape (m,): the rotational energy divided by the energy of rotation about the axis of greatest inertia with the same angular momentum (theory §5).
+    /// E/E0 of all members, shape (m,): the rotational energy divided by the energy of rotation about the axis of greatest inertia with the same angular
+    /// momentum (theory §5).
     ///
     /// Examples
     /// --------

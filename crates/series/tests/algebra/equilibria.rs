@@ -191,8 +191,8 @@ fn other_program(point: &str) -> Result<(f64, Polynomial<f64>), Error> {
 
 #[test]
 fn the_centre_manifolds_of_another_program_have_the_same_normal_form() -> Result<(), Error> {
-    // Coordinates on a centre manifold are no invariants, its normal form in the actions is: K(0, I₂, I₃) to degree 10 from the whole problem here, and from hiten's
-    // reduced Hamiltonian.
+    // Coordinates on a centre manifold are no invariants, its normal form in the actions is: K(0, I₂, I₃) to degree 10 from the whole problem here, and from
+    // hiten's reduced Hamiltonian.
     let plane = PhaseSpace::new(&[("y", "Y"), ("z", "Z")])?;
     for (point, second) in [("L1", false), ("L2", true)] {
         let (mu, reduced) = other_program(point)?;

@@ -1,6 +1,7 @@
 //! The linear symplectic change that diagonalizes a quadratic part, over random matrices.
 
 use andoyer_series::birkhoff::Mode;
+use andoyer_series::num_complex::Complex64;
 use andoyer_series::num_rational::BigRational;
 use andoyer_series::real_field::RealField;
 use andoyer_series::{BirkhoffNormalForm, Coefficient, Error, Monomial, PhaseSpace, Polynomial, normalize};
@@ -96,6 +97,34 @@ fn square(n: usize) -> impl Strategy<Value = Vec<Vec<f64>>> {
 
 fn any_square() -> impl Strategy<Value = Vec<Vec<f64>>> {
     (1..=4_usize).prop_flat_map(|n| square(2 * n))
+}
+
+#[test]
+fn a_matrix_on_which_the_francis_iteration_cycles_is_diagonalized() {
+    let root = [
+        [0.7598393490747988, -0.4818566541380685, 0.0, 0.6295866004759301, -0.8629057800373463, 0.239470609834712],
+        [
+            0.9565756314205217,
+            0.6733585276125406,
+            0.7916611202094814,
+            0.12524875485593967,
+            -0.7480597367894796,
+            0.462732709925815,
+        ],
+        [-0.5928078484609847, 0.0, -0.37361229910663724, 0.8367249674608102, 0.3010919777955047, -0.8110615174408119],
+        [-0.8409001770920723, -0.7392423706090923, 0.0, 0.7452134816635606, 0.0, -0.8110428650127544],
+        [0.0, -0.7127307103808119, -0.36384153307399886, -0.962202360543888, -0.4059081932187638, -0.9956438782960443],
+        [0.6563094695078279, 0.0, 0.0, -0.20395684579541046, -0.6864846178607164, 0.9623894173282188],
+    ];
+    let a: Vec<Vec<f64>> = (0..6).map(|i| (0..6).map(|j| root[i][j] + root[j][i]).collect()).collect();
+    let form = diagonalized(&a).unwrap();
+    check(&a, &form).unwrap();
+    // The eigenvalues of J A by LAPACK: a quartet ±σ ± iν and a pair ±iω. The frequencies are iσ ∓ ν and ω.
+    let expected = [(1.787_954_810_438, 0.0), (0.515_581_301_560, 1.825_583_971_771)];
+    for (re, im) in expected {
+        let near = |w: &Complex64| (w.re.abs() - re).abs() < 1e-11 && (w.im.abs() - im).abs() < 1e-11;
+        assert!(form.frequencies().iter().any(near), "{:?}", form.frequencies());
+    }
 }
 
 proptest! {

@@ -1,6 +1,7 @@
 //! The changes of M and L = Mσ of first order at the epoch, from all terms.
 //!
-//! The corrections of a motion drop small terms and end their sums early. What that does to the mean M and L grows with the rates and with time; here nothing is dropped.
+//! The corrections of a motion drop small terms and end their sums early. What that does to the mean M and L grows with the rates and with time; here nothing
+//! is dropped.
 
 use num_complex::Complex;
 

@@ -40,7 +40,8 @@ pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, moments: [f64;
     Hamiltonian::new(inertia, &modes(inertia, SMALLEST_TERM, slowest(demand)), strength(demand), moments)
 }
 
-/// The mean states with |p| and M from all terms of first order, and to second order, and the difference of their M, over M, and σ: from the mean state of the corrections at the epoch.
+/// The mean states with |p| and M from all terms of first order, and to second order, and the difference of their M, over M, and σ: from the mean state of the
+/// corrections at the epoch.
 pub(crate) fn refined(
     (mean, change): (&Mean, &Change),
     state: &Mean,

@@ -7,7 +7,8 @@
 //! K2 = −(q²u²/M²) [P0 + P1 s² + P2 s⁴] − (q²u²ḟ c/M³) [Q0 + Q1 s²]
 //! ```
 //!
-//! with h > 0 for m = 0, and P, Q sums of Â and B̂ (theory §9). Terms without j hold the disturbing body fixed. K2 has no ℓ′ and no y′: mean σ and M are constant to second order.
+//! with h > 0 for m = 0, and P, Q sums of Â and B̂ (theory §9). Terms without j hold the disturbing body fixed. K2 has no ℓ′ and no y′: mean σ and M are
+//! constant to second order.
 
 use nalgebra::Vector3;
 

@@ -1,9 +1,10 @@
 //! The disturbing body's part of the torque as a Fourier series in its mean anomaly l, and the divisors that belong to it.
 //!
-//! With U = (a/r)³ r̂r̂ᵀ = Σ_j U_j e^(ijl), the solution of V̇ + iΩV = U is Σ_j U_j e^(ijl)/(i(Ω + jn)). The sums over time derivatives are its expansion in jn/Ω: they have low harmonics to a few
-//! powers, and high ones not at all. Here nothing is expanded. A harmonic that does not return within the time T is no part of the mean: with x = Ω + jn the divisor has the factor 1 − e^(−x²T²/4).
-//! The factor must reach 1 fast: with 1 − sin(xT)/(xT), which is that of the mean over (−T, T), the error of the attitude was four times as large in scenes without a resonance, because the corrections
-//! take the regular harmonics as a whole.
+//! With U = (a/r)³ r̂r̂ᵀ = Σ_j U_j e^(ijl), the solution of V̇ + iΩV = U is Σ_j U_j e^(ijl)/(i(Ω + jn)). The sums over time derivatives are its expansion in
+//! jn/Ω: they have low harmonics to a few powers, and high ones not at all. Here nothing is expanded. A harmonic that does not return within the time T is no
+//! part of the mean: with x = Ω + jn the divisor has the factor 1 − e^(−x²T²/4). The factor must reach 1 fast: with 1 − sin(xT)/(xT), which is that of the mean
+//! over (−T, T), the error of the attitude was four times as large in scenes without a resonance, because the corrections take the regular harmonics as a
+//! whole.
 
 use std::f64::consts::{PI, TAU};
 
@@ -53,8 +54,8 @@ fn count(eccentricity: f64) -> Option<usize> {
     (count <= MOST).then_some(count as usize)
 }
 
-/// Whether the series is better than the sums: it is short enough, and the span has several orbits. Far from the pericentre the sums lack nothing until the next passage, while the series takes the
-/// mean over all passages.
+/// Whether the series is better than the sums: it is short enough, and the span has several orbits. Far from the pericentre the sums lack nothing until the
+/// next passage, while the series takes the mean over all passages.
 pub(crate) fn serves(reach: &Reach) -> bool {
     reach.orbital >= FEWEST_ORBITS * TAU && count(reach.eccentricity).is_some()
 }
