@@ -99,8 +99,7 @@ impl Plan {
         self.0.first_neglected()
     }
 
-    /// The method of `Motion.partials`: "closed" (theory §12), "differences" of fourth order for a scene with an orbit and for an integrated motion, or None on
-    /// the separatrix, where the derivatives do not exist.
+    /// The method of `Motion.partials`: "closed" (theory §12), "differences" of fourth order for a scene with an orbit and for an integrated motion, or None on the separatrix, where the derivatives do not exist.
     #[getter]
     fn partials(&self) -> Option<&'static str> {
         self.0.partials()

@@ -76,7 +76,7 @@ BAD = {
         (0.0, 0.0, 0.0),
         "finite and not 0",
     ),
-    "Andoyer variable": (lambda: Scene.from_andoyer(BODY, [0, 0, 0, 0, NAN, 0]), InputError, "andoyer", NAN, "it must be finite"),
+    "Andoyer variable": (lambda: Scene.from_andoyer(BODY, [0, 0, 0, 0, NAN, 0]), InputError, "andoyer", NAN, "finite"),
     "NaN among times": (lambda: motion().at([0, NAN]), InputError, "times", NAN, ...),
     "far time": (lambda: motion().at(1e18), RepresentationError, "times", 1e18, ...),
     "shape of times": (lambda: motion().at([[0.0]]), InputError, "times", (1, 1), "() or (n,)"),

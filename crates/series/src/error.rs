@@ -8,7 +8,7 @@ mod problems;
 
 use thiserror::Error;
 
-pub use facts::{Kind, Value};
+pub use facts::{Kind, Short, Value};
 pub use problems::{ParseProblem, TermProblem};
 
 /// An error, with the offending value and its bound.
@@ -265,7 +265,7 @@ pub enum Error {
         known: &'static str,
     },
     /// A number outside its interval (NaN is outside every interval).
-    #[error("{argument} = {value:?} is outside [{lower:?}, {upper:?}]")]
+    #[error("{argument} = {} is outside [{lower}, {upper}]", Short(*.value))]
     OutsideInterval {
         /// Name of the argument.
         argument: &'static str,

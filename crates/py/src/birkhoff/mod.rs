@@ -118,8 +118,7 @@ impl BirkhoffNormalForm {
         either!(&self.form, form => PyTuple::new(py, form.modes().iter().map(|mode| mode.ratio().cloned())))
     }
 
-    /// The symplectic matrix M of the linear change z = M z′ that diagonalizes the quadratic part, by rows. It is the unit matrix if the quadratic part is
-    /// already diagonal.
+    /// The symplectic matrix M of the linear change z = M z′ that diagonalizes the quadratic part, by rows. It is the unit matrix if the quadratic part is already diagonal.
     #[getter]
     fn linear_change<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         either!(&self.form, form => {

@@ -283,8 +283,7 @@ impl Ensemble {
         )
     }
 
-    /// E/E0 of all members, shape (m,): the rotational energy divided by the energy of rotation about the axis of greatest inertia with the same angular
-    /// momentum (theory §5).
+    /// E/E0 of all members, shape (m,): the rotational energy divided by the energy of rotation about the axis of greatest inertia with the same angular momentum (theory §5).
     ///
     /// Examples
     /// --------

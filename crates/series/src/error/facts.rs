@@ -1,5 +1,7 @@
 //! The facts of an error as data: its kind, the argument, the given value and the bound that it breaks.
 
+use std::fmt;
+
 use super::{Error, ParseProblem};
 
 /// What a caller can do about an error.
@@ -96,6 +98,21 @@ impl From<&[u32]> for Value {
 
 /// The argument, the value and the bound of an error.
 type Facts<'a> = (Option<&'a str>, Option<Value>, Option<Value>);
+
+/// A number in a message: with an exponent if it is 1e16 or more or below 1e-5, so that no message has three hundred digits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Short(pub f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        if size == 0.0 || (1e-5..1e16).contains(&size) || !size.is_finite() {
+            self.0.fmt(f)
+        } else {
+            fmt::LowerExp::fmt(&self.0, f)
+        }
+    }
+}
 
 fn facts<'a>(argument: &'a str, value: impl Into<Value>, bound: impl Into<Value>) -> Facts<'a> {
     (Some(argument), Some(value.into()), Some(bound.into()))

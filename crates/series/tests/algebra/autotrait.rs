@@ -23,7 +23,7 @@ fn public_types_are_send_and_sync() {
 #[test]
 fn messages_give_the_argument_its_value_and_the_bound() {
     let message = |error: Option<Error>| error.map(|error| error.to_string());
-    assert_eq!(message(separatrix_action(1.5).err()), Some("beta = 1.5 is outside [0.0, 1.0]".into()));
+    assert_eq!(message(separatrix_action(1.5).err()), Some("beta = 1.5 is outside [0, 1]".into()));
     assert_eq!(message(NormalForm::new(20_000).err()), Some("order 20000 exceeds the bound 16381".into()));
     let parsed = Polynomial::<f64>::parse("x +", &["x"]);
     assert_eq!(

@@ -117,8 +117,8 @@ fn a_matrix_on_which_the_francis_iteration_cycles_is_diagonalized() {
         [0.6563094695078279, 0.0, 0.0, -0.20395684579541046, -0.6864846178607164, 0.9623894173282188],
     ];
     let a: Vec<Vec<f64>> = (0..6).map(|i| (0..6).map(|j| root[i][j] + root[j][i]).collect()).collect();
-    let form = diagonalized(&a).unwrap();
-    check(&a, &form).unwrap();
+    let form = diagonalized(&a).expect("a spectrum");
+    check(&a, &form).expect("a diagonal form");
     // The eigenvalues of J A by LAPACK: a quartet ±σ ± iν and a pair ±iω. The frequencies are iσ ∓ ν and ω.
     let expected = [(1.787_954_810_438, 0.0), (0.515_581_301_560, 1.825_583_971_771)];
     for (re, im) in expected {
