@@ -31,7 +31,7 @@ lint: $(VENV)/ready  ## formatting, clippy, ruff, documentation, and the imports
 	cargo clippy --workspace --all-targets --quiet -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps --document-private-items --quiet
 
-bench: $(VENV)/installed  ## criterion by order, then run time against error: docs/data/bench.csv, docs/data/work-precision.csv; under ten minutes
+bench: $(VENV)/installed  ## criterion by order, then run time against error: docs/data/bench.csv, docs/data/work-precision.csv; a quarter of an hour
 	start=$$(date +%s) && cargo bench -p andoyer-benches && $(BIN)/python benches/collect.py --since $$start
 	$(BIN)/python benches/work_precision.py
 

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use andoyer_benches::{bodies, triaxial, wobbling};
-use andoyer_propagate::{Body, Method, Mode, Motion, Scene, State};
+use andoyer_propagate::{Body, Method, Mode, Motion, Scene, SeriesTables, State};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 const ORDERS: [usize; 9] = [1, 2, 4, 8, 12, 16, 20, 30, 40];
@@ -111,7 +111,7 @@ fn evaluate_one(c: &mut Criterion) {
     group.finish();
 }
 
-/// Solving for a body that has been solved for, and for one that has not.
+/// Solving with tables of the series that other scenes of the body have filled, and without.
 fn set_up(c: &mut Criterion) {
     let mut group = c.benchmark_group("set-up");
     let bodies = bodies();
@@ -123,29 +123,29 @@ fn set_up(c: &mut Criterion) {
     ];
     kinds.extend([8, 20, 40].map(|order| (format!("order-{order}"), "series", ordered(order))));
     for (size, engine, scenes) in &kinds {
-        for scene in scenes {
-            solved(scene.clone());
-        }
-        let mut next = scenes.iter().cycle();
+        let filled = |scene: &Scene| {
+            let tables = SeriesTables::default();
+            solved(scene, &tables);
+            tables
+        };
+        let tables: Vec<SeriesTables> = scenes.iter().map(filled).collect();
+        let mut next = scenes.iter().zip(&tables).cycle();
         group.bench_function(BenchmarkId::new(format!("body-seen-{size}"), engine), |b| {
-            b.iter(|| solved(next.next().expect("a cycle").clone()));
+            b.iter(|| {
+                let (scene, tables) = next.next().expect("a cycle");
+                solved(scene, tables)
+            });
         });
         let mut next = scenes.iter().cycle();
         group.bench_function(BenchmarkId::new(format!("body-new-{size}"), engine), |b| {
-            b.iter(|| {
-                let scene = next.next().expect("a cycle");
-                // The same moments without what the body's scenes share.
-                let body = Body::new(black_box(scene.body().moments())).expect("a body");
-                let renewed = Scene::new(body, *scene.state()).method(scene.asked_method());
-                solved(scene.asked_order().map_or(renewed.clone(), |order| renewed.order(order)))
-            });
+            b.iter(|| solved(next.next().expect("a cycle"), &SeriesTables::default()));
         });
     }
     group.finish();
 }
 
-fn solved(scene: Scene) -> Motion {
-    let motion = black_box(scene).solve().expect("a wobble");
+fn solved(scene: &Scene, tables: &SeriesTables) -> Motion {
+    let motion = black_box(scene).solve_with(tables).expect("a wobble");
     let plan = motion.plan();
     assert!(plan.mode() == Mode::ShortAxis && (0.1..=0.3).contains(&plan.separatrix_ratio()));
     motion
