@@ -172,6 +172,7 @@ $(VENV)/tested: crates/py/requirements-test.txt $(VENV)/ready
 	touch $@
 
 # The sdist must build where there is no network: its crates' sources are vendored from its own lock file, and Cargo gets an empty home and stays offline.
+# The crates are packaged in a new folder each time, because Cargo keeps the sources of a local registry under its path and would verify with those of the last run.
 package: $(VENV)/installed  ## the sdist and a wheel from it without network, the three crates as they would be published
 	rm -rf target/package-check && mkdir -p target/package-check
 	$(BIN)/maturin sdist --manifest-path crates/py/Cargo.toml --out target/package-check
@@ -185,7 +186,7 @@ package: $(VENV)/installed  ## the sdist and a wheel from it without network, th
 	$(PYTHON) -m venv target/package-check/venv
 	target/package-check/venv/bin/python -m pip install --quiet target/package-check/andoyer-*.whl
 	target/package-check/venv/bin/python -m andoyer.selftest
-	cargo package --quiet -p andoyer-double -p andoyer-series -p andoyer-propagate --target-dir target/package-check/crates
+	cargo package --quiet -p andoyer-double -p andoyer-series -p andoyer-propagate --target-dir $$(mktemp -d -p target/package-check crates.XXXXXX)
 
 release-check: package  ## versions, addresses and licences agree; public Rust names against the last tag, where there is one and cargo-semver-checks
 	$(PYTHON) tests/release.py
