@@ -25,7 +25,7 @@ def test_a_motion_has_the_periods_that_it_was_made_from(mode, convention):
     for ratio in np.geomspace(1.5 * low, high, 7)[:-1]:
         motion = Scene.from_periods(body, 7.0, 7.0 * ratio, mode=mode, convention=convention, phases=(0.3, 0.8)).solve()
         assert motion.plan.mode == mode
-        assert motion.periods[convention] == pytest.approx((7.0, 7.0 * ratio), rel=1e-5)
+        assert motion.periods[convention] == pytest.approx((7.0, 7.0 * ratio), rel=1e-9)
     with pytest.raises(InputError, match="P_ψ/P_φ from"):
         Scene.from_periods(body, 7.0, 7.0 * 1.01 * high, mode=mode, convention=convention)
 

@@ -127,6 +127,22 @@ fn a_matrix_on_which_the_francis_iteration_cycles_is_diagonalized() {
     }
 }
 
+#[test]
+fn the_eigenvalues_of_every_random_matrix_are_found() {
+    // The Francis iteration alone cycles for one of these in 700, and loses digits in one of 5,000.
+    let mut state = 1_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    for _ in 0..20_000 {
+        let root: Vec<Vec<f64>> = (0..4).map(|_| (0..4).map(|_| random()).collect()).collect();
+        let a: Vec<Vec<f64>> = (0..4).map(|i| (0..4).map(|j| root[i][j] + root[j][i]).collect()).collect();
+        let form = diagonalized(&a).expect("a spectrum");
+        check(&a, &form).expect("a diagonal form");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
