@@ -14,6 +14,9 @@ pub(crate) trait InstructionSet: Simd {
     /// Vectors that are processed side by side, one or two.
     const STRANDS: usize = 2;
 
+    /// A register of doubles. The vectors of pulp lack its alignment ([`super::lanes`]).
+    type Register: Copy;
+
     /// The set itself, or one of its machine whose vectors have four lanes.
     type Four: InstructionSet;
 
@@ -108,6 +111,7 @@ fn rows<S: Simd, const N: usize>(columns: [S::f64s; N]) -> [S::f64s; N] {
 impl InstructionSet for pulp::Scalar {
     const FUSED: bool = false;
 
+    type Register = f64;
     type Four = Self;
 
     #[inline(always)]
@@ -127,6 +131,8 @@ impl InstructionSet for pulp::Scalar {
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
+    use std::arch::x86_64::{__m128d, __m256d, __m512d};
+
     use super::{InstructionSet, Simd, cast};
     use pulp::x86::{V3, V3_128b, V4};
     use pulp::{f64x2, f64x4, f64x8, u64x2, u64x4, u64x8};
@@ -135,6 +141,7 @@ mod x86 {
     impl InstructionSet for V3_128b {
         const STRANDS: usize = 1;
 
+        type Register = __m128d;
         type Four = V3;
 
         #[inline(always)]
@@ -156,6 +163,7 @@ mod x86 {
 
     /// AVX2 and FMA: four lanes.
     impl InstructionSet for V3 {
+        type Register = __m256d;
         type Four = Self;
 
         #[inline(always)]
@@ -207,6 +215,7 @@ mod x86 {
 
     /// AVX-512: eight lanes.
     impl InstructionSet for V4 {
+        type Register = __m512d;
         type Four = V3;
 
         #[inline(always)]
@@ -269,12 +278,15 @@ mod x86 {
 
 #[cfg(target_arch = "aarch64")]
 mod aarch64 {
+    use std::arch::aarch64::float64x2_t;
+
     use super::{InstructionSet, Simd, cast};
     use pulp::aarch64::Neon;
     use pulp::{f64x2, u64x2};
 
     /// NEON: two lanes.
     impl InstructionSet for Neon {
+        type Register = float64x2_t;
         type Four = Self;
 
         #[inline(always)]

@@ -27,6 +27,8 @@ const MAGNITUDE: f64 = f64::from_bits(!(1 << 63));
 #[derive(Clone, Copy)]
 pub(crate) struct Lanes<S: InstructionSet> {
     simd: S,
+    /// Gives the vectors in memory the alignment of a register.
+    _aligned: [S::Register; 0],
     strands: [S::f64s; STRANDS],
 }
 
@@ -90,7 +92,7 @@ impl<S: InstructionSet> Lanes<S> {
     /// `value` in each lane.
     #[inline(always)]
     pub(crate) fn splat(simd: S, value: f64) -> Self {
-        Self { simd, strands: [simd.splat_f64s(value); STRANDS] }
+        Self { simd, _aligned: [], strands: [simd.splat_f64s(value); STRANDS] }
     }
 
     /// Each value in all lanes of one vector.
@@ -289,7 +291,7 @@ impl<S: InstructionSet> Lanes<S> {
     /// `first` in the lanes of one strand, `second` in those of the other.
     #[inline(always)]
     pub(crate) fn of_two(simd: S, first: f64, second: f64) -> Self {
-        Self { simd, strands: [simd.splat_f64s(first), simd.splat_f64s(second)] }
+        Self { simd, _aligned: [], strands: [simd.splat_f64s(first), simd.splat_f64s(second)] }
     }
 
     /// The lanes of one strand, to as many places.
