@@ -1,11 +1,11 @@
 //! The matrices of derivatives of some times, with a parameter in each lane (theory §12).
 //!
-//! Eight lanes have the six parameters that change the polhode; sixteen lanes have them for two times. A row of a matrix is then a vector, which is stored
-//! where it belongs. With a time in each lane, as attitudes and rates are computed, the matrices had to be transposed through the memory: calls with 2,000
+//! Eight lanes have the last eight columns of a row: two of the initial attitude, then those of the six parameters that change the polhode. Sixteen lanes have
+//! them for two times. A row of a matrix is then a vector, which is stored where it belongs. With a time in each lane, as attitudes and rates are computed, the matrices had to be transposed through the memory: calls with 2,000
 //! times took 61 ns a sample instead of 40.
 
-use super::constants::{CHANGES, Change, Setting};
-use super::sources::{COLUMNS, NUMBERS, Place, Source, direction, parameters};
+use super::constants::{Change, Setting};
+use super::sources::{COLUMNS, Constant, NUMBERS, Place, Source, UNCHANGING, at_once, direction};
 use super::{Derivatives, PARAMETERS};
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::InstructionSet;
@@ -13,33 +13,32 @@ use crate::simd::lanes::{Lanes, WIDEST};
 
 /// Numbers of a matrix.
 const ROW: usize = 3 * PARAMETERS;
-/// Numbers of the matrices of two times, and two more that a vector writes beyond the last one.
-const WINDOW: usize = 2 * ROW + COLUMNS - CHANGES;
-/// The matrices of as many times as the widest vectors have lanes, and the window of the last.
-const LENGTH: usize = (WIDEST - 1) * ROW + WINDOW;
-/// Parts into which the narrowest vectors, two lanes, divide the parameters.
-const MOST_PARTS: usize = CHANGES.div_ceil(2);
+/// Numbers of the matrices of two times.
+const WINDOW: usize = 2 * ROW;
+/// Numbers of the matrices of as many times as the widest vectors have lanes, and of one more, because a window begins at each of them.
+const LENGTH: usize = (WIDEST + 1) * ROW;
+/// Parts into which the narrowest vectors, two lanes, divide the columns.
+const MOST_PARTS: usize = (COLUMNS - UNCHANGING).div_ceil(2);
 
-/// Parts into which the parameters are divided: one if they fit into the lanes.
+/// The first column in lanes: 0, or with two lanes the first of a parameter that changes the polhode.
+const fn first_column<S: InstructionSet>() -> usize {
+    UNCHANGING / Lanes::<S>::WIDTH * Lanes::<S>::WIDTH
+}
+
+/// Parts into which the columns are divided: one if they fit into the lanes.
 const fn parts_of<S: InstructionSet>() -> usize {
-    CHANGES.div_ceil(Lanes::<S>::WIDTH)
+    (COLUMNS - first_column::<S>()).div_ceil(Lanes::<S>::WIDTH)
 }
 
-/// Times whose parameters are computed at once.
-const fn at_once<S: InstructionSet>() -> usize {
-    if Lanes::<S>::WIDTH > COLUMNS { 2 } else { 1 }
-}
-
-/// The constants of some parameters, one a lane.
+/// The constants of some columns, one a lane.
 pub(super) struct Part<S: InstructionSet, T: Source> {
-    first: usize,
     source: T::Columns<S>,
     /// For each axis, δg at the epoch along it.
-    lever: [Lanes<S>; 3],
+    lever: [Constant<S>; 3],
     /// For each axis, −1 over its moment where the parameter is this moment.
-    inverse_moment: [Lanes<S>; 3],
+    inverse_moment: [Constant<S>; 3],
     /// ν_i of each of the user's axes.
-    rates: [Lanes<S>; 3],
+    rates: [Constant<S>; 3],
 }
 
 impl<S: InstructionSet, T: Source> Clone for Part<S, T> {
@@ -54,43 +53,41 @@ impl<S: InstructionSet, T: Source> Part<S, T> {
     /// All parts; only as many as the instruction set needs are different.
     #[inline(always)]
     pub(super) fn all(simd: S, source: &T, setting: &Setting) -> [Self; MOST_PARTS] {
-        let mut parts = [Self::new(simd, source, setting, 0); MOST_PARTS];
+        let mut parts = [Self::new(simd, source, setting, first_column::<S>()); MOST_PARTS];
         for (index, part) in parts.iter_mut().enumerate().take(parts_of::<S>()).skip(1) {
-            *part = Self::new(simd, source, setting, index * Lanes::<S>::WIDTH);
+            *part = Self::new(simd, source, setting, first_column::<S>() + index * Lanes::<S>::WIDTH);
         }
         parts
     }
 
     #[inline(always)]
     fn new(simd: S, source: &T, setting: &Setting, first: usize) -> Self {
-        let mut part = Self {
-            first,
-            source: source.columns(simd, first),
-            lever: [Lanes::splat(simd, 0.0); 3],
-            inverse_moment: [Lanes::splat(simd, 0.0); 3],
-            rates: Lanes::splats(simd, setting.user_rates),
-        };
+        let zero = Constant::new(simd, first, |_| 0.0);
+        let mut part =
+            Self { source: source.columns(simd, first), lever: [zero; 3], inverse_moment: [zero; 3], rates: [zero; 3] };
         for axis in 0..3 {
             let on = |change: &Change, value: f64| if change.axis == axis { value } else { 0.0 };
             let changes = &setting.changes;
-            part.lever[axis] = parameters(simd, first, |index| on(&changes[index], changes[index].lever));
+            part.rates[axis] = Constant::new(simd, first, |_| setting.user_rates[axis]);
+            part.lever[axis] = Constant::new(simd, first, |index| on(&changes[index], changes[index].lever));
             part.inverse_moment[axis] =
-                parameters(simd, first, |index| on(&changes[index], changes[index].inverse_moment));
+                Constant::new(simd, first, |index| on(&changes[index], changes[index].inverse_moment));
         }
         part
     }
 
-    /// Writes the columns of these parameters at one moment.
+    /// Writes these columns, from `first` on, at one moment.
     #[inline(always)]
-    fn write(&self, moment: &Moment<S>, attitudes: &mut [f64; WINDOW], rates: &mut [f64; WINDOW]) {
-        let Self { first, source, lever, inverse_moment, rates: nu } = self;
+    fn write(&self, first: usize, moment: &Moment<S>, attitudes: &mut [f64; WINDOW], rates: &mut [f64; WINDOW]) {
+        let Self { source, lever, inverse_moment, rates: nu } = self;
         let Moment { carried, direction, rates: rate, numbers } = moment;
         let (change, along) = T::change(source, *direction, *numbers);
+        let zero = along.all(0.0);
         let mut moved = change;
         for row in 0..3 {
             // One of the three levers is not 0.
-            let [a, b, c] = carried[row];
-            moved[row] = lever[2].mul_add(c, lever[1].mul_add(b, lever[0].mul_add(a, -change[row])));
+            let ([a, b, c], [p, q, r]) = (carried[row], *lever);
+            moved[row] = r.lanes().mul_add(c, q.lanes().mul_add(b, p.lanes().mul_add(a, -change[row])));
         }
         let ([a, b, c], [g, h, k]) = (moved, *direction);
         let turned = [
@@ -99,8 +96,10 @@ impl<S: InstructionSet, T: Source> Part<S, T> {
             along.mul_add(k, h.negate_mul_add(a, g * b)),
         ];
         for row in 0..3 {
-            store(turned[row], attitudes, row, *first);
-            store(rate[row].mul_add(inverse_moment[row], change[row] * nu[row]), rates, row, *first);
+            store(turned[row], attitudes, row, first);
+            // Rates do not depend on the initial attitude. The sum with 0 makes −0 in these columns 0.
+            let faster = change[row].mul_add(nu[row].lanes(), zero);
+            store(rate[row].mul_add(inverse_moment[row].lanes(), faster), rates, row, first);
         }
     }
 }
@@ -203,17 +202,15 @@ impl Block {
             };
             let mut index = 0;
             while index < parts_of::<S>() {
-                parts[index].write(&moment, attitudes, rates);
+                parts[index].write(first_column::<S>() + index * Lanes::<S>::WIDTH, &moment, attitudes, rates);
                 index += 1;
             }
-            // The columns of the initial attitude come last: vectors have written beyond the rows before them.
+            // The columns of the initial attitude; in the matrices of the rates they stay 0.
             for time in 0..at_once::<S>() {
                 for row in 0..3 {
                     for axis in 0..3 {
                         let entry = time * ROW + PARAMETERS * row + axis;
                         attitudes[entry] = self.carried[row][axis][(place + time) % WIDEST];
-                        // Rates do not depend on the initial attitude.
-                        rates[entry] = 0.0;
                     }
                 }
             }
@@ -240,14 +237,14 @@ fn at<S: InstructionSet>(simd: S, number: &[f64; WIDEST], place: usize) -> Lanes
     }
 }
 
-/// Writes the parameters from `first` on in one row of the matrices of one time, or of two.
+/// Writes the columns from `first` on in one row of the matrices of one time, or of two. The first column of a row is not in lanes.
 #[inline(always)]
-fn store<S: InstructionSet>(parameters: Lanes<S>, window: &mut [f64; WINDOW], row: usize, first: usize) {
+fn store<S: InstructionSet>(columns: Lanes<S>, window: &mut [f64; WINDOW], row: usize, first: usize) {
     let mut strand = 0;
     while strand < S::STRANDS {
         let column = first + strand * S::F64_LANES;
-        let place = column / COLUMNS * ROW + PARAMETERS * row + 3 + column % COLUMNS;
-        parameters.store_strand(strand, &mut window[place..place + S::F64_LANES]);
+        let place = column / COLUMNS * ROW + PARAMETERS * row + 1 + column % COLUMNS;
+        columns.store_strand(strand, &mut window[place..place + S::F64_LANES]);
         strand += 1;
     }
 }

@@ -11,6 +11,7 @@ use crate::torque_free::separatrix::Passage;
 use crate::torque_free::steady::Steady;
 use crate::torque_free::wobble::WobbleEvaluator;
 
+use super::PARAMETERS;
 use super::constants::{CHANGES, Constants, Setting};
 use super::integral::Integral;
 use super::steady::{Growth, Varied};
@@ -18,8 +19,10 @@ use super::steady::{Growth, Varied};
 /// Numbers of one time from which the changes of g are computed, at most.
 pub(super) const NUMBERS: usize = 8;
 
-/// Places for parameters in a vector: those beyond [`CHANGES`] hold 0.
-pub(super) const COLUMNS: usize = 8;
+/// Columns of a row in a vector: all but the first.
+pub(super) const COLUMNS: usize = PARAMETERS - 1;
+/// The first of them, of the initial attitude, do not change the polhode: their constants are 0.
+pub(super) const UNCHANGING: usize = COLUMNS - CHANGES;
 
 /// Attitude, rates, and the numbers from which the derivatives of g are computed, with a time in each lane.
 pub(super) struct Place<S: InstructionSet> {
@@ -37,7 +40,7 @@ pub(super) trait Source {
 
     fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S>;
 
-    /// The constants from the parameter `first` on.
+    /// The constants from the column `first` on.
     fn columns<S: InstructionSet>(&self, simd: S, first: usize) -> Self::Columns<S>;
 
     /// δg and g·δθ for a unit of each parameter, from g and the numbers of the time.
@@ -48,17 +51,33 @@ pub(super) trait Source {
     ) -> ([Lanes<S>; 3], Lanes<S>);
 }
 
-/// A number of each parameter, in lanes from the parameter `first` on. If a vector has more lanes than there are places, the numbers are repeated.
-#[inline(always)]
-pub(super) fn parameters<S: InstructionSet>(simd: S, first: usize, value: impl Fn(usize) -> f64) -> Lanes<S> {
-    let mut lanes = [0.0; WIDEST];
-    for (lane, place) in lanes.iter_mut().enumerate() {
-        let parameter = (first + lane) % COLUMNS;
-        if parameter < CHANGES {
-            *place = value(parameter);
+/// Times whose matrices are computed at once.
+pub(super) const fn at_once<S: InstructionSet>() -> usize {
+    if Lanes::<S>::WIDTH > COLUMNS { 2 } else { 1 }
+}
+
+/// A constant of each column, one a lane. With two times at once both strands have the same numbers.
+#[derive(Clone, Copy)]
+pub(super) struct Constant<S: InstructionSet>(Lanes<S>);
+
+impl<S: InstructionSet> Constant<S> {
+    /// A number of each parameter, from the column `first` on.
+    #[inline(always)]
+    pub(super) fn new(simd: S, first: usize, value: impl Fn(usize) -> f64) -> Self {
+        let mut lanes = [0.0; WIDEST];
+        for (lane, place) in lanes.iter_mut().enumerate() {
+            if let Some(parameter) = ((first + lane) % COLUMNS).checked_sub(UNCHANGING) {
+                *place = value(parameter);
+            }
         }
+        Self(Lanes::load(simd, &lanes))
     }
-    Lanes::load(simd, &lanes)
+
+    /// The numbers. Equal strands are loaded once.
+    #[inline(always)]
+    pub(super) fn lanes(self) -> Lanes<S> {
+        if at_once::<S>() == 2 { self.0.alike() } else { self.0 }
+    }
 }
 
 /// Sines and cosines of ℓ′ and y′/2 that are already computed.
@@ -156,15 +175,15 @@ impl Amplitudes {
         let all = &self.constants;
         Amplitude {
             growth: [
-                parameters(simd, first, |parameter| all[parameter].growth[0]),
-                parameters(simd, first, |parameter| all[parameter].growth[1]),
-                parameters(simd, first, |parameter| all[parameter].growth[2]),
+                Constant::new(simd, first, |parameter| all[parameter].growth[0]),
+                Constant::new(simd, first, |parameter| all[parameter].growth[1]),
+                Constant::new(simd, first, |parameter| all[parameter].growth[2]),
             ],
-            half_beta: parameters(simd, first, |parameter| all[parameter].half_beta),
-            delay: parameters(simd, first, |parameter| all[parameter].delay),
-            drift: parameters(simd, first, |parameter| all[parameter].drift),
-            turn: parameters(simd, first, |parameter| all[parameter].turn),
-            swing: parameters(simd, first, |parameter| all[parameter].swing),
+            half_beta: Constant::new(simd, first, |parameter| all[parameter].half_beta),
+            delay: Constant::new(simd, first, |parameter| all[parameter].delay),
+            drift: Constant::new(simd, first, |parameter| all[parameter].drift),
+            turn: Constant::new(simd, first, |parameter| all[parameter].turn),
+            swing: Constant::new(simd, first, |parameter| all[parameter].swing),
         }
     }
 }
@@ -179,24 +198,25 @@ pub(super) fn direction<S: InstructionSet>(setting: &Setting, [p, q, r]: [Lanes<
 /// The constants of theory §12 with a parameter in each lane.
 #[derive(Clone, Copy)]
 pub(super) struct Amplitude<S: InstructionSet> {
-    growth: [Lanes<S>; 3],
-    half_beta: Lanes<S>,
-    delay: Lanes<S>,
-    drift: Lanes<S>,
-    turn: Lanes<S>,
-    swing: Lanes<S>,
+    growth: [Constant<S>; 3],
+    half_beta: Constant<S>,
+    delay: Constant<S>,
+    drift: Constant<S>,
+    turn: Constant<S>,
+    swing: Constant<S>,
 }
 
 impl<S: InstructionSet> Amplitude<S> {
     #[inline(always)]
     fn change(&self, direction: [Lanes<S>; 3], numbers: [Lanes<S>; NUMBERS]) -> ([Lanes<S>; 3], Lanes<S>) {
-        let Self { growth, half_beta: half, delay, drift, turn, swing: work } = *self;
+        let [half, delay, drift] = [self.half_beta.lanes(), self.delay.lanes(), self.drift.lanes()];
+        let (growth, turn, work) = (self.growth, self.turn.lanes(), self.swing.lanes());
         let [a, b, c, u, v, w, time, swing] = numbers;
         let (slope, squares) = ([a, b, c], [u, v, w]);
         let delay = time.mul_add(drift, (half + half).negate_mul_add(swing, delay));
         let mut change = direction;
         for i in 0..3 {
-            let amplitude = half.mul_add(squares[i], growth[i]);
+            let amplitude = half.mul_add(squares[i], growth[i].lanes());
             change[i] = amplitude.mul_add(direction[i], delay * slope[i]);
         }
         (change, time.mul_add(turn, swing * work))
@@ -290,8 +310,8 @@ pub(super) struct Steadily<'a> {
 #[derive(Clone, Copy)]
 pub(super) struct Vectors<S: InstructionSet> {
     /// Factors of 1, S, C and t in δg.
-    change: [[Lanes<S>; 3]; 4],
-    turn: Lanes<S>,
+    change: [[Constant<S>; 3]; 4],
+    turn: Constant<S>,
 }
 
 impl Source for Steadily<'_> {
@@ -323,13 +343,13 @@ impl Source for Steadily<'_> {
     #[inline(always)]
     fn columns<S: InstructionSet>(&self, simd: S, first: usize) -> Vectors<S> {
         let all = &self.varied.vectors;
-        let mut change = [[Lanes::splat(simd, 0.0); 3]; 4];
+        let mut change = [[Constant::new(simd, first, |_| 0.0); 3]; 4];
         for (factor, vector) in change.iter_mut().enumerate() {
             for (axis, lanes) in vector.iter_mut().enumerate() {
-                *lanes = parameters(simd, first, |parameter| all[parameter].change[factor][axis]);
+                *lanes = Constant::new(simd, first, |parameter| all[parameter].change[factor][axis]);
             }
         }
-        Vectors { change, turn: parameters(simd, first, |parameter| all[parameter].turn) }
+        Vectors { change, turn: Constant::new(simd, first, |parameter| all[parameter].turn) }
     }
 
     #[inline(always)]
@@ -339,11 +359,11 @@ impl Source for Steadily<'_> {
         [first, second, time, ..]: [Lanes<S>; NUMBERS],
     ) -> ([Lanes<S>; 3], Lanes<S>) {
         let [start, once, twice, pushed] = columns.change;
-        let mut change = start;
+        let mut change = [time; 3];
         for i in 0..3 {
-            let linear = time.mul_add(pushed[i], start[i]);
-            change[i] = second.mul_add(twice[i], first.mul_add(once[i], linear));
+            let linear = time.mul_add(pushed[i].lanes(), start[i].lanes());
+            change[i] = second.mul_add(twice[i].lanes(), first.mul_add(once[i].lanes(), linear));
         }
-        (change, time * columns.turn)
+        (change, time * columns.turn.lanes())
     }
 }

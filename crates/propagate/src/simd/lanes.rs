@@ -294,6 +294,12 @@ impl<S: InstructionSet> Lanes<S> {
         Self { simd, _aligned: [], strands: [simd.splat_f64s(first), simd.splat_f64s(second)] }
     }
 
+    /// The same value, if both strands are known to be alike: the second one need not be loaded.
+    #[inline(always)]
+    pub(crate) fn alike(self) -> Self {
+        Self { strands: [self.strands[0]; STRANDS], ..self }
+    }
+
     /// The lanes of one strand, to as many places.
     #[inline(always)]
     pub(crate) fn store_strand(self, strand: usize, out: &mut [f64]) {
