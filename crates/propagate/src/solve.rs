@@ -134,7 +134,7 @@ impl Scene {
         }
         let mut solved = match mode {
             Mode::Spherical | Mode::PrincipalAxis => Ok(steadily_rotating(scene, polhode, mode)),
-            _ => wobbling((scene, preparation), polhode, mode),
+            _ => wobbling(scene, preparation, polhode, mode),
         };
         // The motion is not moved: it has some hundreds of bytes.
         if let Ok(motion) = &mut solved {
@@ -209,7 +209,7 @@ fn steadily_rotating(scene: Scene, polhode: &Polhode, mode: Mode) -> Motion {
 }
 
 /// The motion of a wobbling body, or of one on the separatrix.
-fn wobbling((scene, preparation): (Scene, Preparation<'_>), polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
+fn wobbling(scene: Scene, preparation: Preparation<'_>, polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
     let Preparation { tables, secular, remarks } = preparation;
     if mode == Mode::Separatrix {
         return match scene.asked_method() {
@@ -243,7 +243,7 @@ fn wobbling((scene, preparation): (Scene, Preparation<'_>), polhode: &Polhode, m
 /// The motion of a wobbling body by the closed form, with every harmonic that rounding leaves: what derivatives are taken of.
 pub(crate) fn untruncated(scene: &Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
     let preparation = Preparation { tables: &SeriesTables::default(), secular: None, remarks: false };
-    wobbling((scene.clone().method(Method::Closed).tolerance(0.0), preparation), polhode, mode)
+    wobbling(scene.clone().method(Method::Closed).tolerance(0.0), preparation, polhode, mode)
 }
 
 fn assembled(scene: Scene, polhode: &Polhode, mut plan: Plan, solution: Solution) -> Motion {

@@ -322,12 +322,14 @@ impl Ensemble {
         if let Some((start, stop)) = self.span {
             scene = scene.span(start, stop);
         }
-        scene.into_validated()
+        // The state is valid already.
+        scene.validate_options()?;
+        Ok(scene)
     }
 
-    /// The motions of members, with plans that do not say what was skipped. There are at most [`Ensemble::group`] of them.
-    pub(super) fn motions(&self, indices: &[usize]) -> impl Iterator<Item = Result<Motion, Error>> + use<> {
-        several(indices.iter().map(|index| self.scene(*index)).collect())
+    /// Calls `each` with the motions of members, one after another. Their plans do not say what was skipped. There are at most [`Ensemble::group`] of them.
+    pub(super) fn each_motion(&self, indices: &[usize], each: impl FnMut(&Result<Motion, Error>)) {
+        several(indices.iter().map(|index| self.scene(*index)).collect(), each);
     }
 
     /// Members that are solved at once. Those under a gravity gradient are solved one by one.

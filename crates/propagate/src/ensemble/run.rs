@@ -239,28 +239,29 @@ impl<'a> Run<'a> {
         blank: impl Fn(&mut Rows) + Sync,
     ) -> Result<Outcome, Error> {
         let Self { ensemble, .. } = *self;
-        let told = |outcome: Outcome, ((index, mut rows), motion): ((usize, Rows), Result<Motion, Error>)| {
-            // The motion is not moved: it has some hundreds of bytes.
-            let refused = match &motion {
+        let told = |outcome: Outcome, (index, mut rows): (usize, Rows), motion: &Result<Motion, Error>| {
+            let refused = match motion {
                 Ok(motion) => match evaluate(motion, index, &mut rows) {
                     Ok(()) => return outcome.solved(index, motion.plan()),
-                    Err(error) => Some(error),
+                    Err(error) => error,
                 },
-                Err(_) => None,
+                Err(error) => error.clone(),
             };
             blank(&mut rows);
-            match refused.or(motion.err()) {
-                Some(error) => outcome.refused(index, Error::of_member(index, error)),
-                None => outcome,
-            }
+            outcome.refused(index, Error::of_member(index, refused))
         };
         let all_told = |outcome: Outcome, group: Vec<(usize, Rows)>| {
             if let Err(stopped) = self.going() {
                 return outcome.refused(0, stopped);
             }
             let indices: Vec<usize> = group.iter().map(|(index, _)| *index).collect();
-            let motions = ensemble.motions(&indices);
-            group.into_iter().zip(motions).fold(outcome, told)
+            let (mut all, mut members) = (outcome, group.into_iter());
+            ensemble.each_motion(&indices, |motion| {
+                if let Some(member) = members.next() {
+                    all = told(std::mem::take(&mut all), member, motion);
+                }
+            });
+            all
         };
         let members = rows.enumerate().chunks(ensemble.group()).with_min_len(ensemble.block() / ensemble.group());
         let outcome = ensemble

@@ -236,6 +236,12 @@ impl Scene {
     /// The same, without a copy.
     pub(crate) fn into_validated(mut self) -> Result<Self, Error> {
         self.state = self.state.validated()?;
+        self.validate_options()?;
+        Ok(self)
+    }
+
+    /// Whether tolerance, order and span are valid.
+    pub(crate) fn validate_options(&self) -> Result<(), Error> {
         if !(self.tolerance.is_finite() && self.tolerance > 0.0) {
             return Err(Error::Tolerance { value: self.tolerance });
         }
@@ -247,6 +253,6 @@ impl Scene {
         {
             return Err(Error::Span { start, stop });
         }
-        Ok(self)
+        Ok(())
     }
 }

@@ -12,25 +12,27 @@ use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
 use crate::torque_free::series::tables::SeriesTables;
 
-/// The motions of at most as many valid scenes as the widest vectors have lanes, each to the bits of [`Scene::solve`]. The plans of free motions do not say
-/// what was skipped.
-pub(crate) fn several(scenes: Vec<Result<Scene, Error>>) -> impl Iterator<Item = Result<Motion, Error>> {
+/// Calls `each` with the motions of at most as many valid scenes as the widest vectors have lanes, each to the bits of [`Scene::solve`]. The plans of free
+/// motions do not say what was skipped. A motion has some hundreds of bytes: it is used where it was made, because a copy of it takes 10 ns.
+pub(crate) fn several(scenes: Vec<Result<Scene, Error>>, mut each: impl FnMut(&Result<Motion, Error>)) {
     let tables = SeriesTables::default();
     let states: Vec<(&Body, &State)> =
         scenes.iter().flatten().filter(|scene| is_free(scene)).map(|scene| (scene.body(), scene.state())).collect();
     let polhodes = Polhode::several(&states);
     let frequencies = Secular::several(&polhodes.iter().flatten().filter(wobbles).collect::<Vec<_>>());
-    let (mut place, mut secular) = (0, frequencies.into_iter());
-    let mut solve = move |scene: Scene| {
-        if !is_free(&scene) {
-            return scene.solve();
-        }
-        let polhode = polhodes[place].as_ref();
-        place += 1;
-        let secular = polhode.filter(wobbles).and_then(|_| secular.next());
-        scene.solve_on(polhode, Preparation { tables: &tables, secular, remarks: false })
-    };
-    scenes.into_iter().map(move |scene| scene.and_then(&mut solve))
+    let (mut polhodes, mut frequencies) = (polhodes.iter(), frequencies.into_iter());
+    for scene in scenes {
+        let motion = match scene {
+            Ok(scene) if is_free(&scene) => {
+                let polhode = polhodes.next().and_then(Option::as_ref);
+                let secular = polhode.filter(wobbles).and_then(|_| frequencies.next());
+                scene.solve_on(polhode, Preparation { tables: &tables, secular, remarks: false })
+            }
+            Ok(scene) => scene.solve(),
+            Err(error) => Err(error),
+        };
+        each(&motion);
+    }
 }
 
 /// Whether a motion is a wobble, which has frequencies.

@@ -164,17 +164,13 @@ fn folded([high, low]: [[f64; WIDEST]; 2]) -> DoubleDouble {
 /// The same of as many means as there are lanes, to the same bits.
 #[inline(always)]
 fn total<S: InstructionSet>(simd: S, partial: &[Partial], which: usize) -> DoubleDoubleLanes<S> {
-    let mut columns = [[[0.0; WIDEST]; WIDEST]; 2];
-    for (index, sums) in partial.iter().enumerate().take(Lanes::<S>::WIDTH) {
-        for part in 0..2 {
-            for lane in 0..WIDEST {
-                columns[part][lane][index] = sums[which][part][lane];
-            }
-        }
-    }
     let mut sums = [DoubleDoubleLanes::splat(simd, DoubleDouble::ZERO); WIDEST];
     for (lane, sum) in sums.iter_mut().enumerate() {
-        *sum = DoubleDoubleLanes::load(simd, &columns[0][lane], &columns[1][lane]);
+        let [mut high, mut low] = [[0.0; WIDEST]; 2];
+        for (index, sums) in partial.iter().enumerate().take(Lanes::<S>::WIDTH) {
+            (high[index], low[index]) = (sums[which][0][lane], sums[which][1][lane]);
+        }
+        *sum = DoubleDoubleLanes::load(simd, &high, &low);
     }
     let mut half = WIDEST / 2;
     while half > 0 {
