@@ -14,7 +14,7 @@ pub(crate) trait InstructionSet: Simd {
     /// Vectors that are processed side by side, one or two.
     const STRANDS: usize = 2;
 
-    /// A register of doubles. The vectors of pulp lack its alignment ([`super::lanes`]).
+    /// A register of doubles. The vectors of pulp do not have its alignment ([`super::lanes`]).
     type Register: Copy;
 
     /// The set itself, or one of its machine whose vectors have four lanes.
