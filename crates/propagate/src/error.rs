@@ -227,8 +227,6 @@ pub enum Error {
         /// The level as given.
         value: String,
     },
-    /// Second order together with the average over the orbit, which is of first order.
-    LevelOfOrbit,
     /// An option that needs one disturbing body on an orbit that does not precess.
     OneFixedOrbit {
         /// The option.
@@ -267,7 +265,7 @@ pub enum Error {
         /// The largest number of orbits.
         bound: f64,
     },
-    /// A span with more arcs than the averaged equations of several bodies, or of an orbit that precesses, can be solved for.
+    /// A span with more arcs than the averaged equations can be solved for: of several bodies, of an orbit that precesses, or over the orbit in second order.
     SpanOfBodies {
         /// The time from the epoch to the farther end of the span.
         value: f64,

@@ -63,7 +63,6 @@ impl Error {
             | Self::TableSpan { .. }
             | Self::NoSpan { .. }
             | Self::Level { .. }
-            | Self::LevelOfOrbit
             | Self::OneFixedOrbit { .. }
             | Self::Averaging { .. }
             | Self::OnError { .. }
@@ -156,7 +155,6 @@ impl Error {
             Self::Convention { value } => facts("convention", value, "extremal-axis, long-axis, short-axis"),
             Self::ModeName { value } => facts("mode", value, "short-axis, long-axis"),
             Self::Level { value } => facts("level", value, "auto, paper, moving, full, second-order"),
-            Self::LevelOfOrbit => facts("averaging", "orbit", "auto, spin"),
             Self::OneFixedOrbit { argument, value } => {
                 facts(argument, value, if *argument == "level" { "auto, paper, moving, full" } else { "auto, spin" })
             }

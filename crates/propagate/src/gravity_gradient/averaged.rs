@@ -9,8 +9,8 @@
 //!
 //! where J is the factor of Δ in the phases. `Slow::Spin` solves these equations on quarters of an orbit by Picard's iteration on Chebyshev points. The
 //! right-hand side is a trigonometric polynomial of f and κ is small, so a few iterations converge to rounding error. The result is a polynomial that can be
-//! evaluated at any time of the quarter. A quarter is solved when a time first needs it, and is kept. `Slow::Orbit` is the orbit average to first order in κ:
-//! steady precession about the orbit's normal, with the periodic part in closed form in f, without an expansion in e. `Slow::Bodies` has the sum over several
+//! evaluated at any time of the quarter. A quarter is solved when a time first needs it, and is kept. `Slow::Orbit` is the orbit average: precession
+//! about the orbit's normal, with the periodic part in closed form in f, without an expansion in e. `Slow::Bodies` has the sum over several
 //! disturbing bodies on orbits that may precess. It is averaged over the rotation only, and solved on arcs of time.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -25,6 +25,7 @@ use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::{Lanes, WIDEST};
 
+mod arcs;
 mod bodies;
 mod polynomial;
 mod precession;
@@ -43,6 +44,8 @@ pub(crate) const MOST_QUARTERS: usize = 1 << 18;
 pub(crate) struct AveragedOrbit {
     pub(crate) eccentricity: f64,
     eta_cubed: f64,
+    /// The mean over the mean anomaly of ½ cos 2f + ½ e cos f + ⅙ e cos 3f, with its sign changed.
+    mean_of_sine: f64,
     /// n in the units of the motion.
     mean_motion: f64,
     /// G m/a³ over n².
@@ -75,10 +78,7 @@ impl Slow {
     ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         match self {
             Self::Spin(spin) => spin.at(when),
-            Self::Orbit(precession) => {
-                let (frame, phase) = precession.at(&when.place, elapsed);
-                (frame, [phase; 2])
-            }
+            Self::Orbit(precession) => precession.at(&when.place, elapsed),
             Self::Bodies(bodies) => bodies.at(elapsed.0),
         }
     }
@@ -91,8 +91,12 @@ impl AveragedOrbit {
         let (eccentricity, fraction) = (orbit.eccentricity(), orbit.disturbing_fraction());
         let eta = (1.0 - eccentricity * eccentricity).sqrt();
         let eta_cubed = eta * eta * eta;
+        // ⟨cos kf⟩ = (−β)^k (1 + kη).
+        let beta = eccentricity / (1.0 + eta);
+        let third = eccentricity / 6.0 * beta * (1.0 + 3.0 * eta);
+        let mean_of_sine = 0.5 * eccentricity * eccentricity - beta * beta * (0.5 * (1.0 + 2.0 * eta) - third);
         let strength = 3.0 * mean_motion * (delta * fraction) / eta_cubed;
-        Self { eccentricity, eta_cubed, mean_motion, fraction, axes, strength, second: None }
+        Self { eccentricity, eta_cubed, mean_of_sine, mean_motion, fraction, axes, strength, second: None }
     }
 
     /// With the averaged equations of second order.
@@ -103,6 +107,11 @@ impl AveragedOrbit {
     /// κ.
     pub(crate) fn strength(&self) -> f64 {
         self.strength
+    }
+
+    /// Whether the averaged equations are those of second order.
+    pub(crate) fn is_of_second_order(&self) -> bool {
+        self.second.is_some()
     }
 
     /// G m/a³ over n².

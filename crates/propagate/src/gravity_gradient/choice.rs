@@ -5,7 +5,7 @@ use nalgebra::UnitQuaternion;
 use super::disturbed::Gradient;
 use super::request::Request;
 use crate::error::Error;
-use crate::input::options::{Averaging, Level};
+use crate::input::options::Level;
 use crate::torque_free::polhode::Polhode;
 
 /// The motion under a gravity gradient at the level that is asked for, and why it is not of second order if that was left open.
@@ -27,8 +27,6 @@ pub(crate) fn chosen(
         "first order meets the tolerance".to_owned()
     } else if !request.is_fixed() {
         "several disturbing bodies, and orbits that precess, are of first order".to_owned()
-    } else if request.averaging == Averaging::Orbit {
-        "the average over the orbit, which was asked for, is of first order".to_owned()
     } else {
         match solved(Level::SecondOrder) {
             Ok(second) if second.error < first.error => return Ok((second, None)),

@@ -121,12 +121,13 @@ impl Gradient {
             DoubleDouble { high: scaled(rate.high, exponent), low: scaled(rate.low, exponent) }
         });
         let unit = scaled(1.0, exponent);
-        let slow = |frame| averages.slow(frame, (request, by_orbit), &paths, unit);
+        let factors = averages.per_phase(&inertia, request);
+        let slow = |frame| averages.slow(frame, (request, by_orbit), &paths, (unit, factors));
         let mut gradient = Self {
             anomaly: Phase::new(anomaly_rate, mean.p.arg()),
             half_longitude: Phase::new(longitude_rate * 0.5.into(), 0.5 * mean.longitude),
             root: mean.p.norm(),
-            drifts: averages.drifts(&inertia, request),
+            drifts: if level == Level::SecondOrder { [1.0; 2] } else { factors },
             secular: averages.secular(&inertia, &mean).map(|rate| rate * unit),
             pair: inertia.pair.each_ref().map(|series| Powers::new(series, inertia.sigma.sqrt())),
             inertia,
@@ -145,6 +146,10 @@ impl Gradient {
             error,
         };
         gradient.start_at(polhode, attitude, mean.frame, slow);
+        let bound = gradient.bound();
+        if request.spanned && request.duration > bound {
+            return Err(Error::SpanOfBodies { value: request.duration, bound });
+        }
         Ok(gradient)
     }
 
@@ -154,16 +159,16 @@ impl Gradient {
         [self.anomaly.frequency() * TAU + anomaly, 2.0 * self.half_longitude.frequency() * TAU + longitude]
     }
 
-    /// Whether there is one body, on an orbit that does not precess.
-    pub(crate) fn is_fixed(&self) -> bool {
-        !matches!(self.slow, Slow::Bodies(_))
+    /// Whether the averaged equations are solved for each quarter of an orbit.
+    pub(crate) fn is_by_quarters(&self) -> bool {
+        matches!(self.slow, Slow::Spin(_))
     }
 
-    /// The longest time from the epoch for which quarters are kept, in the user's unit.
+    /// The longest time from the epoch for which the averaged equations are solved, in the user's unit.
     pub(crate) fn bound(&self) -> f64 {
         match &self.slow {
             Slow::Spin(_) => MOST_ORBITS / self.bodies[0].course.mean_anomaly.frequency(),
-            Slow::Orbit(_) => f64::INFINITY,
+            Slow::Orbit(precession) => precession.bound(MOST_QUARTERS),
             Slow::Bodies(_) => longest(self.bodies.iter().map(|body| &body.course)),
         }
     }
@@ -274,7 +279,6 @@ struct Averages {
     delta: f64,
     /// ⟨D⟩ = −½ (dJ/dt) Δ: dΔ/dσ times −½ over M. The derivatives of ⟨D⟩ with respect to L, and to M at fixed L, follow from it.
     slope: f64,
-    level: Level,
 }
 
 impl Averages {
@@ -292,19 +296,22 @@ impl Averages {
                 _ => ellipse,
             }
         });
-        Self { ellipses: ellipses.collect(), delta, slope: -0.5 * 1.5 * axial_slope / mean.momentum, level }
+        Self { ellipses: ellipses.collect(), delta, slope: -0.5 * 1.5 * axial_slope / mean.momentum }
     }
 
-    /// What J, or in second order the drifts themselves, is multiplied by in ℓ′ and y′.
-    fn drifts(&self, inertia: &Inertia, request: &Request<'_>) -> [f64; 2] {
+    /// The drifts of ℓ′ and y′ over J.
+    fn per_phase(&self, inertia: &Inertia, request: &Request<'_>) -> [f64; 2] {
         // J of a single fixed orbit is per mass fraction, which is in its slope.
         let slope = if request.is_fixed() { self.slope * self.ellipses[0].fraction() } else { self.slope };
-        if self.level == Level::SecondOrder { [1.0; 2] } else { [slope, -inertia.sigma * slope] }
+        [slope, -inertia.sigma * slope]
     }
 
     /// The rates of ℓ′ and y′ in the orbit average.
     fn secular(&self, inertia: &Inertia, mean: &Mean) -> [f64; 2] {
         let axis = mean.frame * Vector3::z();
+        if let Some(average) = self.ellipses[0].over_orbit() {
+            return average.slopes(&axis).phases;
+        }
         let rate = self.ellipses.iter().map(|ellipse| ellipse.secular(&axis) * ellipse.fraction()).sum::<f64>();
         [self.slope * rate, -inertia.sigma * self.slope * rate]
     }
@@ -315,7 +322,7 @@ impl Averages {
         frame: UnitQuaternion<f64>,
         (request, by_orbit): (&Request<'_>, bool),
         paths: &Paths,
-        unit: f64,
+        (unit, factors): (f64, [f64; 2]),
     ) -> Slow {
         let ellipse = &self.ellipses[0];
         match (request.is_fixed(), by_orbit) {
@@ -326,7 +333,8 @@ impl Averages {
                 Slow::Bodies(Box::new(Bodies::new(pulls.collect(), self.delta, frame)))
             }
             (true, true) => {
-                Slow::Orbit(Box::new(Precession::new(ellipse.clone(), frame, &paths.starts[0].place, unit)))
+                let place = &paths.starts[0].place;
+                Slow::Orbit(Box::new(Precession::new(ellipse.clone(), frame, place, (unit, factors))))
             }
             (true, false) => Slow::Spin(Box::new(Spin::new(ellipse.clone(), frame, &paths.starts[0]))),
         }
@@ -372,7 +380,9 @@ fn error_bound(
         let by_orbit = budget.by_orbit(request)?;
         return Ok((by_orbit, budget.error(by_orbit)));
     }
-    within_arcs(&paths.courses, request)?;
+    if request.averaging == Averaging::Orbit {
+        return Err(Error::OneFixedOrbit { argument: "averaging", value: Averaging::Orbit.to_string() });
+    }
     let subjects: Vec<_> = (0..demands.len()).map(subject).collect();
     Ok((false, Budget::of_bodies(&subjects, demands, paths.duration).error(false)))
 }
@@ -381,16 +391,4 @@ fn error_bound(
 fn longest<'a>(courses: impl Iterator<Item = &'a Course>) -> f64 {
     // In a unit of time there are no more arcs than in all orbits together.
     MOST_QUARTERS as f64 / courses.map(Course::arcs).sum::<f64>()
-}
-
-/// Checks that the averaged equations can be solved over the span.
-fn within_arcs(courses: &[Course], request: &Request<'_>) -> Result<(), Error> {
-    let bound = longest(courses.iter());
-    if request.averaging == Averaging::Orbit {
-        return Err(Error::OneFixedOrbit { argument: "averaging", value: Averaging::Orbit.to_string() });
-    }
-    if request.spanned && request.duration > bound {
-        return Err(Error::SpanOfBodies { value: request.duration, bound });
-    }
-    Ok(())
 }

@@ -106,7 +106,7 @@ pub enum Level {
     Moving,
     /// First order in the torque, the potential to all orders in J, and a disturbing body that moves along its orbit.
     Full,
-    /// To all orders in J, and the averaged motion to second order in the torque: not with [`Averaging::Orbit`].
+    /// To all orders in J, and the averaged motion to second order in the torque.
     SecondOrder,
 }
 
@@ -145,7 +145,7 @@ pub enum Averaging {
     /// The cheapest averaging that meets the tolerance.
     #[default]
     Auto,
-    /// Over the rotation and the orbit: the solution is a formula.
+    /// Over the rotation and the orbit: the solution is a formula, in second order on an eccentric orbit a polynomial for each arc of the precession.
     Orbit,
     /// Over the rotation only: the averaged equations are solved for each quarter of the orbit.
     Spin,

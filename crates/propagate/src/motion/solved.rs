@@ -19,9 +19,9 @@ const LONGEST: f64 = 1e300;
 
 /// The reason why the times of a motion averaged over the spin are bounded.
 const SOLVED: &str =
-    ": averaging = spin solves the averaged equations no farther; averaging over the orbit has no such bound";
+    ": averaging = spin solves the averaged equations no farther; averaging over the orbit reaches farther";
 
-/// The same for several bodies and for orbits that precess.
+/// The same for motions that are solved on arcs of time.
 const SOLVED_ON_ARCS: &str = ": the averaged equations are solved no farther";
 
 /// The reasons why the times of an integrated motion are bounded.
@@ -222,7 +222,7 @@ impl Motion {
         let phases = if phases < LONGEST { (phases, ": farther away the motion has no phase") } else { (LONGEST, "") };
         match &self.trajectory {
             Trajectory::Gradient(gradient) if gradient.bound() < phases.0 => {
-                (gradient.bound(), if gradient.is_fixed() { SOLVED } else { SOLVED_ON_ARCS })
+                (gradient.bound(), if gradient.is_by_quarters() { SOLVED } else { SOLVED_ON_ARCS })
             }
             _ => phases,
         }

@@ -9,16 +9,15 @@
 //! The equations are solved on arcs of time, by polynomials as on the quarters of one orbit. The length of an arc follows from the singularities of the orbits
 //! in the complex plane of time, which are near the pericentre of an eccentric orbit. Arcs are solved when a time first needs them, and are kept.
 
-use std::sync::{Arc, RwLock};
-
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use pulp::{Arch, NullaryFnOnce};
+use pulp::Arch;
 
-use super::polynomial::{COLUMNS, Column, NODES, POINTS, Polynomial};
+use super::arcs::{Arcs, Averaged, Stretch};
+use super::polynomial::{Column, NODES, POINTS, Polynomial};
 use crate::gravity_gradient::course::Course;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
-use crate::simd::lanes::{Lanes, WIDEST};
+use crate::simd::lanes::Lanes;
 
 /// A disturbing body: where it is, and μ in the units of the motion times the user's unit of time in these units.
 #[derive(Clone, Debug)]
@@ -30,97 +29,37 @@ pub(crate) struct Pull {
 /// The averaged motion; times are those from the epoch in the user's unit.
 #[derive(Clone, Debug)]
 pub(crate) struct Bodies {
+    equations: Equations,
+    arcs: Arcs,
+}
+
+/// The averaged equations.
+#[derive(Clone, Debug)]
+struct Equations {
     pulls: Vec<Pull>,
     /// Δ/M.
     delta: f64,
-    start: Column,
-    /// The solved arcs after the epoch, and before it.
-    kept: Arc<[RwLock<Vec<Stretch>>; 2]>,
 }
 
 /// The direction of a body and μ (a/r)³.
 type Torque = (Vector3<f64>, f64);
 
-/// One arc: the distances of its ends from the epoch, and the solution.
-#[derive(Clone, Copy, Debug)]
-struct Stretch {
-    from: f64,
-    length: f64,
-    solution: Polynomial,
-}
-
-impl Stretch {
-    fn end(&self) -> f64 {
-        self.from + self.length
-    }
-}
-
 impl Bodies {
     /// From the frame at the epoch, where J and the drifts are 0.
     pub(crate) fn new(pulls: Vec<Pull>, delta: f64, frame: UnitQuaternion<f64>) -> Self {
-        Self { pulls, delta, start: [frame.i, frame.j, frame.k, frame.w, 0.0, 0.0], kept: Arc::default() }
+        let start = [frame.i, frame.j, frame.k, frame.w, 0.0, 0.0];
+        Self { equations: Equations { pulls, delta }, arcs: Arcs::new(start) }
     }
 
-    /// The frame and J at times after the epoch. The function is compiled separately: one fixed orbit does without it.
+    /// The frame and J at times after the epoch.
     #[inline(always)]
     pub(super) fn at<S: InstructionSet>(&self, times: Lanes<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
-        times.simd().vectorize(At { bodies: self, times })
+        self.arcs.at(&self.equations, times)
     }
+}
 
-    /// Consecutive times in the same arc are evaluated together.
-    #[inline(always)]
-    fn evaluated<S: InstructionSet>(&self, times: Lanes<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
-        let all = times.values();
-        let mut rows = [[0.0; WIDEST]; COLUMNS];
-        let mut lane = 0;
-        while lane < all.len() {
-            let side = usize::from(all[lane] < 0.0);
-            let stretch = self.stretch(side, all[lane].abs());
-            let inside = |time: &f64| {
-                usize::from(*time < 0.0) == side && time.abs() >= stretch.from && time.abs() <= stretch.end()
-            };
-            let next = lane + 1 + all[lane + 1..].iter().take_while(|time| inside(time)).count();
-            let place =
-                (times.magnitude() - times.all(stretch.from)) * times.all(2.0 / stretch.length) - times.all(1.0);
-            let columns = stretch.solution.sums(place);
-            if next - lane == all.len() {
-                let [x, y, z, w, anomaly, longitude] = columns;
-                return (QuaternionLanes([x, y, z, w]), [anomaly, longitude]);
-            }
-            for (row, column) in rows.iter_mut().zip(&columns) {
-                row[lane..next].copy_from_slice(&column.values()[lane..next]);
-            }
-            lane = next;
-        }
-        let mut columns = [times; COLUMNS];
-        for (column, row) in columns.iter_mut().zip(&rows) {
-            *column = times.like(row);
-        }
-        let [x, y, z, w, anomaly, longitude] = columns;
-        (QuaternionLanes([x, y, z, w]), [anomaly, longitude])
-    }
-
-    /// The arc that contains a time at this distance from the epoch. If it is not known yet, it is solved together with all arcs between.
-    fn stretch(&self, side: usize, distance: f64) -> Stretch {
-        let found = |arcs: &[Stretch]| arcs.get(arcs.partition_point(|arc| arc.end() < distance)).copied();
-        // If a thread panicked while it held the lock, the arcs are still complete.
-        let known = found(&self.kept[side].read().unwrap_or_else(|poisoned| poisoned.into_inner()));
-        if let Some(arc) = known {
-            return arc;
-        }
-        let mut arcs = self.kept[side].write().unwrap_or_else(|poisoned| poisoned.into_inner());
-        loop {
-            if let Some(arc) = found(&arcs) {
-                return arc;
-            }
-            let (from, start) = arcs.last().map_or((0.0, self.start), |arc| (arc.end(), arc.solution.at(1.0)));
-            arcs.push(self.solved(side, from, &start));
-        }
-    }
-
-    /// The arc that begins at a distance from the epoch.
-    fn solved(&self, side: usize, from: f64, start: &Column) -> Stretch {
-        let sign = if side == 0 { 1.0 } else { -1.0 };
+impl Averaged for Equations {
+    fn arc(&self, sign: f64, from: f64, start: &Column) -> Stretch {
         let longest = |pull: &Pull| pull.course.arc(pull.course.mean_anomaly.angle((sign * from, 0.0)));
         let length = self.pulls.iter().map(longest).fold(f64::INFINITY, f64::min);
         let half = 0.5 * length;
@@ -129,7 +68,9 @@ impl Bodies {
         let slope = |i: usize, frame: &Quaternion<f64>| self.slope(torques.iter().map(|body| &body[i]), frame);
         Stretch { from, length, solution: Polynomial::solved(sign * half, (-1.0, start), slope) }
     }
+}
 
+impl Equations {
     /// The derivative of a column by time, from the directions of the bodies and μ(a/r)³.
     fn slope<'a>(&self, torques: impl Iterator<Item = &'a Torque>, frame: &Quaternion<f64>) -> Column {
         let axis = (frame * Quaternion::new(0.0, 0.0, 0.0, 1.0) * frame.conjugate()).imag();
@@ -142,21 +83,6 @@ impl Bodies {
         }
         let change = Quaternion::from_parts(0.0, turning * 0.5) * frame;
         [change.i, change.j, change.k, change.w, phase, phase]
-    }
-}
-
-/// [`Bodies::evaluated`] as a task that is compiled separately.
-struct At<'a, S: InstructionSet> {
-    bodies: &'a Bodies,
-    times: Lanes<S>,
-}
-
-impl<S: InstructionSet> NullaryFnOnce for At<'_, S> {
-    type Output = (QuaternionLanes<S>, [Lanes<S>; 2]);
-
-    #[inline(always)]
-    fn call(self) -> Self::Output {
-        self.bodies.evaluated(self.times)
     }
 }
 

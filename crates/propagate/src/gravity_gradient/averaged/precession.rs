@@ -1,79 +1,174 @@
-//! The average over the rotation and the orbit, to first order in κ.
+//! The average over the rotation and the orbit.
+//!
+//! To first order in κ the angular momentum precesses steadily about the orbit's normal. To second order (theory §9) it also nods if the orbit is eccentric: the
+//! averaged equations are then solved on arcs of the precession. Both have the same periodic part of one orbit, of first order in κ.
 
 use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::AveragedOrbit;
+use super::arcs::{Arcs, Averaged, Stretch};
+use super::polynomial::{Column, Polynomial};
+use crate::gravity_gradient::second_order::over_orbit::OrbitAverage;
 use crate::numerics::phase::Phase;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
-/// Steady precession with the periodic part of one orbit.
+/// Largest turn of the angular momentum in one arc \[rad\].
+const TURN: f64 = 1.0;
+/// An angular momentum that turns by less than this in one radian of the orbit has arcs as long as one that turns so much.
+const SLOWEST: f64 = 1e-12;
+
+/// Precession with the periodic part of one orbit.
 #[derive(Clone, Debug)]
 pub(crate) struct Precession {
     ellipse: AveragedOrbit,
-    /// The mean frame at the epoch.
-    frame: UnitQuaternion<f64>,
-    /// Half the angle about the orbit's normal. `half_back` is half the angle about the angular momentum that keeps the frame from turning about it.
-    half: Phase,
-    half_back: Phase,
-    /// The orbit average of dJ/dt.
-    secular: f64,
+    mean: MeanFrame,
+    /// What the periodic part of J is multiplied by: 1, or in second order what gives the drifts of ℓ′ and y′.
+    factors: [f64; 2],
     /// J of the periodic part at the epoch.
     phase: f64,
 }
 
+/// The motion of the mean frame, with J or the drifts of ℓ′ and y′.
+#[derive(Clone, Debug)]
+enum MeanFrame {
+    /// Steady precession.
+    Steady {
+        /// The frame at the epoch.
+        frame: UnitQuaternion<f64>,
+        /// Half the angle about the orbit's normal. `half_back` is half the angle about the angular momentum that keeps the frame from turning about it.
+        half: Phase,
+        half_back: Phase,
+        /// The orbit average of dJ/dt.
+        secular: f64,
+    },
+    /// The solution of the averaged equations of second order.
+    Nodding { equations: Equations, arcs: Arcs },
+}
+
+/// The averaged equations of second order.
+#[derive(Clone, Debug)]
+struct Equations {
+    average: OrbitAverage,
+    /// The user's unit of time in units of the motion.
+    unit: f64,
+    /// Length of an arc, in the user's unit.
+    length: f64,
+}
+
+impl Averaged for Equations {
+    fn arc(&self, sign: f64, from: f64, start: &Column) -> Stretch {
+        let slope = |_: usize, frame: &Quaternion<f64>| {
+            let axis = (frame * Quaternion::new(0.0, 0.0, 0.0, 1.0) * frame.conjugate()).imag();
+            let slopes = self.average.slopes(&axis);
+            let change = Quaternion::from_parts(0.0, slopes.turning * (0.5 * self.unit)) * frame;
+            let [anomaly, longitude] = slopes.phases.map(|rate| rate * self.unit);
+            [change.i, change.j, change.k, change.w, anomaly, longitude]
+        };
+        let solution = Polynomial::solved(sign * 0.5 * self.length, (-1.0, start), slope);
+        Stretch { from, length: self.length, solution }
+    }
+}
+
 impl Precession {
-    /// The motion from the frame at one place of the orbit, where J is 0. `unit` is the user's unit of time in units of the motion.
+    /// The motion from the frame at one place of the orbit, where J and the drifts are 0. `unit` is the user's unit of time in units of the motion, and
+    /// `factors` are the drifts of ℓ′ and y′ over J.
     pub(crate) fn new(
         ellipse: AveragedOrbit,
         frame: UnitQuaternion<f64>,
         place: &Place<pulp::Scalar>,
-        unit: f64,
+        (unit, factors): (f64, [f64; 2]),
     ) -> Self {
-        let still = Phase::new(DoubleDouble::ZERO, 0.0);
-        let mut precession = Self { ellipse, frame, half: still, half_back: still, secular: 0.0, phase: 0.0 };
         let one = Lanes::splat(pulp::Scalar, 1.0);
         // The mean axis to first order, then again with the periodic part evaluated at the mean axis.
-        let mut phase = one;
+        let (mut start, mut phase) = (frame, one);
         for _ in 0..3 {
-            let (rotation, next) = precession.periodic(QuaternionLanes::all(one, &precession.frame), place);
+            let (rotation, next) = ellipse.periodic(QuaternionLanes::all(one, &start), place);
             let [x, y, z] = rotation.map(|lanes| -0.5 * lanes.values()[0]);
-            precession.frame = UnitQuaternion::new_normalize(Quaternion::new(1.0, x, y, z)) * frame;
+            start = UnitQuaternion::new_normalize(Quaternion::new(1.0, x, y, z)) * frame;
             phase = next;
         }
-        let axis = precession.frame * Vector3::z();
-        let cosine = axis.dot(&precession.ellipse.axes[2]);
-        // dλ/dt = −(3/2) n² Δ cos I/(M η³): κ is 3 n Δ/(M η³).
-        let precessing = -0.5 * precession.ellipse.strength * cosine * precession.ellipse.mean_motion * unit;
-        precession.half = Phase::new((0.5 * precessing).into(), 0.0);
-        precession.half_back = Phase::new((-0.5 * cosine * precessing).into(), 0.0);
-        precession.secular = precession.ellipse.secular(&axis) * unit;
-        precession.phase = phase.values()[0];
-        precession
+        let (mean, factors) = match ellipse.over_orbit() {
+            Some(average) => (MeanFrame::nodding(average, &ellipse, start, unit), factors),
+            None => (MeanFrame::steady(&ellipse, start, unit), [1.0; 2]),
+        };
+        Self { ellipse, mean, factors, phase: phase.values()[0] }
     }
 
+    /// The frame, and J twice or the drifts of ℓ′ and y′.
     #[inline(always)]
     pub(super) fn at<S: InstructionSet>(
         &self,
         place: &Place<S>,
         elapsed: (Lanes<S>, Lanes<S>),
-    ) -> (QuaternionLanes<S>, Lanes<S>) {
-        let turn = QuaternionLanes::about(&self.ellipse.axes[2], self.half.sin_cos(elapsed));
-        let back = QuaternionLanes::about(&Vector3::z(), self.half_back.sin_cos(elapsed));
-        let mean = turn * QuaternionLanes::all(elapsed.0, &self.frame) * back;
-        let ([x, y, z], phase) = self.periodic(mean, place);
+    ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
+        let (mean, drifts) = self.mean.at(&self.ellipse, elapsed);
+        let ([x, y, z], phase) = self.ellipse.periodic(mean, place);
         let (half, one) = (x.all(0.5), x.all(1.0));
         let frame = QuaternionLanes([half * x, half * y, half * z, one]) * mean;
-        (frame.normalized(), elapsed.0.mul_add(x.all(self.secular), phase - x.all(self.phase)))
+        let periodic = phase - x.all(self.phase);
+        let [by_anomaly, by_longitude] = self.factors.map(|factor| x.all(factor));
+        let drifts = [by_anomaly.mul_add(periodic, drifts[0]), by_longitude.mul_add(periodic, drifts[1])];
+        (frame.normalized(), drifts)
+    }
+
+    /// The longest time from the epoch for which there are at most so many arcs, in the user's unit.
+    pub(crate) fn bound(&self, most_arcs: usize) -> f64 {
+        match &self.mean {
+            MeanFrame::Steady { .. } => f64::INFINITY,
+            MeanFrame::Nodding { equations, .. } => most_arcs as f64 * equations.length,
+        }
+    }
+}
+
+impl MeanFrame {
+    fn steady(ellipse: &AveragedOrbit, frame: UnitQuaternion<f64>, unit: f64) -> Self {
+        let axis = frame * Vector3::z();
+        let cosine = axis.dot(&ellipse.axes[2]);
+        // dλ/dt = −(3/2) n² Δ cos I/(M η³): κ is 3 n Δ/(M η³).
+        let precessing = -0.5 * ellipse.strength * cosine * ellipse.mean_motion * unit;
+        let [half, half_back] = [0.5, -0.5 * cosine].map(|part| Phase::new(DoubleDouble::from(part * precessing), 0.0));
+        Self::Steady { frame, half, half_back, secular: ellipse.secular(&axis) * unit }
+    }
+
+    fn nodding(average: OrbitAverage, ellipse: &AveragedOrbit, frame: UnitQuaternion<f64>, unit: f64) -> Self {
+        let length = TURN / (average.fastest().max(SLOWEST * ellipse.mean_motion) * unit);
+        let arcs = Arcs::new([frame.i, frame.j, frame.k, frame.w, 0.0, 0.0]);
+        Self::Nodding { equations: Equations { average, unit, length }, arcs }
+    }
+
+    #[inline(always)]
+    fn at<S: InstructionSet>(
+        &self,
+        ellipse: &AveragedOrbit,
+        elapsed: (Lanes<S>, Lanes<S>),
+    ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
+        match self {
+            Self::Steady { frame, half, half_back, secular } => {
+                let turn = QuaternionLanes::about(&ellipse.axes[2], half.sin_cos(elapsed));
+                let back = QuaternionLanes::about(&Vector3::z(), half_back.sin_cos(elapsed));
+                let phase = elapsed.0 * elapsed.0.all(*secular);
+                (turn * QuaternionLanes::all(elapsed.0, frame) * back, [phase; 2])
+            }
+            Self::Nodding { equations, arcs } => arcs.at(equations, elapsed.0),
+        }
+    }
+}
+
+impl AveragedOrbit {
+    /// ⟨D⟩ + K2 averaged over the orbit, if the averaged equations are those of second order.
+    pub(crate) fn over_orbit(&self) -> Option<OrbitAverage> {
+        let hamiltonian = self.second.as_deref()?;
+        Some(OrbitAverage::new(hamiltonian, self.eccentricity, self.mean_motion, self.axes))
     }
 
     /// The periodic part of one orbit: a rotation in inertial components, and J, by the integrals of theory §9.
     #[inline(always)]
     fn periodic<S: InstructionSet>(&self, frame: QuaternionLanes<S>, place: &Place<S>) -> ([Lanes<S>; 3], Lanes<S>) {
-        let AveragedOrbit { eccentricity, eta_cubed, mean_motion, axes, strength, .. } = &self.ellipse;
+        let Self { eccentricity, eta_cubed, mean_motion, axes, strength, mean_of_sine, .. } = self;
         let Place { centre, sine, cosine, .. } = *place;
         let all = |value: f64| sine.all(value);
         let double = ComplexLanes { re: cosine, im: sine } * ComplexLanes { re: cosine, im: sine };
@@ -81,7 +176,7 @@ impl Precession {
         let (half, first, third) = (all(0.5), all(0.5 * eccentricity), all(eccentricity / 6.0));
         let constant = sine.mul_add(all(*eccentricity), centre);
         let by_cosine = triple.im.mul_add(third, sine.mul_add(first, half * double.im));
-        let by_sine = -triple.re.mul_add(third, cosine.mul_add(first, half * double.re));
+        let by_sine = -triple.re.mul_add(third, cosine.mul_add(first, half.mul_add(double.re, all(*mean_of_sine))));
         // The tensor ½ [(PP + QQ) constant + (PP − QQ) by_cosine + (PQ + QP) by_sine] times the axis.
         let rows = frame.rows();
         let axis = [rows[0][2], rows[1][2], rows[2][2]];

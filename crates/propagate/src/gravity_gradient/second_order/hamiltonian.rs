@@ -22,10 +22,10 @@ type Coefficients = [f64; 5];
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Hamiltonian {
     /// C of ⟨D⟩ = C u (s² − ⅓), and its derivatives with respect to L and to M at fixed L.
-    first: [f64; 3],
+    pub(super) first: [f64; 3],
     /// K2's coefficients, and their derivatives likewise.
-    second: [Coefficients; 3],
-    momentum: f64,
+    pub(super) second: [Coefficients; 3],
+    pub(super) momentum: f64,
 }
 
 /// Where the disturbing body is, as the averaged equations see it.

@@ -13,6 +13,7 @@ pub(super) mod epoch;
 pub(crate) mod hamiltonian;
 pub(super) mod harmonics;
 mod modes;
+pub(crate) mod over_orbit;
 mod pairs;
 #[cfg(test)]
 mod tests;

@@ -6,6 +6,7 @@ use num_complex::Complex;
 use super::epoch::tensors;
 use super::hamiltonian::{Disturber, Hamiltonian};
 use super::modes::{modes, slowest};
+use super::over_orbit::OrbitAverage;
 use super::pairs::{Stand, Tensor, averaged};
 use crate::gravity_gradient::corrections::{Change, Corrections, Demand, Mean};
 use crate::gravity_gradient::envelope::{Envelope, whole};
@@ -24,6 +25,7 @@ type C64 = Complex<f64>;
 const MEAN_MOTION: f64 = 1e-4;
 const ECCENTRICITY: f64 = 0.3;
 
+#[derive(Clone)]
 struct Scene {
     polhode: Polhode,
     orbit: Orbit,
@@ -204,5 +206,36 @@ fn drifts_and_turning_are_the_derivatives_of_the_hamiltonian() {
         let found = slopes.turning.cross(&axis);
         assert!((expected - found).norm() <= 1e-7 * expected.norm(), "{expected:?} {found:?}");
         assert!(slopes.turning.dot(&axis).abs() <= 1e-14 * found.norm());
+    }
+}
+
+#[test]
+fn the_average_over_the_orbit_is_the_mean_over_the_mean_anomaly() {
+    const STEPS: usize = 400;
+    for scene in Scene::all() {
+        let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
+        let hamiltonian = scene.closed(&inertia, Q);
+        // ⟨D⟩ alone would have the effect of its periodic part, which is no mean.
+        let second = hamiltonian.without_first();
+        let axes = scene.orbit.axes();
+        let average = OrbitAverage::new(&second, ECCENTRICITY, MEAN_MOTION, axes);
+        for axis in [scene.mean.frame * Vector3::z(), axes[2], Vector3::new(0.48, -0.6, 0.64)] {
+            let (mut turning, mut phases) = (Vector3::zeros(), [0.0; 2]);
+            for k in 0..STEPS {
+                let anomaly = std::f64::consts::TAU * (k as f64 / STEPS as f64 - 0.5);
+                let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), ECCENTRICITY);
+                let moved = Scene { place, ..scene.clone() };
+                let slopes = second.slopes(&axis, &moved.disturber());
+                turning += slopes.turning / STEPS as f64;
+                phases = std::array::from_fn(|i| phases[i] + slopes.phases[i] / STEPS as f64);
+            }
+            let closed = average.slopes(&axis);
+            let scale = phases.map(f64::abs);
+            assert!((closed.turning - turning).norm() <= 1e-12 * average.fastest(), "{closed:?} {turning:?}");
+            for i in 0..2 {
+                assert!((closed.phases[i] - phases[i]).abs() <= 1e-12 * scale[i], "{closed:?} {phases:?}");
+            }
+            assert!(turning.norm() <= average.fastest());
+        }
     }
 }
