@@ -31,6 +31,8 @@ const SAMPLES: usize = 48;
 const MARGIN: f64 = 2.0;
 /// The safety factor of what an averaged motion of second order leaves.
 const THIRD_MARGIN: f64 = 6.0;
+/// The same for the drift of second order by terms that are too slow for the averaged Hamiltonian of second order.
+const SLOW_MARGIN: f64 = 1.0;
 /// The same for the distance between the motions of first and of second order.
 const FIRST_MARGIN: f64 = 1.4;
 /// The safety factor of what the average over the orbit leaves in second order. Without it the largest of 1,200 ratios to the average over the rotation alone was
@@ -105,9 +107,14 @@ impl Budget {
         };
         let (spin, dropped) = match subject.further {
             Some(Further { left, cut, acting, apart }) => {
-                let third: f64 = response.third_order(sizes, p, duration, [acting, cut]).iter().sum();
+                let [bounded, growing] = response.third_order(sizes, p, duration, [acting, cut]);
+                let third = bounded * corrections.pair_gain.max(1.0) + growing;
                 let left = response.of_actions(left, duration);
-                (THIRD_MARGIN * third + left + FIRST_MARGIN * apart, corrections.at_once + corrections.resonant)
+                let slow = SLOW_MARGIN
+                    * corrections.slow
+                    * (slope + corrections.slow)
+                    * (1.0 + response.by_momentum * duration);
+                (THIRD_MARGIN * third + slow + left + FIRST_MARGIN * apart, corrections.at_once + corrections.resonant)
             }
             None => {
                 let second = response.second_order(sizes, p, duration);

@@ -1,5 +1,9 @@
 //! A term of the generating function that may be kept or dropped.
 
+use super::generator::{ExactTerm, Harmonic};
+use super::inertia::Inertia;
+use super::orbit_series::OrbitSeries;
+
 /// Smallest |Ω| over the largest rate of twice the true anomaly for which the sum for G is used. Below this ratio the sum does not converge. Above it the
 /// truncation error of the sum is part of the error bound.
 pub(super) const SMALLEST_RATIO: f64 = 1.5;
@@ -18,4 +22,61 @@ pub(super) struct Candidate {
     pub(super) action: f64,
     /// The part of the change that comes from the slope of Ω, times Ω.
     pub(super) shift: f64,
+}
+
+impl Candidate {
+    /// Largest change of the attitude by the term \[rad\].
+    pub(super) fn size(&self) -> f64 {
+        self.size_at(self.frequency.abs())
+    }
+
+    /// The same with another divisor.
+    pub(super) fn size_at(&self, divisor: f64) -> f64 {
+        (self.rate + self.shift / divisor) / divisor
+    }
+
+    /// The factors of G and of −Ω ∂G/∂Ω in the derivatives of W: of W, of M ∂W/∂M, of ∂W/∂p and of ∂W/∂p̄.
+    fn factors(&self, inertia: &Inertia) -> [[f64; 4]; 2] {
+        let Self { harmonic, multiple, value, slope, frequency, .. } = *self;
+        let [anomaly, longitude] = inertia.rate_slopes;
+        let by_sigma = f64::from(harmonic) * anomaly + f64::from(multiple) * longitude;
+        let (root, degree) = (inertia.sigma.sqrt(), harmonic.abs());
+        let inverse = 1.0 / frequency;
+        let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value };
+        let further = root.powi(degree + 1);
+        let [by_p, by_p_bar] = if harmonic > 0 { [falling, 0.0] } else { [0.0, falling] };
+        let by_frequency = -inverse * inverse * further * value * by_sigma;
+        let whole = inverse * root.powi(degree) * value;
+        let [by_p, by_p_bar] = [by_p, by_p_bar].map(|part| inverse * (part + further * slope));
+        [[whole, 0.0, by_p, by_p_bar], [0.0, whole, by_frequency, by_frequency]]
+    }
+
+    /// This term with divisors that are exact in the orbit's harmonics. What is smaller than `nothing` is left out.
+    pub(super) fn exact(&self, inertia: &Inertia, orbit: (&OrbitSeries, f64, Option<i32>), nothing: f64) -> ExactTerm {
+        let [still, moving] = self.factors(inertia);
+        let mut harmonic = Harmonic { degree: self.harmonic.unsigned_abs() as usize, factors: Vec::new() };
+        harmonic.add(self.harmonic < 0, &[still, still, moving, moving]);
+        let negligible = 0.1 * nothing / self.size();
+        ExactTerm::new((self.harmonic, self.multiple), harmonic, self.frequency, orbit, negligible)
+    }
+
+    /// Adds this term to the other terms of its |h|, with `orders` derivatives of g.
+    pub(super) fn join(&self, harmonics: &mut Vec<Harmonic>, inertia: &Inertia, orders: usize) {
+        let Self { harmonic, frequency, .. } = *self;
+        let [still, moving] = self.factors(inertia);
+        let factors: Vec<_> = (0..orders)
+            .map(|j| {
+                // (iε)^j without the factor i for odd j, and the same times j + 1.
+                let weight = if j / 2 % 2 == 0 { 1.0 } else { -1.0 } * frequency.powi(-(j as i32)); // j < ORDERS
+                let slope = (j as f64 + 1.0) * weight;
+                std::array::from_fn(|i| still[i] * weight + moving[i] * slope)
+            })
+            .collect();
+        let degree = harmonic.unsigned_abs() as usize;
+        let place = harmonics.iter().position(|other| other.degree == degree).unwrap_or_else(|| {
+            harmonics.push(Harmonic { degree, factors: Vec::new() });
+            harmonics.len() - 1
+        });
+        harmonics[place].add(harmonic < 0, &factors);
+    }
 }

@@ -26,8 +26,10 @@ use super::course::fixed;
 use super::envelope::Envelope;
 use super::generator::{self, Generator, Harmonic, ORDERS, Orbital};
 use super::inertia::{HIGHEST, Inertia};
+use super::orbit_series::OrbitSeries;
 use super::resonance::Commensurability;
 use super::response::Response;
+use super::selection::{Choice, Exact, Selection};
 use crate::error::Error;
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
@@ -45,6 +47,9 @@ const CONTRACTED: [f64; 3] = [2.0 / 3.0, 0.5, 1.0];
 pub(crate) const SHARE: f64 = 1e-5;
 /// The same for a motion of second order, whose mean variables are better by the size of the corrections.
 pub(crate) const SECOND_SHARE: f64 = 1e-9;
+
+/// The margins of the error bound cover pairs of terms that are slower than the terms by the reciprocal of this.
+const PAIR_SHARE: f64 = 1.0 / 6.0;
 
 /// The mean variables at one time.
 #[derive(Clone, Copy, Debug)]
@@ -108,8 +113,8 @@ pub(crate) struct Demand<'a> {
     pub(crate) duration: f64,
     /// Terms smaller than this fraction of the second-order error are dropped.
     pub(crate) share: f64,
-    /// Whether the mean M and L at the epoch have the orbit's harmonics with their divisors.
-    pub(crate) exact: bool,
+    /// The orbit's harmonics, where divisors are to be exact in them.
+    pub(crate) series: Option<&'a OrbitSeries>,
     /// What the span has of the orbit.
     pub(crate) envelope: &'a Envelope,
 }
@@ -122,6 +127,10 @@ pub(crate) struct Corrections {
     pub(crate) dropped: f64,
     /// Effect of the resonances over the span \[rad\].
     pub(crate) resonant: f64,
+    /// Second order has terms of the frequencies of pairs of terms. This is how much slower than the terms they are, over what the margins cover.
+    pub(crate) pair_gain: f64,
+    /// Sum of the sizes of the corrected terms that are too slow for the sums \[rad\]: second order does not have them.
+    pub(crate) slow: f64,
     /// Dropped terms, and truncation of the sums for G on both ends, at one time \[rad\]: what they do to the mean M and L is not in it.
     pub(crate) at_once: f64,
     /// Sum of the terms that the level omits, over the span \[rad\].
@@ -196,53 +205,69 @@ impl Corrections {
         if whole > LARGEST_SIZE {
             return Err(Error::TorqueTooStrong { size: whole, bound: LARGEST_SIZE });
         }
-        let Demand { orbit, mean_motion, level, duration, envelope, exact, .. } = *demand;
+        let Demand { orbit, mean_motion, level, duration, envelope, series, .. } = *demand;
         let Terms { response, strength, scale, turning, fastest, size, .. } = terms;
         let eccentricity = orbit.eccentricity();
-        let commensurability = Commensurability {
-            response: &response,
-            mean_motion,
-            eccentricity,
-            turning,
-            fastest,
-            envelope,
-            duration,
-            exact,
-        };
-        let allowed = demand.tolerance.max(second_order(whole, &response, duration));
-        let mut dropped = commensurability.left(&terms.all, allowed)?;
-        let resonant = dropped;
-        let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
-        let omitted = omitted.iter().map(|term| commensurability.whole(term)).sum();
         let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * whole * whole);
-        let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
-        let mut at_once = 0.0;
         let mut orbital = Orbital::precessing(eccentricity, mean_motion, demand.rates);
         let fixed_orbit = demand.rates == [0.0; 2];
-        let sizes: Vec<f64> = if fixed_orbit { envelope.span.to_vec() } else { orbital.norms.clone() };
-        let most = if level == Level::Paper { 1 } else { ORDERS };
+        let selection = Selection {
+            commensurability: Commensurability {
+                response: &response,
+                mean_motion,
+                eccentricity,
+                turning,
+                fastest,
+                envelope,
+                duration,
+                exact: series.is_some(),
+            },
+            sizes: if fixed_orbit { envelope.span.to_vec() } else { orbital.norms.clone() },
+            most: if level == Level::Paper { 1 } else { ORDERS },
+            nothing,
+            whole,
+            series,
+        };
+        let allowed = demand.tolerance.max(second_order(whole, &response, duration));
+        let choices: Vec<_> = terms.all.iter().map(|term| selection.choice(term)).collect();
+        let effects = terms.all.iter().zip(&choices).map(|(term, choice)| (selection.effect(term, choice), term));
+        let mut dropped = selection.commensurability.left(effects, allowed)?;
+        let resonant = dropped;
+        let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
+        let omitted = omitted.iter().map(|term| selection.commensurability.whole(term)).sum();
+        let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
+        let mut at_once = 0.0;
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
-        for candidate in terms.all.iter().filter(|candidate| terms.regular(candidate)) {
+        let mut exact = Vec::new();
+        let regular = terms.all.iter().filter(|term| !selection.commensurability.is_slow(term));
+        let terms_rate: f64 = regular.map(|term| term.rate).sum();
+        let mut slow = 0.0;
+        for (candidate, choice) in terms.all.iter().zip(&choices) {
             let growth = response.growth(candidate.multiple, duration);
-            if candidate.size() <= nothing {
-                dropped += growth * candidate.size();
-                at_once += candidate.size();
-                neglected = neglected.max(candidate.size());
-                continue;
+            let is_slow = selection.commensurability.is_slow(candidate);
+            match (*choice, series) {
+                (Choice::Exact(Exact { left_out, size, .. }), Some(series)) => {
+                    exact.push(candidate.exact(inertia, (series, mean_motion, left_out), nothing));
+                    slow += if is_slow { size } else { 0.0 };
+                    rest += growth * nothing;
+                    at_once += nothing;
+                    count += 1;
+                }
+                (Choice::Sum(orders, left), _) => {
+                    rest += growth * left;
+                    at_once += 2.0 * left;
+                    neglected = neglected.max(left);
+                    most_orders = most_orders.max(orders);
+                    candidate.join(&mut harmonics[candidate.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2
+                    count += 1;
+                }
+                _ if !is_slow => {
+                    dropped += growth * candidate.size();
+                    at_once += candidate.size();
+                    neglected = neglected.max(candidate.size());
+                }
+                _ => {}
             }
-            // The sum is asymptotic. It ends when it is accurate enough, or where its truncation error is smallest.
-            let left = |orders: usize| {
-                candidate.size() * sizes[orders] / sizes[0] / candidate.frequency.abs().powi(orders as i32)
-            };
-            let enough = (1..most).find(|&orders| left(orders) <= nothing);
-            let least = (1..=most).min_by(|&a, &b| left(a).total_cmp(&left(b)));
-            let orders = enough.or(least).unwrap_or(most);
-            rest += growth * left(orders);
-            at_once += 2.0 * left(orders);
-            neglected = neglected.max(left(orders));
-            count += 1;
-            most_orders = most_orders.max(orders);
-            candidate.join(&mut harmonics[candidate.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2
         }
         orbital.keep(most_orders);
         let [first, second, _] = demand.axes;
@@ -252,13 +277,28 @@ impl Corrections {
         let axial_omitted = axial_omitted.map(|part| part.abs() * per_momentum);
         let generator = Generator {
             harmonics,
+            exact,
             orbital,
             axes: [first, second],
             strength,
             root: inertia.sigma.sqrt(),
             momentum: inertia.momentum,
         };
-        Ok(Self { generator, resonant, at_once, dropped, omitted, axial_omitted, rest, size, count, neglected })
+        let pair_gain = PAIR_SHARE * terms_rate / size / slowest_pair(inertia).max(SMALLEST_RATIO * fastest);
+        Ok(Self {
+            generator,
+            resonant,
+            slow,
+            pair_gain,
+            at_once,
+            dropped,
+            omitted,
+            axial_omitted,
+            rest,
+            size,
+            count,
+            neglected,
+        })
     }
 
     /// The changes from mean to osculating variables, for |p| = √σ and the axes of the orbit at the epoch.
@@ -320,42 +360,11 @@ fn candidates(
     candidates
 }
 
-impl Candidate {
-    /// Largest change of the attitude by the term \[rad\].
-    fn size(&self) -> f64 {
-        let frequency = self.frequency.abs();
-        (self.rate + self.shift / frequency) / frequency
-    }
-
-    /// Adds this term to the other terms of its |h|, with `orders` derivatives of g.
-    fn join(&self, harmonics: &mut Vec<Harmonic>, inertia: &Inertia, orders: usize) {
-        let Self { harmonic, multiple, value, slope, frequency, .. } = *self;
-        let [anomaly, longitude] = inertia.rate_slopes;
-        let by_sigma = f64::from(harmonic) * anomaly + f64::from(multiple) * longitude;
-        let (root, degree) = (inertia.sigma.sqrt(), harmonic.abs());
-        let inverse = 1.0 / frequency;
-        let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value };
-        let further = root.powi(degree + 1);
-        let [by_p, by_p_bar] = if harmonic > 0 { [falling, 0.0] } else { [0.0, falling] };
-        let by_frequency = -inverse * inverse * further * value * by_sigma;
-        let whole = inverse * root.powi(degree) * value;
-        let [by_p, by_p_bar] = [by_p, by_p_bar].map(|part| inverse * (part + further * slope));
-        let factors: Vec<_> = (0..orders)
-            .map(|j| {
-                // (iε)^j without the factor i for odd j, and the same times j + 1.
-                let weight = if j / 2 % 2 == 0 { 1.0 } else { -1.0 } * inverse.powi(j as i32); // j < ORDERS
-                let slope = (j as f64 + 1.0) * weight;
-                let common = by_frequency * slope;
-                [whole * weight, whole * slope, by_p * weight + common, by_p_bar * weight + common]
-            })
-            .collect();
-        let degree = harmonic.unsigned_abs() as usize;
-        let place = harmonics.iter().position(|other| other.degree == degree).unwrap_or_else(|| {
-            harmonics.push(Harmonic { degree, factors: Vec::new() });
-            harmonics.len() - 1
-        });
-        harmonics[place].add(harmonic < 0, &factors);
-    }
+/// The least frequency of a pair of large terms.
+fn slowest_pair(inertia: &Inertia) -> f64 {
+    let pairs = (0..=4_i32).flat_map(|m| (-4..=4_i32).map(move |h| (h, m)));
+    let pairs = pairs.filter(|(h, m)| (h + m) % 2 == 0 && (*h != 0 || *m != 0));
+    pairs.map(|(h, m)| frequency(inertia, h, m).abs()).fold(f64::INFINITY, f64::min)
 }
 
 /// Ω of a term.

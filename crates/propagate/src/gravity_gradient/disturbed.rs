@@ -23,12 +23,12 @@ use super::envelope::{Envelope, Reach};
 use super::inertia::Inertia;
 use super::mean_motion::{MeanMotion, Refinement, STRONGEST, corrections_of, first_order, refined, strongest_torque};
 use super::offset::Offset;
+use super::orbit_series::OrbitSeries;
 use super::powers::Powers;
 use super::request::Request;
 use super::response::Response;
 use super::second_order;
 use super::second_order::drift::Drift;
-use super::second_order::harmonics::serves;
 use crate::error::Error;
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
@@ -216,6 +216,8 @@ struct Paths {
     starts: Vec<When<pulp::Scalar>>,
     reaches: Vec<Reach>,
     envelopes: Vec<Envelope>,
+    /// The orbits' harmonics, where divisors are to be exact in them.
+    series: Vec<Option<OrbitSeries>>,
     /// Longest time from the epoch, in the units of the tables.
     duration: f64,
 }
@@ -224,7 +226,8 @@ impl Paths {
     fn new(request: &Request<'_>, exponent: i32) -> Self {
         let duration = scaled(request.duration, exponent);
         let none = Lanes::splat(pulp::Scalar, 0.0);
-        let mut paths = Self { courses: vec![], starts: vec![], reaches: vec![], envelopes: vec![], duration };
+        let mut paths =
+            Self { courses: vec![], starts: vec![], reaches: vec![], envelopes: vec![], series: vec![], duration };
         for orbit in request.orbits {
             let course = Course::new(orbit, request.epoch);
             let start = course.at((none, none));
@@ -232,6 +235,7 @@ impl Paths {
             let anomaly = start.place.angle.values()[0] - start.place.centre.values()[0];
             let reach = Reach { eccentricity, anomaly, orbital: mean_motion * duration };
             paths.envelopes.push(Envelope::new(eccentricity, mean_motion, &reach));
+            paths.series.push(if refines(request) { OrbitSeries::new(&reach) } else { None });
             paths.reaches.push(reach);
             paths.starts.push(start);
             paths.courses.push(course);
@@ -243,16 +247,16 @@ impl Paths {
     fn demands<'a>(&'a self, request: &Request<'a>, exponent: i32) -> Result<Vec<Demand<'a>>, Error> {
         let Request { level, tolerance, epoch, .. } = *request;
         let share = if level == Level::SecondOrder { SECOND_SHARE } else { SHARE };
-        let demand = |((orbit, envelope), reach): ((&'a Orbit, &'a Envelope), &Reach)| {
+        let demand = |((orbit, envelope), series): ((&'a Orbit, &'a Envelope), &'a Option<OrbitSeries>)| {
             orbit.within_reach(epoch)?;
             let [node, pericentre] = orbit.rates();
             let [mean_motion, node, pericentre] =
                 [orbit.mean_motion(), node, pericentre].map(|rate| scaled(rate, -exponent));
             let (axes, rates, duration) = (orbit.axes_at(epoch), [node, pericentre], self.duration);
-            let exact = refines(request) && serves(reach);
-            Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, exact, envelope })
+            let series = series.as_ref();
+            Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, series, envelope })
         };
-        request.orbits.iter().zip(&self.envelopes).zip(&self.reaches).map(demand).collect()
+        request.orbits.iter().zip(&self.envelopes).zip(&self.series).map(demand).collect()
     }
 }
 

@@ -5,10 +5,17 @@
 //! e^(−2iy′) have real coefficients (time reversal). |p| = √σ is a constant of the mean motion and is included in the coefficients. The derivatives with
 //! respect to p and p̄ are stored as ∂/∂p e^(iℓ′) and ∂/∂p̄ e^(−iℓ′), which are regular at p = 0.
 
+use std::f64::consts::TAU;
+
 use nalgebra::Vector3;
 
+mod exact;
 mod orbital;
 
+use pulp::NullaryFnOnce;
+
+use exact::PARTS;
+pub(crate) use exact::{ExactTerm, returns};
 use orbital::sum;
 pub(crate) use orbital::{ORDERS, Orbital};
 
@@ -18,6 +25,7 @@ use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
+use crate::simd::sincos::sin_cos_of_turns;
 
 /// Number of sums over the terms: W, M ∂W/∂M, ∂W/∂p and ∂W/∂p̄.
 const SUMS: usize = 4;
@@ -49,6 +57,8 @@ impl Harmonic {
 #[derive(Clone, Debug)]
 pub(crate) struct Generator {
     pub(crate) harmonics: [Vec<Harmonic>; 3],
+    /// Terms that the sums over time derivatives do not serve.
+    pub(crate) exact: Vec<ExactTerm>,
     pub(crate) orbital: Orbital,
     /// Unit vectors to the pericentre and perpendicular to it at the epoch, in inertial components.
     pub(crate) axes: [Vector3<f64>; 2],
@@ -98,8 +108,10 @@ impl Generator {
     pub(crate) fn at<S: InstructionSet>(&self, mean: &MeanLanes<S>, place: &Place<S>, axes: &Axes<S>) -> Correction<S> {
         let none = place.sine.all(0.0);
         let zero = ComplexLanes { re: none, im: none };
-        let tensors = self.tensors_of(mean.frame, place, axes);
-        let highest = self.harmonics.iter().flatten().map(|harmonic| harmonic.degree).max().unwrap_or(0);
+        let products = products(mean.frame, axes);
+        let tensors = self.tensors_of(mean.frame, &products, place);
+        let exact = self.exact.iter().flat_map(|term| &term.harmonic);
+        let highest = self.harmonics.iter().flatten().chain(exact).map(|harmonic| harmonic.degree).max().unwrap_or(0);
         let turns = circle(mean.turn, highest);
         let orders = self.orbital.series.len();
         let mut sums = Derivatives { by_p: [zero; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
@@ -108,17 +120,15 @@ impl Generator {
             if !harmonics.is_empty() {
                 let mut totals = [zero; SUMS + 2];
                 for (j, tensor) in tensors.iter().enumerate().take(orders) {
-                    let factors = summed(harmonics, &turns, j, zero);
-                    let contracted = contractions(tensor, multiple, j % 2 == 1);
-                    for (total, factor) in totals.iter_mut().zip(factors) {
-                        *total = total.plus(factor, contracted[0]);
-                    }
-                    totals[SUMS] = totals[SUMS].plus(factors[0], contracted[1]);
-                    totals[SUMS + 1] = totals[SUMS + 1].plus(factors[0], contracted[2]);
+                    add(&mut totals, harmonics, &turns, (j, tensor, multiple));
                 }
                 sums.add(&totals, multiple, spin);
             }
             spin = spin * mean.spin;
+        }
+        if !self.exact.is_empty() {
+            let with = Exact { generator: self, turns: &turns, products: &products, spin: mean.spin, place, sums };
+            sums = none.simd().vectorize(with);
         }
         self.change(&sums)
     }
@@ -130,44 +140,26 @@ impl Generator {
         frame: QuaternionLanes<S>,
         place: &Place<S>,
     ) -> [[Lanes<S>; 6]; ORDERS] {
-        self.tensors_of(frame, place, &fixed(&self.axes, place.sine))
+        self.tensors_of(frame, &products(frame, &fixed(&self.axes, place.sine)), place)
     }
 
     #[inline(always)]
     fn tensors_of<S: InstructionSet>(
         &self,
         frame: QuaternionLanes<S>,
+        products: &Products<S>,
         place: &Place<S>,
-        inertial: &Axes<S>,
     ) -> [[Lanes<S>; 6]; ORDERS] {
         let none = place.sine.all(0.0);
-        let rows = frame.rows();
-        let mut axes = [[none; 3]; 2];
-        for (components, [x, y, z]) in axes.iter_mut().zip(inertial) {
-            for (c, component) in components.iter_mut().enumerate() {
-                let part = rows[0][c].mul_add(*x, rows[1][c] * *y);
-                *component = rows[2][c].mul_add(*z, part);
-            }
-        }
-        let [first, second] = axes;
-        let mut products = [[none; 3]; 6];
-        for (product, (a, b)) in products.iter_mut().zip(COMPONENTS) {
-            *product = [first[a] * first[b], second[a] * second[b], first[a].mul_add(second[b], first[b] * second[a])];
-        }
         let circle = self.orbital.circle(place);
-        let half = none.all(0.5);
         let mut tensors = [[none; 6]; ORDERS];
         for (j, (tensor, [one, cosine, sine])) in tensors.iter_mut().zip(&self.orbital.series).enumerate() {
             let (even, odd) = (j % 2, 1 - j % 2);
             let (one, cosine, sine) = (sum(&circle, one, even), sum(&circle, cosine, even), sum(&circle, sine, odd));
-            // r̂r̂ = (PP + QQ)/2 + (PP − QQ)/2 cos 2f + (PQ + QP)/2 sin 2f.
-            let (pp, qq, pq) = (half * (one + cosine), half * (one - cosine), half * sine);
-            for (slot, [first, second, mixed]) in tensor.iter_mut().zip(products) {
-                *slot = pp.mul_add(first, qq.mul_add(second, pq * mixed));
-            }
+            *tensor = tensor_of([one, cosine, sine], products);
         }
         if self.orbital.node_rate != 0.0 {
-            let ([x, y, z], rate) = (rows[2], none.all(self.orbital.node_rate));
+            let ([x, y, z], rate) = (frame.rows()[2], none.all(self.orbital.node_rate));
             turned(&mut tensors, self.orbital.series.len(), [x * rate, y * rate, z * rate]);
         }
         tensors
@@ -215,6 +207,93 @@ fn turned<S: InstructionSet>(tensors: &mut [[Lanes<S>; 6]; ORDERS], orders: usiz
                 *component = *component + more;
             }
         }
+    }
+}
+
+/// The products PP, QQ and PQ + QP of the axes of the orbit in the frame, by component.
+type Products<S> = [[Lanes<S>; 3]; 6];
+
+#[inline(always)]
+fn products<S: InstructionSet>(frame: QuaternionLanes<S>, inertial: &Axes<S>) -> Products<S> {
+    let rows = frame.rows();
+    let none = rows[0][0].all(0.0);
+    let mut axes = [[none; 3]; 2];
+    for (components, [x, y, z]) in axes.iter_mut().zip(inertial) {
+        for (c, component) in components.iter_mut().enumerate() {
+            let part = rows[0][c].mul_add(*x, rows[1][c] * *y);
+            *component = rows[2][c].mul_add(*z, part);
+        }
+    }
+    let [first, second] = axes;
+    let mut products = [[none; 3]; 6];
+    for (product, (a, b)) in products.iter_mut().zip(COMPONENTS) {
+        *product = [first[a] * first[b], second[a] * second[b], first[a].mul_add(second[b], first[b] * second[a])];
+    }
+    products
+}
+
+/// r̂r̂ = (PP + QQ)/2 + (PP − QQ)/2 cos 2f + (PQ + QP)/2 sin 2f, from the factors of the three functions.
+#[inline(always)]
+fn tensor_of<S: InstructionSet>([one, cosine, sine]: [Lanes<S>; 3], products: &Products<S>) -> [Lanes<S>; 6] {
+    let half = one.all(0.5);
+    let (pp, qq, pq) = (half * (one + cosine), half * (one - cosine), half * sine);
+    let mut tensor = [half; 6];
+    for (slot, [first, second, mixed]) in tensor.iter_mut().zip(products) {
+        *slot = pp.mul_add(*first, qq.mul_add(*second, pq * *mixed));
+    }
+    tensor
+}
+
+/// Adds the terms of one m with one of the tensors. Those with an odd j are multiplied by i.
+#[inline(always)]
+fn add<S: InstructionSet>(
+    totals: &mut [ComplexLanes<S>; SUMS + 2],
+    harmonics: &[Harmonic],
+    turns: &[ComplexLanes<S>; HIGHEST + 1],
+    (j, tensor, multiple): (usize, &[Lanes<S>; 6], usize),
+) {
+    let none = tensor[0].all(0.0);
+    let factors = summed(harmonics, turns, j, ComplexLanes { re: none, im: none });
+    let contracted = contractions(tensor, multiple, j % 2 == 1);
+    for (total, factor) in totals.iter_mut().zip(factors) {
+        *total = total.plus(factor, contracted[0]);
+    }
+    totals[SUMS] = totals[SUMS].plus(factors[0], contracted[1]);
+    totals[SUMS + 1] = totals[SUMS + 1].plus(factors[0], contracted[2]);
+}
+
+/// The sums with the exact terms added, as a task that is compiled separately: most scenes do without it.
+struct Exact<'a, S: InstructionSet> {
+    generator: &'a Generator,
+    turns: &'a [ComplexLanes<S>; HIGHEST + 1],
+    products: &'a Products<S>,
+    spin: ComplexLanes<S>,
+    place: &'a Place<S>,
+    sums: Derivatives<S>,
+}
+
+impl<S: InstructionSet> NullaryFnOnce for Exact<'_, S> {
+    type Output = Derivatives<S>;
+
+    #[inline(always)]
+    fn call(self) -> Derivatives<S> {
+        let Self { generator, turns, products, spin, place, mut sums } = self;
+        let none = place.sine.all(0.0);
+        let zero = ComplexLanes { re: none, im: none };
+        let (sine, cosine) = sin_cos_of_turns((place.angle - place.centre) * none.all(1.0 / TAU));
+        let one = ComplexLanes { re: none.all(1.0), im: none };
+        let spins = [one, spin, spin * spin];
+        for term in &generator.exact {
+            let mut totals = [zero; SUMS + 2];
+            let multiple = term.numbers.1 as usize; // 0 ≤ m ≤ 2
+            let parts = term.parts(ComplexLanes { re: cosine, im: sine });
+            for (j, functions) in parts.iter().enumerate().take(PARTS) {
+                let tensor = tensor_of(*functions, products);
+                add(&mut totals, &term.harmonic, turns, (j, &tensor, multiple));
+            }
+            sums.add(&totals, multiple, spins[multiple]);
+        }
+        sums
     }
 }
 
@@ -271,6 +350,7 @@ fn contractions<S: InstructionSet>(tensor: &[Lanes<S>; 6], multiple: usize, odd:
 }
 
 /// Derivatives of W divided by the strength.
+#[derive(Clone, Copy)]
 struct Derivatives<S: InstructionSet> {
     /// With respect to p and p̄.
     by_p: [ComplexLanes<S>; 2],

@@ -53,8 +53,14 @@ pub(super) fn refined(
     start: &When<pulp::Scalar>,
     demand: &Demand<'_>,
 ) -> Result<(MeanMotion, Refinement), Error> {
-    let (both, [by_momentum, by_sigma]) =
-        epoch::refined((&first.mean, &first.change), state, &first.inertia, &start.place, (demand, polhode.moments));
+    let exact = &first.corrections[0].generator.exact;
+    let (both, [by_momentum, by_sigma]) = epoch::refined(
+        (&first.mean, &first.change, exact),
+        state,
+        &first.inertia,
+        &start.place,
+        (demand, polhode.moments),
+    );
     let Refined { mean, momentum, left } = both[usize::from(demand.level == Level::SecondOrder)];
     let inertia = first.inertia.moved(polhode, mean.p.norm_sqr(), mean.momentum);
     let apart = [0, 1].map(|i| inertia.rates[i].to_f64() * by_momentum + inertia.rate_slopes[i] * by_sigma);

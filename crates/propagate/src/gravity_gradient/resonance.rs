@@ -35,13 +35,26 @@ pub(super) struct Commensurability<'a> {
     pub(super) exact: bool,
 }
 
+/// A harmonic e^(ijl) of the orbit near resonance with a term.
+pub(super) struct Nearest {
+    /// j.
+    pub(super) harmonic: i32,
+    /// Its size over that of the torque at the pericentre.
+    pub(super) amplitude: f64,
+    /// |Ω + jn|.
+    pub(super) distance: f64,
+}
+
 impl Commensurability<'_> {
-    /// The attitude error of all terms together \[rad\].
+    /// The attitude error of all terms together from that of each \[rad\].
     ///
     /// # Errors
     /// - [`Error::Resonance`] if the error exceeds `allowed` by more than a factor [`MARGIN`]. It names the largest term.
-    pub(super) fn left(&self, terms: &[Candidate], allowed: f64) -> Result<f64, Error> {
-        let effects = terms.iter().map(|term| (self.effect(term), term));
+    pub(super) fn left<'a>(
+        &self,
+        effects: impl Iterator<Item = (f64, &'a Candidate)>,
+        allowed: f64,
+    ) -> Result<f64, Error> {
         let (mut sum, mut largest) = (0.0, None::<(f64, &Candidate)>);
         for (effect, term) in effects {
             sum += effect;
@@ -62,14 +75,26 @@ impl Commensurability<'_> {
         }
     }
 
-    /// The attitude error of a term over the span \[rad\], at most π.
-    fn effect(&self, term: &Candidate) -> f64 {
-        if term.frequency.abs() > SMALLEST_RATIO * self.fastest {
-            let (amplitude, distance) = self.beyond_the_sum(term);
-            self.turned(term, amplitude, distance)
-        } else {
-            self.whole(term)
+    /// The attitude error of a term that a sum corrects, or none, over the span \[rad\], at most π.
+    pub(super) fn effect(&self, term: &Candidate) -> f64 {
+        if self.is_slow(term) {
+            return self.whole(term);
         }
+        let (amplitude, distance) = self.beyond_the_sum(term);
+        self.turned(term, amplitude, distance)
+    }
+
+    /// The harmonic of the orbit with which a term is nearest to resonance.
+    pub(super) fn nearest(&self, term: &Candidate) -> Nearest {
+        let (amplitude, distance) = self.beyond_the_sum(term);
+        let number = term.frequency / self.mean_motion;
+        let low = number.abs() < f64::from(SLOW_HARMONICS) + 0.5;
+        Nearest { harmonic: -number.round() as i32, amplitude: if low { 1.0 } else { amplitude }, distance }
+    }
+
+    /// Whether a term is too slow for a sum over time derivatives.
+    pub(super) fn is_slow(&self, term: &Candidate) -> bool {
+        term.frequency.abs() <= SMALLEST_RATIO * self.fastest
     }
 
     /// The attitude error over the span if the term is not corrected at all \[rad\]: by the low harmonics of the orbit, and by the nearest one above them.
@@ -83,7 +108,7 @@ impl Commensurability<'_> {
     }
 
     /// The attitude error of a part of a term at its distance from a commensurability: at once, and by the drift that the changes of M and L make.
-    fn turned(&self, term: &Candidate, amplitude: f64, distance: f64) -> f64 {
+    pub(super) fn turned(&self, term: &Candidate, amplitude: f64, distance: f64) -> f64 {
         let distance = (distance - self.turning).max(0.0);
         let time = self.acting(amplitude, distance);
         let (h, m) = (f64::from(term.harmonic.abs()), f64::from(term.multiple));

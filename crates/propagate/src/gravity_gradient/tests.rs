@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::gravity_gradient::corrections::Change;
-use crate::gravity_gradient::envelope::whole;
+use crate::gravity_gradient::envelope::{Reach, whole};
+use crate::gravity_gradient::orbit_series::OrbitSeries;
 use crate::simd::kepler::Place;
 use crate::{Body, State};
 
@@ -96,6 +97,7 @@ fn mean_momentum_swings_as_little_as_theory_9_says_of_each_level() {
 const MEAN_MOTION: f64 = 1e-3;
 
 /// A mean state, and the position of the disturbing body.
+#[derive(Clone)]
 struct Stand {
     polhode: Polhode,
     orbit: Orbit,
@@ -104,6 +106,19 @@ struct Stand {
 }
 
 impl Stand {
+    fn all() -> [Self; 3] {
+        [
+            Self::new([0.7, 0.85, 1.0], [0.1, 0.05, 1.0]),
+            Self::new([0.6, 0.9, 1.0], [0.02, 0.1, 1.0]),
+            Self::new([0.4, 0.95, 1.0], [1.0, 0.04, 0.03]),
+        ]
+    }
+
+    /// The orbit's harmonics.
+    fn series() -> OrbitSeries {
+        OrbitSeries::new(&Reach { eccentricity: 0.3, anomaly: 0.0, orbital: 100.0 }).expect("a series")
+    }
+
     fn new(moments: [f64; 3], rates: [f64; 3]) -> Self {
         let state = State::new(0.0, [0.1, -0.2, 0.3, 0.927_361_849_549_570_4], rates).expect("a state");
         let polhode = Polhode::new(&Body::new(moments).expect("a body"), &state).expect("turning");
@@ -119,7 +134,8 @@ impl Stand {
         Self { polhode, orbit, mean, place: Place::of(Lanes::splat(pulp::Scalar, 0.8), orbit.eccentricity()) }
     }
 
-    fn change(&self, mean: &Mean) -> Change {
+    /// The corrections, with exact divisors if there is a series.
+    fn change(&self, mean: &Mean, series: Option<&OrbitSeries>) -> Change {
         let inertia = Inertia::new(&self.polhode, mean.p.norm_sqr(), mean.momentum);
         let demand = Demand {
             orbit: &self.orbit,
@@ -128,22 +144,22 @@ impl Stand {
             axes: self.orbit.axes(),
             level: Level::Full,
             tolerance: 1e-30,
-            duration: 0.0,
+            duration: 1e5,
             share: 0.0,
-            exact: false,
+            series,
             envelope: &whole(self.orbit.eccentricity(), MEAN_MOTION),
         };
         Corrections::new(&inertia, &demand).expect("no resonance").at(mean, &self.place)
     }
 
     /// Central difference of δp, δM, δy′ and δk along axes 1 and 2 when the mean state changes by ±h.
-    fn slope(&self, moved: impl Fn(&Mean, f64) -> Mean) -> [C64; 5] {
+    fn slope(&self, series: Option<&OrbitSeries>, moved: impl Fn(&Mean, f64) -> Mean) -> [C64; 5] {
         const STEP: f64 = 1e-4;
         let parts = |change: Change| {
             let [about_first, about_second] = change.rotation;
             [change.p, change.momentum.into(), change.longitude.into(), about_second.into(), (-about_first).into()]
         };
-        let [after, before] = [STEP, -STEP].map(|step| parts(self.change(&moved(&self.mean, step))));
+        let [after, before] = [STEP, -STEP].map(|step| parts(self.change(&moved(&self.mean, step), series)));
         std::array::from_fn(|i| (after[i] - before[i]) / (2.0 * STEP))
     }
 }
@@ -151,21 +167,18 @@ impl Stand {
 #[test]
 fn corrections_keep_the_poisson_brackets_to_first_order() {
     // {p; p̄} = i/M, {p; y′} = p/2M, {y′; M} = 1, {k1; k2} = k3/M, all others 0. For δf = {f; W}, Jacobi's identity is {δf; g} + {f; δg} = δ{f; g}.
-    for stand in [
-        Stand::new([0.7, 0.85, 1.0], [0.1, 0.05, 1.0]),
-        Stand::new([0.6, 0.9, 1.0], [0.02, 0.1, 1.0]),
-        Stand::new([0.4, 0.95, 1.0], [1.0, 0.04, 0.03]),
-    ] {
+    let series = Stand::series();
+    for (stand, series) in Stand::all().into_iter().flat_map(|stand| [(stand.clone(), None), (stand, Some(&series))]) {
         let Mean { p, momentum, .. } = stand.mean;
-        let change = stand.change(&stand.mean);
-        let by_x = stand.slope(|m, h| Mean { p: m.p + h, ..*m });
-        let by_y = stand.slope(|m, h| Mean { p: m.p + C64::new(0.0, h), ..*m });
+        let change = stand.change(&stand.mean, series);
+        let by_x = stand.slope(series, |m, h| Mean { p: m.p + h, ..*m });
+        let by_y = stand.slope(series, |m, h| Mean { p: m.p + C64::new(0.0, h), ..*m });
         let by_p: [C64; 5] = std::array::from_fn(|i| (by_x[i] - C64::i() * by_y[i]) * 0.5);
         let by_p_bar: [C64; 5] = std::array::from_fn(|i| (by_x[i] + C64::i() * by_y[i]) * 0.5);
-        let by_momentum = stand.slope(|m, h| Mean { momentum: m.momentum + h, ..*m });
-        let by_longitude = stand.slope(|m, h| Mean { longitude: m.longitude + h, ..*m });
+        let by_momentum = stand.slope(series, |m, h| Mean { momentum: m.momentum + h, ..*m });
+        let by_longitude = stand.slope(series, |m, h| Mean { longitude: m.longitude + h, ..*m });
         let by_turn = [Vector3::x(), Vector3::y()]
-            .map(|axis| stand.slope(|m, h| Mean { frame: m.frame * UnitQuaternion::new(axis * h), ..*m }));
+            .map(|axis| stand.slope(series, |m, h| Mean { frame: m.frame * UnitQuaternion::new(axis * h), ..*m }));
         let i = C64::i();
         let half = p / (2.0 * momentum);
         // {f; y′} and {y′; f} of a function f of p, p̄, y′, M.
@@ -200,5 +213,23 @@ fn corrections_keep_the_poisson_brackets_to_first_order() {
             // Error budget: the square of the step, 1e-8, times derivatives that are larger by 1/σ; and 1e-10 for the slopes of the tables.
             assert!(scaled <= 1e-5, "{bracket}: {scaled:e}");
         }
+    }
+}
+
+#[test]
+fn exact_divisors_are_the_limit_of_the_sums_over_time_derivatives() {
+    // n/Ω is at most 0.02: the eighth term of the sums, with twice the true anomaly at the pericentre, is 1e-9 of the first.
+    let series = Stand::series();
+    for stand in Stand::all() {
+        let [sums, exact] = [None, Some(&series)].map(|series| stand.change(&stand.mean, series));
+        let size = sums.p.norm() + sums.longitude.abs();
+        let gaps = [
+            (exact.p - sums.p).norm(),
+            exact.longitude - sums.longitude,
+            exact.momentum - sums.momentum,
+            exact.rotation[0] - sums.rotation[0],
+            exact.rotation[1] - sums.rotation[1],
+        ];
+        assert!(gaps.iter().all(|gap| gap.abs() <= 1e-8 * size), "{gaps:?} of {size:e}");
     }
 }

@@ -46,7 +46,14 @@ enum MeanFrame {
         secular: f64,
     },
     /// The solution of the averaged equations of second order.
-    Nodding { equations: Equations, arcs: Arcs },
+    Nodding(Box<Nodding>),
+}
+
+/// The averaged equations of second order, and their solution.
+#[derive(Clone, Debug)]
+struct Nodding {
+    equations: Equations,
+    arcs: Arcs,
 }
 
 /// The averaged equations of second order.
@@ -119,7 +126,7 @@ impl Precession {
     pub(crate) fn bound(&self, most_arcs: usize) -> f64 {
         match &self.mean {
             MeanFrame::Steady { .. } => f64::INFINITY,
-            MeanFrame::Nodding { equations, .. } => most_arcs as f64 * equations.length,
+            MeanFrame::Nodding(nodding) => most_arcs as f64 * nodding.equations.length,
         }
     }
 }
@@ -137,7 +144,7 @@ impl MeanFrame {
     fn nodding(average: OrbitAverage, ellipse: &AveragedOrbit, frame: UnitQuaternion<f64>, unit: f64) -> Self {
         let length = TURN / (average.fastest().max(SLOWEST * ellipse.mean_motion) * unit);
         let arcs = Arcs::new([frame.i, frame.j, frame.k, frame.w, 0.0, 0.0]);
-        Self::Nodding { equations: Equations { average, unit, length }, arcs }
+        Self::Nodding(Box::new(Nodding { equations: Equations { average, unit, length }, arcs }))
     }
 
     #[inline(always)]
@@ -153,7 +160,7 @@ impl MeanFrame {
                 let phase = elapsed.0 * elapsed.0.all(*secular);
                 (turn * QuaternionLanes::all(elapsed.0, frame) * back, [phase; 2])
             }
-            Self::Nodding { equations, arcs } => arcs.at(equations, elapsed.0),
+            Self::Nodding(nodding) => nodding.arcs.at(&nodding.equations, elapsed.0),
         }
     }
 }

@@ -8,7 +8,7 @@ use num_complex::Complex;
 use super::harmonics::Harmonics;
 use super::modes::Mode;
 use super::pairs::{Stand, contraction};
-use crate::gravity_gradient::generator::ORDERS;
+use crate::gravity_gradient::generator::{ExactTerm, ORDERS};
 
 type C64 = Complex<f64>;
 
@@ -24,7 +24,7 @@ pub(super) struct FirstActions {
 pub(super) fn first_actions(
     stand: &Stand<'_>,
     modes: &[Mode],
-    (harmonics, sizes): (Option<&Harmonics>, &[f64; ORDERS + 1]),
+    (harmonics, exact, sizes): (Option<&Harmonics>, &[ExactTerm], &[f64; ORDERS + 1]),
 ) -> FirstActions {
     let mut actions = FirstActions::default();
     let angle = if stand.mean.p == C64::default() { 0.0 } else { stand.mean.p.arg() };
@@ -34,7 +34,10 @@ pub(super) fn first_actions(
         let omega = stand.mean.momentum * mode.frequency[0];
         let amplitude = 2.0 * stand.strength * mode.function[0] * root.powi(mode.harmonic.abs());
         let (sum, rest) = match harmonics {
-            Some(harmonics) => (harmonics.solution(omega, mode.multiple), 0.0),
+            Some(harmonics) => {
+                let term = exact.iter().find(|term| term.numbers == (mode.harmonic, mode.multiple));
+                (harmonics.solution(omega, mode.multiple, term), 0.0)
+            }
             None => solution_by_sums(stand, omega, mode.multiple, sizes),
         };
         let phase = C64::from_polar(amplitude, h * angle + m * stand.mean.longitude);

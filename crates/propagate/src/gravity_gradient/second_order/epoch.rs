@@ -8,7 +8,7 @@ use super::harmonics::Harmonics;
 use super::modes::{modes, slow_modes, slowest};
 use super::pairs::{Stand, Tensor, second_actions};
 use crate::gravity_gradient::corrections::{Change, Demand, Mean};
-use crate::gravity_gradient::generator::{Generator, ORDERS, Orbital};
+use crate::gravity_gradient::generator::{ExactTerm, Generator, ORDERS, Orbital};
 use crate::gravity_gradient::inertia::Inertia;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::kepler::Place;
@@ -43,7 +43,7 @@ pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, moments: [f64;
 /// The mean states with |p| and M from all terms of first order, and to second order, and the difference of their M, over M, and σ: from the mean state of the
 /// corrections at the epoch.
 pub(crate) fn refined(
-    (mean, change): (&Mean, &Change),
+    (mean, change, exact): (&Mean, &Change, &[ExactTerm]),
     state: &Mean,
     inertia: &Inertia,
     place: &Place<pulp::Scalar>,
@@ -64,8 +64,8 @@ pub(crate) fn refined(
         bend: demand.envelope.epoch[2] / demand.envelope.epoch[0],
         trace: moments.iter().sum(),
     };
-    let harmonics = if demand.exact { Harmonics::new(mean, place, demand) } else { None };
-    let sums = (harmonics.as_ref(), &demand.envelope.epoch);
+    let harmonics = Harmonics::new(mean, place, demand);
+    let sums = (harmonics.as_ref(), exact, &demand.envelope.epoch);
     let mut terms = modes(inertia, SMALLEST_FIRST, slowest);
     if harmonics.is_some() {
         terms.extend(slow_modes(inertia, slowest));
@@ -99,6 +99,7 @@ pub(super) fn tensors(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<
     let [first, second, _] = demand.orbit.axes();
     let generator = Generator {
         harmonics: Default::default(),
+        exact: Vec::new(),
         orbital: Orbital::new(demand.orbit.eccentricity(), demand.mean_motion),
         axes: [first, second],
         strength: 0.0,

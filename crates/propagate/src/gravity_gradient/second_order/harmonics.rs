@@ -6,28 +6,17 @@
 //! over (−T, T), the error of the attitude was four times as large in scenes without a resonance, because the corrections take the regular harmonics as a
 //! whole.
 
-use std::f64::consts::{PI, TAU};
-
 use nalgebra::Vector3;
 use num_complex::Complex;
 
 use super::modes::slowest;
 use super::pairs::{Tensor, contraction};
 use crate::gravity_gradient::corrections::{Demand, Mean};
-use crate::gravity_gradient::envelope::Reach;
+use crate::gravity_gradient::generator::{ExactTerm, returns};
 use crate::simd::kepler::Place;
 
 type C64 = Complex<f64>;
 
-/// Logarithm of the largest harmonic over the first that is left out.
-const RANGE: f64 = 28.0;
-/// Most harmonics; more are needed from an eccentricity of 0.8 on.
-const MOST: f64 = 320.0;
-
-/// Least span in orbits.
-const FEWEST_ORBITS: f64 = 1.5;
-/// From this xT/2 on, 1 − e^(−x²T²/4) is 1.
-const WHOLE: f64 = 6.1;
 /// Harmonics with a larger divisor, over Ω, are in the sums over time derivatives: the corrections take them out at any time.
 const NEAR: f64 = 0.5;
 
@@ -44,28 +33,11 @@ pub(super) struct Harmonics {
     slowest: f64,
 }
 
-/// Number of harmonics on each side of 0: they fall like e^(−|j|(arcosh 1/e − η)), as Hansen's coefficients do.
-fn count(eccentricity: f64) -> Option<usize> {
-    if eccentricity == 0.0 {
-        return Some(2);
-    }
-    let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
-    let count = 6.0 + RANGE / ((1.0 / eccentricity).acosh() - eta);
-    (count <= MOST).then_some(count as usize)
-}
-
-/// Whether the series is better than the sums: it is short enough, and the span has several orbits. Far from the pericentre the sums lack nothing until the
-/// next passage, while the series takes the mean over all passages.
-pub(crate) fn serves(reach: &Reach) -> bool {
-    reach.orbital >= FEWEST_ORBITS * TAU && count(reach.eccentricity).is_some()
-}
-
 impl Harmonics {
-    /// The series in the frame of a mean state; `None` where it is too long.
+    /// The series in the frame of a mean state, if the orbit has one.
     pub(super) fn new(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<'_>) -> Option<Self> {
-        let eccentricity = demand.orbit.eccentricity();
-        let count = count(eccentricity)?;
-        let coefficients = coefficients(eccentricity, count);
+        let coefficients = &demand.series?.coefficients;
+        let count = coefficients.len() - 1;
         let at = place.angle.values()[0] - place.centre.values()[0];
         let turned = (0..=2 * count).map(|i| {
             let j = i as f64 - count as f64;
@@ -89,13 +61,17 @@ impl Harmonics {
         })
     }
 
-    /// c_m of V for a frequency Ω.
-    pub(super) fn solution(&self, omega: f64, multiple: i32) -> C64 {
+    /// c_m of V for a frequency Ω; `term` is the correction with exact divisors, if there is one.
+    pub(super) fn solution(&self, omega: f64, multiple: i32, term: Option<&ExactTerm>) -> C64 {
         let count = (self.turned.len() / 2) as f64;
         let mut sums = [C64::default(); 3];
         for (i, harmonic) in self.turned.iter().enumerate() {
-            let divisor = omega + (i as f64 - count) * self.mean_motion;
-            let inverse = self.inverse(divisor, omega);
+            let j = i as f64 - count;
+            let divisor = omega + j * self.mean_motion;
+            let inverse = match term {
+                Some(term) if term.left_out.is_none_or(|left_out| f64::from(left_out) != j) => 1.0 / divisor,
+                _ => self.inverse(divisor, omega),
+            };
             for (sum, part) in sums.iter_mut().zip(harmonic) {
                 *sum += part * inverse;
             }
@@ -108,7 +84,7 @@ impl Harmonics {
     fn inverse(&self, divisor: f64, omega: f64) -> f64 {
         let turn = 0.5 * divisor * self.duration;
         let summed = omega.abs() > self.slowest && divisor.abs() > NEAR * omega.abs();
-        if turn.abs() > WHOLE || summed {
+        if summed || returns(divisor, self.duration) {
             1.0 / divisor
         } else if turn == 0.0 {
             0.0
@@ -125,36 +101,15 @@ fn product((a, b, factor): &(Vector3<f64>, Vector3<f64>, f64), component: usize)
     factor * a[i] * b[k]
 }
 
-/// The coefficients of cos jl in (a/r)³ and (a/r)³ cos 2f and of sin jl in (a/r)³ sin 2f, halved but for j = 0.
-fn coefficients(eccentricity: f64, count: usize) -> Vec<[f64; 3]> {
-    // An even sum over more points than the integrand has harmonics in the eccentric anomaly is exact.
-    let points = 32 + (1.25 * count as f64) as usize;
-    let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
-    let mut sums = vec![[0.0; 3]; count + 1];
-    for k in 0..points {
-        // Half the orbit: the other half is its mirror image.
-        let anomaly = PI * (k as f64 + 0.5) / points as f64;
-        let (sine, cosine) = anomaly.sin_cos();
-        let distance = 1.0 - eccentricity * cosine;
-        let (x, y) = ((cosine - eccentricity) / distance, eta * sine / distance);
-        let weight = 1.0 / (distance * distance * points as f64);
-        let [even, odd] = [weight * (x * x - y * y), weight * 2.0 * x * y];
-        let turn = C64::from_polar(1.0, anomaly - eccentricity * sine);
-        let mut wave = C64::new(1.0, 0.0);
-        for sum in &mut sums {
-            *sum = [sum[0] + weight * wave.re, sum[1] + even * wave.re, sum[2] + odd * wave.im];
-            wave *= turn;
-        }
-    }
-    sums
-}
-
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use nalgebra::UnitQuaternion;
 
     use super::*;
-    use crate::gravity_gradient::envelope::whole;
+    use crate::gravity_gradient::envelope::{Reach, whole};
+    use crate::gravity_gradient::orbit_series::OrbitSeries;
     use crate::gravity_gradient::second_order::epoch::tensors;
     use crate::input::options::Level;
     use crate::input::orbit::Orbit;
@@ -167,6 +122,8 @@ mod tests {
         let orbit =
             Orbit::new(MEAN_MOTION, eccentricity).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
         let envelope = whole(eccentricity, MEAN_MOTION);
+        let reach = Reach { eccentricity, anomaly: 0.0, orbital: 10.0 * TAU };
+        let series = OrbitSeries::new(&reach).expect("a series");
         let demand = Demand {
             orbit: &orbit,
             mean_motion: MEAN_MOTION,
@@ -176,7 +133,7 @@ mod tests {
             tolerance: 1e-30,
             duration,
             share: 0.0,
-            exact: true,
+            series: Some(&series),
             envelope: &envelope,
         };
         let frame = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.1);
@@ -204,7 +161,7 @@ mod tests {
         let slope = C64::i() * omega * value(0) + value(1);
         let quadrature = (sum * step - value(0) * jump * (0.5 * step) - slope * jump * (step * step / 12.0)) / jump;
         let series = Harmonics::new(&mean, &place(start), &demand).expect("few harmonics");
-        [series.solution(omega, multiple), quadrature]
+        [series.solution(omega, multiple, None), quadrature]
     }
 
     #[test]
@@ -227,12 +184,5 @@ mod tests {
         assert!(long >= 100.0 * short, "{short:e} {long:e}");
         // Those that the sums have are there in any time.
         assert!(at(1e-3) >= 0.1 * short, "{:e} {short:e}", at(1e-3));
-    }
-
-    #[test]
-    fn orbits_with_too_many_harmonics_and_spans_of_one_orbit_are_left_to_the_sums() {
-        let serves =
-            |eccentricity: f64, orbits: f64| serves(&Reach { eccentricity, anomaly: 0.0, orbital: TAU * orbits });
-        assert!(serves(0.0, 3.0) && serves(0.8, 3.0) && !serves(0.82, 3.0) && !serves(0.3, 1.4));
     }
 }

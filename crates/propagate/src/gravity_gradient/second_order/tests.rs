@@ -69,7 +69,7 @@ impl Scene {
             tolerance: 1e-30,
             duration: 0.0,
             share: 0.0,
-            exact: false,
+            series: None,
             envelope: &self.envelope,
         }
     }

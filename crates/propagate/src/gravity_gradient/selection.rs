@@ -1,0 +1,125 @@
+//! How each term of the generating function is corrected: by a sum over time derivatives, with exact divisors, or not at all.
+
+use super::candidate::Candidate;
+use super::generator::returns;
+use super::orbit_series::OrbitSeries;
+use super::resonance::{Commensurability, Nearest};
+
+/// Largest change of the attitude by a harmonic near resonance, and by a slow term, that is corrected \[rad\].
+const LARGEST: f64 = 0.01;
+
+/// The drift of second order by a harmonic near resonance in most scenes, over the product of its size, the size of all terms, the rates and the time.
+const SECOND: f64 = 0.03;
+/// The same for the error bound.
+const MARGIN: f64 = 0.3;
+
+/// What decides it.
+pub(super) struct Selection<'a> {
+    pub(super) commensurability: Commensurability<'a>,
+    /// Largest sizes of the time derivatives within the span.
+    pub(super) sizes: Vec<f64>,
+    /// Largest number of derivatives.
+    pub(super) most: usize,
+    /// Smaller changes of the attitude are not looked at \[rad\].
+    pub(super) nothing: f64,
+    /// Sum of the sizes of all terms that are not slow \[rad\].
+    pub(super) whole: f64,
+    /// The orbit's harmonics, where divisors may be exact in them.
+    pub(super) series: Option<&'a OrbitSeries>,
+}
+
+/// How one term is corrected.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Choice {
+    /// Not at all.
+    Dropped,
+    /// By a sum with so many derivatives, which leaves so much.
+    Sum(usize, f64),
+    /// With exact divisors.
+    Exact(Exact),
+}
+
+/// A term with exact divisors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Exact {
+    /// The harmonic of the orbit that is left out, because the term is too near to a resonance with it.
+    pub(super) left_out: Option<i32>,
+    /// Largest change of the attitude by the term \[rad\].
+    pub(super) size: f64,
+    /// What the harmonic nearest to resonance does to the attitude over the span, corrected or not \[rad\].
+    pub(super) effect: f64,
+}
+
+impl Selection<'_> {
+    /// How a term is corrected. Exact divisors are for terms that are too slow for a sum, those of which no sum is accurate enough, and those of which the
+    /// harmonics of the orbit that no sum contains have an effect.
+    pub(super) fn choice(&self, term: &Candidate) -> Choice {
+        let slow = self.commensurability.is_slow(term);
+        if let Some(series) = self.series {
+            let nearest = self.commensurability.nearest(term);
+            let closest = nearest.distance.max(1.0 / self.commensurability.duration);
+            let visible = (term.rate + term.shift / closest) / closest > self.nothing;
+            let needs = || slow || self.enough(term).is_none() || self.commensurability.effect(term) > self.nothing;
+            if visible && (slow || term.size() > self.nothing) && needs() {
+                let exact = self.exact(term, &nearest, series);
+                if !slow || exact.size > self.nothing && exact.size <= LARGEST {
+                    return Choice::Exact(exact);
+                }
+            }
+        }
+        if slow || term.size() <= self.nothing {
+            return Choice::Dropped;
+        }
+        // The sum is asymptotic. It ends when it is accurate enough, or where it leaves least.
+        let least = || (1..=self.most).min_by(|&a, &b| self.left(term, a).total_cmp(&self.left(term, b)));
+        let orders = self.enough(term).or_else(least).unwrap_or(self.most);
+        Choice::Sum(orders, self.left(term, orders))
+    }
+
+    /// What the harmonics of the orbit that a term lacks do to the attitude over the span \[rad\].
+    pub(super) fn effect(&self, term: &Candidate, choice: &Choice) -> f64 {
+        match choice {
+            Choice::Exact(exact) => exact.effect,
+            _ => self.commensurability.effect(term),
+        }
+    }
+
+    /// What a sum with so many derivatives leaves of a term.
+    fn left(&self, term: &Candidate, orders: usize) -> f64 {
+        term.size() * self.sizes[orders] / self.sizes[0] / term.frequency.abs().powi(orders as i32)
+    }
+
+    /// The number of derivatives with which the sum is accurate enough, if there is one.
+    fn enough(&self, term: &Candidate) -> Option<usize> {
+        (1..self.most).find(|&orders| self.left(term, orders) <= self.nothing)
+    }
+
+    /// A term with exact divisors. A harmonic that does not return within the span is left out if its second order would be more than its first order.
+    fn exact(&self, term: &Candidate, nearest: &Nearest, series: &OrbitSeries) -> Exact {
+        let Commensurability { duration, response, .. } = self.commensurability;
+        let (left_out, effect) = if returns(nearest.distance, duration) {
+            (None, 0.0)
+        } else {
+            let size = nearest.amplitude * term.size_at(nearest.distance);
+            let second = size * (self.whole + size) * (1.0 + response.by_momentum * duration);
+            let first = self.commensurability.turned(term, nearest.amplitude, nearest.distance);
+            let corrected = size <= LARGEST && SECOND * second < first;
+            if corrected { (None, MARGIN * second) } else { (Some(nearest.harmonic), first) }
+        };
+        Exact { left_out, size: self.exact_size(term, left_out, series), effect }
+    }
+
+    /// Largest change of the attitude by a term with exact divisors \[rad\].
+    fn exact_size(&self, term: &Candidate, left_out: Option<i32>, series: &OrbitSeries) -> f64 {
+        let of = |j: i32| {
+            let divisor = term.frequency + f64::from(j) * self.commensurability.mean_motion;
+            if left_out == Some(j) { 0.0 } else { term.size_at(divisor.abs()) }
+        };
+        let sizes = (0..).zip(&series.coefficients).map(|(j, functions)| {
+            let largest = functions.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
+            largest * if j == 0 { of(0) } else { of(j) + of(-j) }
+        });
+        // The rate of a term is that where the disturbing body is nearest, and the coefficients add up there.
+        sizes.sum::<f64>() / self.sizes[0]
+    }
+}
