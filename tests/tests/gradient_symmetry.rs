@@ -158,11 +158,13 @@ fn eight_threads_that_need_new_quarters_get_the_bits_of_one() {
 fn resonances_are_errors_that_name_the_pair_and_only_where_a_term_is_there() {
     let faint = |n: f64, e: f64| Orbit::new(n, e).and_then(|orbit| orbit.mass_fraction(1e-4)).expect("an orbit");
     let solve = |moments, rates, orbit| scene(moments, 0.0, attitude(), rates).orbit(orbit).solve();
+    let wobbling = [0.02, 0.0, 1.0];
+    let wobble = scene([0.95, 0.98, 1.0], 0.0, attitude(), wobbling).solve().expect("free").frequencies().anomaly;
     // One to one and three to two with the spin, and one to one of the wobble with the orbit.
     for (rates, orbit, pair) in [
         ([0.0, 0.0, 1.0], faint(1.0, 0.0), (0, 2)),
         ([0.0, 0.0, 1.0], faint(2.0 / 3.0, 0.2), (0, 2)),
-        ([0.02, 0.0, 1.0], faint(0.036, 0.0), (2, 0)),
+        (wobbling, faint(wobble, 0.0), (2, 0)),
     ] {
         match solve([0.95, 0.98, 1.0], rates, orbit) {
             Err(Error::Resonance { harmonic, multiple, divisor, bound }) => {

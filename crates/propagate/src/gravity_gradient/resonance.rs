@@ -17,6 +17,8 @@ use crate::error::Error;
 const SLOW_HARMONICS: i32 = 3;
 /// Largest error of the resonant terms over that of second order.
 const MARGIN: f64 = 10.0;
+/// Largest attitude error by one resonance where divisors are exact \[rad\]: only a resonance has one.
+const LARGEST_EFFECT: f64 = 0.05;
 /// Attitude error by a harmonic of the orbit of which no more need be known \[rad\].
 const NEGLIGIBLE: f64 = 1e-14;
 
@@ -49,7 +51,7 @@ impl Commensurability<'_> {
     /// The attitude error of all terms together from that of each \[rad\].
     ///
     /// # Errors
-    /// - [`Error::Resonance`] if the error exceeds `allowed` by more than a factor [`MARGIN`]. It names the largest term.
+    /// - [`Error::Resonance`] if the error exceeds `allowed` by more than a factor [`MARGIN`], or that of one term [`LARGEST_EFFECT`]. It names the largest term.
     pub(super) fn left<'a>(
         &self,
         effects: impl Iterator<Item = (f64, &'a Candidate)>,
@@ -65,12 +67,14 @@ impl Commensurability<'_> {
             }
         }
         match largest {
-            Some((_, term)) if sum > MARGIN * allowed => Err(Error::Resonance {
-                harmonic: term.harmonic,
-                multiple: term.multiple,
-                divisor: 2.0 * term.frequency.abs() / self.fastest,
-                bound: 2.0 * SMALLEST_RATIO,
-            }),
+            Some((most, term)) if sum > MARGIN * allowed || self.exact && most > LARGEST_EFFECT => {
+                Err(Error::Resonance {
+                    harmonic: term.harmonic,
+                    multiple: term.multiple,
+                    divisor: 2.0 * term.frequency.abs() / self.fastest,
+                    bound: 2.0 * SMALLEST_RATIO,
+                })
+            }
             _ => Ok(sum),
         }
     }

@@ -8,10 +8,10 @@ use super::resonance::{Commensurability, Nearest};
 /// Largest change of the attitude by a harmonic near resonance, and by a slow term, that is corrected \[rad\].
 const LARGEST: f64 = 0.01;
 
-/// The drift of second order by a harmonic near resonance in most scenes, over the product of its size, the size of all terms, the rates and the time.
-const SECOND: f64 = 0.03;
-/// The same for the error bound.
-const MARGIN: f64 = 0.3;
+/// The share of all terms that adds to the drift of second order by a harmonic near resonance.
+const OTHERS: f64 = 0.1;
+/// The safety factor of this drift in the error bound.
+const MARGIN: f64 = 2.0;
 
 /// What decides it.
 pub(super) struct Selection<'a> {
@@ -94,18 +94,15 @@ impl Selection<'_> {
         (1..self.most).find(|&orders| self.left(term, orders) <= self.nothing)
     }
 
-    /// A term with exact divisors. A harmonic that does not return within the span is left out if its second order would be more than its first order.
+    /// A term with exact divisors. The harmonic nearest to resonance is left out if its drift of second order would be more than its first order.
     fn exact(&self, term: &Candidate, nearest: &Nearest, series: &OrbitSeries) -> Exact {
         let Commensurability { duration, response, .. } = self.commensurability;
-        let (left_out, effect) = if returns(nearest.distance, duration) {
-            (None, 0.0)
-        } else {
-            let size = nearest.amplitude * term.size_at(nearest.distance);
-            let second = size * (self.whole + size) * (1.0 + response.by_momentum * duration);
-            let first = self.commensurability.turned(term, nearest.amplitude, nearest.distance);
-            let corrected = size <= LARGEST && SECOND * second < first;
-            if corrected { (None, MARGIN * second) } else { (Some(nearest.harmonic), first) }
-        };
+        let size = nearest.amplitude * term.size_at(nearest.distance);
+        // Of its square, as the averaged Hamiltonian has, and of pairs with other terms.
+        let second = size * (size + OTHERS * self.whole) * (1.0 + response.by_momentum * duration);
+        let first = self.commensurability.turned(term, nearest.amplitude, nearest.distance);
+        let corrected = returns(nearest.distance, duration) || size <= LARGEST && second < first;
+        let (left_out, effect) = if corrected { (None, MARGIN * second) } else { (Some(nearest.harmonic), first) };
         Exact { left_out, size: self.exact_size(term, left_out, series), effect }
     }
 
