@@ -6,9 +6,9 @@
 //! W = Σ e^(i(hℓ′+my′)) G(f),   G = g/(iΩ) − ġ/(iΩ)² + g̈/(iΩ)³ − …,   d/dt = n η^(−3) (1 + e cos f)² d/df
 //! ```
 //!
-//! solves dW/dt = D − ⟨D⟩ for a disturbing body that moves on its orbit. The first term of G alone holds the body fixed, as in the paper. G is a Fourier
-//! polynomial in f. The corrections are brackets with W in variables that are regular at J = 0 and at any inclination: p = √σ e^(iℓ′), M, y′ and rotations of
-//! the invariable frame,
+//! solves dW/dt = D − ⟨D⟩ for a disturbing body that moves on its orbit. Where this sum is not accurate enough, the divisors in G are exact
+//! ([`super::selection`]). The first term of G alone holds the body fixed, as in the paper. G is a Fourier polynomial in f. The corrections are brackets with W
+//! in variables that are regular at J = 0 and at any inclination: p = √σ e^(iℓ′), M, y′ and rotations of the invariable frame,
 //!
 //! ```text
 //! δp = (i/M) ∂W/∂p̄ − (p/2M) δM,   δM = −∂W/∂y′,   δy′ = −(p ∂W/∂p + p̄ ∂W/∂p̄)/2M + ∂W/∂M|p,   δ(M k) = −∂W/∂θ

@@ -4,7 +4,8 @@
 //! except the harmonics of the mean anomaly that are too high for its powers of d/dt. Their amplitude falls like e^(−|j|(arcosh 1/e − η)), as Hansen's
 //! coefficients do. In both cases the attitude error is the rate of the term times the time during which it acts in one direction, which is the span or 2/|Ω −
 //! jn|. In addition the phases drift, because the term changes σ and, for m ≠ 0, M. This is an upper estimate. If it is not larger than the second-order error,
-//! it becomes part of the error bound; otherwise it is [`Error::Resonance`].
+//! it becomes part of the error bound; otherwise it is [`Error::Resonance`]. Terms with exact divisors lack none of these harmonics, but the one that is nearest
+//! to resonance may have to be left out ([`super::selection`]).
 
 use std::f64::consts::{PI, TAU};
 
