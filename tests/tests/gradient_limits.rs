@@ -100,7 +100,7 @@ fn a_high_harmonic_of_an_eccentric_orbit_is_a_resonance_too() {
     // Ω(−2, 2) = 45 n.
     let scene = scene([0.55, 0.55, 1.0], [0.6, 0.5, 1.0], 1.5e4);
     let disturber = |n: f64| {
-        Orbit::new(n, 0.8).and_then(|orbit| orbit.plane(0.0, 0.0, 1.0)).and_then(|orbit| orbit.mass_fraction(1e-3))
+        Orbit::new(n, 0.8).and_then(|orbit| orbit.plane(0.0, 0.0, 1.0)).and_then(|orbit| orbit.mass_fraction(1e-2))
     };
     let at = |n: f64| scene.clone().orbit(disturber(n).expect("an orbit")).solve();
     let n = 0.015_220_917_677_591_528;

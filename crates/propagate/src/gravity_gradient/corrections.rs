@@ -225,6 +225,7 @@ impl Corrections {
             sizes: if fixed_orbit { envelope.span.to_vec() } else { orbital.norms.clone() },
             most: if level == Level::Paper { 1 } else { ORDERS },
             nothing,
+            enough: nothing.max(0.01 * demand.tolerance),
             whole,
             series,
         };

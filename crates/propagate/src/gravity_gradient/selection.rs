@@ -22,6 +22,8 @@ pub(super) struct Selection<'a> {
     pub(super) most: usize,
     /// Smaller changes of the attitude are not looked at \[rad\].
     pub(super) nothing: f64,
+    /// What the sum of a term may leave at one time, where exact divisors can replace it \[rad\].
+    pub(super) enough: f64,
     /// Sum of the sizes of all terms that are not slow \[rad\].
     pub(super) whole: f64,
     /// The orbit's harmonics, where divisors may be exact in them.
@@ -59,7 +61,7 @@ impl Selection<'_> {
             let nearest = self.commensurability.nearest(term);
             let closest = nearest.distance.max(1.0 / self.commensurability.duration);
             let visible = (term.rate + term.shift / closest) / closest > self.nothing;
-            let needs = || slow || self.enough(term).is_none() || self.commensurability.effect(term) > self.nothing;
+            let needs = || slow || self.sum(term).1 > self.enough || self.commensurability.effect(term) > self.nothing;
             if visible && (slow || term.size() > self.nothing) && needs() {
                 let exact = self.exact(term, &nearest, series);
                 if !slow || exact.size > self.nothing && exact.size <= LARGEST {
@@ -70,10 +72,8 @@ impl Selection<'_> {
         if slow || term.size() <= self.nothing {
             return Choice::Dropped;
         }
-        // The sum is asymptotic. It ends when it is accurate enough, or where it leaves least.
-        let least = || (1..=self.most).min_by(|&a, &b| self.left(term, a).total_cmp(&self.left(term, b)));
-        let orders = self.enough(term).or_else(least).unwrap_or(self.most);
-        Choice::Sum(orders, self.left(term, orders))
+        let (orders, left) = self.sum(term);
+        Choice::Sum(orders, left)
     }
 
     /// What the harmonics of the orbit that a term lacks do to the attitude over the span \[rad\].
@@ -89,9 +89,12 @@ impl Selection<'_> {
         term.size() * self.sizes[orders] / self.sizes[0] / term.frequency.abs().powi(orders as i32)
     }
 
-    /// The number of derivatives with which the sum is accurate enough, if there is one.
-    fn enough(&self, term: &Candidate) -> Option<usize> {
-        (1..self.most).find(|&orders| self.left(term, orders) <= self.nothing)
+    /// The number of derivatives in the sum of a term, and what it leaves. The sum is asymptotic: it ends when it is accurate enough, or where it leaves least.
+    fn sum(&self, term: &Candidate) -> (usize, f64) {
+        let least = || (1..=self.most).min_by(|&a, &b| self.left(term, a).total_cmp(&self.left(term, b)));
+        let accurate = (1..self.most).find(|&orders| self.left(term, orders) <= self.nothing);
+        let orders = accurate.or_else(least).unwrap_or(self.most);
+        (orders, self.left(term, orders))
     }
 
     /// A term with exact divisors. The harmonic nearest to resonance is left out if its drift of second order would be more than its first order.
