@@ -9,8 +9,8 @@
 //!
 //! where J is the factor of Δ in the phases. `Slow::Spin` solves these equations on quarters of an orbit by Picard's iteration on Chebyshev points. The
 //! right-hand side is a trigonometric polynomial of f and κ is small, so a few iterations converge to rounding error. The result is a polynomial that can be
-//! evaluated at any time of the quarter. A quarter is solved when a time first needs it, and is kept. `Slow::Orbit` is the orbit average: precession
-//! about the orbit's normal, with the periodic part in closed form in f, without an expansion in e. `Slow::Bodies` has the sum over several
+//! evaluated at any time of the quarter. A quarter is solved when a time first needs it, and is kept. `Slow::Orbit` is the orbit average: precession about
+//! the orbit's normal, steady in first order, with the periodic part in closed form in f, without an expansion in e. `Slow::Bodies` has the sum over several
 //! disturbing bodies on orbits that may precess. It is averaged over the rotation only, and solved on arcs of time.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};

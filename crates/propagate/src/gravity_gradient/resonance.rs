@@ -18,7 +18,7 @@ use crate::error::Error;
 const SLOW_HARMONICS: i32 = 3;
 /// Largest error of the resonant terms over that of second order.
 const MARGIN: f64 = 10.0;
-/// Largest attitude error by one resonance where divisors are exact \[rad\]: only a resonance has one.
+/// Where divisors are exact, a scene in which one resonance has a larger attitude error is refused \[rad\].
 const LARGEST_EFFECT: f64 = 0.05;
 /// Attitude error by a harmonic of the orbit of which no more need be known \[rad\].
 const NEGLIGIBLE: f64 = 1e-14;

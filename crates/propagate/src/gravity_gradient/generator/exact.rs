@@ -7,8 +7,8 @@
 //! ```
 //!
 //! With r_± = 1/(Ω ± jn), the coefficients of E and E₁ are Ω(r₊ + r₋) and Ω²(r₊² + r₋²), and those of O and O₁ have differences for the sums. For an even g, E is
-//! a series in cos jl and O one in sin jl. So E and O take the places of the even and of the odd time derivatives. A harmonic that does not return within the
-//! span is left out: it is no short-period term.
+//! a series in cos jl and O one in sin jl. So E and O take the places of the even and of the odd time derivatives. The harmonic nearest to resonance may
+//! be left out (`selection`).
 
 use crate::gravity_gradient::orbit_series::OrbitSeries;
 use crate::simd::instruction_set::InstructionSet;
