@@ -207,7 +207,7 @@ impl Spin {
         let mut lane = 0;
         while lane < turns.len() {
             let next = lane + quarters[lane..turns.len()].iter().take_while(|other| **other == quarters[lane]).count();
-            let columns = self.quarter(quarters[lane] - self.first).sums(inside);
+            let columns = self.sums(quarters[lane] - self.first, inside);
             if next - lane == turns.len() {
                 let [x, y, z, w, anomaly, longitude] = columns;
                 return (QuaternionLanes([x, y, z, w]), [anomaly, longitude]);
@@ -225,18 +225,25 @@ impl Spin {
         (QuaternionLanes([x, y, z, w]), [anomaly, longitude])
     }
 
-    /// The quarter at a distance from the epoch's quarter. If it is not known yet, it is solved together with all quarters between.
-    fn quarter(&self, distance: i64) -> Polynomial {
+    /// The sums of the quarter at a distance from the epoch's quarter. If it is not known yet, it is solved together with all quarters between.
+    #[inline(always)]
+    fn sums<S: InstructionSet>(&self, distance: i64, inside: Lanes<S>) -> [Lanes<S>; COLUMNS] {
         let (side, index) = match distance {
-            0 => return self.epoch,
+            0 => return self.epoch.sums(inside),
             later if later > 0 => (0, later as usize - 1),
             earlier => (1, earlier.unsigned_abs() as usize - 1),
         };
-        // If a thread panicked while it held the lock, the quarters are still complete.
-        let known = self.kept[side].read().unwrap_or_else(|poisoned| poisoned.into_inner()).get(index).copied();
-        known.unwrap_or_else(|| self.solved(side, index))
+        {
+            // If a thread panicked while it held the lock, the quarters are still complete.
+            let known = self.kept[side].read().unwrap_or_else(|poisoned| poisoned.into_inner());
+            if let Some(quarter) = known.get(index) {
+                return quarter.sums(inside);
+            }
+        }
+        self.solved(side, index).sums(inside)
     }
 
+    #[cold]
     fn solved(&self, side: usize, index: usize) -> Polynomial {
         let mut quarters = self.kept[side].write().unwrap_or_else(|poisoned| poisoned.into_inner());
         let (step, end) = if side == 0 { (1, 1.0) } else { (-1, -1.0) };

@@ -35,7 +35,7 @@ impl Candidate {
         (self.rate + self.shift / divisor) / divisor
     }
 
-    /// The factors of G and of −Ω ∂G/∂Ω in the derivatives of W: of W, of M ∂W/∂M, of ∂W/∂p and of ∂W/∂p̄.
+    /// The factors of G and of −Ω ∂G/∂Ω in W, M ∂W/∂M, ∂W/∂p̄ + ∂W/∂p and ∂W/∂p̄ − ∂W/∂p.
     fn factors(&self, inertia: &Inertia) -> [[f64; 4]; 2] {
         let Self { harmonic, multiple, value, slope, frequency, .. } = *self;
         let [anomaly, longitude] = inertia.rate_slopes;
@@ -45,19 +45,17 @@ impl Candidate {
         let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value };
         let further = root.powi(degree + 1);
         let [by_p, by_p_bar] = if harmonic > 0 { [falling, 0.0] } else { [0.0, falling] };
+        let [sum, difference] = [by_p_bar + by_p, by_p_bar - by_p];
         let by_frequency = -inverse * inverse * further * value * by_sigma;
         let whole = inverse * root.powi(degree) * value;
-        let [by_p, by_p_bar] = [by_p, by_p_bar].map(|part| inverse * (part + further * slope));
-        [[whole, 0.0, by_p, by_p_bar], [0.0, whole, by_frequency, by_frequency]]
+        let sum = inverse * (sum + 2.0 * further * slope);
+        [[whole, 0.0, sum, inverse * difference], [0.0, whole, 2.0 * by_frequency, 0.0]]
     }
 
     /// This term with divisors that are exact in the orbit's harmonics. What is smaller than `nothing` is left out.
     pub(super) fn exact(&self, inertia: &Inertia, orbit: (&OrbitSeries, f64, Option<i32>), nothing: f64) -> ExactTerm {
-        let [still, moving] = self.factors(inertia);
-        let mut harmonic = Harmonic { degree: self.harmonic.unsigned_abs() as usize, factors: Vec::new() };
-        harmonic.add(self.harmonic < 0, &[still, still, moving, moving]);
         let negligible = 0.1 * nothing / self.size();
-        ExactTerm::new((self.harmonic, self.multiple), harmonic, self.frequency, orbit, negligible)
+        ExactTerm::new((self.harmonic, self.multiple), self.factors(inertia), self.frequency, orbit, negligible)
     }
 
     /// Adds this term to the other terms of its |h|, with `orders` derivatives of g.

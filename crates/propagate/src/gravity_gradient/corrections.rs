@@ -24,7 +24,7 @@ use num_complex::Complex;
 use super::candidate::{Candidate, SMALLEST_RATIO};
 use super::course::fixed;
 use super::envelope::Envelope;
-use super::generator::{self, Generator, Harmonic, ORDERS, Orbital};
+use super::generator::{self, Generator, Harmonic, ORDERS};
 use super::inertia::{HIGHEST, Inertia};
 use super::orbit_series::OrbitSeries;
 use super::resonance::Commensurability;
@@ -47,6 +47,11 @@ const CONTRACTED: [f64; 3] = [2.0 / 3.0, 0.5, 1.0];
 pub(crate) const SHARE: f64 = 1e-5;
 /// The same for a motion of second order, whose mean variables are better by the size of the corrections.
 pub(crate) const SECOND_SHARE: f64 = 1e-9;
+
+/// Largest part of the tolerance that a dropped term may take.
+const TOLERABLE: f64 = 0.002;
+/// Largest part of a dropped term that a dropped coefficient of the time derivatives may have. There are up to 231 of them.
+const SMALLEST_COEFFICIENT: f64 = 0.004;
 
 /// The margins of the error bound cover pairs of terms that are slower than the terms by the reciprocal of this.
 const PAIR_SHARE: f64 = 1.0 / 6.0;
@@ -113,6 +118,8 @@ pub(crate) struct Demand<'a> {
     pub(crate) duration: f64,
     /// Terms smaller than this fraction of the second-order error are dropped.
     pub(crate) share: f64,
+    /// Whether the mean M and L at the epoch are those of all terms, so that dropped terms have no effect that grows.
+    pub(crate) refined: bool,
     /// The orbit's harmonics, where divisors are to be exact in them.
     pub(crate) series: Option<&'a OrbitSeries>,
     /// What the span has of the orbit.
@@ -208,8 +215,8 @@ impl Corrections {
         let Demand { orbit, mean_motion, level, duration, envelope, series, .. } = *demand;
         let Terms { response, strength, scale, turning, fastest, size, .. } = terms;
         let eccentricity = orbit.eccentricity();
-        let nothing = (0.01 * demand.tolerance / response.growth(1, duration)).max(demand.share * whole * whole);
-        let mut orbital = Orbital::precessing(eccentricity, mean_motion, demand.rates);
+        let growth = |multiple: i32| if demand.refined { 1.0 } else { response.growth(multiple, duration) };
+        let nothing = (TOLERABLE * demand.tolerance / growth(1)).max(demand.share * whole * whole);
         let fixed_orbit = demand.rates == [0.0; 2];
         let selection = Selection {
             commensurability: Commensurability {
@@ -222,7 +229,7 @@ impl Corrections {
                 duration,
                 exact: series.is_some(),
             },
-            sizes: if fixed_orbit { envelope.span.to_vec() } else { orbital.norms.clone() },
+            sizes: if fixed_orbit { envelope.span.to_vec() } else { envelope.orbital.norms.clone() },
             most: if level == Level::Paper { 1 } else { ORDERS },
             nothing,
             enough: nothing.max(0.01 * demand.tolerance),
@@ -238,13 +245,15 @@ impl Corrections {
         let omitted = omitted.iter().map(|term| selection.commensurability.whole(term)).sum();
         let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
         let mut at_once = 0.0;
+        // Of the terms together, over the sizes of the time derivatives.
+        let mut amplitudes = [0.0; ORDERS];
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
         let mut exact = Vec::new();
         let regular = terms.all.iter().filter(|term| !selection.commensurability.is_slow(term));
         let terms_rate: f64 = regular.map(|term| term.rate).sum();
         let mut slow = 0.0;
         for (candidate, choice) in terms.all.iter().zip(&choices) {
-            let growth = response.growth(candidate.multiple, duration);
+            let growth = growth(candidate.multiple);
             let is_slow = selection.commensurability.is_slow(candidate);
             match (*choice, series) {
                 (Choice::Exact(Exact { left_out, size, .. }), Some(series)) => {
@@ -259,6 +268,9 @@ impl Corrections {
                     at_once += 2.0 * left;
                     neglected = neglected.max(left);
                     most_orders = most_orders.max(orders);
+                    for (j, amplitude) in amplitudes.iter_mut().enumerate().take(orders) {
+                        *amplitude += selection.left(candidate, j) / selection.sizes[j];
+                    }
                     candidate.join(&mut harmonics[candidate.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2
                     count += 1;
                 }
@@ -270,7 +282,10 @@ impl Corrections {
                 _ => {}
             }
         }
-        orbital.keep(most_orders);
+        let bounds = amplitudes.map(|amplitude| SMALLEST_COEFFICIENT * nothing / amplitude);
+        let orbital = envelope.orbital.cut(&bounds[..most_orders]);
+        rest += growth(1) * nothing;
+        at_once += nothing;
         let [first, second, _] = demand.axes;
         let per_momentum = orbit.disturbing_fraction() / inertia.momentum;
         let (level_axial, full_axial) = (level.axial(inertia), Level::Full.axial(inertia));

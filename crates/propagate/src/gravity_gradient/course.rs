@@ -11,7 +11,7 @@ use pulp::NullaryFnOnce;
 use crate::input::orbit::Orbit;
 use crate::numerics::phase::Phase;
 use crate::simd::instruction_set::InstructionSet;
-use crate::simd::kepler::Place;
+use crate::simd::kepler::{Ellipse, Place};
 use crate::simd::lanes::Lanes;
 
 /// Length of an arc over the distance of its start from the nearest singularity of the orbit, in the complex plane of time. Polynomials of degree 17 then
@@ -38,7 +38,7 @@ pub(crate) struct When<S: InstructionSet> {
 #[derive(Clone, Debug)]
 pub(crate) struct Course {
     pub(crate) mean_anomaly: Phase,
-    pub(crate) eccentricity: f64,
+    pub(crate) ellipse: Ellipse,
     /// At the epoch.
     pub(crate) axes: [Vector3<f64>; 3],
     turning: Option<Turning>,
@@ -60,7 +60,7 @@ impl Course {
         });
         Self {
             mean_anomaly: orbit.mean_anomaly(epoch),
-            eccentricity: orbit.eccentricity(),
+            ellipse: Ellipse::new(orbit.eccentricity()),
             axes: orbit.axes_at(epoch),
             turning,
         }
@@ -74,7 +74,7 @@ impl Course {
             Some(turning) => elapsed.0.simd().vectorize(AxesAt { turning, elapsed }),
             None => fixed(&self.axes, angle),
         };
-        When { turns, place: Place::of(angle, self.eccentricity), axes }
+        When { turns, place: self.ellipse.place(angle), axes }
     }
 
     /// Radians per unit of time of mean anomaly, node and pericentre together.
@@ -88,7 +88,8 @@ impl Course {
     ///
     /// The torque is singular at the mean anomalies ±i (artanh η − η), where the distance is 0.
     pub(crate) fn arc(&self, mean_anomaly: f64) -> f64 {
-        let eta = ((1.0 - self.eccentricity) * (1.0 + self.eccentricity)).sqrt();
+        let eccentricity = self.ellipse.eccentricity;
+        let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
         // Two terms of the series, where the difference cancels. For a circle the singularity is infinitely far.
         let singular = if eta < 0.01 { eta.powi(3) * (1.0 / 3.0 + eta * eta / 5.0) } else { eta.atanh() - eta };
         let length = ARC_SHARE * mean_anomaly.hypot(singular) / (TAU * self.mean_anomaly.frequency());

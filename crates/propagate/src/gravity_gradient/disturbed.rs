@@ -196,7 +196,7 @@ impl Gradient {
         if dropped > 0.0 {
             skipped.push(format!("short-period terms: the dropped terms sum to {dropped:.1e} rad"));
         }
-        if self.bodies.iter().all(|body| body.course.eccentricity == 0.0) {
+        if self.bodies.iter().all(|body| body.course.ellipse.eccentricity == 0.0) {
             let orbits = if self.bodies.len() == 1 { "the orbit is a circle" } else { "the orbits are circles" };
             skipped.push(format!("Kepler's equation: {orbits}"));
         }
@@ -234,7 +234,8 @@ impl Paths {
             let (mean_motion, eccentricity) = (scaled(orbit.mean_motion(), -exponent), orbit.eccentricity());
             let anomaly = start.place.angle.values()[0] - start.place.centre.values()[0];
             let reach = Reach { eccentricity, anomaly, orbital: mean_motion * duration };
-            paths.envelopes.push(Envelope::new(eccentricity, mean_motion, &reach));
+            let rates = orbit.rates().map(|rate| scaled(rate, -exponent));
+            paths.envelopes.push(Envelope::new(eccentricity, mean_motion, rates, &reach));
             paths.series.push(if refines(request) { OrbitSeries::new(&reach) } else { None });
             paths.reaches.push(reach);
             paths.starts.push(start);
@@ -253,8 +254,8 @@ impl Paths {
             let [mean_motion, node, pericentre] =
                 [orbit.mean_motion(), node, pericentre].map(|rate| scaled(rate, -exponent));
             let (axes, rates, duration) = (orbit.axes_at(epoch), [node, pericentre], self.duration);
-            let series = series.as_ref();
-            Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, series, envelope })
+            let (refined, series) = (refines(request), series.as_ref());
+            Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, refined, series, envelope })
         };
         request.orbits.iter().zip(&self.envelopes).zip(&self.series).map(demand).collect()
     }

@@ -4,16 +4,17 @@ use std::f64::consts::{PI, TAU};
 
 use crate::gravity_gradient::generator::{ORDERS, Orbital};
 use crate::simd::kepler::eccentric_anomaly;
-use crate::simd::lanes::Lanes;
 
 /// Points of a span at which the sizes are taken.
 const POINTS: usize = 48;
 /// Largest number of a harmonic of the orbit whose coefficient is computed.
 pub(crate) const LARGEST_NUMBER: f64 = 4096.0;
 
-/// Of each time derivative the size at the epoch, the largest within the span, and the largest at any time.
-#[derive(Clone, Copy, Debug)]
+/// The time derivatives, with the size of each at the epoch, the largest within the span, and the largest at any time.
+#[derive(Clone, Debug)]
 pub(crate) struct Envelope {
+    /// The time derivatives.
+    pub(crate) orbital: Orbital,
     /// Largest rate of twice the true anomaly within the span.
     pub(crate) fastest: f64,
     /// Whether the pericentre is within the span.
@@ -90,14 +91,14 @@ impl Reach {
     pub(crate) fn true_anomaly(&self, mean: f64) -> f64 {
         let e = self.eccentricity;
         let wrapped = mean - TAU * (mean / TAU).round();
-        let half = 0.5 * eccentric_anomaly(Lanes::splat(pulp::Scalar, wrapped), e).values()[0];
+        let half = 0.5 * eccentric_anomaly(wrapped, e);
         2.0 * ((1.0 + e).sqrt() * half.sin()).atan2((1.0 - e).sqrt() * half.cos())
     }
 }
 
 impl Envelope {
-    /// The sizes for an orbit and its mean motion.
-    pub(crate) fn new(eccentricity: f64, mean_motion: f64, reach: &Reach) -> Self {
+    /// The derivatives for an orbit, its mean motion, and the rates of its node and pericentre. The sizes are those without these rates.
+    pub(crate) fn new(eccentricity: f64, mean_motion: f64, rates: [f64; 2], reach: &Reach) -> Self {
         let orbital = Orbital::new(eccentricity, mean_motion);
         let at = |f: f64| orbital.sizes_at(f);
         let largest = |places: &[f64]| {
@@ -114,7 +115,8 @@ impl Envelope {
         // (a/r)³ is the cube of what the rate is the square of.
         let nearest = if passes { (1.0 + eccentricity) / eta_square } else { span[0].cbrt() };
         let fastest = 2.0 * mean_motion * eta_square.sqrt() * nearest * nearest;
-        Self { fastest, passes, share: reach.share(), epoch, span, most }
+        let orbital = if rates == [0.0; 2] { orbital } else { Orbital::precessing(eccentricity, mean_motion, rates) };
+        Self { orbital, fastest, passes, share: reach.share(), epoch, span, most }
     }
 }
 
@@ -149,7 +151,7 @@ pub(crate) fn harmonics(eccentricity: f64, number: f64) -> [f64; 3] {
 /// The sizes for a span of a whole orbit.
 #[cfg(test)]
 pub(crate) fn whole(eccentricity: f64, mean_motion: f64) -> Envelope {
-    Envelope::new(eccentricity, mean_motion, &Reach { eccentricity, anomaly: 0.0, orbital: TAU })
+    Envelope::new(eccentricity, mean_motion, [0.0; 2], &Reach { eccentricity, anomaly: 0.0, orbital: TAU })
 }
 
 #[cfg(test)]
@@ -176,8 +178,9 @@ mod tests {
     #[test]
     fn a_span_that_is_far_from_the_pericentre_has_little_of_its_strength() {
         let eccentricity = 0.9;
-        let at =
-            |anomaly: f64, orbital: f64| Envelope::new(eccentricity, 1e-3, &Reach { eccentricity, anomaly, orbital });
+        let at = |anomaly: f64, orbital: f64| {
+            Envelope::new(eccentricity, 1e-3, [0.0; 2], &Reach { eccentricity, anomaly, orbital })
+        };
         let far = at(3.0, 0.3);
         assert!(!far.passes && far.span[0] <= 1e-3 * far.most[0] && far.fastest <= 1e-2 * at(3.0, 4.0).fastest);
         // With the pericentre between its ends it has all of it.
@@ -190,7 +193,7 @@ mod tests {
     fn drifts_of_an_eccentric_orbit_act_near_the_pericentre_alone() {
         let eccentricity: f64 = 0.6;
         let share = |anomaly: f64, orbital: f64| {
-            Envelope::new(eccentricity, 1e-3, &Reach { eccentricity, anomaly, orbital }).share
+            Envelope::new(eccentricity, 1e-3, [0.0; 2], &Reach { eccentricity, anomaly, orbital }).share
         };
         // ⟨(a/r)⁹⟩ = η⁻¹⁵ (1 + 21e²/2 + 105e⁴/8 + 35e⁶/16).
         let square = eccentricity * eccentricity;
@@ -202,7 +205,7 @@ mod tests {
         assert!((found - (mean * 100.0 / 99.5 + at_apocentre)).abs() <= 1e-12, "{found:e} {mean:e}");
         // From the pericentre the mean variables are as far off as they can be. On a circle every place is alike.
         assert_eq!(share(0.0, 1e3).third, 1.0);
-        let circle = Envelope::new(0.0, 1e-3, &Reach { eccentricity: 0.0, anomaly: 1.0, orbital: 0.1 }).share;
+        let circle = Envelope::new(0.0, 1e-3, [0.0; 2], &Reach { eccentricity: 0.0, anomaly: 1.0, orbital: 0.1 }).share;
         assert!(circle.third == 1.0 && circle.truncation >= 1.0 - 1e-12);
         // Half an orbit past the apocentre sees nothing of the pericentre, and is measured by its own nearest place.
         let far = share(PI, 0.5);

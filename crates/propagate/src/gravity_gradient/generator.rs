@@ -3,20 +3,17 @@
 //! With ε = 1/Ω, the sum for G is Σ (iε)^j d^j/dt^j g, up to the factor −iε. The time derivatives of (a/r)³, (a/r)³ cos 2f and (a/r)³ sin 2f are Fourier
 //! polynomials in f that all terms share. After contraction with r̂r̂ for one m, each term needs only real multiples of them, since T33, i t1 e^(−iy′) and t2
 //! e^(−2iy′) have real coefficients (time reversal). |p| = √σ is a constant of the mean motion and is included in the coefficients. The derivatives with
-//! respect to p and p̄ are stored as ∂/∂p e^(iℓ′) and ∂/∂p̄ e^(−iℓ′), which are regular at p = 0.
-
-use std::f64::consts::TAU;
+//! respect to p and p̄ are ∂/∂p e^(iℓ′) and ∂/∂p̄ e^(−iℓ′), which are regular at p = 0. W is real, so that of each sum only the real or the imaginary part
+//! counts: r̂ is taken relative to axes that are turned by y′, where no phase is left.
 
 use nalgebra::Vector3;
 
 mod exact;
 mod orbital;
 
-use pulp::NullaryFnOnce;
-
-use exact::PARTS;
+use exact::ExactTerms;
 pub(crate) use exact::{ExactTerm, returns};
-use orbital::sum;
+use orbital::WIDTH;
 pub(crate) use orbital::{ORDERS, Orbital};
 
 use super::course::{Axes, fixed};
@@ -25,9 +22,8 @@ use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
-use crate::simd::sincos::sin_cos_of_turns;
 
-/// Number of sums over the terms: W, M ∂W/∂M, ∂W/∂p and ∂W/∂p̄.
+/// Number of sums over the terms: W, M ∂W/∂M, ∂W/∂p̄ + ∂W/∂p and ∂W/∂p̄ − ∂W/∂p.
 const SUMS: usize = 4;
 
 /// All terms of one |h|: the factors of cos hℓ′ and of i sin hℓ′, by j and sum.
@@ -98,39 +94,38 @@ impl<S: InstructionSet> Correction<S> {
     }
 }
 
-/// The contraction of r̂r̂ for one multiple of y′ (r₃² − ⅓, r̄₊ r₃ or r̄₊²), and its derivatives when the frame turns about its axes 1 and 2. They are
-/// multiplied by i for odd j.
-type Contracted<S> = [ComplexLanes<S>; 3];
-
 impl Generator {
     /// The changes from mean to osculating variables, for |p| = √σ and an ellipse with these axes.
     #[inline(always)]
     pub(crate) fn at<S: InstructionSet>(&self, mean: &MeanLanes<S>, place: &Place<S>, axes: &Axes<S>) -> Correction<S> {
         let none = place.sine.all(0.0);
-        let zero = ComplexLanes { re: none, im: none };
-        let products = products(mean.frame, axes);
-        let tensors = self.tensors_of(mean.frame, &products, place);
-        let exact = self.exact.iter().flat_map(|term| &term.harmonic);
-        let highest = self.harmonics.iter().flatten().chain(exact).map(|harmonic| harmonic.degree).max().unwrap_or(0);
-        let turns = circle(mean.turn, highest);
-        let orders = self.orbital.series.len();
-        let mut sums = Derivatives { by_p: [zero; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
-        let mut spin = ComplexLanes { re: none.all(1.0), im: none };
-        for (multiple, harmonics) in self.harmonics.iter().enumerate() {
-            if !harmonics.is_empty() {
-                let mut totals = [zero; SUMS + 2];
-                for (j, tensor) in tensors.iter().enumerate().take(orders) {
-                    add(&mut totals, harmonics, &turns, (j, tensor, multiple));
-                }
-                sums.add(&totals, multiple, spin);
+        let (products, node) = products(mean.frame, axes, mean.spin);
+        let degrees = self.harmonics.iter().flatten().map(|harmonic| harmonic.degree);
+        let highest = degrees.chain(self.exact.iter().map(ExactTerm::degree)).max().unwrap_or(0);
+        let mut turns = [ComplexLanes { re: none.all(1.0), im: none }; HIGHEST + 1];
+        for h in 1..=highest {
+            turns[h] = turns[h - 1] * mean.turn;
+        }
+        let mut sums =
+            Derivatives { by_p_bar: [none; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
+        if self.orbital.node_rate == 0.0 {
+            let mut circle = [[none; 2]; WIDTH + 1];
+            self.orbital.fill(&mut circle, place);
+            for j in 0..self.orbital.orders() {
+                let tensor = tensor_of(self.orbital.derivative(j, &circle), &products);
+                sums.add_all(&self.harmonics, &turns, j, &tensor);
             }
-            spin = spin * mean.spin;
+        } else {
+            let tensors = self.tensors_of(&products, node, place);
+            for (j, tensor) in tensors.iter().enumerate().take(self.orbital.orders()) {
+                sums.add_all(&self.harmonics, &turns, j, tensor);
+            }
         }
         if !self.exact.is_empty() {
-            let with = Exact { generator: self, turns: &turns, products: &products, spin: mean.spin, place, sums };
-            sums = none.simd().vectorize(with);
+            let terms = ExactTerms { terms: &self.exact, turns: &turns, products: &products, place, sums };
+            sums = none.simd().vectorize(terms);
         }
-        self.change(&sums)
+        self.change(&sums, mean.spin)
     }
 
     /// r̂r̂ (a/r)³ and its time derivatives in the frame at the epoch's axes, as components 11, 22, 33, 12, 13, 23.
@@ -140,44 +135,49 @@ impl Generator {
         frame: QuaternionLanes<S>,
         place: &Place<S>,
     ) -> [[Lanes<S>; 6]; ORDERS] {
-        self.tensors_of(frame, &products(frame, &fixed(&self.axes, place.sine)), place)
+        let straight = ComplexLanes { re: place.sine.all(1.0), im: place.sine.all(0.0) };
+        let (products, node) = products(frame, &fixed(&self.axes, place.sine), straight);
+        self.tensors_of(&products, node, place)
     }
 
     #[inline(always)]
     fn tensors_of<S: InstructionSet>(
         &self,
-        frame: QuaternionLanes<S>,
         products: &Products<S>,
+        [x, y, z]: [Lanes<S>; 3],
         place: &Place<S>,
     ) -> [[Lanes<S>; 6]; ORDERS] {
-        let none = place.sine.all(0.0);
-        let circle = self.orbital.circle(place);
+        let none = x.all(0.0);
+        let mut circle = [[none; 2]; WIDTH + 1];
+        self.orbital.fill(&mut circle, place);
         let mut tensors = [[none; 6]; ORDERS];
-        for (j, (tensor, [one, cosine, sine])) in tensors.iter_mut().zip(&self.orbital.series).enumerate() {
-            let (even, odd) = (j % 2, 1 - j % 2);
-            let (one, cosine, sine) = (sum(&circle, one, even), sum(&circle, cosine, even), sum(&circle, sine, odd));
-            *tensor = tensor_of([one, cosine, sine], products);
+        let orders = self.orbital.orders().min(ORDERS);
+        for (j, tensor) in tensors.iter_mut().enumerate().take(orders) {
+            *tensor = tensor_of(self.orbital.derivative(j, &circle), products);
         }
         if self.orbital.node_rate != 0.0 {
-            let ([x, y, z], rate) = (frame.rows()[2], none.all(self.orbital.node_rate));
-            turned(&mut tensors, self.orbital.series.len(), [x * rate, y * rate, z * rate]);
+            let rate = x.all(self.orbital.node_rate);
+            turned(&mut tensors, orders, [x * rate, y * rate, z * rate]);
         }
         tensors
     }
 
     #[inline(always)]
-    fn change<S: InstructionSet>(&self, sums: &Derivatives<S>) -> Correction<S> {
+    fn change<S: InstructionSet>(&self, sums: &Derivatives<S>, spin: ComplexLanes<S>) -> Correction<S> {
         let all = |value: f64| sums.by_longitude.all(value);
-        let momentum = sums.by_longitude * all(-self.strength);
-        // Only the real part of X counts. Its derivative ∂/∂p̄ is (∂X/∂p̄ + conj ∂X/∂p)/2.
-        let by_p_bar = sums.by_p[1] + sums.by_p[0].conjugate();
-        let relative = all(self.strength / self.momentum);
+        // The sums have half of each term and its conjugate.
+        let momentum = sums.by_longitude * all(2.0 * self.strength);
+        let relative = all(2.0 * self.strength / self.momentum);
         let half = all(0.5) * relative;
-        let real = momentum.negate_mul_add(all(0.5 * self.root / self.momentum), -(by_p_bar.im * half));
-        let circling = by_p_bar.re.negate_mul_add(all(0.5 * self.root), sums.by_momentum);
-        let [x, y] = sums.by_rotation;
+        let [by_p_bar, across] = sums.by_p_bar;
+        let real = momentum.negate_mul_add(all(0.5 * self.root / self.momentum), -(across * half));
+        let circling = by_p_bar.negate_mul_add(all(0.5 * self.root), -sums.by_momentum);
+        // Back from the axes that are turned by y′.
+        let [first, second] = sums.by_rotation;
+        let x = spin.im.negate_mul_add(second, spin.re * first);
+        let y = spin.im.mul_add(first, spin.re * second);
         Correction {
-            p: ComplexLanes { re: real, im: by_p_bar.re * half },
+            p: ComplexLanes { re: real, im: by_p_bar * half },
             longitude: relative * circling,
             momentum,
             // k × δ(Mk)/M turns k and the frame.
@@ -213,8 +213,13 @@ fn turned<S: InstructionSet>(tensors: &mut [[Lanes<S>; 6]; ORDERS], orders: usiz
 /// The products PP, QQ and PQ + QP of the axes of the orbit in the frame, by component.
 type Products<S> = [[Lanes<S>; 3]; 6];
 
+/// The products in the frame whose axes 1 and 2 are turned by the angle of `spin`, and inertial axis 3 there.
 #[inline(always)]
-fn products<S: InstructionSet>(frame: QuaternionLanes<S>, inertial: &Axes<S>) -> Products<S> {
+fn products<S: InstructionSet>(
+    frame: QuaternionLanes<S>,
+    inertial: &Axes<S>,
+    spin: ComplexLanes<S>,
+) -> (Products<S>, [Lanes<S>; 3]) {
     let rows = frame.rows();
     let none = rows[0][0].all(0.0);
     let mut axes = [[none; 3]; 2];
@@ -223,13 +228,20 @@ fn products<S: InstructionSet>(frame: QuaternionLanes<S>, inertial: &Axes<S>) ->
             let part = rows[0][c].mul_add(*x, rows[1][c] * *y);
             *component = rows[2][c].mul_add(*z, part);
         }
+        *components = turned_axes(*components, spin);
     }
     let [first, second] = axes;
     let mut products = [[none; 3]; 6];
     for (product, (a, b)) in products.iter_mut().zip(COMPONENTS) {
         *product = [first[a] * first[b], second[a] * second[b], first[a].mul_add(second[b], first[b] * second[a])];
     }
-    products
+    (products, turned_axes(rows[2], spin))
+}
+
+/// A vector's components along axes 1 and 2 that are turned by an angle, and along axis 3.
+#[inline(always)]
+fn turned_axes<S: InstructionSet>([x, y, z]: [Lanes<S>; 3], spin: ComplexLanes<S>) -> [Lanes<S>; 3] {
+    [spin.im.mul_add(y, spin.re * x), spin.im.negate_mul_add(x, spin.re * y), z]
 }
 
 /// r̂r̂ = (PP + QQ)/2 + (PP − QQ)/2 cos 2f + (PQ + QP)/2 sin 2f, from the factors of the three functions.
@@ -244,71 +256,8 @@ fn tensor_of<S: InstructionSet>([one, cosine, sine]: [Lanes<S>; 3], products: &P
     tensor
 }
 
-/// Adds the terms of one m with one of the tensors. Those with an odd j are multiplied by i.
-#[inline(always)]
-fn add<S: InstructionSet>(
-    totals: &mut [ComplexLanes<S>; SUMS + 2],
-    harmonics: &[Harmonic],
-    turns: &[ComplexLanes<S>; HIGHEST + 1],
-    (j, tensor, multiple): (usize, &[Lanes<S>; 6], usize),
-) {
-    let none = tensor[0].all(0.0);
-    let factors = summed(harmonics, turns, j, ComplexLanes { re: none, im: none });
-    let contracted = contractions(tensor, multiple, j % 2 == 1);
-    for (total, factor) in totals.iter_mut().zip(factors) {
-        *total = total.plus(factor, contracted[0]);
-    }
-    totals[SUMS] = totals[SUMS].plus(factors[0], contracted[1]);
-    totals[SUMS + 1] = totals[SUMS + 1].plus(factors[0], contracted[2]);
-}
-
-/// The sums with the exact terms added, as a task that is compiled separately: most scenes do without it.
-struct Exact<'a, S: InstructionSet> {
-    generator: &'a Generator,
-    turns: &'a [ComplexLanes<S>; HIGHEST + 1],
-    products: &'a Products<S>,
-    spin: ComplexLanes<S>,
-    place: &'a Place<S>,
-    sums: Derivatives<S>,
-}
-
-impl<S: InstructionSet> NullaryFnOnce for Exact<'_, S> {
-    type Output = Derivatives<S>;
-
-    #[inline(always)]
-    fn call(self) -> Derivatives<S> {
-        let Self { generator, turns, products, spin, place, mut sums } = self;
-        let none = place.sine.all(0.0);
-        let zero = ComplexLanes { re: none, im: none };
-        let (sine, cosine) = sin_cos_of_turns((place.angle - place.centre) * none.all(1.0 / TAU));
-        let one = ComplexLanes { re: none.all(1.0), im: none };
-        let spins = [one, spin, spin * spin];
-        for term in &generator.exact {
-            let mut totals = [zero; SUMS + 2];
-            let multiple = term.numbers.1 as usize; // 0 ≤ m ≤ 2
-            let parts = term.parts(ComplexLanes { re: cosine, im: sine });
-            for (j, functions) in parts.iter().enumerate().take(PARTS) {
-                let tensor = tensor_of(*functions, products);
-                add(&mut totals, &term.harmonic, turns, (j, &tensor, multiple));
-            }
-            sums.add(&totals, multiple, spins[multiple]);
-        }
-        sums
-    }
-}
-
 /// Pairs of axes of a symmetric tensor.
 const COMPONENTS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
-
-/// e^(ihℓ′) for h = 0, 1, …
-#[inline(always)]
-fn circle<S: InstructionSet>(turn: ComplexLanes<S>, highest: usize) -> [ComplexLanes<S>; HIGHEST + 1] {
-    let mut turns = [ComplexLanes { re: turn.re.all(1.0), im: turn.re.all(0.0) }; HIGHEST + 1];
-    for h in 1..=highest {
-        turns[h] = turns[h - 1] * turn;
-    }
-    turns
-}
 
 /// The sums over the terms of one m, for one j.
 #[inline(always)]
@@ -316,64 +265,131 @@ fn summed<S: InstructionSet>(
     harmonics: &[Harmonic],
     turns: &[ComplexLanes<S>; HIGHEST + 1],
     j: usize,
-    zero: ComplexLanes<S>,
 ) -> [ComplexLanes<S>; SUMS] {
-    let mut sums = [zero; SUMS];
+    let none = turns[0].im;
+    let mut sums = [ComplexLanes { re: none, im: none }; SUMS];
     for harmonic in harmonics {
         let turn = turns[harmonic.degree];
         if let Some(factors) = harmonic.factors.get(j) {
             for (sum, [even, odd]) in sums.iter_mut().zip(factors) {
-                sum.re = turn.re.mul_add(zero.re.all(*even), sum.re);
-                sum.im = turn.im.mul_add(zero.re.all(*odd), sum.im);
+                sum.re = turn.re.mul_add(none.all(*even), sum.re);
+                sum.im = turn.im.mul_add(none.all(*odd), sum.im);
             }
         }
     }
     sums
 }
 
+/// The contraction of r̂r̂ for one multiple of y′ and its derivatives when the frame turns about its axes 1 and 2, each times the factor of a term's −½ i or,
+/// for m = 1, −½.
+type Contracted<S> = [ComplexLanes<S>; 3];
+
+/// Those of r̂₊ r₃ and r̂₊².
 #[inline(always)]
-fn contractions<S: InstructionSet>(tensor: &[Lanes<S>; 6], multiple: usize, odd: bool) -> Contracted<S> {
-    let [xx, yy, zz, xy, xz, yz] = *tensor;
-    let none = xx.all(0.0);
-    let (three, two) = (xx.all(3.0), xx.all(2.0));
-    let c = |re, im| ComplexLanes { re, im };
-    let contracted = match multiple {
-        0 => [c(zz - (xx + yy) * xx.all(0.5), none), c(-(three * yz), none), c(three * xz, none)],
-        1 => [c(xz, -yz), c(-xy, yy - zz), c(xx - zz, -xy)],
-        _ => [c(xx - yy, -(two * xy)), c(-(two * yz), -(two * xz)), c(-(two * xz), two * yz)],
-    };
-    if odd {
-        [contracted[0].quarter_turned(), contracted[1].quarter_turned(), contracted[2].quarter_turned()]
+fn contractions<S: InstructionSet>([xx, yy, zz, xy, xz, yz]: &[Lanes<S>; 6], multiple: usize) -> Contracted<S> {
+    let c = |re: Lanes<S>, im: Lanes<S>| ComplexLanes { re, im };
+    if multiple == 1 {
+        [c(-*xz, *yz), c(*xy, *zz - *yy), c(*zz - *xx, *xy)]
     } else {
-        contracted
+        let (two_xz, two_yz) = (*xz + *xz, *yz + *yz);
+        [c(-(*xy + *xy), *yy - *xx), c(-two_xz, two_yz), c(two_yz, two_xz)]
     }
 }
 
-/// Derivatives of W divided by the strength.
+/// That of r₃² − ⅓, times i.
+#[inline(always)]
+fn axial_contractions<S: InstructionSet>([xx, yy, zz, _, xz, yz]: &[Lanes<S>; 6]) -> [Lanes<S>; 3] {
+    let three = xx.all(3.0);
+    [(*xx + *yy).negate_mul_add(xx.all(0.5), *zz), -(three * *yz), three * *xz]
+}
+
+/// The parts of the derivatives of W that count, divided by twice the strength.
 #[derive(Clone, Copy)]
 struct Derivatives<S: InstructionSet> {
-    /// With respect to p and p̄.
-    by_p: [ComplexLanes<S>; 2],
+    /// The real part with respect to p̄ and to p together, and the imaginary part of their difference.
+    by_p_bar: [Lanes<S>; 2],
     by_longitude: Lanes<S>,
     by_momentum: Lanes<S>,
+    /// About axes that are turned by y′.
     by_rotation: [Lanes<S>; 2],
 }
 
 impl<S: InstructionSet> Derivatives<S> {
+    /// Adds the terms that have the derivative j.
     #[inline(always)]
-    fn add(&mut self, totals: &[ComplexLanes<S>; SUMS + 2], multiple: usize, spin: ComplexLanes<S>) {
-        // The factor −i is that of 1/(iΩ), and for m = 1 also that of t1. The coefficients are real without it.
-        let factor = spin.re.all(-2.0);
-        let phase = ComplexLanes { re: spin.re * factor, im: spin.im * factor };
-        let phase = if multiple == 1 { phase } else { phase.quarter_turned() };
-        let mut turned = *totals;
-        for total in &mut turned {
-            *total = *total * phase;
+    fn add_all(
+        &mut self,
+        [axial, first, second]: &[Vec<Harmonic>; 3],
+        turns: &[ComplexLanes<S>; HIGHEST + 1],
+        j: usize,
+        tensor: &[Lanes<S>; 6],
+    ) {
+        let has = |harmonics: &[Harmonic]| harmonics.iter().any(|harmonic| harmonic.factors.len() > j);
+        if has(axial) {
+            self.add_axial(axial, turns, j, tensor);
         }
-        let [whole, slope, by_p, by_p_bar, first, second] = turned;
-        self.by_longitude = whole.im.negate_mul_add(spin.re.all(multiple as f64), self.by_longitude);
-        self.by_momentum = self.by_momentum - slope.re;
-        self.by_rotation = [self.by_rotation[0] + first.re, self.by_rotation[1] + second.re];
-        self.by_p = [self.by_p[0] + by_p, self.by_p[1] + by_p_bar];
+        if has(first) {
+            self.add(first, turns, (j, tensor, 1));
+        }
+        if has(second) {
+            self.add(second, turns, (j, tensor, 2));
+        }
+    }
+
+    /// Adds the terms with m = 0. Their contraction is imaginary for even j and real for odd j.
+    #[inline(always)]
+    fn add_axial(
+        &mut self,
+        harmonics: &[Harmonic],
+        turns: &[ComplexLanes<S>; HIGHEST + 1],
+        j: usize,
+        tensor: &[Lanes<S>; 6],
+    ) {
+        let none = self.by_momentum.all(0.0);
+        let mut sums = [none; SUMS];
+        let (main, other) = if j % 2 == 0 { (1, 0) } else { (0, 1) };
+        for harmonic in harmonics {
+            if let Some(factors) = harmonic.factors.get(j) {
+                let turn = turns[harmonic.degree];
+                let waves = [turn.re, turn.im];
+                for s in 0..3 {
+                    sums[s] = waves[main].mul_add(none.all(factors[s][main]), sums[s]);
+                }
+                sums[3] = waves[other].mul_add(none.all(factors[3][other]), sums[3]);
+            }
+        }
+        let [whole, slope, sum, difference] = sums;
+        let [value, first, second] = axial_contractions(tensor);
+        self.by_momentum = slope.mul_add(value, self.by_momentum);
+        self.by_p_bar[0] = sum.mul_add(value, self.by_p_bar[0]);
+        let difference = if j % 2 == 0 { -difference } else { difference };
+        self.by_p_bar[1] = difference.mul_add(value, self.by_p_bar[1]);
+        self.by_rotation[0] = whole.mul_add(first, self.by_rotation[0]);
+        self.by_rotation[1] = whole.mul_add(second, self.by_rotation[1]);
+    }
+
+    /// Adds the terms of another m.
+    #[inline(always)]
+    fn add(
+        &mut self,
+        harmonics: &[Harmonic],
+        turns: &[ComplexLanes<S>; HIGHEST + 1],
+        (j, tensor, multiple): (usize, &[Lanes<S>; 6], usize),
+    ) {
+        let [whole, slope, sum, difference] = summed(harmonics, turns, j);
+        let mut contracted = contractions(tensor, multiple);
+        if j % 2 == 1 {
+            for function in &mut contracted {
+                *function = function.quarter_turned();
+            }
+        }
+        let [value, first, second] = contracted;
+        let multiple = self.by_momentum.all(multiple as f64);
+        self.by_longitude = multiple.mul_add(whole.im_of_product(value), self.by_longitude);
+        self.by_momentum = slope.plus_re_of_product(value, self.by_momentum);
+        self.by_p_bar[0] = sum.plus_re_of_product(value, self.by_p_bar[0]);
+        self.by_p_bar[1] = self.by_p_bar[1] + difference.im_of_product(value);
+        self.by_rotation[0] = whole.plus_re_of_product(first, self.by_rotation[0]);
+        self.by_rotation[1] = whole.plus_re_of_product(second, self.by_rotation[1]);
     }
 }

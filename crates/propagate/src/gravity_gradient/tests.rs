@@ -146,6 +146,7 @@ impl Stand {
             tolerance: 1e-30,
             duration: 1e5,
             share: 0.0,
+            refined: true,
             series,
             envelope: &whole(self.orbit.eccentricity(), MEAN_MOTION),
         };

@@ -11,7 +11,6 @@ use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::eccentric_anomaly;
-use crate::simd::lanes::Lanes;
 
 /// A disturbing body with its times and rates in the unit of the integration.
 #[derive(Clone, Debug)]
@@ -129,7 +128,7 @@ impl Orbiting {
     fn ellipse<S: InstructionSet>(&self, simd: S, elapsed: (f64, f64), order: usize) -> (Series, Scalars) {
         let mean = self.mean_anomaly.angle(elapsed);
         let e = self.eccentricity;
-        let anomaly = if e == 0.0 { mean } else { eccentric_anomaly(Lanes::splat(pulp::Scalar, mean), e).values()[0] };
+        let anomaly = if e == 0.0 { mean } else { eccentric_anomaly(mean, e) };
         let (half_sine, half_cosine) = (0.5 * anomaly).sin_cos();
         let versed = 2.0 * half_sine * half_sine;
         let cosine = 1.0 - versed;

@@ -26,10 +26,7 @@ impl<S: InstructionSet> Mul for ComplexLanes<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self {
-            re: self.im.negate_mul_add(other.im, self.re * other.re),
-            im: self.im.mul_add(other.re, self.re * other.im),
-        }
+        Self { re: self.im.negate_mul_add(other.im, self.re * other.re), im: self.im_of_product(other) }
     }
 }
 
@@ -41,6 +38,18 @@ impl<S: InstructionSet> ComplexLanes<S> {
             re: a.im.negate_mul_add(b.im, a.re.mul_add(b.re, self.re)),
             im: a.im.mul_add(b.re, a.re.mul_add(b.im, self.im)),
         }
+    }
+
+    /// The real part of self·other, plus `sum`.
+    #[inline(always)]
+    pub(crate) fn plus_re_of_product(self, other: Self, sum: Lanes<S>) -> Lanes<S> {
+        self.im.negate_mul_add(other.im, self.re.mul_add(other.re, sum))
+    }
+
+    /// The imaginary part of self·other.
+    #[inline(always)]
+    pub(crate) fn im_of_product(self, other: Self) -> Lanes<S> {
+        self.im.mul_add(other.re, self.re * other.im)
     }
 
     #[inline(always)]

@@ -1,17 +1,108 @@
 //! Kepler's equation and the true anomaly, in lanes.
 //!
-//! Kepler's equation is solved with a fixed number of steps. Markley's starter (Celest. Mech. Dyn. Astron. 63 (1995) 101) is accurate to 1e-4. Where e is small
-//! M + e sin M is enough, with a polynomial for the sine. Two steps of third order follow, with the residual (1−e)E + e(E − sin E) − M, which is computed
-//! without cancellation.
+//! Kepler's equation is solved with a fixed number of steps. Where e is small, the start is Lagrange's series for E − M up to e⁶, accurate to 2e-4, and one step
+//! that is of fourth order follows. Otherwise the start is Markley's (Celest. Mech. Dyn. Astron. 63 (1995) 101), accurate to 1e-4, and two steps follow, with
+//! the residual (1−e)E + e(E − sin E) − M, which is computed without cancellation.
 
 use std::f64::consts::{PI, TAU};
 
 use super::instruction_set::InstructionSet;
 use super::lanes::Lanes;
-use super::sincos::{sin_cos_of_turns, twice_arc};
+use super::sincos::{sin_cos_of_turns, twice_arc, twice_short_arc};
 
-/// Largest eccentricity for which M + e sin M starts the iteration.
+/// Largest eccentricity for which Lagrange's series starts the iteration.
 const SMALL: f64 = 0.3;
+/// Largest eccentricity for which f − E is below π/4.
+const SHORT: f64 = 0.66;
+
+/// An ellipse, with what its eccentricity determines.
+#[derive(Clone, Debug)]
+pub(crate) struct Ellipse {
+    pub(crate) eccentricity: f64,
+    /// Square roots of 1 + e and of 1 − e.
+    roots: [f64; 2],
+    /// e = 2β/(1 + β²).
+    beta: f64,
+    /// (E − M)/sin M to e⁶, as a polynomial in cos M.
+    series: [f64; 6],
+}
+
+impl Ellipse {
+    pub(crate) fn new(eccentricity: f64) -> Self {
+        let e = eccentricity;
+        let roots = [(1.0 + e).sqrt(), (1.0 - e).sqrt()];
+        let square = e * e;
+        // e sin M + e²/2 sin 2M + e³/8 (3 sin 3M − sin M) + e⁴/6 (2 sin 4M − sin 2M) + e⁵/384 (125 sin 5M − 81 sin 3M + 2 sin M)
+        // + e⁶/240 (81 sin 6M − 64 sin 4M + 5 sin 2M), with sin kM/sin M = U(cos M).
+        let series = [
+            e * (1.0 - square * (0.5 - square * 13.0 / 24.0)),
+            square * (1.0 - square * (5.0 / 3.0 - square * 47.0 / 15.0)),
+            e * square * (1.5 - square * 4.75),
+            square * square * (8.0 / 3.0 - square * 194.0 / 15.0),
+            e * square * square * 125.0 / 24.0,
+            square * square * square * 10.8,
+        ];
+        Self { eccentricity, roots, beta: e / (1.0 + roots[0] * roots[1]), series }
+    }
+
+    /// E from Kepler's equation E − e sin E = M, for M in [−π, π] and 0 ≤ e < 1, with sine and cosine of E/2.
+    #[inline(always)]
+    fn anomaly<S: InstructionSet>(&self, m: Lanes<S>) -> (Lanes<S>, [Lanes<S>; 2]) {
+        if self.eccentricity <= SMALL {
+            return self.near_circle(m);
+        }
+        let anomaly = from_starter(m, self.eccentricity);
+        let (sine, cosine) = sin_cos_of_turns(anomaly * m.all(0.5 / TAU));
+        (anomaly, [sine, cosine])
+    }
+
+    #[inline(always)]
+    fn near_circle<S: InstructionSet>(&self, m: Lanes<S>) -> (Lanes<S>, [Lanes<S>; 2]) {
+        let all = |value: f64| m.all(value);
+        let (sine, cosine) = sin_cos_of_turns(m * all(1.0 / TAU));
+        let start = sine.mul_add(cosine.polynomial(&self.series), m);
+        let (half_sine, half_cosine) = sin_cos_of_turns(start * all(0.5 / TAU));
+        let sine = (half_sine + half_sine) * half_cosine;
+        let versed = (half_sine + half_sine) * half_sine;
+        let e = all(self.eccentricity);
+        let inverse = versed.mul_add(e, all(1.0 - self.eccentricity)).reciprocal();
+        // E − M is exact here.
+        let newton = sine.negate_mul_add(e, start - m) * inverse;
+        let curvature = all(0.5) * e * sine * inverse;
+        let third = versed.negate_mul_add(e, e) * inverse * all(1.0 / 6.0);
+        // f + f′ δ + f″/2 δ² + f‴/6 δ³ = 0.
+        let cubic = (curvature + curvature).negate_mul_add(curvature, third);
+        let change = newton * newton.mul_add(newton.mul_add(cubic, -curvature), all(-1.0));
+        let half = all(0.5) * change;
+        let square = half * half;
+        let turned_sine = square.negate_mul_add(half * all(1.0 / 6.0), half);
+        let turned_versed = square * square.negate_mul_add(all(1.0 / 24.0), all(0.5));
+        let new_sine = half_sine + half_cosine.mul_add(turned_sine, -(half_sine * turned_versed));
+        let new_cosine = half_cosine - half_sine.mul_add(turned_sine, half_cosine * turned_versed);
+        (start + change, [new_sine, new_cosine])
+    }
+
+    /// The place at a mean anomaly in [−π, π], which may exceed this interval by a rounding error.
+    #[inline(always)]
+    pub(crate) fn place<S: InstructionSet>(&self, mean_anomaly: Lanes<S>) -> Place<S> {
+        let all = |value: f64| mean_anomaly.all(value);
+        let Self { eccentricity, roots, beta, .. } = *self;
+        if eccentricity == 0.0 {
+            let (sine, cosine) = sin_cos_of_turns(mean_anomaly * all(1.0 / TAU));
+            return Place { angle: mean_anomaly, centre: all(0.0), sine, cosine };
+        }
+        let (anomaly, [sine, cosine]) = self.anomaly(mean_anomaly);
+        let (y, x) = (sine * all(roots[0]), cosine * all(roots[1]));
+        let scale = y.mul_add(y, x * x).reciprocal();
+        // tan (f − E)/2 = β sin E/(1 − β cos E), and E − M = e sin E.
+        let product = sine * cosine;
+        let across = product * all(2.0 * beta);
+        let along = (sine * sine).mul_add(all(2.0 * beta), all(1.0 - beta));
+        let ahead = if eccentricity <= SHORT { twice_short_arc(across / along) } else { twice_arc(across, along) };
+        let centre = product.mul_add(all(2.0 * eccentricity), ahead);
+        Place { angle: anomaly + ahead, centre, sine: (x * y) * (scale + scale), cosine: ((x - y) * (x + y)) * scale }
+    }
+}
 
 /// The place of the disturbing body on its ellipse at some times.
 #[derive(Clone, Copy)]
@@ -26,34 +117,22 @@ pub(crate) struct Place<S: InstructionSet> {
 }
 
 impl<S: InstructionSet> Place<S> {
-    /// From the mean anomaly in [−π, π], which may exceed this interval by a rounding error.
-    #[inline(always)]
+    /// [`Ellipse::place`] for an ellipse with this eccentricity.
     pub(crate) fn of(mean_anomaly: Lanes<S>, eccentricity: f64) -> Self {
-        let all = |value: f64| mean_anomaly.all(value);
-        if eccentricity == 0.0 {
-            let (sine, cosine) = sin_cos_of_turns(mean_anomaly * all(1.0 / TAU));
-            return Self { angle: mean_anomaly, centre: all(0.0), sine, cosine };
-        }
-        let anomaly = eccentric_anomaly(mean_anomaly, eccentricity);
-        let (sine, cosine) = sin_cos_of_turns(anomaly * all(0.5 / TAU));
-        let (y, x) = (sine * all((1.0 + eccentricity).sqrt()), cosine * all((1.0 - eccentricity).sqrt()));
-        let scale = y.mul_add(y, x * x).reciprocal();
-        // tan (f − E)/2 = β sin E/(1 − β cos E), e = 2β/(1 + β²), and E − M = e sin E.
-        let beta = eccentricity / (1.0 + ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt());
-        let product = sine * cosine;
-        let across = product * all(2.0 * beta);
-        let along = (sine * sine).mul_add(all(2.0 * beta), all(1.0 - beta));
-        let ahead = twice_arc(across, along);
-        let centre = product.mul_add(all(2.0 * eccentricity), ahead);
-        Self { angle: anomaly + ahead, centre, sine: (x * y) * (scale + scale), cosine: ((x - y) * (x + y)) * scale }
+        Ellipse::new(eccentricity).place(mean_anomaly)
     }
 }
 
 /// E from Kepler's equation E − e sin E = M, for M in [−π, π] and 0 ≤ e < 1.
+pub(crate) fn eccentric_anomaly(m: f64, e: f64) -> f64 {
+    Ellipse::new(e).anomaly(Lanes::splat(pulp::Scalar, m)).0.values()[0]
+}
+
+/// E by Markley's starter and two steps.
 #[inline(always)]
-pub(crate) fn eccentric_anomaly<S: InstructionSet>(m: Lanes<S>, e: f64) -> Lanes<S> {
+fn from_starter<S: InstructionSet>(m: Lanes<S>, e: f64) -> Lanes<S> {
     let all = |value: f64| m.all(value);
-    let mut anomaly = if e <= SMALL { near_circle(m, e) } else { starter(m, e) };
+    let mut anomaly = starter(m, e);
     for _ in 0..2 {
         let (half_sine, half_cosine) = sin_cos_of_turns(anomaly * all(0.5 / TAU));
         let sine = (half_sine + half_sine) * half_cosine;
@@ -79,13 +158,6 @@ fn excess<S: InstructionSet>(anomaly: Lanes<S>, sine: Lanes<S>) -> Lanes<S> {
         sum = (anomaly.all(1.0) - sum) * square * anomaly.all(1.0 / f64::from(2 * k * (2 * k + 1)));
     }
     anomaly.magnitude().up_to(1.0, anomaly * sum, anomaly - sine)
-}
-
-/// M + e sin M, to e²/2 + 0.02 e.
-#[inline(always)]
-fn near_circle<S: InstructionSet>(m: Lanes<S>, e: f64) -> Lanes<S> {
-    let square = m * m;
-    m * square.polynomial(&[0.987_86, -0.155_27, 0.005_643]).mul_add(m.all(e), m.all(1.0))
 }
 
 /// The starter: the root of the cubic that follows from Kepler's equation with a Padé approximation of the sine.
@@ -116,7 +188,7 @@ mod tests {
     }
 
     fn solved(m: f64, e: f64) -> f64 {
-        eccentric_anomaly(one(m), e).values()[0]
+        eccentric_anomaly(m, e)
     }
 
     #[test]

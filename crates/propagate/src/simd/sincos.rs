@@ -73,7 +73,13 @@ pub(crate) fn twice_arc<S: InstructionSet>(y: Lanes<S>, x: Lanes<S>) -> Lanes<S>
     let quarter = y / (x + x.mul_add(x, y * y).root());
     let one = x.all(1.0);
     let eighth = quarter / (one + quarter.mul_add(quarter, one).root());
-    let square = eighth * eighth;
-    let arc = (eighth * square).mul_add(square.polynomial(&ARC), eighth);
-    arc * x.all(8.0)
+    twice_short_arc(eighth) * x.all(4.0)
+}
+
+/// Twice the arctangent of a tangent, up to tan π/8.
+#[inline(always)]
+pub(crate) fn twice_short_arc<S: InstructionSet>(tangent: Lanes<S>) -> Lanes<S> {
+    let square = tangent * tangent;
+    let arc = (tangent * square).mul_add(square.polynomial(&ARC), tangent);
+    arc + arc
 }

@@ -103,7 +103,7 @@ impl Task for Torques<'_> {
             let width = Lanes::<S>::WIDTH;
             for (times, torques) in self.times.chunks(width).zip(torques.chunks_mut(width)) {
                 let when = pull.course.at((Lanes::load(simd, times), none));
-                let e = pull.course.eccentricity;
+                let e = pull.course.ellipse.eccentricity;
                 for (lane, torque) in torques.iter_mut().enumerate() {
                     let [first, second] = when.axes.map(|axis| Vector3::from(axis.map(|lanes| lanes.values()[lane])));
                     let (sine, cosine) = (when.place.sine.values()[lane], when.place.cosine.values()[lane]);

@@ -10,14 +10,22 @@
 //! a series in cos jl and O one in sin jl. So E and O take the places of the even and of the odd time derivatives. The harmonic nearest to resonance may
 //! be left out (`selection`).
 
-use crate::gravity_gradient::orbit_series::OrbitSeries;
-use crate::simd::instruction_set::InstructionSet;
-use crate::simd::lanes::Lanes;
+use std::f64::consts::TAU;
 
-use super::{ComplexLanes, Harmonic};
+use pulp::NullaryFnOnce;
+
+use crate::gravity_gradient::inertia::HIGHEST;
+use crate::gravity_gradient::orbit_series::OrbitSeries;
+use crate::simd::complex_quaternion::ComplexLanes;
+use crate::simd::instruction_set::InstructionSet;
+use crate::simd::kepler::Place;
+use crate::simd::lanes::Lanes;
+use crate::simd::sincos::sin_cos_of_turns;
+
+use super::{Contracted, Derivatives, Products, SUMS, axial_contractions, contractions, tensor_of};
 
 /// E, O, E₁ and O₁.
-pub(super) const PARTS: usize = 4;
+const PARTS: usize = 4;
 /// From this xT/2 on, a harmonic with the divisor x returns within the time T: e^(−x²T²/4) is below rounding.
 const RETURNS: f64 = 6.1;
 
@@ -33,17 +41,17 @@ pub(crate) struct ExactTerm {
     pub(crate) numbers: (i32, i32),
     /// The harmonic of the orbit that is left out.
     pub(crate) left_out: Option<i32>,
-    /// The factors of its parts.
-    pub(super) harmonic: [Harmonic; 1],
+    /// The factors of G and of −Ω ∂G/∂Ω in W, M ∂W/∂M, ∂W/∂p and ∂W/∂p̄.
+    factors: [[f64; SUMS]; 2],
     /// The coefficients of (a/r)³ times 1, cos 2f and sin 2f, by j, function and part.
     coefficients: Vec<[[f64; PARTS]; 3]>,
 }
 
 impl ExactTerm {
-    /// The term with these h and m, its factors, its Ω, the series with n and with the harmonic that is left out. Coefficients below `negligible` are dropped.
+    /// The term with these h and m, its factors of G and of −Ω ∂G/∂Ω in the derivatives of W, its Ω, the series with n and with the harmonic that is left out. Coefficients below `negligible` are dropped.
     pub(crate) fn new(
         numbers: (i32, i32),
-        harmonic: Harmonic,
+        factors: [[f64; SUMS]; 2],
         frequency: f64,
         (series, mean_motion, left_out): (&OrbitSeries, f64, Option<i32>),
         negligible: f64,
@@ -67,12 +75,22 @@ impl ExactTerm {
             .collect();
         let something = |terms: &[[f64; PARTS]; 3]| terms.iter().flatten().any(|c| c.abs() > negligible);
         coefficients.truncate(coefficients.iter().rposition(something).map_or(0, |last| last + 1));
-        Self { numbers, left_out, harmonic: [harmonic], coefficients }
+        Self { numbers, left_out, factors, coefficients }
+    }
+
+    /// |h|.
+    pub(super) fn degree(&self) -> usize {
+        self.numbers.0.unsigned_abs() as usize
+    }
+
+    /// m.
+    fn multiple(&self) -> usize {
+        self.numbers.1 as usize // 0 ≤ m ≤ 2
     }
 
     /// The parts of the three functions at a mean anomaly, which is given by its cosine and sine.
     #[inline(always)]
-    pub(super) fn parts<S: InstructionSet>(&self, anomaly: ComplexLanes<S>) -> [[Lanes<S>; 3]; PARTS] {
+    fn parts<S: InstructionSet>(&self, anomaly: ComplexLanes<S>) -> [[Lanes<S>; 3]; PARTS] {
         let none = anomaly.re.all(0.0);
         let mut parts = [[none; 3]; PARTS];
         let mut turn = ComplexLanes { re: none.all(1.0), im: none };
@@ -86,5 +104,91 @@ impl ExactTerm {
             turn = turn * anomaly;
         }
         parts
+    }
+
+    /// Adds this term to the sums. `functions` holds the contractions of the factors of 1, cos 2f and sin 2f in r̂r̂ for its m.
+    #[inline(always)]
+    fn add<S: InstructionSet>(
+        &self,
+        sums: &mut Derivatives<S>,
+        functions: &[Contracted<S>; 3],
+        turns: &[ComplexLanes<S>; HIGHEST + 1],
+        anomaly: ComplexLanes<S>,
+    ) {
+        let parts = self.parts(anomaly);
+        let turn = turns[self.degree()];
+        let turn = if self.numbers.0 < 0 { turn.conjugate() } else { turn };
+        let none = turn.re.all(0.0);
+        let mut value = ComplexLanes { re: none, im: none };
+        let (mut slope, mut rotation) = (none, [none; 2]);
+        for (f, [function, first, second]) in functions.iter().enumerate() {
+            let wave = turn * ComplexLanes { re: parts[0][f], im: parts[1][f] };
+            let moving = turn * ComplexLanes { re: parts[2][f], im: parts[3][f] };
+            value = value.plus(wave, *function);
+            slope = moving.plus_re_of_product(*function, slope);
+            for (part, by) in rotation.iter_mut().zip([first, second]) {
+                *part = wave.plus_re_of_product(*by, *part);
+            }
+        }
+        let [[whole, _, sum, difference], [_, _, sum_by_frequency, _]] = self.factors;
+        let all = |factor: f64| none.all(factor);
+        sums.by_longitude = value.im.mul_add(all(whole * f64::from(self.numbers.1)), sums.by_longitude);
+        sums.by_momentum = slope.mul_add(all(whole), sums.by_momentum);
+        sums.by_p_bar[0] = slope.mul_add(all(sum_by_frequency), value.re.mul_add(all(sum), sums.by_p_bar[0]));
+        sums.by_p_bar[1] = value.im.mul_add(all(difference), sums.by_p_bar[1]);
+        for (total, part) in sums.by_rotation.iter_mut().zip(rotation) {
+            *total = part.mul_add(all(whole), *total);
+        }
+    }
+}
+
+/// The sums with the exact terms added, as a task that is compiled separately: most scenes do without it.
+pub(super) struct ExactTerms<'a, S: InstructionSet> {
+    pub(super) terms: &'a [ExactTerm],
+    pub(super) turns: &'a [ComplexLanes<S>; HIGHEST + 1],
+    pub(super) products: &'a Products<S>,
+    pub(super) place: &'a Place<S>,
+    pub(super) sums: Derivatives<S>,
+}
+
+impl<S: InstructionSet> NullaryFnOnce for ExactTerms<'_, S> {
+    type Output = Derivatives<S>;
+
+    #[inline(always)]
+    fn call(self) -> Derivatives<S> {
+        let Self { terms, turns, products, place, mut sums } = self;
+        let (none, one) = (place.sine.all(0.0), place.sine.all(1.0));
+        let (sine, cosine) = sin_cos_of_turns((place.angle - place.centre) * none.all(1.0 / TAU));
+        let anomaly = ComplexLanes { re: cosine, im: sine };
+        // Not `map`, which is not inlined into code for an instruction set.
+        let units = [
+            tensor_of([one, none, none], products),
+            tensor_of([none, one, none], products),
+            tensor_of([none, none, one], products),
+        ];
+        let zero = ComplexLanes { re: none, im: none };
+        for multiple in 0..=2 {
+            if terms.iter().any(|term| term.multiple() == multiple) {
+                let mut functions = [[zero; 3]; 3];
+                for (function, tensor) in functions.iter_mut().zip(&units) {
+                    *function = if multiple == 0 {
+                        let [value, first, second] = axial_contractions(tensor);
+                        [
+                            ComplexLanes { re: none, im: -value },
+                            ComplexLanes { re: none, im: -first },
+                            ComplexLanes { re: none, im: -second },
+                        ]
+                    } else {
+                        contractions(tensor, multiple)
+                    };
+                }
+                for term in terms {
+                    if term.multiple() == multiple {
+                        term.add(&mut sums, &functions, turns, anomaly);
+                    }
+                }
+            }
+        }
+        sums
     }
 }

@@ -10,27 +10,29 @@ pub(crate) const ORDERS: usize = 7;
 /// Highest multiple of f in the last derivative.
 pub(crate) const WIDTH: usize = 5 + 2 * (ORDERS - 1);
 
-/// Time derivatives of (a/r)³ times 1, cos 2f and sin 2f; the indices are the order j and the function. Even derivatives of the first two and odd derivatives
-/// of the third are series in cos kf. The others are series in sin kf.
-#[derive(Clone, Debug, Default)]
+/// Time derivatives of (a/r)³ times 1, cos 2f and sin 2f. Even derivatives of the first two and odd derivatives of the third are series in cos kf. The others
+/// are series in sin kf.
+#[derive(Clone, Debug)]
 pub(crate) struct Orbital {
-    pub(super) series: Vec<[Fourier; 3]>,
-    /// The derivative after the last.
-    next: Vec<[Fourier; 3]>,
+    rows: Vec<Row>,
+    /// Coefficients of the three functions, row after row.
+    coefficients: Vec<[f64; 3]>,
     /// Rate of the node about inertial axis 3.
     pub(super) node_rate: f64,
-    /// Highest k.
-    highest: usize,
-    /// Largest sum of the coefficients' magnitudes, by j; there is one entry more than there are derivatives.
+    /// Largest sum of the coefficients' magnitudes, by j.
     pub(crate) norms: Vec<f64>,
 }
 
-/// The first k, and the coefficients from this k on.
-#[derive(Clone, Debug)]
-pub(super) struct Fourier(usize, Vec<f64>);
+/// The first k of a derivative, and where its coefficients are.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    first: usize,
+    start: usize,
+    end: usize,
+}
 
 impl Orbital {
-    /// All derivatives for a mean motion n. d/dt = n η^(−3) w² d/df with w = 1 + e cos f.
+    /// The derivatives that G needs, and one more, for a mean motion n: d/dt = n η^(−3) w² d/df with w = 1 + e cos f.
     pub(crate) fn new(eccentricity: f64, mean_motion: f64) -> Self {
         Self::precessing(eccentricity, mean_motion, [0.0; 2])
     }
@@ -49,12 +51,47 @@ impl Orbital {
             .collect();
         // A rate of the axes turns a symmetric tensor of rank 2 at most twice as fast.
         let norms = (0..=ORDERS).map(|j| leibniz(j, 2.0 * node_rate.abs()).zip(&sizes[..=j]).map(|(c, s)| c * s).sum());
-        let series = turned[..ORDERS].iter().map(|functions| functions.each_ref().map(|series| trimmed(series)));
-        let next =
-            turned[ORDERS..].iter().map(|functions| functions.each_ref().map(|series| trimmed(series))).collect();
-        let mut orbital = Self { series: series.collect(), next, node_rate, highest: 0, norms: norms.collect() };
-        orbital.keep(ORDERS);
+        let mut orbital = Self { rows: Vec::new(), coefficients: Vec::new(), node_rate, norms: norms.collect() };
+        for [one, cosine, sine] in &turned {
+            let series = one.iter().zip(cosine).zip(sine).map(|((one, cosine), sine)| [*one, *cosine, *sine]);
+            let largest = one.iter().chain(cosine).chain(sine).fold(0.0_f64, |most, c| most.max(c.abs()));
+            orbital.push(0, series, 1e-18 * largest);
+        }
         orbital
+    }
+
+    /// The first derivatives, as many as there are bounds, without the lowest and the highest coefficients that do not exceed the bound.
+    pub(crate) fn cut(&self, bounds: &[f64]) -> Self {
+        let mut orbital = Self { rows: Vec::new(), coefficients: Vec::new(), norms: Vec::new(), ..*self };
+        for (row, bound) in self.rows.iter().zip(bounds) {
+            orbital.push(row.first, self.coefficients[row.start..row.end].iter().copied(), *bound);
+        }
+        orbital
+    }
+
+    /// Number of derivatives.
+    pub(super) fn orders(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Adds a row from the coefficients from k = `first` on, without the lowest and the highest that do not exceed `bound`.
+    fn push(&mut self, first: usize, series: impl Iterator<Item = [f64; 3]>, bound: f64) {
+        let start = self.coefficients.len();
+        let mut skipped = first;
+        let mut end = start;
+        for functions in series {
+            let something = functions.iter().any(|c| c.abs() > bound);
+            if something || self.coefficients.len() > start {
+                self.coefficients.push(functions);
+            } else {
+                skipped += 1;
+            }
+            if something {
+                end = self.coefficients.len();
+            }
+        }
+        self.coefficients.truncate(end);
+        self.rows.push(Row { first: if end > start { skipped } else { 0 }, start, end });
     }
 
     /// Sizes of all derivatives at a true anomaly: of (a/r)³, or of (a/r)³ e^(2if) if that is larger.
@@ -66,21 +103,17 @@ impl Orbital {
             let [x, y] = circle[k - 1];
             circle[k] = [x * cosine - y * sine, x * sine + y * cosine];
         }
-        let sum = |Fourier(first, rest): &Fourier, part: usize| -> f64 {
-            circle[*first..].iter().zip(rest).map(|(turn, coefficient)| turn[part] * coefficient).sum()
-        };
-        for (j, (size, [one, cosine, sine])) in sizes.iter_mut().zip(self.series.iter().chain(&self.next)).enumerate() {
+        for (j, (size, row)) in sizes.iter_mut().zip(&self.rows).enumerate() {
+            let mut sums = [0.0; 3];
             let odd = j % 2;
-            *size = sum(one, odd).abs().max(sum(cosine, odd).hypot(sum(sine, 1 - odd)));
+            for (turn, [one, cosine, sine]) in circle[row.first..].iter().zip(&self.coefficients[row.start..row.end]) {
+                sums[0] += turn[odd] * one;
+                sums[1] += turn[odd] * cosine;
+                sums[2] += turn[1 - odd] * sine;
+            }
+            *size = sums[0].abs().max(sums[1].hypot(sums[2]));
         }
         sizes
-    }
-
-    /// Keeps the first `orders` derivatives.
-    pub(crate) fn keep(&mut self, orders: usize) {
-        self.series.truncate(orders);
-        let ends = self.series.iter().flatten().map(|Fourier(first, rest)| first + rest.len());
-        self.highest = ends.max().unwrap_or(1) - 1;
     }
 }
 
@@ -155,36 +188,35 @@ fn times_w(series: &[f64], eccentricity: f64, odd: bool) -> Vec<f64> {
     product
 }
 
-/// Drops the lowest and the highest coefficients if they are negligible.
-fn trimmed(series: &[f64]) -> Fourier {
-    let largest = series.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
-    let something = |c: &f64| c.abs() > 1e-18 * largest;
-    let first = series.iter().position(something).unwrap_or(0);
-    let last = series.iter().rposition(something).map_or(first, |last| last + 1);
-    Fourier(first, series[first..last].to_vec())
-}
-
 impl Orbital {
-    /// cos kf and sin kf for k = 0, 1, …
+    /// The derivative j of the three functions, from cos kf and sin kf for k = 0, 1, …
     #[inline(always)]
-    pub(super) fn circle<S: InstructionSet>(&self, place: &Place<S>) -> [[Lanes<S>; 2]; WIDTH + 1] {
-        let mut circle = [[place.sine.all(1.0), place.sine.all(0.0)]; WIDTH + 1];
+    pub(super) fn derivative<S: InstructionSet>(&self, j: usize, circle: &[[Lanes<S>; 2]; WIDTH + 1]) -> [Lanes<S>; 3] {
+        let row = &self.rows[j];
+        let none = circle[0][1];
+        let mut sums = [none; 3];
+        for (turn, [one, cosine, sine]) in circle[row.first..].iter().zip(&self.coefficients[row.start..row.end]) {
+            let (even, odd) = (turn[j % 2], turn[1 - j % 2]);
+            sums[0] = even.mul_add(none.all(*one), sums[0]);
+            sums[1] = even.mul_add(none.all(*cosine), sums[1]);
+            sums[2] = odd.mul_add(none.all(*sine), sums[2]);
+        }
+        sums
+    }
+
+    /// Fills in cos kf and sin kf for k = 0, 1, …, as many as the derivatives need.
+    #[inline(always)]
+    pub(super) fn fill<S: InstructionSet>(&self, circle: &mut [[Lanes<S>; 2]; WIDTH + 1], place: &Place<S>) {
+        let mut highest = 0;
+        for row in &self.rows {
+            highest = highest.max(row.first + row.end - row.start);
+        }
+        circle[0][0] = place.sine.all(1.0);
         let step = ComplexLanes { re: place.cosine, im: place.sine };
         let mut turn = step;
-        for slot in circle.iter_mut().take(self.highest + 1).skip(1) {
+        for slot in circle.iter_mut().take(highest).skip(1) {
             *slot = [turn.re, turn.im];
             turn = turn * step;
         }
-        circle
     }
-}
-
-/// The sum of a series in cosines (part 0) or sines (part 1).
-#[inline(always)]
-pub(super) fn sum<S: InstructionSet>(circle: &[[Lanes<S>; 2]], series: &Fourier, part: usize) -> Lanes<S> {
-    let mut sum = circle[0][1];
-    for (turn, coefficient) in circle[series.0..].iter().zip(&series.1) {
-        sum = turn[part].mul_add(sum.all(*coefficient), sum);
-    }
-    sum
 }

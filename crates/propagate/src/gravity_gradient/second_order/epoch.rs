@@ -8,7 +8,7 @@ use super::harmonics::Harmonics;
 use super::modes::{modes, slow_modes, slowest};
 use super::pairs::{Stand, Tensor, second_actions};
 use crate::gravity_gradient::corrections::{Change, Demand, Mean};
-use crate::gravity_gradient::generator::{ExactTerm, Generator, ORDERS, Orbital};
+use crate::gravity_gradient::generator::{ExactTerm, Generator, ORDERS};
 use crate::gravity_gradient::inertia::Inertia;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::kepler::Place;
@@ -100,7 +100,7 @@ pub(super) fn tensors(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<
     let generator = Generator {
         harmonics: Default::default(),
         exact: Vec::new(),
-        orbital: Orbital::new(demand.orbit.eccentricity(), demand.mean_motion),
+        orbital: demand.envelope.orbital.clone(),
         axes: [first, second],
         strength: 0.0,
         root: 0.0,
@@ -108,5 +108,5 @@ pub(super) fn tensors(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<
     };
     let frame = QuaternionLanes::all(Lanes::splat(pulp::Scalar, 0.0), &mean.frame);
     let tensors = generator.tensors(frame, place).map(|tensor| tensor.map(|lanes| lanes.values()[0]));
-    (tensors, generator.orbital.norms)
+    (tensors, demand.envelope.orbital.norms.clone())
 }

@@ -133,6 +133,7 @@ mod tests {
             tolerance: 1e-30,
             duration,
             share: 0.0,
+            refined: true,
             series: Some(&series),
             envelope: &envelope,
         };

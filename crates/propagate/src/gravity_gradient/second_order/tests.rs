@@ -69,6 +69,7 @@ impl Scene {
             tolerance: 1e-30,
             duration: 0.0,
             share: 0.0,
+            refined: true,
             series: None,
             envelope: &self.envelope,
         }
