@@ -10,7 +10,6 @@
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::UnitQuaternion;
-use num_complex::Complex;
 
 use super::averaged::{AveragedOrbit, MOST_QUARTERS};
 use super::corrections::{Corrections, Mean};
@@ -19,10 +18,11 @@ use super::request::Request;
 use super::response::Response;
 use crate::error::Error;
 use crate::input::options::{Averaging, Level};
-use crate::simd::kepler::Place;
-use crate::simd::lanes::Lanes;
 
 mod bodies;
+mod largest;
+
+use largest::Sample;
 
 /// Number of samples of the first-order change.
 const SAMPLES: usize = 48;
@@ -166,31 +166,12 @@ impl Subject<'_> {
     /// The largest first-order change of the attitude, and the largest change of p.
     fn largest_change(&self, orbital: f64) -> [f64; 2] {
         let precession = (0.5 * self.ellipse.strength().abs() * orbital).min(PI);
-        let (mut largest, mut largest_p) = (0.0_f64, 0.0_f64);
-        for k in 0..SAMPLES {
+        let sample = |k: usize| {
             let [first, second, third, fourth] = kronecker(k);
-            let anomaly = self.place(k, third, orbital);
             let turn = UnitQuaternion::from_axis_angle(&self.ellipse.normal(), precession * (2.0 * fourth - 1.0));
-            let [size, p] = self.change_at([first, second], anomaly, turn);
-            (largest, largest_p) = (largest.max(size), largest_p.max(p));
-        }
-        [largest, largest_p]
-    }
-
-    /// The first-order change of the attitude, and the change of p, with ℓ′ and y′ in turns, at a mean anomaly of the disturbing body, the mean frame turned.
-    fn change_at(&self, [anomaly, longitude]: [f64; 2], orbital: f64, turn: UnitQuaternion<f64>) -> [f64; 2] {
-        let place = Place::of(Lanes::splat(pulp::Scalar, orbital), self.ellipse.eccentricity);
-        let mean = Mean {
-            p: Complex::from_polar(self.mean.p.norm(), TAU * anomaly),
-            longitude: TAU * longitude,
-            momentum: self.mean.momentum,
-            frame: turn * self.mean.frame,
+            Sample { angles: [first, second], orbital: self.place(k, third, orbital), turn }
         };
-        let change = self.corrections.at(&mean, &place);
-        let p = change.p.norm();
-        let [x, y] = change.rotation;
-        let parts = [self.response.gain * p, change.longitude, x, y, change.momentum / self.mean.momentum];
-        [parts.iter().map(|part| part * part).sum::<f64>().sqrt(), p]
+        self.largest_among(&(0..SAMPLES).map(sample).collect::<Vec<_>>())
     }
 
     /// A mean anomaly within the span. Of two samples, one is uniform in the mean anomaly and one in the true anomaly.

@@ -107,7 +107,8 @@ impl Envelope {
             })
         };
         let whole = Reach { orbital: TAU, ..*reach };
-        let most = largest(&whole.places());
+        // The other half is its mirror image.
+        let most = largest(&whole.places()[..=POINTS / 2]);
         let span = if reach.orbital >= PI { most } else { largest(&reach.places()) };
         let epoch = at(reach.true_anomaly(reach.anomaly));
         let passes = reach.passes();

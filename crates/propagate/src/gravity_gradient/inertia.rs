@@ -35,6 +35,8 @@ const SMALLEST_SQUARE: f64 = 1e-6;
 const STEP: f64 = 2e-3;
 /// Largest step, over sin²J: two of them leave it positive.
 const LARGEST_STEP: f64 = 0.4;
+/// Smallest difference of sin²J, relative to it, from which a slope is taken.
+const SMALLEST_SECANT: f64 = 1e-7;
 /// Largest change of σ, over the distance to the separatrix, that a Taylor polynomial of second order bridges: the third order is 1e-17.
 const NEAR: f64 = 2e-6;
 
@@ -70,6 +72,8 @@ pub(crate) struct Inertia {
     pub(crate) sigma: f64,
     /// σ_sep.
     pub(crate) separatrix: f64,
+    /// sin²J at ℓ = 0, and the slope of σ with respect to it.
+    square: [f64; 2],
     /// dℓ′/dt and dy′/dt.
     pub(crate) rates: [DoubleDouble; 2],
     /// The derivatives of the two rates with respect to σ, at fixed M.
@@ -94,7 +98,7 @@ struct Member {
 impl Inertia {
     /// The tables at σ and M, for the body, the units and the mode of a polhode.
     pub(crate) fn new(polhode: &Polhode, sigma: f64, momentum: f64) -> Self {
-        let square = square_of(polhode, sigma);
+        let square = square_of(polhode, sigma, None);
         let base = square.max(SMALLEST_SQUARE);
         // Functions vary over the distance to the separatrix, where sin²J is 1. At small J a step that is a fixed share of sin²J would leave rounding over it.
         let step = (STEP * (1.0 - base)).min(LARGEST_STEP * base);
@@ -134,6 +138,7 @@ impl Inertia {
             momentum,
             sigma,
             separatrix: polhode.separatrix_action(),
+            square: [square, sigma_slope],
             rates: exact.1,
             rate_slopes,
             rate_curvatures,
@@ -161,10 +166,13 @@ impl Inertia {
             }
             shifted
         };
+        let [square, slope] = self.square;
+        let square = square_of(polhode, sigma, Some((square + by / slope, slope)));
         Self {
             momentum,
             sigma,
-            rates: rates(&polhode.tilted(square_of(polhode, sigma), momentum)).1,
+            square: [square, slope],
+            rates: rates(&polhode.tilted(square, momentum)).1,
             rate_slopes: [0, 1].map(|i| scale * (self.rate_slopes[i] + by * self.rate_curvatures[i])),
             rate_curvatures: self.rate_curvatures.map(|curvature| scale * curvature),
             tensor: self.tensor.each_ref().map(shifted),
@@ -185,20 +193,31 @@ fn rates(polhode: &Polhode) -> (f64, [DoubleDouble; 2]) {
     (secular.kappa_sigma / polhode.invariants.kappa, [secular.anomaly_rate, secular.longitude_rate])
 }
 
-/// sin²J at ℓ = 0 for a given σ, by Newton's method. σ is nearly linear and convex in sin²J.
-fn square_of(polhode: &Polhode, sigma: f64) -> f64 {
+/// sin²J at ℓ = 0 for a given σ, by the secant method. σ is nearly linear and convex in sin²J. A near value may be known, with the slope of σ there.
+fn square_of(polhode: &Polhode, sigma: f64, near: Option<(f64, f64)>) -> f64 {
     let value = |square: f64| rates(&polhode.tilted(square, 1.0)).0;
     if sigma == 0.0 {
         return 0.0;
     }
-    let linear = value(SMALLEST_SQUARE) / SMALLEST_SQUARE;
-    let mut square = (sigma / linear).min(0.9);
-    for _ in 0..20 {
+    // The slope at a near value is good to 1e-5, and what a step of 1e-10 leaves is rounding.
+    let (mut square, mut slope, accurate) = match near {
+        Some((square, slope)) if square > 0.0 => (square, slope, 1e-10),
+        _ => {
+            let linear = value(SMALLEST_SQUARE) / SMALLEST_SQUARE;
+            ((sigma / linear).min(0.9), linear, 4.0 * f64::EPSILON)
+        }
+    };
+    let mut before = None::<(f64, f64)>;
+    for _ in 0..40 {
         let found = value(square);
-        let step = 1e-5 * square;
-        let slope = (value(square + step) - value(square - step)) / (2.0 * step);
+        if let Some((other, then)) = before
+            && (square - other).abs() > SMALLEST_SECANT * square
+        {
+            slope = (found - then) / (square - other);
+        }
+        before = Some((square, found));
         let next = (square + (sigma - found) / slope).clamp(0.25 * square, 0.5 * (1.0 + square));
-        let done = (next - square).abs() <= 4.0 * f64::EPSILON * square;
+        let done = (next - square).abs() <= accurate * square;
         square = next;
         if done {
             break;
@@ -288,7 +307,13 @@ mod tests {
             let tables = Inertia::new(&polhode, sigma, 0.7);
             let to = sigma + 0.9 * NEAR * (tables.separatrix - sigma);
             let (moved, new) = (tables.moved(&polhode, to, 0.71), Inertia::new(&polhode, to, 0.71));
-            assert_eq!((moved.rates, moved.sigma, moved.momentum), (new.rates, to, 0.71));
+            assert_eq!((moved.sigma, moved.momentum), (to, 0.71));
+            // sin²J at σ is known to some units of its last digit.
+            for i in 0..2 {
+                let apart = (moved.rates[i] - new.rates[i]).to_f64().abs();
+                let rounding = 8.0 * f64::EPSILON * to * new.rate_slopes[i].abs();
+                assert!(apart <= rounding, "rate {i}: {apart:e} of {rounding:e}");
+            }
             for (moved, new) in moved.tensor.iter().zip(&new.tensor).chain(moved.pair.iter().zip(&new.pair)) {
                 // Rounding of the samples, over σ^(|h|/2).
                 for h in -4..=4_i32 {

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
-use super::{Budget, MARGIN, SAMPLES, SLOPE_SHARE, Subject, kronecker};
+use super::{Budget, MARGIN, SAMPLES, SLOPE_SHARE, Sample, Subject, kronecker};
 use crate::gravity_gradient::corrections::Demand;
 
 /// Samples of one body over those of a fixed orbit: the orientations are more.
@@ -59,21 +59,19 @@ impl Subject<'_> {
     fn largest_change_on(&self, normals: &[Unit<Vector3<f64>>], precession: f64, demand: &Demand<'_>) -> [f64; 2] {
         let duration = demand.duration;
         let [node, pericentre] = demand.rates.map(|rate| (rate.abs() * duration).min(PI));
-        let (mut largest, mut largest_p) = (0.0_f64, 0.0_f64);
-        for k in 0..MORE * SAMPLES {
+        let about = |axis: &Unit<Vector3<f64>>, angle: f64, part: f64| {
+            UnitQuaternion::from_axis_angle(axis, angle * (2.0 * part - 1.0))
+        };
+        let sample = |k: usize| {
             let [first, second, third, fourth] = kronecker(k);
             let fifth = (GOLDEN * (k as f64 + 0.5)).fract();
-            let anomaly = self.place(k, third, demand.mean_motion * duration);
-            let about = |axis: &Unit<Vector3<f64>>, angle: f64, part: f64| {
-                UnitQuaternion::from_axis_angle(axis, angle * (2.0 * part - 1.0))
-            };
+            let orbital = self.place(k, third, demand.mean_motion * duration);
             // A turn of the orbit in its plane is one of the body about its normal.
             let turn = about(&self.ellipse.normal(), pericentre, (fifth + 0.5 * fourth).fract())
                 * about(&Vector3::z_axis(), node, fifth)
                 * about(&normals[k % normals.len()], precession, fourth);
-            let [size, p] = self.change_at([first, second], anomaly, turn);
-            (largest, largest_p) = (largest.max(size), largest_p.max(p));
-        }
-        [largest, largest_p]
+            Sample { angles: [first, second], orbital, turn }
+        };
+        self.largest_among(&(0..MORE * SAMPLES).map(sample).collect::<Vec<_>>())
     }
 }

@@ -111,7 +111,7 @@ impl Orbital {
                 sums[1] += turn[odd] * cosine;
                 sums[2] += turn[1 - odd] * sine;
             }
-            *size = sums[0].abs().max(sums[1].hypot(sums[2]));
+            *size = (sums[0] * sums[0]).max(sums[1] * sums[1] + sums[2] * sums[2]).sqrt();
         }
         sizes
     }
