@@ -3,6 +3,8 @@
 use nalgebra::UnitQuaternion;
 
 use super::disturbed::Gradient;
+use super::draft::Outset;
+use super::paths::Paths;
 use super::request::Request;
 use crate::error::Error;
 use crate::input::options::Level;
@@ -11,28 +13,32 @@ use crate::torque_free::polhode::Polhode;
 /// The motion under a gravity gradient at the level that is asked for, and why it is not of second order if that was left open.
 ///
 /// # Errors
-/// Those of [`Gradient::new`], in first order if the level was left open.
+/// Those of the level, in first order if the level was left open.
 pub(crate) fn chosen(
     polhode: &Polhode,
     attitude: UnitQuaternion<f64>,
     osculating: (f64, [f64; 2]),
     request: &Request<'_>,
 ) -> Result<(Gradient, Option<String>), Error> {
-    let solved = |level: Level| Gradient::new(polhode, attitude, osculating, &Request { level, ..*request });
+    let paths = Paths::new(request, polhode.scales.1);
+    let outset = Outset::new(polhode, attitude, osculating, (request, &paths))?;
     if request.level != Level::Auto {
-        return Ok((solved(request.level)?, None));
+        return Ok((Gradient::new(&outset, outset.draft(request.level)?)?, None));
     }
-    let first = solved(Level::Full)?;
+    let first = outset.draft(Level::Full)?;
     let reason = if first.error <= request.tolerance {
         "first order meets the tolerance".to_owned()
     } else if !request.is_fixed() {
         "several disturbing bodies, and orbits that precess, are of first order".to_owned()
     } else {
-        match solved(Level::SecondOrder) {
-            Ok(second) if second.error < first.error => return Ok((second, None)),
+        match outset.draft(Level::SecondOrder) {
+            Ok(second) if second.error < first.error => match Gradient::new(&outset, second) {
+                Ok(second) => return Ok((second, None)),
+                Err(error) => error.to_string(),
+            },
             Ok(second) => format!("its error bound, {:.1e} rad, is no smaller", second.error),
             Err(error) => error.to_string(),
         }
     };
-    Ok((first, Some(format!("second order: {reason}"))))
+    Ok((Gradient::new(&outset, first)?, Some(format!("second order: {reason}"))))
 }

@@ -12,32 +12,21 @@ mod tests;
 use std::f64::consts::TAU;
 
 use andoyer_double::DoubleDouble;
-use nalgebra::{UnitQuaternion, Vector3};
-use num_complex::Complex;
 
-use super::averaged::{AveragedOrbit, Bodies, MOST_QUARTERS, Precession, Pull, Slow, Spin};
-use super::budget::{Budget, Further, MOST_ORBITS, Subject};
-use super::corrections::{Corrections, Demand, Mean, SECOND_SHARE, SHARE};
-use super::course::{Course, When};
-use super::envelope::{Envelope, Reach};
+use super::averaged::{MOST_QUARTERS, Slow};
+use super::budget::MOST_ORBITS;
+use super::corrections::Corrections;
+use super::course::Course;
+use super::draft::{Draft, Outset};
 use super::inertia::Inertia;
-use super::mean_motion::{MeanMotion, Refinement, STRONGEST, corrections_of, first_order, refined, strongest_torque};
+use super::mean_motion::MeanMotion;
 use super::offset::Offset;
-use super::orbit_series::OrbitSeries;
 use super::powers::Powers;
-use super::request::Request;
-use super::response::Response;
-use super::second_order;
-use super::second_order::drift::Drift;
 use crate::error::Error;
 use crate::input::options::{Averaging, Level};
-use crate::input::orbit::Orbit;
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
-use crate::simd::lanes::Lanes;
-use crate::torque_free::polhode::{Frame, Polhode};
-
-type C64 = Complex<f64>;
+use crate::torque_free::polhode::Frame;
 
 /// The entries of a plan that concern the gravity gradient.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -85,35 +74,16 @@ pub(crate) struct Gradient {
 }
 
 impl Gradient {
-    /// The motion from a polhode, the attitude at the epoch, and the place of the state on the polhode: σ, ℓ′ and y′ − y.
-    pub(crate) fn new(
-        polhode: &Polhode,
-        attitude: UnitQuaternion<f64>,
-        osculating: (f64, [f64; 2]),
-        request: &Request<'_>,
-    ) -> Result<Self, Error> {
-        let exponent = polhode.scales.1;
-        let level = request.level;
-        if level == Level::SecondOrder && !request.is_fixed() {
-            return Err(Error::OneFixedOrbit { argument: "level", value: level.to_string() });
-        }
-        let momentum = polhode.invariants.momentum.to_f64();
-        let paths = Paths::new(request, exponent);
-        let demands = paths.demands(request, exponent)?;
-        weak_enough(polhode, osculating.0, &demands)?;
-        let (sigma, [anomaly, longitude]) = osculating;
-        let p = C64::from_polar(sigma.sqrt(), anomaly);
-        let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
-        let first = first_order(polhode, &state, &paths.starts, &demands)?;
-        let (motion, refinement) = if refines(request) {
-            let (motion, refinement) = refined(polhode, first, &state, &paths.starts[0], &demands[0])?;
-            (motion, Some(refinement))
-        } else {
-            (first, None)
-        };
-        let averages = Averages::new(polhode, &motion, &demands);
-        let (by_orbit, error) = error_bound(request, &motion, refinement, &averages, (&paths, &demands))?;
+    /// The motion of a draft: the constants for which it passes through the state are found here.
+    ///
+    /// # Errors
+    /// [`Error::SpanOfBodies`] if the averaged equations are not solved over all of the span.
+    pub(super) fn new(outset: &Outset<'_>, draft: Draft) -> Result<Self, Error> {
+        let Outset { polhode, attitude, request, paths, .. } = outset;
+        let Draft { level, motion, averages, by_orbit, error } = draft;
         let MeanMotion { mean, change, inertia, corrections } = motion;
+        let exponent = polhode.scales.1;
+        let momentum = polhode.invariants.momentum.to_f64();
         // Rates are proportional to M. M rounded to a double would cause an error of 1e-16 of the phases.
         let precise = (polhode.invariants.momentum - change.momentum.into()) / mean.momentum.into();
         let [anomaly_rate, longitude_rate] = inertia.rates.map(|rate| {
@@ -122,7 +92,7 @@ impl Gradient {
         });
         let unit = scaled(1.0, exponent);
         let factors = averages.per_phase(&inertia, request);
-        let slow = |frame| averages.slow(frame, (request, by_orbit), &paths, (unit, factors));
+        let slow = |frame| averages.slow(frame, (request, by_orbit), paths, (unit, factors));
         let mut gradient = Self {
             anomaly: Phase::new(anomaly_rate, mean.p.arg()),
             half_longitude: Phase::new(longitude_rate * 0.5.into(), 0.5 * mean.longitude),
@@ -145,7 +115,7 @@ impl Gradient {
             units: [unit, polhode.user_momentum() / momentum],
             error,
         };
-        gradient.start_at(polhode, attitude, mean.frame, slow);
+        gradient.start_at(polhode, *attitude, mean.frame, slow);
         let bound = gradient.bound();
         if request.spanned && request.duration > bound {
             return Err(Error::SpanOfBodies { value: request.duration, bound });
@@ -202,194 +172,6 @@ impl Gradient {
         }
         skipped
     }
-}
-
-/// Whether the mean M and L at the epoch are those of all terms.
-fn refines(request: &Request<'_>) -> bool {
-    request.is_fixed() && matches!(request.level, Level::Full | Level::SecondOrder)
-}
-
-/// The orbits of the disturbing bodies from the epoch.
-struct Paths {
-    courses: Vec<Course>,
-    /// Positions at the epoch.
-    starts: Vec<When<pulp::Scalar>>,
-    reaches: Vec<Reach>,
-    envelopes: Vec<Envelope>,
-    /// The orbits' harmonics, where divisors are to be exact in them.
-    series: Vec<Option<OrbitSeries>>,
-    /// Longest time from the epoch, in the units of the tables.
-    duration: f64,
-}
-
-impl Paths {
-    fn new(request: &Request<'_>, exponent: i32) -> Self {
-        let duration = scaled(request.duration, exponent);
-        let none = Lanes::splat(pulp::Scalar, 0.0);
-        let mut paths =
-            Self { courses: vec![], starts: vec![], reaches: vec![], envelopes: vec![], series: vec![], duration };
-        for orbit in request.orbits {
-            let course = Course::new(orbit, request.epoch);
-            let start = course.at((none, none));
-            let (mean_motion, eccentricity) = (scaled(orbit.mean_motion(), -exponent), orbit.eccentricity());
-            let anomaly = start.place.angle.values()[0] - start.place.centre.values()[0];
-            let reach = Reach { eccentricity, anomaly, orbital: mean_motion * duration };
-            let rates = orbit.rates().map(|rate| scaled(rate, -exponent));
-            paths.envelopes.push(Envelope::new(eccentricity, mean_motion, rates, &reach));
-            paths.series.push(if refines(request) { OrbitSeries::new(&reach) } else { None });
-            paths.reaches.push(reach);
-            paths.starts.push(start);
-            paths.courses.push(course);
-        }
-        paths
-    }
-
-    /// What the corrections for each body are to be.
-    fn demands<'a>(&'a self, request: &Request<'a>, exponent: i32) -> Result<Vec<Demand<'a>>, Error> {
-        let Request { level, tolerance, epoch, .. } = *request;
-        let share = if level == Level::SecondOrder { SECOND_SHARE } else { SHARE };
-        let demand = |((orbit, envelope), series): ((&'a Orbit, &'a Envelope), &'a Option<OrbitSeries>)| {
-            orbit.within_reach(epoch)?;
-            let [node, pericentre] = orbit.rates();
-            let [mean_motion, node, pericentre] =
-                [orbit.mean_motion(), node, pericentre].map(|rate| scaled(rate, -exponent));
-            let (axes, rates, duration) = (orbit.axes_at(epoch), [node, pericentre], self.duration);
-            let (refined, series) = (refines(request), series.as_ref());
-            Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, refined, series, envelope })
-        };
-        request.orbits.iter().zip(&self.envelopes).zip(&self.series).map(demand).collect()
-    }
-}
-
-/// Checks that the torques are weak enough for first order.
-fn weak_enough(polhode: &Polhode, sigma: f64, demands: &[Demand<'_>]) -> Result<(), Error> {
-    let momentum = polhode.invariants.momentum.to_f64();
-    let size = |demand: &Demand<'_>| {
-        let share = demand.envelope.span[0] / demand.envelope.most[0];
-        share * strongest_torque(polhode, demand.orbit, demand.mean_motion / momentum)
-    };
-    let size = demands.iter().map(size).sum::<f64>();
-    if size <= STRONGEST {
-        return Ok(());
-    }
-    // If there is a resonance, report that instead, because it explains more.
-    corrections_of(&Inertia::new(polhode, sigma, momentum), demands)?;
-    Err(Error::TorqueTooStrong { size, bound: STRONGEST })
-}
-
-/// The averaged torques.
-struct Averages {
-    ellipses: Vec<AveragedOrbit>,
-    /// Δ over M.
-    delta: f64,
-    /// ⟨D⟩ = −½ (dJ/dt) Δ: dΔ/dσ times −½ over M. The derivatives of ⟨D⟩ with respect to L, and to M at fixed L, follow from it.
-    slope: f64,
-}
-
-impl Averages {
-    fn new(polhode: &Polhode, motion: &MeanMotion, demands: &[Demand<'_>]) -> Self {
-        let MeanMotion { mean, inertia, .. } = motion;
-        let level = demands[0].level;
-        let (axial, axial_slope) = level.axial(inertia);
-        let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) / mean.momentum;
-        let ellipses = demands.iter().map(|demand| {
-            let ellipse = AveragedOrbit::new(demand, delta);
-            match level {
-                Level::SecondOrder => {
-                    ellipse.with_second(second_order::epoch::hamiltonian(inertia, demand, polhode.moments))
-                }
-                _ => ellipse,
-            }
-        });
-        Self { ellipses: ellipses.collect(), delta, slope: -0.5 * 1.5 * axial_slope / mean.momentum }
-    }
-
-    /// The drifts of ℓ′ and y′ over J.
-    fn per_phase(&self, inertia: &Inertia, request: &Request<'_>) -> [f64; 2] {
-        // J of a single fixed orbit is per mass fraction, which is in its slope.
-        let slope = if request.is_fixed() { self.slope * self.ellipses[0].fraction() } else { self.slope };
-        [slope, -inertia.sigma * slope]
-    }
-
-    /// The rates of ℓ′ and y′ in the orbit average.
-    fn secular(&self, inertia: &Inertia, mean: &Mean) -> [f64; 2] {
-        let axis = mean.frame * Vector3::z();
-        if let Some(average) = self.ellipses[0].over_orbit() {
-            return average.slopes(&axis).phases;
-        }
-        let rate = self.ellipses.iter().map(|ellipse| ellipse.secular(&axis) * ellipse.fraction()).sum::<f64>();
-        [self.slope * rate, -inertia.sigma * self.slope * rate]
-    }
-
-    /// The averaged motion from a frame at the epoch.
-    fn slow(
-        &self,
-        frame: UnitQuaternion<f64>,
-        (request, by_orbit): (&Request<'_>, bool),
-        paths: &Paths,
-        (unit, factors): (f64, [f64; 2]),
-    ) -> Slow {
-        let ellipse = &self.ellipses[0];
-        match (request.is_fixed(), by_orbit) {
-            (false, _) => {
-                let bodies = paths.courses.iter().zip(&self.ellipses);
-                let pulls = bodies
-                    .map(|(course, ellipse)| Pull { course: course.clone(), attraction: ellipse.attraction() * unit });
-                Slow::Bodies(Box::new(Bodies::new(pulls.collect(), self.delta, frame)))
-            }
-            (true, true) => {
-                let place = &paths.starts[0].place;
-                Slow::Orbit(Box::new(Precession::new(ellipse.clone(), frame, place, (unit, factors))))
-            }
-            (true, false) => Slow::Spin(Box::new(Spin::new(ellipse.clone(), frame, &paths.starts[0]))),
-        }
-    }
-}
-
-/// Whether the equations are averaged over the orbit as well, and the error bound.
-fn error_bound(
-    request: &Request<'_>,
-    motion: &MeanMotion,
-    refinement: Option<Refinement>,
-    averages: &Averages,
-    (paths, demands): (&Paths, &[Demand<'_>]),
-) -> Result<(bool, f64), Error> {
-    let MeanMotion { mean, inertia, corrections, .. } = motion;
-    let response = Response::new(inertia);
-    let further = refinement.map(|Refinement { left, apart, hamiltonian }| {
-        let drift = Drift {
-            hamiltonian: &hamiltonian.without_first(),
-            demand: &demands[0],
-            reach: &paths.reaches[0],
-            axis: mean.frame * Vector3::z(),
-            rates: apart,
-            visible: response.visible,
-        };
-        let apart = if request.level == Level::SecondOrder { 0.0 } else { drift.largest() };
-        let envelope = &paths.envelopes[0];
-        let cut = second_order::cut(inertia, &demands[0]) * envelope.share.truncation;
-        Further { left, cut, acting: envelope.share.third, apart }
-    });
-    let subject = |i: usize| Subject {
-        mean,
-        inertia,
-        corrections: &corrections[i],
-        response: &response,
-        ellipse: &averages.ellipses[i],
-        anomaly: paths.reaches[i].anomaly,
-        drift: averages.slope * demands[i].orbit.disturbing_fraction(),
-        further,
-    };
-    if request.is_fixed() {
-        let budget = Budget::new(&subject(0), demands[0].mean_motion, paths.duration);
-        let by_orbit = budget.by_orbit(request)?;
-        return Ok((by_orbit, budget.error(by_orbit)));
-    }
-    if request.averaging == Averaging::Orbit {
-        return Err(Error::OneFixedOrbit { argument: "averaging", value: Averaging::Orbit.to_string() });
-    }
-    let subjects: Vec<_> = (0..demands.len()).map(subject).collect();
-    Ok((false, Budget::of_bodies(&subjects, demands, paths.duration).error(false)))
 }
 
 /// The largest time from the epoch over which the averaged equations are solved, in the user's unit.

@@ -20,6 +20,7 @@ const CONTRACTION: f64 = 0.5;
 pub(crate) const STRONGEST: f64 = 0.02;
 
 /// A mean state, its change to the osculating state, and its tables.
+#[derive(Clone)]
 pub(super) struct MeanMotion {
     pub(super) mean: Mean,
     pub(super) change: Change,
@@ -39,37 +40,53 @@ pub(super) struct Refinement {
 }
 
 /// The corrections for each body at a mean motion.
-pub(super) fn corrections_of(inertia: &Inertia, demands: &[Demand<'_>]) -> Result<Vec<Corrections>, Error> {
+fn corrections_of(inertia: &Inertia, demands: &[Demand<'_>]) -> Result<Vec<Corrections>, Error> {
     let all: Vec<_> = demands.iter().map(|demand| Terms::new(inertia, demand)).collect();
     let whole = all.iter().map(|terms| terms.size).sum();
     all.into_iter().zip(demands).map(|(terms, demand)| Corrections::of(terms, inertia, demand, whole)).collect()
 }
 
-/// The mean motion with the mean M and L of all terms, to second order if the level is, and how far the rates of second order are from those of first.
-pub(super) fn refined(
-    polhode: &Polhode,
-    first: MeanMotion,
-    state: &Mean,
-    start: &When<pulp::Scalar>,
-    demand: &Demand<'_>,
-) -> Result<(MeanMotion, Refinement), Error> {
-    let exact = &first.corrections[0].generator.exact;
-    let (both, [by_momentum, by_sigma]) = epoch::refined(
-        (&first.mean, &first.change, exact),
-        state,
-        &first.inertia,
-        &start.place,
-        (demand, polhode.moments),
-    );
-    let Refined { mean, momentum, left } = both[usize::from(demand.level == Level::SecondOrder)];
-    let inertia = first.inertia.moved(polhode, mean.p.norm_sqr(), mean.momentum);
-    let apart = [0, 1].map(|i| inertia.rates[i].to_f64() * by_momentum + inertia.rate_slopes[i] * by_sigma);
-    let corrections = vec![Corrections::new(&inertia, demand)?];
-    let change = Change { momentum, ..first.change };
-    // The iteration leaves M and L its own threshold, which the rates multiply by the time.
-    let left = left.map(|part| part + CONVERGED);
-    let hamiltonian = epoch::hamiltonian(&inertia, demand, polhode.moments);
-    Ok((MeanMotion { mean, change, inertia, corrections }, Refinement { left, apart, hamiltonian }))
+/// The mean M and L of all terms, in first and in second order.
+pub(super) struct Refinements {
+    both: [Refined; 2],
+    /// Their difference: of M, over M, and of σ.
+    apart: [f64; 2],
+}
+
+impl Refinements {
+    /// Those of the mean motion of first order.
+    pub(super) fn new(
+        polhode: &Polhode,
+        first: &MeanMotion,
+        state: &Mean,
+        start: &When<pulp::Scalar>,
+        demand: &Demand<'_>,
+    ) -> Self {
+        let exact = &first.corrections[0].generator.exact;
+        let mean = (&first.mean, &first.change, &exact[..]);
+        let (both, apart) = epoch::refined(mean, state, &first.inertia, &start.place, (demand, polhode.moments));
+        Self { both, apart }
+    }
+
+    /// The mean motion with the mean M and L of a level, and how far the rates of second order are from those of first.
+    pub(super) fn motion(
+        &self,
+        polhode: &Polhode,
+        first: &MeanMotion,
+        demand: &Demand<'_>,
+        level: Level,
+    ) -> Result<(MeanMotion, Refinement), Error> {
+        let Refined { mean, momentum, left } = self.both[usize::from(level == Level::SecondOrder)];
+        let inertia = first.inertia.moved(polhode, mean.p.norm_sqr(), mean.momentum);
+        let [by_momentum, by_sigma] = self.apart;
+        let apart = [0, 1].map(|i| inertia.rates[i].to_f64() * by_momentum + inertia.rate_slopes[i] * by_sigma);
+        let corrections = vec![Corrections::new(&inertia, demand)?];
+        let change = Change { momentum, ..first.change };
+        // The iteration leaves M and L its own threshold, which the rates multiply by the time.
+        let left = left.map(|part| part + CONVERGED);
+        let hamiltonian = epoch::hamiltonian(&inertia, demand, polhode.moments);
+        Ok((MeanMotion { mean, change, inertia, corrections }, Refinement { left, apart, hamiltonian }))
+    }
 }
 
 /// The mean variables whose corrections give a state, by fixed-point iteration.
@@ -116,4 +133,20 @@ pub(super) fn strongest_torque(polhode: &Polhode, orbit: &Orbit, rate: f64) -> f
     let [first, _, third] = polhode.moments;
     let product = first.max(third) * (first - third).abs();
     1.5 * rate * rate * product * orbit.disturbing_fraction() / (1.0 - orbit.eccentricity()).powi(3)
+}
+
+/// Checks that the torques are weak enough for first order.
+pub(super) fn weak_enough(polhode: &Polhode, sigma: f64, demands: &[Demand<'_>]) -> Result<(), Error> {
+    let momentum = polhode.invariants.momentum.to_f64();
+    let size = |demand: &Demand<'_>| {
+        let share = demand.envelope.span[0] / demand.envelope.most[0];
+        share * strongest_torque(polhode, demand.orbit, demand.mean_motion / momentum)
+    };
+    let size = demands.iter().map(size).sum::<f64>();
+    if size <= STRONGEST {
+        return Ok(());
+    }
+    // If there is a resonance, report that instead, because it explains more.
+    corrections_of(&Inertia::new(polhode, sigma, momentum), demands)?;
+    Err(Error::TorqueTooStrong { size, bound: STRONGEST })
 }

@@ -3,6 +3,7 @@
 //! Imports errors, numerics, simd, input and torque_free.
 
 mod averaged;
+mod averages;
 mod budget;
 mod candidate;
 pub(crate) mod cassini;
@@ -10,6 +11,7 @@ pub(crate) mod choice;
 mod corrections;
 mod course;
 pub(crate) mod disturbed;
+mod draft;
 mod envelope;
 mod epoch;
 mod evaluate;
@@ -19,6 +21,7 @@ mod mean_motion;
 mod offset;
 mod orbit_series;
 pub(crate) mod osculating;
+mod paths;
 mod powers;
 pub(crate) mod request;
 mod resonance;

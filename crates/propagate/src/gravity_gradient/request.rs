@@ -23,4 +23,9 @@ impl Request<'_> {
     pub(crate) fn is_fixed(&self) -> bool {
         matches!(self.orbits, [orbit] if orbit.is_fixed())
     }
+
+    /// Whether the mean M and L at the epoch are those of all terms.
+    pub(crate) fn is_refined(&self) -> bool {
+        self.is_fixed() && matches!(self.level, Level::Auto | Level::Full | Level::SecondOrder)
+    }
 }

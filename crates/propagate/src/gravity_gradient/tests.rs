@@ -1,11 +1,22 @@
 //! Tests of the corrections with the mean variables, which are not public: the mean M is nearly constant, and the brackets are preserved.
 
-use super::*;
-use crate::gravity_gradient::corrections::Change;
+use nalgebra::{UnitQuaternion, Vector3};
+use num_complex::Complex;
+
+use crate::gravity_gradient::choice::chosen;
+use crate::gravity_gradient::corrections::{Change, Corrections, Demand, Mean};
 use crate::gravity_gradient::envelope::{Reach, whole};
+use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::orbit_series::OrbitSeries;
+use crate::gravity_gradient::request::Request;
+use crate::input::options::{Averaging, Level};
+use crate::input::orbit::Orbit;
 use crate::simd::kepler::Place;
+use crate::simd::lanes::Lanes;
+use crate::torque_free::polhode::Polhode;
 use crate::{Body, State};
+
+type C64 = Complex<f64>;
 
 const REFERENCE: &str = include_str!("../../../../tests/data/gravity_gradient.json");
 
@@ -54,7 +65,7 @@ impl Case {
             spanned: true,
         };
         let (_, osculating) = crate::gravity_gradient::osculating::osculating(&polhode).expect("no separatrix");
-        let gradient = Gradient::new(&polhode, state.attitude, osculating, &request).expect("averaged");
+        let gradient = chosen(&polhode, state.attitude, osculating, &request).expect("averaged").0;
         [
             polhode.user_momentum(),
             gradient.inertia.momentum * polhode.user_momentum() / polhode.invariants.momentum.to_f64(),

@@ -1,0 +1,81 @@
+//! The averaged torques of a mean motion: what they do to the phases, and the averaged motion that follows from them.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::averaged::{AveragedOrbit, Bodies, Precession, Pull, Slow, Spin};
+use super::corrections::{Demand, Mean};
+use super::inertia::Inertia;
+use super::mean_motion::MeanMotion;
+use super::paths::Paths;
+use super::request::Request;
+use super::second_order;
+use crate::input::options::Level;
+use crate::torque_free::polhode::Polhode;
+
+/// The averaged torques.
+pub(super) struct Averages {
+    pub(super) ellipses: Vec<AveragedOrbit>,
+    /// Δ over M.
+    delta: f64,
+    /// ⟨D⟩ = −½ (dJ/dt) Δ: dΔ/dσ times −½ over M. The derivatives of ⟨D⟩ with respect to L, and to M at fixed L, follow from it.
+    pub(super) slope: f64,
+}
+
+impl Averages {
+    pub(super) fn new(polhode: &Polhode, motion: &MeanMotion, demands: &[Demand<'_>], level: Level) -> Self {
+        let MeanMotion { mean, inertia, .. } = motion;
+        let (axial, axial_slope) = level.axial(inertia);
+        let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) / mean.momentum;
+        let ellipses = demands.iter().map(|demand| {
+            let ellipse = AveragedOrbit::new(demand, delta);
+            match level {
+                Level::SecondOrder => {
+                    ellipse.with_second(second_order::epoch::hamiltonian(inertia, demand, polhode.moments))
+                }
+                _ => ellipse,
+            }
+        });
+        Self { ellipses: ellipses.collect(), delta, slope: -0.5 * 1.5 * axial_slope / mean.momentum }
+    }
+
+    /// The drifts of ℓ′ and y′ over J.
+    pub(super) fn per_phase(&self, inertia: &Inertia, request: &Request<'_>) -> [f64; 2] {
+        // J of a single fixed orbit is per mass fraction, which is in its slope.
+        let slope = if request.is_fixed() { self.slope * self.ellipses[0].fraction() } else { self.slope };
+        [slope, -inertia.sigma * slope]
+    }
+
+    /// The rates of ℓ′ and y′ in the orbit average.
+    pub(super) fn secular(&self, inertia: &Inertia, mean: &Mean) -> [f64; 2] {
+        let axis = mean.frame * Vector3::z();
+        if let Some(average) = self.ellipses[0].over_orbit() {
+            return average.slopes(&axis).phases;
+        }
+        let rate = self.ellipses.iter().map(|ellipse| ellipse.secular(&axis) * ellipse.fraction()).sum::<f64>();
+        [self.slope * rate, -inertia.sigma * self.slope * rate]
+    }
+
+    /// The averaged motion from a frame at the epoch.
+    pub(super) fn slow(
+        &self,
+        frame: UnitQuaternion<f64>,
+        (request, by_orbit): (&Request<'_>, bool),
+        paths: &Paths,
+        (unit, factors): (f64, [f64; 2]),
+    ) -> Slow {
+        let ellipse = &self.ellipses[0];
+        match (request.is_fixed(), by_orbit) {
+            (false, _) => {
+                let bodies = paths.courses.iter().zip(&self.ellipses);
+                let pulls = bodies
+                    .map(|(course, ellipse)| Pull { course: course.clone(), attraction: ellipse.attraction() * unit });
+                Slow::Bodies(Box::new(Bodies::new(pulls.collect(), self.delta, frame)))
+            }
+            (true, true) => {
+                let place = &paths.starts[0].place;
+                Slow::Orbit(Box::new(Precession::new(ellipse.clone(), frame, place, (unit, factors))))
+            }
+            (true, false) => Slow::Spin(Box::new(Spin::new(ellipse.clone(), frame, &paths.starts[0]))),
+        }
+    }
+}

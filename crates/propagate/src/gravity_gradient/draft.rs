@@ -1,0 +1,135 @@
+//! A motion at one level, before its constants are found: the mean motion, the averaged torques, and the error bound. What the levels share is computed once.
+
+use nalgebra::{UnitQuaternion, Vector3};
+use num_complex::Complex;
+
+use super::averages::Averages;
+use super::budget::{Budget, Further, Subject};
+use super::corrections::{Demand, Mean};
+use super::mean_motion::{MeanMotion, Refinement, Refinements, first_order, weak_enough};
+use super::paths::Paths;
+use super::request::Request;
+use super::response::Response;
+use super::second_order;
+use super::second_order::drift::Drift;
+use crate::error::Error;
+use crate::input::options::{Averaging, Level};
+use crate::torque_free::polhode::Polhode;
+
+type C64 = Complex<f64>;
+
+/// What the levels of a motion share.
+pub(super) struct Outset<'a> {
+    pub(super) polhode: &'a Polhode,
+    pub(super) attitude: UnitQuaternion<f64>,
+    pub(super) request: Request<'a>,
+    pub(super) paths: &'a Paths,
+    demands: Vec<Demand<'a>>,
+    first: MeanMotion,
+    refinements: Option<Refinements>,
+}
+
+/// A motion at one level.
+pub(super) struct Draft {
+    pub(super) level: Level,
+    pub(super) motion: MeanMotion,
+    pub(super) averages: Averages,
+    /// Whether the equations are averaged over the orbit as well.
+    pub(super) by_orbit: bool,
+    /// The error bound \[rad\].
+    pub(super) error: f64,
+}
+
+impl<'a> Outset<'a> {
+    /// The mean motion of first order from a polhode, the attitude at the epoch, and the place of the state on the polhode: σ, ℓ′ and y′ − y.
+    ///
+    /// # Errors
+    /// - [`Error::OneFixedOrbit`] for the second order under several bodies.
+    /// - [`Error::TorqueTooStrong`] and [`Error::Resonance`] if there is no such motion.
+    pub(super) fn new(
+        polhode: &'a Polhode,
+        attitude: UnitQuaternion<f64>,
+        osculating: (f64, [f64; 2]),
+        (request, paths): (&Request<'a>, &'a Paths),
+    ) -> Result<Self, Error> {
+        let level = request.level;
+        if level == Level::SecondOrder && !request.is_fixed() {
+            return Err(Error::OneFixedOrbit { argument: "level", value: level.to_string() });
+        }
+        let demands = paths.demands(request, polhode.scales.1)?;
+        weak_enough(polhode, osculating.0, &demands)?;
+        let (sigma, [anomaly, longitude]) = osculating;
+        let p = C64::from_polar(sigma.sqrt(), anomaly);
+        let momentum = polhode.invariants.momentum.to_f64();
+        let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
+        let first = first_order(polhode, &state, &paths.starts, &demands)?;
+        let refinements =
+            request.is_refined().then(|| Refinements::new(polhode, &first, &state, &paths.starts[0], &demands[0]));
+        Ok(Self { polhode, attitude, request: *request, paths, demands, first, refinements })
+    }
+
+    /// The motion at a level.
+    ///
+    /// # Errors
+    /// As [`Outset::new`], and those of the average over the orbit.
+    pub(super) fn draft(&self, level: Level) -> Result<Draft, Error> {
+        let Self { polhode, paths, demands, first, .. } = self;
+        let (motion, refinement) = match &self.refinements {
+            Some(refinements) => {
+                let (motion, refinement) = refinements.motion(polhode, first, &demands[0], level)?;
+                (motion, Some(refinement))
+            }
+            None => (first.clone(), None),
+        };
+        let averages = Averages::new(polhode, &motion, demands, level);
+        let request = Request { level, ..self.request };
+        let (by_orbit, error) = error_bound(&request, &motion, refinement, &averages, (paths, demands))?;
+        Ok(Draft { level, motion, averages, by_orbit, error })
+    }
+}
+
+/// Whether the equations are averaged over the orbit as well, and the error bound.
+fn error_bound(
+    request: &Request<'_>,
+    motion: &MeanMotion,
+    refinement: Option<Refinement>,
+    averages: &Averages,
+    (paths, demands): (&Paths, &[Demand<'_>]),
+) -> Result<(bool, f64), Error> {
+    let MeanMotion { mean, inertia, corrections, .. } = motion;
+    let response = Response::new(inertia);
+    let further = refinement.map(|Refinement { left, apart, hamiltonian }| {
+        let drift = Drift {
+            hamiltonian: &hamiltonian.without_first(),
+            demand: &demands[0],
+            reach: &paths.reaches[0],
+            axis: mean.frame * Vector3::z(),
+            rates: apart,
+            visible: response.visible,
+        };
+        let apart = if request.level == Level::SecondOrder { 0.0 } else { drift.largest() };
+        let envelope = &paths.envelopes[0];
+        let cut = second_order::cut(inertia, &demands[0]) * envelope.share.truncation;
+        Further { left, cut, acting: envelope.share.third, apart }
+    });
+    let subject = |i: usize| Subject {
+        mean,
+        inertia,
+        corrections: &corrections[i],
+        response: &response,
+        ellipse: &averages.ellipses[i],
+        anomaly: paths.reaches[i].anomaly,
+        drift: averages.slope * demands[i].orbit.disturbing_fraction(),
+        further,
+    };
+    if request.is_fixed() {
+        let budget = Budget::new(&subject(0), demands[0].mean_motion, paths.duration);
+        let by_orbit = budget.by_orbit(request)?;
+        return Ok((by_orbit, budget.error(by_orbit)));
+    }
+    if request.averaging == Averaging::Orbit {
+        return Err(Error::OneFixedOrbit { argument: "averaging", value: Averaging::Orbit.to_string() });
+    }
+    let subjects: Vec<_> = (0..demands.len()).map(subject).collect();
+    Ok((false, Budget::of_bodies(&subjects, demands, paths.duration).error(false)))
+}
