@@ -46,10 +46,10 @@ const CONTRACTED: [f64; 3] = [2.0 / 3.0, 0.5, 1.0];
 /// [`Demand::share`] of a motion. The second-order error is 0.003 of its bound in the median, and a few tens of terms may be dropped.
 pub(crate) const SHARE: f64 = 1e-5;
 /// The same for a motion of second order, whose mean variables are better by the size of the corrections.
-pub(crate) const SECOND_SHARE: f64 = 1e-9;
+pub(crate) const SECOND_SHARE: f64 = 1e-4;
 
 /// Largest part of the tolerance that a dropped term may take.
-const TOLERABLE: f64 = 0.002;
+const TOLERABLE: f64 = 0.00002;
 /// Largest part of a dropped term that a dropped coefficient of the time derivatives may have. There are up to 231 of them.
 const SMALLEST_COEFFICIENT: f64 = 0.004;
 
