@@ -62,7 +62,7 @@ impl Gradient {
         let axis = |re: f64, im: f64| {
             let small = ComplexLanes { re: none.all(re), im: none.all(im) };
             let state = Osculating { p: state.p + turn * small, ..*state };
-            Vector3::from(self.relative(&state).rows()[2].map(value))
+            Vector3::from(self.relative(&state).third_row().map(value))
         };
         let columns = [(step, 0.0), (0.0, step)].map(|(re, im)| (axis(re, im) - axis(-re, -im)) / (2.0 * step));
         let residual = direction - axis(0.0, 0.0);

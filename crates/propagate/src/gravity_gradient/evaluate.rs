@@ -66,7 +66,7 @@ impl Gradient {
         let zero = elapsed.0.all(0.0);
         let mut rates = [zero; 3];
         if RATES {
-            let body = relative.rows()[2];
+            let body = relative.third_row();
             for i in 0..3 {
                 let factor = self.frame.signs[i] * self.units[0] / self.moments[i];
                 rates[self.frame.axes[i]] = state.momentum * body[i] * zero.all(factor);
@@ -85,7 +85,7 @@ impl Gradient {
         dispatch(pulp::Arch::new(), Momenta { gradient: self, times, epoch, out });
     }
 
-    /// The quaternion of theory §8 for a state near the mean state.
+    /// The quaternion of theory §8 for a state near the mean state, not normalized.
     #[inline(always)]
     pub(super) fn relative<S: InstructionSet>(&self, state: &Osculating<S>) -> QuaternionLanes<S> {
         let Osculating { p, half, .. } = *state;
@@ -94,7 +94,7 @@ impl Gradient {
         let [[a, a_bar], [b, b_bar]] = [self.pair[0].at(square, beyond), self.pair[1].at(square, beyond)];
         let a = a.plus(a_bar, square.conjugate()) * half;
         let b = (b * p).plus(b_bar, p.conjugate()) * half;
-        QuaternionLanes([b.re, b.im, a.im, a.re]).normalized()
+        QuaternionLanes([b.re, b.im, a.im, a.re])
     }
 }
 

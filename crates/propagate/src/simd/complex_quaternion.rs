@@ -94,6 +94,16 @@ impl<S: InstructionSet> QuaternionLanes<S> {
         ]
     }
 
+    /// The third row of the rotation matrix, of a quaternion that need not be normalized.
+    #[inline(always)]
+    pub(crate) fn third_row(self) -> [Lanes<S>; 3] {
+        let [x, y, z, w] = self.0;
+        let (beside, along) = (x.mul_add(x, y * y), z.mul_add(z, w * w));
+        let scale = (along + beside).reciprocal();
+        let twice = scale + scale;
+        [y.negate_mul_add(w, x * z) * twice, x.mul_add(w, y * z) * twice, (along - beside) * scale]
+    }
+
     #[inline(always)]
     pub(crate) fn normalized(self) -> Self {
         let [x, y, z, w] = self.0;
