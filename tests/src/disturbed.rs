@@ -11,6 +11,11 @@ use crate::integration::Problem;
 /// Times of a span at which an error is measured.
 const SAMPLES: usize = 40;
 
+/// What the integration loses over a span at least \[rad\].
+const LEAST_LOSS: f64 = 1e-12;
+/// From this error over its bound on, it is measured what the integration loses.
+const SUSPICIOUS: f64 = 0.5;
+
 /// A scene: a state at t = 0 and the span (0, `span`).
 #[derive(Clone, Copy, Debug)]
 pub struct Disturbed {
@@ -41,12 +46,14 @@ pub struct Measured {
     pub bound: f64,
     /// Largest error of the free motion, which is the effect of the torque \[rad\].
     pub effect: f64,
+    /// What the integration loses of the free motion \[rad\]; 0 where the error is well within the bound, because it is not measured there.
+    pub lost: f64,
 }
 
 impl Measured {
-    /// Error over bound; what the integration loses over a span, 1e-12, is no error.
+    /// Error over bound; what the integration loses over a span, 1e-12 and twice what it loses of the free motion, is no error.
     pub fn ratio(&self) -> f64 {
-        (self.error - 1e-12) / self.bound
+        (self.error - LEAST_LOSS - 2.0 * self.lost) / self.bound
     }
 }
 
@@ -102,6 +109,18 @@ impl Disturbed {
                 Ok(worst.max(attitude_error(motion.at(time)?.attitude.coords.into(), attitude)))
             })
         };
-        Ok(Measured { error: worst(&motion)?, bound: motion.plan().error_bound(), effect: worst(&free)? })
+        let (error, bound) = (worst(&motion)?, motion.plan().error_bound());
+        let lost = if error > SUSPICIOUS * bound { self.lost(&times)? } else { 0.0 };
+        Ok(Measured { error, bound, effect: worst(&free)?, lost })
+    }
+
+    /// The largest error of an integration of the free motion at these times \[rad\].
+    fn lost(&self, times: &[f64]) -> Result<f64, Error> {
+        let free = self.free()?.tolerance(1e-13).solve()?;
+        let integrated =
+            Problem { moments: self.moments, orbit: None }.integrate(0.0, self.attitude, self.rates, times);
+        times.iter().zip(integrated).try_fold(0.0_f64, |worst, (&time, (attitude, _))| {
+            Ok(worst.max(attitude_error(free.at(time)?.attitude.coords.into(), attitude)))
+        })
     }
 }

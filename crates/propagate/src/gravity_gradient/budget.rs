@@ -107,7 +107,8 @@ impl Budget {
         };
         let (spin, dropped) = match subject.further {
             Some(Further { left, cut, acting, apart }) => {
-                let [bounded, growing] = response.third_order(sizes, p, duration, [acting, cut]);
+                let bounded = response.bounded(size, corrections.size);
+                let growing = response.growing(sizes, p, duration, [acting, cut]);
                 let third = bounded * corrections.pair_gain.max(1.0) + growing;
                 let left = response.of_actions(left, duration);
                 let slow = SLOW_MARGIN

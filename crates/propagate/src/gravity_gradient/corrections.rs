@@ -43,14 +43,15 @@ type C64 = Complex<f64>;
 const LARGEST_SIZE: f64 = 0.05;
 /// Largest size of the contraction of r̂r̂ for each m.
 const CONTRACTED: [f64; 3] = [2.0 / 3.0, 0.5, 1.0];
-/// [`Demand::share`] of a motion. The second-order error is 0.003 of its bound in the median, and a few tens of terms may be dropped.
-pub(crate) const SHARE: f64 = 1e-5;
-/// The same for a motion of second order, whose mean variables are better by the size of the corrections.
-pub(crate) const SECOND_SHARE: f64 = 1e-4;
-
-/// Largest part of the tolerance that a dropped term may take.
-const TOLERABLE: f64 = 0.00002;
-/// Largest part of a dropped term that a dropped coefficient of the time derivatives may have. There are up to 231 of them.
+/// [`Demand::share`] of a motion whose mean M and L lack the dropped terms. The second-order error is 0.003 of its bound in the median, and a few tens of terms
+/// may be dropped.
+pub(crate) const GROWING_SHARE: f64 = 1e-5;
+/// The same if they are those of all terms. With a tenth of it no median of docs/data/gravity-table.csv is smaller.
+pub(crate) const REFINED_SHARE: f64 = 1e-4;
+/// Largest part of the tolerance that a dropped term may take, likewise. The second is so small that in scenes of weak torques the error stays near rounding;
+/// ten times as much makes a sample 3 % faster.
+const TOLERABLE: [f64; 2] = [0.01, 2e-5];
+/// Largest part of a dropped term that a dropped coefficient of the time derivatives may have.
 const SMALLEST_COEFFICIENT: f64 = 0.004;
 
 /// The margins of the error bound cover pairs of terms that are slower than the terms by the reciprocal of this.
@@ -118,7 +119,7 @@ pub(crate) struct Demand<'a> {
     pub(crate) duration: f64,
     /// Terms smaller than this fraction of the second-order error are dropped.
     pub(crate) share: f64,
-    /// Whether the mean M and L at the epoch are those of all terms, so that dropped terms have no effect that grows.
+    /// Whether the mean M and L at the epoch are those of all terms, so that the effect of dropped terms grows in second order only.
     pub(crate) refined: bool,
     /// The orbit's harmonics, where divisors are to be exact in them.
     pub(crate) series: Option<&'a OrbitSeries>,
@@ -138,7 +139,7 @@ pub(crate) struct Corrections {
     pub(crate) pair_gain: f64,
     /// Sum of the sizes of the corrected terms that are too slow for the sums \[rad\]: second order does not have them.
     pub(crate) slow: f64,
-    /// Dropped terms, and truncation of the sums for G on both ends, at one time \[rad\]: what they do to the mean M and L is not in it.
+    /// Dropped terms, and truncation of the sums for G on both ends \[rad\]: what they do to the mean M and L at the epoch is not in it.
     pub(crate) at_once: f64,
     /// Sum of the terms that the level omits, over the span \[rad\].
     pub(crate) omitted: f64,
@@ -215,8 +216,11 @@ impl Corrections {
         let Demand { orbit, mean_motion, level, duration, envelope, series, .. } = *demand;
         let Terms { response, strength, scale, turning, fastest, size, .. } = terms;
         let eccentricity = orbit.eccentricity();
-        let growth = |multiple: i32| if demand.refined { 1.0 } else { response.growth(multiple, duration) };
-        let nothing = (TOLERABLE * demand.tolerance / growth(1)).max(demand.share * whole * whole);
+        // Refined M and L are those of all terms, but at a place that lacks the dropped ones.
+        let further = if demand.refined { whole } else { 1.0 };
+        let growth = |multiple: i32| 1.0 + further * (response.growth(multiple, duration) - 1.0);
+        let tolerable = TOLERABLE[usize::from(demand.refined)] * demand.tolerance / growth(1);
+        let nothing = tolerable.max(demand.share * whole * whole);
         let fixed_orbit = demand.rates == [0.0; 2];
         let selection = Selection {
             commensurability: Commensurability {
@@ -245,7 +249,7 @@ impl Corrections {
         let omitted = omitted.iter().map(|term| selection.commensurability.whole(term)).sum();
         let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
         let mut at_once = 0.0;
-        // Of the terms together, over the sizes of the time derivatives.
+        // Of the terms together, for a time derivative of 1.
         let mut amplitudes = [0.0; ORDERS];
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
         let mut exact = Vec::new();
@@ -253,39 +257,42 @@ impl Corrections {
         let terms_rate: f64 = regular.map(|term| term.rate).sum();
         let mut slow = 0.0;
         for (candidate, choice) in terms.all.iter().zip(&choices) {
-            let growth = growth(candidate.multiple);
+            // The tilt of the angular momentum by a dropped term changes its precession, for m = 0 too.
+            let growth = growth(if demand.refined { 1 } else { candidate.multiple });
             let is_slow = selection.commensurability.is_slow(candidate);
             match (*choice, series) {
                 (Choice::Exact(Exact { left_out, size, .. }), Some(series)) => {
                     exact.push(candidate.exact(inertia, (series, mean_motion, left_out), nothing));
                     slow += if is_slow { size } else { 0.0 };
                     rest += growth * nothing;
-                    at_once += nothing;
+                    at_once += growth * nothing;
                     count += 1;
                 }
                 (Choice::Sum(orders, left), _) => {
                     rest += growth * left;
-                    at_once += 2.0 * left;
+                    at_once += 2.0 * growth * left;
                     neglected = neglected.max(left);
                     most_orders = most_orders.max(orders);
                     for (j, amplitude) in amplitudes.iter_mut().enumerate().take(orders) {
-                        *amplitude += selection.left(candidate, j) / selection.sizes[j];
+                        let of_derivative = candidate.size() / candidate.frequency.abs().powi(j as i32); // j < ORDERS
+                        *amplitude += (j + 1) as f64 * of_derivative / envelope.span[0];
                     }
                     candidate.join(&mut harmonics[candidate.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2
                     count += 1;
                 }
                 _ if !is_slow => {
                     dropped += growth * candidate.size();
-                    at_once += candidate.size();
+                    at_once += growth * candidate.size();
                     neglected = neglected.max(candidate.size());
                 }
                 _ => {}
             }
         }
         let bounds = amplitudes.map(|amplitude| SMALLEST_COEFFICIENT * nothing / amplitude);
-        let orbital = envelope.orbital.cut(&bounds[..most_orders]);
-        rest += growth(1) * nothing;
-        at_once += nothing;
+        let (orbital, cut) = envelope.orbital.cut(&bounds[..most_orders]);
+        let cut: f64 = cut.iter().zip(&amplitudes).map(|(cut, amplitude)| cut * amplitude).sum();
+        rest += growth(1) * cut;
+        at_once += 2.0 * growth(1) * cut;
         let [first, second, _] = demand.axes;
         let per_momentum = orbit.disturbing_fraction() / inertia.momentum;
         let (level_axial, full_axial) = (level.axial(inertia), Level::Full.axial(inertia));

@@ -45,7 +45,7 @@ impl<'a> Outset<'a> {
     ///
     /// # Errors
     /// - [`Error::OneFixedOrbit`] for the second order under several bodies.
-    /// - [`Error::TorqueTooStrong`] and [`Error::Resonance`] if there is no such motion.
+    /// - [`Error::TorqueTooStrong`] and [`Error::Resonance`] if there is no such motion, and the error of an orbit that is out of reach at the epoch.
     pub(super) fn new(
         polhode: &'a Polhode,
         attitude: UnitQuaternion<f64>,

@@ -4,7 +4,7 @@
 //! polynomials in f that all terms share. After contraction with r̂r̂ for one m, each term needs only real multiples of them, since T33, i t1 e^(−iy′) and t2
 //! e^(−2iy′) have real coefficients (time reversal). |p| = √σ is a constant of the mean motion and is included in the coefficients. The derivatives with
 //! respect to p and p̄ are ∂/∂p e^(iℓ′) and ∂/∂p̄ e^(−iℓ′), which are regular at p = 0. W is real, so that of each sum only the real or the imaginary part
-//! counts: r̂ is taken relative to axes that are turned by y′, where no phase is left.
+//! counts: r̂ is taken relative to axes 1 and 2 of the frame turned by y′ about k, where no phase is left.
 
 use nalgebra::Vector3;
 
@@ -106,8 +106,7 @@ impl Generator {
         for h in 1..=highest {
             turns[h] = turns[h - 1] * mean.turn;
         }
-        let mut sums =
-            Derivatives { by_p_bar: [none; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
+        let mut sums = Derivatives { by_p: [none; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
         if self.orbital.node_rate == 0.0 {
             let mut circle = [[none; 2]; WIDTH + 1];
             self.orbital.fill(&mut circle, place);
@@ -165,19 +164,19 @@ impl Generator {
     #[inline(always)]
     fn change<S: InstructionSet>(&self, sums: &Derivatives<S>, spin: ComplexLanes<S>) -> Correction<S> {
         let all = |value: f64| sums.by_longitude.all(value);
-        // The sums have half of each term and its conjugate.
+        // Each sum is half of a term plus its conjugate.
         let momentum = sums.by_longitude * all(2.0 * self.strength);
         let relative = all(2.0 * self.strength / self.momentum);
         let half = all(0.5) * relative;
-        let [by_p_bar, across] = sums.by_p_bar;
+        let [by_p, across] = sums.by_p;
         let real = momentum.negate_mul_add(all(0.5 * self.root / self.momentum), -(across * half));
-        let circling = by_p_bar.negate_mul_add(all(0.5 * self.root), -sums.by_momentum);
+        let circling = by_p.negate_mul_add(all(0.5 * self.root), -sums.by_momentum);
         // Back from the axes that are turned by y′.
         let [first, second] = sums.by_rotation;
         let x = spin.im.negate_mul_add(second, spin.re * first);
         let y = spin.im.mul_add(first, spin.re * second);
         Correction {
-            p: ComplexLanes { re: real, im: by_p_bar * half },
+            p: ComplexLanes { re: real, im: by_p * half },
             longitude: relative * circling,
             momentum,
             // k × δ(Mk)/M turns k and the frame.
@@ -280,23 +279,29 @@ fn summed<S: InstructionSet>(
     sums
 }
 
-/// The contraction of r̂r̂ for one multiple of y′ and its derivatives when the frame turns about its axes 1 and 2, each times the factor of a term's −½ i or,
-/// for m = 1, −½.
+/// The contraction of r̂r̂ for one m (r₃² − ⅓, r̄₊ r₃ or r̄₊²) and its derivatives when the frame turns about its axes 1 and 2, times −i for m = 0 and 2, and −1
+/// for m = 1.
 type Contracted<S> = [ComplexLanes<S>; 3];
 
-/// Those of r̂₊ r₃ and r̂₊².
 #[inline(always)]
-fn contractions<S: InstructionSet>([xx, yy, zz, xy, xz, yz]: &[Lanes<S>; 6], multiple: usize) -> Contracted<S> {
+fn contractions<S: InstructionSet>(tensor: &[Lanes<S>; 6], multiple: usize) -> Contracted<S> {
     let c = |re: Lanes<S>, im: Lanes<S>| ComplexLanes { re, im };
-    if multiple == 1 {
-        [c(-*xz, *yz), c(*xy, *zz - *yy), c(*zz - *xx, *xy)]
-    } else {
-        let (two_xz, two_yz) = (*xz + *xz, *yz + *yz);
-        [c(-(*xy + *xy), *yy - *xx), c(-two_xz, two_yz), c(two_yz, two_xz)]
+    let [xx, yy, zz, xy, xz, yz] = *tensor;
+    match multiple {
+        0 => {
+            let none = xx.all(0.0);
+            let [value, first, second] = axial_contractions(tensor);
+            [c(none, -value), c(none, -first), c(none, -second)]
+        }
+        1 => [c(-xz, yz), c(xy, zz - yy), c(zz - xx, xy)],
+        _ => {
+            let (two_xz, two_yz) = (xz + xz, yz + yz);
+            [c(-(xy + xy), yy - xx), c(-two_xz, two_yz), c(two_yz, two_xz)]
+        }
     }
 }
 
-/// That of r₃² − ⅓, times i.
+/// r₃² − ⅓ and its derivatives, which are real.
 #[inline(always)]
 fn axial_contractions<S: InstructionSet>([xx, yy, zz, _, xz, yz]: &[Lanes<S>; 6]) -> [Lanes<S>; 3] {
     let three = xx.all(3.0);
@@ -307,7 +312,7 @@ fn axial_contractions<S: InstructionSet>([xx, yy, zz, _, xz, yz]: &[Lanes<S>; 6]
 #[derive(Clone, Copy)]
 struct Derivatives<S: InstructionSet> {
     /// The real part with respect to p̄ and to p together, and the imaginary part of their difference.
-    by_p_bar: [Lanes<S>; 2],
+    by_p: [Lanes<S>; 2],
     by_longitude: Lanes<S>,
     by_momentum: Lanes<S>,
     /// About axes that are turned by y′.
@@ -361,9 +366,9 @@ impl<S: InstructionSet> Derivatives<S> {
         let [whole, slope, sum, difference] = sums;
         let [value, first, second] = axial_contractions(tensor);
         self.by_momentum = slope.mul_add(value, self.by_momentum);
-        self.by_p_bar[0] = sum.mul_add(value, self.by_p_bar[0]);
+        self.by_p[0] = sum.mul_add(value, self.by_p[0]);
         let difference = if j % 2 == 0 { -difference } else { difference };
-        self.by_p_bar[1] = difference.mul_add(value, self.by_p_bar[1]);
+        self.by_p[1] = difference.mul_add(value, self.by_p[1]);
         self.by_rotation[0] = whole.mul_add(first, self.by_rotation[0]);
         self.by_rotation[1] = whole.mul_add(second, self.by_rotation[1]);
     }
@@ -387,8 +392,8 @@ impl<S: InstructionSet> Derivatives<S> {
         let multiple = self.by_momentum.all(multiple as f64);
         self.by_longitude = multiple.mul_add(whole.im_of_product(value), self.by_longitude);
         self.by_momentum = slope.plus_re_of_product(value, self.by_momentum);
-        self.by_p_bar[0] = sum.plus_re_of_product(value, self.by_p_bar[0]);
-        self.by_p_bar[1] = self.by_p_bar[1] + difference.im_of_product(value);
+        self.by_p[0] = sum.plus_re_of_product(value, self.by_p[0]);
+        self.by_p[1] = self.by_p[1] + difference.im_of_product(value);
         self.by_rotation[0] = whole.plus_re_of_product(first, self.by_rotation[0]);
         self.by_rotation[1] = whole.plus_re_of_product(second, self.by_rotation[1]);
     }

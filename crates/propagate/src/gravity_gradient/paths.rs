@@ -1,6 +1,6 @@
 //! The orbits of the disturbing bodies over the span of a motion, and what the corrections for each are to be.
 
-use super::corrections::{Demand, SECOND_SHARE, SHARE};
+use super::corrections::{Demand, GROWING_SHARE, REFINED_SHARE};
 use super::course::{Course, When};
 use super::envelope::{Envelope, Reach};
 use super::orbit_series::OrbitSeries;
@@ -49,9 +49,7 @@ impl Paths {
     /// What the corrections for each body are to be.
     pub(super) fn demands<'a>(&'a self, request: &Request<'a>, exponent: i32) -> Result<Vec<Demand<'a>>, Error> {
         let Request { level, tolerance, epoch, .. } = *request;
-        // A level that is open may become the second order.
-        let second = request.is_fixed() && matches!(level, Level::Auto | Level::SecondOrder);
-        let share = if second { SECOND_SHARE } else { SHARE };
+        let share = if request.is_refined() { REFINED_SHARE } else { GROWING_SHARE };
         let level = if level == Level::Auto { Level::Full } else { level };
         let demand = |((orbit, envelope), series): ((&'a Orbit, &'a Envelope), &'a Option<OrbitSeries>)| {
             orbit.within_reach(epoch)?;

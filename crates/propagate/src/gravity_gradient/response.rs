@@ -2,6 +2,11 @@
 
 use super::inertia::{HIGHEST, Inertia};
 
+/// Where the terms of the change cancel, those of second order need not: they are this share of the square of the sum.
+const SMALLEST_SHARE: f64 = 0.036;
+/// The derivatives of the change in second order, as a fraction of the sum of its terms.
+const SLOPE_SHARE: f64 = 0.25;
+
 /// The factors of one mean motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Response {
@@ -61,14 +66,21 @@ impl Response {
         size * slope * (1.0 + self.by_momentum * duration) + self.by_sigma * sigma * duration
     }
 
-    /// What an averaged motion of second order leaves of that: what is bounded, and the drift of third order. `parts` are the shares of the span in which the
-    /// drift of third order acts, and of the drifts of second order the part that K2 lacks over the span.
-    pub(super) fn third_order(&self, [size, slope]: [f64; 2], p: f64, duration: f64, parts: [f64; 2]) -> [f64; 2] {
+    /// What an averaged motion of second order leaves of that and does not grow, for first-order changes of this size whose terms sum to `all`.
+    pub(super) fn bounded(&self, size: f64, all: f64) -> f64 {
+        // Near the separatrix the functions of σ are steep.
+        let steep = 2.0 * self.sigma.sqrt() / (self.gain * self.distance);
+        (size * size.max(SLOPE_SHARE * all)).max(SMALLEST_SHARE * all * all * (1.0 + steep * steep))
+    }
+
+    /// What an averaged motion of second order leaves and grows: the drift of third order. `parts` are the shares of the span in which it acts, and of the drifts
+    /// of second order the part that K2 lacks over the span.
+    pub(super) fn growing(&self, [size, slope]: [f64; 2], p: f64, duration: f64, parts: [f64; 2]) -> f64 {
         let of_sigma = self.of_sigma(p);
         let further = slope + p / self.distance.sqrt() + of_sigma / self.distance;
         let growing = (size * slope * self.by_momentum + self.by_sigma * of_sigma * further) * duration;
         let [acting, cut] = parts;
-        [size * slope, growing * (acting * further + cut)]
+        growing * (acting * further + cut)
     }
 
     /// The attitude error over a time that errors of the mean M and L make, over M \[rad\].

@@ -85,7 +85,7 @@ impl Selection<'_> {
     }
 
     /// What a sum with so many derivatives leaves of a term.
-    pub(super) fn left(&self, term: &Candidate, orders: usize) -> f64 {
+    fn left(&self, term: &Candidate, orders: usize) -> f64 {
         term.size() * self.sizes[orders] / self.sizes[0] / term.frequency.abs().powi(orders as i32)
     }
 

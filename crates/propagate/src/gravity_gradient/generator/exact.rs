@@ -22,7 +22,7 @@ use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 use crate::simd::sincos::sin_cos_of_turns;
 
-use super::{Contracted, Derivatives, Products, SUMS, axial_contractions, contractions, tensor_of};
+use super::{Contracted, Derivatives, Products, SUMS, contractions, tensor_of};
 
 /// E, O, E₁ and O₁.
 const PARTS: usize = 4;
@@ -41,7 +41,7 @@ pub(crate) struct ExactTerm {
     pub(crate) numbers: (i32, i32),
     /// The harmonic of the orbit that is left out.
     pub(crate) left_out: Option<i32>,
-    /// The factors of G and of −Ω ∂G/∂Ω in W, M ∂W/∂M, ∂W/∂p and ∂W/∂p̄.
+    /// The factors of G and of −Ω ∂G/∂Ω in W, M ∂W/∂M, ∂W/∂p̄ + ∂W/∂p and ∂W/∂p̄ − ∂W/∂p.
     factors: [[f64; SUMS]; 2],
     /// The coefficients of (a/r)³ times 1, cos 2f and sin 2f, by j, function and part.
     coefficients: Vec<[[f64; PARTS]; 3]>,
@@ -134,8 +134,8 @@ impl ExactTerm {
         let all = |factor: f64| none.all(factor);
         sums.by_longitude = value.im.mul_add(all(whole * f64::from(self.numbers.1)), sums.by_longitude);
         sums.by_momentum = slope.mul_add(all(whole), sums.by_momentum);
-        sums.by_p_bar[0] = slope.mul_add(all(sum_by_frequency), value.re.mul_add(all(sum), sums.by_p_bar[0]));
-        sums.by_p_bar[1] = value.im.mul_add(all(difference), sums.by_p_bar[1]);
+        sums.by_p[0] = slope.mul_add(all(sum_by_frequency), value.re.mul_add(all(sum), sums.by_p[0]));
+        sums.by_p[1] = value.im.mul_add(all(difference), sums.by_p[1]);
         for (total, part) in sums.by_rotation.iter_mut().zip(rotation) {
             *total = part.mul_add(all(whole), *total);
         }
@@ -171,16 +171,7 @@ impl<S: InstructionSet> NullaryFnOnce for ExactTerms<'_, S> {
             if terms.iter().any(|term| term.multiple() == multiple) {
                 let mut functions = [[zero; 3]; 3];
                 for (function, tensor) in functions.iter_mut().zip(&units) {
-                    *function = if multiple == 0 {
-                        let [value, first, second] = axial_contractions(tensor);
-                        [
-                            ComplexLanes { re: none, im: -value },
-                            ComplexLanes { re: none, im: -first },
-                            ComplexLanes { re: none, im: -second },
-                        ]
-                    } else {
-                        contractions(tensor, multiple)
-                    };
+                    *function = contractions(tensor, multiple);
                 }
                 for term in terms {
                     if term.multiple() == multiple {

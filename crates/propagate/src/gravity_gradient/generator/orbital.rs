@@ -60,13 +60,15 @@ impl Orbital {
         orbital
     }
 
-    /// The first derivatives, as many as there are bounds, without the lowest and the highest coefficients that do not exceed the bound.
-    pub(crate) fn cut(&self, bounds: &[f64]) -> Self {
+    /// The first derivatives, as many as there are bounds, without the lowest and the highest coefficients that do not exceed the bound; and for each the sum of
+    /// the coefficients that it lacks.
+    pub(crate) fn cut(&self, bounds: &[f64]) -> (Self, Vec<f64>) {
         let mut orbital = Self { rows: Vec::new(), coefficients: Vec::new(), norms: Vec::new(), ..*self };
-        for (row, bound) in self.rows.iter().zip(bounds) {
-            orbital.push(row.first, self.coefficients[row.start..row.end].iter().copied(), *bound);
-        }
-        orbital
+        let cut = |(row, bound): (&Row, &f64)| {
+            orbital.push(row.first, self.coefficients[row.start..row.end].iter().copied(), *bound)
+        };
+        let cut = self.rows.iter().zip(bounds).map(cut).collect();
+        (orbital, cut)
     }
 
     /// Number of derivatives.
@@ -74,24 +76,28 @@ impl Orbital {
         self.rows.len()
     }
 
-    /// Adds a row from the coefficients from k = `first` on, without the lowest and the highest that do not exceed `bound`.
-    fn push(&mut self, first: usize, series: impl Iterator<Item = [f64; 3]>, bound: f64) {
+    /// Adds a row from the coefficients from k = `first` on, without the lowest and the highest that do not exceed `bound`. Returns the sum of these.
+    fn push(&mut self, first: usize, series: impl Iterator<Item = [f64; 3]>, bound: f64) -> f64 {
         let start = self.coefficients.len();
-        let mut skipped = first;
-        let mut end = start;
+        let (mut skipped, mut end) = (first, start);
+        // The sum of those that are dropped, and of those that are if no larger one follows.
+        let (mut dropped, mut pending) = (0.0, 0.0);
         for functions in series {
-            let something = functions.iter().any(|c| c.abs() > bound);
-            if something || self.coefficients.len() > start {
+            let largest = functions.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
+            if largest > bound {
                 self.coefficients.push(functions);
+                (end, pending) = (self.coefficients.len(), 0.0);
+            } else if self.coefficients.len() > start {
+                self.coefficients.push(functions);
+                pending += largest;
             } else {
                 skipped += 1;
-            }
-            if something {
-                end = self.coefficients.len();
+                dropped += largest;
             }
         }
         self.coefficients.truncate(end);
         self.rows.push(Row { first: if end > start { skipped } else { 0 }, start, end });
+        dropped + pending
     }
 
     /// Sizes of all derivatives at a true anomaly: of (a/r)³, or of (a/r)³ e^(2if) if that is larger.

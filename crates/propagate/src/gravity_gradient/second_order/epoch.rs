@@ -56,7 +56,7 @@ pub(crate) fn refined(
         mean,
         strength: strength(demand),
         tensors: &tensors,
-        norms: &norms,
+        norms,
         slowest,
         mean_motion: demand.mean_motion,
         duration: demand.duration,
@@ -95,7 +95,11 @@ pub(crate) fn refined(
 }
 
 /// (a/r)³ r̂r̂ in the frame of a mean state, its time derivatives, and their largest sizes.
-pub(super) fn tensors(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<'_>) -> ([Tensor; ORDERS], Vec<f64>) {
+pub(super) fn tensors<'a>(
+    mean: &Mean,
+    place: &Place<pulp::Scalar>,
+    demand: &Demand<'a>,
+) -> ([Tensor; ORDERS], &'a [f64]) {
     let [first, second, _] = demand.orbit.axes();
     let generator = Generator {
         harmonics: Default::default(),
@@ -108,5 +112,5 @@ pub(super) fn tensors(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<
     };
     let frame = QuaternionLanes::all(Lanes::splat(pulp::Scalar, 0.0), &mean.frame);
     let tensors = generator.tensors(frame, place).map(|tensor| tensor.map(|lanes| lanes.values()[0]));
-    (tensors, demand.envelope.orbital.norms.clone())
+    (tensors, &demand.envelope.orbital.norms)
 }

@@ -161,7 +161,7 @@ fn the_pairs_that_cancel_add_up_to_the_closed_form() {
             mean: &scene.mean,
             strength: Q,
             tensors: &tensors,
-            norms: &norms,
+            norms,
             slowest: 0.0,
             mean_motion: MEAN_MOTION,
             duration: 0.0,
