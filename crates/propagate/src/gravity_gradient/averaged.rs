@@ -16,11 +16,11 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::sync::{Arc, RwLock};
 
-use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 use super::corrections::Demand;
 use super::course::{Elapsed, When};
-use super::second_order::hamiltonian::{Disturber, Hamiltonian};
+use super::second_order::hamiltonian::{DisturberLanes, Hamiltonian, dot};
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::{Lanes, WIDEST};
@@ -33,7 +33,7 @@ mod precession;
 mod tests;
 
 pub(crate) use bodies::{Bodies, Pull};
-use polynomial::{COLUMNS, Column, NODES, POINTS, Polynomial};
+use polynomial::{COLUMNS, Column, NODES, Polynomial, ROOM, Row, Slopes};
 pub(crate) use precession::Precession;
 
 /// Number of quarters that are kept on each side of the epoch, 0.9 kB each.
@@ -140,37 +140,59 @@ impl AveragedOrbit {
         let sine_square = axis.cross(&self.axes[2]).norm_squared();
         self.mean_motion * self.mean_motion * (1.0 - 1.5 * sine_square) / self.eta_cubed
     }
+}
 
-    fn slope(&self, frame: &Quaternion<f64>, sine: f64, cosine: f64) -> Column {
-        let direction = self.axes[0] * cosine + self.axes[1] * sine;
-        let weight = 1.0 + self.eccentricity * cosine;
-        let axis = (frame * Quaternion::new(0.0, 0.0, 0.0, 1.0) * frame.conjugate()).imag();
-        let along = axis.dot(&direction);
-        if let Some(hamiltonian) = &self.second {
-            return self.second_slope(hamiltonian, (frame, &axis), &direction, weight);
+/// The averaged equations at the points of a quarter, by true anomaly.
+struct Quarter<'a> {
+    ellipse: &'a AveragedOrbit,
+    sine: Row,
+    cosine: Row,
+}
+
+impl Slopes for Quarter<'_> {
+    #[inline(always)]
+    fn at<S: InstructionSet>(&self, first: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS] {
+        let AveragedOrbit { eccentricity, eta_cubed, mean_motion, axes, strength, .. } = self.ellipse;
+        let like = frame.0[0];
+        let all = |value: f64| like.all(value);
+        let (sine, cosine) = (like.like(&self.sine[first..]), like.like(&self.cosine[first..]));
+        let mut direction = [like; 3];
+        for (c, component) in direction.iter_mut().enumerate() {
+            *component = cosine.mul_add(all(axes[0][c]), sine * all(axes[1][c]));
         }
-        // k × dk turns k, without a component about k.
-        let turning = (direction - axis * along) * (self.strength * weight * along);
-        let change = Quaternion::from_parts(0.0, turning * 0.5) * frame;
-        let phase = self.mean_motion / self.eta_cubed * weight * (1.0 - 3.0 * along * along);
-        [change.i, change.j, change.k, change.w, phase, phase]
-    }
-
-    /// The same to second order in the torque; `weight` is 1 + e cos f.
-    fn second_slope(
-        &self,
-        hamiltonian: &Hamiltonian,
-        (frame, axis): (&Quaternion<f64>, &Vector3<f64>),
-        direction: &Vector3<f64>,
-        weight: f64,
-    ) -> Column {
-        let rate = self.mean_motion * weight * weight / self.eta_cubed;
-        let cube = weight * weight * weight / (self.eta_cubed * self.eta_cubed);
-        let disturber = Disturber { direction: *direction, normal: self.axes[2], cube, rate };
-        let slopes = hamiltonian.slopes(axis, &disturber);
-        let change = Quaternion::from_parts(0.0, slopes.turning * (0.5 / rate)) * frame;
-        let [anomaly, longitude] = slopes.phases.map(|slope| slope / rate);
-        [change.i, change.j, change.k, change.w, anomaly, longitude]
+        let weight = cosine.mul_add(all(*eccentricity), all(1.0));
+        let rows = frame.rows();
+        let axis = [rows[0][2], rows[1][2], rows[2][2]];
+        let along = dot(&axis, &direction);
+        let (turning, phases) = match &self.ellipse.second {
+            Some(hamiltonian) => {
+                let square = weight * weight;
+                let disturber = DisturberLanes {
+                    direction,
+                    normal: axes[2],
+                    cube: square * weight * all(1.0 / (eta_cubed * eta_cubed)),
+                    rate: square * all(mean_motion / eta_cubed),
+                };
+                let (turning, phases) = hamiltonian.slopes_at(&axis, &disturber);
+                let inverse = disturber.rate.reciprocal();
+                let [x, y, z] = turning;
+                ([x * inverse, y * inverse, z * inverse], [phases[0] * inverse, phases[1] * inverse])
+            }
+            None => {
+                // k × dk turns k, without a component about k.
+                let scale = weight * along * all(*strength);
+                let mut turning = direction;
+                for (component, axis) in turning.iter_mut().zip(axis) {
+                    *component = axis.negate_mul_add(along, *component) * scale;
+                }
+                let phase = weight * all(mean_motion / eta_cubed) * (along * along).negate_mul_add(all(3.0), all(1.0));
+                (turning, [phase, phase])
+            }
+        };
+        let half = all(0.5);
+        let [x, y, z] = turning;
+        let [i, j, k, w] = (QuaternionLanes([x * half, y * half, z * half, like.all(0.0)]) * frame).0;
+        [i, j, k, w, phases[0], phases[1]]
     }
 }
 
@@ -269,7 +291,8 @@ fn quarter(turns: f64, angle: f64) -> (i64, f64) {
 /// The solution in a quarter that passes through `start` at a place of the quarter.
 fn in_quarter(ellipse: &AveragedOrbit, number: i64, place: f64, start: &Column) -> Polynomial {
     let middle = (number.rem_euclid(4) as f64 + 0.5) * FRAC_PI_2;
-    let circles: [(f64, f64); POINTS] = NODES.map(|x| (middle + FRAC_PI_4 * x).sin_cos());
-    let slope = |i: usize, frame: &Quaternion<f64>| ellipse.slope(frame, circles[i].0, circles[i].1);
-    Polynomial::solved(FRAC_PI_4, (place, start), slope)
+    let circle = |i: usize| NODES.get(i).map_or((0.0, 1.0), |x| (middle + FRAC_PI_4 * x).sin_cos());
+    let circles: [(f64, f64); ROOM] = std::array::from_fn(circle);
+    let equations = Quarter { ellipse, sine: circles.map(|(sine, _)| sine), cosine: circles.map(|(_, cosine)| cosine) };
+    Polynomial::solved(FRAC_PI_4, (place, start), &equations)
 }

@@ -3,7 +3,7 @@
 use super::inertia::{HIGHEST, Inertia};
 
 /// Where the terms of the change cancel, those of second order need not: they are this share of the square of the sum.
-const SMALLEST_SHARE: f64 = 0.036;
+const SMALLEST_SHARE: f64 = 0.048;
 /// The derivatives of the change in second order, as a fraction of the sum of its terms.
 const SLOPE_SHARE: f64 = 0.25;
 

@@ -11,7 +11,7 @@ const LARGEST: f64 = 0.01;
 /// The share of all terms that adds to the drift of second order by a harmonic near resonance.
 const OTHERS: f64 = 0.1;
 /// The safety factor of this drift in the error bound.
-const MARGIN: f64 = 2.0;
+const MARGIN: f64 = 4.0;
 
 /// What decides it.
 pub(super) struct Selection<'a> {

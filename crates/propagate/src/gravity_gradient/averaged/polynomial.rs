@@ -5,8 +5,9 @@ use std::sync::LazyLock;
 
 use nalgebra::Quaternion;
 
-use crate::simd::instruction_set::InstructionSet;
-use crate::simd::lanes::Lanes;
+use crate::simd::complex_quaternion::QuaternionLanes;
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
+use crate::simd::lanes::{Lanes, WIDEST};
 
 /// Chebyshev points in an interval. With degree 17 the interpolation error of cos 3f in a quarter of the orbit is 1e-15 of κ.
 pub(super) const POINTS: usize = 18;
@@ -61,15 +62,50 @@ fn sum(coefficients: &[f64; POINTS], x: f64) -> f64 {
     x * next + coefficients[0] - after
 }
 
-/// Σ weight × slope.
-fn weighted(weights: &[f64; POINTS], slopes: &[Column; POINTS]) -> Column {
-    let mut sum = [0.0; COLUMNS];
-    for (weight, slope) in weights.iter().zip(slopes) {
-        for c in 0..COLUMNS {
-            sum[c] += weight * slope[c];
+/// Room for the points in whole vectors of any width.
+pub(super) const ROOM: usize = 2 * WIDEST;
+/// A number for each point, and 0 beyond them.
+pub(super) type Row = [f64; ROOM];
+
+/// A row of one number for each point.
+fn row(numbers: &[f64; POINTS]) -> Row {
+    std::array::from_fn(|i| numbers.get(i).copied().unwrap_or_default())
+}
+
+/// [`PRIMITIVES`] and the transposed [`VALUES`] in rows, by the point of the function.
+static ROWS: LazyLock<[[Row; POINTS]; 2]> = LazyLock::new(|| {
+    let values = |k: usize| row(&VALUES.each_ref().map(|at| at[k]));
+    [PRIMITIVES.each_ref().map(row), std::array::from_fn(values)]
+});
+
+/// Averaged equations on an interval.
+pub(super) trait Slopes {
+    /// The derivatives at the points from `first` on, for the frames there.
+    fn at<S: InstructionSet>(&self, first: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS];
+}
+
+/// Equations that are computed point by point, from the number of the point and the frame there.
+pub(super) struct PointByPoint<F>(pub(super) F);
+
+impl<F: Fn(usize, &Quaternion<f64>) -> Column> Slopes for PointByPoint<F> {
+    #[inline(always)]
+    fn at<S: InstructionSet>(&self, first: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS] {
+        let like = frame.0[0];
+        let mut columns = [[0.0; WIDEST]; COLUMNS];
+        for lane in 0..Lanes::<S>::WIDTH.min(POINTS.saturating_sub(first)) {
+            let [x, y, z, w] = &frame.0;
+            let [x, y, z, w] = [x.values()[lane], y.values()[lane], z.values()[lane], w.values()[lane]];
+            let slopes = self.0(first + lane, &Quaternion::new(w, x, y, z));
+            for (column, slope) in columns.iter_mut().zip(slopes) {
+                column[lane] = slope;
+            }
         }
+        let mut slopes = [like; COLUMNS];
+        for (slope, column) in slopes.iter_mut().zip(&columns) {
+            *slope = like.like(column);
+        }
+        slopes
     }
-    sum
 }
 
 /// Chebyshev coefficients in one interval.
@@ -79,56 +115,107 @@ pub(super) struct Polynomial {
     terms: usize,
 }
 
-impl Polynomial {
-    /// The solution that passes through a column at a place of the interval, from −1 to 1. `half` is half the length of the interval, and `slope` the
-    /// derivative at one of the points for a frame.
-    pub(super) fn solved(
-        half: f64,
-        (place, start): (f64, &Column),
-        slope: impl Fn(usize, &Quaternion<f64>) -> Column,
-    ) -> Self {
-        let (nodes, at_nodes) = (&*PRIMITIVES, &*VALUES);
-        let at_place = match place {
-            -1.0 => ENDS[0],
-            1.0 => ENDS[1],
-            place => nodes.each_ref().map(|primitive| sum(primitive, place)),
+/// The iteration for the solution that passes through a column at a place of the interval.
+struct Solve<'a, E> {
+    half: f64,
+    place: f64,
+    start: &'a Column,
+    equations: &'a E,
+}
+
+impl<E: Slopes> Task for Solve<'_, E> {
+    type Output = [Row; COLUMNS];
+
+    /// The Chebyshev coefficients, by column.
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, simd: S) -> [Row; COLUMNS] {
+        let Self { half, place, start, equations } = self;
+        let [nodes, at_nodes] = &*ROWS;
+        let at_place = if place == -1.0 {
+            ENDS[0]
+        } else if place == 1.0 {
+            ENDS[1]
+        } else {
+            PRIMITIVES.each_ref().map(|primitive| sum(primitive, place))
         };
-        let mut values = [*start; POINTS];
+        let width = Lanes::<S>::WIDTH;
+        let none = Lanes::splat(simd, 0.0);
+        let mut values = [[0.0; ROOM]; COLUMNS];
+        for (value, start) in values.iter_mut().zip(start) {
+            *value = [*start; ROOM];
+        }
         let mut constant = *start;
-        let mut slopes = [[0.0; COLUMNS]; POINTS];
+        let mut slopes = [[0.0; ROOM]; COLUMNS];
         for _ in 0..MOST_ITERATIONS {
-            for (i, (value, found)) in values.iter().zip(&mut slopes).enumerate() {
-                let [x, y, z, w, ..] = *value;
-                *found = slope(i, &Quaternion::new(w, x, y, z)).map(|slope| half * slope);
-            }
-            let offset = weighted(&at_place, &slopes);
-            constant = std::array::from_fn(|c| start[c] - offset[c]);
-            let mut change = 0.0_f64;
-            for (value, weights) in values.iter_mut().zip(at_nodes) {
-                let integral = weighted(weights, &slopes);
-                for c in 0..COLUMNS {
-                    let next = constant[c] + integral[c];
-                    if c < FRAME {
-                        change = change.max((next - value[c]).abs());
-                    }
-                    value[c] = next;
+            for first in (0..POINTS).step_by(width) {
+                let mut frame = [none; FRAME];
+                for (c, component) in frame.iter_mut().enumerate() {
+                    *component = Lanes::load(simd, &values[c][first..]);
+                }
+                let found = equations.at(first, QuaternionLanes(frame));
+                for (slope, found) in slopes.iter_mut().zip(found) {
+                    (found * none.all(half)).store(&mut slope[first..]);
                 }
             }
-            if change <= 4.0 * f64::EPSILON {
+            for c in 0..COLUMNS {
+                let mut offset = 0.0;
+                for k in 0..POINTS {
+                    offset += at_place[k] * slopes[c][k];
+                }
+                constant[c] = start[c] - offset;
+            }
+            let mut change = none;
+            for first in (0..POINTS).step_by(width) {
+                let next = combined(simd, at_nodes, &slopes, &constant, first);
+                for (c, next) in next.into_iter().enumerate() {
+                    if c < FRAME {
+                        change = change.largest(next - Lanes::load(simd, &values[c][first..]));
+                    }
+                    next.store(&mut values[c][first..]);
+                }
+            }
+            if change.values().iter().all(|change| *change <= 4.0 * f64::EPSILON) {
                 break;
             }
         }
-        let mut coefficients = [[0.0; COLUMNS]; POINTS];
-        for (primitive, slope) in nodes.iter().zip(&slopes) {
-            for (column, factor) in coefficients.iter_mut().zip(primitive) {
-                for c in 0..COLUMNS {
-                    column[c] += factor * slope[c];
-                }
+        let mut coefficients = [[0.0; ROOM]; COLUMNS];
+        for first in (0..POINTS).step_by(width) {
+            let found = combined(simd, nodes, &slopes, &[0.0; COLUMNS], first);
+            for (column, found) in coefficients.iter_mut().zip(found) {
+                found.store(&mut column[first..]);
             }
         }
-        for c in 0..COLUMNS {
-            coefficients[0][c] += constant[c];
+        for (column, constant) in coefficients.iter_mut().zip(constant) {
+            column[0] += constant;
         }
+        coefficients
+    }
+}
+
+/// A constant plus Σ slope × row over the points, in each column, at the places from `first` on.
+#[inline(always)]
+fn combined<S: InstructionSet>(
+    simd: S,
+    rows: &[Row; POINTS],
+    slopes: &[Row; COLUMNS],
+    constant: &Column,
+    first: usize,
+) -> [Lanes<S>; COLUMNS] {
+    let mut sums = Lanes::splats(simd, *constant);
+    for (k, row) in rows.iter().enumerate() {
+        let weight = Lanes::load(simd, &row[first..]);
+        for (sum, slope) in sums.iter_mut().zip(slopes) {
+            *sum = weight.mul_add(weight.all(slope[k]), *sum);
+        }
+    }
+    sums
+}
+
+impl Polynomial {
+    /// The solution that passes through a column at a place of the interval, from −1 to 1. `half` is half the length of the interval.
+    pub(super) fn solved(half: f64, (place, start): (f64, &Column), equations: &impl Slopes) -> Self {
+        let columns = dispatch(pulp::Arch::new(), Solve { half, place, start, equations });
+        let coefficients = std::array::from_fn(|k| columns.each_ref().map(|column| column[k]));
         Self { coefficients, terms: POINTS }.trimmed()
     }
 

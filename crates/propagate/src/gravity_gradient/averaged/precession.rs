@@ -8,7 +8,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::AveragedOrbit;
 use super::arcs::{Arcs, Averaged, Stretch};
-use super::polynomial::{Column, Polynomial};
+use super::polynomial::{Column, PointByPoint, Polynomial};
 use crate::gravity_gradient::second_order::over_orbit::OrbitAverage;
 use crate::numerics::phase::Phase;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
@@ -75,7 +75,7 @@ impl Averaged for Equations {
             let [anomaly, longitude] = slopes.phases.map(|rate| rate * self.unit);
             [change.i, change.j, change.k, change.w, anomaly, longitude]
         };
-        let solution = Polynomial::solved(sign * 0.5 * self.length, (-1.0, start), slope);
+        let solution = Polynomial::solved(sign * 0.5 * self.length, (-1.0, start), &PointByPoint(slope));
         Stretch { from, length: self.length, solution }
     }
 }

@@ -14,6 +14,8 @@ use nalgebra::Vector3;
 
 use super::modes::Mode;
 use crate::gravity_gradient::inertia::Inertia;
+use crate::simd::instruction_set::InstructionSet;
+use crate::simd::lanes::Lanes;
 
 /// P0, P1, P2, Q0, Q1, times their factors before the geometry.
 type Coefficients = [f64; 5];
@@ -39,6 +41,21 @@ pub(crate) struct Disturber {
     pub(crate) cube: f64,
     /// Rate of its true anomaly.
     pub(crate) rate: f64,
+}
+
+/// The same for several places on one orbit.
+#[derive(Clone, Copy)]
+pub(crate) struct DisturberLanes<S: InstructionSet> {
+    pub(crate) direction: [Lanes<S>; 3],
+    pub(crate) normal: Vector3<f64>,
+    pub(crate) cube: Lanes<S>,
+    pub(crate) rate: Lanes<S>,
+}
+
+/// The product of two vectors.
+#[inline(always)]
+pub(crate) fn dot<S: InstructionSet>(one: &[Lanes<S>; 3], other: &[Lanes<S>; 3]) -> Lanes<S> {
+    one[0].mul_add(other[0], one[1].mul_add(other[1], one[2] * other[2]))
 }
 
 /// Time derivatives of the mean motion.
@@ -76,24 +93,56 @@ impl Hamiltonian {
         Self { first: [0.0; 3], ..self }
     }
 
+    /// The derivatives of the mean variables for angular momenta along unit vectors: the rotation across them, and what is added to dℓ′/dt and dy′/dt.
+    #[inline(always)]
+    pub(crate) fn slopes_at<S: InstructionSet>(
+        &self,
+        axis: &[Lanes<S>; 3],
+        disturber: &DisturberLanes<S>,
+    ) -> ([Lanes<S>; 3], [Lanes<S>; 2]) {
+        let DisturberLanes { direction, normal, cube, rate } = disturber;
+        let all = |value: f64| cube.all(value);
+        let mut level = [*cube; 3];
+        for (component, normal) in level.iter_mut().zip(normal) {
+            *component = all(*normal);
+        }
+        let (along, across) = (dot(axis, direction), dot(axis, &level));
+        let square = along * along;
+        let still = *cube * *cube;
+        let moving = still * *rate;
+        let mut phases = [*cube; 2];
+        for (phase, row) in phases.iter_mut().zip([1, 2]) {
+            let [p0, p1, p2, q0, q1] = self.second[row];
+            let of_still = square.mul_add(square.mul_add(all(p2), all(p1)), all(p0));
+            let of_moving = across * square.mul_add(all(q1), all(q0));
+            let first = *cube * all(self.first[row]) * (square - all(1.0 / 3.0));
+            *phase = still.mul_add(of_still, moving.mul_add(of_moving, first));
+        }
+        let [_, p1, p2, q0, q1] = self.second[0];
+        let of_body = still.mul_add(square.mul_add(all(4.0 * p2), all(2.0 * p1)), *cube * all(2.0 * self.first[0]));
+        let to_body = along * (moving * across).mul_add(all(2.0 * q1), of_body);
+        let to_normal = moving * square.mul_add(all(q1), all(q0));
+        let mut force = *direction;
+        for (component, normal) in force.iter_mut().zip(level) {
+            *component = component.mul_add(to_body, normal * to_normal);
+        }
+        let beside = dot(axis, &force);
+        let mut turning = force;
+        for (component, axis) in turning.iter_mut().zip(axis) {
+            *component = axis.negate_mul_add(beside, *component) * all(1.0 / self.momentum);
+        }
+        (turning, phases)
+    }
+
     /// The derivatives of the mean variables for an angular momentum along a unit vector.
     pub(crate) fn slopes(&self, axis: &Vector3<f64>, disturber: &Disturber) -> Slopes {
+        let one = |value: f64| Lanes::splat(pulp::Scalar, value);
+        let vector = |vector: &Vector3<f64>| [one(vector.x), one(vector.y), one(vector.z)];
         let Disturber { direction, normal, cube, rate } = disturber;
-        let (along, across) = (axis.dot(direction), axis.dot(normal));
-        let square = along * along;
-        let (still, moving) = (cube * cube, cube * cube * rate);
-        let part = |row: usize| {
-            let [p0, p1, p2, q0, q1] = self.second[row];
-            let second = still * (p0 + square * (p1 + square * p2)) + moving * across * (q0 + q1 * square);
-            self.first[row] * cube * (square - 1.0 / 3.0) + second
-        };
-        let [_, p1, p2, q0, q1] = self.second[0];
-        let to_body = 2.0 * self.first[0] * cube * along
-            + still * along * (2.0 * p1 + 4.0 * p2 * square)
-            + moving * across * 2.0 * q1 * along;
-        let to_normal = moving * (q0 + q1 * square);
-        let force = direction * to_body + normal * to_normal;
-        Slopes { turning: (force - axis * axis.dot(&force)) / self.momentum, phases: [part(1), part(2)] }
+        let disturber =
+            DisturberLanes { direction: vector(direction), normal: *normal, cube: one(*cube), rate: one(*rate) };
+        let (turning, phases) = self.slopes_at(&vector(axis), &disturber);
+        Slopes { turning: turning.map(|lanes| lanes.values()[0]).into(), phases: phases.map(|lanes| lanes.values()[0]) }
     }
 
     /// ⟨D⟩ and K2.
