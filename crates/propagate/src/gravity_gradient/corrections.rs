@@ -51,9 +51,12 @@ pub(crate) const REFINED_SHARE: f64 = 1e-4;
 /// Largest part of the tolerance that a dropped term may take, likewise. The second is so small that in scenes of weak torques the error stays near rounding;
 /// ten times as much makes a sample 3 % faster.
 const TOLERABLE: [f64; 2] = [0.01, 2e-5];
-/// Largest part of a dropped term that a dropped coefficient of the time derivatives may have.
+/// Largest part of a dropped term that a dropped coefficient of a time derivative may have.
 const SMALLEST_COEFFICIENT: f64 = 0.004;
 
+/// What follows the drift of second order by a harmonic near resonance, over this drift and the sum of all terms; at most it is as large. Without it the largest
+/// ratio of error to bound in 250,000 climbed scenes was 1.43, where the sum is 0.014.
+const BEYOND_DRIFT: f64 = 70.0;
 /// The margins of the error bound cover pairs of terms that are slower than the terms by the reciprocal of this.
 const PAIR_SHARE: f64 = 1.0 / 6.0;
 
@@ -221,7 +224,6 @@ impl Corrections {
         let growth = |multiple: i32| 1.0 + further * (response.growth(multiple, duration) - 1.0);
         let tolerable = TOLERABLE[usize::from(demand.refined)] * demand.tolerance / growth(1);
         let nothing = tolerable.max(demand.share * whole * whole);
-        let fixed_orbit = demand.rates == [0.0; 2];
         let selection = Selection {
             commensurability: Commensurability {
                 response: &response,
@@ -233,7 +235,7 @@ impl Corrections {
                 duration,
                 exact: series.is_some(),
             },
-            sizes: if fixed_orbit { envelope.span.to_vec() } else { envelope.orbital.norms.clone() },
+            sizes: if demand.rates == [0.0; 2] { envelope.span.to_vec() } else { envelope.orbital.norms.clone() },
             most: if level == Level::Paper { 1 } else { ORDERS },
             nothing,
             enough: nothing.max(0.01 * demand.tolerance),
@@ -244,7 +246,8 @@ impl Corrections {
         let choices: Vec<_> = terms.all.iter().map(|term| selection.choice(term)).collect();
         let effects = terms.all.iter().zip(&choices).map(|(term, choice)| (selection.effect(term, choice), term));
         let mut dropped = selection.commensurability.left(effects, allowed)?;
-        let resonant = dropped;
+        let drifts: f64 = choices.iter().map(Choice::drift).sum();
+        let resonant = dropped + (BEYOND_DRIFT * whole).min(1.0) * drifts;
         let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
         let omitted = omitted.iter().map(|term| selection.commensurability.whole(term)).sum();
         let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);

@@ -352,7 +352,7 @@ impl<S: InstructionSet> Derivatives<S> {
     ) {
         let none = self.by_momentum.all(0.0);
         let mut sums = [none; SUMS];
-        let (main, other) = if j % 2 == 0 { (1, 0) } else { (0, 1) };
+        let (main, other) = (1 - j % 2, j % 2);
         for harmonic in harmonics {
             if let Some(factors) = harmonic.factors.get(j) {
                 let turn = turns[harmonic.degree];
@@ -367,7 +367,7 @@ impl<S: InstructionSet> Derivatives<S> {
         let [value, first, second] = axial_contractions(tensor);
         self.by_momentum = slope.mul_add(value, self.by_momentum);
         self.by_p[0] = sum.mul_add(value, self.by_p[0]);
-        let difference = if j % 2 == 0 { -difference } else { difference };
+        let difference = if main == 1 { -difference } else { difference };
         self.by_p[1] = difference.mul_add(value, self.by_p[1]);
         self.by_rotation[0] = whole.mul_add(first, self.by_rotation[0]);
         self.by_rotation[1] = whole.mul_add(second, self.by_rotation[1]);

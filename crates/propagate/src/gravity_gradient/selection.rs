@@ -10,8 +10,8 @@ const LARGEST: f64 = 0.01;
 
 /// The share of all terms that adds to the drift of second order by a harmonic near resonance.
 const OTHERS: f64 = 0.1;
-/// The safety factor of this drift in the error bound.
-const MARGIN: f64 = 4.0;
+/// The safety factor of this drift.
+const MARGIN: f64 = 2.0;
 
 /// What decides it.
 pub(super) struct Selection<'a> {
@@ -50,6 +50,16 @@ pub(super) struct Exact {
     pub(super) size: f64,
     /// What the harmonic nearest to resonance does to the attitude over the span, corrected or not \[rad\].
     pub(super) effect: f64,
+}
+
+impl Choice {
+    /// The drift of second order by a harmonic near resonance that is corrected.
+    pub(super) fn drift(&self) -> f64 {
+        match self {
+            Self::Exact(Exact { left_out: None, effect, .. }) => *effect,
+            _ => 0.0,
+        }
+    }
 }
 
 impl Selection<'_> {
