@@ -222,7 +222,7 @@ mod tests {
 
     #[test]
     fn true_anomaly_is_that_of_the_geometry() {
-        for e in [0.0, 0.3, 0.97] {
+        for e in [0.0, SMALL, SMALL + 1e-9, 0.5, SHORT, SHORT + 1e-9, 0.97] {
             for k in -50..=50 {
                 let mean = PI * f64::from(k) / 50.0;
                 let place = Place::of(one(mean), e);

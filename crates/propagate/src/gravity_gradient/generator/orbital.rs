@@ -226,3 +226,34 @@ impl Orbital {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::lanes::Lanes;
+
+    #[test]
+    fn a_cut_derivative_lacks_no_more_than_it_says() {
+        let orbital = Orbital::new(0.3, 1e-2);
+        let bounds: [f64; ORDERS] = std::array::from_fn(|j| 0.05 * 1e-2_f64.powi(j as i32));
+        let (cut, lost) = orbital.cut(&bounds);
+        let row = |orbital: &Orbital, j: usize| orbital.rows[j].end - orbital.rows[j].start;
+        assert!((0..ORDERS).all(|j| row(&cut, j) <= row(&orbital, j)) && row(&cut, 0) < row(&orbital, 0));
+        for k in 0..=24 {
+            let place = Place::of(Lanes::splat(pulp::Scalar, 0.25 * f64::from(k) - 3.0), 0.3);
+            let none = [[Lanes::splat(pulp::Scalar, 0.0); 2]; WIDTH + 1];
+            let (mut whole_circle, mut cut_circle) = (none, none);
+            orbital.fill(&mut whole_circle, &place);
+            cut.fill(&mut cut_circle, &place);
+            for j in 0..ORDERS {
+                let [whole, cut] = [orbital.derivative(j, &whole_circle), cut.derivative(j, &cut_circle)];
+                for (whole, cut) in whole.iter().zip(cut) {
+                    let gap = (whole.values()[0] - cut.values()[0]).abs();
+                    assert!(gap <= lost[j] * (1.0 + 1e-12) + 1e-14 * orbital.norms[j], "{j}: {gap:e} of {:e}", lost[j]);
+                }
+            }
+        }
+        let (nothing, lost) = orbital.cut(&[f64::INFINITY; 2]);
+        assert!(nothing.orders() == 2 && nothing.coefficients.is_empty() && lost.iter().all(|lost| *lost > 0.0));
+    }
+}
