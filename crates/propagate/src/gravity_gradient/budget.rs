@@ -107,9 +107,9 @@ impl Budget {
         };
         let (spin, dropped) = match subject.further {
             Some(Further { left, cut, acting, apart }) => {
-                let bounded = response.bounded(size, corrections.size);
+                let bounded = response.bounded(size, corrections.size, corrections.pair_gain.max(1.0));
                 let growing = response.growing(sizes, p, duration, [acting, cut]);
-                let third = bounded * corrections.pair_gain.max(1.0) + growing;
+                let third = bounded + growing;
                 let left = response.of_actions(left, duration);
                 let slow = SLOW_MARGIN
                     * corrections.slow

@@ -66,11 +66,12 @@ impl Response {
         size * slope * (1.0 + self.by_momentum * duration) + self.by_sigma * sigma * duration
     }
 
-    /// What an averaged motion of second order leaves of that and does not grow, for first-order changes of this size whose terms sum to `all`.
-    pub(super) fn bounded(&self, size: f64, all: f64) -> f64 {
+    /// What an averaged motion of second order leaves of that and does not grow, for first-order changes of this size whose terms sum to `all`. Pairs of terms are
+    /// slower than the terms by `gain`.
+    pub(super) fn bounded(&self, size: f64, all: f64, gain: f64) -> f64 {
         // Near the separatrix the functions of σ are steep.
         let steep = 2.0 * self.sigma.sqrt() / (self.gain * self.distance);
-        (size * size.max(SLOPE_SHARE * all)).max(SMALLEST_SHARE * all * all * (1.0 + steep * steep))
+        (size * size.max(SLOPE_SHARE * all) * gain).max(SMALLEST_SHARE * all * all * (1.0 + steep * steep))
     }
 
     /// What an averaged motion of second order leaves and grows: the drift of third order. `parts` are the shares of the span in which it acts, and of the drifts
