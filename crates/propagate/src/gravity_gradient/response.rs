@@ -4,6 +4,8 @@ use super::inertia::{HIGHEST, Inertia};
 
 /// Where the terms of the change cancel, those of second order need not: they are this share of the square of the sum.
 const SMALLEST_SHARE: f64 = 0.048;
+/// Largest steepness of the functions of σ next to the separatrix; the steepest of a scene that needs it was 2.2.
+const STEEPEST: f64 = 2.2;
 /// The derivatives of the change in second order, as a fraction of the sum of its terms.
 const SLOPE_SHARE: f64 = 0.25;
 
@@ -70,7 +72,7 @@ impl Response {
     /// slower than the terms by `gain`.
     pub(super) fn bounded(&self, size: f64, all: f64, gain: f64) -> f64 {
         // Near the separatrix the functions of σ are steep.
-        let steep = 2.0 * self.sigma.sqrt() / (self.gain * self.distance);
+        let steep = (2.0 * self.sigma.sqrt() / (self.gain * self.distance)).min(STEEPEST);
         (size * size.max(SLOPE_SHARE * all) * gain).max(SMALLEST_SHARE * all * all * (1.0 + steep * steep))
     }
 
