@@ -1,8 +1,8 @@
 //! The parts of the error bound of a motion under a gravity gradient.
 //!
-//! The largest first-order change ε is sampled over ℓ′, y′, the position of the disturbing body within the span, and the precession. What is bounded in second
-//! order is ε times the derivatives of the change, which have the size of the sum of all terms. What grows in third order is that times the rates, the time,
-//! and again the derivatives. A motion of first order is as far from that of second order as the drifts of second order lead within the span
+//! What is bounded in second order is computed from the pairs of terms ([`super::second_order::short_period`]). For what grows in third order the largest
+//! first-order change ε is sampled over ℓ′, y′, the position of the disturbing body within the span, and the precession: it is ε times the derivatives of the
+//! change, which have the size of the sum of all terms, times the rates, the time, and again the derivatives. A motion of first order is as far from that of second order as the drifts of second order lead within the span
 //! ([`super::second_order::drift`]). At the levels of the paper the drift of second order is estimated as what is bounded times rates and time. Further parts
 //! are what the mean M and L lack, the dropped terms, the truncation of the sums for G, the terms that the level omits, the average over the orbit, and
 //! rounding.
@@ -29,8 +29,11 @@ const SAMPLES: usize = 48;
 /// Safety factor of the second-order error. The largest change may exceed the largest sample, and enters squared; second order has a factor too. With this
 /// margin the worst case found by hill climbing (docs/gravity-gradient.md) is below its bound.
 const MARGIN: f64 = 2.0;
-/// The safety factor of what an averaged motion of second order leaves.
-const THIRD_MARGIN: f64 = 6.0;
+/// The safety factor of the short-period change of second order: the constants that make the motion start at the state may double it, and the distance from the
+/// state grows by its own second order.
+const SHORT_PERIOD_MARGIN: f64 = 3.0;
+/// The safety factor of the drift of third order.
+const THIRD_MARGIN: f64 = 2.0;
 /// The same for the drift of second order by terms that are too slow for the averaged Hamiltonian of second order.
 const SLOW_MARGIN: f64 = 1.0;
 /// The same for the distance between the motions of first and of second order.
@@ -77,6 +80,8 @@ pub(super) struct Subject<'a> {
 /// What the second order in the torque says of the error of a motion whose mean M and L are those of all terms.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Further {
+    /// The short-period change of second order \[rad\].
+    pub(super) short_period: f64,
     /// What the mean M and L lack, over M.
     pub(super) left: [f64; 2],
     /// The part of the drifts of second order that K2 lacks over the span.
@@ -106,16 +111,16 @@ impl Budget {
             square * (1.0 + orbital)
         };
         let (spin, dropped) = match subject.further {
-            Some(Further { left, cut, acting, apart }) => {
-                let bounded = response.bounded(size, corrections.size, corrections.pair_gain.max(1.0));
+            Some(Further { short_period, left, cut, acting, apart }) => {
                 let growing = response.growing(sizes, p, duration, [acting, cut]);
-                let third = bounded + growing;
                 let left = response.of_actions(left, duration);
                 let slow = SLOW_MARGIN
                     * corrections.slow
                     * (slope + corrections.slow)
                     * (1.0 + response.by_momentum * duration);
-                (THIRD_MARGIN * third + slow + left + FIRST_MARGIN * apart, corrections.at_once + corrections.resonant)
+                let bounded = SHORT_PERIOD_MARGIN * short_period;
+                let spin = bounded + THIRD_MARGIN * growing + slow + left + FIRST_MARGIN * apart;
+                (spin, corrections.at_once + corrections.resonant)
             }
             None => {
                 let second = response.second_order(sizes, p, duration);

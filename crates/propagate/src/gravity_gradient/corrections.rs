@@ -57,8 +57,6 @@ const SMALLEST_COEFFICIENT: f64 = 0.004;
 /// What follows the drift of second order by a harmonic near resonance, over this drift and the sum of all terms; at most it is as large. Without it the largest
 /// ratio of error to bound in 250,000 climbed scenes was 1.43, where the sum is 0.014.
 const BEYOND_DRIFT: f64 = 70.0;
-/// The margins of the error bound cover pairs of terms that are slower than the terms by the reciprocal of this.
-const PAIR_SHARE: f64 = 1.0 / 6.0;
 
 /// The mean variables at one time.
 #[derive(Clone, Copy, Debug)]
@@ -138,8 +136,6 @@ pub(crate) struct Corrections {
     pub(crate) dropped: f64,
     /// Effect of the resonances over the span \[rad\].
     pub(crate) resonant: f64,
-    /// Second order has terms of the frequencies of pairs of terms. This is how much slower than the terms they are, over what the margins cover.
-    pub(crate) pair_gain: f64,
     /// Sum of the sizes of the corrected terms that are too slow for the sums \[rad\]: second order does not have them.
     pub(crate) slow: f64,
     /// Dropped terms, and truncation of the sums for G on both ends \[rad\]: what they do to the mean M and L at the epoch is not in it.
@@ -256,8 +252,6 @@ impl Corrections {
         let mut amplitudes = [0.0; ORDERS];
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
         let mut exact = Vec::new();
-        let regular = terms.all.iter().filter(|term| !selection.commensurability.is_slow(term));
-        let terms_rate: f64 = regular.map(|term| term.rate).sum();
         let mut slow = 0.0;
         for (candidate, choice) in terms.all.iter().zip(&choices) {
             // The tilt of the angular momentum by a dropped term changes its precession, for m = 0 too.
@@ -310,21 +304,7 @@ impl Corrections {
             root: inertia.sigma.sqrt(),
             momentum: inertia.momentum,
         };
-        let pair_gain = PAIR_SHARE * terms_rate / size / slowest_pair(inertia).max(SMALLEST_RATIO * fastest);
-        Ok(Self {
-            generator,
-            resonant,
-            slow,
-            pair_gain,
-            at_once,
-            dropped,
-            omitted,
-            axial_omitted,
-            rest,
-            size,
-            count,
-            neglected,
-        })
+        Ok(Self { generator, resonant, slow, at_once, dropped, omitted, axial_omitted, rest, size, count, neglected })
     }
 
     /// The changes from mean to osculating variables, for |p| = √σ and the axes of the orbit at the epoch.
@@ -384,13 +364,6 @@ fn candidates(
         }
     }
     candidates
-}
-
-/// The least frequency of a pair of large terms.
-fn slowest_pair(inertia: &Inertia) -> f64 {
-    let pairs = (0..=4_i32).flat_map(|m| (-4..=4_i32).map(move |h| (h, m)));
-    let pairs = pairs.filter(|(h, m)| (h + m) % 2 == 0 && (*h != 0 || *m != 0));
-    pairs.map(|(h, m)| frequency(inertia, h, m).abs()).fold(f64::INFINITY, f64::min)
 }
 
 /// Ω of a term.

@@ -63,8 +63,10 @@ impl<'a> Outset<'a> {
         let momentum = polhode.invariants.momentum.to_f64();
         let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
         let first = first_order(polhode, &state, &paths.starts, &demands)?;
-        let refinements =
-            request.is_refined().then(|| Refinements::new(polhode, &first, &state, &paths.starts[0], &demands[0]));
+        let refinements = request.is_refined().then(|| {
+            let course = (&paths.starts[0], &paths.reaches[0]);
+            Refinements::new(polhode, &first, &state, course, &demands[0])
+        });
         Ok(Self { polhode, attitude, request: *request, paths, demands, first, refinements })
     }
 
@@ -98,7 +100,7 @@ fn error_bound(
 ) -> Result<(bool, f64), Error> {
     let MeanMotion { mean, inertia, corrections, .. } = motion;
     let response = Response::new(inertia);
-    let further = refinement.map(|Refinement { left, apart, hamiltonian }| {
+    let further = refinement.map(|Refinement { left, apart, hamiltonian, short_period }| {
         let drift = Drift {
             hamiltonian: &hamiltonian.without_first(),
             demand: &demands[0],
@@ -110,7 +112,7 @@ fn error_bound(
         let apart = if request.level == Level::SecondOrder { 0.0 } else { drift.largest() };
         let envelope = &paths.envelopes[0];
         let cut = second_order::cut(inertia, &demands[0]) * envelope.share.truncation;
-        Further { left, cut, acting: envelope.share.third, apart }
+        Further { short_period, left, cut, acting: envelope.share.third, apart }
     });
     let subject = |i: usize| Subject {
         mean,

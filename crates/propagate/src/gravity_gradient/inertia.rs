@@ -23,8 +23,8 @@ type C64 = Complex<f64>;
 const SAMPLES: [usize; 2] = [64, 128];
 /// Highest harmonic. At σ/σ_sep = 0.9 the higher harmonics are 1e-14 of the tensor.
 pub(crate) const HIGHEST: usize = 32;
-/// Below this nome, half as many harmonics and samples have the same accuracy.
-const SMALL_NOME: f64 = 0.12;
+/// Below this nome, half as many harmonics and samples have the same accuracy: harmonic h falls like h q^(h/2), and its derivative like h² q^(h/2).
+const SMALL_NOME: f64 = 0.012;
 /// Number of harmonics from −[`HIGHEST`] to [`HIGHEST`].
 const COUNT: usize = 2 * HIGHEST + 1;
 /// Whether T33, t1, t2 have the odd harmonics.

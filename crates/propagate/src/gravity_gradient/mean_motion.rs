@@ -2,9 +2,12 @@
 
 use super::corrections::{Change, Corrections, Demand, Mean, Terms};
 use super::course::When;
+use super::envelope::Reach;
 use super::inertia::Inertia;
+use super::response::Response;
 use super::second_order::epoch::{self, Refined};
 use super::second_order::hamiltonian::Hamiltonian;
+use super::second_order::short_period;
 use crate::error::Error;
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
@@ -37,6 +40,8 @@ pub(super) struct Refinement {
     pub(super) apart: [f64; 2],
     /// K2.
     pub(super) hamiltonian: Hamiltonian,
+    /// The short-period change of second order, which no motion has \[rad\].
+    pub(super) short_period: f64,
 }
 
 /// The corrections for each body at a mean motion.
@@ -51,21 +56,25 @@ pub(super) struct Refinements {
     both: [Refined; 2],
     /// Their difference: of M, over M, and of σ.
     apart: [f64; 2],
+    /// The short-period change of second order.
+    short_period: f64,
 }
 
 impl Refinements {
-    /// Those of the mean motion of first order.
+    /// Those of the mean motion of first order, with the disturbing body's place at the epoch and what the span has of its orbit.
     pub(super) fn new(
         polhode: &Polhode,
         first: &MeanMotion,
         state: &Mean,
-        start: &When<pulp::Scalar>,
+        (start, reach): (&When<pulp::Scalar>, &Reach),
         demand: &Demand<'_>,
     ) -> Self {
         let exact = &first.corrections[0].generator.exact;
         let mean = (&first.mean, &first.change, &exact[..]);
         let (both, apart) = epoch::refined(mean, state, &first.inertia, &start.place, (demand, polhode.moments));
-        Self { both, apart }
+        let body = (Response::new(&first.inertia).gain, polhode.moments.iter().sum());
+        let short_period = short_period::largest(&first.inertia, &first.mean, demand, body, &reach.nearest());
+        Self { both, apart, short_period }
     }
 
     /// The mean motion with the mean M and L of a level, and how far the rates of second order are from those of first.
@@ -85,7 +94,8 @@ impl Refinements {
         // The iteration leaves M and L its own threshold, which the rates multiply by the time.
         let left = left.map(|part| part + CONVERGED);
         let hamiltonian = epoch::hamiltonian(&inertia, demand, polhode.moments);
-        Ok((MeanMotion { mean, change, inertia, corrections }, Refinement { left, apart, hamiltonian }))
+        let refinement = Refinement { left, apart, hamiltonian, short_period: self.short_period };
+        Ok((MeanMotion { mean, change, inertia, corrections }, refinement))
     }
 }
 

@@ -2,13 +2,6 @@
 
 use super::inertia::{HIGHEST, Inertia};
 
-/// Where the terms of the change cancel, those of second order need not: they are this share of the square of the sum.
-const SMALLEST_SHARE: f64 = 0.048;
-/// Largest steepness of the functions of σ next to the separatrix; the steepest of a scene that needs it was 2.2.
-const STEEPEST: f64 = 2.2;
-/// The derivatives of the change in second order, as a fraction of the sum of its terms.
-const SLOPE_SHARE: f64 = 0.25;
-
 /// The factors of one mean motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Response {
@@ -66,14 +59,6 @@ impl Response {
         // The bracket of two changes of p, and the curvature of the functions of σ. The distance from the separatrix bounds the curvature.
         let sigma = of_sigma * (slope + p / self.distance.sqrt() + of_sigma / self.distance);
         size * slope * (1.0 + self.by_momentum * duration) + self.by_sigma * sigma * duration
-    }
-
-    /// What an averaged motion of second order leaves of that and does not grow, for first-order changes of this size whose terms sum to `all`. Pairs of terms are
-    /// slower than the terms by `gain`.
-    pub(super) fn bounded(&self, size: f64, all: f64, gain: f64) -> f64 {
-        // Near the separatrix the functions of σ are steep.
-        let steep = (2.0 * self.sigma.sqrt() / (self.gain * self.distance)).min(STEEPEST);
-        (size * size.max(SLOPE_SHARE * all) * gain).max(SMALLEST_SHARE * all * all * (1.0 + steep * steep))
     }
 
     /// What an averaged motion of second order leaves and grows: the drift of third order. `parts` are the shares of the span in which it acts, and of the drifts

@@ -2,7 +2,8 @@
 //! pairs of terms.
 //!
 //! Both parts are needed together: the rates of ℓ′ and y′ turn an error of second order in the mean σ or M into a drift of the size of K2's.
-//! Short-period corrections stay those of first order, so that a bounded error of second order is left.
+//! Short-period corrections stay those of first order. The bounded change of second order that is left is computed for the error bound alone
+//! ([`short_period`]).
 
 use super::corrections::Demand;
 use super::inertia::Inertia;
@@ -12,9 +13,11 @@ pub(super) mod drift;
 pub(super) mod epoch;
 pub(crate) mod hamiltonian;
 pub(super) mod harmonics;
+mod jet;
 mod modes;
 pub(crate) mod over_orbit;
 mod pairs;
+pub(super) mod short_period;
 #[cfg(test)]
 mod tests;
 

@@ -6,6 +6,8 @@ use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
 
 /// Smallest √σ in the size of a term: forced wobble has no smaller one.
 pub(super) const SMALLEST_ROOT: f64 = 1e-9;
+/// The same for second derivatives of terms with |h| ≤ 2.
+const LEAST_ROOT_OF_SECOND: f64 = 0.2;
 
 /// A term f σ^(|h|/2) e^(i(hℓ′+my′)) of the disturbing function over q = 3φn²/2.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +33,13 @@ impl Mode {
         Self { harmonic, multiple, function, frequency: rates.map(combined) }
     }
 
+    /// ⟨D⟩, for a sum of the moments of inertia.
+    pub(super) fn average(inertia: &Inertia, trace: f64) -> Self {
+        let mut average = Self::new(inertia, 0, 0);
+        average.function[0] -= 0.5 * trace;
+        average
+    }
+
     /// Relative size of the change of the mean variables by the term.
     pub(super) fn size(&self, root: f64) -> f64 {
         let degree = self.harmonic.abs();
@@ -47,10 +56,22 @@ pub(super) fn slowest(demand: &Demand<'_>) -> f64 {
 /// The modes with m > 0, and those with m = 0 and h > 0, that are larger than `share` of the largest and faster than `slowest`, a frequency.
 pub(super) fn modes(inertia: &Inertia, share: f64, slowest: f64) -> Vec<Mode> {
     let root = inertia.sigma.sqrt().max(SMALLEST_ROOT);
+    selected(inertia, share, slowest, |mode| mode.size(root))
+}
+
+/// The same for second derivatives with respect to p, in which |h| ≤ 2 counts at p = 0 too.
+pub(super) fn large_modes(inertia: &Inertia, share: f64, slowest: f64) -> Vec<Mode> {
+    let root = inertia.sigma.sqrt().max(SMALLEST_ROOT);
+    selected(inertia, share, slowest, |mode| {
+        mode.size(if mode.harmonic.abs() <= 2 { root.max(LEAST_ROOT_OF_SECOND) } else { root })
+    })
+}
+
+fn selected(inertia: &Inertia, share: f64, slowest: f64, size: impl Fn(&Mode) -> f64) -> Vec<Mode> {
     let mut modes = all(inertia);
-    modes.retain(|mode| mode.frequency[0].abs() * inertia.momentum > slowest && mode.size(root) > 0.0);
-    let largest = modes.iter().fold(0.0_f64, |most, mode| most.max(mode.size(root)));
-    modes.retain(|mode| mode.size(root) >= share * largest);
+    modes.retain(|mode| mode.frequency[0].abs() * inertia.momentum > slowest && size(mode) > 0.0);
+    let largest = modes.iter().fold(0.0_f64, |most, mode| most.max(size(mode)));
+    modes.retain(|mode| size(mode) >= share * largest);
     modes
 }
 

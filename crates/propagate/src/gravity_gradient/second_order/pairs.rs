@@ -50,6 +50,8 @@ pub(super) struct Stand<'a> {
 
 /// Safety factor of slow pairs. S is taken at the epoch, and elsewhere on the orbit the directions to the disturbing body may make it larger.
 const SOURCE_MARGIN: f64 = 3.0;
+/// What χ lacks of a pair is at most this many times its first term.
+const MOST_LEFT: f64 = 1.5;
 /// Pairs whose sizes, over the largest, have a smaller product are left out.
 const SMALLEST_PRODUCT: f64 = 1e-6;
 
@@ -133,13 +135,15 @@ impl Actions {
         let omega = a.frequency[0] + b.frequency[0];
         if (h, m) != (0.0, 0.0) {
             let source = stand.bracket(a, &torque[0], b, &wave[0]);
-            let left = 0.5 * factor * source.norm() * stand.left(omega);
+            let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
+            // S may be near 0 at the epoch, but not with its time derivative.
+            let swing = if stand.bend > 0.0 { change.norm() / (2.0 * stand.bend.sqrt()) } else { 0.0 };
+            let left = 0.5 * factor * source.norm().hypot(swing) * stand.left(omega);
             self.left = [self.left[0] + left * m.abs(), self.left[1] + left * h.abs()];
             if omega.abs() <= stand.slowest {
                 return self.sum(factor, both, chi, (a, b, [h, m]));
             }
             let inverse = (i * omega).inv();
-            let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
             chi = (source - change * inverse) * inverse * 0.5 * -i;
         }
         self.sum(factor, both, chi, (a, b, [h, m]));
@@ -156,11 +160,13 @@ impl Actions {
 }
 
 impl Stand<'_> {
-    /// What χ lacks of a pair of frequency Ω, over S: the next term of its sum, or all of it if the pair is too slow.
+    /// What χ lacks of a pair of frequency Ω, over S: the terms of its sum from the third on, or all of it if the pair is too slow.
     fn left(&self, omega: f64) -> f64 {
         if omega.abs() > self.slowest {
             // A product of two has twice the orbit's rates.
-            return (4.0 * self.bend / (omega * omega)).min(1.0) / omega.abs();
+            let ratio = 2.0 * self.bend.sqrt() / omega.abs();
+            let rest = if ratio < 1.0 { ratio * ratio / (1.0 - ratio) } else { MOST_LEFT };
+            return rest.min(MOST_LEFT) / omega.abs();
         }
         let distance = (omega - self.mean_motion * (omega / self.mean_motion).round()).abs();
         let time = if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration };
@@ -210,8 +216,7 @@ impl Row {
 
     /// ⟨D⟩, twice: it is no part of D̃, and S has not the half of it.
     fn average(stand: &Stand<'_>) -> Self {
-        let (axial, slope) = stand.inertia.mean_axial();
-        let function = [1.5 * (axial - stand.trace / 3.0), 1.5 * slope, 0.0];
+        let function = Mode::average(stand.inertia, stand.trace).function;
         let part = |tensor: &Tensor| Part { value: contraction(tensor, 0), slope: C64::default() };
         Self {
             harmonic: 0.0,
