@@ -14,7 +14,7 @@ use crate::motion::solved::{Frequencies, Given, Motion};
 use crate::motion::trajectory::Trajectory;
 use crate::numerics::scaling::{exponent, half, scaled, user_rate};
 use crate::simd::halt::GOING;
-use crate::torque_free::error_budget::{ROUNDING, duration, phase_rounding};
+use crate::torque_free::error_budget::{ROUNDING, phase_rounding, sides};
 use crate::torque_free::frequencies::Secular;
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::{Polhode, UserFrame};
@@ -289,7 +289,7 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbits: &[Orbit]) -> R
         level: scene.asked_level(),
         tolerance: scene.asked_tolerance(),
         epoch: scene.state().epoch,
-        duration: scaled(duration(&scene, rotation, exponent), -exponent),
+        sides: sides(&scene, rotation, exponent).map(|time| scaled(time, -exponent)),
         spanned: scene.asked_span().is_some(),
     };
     let (gradient, unused) = chosen(polhode, scene.state().attitude, osculating, &request)?;
@@ -314,7 +314,7 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbits: &[Orbit]) -> R
         scene,
     };
     let fastest = orbits.iter().map(Orbit::mean_motion).fold(0.0, f64::max);
-    let turns = request.duration * fastest / std::f64::consts::TAU;
+    let turns = request.duration() * fastest / std::f64::consts::TAU;
     if !matches!(request.level, Level::Paper | Level::Moving) && turns < 1.0 && error > WORTH.max(request.tolerance) {
         let effect = effect(&motion)?;
         if error > effect {

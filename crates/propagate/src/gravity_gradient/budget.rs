@@ -13,6 +13,7 @@ use nalgebra::UnitQuaternion;
 
 use super::averaged::{AveragedOrbit, MOST_QUARTERS};
 use super::corrections::{Corrections, Mean};
+use super::envelope::Reach;
 use super::inertia::Inertia;
 use super::request::Request;
 use super::response::Response;
@@ -69,8 +70,8 @@ pub(super) struct Subject<'a> {
     pub(super) corrections: &'a Corrections,
     pub(super) response: &'a Response,
     pub(super) ellipse: &'a AveragedOrbit,
-    /// Mean anomaly of the orbit at the epoch.
-    pub(super) anomaly: f64,
+    /// What the span has of the orbit.
+    pub(super) reach: &'a Reach,
     /// What the second order in the torque says; `None` at the levels of the paper.
     pub(super) further: Option<Further>,
     /// d⟨T33⟩/dσ times −3/4 of the mass fraction over M.
@@ -175,16 +176,14 @@ impl Subject<'_> {
         let sample = |k: usize| {
             let [first, second, third, fourth] = kronecker(k);
             let turn = UnitQuaternion::from_axis_angle(&self.ellipse.normal(), precession * (2.0 * fourth - 1.0));
-            Sample { angles: [first, second], orbital: self.place(k, third, orbital), turn }
+            Sample { angles: [first, second], orbital: self.place(k, third), turn }
         };
         self.largest_among(&(0..SAMPLES).map(sample).collect::<Vec<_>>())
     }
 
     /// A mean anomaly within the span. Of two samples, one is uniform in the mean anomaly and one in the true anomaly.
-    fn place(&self, k: usize, part: f64, orbital: f64) -> f64 {
-        let wrapped = |angle: f64| angle - TAU * (angle / TAU).round();
-        let reach = orbital.min(PI);
-        let uniform = wrapped(self.anomaly + reach * (2.0 * part - 1.0));
+    fn place(&self, k: usize, part: f64) -> f64 {
+        let uniform = self.reach.at(part);
         if k.is_multiple_of(2) {
             return uniform;
         }
@@ -192,7 +191,7 @@ impl Subject<'_> {
         let (sine, cosine) = (PI * (part - 0.5)).sin_cos();
         let eccentric = 2.0 * ((1.0 - e).sqrt() * sine).atan2((1.0 + e).sqrt() * cosine);
         let anomaly = eccentric - e * eccentric.sin();
-        if wrapped(anomaly - self.anomaly).abs() <= reach { anomaly } else { uniform }
+        if self.reach.contains(anomaly) { anomaly } else { uniform }
     }
 }
 

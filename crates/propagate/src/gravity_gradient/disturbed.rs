@@ -117,8 +117,8 @@ impl Gradient {
         };
         gradient.start_at(polhode, *attitude, mean.frame, slow);
         let bound = gradient.bound();
-        if request.spanned && request.duration > bound {
-            return Err(Error::SpanOfBodies { value: request.duration, bound });
+        if request.spanned && request.duration() > bound {
+            return Err(Error::SpanOfBodies { value: request.duration(), bound });
         }
         Ok(gradient)
     }

@@ -120,7 +120,7 @@ fn error_bound(
         corrections: &corrections[i],
         response: &response,
         ellipse: &averages.ellipses[i],
-        anomaly: paths.reaches[i].anomaly,
+        reach: &paths.reaches[i],
         drift: averages.slope * demands[i].orbit.disturbing_fraction(),
         further,
     };

@@ -43,17 +43,42 @@ pub(crate) struct Reach {
     pub(crate) eccentricity: f64,
     /// Mean anomaly at the epoch.
     pub(crate) anomaly: f64,
-    /// Mean anomaly from the epoch to the end of the span.
-    pub(crate) orbital: f64,
+    /// What it gains from the start of the span to the epoch, and from the epoch to the end.
+    pub(crate) sides: [f64; 2],
 }
 
 impl Reach {
+    /// The larger of both sides.
+    pub(crate) fn longest(&self) -> f64 {
+        let [before, after] = self.sides;
+        before.max(after)
+    }
+
+    /// Whether the span has every place of the orbit.
+    fn is_whole(&self) -> bool {
+        self.sides.iter().sum::<f64>() >= TAU
+    }
+
+    /// The mean anomaly, from −π to π, that divides the span, or at most one orbit of it, in these parts.
+    pub(crate) fn at(&self, part: f64) -> f64 {
+        let [before, after] = if self.is_whole() { [PI; 2] } else { self.sides };
+        wrapped(self.anomaly + part * after - (1.0 - part) * before)
+    }
+
+    /// Whether the span has a mean anomaly.
+    pub(crate) fn contains(&self, anomaly: f64) -> bool {
+        let [before, after] = self.sides;
+        let apart = wrapped(anomaly - self.anomaly);
+        [apart - TAU, apart, apart + TAU].iter().any(|apart| (-before..=after).contains(apart))
+    }
+
     /// Evenly spaced true anomalies within the span on both sides of the epoch.
     pub(crate) fn places(&self) -> Vec<f64> {
-        if self.orbital >= PI {
+        if self.is_whole() {
             return (0..POINTS).map(|k| TAU * k as f64 / POINTS as f64).collect();
         }
-        let [first, last] = [-self.orbital, self.orbital].map(|by| self.true_anomaly(self.anomaly + by));
+        let [before, after] = self.sides;
+        let [first, last] = [-before, after].map(|by| self.true_anomaly(self.anomaly + by));
         let middle = self.true_anomaly(self.anomaly);
         let first = if first > middle { first - TAU } else { first };
         let last = if last < middle { last + TAU } else { last };
@@ -65,7 +90,7 @@ impl Reach {
         let places = self.places();
         let near = |place: &usize| self.eccentricity * places[*place].cos();
         let nearest = (0..places.len()).max_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or_default();
-        let whole = self.orbital >= PI;
+        let whole = self.is_whole();
         let step = (NEAREST_STEP / (places[1] - places[0])).min(places.len() as f64 / 4.0).max(1.0) as usize;
         let mut chosen: Vec<_> = [-2, -1, 0, 1, 2]
             .iter()
@@ -84,7 +109,7 @@ impl Reach {
         // (a/r) over η^(−2), at a true anomaly.
         let near = |f: f64| 1.0 + self.eccentricity * f.cos();
         let places = self.places();
-        let whole = self.orbital >= PI;
+        let whole = self.is_whole();
         let nearest = if self.passes() { near(0.0) } else { places.iter().map(|&f| near(f)).fold(0.0, f64::max) };
         let mean = |power: i32| {
             let sum: f64 = if whole {
@@ -96,8 +121,8 @@ impl Reach {
             };
             // dl = η³/(1 + e cos f)² df.
             let eta_square = (1.0 - self.eccentricity) * (1.0 + self.eccentricity);
-            let passages = if whole { 1.0 + (self.orbital / TAU).floor() } else { 1.0 };
-            (sum / POINTS as f64 * eta_square.powf(1.5) * passages / self.orbital.max(f64::MIN_POSITIVE)).min(1.0)
+            let passages = if whole { 1.0 + (self.longest() / TAU).floor() } else { 1.0 };
+            (sum / POINTS as f64 * eta_square.powf(1.5) * passages / self.longest().max(f64::MIN_POSITIVE)).min(1.0)
         };
         let epoch = near(self.true_anomaly(self.anomaly)) / nearest;
         Share { third: (mean(9) + epoch.powi(9)).min(1.0), truncation: mean(10) }
@@ -105,16 +130,19 @@ impl Reach {
 
     /// Whether the span has the pericentre.
     pub(crate) fn passes(&self) -> bool {
-        let wrapped = self.anomaly - TAU * (self.anomaly / TAU).round();
-        wrapped.abs() <= self.orbital
+        self.contains(0.0)
     }
 
     pub(crate) fn true_anomaly(&self, mean: f64) -> f64 {
         let e = self.eccentricity;
-        let wrapped = mean - TAU * (mean / TAU).round();
-        let half = 0.5 * eccentric_anomaly(wrapped, e);
+        let half = 0.5 * eccentric_anomaly(wrapped(mean), e);
         2.0 * ((1.0 + e).sqrt() * half.sin()).atan2((1.0 - e).sqrt() * half.cos())
     }
+}
+
+/// An angle from −π to π.
+fn wrapped(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
 }
 
 impl Envelope {
@@ -127,10 +155,10 @@ impl Envelope {
                 std::array::from_fn(|j| most[j].max(sizes[j]))
             })
         };
-        let whole = Reach { orbital: TAU, ..*reach };
+        let whole = Reach { sides: [TAU; 2], ..*reach };
         // The other half is its mirror image.
         let most = largest(&whole.places()[..=POINTS / 2]);
-        let span = if reach.orbital >= PI { most } else { largest(&reach.places()) };
+        let span = if reach.is_whole() { most } else { largest(&reach.places()) };
         let epoch = at(reach.true_anomaly(reach.anomaly));
         let passes = reach.passes();
         let eta_square = (1.0 - eccentricity) * (1.0 + eccentricity);
@@ -173,7 +201,7 @@ pub(crate) fn harmonics(eccentricity: f64, number: f64) -> [f64; 3] {
 /// The sizes for a span of a whole orbit.
 #[cfg(test)]
 pub(crate) fn whole(eccentricity: f64, mean_motion: f64) -> Envelope {
-    Envelope::new(eccentricity, mean_motion, [0.0; 2], &Reach { eccentricity, anomaly: 0.0, orbital: TAU })
+    Envelope::new(eccentricity, mean_motion, [0.0; 2], &Reach { eccentricity, anomaly: 0.0, sides: [TAU; 2] })
 }
 
 #[cfg(test)]
@@ -201,7 +229,7 @@ mod tests {
     fn a_span_that_is_far_from_the_pericentre_has_little_of_its_strength() {
         let eccentricity = 0.9;
         let at = |anomaly: f64, orbital: f64| {
-            Envelope::new(eccentricity, 1e-3, [0.0; 2], &Reach { eccentricity, anomaly, orbital })
+            Envelope::new(eccentricity, 1e-3, [0.0; 2], &Reach { eccentricity, anomaly, sides: [orbital; 2] })
         };
         let far = at(3.0, 0.3);
         assert!(!far.passes && far.span[0] <= 1e-3 * far.most[0] && far.fastest <= 1e-2 * at(3.0, 4.0).fastest);
@@ -212,10 +240,23 @@ mod tests {
     }
 
     #[test]
+    fn a_span_after_the_pericentre_does_not_have_it() {
+        let reach = |anomaly: f64, sides: [f64; 2]| Reach { eccentricity: 0.6, anomaly, sides };
+        assert!(!reach(0.2, [0.0, 3.0]).passes() && reach(0.2, [0.3, 3.0]).passes() && reach(0.2, [0.0, 6.1]).passes());
+        assert!(!reach(-0.2, [5.0, 0.1]).passes() && reach(-0.2, [6.1, 0.1]).passes());
+        for part in [0.0, 0.3, 1.0] {
+            assert!(reach(0.2, [0.0, 3.0]).contains(reach(0.2, [0.0, 3.0 - 1e-9]).at(part) + 1e-12), "{part}");
+        }
+        let places = reach(0.2, [0.0, 6.0]).places();
+        let gained = places[POINTS] - places[0];
+        assert!(gained < TAU && gained > 5.0, "{gained}");
+    }
+
+    #[test]
     fn drifts_of_an_eccentric_orbit_act_near_the_pericentre_alone() {
         let eccentricity: f64 = 0.6;
         let share = |anomaly: f64, orbital: f64| {
-            Envelope::new(eccentricity, 1e-3, [0.0; 2], &Reach { eccentricity, anomaly, orbital }).share
+            Envelope::new(eccentricity, 1e-3, [0.0; 2], &Reach { eccentricity, anomaly, sides: [orbital; 2] }).share
         };
         // ⟨(a/r)⁹⟩ = η⁻¹⁵ (1 + 21e²/2 + 105e⁴/8 + 35e⁶/16).
         let square = eccentricity * eccentricity;
@@ -227,7 +268,8 @@ mod tests {
         assert!((found - (mean * 100.0 / 99.5 + at_apocentre)).abs() <= 1e-12, "{found:e} {mean:e}");
         // From the pericentre the mean variables are as far off as they can be. On a circle every place is alike.
         assert_eq!(share(0.0, 1e3).third, 1.0);
-        let circle = Envelope::new(0.0, 1e-3, [0.0; 2], &Reach { eccentricity: 0.0, anomaly: 1.0, orbital: 0.1 }).share;
+        let circle =
+            Envelope::new(0.0, 1e-3, [0.0; 2], &Reach { eccentricity: 0.0, anomaly: 1.0, sides: [0.1; 2] }).share;
         assert!(circle.third == 1.0 && circle.truncation >= 1.0 - 1e-12);
         // Half an orbit past the apocentre sees nothing of the pericentre, and is measured by its own nearest place.
         let far = share(PI, 0.5);

@@ -28,7 +28,7 @@ impl OrbitSeries {
     pub(crate) fn new(reach: &Reach) -> Option<Self> {
         let count = count(reach.eccentricity)?;
         let coefficients = || coefficients(reach.eccentricity, count);
-        (reach.orbital >= FEWEST_ORBITS * TAU).then(|| Self { coefficients: coefficients() })
+        (reach.longest() >= FEWEST_ORBITS * TAU).then(|| Self { coefficients: coefficients() })
     }
 }
 
@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn orbits_with_too_many_harmonics_and_spans_of_one_orbit_are_left_to_the_sums() {
         let serves = |eccentricity: f64, orbits: f64| {
-            OrbitSeries::new(&Reach { eccentricity, anomaly: 0.0, orbital: TAU * orbits }).is_some()
+            OrbitSeries::new(&Reach { eccentricity, anomaly: 0.0, sides: [TAU * orbits, 0.0] }).is_some()
         };
         assert!(serves(0.0, 3.0) && serves(0.8, 3.0) && !serves(0.82, 3.0) && !serves(0.3, 1.4));
     }

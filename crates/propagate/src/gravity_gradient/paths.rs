@@ -26,7 +26,7 @@ pub(super) struct Paths {
 
 impl Paths {
     pub(super) fn new(request: &Request<'_>, exponent: i32) -> Self {
-        let duration = scaled(request.duration, exponent);
+        let duration = scaled(request.duration(), exponent);
         let none = Lanes::splat(pulp::Scalar, 0.0);
         let mut paths =
             Self { courses: vec![], starts: vec![], reaches: vec![], envelopes: vec![], series: vec![], duration };
@@ -35,7 +35,8 @@ impl Paths {
             let start = course.at((none, none));
             let (mean_motion, eccentricity) = (scaled(orbit.mean_motion(), -exponent), orbit.eccentricity());
             let anomaly = start.place.angle.values()[0] - start.place.centre.values()[0];
-            let reach = Reach { eccentricity, anomaly, orbital: mean_motion * duration };
+            let sides = request.sides.map(|time| mean_motion * scaled(time, exponent));
+            let reach = Reach { eccentricity, anomaly, sides };
             let rates = orbit.rates().map(|rate| scaled(rate, -exponent));
             paths.envelopes.push(Envelope::new(eccentricity, mean_motion, rates, &reach));
             paths.series.push(if request.is_refined() { OrbitSeries::new(&reach) } else { None });

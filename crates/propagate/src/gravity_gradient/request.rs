@@ -12,13 +12,19 @@ pub(crate) struct Request<'a> {
     pub(crate) level: Level,
     pub(crate) tolerance: f64,
     pub(crate) epoch: f64,
-    /// Longest time from the epoch, in the user's unit.
-    pub(crate) duration: f64,
+    /// Longest times before and after the epoch, in the user's unit.
+    pub(crate) sides: [f64; 2],
     /// Whether the scene has a span.
     pub(crate) spanned: bool,
 }
 
 impl Request<'_> {
+    /// Longest time from the epoch, in the user's unit.
+    pub(crate) fn duration(&self) -> f64 {
+        let [before, after] = self.sides;
+        before.max(after)
+    }
+
     /// Whether there is one body, on an orbit that does not precess.
     pub(crate) fn is_fixed(&self) -> bool {
         matches!(self.orbits, [orbit] if orbit.is_fixed())

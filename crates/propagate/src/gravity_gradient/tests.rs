@@ -61,7 +61,7 @@ impl Case {
             level,
             tolerance: 1e-12,
             epoch: state.epoch,
-            duration: 1.0,
+            sides: [1.0; 2],
             spanned: true,
         };
         let (_, osculating) = crate::gravity_gradient::osculating::osculating(&polhode).expect("no separatrix");
@@ -127,7 +127,7 @@ impl Stand {
 
     /// The orbit's harmonics.
     fn series() -> OrbitSeries {
-        OrbitSeries::new(&Reach { eccentricity: 0.3, anomaly: 0.0, orbital: 100.0 }).expect("a series")
+        OrbitSeries::new(&Reach { eccentricity: 0.3, anomaly: 0.0, sides: [100.0; 2] }).expect("a series")
     }
 
     fn new(moments: [f64; 3], rates: [f64; 3]) -> Self {

@@ -77,9 +77,15 @@ pub(crate) fn phase_rounding(scene: &Scene, rate: DoubleDouble, exponent: i32) -
 
 /// The longest time from the epoch at which the tolerance must hold, in the scaled unit.
 pub(crate) fn duration(scene: &Scene, rate: DoubleDouble, exponent: i32) -> f64 {
+    let [before, after] = sides(scene, rate, exponent);
+    before.max(after)
+}
+
+/// The longest times before and after the epoch at which the tolerance must hold, in the scaled unit.
+pub(crate) fn sides(scene: &Scene, rate: DoubleDouble, exponent: i32) -> [f64; 2] {
     let epoch = scene.state().epoch;
     match scene.asked_span() {
-        Some((start, stop)) => scaled((start - epoch).abs().max((stop - epoch).abs()), exponent),
-        None => DEFAULT_ROTATIONS * TAU / rate.to_f64(),
+        Some((start, stop)) => [epoch - start, stop - epoch].map(|time| scaled(time.max(0.0), exponent)),
+        None => [DEFAULT_ROTATIONS * TAU / rate.to_f64(); 2],
     }
 }

@@ -65,7 +65,7 @@ impl Subject<'_> {
         let sample = |k: usize| {
             let [first, second, third, fourth] = kronecker(k);
             let fifth = (GOLDEN * (k as f64 + 0.5)).fract();
-            let orbital = self.place(k, third, demand.mean_motion * duration);
+            let orbital = self.place(k, third);
             // A turn of the orbit in its plane is one of the body about its normal.
             let turn = about(&self.ellipse.normal(), pericentre, (fifth + 0.5 * fourth).fract())
                 * about(&Vector3::z_axis(), node, fifth)

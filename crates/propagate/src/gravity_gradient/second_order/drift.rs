@@ -31,10 +31,16 @@ pub(crate) struct Drift<'a> {
 impl Drift<'_> {
     /// The largest difference of the attitude within the span \[rad\].
     pub(crate) fn largest(&self) -> f64 {
-        let (duration, period) = (self.demand.duration, TAU / self.demand.mean_motion);
+        let mean_motion = self.demand.mean_motion;
+        let period = TAU / mean_motion;
         let mut largest = 0.0_f64;
-        for sign in [1.0, -1.0] {
-            let orbit = self.orbit(sign);
+        let [before, after] = self.reach.sides;
+        for (sign, side) in [(1.0, after), (-1.0, before)] {
+            if side == 0.0 {
+                continue;
+            }
+            let duration = side / mean_motion;
+            let orbit = self.orbit(sign, side);
             let (_, whole) = orbit[STEPS];
             for (time, part) in &orbit {
                 // The difference is linear in the number of whole orbits: it is largest at the first or at the last.
@@ -54,11 +60,11 @@ impl Drift<'_> {
     }
 
     /// Times from the epoch, and what K2 has done by then: over one orbit, or to the end of a shorter span.
-    fn orbit(&self, sign: f64) -> Vec<(f64, Difference)> {
-        let Reach { anomaly, orbital, .. } = *self.reach;
+    fn orbit(&self, sign: f64, side: f64) -> Vec<(f64, Difference)> {
+        let anomaly = self.reach.anomaly;
         let start = self.reach.true_anomaly(anomaly);
-        let end = if orbital < TAU {
-            let end = self.reach.true_anomaly(anomaly + sign * orbital);
+        let end = if side < TAU {
+            let end = self.reach.true_anomaly(anomaly + sign * side);
             if sign * (end - start) < 0.0 { end + sign * TAU } else { end }
         } else {
             start + sign * TAU

@@ -122,7 +122,7 @@ mod tests {
         let orbit =
             Orbit::new(MEAN_MOTION, eccentricity).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
         let envelope = whole(eccentricity, MEAN_MOTION);
-        let reach = Reach { eccentricity, anomaly: 0.0, orbital: 10.0 * TAU };
+        let reach = Reach { eccentricity, anomaly: 0.0, sides: [10.0 * TAU; 2] };
         let series = OrbitSeries::new(&reach).expect("a series");
         let demand = Demand {
             orbit: &orbit,
