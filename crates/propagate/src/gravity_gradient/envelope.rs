@@ -249,7 +249,7 @@ mod tests {
         }
         let places = reach(0.2, [0.0, 6.0]).places();
         let gained = places[POINTS] - places[0];
-        assert!(gained < TAU && gained > 5.0, "{gained}");
+        assert!(gained < TAU && gained > 4.9, "{gained}");
     }
 
     #[test]

@@ -36,8 +36,8 @@ pub(super) struct Stand<'a> {
     pub(super) norms: &'a [f64],
     /// Frequency below which pairs are left out: the fastest of the orbit's times [`SMALLEST_RATIO`](crate::gravity_gradient::candidate::SMALLEST_RATIO).
     pub(super) slowest: f64,
-    /// Mean motion of the disturbing body.
-    pub(super) mean_motion: f64,
+    /// S has the harmonics of the orbit with multiples of this frequency.
+    pub(super) orbital_step: f64,
     /// Longest time from the epoch.
     pub(super) duration: f64,
     /// Largest (a/r)³ within the span, over that at the epoch.
@@ -50,8 +50,6 @@ pub(super) struct Stand<'a> {
 
 /// Safety factor of slow pairs. S is taken at the epoch, and elsewhere on the orbit the directions to the disturbing body may make it larger.
 const SOURCE_MARGIN: f64 = 3.0;
-/// What χ lacks of a pair is at most this many times its first term.
-const MOST_LEFT: f64 = 1.5;
 /// Pairs whose sizes, over the largest, have a smaller product are left out.
 const SMALLEST_PRODUCT: f64 = 1e-6;
 
@@ -64,6 +62,17 @@ pub(super) struct Actions {
     pub(super) left: [f64; 2],
     /// The largest changes by one pair over the product of its relative sizes.
     largest: [f64; 2],
+}
+
+/// The pairs with one h and m together.
+#[derive(Clone, Copy)]
+struct Together {
+    numbers: [f64; 2],
+    /// Ω.
+    frequency: f64,
+    /// S and Ṡ.
+    source: C64,
+    change: C64,
 }
 
 /// A contraction and its derivative with respect to Ω.
@@ -99,7 +108,7 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode]) -> Actions {
     half.iter_mut().for_each(|row| row.size /= largest);
     let rows: Vec<Row> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
     let average = Row::average(stand);
-    let (mut actions, mut pruned) = (Actions::default(), 0.0);
+    let (mut actions, mut pruned, mut together) = (Actions::default(), 0.0, Vec::new());
     for b in &rows {
         // The other half of the sum is its conjugate.
         for a in &half {
@@ -107,11 +116,12 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode]) -> Actions {
             if product < SMALLEST_PRODUCT {
                 pruned += product;
             } else {
-                actions.add(stand, a, b, 2.0, true);
+                actions.add(stand, (a, b), 2.0, &mut together);
             }
         }
-        actions.add(stand, &average, b, 1.0, false);
+        actions.add(stand, (&average, b), 1.0, &mut together);
     }
+    actions.left = stand.left(&together);
     // A pair that is left out changes M and L by no more than its product times what the pairs of the sum do.
     actions.left = [0, 1].map(|i| actions.left[i] + pruned * actions.largest[i]);
     actions
@@ -125,26 +135,22 @@ pub(super) fn averaged(stand: &Stand<'_>, modes: &[Mode]) -> f64 {
 }
 
 impl Actions {
-    fn add(&mut self, stand: &Stand<'_>, a: &Row, b: &Row, factor: f64, generating: bool) {
+    /// Adds a pair, `factor` times: a term with another, or ⟨D⟩ with one.
+    fn add(&mut self, stand: &Stand<'_>, (a, b): (&Row, &Row), factor: f64, together: &mut Vec<Together>) {
         let i = C64::i();
         let (torque, wave) = (&a.torque, &b.generator);
         let (h, m) = (a.harmonic + b.harmonic, a.multiple + b.multiple);
-        let both =
-            if generating { stand.bracket(a, &a.generator[0], b, &wave[0]) * (-0.5 * i) } else { C64::default() };
+        let both = stand.bracket(a, &a.generator[0], b, &wave[0]) * (-0.5 * i);
         let mut chi = C64::default();
         let omega = a.frequency[0] + b.frequency[0];
         if (h, m) != (0.0, 0.0) {
             let source = stand.bracket(a, &torque[0], b, &wave[0]);
             let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
-            // S may be near 0 at the epoch, but not with its time derivative.
-            let swing = if stand.bend > 0.0 { change.norm() / (2.0 * stand.bend.sqrt()) } else { 0.0 };
-            let left = 0.5 * factor * source.norm().hypot(swing) * stand.left(omega);
-            self.left = [self.left[0] + left * m.abs(), self.left[1] + left * h.abs()];
-            if omega.abs() <= stand.slowest {
-                return self.sum(factor, both, chi, (a, b, [h, m]));
+            Together { numbers: [h, m], frequency: omega, source, change }.join(0.5 * factor, together);
+            if omega.abs() > stand.slowest {
+                let inverse = (i * omega).inv();
+                chi = (source - change * inverse) * inverse * 0.5 * -i;
             }
-            let inverse = (i * omega).inv();
-            chi = (source - change * inverse) * inverse * 0.5 * -i;
         }
         self.sum(factor, both, chi, (a, b, [h, m]));
     }
@@ -159,17 +165,47 @@ impl Actions {
     }
 }
 
-impl Stand<'_> {
-    /// What χ lacks of a pair of frequency Ω, over S: the terms of its sum from the third on, or all of it if the pair is too slow.
-    fn left(&self, omega: f64) -> f64 {
-        if omega.abs() > self.slowest {
-            // A product of two has twice the orbit's rates.
-            let ratio = 2.0 * self.bend.sqrt() / omega.abs();
-            let rest = if ratio < 1.0 { ratio * ratio / (1.0 - ratio) } else { MOST_LEFT };
-            return rest.min(MOST_LEFT) / omega.abs();
+impl Together {
+    /// Adds this, `factor` times, to that with the same h and m, or the opposite ones.
+    fn join(self, factor: f64, all: &mut Vec<Self>) {
+        let [h, m] = self.numbers;
+        let conjugated = m < 0.0 || m == 0.0 && h < 0.0;
+        let [source, change] =
+            [self.source, self.change].map(|part| if conjugated { part.conj() } else { part } * factor);
+        let numbers = if conjugated { [-h, -m] } else { [h, m] };
+        match all.iter_mut().find(|other| other.numbers == numbers) {
+            Some(other) => {
+                other.source += source;
+                other.change += change;
+            }
+            None => all.push(Self { numbers, frequency: self.frequency, source, change }),
         }
-        let distance = (omega - self.mean_motion * (omega / self.mean_motion).round()).abs();
-        let time = if distance * self.duration > 2.0 { 2.0 / distance } else { self.duration };
+    }
+}
+
+impl Stand<'_> {
+    /// What the sum lacks of δ₂M and δ₂L.
+    fn left(&self, all: &[Together]) -> [f64; 2] {
+        all.iter().fold([0.0; 2], |[momentum, action], together| {
+            let Together { numbers: [h, m], frequency, source, change } = together;
+            // S may be near 0 at the epoch, but not with its time derivative.
+            let swing = if self.bend > 0.0 { change.norm() / (2.0 * self.bend.sqrt()) } else { 0.0 };
+            let left = source.norm().hypot(swing) * self.left_over(*frequency);
+            [momentum + left * m.abs(), action + left * h.abs()]
+        })
+    }
+
+    /// What χ lacks of pairs of frequency Ω, over S: the terms of its sum from the third on, or all of it if the pairs are too slow.
+    fn left_over(&self, omega: f64) -> f64 {
+        // A product of two has twice the orbit's rates.
+        let fastest = 2.0 * self.bend.sqrt();
+        let beyond = omega.abs() - fastest;
+        let nearest = self.orbital_step * (omega / self.orbital_step).round();
+        let distance = if beyond > 0.0 { beyond } else { (omega - nearest).abs() };
+        let time = if distance * self.duration > 1.0 { 1.0 / distance } else { self.duration };
+        if omega.abs() > self.slowest {
+            return (fastest / omega).powi(2).min(1.0) * time;
+        }
         SOURCE_MARGIN * self.closest * self.closest * time
     }
 
