@@ -394,3 +394,68 @@ fn bounds_hold_where_the_terms_of_the_change_cancel_and_next_to_the_separatrix()
         assert!(measured.ratio() <= 1.0, "{measured:?} of {scene:?}");
     }
 }
+
+#[test]
+fn close_to_the_separatrix_the_terms_of_the_torque_have_enough_harmonics() {
+    // σ/σ_sep = 0.82. With 16 harmonics of ℓ′ the terms were wrong by 4e-6 of themselves, and the attitude by 1.7e-11 rad.
+    let scene = Disturbed::new(
+        [0.721_334_610_193_694_5, 0.756_156_468_777_399_5, 1.0],
+        normalized([0.150_894_933, -0.269_288_625, -0.835_241_409, 0.455_067_187]),
+        [0.792_553_216_925_103_5, -1.051_678_379_651_826_8, -0.201_909_465_334_327_05],
+        [4.297_464_718_533_068_6e-4, 0.423_577_254_105_700_1, -12_139.167_153_847_604, 0.0, 0.0, 4.639_344_779_263_173],
+        206.267_658_240_509_95,
+    );
+    let scene = Disturbed { averaging: Averaging::Spin, level: Level::SecondOrder, tolerance: 1e-11, ..scene };
+    let measured = scene.measured().expect("served");
+    assert!(measured.error <= 5e-13, "{measured:?}");
+}
+
+#[test]
+fn a_harmonic_of_the_orbit_at_resonance_is_left_out_of_the_corrections() {
+    // dy′/dt + dℓ′/dt = 42.00 n. The harmonic's part of W changes y′ by its action over the square of the divisor: corrected, it left 1.1e-3 rad.
+    let scene = Disturbed::new(
+        [0.702_207_250_937_709_3, 0.902_430_134_444_445_5, 1.0],
+        normalized([0.713_056_169, 0.526_822_945, -0.096_808_445, 0.452_367_781]),
+        [1.407_691_718_695_629_5, -0.167_604_614_148_634_65, -0.002_807_876_688_400_777_3],
+        [0.025_193_378_541_326_39, 0.500_615_468_345_624_8, -180.099_153_930_884_9, 0.0, 0.0, 2.115_116_663_321_708_2],
+        463.118_077_629_374_57,
+    );
+    let scene = Disturbed { averaging: Averaging::Spin, level: Level::SecondOrder, ..scene };
+    let measured = scene.measured().expect("served");
+    assert!(measured.error <= 1e-5 && measured.error <= measured.bound, "{measured:?}");
+}
+
+#[test]
+fn the_bound_of_what_is_bounded_in_second_order_is_sharp() {
+    // Far from resonances the short-period change of second order is the error. A sum of sizes was 20 to 500 times as large.
+    let bodies = [
+        ([0.5, 0.8, 1.0], [0.3, 0.2, 1.0]),
+        ([0.4, 0.7, 1.0], [0.1, 0.3, 0.9]),
+        ([0.6, 0.9, 1.0], [1.0, 0.1, 0.2]),
+        ([0.55, 0.7, 1.0], [0.05, 0.02, -1.0]),
+    ];
+    for (moments, rates) in bodies {
+        for eccentricity in [0.0, 0.1] {
+            let orbit = [3e-3, eccentricity, 0.0, 0.4, 1.0, 0.7];
+            let scene = Disturbed::new(moments, ATTITUDE, rates, orbit, 1000.0);
+            let scene = Disturbed { averaging: Averaging::Spin, level: Level::SecondOrder, tolerance: 1e-12, ..scene };
+            let measured = scene.measured().expect("served");
+            let ratio = measured.bound / measured.error;
+            assert!((1.0..=15.0).contains(&ratio), "{ratio} {measured:?} of {scene:?}");
+        }
+    }
+}
+
+#[test]
+fn what_lies_before_the_epoch_is_not_charged_to_a_span_after_it() {
+    // The pericentre is 100 before the state.
+    let orbit = [2e-3, 0.8, -100.0, 0.4, 1.0, 0.7];
+    let bound = |span: f64| {
+        let scene = Disturbed::new([0.5, 0.8, 1.0], ATTITUDE, [0.3, 0.2, 1.0], orbit, span);
+        let scene = Disturbed { averaging: Averaging::Spin, level: Level::SecondOrder, ..scene };
+        scene.measured().expect("served")
+    };
+    let (after, before) = (bound(300.0), bound(-300.0));
+    assert!(after.error <= after.bound && before.error <= before.bound, "{after:?} {before:?}");
+    assert!(after.bound <= 0.05 * before.bound, "{after:?} {before:?}");
+}

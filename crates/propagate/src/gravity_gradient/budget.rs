@@ -32,7 +32,7 @@ const SAMPLES: usize = 48;
 const MARGIN: f64 = 2.0;
 /// The safety factor of the short-period change of second order: the constants that make the motion start at the state may double it, and the distance from the
 /// state grows by its own second order.
-const SHORT_PERIOD_MARGIN: f64 = 3.0;
+const SHORT_PERIOD_MARGIN: f64 = 2.4;
 /// The safety factor of the drift of third order.
 const THIRD_MARGIN: f64 = 2.0;
 /// The same for the drift of second order by terms that are too slow for the averaged Hamiltonian of second order.

@@ -35,6 +35,12 @@ impl Candidate {
         (self.rate + self.shift / divisor) / divisor
     }
 
+    /// With another divisor, the change of M or L over M, and that of y′ by the slope of Ω with respect to M, which is not in the size.
+    pub(super) fn swing_at(&self, divisor: f64) -> [f64; 2] {
+        let swing = self.action / divisor;
+        [swing, swing * self.frequency.abs() / divisor]
+    }
+
     /// The factors of G and of −Ω ∂G/∂Ω in W, M ∂W/∂M, ∂W/∂p̄ + ∂W/∂p and ∂W/∂p̄ − ∂W/∂p.
     fn factors(&self, inertia: &Inertia) -> [[f64; 4]; 2] {
         let Self { harmonic, multiple, value, slope, frequency, .. } = *self;

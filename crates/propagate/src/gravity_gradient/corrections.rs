@@ -21,6 +21,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use num_complex::Complex;
 
+use super::aspect::Aspect;
 use super::candidate::{Candidate, SMALLEST_RATIO};
 use super::course::fixed;
 use super::envelope::Envelope;
@@ -128,6 +129,8 @@ pub(crate) struct Demand<'a> {
     pub(crate) series: Option<&'a OrbitSeries>,
     /// What the span has of the orbit.
     pub(crate) envelope: &'a Envelope,
+    /// The direction of the angular momentum at the epoch.
+    pub(crate) pole: Vector3<f64>,
 }
 
 /// The generating function of one mean motion.
@@ -222,6 +225,7 @@ impl Corrections {
         let growth = |multiple: i32| 1.0 + further * (response.growth(multiple, duration) - 1.0);
         let tolerable = TOLERABLE[usize::from(demand.refined)] * demand.tolerance / growth(1);
         let nothing = tolerable.max(demand.share * whole * whole);
+        let eta_cubed = ((1.0 - eccentricity) * (1.0 + eccentricity)).powf(1.5);
         let selection = Selection {
             commensurability: Commensurability {
                 response: &response,
@@ -237,12 +241,16 @@ impl Corrections {
             most: if level == Level::Paper { 1 } else { ORDERS },
             nothing,
             enough: nothing.max(0.01 * demand.tolerance),
+            shift: strength * inertia.mean_axial().1.abs() * eta_cubed.recip() / inertia.momentum,
             whole,
-            series,
+            series: series.map(|series| (series, Aspect::new(demand.axes, &demand.pole))),
         };
         let allowed = demand.tolerance.max(second_order(whole, &response, duration));
         let choices: Vec<_> = terms.all.iter().map(|term| selection.choice(term)).collect();
-        let effects = terms.all.iter().zip(&choices).map(|(term, choice)| (selection.effect(term, choice), term));
+        let effects = terms.all.iter().zip(&choices).map(|(term, choice)| {
+            let corrected = matches!(choice, Choice::Exact(Exact { left_out: None, .. }));
+            (selection.effect(term, choice), corrected, term)
+        });
         let mut dropped = selection.commensurability.left(effects, allowed)?;
         let drifts: f64 = choices.iter().map(Choice::drift).sum();
         let resonant = dropped + (BEYOND_DRIFT * whole).min(MOST_BEYOND_DRIFT) * drifts;

@@ -56,7 +56,8 @@ impl<'a> Outset<'a> {
         if level == Level::SecondOrder && !request.is_fixed() {
             return Err(Error::OneFixedOrbit { argument: "level", value: level.to_string() });
         }
-        let demands = paths.demands(request, polhode.scales.1)?;
+        let pole = polhode.invariable_frame(attitude) * Vector3::z();
+        let demands = paths.demands(request, polhode.scales.1, pole)?;
         weak_enough(polhode, osculating.0, &demands)?;
         let (sigma, [anomaly, longitude]) = osculating;
         let p = C64::from_polar(sigma.sqrt(), anomaly);

@@ -7,8 +7,8 @@ use crate::simd::kepler::eccentric_anomaly;
 
 /// Points of a span at which the sizes are taken.
 const POINTS: usize = 48;
-/// Step of the places near the nearest one \[rad\].
-const NEAREST_STEP: f64 = 0.66;
+/// Places at which what depends on the direction to the disturbing body is taken.
+const NEAREST: usize = 5;
 /// Largest number of a harmonic of the orbit whose coefficient is computed.
 pub(crate) const LARGEST_NUMBER: f64 = 4096.0;
 
@@ -85,23 +85,19 @@ impl Reach {
         (0..=POINTS).map(|k| first + (last - first) * k as f64 / POINTS as f64).collect()
     }
 
-    /// The true anomaly within the span where the disturbing body is nearest, and others up to 75° from it.
-    pub(crate) fn nearest(&self) -> Vec<f64> {
+    /// True anomalies within the span: five over half an orbit about that where the disturbing body is nearest, as far as the span has it.
+    pub(crate) fn nearest(&self) -> [f64; NEAREST] {
         let places = self.places();
         let near = |place: &usize| self.eccentricity * places[*place].cos();
         let nearest = (0..places.len()).max_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or_default();
-        let whole = self.is_whole();
-        let step = (NEAREST_STEP / (places[1] - places[0])).min(places.len() as f64 / 4.0).max(1.0) as usize;
-        let mut chosen: Vec<_> = [-2, -1, 0, 1, 2]
-            .iter()
-            .map(|k| {
-                let index = nearest as isize + k * step as isize;
-                let count = places.len() as isize;
-                if whole { index.rem_euclid(count) } else { index.clamp(0, count - 1) }
-            })
-            .collect();
-        chosen.dedup();
-        chosen.into_iter().map(|index| places[index as usize]).collect() // 0 ≤ index < count
+        let count = places.len();
+        // r̂r̂ is the same half an orbit later.
+        let half =
+            if self.is_whole() { count / 2 } else { (PI / (places[1] - places[0]).max(PI / POINTS as f64)) as usize };
+        let wide = half.min(count - 1);
+        let first = (nearest + count - wide / 2) % count;
+        let first = if self.is_whole() { first } else { nearest.saturating_sub(wide / 2).min(count - 1 - wide) };
+        std::array::from_fn(|k| places[(first + k * wide / (NEAREST - 1)) % count])
     }
 
     /// The shares of the drifts.

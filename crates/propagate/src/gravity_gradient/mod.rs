@@ -2,12 +2,14 @@
 //!
 //! Imports errors, numerics, simd, input and torque_free.
 
+mod aspect;
 mod averaged;
 mod averages;
 mod budget;
 mod candidate;
 pub(crate) mod cassini;
 pub(crate) mod choice;
+mod contraction;
 mod corrections;
 mod course;
 pub(crate) mod disturbed;

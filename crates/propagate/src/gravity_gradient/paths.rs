@@ -1,5 +1,7 @@
 //! The orbits of the disturbing bodies over the span of a motion, and what the corrections for each are to be.
 
+use nalgebra::Vector3;
+
 use super::corrections::{Demand, GROWING_SHARE, REFINED_SHARE};
 use super::course::{Course, When};
 use super::envelope::{Envelope, Reach};
@@ -47,8 +49,13 @@ impl Paths {
         paths
     }
 
-    /// What the corrections for each body are to be.
-    pub(super) fn demands<'a>(&'a self, request: &Request<'a>, exponent: i32) -> Result<Vec<Demand<'a>>, Error> {
+    /// What the corrections for each body are to be, with the direction of the angular momentum at the epoch.
+    pub(super) fn demands<'a>(
+        &'a self,
+        request: &Request<'a>,
+        exponent: i32,
+        pole: Vector3<f64>,
+    ) -> Result<Vec<Demand<'a>>, Error> {
         let Request { level, tolerance, epoch, .. } = *request;
         let share = if request.is_refined() { REFINED_SHARE } else { GROWING_SHARE };
         let level = if level == Level::Auto { Level::Full } else { level };
@@ -59,7 +66,20 @@ impl Paths {
                 [orbit.mean_motion(), node, pericentre].map(|rate| scaled(rate, -exponent));
             let (axes, rates, duration) = (orbit.axes_at(epoch), [node, pericentre], self.duration);
             let (refined, series) = (request.is_refined(), series.as_ref());
-            Ok(Demand { orbit, mean_motion, rates, axes, level, tolerance, duration, share, refined, series, envelope })
+            Ok(Demand {
+                orbit,
+                mean_motion,
+                rates,
+                axes,
+                level,
+                tolerance,
+                duration,
+                share,
+                refined,
+                series,
+                envelope,
+                pole,
+            })
         };
         request.orbits.iter().zip(&self.envelopes).zip(&self.series).map(demand).collect()
     }

@@ -9,8 +9,10 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::aspect::Aspect;
 use super::candidate::{Candidate, SMALLEST_RATIO};
 use super::envelope::{Envelope, LARGEST_NUMBER, harmonic};
+use super::orbit_series::OrbitSeries;
 use super::response::Response;
 use crate::error::Error;
 
@@ -20,6 +22,12 @@ const SLOW_HARMONICS: i32 = 3;
 const MARGIN: f64 = 10.0;
 /// Where divisors are exact, a scene in which one resonance has a larger attitude error is refused \[rad\].
 const LARGEST_EFFECT: f64 = 0.05;
+/// Harmonics on each side of the nearest one that may have a larger effect.
+const NEIGHBOURS: i32 = 3;
+/// Contraction of r̂r̂ for which the rate of a term is its largest.
+const LARGEST_CONTRACTION: f64 = 1.0;
+/// A smaller error by a term that is corrected is no reason to refuse a scene \[rad\].
+const SERVED: f64 = 1e-3;
 /// Attitude error by a harmonic of the orbit of which no more need be known \[rad\].
 const NEGLIGIBLE: f64 = 1e-14;
 
@@ -49,18 +57,19 @@ pub(super) struct Nearest {
 }
 
 impl Commensurability<'_> {
-    /// The attitude error of all terms together from that of each \[rad\].
+    /// The attitude error of all terms together from that of each \[rad\], and whether the term is corrected.
     ///
     /// # Errors
-    /// - [`Error::Resonance`] if the error exceeds `allowed` by more than a factor [`MARGIN`], or that of one term [`LARGEST_EFFECT`]. It names the largest term.
+    /// - [`Error::Resonance`] if the error by terms that are not corrected, or by more than [`SERVED`], exceeds `allowed` by more than a factor [`MARGIN`], or that of one term [`LARGEST_EFFECT`]. It names the largest term.
     pub(super) fn left<'a>(
         &self,
-        effects: impl Iterator<Item = (f64, &'a Candidate)>,
+        effects: impl Iterator<Item = (f64, bool, &'a Candidate)>,
         allowed: f64,
     ) -> Result<f64, Error> {
-        let (mut sum, mut largest) = (0.0, None::<(f64, &Candidate)>);
-        for (effect, term) in effects {
+        let (mut sum, mut uncorrected, mut largest) = (0.0, 0.0, None::<(f64, &Candidate)>);
+        for (effect, corrected, term) in effects {
             sum += effect;
+            uncorrected += if corrected && effect <= SERVED { 0.0 } else { effect };
             // Of two terms with the same largest effect, the one nearer to the commensurability is named.
             let nearer = |other: &Candidate| self.slow_distance(term) < self.slow_distance(other);
             if largest.is_none_or(|(most, other)| effect > most || (effect == most && nearer(other))) {
@@ -68,7 +77,7 @@ impl Commensurability<'_> {
             }
         }
         match largest {
-            Some((most, term)) if sum > MARGIN * allowed || self.exact && most > LARGEST_EFFECT => {
+            Some((most, term)) if uncorrected > MARGIN * allowed || self.exact && most > LARGEST_EFFECT => {
                 Err(Error::Resonance {
                     harmonic: term.harmonic,
                     multiple: term.multiple,
@@ -89,12 +98,17 @@ impl Commensurability<'_> {
         self.turned(term, amplitude, distance)
     }
 
-    /// The harmonic of the orbit with which a term is nearest to resonance.
-    pub(super) fn nearest(&self, term: &Candidate) -> Nearest {
-        let (amplitude, distance) = self.beyond_the_sum(term);
-        let number = term.frequency / self.mean_motion;
-        let low = number.abs() < f64::from(SLOW_HARMONICS) + 0.5;
-        Nearest { harmonic: -number.round() as i32, amplitude: if low { 1.0 } else { amplitude }, distance }
+    /// The harmonic of the orbit with which a term is nearest to resonance. Its size is such that no other has a larger effect.
+    pub(super) fn nearest(&self, term: &Candidate, series: &OrbitSeries, aspect: &Aspect) -> Nearest {
+        let number = -(term.frequency / self.mean_motion).round() as i32;
+        let distance = |j: i32| (term.frequency + f64::from(j) * self.mean_motion).abs();
+        let nearest = distance(number);
+        let sizes = (number - NEIGHBOURS..=number + NEIGHBOURS).map(|j| {
+            let share = if j == number { 1.0 } else { nearest / distance(j) };
+            share * aspect.strength(series, j, term.multiple)
+        });
+        let amplitude = sizes.fold(0.0, f64::max) / (LARGEST_CONTRACTION * self.envelope.span[0]);
+        Nearest { harmonic: number, amplitude: amplitude.min(1.0), distance: nearest }
     }
 
     /// Whether a term is too slow for a sum over time derivatives.

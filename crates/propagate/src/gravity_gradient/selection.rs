@@ -1,5 +1,6 @@
 //! How each term of the generating function is corrected: by a sum over time derivatives, with exact divisors, or not at all.
 
+use super::aspect::Aspect;
 use super::candidate::Candidate;
 use super::generator::returns;
 use super::orbit_series::OrbitSeries;
@@ -8,6 +9,8 @@ use super::resonance::{Commensurability, Nearest};
 /// Largest change of the attitude by a harmonic near resonance, and by a slow term, that is corrected \[rad\].
 const LARGEST: f64 = 0.01;
 
+/// The same for the change of y′ through the slope of Ω, in which the correction is linear.
+const LARGEST_TURN: f64 = 0.2;
 /// The share of all terms that adds to the drift of second order by a harmonic near resonance.
 const OTHERS: f64 = 0.1;
 /// The safety factor of this drift.
@@ -24,10 +27,12 @@ pub(super) struct Selection<'a> {
     pub(super) nothing: f64,
     /// What the sum of a term may leave at one time, where exact divisors can replace it \[rad\].
     pub(super) enough: f64,
+    /// Largest shift of Ω by the average torque, over h − mσ.
+    pub(super) shift: f64,
     /// Sum of the sizes of all terms that are not slow \[rad\].
     pub(super) whole: f64,
     /// The orbit's harmonics, where divisors may be exact in them.
-    pub(super) series: Option<&'a OrbitSeries>,
+    pub(super) series: Option<(&'a OrbitSeries, Aspect)>,
 }
 
 /// How one term is corrected.
@@ -67,10 +72,10 @@ impl Selection<'_> {
     /// harmonics of the orbit that no sum contains have an effect.
     pub(super) fn choice(&self, term: &Candidate) -> Choice {
         let slow = self.commensurability.is_slow(term);
-        if let Some(series) = self.series {
-            let nearest = self.commensurability.nearest(term);
+        if let Some((series, aspect)) = &self.series {
+            let nearest = self.commensurability.nearest(term, series, aspect);
             let closest = nearest.distance.max(1.0 / self.commensurability.duration);
-            let visible = (term.rate + term.shift / closest) / closest > self.nothing;
+            let visible = term.size_at(closest) > self.nothing;
             let needs = || slow || self.sum(term).1 > self.enough || self.commensurability.effect(term) > self.nothing;
             if visible && (slow || term.size() > self.nothing) && needs() {
                 let exact = self.exact(term, &nearest, series);
@@ -94,28 +99,42 @@ impl Selection<'_> {
         }
     }
 
-    /// What a sum with so many derivatives leaves of a term.
-    fn left(&self, term: &Candidate, orders: usize) -> f64 {
+    /// What a sum with so many derivatives leaves of a term: the next derivative, and those after it if they fall like a geometric series, at most as much again.
+    fn rest(&self, term: &Candidate, orders: usize) -> f64 {
+        let [last, next] = [orders - 1, orders].map(|orders| self.next(term, orders));
+        next / (1.0 - (next / last).min(0.5))
+    }
+
+    /// The part of a term by one derivative.
+    fn next(&self, term: &Candidate, orders: usize) -> f64 {
         term.size() * self.sizes[orders] / self.sizes[0] / term.frequency.abs().powi(orders as i32)
     }
 
     /// The number of derivatives in the sum of a term, and what it leaves. The sum is asymptotic: it ends when it is accurate enough, or where it leaves least.
     fn sum(&self, term: &Candidate) -> (usize, f64) {
-        let least = || (1..=self.most).min_by(|&a, &b| self.left(term, a).total_cmp(&self.left(term, b)));
-        let accurate = (1..self.most).find(|&orders| self.left(term, orders) <= self.nothing);
+        let least = || (1..=self.most).min_by(|&a, &b| self.next(term, a).total_cmp(&self.next(term, b)));
+        let accurate = (1..self.most).find(|&orders| self.rest(term, orders) <= self.nothing);
         let orders = accurate.or_else(least).unwrap_or(self.most);
-        (orders, self.left(term, orders))
+        (orders, self.rest(term, orders))
     }
 
-    /// A term with exact divisors. The harmonic nearest to resonance is left out if its drift of second order would be more than its first order.
+    /// A term with exact divisors. The harmonic nearest to resonance is left out if what its correction leaves would be more than its first order.
     fn exact(&self, term: &Candidate, nearest: &Nearest, series: &OrbitSeries) -> Exact {
         let Commensurability { duration, response, .. } = self.commensurability;
-        let size = nearest.amplitude * term.size_at(nearest.distance);
+        let Nearest { amplitude, distance, .. } = *nearest;
+        let size = amplitude * term.size_at(distance);
+        let [swing, turn] = term.swing_at(distance).map(|part| amplitude * part);
+        let lasting = response.by_momentum * duration;
         // Of its square, as the averaged Hamiltonian has, and of pairs with other terms.
-        let second = size * (size + OTHERS * self.whole) * (1.0 + response.by_momentum * duration);
-        let first = self.commensurability.turned(term, nearest.amplitude, nearest.distance);
-        let corrected = returns(nearest.distance, duration) || size <= LARGEST && second < first;
-        let (left_out, effect) = if corrected { (None, MARGIN * second) } else { (Some(nearest.harmonic), first) };
+        let second = MARGIN * size * (size + OTHERS * self.whole) * (1.0 + lasting);
+        // The average torque shifts Ω, and with it the divisor.
+        let number = f64::from(term.harmonic) - f64::from(term.multiple) * response.sigma;
+        let shift = (number.abs() * self.shift / distance).min(1.0);
+        let left = second + shift * (turn + swing * lasting);
+        let first = self.commensurability.turned(term, amplitude, distance);
+        let small = size <= LARGEST && turn <= LARGEST_TURN;
+        let corrected = returns(distance, duration) || small && left < MARGIN * first;
+        let (left_out, effect) = if corrected { (None, left) } else { (Some(nearest.harmonic), first) };
         Exact { left_out, size: self.exact_size(term, left_out, series), effect }
     }
 

@@ -160,6 +160,7 @@ impl Stand {
             refined: true,
             series,
             envelope: &whole(self.orbit.eccentricity(), MEAN_MOTION),
+            pole: self.mean.frame * Vector3::z(),
         };
         Corrections::new(&inertia, &demand).expect("no resonance").at(mean, &self.place)
     }

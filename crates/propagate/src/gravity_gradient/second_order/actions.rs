@@ -7,7 +7,8 @@ use num_complex::Complex;
 
 use super::harmonics::Harmonics;
 use super::modes::Mode;
-use super::pairs::{Stand, contraction};
+use super::pairs::Stand;
+use crate::gravity_gradient::contraction::contraction;
 use crate::gravity_gradient::generator::{ExactTerm, ORDERS};
 
 type C64 = Complex<f64>;

@@ -6,11 +6,10 @@
 //! over (−T, T), the error of the attitude was four times as large in scenes without a resonance, because the corrections take the regular harmonics as a
 //! whole.
 
-use nalgebra::Vector3;
 use num_complex::Complex;
 
 use super::modes::slowest;
-use super::pairs::{Tensor, contraction};
+use crate::gravity_gradient::contraction::{coefficients, contraction, factors};
 use crate::gravity_gradient::corrections::{Demand, Mean};
 use crate::gravity_gradient::generator::{ExactTerm, returns};
 use crate::simd::kepler::Place;
@@ -36,22 +35,16 @@ pub(super) struct Harmonics {
 impl Harmonics {
     /// The series in the frame of a mean state, if the orbit has one.
     pub(super) fn new(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<'_>) -> Option<Self> {
-        let coefficients = &demand.series?.coefficients;
-        let count = coefficients.len() - 1;
+        let series = &demand.series?.coefficients;
+        let count = series.len() - 1;
         let at = place.angle.values()[0] - place.centre.values()[0];
         let turned = (0..=2 * count).map(|i| {
             let j = i as f64 - count as f64;
-            let [one, cosine, sine] = coefficients[i.abs_diff(count)];
             let turn = C64::from_polar(1.0, j * at);
-            [turn * one, turn * cosine, turn * C64::new(0.0, -sine * j.signum())]
+            coefficients(&series[i.abs_diff(count)], j).map(|coefficient| turn * coefficient)
         });
         let [first, second, _] = demand.orbit.axes().map(|axis| mean.frame.inverse() * axis);
-        let tensors = [
-            [(first, first, 0.5), (second, second, 0.5)],
-            [(first, first, 0.5), (second, second, -0.5)],
-            [(first, second, 0.5), (second, first, 0.5)],
-        ]
-        .map(|[one, other]| -> Tensor { std::array::from_fn(|i| product(&one, i) + product(&other, i)) });
+        let tensors = factors([first, second]);
         Some(Self {
             turned: turned.collect(),
             contracted: [0, 1, 2].map(|m| tensors.map(|tensor| contraction(&tensor, m)[0])),
@@ -94,20 +87,14 @@ impl Harmonics {
     }
 }
 
-/// A component of a product of two vectors: 11, 22, 33, 12, 13, 23.
-fn product((a, b, factor): &(Vector3<f64>, Vector3<f64>, f64), component: usize) -> f64 {
-    const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
-    let (i, k) = PAIRS[component];
-    factor * a[i] * b[k]
-}
-
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;
 
-    use nalgebra::UnitQuaternion;
+    use nalgebra::{UnitQuaternion, Vector3};
 
     use super::*;
+    use crate::gravity_gradient::contraction::Tensor;
     use crate::gravity_gradient::envelope::{Reach, whole};
     use crate::gravity_gradient::orbit_series::OrbitSeries;
     use crate::gravity_gradient::second_order::epoch::tensors;
@@ -124,6 +111,7 @@ mod tests {
         let envelope = whole(eccentricity, MEAN_MOTION);
         let reach = Reach { eccentricity, anomaly: 0.0, sides: [10.0 * TAU; 2] };
         let series = OrbitSeries::new(&reach).expect("a series");
+        let frame = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.1);
         let demand = Demand {
             orbit: &orbit,
             mean_motion: MEAN_MOTION,
@@ -136,8 +124,8 @@ mod tests {
             refined: true,
             series: Some(&series),
             envelope: &envelope,
+            pole: frame * Vector3::z(),
         };
-        let frame = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.1);
         let mean = Mean { p: C64::new(0.1, 0.0), longitude: 0.0, momentum: 1.0, frame };
         let place = |anomaly: f64| Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
         let (points, start, period) = (4000, 0.8, TAU / MEAN_MOTION);
@@ -150,7 +138,8 @@ mod tests {
                 let (sine, cosine) = (place.sine.values()[0], place.cosine.values()[0]);
                 let to_body = first * cosine + second * sine;
                 let cube = ((1.0 + eccentricity * cosine) / (1.0 - eccentricity * eccentricity)).powi(3);
-                let tensor: Tensor = std::array::from_fn(|i| product(&(to_body, to_body, cube), i));
+                let [x, y, z] = to_body.into();
+                let tensor: Tensor = [x * x, y * y, z * z, x * y, x * z, y * z].map(|part: f64| cube * part);
                 C64::from_polar(1.0, -omega * period * back) * contraction(&tensor, multiple)[0]
             })
             .sum();

@@ -5,7 +5,7 @@
 use num_complex::Complex;
 
 use super::modes::Mode;
-use super::pairs::{Tensor, contraction};
+use crate::gravity_gradient::contraction::{Tensor, contraction};
 
 type C64 = Complex<f64>;
 
@@ -121,6 +121,16 @@ impl Jet {
         gradient[0] -= value * by_r;
         gradient[3] -= value * by_momentum;
         Self { value, gradient, hessian }
+    }
+
+    /// This less another function.
+    pub(super) fn minus(&self, other: &Self) -> Self {
+        let apart = |one: &Field, other: &Field| -> Field { std::array::from_fn(|n| one[n] - other[n]) };
+        Self {
+            value: self.value - other.value,
+            gradient: apart(&self.gradient, &other.gradient),
+            hessian: std::array::from_fn(|k| apart(&self.hessian[k], &other.hessian[k])),
+        }
     }
 
     /// {Z, A}.

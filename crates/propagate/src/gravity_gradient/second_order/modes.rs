@@ -6,7 +6,7 @@ use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
 
 /// Smallest √σ in the size of a term: forced wobble has no smaller one.
 pub(super) const SMALLEST_ROOT: f64 = 1e-9;
-/// The same for second derivatives of terms with |h| ≤ 2.
+/// The same for second derivatives of terms with |h| ≤ 2, over that of the separatrix.
 const LEAST_ROOT_OF_SECOND: f64 = 0.2;
 
 /// A term f σ^(|h|/2) e^(i(hℓ′+my′)) of the disturbing function over q = 3φn²/2.
@@ -62,9 +62,8 @@ pub(super) fn modes(inertia: &Inertia, share: f64, slowest: f64) -> Vec<Mode> {
 /// The same for second derivatives with respect to p, in which |h| ≤ 2 counts at p = 0 too.
 pub(super) fn large_modes(inertia: &Inertia, share: f64, slowest: f64) -> Vec<Mode> {
     let root = inertia.sigma.sqrt().max(SMALLEST_ROOT);
-    selected(inertia, share, slowest, |mode| {
-        mode.size(if mode.harmonic.abs() <= 2 { root.max(LEAST_ROOT_OF_SECOND) } else { root })
-    })
+    let least = LEAST_ROOT_OF_SECOND * inertia.separatrix.sqrt();
+    selected(inertia, share, slowest, |mode| mode.size(if mode.harmonic.abs() <= 2 { root.max(least) } else { root }))
 }
 
 fn selected(inertia: &Inertia, share: f64, slowest: f64, size: impl Fn(&Mode) -> f64) -> Vec<Mode> {

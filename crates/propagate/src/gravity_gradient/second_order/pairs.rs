@@ -13,16 +13,12 @@
 use num_complex::Complex;
 
 use super::modes::{Mode, SMALLEST_ROOT};
+use crate::gravity_gradient::contraction::{Contraction, Tensor, contraction};
 use crate::gravity_gradient::corrections::Mean;
 use crate::gravity_gradient::generator::ORDERS;
 use crate::gravity_gradient::inertia::Inertia;
 
 type C64 = Complex<f64>;
-
-/// A symmetric tensor: components 11, 22, 33, 12, 13, 23.
-pub(super) type Tensor = [f64; 6];
-/// The contraction of a tensor for one m, and its derivatives when the frame turns about its axes 1 and 2.
-type Contraction = [C64; 3];
 
 /// The state at which the sum is taken.
 pub(super) struct Stand<'a> {
@@ -316,14 +312,4 @@ fn generating(contracted: &[Contraction; ORDERS], omega: f64, norms: &[f64]) -> 
         factor *= -inverse;
     }
     parts
-}
-
-/// c_m of a tensor and its derivatives by rotations about axes 1 and 2: U33 − tr U/3, U13 − iU23, U11 − U22 − 2iU12.
-pub(super) fn contraction(&[xx, yy, zz, xy, xz, yz]: &Tensor, multiple: i32) -> Contraction {
-    let c = C64::new;
-    match multiple {
-        0 => [c(zz - (xx + yy + zz) / 3.0, 0.0), c(-2.0 * yz, 0.0), c(2.0 * xz, 0.0)],
-        1 => [c(xz, -yz), c(-xy, yy - zz), c(xx - zz, -xy)],
-        _ => [c(xx - yy, -2.0 * xy), c(-2.0 * yz, -2.0 * xz), c(-2.0 * xz, 2.0 * yz)],
-    }
 }

@@ -7,22 +7,22 @@
 //! ```
 //!
 //! of the motion's (′ for derivatives with respect to Z). d is a sum over pairs of terms. Each e^(i(a+b)θ) in it, a + b ≠ 0, makes a change e with ė = f₀′ e + d
-//! of this frequency. Of the pairs with a + b = 0, those in d are K2's, and the change is the mean of ½ v′ v. For the size the disturbing body is held fixed:
-//! W = Σ D_a/(iΩ_a).
+//! of this frequency. Of the pairs with a + b = 0, those in d are K2's, and the change is the mean of ½ v′ v. For the size two terms of the sums over time
+//! derivatives are enough in W, D_a/(iΩ_a) − Ḋ_a/(iΩ_a)², and one in e.
 
 use nalgebra::Vector3;
 use num_complex::Complex;
 
 use super::jet::{Field, Jet, Point, SIZE, Slopes, along, with_turns};
 use super::modes::{Mode, large_modes, slowest};
-use super::pairs::Tensor;
+use crate::gravity_gradient::contraction::{Tensor, product};
 use crate::gravity_gradient::corrections::{Demand, Mean};
 use crate::gravity_gradient::inertia::Inertia;
 
 type C64 = Complex<f64>;
 
 /// Terms smaller than this share of the largest are left out.
-const SMALLEST_SHARE: f64 = 1e-2;
+const SMALLEST_SHARE: f64 = 3e-3;
 
 /// One term at one place of the disturbing body.
 struct Wave {
@@ -60,15 +60,23 @@ pub(crate) fn largest(
     anomalies: &[f64],
 ) -> f64 {
     let motion = Motion::new(inertia, demand, (gain, trace), SMALLEST_SHARE);
-    let eccentricity = demand.orbit.eccentricity();
     let [first, second, _] = demand.orbit.axes().map(|axis| mean.frame.inverse() * axis);
-    let at = |f: f64| -> f64 {
-        let near = (1.0 + eccentricity * f.cos()) / ((1.0 - eccentricity) * (1.0 + eccentricity));
-        let direction: Vector3<f64> = first * f.cos() + second * f.sin();
-        let [x, y, z] = direction.into();
-        motion.size(&[x * x, y * y, z * z, x * y, x * z, y * z].map(|component| component * near.powi(3)))
-    };
-    anomalies.iter().map(|&f| at(f)).fold(0.0, f64::max)
+    let elements = (demand.mean_motion, demand.orbit.eccentricity());
+    anomalies.iter().map(|&f| motion.size(&tensors([first, second], elements, f))).fold(0.0, f64::max)
+}
+
+/// (a/r)³ r̂r̂ and its time derivative at a true anomaly, from the axes of the ellipse, the mean motion and the eccentricity.
+fn tensors([first, second]: [Vector3<f64>; 2], (mean_motion, eccentricity): (f64, f64), f: f64) -> [Tensor; 2] {
+    let (sine, cosine) = f.sin_cos();
+    let eta_square = (1.0 - eccentricity) * (1.0 + eccentricity);
+    let weight = 1.0 + eccentricity * cosine;
+    let rate = mean_motion * weight * weight / (eta_square * eta_square.sqrt());
+    let (radial, across) = (first * cosine + second * sine, second * cosine - first * sine);
+    let growth = -3.0 * eccentricity * sine / weight;
+    let cube = (weight / eta_square).powi(3);
+    let still = product(&radial, &radial);
+    let turning = product(&radial, &across);
+    [still.map(|part| cube * part), std::array::from_fn(|i| cube * rate * (growth * still[i] + 2.0 * turning[i]))]
 }
 
 impl<'a> Motion<'a> {
@@ -84,16 +92,15 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// The sum of the sizes of all harmonics of the change, for (a/r)³ r̂r̂ in the frame \[rad\].
-    fn size(&self, tensor: &Tensor) -> f64 {
-        let (harmonics, mean) = self.change(tensor);
+    /// The sum of the sizes of all harmonics of the change, for (a/r)³ r̂r̂ in the frame and its time derivative \[rad\].
+    fn size(&self, tensors: &[Tensor; 2]) -> f64 {
+        let (harmonics, mean) = self.change(tensors);
         harmonics.iter().map(|(_, change)| 2.0 * self.turn(change)).sum::<f64>() + self.turn(&mean)
     }
 
-    /// The change for (a/r)³ r̂r̂ in the frame: the harmonics e^(i(hℓ′+my′)), each with h, m, and the mean.
-    pub(super) fn change(&self, tensor: &Tensor) -> (Vec<([i32; 2], Field)>, Field) {
-        let tensors = with_turns(tensor);
-        let waves = self.waves(&tensors);
+    /// The change for (a/r)³ r̂r̂ in the frame and its time derivative: the harmonics e^(i(hℓ′+my′)), each with h, m, and the mean.
+    pub(super) fn change(&self, tensors: &[Tensor; 2]) -> (Vec<([i32; 2], Field)>, Field) {
+        let waves = self.waves(tensors);
         let mut sums = Sums::default();
         for b in &waves {
             let [h, m] = b.numbers;
@@ -108,7 +115,7 @@ impl<'a> Motion<'a> {
                 }
             }
         }
-        self.add_average(&mut sums, &waves, &tensors);
+        self.add_average(&mut sums, &waves, &with_turns(&tensors[0]));
         let harmonics = sums.0.iter().map(|(numbers, lacking)| (*numbers, self.response(*numbers, lacking)));
         let mut mean = [C64::default(); SIZE];
         for wave in &waves {
@@ -119,14 +126,18 @@ impl<'a> Motion<'a> {
 
     /// The harmonics of the change of first order.
     #[cfg(test)]
-    pub(super) fn first(&self, tensor: &Tensor) -> Vec<([i32; 2], Field)> {
-        self.waves(&with_turns(tensor)).iter().map(|wave| (wave.numbers, wave.change)).collect()
+    pub(super) fn first(&self, tensors: &[Tensor; 2]) -> Vec<([i32; 2], Field)> {
+        self.waves(tensors).iter().map(|wave| (wave.numbers, wave.change)).collect()
     }
 
-    fn waves(&self, tensors: &[Tensor; 3]) -> Vec<Wave> {
+    fn waves(&self, tensors: &[Tensor; 2]) -> Vec<Wave> {
+        let tensors = tensors.each_ref().map(with_turns);
         let wave = |mode: &Mode| {
-            let torque = Jet::torque(mode, tensors, self.strength, self.point.root);
-            let generator = torque.over(mode.frequency.map(|part| part * self.point.momentum), self.point);
+            let [torque, rate] =
+                tensors.each_ref().map(|tensors| Jet::torque(mode, tensors, self.strength, self.point.root));
+            let frequency = mode.frequency.map(|part| part * self.point.momentum);
+            let over = |jet: &Jet| jet.over(frequency, self.point);
+            let generator = over(&torque).minus(&over(&over(&rate)));
             Wave {
                 numbers: [mode.harmonic, mode.multiple],
                 torque_slopes: torque.field_slopes(self.point),

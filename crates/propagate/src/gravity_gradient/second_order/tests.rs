@@ -8,8 +8,9 @@ use super::hamiltonian::{Disturber, Hamiltonian};
 use super::jet::{Field, Jet, Point, with_turns};
 use super::modes::{Mode, modes, slowest};
 use super::over_orbit::OrbitAverage;
-use super::pairs::{Stand, Tensor, averaged, second_actions};
+use super::pairs::{Stand, averaged, second_actions};
 use super::short_period::Motion;
+use crate::gravity_gradient::contraction::Tensor;
 use crate::gravity_gradient::corrections::{Change, Corrections, Demand, Mean};
 use crate::gravity_gradient::envelope::{Envelope, whole};
 use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
@@ -74,6 +75,7 @@ impl Scene {
             refined: true,
             series: None,
             envelope: &self.envelope,
+            pole: self.mean.frame * Vector3::z(),
         }
     }
 
@@ -322,8 +324,8 @@ fn the_change_of_second_order_has_the_actions_of_the_sum_over_pairs() {
         let at = |harmonics: &[([i32; 2], Field)], n: usize| -> f64 {
             harmonics.iter().map(|(numbers, change)| (change[n] * phase(*numbers)).re).sum()
         };
-        let (harmonics, mean) = motion.change(&tensors[0]);
-        let first = motion.first(&tensors[0]);
+        let (harmonics, mean) = motion.change(&[tensors[0], [0.0; 6]]);
+        let first = motion.first(&[tensors[0], [0.0; 6]]);
         let second = [0, 3].map(|n| at(&harmonics, n) + mean[n].re);
         let [radial, tangential, turned] = [0, 1, 3].map(|n| at(&first, n));
         let root = inertia.sigma.sqrt();
