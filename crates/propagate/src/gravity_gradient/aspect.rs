@@ -1,4 +1,4 @@
-//! How strongly a harmonic of the orbit acts on the terms of each m, as the orbit is seen from the angular momentum.
+//! How strongly a harmonic of the orbit acts on the terms of each m. This depends on the direction of the angular momentum relative to the orbit.
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use num_complex::Complex;
@@ -15,18 +15,19 @@ const LEAST_SHARE: f64 = 0.2;
 
 /// The tensors of 1, cos 2f and sin 2f for some directions of the angular momentum, in frames with axis 3 along it.
 #[derive(Clone, Debug)]
-pub(crate) struct Aspect(Vec<[Tensor; 3]>);
+pub(crate) struct Aspect([[Tensor; 3]; PRECESSIONS.len()]);
 
 impl Aspect {
     /// From the axes of the orbit and the direction of the angular momentum.
     pub(crate) fn new([first, second, normal]: [Vector3<f64>; 3], pole: &Vector3<f64>) -> Self {
         let at = |angle: f64| {
             let turned = UnitQuaternion::from_axis_angle(&Unit::new_normalize(normal), angle) * pole;
+            // There is no such rotation for a half turn.
             let to_frame = UnitQuaternion::rotation_between(&turned, &Vector3::z())
                 .unwrap_or_else(|| UnitQuaternion::new(Vector3::x() * std::f64::consts::PI));
             factors([to_frame * first, to_frame * second])
         };
-        Self(PRECESSIONS.map(at).into())
+        Self(PRECESSIONS.map(at))
     }
 
     /// Upper estimate of the largest component of the contraction of (a/r)³ r̂r̂ and of its derivatives in e^(ijl), for m.

@@ -2,7 +2,8 @@
 //!
 //! What is bounded in second order is computed from the pairs of terms ([`super::second_order::short_period`]). For what grows in third order the largest
 //! first-order change ε is sampled over ℓ′, y′, the position of the disturbing body within the span, and the precession: it is ε times the derivatives of the
-//! change, which have the size of the sum of all terms, times the rates, the time, and again the derivatives. A motion of first order is as far from that of second order as the drifts of second order lead within the span
+//! change, which have the size of the sum of all terms, times the rates, the time, and again the derivatives. A motion of first order is as far from that of
+//! second order as the drifts of second order lead within the span
 //! ([`super::second_order::drift`]). At the levels of the paper the drift of second order is estimated as what is bounded times rates and time. Further parts
 //! are what the mean M and L lack, the dropped terms, the truncation of the sums for G, the terms that the level omits, the average over the orbit, and
 //! rounding.

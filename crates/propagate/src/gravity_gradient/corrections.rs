@@ -133,6 +133,13 @@ pub(crate) struct Demand<'a> {
     pub(crate) pole: Vector3<f64>,
 }
 
+impl Demand<'_> {
+    /// q = 3φn²/2, with the disturbing mass fraction φ.
+    pub(crate) fn strength(&self) -> f64 {
+        1.5 * self.mean_motion * self.mean_motion * self.orbit.disturbing_fraction()
+    }
+}
+
 /// The generating function of one mean motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Corrections {
@@ -177,11 +184,10 @@ pub(super) struct Terms {
 
 impl Terms {
     pub(super) fn new(inertia: &Inertia, demand: &Demand<'_>) -> Self {
-        let Demand { orbit, mean_motion, level, rates, .. } = *demand;
-        let envelope = demand.envelope;
+        let Demand { level, rates, envelope, .. } = *demand;
         let turning = 2.0 * (rates[0].abs() + rates[1].abs());
         let fastest = envelope.fastest + turning;
-        let strength = 1.5 * mean_motion * mean_motion * orbit.disturbing_fraction();
+        let strength = demand.strength();
         let nearest = strength * envelope.span[0];
         let response = Response::new(inertia);
         let scale = 4.0 * nearest / inertia.momentum;

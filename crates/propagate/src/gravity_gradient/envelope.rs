@@ -7,7 +7,7 @@ use crate::simd::kepler::eccentric_anomaly;
 
 /// Points of a span at which the sizes are taken.
 const POINTS: usize = 48;
-/// Places at which what depends on the direction to the disturbing body is taken.
+/// Number of places at which the short-period change of second order is computed.
 const NEAREST: usize = 5;
 /// Largest number of a harmonic of the orbit whose coefficient is computed.
 pub(crate) const LARGEST_NUMBER: f64 = 4096.0;
@@ -85,13 +85,13 @@ impl Reach {
         (0..=POINTS).map(|k| first + (last - first) * k as f64 / POINTS as f64).collect()
     }
 
-    /// True anomalies within the span: five over half an orbit about that where the disturbing body is nearest, as far as the span has it.
+    /// True anomalies within the span: half an orbit around the place where the disturbing body is nearest, as far as the span has it, evenly divided.
     pub(crate) fn nearest(&self) -> [f64; NEAREST] {
         let places = self.places();
         let near = |place: &usize| self.eccentricity * places[*place].cos();
         let nearest = (0..places.len()).max_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or_default();
         let count = places.len();
-        // r̂r̂ is the same half an orbit later.
+        // Half an orbit has every direction of r̂r̂.
         let half =
             if self.is_whole() { count / 2 } else { (PI / (places[1] - places[0]).max(PI / POINTS as f64)) as usize };
         let wide = half.min(count - 1);
@@ -164,6 +164,13 @@ impl Envelope {
         let orbital = if rates == [0.0; 2] { orbital } else { Orbital::precessing(eccentricity, mean_motion, rates) };
         Self { orbital, fastest, passes, share: reach.share(), epoch, span, most }
     }
+}
+
+/// The rate of the true anomaly f, and (a/r)³.
+pub(crate) fn on_ellipse(mean_motion: f64, eccentricity: f64, f: f64) -> [f64; 2] {
+    let eta_square = (1.0 - eccentricity) * (1.0 + eccentricity);
+    let near = (1.0 + eccentricity * f.cos()) / eta_square;
+    [mean_motion * eta_square.sqrt() * near * near, near.powi(3)]
 }
 
 /// The largest size of the Fourier coefficient of e^(ijl) in (a/r)³ times 1, e^(2if) and e^(−2if), for the mean anomaly l.

@@ -24,8 +24,6 @@ const MARGIN: f64 = 10.0;
 const LARGEST_EFFECT: f64 = 0.05;
 /// Harmonics on each side of the nearest one that may have a larger effect.
 const NEIGHBOURS: i32 = 3;
-/// Contraction of r̂r̂ for which the rate of a term is its largest.
-const LARGEST_CONTRACTION: f64 = 1.0;
 /// A smaller error by a term that is corrected is no reason to refuse a scene \[rad\].
 const SERVED: f64 = 1e-3;
 /// Attitude error by a harmonic of the orbit of which no more need be known \[rad\].
@@ -57,7 +55,7 @@ pub(super) struct Nearest {
 }
 
 impl Commensurability<'_> {
-    /// The attitude error of all terms together from that of each \[rad\], and whether the term is corrected.
+    /// The attitude error of all terms together \[rad\]. `effects` holds the error by each term, and whether the term is corrected.
     ///
     /// # Errors
     /// - [`Error::Resonance`] if the error by terms that are not corrected, or by more than [`SERVED`], exceeds `allowed` by more than a factor [`MARGIN`], or that of one term [`LARGEST_EFFECT`]. It names the largest term.
@@ -98,7 +96,7 @@ impl Commensurability<'_> {
         self.turned(term, amplitude, distance)
     }
 
-    /// The harmonic of the orbit with which a term is nearest to resonance. Its size is such that no other has a larger effect.
+    /// The harmonic of the orbit with which a term is nearest to resonance. If a neighbour has a larger effect, the amplitude is enlarged to have this effect.
     pub(super) fn nearest(&self, term: &Candidate, series: &OrbitSeries, aspect: &Aspect) -> Nearest {
         let number = -(term.frequency / self.mean_motion).round() as i32;
         let distance = |j: i32| (term.frequency + f64::from(j) * self.mean_motion).abs();
@@ -107,7 +105,7 @@ impl Commensurability<'_> {
             let share = if j == number { 1.0 } else { nearest / distance(j) };
             share * aspect.strength(series, j, term.multiple)
         });
-        let amplitude = sizes.fold(0.0, f64::max) / (LARGEST_CONTRACTION * self.envelope.span[0]);
+        let amplitude = sizes.fold(0.0, f64::max) / self.envelope.span[0];
         Nearest { harmonic: number, amplitude: amplitude.min(1.0), distance: nearest }
     }
 

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::hamiltonian::{Disturber, Hamiltonian};
 use crate::gravity_gradient::corrections::Demand;
-use crate::gravity_gradient::envelope::Reach;
+use crate::gravity_gradient::envelope::{Reach, on_ellipse};
 
 /// Steps of the integral over an orbit, or over a span that is shorter, even in the true anomaly.
 const STEPS: usize = 48;
@@ -86,11 +86,8 @@ impl Drift<'_> {
         let eccentricity = self.reach.eccentricity;
         let [first, second, normal] = self.demand.orbit.axes();
         let (sine, cosine) = anomaly.sin_cos();
-        let eta_square = 1.0 - eccentricity * eccentricity;
-        let weight = 1.0 + eccentricity * cosine;
-        let rate = self.demand.mean_motion * weight * weight / (eta_square * eta_square.sqrt());
-        let disturber =
-            Disturber { direction: first * cosine + second * sine, normal, cube: (weight / eta_square).powi(3), rate };
+        let [rate, cube] = on_ellipse(self.demand.mean_motion, eccentricity, anomaly);
+        let disturber = Disturber { direction: first * cosine + second * sine, normal, cube, rate };
         let slopes = self.hamiltonian.slopes(&self.axis, &disturber);
         let [x, y, z] = slopes.turning.into();
         let [anomaly, longitude] = slopes.phases;

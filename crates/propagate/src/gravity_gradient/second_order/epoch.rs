@@ -32,13 +32,9 @@ pub(crate) struct Refined {
     pub(crate) left: [f64; 2],
 }
 
-fn strength(demand: &Demand<'_>) -> f64 {
-    1.5 * demand.mean_motion * demand.mean_motion * demand.orbit.disturbing_fraction()
-}
-
 /// ⟨D⟩ + K2 at a mean motion.
 pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, moments: [f64; 3]) -> Hamiltonian {
-    Hamiltonian::new(inertia, &modes(inertia, SMALLEST_TERM, slowest(demand)), strength(demand), moments)
+    Hamiltonian::new(inertia, &modes(inertia, SMALLEST_TERM, slowest(demand)), demand.strength(), moments)
 }
 
 /// The mean states with |p| and M from all terms of first order, and to second order, and the difference of their M, over M, and σ: from the mean state of the
@@ -55,7 +51,7 @@ pub(crate) fn refined(
     let stand = Stand {
         inertia,
         mean,
-        strength: strength(demand),
+        strength: demand.strength(),
         tensors: &tensors,
         norms,
         slowest,

@@ -1,14 +1,15 @@
-//! The size of the short-period change of second order, which the corrections do not have: it is most of the error of a motion of second order.
+//! The size of the short-period change of second order. The corrections do not have it, and far from resonances it is the error of a motion of second order.
 //!
-//! In mean variables Z with the rates f₀ + ⟨g⟩, g = {Z, D}, and the first-order change v = {Z, W}, the rates at Z + v lack
+//! The mean variables Z have the rates f₀ + ⟨g⟩, with those of the free motion f₀ and g = {Z, D}. The motion is at Z + v, with the first-order change
+//! v = {Z, W}. To second order its rates differ from the true ones there by
 //!
 //! ```text
 //! d = ½ f₀″(v, v) + g′ v − v′ ⟨g⟩
 //! ```
 //!
-//! of the motion's (′ for derivatives with respect to Z). d is a sum over pairs of terms. Each e^(i(a+b)θ) in it, a + b ≠ 0, makes a change e with ė = f₀′ e + d
-//! of this frequency. Of the pairs with a + b = 0, those in d are K2's, and the change is the mean of ½ v′ v. For the size two terms of the sums over time
-//! derivatives are enough in W, D_a/(iΩ_a) − Ḋ_a/(iΩ_a)², and one in e.
+//! where ′ is the derivative with respect to Z. d is a sum over pairs of terms a, b. A part e^(i(a+b)θ) of it with a + b ≠ 0 makes a change e of the same
+//! frequency, ė = f₀′ e + d. The parts with a + b = 0 are the rates that K2 gives; there the change is the mean of ½ v′ v. A size needs few terms of the sums over
+//! time derivatives: W has two, D_a/(iΩ_a) − Ḋ_a/(iΩ_a)², and e has one.
 
 use nalgebra::Vector3;
 use num_complex::Complex;
@@ -17,6 +18,7 @@ use super::jet::{Field, Jet, Point, SIZE, Slopes, along, with_turns};
 use super::modes::{Mode, large_modes, slowest};
 use crate::gravity_gradient::contraction::{Tensor, product};
 use crate::gravity_gradient::corrections::{Demand, Mean};
+use crate::gravity_gradient::envelope::on_ellipse;
 use crate::gravity_gradient::inertia::Inertia;
 
 type C64 = Complex<f64>;
@@ -68,12 +70,9 @@ pub(crate) fn largest(
 /// (a/r)³ r̂r̂ and its time derivative at a true anomaly, from the axes of the ellipse, the mean motion and the eccentricity.
 fn tensors([first, second]: [Vector3<f64>; 2], (mean_motion, eccentricity): (f64, f64), f: f64) -> [Tensor; 2] {
     let (sine, cosine) = f.sin_cos();
-    let eta_square = (1.0 - eccentricity) * (1.0 + eccentricity);
-    let weight = 1.0 + eccentricity * cosine;
-    let rate = mean_motion * weight * weight / (eta_square * eta_square.sqrt());
+    let [rate, cube] = on_ellipse(mean_motion, eccentricity, f);
     let (radial, across) = (first * cosine + second * sine, second * cosine - first * sine);
-    let growth = -3.0 * eccentricity * sine / weight;
-    let cube = (weight / eta_square).powi(3);
+    let growth = -3.0 * eccentricity * sine / (1.0 + eccentricity * cosine);
     let still = product(&radial, &radial);
     let turning = product(&radial, &across);
     [still.map(|part| cube * part), std::array::from_fn(|i| cube * rate * (growth * still[i] + 2.0 * turning[i]))]
@@ -86,7 +85,7 @@ impl<'a> Motion<'a> {
             modes: large_modes(inertia, share, slowest(demand)),
             average: Mode::average(inertia, trace),
             point: Point { momentum: inertia.momentum, root: inertia.sigma.sqrt() },
-            strength: 1.5 * demand.mean_motion * demand.mean_motion * demand.orbit.disturbing_fraction(),
+            strength: demand.strength(),
             gain,
             slowest: slowest(demand),
         }

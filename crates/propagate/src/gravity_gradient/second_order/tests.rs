@@ -13,6 +13,7 @@ use super::short_period::Motion;
 use crate::gravity_gradient::contraction::Tensor;
 use crate::gravity_gradient::corrections::{Change, Corrections, Demand, Mean};
 use crate::gravity_gradient::envelope::{Envelope, whole};
+use crate::gravity_gradient::generator::ORDERS;
 use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
 use crate::gravity_gradient::osculating::osculating;
 use crate::input::options::Level;
@@ -92,6 +93,29 @@ impl Scene {
         }
     }
 
+    /// The state for the sum over pairs, with terms that are faster than `slowest`.
+    fn stand<'a>(
+        &'a self,
+        inertia: &'a Inertia,
+        tensors: &'a [Tensor; ORDERS],
+        norms: &'a [f64],
+        slowest: f64,
+    ) -> Stand<'a> {
+        Stand {
+            inertia,
+            mean: &self.mean,
+            strength: Q,
+            tensors,
+            norms,
+            slowest,
+            orbital_step: MEAN_MOTION,
+            duration: 0.0,
+            closest: 1.0,
+            bend: 0.0,
+            trace: self.polhode.moments.iter().sum(),
+        }
+    }
+
     fn closed(&self, inertia: &Inertia, strength: f64) -> Hamiltonian {
         Hamiltonian::new(inertia, &modes(inertia, 0.0, slowest(&self.demand())), strength, self.polhode.moments)
     }
@@ -160,19 +184,7 @@ fn the_pairs_that_cancel_add_up_to_the_closed_form() {
     for scene in Scene::all() {
         let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
         let (tensors, norms) = tensors(&scene.mean, &scene.place, &scene.demand());
-        let stand = Stand {
-            inertia: &inertia,
-            mean: &scene.mean,
-            strength: Q,
-            tensors: &tensors,
-            norms,
-            slowest: 0.0,
-            orbital_step: MEAN_MOTION,
-            duration: 0.0,
-            closest: 1.0,
-            bend: 0.0,
-            trace: scene.polhode.moments.iter().sum(),
-        };
+        let stand = scene.stand(&inertia, &tensors, norms, 0.0);
         let pairs = averaged(&stand, &modes(&inertia, 0.0, slowest(&scene.demand())));
         let axis = scene.mean.frame * Vector3::z();
         let [_, closed] = scene.closed(&inertia, Q).values(&axis, &scene.disturber());
@@ -305,19 +317,7 @@ fn the_change_of_second_order_has_the_actions_of_the_sum_over_pairs() {
         // The disturbing body is at rest.
         tensors[1..].fill([0.0; 6]);
         let trace = scene.polhode.moments.iter().sum();
-        let stand = Stand {
-            inertia: &inertia,
-            mean: &scene.mean,
-            strength: Q,
-            tensors: &tensors,
-            norms,
-            slowest: slowest(&demand),
-            orbital_step: MEAN_MOTION,
-            duration: 0.0,
-            closest: 1.0,
-            bend: 0.0,
-            trace,
-        };
+        let stand = scene.stand(&inertia, &tensors, norms, slowest(&demand));
         let pairs = second_actions(&stand, &modes(&inertia, 0.0, slowest(&demand)));
         let motion = Motion::new(&inertia, &demand, (1.0, trace), 0.0);
         let phase = |[h, m]: [i32; 2]| C64::from_polar(2.0, f64::from(h) * p.arg() + f64::from(m) * longitude);
