@@ -116,10 +116,7 @@ impl Budget {
             Some(Further { short_period, left, cut, acting, apart }) => {
                 let growing = response.growing(sizes, p, duration, [acting, cut]);
                 let left = response.of_actions(left, duration);
-                let slow = SLOW_MARGIN
-                    * corrections.slow
-                    * (slope + corrections.slow)
-                    * (1.0 + response.by_momentum * duration);
+                let slow = SLOW_MARGIN * corrections.slow * (slope + corrections.slow);
                 let bounded = SHORT_PERIOD_MARGIN * short_period;
                 let spin = bounded + THIRD_MARGIN * growing + slow + left + FIRST_MARGIN * apart;
                 (spin, corrections.at_once + corrections.resonant)

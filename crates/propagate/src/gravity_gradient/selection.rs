@@ -11,8 +11,6 @@ const LARGEST: f64 = 0.01;
 
 /// The same for the change of y′ through the slope of Ω, in which the correction is linear.
 const LARGEST_TURN: f64 = 0.2;
-/// The share of all terms that adds to the drift of second order by a harmonic near resonance.
-const OTHERS: f64 = 0.1;
 /// The safety factor of this drift.
 const MARGIN: f64 = 2.0;
 
@@ -125,12 +123,15 @@ impl Selection<'_> {
         let size = amplitude * term.size_at(distance);
         let [swing, turn] = term.swing_at(distance).map(|part| amplitude * part);
         let lasting = response.by_momentum * duration;
-        // Of its square, as the averaged Hamiltonian has, and of pairs with other terms.
-        let second = MARGIN * size * (size + OTHERS * self.whole) * (1.0 + lasting);
+        let changing = size + turn;
+        let passing = 2.0 * (term.frequency / self.commensurability.fastest).abs();
+        let bounded = changing * (self.whole + passing * term.size());
+        // K2
+        let second = MARGIN * (changing * changing * (1.0 + distance * duration) + bounded);
         // The average torque shifts Ω, and with it the divisor.
         let number = f64::from(term.harmonic) - f64::from(term.multiple) * response.sigma;
         let shift = (number.abs() * self.shift / distance).min(1.0);
-        let left = second + shift * (turn + swing * lasting);
+        let left = second + shift * (turn + shift * swing * lasting);
         let first = self.commensurability.turned(term, amplitude, distance);
         let small = size <= LARGEST && turn <= LARGEST_TURN;
         let corrected = returns(distance, duration) || small && left < MARGIN * first;

@@ -5,8 +5,8 @@ use num_complex::Complex;
 use super::actions::first_actions;
 use super::hamiltonian::Hamiltonian;
 use super::harmonics::Harmonics;
-use super::modes::{modes, slow_modes, slowest};
-use super::pairs::{Stand, second_actions};
+use super::modes::{Mode, modes, slow_modes, slowest};
+use super::pairs::{Exact, Stand, second_actions};
 use crate::gravity_gradient::contraction::Tensor;
 use crate::gravity_gradient::corrections::{Change, Demand, Mean};
 use crate::gravity_gradient::generator::{ExactTerm, Generator, ORDERS};
@@ -69,7 +69,8 @@ pub(crate) fn refined(
         terms.extend(slow_modes(inertia, slowest));
     }
     let first = first_actions(&stand, &terms, sums);
-    let second = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest));
+    let exact = harmonics.as_ref().map(|harmonics| taken_apart(inertia, exact, harmonics)).unwrap_or_default();
+    let second = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest), &exact);
     let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
     let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };
     // What the corrections of the motion, which drop terms and end their sums early, lack of M and L.
@@ -90,6 +91,16 @@ pub(crate) fn refined(
     };
     let apart = [-second.momentum / momentum, higher.mean.p.norm_sqr() - lower.mean.p.norm_sqr()];
     ([lower, higher], apart)
+}
+
+/// The terms with exact divisors, apart into harmonics.
+fn taken_apart(inertia: &Inertia, exact: &[ExactTerm], harmonics: &Harmonics) -> Exact {
+    let split = |term: &ExactTerm| {
+        let (harmonic, multiple) = term.numbers;
+        let mode = Mode::new(inertia, harmonic, multiple);
+        (mode, harmonics.split(inertia.momentum * mode.frequency[0], multiple, term.left_out))
+    };
+    Exact { terms: exact.iter().map(split).collect(), average: harmonics.average() }
 }
 
 /// (a/r)³ r̂r̂ in the frame of a mean state, its time derivatives, and their largest sizes.

@@ -9,7 +9,7 @@
 use num_complex::Complex;
 
 use super::modes::slowest;
-use crate::gravity_gradient::contraction::{coefficients, contraction, factors};
+use crate::gravity_gradient::contraction::{Contraction, coefficients, contraction, factors};
 use crate::gravity_gradient::corrections::{Demand, Mean};
 use crate::gravity_gradient::generator::{ExactTerm, returns};
 use crate::simd::kepler::Place;
@@ -19,12 +19,72 @@ type C64 = Complex<f64>;
 /// Harmonics with a larger divisor, over Ω, are in the sums over time derivatives: the corrections take them out at any time.
 const NEAR: f64 = 0.5;
 
+/// Harmonics with a smaller divisor, over n, are terms of their own in the sum over pairs.
+const APART: f64 = 2.5;
+/// The highest harmonic of ⟨D⟩ that meets them there.
+const MOST_OF_AVERAGE: usize = 12;
+
+/// A harmonic of the orbit in a term.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Near {
+    /// Ω + jn.
+    pub(super) frequency: f64,
+    /// The contraction of U_j e^(ijl).
+    pub(super) torque: Contraction,
+}
+
+/// A contraction and its derivative with respect to Ω.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Part {
+    pub(super) value: Contraction,
+    pub(super) slope: C64,
+}
+
+/// Of D and dD/dt, and of W and dW/dt.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Parts {
+    pub(super) torque: [Part; 2],
+    pub(super) generator: [Part; 2],
+}
+
+/// A term whose divisors are exact.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Split {
+    pub(super) near: Vec<Near>,
+    pub(super) rest: Parts,
+}
+
+impl Near {
+    /// As a term of frequency Ω + jn, whose amplitude is constant.
+    pub(super) fn parts(&self) -> Parts {
+        let mut parts = Parts::default();
+        parts.add(self.torque, 0.0, self.frequency);
+        parts
+    }
+}
+
+impl Parts {
+    /// Adds a harmonic of frequency jn with its divisor.
+    fn add(&mut self, torque: Contraction, step: f64, divisor: f64) {
+        let inverse = (C64::i() * divisor).inv();
+        let mut factor = C64::new(1.0, 0.0);
+        for (d, w) in self.torque.iter_mut().zip(&mut self.generator) {
+            for ((d, w), part) in d.value.iter_mut().zip(&mut w.value).zip(torque) {
+                *d += part * factor;
+                *w += part * factor * inverse;
+            }
+            w.slope -= torque[0] * factor * inverse / divisor;
+            factor *= C64::new(0.0, step);
+        }
+    }
+}
+
 /// The series of one orbit at one place of the disturbing body.
 pub(super) struct Harmonics {
     /// U_j e^(ijl) of (a/r)³ times 1, cos 2f and sin 2f, from −j to j.
-    turned: Vec<[C64; 3]>,
-    /// c_m for m = 0, 1, 2 of the tensors that belong to these functions.
-    contracted: [[C64; 3]; 3],
+    waves: Vec<[C64; 3]>,
+    /// The contractions for m = 0, 1, 2 of the tensors that belong to these functions.
+    contracted: [[Contraction; 3]; 3],
     mean_motion: f64,
     /// T.
     duration: f64,
@@ -38,7 +98,7 @@ impl Harmonics {
         let series = &demand.series?.coefficients;
         let count = series.len() - 1;
         let at = place.angle.values()[0] - place.centre.values()[0];
-        let turned = (0..=2 * count).map(|i| {
+        let waves = (0..=2 * count).map(|i| {
             let j = i as f64 - count as f64;
             let turn = C64::from_polar(1.0, j * at);
             coefficients(&series[i.abs_diff(count)], j).map(|coefficient| turn * coefficient)
@@ -46,8 +106,8 @@ impl Harmonics {
         let [first, second, _] = demand.orbit.axes().map(|axis| mean.frame.inverse() * axis);
         let tensors = factors([first, second]);
         Some(Self {
-            turned: turned.collect(),
-            contracted: [0, 1, 2].map(|m| tensors.map(|tensor| contraction(&tensor, m)[0])),
+            waves: waves.collect(),
+            contracted: [0, 1, 2].map(|m| tensors.map(|tensor| contraction(&tensor, m))),
             mean_motion: demand.mean_motion,
             duration: demand.duration,
             slowest: slowest(demand),
@@ -56,9 +116,9 @@ impl Harmonics {
 
     /// c_m of V for a frequency Ω; `term` is the correction with exact divisors, if there is one.
     pub(super) fn solution(&self, omega: f64, multiple: i32, term: Option<&ExactTerm>) -> C64 {
-        let count = (self.turned.len() / 2) as f64;
+        let count = (self.waves.len() / 2) as f64;
         let mut sums = [C64::default(); 3];
-        for (i, harmonic) in self.turned.iter().enumerate() {
+        for (i, harmonic) in self.waves.iter().enumerate() {
             let j = i as f64 - count;
             let divisor = omega + j * self.mean_motion;
             let inverse = match term {
@@ -70,20 +130,64 @@ impl Harmonics {
             }
         }
         let contracted = &self.contracted[multiple as usize]; // 0 ≤ m ≤ 2
-        sums.iter().zip(contracted).map(|(sum, part)| sum * part).sum::<C64>() * -C64::i()
+        sums.iter().zip(contracted).map(|(sum, part)| sum * part[0]).sum::<C64>() * -C64::i()
+    }
+
+    /// A corrected term of frequency Ω, apart into the harmonics near resonance and the rest. Of a term without a sum over time derivatives all are taken apart.
+    pub(super) fn split(&self, omega: f64, multiple: i32, left_out: Option<i32>) -> Split {
+        let count = (self.waves.len() / 2) as i32;
+        let slow = omega.abs() <= self.slowest;
+        let mut split = Split::default();
+        for (i, harmonic) in self.waves.iter().enumerate() {
+            let j = i as i32 - count;
+            let step = f64::from(j) * self.mean_motion;
+            let divisor = omega + step;
+            if left_out == Some(j) {
+                continue;
+            }
+            let torque = self.contracted(harmonic, multiple);
+            if slow || divisor.abs() < APART * self.mean_motion {
+                split.near.push(Near { frequency: divisor, torque });
+            } else {
+                split.rest.add(torque, step, divisor);
+            }
+        }
+        split
+    }
+
+    /// The lowest harmonics of c_0 with their frequencies: those of ⟨D⟩.
+    pub(super) fn average(&self) -> Vec<Near> {
+        let count = self.waves.len() / 2;
+        let most = count.min(MOST_OF_AVERAGE);
+        let near = (count - most..=count + most).map(|i| {
+            let frequency = (i as f64 - count as f64) * self.mean_motion;
+            Near { frequency, torque: self.contracted(&self.waves[i], 0) }
+        });
+        near.collect()
+    }
+
+    /// One harmonic's contraction.
+    fn contracted(&self, harmonic: &[C64; 3], multiple: i32) -> Contraction {
+        let functions = &self.contracted[multiple as usize]; // 0 ≤ m ≤ 2
+        std::array::from_fn(|i| harmonic.iter().zip(functions).map(|(part, function)| part * function[i]).sum())
     }
 
     /// The reciprocal of a divisor, with its factor where the sums over time derivatives lack the harmonic.
     fn inverse(&self, divisor: f64, omega: f64) -> f64 {
-        let turn = 0.5 * divisor * self.duration;
         let summed = omega.abs() > self.slowest && divisor.abs() > NEAR * omega.abs();
-        if summed || returns(divisor, self.duration) {
-            1.0 / divisor
-        } else if turn == 0.0 {
-            0.0
-        } else {
-            -(-turn * turn).exp_m1() / divisor
-        }
+        if summed { 1.0 / divisor } else { inverse(divisor, self.duration) }
+    }
+}
+
+/// The reciprocal of a divisor, with the factor 1 − e^(−x²T²/4).
+pub(super) fn inverse(divisor: f64, duration: f64) -> f64 {
+    let turn = 0.5 * divisor * duration;
+    if returns(divisor, duration) {
+        1.0 / divisor
+    } else if turn == 0.0 {
+        0.0
+    } else {
+        -(-turn * turn).exp_m1() / divisor
     }
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Mode {
 }
 
 impl Mode {
-    fn new(inertia: &Inertia, harmonic: i32, multiple: i32) -> Self {
+    pub(super) fn new(inertia: &Inertia, harmonic: i32, multiple: i32) -> Self {
         let factor = if multiple == 0 { 1.5 } else { 1.0 };
         let function = inertia.tensor[multiple as usize].jet(harmonic).map(|part| factor * part); // 0 ≤ m ≤ 2
         let rates = [inertia.rates.map(|rate| rate.to_f64()), inertia.rate_slopes, inertia.rate_curvatures];
@@ -31,6 +31,11 @@ impl Mode {
             (f64::from(harmonic) * anomaly + f64::from(multiple) * longitude) / inertia.momentum
         };
         Self { harmonic, multiple, function, frequency: rates.map(combined) }
+    }
+
+    /// Whether both are the same term.
+    pub(super) fn is(&self, other: &Self) -> bool {
+        (self.harmonic, self.multiple) == (other.harmonic, other.multiple)
     }
 
     /// ⟨D⟩, for a sum of the moments of inertia.

@@ -12,6 +12,7 @@
 
 use num_complex::Complex;
 
+use super::harmonics::{Near, Part, Parts, Split, inverse};
 use super::modes::{Mode, SMALLEST_ROOT};
 use crate::gravity_gradient::contraction::{Contraction, Tensor, contraction};
 use crate::gravity_gradient::corrections::Mean;
@@ -71,13 +72,6 @@ struct Together {
     change: C64,
 }
 
-/// A contraction and its derivative with respect to Ω.
-#[derive(Clone, Copy, Default)]
-struct Part {
-    value: Contraction,
-    slope: C64,
-}
-
 /// One term, or ⟨D⟩.
 #[derive(Clone, Copy)]
 struct Row {
@@ -91,19 +85,37 @@ struct Row {
     weight: C64,
     /// F = σ^(|h|/2) f, √σ dF/dσ, and h F/√σ.
     amplitude: [f64; 3],
-    /// Of D, and of dD/dt.
-    torque: [Part; 2],
-    /// Of W, and of dW/dt.
-    generator: [Part; 2],
+    parts: Parts,
+    /// Whether it is one harmonic of the orbit, which has no other time dependence than its frequency.
+    single: bool,
+}
+
+/// The terms whose divisors are exact, and ⟨D⟩'s harmonics.
+#[derive(Default)]
+pub(super) struct Exact {
+    pub(super) terms: Vec<(Mode, Split)>,
+    pub(super) average: Vec<Near>,
 }
 
 /// δ₂M and δ₂L at a mean state of first order.
-pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode]) -> Actions {
-    let mut half: Vec<Row> = modes.iter().map(|mode| Row::new(stand, mode)).collect();
+pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &Exact) -> Actions {
+    let is_exact = |mode: &Mode| exact.terms.iter().any(|(other, _)| mode.is(other));
+    let mut half: Vec<Row> = modes.iter().filter(|mode| !is_exact(mode)).map(|mode| Row::new(stand, mode)).collect();
+    half.extend(
+        exact
+            .terms
+            .iter()
+            .map(|(mode, split)| Row::rest(stand, mode, split))
+            .filter(|row| row.frequency[0].abs() > stand.slowest),
+    );
     let largest = half.iter().fold(0.0_f64, |most, row| most.max(row.size));
+    let single =
+        exact.terms.iter().flat_map(|(mode, split)| split.near.iter().map(|near| Row::single(stand, mode, near)));
+    half.extend(single.filter(|row| row.size > SMALLEST_PRODUCT * largest));
     half.iter_mut().for_each(|row| row.size /= largest);
     let rows: Vec<Row> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
     let average = Row::average(stand);
+    let averages: Vec<Row> = exact.average.iter().map(|near| average.at(near)).collect();
     let (mut actions, mut pruned, mut together) = (Actions::default(), 0.0, Vec::new());
     for b in &rows {
         // The other half of the sum is its conjugate.
@@ -115,9 +127,14 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode]) -> Actions {
                 actions.add(stand, (a, b), 2.0, &mut together);
             }
         }
-        actions.add(stand, (&average, b), 1.0, &mut together);
+        if b.single {
+            averages.iter().for_each(|average| actions.add(stand, (average, b), 1.0, &mut together));
+        } else {
+            actions.add(stand, (&average, b), 1.0, &mut together);
+        }
     }
-    actions.left = stand.left(&together);
+    let left = stand.left(&together);
+    actions.left = [0, 1].map(|i| actions.left[i] + left[i]);
     // A pair that is left out changes M and L by no more than its product times what the pairs of the sum do.
     actions.left = [0, 1].map(|i| actions.left[i] + pruned * actions.largest[i]);
     actions
@@ -127,22 +144,34 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode]) -> Actions {
 #[cfg(test)]
 pub(super) fn averaged(stand: &Stand<'_>, modes: &[Mode]) -> f64 {
     let rows = modes.iter().map(|mode| Row::new(stand, mode));
-    rows.map(|a| stand.bracket(&a, &a.torque[0], &a.conjugate(), &a.conjugate().generator[0]).re).sum()
+    rows.map(|a| stand.bracket(&a, &a.parts.torque[0], &a.conjugate(), &a.conjugate().parts.generator[0]).re).sum()
 }
 
 impl Actions {
     /// Adds a pair, `factor` times: a term with another, or ⟨D⟩ with one.
     fn add(&mut self, stand: &Stand<'_>, (a, b): (&Row, &Row), factor: f64, together: &mut Vec<Together>) {
         let i = C64::i();
-        let (torque, wave) = (&a.torque, &b.generator);
+        let (torque, wave) = (&a.parts.torque, &b.parts.generator);
         let (h, m) = (a.harmonic + b.harmonic, a.multiple + b.multiple);
-        let both = stand.bracket(a, &a.generator[0], b, &wave[0]) * (-0.5 * i);
+        let both = stand.bracket(a, &a.parts.generator[0], b, &wave[0]) * (-0.5 * i);
         let mut chi = C64::default();
         let omega = a.frequency[0] + b.frequency[0];
         if (h, m) != (0.0, 0.0) {
             let source = stand.bracket(a, &torque[0], b, &wave[0]);
+            if a.single && b.single {
+                chi = source * inverse(omega, stand.duration) * -0.5;
+                let turn = 0.5 * omega * stand.duration;
+                let left = 0.5 * factor * source.norm() * stand.duration * (-turn * turn).exp();
+                self.left = [self.left[0] + left * m.abs(), self.left[1] + left * h.abs()];
+                self.sum(factor, both, chi, (a, b, [h, m]));
+                return;
+            }
             let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
-            Together { numbers: [h, m], frequency: omega, source, change }.join(0.5 * factor, together);
+            Together { numbers: [h, m], frequency: omega, source, change }.join(
+                0.5 * factor,
+                stand.orbital_step,
+                together,
+            );
             if omega.abs() > stand.slowest {
                 let inverse = (i * omega).inv();
                 chi = (source - change * inverse) * inverse * 0.5 * -i;
@@ -163,18 +192,20 @@ impl Actions {
 
 impl Together {
     /// Adds this, `factor` times, to that with the same h and m, or the opposite ones.
-    fn join(self, factor: f64, all: &mut Vec<Self>) {
+    fn join(self, factor: f64, step: f64, all: &mut Vec<Self>) {
         let [h, m] = self.numbers;
         let conjugated = m < 0.0 || m == 0.0 && h < 0.0;
         let [source, change] =
             [self.source, self.change].map(|part| if conjugated { part.conj() } else { part } * factor);
         let numbers = if conjugated { [-h, -m] } else { [h, m] };
-        match all.iter_mut().find(|other| other.numbers == numbers) {
+        let frequency = if conjugated { -self.frequency } else { self.frequency };
+        let same = |other: &&mut Self| other.numbers == numbers && (other.frequency - frequency).abs() < 0.1 * step;
+        match all.iter_mut().find(same) {
             Some(other) => {
                 other.source += source;
                 other.change += change;
             }
-            None => all.push(Self { numbers, frequency: self.frequency, source, change }),
+            None => all.push(Self { numbers, frequency, source, change }),
         }
     }
 }
@@ -226,24 +257,52 @@ impl Stand<'_> {
 
 impl Row {
     fn new(stand: &Stand<'_>, mode: &Mode) -> Self {
+        let contracted = stand.tensors.map(|tensor| contraction(&tensor, mode.multiple));
+        let omega = stand.mean.momentum * mode.frequency[0];
+        let parts = Parts {
+            torque: [0, 1].map(|j| Part { value: contracted[j], slope: C64::default() }),
+            generator: generating(&contracted, omega, stand.norms),
+        };
+        Self::of(stand, mode, parts)
+    }
+
+    /// A term with exact divisors, without its harmonics near resonance.
+    fn rest(stand: &Stand<'_>, mode: &Mode, split: &Split) -> Self {
+        Self::of(stand, mode, split.rest)
+    }
+
+    /// One harmonic of the orbit in a term.
+    fn single(stand: &Stand<'_>, mode: &Mode, near: &Near) -> Self {
+        let row = Self::of(stand, mode, near.parts());
+        let share = near.torque.iter().map(|part| part.norm()).fold(0.0, f64::max) / stand.norms[0];
+        let size = row.size * share * (row.frequency[0] / near.frequency).abs();
+        let [_, by_sigma, by_momentum] = row.frequency;
+        Self { size, frequency: [near.frequency, by_sigma, by_momentum], single: true, ..row }
+    }
+
+    fn of(stand: &Stand<'_>, mode: &Mode, parts: Parts) -> Self {
         let (h, m) = (f64::from(mode.harmonic), f64::from(mode.multiple));
-        let Stand { mean, tensors, norms, strength, .. } = stand;
+        let Stand { mean, strength, .. } = stand;
         let [nu, slope, _] = mode.frequency;
-        let frequency = [mean.momentum * nu, mean.momentum * slope, nu];
         let angle = if mean.p == C64::default() { 0.0 } else { mean.p.arg() };
         let phase = C64::from_polar(*strength, h * angle + m * mean.longitude);
-        let weight = if mode.multiple == 1 { phase * -C64::i() } else { phase };
-        let contracted = tensors.map(|tensor| contraction(&tensor, mode.multiple));
         Self {
             harmonic: h,
             multiple: m,
             size: mode.size(stand.inertia.sigma.sqrt().max(SMALLEST_ROOT)),
-            frequency,
-            weight,
+            frequency: [mean.momentum * nu, mean.momentum * slope, nu],
+            weight: if mode.multiple == 1 { phase * -C64::i() } else { phase },
             amplitude: amplitude(mode.harmonic, mode.function, stand.inertia.sigma),
-            torque: [0, 1].map(|j| Part { value: contracted[j], slope: C64::default() }),
-            generator: generating(&contracted, frequency[0], norms),
+            parts,
+            single: false,
         }
+    }
+
+    /// One harmonic of ⟨D⟩.
+    fn at(&self, near: &Near) -> Self {
+        let torque = [Part { value: near.torque, slope: C64::default() }, Part::default()];
+        let frequency = [near.frequency, 0.0, 0.0];
+        Self { frequency, parts: Parts { torque, ..Parts::default() }, single: true, ..*self }
     }
 
     /// ⟨D⟩, twice: it is no part of D̃, and S has not the half of it.
@@ -257,8 +316,11 @@ impl Row {
             frequency: [0.0; 3],
             weight: (2.0 * stand.strength).into(),
             amplitude: amplitude(0, function, stand.inertia.sigma),
-            torque: [part(&stand.tensors[0]), part(&stand.tensors[1])],
-            generator: [Part::default(); 2],
+            parts: Parts {
+                torque: [part(&stand.tensors[0]), part(&stand.tensors[1])],
+                generator: [Part::default(); 2],
+            },
+            single: false,
         }
     }
 
@@ -273,9 +335,12 @@ impl Row {
             frequency: self.frequency.map(|part| -part),
             weight: self.weight.conj(),
             amplitude: [whole, slope, -lowered],
-            torque: self.torque.each_ref().map(|part| conjugated(part, 1.0)),
-            // Ω has the other sign.
-            generator: self.generator.each_ref().map(|part| conjugated(part, -1.0)),
+            parts: Parts {
+                torque: self.parts.torque.each_ref().map(|part| conjugated(part, 1.0)),
+                // Ω has the other sign.
+                generator: self.parts.generator.each_ref().map(|part| conjugated(part, -1.0)),
+            },
+            single: self.single,
         }
     }
 }

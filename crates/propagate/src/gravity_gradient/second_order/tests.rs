@@ -8,7 +8,7 @@ use super::hamiltonian::{Disturber, Hamiltonian};
 use super::jet::{Field, Jet, Point, with_turns};
 use super::modes::{Mode, modes, slowest};
 use super::over_orbit::OrbitAverage;
-use super::pairs::{Stand, averaged, second_actions};
+use super::pairs::{Exact, Stand, averaged, second_actions};
 use super::short_period::Motion;
 use crate::gravity_gradient::contraction::Tensor;
 use crate::gravity_gradient::corrections::{Change, Corrections, Demand, Mean};
@@ -318,7 +318,7 @@ fn the_change_of_second_order_has_the_actions_of_the_sum_over_pairs() {
         tensors[1..].fill([0.0; 6]);
         let trace = scene.polhode.moments.iter().sum();
         let stand = scene.stand(&inertia, &tensors, norms, slowest(&demand));
-        let pairs = second_actions(&stand, &modes(&inertia, 0.0, slowest(&demand)));
+        let pairs = second_actions(&stand, &modes(&inertia, 0.0, slowest(&demand)), &Exact::default());
         let motion = Motion::new(&inertia, &demand, (1.0, trace), 0.0);
         let phase = |[h, m]: [i32; 2]| C64::from_polar(2.0, f64::from(h) * p.arg() + f64::from(m) * longitude);
         let at = |harmonics: &[([i32; 2], Field)], n: usize| -> f64 {
