@@ -7,6 +7,7 @@ use super::hamiltonian::Hamiltonian;
 use super::harmonics::Harmonics;
 use super::modes::{Mode, modes, slow_modes, slowest};
 use super::pairs::{Exact, Stand, second_actions};
+use super::slow_pairs::{Point, points};
 use crate::gravity_gradient::contraction::Tensor;
 use crate::gravity_gradient::corrections::{Change, Demand, Mean};
 use crate::gravity_gradient::generator::{ExactTerm, Generator, ORDERS};
@@ -21,6 +22,9 @@ const SMALLEST_PAIR: f64 = 1e-6;
 const SMALLEST_FIRST: f64 = 1e-13;
 /// Terms smaller than this share of the largest are left out of K2.
 const SMALLEST_TERM: f64 = 1e-9;
+
+/// Errors of M and L that turn the attitude by a smaller share of the tolerance are not looked at.
+const ENOUGH: f64 = 0.02;
 
 /// A mean state at the epoch.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +65,10 @@ pub(crate) fn refined(
         closest: demand.envelope.span[0] / demand.envelope.epoch[0],
         bend: demand.envelope.epoch[2] / demand.envelope.epoch[0],
         trace: moments.iter().sum(),
+        enough: ENOUGH * demand.tolerance
+            / (demand.duration * inertia.rates.iter().map(|rate| rate.to_f64().abs()).sum::<f64>()),
     };
+    let around = || around(mean, place, demand);
     let harmonics = Harmonics::new(mean, place, demand);
     let sums = (harmonics.as_ref(), exact, &demand.envelope.epoch);
     let mut terms = modes(inertia, SMALLEST_FIRST, slowest);
@@ -70,6 +77,13 @@ pub(crate) fn refined(
     }
     let first = first_actions(&stand, &terms, sums);
     let exact = harmonics.as_ref().map(|harmonics| taken_apart(inertia, exact, harmonics)).unwrap_or_default();
+    let exact = Exact {
+        around: harmonics
+            .as_ref()
+            .filter(|_| points(demand.orbit.eccentricity()).is_some())
+            .map(|_| (&around as &dyn Fn() -> Vec<Point>, demand.orbit.eccentricity(), demand.mean_motion)),
+        ..exact
+    };
     let second = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest), &exact);
     let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
     let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };
@@ -93,14 +107,26 @@ pub(crate) fn refined(
     ([lower, higher], apart)
 }
 
+/// The disturbing body around its orbit.
+fn around(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<'_>) -> Vec<Point> {
+    let eccentricity = demand.orbit.eccentricity();
+    let epoch = place.angle.values()[0] - place.centre.values()[0];
+    let points = points(eccentricity).into_iter().flatten();
+    let at = |(anomaly, weight): (f64, f64)| {
+        let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
+        Point { anomaly: anomaly - epoch, weight, tensors: tensors(mean, &place, demand).0 }
+    };
+    points.map(at).collect()
+}
+
 /// The terms with exact divisors, apart into harmonics.
-fn taken_apart(inertia: &Inertia, exact: &[ExactTerm], harmonics: &Harmonics) -> Exact {
+fn taken_apart<'a>(inertia: &Inertia, exact: &[ExactTerm], harmonics: &Harmonics) -> Exact<'a> {
     let split = |term: &ExactTerm| {
         let (harmonic, multiple) = term.numbers;
         let mode = Mode::new(inertia, harmonic, multiple);
         (mode, harmonics.split(inertia.momentum * mode.frequency[0], multiple, term.left_out))
     };
-    Exact { terms: exact.iter().map(split).collect(), average: harmonics.average() }
+    Exact { terms: exact.iter().map(split).collect(), average: harmonics.average(), around: None }
 }
 
 /// (a/r)³ r̂r̂ in the frame of a mean state, its time derivatives, and their largest sizes.

@@ -18,6 +18,7 @@ mod modes;
 pub(crate) mod over_orbit;
 mod pairs;
 pub(super) mod short_period;
+mod slow_pairs;
 #[cfg(test)]
 mod tests;
 

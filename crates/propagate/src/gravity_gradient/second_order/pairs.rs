@@ -14,6 +14,7 @@ use num_complex::Complex;
 
 use super::harmonics::{Near, Part, Parts, Split, inverse};
 use super::modes::{Mode, SMALLEST_ROOT};
+use super::slow_pairs::{self, Point};
 use crate::gravity_gradient::contraction::{Contraction, Tensor, contraction};
 use crate::gravity_gradient::corrections::Mean;
 use crate::gravity_gradient::generator::ORDERS;
@@ -43,6 +44,8 @@ pub(super) struct Stand<'a> {
     pub(super) bend: f64,
     /// Sum of the moments of inertia.
     pub(super) trace: f64,
+    /// Smaller errors of M and L, over M, are not looked at.
+    pub(super) enough: f64,
 }
 
 /// Safety factor of slow pairs. S is taken at the epoch, and elsewhere on the orbit the directions to the disturbing body may make it larger.
@@ -70,11 +73,13 @@ struct Together {
     /// S and Ṡ.
     source: C64,
     change: C64,
+    /// Whether one of the pair is a single harmonic of the orbit.
+    single: bool,
 }
 
 /// One term, or ⟨D⟩.
 #[derive(Clone, Copy)]
-struct Row {
+pub(super) struct Row {
     harmonic: f64,
     multiple: f64,
     /// Relative size.
@@ -92,22 +97,24 @@ struct Row {
 
 /// The terms whose divisors are exact, and ⟨D⟩'s harmonics.
 #[derive(Default)]
-pub(super) struct Exact {
+pub(super) struct Exact<'a> {
     pub(super) terms: Vec<(Mode, Split)>,
     pub(super) average: Vec<Near>,
+    /// The disturbing body around its orbit, and the eccentricity and mean motion.
+    pub(super) around: Option<(&'a dyn Fn() -> Vec<Point>, f64, f64)>,
 }
 
 /// δ₂M and δ₂L at a mean state of first order.
-pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &Exact) -> Actions {
+pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &Exact<'_>) -> Actions {
     let is_exact = |mode: &Mode| exact.terms.iter().any(|(other, _)| mode.is(other));
-    let mut half: Vec<Row> = modes.iter().filter(|mode| !is_exact(mode)).map(|mode| Row::new(stand, mode)).collect();
-    half.extend(
-        exact
-            .terms
-            .iter()
-            .map(|(mode, split)| Row::rest(stand, mode, split))
-            .filter(|row| row.frequency[0].abs() > stand.slowest),
-    );
+    let mut listed: Vec<Mode> = modes.iter().filter(|mode| !is_exact(mode)).copied().collect();
+    let mut half: Vec<Row> = listed.iter().map(|mode| Row::new(stand, mode)).collect();
+    for (mode, split) in &exact.terms {
+        if stand.mean.momentum * mode.frequency[0].abs() > stand.slowest {
+            listed.push(*mode);
+            half.push(Row::rest(stand, mode, split));
+        }
+    }
     let largest = half.iter().fold(0.0_f64, |most, row| most.max(row.size));
     let single =
         exact.terms.iter().flat_map(|(mode, split)| split.near.iter().map(|near| Row::single(stand, mode, near)));
@@ -133,6 +140,25 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &Exact) -
             actions.add(stand, (&average, b), 1.0, &mut together);
         }
     }
+    let slow: Vec<Together> = together
+        .iter()
+        .copied()
+        .filter(|pair| !pair.single && pair.frequency.abs() <= stand.slowest)
+        .filter(|pair| stand.left(&[*pair]).iter().any(|left| *left > stand.enough * stand.mean.momentum))
+        .collect();
+    match exact.around {
+        Some((around, eccentricity, mean_motion)) if !slow.is_empty() => {
+            let sizes: Vec<_> = listed.iter().zip(&half).map(|(mode, row)| (*mode, row.size)).collect();
+            let numbers: Vec<_> = slow.iter().map(|pair| (pair.numbers, pair.frequency)).collect();
+            let [changes, left] = slow_pairs::actions(stand, &sizes, &numbers, (&around(), eccentricity, mean_motion));
+            together
+                .retain(|pair| !slow.iter().any(|other| (other.numbers, other.single) == (pair.numbers, pair.single)));
+            actions.momentum += changes[0];
+            actions.action += changes[1];
+            actions.left = [0, 1].map(|i| actions.left[i] + left[i]);
+        }
+        _ => {}
+    }
     let left = stand.left(&together);
     actions.left = [0, 1].map(|i| actions.left[i] + left[i]);
     // A pair that is left out changes M and L by no more than its product times what the pairs of the sum do.
@@ -157,7 +183,7 @@ impl Actions {
         let mut chi = C64::default();
         let omega = a.frequency[0] + b.frequency[0];
         if (h, m) != (0.0, 0.0) {
-            let source = stand.bracket(a, &torque[0], b, &wave[0]);
+            let source = stand.source(a, b);
             if a.single && b.single {
                 chi = source * inverse(omega, stand.duration) * -0.5;
                 let turn = 0.5 * omega * stand.duration;
@@ -167,7 +193,7 @@ impl Actions {
                 return;
             }
             let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
-            Together { numbers: [h, m], frequency: omega, source, change }.join(
+            Together { numbers: [h, m], frequency: omega, source, change, single: a.single || b.single }.join(
                 0.5 * factor,
                 stand.orbital_step,
                 together,
@@ -199,13 +225,15 @@ impl Together {
             [self.source, self.change].map(|part| if conjugated { part.conj() } else { part } * factor);
         let numbers = if conjugated { [-h, -m] } else { [h, m] };
         let frequency = if conjugated { -self.frequency } else { self.frequency };
-        let same = |other: &&mut Self| other.numbers == numbers && (other.frequency - frequency).abs() < 0.1 * step;
+        let same = |other: &&mut Self| {
+            (other.numbers, other.single) == (numbers, self.single) && (other.frequency - frequency).abs() < 0.1 * step
+        };
         match all.iter_mut().find(same) {
             Some(other) => {
                 other.source += source;
                 other.change += change;
             }
-            None => all.push(Self { numbers, frequency, source, change }),
+            None => all.push(Self { numbers, frequency, source, change, ..self }),
         }
     }
 }
@@ -214,7 +242,7 @@ impl Stand<'_> {
     /// What the sum lacks of δ₂M and δ₂L.
     fn left(&self, all: &[Together]) -> [f64; 2] {
         all.iter().fold([0.0; 2], |[momentum, action], together| {
-            let Together { numbers: [h, m], frequency, source, change } = together;
+            let Together { numbers: [h, m], frequency, source, change, .. } = together;
             // S may be near 0 at the epoch, but not with its time derivative.
             let swing = if self.bend > 0.0 { change.norm() / (2.0 * self.bend.sqrt()) } else { 0.0 };
             let left = source.norm().hypot(swing) * self.left_over(*frequency);
@@ -234,6 +262,11 @@ impl Stand<'_> {
             return (fastest / omega).powi(2).min(1.0) * time;
         }
         SOURCE_MARGIN * self.closest * self.closest * time
+    }
+
+    /// [D_a, W_b].
+    pub(super) fn source(&self, a: &Row, b: &Row) -> C64 {
+        self.bracket(a, &a.parts.torque[0], b, &b.parts.generator[0])
     }
 
     /// The bracket of a part of one term with a part of another, with the phases.
@@ -256,7 +289,7 @@ impl Stand<'_> {
 }
 
 impl Row {
-    fn new(stand: &Stand<'_>, mode: &Mode) -> Self {
+    pub(super) fn new(stand: &Stand<'_>, mode: &Mode) -> Self {
         let contracted = stand.tensors.map(|tensor| contraction(&tensor, mode.multiple));
         let omega = stand.mean.momentum * mode.frequency[0];
         let parts = Parts {
@@ -324,7 +357,7 @@ impl Row {
         }
     }
 
-    fn conjugate(&self) -> Self {
+    pub(super) fn conjugate(&self) -> Self {
         let conjugated =
             |part: &Part, sign: f64| Part { value: part.value.map(|c| c.conj()), slope: part.slope.conj() * sign };
         let [whole, slope, lowered] = self.amplitude;

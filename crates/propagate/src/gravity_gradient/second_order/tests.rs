@@ -113,6 +113,7 @@ impl Scene {
             closest: 1.0,
             bend: 0.0,
             trace: self.polhode.moments.iter().sum(),
+            enough: 0.0,
         }
     }
 
