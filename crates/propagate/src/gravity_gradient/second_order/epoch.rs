@@ -7,7 +7,7 @@ use super::hamiltonian::Hamiltonian;
 use super::harmonics::Harmonics;
 use super::modes::{Mode, modes, slow_modes, slowest};
 use super::pairs::{Exact, Stand, second_actions};
-use super::slow_pairs::{Point, points};
+use super::slow_pairs::{Around, Point};
 use crate::gravity_gradient::contraction::Tensor;
 use crate::gravity_gradient::corrections::{Change, Demand, Mean};
 use crate::gravity_gradient::generator::{ExactTerm, Generator, ORDERS};
@@ -68,7 +68,7 @@ pub(crate) fn refined(
         enough: ENOUGH * demand.tolerance
             / (demand.duration * inertia.rates.iter().map(|rate| rate.to_f64().abs()).sum::<f64>()),
     };
-    let around = || around(mean, place, demand);
+    let points = |places: &[(f64, f64)]| points(mean, place, demand, places);
     let harmonics = Harmonics::new(mean, place, demand);
     let sums = (harmonics.as_ref(), exact, &demand.envelope.epoch);
     let mut terms = modes(inertia, SMALLEST_FIRST, slowest);
@@ -77,13 +77,8 @@ pub(crate) fn refined(
     }
     let first = first_actions(&stand, &terms, sums);
     let exact = harmonics.as_ref().map(|harmonics| taken_apart(inertia, exact, harmonics)).unwrap_or_default();
-    let exact = Exact {
-        around: harmonics
-            .as_ref()
-            .filter(|_| points(demand.orbit.eccentricity()).is_some())
-            .map(|_| (&around as &dyn Fn() -> Vec<Point>, demand.orbit.eccentricity(), demand.mean_motion)),
-        ..exact
-    };
+    let around = Around { eccentricity: demand.orbit.eccentricity(), mean_motion: demand.mean_motion, points: &points };
+    let exact = Exact { around: harmonics.is_some().then_some(around), ..exact };
     let second = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest), &exact);
     let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
     let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };
@@ -107,16 +102,15 @@ pub(crate) fn refined(
     ([lower, higher], apart)
 }
 
-/// The disturbing body around its orbit.
-fn around(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<'_>) -> Vec<Point> {
+/// The disturbing body at mean anomalies with weights.
+fn points(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<'_>, places: &[(f64, f64)]) -> Vec<Point> {
     let eccentricity = demand.orbit.eccentricity();
     let epoch = place.angle.values()[0] - place.centre.values()[0];
-    let points = points(eccentricity).into_iter().flatten();
-    let at = |(anomaly, weight): (f64, f64)| {
+    let at = |&(anomaly, weight): &(f64, f64)| {
         let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
         Point { anomaly: anomaly - epoch, weight, tensors: tensors(mean, &place, demand).0 }
     };
-    points.map(at).collect()
+    places.iter().map(at).collect()
 }
 
 /// The terms with exact divisors, apart into harmonics.

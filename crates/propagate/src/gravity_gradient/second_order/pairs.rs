@@ -14,7 +14,7 @@ use num_complex::Complex;
 
 use super::harmonics::{Near, Part, Parts, Split, inverse};
 use super::modes::{Mode, SMALLEST_ROOT};
-use super::slow_pairs::{self, Point};
+use super::slow_pairs::{self, Around, Listed, Total};
 use crate::gravity_gradient::contraction::{Contraction, Tensor, contraction};
 use crate::gravity_gradient::corrections::Mean;
 use crate::gravity_gradient::generator::ORDERS;
@@ -100,8 +100,7 @@ pub(super) struct Row {
 pub(super) struct Exact<'a> {
     pub(super) terms: Vec<(Mode, Split)>,
     pub(super) average: Vec<Near>,
-    /// The disturbing body around its orbit, and the eccentricity and mean motion.
-    pub(super) around: Option<(&'a dyn Fn() -> Vec<Point>, f64, f64)>,
+    pub(super) around: Option<Around<'a>>,
 }
 
 /// δ₂M and δ₂L at a mean state of first order.
@@ -140,24 +139,30 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &Exact<'_
             actions.add(stand, (&average, b), 1.0, &mut together);
         }
     }
-    let slow: Vec<Together> = together
-        .iter()
-        .copied()
-        .filter(|pair| !pair.single && pair.frequency.abs() <= stand.slowest)
-        .filter(|pair| stand.left(&[*pair]).iter().any(|left| *left > stand.enough * stand.mean.momentum))
-        .collect();
-    match exact.around {
-        Some((around, eccentricity, mean_motion)) if !slow.is_empty() => {
-            let sizes: Vec<_> = listed.iter().zip(&half).map(|(mode, row)| (*mode, row.size)).collect();
-            let numbers: Vec<_> = slow.iter().map(|pair| (pair.numbers, pair.frequency)).collect();
-            let [changes, left] = slow_pairs::actions(stand, &sizes, &numbers, (&around(), eccentricity, mean_motion));
-            together
-                .retain(|pair| !slow.iter().any(|other| (other.numbers, other.single) == (pair.numbers, pair.single)));
-            actions.momentum += changes[0];
-            actions.action += changes[1];
+    if let Some(around) = &exact.around {
+        let (served, others): (Vec<_>, Vec<_>) =
+            together.into_iter().partition(|all| !all.single && all.needs(stand, around));
+        for all in others.iter().filter(|all| !all.single && all.frequency.abs() > stand.slowest) {
+            let left = all.at_resonance(stand, around);
+            actions.left = [actions.left[0] + all.numbers[1] * left, actions.left[1] + all.numbers[0].abs() * left];
+        }
+        together = others;
+        if !served.is_empty() {
+            let listed = listed.iter().zip(&half).map(|(mode, row)| {
+                let near = exact.terms.iter().find(|(other, _)| mode.is(other));
+                Listed { mode: *mode, size: row.size, near: near.map_or(&[], |(_, split)| &split.near) }
+            });
+            let listed: Vec<_> = listed.collect();
+            let totals: Vec<_> = served.iter().map(Together::total).collect();
+            let [changes, left] = slow_pairs::actions(stand, &listed, &totals, around);
+            let in_the_sum = served.iter().fold([0.0; 2], |sum, all| {
+                let change = all.series(stand);
+                [sum[0] + all.numbers[1] * change, sum[1] + all.numbers[0] * change]
+            });
+            actions.momentum += changes[0] - in_the_sum[0];
+            actions.action += changes[1] - in_the_sum[1];
             actions.left = [0, 1].map(|i| actions.left[i] + left[i]);
         }
-        _ => {}
     }
     let left = stand.left(&together);
     actions.left = [0, 1].map(|i| actions.left[i] + left[i]);
@@ -238,14 +243,51 @@ impl Together {
     }
 }
 
+impl Together {
+    fn total(&self) -> Total {
+        Total { numbers: self.numbers, frequency: self.frequency }
+    }
+
+    /// Whether the harmonics of the orbit are needed.
+    fn needs(&self, stand: &Stand<'_>, around: &Around<'_>) -> bool {
+        let [h, m] = self.numbers;
+        let enough = stand.enough * stand.mean.momentum / h.abs().max(m);
+        let size = if self.frequency.abs() <= stand.slowest {
+            self.size(stand) * stand.left_over(self.frequency)
+        } else {
+            self.at_resonance(stand, around)
+        };
+        size > enough && around.highest(&self.total()).is_some()
+    }
+
+    /// What the harmonic of S that is nearest to resonance does.
+    fn at_resonance(&self, stand: &Stand<'_>, around: &Around<'_>) -> f64 {
+        let [size, distance] = around.nearest(self.frequency);
+        self.size(stand) * stand.closest.powi(2) * size * (1.0 / distance).min(stand.duration)
+    }
+
+    /// S, which may be near 0 at the epoch, but not with its time derivative.
+    fn size(&self, stand: &Stand<'_>) -> f64 {
+        let swing = if stand.bend > 0.0 { self.change.norm() / (2.0 * stand.bend.sqrt()) } else { 0.0 };
+        self.source.norm().hypot(swing)
+    }
+
+    /// The change by the sum over time derivatives, which slow pairs do not have.
+    fn series(&self, stand: &Stand<'_>) -> f64 {
+        if self.frequency.abs() <= stand.slowest {
+            return 0.0;
+        }
+        let inverse = (C64::i() * self.frequency).inv();
+        ((self.source - self.change * inverse) * inverse * -C64::i()).re
+    }
+}
+
 impl Stand<'_> {
     /// What the sum lacks of δ₂M and δ₂L.
     fn left(&self, all: &[Together]) -> [f64; 2] {
         all.iter().fold([0.0; 2], |[momentum, action], together| {
-            let Together { numbers: [h, m], frequency, source, change, .. } = together;
-            // S may be near 0 at the epoch, but not with its time derivative.
-            let swing = if self.bend > 0.0 { change.norm() / (2.0 * self.bend.sqrt()) } else { 0.0 };
-            let left = source.norm().hypot(swing) * self.left_over(*frequency);
+            let [h, m] = together.numbers;
+            let left = together.size(self) * self.left_over(together.frequency);
             [momentum + left * m.abs(), action + left * h.abs()]
         })
     }
@@ -304,6 +346,17 @@ impl Row {
         Self::of(stand, mode, split.rest)
     }
 
+    /// This term at another time, without the torque of harmonics that are terms of their own.
+    pub(super) fn without(mut self, near: &[Near], elapsed: f64) -> Self {
+        for harmonic in near {
+            let turn = C64::from_polar(1.0, (harmonic.frequency - self.frequency[0]) * elapsed);
+            for (value, part) in self.parts.torque[0].value.iter_mut().zip(harmonic.torque) {
+                *value -= part * turn;
+            }
+        }
+        self
+    }
+
     /// One harmonic of the orbit in a term.
     fn single(stand: &Stand<'_>, mode: &Mode, near: &Near) -> Self {
         let row = Self::of(stand, mode, near.parts());
@@ -339,7 +392,7 @@ impl Row {
     }
 
     /// ⟨D⟩, twice: it is no part of D̃, and S has not the half of it.
-    fn average(stand: &Stand<'_>) -> Self {
+    pub(super) fn average(stand: &Stand<'_>) -> Self {
         let function = Mode::average(stand.inertia, stand.trace).function;
         let part = |tensor: &Tensor| Part { value: contraction(tensor, 0), slope: C64::default() };
         Self {

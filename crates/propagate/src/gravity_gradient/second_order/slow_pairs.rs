@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex;
 
-use super::harmonics::inverse;
+use super::harmonics::{Near, inverse};
 use super::modes::Mode;
 use super::pairs::{Row, Stand};
 use crate::gravity_gradient::contraction::Tensor;
@@ -30,30 +30,80 @@ pub(super) struct Point {
     pub(super) tensors: [Tensor; ORDERS],
 }
 
-/// Mean anomalies and weights of points around an ellipse, even in the eccentric anomaly, if there are not too many.
-pub(super) fn points(eccentricity: f64) -> Option<impl Iterator<Item = (f64, f64)>> {
-    let count = 2.0 * highest(eccentricity)? + 8.0;
-    let point = move |k: usize| {
+/// A term of which pairs are made.
+pub(super) struct Listed<'a> {
+    pub(super) mode: Mode,
+    /// Relative size.
+    pub(super) size: f64,
+    /// Its harmonics that are terms of their own.
+    pub(super) near: &'a [Near],
+}
+
+/// An orbit, and the disturbing body on it.
+#[derive(Clone, Copy)]
+pub(super) struct Around<'a> {
+    pub(super) eccentricity: f64,
+    pub(super) mean_motion: f64,
+    /// The disturbing body at mean anomalies with these weights.
+    pub(super) points: &'a dyn Fn(&[(f64, f64)]) -> Vec<Point>,
+}
+
+/// All pairs with one h and m together.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Total {
+    pub(super) numbers: [f64; 2],
+    pub(super) frequency: f64,
+}
+
+impl Around<'_> {
+    /// The harmonics of S fall like e^(−|j| times this).
+    fn decay(&self) -> f64 {
+        let e = self.eccentricity;
+        if e == 0.0 { f64::INFINITY } else { (1.0 / e).acosh() - ((1.0 - e) * (1.0 + e)).sqrt() }
+    }
+
+    /// The highest harmonic that a total needs, if the orbit has not too many.
+    pub(super) fn highest(&self, total: &Total) -> Option<f64> {
+        let slow = 8.0 + 6.0 / self.decay();
+        let highest = slow.max((total.frequency / self.mean_motion).abs() + 4.0).ceil();
+        (points_for(highest) <= MOST_POINTS).then_some(highest)
+    }
+
+    /// The largest size of the harmonic of S nearest to resonance over that of S, and its distance from it.
+    pub(super) fn nearest(&self, frequency: f64) -> [f64; 2] {
+        let number = (frequency / self.mean_motion).abs().round();
+        // On a circle S has four.
+        let size = if number <= 4.0 {
+            1.0
+        } else if self.eccentricity == 0.0 {
+            0.0
+        } else {
+            let fallen = self.decay() * number;
+            ((-fallen).exp() * (1.0 + fallen).powi(3)).min(1.0)
+        };
+        [size, (frequency.abs() - number * self.mean_motion).abs()]
+    }
+}
+
+/// Number of points for so many harmonics.
+fn points_for(highest: f64) -> f64 {
+    2.0 * highest + 8.0
+}
+
+/// Mean anomalies and weights of points around an ellipse, even in the eccentric anomaly.
+fn even(eccentricity: f64, count: f64) -> Vec<(f64, f64)> {
+    let point = |k: usize| {
         let anomaly = TAU * (k as f64 + 0.5) / count - PI;
         (anomaly - eccentricity * anomaly.sin(), (1.0 - eccentricity * anomaly.cos()) / count)
     };
-    (count <= MOST_POINTS).then(|| (0..count as usize).map(point))
+    (0..count as usize).map(point).collect()
 }
 
-/// The highest harmonic.
-fn highest(eccentricity: f64) -> Option<f64> {
-    if eccentricity == 0.0 {
-        return Some(4.0);
-    }
-    let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
-    Some((8.0 + 6.0 / ((1.0 / eccentricity).acosh() - eta)).ceil())
-}
-
-/// A pair of terms, by their places in the list.
+/// A pair of terms, by their places in the list; the first may be ⟨D⟩.
 struct Pair {
     /// Which h and m they have together.
     place: usize,
-    terms: [usize; 2],
+    terms: [Option<usize>; 2],
     /// Whether the second has the opposite h and m.
     conjugated: bool,
     /// Whether both together have the opposite ones.
@@ -63,30 +113,34 @@ struct Pair {
 /// The changes of M and L by the pairs of these terms with each h and m together, and what is left of them.
 pub(super) fn actions(
     stand: &Stand<'_>,
-    modes: &[(Mode, f64)],
-    numbers: &[([f64; 2], f64)],
-    (points, eccentricity, mean_motion): (&[Point], f64, f64),
+    listed: &[Listed<'_>],
+    totals: &[Total],
+    around: &Around<'_>,
 ) -> [[f64; 2]; 2] {
-    let pairs = pairs(modes, numbers);
-    let mut sources = vec![vec![C64::default(); points.len()]; numbers.len()];
+    let pairs = pairs(listed, totals);
+    let highest = totals.iter().filter_map(|total| around.highest(total)).fold(0.0, f64::max);
+    let points = (around.points)(&even(around.eccentricity, points_for(highest)));
+    let mut sources = vec![vec![C64::default(); points.len()]; totals.len()];
     for (k, point) in points.iter().enumerate() {
         let stand = Stand { tensors: &point.tensors, ..*stand };
-        let mut rows: Vec<Option<[Row; 2]>> = vec![None; modes.len()];
+        let average = Row::average(&stand);
+        let mut rows: Vec<Option<[Row; 2]>> = vec![None; listed.len()];
         for pair in &pairs {
-            let [a, b] = pair.terms.map(|place| {
-                *rows[place].get_or_insert_with(|| {
-                    let row = Row::new(&stand, &modes[place].0);
+            let [a, b] = pair.terms.map(|place| match place {
+                Some(place) => *rows[place].get_or_insert_with(|| {
+                    let row = Row::new(&stand, &listed[place].mode)
+                        .without(listed[place].near, point.anomaly / around.mean_motion);
                     [row, row.conjugate()]
-                })
+                }),
+                None => [average; 2],
             });
             let source = stand.source(&a[0], &b[usize::from(pair.conjugated)]);
             sources[pair.place][k] += if pair.opposite { source.conj() } else { source };
         }
     }
-    let highest = highest(eccentricity).unwrap_or(0.0) as i32;
+    let highest = highest as i32;
     let mut actions = [[0.0; 2]; 2];
-    for ((numbers, frequency), source) in numbers.iter().zip(&sources) {
-        let [h, m] = *numbers;
+    for (Total { numbers: [h, m], frequency }, source) in totals.iter().zip(&sources) {
         let (mut sum, mut size, mut still) = (C64::default(), 0.0, 0.0);
         for j in -highest..=highest {
             let turned = points
@@ -94,7 +148,7 @@ pub(super) fn actions(
                 .zip(source)
                 .map(|(point, value)| value * C64::from_polar(point.weight, -f64::from(j) * point.anomaly));
             let harmonic: C64 = turned.sum();
-            let divisor = frequency + f64::from(j) * mean_motion;
+            let divisor = frequency + f64::from(j) * around.mean_motion;
             let part = harmonic * inverse(divisor, stand.duration);
             let turn = 0.5 * divisor * stand.duration;
             sum += part;
@@ -103,7 +157,7 @@ pub(super) fn actions(
         }
         // −i/2 times m or h times S/(iΩ), twice its real part.
         let left = LEFT * size + still;
-        for (i, number) in [m, h].into_iter().enumerate() {
+        for (i, number) in [*m, *h].into_iter().enumerate() {
             actions[0][i] -= number * sum.re;
             actions[1][i] += number.abs() * left;
         }
@@ -112,19 +166,25 @@ pub(super) fn actions(
 }
 
 /// The pairs of these terms that have one of these h and m together.
-fn pairs(modes: &[(Mode, f64)], numbers: &[([f64; 2], f64)]) -> Vec<Pair> {
+fn pairs(listed: &[Listed<'_>], totals: &[Total]) -> Vec<Pair> {
     let mut pairs = Vec::new();
-    for (i, (a, size)) in modes.iter().enumerate() {
-        for (k, (b, other)) in modes.iter().enumerate() {
+    for (i, Listed { mode: a, size, .. }) in listed.iter().enumerate() {
+        for (k, Listed { mode: b, size: other, .. }) in listed.iter().enumerate() {
             for conjugated in [false, true] {
                 let sign = if conjugated { -1 } else { 1 };
                 let [h, m] = [a.harmonic + sign * b.harmonic, a.multiple + sign * b.multiple].map(f64::from);
-                let place = numbers.iter().position(|(both, _)| *both == [h, m] || *both == [-h, -m]);
+                let place = totals.iter().position(|total| total.numbers == [h, m] || total.numbers == [-h, -m]);
                 if let Some(place) = place.filter(|_| size * other >= SMALLEST_PRODUCT) {
-                    let opposite = numbers[place].0 != [h, m];
-                    pairs.push(Pair { place, terms: [i, k], conjugated, opposite });
+                    let opposite = totals[place].numbers != [h, m];
+                    pairs.push(Pair { place, terms: [Some(i), Some(k)], conjugated, opposite });
                 }
             }
+        }
+    }
+    for (k, Listed { mode: b, .. }) in listed.iter().enumerate() {
+        let numbers = [b.harmonic, b.multiple].map(f64::from);
+        if let Some(place) = totals.iter().position(|total| total.numbers == numbers) {
+            pairs.push(Pair { place, terms: [None, Some(k)], conjugated: false, opposite: false });
         }
     }
     pairs
