@@ -123,11 +123,14 @@ impl Selection<'_> {
         let size = amplitude * term.size_at(distance);
         let [swing, turn] = term.swing_at(distance).map(|part| amplitude * part);
         let lasting = response.by_momentum * duration;
-        let changing = size + turn;
+        // Of its square: the averaged Hamiltonian of second order, and the slope of a power of p, which is larger than the change near J = 0.
+        let degree = f64::from((term.harmonic.abs() - 1).max(0));
+        let slope = turn + size * degree / (response.gain * response.sigma.sqrt()).max(size);
+        let square = size * (size + slope) + turn * turn;
+        // Of pairs with the other terms, and with the other harmonics of the same one, which act while the body passes the pericentre.
         let passing = 2.0 * (term.frequency / self.commensurability.fastest).abs();
-        let bounded = changing * (self.whole + passing * term.size());
-        // K2
-        let second = MARGIN * (changing * changing * (1.0 + distance * duration) + bounded);
+        let bounded = (size + turn) * (self.whole + passing * term.size());
+        let second = MARGIN * (square * (1.0 + distance * duration) + bounded);
         // The average torque shifts Ω, and with it the divisor.
         let number = f64::from(term.harmonic) - f64::from(term.multiple) * response.sigma;
         let shift = (number.abs() * self.shift / distance).min(1.0);

@@ -14,7 +14,7 @@ use num_complex::Complex;
 
 use super::harmonics::{Near, Part, Parts, Split, inverse};
 use super::modes::{Mode, SMALLEST_ROOT};
-use super::slow_pairs::{self, Around, Listed, Total};
+use super::slow_pairs::{self, Around, Total};
 use crate::gravity_gradient::contraction::{Contraction, Tensor, contraction};
 use crate::gravity_gradient::corrections::Mean;
 use crate::gravity_gradient::generator::ORDERS;
@@ -148,11 +148,7 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &Exact<'_
         }
         together = others;
         if !served.is_empty() {
-            let listed = listed.iter().zip(&half).map(|(mode, row)| {
-                let near = exact.terms.iter().find(|(other, _)| mode.is(other));
-                Listed { mode: *mode, size: row.size, near: near.map_or(&[], |(_, split)| &split.near) }
-            });
-            let listed: Vec<_> = listed.collect();
+            let listed: Vec<_> = listed.iter().zip(&half).map(|(mode, row)| (*mode, row.size)).collect();
             let totals: Vec<_> = served.iter().map(Together::total).collect();
             let [changes, left] = slow_pairs::actions(stand, &listed, &totals, around);
             let in_the_sum = served.iter().fold([0.0; 2], |sum, all| {
@@ -344,17 +340,6 @@ impl Row {
     /// A term with exact divisors, without its harmonics near resonance.
     fn rest(stand: &Stand<'_>, mode: &Mode, split: &Split) -> Self {
         Self::of(stand, mode, split.rest)
-    }
-
-    /// This term at another time, without the torque of harmonics that are terms of their own.
-    pub(super) fn without(mut self, near: &[Near], elapsed: f64) -> Self {
-        for harmonic in near {
-            let turn = C64::from_polar(1.0, (harmonic.frequency - self.frequency[0]) * elapsed);
-            for (value, part) in self.parts.torque[0].value.iter_mut().zip(harmonic.torque) {
-                *value -= part * turn;
-            }
-        }
-        self
     }
 
     /// One harmonic of the orbit in a term.

@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex;
 
-use super::harmonics::{Near, inverse};
+use super::harmonics::inverse;
 use super::modes::Mode;
 use super::pairs::{Row, Stand};
 use crate::gravity_gradient::contraction::Tensor;
@@ -28,15 +28,6 @@ pub(super) struct Point {
     pub(super) anomaly: f64,
     pub(super) weight: f64,
     pub(super) tensors: [Tensor; ORDERS],
-}
-
-/// A term of which pairs are made.
-pub(super) struct Listed<'a> {
-    pub(super) mode: Mode,
-    /// Relative size.
-    pub(super) size: f64,
-    /// Its harmonics that are terms of their own.
-    pub(super) near: &'a [Near],
 }
 
 /// An orbit, and the disturbing body on it.
@@ -113,7 +104,7 @@ struct Pair {
 /// The changes of M and L by the pairs of these terms with each h and m together, and what is left of them.
 pub(super) fn actions(
     stand: &Stand<'_>,
-    listed: &[Listed<'_>],
+    listed: &[(Mode, f64)],
     totals: &[Total],
     around: &Around<'_>,
 ) -> [[f64; 2]; 2] {
@@ -128,8 +119,7 @@ pub(super) fn actions(
         for pair in &pairs {
             let [a, b] = pair.terms.map(|place| match place {
                 Some(place) => *rows[place].get_or_insert_with(|| {
-                    let row = Row::new(&stand, &listed[place].mode)
-                        .without(listed[place].near, point.anomaly / around.mean_motion);
+                    let row = Row::new(&stand, &listed[place].0);
                     [row, row.conjugate()]
                 }),
                 None => [average; 2],
@@ -166,10 +156,10 @@ pub(super) fn actions(
 }
 
 /// The pairs of these terms that have one of these h and m together.
-fn pairs(listed: &[Listed<'_>], totals: &[Total]) -> Vec<Pair> {
+fn pairs(listed: &[(Mode, f64)], totals: &[Total]) -> Vec<Pair> {
     let mut pairs = Vec::new();
-    for (i, Listed { mode: a, size, .. }) in listed.iter().enumerate() {
-        for (k, Listed { mode: b, size: other, .. }) in listed.iter().enumerate() {
+    for (i, (a, size)) in listed.iter().enumerate() {
+        for (k, (b, other)) in listed.iter().enumerate() {
             for conjugated in [false, true] {
                 let sign = if conjugated { -1 } else { 1 };
                 let [h, m] = [a.harmonic + sign * b.harmonic, a.multiple + sign * b.multiple].map(f64::from);
@@ -181,7 +171,7 @@ fn pairs(listed: &[Listed<'_>], totals: &[Total]) -> Vec<Pair> {
             }
         }
     }
-    for (k, Listed { mode: b, .. }) in listed.iter().enumerate() {
+    for (k, (b, _)) in listed.iter().enumerate() {
         let numbers = [b.harmonic, b.multiple].map(f64::from);
         if let Some(place) = totals.iter().position(|total| total.numbers == numbers) {
             pairs.push(Pair { place, terms: [None, Some(k)], conjugated: false, opposite: false });
