@@ -7,7 +7,7 @@ use num_complex::Complex;
 
 use super::harmonics::Harmonics;
 use super::modes::Mode;
-use super::pairs::Stand;
+use super::rows::Stand;
 use crate::gravity_gradient::contraction::contraction;
 use crate::gravity_gradient::generator::{ExactTerm, ORDERS};
 

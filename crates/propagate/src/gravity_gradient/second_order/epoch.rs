@@ -3,11 +3,12 @@
 use num_complex::Complex;
 
 use super::actions::first_actions;
+use super::around::{Around, Point};
 use super::hamiltonian::Hamiltonian;
 use super::harmonics::Harmonics;
 use super::modes::{Mode, modes, slow_modes, slowest};
-use super::pairs::{Exact, Stand, second_actions};
-use super::slow_pairs::{Around, Point};
+use super::pairs::{Exact, second_actions};
+use super::rows::Stand;
 use crate::gravity_gradient::contraction::Tensor;
 use crate::gravity_gradient::corrections::{Change, Demand, Mean};
 use crate::gravity_gradient::generator::{ExactTerm, Generator, ORDERS};

@@ -9,6 +9,7 @@ use super::corrections::Demand;
 use super::inertia::Inertia;
 
 mod actions;
+mod around;
 pub(super) mod drift;
 pub(super) mod epoch;
 pub(crate) mod hamiltonian;
@@ -17,10 +18,11 @@ mod jet;
 mod modes;
 pub(crate) mod over_orbit;
 mod pairs;
+mod rows;
 pub(super) mod short_period;
-mod slow_pairs;
 #[cfg(test)]
 mod tests;
+mod totals;
 
 /// Terms smaller than this share of the largest have no weight in [`cut`].
 const SMALLEST_WEIGHT: f64 = 1e-6;

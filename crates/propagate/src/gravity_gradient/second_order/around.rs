@@ -1,4 +1,4 @@
-//! Pairs of terms that are slower than the sums over time derivatives allow, by the harmonics of the orbit.
+//! Pairs of terms by the harmonics of the orbit: those that are slower than the sums over time derivatives allow, and those with a harmonic near resonance.
 //!
 //! The source S of all pairs with one h and m is a function of the disturbing body's place. With S = Σ_j S_j e^(ijl), what it does is Σ_j S_j e^(ijl)/(i(Ω + jn)).
 //! A harmonic that does not return within the span has a part of it only (`harmonics`).
@@ -7,9 +7,9 @@ use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex;
 
-use super::harmonics::inverse;
+use super::harmonics::{inverse, unreturned};
 use super::modes::Mode;
-use super::pairs::{Row, Stand};
+use super::rows::{Row, Stand};
 use crate::gravity_gradient::contraction::Tensor;
 use crate::gravity_gradient::generator::ORDERS;
 
@@ -30,16 +30,18 @@ pub(super) struct Point {
     pub(super) tensors: [Tensor; ORDERS],
 }
 
+/// The disturbing body at mean anomalies with weights.
+pub(super) type Points<'a> = dyn Fn(&[(f64, f64)]) -> Vec<Point> + 'a;
+
 /// An orbit, and the disturbing body on it.
 #[derive(Clone, Copy)]
 pub(super) struct Around<'a> {
     pub(super) eccentricity: f64,
     pub(super) mean_motion: f64,
-    /// The disturbing body at mean anomalies with these weights.
-    pub(super) points: &'a dyn Fn(&[(f64, f64)]) -> Vec<Point>,
+    pub(super) points: &'a Points<'a>,
 }
 
-/// All pairs with one h and m together.
+/// h and m of a pair together, and their frequency Ω.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Total {
     pub(super) numbers: [f64; 2],
@@ -53,7 +55,7 @@ impl Around<'_> {
         if e == 0.0 { f64::INFINITY } else { (1.0 / e).acosh() - ((1.0 - e) * (1.0 + e)).sqrt() }
     }
 
-    /// The highest harmonic that a total needs, if the orbit has not too many.
+    /// The highest harmonic that a pair needs, if they are not too many.
     pub(super) fn highest(&self, total: &Total) -> Option<f64> {
         let slow = 8.0 + 6.0 / self.decay();
         let highest = slow.max((total.frequency / self.mean_motion).abs() + 4.0).ceil();
@@ -140,10 +142,9 @@ pub(super) fn actions(
             let harmonic: C64 = turned.sum();
             let divisor = frequency + f64::from(j) * around.mean_motion;
             let part = harmonic * inverse(divisor, stand.duration);
-            let turn = 0.5 * divisor * stand.duration;
             sum += part;
             size += part.norm();
-            still += harmonic.norm() * stand.duration * (-turn * turn).exp();
+            still += harmonic.norm() * unreturned(divisor, stand.duration);
         }
         // −i/2 times m or h times S/(iΩ), twice its real part.
         let left = LEFT * size + still;

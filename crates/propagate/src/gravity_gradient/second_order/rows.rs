@@ -1,0 +1,201 @@
+//! The terms of the sum over pairs at one state: their amplitudes, those of the generating function, and the bracket of two.
+
+use num_complex::Complex;
+
+use super::harmonics::{Near, Part, Parts};
+use super::modes::{Mode, SMALLEST_ROOT};
+use crate::gravity_gradient::contraction::{Contraction, Tensor, contraction};
+use crate::gravity_gradient::corrections::Mean;
+use crate::gravity_gradient::generator::ORDERS;
+use crate::gravity_gradient::inertia::Inertia;
+
+type C64 = Complex<f64>;
+
+/// The state at which the sum is taken.
+pub(super) struct Stand<'a> {
+    pub(super) inertia: &'a Inertia,
+    pub(super) mean: &'a Mean,
+    /// q = 3φn²/2.
+    pub(super) strength: f64,
+    /// (a/r)³ r̂r̂ in the frame and its time derivatives.
+    pub(super) tensors: &'a [Tensor; ORDERS],
+    /// Largest sizes of the time derivatives, as many and one more.
+    pub(super) norms: &'a [f64],
+    /// Frequency below which pairs are left out: the fastest of the orbit's times [`SMALLEST_RATIO`](crate::gravity_gradient::candidate::SMALLEST_RATIO).
+    pub(super) slowest: f64,
+    /// S has the harmonics of the orbit with multiples of this frequency.
+    pub(super) orbital_step: f64,
+    /// Longest time from the epoch.
+    pub(super) duration: f64,
+    /// Largest (a/r)³ within the span, over that at the epoch.
+    pub(super) closest: f64,
+    /// Second time derivative of (a/r)³ r̂r̂ at the epoch, over it.
+    pub(super) bend: f64,
+    /// Sum of the moments of inertia.
+    pub(super) trace: f64,
+    /// Smaller errors of M and L, over M, are not looked at.
+    pub(super) enough: f64,
+}
+
+/// One term, or ⟨D⟩.
+#[derive(Clone, Copy)]
+pub(super) struct Row {
+    pub(super) harmonic: f64,
+    pub(super) multiple: f64,
+    /// Relative size.
+    pub(super) size: f64,
+    /// Ω and its derivatives with respect to σ and M.
+    pub(super) frequency: [f64; 3],
+    /// q e^(i(hℓ′+my′)), and −i for m = 1.
+    weight: C64,
+    /// F = σ^(|h|/2) f, √σ dF/dσ, and h F/√σ.
+    amplitude: [f64; 3],
+    pub(super) parts: Parts,
+    /// Whether it is one harmonic of the orbit, which has no other time dependence than its frequency.
+    pub(super) single: bool,
+}
+
+impl Stand<'_> {
+    /// [D_a, W_b].
+    pub(super) fn source(&self, a: &Row, b: &Row) -> C64 {
+        self.bracket(a, &a.parts.torque[0], b, &b.parts.generator[0])
+    }
+
+    /// The bracket of a part of one term with a part of another, with the phases.
+    pub(super) fn bracket(&self, a: &Row, a_part: &Part, b: &Row, b_part: &Part) -> C64 {
+        let (momentum, sigma) = (self.mean.momentum, self.inertia.sigma);
+        let ([x, x1, x2], [z, z1, z2]) = (a_part.value, b_part.value);
+        // The derivative (h − mσ)/M ∂/∂σ + m ∂/∂M, with the factor that b's or a's amplitude gives.
+        let along = |row: &Row, other: &Row, value: C64, slope: C64| {
+            let [whole, _, lowered] = row.amplitude;
+            let [_, by_sigma, by_momentum] = other.frequency;
+            let turned = (lowered - row.multiple * sigma.sqrt() * whole) * other.amplitude[1] / momentum;
+            let shift = (row.harmonic - row.multiple * sigma) / momentum * by_sigma + row.multiple * by_momentum;
+            value * turned + slope * (whole * other.amplitude[0] * shift)
+        };
+        let forth = x * along(a, b, z, b_part.slope);
+        let back = z * along(b, a, x, a_part.slope);
+        let turning = (x1 * z2 - x2 * z1) * (a.amplitude[0] * b.amplitude[0] / momentum);
+        a.weight * b.weight * (C64::i() * (forth - back) + turning)
+    }
+}
+
+impl Row {
+    pub(super) fn new(stand: &Stand<'_>, mode: &Mode) -> Self {
+        let contracted = stand.tensors.map(|tensor| contraction(&tensor, mode.multiple));
+        let omega = stand.mean.momentum * mode.frequency[0];
+        let parts = Parts {
+            torque: [0, 1].map(|j| Part { value: contracted[j], slope: C64::default() }),
+            generator: generating(&contracted, omega, stand.norms),
+        };
+        Self::of(stand, mode, parts)
+    }
+
+    /// One harmonic of the orbit in a term.
+    pub(super) fn single(stand: &Stand<'_>, mode: &Mode, near: &Near) -> Self {
+        let row = Self::of(stand, mode, near.parts());
+        let share = near.torque.iter().map(|part| part.norm()).fold(0.0, f64::max) / stand.norms[0];
+        let size = row.size * share * (row.frequency[0] / near.frequency).abs();
+        let [_, by_sigma, by_momentum] = row.frequency;
+        Self { size, frequency: [near.frequency, by_sigma, by_momentum], single: true, ..row }
+    }
+
+    /// A term with these amplitudes of D and W.
+    pub(super) fn of(stand: &Stand<'_>, mode: &Mode, parts: Parts) -> Self {
+        let (h, m) = (f64::from(mode.harmonic), f64::from(mode.multiple));
+        let Stand { mean, strength, .. } = stand;
+        let [nu, slope, _] = mode.frequency;
+        let angle = if mean.p == C64::default() { 0.0 } else { mean.p.arg() };
+        let phase = C64::from_polar(*strength, h * angle + m * mean.longitude);
+        Self {
+            harmonic: h,
+            multiple: m,
+            size: mode.size(stand.inertia.sigma.sqrt().max(SMALLEST_ROOT)),
+            frequency: [mean.momentum * nu, mean.momentum * slope, nu],
+            weight: if mode.multiple == 1 { phase * -C64::i() } else { phase },
+            amplitude: amplitude(mode.harmonic, mode.function, stand.inertia.sigma),
+            parts,
+            single: false,
+        }
+    }
+
+    /// One harmonic of ⟨D⟩.
+    pub(super) fn at(&self, near: &Near) -> Self {
+        let torque = [Part { value: near.torque, slope: C64::default() }, Part::default()];
+        let frequency = [near.frequency, 0.0, 0.0];
+        Self { frequency, parts: Parts { torque, ..Parts::default() }, single: true, ..*self }
+    }
+
+    /// ⟨D⟩, twice: it is no part of D̃, and S has not the half of it.
+    pub(super) fn average(stand: &Stand<'_>) -> Self {
+        let function = Mode::average(stand.inertia, stand.trace).function;
+        let part = |tensor: &Tensor| Part { value: contraction(tensor, 0), slope: C64::default() };
+        Self {
+            harmonic: 0.0,
+            multiple: 0.0,
+            size: 1.0,
+            frequency: [0.0; 3],
+            weight: (2.0 * stand.strength).into(),
+            amplitude: amplitude(0, function, stand.inertia.sigma),
+            parts: Parts {
+                torque: [part(&stand.tensors[0]), part(&stand.tensors[1])],
+                generator: [Part::default(); 2],
+            },
+            single: false,
+        }
+    }
+
+    pub(super) fn conjugate(&self) -> Self {
+        let conjugated =
+            |part: &Part, sign: f64| Part { value: part.value.map(|c| c.conj()), slope: part.slope.conj() * sign };
+        let [whole, slope, lowered] = self.amplitude;
+        Self {
+            harmonic: -self.harmonic,
+            multiple: -self.multiple,
+            size: self.size,
+            frequency: self.frequency.map(|part| -part),
+            weight: self.weight.conj(),
+            amplitude: [whole, slope, -lowered],
+            parts: Parts {
+                torque: self.parts.torque.each_ref().map(|part| conjugated(part, 1.0)),
+                // Ω has the other sign.
+                generator: self.parts.generator.each_ref().map(|part| conjugated(part, -1.0)),
+            },
+            single: self.single,
+        }
+    }
+}
+
+/// F = σ^(|h|/2) f, √σ dF/dσ and h F/√σ, regular at σ = 0.
+fn amplitude(harmonic: i32, [value, slope, _]: [f64; 3], sigma: f64) -> [f64; 3] {
+    let root = sigma.sqrt();
+    let degree = harmonic.abs();
+    let lowered = if degree == 0 { 0.0 } else { root.powi(degree - 1) * value };
+    let whole = root.powi(degree) * value;
+    [whole, root.powi(degree + 1) * slope + 0.5 * f64::from(degree) * lowered, f64::from(harmonic) * lowered]
+}
+
+/// V and dV/dt with V̇ + iΩV = U, from the contractions of U and its time derivatives: sums that end where what they leave is least.
+fn generating(contracted: &[Contraction; ORDERS], omega: f64, norms: &[f64]) -> [Part; 2] {
+    let left = |orders: usize| norms[orders] / omega.abs().powi(orders as i32);
+    let orders = (1..=ORDERS).min_by(|&a, &b| left(a).total_cmp(&left(b))).unwrap_or(1);
+    let inverse = (C64::i() * omega).inv();
+    let mut parts = [Part::default(); 2];
+    // (−1)^j/(iΩ)^(j+1).
+    let mut factor = inverse;
+    for (j, values) in contracted.iter().enumerate().take(orders) {
+        let slope = factor * inverse * -C64::i() * (j as f64 + 1.0);
+        for (sum, value) in parts[0].value.iter_mut().zip(values) {
+            *sum += factor * value;
+        }
+        parts[0].slope += slope * values[0];
+        if let Some(next) = contracted.get(j + 1) {
+            for (sum, value) in parts[1].value.iter_mut().zip(next) {
+                *sum += factor * value;
+            }
+            parts[1].slope += slope * next[0];
+        }
+        factor *= -inverse;
+    }
+    parts
+}

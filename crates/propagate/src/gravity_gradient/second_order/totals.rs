@@ -1,0 +1,113 @@
+//! All pairs of terms with one h and m together: what the sum over time derivatives leaves of them.
+
+use num_complex::Complex;
+
+use super::around::{Around, Total};
+use super::rows::Stand;
+
+type C64 = Complex<f64>;
+
+/// Safety factor of slow pairs. S is taken at the epoch, and elsewhere on the orbit the directions to the disturbing body may make it larger.
+const SOURCE_MARGIN: f64 = 3.0;
+/// All pairs with one total, either with a single harmonic of the orbit in them or without.
+#[derive(Clone, Copy)]
+pub(super) struct Together {
+    pub(super) total: Total,
+    /// S and Ṡ.
+    pub(super) source: C64,
+    pub(super) change: C64,
+    /// Whether one of the pair is a single harmonic of the orbit.
+    pub(super) single: bool,
+}
+
+impl Together {
+    /// Adds this, `factor` times, to that with the same total, or with the opposite one.
+    pub(super) fn join(self, factor: f64, step: f64, all: &mut Vec<Self>) {
+        let Total { numbers: [h, m], frequency } = self.total;
+        let opposite = m < 0.0 || m == 0.0 && h < 0.0;
+        let sign = if opposite { -1.0 } else { 1.0 };
+        let total = Total { numbers: [sign * h, sign * m], frequency: sign * frequency };
+        let [source, change] =
+            [self.source, self.change].map(|part| if opposite { part.conj() } else { part } * factor);
+        // Pairs with different harmonics of the orbit in them have frequencies that differ by at least a step.
+        let same = |other: &&mut Self| {
+            other.single == self.single
+                && other.total.numbers == total.numbers
+                && (other.total.frequency - total.frequency).abs() < 0.1 * step
+        };
+        match all.iter_mut().find(same) {
+            Some(other) => {
+                other.source += source;
+                other.change += change;
+            }
+            None => all.push(Self { total, source, change, ..self }),
+        }
+    }
+
+    /// The changes of M and L that this much of e^(i(hℓ′+my′)) makes.
+    pub(super) fn of_actions(&self, part: f64) -> [f64; 2] {
+        let [h, m] = self.total.numbers;
+        [m * part, h * part]
+    }
+
+    /// What the sum over time derivatives lacks of the changes of M and L.
+    pub(super) fn left(&self, stand: &Stand<'_>) -> [f64; 2] {
+        self.of_actions(self.size(stand) * stand.left_over(self.total.frequency)).map(f64::abs)
+    }
+
+    /// Whether the harmonics of the orbit are needed, and are not too many.
+    pub(super) fn needs(&self, stand: &Stand<'_>, around: &Around<'_>) -> bool {
+        let left = if self.is_slow(stand) {
+            self.left(stand)
+        } else {
+            self.of_actions(self.at_resonance(stand, around)).map(f64::abs)
+        };
+        let enough = stand.enough * stand.mean.momentum;
+        !self.single && left.iter().any(|left| *left > enough) && around.highest(&self.total).is_some()
+    }
+
+    /// Whether there is no sum over time derivatives.
+    fn is_slow(&self, stand: &Stand<'_>) -> bool {
+        self.total.frequency.abs() <= stand.slowest
+    }
+
+    /// What the harmonic of S that is nearest to resonance does, if there is a sum over time derivatives, which has no such harmonic.
+    pub(super) fn at_resonance(&self, stand: &Stand<'_>, around: &Around<'_>) -> f64 {
+        if self.single || self.is_slow(stand) {
+            return 0.0;
+        }
+        let [size, distance] = around.nearest(self.total.frequency);
+        self.size(stand) * stand.closest.powi(2) * size * (1.0 / distance).min(stand.duration)
+    }
+
+    /// S, which may be near 0 at the epoch, but not with its time derivative.
+    fn size(&self, stand: &Stand<'_>) -> f64 {
+        let swing = if stand.bend > 0.0 { self.change.norm() / (2.0 * stand.bend.sqrt()) } else { 0.0 };
+        self.source.norm().hypot(swing)
+    }
+
+    /// The real part of S/Ω by the sum over time derivatives.
+    pub(super) fn by_sum(&self, stand: &Stand<'_>) -> f64 {
+        if self.is_slow(stand) {
+            return 0.0;
+        }
+        let inverse = (C64::i() * self.total.frequency).inv();
+        ((self.source - self.change * inverse) * inverse * -C64::i()).re
+    }
+}
+
+impl Stand<'_> {
+    /// What χ lacks of pairs of frequency Ω, over S: the terms of its sum from the third on, or all of it if the pairs are too slow.
+    fn left_over(&self, omega: f64) -> f64 {
+        // A product of two has twice the orbit's rates.
+        let fastest = 2.0 * self.bend.sqrt();
+        let beyond = omega.abs() - fastest;
+        let nearest = self.orbital_step * (omega / self.orbital_step).round();
+        let distance = if beyond > 0.0 { beyond } else { (omega - nearest).abs() };
+        let time = if distance * self.duration > 1.0 { 1.0 / distance } else { self.duration };
+        if omega.abs() > self.slowest {
+            return (fastest / omega).powi(2).min(1.0) * time;
+        }
+        SOURCE_MARGIN * self.closest * self.closest * time
+    }
+}
