@@ -131,20 +131,21 @@ pub(super) fn actions(
         }
     }
     let highest = highest as i32;
+    let turn = |j: i32| points.iter().map(move |point| C64::from_polar(1.0, f64::from(j) * point.anomaly));
+    let steps: Vec<C64> = turn(-1).collect();
     let mut actions = [[0.0; 2]; 2];
     for (Total { numbers: [h, m], frequency }, source) in totals.iter().zip(&sources) {
         let (mut sum, mut size, mut still) = (C64::default(), 0.0, 0.0);
+        let waves = turn(highest).zip(&points).zip(source).map(|((turn, point), value)| value * turn * point.weight);
+        let mut waves: Vec<C64> = waves.collect();
         for j in -highest..=highest {
-            let turned = points
-                .iter()
-                .zip(source)
-                .map(|(point, value)| value * C64::from_polar(point.weight, -f64::from(j) * point.anomaly));
-            let harmonic: C64 = turned.sum();
+            let harmonic: C64 = waves.iter().sum();
             let divisor = frequency + f64::from(j) * around.mean_motion;
             let part = harmonic * inverse(divisor, stand.duration);
             sum += part;
             size += part.norm();
             still += harmonic.norm() * unreturned(divisor, stand.duration);
+            waves.iter_mut().zip(&steps).for_each(|(wave, step)| *wave *= step);
         }
         // −i/2 times m or h times S/(iΩ), twice its real part.
         let left = LEFT * size + still;
