@@ -113,20 +113,20 @@ pub(super) fn actions(
     let pairs = pairs(listed, totals);
     let highest = totals.iter().filter_map(|total| around.highest(total)).fold(0.0, f64::max);
     let points = (around.points)(&even(around.eccentricity, points_for(highest)));
+    let needed = |k: usize| pairs.iter().any(|pair| pair.terms.contains(&Some(k)));
+    let needed: Vec<bool> = (0..listed.len()).map(needed).collect();
     let mut sources = vec![vec![C64::default(); points.len()]; totals.len()];
     for (k, point) in points.iter().enumerate() {
         let stand = Stand { tensors: &point.tensors, ..*stand };
-        let average = Row::average(&stand);
-        let mut rows: Vec<Option<[Row; 2]>> = vec![None; listed.len()];
+        let row = |((mode, _), needed): (&(Mode, f64), &bool)| {
+            needed.then(|| Row::new(&stand, mode)).map(|row| [row, row.conjugate()])
+        };
+        let rows: Vec<Option<[Row; 2]>> = listed.iter().zip(&needed).map(row).collect();
+        let average = [Row::average(&stand); 2];
+        let both = |place: Option<usize>| place.and_then(|place| rows[place].as_ref()).unwrap_or(&average);
         for pair in &pairs {
-            let [a, b] = pair.terms.map(|place| match place {
-                Some(place) => *rows[place].get_or_insert_with(|| {
-                    let row = Row::new(&stand, &listed[place].0);
-                    [row, row.conjugate()]
-                }),
-                None => [average; 2],
-            });
-            let source = stand.source(&a[0], &b[usize::from(pair.conjugated)]);
+            let [[a, _], b] = pair.terms.map(both);
+            let source = stand.source(a, &b[usize::from(pair.conjugated)]);
             sources[pair.place][k] += if pair.opposite { source.conj() } else { source };
         }
     }
