@@ -104,7 +104,12 @@ pub(crate) fn refined(
 }
 
 /// The disturbing body at mean anomalies with weights.
-fn points(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<'_>, places: &[(f64, f64)]) -> Vec<Point> {
+pub(super) fn points(
+    mean: &Mean,
+    place: &Place<pulp::Scalar>,
+    demand: &Demand<'_>,
+    places: &[(f64, f64)],
+) -> Vec<Point> {
     let eccentricity = demand.orbit.eccentricity();
     let epoch = place.angle.values()[0] - place.centre.values()[0];
     let at = |&(anomaly, weight): &(f64, f64)| {

@@ -214,8 +214,8 @@ mod tests {
 
     const MEAN_MOTION: f64 = 0.02;
 
-    /// c_m of V for T, and by the quadrature ∫ e^(iΩs) U(s) ds over the period before, over 1 − e^(−iΩP).
-    fn solutions(eccentricity: f64, omega: f64, multiple: i32, duration: f64) -> [C64; 2] {
+    /// What `with` makes of a state and an orbit with many harmonics.
+    fn on_orbit<R>(eccentricity: f64, duration: f64, with: impl FnOnce(&Mean, &Demand<'_>) -> R) -> R {
         let orbit =
             Orbit::new(MEAN_MOTION, eccentricity).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
         let envelope = whole(eccentricity, MEAN_MOTION);
@@ -236,10 +236,20 @@ mod tests {
             envelope: &envelope,
             pole: frame * Vector3::z(),
         };
-        let mean = Mean { p: C64::new(0.1, 0.0), longitude: 0.0, momentum: 1.0, frame };
+        with(&Mean { p: C64::new(0.1, 0.0), longitude: 0.0, momentum: 1.0, frame }, &demand)
+    }
+
+    /// c_m of V for T, and by the quadrature ∫ e^(iΩs) U(s) ds over the period before, over 1 − e^(−iΩP).
+    fn solutions(eccentricity: f64, omega: f64, multiple: i32, duration: f64) -> [C64; 2] {
+        on_orbit(eccentricity, duration, |mean, demand| solutions_at(mean, demand, omega, multiple))
+    }
+
+    fn solutions_at(mean: &Mean, demand: &Demand<'_>, omega: f64, multiple: i32) -> [C64; 2] {
+        let eccentricity = demand.orbit.eccentricity();
+        let frame = mean.frame;
         let place = |anomaly: f64| Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
         let (points, start, period) = (4000, 0.8, TAU / MEAN_MOTION);
-        let [first, second, _] = orbit.axes().map(|axis| frame.inverse() * axis);
+        let [first, second, _] = demand.orbit.axes().map(|axis| frame.inverse() * axis);
         let sum: C64 = (0..points)
             .map(|k| {
                 let back = k as f64 / points as f64;
@@ -254,13 +264,13 @@ mod tests {
             })
             .sum();
         // The integrand jumps by 1 − e^(−iΩP) of its value at the end: the trapezoidal rule and its first correction.
-        let now = tensors(&mean, &place(start), &demand);
+        let now = tensors(mean, &place(start), demand);
         let value = |j: usize| contraction(&now.0[j], multiple)[0];
         let jump = 1.0 - C64::from_polar(1.0, -omega * period);
         let step = period / points as f64;
         let slope = C64::i() * omega * value(0) + value(1);
         let quadrature = (sum * step - value(0) * jump * (0.5 * step) - slope * jump * (step * step / 12.0)) / jump;
-        let series = Harmonics::new(&mean, &place(start), &demand).expect("few harmonics");
+        let series = Harmonics::new(mean, &place(start), demand).expect("few harmonics");
         [series.solution(omega, multiple, None), quadrature]
     }
 
@@ -284,5 +294,35 @@ mod tests {
         assert!(long >= 100.0 * short, "{short:e} {long:e}");
         // Those that the sums have are there in any time.
         assert!(at(1e-3) >= 0.1 * short, "{:e} {short:e}", at(1e-3));
+    }
+
+    #[test]
+    fn a_term_apart_into_harmonics_is_the_term() {
+        on_orbit(0.6, 1e6, |mean, demand| {
+            let place = Place::of(Lanes::splat(pulp::Scalar, 0.8), 0.6);
+            let (tensors, _) = tensors(mean, &place, demand);
+            let series = Harmonics::new(mean, &place, demand).expect("few harmonics");
+            // The last is slow: all its harmonics are terms.
+            for (number, multiple) in [(22.6, 0), (-31.4, 1), (1.3, 2)] {
+                let omega = number * MEAN_MOTION;
+                let Split { near, rest } = series.split(omega, multiple, None);
+                assert!(if multiple == 2 { near.len() > 100 } else { near.len() == 5 }, "{}", near.len());
+                let (mut torque, mut change, mut generator) =
+                    (rest.torque[0].value, rest.torque[1].value[0], rest.generator[0].value[0]);
+                for harmonic in &near {
+                    torque = std::array::from_fn(|i| torque[i] + harmonic.torque[i]);
+                    change += harmonic.torque[0] * C64::i() * (harmonic.frequency - omega);
+                    generator += harmonic.parts().generator[0].value[0];
+                }
+                let expected = contraction(&tensors[0], multiple);
+                let scale = expected.iter().map(|part| part.norm()).fold(0.0, f64::max);
+                let off = torque.iter().zip(expected).map(|(one, other)| (one - other).norm()).fold(0.0, f64::max);
+                assert!(off <= 1e-9 * scale, "{number} {off:e}");
+                let by_time = contraction(&tensors[1], multiple)[0];
+                assert!((change - by_time).norm() <= 1e-8 * by_time.norm(), "{number} {change} {by_time}");
+                let whole = series.solution(omega, multiple, None);
+                assert!((generator - whole).norm() <= 1e-9 * whole.norm(), "{number} {generator} {whole}");
+            }
+        });
     }
 }

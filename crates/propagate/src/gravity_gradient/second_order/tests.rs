@@ -3,7 +3,8 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use num_complex::Complex;
 
-use super::epoch::tensors;
+use super::around::Around;
+use super::epoch::{points, tensors};
 use super::hamiltonian::{Disturber, Hamiltonian};
 use super::jet::{Field, Jet, Point, with_turns};
 use super::modes::{Mode, modes, slowest};
@@ -339,5 +340,31 @@ fn the_change_of_second_order_has_the_actions_of_the_sum_over_pairs() {
         // The sum over pairs leaves out products of small terms.
         assert!((second[1] - pairs.momentum).abs() <= 3e-4 * scale, "M {second:?} {pairs:?}");
         assert!((action - pairs.action).abs() <= 3e-4 * scale, "L {action:e} {pairs:?}");
+    }
+}
+
+#[test]
+fn pairs_by_the_harmonics_of_the_orbit_are_those_by_time_derivatives() {
+    let (mean_motion, eccentricity) = (0.02, 0.1);
+    let scene = Scene {
+        orbit: Orbit::new(mean_motion, eccentricity).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit"),
+        place: Place::of(Lanes::splat(pulp::Scalar, 0.8), eccentricity),
+        envelope: whole(eccentricity, mean_motion),
+        ..Scene::new([0.4, 0.7, 1.0], [0.1, 0.3, 1.0])
+    };
+    let demand = Demand { mean_motion, ..scene.demand() };
+    let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
+    let (tensors, norms) = tensors(&scene.mean, &scene.place, &demand);
+    let modes = modes(&inertia, 1e-4, slowest(&demand));
+    let stand = scene.stand(&inertia, &tensors, norms, slowest(&demand));
+    let stand = Stand { duration: 1e6, orbital_step: mean_motion, ..stand };
+    let points = |places: &[(f64, f64)]| points(&scene.mean, &scene.place, &demand, places);
+    let around = Around { eccentricity, mean_motion, points: &points };
+    let by_sums = second_actions(&stand, &modes, &Exact::default());
+    let by_orbit = second_actions(&stand, &modes, &Exact { around: Some(around), ..Exact::default() });
+    // The sums end after two derivatives: the next has a few times (2n/Ω)², where Ω is 30 n and more.
+    let scale = by_sums.momentum.abs() + by_sums.action.abs();
+    for (one, other) in [(by_sums.momentum, by_orbit.momentum), (by_sums.action, by_orbit.action)] {
+        assert!(one != other && (one - other).abs() <= 0.02 * scale, "{one:e} {other:e}");
     }
 }
