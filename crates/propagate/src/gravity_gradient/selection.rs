@@ -126,7 +126,7 @@ impl Selection<'_> {
         // Of its square: the averaged Hamiltonian of second order, and the slope of a power of p, which is larger than the change near J = 0.
         let degree = f64::from((term.harmonic.abs() - 1).max(0));
         let slope = turn + size * degree / (response.gain * response.sigma.sqrt()).max(size);
-        let square = size * (size + slope) + turn * turn;
+        let square = size * (size + slope) + 0.5 * turn * turn;
         // Of pairs with the other terms, and with the other harmonics of the same one, which act while the body passes the pericentre.
         let passing = 2.0 * (term.frequency / self.commensurability.fastest).abs();
         let bounded = (size + turn) * (self.whole + passing * term.size());
