@@ -11,7 +11,7 @@ const LARGEST: f64 = 0.01;
 
 /// The same for the change of y′ through the slope of Ω, in which the correction is linear.
 const LARGEST_TURN: f64 = 0.2;
-/// The safety factor of this drift.
+/// The safety factor of what the correction of a harmonic near resonance leaves.
 const MARGIN: f64 = 2.0;
 
 /// What decides it.

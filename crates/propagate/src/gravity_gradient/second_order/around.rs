@@ -1,7 +1,7 @@
 //! Pairs of terms by the harmonics of the orbit: those that are slower than the sums over time derivatives allow, and those with a harmonic near resonance.
 //!
 //! The source S of all pairs with one h and m is a function of the disturbing body's place. With S = Σ_j S_j e^(ijl), what it does is Σ_j S_j e^(ijl)/(i(Ω + jn)).
-//! A harmonic that does not return within the span has a part of it only (`harmonics`).
+//! A harmonic that does not return within the span has a part of it only ([`super::harmonics`]).
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,12 +17,12 @@ type C64 = Complex<f64>;
 
 /// Most points around an orbit; more are needed from an eccentricity of 0.74 on.
 const MOST_POINTS: f64 = 128.0;
-/// What the points leave of a sum, over it.
+/// What a sum around the orbit leaves, over it: K2 of slow pairs, and the change of S within the span.
 const LEFT: f64 = 0.05;
 /// Pairs whose sizes, over the largest, have a smaller product are left out.
 const SMALLEST_PRODUCT: f64 = 1e-6;
 
-/// The disturbing body at one point of its orbit.
+/// The disturbing body at one place of its orbit.
 pub(super) struct Point {
     /// l less l at the epoch.
     pub(super) anomaly: f64,
@@ -94,7 +94,7 @@ fn even(eccentricity: f64, count: f64) -> Vec<(f64, f64)> {
 
 /// A pair of terms, by their places in the list; the first may be ⟨D⟩.
 struct Pair {
-    /// Which h and m they have together.
+    /// Which total they have.
     place: usize,
     terms: [Option<usize>; 2],
     /// Whether the second has the opposite h and m.
@@ -103,7 +103,7 @@ struct Pair {
     opposite: bool,
 }
 
-/// The changes of M and L by the pairs of these terms with each h and m together, and what is left of them.
+/// The changes of M and L by the pairs of these terms that have one of these totals, and what is left of them. A term comes with its relative size.
 pub(super) fn actions(
     stand: &Stand<'_>,
     listed: &[(Mode, f64)],
@@ -157,7 +157,7 @@ pub(super) fn actions(
     actions
 }
 
-/// The pairs of these terms that have one of these h and m together.
+/// The pairs of these terms that have one of these totals, or its opposite.
 fn pairs(listed: &[(Mode, f64)], totals: &[Total]) -> Vec<Pair> {
     let mut pairs = Vec::new();
     for (i, (a, size)) in listed.iter().enumerate() {

@@ -9,6 +9,9 @@
 //!
 //! and the same with h for m gives δ₂L. ⟨D⟩ is one more a, with S_ab = [⟨D⟩, W_b] and without the first part. Quotients of a power of √σ and √σ are
 //! formed before σ is: the sum is regular at σ = 0.
+//!
+//! A harmonic of the orbit near resonance is a term of its own, of frequency Ω + jn and of constant amplitude; a pair of two such terms has the divisor of both
+//! frequencies together. Pairs for which two terms of χ are not enough are summed around the orbit ([`super::around`]).
 
 use num_complex::Complex;
 
@@ -105,23 +108,23 @@ impl Actions {
         let (torque, wave) = (&a.parts.torque, &b.parts.generator);
         let (h, m) = (a.harmonic + b.harmonic, a.multiple + b.multiple);
         let both = stand.bracket(a, &a.parts.generator[0], b, &wave[0]) * (-0.5 * i);
-        let mut chi = C64::default();
         let omega = a.frequency[0] + b.frequency[0];
-        if (h, m) == (0.0, 0.0) {
-        } else if a.single && b.single {
+        let mut chi = C64::default();
+        if (h, m) != (0.0, 0.0) {
             let source = stand.source(a, b);
-            chi = source * inverse(omega, stand.duration) * -0.5;
-            let left = 0.5 * factor * source.norm() * unreturned(omega, stand.duration);
-            self.leave([left * m.abs(), left * h.abs()]);
-        } else {
-            let source = stand.source(a, b);
-            let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
-            let total = Total { numbers: [h, m], frequency: omega };
-            let pair = Together { total, source, change, single: a.single || b.single };
-            pair.join(0.5 * factor, stand.orbital_step, together);
-            if omega.abs() > stand.slowest {
-                let inverse = (i * omega).inv();
-                chi = (source - change * inverse) * inverse * 0.5 * -i;
+            if a.single && b.single {
+                chi = source * inverse(omega, stand.duration) * -0.5;
+                let left = 0.5 * factor * source.norm() * unreturned(omega, stand.duration);
+                self.leave([left * m.abs(), left * h.abs()]);
+            } else {
+                let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
+                let total = Total { numbers: [h, m], frequency: omega };
+                let pair = Together { total, source, change, single: a.single || b.single };
+                pair.join(0.5 * factor, stand.orbital_step, together);
+                if omega.abs() > stand.slowest {
+                    let inverse = (i * omega).inv();
+                    chi = (source - change * inverse) * inverse * 0.5 * -i;
+                }
             }
         }
         self.sum(factor, both, chi, (a, b, [h, m]));

@@ -81,6 +81,7 @@ impl Stand<'_> {
 }
 
 impl Row {
+    /// A term by the sums over time derivatives.
     pub(super) fn new(stand: &Stand<'_>, mode: &Mode) -> Self {
         let contracted = stand.tensors.map(|tensor| contraction(&tensor, mode.multiple));
         let omega = stand.mean.momentum * mode.frequency[0];

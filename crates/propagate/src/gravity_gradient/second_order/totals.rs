@@ -1,4 +1,4 @@
-//! All pairs of terms with one h and m together: what the sum over time derivatives leaves of them.
+//! All pairs of terms with one h and m together: whether the sum over time derivatives serves them, and what it leaves.
 
 use num_complex::Complex;
 
@@ -9,6 +9,7 @@ type C64 = Complex<f64>;
 
 /// Safety factor of slow pairs. S is taken at the epoch, and elsewhere on the orbit the directions to the disturbing body may make it larger.
 const SOURCE_MARGIN: f64 = 3.0;
+
 /// All pairs with one total, either with a single harmonic of the orbit in them or without.
 #[derive(Clone, Copy)]
 pub(super) struct Together {
