@@ -516,3 +516,14 @@ fn a_resonance_that_pumps_a_small_wobble_is_in_the_bound() {
     ));
     assert!(3.0 * measured.error <= measured.bound, "{measured:?}");
 }
+
+#[test]
+fn a_planar_rotation_on_a_circle_has_a_finite_bound() {
+    // J = 0 and an equatorial orbit: no harmonic of the orbit near resonance has any strength, and σ stays 0.
+    for mean_motion in [0.02, 0.05, 0.09, 0.12] {
+        let orbit = [mean_motion, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let scene = Disturbed::new([0.9, 0.95, 1.0], [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0], orbit, 400.0);
+        let measured = second_order(scene);
+        assert!(measured.error <= measured.bound && measured.bound <= 0.01, "{mean_motion} {measured:?}");
+    }
+}

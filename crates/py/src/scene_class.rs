@@ -45,7 +45,7 @@ use crate::foreign::Calendar;
 ///     "auto" uses "orbit" if it meets the tolerance.
 /// level : {"auto", "full", "second-order", "moving", "paper"}, optional
 ///     How much of the theory of the gravity gradient is used. "full": first order in the torque, to all orders in J. "second-order": the
-///     averaged motion to second order too, averaged over the rotation only (theory, section 9). "auto" (default): "full" where it meets the
+///     averaged motion to second order too, by either averaging (theory, section 9). "auto" (default): "full" where it meets the
 ///     tolerance, else "second-order" where its error bound is smaller. "moving": corrections at J = 0 alone. "paper": those with the disturbing body held fixed.
 /// name, source : str, optional
 ///     A name and a source of the figures, kept with the scene and printed.
@@ -55,7 +55,7 @@ use crate::foreign::Calendar;
 /// InputError
 ///     An attitude whose norm is not 1 (``[0, 0, 0, 1.1]``); a tolerance that is not positive; a span whose first time is above the second; a value that is not finite;
 ///     an array of another shape; an order that is negative or not whole (``-1``, ``2.5``); an unknown method, averaging or level.
-///     When the scene is solved: the level "second-order" with the averaging "orbit".
+///     When the scene is solved: the level "second-order", or the averaging "orbit", with several disturbing bodies or an orbit that precesses.
 /// RepresentationError
 ///     An order above 60.
 /// TypeError

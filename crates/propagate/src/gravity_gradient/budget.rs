@@ -36,7 +36,7 @@ const MARGIN: f64 = 2.0;
 const SHORT_PERIOD_MARGIN: f64 = 2.4;
 /// The safety factor of the drift of third order.
 const THIRD_MARGIN: f64 = 2.0;
-/// The same for the drift of second order by terms that are too slow for the averaged Hamiltonian of second order.
+/// The same for the pairs of slow terms with others, whose drift is part of the resonant effects.
 const SLOW_MARGIN: f64 = 1.0;
 /// The same for the distance between the motions of first and of second order.
 const FIRST_MARGIN: f64 = 1.4;

@@ -52,6 +52,8 @@ pub(super) struct Nearest {
     pub(super) amplitude: f64,
     /// |Ω + jn|.
     pub(super) distance: f64,
+    /// The same for the harmonic that has this effect.
+    pub(super) acting: f64,
 }
 
 impl Commensurability<'_> {
@@ -103,10 +105,11 @@ impl Commensurability<'_> {
         let nearest = distance(number);
         let sizes = (number - NEIGHBOURS..=number + NEIGHBOURS).map(|j| {
             let share = if j == number { 1.0 } else { nearest / distance(j) };
-            share * aspect.strength(series, j, term.multiple)
+            (share * aspect.strength(series, j, term.multiple), distance(j))
         });
-        let amplitude = sizes.fold(0.0, f64::max) / self.envelope.span[0];
-        Nearest { harmonic: number, amplitude: amplitude.min(1.0), distance: nearest }
+        let (size, acting) = sizes.fold((0.0, nearest), |most, other| if other.0 > most.0 { other } else { most });
+        let amplitude = (size / self.envelope.span[0]).min(1.0);
+        Nearest { harmonic: number, amplitude, distance: nearest, acting }
     }
 
     /// Whether a term is too slow for a sum over time derivatives.

@@ -119,18 +119,18 @@ impl Selection<'_> {
     /// A term with exact divisors. The harmonic nearest to resonance is left out if what its correction leaves would be more than its first order.
     fn exact(&self, term: &Candidate, nearest: &Nearest, series: &OrbitSeries) -> Exact {
         let Commensurability { duration, response, .. } = self.commensurability;
-        let Nearest { amplitude, distance, .. } = *nearest;
+        let Nearest { amplitude, distance, acting, .. } = *nearest;
         let size = amplitude * term.size_at(distance);
         let [swing, turn] = term.swing_at(distance).map(|part| amplitude * part);
         let lasting = response.by_momentum * duration;
         // Of its square: the averaged Hamiltonian of second order, and the slope of a power of p, which is larger than the change near J = 0.
         let degree = f64::from((term.harmonic.abs() - 1).max(0));
-        let slope = turn + size * degree / (response.gain * response.sigma.sqrt()).max(size);
+        let slope = turn + size * degree / (response.gain * response.sigma.sqrt()).max(size).max(f64::MIN_POSITIVE);
         let square = size * (size + slope) + 0.5 * turn * turn;
         // Of pairs with the other terms, and with the other harmonics of the same one, which act while the body passes the pericentre.
         let passing = 2.0 * (term.frequency / self.commensurability.fastest).abs();
         let bounded = (size + turn) * (self.whole + passing * term.size());
-        let second = MARGIN * (square * (1.0 + distance * duration) + bounded);
+        let second = MARGIN * (square * (1.0 + acting * duration) + bounded);
         // The average torque shifts Ω, and with it the divisor.
         let number = f64::from(term.harmonic) - f64::from(term.multiple) * response.sigma;
         let shift = (number.abs() * self.shift / distance).min(1.0);
@@ -139,20 +139,24 @@ impl Selection<'_> {
         let small = size <= LARGEST && turn <= LARGEST_TURN;
         let corrected = returns(distance, duration) || small && left < MARGIN * first;
         let (left_out, effect) = if corrected { (None, left) } else { (Some(nearest.harmonic), first) };
-        Exact { left_out, size: self.exact_size(term, left_out, series), effect }
+        let [size, square] = self.harmonics(term, left_out, series);
+        // The averaged Hamiltonian of second order lacks slow terms.
+        let drift = if self.commensurability.is_slow(term) { square * duration } else { 0.0 };
+        Exact { left_out, size, effect: effect + drift }
     }
 
-    /// Largest change of the attitude by a term with exact divisors \[rad\].
-    fn exact_size(&self, term: &Candidate, left_out: Option<i32>, series: &OrbitSeries) -> f64 {
-        let of = |j: i32| {
-            let divisor = term.frequency + f64::from(j) * self.commensurability.mean_motion;
-            if left_out == Some(j) { 0.0 } else { term.size_at(divisor.abs()) }
-        };
-        let sizes = (0..).zip(&series.coefficients).map(|(j, functions)| {
+    /// Sums over the harmonics of the orbit in a term with exact divisors: of the changes of the attitude \[rad\], and of their squares times the divisors.
+    fn harmonics(&self, term: &Candidate, left_out: Option<i32>, series: &OrbitSeries) -> [f64; 2] {
+        let count = series.coefficients.len() as i32;
+        let mut sums = [0.0; 2];
+        for j in (1 - count..count).filter(|j| left_out != Some(*j)) {
+            let functions = &series.coefficients[j.unsigned_abs() as usize];
             let largest = functions.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
-            largest * if j == 0 { of(0) } else { of(j) + of(-j) }
-        });
-        // The rate of a term is that where the disturbing body is nearest, and the coefficients add up there.
-        sizes.sum::<f64>() / self.sizes[0]
+            let divisor = (term.frequency + f64::from(j) * self.commensurability.mean_motion).abs();
+            // The rate of a term is that where the disturbing body is nearest, and the coefficients add up there.
+            let size = largest * term.size_at(divisor) / self.sizes[0];
+            sums = [sums[0] + size, sums[1] + size * size * divisor];
+        }
+        sums
     }
 }

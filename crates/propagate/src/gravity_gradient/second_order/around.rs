@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex;
 
-use super::harmonics::{inverse, unreturned};
+use super::harmonics::{Split, inverse, unreturned};
 use super::modes::Mode;
 use super::rows::{Row, Stand};
 use crate::gravity_gradient::contraction::Tensor;
@@ -15,7 +15,7 @@ use crate::gravity_gradient::generator::ORDERS;
 
 type C64 = Complex<f64>;
 
-/// Most points around an orbit; more are needed from an eccentricity of 0.74 on.
+/// Most points around an orbit; more are needed from an eccentricity of 0.77 on, and for a harmonic above 60.
 const MOST_POINTS: f64 = 128.0;
 /// What a sum around the orbit leaves, over it: K2 of slow pairs, and the change of S within the span.
 const LEFT: f64 = 0.05;
@@ -62,17 +62,19 @@ impl Around<'_> {
         (points_for(highest) <= MOST_POINTS).then_some(highest)
     }
 
-    /// The largest size of the harmonic of S nearest to resonance over that of S, and its distance from it.
-    pub(super) fn nearest(&self, frequency: f64) -> [f64; 2] {
+    /// The largest size of the harmonic nearest to resonance in a product of so many factors (a/r)³, over that of the product at the pericentre, and its distance from
+    /// resonance.
+    pub(super) fn nearest(&self, frequency: f64, factors: i32) -> [f64; 2] {
         let number = (frequency / self.mean_motion).abs().round();
-        // On a circle S has four.
-        let size = if number <= 4.0 {
+        // On a circle one factor has the harmonics 0 and ±2.
+        let beyond = number - 2.0 * f64::from(factors);
+        let size = if beyond <= 0.0 {
             1.0
         } else if self.eccentricity == 0.0 {
             0.0
         } else {
-            let fallen = self.decay() * number;
-            ((-fallen).exp() * (1.0 + fallen).powi(3)).min(1.0)
+            let fallen = self.decay() * beyond;
+            ((-fallen).exp() * (1.0 + fallen).powf(1.5 * f64::from(factors))).min(1.0)
         };
         [size, (frequency.abs() - number * self.mean_motion).abs()]
     }
@@ -108,7 +110,7 @@ pub(super) fn actions(
     stand: &Stand<'_>,
     listed: &[(Mode, f64)],
     totals: &[Total],
-    around: &Around<'_>,
+    (around, exact): (&Around<'_>, &[(Mode, Split)]),
 ) -> [[f64; 2]; 2] {
     let pairs = pairs(listed, totals);
     let highest = totals.iter().filter_map(|total| around.highest(total)).fold(0.0, f64::max);
@@ -119,7 +121,10 @@ pub(super) fn actions(
     for (k, point) in points.iter().enumerate() {
         let stand = Stand { tensors: &point.tensors, ..*stand };
         let row = |((mode, _), needed): (&(Mode, f64), &bool)| {
-            needed.then(|| Row::new(&stand, mode)).map(|row| [row, row.conjugate()])
+            let near = exact.iter().find(|(other, _)| mode.is(other)).map_or(&[][..], |(_, split)| &split.near);
+            needed
+                .then(|| Row::without(&stand, mode, near, point.anomaly / around.mean_motion))
+                .map(|row| [row, row.conjugate()])
         };
         let rows: Vec<Option<[Row; 2]>> = listed.iter().zip(&needed).map(row).collect();
         let average = [Row::average(&stand); 2];
@@ -180,4 +185,35 @@ fn pairs(listed: &[(Mode, f64)], totals: &[Total]) -> Vec<Pair> {
         }
     }
     pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::kepler::Place;
+    use crate::simd::lanes::Lanes;
+
+    #[test]
+    fn the_estimate_of_a_harmonic_is_not_below_it() {
+        for eccentricity in [0.02, 0.05, 0.1, 0.3, 0.6, 0.8] {
+            let points = |_: &[(f64, f64)]| Vec::new();
+            let around = Around { eccentricity, mean_motion: 1.0, points: &points };
+            for (factors, number) in (1..=2).flat_map(|factors| (5..30).map(move |number| (factors, number))) {
+                let [estimate, distance] = around.nearest(f64::from(number) + 0.25, factors);
+                assert!((distance - 0.25).abs() <= 1e-12);
+                // (a/r)³ e^(2if) and its square over their values at the pericentre, where both are real.
+                let sum: C64 = even(eccentricity, 4000.0)
+                    .into_iter()
+                    .map(|(anomaly, weight)| {
+                        let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
+                        let f = place.angle.values()[0];
+                        let near = (1.0 + eccentricity * f.cos()) / (1.0 + eccentricity);
+                        let turn = f64::from(2 * factors) * f - f64::from(number) * anomaly;
+                        C64::from_polar(weight * near.powi(3 * factors), turn)
+                    })
+                    .sum();
+                assert!(sum.norm() <= estimate + 1e-14, "{eccentricity} {factors} {number}: {sum} {estimate:e}");
+            }
+        }
+    }
 }

@@ -24,7 +24,7 @@ const SMALLEST_FIRST: f64 = 1e-13;
 /// Terms smaller than this share of the largest are left out of K2.
 const SMALLEST_TERM: f64 = 1e-9;
 
-/// Errors of M and L that turn the attitude by a smaller share of the tolerance are not looked at.
+/// Pairs that turn the attitude by less than this share of the tolerance are not summed around the orbit. They are charged.
 const ENOUGH: f64 = 0.02;
 
 /// A mean state at the epoch.
@@ -77,7 +77,7 @@ pub(crate) fn refined(
         terms.extend(slow_modes(inertia, slowest));
     }
     let first = first_actions(&stand, &terms, sums);
-    let exact = harmonics.as_ref().map(|harmonics| taken_apart(inertia, exact, harmonics)).unwrap_or_default();
+    let exact = harmonics.as_ref().map(|harmonics| split(inertia, exact, harmonics)).unwrap_or_default();
     let around = Around { eccentricity: demand.orbit.eccentricity(), mean_motion: demand.mean_motion, points: &points };
     let exact = Exact { around: harmonics.is_some().then_some(around), ..exact };
     let second = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest), &exact);
@@ -119,8 +119,8 @@ pub(super) fn points(
     places.iter().map(at).collect()
 }
 
-/// The terms with exact divisors, apart into harmonics.
-fn taken_apart<'a>(inertia: &Inertia, exact: &[ExactTerm], harmonics: &Harmonics) -> Exact<'a> {
+/// The terms with exact divisors, split into harmonics.
+fn split<'a>(inertia: &Inertia, exact: &[ExactTerm], harmonics: &Harmonics) -> Exact<'a> {
     let split = |term: &ExactTerm| {
         let (harmonic, multiple) = term.numbers;
         let mode = Mode::new(inertia, harmonic, multiple);

@@ -47,9 +47,14 @@ impl Mode {
 
     /// Relative size of the change of the mean variables by the term.
     pub(super) fn size(&self, root: f64) -> f64 {
+        self.strength(root) / self.frequency[0].abs()
+    }
+
+    /// The same times ν.
+    pub(super) fn strength(&self, root: f64) -> f64 {
         let degree = self.harmonic.abs();
         let [value, slope, _] = self.function.map(f64::abs);
-        (value + root * root * slope) * root.powi((degree - 1).max(0)) * f64::from(degree + 1) / self.frequency[0].abs()
+        (value + root * root * slope) * root.powi((degree - 1).max(0)) * f64::from(degree + 1)
     }
 }
 

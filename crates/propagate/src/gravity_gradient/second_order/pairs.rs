@@ -13,6 +13,8 @@
 //! A harmonic of the orbit near resonance is a term of its own, of frequency Ω + jn and of constant amplitude; a pair of two such terms has the divisor of both
 //! frequencies together. Pairs for which two terms of χ are not enough are summed around the orbit ([`super::around`]).
 
+use std::mem::take;
+
 use num_complex::Complex;
 
 use super::around::{self, Around, Total};
@@ -26,12 +28,16 @@ type C64 = Complex<f64>;
 /// Pairs whose sizes, over the largest, have a smaller product are left out.
 const SMALLEST_PRODUCT: f64 = 1e-6;
 
+/// Pairs of ordinary terms, joined by their totals, and those with a single harmonic of the orbit.
+type Lists = [Vec<Together>; 2];
+
 /// δ₂M and δ₂L.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Actions {
     pub(super) momentum: f64,
     pub(super) action: f64,
-    /// What the sum leaves of them: pairs that are too slow, the rest of the two terms in d/dt, and pairs that are left out for their size.
+    /// What is left of them: the rest of the two terms in d/dt, harmonics of the orbit that the sum lacks or that do not return within the span, pairs that are too
+    /// slow where the orbit has too many harmonics, and pairs that are left out for their size.
     pub(super) left: [f64; 2],
     /// The largest changes by one pair over the product of its relative sizes.
     largest: [f64; 2],
@@ -59,15 +65,23 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &Exact<'_
             half.push(Row::of(stand, mode, split.rest));
         }
     }
-    let largest = half.iter().fold(0.0_f64, |most, row| most.max(row.size));
-    let single =
-        exact.terms.iter().flat_map(|(mode, split)| split.near.iter().map(|near| Row::single(stand, mode, near)));
-    half.extend(single.filter(|row| row.size > SMALLEST_PRODUCT * largest));
+    let single: Vec<Row> = exact
+        .terms
+        .iter()
+        .flat_map(|(mode, split)| split.near.iter().map(|near| Row::single(stand, mode, near)))
+        .collect();
+    let largest_of = |rows: &[Row]| rows.iter().fold(0.0_f64, |most, row| most.max(row.size));
+    let largest = if half.is_empty() { largest_of(&single) } else { largest_of(&half) };
+    let (single, dropped): (Vec<Row>, Vec<Row>) =
+        single.into_iter().partition(|row| row.size > SMALLEST_PRODUCT * largest);
+    half.extend(single);
     half.iter_mut().for_each(|row| row.size /= largest);
+    let sum = |rows: &[Row]| rows.iter().map(|row| row.size).sum::<f64>();
+    let dropped = sum(&dropped) / largest.max(f64::MIN_POSITIVE) * sum(&half);
     let rows: Vec<Row> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
     let average = Row::average(stand);
     let averages: Vec<Row> = exact.average.iter().map(|near| average.at(near)).collect();
-    let (mut actions, mut pruned, mut together) = (Actions::default(), 0.0, Vec::new());
+    let (mut actions, mut pruned, mut together) = (Actions::default(), dropped, Lists::default());
     for b in &rows {
         // The other half of the sum is its conjugate.
         for a in &half {
@@ -86,9 +100,12 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &Exact<'_
     }
     if let Some(around) = &exact.around {
         let listed: Vec<_> = listed.into_iter().zip(half.iter().map(|row| row.size)).collect();
-        together = actions.around(stand, &listed, together, around);
+        together[0] = actions.around(stand, &listed, take(&mut together[0]), (around, &exact.terms));
+        for all in together.iter().flatten() {
+            actions.leave(all.of_actions(all.at_resonance(stand, around)).map(f64::abs));
+        }
     }
-    together.iter().for_each(|all| actions.leave(all.left(stand)));
+    together.iter().flatten().for_each(|all| actions.leave(all.left(stand)));
     // A pair that is left out changes M and L by no more than its product times what the pairs of the sum do.
     actions.leave(actions.largest.map(|largest| pruned * largest));
     actions
@@ -103,7 +120,7 @@ pub(super) fn averaged(stand: &Stand<'_>, modes: &[Mode]) -> f64 {
 
 impl Actions {
     /// Adds a pair, `factor` times: a term with another, or ⟨D⟩ with one.
-    fn add(&mut self, stand: &Stand<'_>, (a, b): (&Row, &Row), factor: f64, together: &mut Vec<Together>) {
+    fn add(&mut self, stand: &Stand<'_>, (a, b): (&Row, &Row), factor: f64, together: &mut Lists) {
         let i = C64::i();
         let (torque, wave) = (&a.parts.torque, &b.parts.generator);
         let (h, m) = (a.harmonic + b.harmonic, a.multiple + b.multiple);
@@ -119,8 +136,9 @@ impl Actions {
             } else {
                 let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
                 let total = Total { numbers: [h, m], frequency: omega };
-                let pair = Together { total, source, change, single: a.single || b.single };
-                pair.join(0.5 * factor, stand.orbital_step, together);
+                let single = a.single || b.single;
+                let pair = Together { total, source, change, single };
+                pair.join(0.5 * factor, &mut together[usize::from(single)]);
                 if omega.abs() > stand.slowest {
                     let inverse = (i * omega).inv();
                     chi = (source - change * inverse) * inverse * 0.5 * -i;
@@ -136,15 +154,12 @@ impl Actions {
         stand: &Stand<'_>,
         listed: &[(Mode, f64)],
         together: Vec<Together>,
-        around: &Around<'_>,
+        (around, exact): (&Around<'_>, &[(Mode, Split)]),
     ) -> Vec<Together> {
         let (served, others): (Vec<_>, Vec<_>) = together.into_iter().partition(|all| all.needs(stand, around));
-        for all in &others {
-            self.leave(all.of_actions(all.at_resonance(stand, around)).map(f64::abs));
-        }
         if !served.is_empty() {
             let totals: Vec<_> = served.iter().map(|all| all.total).collect();
-            let [changes, left] = around::actions(stand, listed, &totals, around);
+            let [changes, left] = around::actions(stand, listed, &totals, (around, exact));
             self.leave(left);
             let by_sums = served.iter().map(|all| all.of_actions(all.by_sum(stand)));
             let [momentum, action] = by_sums.fold(changes, |sum, part| [sum[0] - part[0], sum[1] - part[1]]);

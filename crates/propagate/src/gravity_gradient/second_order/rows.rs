@@ -21,7 +21,7 @@ pub(super) struct Stand<'a> {
     pub(super) tensors: &'a [Tensor; ORDERS],
     /// Largest sizes of the time derivatives, as many and one more.
     pub(super) norms: &'a [f64],
-    /// Frequency below which pairs are left out: the fastest of the orbit's times [`SMALLEST_RATIO`](crate::gravity_gradient::candidate::SMALLEST_RATIO).
+    /// Frequency below which pairs have no sum over time derivatives: the fastest of the orbit's times [`SMALLEST_RATIO`](crate::gravity_gradient::candidate::SMALLEST_RATIO).
     pub(super) slowest: f64,
     /// S has the harmonics of the orbit with multiples of this frequency.
     pub(super) orbital_step: f64,
@@ -33,7 +33,7 @@ pub(super) struct Stand<'a> {
     pub(super) bend: f64,
     /// Sum of the moments of inertia.
     pub(super) trace: f64,
-    /// Smaller errors of M and L, over M, are not looked at.
+    /// Pairs with a smaller error of M and L, over M, are not summed around the orbit.
     pub(super) enough: f64,
 }
 
@@ -83,8 +83,23 @@ impl Stand<'_> {
 impl Row {
     /// A term by the sums over time derivatives.
     pub(super) fn new(stand: &Stand<'_>, mode: &Mode) -> Self {
-        let contracted = stand.tensors.map(|tensor| contraction(&tensor, mode.multiple));
+        Self::without(stand, mode, &[], 0.0)
+    }
+
+    /// The same without harmonics of the orbit that are terms of their own; `elapsed` is the time from the place where they have their amplitudes.
+    pub(super) fn without(stand: &Stand<'_>, mode: &Mode, near: &[Near], elapsed: f64) -> Self {
+        let mut contracted = stand.tensors.map(|tensor| contraction(&tensor, mode.multiple));
         let omega = stand.mean.momentum * mode.frequency[0];
+        for harmonic in near {
+            let step = harmonic.frequency - omega;
+            let mut turn = C64::from_polar(1.0, step * elapsed);
+            for values in &mut contracted {
+                for (value, part) in values.iter_mut().zip(harmonic.torque) {
+                    *value -= part * turn;
+                }
+                turn *= C64::new(0.0, step);
+            }
+        }
         let parts = Parts {
             torque: [0, 1].map(|j| Part { value: contracted[j], slope: C64::default() }),
             generator: generating(&contracted, omega, stand.norms),
@@ -96,7 +111,8 @@ impl Row {
     pub(super) fn single(stand: &Stand<'_>, mode: &Mode, near: &Near) -> Self {
         let row = Self::of(stand, mode, near.parts());
         let share = near.torque.iter().map(|part| part.norm()).fold(0.0, f64::max) / stand.norms[0];
-        let size = row.size * share * (row.frequency[0] / near.frequency).abs();
+        let root = stand.inertia.sigma.sqrt().max(SMALLEST_ROOT);
+        let size = share * mode.strength(root) * stand.mean.momentum / near.frequency.abs();
         let [_, by_sigma, by_momentum] = row.frequency;
         Self { size, frequency: [near.frequency, by_sigma, by_momentum], single: true, ..row }
     }

@@ -23,20 +23,16 @@ pub(super) struct Together {
 
 impl Together {
     /// Adds this, `factor` times, to that with the same total, or with the opposite one.
-    pub(super) fn join(self, factor: f64, step: f64, all: &mut Vec<Self>) {
+    pub(super) fn join(self, factor: f64, all: &mut Vec<Self>) {
         let Total { numbers: [h, m], frequency } = self.total;
         let opposite = m < 0.0 || m == 0.0 && h < 0.0;
         let sign = if opposite { -1.0 } else { 1.0 };
         let total = Total { numbers: [sign * h, sign * m], frequency: sign * frequency };
         let [source, change] =
             [self.source, self.change].map(|part| if opposite { part.conj() } else { part } * factor);
-        // Pairs with different harmonics of the orbit in them have frequencies that differ by at least a step.
-        let same = |other: &&mut Self| {
-            other.single == self.single
-                && other.total.numbers == total.numbers
-                && (other.total.frequency - total.frequency).abs() < 0.1 * step
-        };
-        match all.iter_mut().find(same) {
+        // A pair with a single harmonic of the orbit in it has its own frequency, and is not joined.
+        let same = all.iter_mut().filter(|_| !self.single).find(|other| other.total.numbers == total.numbers);
+        match same {
             Some(other) => {
                 other.source += source;
                 other.change += change;
@@ -74,11 +70,13 @@ impl Together {
 
     /// What the harmonic of S that is nearest to resonance does, if there is a sum over time derivatives, which has no such harmonic.
     pub(super) fn at_resonance(&self, stand: &Stand<'_>, around: &Around<'_>) -> f64 {
-        if self.single || self.is_slow(stand) {
+        if self.is_slow(stand) {
             return 0.0;
         }
-        let [size, distance] = around.nearest(self.total.frequency);
-        self.size(stand) * stand.closest.powi(2) * size * (1.0 / distance).min(stand.duration)
+        // The amplitude of a single harmonic is the same everywhere.
+        let factors = if self.single { 1 } else { 2 };
+        let [size, distance] = around.nearest(self.total.frequency, factors);
+        self.size(stand) * stand.closest.powi(factors) * size * (1.0 / distance).min(stand.duration)
     }
 
     /// S, which may be near 0 at the epoch, but not with its time derivative.
