@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex;
 
-use super::harmonics::{Split, inverse, unreturned};
+use super::harmonics::{Near, Parts, Split, inverse, unreturned};
 use super::modes::Mode;
 use super::rows::{Row, Stand};
 use crate::gravity_gradient::contraction::Tensor;
@@ -116,17 +116,18 @@ pub(super) fn actions(
     let highest = totals.iter().filter_map(|total| around.highest(total)).fold(0.0, f64::max);
     let points = (around.points)(&even(around.eccentricity, points_for(highest)));
     let needed = |k: usize| pairs.iter().any(|pair| pair.terms.contains(&Some(k)));
-    let needed: Vec<bool> = (0..listed.len()).map(needed).collect();
+    let near = |mode: &Mode| exact.iter().find(|(other, _)| mode.is(other)).map_or(&[][..], |(_, split)| &split.near);
+    let terms: Vec<_> = (0..listed.len())
+        .map(|k| (needed(k), &listed[k].0))
+        .map(|(needed, mode)| needed.then(|| (Row::of(stand, mode, Parts::default()), near(mode))))
+        .collect();
     let mut sources = vec![vec![C64::default(); points.len()]; totals.len()];
     for (k, point) in points.iter().enumerate() {
         let stand = Stand { tensors: &point.tensors, ..*stand };
-        let row = |((mode, _), needed): (&(Mode, f64), &bool)| {
-            let near = exact.iter().find(|(other, _)| mode.is(other)).map_or(&[][..], |(_, split)| &split.near);
-            needed
-                .then(|| Row::without(&stand, mode, near, point.anomaly / around.mean_motion))
-                .map(|row| [row, row.conjugate()])
-        };
-        let rows: Vec<Option<[Row; 2]>> = listed.iter().zip(&needed).map(row).collect();
+        let elapsed = point.anomaly / around.mean_motion;
+        let here = |(row, near): &(Row, &[Near])| row.elsewhere(&stand, near, elapsed);
+        let rows: Vec<Option<[Row; 2]>> =
+            terms.iter().map(|term| term.as_ref().map(here).map(|row| [row, row.conjugate()])).collect();
         let average = [Row::average(&stand); 2];
         let both = |place: Option<usize>| place.and_then(|place| rows[place].as_ref()).unwrap_or(&average);
         for pair in &pairs {

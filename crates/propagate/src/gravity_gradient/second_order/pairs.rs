@@ -179,7 +179,7 @@ impl Actions {
         self.momentum += parts[0].re;
         self.action += parts[1].re;
         if a.multiple != 0.0 || a.harmonic != 0.0 {
-            self.largest = [0, 1].map(|i| self.largest[i].max(parts[i].norm() / (a.size * b.size)));
+            self.largest = [0, 1].map(|i| self.largest[i].max(parts[i].norm_sqr().sqrt() / (a.size * b.size)));
         }
     }
 }

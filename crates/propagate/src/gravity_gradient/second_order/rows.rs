@@ -83,13 +83,15 @@ impl Stand<'_> {
 impl Row {
     /// A term by the sums over time derivatives.
     pub(super) fn new(stand: &Stand<'_>, mode: &Mode) -> Self {
-        Self::without(stand, mode, &[], 0.0)
+        Self::of(stand, mode, Parts::default()).elsewhere(stand, &[], 0.0)
     }
 
-    /// The same without harmonics of the orbit that are terms of their own; `elapsed` is the time from the place where they have their amplitudes.
-    pub(super) fn without(stand: &Stand<'_>, mode: &Mode, near: &[Near], elapsed: f64) -> Self {
-        let mut contracted = stand.tensors.map(|tensor| contraction(&tensor, mode.multiple));
-        let omega = stand.mean.momentum * mode.frequency[0];
+    /// The same term with the disturbing body at another place, without harmonics of the orbit that are terms of their own; `elapsed` is the time from the place where
+    /// they have their amplitudes.
+    pub(super) fn elsewhere(&self, stand: &Stand<'_>, near: &[Near], elapsed: f64) -> Self {
+        let multiple = self.multiple as i32; // 0 ≤ m ≤ 2
+        let omega = self.frequency[0];
+        let mut contracted = stand.tensors.map(|tensor| contraction(&tensor, multiple));
         for harmonic in near {
             let step = harmonic.frequency - omega;
             let mut turn = C64::from_polar(1.0, step * elapsed);
@@ -104,7 +106,7 @@ impl Row {
             torque: [0, 1].map(|j| Part { value: contracted[j], slope: C64::default() }),
             generator: generating(&contracted, omega, stand.norms),
         };
-        Self::of(stand, mode, parts)
+        Self { parts, ..*self }
     }
 
     /// One harmonic of the orbit in a term.
