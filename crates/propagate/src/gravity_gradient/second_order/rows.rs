@@ -11,6 +11,9 @@ use crate::gravity_gradient::inertia::Inertia;
 
 type C64 = Complex<f64>;
 
+/// What the sum over time derivatives of a term may leave, over its first part, in a sum around the orbit.
+const ENOUGH: f64 = 1e-4;
+
 /// The state at which the sum is taken.
 pub(super) struct Stand<'a> {
     pub(super) inertia: &'a Inertia,
@@ -83,29 +86,43 @@ impl Stand<'_> {
 impl Row {
     /// A term by the sums over time derivatives.
     pub(super) fn new(stand: &Stand<'_>, mode: &Mode) -> Self {
-        Self::of(stand, mode, Parts::default()).elsewhere(stand, &[], 0.0)
-    }
-
-    /// The same term with the disturbing body at another place, without harmonics of the orbit that are terms of their own; `elapsed` is the time from the place where
-    /// they have their amplitudes.
-    pub(super) fn elsewhere(&self, stand: &Stand<'_>, near: &[Near], elapsed: f64) -> Self {
-        let multiple = self.multiple as i32; // 0 ≤ m ≤ 2
-        let omega = self.frequency[0];
-        let mut contracted = stand.tensors.map(|tensor| contraction(&tensor, multiple));
-        for harmonic in near {
-            let step = harmonic.frequency - omega;
-            let mut turn = C64::from_polar(1.0, step * elapsed);
-            for values in &mut contracted {
-                for (value, part) in values.iter_mut().zip(harmonic.torque) {
-                    *value -= part * turn;
-                }
-                turn *= C64::new(0.0, step);
-            }
-        }
+        let contracted = stand.tensors.map(|tensor| contraction(&tensor, mode.multiple));
+        let omega = stand.mean.momentum * mode.frequency[0];
         let parts = Parts {
             torque: [0, 1].map(|j| Part { value: contracted[j], slope: C64::default() }),
             generator: generating(&contracted, omega, stand.norms),
         };
+        Self::of(stand, mode, parts)
+    }
+
+    /// D and W of the term with the disturbing body at another place, to [`ENOUGH`], without harmonics of the orbit that are terms of their own; `elapsed` is the time
+    /// from the place where they have their amplitudes. dD/dt and dW/dt are not computed.
+    pub(super) fn elsewhere(&self, stand: &Stand<'_>, near: &[Near], elapsed: f64) -> Self {
+        let multiple = self.multiple as i32; // 0 ≤ m ≤ 2
+        let omega = self.frequency[0];
+        let inverse = (C64::i() * omega).inv();
+        let mut turns: Vec<C64> =
+            near.iter().map(|harmonic| C64::from_polar(1.0, (harmonic.frequency - omega) * elapsed)).collect();
+        let (mut torque, mut generator) = (Part::default(), Part::default());
+        let mut factor = inverse;
+        for (j, tensor) in stand.tensors.iter().enumerate().take(orders(omega, stand.norms, ENOUGH)) {
+            let mut values = contraction(tensor, multiple);
+            for (harmonic, turn) in near.iter().zip(&mut turns) {
+                for (value, part) in values.iter_mut().zip(harmonic.torque) {
+                    *value -= part * *turn;
+                }
+                *turn *= C64::new(0.0, harmonic.frequency - omega);
+            }
+            if j == 0 {
+                torque.value = values;
+            }
+            for (sum, value) in generator.value.iter_mut().zip(values) {
+                *sum += factor * value;
+            }
+            generator.slope += factor * inverse * -C64::i() * (j as f64 + 1.0) * values[0];
+            factor *= -inverse;
+        }
+        let parts = Parts { torque: [torque, Part::default()], generator: [generator, Part::default()] };
         Self { parts, ..*self }
     }
 
@@ -196,8 +213,7 @@ fn amplitude(harmonic: i32, [value, slope, _]: [f64; 3], sigma: f64) -> [f64; 3]
 
 /// V and dV/dt with V̇ + iΩV = U, from the contractions of U and its time derivatives: sums that end where what they leave is least.
 fn generating(contracted: &[Contraction; ORDERS], omega: f64, norms: &[f64]) -> [Part; 2] {
-    let left = |orders: usize| norms[orders] / omega.abs().powi(orders as i32);
-    let orders = (1..=ORDERS).min_by(|&a, &b| left(a).total_cmp(&left(b))).unwrap_or(1);
+    let orders = orders(omega, norms, 0.0);
     let inverse = (C64::i() * omega).inv();
     let mut parts = [Part::default(); 2];
     // (−1)^j/(iΩ)^(j+1).
@@ -217,4 +233,11 @@ fn generating(contracted: &[Contraction; ORDERS], omega: f64, norms: &[f64]) -> 
         factor *= -inverse;
     }
     parts
+}
+
+/// The number of derivatives with which a sum leaves this share of its first term, or with which it leaves least.
+fn orders(omega: f64, norms: &[f64], enough: f64) -> usize {
+    let left = |orders: usize| norms[orders] / omega.abs().powi(orders as i32);
+    let best = (1..=ORDERS).min_by(|&a, &b| left(a).total_cmp(&left(b))).unwrap_or(1);
+    (1..best).find(|&orders| left(orders) <= enough * norms[0]).unwrap_or(best)
 }
