@@ -152,7 +152,7 @@ $(RIVALS)/orekit/ready: benches/rivals/orekit/pom.xml $(RIVALS)/made
 	if command -v mvn && command -v java; then mvn --quiet --batch-mode --file $< $(COPY_DEPENDENCIES) -DoutputDirectory=$(abspath $(@D)); fi
 	touch $@
 
-docs: $(VENV)/documented  ## the site in target/site, the Rust documentation in it; warnings are errors, and the network is not used
+docs: $(VENV)/documented $(VENV)/tested  ## the site in target/site, the Rust documentation in it; warnings are errors, and the network is not used
 	$(BIN)/python docs/_ext/rustdoc.py --check
 	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --quiet -p andoyer-double -p andoyer-series -p andoyer-propagate --target-dir target/site-rust
 	rm -rf target/site docs/gallery
