@@ -173,6 +173,28 @@ pub(crate) fn on_ellipse(mean_motion: f64, eccentricity: f64, f: f64) -> [f64; 2
     [mean_motion * eta_square.sqrt() * near * near, near.powi(3)]
 }
 
+/// arcosh 1/e − η: Hansen's coefficients fall like e^(−|j| times this). On a circle it is infinite.
+pub(crate) fn decay(eccentricity: f64) -> f64 {
+    if eccentricity == 0.0 {
+        return f64::INFINITY;
+    }
+    (1.0 / eccentricity).acosh() - ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt()
+}
+
+/// An upper estimate of the Fourier coefficient of e^(ijl) in a product of so many factors (a/r)³ e^(±2if) or (a/r)³, over its value at the pericentre.
+pub(crate) fn at_most(eccentricity: f64, number: f64, factors: i32) -> f64 {
+    // On a circle one factor has the harmonics 0 and ±2.
+    let beyond = number.abs() - 2.0 * f64::from(factors);
+    if beyond <= 0.0 {
+        1.0
+    } else if eccentricity == 0.0 {
+        0.0
+    } else {
+        let fallen = decay(eccentricity) * beyond;
+        ((-fallen).exp() * (1.0 + fallen).powf(1.5 * f64::from(factors))).min(1.0)
+    }
+}
+
 /// The largest size of the Fourier coefficient of e^(ijl) in (a/r)³ times 1, e^(2if) and e^(−2if), for the mean anomaly l.
 pub(crate) fn harmonic(eccentricity: f64, number: f64) -> f64 {
     harmonics(eccentricity, number).into_iter().fold(0.0, |most: f64, size| most.max(size.abs()))
@@ -226,6 +248,30 @@ mod tests {
         let [_, mean, _] = harmonics(0.99, 0.0);
         let [_, first, _] = harmonics(0.99, 1.0);
         assert!(mean.abs() <= 1e-11 && (first + 0.496_058_029_176_203_1).abs() <= 1e-11, "{mean:e} {first}");
+    }
+
+    #[test]
+    fn the_estimate_of_a_harmonic_is_not_below_it() {
+        for eccentricity in [0.02_f64, 0.05, 0.1, 0.3, 0.6, 0.8] {
+            let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
+            for (factors, number) in (1..=2).flat_map(|factors| (5..40).map(move |number| (factors, number))) {
+                // (a/r)³ e^(2if), or its square, by a sum that is even in the eccentric anomaly.
+                let count = 4000;
+                let sum: f64 = (0..count)
+                    .map(|k| {
+                        let (sine, cosine) = (TAU * (f64::from(k) + 0.5) / f64::from(count)).sin_cos();
+                        let distance = 1.0 - eccentricity * cosine;
+                        let f = (eta * sine).atan2(cosine - eccentricity);
+                        let mean = sine.atan2(cosine) - eccentricity * sine;
+                        let turn = f64::from(2 * factors) * f - f64::from(number) * mean;
+                        ((1.0 - eccentricity) / distance).powi(3 * factors) * distance * turn.cos()
+                    })
+                    .sum::<f64>()
+                    / f64::from(count);
+                let estimate = at_most(eccentricity, f64::from(number), factors);
+                assert!(sum.abs() <= estimate + 1e-14, "{eccentricity} {factors} {number}: {sum:e} {estimate:e}");
+            }
+        }
     }
 
     #[test]

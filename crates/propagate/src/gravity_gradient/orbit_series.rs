@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex;
 
-use super::envelope::Reach;
+use super::envelope::{Reach, decay};
 
 type C64 = Complex<f64>;
 
@@ -37,8 +37,7 @@ fn count(eccentricity: f64) -> Option<usize> {
     if eccentricity == 0.0 {
         return Some(2);
     }
-    let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
-    let count = 6.0 + RANGE / ((1.0 / eccentricity).acosh() - eta);
+    let count = 6.0 + RANGE / decay(eccentricity);
     (count <= MOST).then_some(count as usize)
 }
 

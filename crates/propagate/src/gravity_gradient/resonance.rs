@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::aspect::Aspect;
 use super::candidate::{Candidate, SMALLEST_RATIO};
-use super::envelope::{Envelope, LARGEST_NUMBER, harmonic};
+use super::envelope::{Envelope, LARGEST_NUMBER, at_most, harmonic};
 use super::orbit_series::OrbitSeries;
 use super::response::Response;
 use crate::error::Error;
@@ -165,13 +165,11 @@ impl Commensurability<'_> {
         if e == 0.0 || !self.envelope.passes {
             return (0.0, distance);
         }
-        // Hansen's coefficients fall like e^(−|j|(arcosh 1/e − η)), and are smaller than that times the value at the pericentre.
-        let eta = ((1.0 - e) * (1.0 + e)).sqrt();
-        let upper = (-number.floor() * ((1.0 / e).acosh() - eta)).exp();
+        let upper = at_most(e, number.floor(), 1);
         if self.turned(term, upper, distance) <= NEGLIGIBLE {
             return (upper, distance);
         }
-        let most = ((1.0 + e) / (eta * eta)).powi(3);
+        let most = (1.0 - e).powi(-3);
         (harmonic(e, number.floor().min(LARGEST_NUMBER)) / most, distance)
     }
 }

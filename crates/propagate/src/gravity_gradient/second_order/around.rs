@@ -1,7 +1,7 @@
 //! Pairs of terms by the harmonics of the orbit: those that are slower than the sums over time derivatives allow, and those with a harmonic near resonance.
 //!
-//! The source S of all pairs with one h and m is a function of the disturbing body's place. With S = Σ_j S_j e^(ijl), what it does is Σ_j S_j e^(ijl)/(i(Ω + jn)).
-//! A harmonic that does not return within the span has a part of it only ([`super::harmonics`]).
+//! The source S of all pairs with one h and m depends on the place of the disturbing body. With S = Σ_j S_j e^(ijl), its integral is Σ_j S_j e^(ijl)/(i(Ω + jn)).
+//! A harmonic with a small x = Ω + jn has the factor 1 − e^(−x²T²/4) of [`super::harmonics`] there.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,6 +11,7 @@ use super::harmonics::{Near, Parts, Split, inverse, unreturned};
 use super::modes::Mode;
 use super::rows::{Row, Stand};
 use crate::gravity_gradient::contraction::Tensor;
+use crate::gravity_gradient::envelope::{at_most, decay};
 use crate::gravity_gradient::generator::ORDERS;
 
 type C64 = Complex<f64>;
@@ -20,7 +21,7 @@ const MOST_POINTS: f64 = 128.0;
 /// What a sum around the orbit leaves, over it: K2 of slow pairs, and the change of S within the span.
 const LEFT: f64 = 0.05;
 /// Pairs whose sizes, over the largest, have a smaller product are left out.
-const SMALLEST_PRODUCT: f64 = 1e-6;
+pub(super) const SMALLEST_PRODUCT: f64 = 1e-6;
 
 /// The disturbing body at one place of its orbit.
 pub(super) struct Point {
@@ -49,34 +50,18 @@ pub(super) struct Total {
 }
 
 impl Around<'_> {
-    /// The harmonics of S fall like e^(−|j| times this).
-    fn decay(&self) -> f64 {
-        let e = self.eccentricity;
-        if e == 0.0 { f64::INFINITY } else { (1.0 / e).acosh() - ((1.0 - e) * (1.0 + e)).sqrt() }
-    }
-
     /// The highest harmonic that a pair needs, if they are not too many.
     pub(super) fn highest(&self, total: &Total) -> Option<f64> {
-        let slow = 8.0 + 6.0 / self.decay();
+        let slow = 8.0 + 6.0 / decay(self.eccentricity);
         let highest = slow.max((total.frequency / self.mean_motion).abs() + 4.0).ceil();
         (points_for(highest) <= MOST_POINTS).then_some(highest)
     }
 
-    /// The largest size of the harmonic nearest to resonance in a product of so many factors (a/r)³, over that of the product at the pericentre, and its distance from
+    /// An upper estimate of the harmonic nearest to resonance in a product of so many factors (a/r)³, over the product at the pericentre, and its distance from
     /// resonance.
     pub(super) fn nearest(&self, frequency: f64, factors: i32) -> [f64; 2] {
         let number = (frequency / self.mean_motion).abs().round();
-        // On a circle one factor has the harmonics 0 and ±2.
-        let beyond = number - 2.0 * f64::from(factors);
-        let size = if beyond <= 0.0 {
-            1.0
-        } else if self.eccentricity == 0.0 {
-            0.0
-        } else {
-            let fallen = self.decay() * beyond;
-            ((-fallen).exp() * (1.0 + fallen).powf(1.5 * f64::from(factors))).min(1.0)
-        };
-        [size, (frequency.abs() - number * self.mean_motion).abs()]
+        [at_most(self.eccentricity, number, factors), (frequency.abs() - number * self.mean_motion).abs()]
     }
 }
 
@@ -186,35 +171,4 @@ fn pairs(listed: &[(Mode, f64)], totals: &[Total]) -> Vec<Pair> {
         }
     }
     pairs
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::simd::kepler::Place;
-    use crate::simd::lanes::Lanes;
-
-    #[test]
-    fn the_estimate_of_a_harmonic_is_not_below_it() {
-        for eccentricity in [0.02, 0.05, 0.1, 0.3, 0.6, 0.8] {
-            let points = |_: &[(f64, f64)]| Vec::new();
-            let around = Around { eccentricity, mean_motion: 1.0, points: &points };
-            for (factors, number) in (1..=2).flat_map(|factors| (5..30).map(move |number| (factors, number))) {
-                let [estimate, distance] = around.nearest(f64::from(number) + 0.25, factors);
-                assert!((distance - 0.25).abs() <= 1e-12);
-                // (a/r)³ e^(2if) and its square over their values at the pericentre, where both are real.
-                let sum: C64 = even(eccentricity, 4000.0)
-                    .into_iter()
-                    .map(|(anomaly, weight)| {
-                        let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
-                        let f = place.angle.values()[0];
-                        let near = (1.0 + eccentricity * f.cos()) / (1.0 + eccentricity);
-                        let turn = f64::from(2 * factors) * f - f64::from(number) * anomaly;
-                        C64::from_polar(weight * near.powi(3 * factors), turn)
-                    })
-                    .sum();
-                assert!(sum.norm() <= estimate + 1e-14, "{eccentricity} {factors} {number}: {sum} {estimate:e}");
-            }
-        }
-    }
 }

@@ -7,7 +7,7 @@ use super::around::{Around, Point};
 use super::hamiltonian::Hamiltonian;
 use super::harmonics::Harmonics;
 use super::modes::{Mode, modes, slow_modes, slowest};
-use super::pairs::{Exact, second_actions};
+use super::pairs::{OrbitParts, second_actions};
 use super::rows::Stand;
 use crate::gravity_gradient::contraction::Tensor;
 use crate::gravity_gradient::corrections::{Change, Demand, Mean};
@@ -79,7 +79,7 @@ pub(crate) fn refined(
     let first = first_actions(&stand, &terms, sums);
     let exact = harmonics.as_ref().map(|harmonics| split(inertia, exact, harmonics)).unwrap_or_default();
     let around = Around { eccentricity: demand.orbit.eccentricity(), mean_motion: demand.mean_motion, points: &points };
-    let exact = Exact { around: harmonics.is_some().then_some(around), ..exact };
+    let exact = OrbitParts { around: harmonics.is_some().then_some(around), ..exact };
     let second = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest), &exact);
     let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
     let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };
@@ -120,13 +120,13 @@ pub(super) fn points(
 }
 
 /// The terms with exact divisors, split into harmonics.
-fn split<'a>(inertia: &Inertia, exact: &[ExactTerm], harmonics: &Harmonics) -> Exact<'a> {
+fn split<'a>(inertia: &Inertia, exact: &[ExactTerm], harmonics: &Harmonics) -> OrbitParts<'a> {
     let split = |term: &ExactTerm| {
         let (harmonic, multiple) = term.numbers;
         let mode = Mode::new(inertia, harmonic, multiple);
         (mode, harmonics.split(inertia.momentum * mode.frequency[0], multiple, term.left_out))
     };
-    Exact { terms: exact.iter().map(split).collect(), average: harmonics.average(), around: None }
+    OrbitParts { terms: exact.iter().map(split).collect(), average: harmonics.average(), around: None }
 }
 
 /// (a/r)³ r̂r̂ in the frame of a mean state, its time derivatives, and their largest sizes.

@@ -17,16 +17,13 @@ use std::mem::take;
 
 use num_complex::Complex;
 
-use super::around::{self, Around, Total};
+use super::around::{self, Around, SMALLEST_PRODUCT, Total};
 use super::harmonics::{Near, Split, inverse, unreturned};
 use super::modes::Mode;
 use super::rows::{Row, Stand};
 use super::totals::Together;
 
 type C64 = Complex<f64>;
-
-/// Pairs whose sizes, over the largest, have a smaller product are left out.
-const SMALLEST_PRODUCT: f64 = 1e-6;
 
 /// Pairs of ordinary terms, joined by their totals, and those with a single harmonic of the orbit.
 type Lists = [Vec<Together>; 2];
@@ -43,9 +40,9 @@ pub(super) struct Actions {
     largest: [f64; 2],
 }
 
-/// The orbit's harmonics in the sum.
+/// What the sum has of the orbit's harmonics.
 #[derive(Default)]
-pub(super) struct Exact<'a> {
+pub(super) struct OrbitParts<'a> {
     /// The terms whose divisors are exact.
     pub(super) terms: Vec<(Mode, Split)>,
     /// ⟨D⟩'s harmonics.
@@ -55,7 +52,7 @@ pub(super) struct Exact<'a> {
 }
 
 /// δ₂M and δ₂L at a mean state of first order.
-pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &Exact<'_>) -> Actions {
+pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &OrbitParts<'_>) -> Actions {
     let is_exact = |mode: &Mode| exact.terms.iter().any(|(other, _)| mode.is(other));
     let mut listed: Vec<Mode> = modes.iter().filter(|mode| !is_exact(mode)).copied().collect();
     let mut half: Vec<Row> = listed.iter().map(|mode| Row::new(stand, mode)).collect();

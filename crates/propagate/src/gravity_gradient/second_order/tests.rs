@@ -9,7 +9,7 @@ use super::hamiltonian::{Disturber, Hamiltonian};
 use super::jet::{Field, Jet, Point, with_turns};
 use super::modes::{Mode, modes, slowest};
 use super::over_orbit::OrbitAverage;
-use super::pairs::{Exact, averaged, second_actions};
+use super::pairs::{OrbitParts, averaged, second_actions};
 use super::rows::Stand;
 use super::short_period::Motion;
 use crate::gravity_gradient::contraction::Tensor;
@@ -321,7 +321,7 @@ fn the_change_of_second_order_has_the_actions_of_the_sum_over_pairs() {
         tensors[1..].fill([0.0; 6]);
         let trace = scene.polhode.moments.iter().sum();
         let stand = scene.stand(&inertia, &tensors, norms, slowest(&demand));
-        let pairs = second_actions(&stand, &modes(&inertia, 0.0, slowest(&demand)), &Exact::default());
+        let pairs = second_actions(&stand, &modes(&inertia, 0.0, slowest(&demand)), &OrbitParts::default());
         let motion = Motion::new(&inertia, &demand, (1.0, trace), 0.0);
         let phase = |[h, m]: [i32; 2]| C64::from_polar(2.0, f64::from(h) * p.arg() + f64::from(m) * longitude);
         let at = |harmonics: &[([i32; 2], Field)], n: usize| -> f64 {
@@ -360,8 +360,8 @@ fn pairs_by_the_harmonics_of_the_orbit_are_those_by_time_derivatives() {
     let stand = Stand { duration: 1e6, orbital_step: mean_motion, ..stand };
     let points = |places: &[(f64, f64)]| points(&scene.mean, &scene.place, &demand, places);
     let around = Around { eccentricity, mean_motion, points: &points };
-    let by_sums = second_actions(&stand, &modes, &Exact::default());
-    let by_orbit = second_actions(&stand, &modes, &Exact { around: Some(around), ..Exact::default() });
+    let by_sums = second_actions(&stand, &modes, &OrbitParts::default());
+    let by_orbit = second_actions(&stand, &modes, &OrbitParts { around: Some(around), ..OrbitParts::default() });
     // The sums end after two derivatives: the next has a few times (2n/Ω)², where Ω is 30 n and more.
     let scale = by_sums.momentum.abs() + by_sums.action.abs();
     for (one, other) in [(by_sums.momentum, by_orbit.momentum), (by_sums.action, by_orbit.action)] {

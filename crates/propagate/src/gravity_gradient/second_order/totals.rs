@@ -41,7 +41,7 @@ impl Together {
         }
     }
 
-    /// The changes of M and L that this much of e^(i(hℓ′+my′)) makes.
+    /// `part` times m and times h: what it is of M and of L.
     pub(super) fn of_actions(&self, part: f64) -> [f64; 2] {
         let [h, m] = self.total.numbers;
         [m * part, h * part]
