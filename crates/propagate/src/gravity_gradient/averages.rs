@@ -23,14 +23,14 @@ pub(super) struct Averages {
 
 impl Averages {
     pub(super) fn new(polhode: &Polhode, motion: &MeanMotion, demands: &[Demand<'_>], level: Level) -> Self {
-        let MeanMotion { mean, inertia, .. } = motion;
+        let MeanMotion { mean, inertia, steady, .. } = motion;
         let (axial, axial_slope) = level.axial(inertia);
         let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) / mean.momentum;
         let ellipses = demands.iter().map(|demand| {
             let ellipse = AveragedOrbit::new(demand, delta);
             match level {
                 Level::SecondOrder => {
-                    ellipse.with_second(second_order::epoch::hamiltonian(inertia, demand, polhode.moments))
+                    ellipse.with_second(second_order::epoch::hamiltonian(inertia, demand, (polhode.moments, *steady)))
                 }
                 _ => ellipse,
             }

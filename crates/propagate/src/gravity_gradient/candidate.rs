@@ -1,5 +1,6 @@
 //! A term of the generating function that may be kept or dropped.
 
+use super::divisors::Divisors;
 use super::generator::{ExactTerm, Harmonic};
 use super::inertia::Inertia;
 use super::orbit_series::OrbitSeries;
@@ -59,9 +60,9 @@ impl Candidate {
     }
 
     /// This term with divisors that are exact in the orbit's harmonics. What is smaller than `nothing` is left out.
-    pub(super) fn exact(&self, inertia: &Inertia, orbit: (&OrbitSeries, f64, Option<i32>), nothing: f64) -> ExactTerm {
+    pub(super) fn exact(&self, inertia: &Inertia, orbit: (&OrbitSeries, Divisors), nothing: f64) -> ExactTerm {
         let negligible = 0.1 * nothing / self.size();
-        ExactTerm::new((self.harmonic, self.multiple), self.factors(inertia), self.frequency, orbit, negligible)
+        ExactTerm::new((self.harmonic, self.multiple), self.factors(inertia), orbit, negligible)
     }
 
     /// Adds this term to the other terms of its |h|, with `orders` derivatives of g.

@@ -24,6 +24,7 @@ use num_complex::Complex;
 use super::aspect::Aspect;
 use super::candidate::{Candidate, SMALLEST_RATIO};
 use super::course::fixed;
+use super::divisors::Secular;
 use super::envelope::Envelope;
 use super::generator::{self, Generator, Harmonic, ORDERS};
 use super::inertia::{HIGHEST, Inertia};
@@ -54,11 +55,6 @@ pub(crate) const REFINED_SHARE: f64 = 1e-4;
 const TOLERABLE: [f64; 2] = [0.01, 2e-5];
 /// Largest part of a dropped term that a dropped coefficient of a time derivative may have.
 const SMALLEST_COEFFICIENT: f64 = 0.004;
-
-/// What follows the drift of second order by a harmonic near resonance, over this drift and the sum of all terms.
-const BEYOND_DRIFT: f64 = 100.0;
-/// At most it is this many times the drift.
-const MOST_BEYOND_DRIFT: f64 = 1.5;
 
 /// The mean variables at one time.
 #[derive(Clone, Copy, Debug)]
@@ -230,7 +226,6 @@ impl Corrections {
         let growth = |multiple: i32| 1.0 + further * (response.growth(multiple, duration) - 1.0);
         let tolerable = TOLERABLE[usize::from(demand.refined)] * demand.tolerance / growth(1);
         let nothing = tolerable.max(demand.share * whole * whole);
-        let eta_cubed = ((1.0 - eccentricity) * (1.0 + eccentricity)).powf(1.5);
         let selection = Selection {
             commensurability: Commensurability {
                 response: &response,
@@ -240,13 +235,13 @@ impl Corrections {
                 fastest,
                 envelope,
                 duration,
+                secular: Secular::new(inertia, strength, eccentricity, [&demand.axes[2], &demand.pole]),
                 exact: series.is_some(),
             },
             sizes: if demand.rates == [0.0; 2] { envelope.span.to_vec() } else { envelope.orbital.norms.clone() },
             most: if level == Level::Paper { 1 } else { ORDERS },
             nothing,
             enough: nothing.max(0.01 * demand.tolerance),
-            shift: strength * inertia.mean_axial().1.abs() * eta_cubed.recip() / inertia.momentum,
             whole,
             series: series.map(|series| (series, Aspect::new(demand.axes, &demand.pole))),
         };
@@ -256,9 +251,8 @@ impl Corrections {
             let corrected = matches!(choice, Choice::Exact(Exact { left_out: None, .. }));
             (selection.effect(term, choice), corrected, term)
         });
-        let mut dropped = selection.commensurability.left(effects, allowed)?;
-        let drifts: f64 = choices.iter().map(Choice::drift).sum();
-        let resonant = dropped + (BEYOND_DRIFT * whole).min(MOST_BEYOND_DRIFT) * drifts;
+        let resonant = selection.commensurability.left(effects, allowed)?;
+        let mut dropped = resonant;
         let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
         let omitted = omitted.iter().map(|term| selection.commensurability.whole(term)).sum();
         let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
@@ -274,7 +268,8 @@ impl Corrections {
             let is_slow = selection.commensurability.is_slow(candidate);
             match (*choice, series) {
                 (Choice::Exact(Exact { left_out, size, .. }), Some(series)) => {
-                    exact.push(candidate.exact(inertia, (series, mean_motion, left_out), nothing));
+                    let divisors = selection.commensurability.divisors(candidate).without(left_out);
+                    exact.push(candidate.exact(inertia, (series, divisors), nothing));
                     slow += if is_slow { size } else { 0.0 };
                     rest += growth * nothing;
                     at_once += growth * nothing;

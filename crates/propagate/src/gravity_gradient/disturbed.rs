@@ -81,7 +81,7 @@ impl Gradient {
     pub(super) fn new(outset: &Outset<'_>, draft: Draft) -> Result<Self, Error> {
         let Outset { polhode, attitude, request, paths, .. } = outset;
         let Draft { level, motion, averages, by_orbit, error } = draft;
-        let MeanMotion { mean, change, inertia, corrections } = motion;
+        let MeanMotion { mean, change, inertia, corrections, .. } = motion;
         let exponent = polhode.scales.1;
         let momentum = polhode.invariants.momentum.to_f64();
         // Rates are proportional to M. M rounded to a double would cause an error of 1e-16 of the phases.

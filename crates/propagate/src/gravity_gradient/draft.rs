@@ -112,7 +112,13 @@ fn error_bound(
         };
         let apart = if request.level == Level::SecondOrder { 0.0 } else { drift.largest() };
         let envelope = &paths.envelopes[0];
-        let cut = second_order::cut(inertia, &demands[0]) * envelope.share.truncation;
+        let demand = &demands[0];
+        let cut = second_order::cut(inertia, demand) * envelope.share.truncation;
+        // With the orbit's harmonics K2 has the average of what its closed form lacks, at the direction of the angular momentum at the epoch.
+        let periodic = 2.0 / (demand.mean_motion * demand.duration);
+        let precessed = (averages.ellipses[0].strength().abs() * demand.mean_motion * demand.duration).min(1.0);
+        let unaveraged = (periodic + demand.orbit.eccentricity() * precessed).min(1.0);
+        let cut = if demand.series.is_some() { unaveraged * cut } else { cut };
         Further { short_period, left, cut, acting: envelope.share.third, apart }
     });
     let subject = |i: usize| Subject {

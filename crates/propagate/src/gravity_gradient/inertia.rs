@@ -70,6 +70,8 @@ impl Harmonics {
 pub(crate) struct Inertia {
     pub(crate) momentum: f64,
     pub(crate) sigma: f64,
+    /// A + B + C.
+    pub(crate) trace: f64,
     /// σ_sep.
     pub(crate) separatrix: f64,
     /// sin²J at ℓ = 0, and the slope of σ with respect to it.
@@ -137,6 +139,7 @@ impl Inertia {
         Self {
             momentum,
             sigma,
+            trace: polhode.moments.iter().sum(),
             separatrix: polhode.separatrix_action(),
             square: [square, sigma_slope],
             rates: exact.1,

@@ -8,6 +8,7 @@ use super::response::Response;
 use super::second_order::epoch::{self, Refined};
 use super::second_order::hamiltonian::Hamiltonian;
 use super::second_order::short_period;
+use super::second_order::steady::Steady;
 use crate::error::Error;
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
@@ -30,6 +31,8 @@ pub(super) struct MeanMotion {
     pub(super) inertia: Inertia,
     /// Of each body.
     pub(super) corrections: Vec<Corrections>,
+    /// What K2 in closed form lacks of its average over the orbit.
+    pub(super) steady: Steady,
 }
 
 /// What the second order in the torque says of a mean motion.
@@ -58,6 +61,8 @@ pub(super) struct Refinements {
     apart: [f64; 2],
     /// The short-period change of second order.
     short_period: f64,
+    /// What K2 in closed form lacks.
+    steady: Steady,
 }
 
 impl Refinements {
@@ -71,10 +76,11 @@ impl Refinements {
     ) -> Self {
         let exact = &first.corrections[0].generator.exact;
         let mean = (&first.mean, &first.change, &exact[..]);
-        let (both, apart) = epoch::refined(mean, state, &first.inertia, &start.place, (demand, polhode.moments));
+        let (both, apart, steady) =
+            epoch::refined(mean, state, &first.inertia, &start.place, (demand, polhode.moments));
         let body = (Response::new(&first.inertia).gain, polhode.moments.iter().sum());
         let short_period = short_period::largest(&first.inertia, &first.mean, demand, body, &reach.nearest());
-        Self { both, apart, short_period }
+        Self { both, apart, short_period, steady }
     }
 
     /// The mean motion with the mean M and L of a level, and how far the rates of second order are from those of first.
@@ -93,9 +99,9 @@ impl Refinements {
         let change = Change { momentum, ..first.change };
         // The iteration leaves M and L its own threshold, which the rates multiply by the time.
         let left = left.map(|part| part + CONVERGED);
-        let hamiltonian = epoch::hamiltonian(&inertia, demand, polhode.moments);
+        let hamiltonian = epoch::hamiltonian(&inertia, demand, (polhode.moments, self.steady));
         let refinement = Refinement { left, apart, hamiltonian, short_period: self.short_period };
-        Ok((MeanMotion { mean, change, inertia, corrections }, refinement))
+        Ok((MeanMotion { mean, change, inertia, corrections, steady: self.steady }, refinement))
     }
 }
 
@@ -120,14 +126,14 @@ pub(super) fn first_order(
             + (next.momentum / mean.momentum - 1.0).abs()
             + next.frame.angle_to(&mean.frame);
         if moved <= CONVERGED {
-            return Ok(MeanMotion { mean, change, inertia, corrections });
+            return Ok(MeanMotion { mean, change, inertia, corrections, steady: Steady::default() });
         }
         first = first.max(moved);
         if step == MOST_STEPS {
             // Rounding of large corrections may prevent full convergence. A motion without contraction has no mean motion.
             let contraction = (moved / first).powf(1.0 / MOST_STEPS as f64);
             return if contraction <= CONTRACTION {
-                Ok(MeanMotion { mean, change, inertia, corrections })
+                Ok(MeanMotion { mean, change, inertia, corrections, steady: Steady::default() })
             } else {
                 Err(Error::TorqueTooStrong { size: contraction, bound: CONTRACTION })
             };

@@ -13,6 +13,7 @@ mod contraction;
 mod corrections;
 mod course;
 pub(crate) mod disturbed;
+mod divisors;
 mod draft;
 mod envelope;
 mod epoch;

@@ -11,6 +11,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::aspect::Aspect;
 use super::candidate::{Candidate, SMALLEST_RATIO};
+use super::divisors::{Divisors, Secular};
 use super::envelope::{Envelope, LARGEST_NUMBER, at_most, harmonic};
 use super::orbit_series::OrbitSeries;
 use super::response::Response;
@@ -40,6 +41,8 @@ pub(super) struct Commensurability<'a> {
     pub(super) fastest: f64,
     pub(super) envelope: &'a Envelope,
     pub(super) duration: f64,
+    /// What the average torque adds to the frequencies.
+    pub(super) secular: Secular,
     /// Whether the mean M and L at the epoch have the orbit's harmonics with their divisors.
     pub(super) exact: bool,
 }
@@ -50,7 +53,7 @@ pub(super) struct Nearest {
     pub(super) harmonic: i32,
     /// Its size over that of the torque at the pericentre.
     pub(super) amplitude: f64,
-    /// |Ω + jn|.
+    /// Its smallest divisor.
     pub(super) distance: f64,
     /// The same for the harmonic that has this effect.
     pub(super) acting: f64,
@@ -101,7 +104,8 @@ impl Commensurability<'_> {
     /// The harmonic of the orbit with which a term is nearest to resonance. If a neighbour has a larger effect, the amplitude is enlarged to have this effect.
     pub(super) fn nearest(&self, term: &Candidate, series: &OrbitSeries, aspect: &Aspect) -> Nearest {
         let number = -(term.frequency / self.mean_motion).round() as i32;
-        let distance = |j: i32| (term.frequency + f64::from(j) * self.mean_motion).abs();
+        let divisors = self.divisors(term);
+        let distance = |j: i32| divisors.smallest(j);
         let nearest = distance(number);
         let sizes = (number - NEIGHBOURS..=number + NEIGHBOURS).map(|j| {
             let share = if j == number { 1.0 } else { nearest / distance(j) };
@@ -110,6 +114,12 @@ impl Commensurability<'_> {
         let (size, acting) = sizes.fold((0.0, nearest), |most, other| if other.0 > most.0 { other } else { most });
         let amplitude = (size / self.envelope.span[0]).min(1.0);
         Nearest { harmonic: number, amplitude, distance: nearest, acting }
+    }
+
+    /// The divisors of a term in the orbit's harmonics.
+    pub(super) fn divisors(&self, term: &Candidate) -> Divisors {
+        let numbers = (term.harmonic, term.multiple);
+        Divisors::new(numbers, [term.frequency, self.mean_motion], self.is_slow(term), &self.secular)
     }
 
     /// Whether a term is too slow for a sum over time derivatives.

@@ -14,6 +14,12 @@ const LARGEST_TURN: f64 = 0.2;
 /// The safety factor of what the correction of a harmonic near resonance leaves.
 const MARGIN: f64 = 2.0;
 
+/// The same for what the average torque does to it.
+const SHIFT_MARGIN: f64 = 1.5;
+
+/// What is of third order in it, over its second order and the sum of all terms.
+const GROWING: f64 = 20.0;
+
 /// What decides it.
 pub(super) struct Selection<'a> {
     pub(super) commensurability: Commensurability<'a>,
@@ -25,8 +31,6 @@ pub(super) struct Selection<'a> {
     pub(super) nothing: f64,
     /// What the sum of a term may leave at one time, where exact divisors can replace it \[rad\].
     pub(super) enough: f64,
-    /// Largest shift of Ω by the average torque, over h − mσ.
-    pub(super) shift: f64,
     /// Sum of the sizes of all terms that are not slow \[rad\].
     pub(super) whole: f64,
     /// The orbit's harmonics, where divisors may be exact in them.
@@ -53,16 +57,6 @@ pub(super) struct Exact {
     pub(super) size: f64,
     /// What the harmonic nearest to resonance does to the attitude over the span, corrected or not \[rad\].
     pub(super) effect: f64,
-}
-
-impl Choice {
-    /// The drift of second order by a harmonic near resonance that is corrected.
-    pub(super) fn drift(&self) -> f64 {
-        match self {
-            Self::Exact(Exact { left_out: None, effect, .. }) => *effect,
-            _ => 0.0,
-        }
-    }
 }
 
 impl Selection<'_> {
@@ -130,18 +124,23 @@ impl Selection<'_> {
         // Of pairs with the other terms, and with the other harmonics of the same one, which act while the body passes the pericentre.
         let passing = 2.0 * (term.frequency / self.commensurability.fastest).abs();
         let bounded = (size + turn) * (self.whole + passing * term.size());
-        let second = MARGIN * (square * (1.0 + acting * duration) + bounded);
-        // The average torque shifts Ω, and with it the divisor.
-        let number = f64::from(term.harmonic) - f64::from(term.multiple) * response.sigma;
-        let shift = (number.abs() * self.shift / distance).min(1.0);
-        let left = second + shift * (turn + shift * swing * lasting);
+        let Commensurability { mean_motion, eccentricity, secular, .. } = &self.commensurability;
+        let [steady, swinging] = self.commensurability.divisors(term).rates;
+        // K2 has the mean drift by the square, at the direction of the angular momentum at the epoch.
+        let moved = (steady / distance + eccentricity * secular.precessed(duration)).min(1.0);
+        let second = square * (1.0 + moved * acting * duration) + MARGIN * bounded;
+        // The divisors have the mean shift of Ω by the average torque, but not its dependence on σ and k, the part that swings with the orbit, and its second order.
+        let swinging = (steady * (3.0 * eccentricity + steady / distance) + 0.25 * swinging) / mean_motion;
+        let shift = (swinging + self.whole * self.whole * term.frequency.abs() / distance).min(1.0);
+        let shifted = shift * (turn + shift * swing * lasting);
+        let left =
+            (1.0 + GROWING * self.whole) * (second + SHIFT_MARGIN * shifted + swing * (steady / distance).min(1.0));
         let first = self.commensurability.turned(term, amplitude, distance);
         let small = size <= LARGEST && turn <= LARGEST_TURN;
         let corrected = returns(distance, duration) || small && left < MARGIN * first;
         let (left_out, effect) = if corrected { (None, left) } else { (Some(nearest.harmonic), first) };
         let [size, square] = self.harmonics(term, left_out, series);
-        // The averaged Hamiltonian of second order lacks slow terms.
-        let drift = if self.commensurability.is_slow(term) { square * duration } else { 0.0 };
+        let drift = if self.commensurability.is_slow(term) { moved * square * duration } else { 0.0 };
         Exact { left_out, size, effect: effect + drift }
     }
 

@@ -6,7 +6,8 @@
 //! G = Σ_j g_j e^(ijl)/(i(Ω + jn)) = (E + iO)/(iΩ)          Ω² ∂G/∂Ω = −(E₁ + iO₁)/i
 //! ```
 //!
-//! With r_± = 1/(Ω ± jn), the coefficients of E and E₁ are Ω(r₊ + r₋) and Ω²(r₊² + r₋²), and those of O and O₁ have differences for the sums. For an even g, E is
+//! With r_± = 1/(Ω ± jn), the coefficients of E and E₁ are Ω(r₊ + r₋) and Ω²(r₊² + r₋²), and those of O and O₁ have differences for the sums; near resonance the
+//! average torque shifts the divisors ([`crate::gravity_gradient::divisors`]). For an even g, E is
 //! a series in cos jl and O one in sin jl. So E and O take the places of the even and of the odd time derivatives. The harmonic nearest to resonance may
 //! be left out (`selection`).
 
@@ -14,6 +15,7 @@ use std::f64::consts::TAU;
 
 use pulp::NullaryFnOnce;
 
+use crate::gravity_gradient::divisors::Divisors;
 use crate::gravity_gradient::inertia::HIGHEST;
 use crate::gravity_gradient::orbit_series::OrbitSeries;
 use crate::simd::complex_quaternion::ComplexLanes;
@@ -39,8 +41,7 @@ pub(crate) fn returns(divisor: f64, duration: f64) -> bool {
 pub(crate) struct ExactTerm {
     /// h and m.
     pub(crate) numbers: (i32, i32),
-    /// The harmonic of the orbit that is left out.
-    pub(crate) left_out: Option<i32>,
+    pub(crate) divisors: Divisors,
     /// The factors of G and of −Ω ∂G/∂Ω in W, M ∂W/∂M, ∂W/∂p̄ + ∂W/∂p and ∂W/∂p̄ − ∂W/∂p.
     factors: [[f64; SUMS]; 2],
     /// The coefficients of (a/r)³ times 1, cos 2f and sin 2f, by j, function and part.
@@ -48,34 +49,50 @@ pub(crate) struct ExactTerm {
 }
 
 impl ExactTerm {
-    /// The term with these h and m, its factors of G and of −Ω ∂G/∂Ω in the derivatives of W, its Ω, the series with n and with the harmonic that is left out. Coefficients below `negligible` are dropped.
+    /// The term with these h and m, its factors of G and of −Ω ∂G/∂Ω in the derivatives of W, and its divisors in the series. Coefficients below `negligible` are dropped.
     pub(crate) fn new(
         numbers: (i32, i32),
         factors: [[f64; SUMS]; 2],
-        frequency: f64,
-        (series, mean_motion, left_out): (&OrbitSeries, f64, Option<i32>),
+        (series, divisors): (&OrbitSeries, Divisors),
         negligible: f64,
     ) -> Self {
-        let reciprocal = |j: i32| {
-            if left_out == Some(j) { 0.0 } else { frequency / (frequency + f64::from(j) * mean_motion) }
-        };
         let mut coefficients: Vec<_> = (0..)
             .zip(&series.coefficients)
             .map(|(j, [one, cosine, sine])| {
-                let (after, before) = (reciprocal(j), reciprocal(-j));
                 // For j = 0 both harmonics are one.
                 let share = if j == 0 { 0.5 } else { 1.0 };
-                let [sum, difference] = [after + before, after - before].map(|part| share * part);
-                let [square_sum, square_difference] =
-                    [sum * sum + difference * difference, 2.0 * sum * difference].map(|square| 0.5 * square / share);
-                let even = |g: f64| [g * sum, g * difference, g * square_sum, g * square_difference];
-                let odd = |g: f64| [g * sum, -g * difference, g * square_sum, -g * square_difference];
-                [even(*one), even(*cosine), odd(*sine)]
+                // The factors of e^(ijl) and e^(−ijl) in 1, and, up to factors i, in cos 2f and sin 2f: those of e^(2if) and e^(−2if) together.
+                let at = |power: i32| {
+                    let ratio =
+                        |j: i32, turns: i32| share * (divisors.frequency * divisors.reciprocal(j, turns)).powi(power);
+                    let [sum, difference] = [0.5 * (cosine + sine), 0.5 * (cosine - sine)];
+                    let [after, before] = [
+                        [sum * ratio(j, 2), difference * ratio(j, -2)],
+                        [sum * ratio(-j, -2), difference * ratio(-j, 2)],
+                    ];
+                    [
+                        [one * ratio(j, 0), one * ratio(-j, 0)],
+                        [after[0] + after[1], before[0] + before[1]],
+                        [after[0] - after[1], before[0] - before[1]],
+                    ]
+                };
+                let (first, square) = (at(1), at(2));
+                let parts = |f: usize| {
+                    let ([after, before], [after_square, before_square]) = (first[f], square[f]);
+                    let sign = if f < 2 { 1.0 } else { -1.0 };
+                    [
+                        after + before,
+                        sign * (after - before),
+                        after_square + before_square,
+                        sign * (after_square - before_square),
+                    ]
+                };
+                [parts(0), parts(1), parts(2)]
             })
             .collect();
         let something = |terms: &[[f64; PARTS]; 3]| terms.iter().flatten().any(|c| c.abs() > negligible);
         coefficients.truncate(coefficients.iter().rposition(something).map_or(0, |last| last + 1));
-        Self { numbers, left_out, factors, coefficients }
+        Self { numbers, divisors, factors, coefficients }
     }
 
     /// |h|.

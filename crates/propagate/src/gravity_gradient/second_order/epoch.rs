@@ -9,6 +9,7 @@ use super::harmonics::Harmonics;
 use super::modes::{Mode, modes, slow_modes, slowest};
 use super::pairs::{OrbitParts, second_actions};
 use super::rows::Stand;
+use super::steady::Steady;
 use crate::gravity_gradient::contraction::Tensor;
 use crate::gravity_gradient::corrections::{Change, Demand, Mean};
 use crate::gravity_gradient::generator::{ExactTerm, Generator, ORDERS};
@@ -38,8 +39,13 @@ pub(crate) struct Refined {
 }
 
 /// ⟨D⟩ + K2 at a mean motion.
-pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, moments: [f64; 3]) -> Hamiltonian {
-    Hamiltonian::new(inertia, &modes(inertia, SMALLEST_TERM, slowest(demand)), demand.strength(), moments)
+pub(crate) fn hamiltonian(
+    inertia: &Inertia,
+    demand: &Demand<'_>,
+    (moments, steady): ([f64; 3], Steady),
+) -> Hamiltonian {
+    let modes = modes(inertia, SMALLEST_TERM, slowest(demand));
+    Hamiltonian::new(inertia, &modes, demand.strength(), moments).with_steady(steady)
 }
 
 /// The mean states with |p| and M from all terms of first order, and to second order, and the difference of their M, over M, and σ: from the mean state of the
@@ -50,7 +56,7 @@ pub(crate) fn refined(
     inertia: &Inertia,
     place: &Place<pulp::Scalar>,
     (demand, moments): (&Demand<'_>, [f64; 3]),
-) -> ([Refined; 2], [f64; 2]) {
+) -> ([Refined; 2], [f64; 2], Steady) {
     let slowest = slowest(demand);
     let (tensors, norms) = tensors(mean, place, demand);
     let stand = Stand {
@@ -77,6 +83,7 @@ pub(crate) fn refined(
         terms.extend(slow_modes(inertia, slowest));
     }
     let first = first_actions(&stand, &terms, sums);
+    let steady = Steady::new(inertia, &mean.frame, demand, exact);
     let exact = harmonics.as_ref().map(|harmonics| split(inertia, exact, harmonics)).unwrap_or_default();
     let around = Around { eccentricity: demand.orbit.eccentricity(), mean_motion: demand.mean_motion, points: &points };
     let exact = OrbitParts { around: harmonics.is_some().then_some(around), ..exact };
@@ -100,7 +107,7 @@ pub(crate) fn refined(
         left: [0, 1].map(|i| (first.left[i] + second.left[i]) / momentum),
     };
     let apart = [-second.momentum / momentum, higher.mean.p.norm_sqr() - lower.mean.p.norm_sqr()];
-    ([lower, higher], apart)
+    ([lower, higher], apart, steady)
 }
 
 /// The disturbing body at mean anomalies with weights.
@@ -124,7 +131,7 @@ fn split<'a>(inertia: &Inertia, exact: &[ExactTerm], harmonics: &Harmonics) -> O
     let split = |term: &ExactTerm| {
         let (harmonic, multiple) = term.numbers;
         let mode = Mode::new(inertia, harmonic, multiple);
-        (mode, harmonics.split(inertia.momentum * mode.frequency[0], multiple, term.left_out))
+        (mode, harmonics.split(multiple, &term.divisors))
     };
     OrbitParts { terms: exact.iter().map(split).collect(), average: harmonics.average(), around: None }
 }

@@ -13,6 +13,7 @@
 use nalgebra::Vector3;
 
 use super::modes::Mode;
+use super::steady::Steady;
 use crate::gravity_gradient::inertia::Inertia;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
@@ -28,6 +29,8 @@ pub(crate) struct Hamiltonian {
     /// K2's coefficients, and their derivatives likewise.
     pub(super) second: [Coefficients; 3],
     pub(super) momentum: f64,
+    /// What K2 in closed form lacks.
+    pub(super) steady: Steady,
 }
 
 /// Where the disturbing body is, as the averaged equations see it.
@@ -85,7 +88,12 @@ impl Hamiltonian {
             second[1][i] = scale * slopes[i] / momentum;
             second[2][i] = -scale * (f64::from(power) * values[i] + sigma * slopes[i]) / momentum;
         }
-        Self { first, second, momentum }
+        Self { first, second, momentum, steady: Steady::default() }
+    }
+
+    /// With what K2 in closed form lacks.
+    pub(super) fn with_steady(self, steady: Steady) -> Self {
+        Self { steady, ..self }
     }
 
     /// K2 without ⟨D⟩.
@@ -111,20 +119,20 @@ impl Hamiltonian {
         let still = *cube * *cube;
         let moving = still * *rate;
         let mut phases = [*cube; 2];
-        for (phase, row) in phases.iter_mut().zip([1, 2]) {
+        for ((phase, row), steady) in phases.iter_mut().zip([1, 2]).zip(self.steady.phases) {
             let [p0, p1, p2, q0, q1] = self.second[row];
             let of_still = square.mul_add(square.mul_add(all(p2), all(p1)), all(p0));
             let of_moving = across * square.mul_add(all(q1), all(q0));
             let first = *cube * all(self.first[row]) * (square - all(1.0 / 3.0));
-            *phase = still.mul_add(of_still, moving.mul_add(of_moving, first));
+            *phase = still.mul_add(of_still, moving.mul_add(of_moving, first)) + all(steady);
         }
         let [_, p1, p2, q0, q1] = self.second[0];
         let of_body = still.mul_add(square.mul_add(all(4.0 * p2), all(2.0 * p1)), *cube * all(2.0 * self.first[0]));
         let to_body = along * (moving * across).mul_add(all(2.0 * q1), of_body);
         let to_normal = moving * square.mul_add(all(q1), all(q0));
         let mut force = *direction;
-        for (component, normal) in force.iter_mut().zip(level) {
-            *component = component.mul_add(to_body, normal * to_normal);
+        for ((component, normal), steady) in force.iter_mut().zip(level).zip(&self.steady.force) {
+            *component = component.mul_add(to_body, normal.mul_add(to_normal, all(*steady)));
         }
         let beside = dot(axis, &force);
         let mut turning = force;
@@ -195,7 +203,7 @@ fn coefficients([still, moving]: &[Sums; 2], part: usize) -> Coefficients {
 }
 
 /// f² σ^|h| and its first two derivatives: regular at σ = 0.
-fn square(mode: &Mode, sigma: f64) -> [f64; 3] {
+pub(super) fn square(mode: &Mode, sigma: f64) -> [f64; 3] {
     let [f, slope, curvature] = mode.function;
     let degree = mode.harmonic.abs();
     let d = f64::from(degree);

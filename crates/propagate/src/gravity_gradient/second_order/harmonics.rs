@@ -11,6 +11,7 @@ use num_complex::Complex;
 use super::modes::slowest;
 use crate::gravity_gradient::contraction::{Contraction, coefficients, contraction, factors};
 use crate::gravity_gradient::corrections::{Demand, Mean};
+use crate::gravity_gradient::divisors::Divisors;
 use crate::gravity_gradient::generator::{ExactTerm, returns};
 use crate::simd::kepler::Place;
 
@@ -19,8 +20,8 @@ type C64 = Complex<f64>;
 /// Harmonics with a larger divisor, over Ω, are in the sums over time derivatives: the corrections take them out at any time.
 const NEAR: f64 = 0.5;
 
-/// Harmonics with a smaller divisor, over n, are terms of their own in the sum over pairs.
-const APART: f64 = 2.5;
+/// The factors of f in the functions of the series.
+const TURNS: [i32; 3] = [0, 2, -2];
 /// The highest harmonic of ⟨D⟩ that meets them there. At e = 0.6 the next is a four-hundredth of the mean.
 const MOST_OF_AVERAGE: usize = 24;
 
@@ -31,6 +32,10 @@ pub(super) struct Near {
     pub(super) frequency: f64,
     /// The contraction of U_j e^(ijl).
     pub(super) torque: Contraction,
+    /// That of W, with its divisors.
+    generator: Part,
+    /// Whether the divisors have the shift by the average torque.
+    pub(super) shifted: bool,
 }
 
 /// A contraction and its derivative with respect to Ω.
@@ -55,33 +60,41 @@ pub(super) struct Split {
 }
 
 impl Near {
-    /// As a term of frequency Ω + jn, whose amplitude is constant.
+    /// As a term of this frequency, whose amplitude is constant.
     pub(super) fn parts(&self) -> Parts {
-        let mut parts = Parts::default();
-        parts.add(self.torque, 0.0, self.frequency);
-        parts
+        let torque = Part { value: self.torque, slope: C64::default() };
+        Parts { torque: [torque, Part::default()], generator: [self.generator, Part::default()] }
+    }
+}
+
+impl Part {
+    /// Adds a part of D with its divisor, as one of W.
+    fn add(&mut self, torque: Contraction, reciprocal: f64) {
+        let inverse = C64::new(0.0, -reciprocal);
+        for (w, part) in self.value.iter_mut().zip(torque) {
+            *w += part * inverse;
+        }
+        self.slope -= torque[0] * inverse * reciprocal;
     }
 }
 
 impl Parts {
     /// Adds a harmonic of frequency jn with its divisor.
-    fn add(&mut self, torque: Contraction, step: f64, divisor: f64) {
-        let inverse = (C64::i() * divisor).inv();
-        let mut factor = C64::new(1.0, 0.0);
+    fn add(&mut self, torque: Contraction, step: f64, reciprocal: f64) {
+        let mut torque = torque;
         for (d, w) in self.torque.iter_mut().zip(&mut self.generator) {
-            for ((d, w), part) in d.value.iter_mut().zip(&mut w.value).zip(torque) {
-                *d += part * factor;
-                *w += part * factor * inverse;
+            for (d, part) in d.value.iter_mut().zip(torque) {
+                *d += part;
             }
-            w.slope -= torque[0] * factor * inverse / divisor;
-            factor *= C64::new(0.0, step);
+            w.add(torque, reciprocal);
+            torque = torque.map(|part| part * C64::new(0.0, step));
         }
     }
 }
 
 /// The series of one orbit at one place of the disturbing body.
 pub(super) struct Harmonics {
-    /// U_j e^(ijl) of (a/r)³ times 1, cos 2f and sin 2f, from −j to j.
+    /// U_j e^(ijl) of (a/r)³ times 1, e^(2if) and e^(−2if), from −j to j.
     waves: Vec<[C64; 3]>,
     /// The contractions for m = 0, 1, 2 of the tensors that belong to these functions.
     contracted: [[Contraction; 3]; 3],
@@ -101,13 +114,19 @@ impl Harmonics {
         let waves = (0..=2 * count).map(|i| {
             let j = i as f64 - count as f64;
             let turn = C64::from_polar(1.0, j * at);
-            coefficients(&series[i.abs_diff(count)], j).map(|coefficient| turn * coefficient)
+            let [one, cosine, sine] = coefficients(&series[i.abs_diff(count)], j);
+            let [even, odd] = [cosine, C64::i() * sine];
+            [one, even + odd, even - odd].map(|coefficient| turn * coefficient)
         });
         let [first, second, _] = demand.orbit.axes().map(|axis| mean.frame.inverse() * axis);
         let tensors = factors([first, second]);
         Some(Self {
             waves: waves.collect(),
-            contracted: [0, 1, 2].map(|m| tensors.map(|tensor| contraction(&tensor, m))),
+            contracted: [0, 1, 2].map(|m| {
+                let [one, cosine, sine] = tensors.map(|tensor| contraction(&tensor, m));
+                let half = |sign: f64| std::array::from_fn(|i| 0.5 * (cosine[i] - C64::new(0.0, sign) * sine[i]));
+                [one, half(1.0), half(-1.0)]
+            }),
             mean_motion: demand.mean_motion,
             duration: demand.duration,
             slowest: slowest(demand),
@@ -116,16 +135,16 @@ impl Harmonics {
 
     /// c_m of V for a frequency Ω; `term` is the correction with exact divisors, if there is one.
     pub(super) fn solution(&self, omega: f64, multiple: i32, term: Option<&ExactTerm>) -> C64 {
-        let count = (self.waves.len() / 2) as f64;
+        let count = (self.waves.len() / 2) as i32;
         let mut sums = [C64::default(); 3];
         for (i, harmonic) in self.waves.iter().enumerate() {
-            let j = i as f64 - count;
-            let divisor = omega + j * self.mean_motion;
-            let inverse = match term {
-                Some(term) if term.left_out.is_none_or(|left_out| f64::from(left_out) != j) => 1.0 / divisor,
-                _ => self.inverse(divisor, omega),
-            };
-            for (sum, part) in sums.iter_mut().zip(harmonic) {
+            let j = i as i32 - count;
+            let unshifted = self.inverse(omega + f64::from(j) * self.mean_motion, omega);
+            for ((sum, part), turns) in sums.iter_mut().zip(harmonic).zip(TURNS) {
+                let inverse = match term {
+                    Some(term) if term.divisors.left_out != Some(j) => term.divisors.reciprocal(j, turns),
+                    _ => unshifted,
+                };
                 *sum += part * inverse;
             }
         }
@@ -133,23 +152,26 @@ impl Harmonics {
         sums.iter().zip(contracted).map(|(sum, part)| sum * part[0]).sum::<C64>() * -C64::i()
     }
 
-    /// A corrected term of frequency Ω, split into the harmonics near resonance and the rest. A term without a sum over time derivatives has no rest.
-    pub(super) fn split(&self, omega: f64, multiple: i32, left_out: Option<i32>) -> Split {
+    /// A corrected term, split into the harmonics near resonance and the rest. A term without a sum over time derivatives has no rest.
+    pub(super) fn split(&self, multiple: i32, divisors: &Divisors) -> Split {
         let count = (self.waves.len() / 2) as i32;
-        let slow = omega.abs() <= self.slowest;
         let mut split = Split::default();
         for (i, harmonic) in self.waves.iter().enumerate() {
             let j = i as i32 - count;
-            let step = f64::from(j) * self.mean_motion;
-            let divisor = omega + step;
-            if left_out == Some(j) {
+            if divisors.left_out == Some(j) {
                 continue;
             }
             let torque = self.contracted(harmonic, multiple);
-            if slow || divisor.abs() < APART * self.mean_motion {
-                split.near.push(Near { frequency: divisor, torque });
+            let frequency = divisors.unshifted(j);
+            if divisors.is_near(j) {
+                let mut generator = Part::default();
+                for (k, turns) in TURNS.into_iter().enumerate() {
+                    let functions = &self.contracted[multiple as usize][k]; // 0 ≤ m ≤ 2
+                    generator.add(functions.map(|function| harmonic[k] * function), divisors.reciprocal(j, turns));
+                }
+                split.near.push(Near { frequency, torque, generator, shifted: divisors.is_shifted(j) });
             } else {
-                split.rest.add(torque, step, divisor);
+                split.rest.add(torque, f64::from(j) * self.mean_motion, 1.0 / frequency);
             }
         }
         split
@@ -161,7 +183,7 @@ impl Harmonics {
         let most = count.min(MOST_OF_AVERAGE);
         let near = (count - most..=count + most).map(|i| {
             let frequency = (i as f64 - count as f64) * self.mean_motion;
-            Near { frequency, torque: self.contracted(&self.waves[i], 0) }
+            Near { frequency, torque: self.contracted(&self.waves[i], 0), generator: Part::default(), shifted: false }
         });
         near.collect()
     }
@@ -205,6 +227,7 @@ mod tests {
 
     use super::*;
     use crate::gravity_gradient::contraction::Tensor;
+    use crate::gravity_gradient::divisors::Secular;
     use crate::gravity_gradient::envelope::{Reach, whole};
     use crate::gravity_gradient::orbit_series::OrbitSeries;
     use crate::gravity_gradient::second_order::epoch::tensors;
@@ -305,7 +328,8 @@ mod tests {
             // The last is slow: all its harmonics are terms.
             for (number, multiple) in [(22.6, 0), (-31.4, 1), (1.3, 2)] {
                 let omega = number * MEAN_MOTION;
-                let Split { near, rest } = series.split(omega, multiple, None);
+                let divisors = Divisors::new((1, multiple), [omega, MEAN_MOTION], multiple == 2, &Secular::default());
+                let Split { near, rest } = series.split(multiple, &divisors);
                 assert!(if multiple == 2 { near.len() > 100 } else { near.len() == 5 }, "{}", near.len());
                 let (mut torque, mut change, mut generator) =
                     (rest.torque[0].value, rest.torque[1].value[0], rest.generator[0].value[0]);

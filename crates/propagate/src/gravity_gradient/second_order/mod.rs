@@ -20,6 +20,7 @@ pub(crate) mod over_orbit;
 mod pairs;
 mod rows;
 pub(super) mod short_period;
+pub(super) mod steady;
 #[cfg(test)]
 mod tests;
 mod totals;

@@ -14,6 +14,7 @@
 use nalgebra::Vector3;
 
 use super::hamiltonian::{Hamiltonian, Slopes};
+use super::steady::Steady;
 
 /// Factors of 1, ρ, δ, ρ², ρδ, δ², k_N, k_N ρ, k_N δ.
 type Coefficients = [f64; 9];
@@ -25,19 +26,20 @@ pub(crate) struct OrbitAverage {
     rows: [Coefficients; 3],
     momentum: f64,
     axes: [Vector3<f64>; 3],
+    steady: Steady,
 }
 
 impl OrbitAverage {
     /// From ⟨D⟩ + K2, and the eccentricity, the mean motion and the axes of the orbit.
     pub(crate) fn new(hamiltonian: &Hamiltonian, eccentricity: f64, mean_motion: f64, axes: [Vector3<f64>; 3]) -> Self {
-        let Hamiltonian { first, second, momentum } = hamiltonian;
+        let Hamiltonian { first, second, momentum, steady } = hamiltonian;
         let means = Means::new(eccentricity, mean_motion);
         let [c, by_action, by_momentum] = *first;
         let square = c / (momentum * mean_motion);
         // C²/Mn and its derivatives.
         let squares = [c * square, 2.0 * by_action * square, (2.0 * by_momentum - c / momentum) * square];
         let rows = std::array::from_fn(|row| means.coefficients(first[row], squares[row], &second[row]));
-        Self { rows, momentum: *momentum, axes }
+        Self { rows, momentum: *momentum, axes, steady: *steady }
     }
 
     /// The derivatives of the mean variables for an angular momentum along a unit vector.
@@ -52,17 +54,18 @@ impl OrbitAverage {
         let by_delta = d + rd * rho + 2.0 * dd * delta + n * zd;
         let force = self.axes[0] * (2.0 * p * (by_rho + by_delta))
             + self.axes[1] * (2.0 * q * (by_rho - by_delta))
-            + self.axes[2] * (z + zr * rho + zd * delta);
+            + self.axes[2] * (z + zr * rho + zd * delta)
+            + self.steady.force;
         Slopes {
             turning: (force - axis * axis.dot(&force)) / self.momentum,
-            phases: [value(self.rows[1]), value(self.rows[2])],
+            phases: [0, 1].map(|i| value(self.rows[i + 1]) + self.steady.phases[i]),
         }
     }
 
     /// An upper bound of the rate at which the angular momentum turns.
     pub(crate) fn fastest(&self) -> f64 {
         let [_, r, d, rr, rd, dd, z, zr, zd] = self.rows[0].map(f64::abs);
-        (2.0 * (r + d) + 4.0 * (rr + rd + dd) + z + 3.0 * (zr + zd)) / self.momentum
+        (2.0 * (r + d) + 4.0 * (rr + rd + dd) + z + 3.0 * (zr + zd) + self.steady.force.norm()) / self.momentum
     }
 }
 

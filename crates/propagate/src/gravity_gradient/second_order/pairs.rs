@@ -34,7 +34,7 @@ pub(super) struct Actions {
     pub(super) momentum: f64,
     pub(super) action: f64,
     /// What is left of them: the rest of the two terms in d/dt, harmonics of the orbit that the sum lacks or that do not return within the span, pairs that are too
-    /// slow where the orbit has too many harmonics, and pairs that are left out for their size.
+    /// slow where the orbit has too many harmonics, and pairs that are left out for their size. Their phases are independent: the squares add up.
     pub(super) left: [f64; 2],
     /// The largest changes by one pair over the product of its relative sizes.
     largest: [f64; 2],
@@ -73,8 +73,8 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &OrbitPar
         single.into_iter().partition(|row| row.size > SMALLEST_PRODUCT * largest);
     half.extend(single);
     half.iter_mut().for_each(|row| row.size /= largest);
-    let sum = |rows: &[Row]| rows.iter().map(|row| row.size).sum::<f64>();
-    let dropped = sum(&dropped) / largest.max(f64::MIN_POSITIVE) * sum(&half);
+    let sum = |rows: &[Row]| rows.iter().map(|row| row.size.powi(2)).sum::<f64>();
+    let dropped = sum(&dropped) / largest.max(f64::MIN_POSITIVE).powi(2) * sum(&half);
     let rows: Vec<Row> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
     let average = Row::average(stand);
     let averages: Vec<Row> = exact.average.iter().map(|near| average.at(near)).collect();
@@ -84,13 +84,15 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &OrbitPar
         for a in &half {
             let product = a.size * b.size;
             if product < SMALLEST_PRODUCT {
-                pruned += product;
+                pruned += product * product;
             } else {
                 actions.add(stand, (a, b), 2.0, &mut together);
             }
         }
         if b.single {
-            averages.iter().for_each(|average| actions.add(stand, (average, b), 1.0, &mut together));
+            // The mean of ⟨D⟩ is in the divisors of harmonics near resonance.
+            let others = averages.iter().filter(|average| !b.shifted || average.frequency[0] != 0.0);
+            others.for_each(|average| actions.add(stand, (average, b), 1.0, &mut together));
         } else {
             actions.add(stand, (&average, b), 1.0, &mut together);
         }
@@ -104,7 +106,7 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &OrbitPar
     }
     together.iter().flatten().for_each(|all| actions.leave(all.left(stand)));
     // A pair that is left out changes M and L by no more than its product times what the pairs of the sum do.
-    actions.leave(actions.largest.map(|largest| pruned * largest));
+    actions.leave(actions.largest.map(|largest| pruned.sqrt() * largest));
     actions
 }
 
@@ -168,7 +170,7 @@ impl Actions {
 
     /// Adds to what is left.
     fn leave(&mut self, left: [f64; 2]) {
-        self.left = [0, 1].map(|i| self.left[i] + left[i]);
+        self.left = [0, 1].map(|i| self.left[i].hypot(left[i]));
     }
 
     fn sum(&mut self, factor: f64, both: C64, chi: C64, (a, b, [h, m]): (&Row, &Row, [f64; 2])) {

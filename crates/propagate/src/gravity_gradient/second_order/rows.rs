@@ -56,6 +56,8 @@ pub(super) struct Row {
     pub(super) parts: Parts,
     /// Whether it is one harmonic of the orbit, which has no other time dependence than its frequency.
     pub(super) single: bool,
+    /// Whether its divisors have the shift by the average torque.
+    pub(super) shifted: bool,
 }
 
 impl Stand<'_> {
@@ -133,7 +135,7 @@ impl Row {
         let root = stand.inertia.sigma.sqrt().max(SMALLEST_ROOT);
         let size = share * mode.strength(root) * stand.mean.momentum / near.frequency.abs();
         let [_, by_sigma, by_momentum] = row.frequency;
-        Self { size, frequency: [near.frequency, by_sigma, by_momentum], single: true, ..row }
+        Self { size, frequency: [near.frequency, by_sigma, by_momentum], single: true, shifted: near.shifted, ..row }
     }
 
     /// A term with these amplitudes of D and W.
@@ -152,6 +154,7 @@ impl Row {
             amplitude: amplitude(mode.harmonic, mode.function, stand.inertia.sigma),
             parts,
             single: false,
+            shifted: false,
         }
     }
 
@@ -178,6 +181,7 @@ impl Row {
                 generator: [Part::default(); 2],
             },
             single: false,
+            shifted: false,
         }
     }
 
@@ -198,6 +202,7 @@ impl Row {
                 generator: self.parts.generator.each_ref().map(|part| conjugated(part, -1.0)),
             },
             single: self.single,
+            shifted: self.shifted,
         }
     }
 }

@@ -1,0 +1,121 @@
+//! The divisors of a term in the orbit's harmonics.
+//!
+//! On an ellipse (a/r)³ r̂r̂ = Σ U_ja e^(ijl) with a = 0, ±2 for its parts with 1 and e^(±2if). A term of frequency Ω has the divisor Ω + jn there. Near a
+//! resonance it matters that the average torque changes Ω: with K̄ = C η^(−3) (½ρ − ⅓), ρ = 1 − k_N²,
+//!
+//! ```text
+//! ω = −C η^(−3) k_N/M          Ω + jn + (h − mσ) (C′/M) η^(−3) (½ρ − ⅓) − ω (m k_N + a)
+//! ```
+//!
+//! where ω is the rate at which k precesses about N: in axes that precess with it, the frame turns about k and the disturbing body about N. On the average k_N is
+//! constant, and so is this divisor. In harmonics that are not near resonance the bracket with the average torque has the same effect.
+
+use nalgebra::Vector3;
+
+use super::inertia::Inertia;
+
+/// Harmonics with a smaller divisor, over n, are near resonance.
+const NEAR: f64 = 2.5;
+/// With a smaller one, the shift by the average torque matters more than what else is of second order.
+const RESONANT: f64 = 1.0;
+
+/// What the average torque adds to the frequencies.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Secular {
+    /// (C′/M) η^(−3) (½ρ − ⅓).
+    by_action: f64,
+    sigma: f64,
+    /// ω and ω k_N.
+    precession: [f64; 2],
+    /// ρ |C′| η^(−3)/M and √ρ |C| η^(−3)/M: what swings with twice the true anomaly, without the eccentricity.
+    swinging: [f64; 2],
+}
+
+impl Secular {
+    /// For an orbit of this eccentricity and normal, with q = 3φn²/2, and an angular momentum along a unit vector.
+    pub(super) fn new(inertia: &Inertia, strength: f64, eccentricity: f64, [normal, pole]: [&Vector3<f64>; 2]) -> Self {
+        let (axial, slope) = inertia.mean_axial();
+        let scale = 1.5 * strength * ((1.0 - eccentricity) * (1.0 + eccentricity)).powf(-1.5) / inertia.momentum;
+        let (along, across) = (pole.dot(normal), pole.cross(normal).norm_squared());
+        let precession = -scale * (axial - inertia.trace / 3.0) * along;
+        Self {
+            by_action: scale * slope * (0.5 * across - 1.0 / 3.0),
+            sigma: inertia.sigma,
+            precession: [precession, precession * along],
+            swinging: [scale * slope.abs() * across, scale * (axial - inertia.trace / 3.0).abs() * across.sqrt()],
+        }
+    }
+
+    /// The angle by which k precesses in a time, at most 1.
+    pub(super) fn precessed(&self, duration: f64) -> f64 {
+        (self.precession[0].abs() * duration).min(1.0)
+    }
+}
+
+/// The divisors of one term.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Divisors {
+    /// Ω.
+    pub(crate) frequency: f64,
+    pub(crate) mean_motion: f64,
+    /// Whether all harmonics count as near resonance: those of a term that has no sum over time derivatives.
+    pub(crate) slow: bool,
+    /// The harmonic that is left out.
+    pub(crate) left_out: Option<i32>,
+    /// What the average torque adds for a = 0, and for each unit of a.
+    shift: [f64; 2],
+    /// The most that it adds near resonance, and what swings with twice the true anomaly.
+    pub(crate) rates: [f64; 2],
+}
+
+impl Divisors {
+    pub(super) fn new(
+        (harmonic, multiple): (i32, i32),
+        [frequency, mean_motion]: [f64; 2],
+        slow: bool,
+        secular: &Secular,
+    ) -> Self {
+        let Secular { by_action, sigma, precession: [precession, along], swinging } = *secular;
+        let (h, m) = (f64::from(harmonic), f64::from(multiple));
+        let shift = [(h - m * sigma) * by_action - m * along, -precession];
+        let steady = shift[0].abs() + 2.0 * precession.abs();
+        let rates = [steady, (h - m * sigma).abs() * swinging[0] + (m + 2.0) * swinging[1]];
+        Self { frequency, mean_motion, slow, left_out: None, shift, rates }
+    }
+
+    /// Without one harmonic, or with all.
+    pub(super) fn without(self, left_out: Option<i32>) -> Self {
+        Self { left_out, ..self }
+    }
+
+    /// Whether a harmonic is near resonance, or the term is slow.
+    pub(crate) fn is_near(&self, harmonic: i32) -> bool {
+        self.slow || self.unshifted(harmonic).abs() < NEAR * self.mean_motion
+    }
+
+    /// Whether a harmonic is so near resonance that its divisor has the shift by the average torque.
+    pub(crate) fn is_shifted(&self, harmonic: i32) -> bool {
+        harmonic != 0 && self.unshifted(harmonic).abs() < RESONANT * self.mean_motion
+    }
+
+    /// Ω + jn.
+    pub(crate) fn unshifted(&self, harmonic: i32) -> f64 {
+        self.frequency + f64::from(harmonic) * self.mean_motion
+    }
+
+    /// The divisor of U_ja.
+    pub(crate) fn at(&self, harmonic: i32, turns: i32) -> f64 {
+        let [shift, precession] = if self.is_shifted(harmonic) { self.shift } else { [0.0; 2] };
+        self.unshifted(harmonic) + shift + f64::from(turns) * precession
+    }
+
+    /// The divisor of the harmonic's part that is nearest to resonance.
+    pub(crate) fn smallest(&self, harmonic: i32) -> f64 {
+        [-2, 0, 2].map(|turns| self.at(harmonic, turns).abs()).into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// 1 over the divisor of U_ja, or 0 for the harmonic that is left out.
+    pub(crate) fn reciprocal(&self, harmonic: i32, turns: i32) -> f64 {
+        if self.left_out == Some(harmonic) { 0.0 } else { 1.0 / self.at(harmonic, turns) }
+    }
+}
