@@ -29,9 +29,7 @@ impl Averages {
         let ellipses = demands.iter().map(|demand| {
             let ellipse = AveragedOrbit::new(demand, delta);
             match level {
-                Level::SecondOrder => {
-                    ellipse.with_second(second_order::epoch::hamiltonian(inertia, demand, (polhode.moments, *steady)))
-                }
+                Level::SecondOrder => ellipse.with_second(second_order::epoch::hamiltonian(inertia, demand, *steady)),
                 _ => ellipse,
             }
         });

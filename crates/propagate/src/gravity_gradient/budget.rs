@@ -36,7 +36,7 @@ const MARGIN: f64 = 2.0;
 const SHORT_PERIOD_MARGIN: f64 = 2.4;
 /// The safety factor of the drift of third order.
 const THIRD_MARGIN: f64 = 2.0;
-/// The same for the pairs of slow terms with others, whose drift is part of the resonant effects.
+/// The same for the pairs of slow terms with others, and of others with the h and m of a slow term, whose drift is part of the resonant effects.
 const SLOW_MARGIN: f64 = 1.0;
 /// The same for the distance between the motions of first and of second order.
 const FIRST_MARGIN: f64 = 1.4;
@@ -116,7 +116,7 @@ impl Budget {
             Some(Further { short_period, left, cut, acting, apart }) => {
                 let growing = response.growing(sizes, p, duration, [acting, cut]);
                 let left = response.of_actions(left, duration);
-                let slow = SLOW_MARGIN * corrections.slow * (slope + corrections.slow);
+                let slow = SLOW_MARGIN * corrections.slow[1] * (slope + corrections.slow[0]);
                 let bounded = SHORT_PERIOD_MARGIN * short_period;
                 let spin = bounded + THIRD_MARGIN * growing + slow + left + FIRST_MARGIN * apart;
                 (spin, corrections.at_once + corrections.resonant)

@@ -143,8 +143,9 @@ pub(crate) struct Corrections {
     pub(crate) dropped: f64,
     /// Effect of the resonances over the span \[rad\].
     pub(crate) resonant: f64,
-    /// Sum of the sizes of the corrected terms that are too slow for the sums \[rad\]: second order does not have them.
-    pub(crate) slow: f64,
+    /// Sums of the sizes of the corrected terms that are too slow for the sums \[rad\], which second order does not have: as they are, and with the pairs of fast
+    /// terms that have their h and m together.
+    pub(crate) slow: [f64; 2],
     /// Dropped terms, and truncation of the sums for G on both ends \[rad\]: what they do to the mean M and L at the epoch is not in it.
     pub(crate) at_once: f64,
     /// Sum of the terms that the level omits, over the span \[rad\].
@@ -261,16 +262,17 @@ impl Corrections {
         let mut amplitudes = [0.0; ORDERS];
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
         let mut exact = Vec::new();
-        let mut slow = 0.0;
+        let mut slow = [0.0; 2];
         for (candidate, choice) in terms.all.iter().zip(&choices) {
             // The tilt of the angular momentum by a dropped term changes its precession, for m = 0 too.
             let growth = growth(if demand.refined { 1 } else { candidate.multiple });
             let is_slow = selection.commensurability.is_slow(candidate);
             match (*choice, series) {
-                (Choice::Exact(Exact { left_out, size, .. }), Some(series)) => {
+                (Choice::Exact(Exact { left_out, size, slow: with_pairs, .. }), Some(series)) => {
                     let divisors = selection.commensurability.divisors(candidate).without(left_out);
                     exact.push(candidate.exact(inertia, (series, divisors), nothing));
-                    slow += if is_slow { size } else { 0.0 };
+                    slow[0] += if is_slow { size } else { 0.0 };
+                    slow[1] += with_pairs;
                     rest += growth * nothing;
                     at_once += growth * nothing;
                     count += 1;

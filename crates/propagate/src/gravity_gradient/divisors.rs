@@ -1,14 +1,15 @@
 //! The divisors of a term in the orbit's harmonics.
 //!
 //! On an ellipse (a/r)³ r̂r̂ = Σ U_ja e^(ijl) with a = 0, ±2 for its parts with 1 and e^(±2if). A term of frequency Ω has the divisor Ω + jn there. Near a
-//! resonance it matters that the average torque changes Ω: with K̄ = C η^(−3) (½ρ − ⅓), ρ = 1 − k_N²,
+//! resonance it matters that the average torque changes Ω. From its mean over the orbit, K̄ = C η^(−3) (½ρ − ⅓) with ρ = 1 − k_N², follow
 //!
 //! ```text
-//! ω = −C η^(−3) k_N/M          Ω + jn + (h − mσ) (C′/M) η^(−3) (½ρ − ⅓) − ω (m k_N + a)
+//! dℓ′/dt: ∂K̄/∂L = (C′/M) η^(−3) (½ρ − ⅓)    dy′/dt: −σ ∂K̄/∂L    dk/dt = ω N × k,  ω = −C η^(−3) k_N/M
+//! Ω + jn + (h − mσ) ∂K̄/∂L − ω (m k_N + a)
 //! ```
 //!
-//! where ω is the rate at which k precesses about N: in axes that precess with it, the frame turns about k and the disturbing body about N. On the average k_N is
-//! constant, and so is this divisor. In harmonics that are not near resonance the bracket with the average torque has the same effect.
+//! The second line is the divisor: in axes that precess with k, the frame turns about k and the disturbing body about N. On the average k_N is constant, and so
+//! is this divisor. In harmonics that are not near resonance the bracket with the average torque has the same effect.
 
 use nalgebra::Vector3;
 
@@ -22,27 +23,29 @@ const RESONANT: f64 = 1.0;
 /// What the average torque adds to the frequencies.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Secular {
-    /// (C′/M) η^(−3) (½ρ − ⅓).
-    by_action: f64,
-    sigma: f64,
+    /// Of ℓ′ and y′.
+    phases: [f64; 2],
     /// ω and ω k_N.
     precession: [f64; 2],
     /// ρ |C′| η^(−3)/M and √ρ |C| η^(−3)/M: what swings with twice the true anomaly, without the eccentricity.
     swinging: [f64; 2],
+    sigma: f64,
 }
 
 impl Secular {
     /// For an orbit of this eccentricity and normal, with q = 3φn²/2, and an angular momentum along a unit vector.
     pub(super) fn new(inertia: &Inertia, strength: f64, eccentricity: f64, [normal, pole]: [&Vector3<f64>; 2]) -> Self {
+        let Inertia { sigma, momentum, trace, .. } = *inertia;
         let (axial, slope) = inertia.mean_axial();
-        let scale = 1.5 * strength * ((1.0 - eccentricity) * (1.0 + eccentricity)).powf(-1.5) / inertia.momentum;
+        let scale = 1.5 * strength * ((1.0 - eccentricity) * (1.0 + eccentricity)).powf(-1.5) / momentum;
         let (along, across) = (pole.dot(normal), pole.cross(normal).norm_squared());
-        let precession = -scale * (axial - inertia.trace / 3.0) * along;
+        let by_action = scale * slope * (0.5 * across - 1.0 / 3.0);
+        let precession = -scale * (axial - trace / 3.0) * along;
         Self {
-            by_action: scale * slope * (0.5 * across - 1.0 / 3.0),
-            sigma: inertia.sigma,
+            phases: [by_action, -sigma * by_action],
             precession: [precession, precession * along],
-            swinging: [scale * slope.abs() * across, scale * (axial - inertia.trace / 3.0).abs() * across.sqrt()],
+            swinging: [scale * slope.abs() * across, scale * (axial - trace / 3.0).abs() * across.sqrt()],
+            sigma,
         }
     }
 
@@ -75,9 +78,9 @@ impl Divisors {
         slow: bool,
         secular: &Secular,
     ) -> Self {
-        let Secular { by_action, sigma, precession: [precession, along], swinging } = *secular;
+        let Secular { phases: [anomaly, longitude], precession: [precession, along], swinging, sigma } = *secular;
         let (h, m) = (f64::from(harmonic), f64::from(multiple));
-        let shift = [(h - m * sigma) * by_action - m * along, -precession];
+        let shift = [h * anomaly + m * (longitude - along), -precession];
         let steady = shift[0].abs() + 2.0 * precession.abs();
         let rates = [steady, (h - m * sigma).abs() * swinging[0] + (m + 2.0) * swinging[1]];
         Self { frequency, mean_motion, slow, left_out: None, shift, rates }

@@ -76,8 +76,7 @@ impl Refinements {
     ) -> Self {
         let exact = &first.corrections[0].generator.exact;
         let mean = (&first.mean, &first.change, &exact[..]);
-        let (both, apart, steady) =
-            epoch::refined(mean, state, &first.inertia, &start.place, (demand, polhode.moments));
+        let (both, apart, steady) = epoch::refined(mean, state, &first.inertia, &start.place, demand);
         let body = (Response::new(&first.inertia).gain, polhode.moments.iter().sum());
         let short_period = short_period::largest(&first.inertia, &first.mean, demand, body, &reach.nearest());
         Self { both, apart, short_period, steady }
@@ -99,7 +98,7 @@ impl Refinements {
         let change = Change { momentum, ..first.change };
         // The iteration leaves M and L its own threshold, which the rates multiply by the time.
         let left = left.map(|part| part + CONVERGED);
-        let hamiltonian = epoch::hamiltonian(&inertia, demand, (polhode.moments, self.steady));
+        let hamiltonian = epoch::hamiltonian(&inertia, demand, self.steady);
         let refinement = Refinement { left, apart, hamiltonian, short_period: self.short_period };
         Ok((MeanMotion { mean, change, inertia, corrections, steady: self.steady }, refinement))
     }

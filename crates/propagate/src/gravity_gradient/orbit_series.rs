@@ -12,8 +12,8 @@ type C64 = Complex<f64>;
 const RANGE: f64 = 28.0;
 /// Most harmonics; more are needed from an eccentricity of 0.8 on.
 const MOST: f64 = 320.0;
-/// Least span in orbits.
-const FEWEST_ORBITS: f64 = 1.5;
+/// Least span in orbits, and that of a span with the pericentre.
+pub(super) const FEWEST_ORBITS: [f64; 2] = [1.5, 0.3];
 
 /// The coefficients of e^(ijl), from j = 0 on.
 #[derive(Clone, Debug)]
@@ -23,12 +23,12 @@ pub(crate) struct OrbitSeries {
 }
 
 impl OrbitSeries {
-    /// The series of an orbit, if it is better than the sums over time derivatives: it is short enough, and the span has several orbits. Far from the
-    /// pericentre the sums lack nothing until the next passage, while the series takes the mean over all passages.
+    /// The series of an orbit, if it is better than the sums over time derivatives: it is short enough, and the span has several orbits or the pericentre. Far
+    /// from the pericentre the sums lack nothing until the next passage, while the series takes the mean over all passages.
     pub(crate) fn new(reach: &Reach) -> Option<Self> {
         let count = count(reach.eccentricity)?;
-        let coefficients = || coefficients(reach.eccentricity, count);
-        (reach.longest() >= FEWEST_ORBITS * TAU).then(|| Self { coefficients: coefficients() })
+        let fewest = FEWEST_ORBITS[usize::from(reach.eccentricity == 0.0 || reach.passes())];
+        (reach.longest() >= fewest * TAU).then(|| Self { coefficients: coefficients(reach.eccentricity, count) })
     }
 }
 
@@ -70,10 +70,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn orbits_with_too_many_harmonics_and_spans_of_one_orbit_are_left_to_the_sums() {
-        let serves = |eccentricity: f64, orbits: f64| {
-            OrbitSeries::new(&Reach { eccentricity, anomaly: 0.0, sides: [TAU * orbits, 0.0] }).is_some()
+    fn orbits_with_too_many_harmonics_and_spans_without_a_pericentre_are_left_to_the_sums() {
+        let serves = |eccentricity: f64, anomaly: f64, orbits: f64| {
+            OrbitSeries::new(&Reach { eccentricity, anomaly, sides: [TAU * orbits, 0.0] }).is_some()
         };
-        assert!(serves(0.0, 3.0) && serves(0.8, 3.0) && !serves(0.82, 3.0) && !serves(0.3, 1.4));
+        assert!(serves(0.0, 1.0, 3.0) && serves(0.8, 1.0, 3.0) && !serves(0.82, 1.0, 3.0));
+        assert!(serves(0.3, 1.0, 0.4) && !serves(0.3, PI, 0.4) && serves(0.0, PI, 0.4) && !serves(0.3, 1.0, 0.2));
     }
 }

@@ -1,9 +1,11 @@
 //! How each term of the generating function is corrected: by a sum over time derivatives, with exact divisors, or not at all.
 
+use std::f64::consts::TAU;
+
 use super::aspect::Aspect;
-use super::candidate::Candidate;
+use super::candidate::{Candidate, SMALLEST_RATIO};
 use super::generator::returns;
-use super::orbit_series::OrbitSeries;
+use super::orbit_series::{FEWEST_ORBITS, OrbitSeries};
 use super::resonance::{Commensurability, Nearest};
 
 /// Largest change of the attitude by a harmonic near resonance, and by a slow term, that is corrected \[rad\].
@@ -17,8 +19,10 @@ const MARGIN: f64 = 2.0;
 /// The same for what the average torque does to it.
 const SHIFT_MARGIN: f64 = 1.5;
 
+/// The same for pairs with the h and m of a slow term.
+const PAIRS_MARGIN: f64 = 3.0;
 /// What is of third order in it, over its second order and the sum of all terms.
-const GROWING: f64 = 20.0;
+const GROWING: f64 = 10.0;
 
 /// What decides it.
 pub(super) struct Selection<'a> {
@@ -57,6 +61,8 @@ pub(super) struct Exact {
     pub(super) size: f64,
     /// What the harmonic nearest to resonance does to the attitude over the span, corrected or not \[rad\].
     pub(super) effect: f64,
+    /// The size of a slow term and of pairs of fast terms with its h and m together \[rad\]; 0 for fast terms.
+    pub(super) slow: f64,
 }
 
 impl Selection<'_> {
@@ -132,16 +138,30 @@ impl Selection<'_> {
         // The divisors have the mean shift of Ω by the average torque, but not its dependence on σ and k, the part that swings with the orbit, and its second order.
         let swinging = (steady * (3.0 * eccentricity + steady / distance) + 0.25 * swinging) / mean_motion;
         let shift = (swinging + self.whole * self.whole * term.frequency.abs() / distance).min(1.0);
-        let shifted = shift * (turn + shift * swing * lasting);
-        let left =
-            (1.0 + GROWING * self.whole) * (second + SHIFT_MARGIN * shifted + swing * (steady / distance).min(1.0));
+        let angles = turn + amplitude * term.shift / (distance * distance);
+        let shifted = shift * (angles + shift * swing * lasting);
+        let left = second + SHIFT_MARGIN * shifted + swing * (steady / distance).min(1.0);
         let first = self.commensurability.turned(term, amplitude, distance);
         let small = size <= LARGEST && turn <= LARGEST_TURN;
         let corrected = returns(distance, duration) || small && left < MARGIN * first;
-        let (left_out, effect) = if corrected { (None, left) } else { (Some(nearest.harmonic), first) };
+        let third = GROWING * self.whole * left;
+        let (left_out, effect) = if corrected { (None, left + third) } else { (Some(nearest.harmonic), first) };
         let [size, square] = self.harmonics(term, left_out, series);
-        let drift = if self.commensurability.is_slow(term) { moved * square * duration } else { 0.0 };
-        Exact { left_out, size, effect: effect + drift }
+        let (drift, slow) = match self.commensurability.is_slow(term) {
+            true => (moved * square * duration, size * self.with_pairs(acting)),
+            false => (0.0, 0.0),
+        };
+        Exact { left_out, size, effect: effect + drift, slow }
+    }
+
+    /// The factor by which pairs of fast terms with the h and m of a slow term enlarge what is bounded of it: they have its divisor, and second order lacks them.
+    /// Over several orbits the drifts that are charged are larger than this.
+    fn with_pairs(&self, acting: f64) -> f64 {
+        let Commensurability { duration, mean_motion, fastest, .. } = self.commensurability;
+        if mean_motion * duration >= FEWEST_ORBITS[0] * TAU {
+            return 1.0;
+        }
+        PAIRS_MARGIN * (SMALLEST_RATIO * fastest / acting.max(1.0 / duration)).max(1.0)
     }
 
     /// Sums over the harmonics of the orbit in a term with exact divisors: of the changes of the attitude \[rad\], and of their squares times the divisors.

@@ -52,7 +52,7 @@ pub(super) struct Total {
 impl Around<'_> {
     /// The highest harmonic that a pair needs, if they are not too many.
     pub(super) fn highest(&self, total: &Total) -> Option<f64> {
-        let slow = 8.0 + 6.0 / decay(self.eccentricity);
+        let slow = 6.0 + 4.0 / decay(self.eccentricity);
         let highest = slow.max((total.frequency / self.mean_motion).abs() + 4.0).ceil();
         (points_for(highest) <= MOST_POINTS).then_some(highest)
     }
@@ -67,7 +67,7 @@ impl Around<'_> {
 
 /// Number of points for so many harmonics.
 fn points_for(highest: f64) -> f64 {
-    2.0 * highest + 8.0
+    2.0 * highest + 4.0
 }
 
 /// Mean anomalies and weights of points around an ellipse, even in the eccentric anomaly.

@@ -39,13 +39,9 @@ pub(crate) struct Refined {
 }
 
 /// ⟨D⟩ + K2 at a mean motion.
-pub(crate) fn hamiltonian(
-    inertia: &Inertia,
-    demand: &Demand<'_>,
-    (moments, steady): ([f64; 3], Steady),
-) -> Hamiltonian {
+pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, steady: Steady) -> Hamiltonian {
     let modes = modes(inertia, SMALLEST_TERM, slowest(demand));
-    Hamiltonian::new(inertia, &modes, demand.strength(), moments).with_steady(steady)
+    Hamiltonian::new(inertia, &modes, demand.strength()).with_steady(steady)
 }
 
 /// The mean states with |p| and M from all terms of first order, and to second order, and the difference of their M, over M, and σ: from the mean state of the
@@ -55,7 +51,7 @@ pub(crate) fn refined(
     state: &Mean,
     inertia: &Inertia,
     place: &Place<pulp::Scalar>,
-    (demand, moments): (&Demand<'_>, [f64; 3]),
+    demand: &Demand<'_>,
 ) -> ([Refined; 2], [f64; 2], Steady) {
     let slowest = slowest(demand);
     let (tensors, norms) = tensors(mean, place, demand);
@@ -71,7 +67,7 @@ pub(crate) fn refined(
         duration: demand.duration,
         closest: demand.envelope.span[0] / demand.envelope.epoch[0],
         bend: demand.envelope.epoch[2] / demand.envelope.epoch[0],
-        trace: moments.iter().sum(),
+        trace: inertia.trace,
         enough: ENOUGH * demand.tolerance
             / (demand.duration * inertia.rates.iter().map(|rate| rate.to_f64().abs()).sum::<f64>()),
     };
@@ -83,11 +79,12 @@ pub(crate) fn refined(
         terms.extend(slow_modes(inertia, slowest));
     }
     let first = first_actions(&stand, &terms, sums);
-    let steady = Steady::new(inertia, &mean.frame, demand, exact);
+    let modes = modes(inertia, SMALLEST_PAIR, slowest);
+    let steady = Steady::new(inertia, &mean.frame, demand, (exact, &modes));
     let exact = harmonics.as_ref().map(|harmonics| split(inertia, exact, harmonics)).unwrap_or_default();
     let around = Around { eccentricity: demand.orbit.eccentricity(), mean_motion: demand.mean_motion, points: &points };
     let exact = OrbitParts { around: harmonics.is_some().then_some(around), ..exact };
-    let second = second_actions(&stand, &modes(inertia, SMALLEST_PAIR, slowest), &exact);
+    let second = second_actions(&stand, &modes, &exact);
     let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
     let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };
     // What the corrections of the motion, which drop terms and end their sums early, lack of M and L.

@@ -25,7 +25,7 @@ type Coefficients = [f64; 5];
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Hamiltonian {
     /// C of ⟨D⟩ = C u (s² − ⅓), and its derivatives with respect to L and to M at fixed L.
-    pub(super) first: [f64; 3],
+    pub(crate) first: [f64; 3],
     /// K2's coefficients, and their derivatives likewise.
     pub(super) second: [Coefficients; 3],
     pub(super) momentum: f64,
@@ -71,12 +71,18 @@ pub(crate) struct Slopes {
 }
 
 impl Hamiltonian {
-    /// From the terms of the disturbing function; `strength` is q.
-    pub(super) fn new(inertia: &Inertia, modes: &[Mode], strength: f64, moments: [f64; 3]) -> Self {
-        let Inertia { sigma, momentum, .. } = *inertia;
+    /// ⟨D⟩ alone; `strength` is q.
+    pub(crate) fn first(inertia: &Inertia, strength: f64) -> Self {
+        let Inertia { sigma, momentum, trace, .. } = *inertia;
         let (axial, slope) = inertia.mean_axial();
         let slope = 1.5 * strength * slope / momentum;
-        let first = [1.5 * strength * (axial - moments.iter().sum::<f64>() / 3.0), slope, -slope * sigma];
+        let first = [1.5 * strength * (axial - trace / 3.0), slope, -slope * sigma];
+        Self { first, momentum, ..Self::default() }
+    }
+
+    /// From the terms of the disturbing function.
+    pub(super) fn new(inertia: &Inertia, modes: &[Mode], strength: f64) -> Self {
+        let Inertia { sigma, momentum, .. } = *inertia;
         let sums = [0, 1].map(|order| Sums::new(modes, sigma, order));
         let mut second = [[0.0; 5]; 3];
         let [values, slopes] = [0, 1].map(|part| coefficients(&sums, part));
@@ -88,7 +94,7 @@ impl Hamiltonian {
             second[1][i] = scale * slopes[i] / momentum;
             second[2][i] = -scale * (f64::from(power) * values[i] + sigma * slopes[i]) / momentum;
         }
-        Self { first, second, momentum, steady: Steady::default() }
+        Self { second, ..Self::first(inertia, strength) }
     }
 
     /// With what K2 in closed form lacks.
@@ -175,7 +181,7 @@ impl Sums {
         let mut sums = Self { by_action: [[0.0; 2]; 3], by_turn: [[0.0; 2]; 3] };
         for mode in modes {
             let (h, m) = (f64::from(mode.harmonic), f64::from(mode.multiple));
-            let [value, slope, curvature] = product(square(mode, sigma), power(mode.frequency, -(order + 1)));
+            let [value, slope, curvature] = product(mode.square(sigma), power(mode.frequency, -(order + 1)));
             let weight = m * f64::from(order + 1);
             let index = mode.multiple as usize; // 0 ≤ m ≤ 2
             sums.by_action[index][0] += (h - m * sigma) * slope - weight * value;
@@ -199,20 +205,6 @@ fn coefficients([still, moving]: &[Sums; 2], part: usize) -> Coefficients {
         a0 + 4.0 * b1 - a1 + a2 - 8.0 * b2,
         2.0 * c2 - d1,
         c1 - 4.0 * d0 + 8.0 * d2 - 2.0 * c2 + d1,
-    ]
-}
-
-/// f² σ^|h| and its first two derivatives: regular at σ = 0.
-pub(super) fn square(mode: &Mode, sigma: f64) -> [f64; 3] {
-    let [f, slope, curvature] = mode.function;
-    let degree = mode.harmonic.abs();
-    let d = f64::from(degree);
-    let falling = |lower: i32| if degree >= lower { sigma.powi(degree - lower) } else { 0.0 };
-    let [s0, s1, s2] = [falling(0), d * falling(1), d * (d - 1.0) * falling(2)];
-    [
-        f * f * s0,
-        2.0 * f * slope * s0 + f * f * s1,
-        2.0 * (slope * slope + f * curvature) * s0 + 4.0 * f * slope * s1 + f * f * s2,
     ]
 }
 

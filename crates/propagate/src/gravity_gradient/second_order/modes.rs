@@ -45,6 +45,20 @@ impl Mode {
         average
     }
 
+    /// f² σ^|h| and its first two derivatives: regular at σ = 0.
+    pub(super) fn square(&self, sigma: f64) -> [f64; 3] {
+        let [f, slope, curvature] = self.function;
+        let degree = self.harmonic.abs();
+        let d = f64::from(degree);
+        let falling = |lower: i32| if degree >= lower { sigma.powi(degree - lower) } else { 0.0 };
+        let [s0, s1, s2] = [falling(0), d * falling(1), d * (d - 1.0) * falling(2)];
+        [
+            f * f * s0,
+            2.0 * f * slope * s0 + f * f * s1,
+            2.0 * (slope * slope + f * curvature) * s0 + 4.0 * f * slope * s1 + f * f * s2,
+        ]
+    }
+
     /// Relative size of the change of the mean variables by the term.
     pub(super) fn size(&self, root: f64) -> f64 {
         self.strength(root) / self.frequency[0].abs()

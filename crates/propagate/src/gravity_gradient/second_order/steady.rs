@@ -13,9 +13,10 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::hamiltonian::square;
 use super::jet::with_turns;
-use super::modes::{Mode, SMALLEST_ROOT, modes, slowest};
+use super::modes::{Mode, SMALLEST_ROOT};
+#[cfg(test)]
+use super::modes::{modes, slowest};
 use crate::gravity_gradient::contraction::{Contraction, coefficients, contraction, factors};
 use crate::gravity_gradient::corrections::Demand;
 use crate::gravity_gradient::divisors::Divisors;
@@ -69,7 +70,7 @@ impl Shape {
     fn new(mode: &Mode, inertia: &Inertia) -> Self {
         let (h, m) = (f64::from(mode.harmonic), f64::from(mode.multiple));
         let Inertia { sigma, momentum, .. } = *inertia;
-        Self { numbers: [h - m * sigma, m], square: square(mode, sigma), frequency: mode.frequency, momentum }
+        Self { numbers: [h - m * sigma, m], square: mode.square(sigma), frequency: mode.frequency, momentum }
     }
 
     /// The factors of α and of β, and their derivatives with respect to σ and M, for G and its derivatives with respect to Ω.
@@ -93,14 +94,17 @@ impl Shape {
 }
 
 impl Steady {
-    /// At a mean motion whose frame is known, with the terms whose divisors are exact.
+    /// At a mean motion whose frame is known, from the terms whose divisors are exact and all terms with sums over time derivatives.
     pub(super) fn new(
         inertia: &Inertia,
         frame: &UnitQuaternion<f64>,
         demand: &Demand<'_>,
-        exact: &[ExactTerm],
+        (exact, modes): (&[ExactTerm], &[Mode]),
     ) -> Self {
-        let rates = demand.series.map(|series| Rates::new(inertia, frame, (demand, series), exact));
+        let rates = demand.series.map(|series| {
+            let summed = summed(inertia, modes, exact);
+            Rates::new(inertia, frame, (demand, series), (exact, &summed))
+        });
         rates.map(|rates| rates.steady(frame, &demand.axes[2])).unwrap_or_default()
     }
 }
@@ -123,7 +127,7 @@ impl<'a> Rates<'a> {
         inertia: &'a Inertia,
         frame: &UnitQuaternion<f64>,
         (demand, series): (&Demand<'_>, &OrbitSeries),
-        exact: &[ExactTerm],
+        (exact, summed): (&[ExactTerm], &[Mode]),
     ) -> Self {
         let [first, second, _] = demand.orbit.axes().map(|axis| frame.inverse() * axis);
         let tensors = factors([first, second]).map(|tensor| with_turns(&tensor));
@@ -145,22 +149,23 @@ impl<'a> Rates<'a> {
             by_momentum: 0.0,
             turned: [0.0; 2],
         };
-        let count = series.coefficients.len() as i32;
-        for term in exact {
-            let (harmonic, multiple) = term.numbers;
-            let shape = Shape::new(&Mode::new(inertia, harmonic, multiple), inertia);
-            for j in (1 - count..count).filter(|j| term.divisors.left_out != Some(*j)) {
-                rates.add(&shape, &geometry(multiple, j), of_divisors(&term.divisors, j));
+        let (highest, last) = (highest(series), series.coefficients.len() as i32 - 1);
+        for multiple in 0..=2 {
+            let of_multiple = |numbers: (i32, i32)| numbers.1 == multiple;
+            let exact: Vec<&ExactTerm> = exact.iter().filter(|term| of_multiple(term.numbers)).collect();
+            let reach = if exact.is_empty() { highest } else { last };
+            let table: Vec<(i32, Geometry)> = (-reach..=reach).map(|j| (j, geometry(multiple, j))).collect();
+            for term in exact {
+                let shape = Shape::new(&Mode::new(inertia, term.numbers.0, multiple), inertia);
+                for (j, geometry) in table.iter().filter(|(j, _)| term.divisors.left_out != Some(*j)) {
+                    rates.add(&shape, geometry, of_divisors(&term.divisors, *j));
+                }
             }
-        }
-        let highest = highest(series);
-        let tables = [0, 1, 2].map(|m| (1..=highest).map(|j| [geometry(m, j), geometry(m, -j)]).collect::<Vec<_>>());
-        for mode in summed(inertia, demand, exact) {
-            let shape = Shape::new(&mode, inertia);
-            let omega = inertia.momentum * mode.frequency[0];
-            for (j, both) in (1..).zip(&tables[mode.multiple as usize]) {
-                for (geometry, sign) in both.iter().zip([1.0, -1.0]) {
-                    let step = f64::from(j) * sign * demand.mean_motion;
+            for mode in summed.iter().filter(|mode| of_multiple((mode.harmonic, mode.multiple))) {
+                let shape = Shape::new(mode, inertia);
+                let omega = inertia.momentum * mode.frequency[0];
+                for (j, geometry) in table.iter().filter(|(j, _)| *j != 0 && j.abs() <= highest) {
+                    let step = f64::from(*j) * demand.mean_motion;
                     // A harmonic at resonance is so small that the term needs no exact divisors.
                     if (omega + step).abs() > 0.5 * demand.mean_motion {
                         rates.add(&shape, geometry, beyond(omega, step, omega + step));
@@ -215,15 +220,12 @@ fn highest(series: &OrbitSeries) -> i32 {
 }
 
 /// The terms with sums over time derivatives that have a share of what K2 lacks.
-fn summed(inertia: &Inertia, demand: &Demand<'_>, exact: &[ExactTerm]) -> Vec<Mode> {
+fn summed(inertia: &Inertia, modes: &[Mode], exact: &[ExactTerm]) -> Vec<Mode> {
     let root = inertia.sigma.sqrt().max(SMALLEST_ROOT);
-    let mut modes = modes(inertia, 0.0, slowest(demand));
     let weight = |mode: &Mode| mode.size(root).powi(2) / mode.frequency[0].abs();
-    let whole: f64 = modes.iter().map(weight).sum();
-    modes.retain(|mode| {
-        weight(mode) > SMALLEST_SHARE * whole && exact.iter().all(|term| term.numbers != (mode.harmonic, mode.multiple))
-    });
-    modes
+    let least = SMALLEST_SHARE * modes.iter().map(weight).sum::<f64>();
+    let is_exact = |mode: &Mode| exact.iter().any(|term| term.numbers == (mode.harmonic, mode.multiple));
+    modes.iter().filter(|mode| weight(mode) > least && !is_exact(mode)).copied().collect()
 }
 
 /// G and its derivatives for a harmonic of a term whose divisors are exact.
@@ -253,6 +255,7 @@ pub(super) fn lacking(
     demand: &Demand<'_>,
     series: &OrbitSeries,
 ) -> (f64, Steady) {
-    let rates = Rates::new(inertia, frame, (demand, series), &[]);
+    let summed = summed(inertia, &modes(inertia, 0.0, slowest(demand)), &[]);
+    let rates = Rates::new(inertia, frame, (demand, series), (&[], &summed));
     (rates.value, rates.steady(frame, &demand.axes[2]))
 }
