@@ -36,7 +36,8 @@ const MARGIN: f64 = 2.0;
 const SHORT_PERIOD_MARGIN: f64 = 2.4;
 /// The safety factor of the drift of third order.
 const THIRD_MARGIN: f64 = 2.0;
-/// The same for the pairs of slow terms with others, and of others with the h and m of a slow term, whose drift is part of the resonant effects.
+/// The same for the pairs of slow terms with others, and for those of others with the h and m of a slow term. The drift of these pairs is part of the resonant
+/// effects.
 const SLOW_MARGIN: f64 = 1.0;
 /// The same for the distance between the motions of first and of second order.
 const FIRST_MARGIN: f64 = 1.4;

@@ -9,16 +9,18 @@
 //! ```
 //!
 //! The second line is the divisor: in axes that precess with k, the frame turns about k and the disturbing body about N. On the average k_N is constant, and so
-//! is this divisor. In harmonics that are not near resonance the bracket with the average torque has the same effect.
+//! is this divisor. In harmonics that are not near resonance, and for j = 0, the bracket with the average torque has the same effect.
 
 use nalgebra::Vector3;
 
 use super::inertia::Inertia;
 
-/// Harmonics with a smaller divisor, over n, are near resonance.
+/// Harmonics with a smaller divisor, over n, are terms of their own in the sum over pairs.
 const NEAR: f64 = 2.5;
 /// With a smaller one, the shift by the average torque matters more than what else is of second order.
 const RESONANT: f64 = 1.0;
+/// Largest shift over n.
+const MOST_SHIFT: f64 = 0.3;
 
 /// What the average torque adds to the frequencies.
 #[derive(Clone, Copy, Debug, Default)]
@@ -67,8 +69,10 @@ pub(crate) struct Divisors {
     pub(crate) left_out: Option<i32>,
     /// What the average torque adds for a = 0, and for each unit of a.
     shift: [f64; 2],
-    /// The most that it adds near resonance, and what swings with twice the true anomaly.
-    pub(crate) rates: [f64; 2],
+    /// The most that it adds to a harmonic near resonance.
+    pub(crate) steady_shift: f64,
+    /// The shift that swings with twice the true anomaly.
+    pub(crate) swinging_shift: f64,
 }
 
 impl Divisors {
@@ -81,9 +85,9 @@ impl Divisors {
         let Secular { phases: [anomaly, longitude], precession: [precession, along], swinging, sigma } = *secular;
         let (h, m) = (f64::from(harmonic), f64::from(multiple));
         let shift = [h * anomaly + m * (longitude - along), -precession];
-        let steady = shift[0].abs() + 2.0 * precession.abs();
-        let rates = [steady, (h - m * sigma).abs() * swinging[0] + (m + 2.0) * swinging[1]];
-        Self { frequency, mean_motion, slow, left_out: None, shift, rates }
+        let steady_shift = shift[0].abs() + 2.0 * precession.abs();
+        let swinging_shift = (h - m * sigma).abs() * swinging[0] + (m + 2.0) * swinging[1];
+        Self { frequency, mean_motion, slow, left_out: None, shift, steady_shift, swinging_shift }
     }
 
     /// Without one harmonic, or with all.
@@ -91,14 +95,16 @@ impl Divisors {
         Self { left_out, ..self }
     }
 
-    /// Whether a harmonic is near resonance, or the term is slow.
-    pub(crate) fn is_near(&self, harmonic: i32) -> bool {
+    /// Whether a harmonic is a term of its own in the sum over pairs: all those of a slow term are.
+    pub(crate) fn is_single(&self, harmonic: i32) -> bool {
         self.slow || self.unshifted(harmonic).abs() < NEAR * self.mean_motion
     }
 
     /// Whether a harmonic is so near resonance that its divisor has the shift by the average torque.
     pub(crate) fn is_shifted(&self, harmonic: i32) -> bool {
-        harmonic != 0 && self.unshifted(harmonic).abs() < RESONANT * self.mean_motion
+        harmonic != 0
+            && self.steady_shift < MOST_SHIFT * self.mean_motion
+            && self.unshifted(harmonic).abs() < RESONANT * self.mean_motion
     }
 
     /// Ω + jn.
@@ -112,9 +118,10 @@ impl Divisors {
         self.unshifted(harmonic) + shift + f64::from(turns) * precession
     }
 
-    /// The divisor of the harmonic's part that is nearest to resonance.
+    /// The divisor of the harmonic's part that is nearest to resonance: of those with 1 and with the e^(±2if) that turns with it.
     pub(crate) fn smallest(&self, harmonic: i32) -> f64 {
-        [-2, 0, 2].map(|turns| self.at(harmonic, turns).abs()).into_iter().fold(f64::INFINITY, f64::min)
+        let [one, other] = [0, 2 * harmonic.signum()].map(|turns| self.at(harmonic, turns));
+        if one.abs() < other.abs() { one } else { other }
     }
 
     /// 1 over the divisor of U_ja, or 0 for the harmonic that is left out.

@@ -103,9 +103,12 @@ impl Commensurability<'_> {
 
     /// The harmonic of the orbit with which a term is nearest to resonance. If a neighbour has a larger effect, the amplitude is enlarged to have this effect.
     pub(super) fn nearest(&self, term: &Candidate, series: &OrbitSeries, aspect: &Aspect) -> Nearest {
-        let number = -(term.frequency / self.mean_motion).round() as i32;
         let divisors = self.divisors(term);
-        let distance = |j: i32| divisors.smallest(j);
+        let distance = |j: i32| divisors.smallest(j).abs();
+        let about = -(term.frequency / self.mean_motion).round() as i32;
+        // The shift may make a neighbour the nearest.
+        let number = [about, about - 1, about + 1].into_iter().min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+        let number = number.unwrap_or(about);
         let nearest = distance(number);
         let sizes = (number - NEIGHBOURS..=number + NEIGHBOURS).map(|j| {
             let share = if j == number { 1.0 } else { nearest / distance(j) };

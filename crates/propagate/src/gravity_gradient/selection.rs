@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::aspect::Aspect;
 use super::candidate::{Candidate, SMALLEST_RATIO};
+use super::divisors::Divisors;
 use super::generator::returns;
 use super::orbit_series::{FEWEST_ORBITS, OrbitSeries};
 use super::resonance::{Commensurability, Nearest};
@@ -19,10 +20,10 @@ const MARGIN: f64 = 2.0;
 /// The same for what the average torque does to it.
 const SHIFT_MARGIN: f64 = 1.5;
 
-/// The same for pairs with the h and m of a slow term.
-const PAIRS_MARGIN: f64 = 3.0;
-/// What is of third order in it, over its second order and the sum of all terms.
+/// What is of third order in the charge of a harmonic near resonance, over the charge and the sum of all terms.
 const GROWING: f64 = 10.0;
+/// The safety factor of pairs with the h and m of a slow term.
+const PAIRS_MARGIN: f64 = 3.0;
 
 /// What decides it.
 pub(super) struct Selection<'a> {
@@ -131,7 +132,8 @@ impl Selection<'_> {
         let passing = 2.0 * (term.frequency / self.commensurability.fastest).abs();
         let bounded = (size + turn) * (self.whole + passing * term.size());
         let Commensurability { mean_motion, eccentricity, secular, .. } = &self.commensurability;
-        let [steady, swinging] = self.commensurability.divisors(term).rates;
+        let divisors = self.commensurability.divisors(term);
+        let (steady, swinging) = (divisors.steady_shift, divisors.swinging_shift);
         // K2 has the mean drift by the square, at the direction of the angular momentum at the epoch.
         let moved = (steady / distance + eccentricity * secular.precessed(duration)).min(1.0);
         let second = square * (1.0 + moved * acting * duration) + MARGIN * bounded;
@@ -146,7 +148,7 @@ impl Selection<'_> {
         let corrected = returns(distance, duration) || small && left < MARGIN * first;
         let third = GROWING * self.whole * left;
         let (left_out, effect) = if corrected { (None, left + third) } else { (Some(nearest.harmonic), first) };
-        let [size, square] = self.harmonics(term, left_out, series);
+        let [size, square] = self.harmonics(term, &divisors.without(left_out), series);
         let (drift, slow) = match self.commensurability.is_slow(term) {
             true => (moved * square * duration, size * self.with_pairs(acting)),
             false => (0.0, 0.0),
@@ -165,13 +167,13 @@ impl Selection<'_> {
     }
 
     /// Sums over the harmonics of the orbit in a term with exact divisors: of the changes of the attitude \[rad\], and of their squares times the divisors.
-    fn harmonics(&self, term: &Candidate, left_out: Option<i32>, series: &OrbitSeries) -> [f64; 2] {
+    fn harmonics(&self, term: &Candidate, divisors: &Divisors, series: &OrbitSeries) -> [f64; 2] {
         let count = series.coefficients.len() as i32;
         let mut sums = [0.0; 2];
-        for j in (1 - count..count).filter(|j| left_out != Some(*j)) {
+        for j in (1 - count..count).filter(|j| divisors.left_out != Some(*j)) {
             let functions = &series.coefficients[j.unsigned_abs() as usize];
             let largest = functions.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
-            let divisor = (term.frequency + f64::from(j) * self.commensurability.mean_motion).abs();
+            let divisor = divisors.smallest(j).abs();
             // The rate of a term is that where the disturbing body is nearest, and the coefficients add up there.
             let size = largest * term.size_at(divisor) / self.sizes[0];
             sums = [sums[0] + size, sums[1] + size * size * divisor];

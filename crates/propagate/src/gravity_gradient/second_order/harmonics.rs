@@ -30,6 +30,8 @@ const MOST_OF_AVERAGE: usize = 24;
 pub(super) struct Near {
     /// Ω + jn.
     pub(super) frequency: f64,
+    /// The same with the shift by the average torque.
+    pub(super) divisor: f64,
     /// The contraction of U_j e^(ijl).
     pub(super) torque: Contraction,
     /// That of W, with its divisors.
@@ -163,13 +165,14 @@ impl Harmonics {
             }
             let torque = self.contracted(harmonic, multiple);
             let frequency = divisors.unshifted(j);
-            if divisors.is_near(j) {
+            if divisors.is_single(j) {
                 let mut generator = Part::default();
                 for (k, turns) in TURNS.into_iter().enumerate() {
                     let functions = &self.contracted[multiple as usize][k]; // 0 ≤ m ≤ 2
                     generator.add(functions.map(|function| harmonic[k] * function), divisors.reciprocal(j, turns));
                 }
-                split.near.push(Near { frequency, torque, generator, shifted: divisors.is_shifted(j) });
+                let (divisor, shifted) = (divisors.smallest(j), divisors.is_shifted(j));
+                split.near.push(Near { frequency, divisor, torque, generator, shifted });
             } else {
                 split.rest.add(torque, f64::from(j) * self.mean_motion, 1.0 / frequency);
             }
@@ -183,7 +186,8 @@ impl Harmonics {
         let most = count.min(MOST_OF_AVERAGE);
         let near = (count - most..=count + most).map(|i| {
             let frequency = (i as f64 - count as f64) * self.mean_motion;
-            Near { frequency, torque: self.contracted(&self.waves[i], 0), generator: Part::default(), shifted: false }
+            let torque = self.contracted(&self.waves[i], 0);
+            Near { frequency, divisor: frequency, torque, generator: Part::default(), shifted: false }
         });
         near.collect()
     }

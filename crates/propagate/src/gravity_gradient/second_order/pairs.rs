@@ -13,6 +13,7 @@
 //! A harmonic of the orbit near resonance is a term of its own, of frequency Ω + jn and of constant amplitude; a pair of two such terms has the divisor of both
 //! frequencies together. Pairs for which two terms of χ are not enough are summed around the orbit ([`super::around`]).
 
+use std::f64::consts::SQRT_2;
 use std::mem::take;
 
 use num_complex::Complex;
@@ -73,8 +74,8 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &OrbitPar
         single.into_iter().partition(|row| row.size > SMALLEST_PRODUCT * largest);
     half.extend(single);
     half.iter_mut().for_each(|row| row.size /= largest);
-    let sum = |rows: &[Row]| rows.iter().map(|row| row.size.powi(2)).sum::<f64>();
-    let dropped = sum(&dropped) / largest.max(f64::MIN_POSITIVE).powi(2) * sum(&half);
+    let sum = |rows: &[Row], unit: f64| rows.iter().map(|row| (row.size / unit).powi(2)).sum::<f64>();
+    let dropped = sum(&dropped, largest.max(f64::MIN_POSITIVE)) * sum(&half, 1.0);
     let rows: Vec<Row> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
     let average = Row::average(stand);
     let averages: Vec<Row> = exact.average.iter().map(|near| average.at(near)).collect();
@@ -130,7 +131,8 @@ impl Actions {
             let source = stand.source(a, b);
             if a.single && b.single {
                 chi = source * inverse(omega, stand.duration) * -0.5;
-                let left = 0.5 * factor * source.norm() * unreturned(omega, stand.duration);
+                // The same two in the other order have the same phase.
+                let left = SQRT_2 * 0.5 * factor * source.norm() * unreturned(omega, stand.duration);
                 self.leave([left * m.abs(), left * h.abs()]);
             } else {
                 let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);

@@ -133,9 +133,9 @@ impl Row {
         let row = Self::of(stand, mode, near.parts());
         let share = near.torque.iter().map(|part| part.norm()).fold(0.0, f64::max) / stand.norms[0];
         let root = stand.inertia.sigma.sqrt().max(SMALLEST_ROOT);
-        let size = share * mode.strength(root) * stand.mean.momentum / near.frequency.abs();
+        let size = share * mode.strength(root) * stand.mean.momentum / near.divisor.abs();
         let [_, by_sigma, by_momentum] = row.frequency;
-        Self { size, frequency: [near.frequency, by_sigma, by_momentum], single: true, shifted: near.shifted, ..row }
+        Self { size, frequency: [near.divisor, by_sigma, by_momentum], single: true, shifted: near.shifted, ..row }
     }
 
     /// A term with these amplitudes of D and W.

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! with h > 0 for m = 0, and X₁, X₂ the turns of the frame about its axes 1 and 2. K2 in closed form has 1/Ω − jn/Ω² for G, so that (jn)²/(Ω² (Ω + jn)) is left. Its
-//! derivatives are taken at the epoch. As k precesses, the part of the turning that leads about the normal of the orbit goes with it; the rest, of the order of the
-//! eccentricity, does not.
+//! derivatives are taken at the epoch. As k precesses, the part of the turning about the normal of the orbit turns with it; the rest, of the order of e², stays in
+//! space.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -230,7 +230,7 @@ fn summed(inertia: &Inertia, modes: &[Mode], exact: &[ExactTerm]) -> Vec<Mode> {
 
 /// G and its derivatives for a harmonic of a term whose divisors are exact.
 fn of_divisors(divisors: &Divisors, j: i32) -> [f64; 3] {
-    // Of e^(ijl) most is in e^(±2if).
+    // One divisor for all parts of the harmonic: what this leaves is charged with the shift.
     let divisor = divisors.at(j, 2 * j.signum());
     if divisors.slow {
         let inverse = divisor.recip();

@@ -436,7 +436,7 @@ fn what_the_closed_form_lacks_is_the_rest_of_the_average_over_the_orbit() {
             mean += (of(&tensors) - of(&still)) / (Q * Q) / STEPS as f64;
         }
         let found = value / (scale * scale);
-        // Terms and harmonics with a share of 1e-4 of it are left out.
+        // Terms with a share of 1e-6 of it are left out, and harmonics likewise.
         assert!((found / mean - 1.0).abs() <= 2e-3, "{found:e} {mean:e}");
         // Its derivatives against differences.
         let at = |sigma: f64, momentum: f64, frame: &UnitQuaternion<f64>| {
