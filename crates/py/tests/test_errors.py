@@ -84,7 +84,7 @@ BAD = {
     "strided out": (lambda: motion().attitude([0.0], out=np.empty((1, 8))[:, ::2]), InputError, "out", "strided", "C-contiguous"),
     "series on the separatrix": (lambda: Scene(Body([3, 5, 6]), UNIT, [1, 0.5, 1], method="series").solve(), TheoryError, "method", "series", "closed"),
     "series near the separatrix": (lambda: scene(rates=[1e-4, 1, 1e-4], method="series").solve(), TheoryError, "tolerance", 1e-12, ...),
-    "spin resonance": (lambda: round_body(Orbit(0.038348, mass_fraction=1e-4), [0, 0.01, 1]), TheoryError, "orbit", ..., ...),
+    "spin resonance": (lambda: round_body(Orbit(0.038348, inclination=0.5, mass_fraction=1e-2), [0, 0.01, 1]), TheoryError, "orbit", ..., ...),
     "torque": (lambda: round_body(Orbit(0.9), [0, 0, 1]), TheoryError, "orbit", ..., ...),
     "no averaged theory": (lambda: round_body(Orbit(1e-3), [0, 1, 1e-3]), TheoryError, "orbit", ..., 0.9),
     "member": (lambda: members(moments=[[1, 1.5, 2], [1, 1, 2.5]]), InputError, "moments", (1.0, 1.0, 2.5), "the largest at most the sum of the other two"),
