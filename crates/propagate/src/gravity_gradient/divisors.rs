@@ -37,16 +37,16 @@ pub(crate) struct Secular {
 impl Secular {
     /// For an orbit of this eccentricity and normal, with q = 3φn²/2, and an angular momentum along a unit vector.
     pub(super) fn new(inertia: &Inertia, strength: f64, eccentricity: f64, [normal, pole]: [&Vector3<f64>; 2]) -> Self {
-        let Inertia { sigma, momentum, trace, .. } = *inertia;
-        let (axial, slope) = inertia.mean_axial();
-        let scale = 1.5 * strength * ((1.0 - eccentricity) * (1.0 + eccentricity)).powf(-1.5) / momentum;
+        let Inertia { sigma, momentum, .. } = *inertia;
+        let scale = strength * ((1.0 - eccentricity) * (1.0 + eccentricity)).powf(-1.5) / momentum;
+        let [torque, slope] = inertia.average_torque().map(|part| scale * part);
         let (along, across) = (pole.dot(normal), pole.cross(normal).norm_squared());
-        let by_action = scale * slope * (0.5 * across - 1.0 / 3.0);
-        let precession = -scale * (axial - trace / 3.0) * along;
+        let by_action = slope * (0.5 * across - 1.0 / 3.0);
+        let precession = -torque * along;
         Self {
             phases: [by_action, -sigma * by_action],
             precession: [precession, precession * along],
-            swinging: [scale * slope.abs() * across, scale * (axial - trace / 3.0).abs() * across.sqrt()],
+            swinging: [slope.abs() * across, torque.abs() * across.sqrt()],
             sigma,
         }
     }
@@ -63,7 +63,7 @@ pub(crate) struct Divisors {
     /// Ω.
     pub(crate) frequency: f64,
     pub(crate) mean_motion: f64,
-    /// Whether all harmonics count as near resonance: those of a term that has no sum over time derivatives.
+    /// Whether the term is too slow for a sum over time derivatives.
     pub(crate) slow: bool,
     /// The harmonic that is left out.
     pub(crate) left_out: Option<i32>,

@@ -66,7 +66,7 @@ impl<'a> Outset<'a> {
         let first = first_order(polhode, &state, &paths.starts, &demands)?;
         let refinements = request.is_refined().then(|| {
             let course = (&paths.starts[0], &paths.reaches[0]);
-            Refinements::new(polhode, &first, &state, course, &demands[0])
+            Refinements::new(&first, &state, course, &demands[0])
         });
         Ok(Self { polhode, attitude, request: *request, paths, demands, first, refinements })
     }

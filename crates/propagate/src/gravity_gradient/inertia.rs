@@ -184,6 +184,12 @@ impl Inertia {
         }
     }
 
+    /// C of the average torque's ⟨D⟩ = C (a/r)³ ((k·r̂)² − ⅓), over q = 3φn²/2, and its slope.
+    pub(crate) fn average_torque(&self) -> [f64; 2] {
+        let (axial, slope) = self.mean_axial();
+        [1.5 * (axial - self.trace / 3.0), 1.5 * slope]
+    }
+
     /// T33 averaged over ℓ′, and its slope.
     pub(crate) fn mean_axial(&self) -> (f64, f64) {
         self.tensor[0].at(0)

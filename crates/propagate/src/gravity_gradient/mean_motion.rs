@@ -68,7 +68,6 @@ pub(super) struct Refinements {
 impl Refinements {
     /// Those of the mean motion of first order, with the disturbing body's place at the epoch and what the span has of its orbit.
     pub(super) fn new(
-        polhode: &Polhode,
         first: &MeanMotion,
         state: &Mean,
         (start, reach): (&When<pulp::Scalar>, &Reach),
@@ -77,8 +76,8 @@ impl Refinements {
         let exact = &first.corrections[0].generator.exact;
         let mean = (&first.mean, &first.change, &exact[..]);
         let (both, apart, steady) = epoch::refined(mean, state, &first.inertia, &start.place, demand);
-        let body = (Response::new(&first.inertia).gain, polhode.moments.iter().sum());
-        let short_period = short_period::largest(&first.inertia, &first.mean, demand, body, &reach.nearest());
+        let gain = Response::new(&first.inertia).gain;
+        let short_period = short_period::largest(&first.inertia, &first.mean, demand, gain, &reach.nearest());
         Self { both, apart, short_period, steady }
     }
 

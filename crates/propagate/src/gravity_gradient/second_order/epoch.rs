@@ -67,7 +67,6 @@ pub(crate) fn refined(
         duration: demand.duration,
         closest: demand.envelope.span[0] / demand.envelope.epoch[0],
         bend: demand.envelope.epoch[2] / demand.envelope.epoch[0],
-        trace: inertia.trace,
         enough: ENOUGH * demand.tolerance
             / (demand.duration * inertia.rates.iter().map(|rate| rate.to_f64().abs()).sum::<f64>()),
     };

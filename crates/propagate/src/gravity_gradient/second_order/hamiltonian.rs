@@ -73,10 +73,10 @@ pub(crate) struct Slopes {
 impl Hamiltonian {
     /// ⟨D⟩ alone; `strength` is q.
     pub(crate) fn first(inertia: &Inertia, strength: f64) -> Self {
-        let Inertia { sigma, momentum, trace, .. } = *inertia;
-        let (axial, slope) = inertia.mean_axial();
-        let slope = 1.5 * strength * slope / momentum;
-        let first = [1.5 * strength * (axial - trace / 3.0), slope, -slope * sigma];
+        let Inertia { sigma, momentum, .. } = *inertia;
+        let [value, slope] = inertia.average_torque().map(|part| strength * part);
+        let by_action = slope / momentum;
+        let first = [value, by_action, -by_action * sigma];
         Self { first, momentum, ..Self::default() }
     }
 

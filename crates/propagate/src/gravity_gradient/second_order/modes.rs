@@ -38,10 +38,10 @@ impl Mode {
         (self.harmonic, self.multiple) == (other.harmonic, other.multiple)
     }
 
-    /// ⟨D⟩, for a sum of the moments of inertia.
-    pub(super) fn average(inertia: &Inertia, trace: f64) -> Self {
+    /// ⟨D⟩.
+    pub(super) fn average(inertia: &Inertia) -> Self {
         let mut average = Self::new(inertia, 0, 0);
-        average.function[0] -= 0.5 * trace;
+        average.function[0] -= 0.5 * inertia.trace;
         average
     }
 

@@ -34,8 +34,6 @@ pub(super) struct Stand<'a> {
     pub(super) closest: f64,
     /// Second time derivative of (a/r)³ r̂r̂ at the epoch, over it.
     pub(super) bend: f64,
-    /// Sum of the moments of inertia.
-    pub(super) trace: f64,
     /// Pairs with a smaller error of M and L, over M, are not summed around the orbit.
     pub(super) enough: f64,
 }
@@ -167,7 +165,7 @@ impl Row {
 
     /// ⟨D⟩, twice: it is no part of D̃, and S has not the half of it.
     pub(super) fn average(stand: &Stand<'_>) -> Self {
-        let function = Mode::average(stand.inertia, stand.trace).function;
+        let function = Mode::average(stand.inertia).function;
         let part = |tensor: &Tensor| Part { value: contraction(tensor, 0), slope: C64::default() };
         Self {
             harmonic: 0.0,

@@ -54,14 +54,8 @@ pub(super) struct Motion<'a> {
 }
 
 /// The largest turn of the attitude by the change, for a disturbing body at any of these true anomalies \[rad\].
-pub(crate) fn largest(
-    inertia: &Inertia,
-    mean: &Mean,
-    demand: &Demand<'_>,
-    (gain, trace): (f64, f64),
-    anomalies: &[f64],
-) -> f64 {
-    let motion = Motion::new(inertia, demand, (gain, trace), SMALLEST_SHARE);
+pub(crate) fn largest(inertia: &Inertia, mean: &Mean, demand: &Demand<'_>, gain: f64, anomalies: &[f64]) -> f64 {
+    let motion = Motion::new(inertia, demand, gain, SMALLEST_SHARE);
     let [first, second, _] = demand.orbit.axes().map(|axis| mean.frame.inverse() * axis);
     let elements = (demand.mean_motion, demand.orbit.eccentricity());
     anomalies.iter().map(|&f| motion.size(&tensors([first, second], elements, f))).fold(0.0, f64::max)
@@ -79,11 +73,11 @@ fn tensors([first, second]: [Vector3<f64>; 2], (mean_motion, eccentricity): (f64
 }
 
 impl<'a> Motion<'a> {
-    pub(super) fn new(inertia: &'a Inertia, demand: &Demand<'_>, (gain, trace): (f64, f64), share: f64) -> Self {
+    pub(super) fn new(inertia: &'a Inertia, demand: &Demand<'_>, gain: f64, share: f64) -> Self {
         Self {
             inertia,
             modes: large_modes(inertia, share, slowest(demand)),
-            average: Mode::average(inertia, trace),
+            average: Mode::average(inertia),
             point: Point { momentum: inertia.momentum, root: inertia.sigma.sqrt() },
             strength: demand.strength(),
             gain,

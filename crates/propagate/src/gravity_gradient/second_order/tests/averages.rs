@@ -1,0 +1,115 @@
+//! The rates of the average torque in the divisors, and what K2 in closed form lacks of its average over the orbit.
+
+use nalgebra::{UnitQuaternion, Vector3};
+use num_complex::Complex;
+
+use super::{ECCENTRICITY, MEAN_MOTION, Q, Scene};
+use crate::gravity_gradient::contraction::{Tensor, contraction, factors};
+use crate::gravity_gradient::corrections::{Demand, Mean};
+use crate::gravity_gradient::divisors::{Divisors, Secular};
+use crate::gravity_gradient::envelope::{Reach, whole};
+use crate::gravity_gradient::generator::ORDERS;
+use crate::gravity_gradient::inertia::Inertia;
+use crate::gravity_gradient::orbit_series::OrbitSeries;
+use crate::gravity_gradient::second_order::epoch::tensors;
+use crate::gravity_gradient::second_order::hamiltonian::Hamiltonian;
+use crate::gravity_gradient::second_order::modes::{Mode, modes, slowest};
+use crate::gravity_gradient::second_order::over_orbit::OrbitAverage;
+use crate::gravity_gradient::second_order::pairs::averaged;
+use crate::gravity_gradient::second_order::steady::lacking;
+use crate::input::orbit::Orbit;
+use crate::simd::kepler::Place;
+use crate::simd::lanes::Lanes;
+
+type C64 = Complex<f64>;
+
+#[test]
+fn divisors_have_the_rates_of_the_average_torque() {
+    for scene in Scene::all() {
+        let Mean { p, momentum, frame, .. } = scene.mean;
+        let inertia = Inertia::new(&scene.polhode, p.norm_sqr(), momentum);
+        // With q this small the average over the orbit has no second order.
+        let strength = 1e-6 * scene.demand().strength();
+        let hamiltonian = Hamiltonian::first(&inertia, strength);
+        let (axes, pole) = (scene.orbit.axes(), frame * Vector3::z());
+        let slopes = OrbitAverage::new(&hamiltonian, ECCENTRICITY, MEAN_MOTION, axes).slopes(&pole);
+        let [first, second, _] = axes.map(|axis| frame.inverse() * axis);
+        let turning = frame.inverse() * slopes.turning;
+        let [one, cosine, sine] = factors([first, second]);
+        let secular = Secular::new(&inertia, strength, ECCENTRICITY, [&axes[2], &pole]);
+        for (harmonic, multiple) in [(2, 0), (-3, 1), (1, 1), (4, 2)] {
+            let divisors = Divisors::new((harmonic, multiple), [-3.0 * MEAN_MOTION, MEAN_MOTION], false, &secular);
+            for (turns, sign) in [(0, 0.0), (2, -1.0), (-2, 1.0)] {
+                let c = [&one, &cosine, &sine].map(|tensor| contraction(tensor, multiple));
+                let part = |i: usize| if turns == 0 { c[0][i] } else { 0.5 * (c[1][i] + C64::i() * sign * c[2][i]) };
+                // c_m of a part that is at rest, in a frame that turns with k but not about it.
+                let rate = (part(1) * turning.x + part(2) * turning.y) / part(0);
+                let [anomaly, longitude] = slopes.phases;
+                let expected = f64::from(harmonic) * anomaly + f64::from(multiple) * longitude + rate.im;
+                let found = divisors.at(3, turns);
+                assert!(rate.re.abs() <= 1e-7 * turning.norm(), "{rate} {turning:?}");
+                let scale = anomaly.abs() + longitude.abs() + rate.im.abs();
+                assert!(
+                    (found - expected).abs() <= 1e-7 * scale,
+                    "{harmonic} {multiple} {turns}: {found:e} {expected:e}"
+                );
+                assert_eq!(divisors.at(6, turns), 3.0 * MEAN_MOTION);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_the_closed_form_lacks_is_the_rest_of_the_average_over_the_orbit() {
+    const STEPS: usize = 400;
+    const FAST: f64 = 2e-3;
+    let reach = Reach { eccentricity: ECCENTRICITY, anomaly: 0.0, sides: [10.0 * std::f64::consts::TAU; 2] };
+    let series = OrbitSeries::new(&reach).expect("a series");
+    for scene in Scene::all() {
+        let Mean { p, momentum, frame, .. } = scene.mean;
+        let orbit = Orbit::new(FAST, ECCENTRICITY).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
+        let scene = Scene { orbit, envelope: whole(ECCENTRICITY, FAST), ..scene };
+        let demand = Demand { mean_motion: FAST, series: Some(&series), ..scene.demand() };
+        let scale = demand.strength();
+        let inertia = Inertia::new(&scene.polhode, p.norm_sqr(), momentum);
+        let (value, steady) = lacking(&inertia, &frame, &demand, &series);
+        // All of K2, with as many time derivatives as the sums have, less the closed form.
+        let mut mean = 0.0;
+        for k in 0..STEPS {
+            let anomaly = std::f64::consts::TAU * (k as f64 / STEPS as f64 - 0.5);
+            let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), ECCENTRICITY);
+            let moved = Scene { place, ..scene.clone() };
+            let (tensors, norms) = tensors(&moved.mean, &moved.place, &demand);
+            let all: Vec<Mode> = modes(&inertia, 0.0, slowest(&demand));
+            let mut still = tensors;
+            still[2..].fill([0.0; 6]);
+            let of = |tensors: &[Tensor; ORDERS]| averaged(&moved.stand(&inertia, tensors, norms, 0.0), &all);
+            mean += (of(&tensors) - of(&still)) / (Q * Q) / STEPS as f64;
+        }
+        let found = value / (scale * scale);
+        // Terms with a share of 1e-6 of it are left out, and harmonics likewise.
+        assert!((found / mean - 1.0).abs() <= 2e-3, "{found:e} {mean:e}");
+        // Its derivatives against differences.
+        let at = |sigma: f64, momentum: f64, frame: &UnitQuaternion<f64>| {
+            lacking(&Inertia::new(&scene.polhode, sigma, momentum), frame, &demand, &series).0
+        };
+        let sigma = p.norm_sqr();
+        let (small, step) = (1e-3 * sigma, 1e-4 * momentum);
+        let action = |action: f64, momentum: f64| at(action / momentum, momentum, &frame);
+        let by_action = (action((sigma + small) * momentum, momentum) - action((sigma - small) * momentum, momentum))
+            / (2.0 * small * momentum);
+        let by_momentum =
+            (action(sigma * momentum, momentum + step) - action(sigma * momentum, momentum - step)) / (2.0 * step);
+        for (exact, difference) in steady.phases.into_iter().zip([by_action, by_momentum]) {
+            assert!((exact / difference - 1.0).abs() <= 1e-4, "{exact:e} {difference:e}");
+        }
+        let turned = [Vector3::x(), Vector3::y()].map(|axis| {
+            let turn = |by: f64| at(sigma, momentum, &(frame * UnitQuaternion::new(axis * by)));
+            (turn(1e-4) - turn(-1e-4)) / 2e-4
+        });
+        let pole = frame * Vector3::z();
+        let across = steady.force - pole * pole.dot(&steady.force);
+        let expected = frame * Vector3::new(turned[1], -turned[0], 0.0);
+        assert!((across - expected).norm() <= 1e-6 * expected.norm(), "{across:?} {expected:?}");
+    }
+}
