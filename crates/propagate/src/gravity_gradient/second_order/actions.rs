@@ -7,9 +7,9 @@ use num_complex::Complex;
 
 use super::harmonics::Harmonics;
 use super::modes::Mode;
-use super::rows::Stand;
+use super::rows::{Stand, orders};
 use crate::gravity_gradient::contraction::contraction;
-use crate::gravity_gradient::generator::{ExactTerm, ORDERS};
+use crate::gravity_gradient::generator::ExactTerm;
 
 type C64 = Complex<f64>;
 
@@ -25,7 +25,7 @@ pub(super) struct FirstActions {
 pub(super) fn first_actions(
     stand: &Stand<'_>,
     modes: &[Mode],
-    (harmonics, exact, sizes): (Option<&Harmonics>, &[ExactTerm], &[f64; ORDERS + 1]),
+    harmonics: Option<(&Harmonics, &[ExactTerm])>,
 ) -> FirstActions {
     let mut actions = FirstActions::default();
     let angle = if stand.mean.p == C64::default() { 0.0 } else { stand.mean.p.arg() };
@@ -35,11 +35,11 @@ pub(super) fn first_actions(
         let omega = stand.mean.momentum * mode.frequency[0];
         let amplitude = 2.0 * stand.strength * mode.function[0] * root.powi(mode.harmonic.abs());
         let (sum, rest) = match harmonics {
-            Some(harmonics) => {
+            Some((harmonics, exact)) => {
                 let term = exact.iter().find(|term| term.numbers == (mode.harmonic, mode.multiple));
                 (harmonics.solution(omega, mode.multiple, term), 0.0)
             }
-            None => solution_by_sums(stand, omega, mode.multiple, sizes),
+            None => solution_by_sums(stand, omega, mode.multiple),
         };
         let phase = C64::from_polar(amplitude, h * angle + m * stand.mean.longitude);
         let phase = if mode.multiple == 1 { phase * -C64::i() } else { phase };
@@ -54,9 +54,8 @@ pub(super) fn first_actions(
 }
 
 /// c_m of V by the sum over time derivatives, and the size of the first term that the sum lacks.
-fn solution_by_sums(stand: &Stand<'_>, omega: f64, multiple: i32, sizes: &[f64; ORDERS + 1]) -> (C64, f64) {
-    let left = |orders: usize| sizes[orders] / omega.abs().powi(orders as i32);
-    let orders = (1..=ORDERS).min_by(|&a, &b| left(a).total_cmp(&left(b))).unwrap_or(1);
+fn solution_by_sums(stand: &Stand<'_>, omega: f64, multiple: i32) -> (C64, f64) {
+    let orders = orders(omega, stand.sizes, 0.0);
     let mut factor = (C64::i() * omega).inv();
     let inverse = factor;
     let mut sum = C64::default();
@@ -64,5 +63,5 @@ fn solution_by_sums(stand: &Stand<'_>, omega: f64, multiple: i32, sizes: &[f64; 
         sum += factor * contraction(tensor, multiple)[0];
         factor *= -inverse;
     }
-    (sum, left(orders) / omega.abs())
+    (sum, stand.sizes[orders] / omega.abs().powi(orders as i32 + 1))
 }

@@ -60,6 +60,7 @@ pub(crate) fn refined(
         mean,
         strength: demand.strength(),
         tensors: &tensors,
+        sizes: &demand.envelope.epoch,
         norms,
         slowest,
         // (a/r)³ r̂r̂ on a circle turns twice as fast as the body.
@@ -72,12 +73,11 @@ pub(crate) fn refined(
     };
     let points = |places: &[(f64, f64)]| points(mean, place, demand, places);
     let harmonics = Harmonics::new(mean, place, demand);
-    let sums = (harmonics.as_ref(), exact, &demand.envelope.epoch);
     let mut terms = modes(inertia, SMALLEST_FIRST, slowest);
     if harmonics.is_some() {
         terms.extend(slow_modes(inertia, slowest));
     }
-    let first = first_actions(&stand, &terms, sums);
+    let first = first_actions(&stand, &terms, harmonics.as_ref().map(|harmonics| (harmonics, exact)));
     let modes = modes(inertia, SMALLEST_PAIR, slowest);
     let steady = Steady::new(inertia, &mean.frame, demand, (exact, &modes));
     let exact = harmonics.as_ref().map(|harmonics| split(inertia, exact, harmonics)).unwrap_or_default();

@@ -22,7 +22,9 @@ pub(super) struct Stand<'a> {
     pub(super) strength: f64,
     /// (a/r)³ r̂r̂ in the frame and its time derivatives.
     pub(super) tensors: &'a [Tensor; ORDERS],
-    /// Largest sizes of the time derivatives, as many and one more.
+    /// Sizes of the time derivatives at the epoch, as many and one more.
+    pub(super) sizes: &'a [f64; ORDERS + 1],
+    /// The largest on the orbit.
     pub(super) norms: &'a [f64],
     /// Frequency below which pairs have no sum over time derivatives: the fastest of the orbit's times [`SMALLEST_RATIO`](crate::gravity_gradient::candidate::SMALLEST_RATIO).
     pub(super) slowest: f64,
@@ -90,7 +92,7 @@ impl Row {
         let omega = stand.mean.momentum * mode.frequency[0];
         let parts = Parts {
             torque: [0, 1].map(|j| Part { value: contracted[j], slope: C64::default() }),
-            generator: generating(&contracted, omega, stand.norms),
+            generator: generating(&contracted, omega, stand.sizes),
         };
         Self::of(stand, mode, parts)
     }
@@ -215,8 +217,8 @@ fn amplitude(harmonic: i32, [value, slope, _]: [f64; 3], sigma: f64) -> [f64; 3]
 }
 
 /// V and dV/dt with V̇ + iΩV = U, from the contractions of U and its time derivatives: sums that end where what they leave is least.
-fn generating(contracted: &[Contraction; ORDERS], omega: f64, norms: &[f64]) -> [Part; 2] {
-    let orders = orders(omega, norms, 0.0);
+fn generating(contracted: &[Contraction; ORDERS], omega: f64, sizes: &[f64]) -> [Part; 2] {
+    let orders = orders(omega, sizes, 0.0);
     let inverse = (C64::i() * omega).inv();
     let mut parts = [Part::default(); 2];
     // (−1)^j/(iΩ)^(j+1).
@@ -238,9 +240,9 @@ fn generating(contracted: &[Contraction; ORDERS], omega: f64, norms: &[f64]) -> 
     parts
 }
 
-/// The number of derivatives with which a sum leaves this share of its first term, or with which it leaves least.
-fn orders(omega: f64, norms: &[f64], enough: f64) -> usize {
-    let left = |orders: usize| norms[orders] / omega.abs().powi(orders as i32);
+/// The number of derivatives with which a sum leaves this share of its first term, or with which it leaves least, from the sizes of the derivatives.
+pub(super) fn orders(omega: f64, sizes: &[f64], enough: f64) -> usize {
+    let left = |orders: usize| sizes[orders] / omega.abs().powi(orders as i32);
     let best = (1..=ORDERS).min_by(|&a, &b| left(a).total_cmp(&left(b))).unwrap_or(1);
-    (1..best).find(|&orders| left(orders) <= enough * norms[0]).unwrap_or(best)
+    (1..best).find(|&orders| left(orders) <= enough * sizes[0]).unwrap_or(best)
 }

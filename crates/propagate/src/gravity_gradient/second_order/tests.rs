@@ -110,6 +110,7 @@ impl Scene {
             mean: &self.mean,
             strength: Q,
             tensors,
+            sizes: &self.envelope.epoch,
             norms,
             slowest,
             orbital_step: MEAN_MOTION,
