@@ -81,10 +81,16 @@ impl Plan {
         self.0.separatrix_ratio()
     }
 
-    /// The averaging of a scene with an orbit: "orbit", "spin", or None without an orbit (theory §9).
+    /// The averaging of a scene with an orbit: "orbit" or "spin" (theory §9); None without an orbit and for an integrated motion.
     #[getter]
     fn averaging(&self) -> Option<String> {
         self.0.averaging().map(|averaging| averaging.to_string())
+    }
+
+    /// The level of the gravity-gradient theory: "full", "second-order", "moving" or "paper" (theory §9); None without an orbit and for an integrated motion.
+    #[getter]
+    fn level(&self) -> Option<String> {
+        self.0.level().map(|level| level.to_string())
     }
 
     /// The size of the torque: the sum of the short-period corrections of the gravity gradient, in rad; 0 without an orbit.
@@ -93,7 +99,7 @@ impl Plan {
         self.0.torque()
     }
 
-    /// The first neglected term of the gravity gradient, in rad: the second order in the torque, or a dropped short-period term; 0 without an orbit.
+    /// The first neglected term of the gravity gradient, in rad: a short-period term of second order in the torque, which no level has, or one of first order that was dropped; 0 without an orbit.
     #[getter]
     fn first_neglected(&self) -> f64 {
         self.0.first_neglected()

@@ -102,6 +102,7 @@ def test_plan_says_how_the_torque_is_averaged_and_how_large_it_is(scene):
     plan = scene.solve().plan
     assert plan.averaging == "spin" and 1e-7 < plan.torque < 1e-5
     assert f"averaged over the {plan.averaging}" in str(plan)
+    assert plan.level in ("full", "second-order") and f"gradient      {plan.level}," in str(plan)
     coarse = Scene(scene.body, scene.attitude, scene.angular_velocity, orbit=TILTED, averaging="orbit", tolerance=1e-2)
     assert coarse.solve().plan.averaging == "orbit"
     free = Scene(scene.body, scene.attitude, scene.angular_velocity).solve().plan

@@ -18,6 +18,7 @@ use super::envelope::Reach;
 use super::inertia::Inertia;
 use super::request::Request;
 use super::response::Response;
+use super::second_order::short_period::Turns;
 use crate::error::Error;
 use crate::input::options::{Averaging, Level};
 
@@ -36,9 +37,14 @@ const MARGIN: f64 = 2.0;
 const SHORT_PERIOD_MARGIN: f64 = 2.4;
 /// The safety factor of the drift of third order.
 const THIRD_MARGIN: f64 = 2.0;
-/// The same for the pairs of slow terms with others, and for those of others with the h and m of a slow term. The drift of these pairs is part of the resonant
-/// effects.
+/// The same for the pairs of slow terms with others. Their drift is part of the resonant effects.
 const SLOW_MARGIN: f64 = 1.0;
+/// The same for harmonics of the orbit near resonance in pairs.
+const RESONANT_PAIRS_MARGIN: f64 = 2.0;
+/// What is of third order in them, over the sum of all terms.
+const GROWING: f64 = 60.0;
+/// What is of fourth order in the drift of third, over the same sum.
+const FURTHER: f64 = 15.0;
 /// The same for the distance between the motions of first and of second order.
 const FIRST_MARGIN: f64 = 1.4;
 /// The safety factor of what the average over the orbit leaves in second order. Without it the largest of 1,200 ratios to the average over the rotation alone was
@@ -83,8 +89,8 @@ pub(super) struct Subject<'a> {
 /// What the second order in the torque says of the error of a motion whose mean M and L are those of all terms.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Further {
-    /// The short-period change of second order \[rad\].
-    pub(super) short_period: f64,
+    /// The short-period change of second order.
+    pub(super) short_period: Turns,
     /// What the mean M and L lack, over M.
     pub(super) left: [f64; 2],
     /// The part of the drifts of second order that K2 lacks over the span.
@@ -115,10 +121,11 @@ impl Budget {
         };
         let (spin, dropped) = match subject.further {
             Some(Further { short_period, left, cut, acting, apart }) => {
-                let growing = response.growing(sizes, p, duration, [acting, cut]);
+                let growing = response.growing(sizes, p, duration, [acting, cut]) * (1.0 + FURTHER * corrections.size);
                 let left = response.of_actions(left, duration);
-                let slow = SLOW_MARGIN * corrections.slow[1] * (slope + corrections.slow[0]);
-                let bounded = SHORT_PERIOD_MARGIN * short_period;
+                let slow = SLOW_MARGIN * corrections.slow * (slope + corrections.slow)
+                    + RESONANT_PAIRS_MARGIN * short_period.resonant * (1.0 + GROWING * corrections.size);
+                let bounded = SHORT_PERIOD_MARGIN * short_period.largest;
                 let spin = bounded + THIRD_MARGIN * growing + slow + left + FIRST_MARGIN * apart;
                 (spin, corrections.at_once + corrections.resonant)
             }

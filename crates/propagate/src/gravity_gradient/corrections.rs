@@ -133,6 +133,11 @@ impl Demand<'_> {
     pub(crate) fn strength(&self) -> f64 {
         1.5 * self.mean_motion * self.mean_motion * self.orbit.disturbing_fraction()
     }
+
+    /// The frequency of which (a/r)³ r̂r̂ has multiples: on a circle it turns twice as fast as the body.
+    pub(crate) fn orbital_step(&self) -> f64 {
+        self.mean_motion * if self.orbit.eccentricity() == 0.0 { 2.0 } else { 1.0 }
+    }
 }
 
 /// The generating function of one mean motion.
@@ -143,9 +148,8 @@ pub(crate) struct Corrections {
     pub(crate) dropped: f64,
     /// Effect of the resonances over the span \[rad\].
     pub(crate) resonant: f64,
-    /// Sums of the sizes of the corrected terms that are too slow for the sums \[rad\], which second order does not have: as they are, and with the pairs of fast
-    /// terms that have their h and m together.
-    pub(crate) slow: [f64; 2],
+    /// Sum of the sizes of the corrected terms that are too slow for the sums \[rad\]; second order does not have their pairs.
+    pub(crate) slow: f64,
     /// Dropped terms, and truncation of the sums for G on both ends \[rad\]: what they do to the mean M and L at the epoch is not in it.
     pub(crate) at_once: f64,
     /// Sum of the terms that the level omits, over the span \[rad\].
@@ -262,17 +266,16 @@ impl Corrections {
         let mut amplitudes = [0.0; ORDERS];
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
         let mut exact = Vec::new();
-        let mut slow = [0.0; 2];
+        let mut slow = 0.0;
         for (candidate, choice) in terms.all.iter().zip(&choices) {
             // The tilt of the angular momentum by a dropped term changes its precession, for m = 0 too.
             let growth = growth(if demand.refined { 1 } else { candidate.multiple });
             let is_slow = selection.commensurability.is_slow(candidate);
             match (*choice, series) {
-                (Choice::Exact(Exact { left_out, size, slow: with_pairs, .. }), Some(series)) => {
+                (Choice::Exact(Exact { left_out, size, .. }), Some(series)) => {
                     let divisors = selection.commensurability.divisors(candidate).without(left_out);
                     exact.push(candidate.exact(inertia, (series, divisors), nothing));
-                    slow[0] += if is_slow { size } else { 0.0 };
-                    slow[1] += with_pairs;
+                    slow += if is_slow { size } else { 0.0 };
                     rest += growth * nothing;
                     at_once += growth * nothing;
                     count += 1;

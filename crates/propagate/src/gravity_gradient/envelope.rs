@@ -35,6 +35,8 @@ pub(crate) struct Share {
     pub(crate) third: f64,
     /// The drift that the terms of K2 with (ḟ/Ω)² make: the mean of u²ḟ².
     pub(crate) truncation: f64,
+    /// What has the size of two terms: the mean of u².
+    pub(crate) pairs: f64,
 }
 
 /// The part of an orbit that a span has.
@@ -121,7 +123,7 @@ impl Reach {
             (sum / POINTS as f64 * eta_square.powf(1.5) * passages / self.longest().max(f64::MIN_POSITIVE)).min(1.0)
         };
         let epoch = near(self.true_anomaly(self.anomaly)) / nearest;
-        Share { third: (mean(9) + epoch.powi(9)).min(1.0), truncation: mean(10) }
+        Share { third: (mean(9) + epoch.powi(9)).min(1.0), truncation: mean(10), pairs: mean(6) }
     }
 
     /// Whether the span has the pericentre.
@@ -190,8 +192,14 @@ pub(crate) fn at_most(eccentricity: f64, number: f64, factors: i32) -> f64 {
     } else if eccentricity == 0.0 {
         0.0
     } else {
+        // At r = 0 one factor has a pole of the order 5/2 in l − l₀, and two have one of the order 5.
         let fallen = decay(eccentricity) * beyond;
-        ((-fallen).exp() * (1.0 + fallen).powf(1.5 * f64::from(factors))).min(1.0)
+        let growing = if factors == 1 {
+            (1.0 + fallen).powf(1.5)
+        } else {
+            1.0 + fallen * (1.0 + fallen / 2.0 * (1.0 + fallen / 3.0 * (1.0 + fallen / 4.0)))
+        };
+        0.5 * ((-fallen).exp() * growing).min(1.0)
     }
 }
 

@@ -7,7 +7,7 @@ use super::inertia::Inertia;
 use super::response::Response;
 use super::second_order::epoch::{self, Refined};
 use super::second_order::hamiltonian::Hamiltonian;
-use super::second_order::short_period;
+use super::second_order::short_period::Turns;
 use super::second_order::steady::Steady;
 use crate::error::Error;
 use crate::input::options::Level;
@@ -43,8 +43,8 @@ pub(super) struct Refinement {
     pub(super) apart: [f64; 2],
     /// K2.
     pub(super) hamiltonian: Hamiltonian,
-    /// The short-period change of second order, which no motion has \[rad\].
-    pub(super) short_period: f64,
+    /// The short-period change of second order, which no motion has.
+    pub(super) short_period: Turns,
 }
 
 /// The corrections for each body at a mean motion.
@@ -60,7 +60,7 @@ pub(super) struct Refinements {
     /// Their difference: of M, over M, and of σ.
     apart: [f64; 2],
     /// The short-period change of second order.
-    short_period: f64,
+    short_period: Turns,
     /// What K2 in closed form lacks.
     steady: Steady,
 }
@@ -76,8 +76,8 @@ impl Refinements {
         let exact = &first.corrections[0].generator.exact;
         let mean = (&first.mean, &first.change, &exact[..]);
         let (both, apart, steady) = epoch::refined(mean, state, &first.inertia, &start.place, demand);
-        let gain = Response::new(&first.inertia).gain;
-        let short_period = short_period::largest(&first.inertia, &first.mean, demand, gain, &reach.nearest());
+        let sizes = [Response::new(&first.inertia).gain, first.corrections[0].size];
+        let short_period = Turns::new(&first.inertia, &first.mean, demand, sizes, &reach.nearest());
         Self { both, apart, short_period, steady }
     }
 

@@ -21,9 +21,9 @@ use crate::error::Error;
 const SLOW_HARMONICS: i32 = 3;
 /// Largest error of the resonant terms over that of second order.
 const MARGIN: f64 = 10.0;
-/// Where divisors are exact, a scene in which one resonance has a larger attitude error is refused \[rad\].
-const LARGEST_EFFECT: f64 = 0.05;
-/// Harmonics on each side of the nearest one that may have a larger effect.
+/// Where divisors are exact, a scene in which one resonance may have a larger attitude error is refused \[rad\].
+const LARGEST_EFFECT: f64 = 0.03;
+/// Harmonics on each side of the nearest one that are looked at.
 const NEIGHBOURS: i32 = 3;
 /// A smaller error by a term that is corrected is no reason to refuse a scene \[rad\].
 const SERVED: f64 = 1e-3;
@@ -47,36 +47,34 @@ pub(super) struct Commensurability<'a> {
     pub(super) exact: bool,
 }
 
-/// A harmonic e^(ijl) of the orbit near resonance with a term.
-pub(super) struct Nearest {
+/// A harmonic e^(ijl) of the orbit in a term.
+pub(super) struct Near {
     /// j.
     pub(super) harmonic: i32,
     /// Its size over that of the torque at the pericentre.
     pub(super) amplitude: f64,
     /// Its smallest divisor.
     pub(super) distance: f64,
-    /// The same for the harmonic that has this effect.
-    pub(super) acting: f64,
 }
 
 impl Commensurability<'_> {
-    /// The attitude error of all terms together \[rad\]. `effects` holds the error by each term, and whether the term is corrected.
+    /// The attitude error of all terms together \[rad\]. `effects` holds the error by each term, the most that it may be, and whether the term is corrected.
     ///
     /// # Errors
     /// - [`Error::Resonance`] if the error by terms that are not corrected, or by more than [`SERVED`], exceeds `allowed` by more than a factor [`MARGIN`], or that of one term [`LARGEST_EFFECT`]. It names the largest term.
     pub(super) fn left<'a>(
         &self,
-        effects: impl Iterator<Item = (f64, bool, &'a Candidate)>,
+        effects: impl Iterator<Item = ([f64; 2], bool, &'a Candidate)>,
         allowed: f64,
     ) -> Result<f64, Error> {
         let (mut sum, mut uncorrected, mut largest) = (0.0, 0.0, None::<(f64, &Candidate)>);
-        for (effect, corrected, term) in effects {
+        for ([effect, at_most], corrected, term) in effects {
             sum += effect;
             uncorrected += if corrected && effect <= SERVED { 0.0 } else { effect };
             // Of two terms with the same largest effect, the one nearer to the commensurability is named.
             let nearer = |other: &Candidate| self.slow_distance(term) < self.slow_distance(other);
-            if largest.is_none_or(|(most, other)| effect > most || (effect == most && nearer(other))) {
-                largest = Some((effect, term));
+            if largest.is_none_or(|(most, other)| at_most > most || (at_most == most && nearer(other))) {
+                largest = Some((at_most, term));
             }
         }
         match largest {
@@ -101,22 +99,21 @@ impl Commensurability<'_> {
         self.turned(term, amplitude, distance)
     }
 
-    /// The harmonic of the orbit with which a term is nearest to resonance. If a neighbour has a larger effect, the amplitude is enlarged to have this effect.
-    pub(super) fn nearest(&self, term: &Candidate, series: &OrbitSeries, aspect: &Aspect) -> Nearest {
+    /// The harmonic of the orbit with which a term is nearest to resonance, and those beside it that are near it too, or in a slow term all beside it.
+    pub(super) fn near(&self, term: &Candidate, series: &OrbitSeries, aspect: &Aspect) -> (Near, Vec<Near>) {
         let divisors = self.divisors(term);
         let distance = |j: i32| divisors.smallest(j).abs();
         let about = -(term.frequency / self.mean_motion).round() as i32;
         // The shift may make a neighbour the nearest.
         let number = [about, about - 1, about + 1].into_iter().min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
         let number = number.unwrap_or(about);
-        let nearest = distance(number);
-        let sizes = (number - NEIGHBOURS..=number + NEIGHBOURS).map(|j| {
-            let share = if j == number { 1.0 } else { nearest / distance(j) };
-            (share * aspect.strength(series, j, term.multiple), distance(j))
-        });
-        let (size, acting) = sizes.fold((0.0, nearest), |most, other| if other.0 > most.0 { other } else { most });
-        let amplitude = (size / self.envelope.span[0]).min(1.0);
-        Nearest { harmonic: number, amplitude, distance: nearest, acting }
+        let harmonic = |j: i32| {
+            let amplitude = (aspect.strength(series, j, term.multiple) / self.envelope.span[0]).min(1.0);
+            Near { harmonic: j, amplitude, distance: distance(j) }
+        };
+        let beside = (number - NEIGHBOURS..=number + NEIGHBOURS).filter(|j| *j != number);
+        let beside = beside.map(harmonic).filter(|near| divisors.slow || near.distance < self.mean_motion);
+        (harmonic(number), beside.collect())
     }
 
     /// The divisors of a term in the orbit's harmonics.

@@ -3,27 +3,33 @@
 use std::f64::consts::TAU;
 
 use super::aspect::Aspect;
-use super::candidate::{Candidate, SMALLEST_RATIO};
+use super::candidate::Candidate;
 use super::divisors::Divisors;
 use super::generator::returns;
 use super::orbit_series::{FEWEST_ORBITS, OrbitSeries};
-use super::resonance::{Commensurability, Nearest};
+use super::resonance::{Commensurability, Near};
 
 /// Largest change of the attitude by a harmonic near resonance, and by a slow term, that is corrected \[rad\].
 const LARGEST: f64 = 0.01;
 
 /// The same for the change of y′ through the slope of Ω, in which the correction is linear.
 const LARGEST_TURN: f64 = 0.2;
-/// The safety factor of what the correction of a harmonic near resonance leaves.
-const MARGIN: f64 = 2.0;
+/// The most that the correction of a harmonic near resonance may leave, over its effect.
+const WORTH: f64 = 2.0;
+/// The safety factor of what it leaves of pairs.
+const MARGIN: f64 = 0.7;
 
 /// The same for what the average torque does to it.
 const SHIFT_MARGIN: f64 = 1.5;
+/// The sum of n over the divisors of both sidebands of a harmonic.
+const SIDEBANDS: f64 = 2.0;
+/// The part of an upper estimate of the second-order shift of Ω that it has.
+const SECOND_SHIFT: f64 = 0.5;
+/// The same for drifts by the square of a harmonic.
+const SQUARE_DRIFT: f64 = 0.25;
 
 /// What is of third order in the charge of a harmonic near resonance, over the charge and the sum of all terms.
 const GROWING: f64 = 10.0;
-/// The safety factor of pairs with the h and m of a slow term.
-const PAIRS_MARGIN: f64 = 3.0;
 
 /// What decides it.
 pub(super) struct Selection<'a> {
@@ -60,10 +66,10 @@ pub(super) struct Exact {
     pub(super) left_out: Option<i32>,
     /// Largest change of the attitude by the term \[rad\].
     pub(super) size: f64,
-    /// What the harmonic nearest to resonance does to the attitude over the span, corrected or not \[rad\].
+    /// What the harmonics near resonance do to the attitude over the span, corrected or not \[rad\].
     pub(super) effect: f64,
-    /// The size of a slow term and of pairs of fast terms with its h and m together \[rad\]; 0 for fast terms.
-    pub(super) slow: f64,
+    /// The most that this may be \[rad\].
+    pub(super) at_most: f64,
 }
 
 impl Selection<'_> {
@@ -72,12 +78,12 @@ impl Selection<'_> {
     pub(super) fn choice(&self, term: &Candidate) -> Choice {
         let slow = self.commensurability.is_slow(term);
         if let Some((series, aspect)) = &self.series {
-            let nearest = self.commensurability.nearest(term, series, aspect);
-            let closest = nearest.distance.max(1.0 / self.commensurability.duration);
+            let near = self.commensurability.near(term, series, aspect);
+            let closest = near.0.distance.max(1.0 / self.commensurability.duration);
             let visible = term.size_at(closest) > self.nothing;
             let needs = || slow || self.sum(term).1 > self.enough || self.commensurability.effect(term) > self.nothing;
             if visible && (slow || term.size() > self.nothing) && needs() {
-                let exact = self.exact(term, &nearest, series);
+                let exact = self.exact(term, &near, series);
                 if !slow || exact.size > self.nothing && exact.size <= LARGEST {
                     return Choice::Exact(exact);
                 }
@@ -90,11 +96,11 @@ impl Selection<'_> {
         Choice::Sum(orders, left)
     }
 
-    /// What the harmonics of the orbit that a term lacks do to the attitude over the span \[rad\].
-    pub(super) fn effect(&self, term: &Candidate, choice: &Choice) -> f64 {
+    /// What the harmonics of the orbit that a term lacks do to the attitude over the span, and the most that this may be \[rad\].
+    pub(super) fn effect(&self, term: &Candidate, choice: &Choice) -> [f64; 2] {
         match choice {
-            Choice::Exact(exact) => exact.effect,
-            _ => self.commensurability.effect(term),
+            Choice::Exact(exact) => [exact.effect, exact.at_most],
+            _ => [self.commensurability.effect(term); 2],
         }
     }
 
@@ -118,9 +124,30 @@ impl Selection<'_> {
     }
 
     /// A term with exact divisors. The harmonic nearest to resonance is left out if what its correction leaves would be more than its first order.
-    fn exact(&self, term: &Candidate, nearest: &Nearest, series: &OrbitSeries) -> Exact {
-        let Commensurability { duration, response, .. } = self.commensurability;
-        let Nearest { amplitude, distance, acting, .. } = *nearest;
+    fn exact(&self, term: &Candidate, (nearest, beside): &(Near, Vec<Near>), series: &OrbitSeries) -> Exact {
+        let Commensurability { duration, .. } = self.commensurability;
+        let divisors = self.commensurability.divisors(term);
+        let [left, at_most] = self.left(term, nearest, &divisors);
+        let first = self.commensurability.turned(term, nearest.amplitude, nearest.distance);
+        let [_, turn] = term.swing_at(nearest.distance).map(|part| nearest.amplitude * part);
+        let small = nearest.amplitude * term.size_at(nearest.distance) <= LARGEST && turn <= LARGEST_TURN;
+        let corrected = returns(nearest.distance, duration) || small && at_most < WORTH * first;
+        let (left_out, both) = if corrected { (None, [left, at_most]) } else { (Some(nearest.harmonic), [first; 2]) };
+        let beside = beside.iter().map(|near| self.left(term, near, &divisors));
+        let [effect, at_most] = beside.fold(both, |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
+        let [size, square] = self.harmonics(term, &divisors.without(left_out), series);
+        let slow = self.commensurability.is_slow(term);
+        let drift = if slow { self.moved(&divisors, nearest.distance) * square * duration } else { 0.0 };
+        Exact { left_out, size, effect: effect + drift, at_most: at_most + drift }
+    }
+
+    /// What the correction of a harmonic near resonance leaves of the attitude over the span, and the most that this may be \[rad\].
+    fn left(&self, term: &Candidate, near: &Near, divisors: &Divisors) -> [f64; 2] {
+        let Commensurability { duration, response, mean_motion, eccentricity, fastest, .. } = self.commensurability;
+        let Near { amplitude, distance, .. } = *near;
+        if amplitude == 0.0 {
+            return [0.0; 2];
+        }
         let size = amplitude * term.size_at(distance);
         let [swing, turn] = term.swing_at(distance).map(|part| amplitude * part);
         let lasting = response.by_momentum * duration;
@@ -129,41 +156,34 @@ impl Selection<'_> {
         let slope = turn + size * degree / (response.gain * response.sigma.sqrt()).max(size).max(f64::MIN_POSITIVE);
         let square = size * (size + slope) + 0.5 * turn * turn;
         // Of pairs with the other terms, and with the other harmonics of the same one, which act while the body passes the pericentre.
-        let passing = 2.0 * (term.frequency / self.commensurability.fastest).abs();
+        let passing = 2.0 * (term.frequency / fastest).abs();
         let bounded = (size + turn) * (self.whole + passing * term.size());
-        let Commensurability { mean_motion, eccentricity, secular, .. } = &self.commensurability;
-        let divisors = self.commensurability.divisors(term);
-        let (steady, swinging) = (divisors.steady_shift, divisors.swinging_shift);
-        // K2 has the mean drift by the square, at the direction of the angular momentum at the epoch.
-        let moved = (steady / distance + eccentricity * secular.precessed(duration)).min(1.0);
-        let second = square * (1.0 + moved * acting * duration) + MARGIN * bounded;
+        let drift = SQUARE_DRIFT * self.moved(divisors, distance) * distance * duration;
+        let second = square * (1.0 + drift) + MARGIN * bounded;
         // The divisors have the mean shift of Ω by the average torque, but not its dependence on σ and k, the part that swings with the orbit, and its second order.
-        let swinging = (steady * (3.0 * eccentricity + steady / distance) + 0.25 * swinging) / mean_motion;
-        let shift = (swinging + self.whole * self.whole * term.frequency.abs() / distance).min(1.0);
-        let angles = turn + amplitude * term.shift / (distance * distance);
-        let shifted = shift * (angles + shift * swing * lasting);
-        let left = second + SHIFT_MARGIN * shifted + swing * (steady / distance).min(1.0);
-        let first = self.commensurability.turned(term, amplitude, distance);
-        let small = size <= LARGEST && turn <= LARGEST_TURN;
-        let corrected = returns(distance, duration) || small && left < MARGIN * first;
-        let third = GROWING * self.whole * left;
-        let (left_out, effect) = if corrected { (None, left + third) } else { (Some(nearest.harmonic), first) };
-        let [size, square] = self.harmonics(term, &divisors.without(left_out), series);
-        let (drift, slow) = match self.commensurability.is_slow(term) {
-            true => (moved * square * duration, size * self.with_pairs(acting)),
-            false => (0.0, 0.0),
+        let (steady, angles) = (divisors.steady_shift, turn + amplitude * term.shift / (distance * distance));
+        let swinging = (3.0 * eccentricity * steady + 0.25 * divisors.swinging_shift) / mean_motion;
+        let further =
+            steady * steady / (mean_motion * distance) + self.whole * self.whole * term.frequency.abs() / distance;
+        let shift = (swinging + further).min(1.0);
+        // What swings makes sidebands, whose divisors are about n, of which a span needs several.
+        let direct = amplitude * term.rate / distance;
+        let shifted = if mean_motion * duration >= FEWEST_ORBITS[0] * TAU {
+            swinging * (direct + SIDEBANDS * distance / mean_motion * angles) + SECOND_SHIFT * further * angles
+        } else {
+            shift * (direct + angles)
         };
-        Exact { left_out, size, effect: effect + drift, slow }
+        let of_mean = swing * ((steady / distance).min(1.0) + SQUARE_DRIFT * shift * shift * lasting);
+        let left = second + SHIFT_MARGIN * shifted.min(direct + angles) + of_mean;
+        let at_most = second + SHIFT_MARGIN * shift * (angles + shift * swing * lasting);
+        let third = 1.0 + GROWING * self.whole;
+        [third * left, third * at_most.max(left)]
     }
 
-    /// The factor by which pairs of fast terms with the h and m of a slow term enlarge what is bounded of it: they have its divisor, and second order lacks them.
-    /// Over several orbits the drifts that are charged are larger than this.
-    fn with_pairs(&self, acting: f64) -> f64 {
-        let Commensurability { duration, mean_motion, fastest, .. } = self.commensurability;
-        if mean_motion * duration >= FEWEST_ORBITS[0] * TAU {
-            return 1.0;
-        }
-        PAIRS_MARGIN * (SMALLEST_RATIO * fastest / acting.max(1.0 / duration)).max(1.0)
+    /// The share of the drift by a square that moves with the angular momentum: K2 has its mean at the direction at the epoch.
+    fn moved(&self, divisors: &Divisors, distance: f64) -> f64 {
+        let Commensurability { duration, eccentricity, secular, .. } = &self.commensurability;
+        (divisors.steady_shift / distance + eccentricity * secular.precessed(*duration)).min(1.0)
     }
 
     /// Sums over the harmonics of the orbit in a term with exact divisors: of the changes of the attitude \[rad\], and of their squares times the divisors.

@@ -140,7 +140,10 @@ fn a_plan_by_theory_that_misses_the_tolerance_says_what_bound_the_integration_wo
     assert_eq!(long.plan().method(), Method::Closed);
     let (guess, _) = prospect(&scene.clone().span(0.0, 7e4)).expect("a guess");
     let said = long.plan().skipped().last().expect("a reason").clone();
-    assert_eq!(said, format!("integration: its error bound would be about {guess:.1e} rad"));
+    assert_eq!(
+        said,
+        format!("integration: its error bound would be about {guess:.1e} rad (method \"integrated\" takes it)")
+    );
     let longest = scene.span(0.0, 7e7).solve().expect("a motion");
     let said = longest.plan().skipped().last().expect("a reason");
     assert_eq!(said, "integration: it would take about 1.4e8 steps, and at most 8388608 are kept");

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::gravity_gradient::disturbed::GradientPlan;
-use crate::input::options::{Averaging, Method};
+use crate::input::options::{Averaging, Level, Method};
 use crate::input::scene::Scene;
 use crate::integration::integrated::IntegrationPlan;
 use crate::torque_free::mode::Mode;
@@ -112,9 +112,26 @@ impl Plan {
         self.separatrix_ratio
     }
 
-    /// The averaging of a scene with an orbit; `None` without an orbit.
+    /// The averaging of a scene with an orbit; `None` without an orbit and for an integrated motion.
     pub fn averaging(&self) -> Option<Averaging> {
         self.gradient.map(|gradient| gradient.averaging)
+    }
+
+    /// The level of the gravity-gradient theory; `None` without an orbit and for an integrated motion.
+    ///
+    /// ```
+    /// use andoyer_propagate::options::Level;
+    /// use andoyer_propagate::{Body, Method, Orbit, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.01, 1.0])?;
+    /// let scene = Scene::new(Body::new([1.0, 1.02, 1.05])?, state).span(0.0, 1e4).method(Method::Closed);
+    /// let disturbed = scene.clone().orbit(Orbit::new(2e-3, 0.1)?);
+    /// assert_eq!(disturbed.solve()?.plan().level(), Some(Level::SecondOrder));
+    /// assert_eq!(disturbed.tolerance(1e-3).solve()?.plan().level(), Some(Level::Full));
+    /// assert_eq!(scene.solve()?.plan().level(), None);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    pub fn level(&self) -> Option<Level> {
+        self.gradient.map(|gradient| gradient.level)
     }
 
     /// Sum of the short-period corrections for the gravity gradient \[rad\], which measures the torque; 0 without an orbit.
@@ -122,8 +139,8 @@ impl Plan {
         self.gradient.map_or(0.0, |gradient| gradient.size)
     }
 
-    /// The first neglected term under a gravity gradient \[rad\]: a term of second order in the torque, or a short-period term that was dropped; 0 without an
-    /// orbit.
+    /// The first neglected term under a gravity gradient \[rad\]: a short-period term of second order in the torque, which no level has, or one of first order
+    /// that was dropped; 0 without an orbit.
     pub fn first_neglected(&self) -> f64 {
         self.gradient.map_or(0.0, |gradient| gradient.neglected)
     }

@@ -54,7 +54,8 @@ pub(super) fn may_be_integrated(scene: &Scene) -> bool {
         && scene.asked_level() == Level::default()
 }
 
-/// The theory where it meets the tolerance, else the integration where that does, else whichever has the smaller error bound.
+/// The theory where it meets the tolerance, else the integration where that does, else the theory: it costs less, and the plan says how near the integration would
+/// come. For several bodies and for orbits that precess the smaller error bound decides instead.
 pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
     let mut by_theory = match scene.clone().solve_by_theory(tables) {
         Ok(motion) if motion.plan.meets_tolerance() => return Ok(motion),
@@ -72,7 +73,9 @@ pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -
         Some((_, steps)) if steps > MOST_STEPS as f64 => {
             format!("it would take about {steps:.1e} steps, and at most {MOST_STEPS} are kept")
         }
-        Some((bound, _)) if bound > enough => format!("its error bound would be about {bound:.1e} rad"),
+        Some((bound, _)) if bound > enough => {
+            format!("its error bound would be about {bound:.1e} rad (method \"integrated\" takes it)")
+        }
         _ => {
             let reason = format!("theory: its error bound is {:.1e} rad", by_theory.plan.error_bound);
             match integrated(scene, tables, reason, stop) {

@@ -368,13 +368,16 @@ class Plan:
         """σ/σ_sep (theory §5): 0 for rotation about the axis of greatest inertia, 1 on the separatrix."""
     @property
     def averaging(self) -> Literal["orbit", "spin"] | None:
-        """The averaging of a scene with an orbit: "orbit", "spin", or None without an orbit (theory §9)."""
+        """The averaging of a scene with an orbit: "orbit" or "spin" (theory §9); None without an orbit and for an integrated motion."""
+    @property
+    def level(self) -> Literal["full", "second-order", "moving", "paper"] | None:
+        """The level of the gravity-gradient theory: "full", "second-order", "moving" or "paper" (theory §9); None without an orbit and for an integrated motion."""
     @property
     def torque(self) -> float:
         """The size of the torque: the sum of the short-period corrections of the gravity gradient, in rad; 0 without an orbit."""
     @property
     def first_neglected(self) -> float:
-        """The first neglected term of the gravity gradient, in rad: the second order in the torque, or a dropped short-period term; 0 without an orbit."""
+        """The first neglected term of the gravity gradient, in rad: a short-period term of second order in the torque, which no level has, or one of first order that was dropped; 0 without an orbit."""
     @property
     def partials(self) -> Literal["closed", "differences"] | None:
         """The method of `Motion.partials`: "closed" (theory §12), "differences" of fourth order for a scene with an orbit and for an integrated motion, or None on the separatrix, where the derivatives do not exist."""

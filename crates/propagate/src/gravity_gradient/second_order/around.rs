@@ -18,8 +18,9 @@ type C64 = Complex<f64>;
 
 /// Most points around an orbit; more are needed from an eccentricity of 0.77 on, and for a harmonic above 60.
 const MOST_POINTS: f64 = 128.0;
-/// What a sum around the orbit leaves, over it: K2 of slow pairs, and the change of S within the span.
-const LEFT: f64 = 0.05;
+/// What a sum around the orbit leaves, over it: the change of S within the span, and K2 of slow pairs.
+const LEFT: f64 = 0.002;
+const SLOW_LEFT: f64 = 0.02;
 /// Pairs whose sizes, over the largest, have a smaller product are left out.
 pub(super) const SMALLEST_PRODUCT: f64 = 1e-6;
 
@@ -139,7 +140,8 @@ pub(super) fn actions(
             waves.iter_mut().zip(&steps).for_each(|(wave, step)| *wave *= step);
         }
         // −i/2 times m or h times S/(iΩ), twice its real part.
-        let left = LEFT * size + still;
+        let share = if frequency.abs() <= stand.slowest { SLOW_LEFT } else { LEFT };
+        let left = share * size + still;
         for (i, number) in [*m, *h].into_iter().enumerate() {
             actions[0][i] -= number * sum.re;
             actions[1][i] += number.abs() * left;

@@ -63,8 +63,7 @@ pub(crate) fn refined(
         sizes: &demand.envelope.epoch,
         norms,
         slowest,
-        // (a/r)³ r̂r̂ on a circle turns twice as fast as the body.
-        orbital_step: demand.mean_motion * if demand.orbit.eccentricity() == 0.0 { 2.0 } else { 1.0 },
+        orbital_step: demand.orbital_step(),
         duration: demand.duration,
         closest: demand.envelope.span[0] / demand.envelope.epoch[0],
         bend: demand.envelope.epoch[2] / demand.envelope.epoch[0],

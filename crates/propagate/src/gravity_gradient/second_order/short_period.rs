@@ -18,13 +18,16 @@ use super::jet::{Field, Jet, Point, SIZE, Slopes, along, with_turns};
 use super::modes::{Mode, large_modes, slowest};
 use crate::gravity_gradient::contraction::{Tensor, product};
 use crate::gravity_gradient::corrections::{Demand, Mean};
-use crate::gravity_gradient::envelope::on_ellipse;
+use crate::gravity_gradient::envelope::{at_most, on_ellipse};
 use crate::gravity_gradient::inertia::Inertia;
 
 type C64 = Complex<f64>;
 
 /// Terms smaller than this share of the largest are left out.
 const SMALLEST_SHARE: f64 = 3e-3;
+
+/// The part of a pair that one of its harmonics has on an eccentric orbit, where they are many. On a circle it may have all.
+const PART: f64 = 0.3;
 
 /// One term at one place of the disturbing body.
 struct Wave {
@@ -47,18 +50,41 @@ pub(super) struct Motion<'a> {
     point: Point,
     /// q.
     strength: f64,
-    /// Turn of the attitude for a unit change of p.
+    /// Turn of the attitude for a unit change of p, and the sum of the first-order changes of the attitude.
     gain: f64,
+    whole: f64,
     /// Slower pairs are taken to be as fast as this.
     slowest: f64,
 }
 
-/// The largest turn of the attitude by the change, for a disturbing body at any of these true anomalies \[rad\].
-pub(crate) fn largest(inertia: &Inertia, mean: &Mean, demand: &Demand<'_>, gain: f64, anomalies: &[f64]) -> f64 {
-    let motion = Motion::new(inertia, demand, gain, SMALLEST_SHARE);
-    let [first, second, _] = demand.orbit.axes().map(|axis| mean.frame.inverse() * axis);
-    let elements = (demand.mean_motion, demand.orbit.eccentricity());
-    anomalies.iter().map(|&f| motion.size(&tensors([first, second], elements, f))).fold(0.0, f64::max)
+/// Turns of the attitude by the change \[rad\].
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Turns {
+    /// The largest, if slow pairs are taken to be as fast as a sum over time derivatives needs.
+    pub(crate) largest: f64,
+    /// What harmonics of the orbit near resonance with pairs add to it.
+    pub(crate) resonant: f64,
+}
+
+impl Turns {
+    /// Those with the disturbing body at these true anomalies. `sizes` are the turn of the attitude for a unit change of p and the sum of the first-order
+    /// changes of the attitude.
+    pub(crate) fn new(inertia: &Inertia, mean: &Mean, demand: &Demand<'_>, sizes: [f64; 2], anomalies: &[f64]) -> Self {
+        let motion = Motion::new(inertia, demand, sizes, SMALLEST_SHARE);
+        let [first, second, _] = demand.orbit.axes().map(|axis| mean.frame.inverse() * axis);
+        let elements = (demand.mean_motion, demand.orbit.eccentricity());
+        let nearest = demand.envelope.span[0];
+        let mut turns = Self::default();
+        for &f in anomalies {
+            let [rate, cube] = on_ellipse(elements.0, elements.1, f);
+            let tensors = tensors([first, second], elements, f);
+            let waves = motion.waves(&tensors, 2.0 * rate);
+            let lacking = motion.lacking(&waves, &tensors[0]);
+            turns.largest = turns.largest.max(motion.size(&waves, &lacking));
+            turns.resonant += motion.resonant(&lacking, demand) * (nearest / cube).powi(2) / anomalies.len() as f64;
+        }
+        turns
+    }
 }
 
 /// (a/r)³ r̂r̂ and its time derivative at a true anomaly, from the axes of the ellipse, the mean motion and the eccentricity.
@@ -73,7 +99,7 @@ fn tensors([first, second]: [Vector3<f64>; 2], (mean_motion, eccentricity): (f64
 }
 
 impl<'a> Motion<'a> {
-    pub(super) fn new(inertia: &'a Inertia, demand: &Demand<'_>, gain: f64, share: f64) -> Self {
+    pub(super) fn new(inertia: &'a Inertia, demand: &Demand<'_>, [gain, whole]: [f64; 2], share: f64) -> Self {
         Self {
             inertia,
             modes: large_modes(inertia, share, slowest(demand)),
@@ -81,23 +107,63 @@ impl<'a> Motion<'a> {
             point: Point { momentum: inertia.momentum, root: inertia.sigma.sqrt() },
             strength: demand.strength(),
             gain,
+            whole,
             slowest: slowest(demand),
         }
     }
 
-    /// The sum of the sizes of all harmonics of the change, for (a/r)³ r̂r̂ in the frame and its time derivative \[rad\].
-    fn size(&self, tensors: &[Tensor; 2]) -> f64 {
-        let (harmonics, mean) = self.change(tensors);
-        harmonics.iter().map(|(_, change)| 2.0 * self.turn(change)).sum::<f64>() + self.turn(&mean)
+    /// The sum of the sizes of all harmonics of the change \[rad\].
+    fn size(&self, waves: &[Wave], lacking: &Sums) -> f64 {
+        let harmonics = lacking.0.iter().map(|(numbers, lacking)| self.response(*numbers, lacking));
+        harmonics.map(|change| 2.0 * self.turn(&change)).sum::<f64>() + self.turn(&mean(waves))
+    }
+
+    /// What harmonics of the orbit near resonance add to the size: of each harmonic of the change the one that adds most, slow ones by their mean over the
+    /// span \[rad\].
+    fn resonant(&self, lacking: &Sums, demand: &Demand<'_>) -> f64 {
+        let (step, eccentricity, envelope) = (demand.orbital_step(), demand.orbit.eccentricity(), demand.envelope);
+        // (a/r)⁶ r̂r̂r̂r̂ on a circle has no higher one.
+        let highest = 4.0 * demand.mean_motion;
+        let part = PART + (1.0 - PART) * (1.0 - eccentricity).powi(8);
+        // Second order shifts the frequencies.
+        let shift = self.whole * self.whole * self.frequency([0, 1]).abs();
+        let size = |([h, m], lacking): &([i32; 2], Field)| {
+            let omega = self.frequency([*h, *m]);
+            let counted = omega.abs().max(self.slowest);
+            let by = |harmonic: f64| {
+                // Without the pericentre a span has no harmonics that are fast.
+                let share = if omega.abs() <= self.slowest {
+                    1.0
+                } else if envelope.passes || eccentricity == 0.0 {
+                    at_most(eccentricity, harmonic / demand.mean_motion, 2)
+                } else {
+                    0.0
+                };
+                let distance = ((omega - harmonic).abs() - shift).max(1.0 / demand.duration);
+                let added = (1.0 - distance / counted).max(0.0) * part * share.min(envelope.share.pairs);
+                2.0 * added * self.turn(&self.driven(distance, lacking))
+            };
+            let nearest = by(step * (omega / step).round());
+            if omega.abs() > highest { nearest.max(by(highest.copysign(omega))) } else { nearest }
+        };
+        lacking.0.iter().map(size).sum()
     }
 
     /// The change for (a/r)³ r̂r̂ in the frame and its time derivative: the harmonics e^(i(hℓ′+my′)), each with h, m, and the mean.
+    #[cfg(test)]
     pub(super) fn change(&self, tensors: &[Tensor; 2]) -> (Vec<([i32; 2], Field)>, Field) {
-        let waves = self.waves(tensors);
+        let waves = self.waves(tensors, 0.0);
+        let lacking = self.lacking(&waves, &tensors[0]).0;
+        let harmonics = lacking.iter().map(|(numbers, lacking)| (*numbers, self.response(*numbers, lacking)));
+        (harmonics.collect(), mean(&waves))
+    }
+
+    /// The rates that the change makes up for, for (a/r)³ r̂r̂ in the frame.
+    fn lacking(&self, waves: &[Wave], tensor: &Tensor) -> Sums {
         let mut sums = Sums::default();
-        for b in &waves {
+        for b in waves {
             let [h, m] = b.numbers;
-            for a in &waves {
+            for a in waves {
                 let [other_h, other_m] = a.numbers;
                 let conjugate = a.torque_slopes.map(|row| row.map(|slope| slope.conj()));
                 for (sign, slopes, change) in
@@ -108,22 +174,18 @@ impl<'a> Motion<'a> {
                 }
             }
         }
-        self.add_average(&mut sums, &waves, &with_turns(&tensors[0]));
-        let harmonics = sums.0.iter().map(|(numbers, lacking)| (*numbers, self.response(*numbers, lacking)));
-        let mut mean = [C64::default(); SIZE];
-        for wave in &waves {
-            mean = plus(mean, along(&wave.change.map(|part| part.conj()), &wave.change_slopes));
-        }
-        (harmonics.collect(), mean.map(|part| part.re.into()))
+        self.add_average(&mut sums, waves, &with_turns(tensor));
+        sums
     }
 
     /// The harmonics of the change of first order.
     #[cfg(test)]
     pub(super) fn first(&self, tensors: &[Tensor; 2]) -> Vec<([i32; 2], Field)> {
-        self.waves(tensors).iter().map(|wave| (wave.numbers, wave.change)).collect()
+        self.waves(tensors, 0.0).iter().map(|wave| (wave.numbers, wave.change)).collect()
     }
 
-    fn waves(&self, tensors: &[Tensor; 2]) -> Vec<Wave> {
+    /// The terms, of which e^(±2if) turns at a rate: the sums of two time derivatives are enlarged to what all of them are there.
+    fn waves(&self, tensors: &[Tensor; 2], turning: f64) -> Vec<Wave> {
         let tensors = tensors.each_ref().map(with_turns);
         let wave = |mode: &Mode| {
             let [torque, rate] =
@@ -131,11 +193,12 @@ impl<'a> Motion<'a> {
             let frequency = mode.frequency.map(|part| part * self.point.momentum);
             let over = |jet: &Jet| jet.over(frequency, self.point);
             let generator = over(&torque).minus(&over(&over(&rate)));
+            let whole = 1.0 / (1.0 - (turning / frequency[0]).powi(2));
             Wave {
                 numbers: [mode.harmonic, mode.multiple],
                 torque_slopes: torque.field_slopes(self.point),
-                change: generator.field(self.point),
-                change_slopes: generator.field_slopes(self.point),
+                change: generator.field(self.point).map(|part| part * whole),
+                change_slopes: generator.field_slopes(self.point).map(|row| row.map(|part| part * whole)),
             }
         };
         self.modes.iter().map(wave).collect()
@@ -175,13 +238,24 @@ impl<'a> Motion<'a> {
         [-a[1] * first, second(0) * root + a[0] * first, second(1), none, none, none]
     }
 
-    /// The change e^(i(hℓ′+my′)) that lacking rates make: changes of p and M act on the phases through the rates.
-    fn response(&self, [h, m]: [i32; 2], lacking: &Field) -> Field {
+    /// The change e^(i(hℓ′+my′)) that lacking rates make.
+    fn response(&self, numbers: [i32; 2], lacking: &Field) -> Field {
+        let omega = self.frequency(numbers);
+        self.driven(omega.abs().max(self.slowest).copysign(omega), lacking)
+    }
+
+    /// hℓ′ + my′ in a unit of time.
+    fn frequency(&self, [h, m]: [i32; 2]) -> f64 {
+        let [anomaly, longitude] = self.inertia.rates.each_ref().map(|rate| rate.to_f64());
+        f64::from(h) * anomaly + f64::from(m) * longitude
+    }
+
+    /// The change that lacking rates of a frequency make: changes of p and M act on the phases through the rates.
+    fn driven(&self, omega: f64, lacking: &Field) -> Field {
         let Point { momentum, root } = self.point;
         let Inertia { rate_slopes, rates, .. } = self.inertia;
         let rates = rates.each_ref().map(|rate| rate.to_f64());
-        let omega = f64::from(h) * rates[0] + f64::from(m) * rates[1];
-        let inverse = (C64::i() * omega.abs().max(self.slowest).copysign(omega)).inv();
+        let inverse = (C64::i() * omega).inv();
         let mut change = lacking.map(|part| part * inverse);
         let shifts = [0, 1].map(|i| change[0] * (2.0 * root * rate_slopes[i]) + change[3] * (rates[i] / momentum));
         change[1] += shifts[0] * root * inverse;
@@ -213,6 +287,12 @@ impl Sums {
             None => self.0.push((numbers, field)),
         }
     }
+}
+
+/// The mean of ½ v′ v.
+fn mean(waves: &[Wave]) -> Field {
+    let parts = waves.iter().map(|wave| along(&wave.change.map(|part| part.conj()), &wave.change_slopes));
+    parts.fold([C64::default(); SIZE], plus).map(|part| part.re.into())
 }
 
 fn plus(one: Field, other: Field) -> Field {

@@ -52,14 +52,13 @@ impl Together {
         self.of_actions(self.size(stand) * stand.left_over(self.total.frequency)).map(f64::abs)
     }
 
-    /// Whether the harmonics of the orbit are needed, and are not too many.
+    /// Whether the harmonics of the orbit are needed, and are not too many. On a circle they are few, and better than the sum over time derivatives.
     pub(super) fn needs(&self, stand: &Stand<'_>, around: &Around<'_>) -> bool {
-        let left = if self.is_slow(stand) {
-            self.left(stand)
-        } else {
-            self.of_actions(self.at_resonance(stand, around)).map(f64::abs)
-        };
+        let resonant = self.of_actions(self.at_resonance(stand, around)).map(f64::abs);
+        let by_sum =
+            if self.is_slow(stand) || around.eccentricity == 0.0 { self.left(stand) } else { Default::default() };
         let enough = stand.enough * stand.mean.momentum;
+        let left = [0, 1].map(|i| resonant[i] + by_sum[i]);
         !self.single && left.iter().any(|left| *left > enough) && around.highest(&self.total).is_some()
     }
 
