@@ -180,8 +180,8 @@ fn a_body_that_is_nearly_a_sphere_may_turn_eight_times_an_orbit() {
 }
 
 #[test]
-fn a_span_that_starts_after_the_pericentre_has_nothing_of_it() {
-    // The sums over time derivatives end where they leave least at the epoch, not at the pericentre of e = 0.9.
+fn sums_over_derivatives_end_where_they_leave_least_at_the_epoch() {
+    // e = 0.9, a span after the pericentre: the sums ended where they leave least at the pericentre.
     let scene = Disturbed::new(
         [0.309_493_704_901_731_67, 0.806_391_466_137_364_5, 1.0],
         [0.915_843_895_617_442_1, 0.0, 0.0, 0.401_534_505_192_602_1],
@@ -235,6 +235,15 @@ fn a_slow_term_that_the_average_torque_shifts_within_half_an_orbit_is_in_the_bou
     );
     let found = second_order(scene);
     assert!(found.error <= found.bound && found.bound <= 10.0 * found.error, "{found:?}");
+}
+
+#[test]
+fn the_bound_of_a_span_of_one_time_is_that_of_its_epoch() {
+    let scene = Disturbed::new([0.5, 0.8, 1.0], ATTITUDE, [0.1, 0.2, 1.0], [6e-3, 0.2, 0.0, 0.0, 0.0, 0.0], 0.0);
+    for averaging in [Averaging::Auto, Averaging::Spin] {
+        let motion = Disturbed { averaging, level: Level::SecondOrder, ..scene }.solve().expect("served");
+        assert!(motion.plan().error_bound() <= 1e-6, "{averaging}: {:e}", motion.plan().error_bound());
+    }
 }
 
 #[test]

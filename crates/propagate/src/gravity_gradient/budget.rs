@@ -1,6 +1,7 @@
 //! The parts of the error bound of a motion under a gravity gradient.
 //!
-//! What is bounded in second order is computed from the pairs of terms ([`super::second_order::short_period`]). For what grows in third order the largest
+//! What is bounded in second order, and what harmonics of the orbit near resonance with pairs add, is computed from the pairs of terms
+//! ([`super::second_order::short_period`]). For what grows in third order the largest
 //! first-order change ε is sampled over ℓ′, y′, the position of the disturbing body within the span, and the precession: it is ε times the derivatives of the
 //! change, which have the size of the sum of all terms, times the rates, the time, and again the derivatives. A motion of first order is as far from that of
 //! second order as the drifts of second order lead within the span
@@ -41,11 +42,11 @@ const THIRD_MARGIN: f64 = 2.0;
 const SLOW_MARGIN: f64 = 1.0;
 /// The same for harmonics of the orbit near resonance in pairs.
 const RESONANT_PAIRS_MARGIN: f64 = 2.0;
-/// What is of third order in them, over the sum of all terms.
+/// The third-order part of their charge, over the charge and the sum of all terms.
 const GROWING: f64 = 60.0;
-/// What is of fourth order in the drift of third, over the same sum.
+/// The fourth-order part of the drift of third order, over that drift and the sum of all terms.
 const FURTHER: f64 = 15.0;
-/// The same for the distance between the motions of first and of second order.
+/// The safety factor of the distance between the motions of first and of second order.
 const FIRST_MARGIN: f64 = 1.4;
 /// The safety factor of what the average over the orbit leaves in second order. Without it the largest of 1,200 ratios to the average over the rotation alone was
 /// 0.75, the median 0.07.

@@ -192,7 +192,7 @@ pub(crate) fn at_most(eccentricity: f64, number: f64, factors: i32) -> f64 {
     } else if eccentricity == 0.0 {
         0.0
     } else {
-        // At r = 0 one factor has a pole of the order 5/2 in l − l₀, and two have one of the order 5.
+        // At r = 0 one factor is like (l − l₀)^(−5/2), and two are like (l − l₀)^(−5).
         let fallen = decay(eccentricity) * beyond;
         let growing = if factors == 1 {
             (1.0 + fallen).powf(1.5)

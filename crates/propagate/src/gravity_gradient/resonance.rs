@@ -61,7 +61,7 @@ impl Commensurability<'_> {
     /// The attitude error of all terms together \[rad\]. `effects` holds the error by each term, the most that it may be, and whether the term is corrected.
     ///
     /// # Errors
-    /// - [`Error::Resonance`] if the error by terms that are not corrected, or by more than [`SERVED`], exceeds `allowed` by more than a factor [`MARGIN`], or that of one term [`LARGEST_EFFECT`]. It names the largest term.
+    /// - [`Error::Resonance`] if the error by terms that are not corrected, or by more than [`SERVED`], exceeds `allowed` by more than a factor [`MARGIN`], or the most that one term may leave exceeds [`LARGEST_EFFECT`]. It names the largest term.
     pub(super) fn left<'a>(
         &self,
         effects: impl Iterator<Item = ([f64; 2], bool, &'a Candidate)>,

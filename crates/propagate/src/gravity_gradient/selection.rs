@@ -21,11 +21,11 @@ const MARGIN: f64 = 0.7;
 
 /// The same for what the average torque does to it.
 const SHIFT_MARGIN: f64 = 1.5;
-/// The sum of n over the divisors of both sidebands of a harmonic.
+/// The sum of n over the divisors of both sidebands of a harmonic that is near resonance.
 const SIDEBANDS: f64 = 2.0;
-/// The part of an upper estimate of the second-order shift of Ω that it has.
+/// What is charged of an upper estimate of the second-order shift of Ω.
 const SECOND_SHIFT: f64 = 0.5;
-/// The same for drifts by the square of a harmonic.
+/// What is charged of upper estimates of drifts by the square of a harmonic and of its shift.
 const SQUARE_DRIFT: f64 = 0.25;
 
 /// What is of third order in the charge of a harmonic near resonance, over the charge and the sum of all terms.
@@ -123,7 +123,7 @@ impl Selection<'_> {
         (orders, self.rest(term, orders))
     }
 
-    /// A term with exact divisors. The harmonic nearest to resonance is left out if what its correction leaves would be more than its first order.
+    /// A term with exact divisors. The harmonic nearest to resonance is left out if its correction may leave more than [`WORTH`] times its effect.
     fn exact(&self, term: &Candidate, (nearest, beside): &(Near, Vec<Near>), series: &OrbitSeries) -> Exact {
         let Commensurability { duration, .. } = self.commensurability;
         let divisors = self.commensurability.divisors(term);
@@ -131,7 +131,8 @@ impl Selection<'_> {
         let first = self.commensurability.turned(term, nearest.amplitude, nearest.distance);
         let [_, turn] = term.swing_at(nearest.distance).map(|part| nearest.amplitude * part);
         let small = nearest.amplitude * term.size_at(nearest.distance) <= LARGEST && turn <= LARGEST_TURN;
-        let corrected = returns(nearest.distance, duration) || small && at_most < WORTH * first;
+        let nothing = nearest.amplitude == 0.0;
+        let corrected = nothing || returns(nearest.distance, duration) || small && at_most < WORTH * first;
         let (left_out, both) = if corrected { (None, [left, at_most]) } else { (Some(nearest.harmonic), [first; 2]) };
         let beside = beside.iter().map(|near| self.left(term, near, &divisors));
         let [effect, at_most] = beside.fold(both, |sum, part| [sum[0] + part[0], sum[1] + part[1]]);

@@ -142,7 +142,7 @@ fn a_plan_by_theory_that_misses_the_tolerance_says_what_bound_the_integration_wo
     let said = long.plan().skipped().last().expect("a reason").clone();
     assert_eq!(
         said,
-        format!("integration: its error bound would be about {guess:.1e} rad (method \"integrated\" takes it)")
+        format!("integration: its error bound would be about {guess:.1e} rad (method \"integrated\" has it)")
     );
     let longest = scene.span(0.0, 7e7).solve().expect("a motion");
     let said = longest.plan().skipped().last().expect("a reason");

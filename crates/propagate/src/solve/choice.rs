@@ -74,7 +74,7 @@ pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -
             format!("it would take about {steps:.1e} steps, and at most {MOST_STEPS} are kept")
         }
         Some((bound, _)) if bound > enough => {
-            format!("its error bound would be about {bound:.1e} rad (method \"integrated\" takes it)")
+            format!("its error bound would be about {bound:.1e} rad (method \"integrated\" has it)")
         }
         _ => {
             let reason = format!("theory: its error bound is {:.1e} rad", by_theory.plan.error_bound);

@@ -9,7 +9,8 @@
 //!
 //! where ′ is the derivative with respect to Z. d is a sum over pairs of terms a, b. A part e^(i(a+b)θ) of it with a + b ≠ 0 makes a change e of the same
 //! frequency, ė = f₀′ e + d. The parts with a + b = 0 are the rates that K2 gives; there the change is the mean of ½ v′ v. A size needs few terms of the sums over
-//! time derivatives: W has two, D_a/(iΩ_a) − Ḋ_a/(iΩ_a)², and e has one.
+//! time derivatives: W has two, D_a/(iΩ_a) − Ḋ_a/(iΩ_a)², enlarged for the others, and e has one. A harmonic e^(ijl) of d, which is a product of two factors
+//! (a/r)³ r̂r̂, has the divisor Ω + jn: where that is small, the change by this harmonic is a size of its own ([`Turns::resonant`]).
 
 use nalgebra::Vector3;
 use num_complex::Complex;
@@ -131,17 +132,21 @@ impl<'a> Motion<'a> {
             let omega = self.frequency([*h, *m]);
             let counted = omega.abs().max(self.slowest);
             let by = |harmonic: f64| {
-                // Without the pericentre a span has no harmonics that are fast.
-                let share = if omega.abs() <= self.slowest {
+                let share = if omega.abs() <= self.slowest || harmonic.abs() <= highest {
                     1.0
-                } else if envelope.passes || eccentricity == 0.0 {
+                } else if envelope.passes {
                     at_most(eccentricity, harmonic / demand.mean_motion, 2)
                 } else {
+                    // Without the pericentre a span has no higher harmonics.
                     0.0
                 };
-                let distance = ((omega - harmonic).abs() - shift).max(1.0 / demand.duration);
+                let apart = omega - harmonic;
+                let distance = (apart.abs() - shift).max(1.0 / demand.duration);
                 let added = (1.0 - distance / counted).max(0.0) * part * share.min(envelope.share.pairs);
-                2.0 * added * self.turn(&self.driven(distance, lacking))
+                if added == 0.0 {
+                    return 0.0;
+                }
+                2.0 * added * self.turn(&self.driven(distance.copysign(apart), lacking))
             };
             let nearest = by(step * (omega / step).round());
             if omega.abs() > highest { nearest.max(by(highest.copysign(omega))) } else { nearest }
@@ -184,7 +189,7 @@ impl<'a> Motion<'a> {
         self.waves(tensors, 0.0).iter().map(|wave| (wave.numbers, wave.change)).collect()
     }
 
-    /// The terms, of which e^(±2if) turns at a rate: the sums of two time derivatives are enlarged to what all of them are there.
+    /// The terms, of which e^(±2if) turns at a rate: the sums of two time derivatives are enlarged to what all of them are there, derivatives with respect to Ω twice.
     fn waves(&self, tensors: &[Tensor; 2], turning: f64) -> Vec<Wave> {
         let tensors = tensors.each_ref().map(with_turns);
         let wave = |mode: &Mode| {
@@ -198,7 +203,7 @@ impl<'a> Motion<'a> {
                 numbers: [mode.harmonic, mode.multiple],
                 torque_slopes: torque.field_slopes(self.point),
                 change: generator.field(self.point).map(|part| part * whole),
-                change_slopes: generator.field_slopes(self.point).map(|row| row.map(|part| part * whole)),
+                change_slopes: generator.field_slopes(self.point).map(|row| row.map(|part| part * whole * whole)),
             }
         };
         self.modes.iter().map(wave).collect()
