@@ -35,7 +35,7 @@ pub(crate) struct Share {
     pub(crate) third: f64,
     /// The drift that the terms of K2 with (ḟ/Ω)² make: the mean of u²ḟ².
     pub(crate) truncation: f64,
-    /// What has the size of two terms: the mean of u².
+    /// The mean of u², which is the size of a product of two terms.
     pub(crate) pairs: f64,
 }
 

@@ -48,7 +48,7 @@ pub(super) struct Commensurability<'a> {
 }
 
 /// A harmonic e^(ijl) of the orbit in a term.
-pub(super) struct Near {
+pub(super) struct NearHarmonic {
     /// j.
     pub(super) harmonic: i32,
     /// Its size over that of the torque at the pericentre.
@@ -100,7 +100,12 @@ impl Commensurability<'_> {
     }
 
     /// The harmonic of the orbit with which a term is nearest to resonance, and those beside it that are near it too, or in a slow term all beside it.
-    pub(super) fn near(&self, term: &Candidate, series: &OrbitSeries, aspect: &Aspect) -> (Near, Vec<Near>) {
+    pub(super) fn near(
+        &self,
+        term: &Candidate,
+        series: &OrbitSeries,
+        aspect: &Aspect,
+    ) -> (NearHarmonic, Vec<NearHarmonic>) {
         let divisors = self.divisors(term);
         let distance = |j: i32| divisors.smallest(j).abs();
         let about = -(term.frequency / self.mean_motion).round() as i32;
@@ -109,7 +114,7 @@ impl Commensurability<'_> {
         let number = number.unwrap_or(about);
         let harmonic = |j: i32| {
             let amplitude = (aspect.strength(series, j, term.multiple) / self.envelope.span[0]).min(1.0);
-            Near { harmonic: j, amplitude, distance: distance(j) }
+            NearHarmonic { harmonic: j, amplitude, distance: distance(j) }
         };
         let beside = (number - NEIGHBOURS..=number + NEIGHBOURS).filter(|j| *j != number);
         let beside = beside.map(harmonic).filter(|near| divisors.slow || near.distance < self.mean_motion);

@@ -7,7 +7,7 @@ use super::candidate::Candidate;
 use super::divisors::Divisors;
 use super::generator::returns;
 use super::orbit_series::{FEWEST_ORBITS, OrbitSeries};
-use super::resonance::{Commensurability, Near};
+use super::resonance::{Commensurability, NearHarmonic};
 
 /// Largest change of the attitude by a harmonic near resonance, and by a slow term, that is corrected \[rad\].
 const LARGEST: f64 = 0.01;
@@ -124,7 +124,12 @@ impl Selection<'_> {
     }
 
     /// A term with exact divisors. The harmonic nearest to resonance is left out if its correction may leave more than [`WORTH`] times its effect.
-    fn exact(&self, term: &Candidate, (nearest, beside): &(Near, Vec<Near>), series: &OrbitSeries) -> Exact {
+    fn exact(
+        &self,
+        term: &Candidate,
+        (nearest, beside): &(NearHarmonic, Vec<NearHarmonic>),
+        series: &OrbitSeries,
+    ) -> Exact {
         let Commensurability { duration, .. } = self.commensurability;
         let divisors = self.commensurability.divisors(term);
         let [left, at_most] = self.left(term, nearest, &divisors);
@@ -143,9 +148,9 @@ impl Selection<'_> {
     }
 
     /// What the correction of a harmonic near resonance leaves of the attitude over the span, and the most that this may be \[rad\].
-    fn left(&self, term: &Candidate, near: &Near, divisors: &Divisors) -> [f64; 2] {
+    fn left(&self, term: &Candidate, near: &NearHarmonic, divisors: &Divisors) -> [f64; 2] {
         let Commensurability { duration, response, mean_motion, eccentricity, fastest, .. } = self.commensurability;
-        let Near { amplitude, distance, .. } = *near;
+        let NearHarmonic { amplitude, distance, .. } = *near;
         if amplitude == 0.0 {
             return [0.0; 2];
         }

@@ -18,9 +18,9 @@ type C64 = Complex<f64>;
 
 /// Most points around an orbit; more are needed from an eccentricity of 0.77 on, and for a harmonic above 60.
 const MOST_POINTS: f64 = 128.0;
-/// What a sum around the orbit leaves by the change of S within the span, over it.
+/// The part of a sum around the orbit that the change of S within the span may make wrong.
 const LEFT: f64 = 0.002;
-/// The same for slow pairs, which K2 has none of. With 0.05 the bounds of random scenes were as often exceeded.
+/// The same for slow pairs, which K2 lacks. With this share random scenes stay below their bounds (`gradient table`).
 const SLOW_LEFT: f64 = 0.02;
 /// Pairs whose sizes, over the largest, have a smaller product are left out.
 pub(super) const SMALLEST_PRODUCT: f64 = 1e-6;

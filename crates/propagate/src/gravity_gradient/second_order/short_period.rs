@@ -10,7 +10,7 @@
 //! where ′ is the derivative with respect to Z. d is a sum over pairs of terms a, b. A part e^(i(a+b)θ) of it with a + b ≠ 0 makes a change e of the same
 //! frequency, ė = f₀′ e + d. The parts with a + b = 0 are the rates that K2 gives; there the change is the mean of ½ v′ v. A size needs few terms of the sums over
 //! time derivatives: W has two, D_a/(iΩ_a) − Ḋ_a/(iΩ_a)², enlarged for the others, and e has one. A harmonic e^(ijl) of d, which is a product of two factors
-//! (a/r)³ r̂r̂, has the divisor Ω + jn: where that is small, the change by this harmonic is a size of its own ([`Turns::resonant`]).
+//! (a/r)³ r̂r̂, has the divisor Ω + jn. Where this is small, [`Turns::resonant`] has the change by this harmonic.
 
 use nalgebra::Vector3;
 use num_complex::Complex;
