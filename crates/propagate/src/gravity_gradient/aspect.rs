@@ -43,7 +43,7 @@ impl Aspect {
                     *sum += coefficient * part;
                 }
             }
-            sums.iter().map(|sum: &Complex<f64>| sum.norm()).fold(0.0, f64::max)
+            sums.iter().map(|sum: &Complex<f64>| sum.norm_sqr()).fold(0.0, f64::max).sqrt()
         };
         let largest = of_functions.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
         (MARGIN * self.0.iter().map(size).fold(0.0, f64::max)).max(LEAST_SHARE * largest)

@@ -14,7 +14,7 @@
 //! disturbing bodies on orbits that may precess. It is averaged over the rotation only, and solved on arcs of time.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
-use std::sync::{Arc, RwLock};
+use std::sync::{Arc, LazyLock, RwLock};
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
@@ -33,7 +33,7 @@ mod precession;
 mod tests;
 
 pub(crate) use bodies::{Bodies, Pull};
-use polynomial::{COLUMNS, Column, NODES, Polynomial, ROOM, Row, Slopes};
+use polynomial::{COLUMNS, Column, NODES, Polynomial, Row, Slopes};
 pub(crate) use precession::Precession;
 
 /// Number of quarters that are kept on each side of the epoch, 0.9 kB each.
@@ -145,9 +145,18 @@ impl AveragedOrbit {
 /// The averaged equations at the points of a quarter, by true anomaly.
 struct Quarter<'a> {
     ellipse: &'a AveragedOrbit,
-    sine: Row,
-    cosine: Row,
+    sine: &'a Row,
+    cosine: &'a Row,
 }
+
+/// The sines and the cosines of the true anomalies at the points, by quarter.
+static CIRCLES: LazyLock<[[Row; 2]; 4]> = LazyLock::new(|| {
+    std::array::from_fn(|quarter| {
+        let middle = (quarter as f64 + 0.5) * FRAC_PI_2;
+        let circles = NODES.map(|x| (middle + FRAC_PI_4 * x).sin_cos());
+        [circles.map(|(sine, _)| sine), circles.map(|(_, cosine)| cosine)]
+    })
+});
 
 impl Slopes for Quarter<'_> {
     #[inline(always)]
@@ -290,9 +299,7 @@ fn quarter(turns: f64, angle: f64) -> (i64, f64) {
 
 /// The solution in a quarter that passes through `start` at a place of the quarter.
 fn in_quarter(ellipse: &AveragedOrbit, number: i64, place: f64, start: &Column) -> Polynomial {
-    let middle = (number.rem_euclid(4) as f64 + 0.5) * FRAC_PI_2;
-    let circle = |i: usize| NODES.get(i).map_or((0.0, 1.0), |x| (middle + FRAC_PI_4 * x).sin_cos());
-    let circles: [(f64, f64); ROOM] = std::array::from_fn(circle);
-    let equations = Quarter { ellipse, sine: circles.map(|(sine, _)| sine), cosine: circles.map(|(_, cosine)| cosine) };
+    let [sine, cosine] = &CIRCLES[number.rem_euclid(4) as usize];
+    let equations = Quarter { ellipse, sine, cosine };
     Polynomial::solved(FRAC_PI_4, (place, start), &equations)
 }

@@ -241,7 +241,7 @@ impl Corrections {
                 envelope,
                 duration,
                 secular: Secular::new(inertia, strength, eccentricity, [&demand.axes[2], &demand.pole]),
-                exact: series.is_some(),
+                series,
             },
             sizes: if demand.rates == [0.0; 2] { envelope.span.to_vec() } else { envelope.orbital.norms.clone() },
             most: if level == Level::Paper { 1 } else { ORDERS },

@@ -31,6 +31,12 @@ impl OrbitSeries {
         let fewest = FEWEST_ORBITS[usize::from(reach.eccentricity == 0.0 || reach.passes())];
         (reach.longest() >= fewest * TAU).then(|| Self { coefficients: coefficients(reach.eccentricity, count) })
     }
+
+    /// The largest size of a coefficient in (a/r)³ times 1, e^(2if) and e^(−2if), as [`harmonic`](super::envelope::harmonic), if the series has it.
+    pub(super) fn largest(&self, number: usize) -> Option<f64> {
+        let [constant, even, odd] = self.coefficients.get(number)?;
+        Some(constant.abs().max(even.abs() + odd.abs()))
+    }
 }
 
 /// Number of harmonics on each side of 0: they fall like e^(−|j|(arcosh 1/e − η)), as Hansen's coefficients do.
@@ -69,6 +75,22 @@ fn coefficients(eccentricity: f64, count: usize) -> Vec<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gravity_gradient::envelope::harmonic;
+
+    #[test]
+    fn coefficients_are_as_large_as_hansen_s() {
+        for eccentricity in [0.0, 0.1, 0.6] {
+            let series =
+                OrbitSeries::new(&Reach { eccentricity, anomaly: 0.0, sides: [TAU; 2] }).expect("few harmonics");
+            let count = series.coefficients.len();
+            for number in 0..count {
+                let largest = series.largest(number).expect("a harmonic of the series");
+                let error = (largest - harmonic(eccentricity, number as f64)).abs();
+                assert!(error <= 1e-13, "{eccentricity} {number}: {error:e}");
+            }
+            assert!(series.largest(count).is_none());
+        }
+    }
 
     #[test]
     fn orbits_with_too_many_harmonics_and_spans_without_a_pericentre_are_left_to_the_sums() {

@@ -43,8 +43,8 @@ pub(super) struct Commensurability<'a> {
     pub(super) duration: f64,
     /// What the average torque adds to the frequencies.
     pub(super) secular: Secular,
-    /// Whether the mean M and L at the epoch have the orbit's harmonics with their divisors.
-    pub(super) exact: bool,
+    /// The orbit's harmonics, if the mean M and L at the epoch have them with their divisors.
+    pub(super) series: Option<&'a OrbitSeries>,
 }
 
 /// A harmonic e^(ijl) of the orbit in a term.
@@ -78,7 +78,7 @@ impl Commensurability<'_> {
             }
         }
         match largest {
-            Some((most, term)) if uncorrected > MARGIN * allowed || self.exact && most > LARGEST_EFFECT => {
+            Some((most, term)) if uncorrected > MARGIN * allowed || self.series.is_some() && most > LARGEST_EFFECT => {
                 Err(Error::Resonance {
                     harmonic: term.harmonic,
                     multiple: term.multiple,
@@ -149,7 +149,7 @@ impl Commensurability<'_> {
         let (h, m) = (f64::from(term.harmonic.abs()), f64::from(term.multiple));
         // M and L are off by half of what they swing, or half as long by all of it; the swings themselves last for that time.
         // With exact divisors at the epoch the mean M and L have no part of a swing that returns within the span, but for other harmonics of the term.
-        let lasting = if self.exact {
+        let lasting = if self.series.is_some() {
             0.5 * ((-0.25 * (distance * self.duration).powi(2)).exp() * self.duration) + time
         } else {
             0.5 * (self.duration + time)
@@ -184,7 +184,8 @@ impl Commensurability<'_> {
         if self.turned(term, upper, distance) <= NEGLIGIBLE {
             return (upper, distance);
         }
-        let most = (1.0 - e).powi(-3);
-        (harmonic(e, number.floor().min(LARGEST_NUMBER)) / most, distance)
+        let number = number.floor().min(LARGEST_NUMBER);
+        let known = self.series.and_then(|series| series.largest(number as usize));
+        (known.unwrap_or_else(|| harmonic(e, number)) * (1.0 - e).powi(3), distance)
     }
 }

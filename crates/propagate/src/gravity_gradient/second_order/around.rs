@@ -10,7 +10,7 @@ use num_complex::Complex;
 use super::harmonics::{Near, Parts, Split, inverse, unreturned};
 use super::modes::Mode;
 use super::rows::{Row, Stand};
-use crate::gravity_gradient::contraction::Tensor;
+use crate::gravity_gradient::contraction::{Tensor, contraction};
 use crate::gravity_gradient::envelope::{at_most, decay};
 use crate::gravity_gradient::generator::ORDERS;
 
@@ -81,6 +81,17 @@ fn even(eccentricity: f64, count: f64) -> Vec<(f64, f64)> {
     (0..count as usize).map(point).collect()
 }
 
+/// A term of these pairs.
+struct Term<'a> {
+    row: Row,
+    /// m.
+    multiple: usize,
+    /// The number of derivatives in its sum.
+    orders: usize,
+    /// The harmonics of the orbit in it that are terms of their own.
+    near: &'a [Near],
+}
+
 /// A pair of terms, by their places in the list; the first may be ⟨D⟩.
 struct Pair {
     /// Which total they have.
@@ -104,15 +115,19 @@ pub(super) fn actions(
     let points = (around.points)(&even(around.eccentricity, points_for(highest)));
     let needed = |k: usize| pairs.iter().any(|pair| pair.terms.contains(&Some(k)));
     let near = |mode: &Mode| exact.iter().find(|(other, _)| mode.is(other)).map_or(&[][..], |(_, split)| &split.near);
-    let terms: Vec<_> = (0..listed.len())
-        .map(|k| (needed(k), &listed[k].0))
-        .map(|(needed, mode)| needed.then(|| (Row::of(stand, mode, Parts::default()), near(mode))))
-        .collect();
+    let term = |mode: &Mode| {
+        let row = Row::of(stand, mode, Parts::default());
+        Term { row, multiple: mode.multiple as usize, orders: row.orders_around(stand), near: near(mode) } // 0 ≤ m ≤ 2
+    };
+    let terms: Vec<_> = listed.iter().enumerate().map(|(k, (mode, _))| needed(k).then(|| term(mode))).collect();
     let mut sources = vec![vec![C64::default(); points.len()]; totals.len()];
     for (k, point) in points.iter().enumerate() {
         let stand = Stand { tensors: &point.tensors, ..*stand };
         let elapsed = point.anomaly / around.mean_motion;
-        let here = |(row, near): &(Row, &[Near])| row.elsewhere(&stand, near, elapsed);
+        let contracted = [0, 1, 2].map(|multiple| point.tensors.map(|tensor| contraction(&tensor, multiple)));
+        let here = |Term { row, multiple, orders, near }: &Term<'_>| {
+            row.elsewhere(&contracted[*multiple][..*orders], near, elapsed)
+        };
         let rows: Vec<Option<[Row; 2]>> =
             terms.iter().map(|term| term.as_ref().map(here).map(|row| [row, row.conjugate()])).collect();
         let average = [Row::average(&stand); 2];
@@ -136,8 +151,8 @@ pub(super) fn actions(
             let divisor = frequency + f64::from(j) * around.mean_motion;
             let part = harmonic * inverse(divisor, stand.duration);
             sum += part;
-            size += part.norm();
-            still += harmonic.norm() * unreturned(divisor, stand.duration);
+            size += part.norm_sqr().sqrt();
+            still += harmonic.norm_sqr().sqrt() * unreturned(divisor, stand.duration);
             waves.iter_mut().zip(&steps).for_each(|(wave, step)| *wave *= step);
         }
         // −i/2 times m or h times S/(iΩ), twice its real part.

@@ -132,7 +132,7 @@ impl Actions {
             if a.single && b.single {
                 chi = source * inverse(omega, stand.duration) * -0.5;
                 // The same two in the other order have the same phase.
-                let left = SQRT_2 * 0.5 * factor * source.norm() * unreturned(omega, stand.duration);
+                let left = SQRT_2 * 0.5 * factor * source.norm_sqr().sqrt() * unreturned(omega, stand.duration);
                 self.leave([left * m.abs(), left * h.abs()]);
             } else {
                 let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
@@ -172,7 +172,7 @@ impl Actions {
 
     /// Adds to what is left.
     fn leave(&mut self, left: [f64; 2]) {
-        self.left = [0, 1].map(|i| self.left[i].hypot(left[i]));
+        self.left = [0, 1].map(|i| (self.left[i] * self.left[i] + left[i] * left[i]).sqrt());
     }
 
     fn sum(&mut self, factor: f64, both: C64, chi: C64, (a, b, [h, m]): (&Row, &Row, [f64; 2])) {

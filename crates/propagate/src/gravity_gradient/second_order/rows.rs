@@ -97,18 +97,22 @@ impl Row {
         Self::of(stand, mode, parts)
     }
 
-    /// D and W of the term with the disturbing body at another place, to [`ENOUGH`], without harmonics of the orbit that are terms of their own; `elapsed` is the time
-    /// from the place where they have their amplitudes. dD/dt and dW/dt are not computed.
-    pub(super) fn elsewhere(&self, stand: &Stand<'_>, near: &[Near], elapsed: f64) -> Self {
-        let multiple = self.multiple as i32; // 0 ≤ m ≤ 2
+    /// The number of derivatives for a sum around the orbit.
+    pub(super) fn orders_around(&self, stand: &Stand<'_>) -> usize {
+        orders(self.frequency[0], stand.norms, ENOUGH)
+    }
+
+    /// D and W of the term with the disturbing body at another place, from the contractions there of as many derivatives as are needed, without harmonics of the orbit
+    /// that are terms of their own; `elapsed` is the time from the place where they have their amplitudes. dD/dt and dW/dt are not computed.
+    pub(super) fn elsewhere(&self, contracted: &[Contraction], near: &[Near], elapsed: f64) -> Self {
         let omega = self.frequency[0];
         let inverse = (C64::i() * omega).inv();
         let mut turns: Vec<C64> =
             near.iter().map(|harmonic| C64::from_polar(1.0, (harmonic.frequency - omega) * elapsed)).collect();
         let (mut torque, mut generator) = (Part::default(), Part::default());
         let mut factor = inverse;
-        for (j, tensor) in stand.tensors.iter().enumerate().take(orders(omega, stand.norms, ENOUGH)) {
-            let mut values = contraction(tensor, multiple);
+        for (j, &values) in contracted.iter().enumerate() {
+            let mut values = values;
             for (harmonic, turn) in near.iter().zip(&mut turns) {
                 for (value, part) in values.iter_mut().zip(harmonic.torque) {
                     *value -= part * *turn;
@@ -131,7 +135,7 @@ impl Row {
     /// One harmonic of the orbit in a term.
     pub(super) fn single(stand: &Stand<'_>, mode: &Mode, near: &Near) -> Self {
         let row = Self::of(stand, mode, near.parts());
-        let share = near.torque.iter().map(|part| part.norm()).fold(0.0, f64::max) / stand.norms[0];
+        let share = near.torque.iter().map(|part| part.norm_sqr()).fold(0.0, f64::max).sqrt() / stand.norms[0];
         let root = stand.inertia.sigma.sqrt().max(SMALLEST_ROOT);
         let size = share * mode.strength(root) * stand.mean.momentum / near.divisor.abs();
         let [_, by_sigma, by_momentum] = row.frequency;

@@ -30,6 +30,9 @@ const SMALLEST_SHARE: f64 = 3e-3;
 /// The part of a pair that one of its harmonics has on an eccentric orbit, where they are many. On a circle it may have all.
 const PART: f64 = 0.3;
 
+/// What harmonics near resonance add is not computed where it is less than this share of the largest change.
+const NOTHING_ADDED: f64 = 1e-6;
+
 /// One term at one place of the disturbing body.
 struct Wave {
     /// h and m.
@@ -143,7 +146,8 @@ impl<'a> Motion<'a> {
                 let apart = omega - harmonic;
                 let distance = (apart.abs() - shift).max(1.0 / demand.duration);
                 let added = (1.0 - distance / counted).max(0.0) * part * share.min(envelope.share.pairs);
-                if added == 0.0 {
+                // The change is at most (counted/distance)² of what its term has in the largest.
+                if added * (counted / distance).powi(2) < NOTHING_ADDED {
                     return 0.0;
                 }
                 2.0 * added * self.turn(&self.driven(distance.copysign(apart), lacking))

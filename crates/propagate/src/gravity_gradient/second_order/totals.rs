@@ -80,8 +80,8 @@ impl Together {
 
     /// S, which may be near 0 at the epoch, but not with its time derivative.
     fn size(&self, stand: &Stand<'_>) -> f64 {
-        let swing = if stand.bend > 0.0 { self.change.norm() / (2.0 * stand.bend.sqrt()) } else { 0.0 };
-        self.source.norm().hypot(swing)
+        let swing = if stand.bend > 0.0 { self.change.norm_sqr() / (4.0 * stand.bend) } else { 0.0 };
+        (self.source.norm_sqr() + swing).sqrt()
     }
 
     /// The real part of S/Ω by the sum over time derivatives.
