@@ -114,9 +114,10 @@ pub(super) fn points(
 ) -> Vec<Point> {
     let eccentricity = demand.orbit.eccentricity();
     let epoch = place.angle.values()[0] - place.centre.values()[0];
+    let generator = without_terms(mean, demand);
     let at = |&(anomaly, weight): &(f64, f64)| {
         let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
-        Point { anomaly: anomaly - epoch, weight, tensors: tensors(mean, &place, demand).0 }
+        Point { anomaly: anomaly - epoch, weight, tensors: tensors_by(&generator, mean, &place) }
     };
     places.iter().map(at).collect()
 }
@@ -137,8 +138,18 @@ pub(super) fn tensors<'a>(
     place: &Place<pulp::Scalar>,
     demand: &Demand<'a>,
 ) -> ([Tensor; ORDERS], &'a [f64]) {
+    (tensors_by(&without_terms(mean, demand), mean, place), &demand.envelope.orbital.norms)
+}
+
+fn tensors_by(generator: &Generator, mean: &Mean, place: &Place<pulp::Scalar>) -> [Tensor; ORDERS] {
+    let frame = QuaternionLanes::all(Lanes::splat(pulp::Scalar, 0.0), &mean.frame);
+    generator.tensors(frame, place).map(|tensor| tensor.map(|lanes| lanes.values()[0]))
+}
+
+/// The orbit's part of a generating function.
+fn without_terms(mean: &Mean, demand: &Demand<'_>) -> Generator {
     let [first, second, _] = demand.orbit.axes();
-    let generator = Generator {
+    Generator {
         harmonics: Default::default(),
         exact: Vec::new(),
         orbital: demand.envelope.orbital.clone(),
@@ -146,8 +157,5 @@ pub(super) fn tensors<'a>(
         strength: 0.0,
         root: 0.0,
         momentum: mean.momentum,
-    };
-    let frame = QuaternionLanes::all(Lanes::splat(pulp::Scalar, 0.0), &mean.frame);
-    let tensors = generator.tensors(frame, place).map(|tensor| tensor.map(|lanes| lanes.values()[0]));
-    (tensors, &demand.envelope.orbital.norms)
+    }
 }

@@ -24,7 +24,7 @@ use crate::gravity_gradient::inertia::Inertia;
 
 type C64 = Complex<f64>;
 
-/// Terms smaller than this share of the largest are left out.
+/// Terms smaller than this share of the largest are left out, and pairs of terms with a smaller product.
 const SMALLEST_SHARE: f64 = 3e-3;
 
 /// The part of a pair that one of its harmonics has on an eccentric orbit, where they are many. On a circle it may have all.
@@ -37,6 +37,8 @@ const NOTHING_ADDED: f64 = 1e-6;
 struct Wave {
     /// h and m.
     numbers: [i32; 2],
+    /// The size of the term over the largest.
+    share: f64,
     /// g′.
     torque_slopes: Slopes,
     /// v.
@@ -48,7 +50,10 @@ struct Wave {
 /// The mean motion of which the change is sought.
 pub(super) struct Motion<'a> {
     inertia: &'a Inertia,
-    modes: Vec<Mode>,
+    /// Each with its size over the largest.
+    modes: Vec<(Mode, f64)>,
+    /// Pairs with a smaller product of sizes are left out.
+    least: f64,
     /// ⟨D⟩ over q and the contraction.
     average: Mode,
     point: Point,
@@ -107,6 +112,7 @@ impl<'a> Motion<'a> {
         Self {
             inertia,
             modes: large_modes(inertia, share, slowest(demand)),
+            least: share,
             average: Mode::average(inertia),
             point: Point { momentum: inertia.momentum, root: inertia.sigma.sqrt() },
             strength: demand.strength(),
@@ -172,7 +178,7 @@ impl<'a> Motion<'a> {
         let mut sums = Sums::default();
         for b in waves {
             let [h, m] = b.numbers;
-            for a in waves {
+            for a in waves.iter().filter(|a| a.share * b.share >= self.least) {
                 let [other_h, other_m] = a.numbers;
                 let conjugate = a.torque_slopes.map(|row| row.map(|slope| slope.conj()));
                 for (sign, slopes, change) in
@@ -196,7 +202,7 @@ impl<'a> Motion<'a> {
     /// The terms, of which e^(±2if) turns at a rate: the sums of two time derivatives are enlarged to what all of them are there, derivatives with respect to Ω twice.
     fn waves(&self, tensors: &[Tensor; 2], turning: f64) -> Vec<Wave> {
         let tensors = tensors.each_ref().map(with_turns);
-        let wave = |mode: &Mode| {
+        let wave = |(mode, share): &(Mode, f64)| {
             let [torque, rate] =
                 tensors.each_ref().map(|tensors| Jet::torque(mode, tensors, self.strength, self.point.root));
             let frequency = mode.frequency.map(|part| part * self.point.momentum);
@@ -205,6 +211,7 @@ impl<'a> Motion<'a> {
             let whole = 1.0 / (1.0 - (turning / frequency[0]).powi(2));
             Wave {
                 numbers: [mode.harmonic, mode.multiple],
+                share: *share,
                 torque_slopes: torque.field_slopes(self.point),
                 change: generator.field(self.point).map(|part| part * whole),
                 change_slopes: generator.field_slopes(self.point).map(|row| row.map(|part| part * whole * whole)),
