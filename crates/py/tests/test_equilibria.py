@@ -291,3 +291,11 @@ def test_picture_of_the_domain_has_a_line_for_each_amplitude():
 
     axes = plot.domain(normalize("(x^2 + X^2)/2 - x^3/3", 8, [("x", "X")]), amplitudes=(0.1, 0.5, 1.0))
     assert len(axes.get_lines()) >= 3 and "order" in axes.get_xlabel()
+
+
+@pytest.mark.parametrize("states", [[], np.zeros((3, 0))])
+def test_a_form_without_a_centre_has_no_centre_manifold(states):
+    saddle = normalize("2*x*X + x**2*X**2", 2, [("x", "X")], keep="hyperbolic")
+    with pytest.raises(andoyer.InputError, match="form without a centre") as refused:
+        saddle.from_centre_manifold(states)
+    assert (refused.value.argument, refused.value.value) == ("states", 0)

@@ -88,23 +88,27 @@ impl Course {
     ///
     /// The torque is singular at the mean anomalies ±i (artanh η − η), where the distance is 0.
     pub(crate) fn arc(&self, mean_anomaly: f64) -> f64 {
+        self.to_singularity(mean_anomaly).min(LONGEST_ARC / self.rate())
+    }
+
+    /// The same without the precession of the orbit.
+    fn to_singularity(&self, mean_anomaly: f64) -> f64 {
         let eccentricity = self.ellipse.eccentricity;
         let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
         // Two terms of the series, where the difference cancels. For a circle the singularity is infinitely far.
         let singular = if eta < 0.01 { eta.powi(3) * (1.0 / 3.0 + eta * eta / 5.0) } else { eta.atanh() - eta };
-        let length = ARC_SHARE * mean_anomaly.hypot(singular) / (TAU * self.mean_anomaly.frequency());
-        length.min(LONGEST_ARC / self.rate())
+        ARC_SHARE * mean_anomaly.hypot(singular) / (TAU * self.mean_anomaly.frequency())
     }
 
-    /// Number of arcs in a unit of time.
+    /// Number of arcs in a unit of time, at most.
     pub(crate) fn arcs(&self) -> f64 {
         let rate = TAU * self.mean_anomaly.frequency();
         let (mut anomaly, mut count) = (-PI, 0.0);
         while anomaly < PI {
-            anomaly += rate * self.arc(anomaly);
+            anomaly += rate * self.to_singularity(anomaly);
             count += 1.0;
         }
-        count * self.mean_anomaly.frequency()
+        count * self.mean_anomaly.frequency() + self.rate() / LONGEST_ARC
     }
 }
 

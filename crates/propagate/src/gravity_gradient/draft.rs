@@ -18,6 +18,9 @@ use crate::torque_free::polhode::Polhode;
 
 type C64 = Complex<f64>;
 
+/// Largest precession of the angular momentum in one radian of the fastest orbit \[rad\].
+const FASTEST_PRECESSION: f64 = 1.0;
+
 /// What the levels of a motion share.
 pub(super) struct Outset<'a> {
     pub(super) polhode: &'a Polhode,
@@ -74,7 +77,7 @@ impl<'a> Outset<'a> {
     /// The motion at a level.
     ///
     /// # Errors
-    /// As [`Outset::new`], and those of the average over the orbit.
+    /// As [`Outset::new`], those of the average over the orbit, and [`Error::TorqueTooStrong`] if the angular momentum precesses faster than the disturbing bodies move.
     pub(super) fn draft(&self, level: Level) -> Result<Draft, Error> {
         let Self { polhode, paths, demands, first, .. } = self;
         let (motion, refinement) = match &self.refinements {
@@ -85,10 +88,20 @@ impl<'a> Outset<'a> {
             None => (first.clone(), None),
         };
         let averages = Averages::new(polhode, &motion, demands, level);
+        slow_enough(&averages, demands)?;
         let request = Request { level, ..self.request };
         let (by_orbit, error) = error_bound(&request, &motion, refinement, &averages, (paths, demands))?;
         Ok(Draft { level, motion, averages, by_orbit, error })
     }
+}
+
+/// Checks that the averaged equations can be solved: their solution on a quarter of the orbit is a polynomial, which cannot follow a faster precession.
+fn slow_enough(averages: &Averages, demands: &[Demand<'_>]) -> Result<(), Error> {
+    let fastest = demands.iter().fold(0.0_f64, |most, demand| most.max(demand.mean_motion));
+    let turns =
+        averages.ellipses.iter().zip(demands).map(|(ellipse, demand)| ellipse.strength().abs() * demand.mean_motion);
+    let size = turns.sum::<f64>() / fastest;
+    if size <= FASTEST_PRECESSION { Ok(()) } else { Err(Error::TorqueTooStrong { size, bound: FASTEST_PRECESSION }) }
 }
 
 /// Whether the equations are averaged over the orbit as well, and the error bound.

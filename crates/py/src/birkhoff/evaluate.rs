@@ -64,7 +64,7 @@ impl BirkhoffNormalForm {
     /// Raises
     /// ------
     /// InputError
-    ///     An array of another length; a NaN, or a result that overflows.
+    ///     An array of another length; a NaN, or a result that overflows; a form without a centre.
     #[pyo3(signature = (states, parameters=None))]
     #[expect(
         clippy::wrong_self_convention,
@@ -77,6 +77,10 @@ impl BirkhoffNormalForm {
     ) -> PyResult<Array<'py>> {
         let map = self.map(states.py(), parameters)?;
         let centres = either!(&self.form, form => form.modes().iter().filter(|mode| mode.is_elliptic()).count());
+        if centres == 0 {
+            let message = "states: a form without a centre has no centre manifold".to_owned();
+            return Err(error::input("states", 0_usize, "a form with a centre", message));
+        }
         let n = 2 * self.space().degrees_of_freedom();
         Rows::new("states", states, 2 * centres)?.map(n, |centre| map.from_centre(centre))
     }

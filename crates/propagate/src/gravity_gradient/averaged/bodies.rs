@@ -19,6 +19,9 @@ use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
 
+/// Shortest arc, over the time from the epoch.
+const SHORTEST_ARC: f64 = 8.0 * f64::EPSILON;
+
 /// A disturbing body: where it is, and μ in the units of the motion times the user's unit of time in these units.
 #[derive(Clone, Debug)]
 pub(crate) struct Pull {
@@ -62,6 +65,8 @@ impl Averaged for Equations {
     fn arc(&self, sign: f64, from: f64, start: &Column) -> Stretch {
         let longest = |pull: &Pull| pull.course.arc(pull.course.mean_anomaly.angle((sign * from, 0.0)));
         let length = self.pulls.iter().map(longest).fold(f64::INFINITY, f64::min);
+        // Next to the pericentre of a nearly parabolic orbit an arc may be shorter than the spacing of the times.
+        let length = length.max(SHORTEST_ARC * from);
         let half = 0.5 * length;
         let times = NODES.map(|x| sign * (from + half * (1.0 + x)));
         let torques = dispatch(Arch::new(), Torques { pulls: &self.pulls, times });

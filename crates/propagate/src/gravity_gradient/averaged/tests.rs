@@ -2,7 +2,7 @@
 
 use crate::disturbers::DisturbingBody;
 use crate::options::Level;
-use crate::{Body, Method, Motion, Orbit, Scene, State};
+use crate::{Body, Error, Method, Motion, Orbit, Scene, State};
 
 /// A tumbling body under these orbits.
 fn scene(orbits: &[Orbit], duration: f64) -> Scene {
@@ -69,4 +69,57 @@ fn two_halves_of_a_body_act_as_the_whole() {
     // The mean variables and the corrections are the same sums, so only rounding is left.
     let error = apart(&whole, &halves, 3000.0);
     assert!(error < 2e-13, "{error:e}");
+}
+
+#[test]
+fn a_precession_faster_than_the_orbit_is_refused_by_the_theory_and_integrated() {
+    // The polynomials on quarters of the orbit did not converge: every attitude was NaN.
+    let rate = 2.3e-5;
+    let orbit = |factor: f64| {
+        let orbit = Orbit::new(rate, 0.026).and_then(|orbit| orbit.plane(0.5, 0.0, 0.0));
+        orbit.and_then(|orbit| orbit.attraction(factor * rate * rate)).expect("an orbit")
+    };
+    let scene = |orbits: &[Orbit]| {
+        let attitude = [0.1, -0.2, 0.3, 0.927_361_849_549_570_4];
+        let state = State::new(0.0, attitude, [-0.0876, 0.0, -0.571]).expect("a state");
+        let body = Body::new([0.5157, 0.9732, 1.0]).expect("a body");
+        Scene::new(body, state)
+            .disturbing(orbits.iter().copied().map(DisturbingBody::from))
+            .span(0.0, 2000.0)
+            .tolerance(1e-6)
+    };
+    for orbits in [&[orbit(3e5)][..], &[orbit(1.5e5), orbit(1.5e5)]] {
+        let by_theory = scene(orbits).method(Method::Closed).solve();
+        assert!(matches!(by_theory, Err(Error::TorqueTooStrong { size, bound: 1.0 }) if size > 5.0), "{by_theory:?}");
+        let motion = scene(orbits).solve().expect("integrated");
+        assert_eq!(motion.plan().method(), Method::Integrated);
+        assert!(motion.at(2000.0).expect("within the span").attitude.coords.iter().all(|part| part.is_finite()));
+    }
+    // Below the limit the theory serves the scene, to its bound.
+    let slower = &[orbit(1e4)];
+    let [by_theory, exact] =
+        [Method::Closed, Method::Integrated].map(|method| scene(slower).method(method).solve().expect("a motion"));
+    let [one, other] = [&by_theory, &exact].map(|motion| motion.at(2000.0).expect("within the span").attitude);
+    assert!(one.angle_to(&other) <= by_theory.plan().error_bound(), "{:e}", one.angle_to(&other));
+}
+
+#[test]
+fn an_orbit_whose_node_turns_much_faster_than_it_is_solved_in_finite_time() {
+    // Its arcs were counted one by one around an orbit.
+    let orbit = Orbit::new(1e-20, 0.2).and_then(|orbit| orbit.plane(0.3, 0.0, 0.0)?.secular_rates(9.7e-6, 0.0));
+    let motion = scene(&[orbit.expect("an orbit")], 100.0).method(Method::Closed).solve().expect("a motion");
+    assert!(motion.at(100.0).expect("within the span").attitude.coords.iter().all(|part| part.is_finite()));
+}
+
+#[test]
+fn arcs_next_to_the_pericentre_of_a_nearly_parabolic_orbit_advance() {
+    // An arc shorter than the spacing of the times ended where it began.
+    let near = Orbit::new(2e-4, 1.0 - 1e-12).and_then(|orbit| orbit.mass_fraction(1e-200)).expect("an orbit");
+    let near = near.time_of_pericentre(29_165.123).expect("an orbit");
+    let body = Body::new([0.85, 0.9, 1.0]).expect("a body");
+    let state = State::new(0.0, [0.1, -0.2, 0.3, 0.927_361_849_549_570_4], [0.12, -0.05, 1.0]).expect("a state");
+    let orbits = [Orbit::new(5.5e-5, 0.3).expect("an orbit"), near];
+    let scene = Scene::new(body, state).disturbing(orbits.map(DisturbingBody::from)).span(0.0, 33_000.0);
+    let motion = scene.method(Method::Closed).solve().expect("a motion");
+    assert!(motion.at(32_081.0).expect("within the span").attitude.coords.iter().all(|part| part.is_finite()));
 }
