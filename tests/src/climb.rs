@@ -43,13 +43,27 @@ pub enum Family {
     NearlyOblate,
     /// A short span at the pericentre, e up to 0.95.
     Pericentre,
+    /// A span of less than an orbit that begins after the pericentre, e from 0.5 to 0.95.
+    AfterPericentre,
+    /// Moments that differ by 1e-3 to 0.1, a fast orbit, and in half of the scenes a circle.
+    NearlySphere,
+    /// A circle on which pairs of terms with h = 2, m = 0 are near resonance with 4n.
+    Circle,
     /// Any body, by a level of the paper's.
     Levels,
 }
 
 /// All families.
-pub const FAMILIES: [Family; 5] =
-    [Family::Generic, Family::NearlyProlate, Family::NearlyOblate, Family::Pericentre, Family::Levels];
+pub const FAMILIES: [Family; 8] = [
+    Family::Generic,
+    Family::NearlyProlate,
+    Family::NearlyOblate,
+    Family::Pericentre,
+    Family::AfterPericentre,
+    Family::NearlySphere,
+    Family::Circle,
+    Family::Levels,
+];
 
 impl Family {
     /// Its name in a table.
@@ -59,6 +73,9 @@ impl Family {
             Self::NearlyProlate => "nearly prolate",
             Self::NearlyOblate => "nearly oblate",
             Self::Pericentre => "pericentre",
+            Self::AfterPericentre => "after the pericentre",
+            Self::NearlySphere => "nearly a sphere",
+            Self::Circle => "circle",
             Self::Levels => "levels",
         }
     }
@@ -82,6 +99,10 @@ impl Family {
                 let first = mix(0.5, 0.99, shape);
                 [first, first + (1.0 - first) * power(-6.0, -0.7, ratio), 1.0]
             }
+            Self::NearlySphere => {
+                let first = 1.0 - power(-3.0, -1.0, shape);
+                [first, mix(first, 1.0, mix(0.02, 0.98, ratio)), 1.0]
+            }
             _ => {
                 let first = mix(0.05, 0.98, shape);
                 [first, mix(first.max(1.0 - first), 0.999, ratio), 1.0]
@@ -89,23 +110,46 @@ impl Family {
         };
         let tilt = match self {
             Self::NearlyOblate => mix(0.25 * PI, PI / 3.0, tilt),
+            Self::Circle => 0.5 * tilt,
             _ => FRAC_PI_2 * tilt * tilt,
         };
         let (sine, cosine) = tilt.sin_cos();
         let (across, along) = (TAU * azimuth).sin_cos();
         let direction =
             if long_axis { [cosine, sine * along, sine * across] } else { [sine * across, sine * along, cosine] };
-        let eccentricity = if self == Self::Pericentre { mix(0.3, 0.95, eccentricity) } else { 0.6 * eccentricity };
+        let eccentricity = match self {
+            Self::Pericentre => mix(0.3, 0.95, eccentricity),
+            Self::AfterPericentre => mix(0.5, 0.95, eccentricity),
+            Self::NearlySphere => 0.6 * (2.0 * eccentricity - 1.0).max(0.0),
+            Self::Circle => 0.0,
+            _ => 0.6 * eccentricity,
+        };
         let squeezed = (1.0 - eccentricity).powf(1.5) / (1.0 + eccentricity).sqrt();
+        let rates: [f64; 3] = std::array::from_fn(|i| direction[i] / moments[i]);
+        let fastest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         let (mean_motion, span) = match self {
             Self::Pericentre => (squeezed * power(-3.0, -0.7, motion), power(-0.5, 2.0, span)),
+            Self::AfterPericentre => {
+                let mean_motion = power(-4.0, -2.3, motion);
+                (mean_motion, mix(0.05, 0.95, span) * (TAU - mix(0.05, PI, anomaly)) / mean_motion)
+            }
+            Self::NearlySphere => (power(-2.0, -0.8, motion), power(1.3, 3.0, span)),
+            Self::Circle => {
+                // ℓ′ at J = 0.
+                let [first, second, _] = moments;
+                let rate = ((1.0 - first) * (1.0 - second) / (first * second)).sqrt();
+                (0.5 * rate * (1.0 + mix(-0.2, 0.2, motion)), power(1.3, 3.0, span))
+            }
             _ => (power(-4.0, -1.5, motion), power(1.3, 3.0, span)),
         };
-        let rates: [f64; 3] = std::array::from_fn(|i| direction[i] / moments[i]);
-        // In radians of the fastest rate, which the integration's time is proportional to.
-        let span = span / rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
-        // At the pericentre the body is within a radian of the true anomaly there.
-        let mean = if self == Self::Pericentre { squeezed * (2.0 * anomaly - 1.0) } else { TAU * anomaly };
+        // Spans are in radians of the fastest rate, which the integration's time is proportional to, but that of part of an orbit.
+        let span = if self == Self::AfterPericentre { span } else { span / fastest };
+        let mean = match self {
+            // Within a radian of true anomaly from the pericentre.
+            Self::Pericentre => squeezed * (2.0 * anomaly - 1.0),
+            Self::AfterPericentre => mix(0.05, PI, anomaly),
+            _ => TAU * anomaly,
+        };
         let attitude = UnitQuaternion::from_euler_angles(TAU * node, PI * inclination, 1.0);
         let scene = Disturbed::new(
             moments,
