@@ -32,9 +32,9 @@ pub(crate) use several::several;
 
 use choice::{beyond_theory, cheapest, in_ascii, integrated, is_sphere, may_be_integrated, without_span};
 
-/// Error bound below which the corrections are not held against their own effect \[rad\].
+/// An error bound below this is not compared with the effect of the torque \[rad\].
 const WORTH: f64 = 1e-3;
-/// Intervals of a span at whose ends they are.
+/// Intervals of the span at whose ends the effect of the torque is sampled.
 const EFFECT_SAMPLES: u32 = 16;
 
 impl Scene {

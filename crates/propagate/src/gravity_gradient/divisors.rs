@@ -15,14 +15,14 @@ use nalgebra::Vector3;
 
 use super::inertia::Inertia;
 
-/// Harmonics with a smaller divisor, over n, are terms of their own in the sum over pairs.
+/// A harmonic with |Ω + jn| below this times n is a separate term in the sum over pairs.
 const NEAR: f64 = 2.5;
-/// With a smaller one, the shift by the average torque matters more than what else is of second order.
+/// If |Ω + jn| is below this times n, the divisor contains the shift by the average torque. Above it the shift is no larger than other effects of second order.
 const RESONANT: f64 = 1.0;
-/// Largest shift over n.
+/// A shift of this times n or more is not applied.
 const MOST_SHIFT: f64 = 0.3;
 
-/// What the average torque adds to the frequencies.
+/// The shift of the frequencies by the average torque.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Secular {
     /// Of ℓ′ and y′.
@@ -67,9 +67,9 @@ pub(crate) struct Divisors {
     pub(crate) slow: bool,
     /// The harmonic that is left out.
     pub(crate) left_out: Option<i32>,
-    /// What the average torque adds for a = 0, and for each unit of a.
+    /// The shift by the average torque for a = 0, and for each unit of a.
     shift: [f64; 2],
-    /// The most that it adds to a harmonic near resonance.
+    /// Upper estimate of the constant shift of a harmonic.
     pub(crate) steady_shift: f64,
     /// The shift that swings with twice the true anomaly.
     pub(crate) swinging_shift: f64,

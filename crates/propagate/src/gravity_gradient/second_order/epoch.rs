@@ -25,7 +25,7 @@ const SMALLEST_FIRST: f64 = 1e-13;
 /// Terms smaller than this share of the largest are left out of K2.
 const SMALLEST_TERM: f64 = 1e-9;
 
-/// Pairs that turn the attitude by less than this share of the tolerance are not summed around the orbit. They are charged.
+/// Pairs whose error turns the attitude by less than this share of the tolerance are not summed around the orbit. Their error is part of the bound.
 const ENOUGH: f64 = 0.02;
 
 /// A mean state at the epoch.
@@ -34,7 +34,7 @@ pub(crate) struct Refined {
     pub(crate) mean: Mean,
     /// The change of M that leads to the state.
     pub(crate) momentum: f64,
-    /// What is left of the mean M and L, over M.
+    /// Estimated errors of the mean M and L, divided by M.
     pub(crate) left: [f64; 2],
 }
 

@@ -17,12 +17,12 @@ use crate::simd::kepler::Place;
 
 type C64 = Complex<f64>;
 
-/// Harmonics with a larger divisor, over Ω, are in the sums over time derivatives: the corrections take them out at any time.
+/// A harmonic with |Ω + jn| above this times |Ω| is contained in the sums over time derivatives, so its divisor has no factor 1 − e^(−x²T²/4).
 const NEAR: f64 = 0.5;
 
 /// The factors of f in the functions of the series.
 const TURNS: [i32; 3] = [0, 2, -2];
-/// The highest harmonic of ⟨D⟩ that meets them there. At e = 0.6 the next is a four-hundredth of the mean.
+/// Highest |j| of the harmonics of ⟨D⟩ that are paired with single harmonics of terms. At e = 0.6 the next one is 1/400 of the mean of ⟨D⟩.
 const MOST_OF_AVERAGE: usize = 24;
 
 /// A harmonic of the orbit in a term.

@@ -4,9 +4,9 @@ use crate::gravity_gradient::candidate::SMALLEST_RATIO;
 use crate::gravity_gradient::corrections::Demand;
 use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
 
-/// Smallest √σ in the size of a term: forced wobble has no smaller one.
+/// Lower limit of √σ in the size of a term. The wobble that the torque forces is larger.
 pub(super) const SMALLEST_ROOT: f64 = 1e-9;
-/// The same for second derivatives of terms with |h| ≤ 2, over that of the separatrix.
+/// Lower limit of √σ/√σ_sep for second derivatives of terms with |h| ≤ 2, which do not vanish at p = 0.
 const LEAST_ROOT_OF_SECOND: f64 = 0.2;
 
 /// A term f σ^(|h|/2) e^(i(hℓ′+my′)) of the disturbing function over q = 3φn²/2.

@@ -34,14 +34,15 @@ type Lists = [Vec<Together>; 2];
 pub(super) struct Actions {
     pub(super) momentum: f64,
     pub(super) action: f64,
-    /// What is left of them: the rest of the two terms in d/dt, harmonics of the orbit that the sum lacks or that do not return within the span, pairs that are too
-    /// slow where the orbit has too many harmonics, and pairs that are left out for their size. Their phases are independent: the squares add up.
+    /// Their errors: the truncation of the sum over time derivatives after two terms, harmonics of the orbit that the sum lacks or that do not return within
+    /// the span, pairs that are too slow where the orbit has too many harmonics, and pairs that are left out for their size. Their phases are independent: the
+    /// squares add up.
     pub(super) left: [f64; 2],
     /// The largest changes by one pair over the product of its relative sizes.
     largest: [f64; 2],
 }
 
-/// What the sum has of the orbit's harmonics.
+/// The harmonics of the orbit in the sum.
 #[derive(Default)]
 pub(super) struct OrbitParts<'a> {
     /// The terms whose divisors are exact.

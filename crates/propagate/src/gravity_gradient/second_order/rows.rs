@@ -11,7 +11,7 @@ use crate::gravity_gradient::inertia::Inertia;
 
 type C64 = Complex<f64>;
 
-/// What the sum over time derivatives of a term may leave, over its first part, in a sum around the orbit.
+/// Relative truncation error of the sum over time derivatives when a term is evaluated at the points around the orbit.
 const ENOUGH: f64 = 1e-4;
 
 /// The state at which the sum is taken.
@@ -26,9 +26,10 @@ pub(super) struct Stand<'a> {
     pub(super) sizes: &'a [f64; ORDERS + 1],
     /// The largest on the orbit.
     pub(super) norms: &'a [f64],
-    /// Frequency below which pairs have no sum over time derivatives: the fastest of the orbit's times [`SMALLEST_RATIO`](crate::gravity_gradient::candidate::SMALLEST_RATIO).
+    /// Frequency below which pairs have no sum over time derivatives: the largest rate of twice the true anomaly times
+    /// [`SMALLEST_RATIO`](crate::gravity_gradient::candidate::SMALLEST_RATIO).
     pub(super) slowest: f64,
-    /// S has the harmonics of the orbit with multiples of this frequency.
+    /// The harmonics of the orbit in S are multiples of this frequency.
     pub(super) orbital_step: f64,
     /// Longest time from the epoch.
     pub(super) duration: f64,
@@ -102,8 +103,8 @@ impl Row {
         orders(self.frequency[0], stand.norms, ENOUGH)
     }
 
-    /// D and W of the term with the disturbing body at another place, from the contractions there of as many derivatives as are needed, without harmonics of the orbit
-    /// that are terms of their own; `elapsed` is the time from the place where they have their amplitudes. dD/dt and dW/dt are not computed.
+    /// D and W of the term with the disturbing body at another place, from the contractions of the tensor and its derivatives there. The harmonics `near` are
+    /// terms of their own and are subtracted; `elapsed` is the time from the place of their amplitudes. dD/dt and dW/dt are not computed.
     pub(super) fn elsewhere(&self, contracted: &[Contraction], near: &[Near], elapsed: f64) -> Self {
         let omega = self.frequency[0];
         let inverse = (C64::i() * omega).inv();
@@ -169,7 +170,7 @@ impl Row {
         Self { frequency, parts: Parts { torque, ..Parts::default() }, single: true, ..*self }
     }
 
-    /// ⟨D⟩, twice: it is no part of D̃, and S has not the half of it.
+    /// 2⟨D⟩. The source of a pair with ⟨D⟩ is [⟨D⟩, W_b], without the factor ½ of S_ab = ½ [D_a, W_b].
     pub(super) fn average(stand: &Stand<'_>) -> Self {
         let function = Mode::average(stand.inertia).function;
         let part = |tensor: &Tensor| Part { value: contraction(tensor, 0), slope: C64::default() };

@@ -1,4 +1,4 @@
-//! What K2 in closed form lacks of its average over the orbit: the terms from (n/Ω)² on, and those of terms that it does not have.
+//! The part of the average of K2 over the orbit that K2 in closed form lacks: the terms from (n/Ω)² on, and the terms that it does not contain.
 //!
 //! With the harmonics c_mj e^(ijl) of the contractions, F = σ^(|h|/2) f and q = 3φn²/2, the average is
 //!
@@ -7,9 +7,9 @@
 //! α_mj = −|c_mj|²,   β_mj = −2 Im (X₁c_mj X₂c̄_mj),   G = 1/(Ω + jn)
 //! ```
 //!
-//! with h > 0 for m = 0, and X₁, X₂ the turns of the frame about its axes 1 and 2. K2 in closed form has 1/Ω − jn/Ω² for G, so that (jn)²/(Ω² (Ω + jn)) is left. Its
-//! derivatives are taken at the epoch. As k precesses, the part of the turning about the normal of the orbit turns with it; the rest, of the order of e², stays in
-//! space.
+//! with h > 0 for m = 0, and X₁, X₂ the turns of the frame about its axes 1 and 2. K2 in closed form has 1/Ω − jn/Ω² for G, so that (jn)²/(Ω² (Ω + jn)) is
+//! left. Its derivatives are taken at the epoch. As k precesses, the part of the turning about the normal of the orbit turns with it; the rest, of the order of
+//! e², stays in space.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -230,7 +230,7 @@ fn summed(inertia: &Inertia, modes: &[Mode], exact: &[ExactTerm]) -> Vec<Mode> {
 
 /// G and its derivatives for a harmonic of a term whose divisors are exact.
 fn of_divisors(divisors: &Divisors, j: i32) -> [f64; 3] {
-    // One divisor for all parts of the harmonic: what this leaves is charged with the shift.
+    // One divisor for all parts of the harmonic. The error is part of that of the shift.
     let divisor = divisors.at(j, 2 * j.signum());
     if divisors.slow {
         let inverse = divisor.recip();
