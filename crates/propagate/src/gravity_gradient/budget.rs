@@ -36,7 +36,7 @@ use largest::Sample;
 const SAMPLES: usize = 48;
 /// Safety factor of the second-order error. The largest change may exceed the largest sample, and enters squared; second order has a factor too. With this
 /// margin the worst case found by hill climbing (docs/gravity-gradient.md) is below its bound.
-const MARGIN: f64 = 2.0;
+const SECOND_ORDER_MARGIN: f64 = 2.0;
 /// The safety factor of the short-period change of second order: the constants that make the motion start at the state may double it, and the distance from the
 /// state grows by its own second order.
 const SHORT_PERIOD_MARGIN: f64 = 2.4;
@@ -47,7 +47,7 @@ const SLOW_MARGIN: f64 = 1.0;
 /// Safety factor of [`Turns::resonant`].
 const RESONANT_PAIRS_MARGIN: f64 = 2.0;
 /// [`Turns::resonant`] is multiplied by 1 plus this times S, for its third order.
-const GROWING: f64 = 60.0;
+const PAIRS_THIRD_ORDER: f64 = 60.0;
 /// The drift of third order is multiplied by 1 plus this times S, for its fourth order.
 const FURTHER: f64 = 15.0;
 /// The safety factor of the distance between the motions of first and of second order.
@@ -86,14 +86,14 @@ pub(super) struct Subject<'a> {
     /// The part of the orbit within the span.
     pub(super) reach: &'a Reach,
     /// `None` at the levels "paper" and "moving", for several bodies and for precessing orbits.
-    pub(super) further: Option<Further>,
+    pub(super) further: Option<SecondOrderErrors>,
     /// d⟨T33⟩/dσ times −3/4 of the mass fraction over M.
     pub(super) drift: f64,
 }
 
 /// Error estimates from the second order in the torque, for a motion whose mean M and L contain all terms.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Further {
+pub(super) struct SecondOrderErrors {
     /// The short-period change of second order.
     pub(super) short_period: Turns,
     /// Estimated errors of the mean M and L, divided by M.
@@ -125,18 +125,18 @@ impl Budget {
             square * (1.0 + orbital)
         };
         let (spin, dropped) = match subject.further {
-            Some(Further { short_period, left, cut, acting, apart }) => {
+            Some(SecondOrderErrors { short_period, left, cut, acting, apart }) => {
                 let growing = response.growing(sizes, p, duration, [acting, cut]) * (1.0 + FURTHER * corrections.size);
                 let left = response.of_actions(left, duration);
                 let slow = SLOW_MARGIN * corrections.slow * (slope + corrections.slow)
-                    + RESONANT_PAIRS_MARGIN * short_period.resonant * (1.0 + GROWING * corrections.size);
+                    + RESONANT_PAIRS_MARGIN * short_period.resonant * (1.0 + PAIRS_THIRD_ORDER * corrections.size);
                 let bounded = SHORT_PERIOD_MARGIN * short_period.largest;
                 let spin = bounded + THIRD_MARGIN * growing + slow + left + FIRST_MARGIN * apart;
                 (spin, corrections.at_once + corrections.resonant)
             }
             None => {
                 let second = response.second_order(sizes, p, duration);
-                (MARGIN * second, corrections.dropped + 2.0 * corrections.rest)
+                (SECOND_ORDER_MARGIN * second, corrections.dropped + 2.0 * corrections.rest)
             }
         };
         Self {

@@ -21,7 +21,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use num_complex::Complex;
 
 use super::aspect::Aspect;
-use super::candidate::{Candidate, SMALLEST_RATIO};
+use super::candidate::{Candidate, SLOW_RATIO};
 use super::course::fixed;
 use super::divisors::Secular;
 use super::envelope::Envelope;
@@ -198,7 +198,7 @@ impl Terms {
 
     /// Whether a term is fast enough for a sum over time derivatives.
     fn regular(&self, candidate: &Candidate) -> bool {
-        candidate.frequency.abs() > SMALLEST_RATIO * self.fastest
+        candidate.frequency.abs() > SLOW_RATIO * self.fastest
     }
 }
 
@@ -253,10 +253,10 @@ impl Corrections {
         let allowed = demand.tolerance.max(second_order(whole, &response, duration));
         let choices: Vec<_> = terms.all.iter().map(|term| selection.choice(term)).collect();
         let effects = terms.all.iter().zip(&choices).map(|(term, choice)| {
-            let corrected = matches!(choice, Choice::Exact(Exact { left_out: None, .. }));
+            let corrected = matches!(choice, Choice::Exact(Exact { excluded: None, .. }));
             (selection.effect(term, choice), corrected, term)
         });
-        let resonant = selection.commensurability.left(effects, allowed)?;
+        let resonant = selection.commensurability.total_error(effects, allowed)?;
         let mut dropped = resonant;
         let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
         let omitted = omitted.iter().map(|term| selection.commensurability.whole(term)).sum();
@@ -272,8 +272,8 @@ impl Corrections {
             let growth = growth(if demand.refined { 1 } else { candidate.multiple });
             let is_slow = selection.commensurability.is_slow(candidate);
             match (*choice, series) {
-                (Choice::Exact(Exact { left_out, size, .. }), Some(series)) => {
-                    let divisors = selection.commensurability.divisors(candidate).without(left_out);
+                (Choice::Exact(Exact { excluded, size, .. }), Some(series)) => {
+                    let divisors = selection.commensurability.divisors(candidate).without(excluded);
                     exact.push(candidate.exact(inertia, (series, divisors), nothing));
                     slow += if is_slow { size } else { 0.0 };
                     rest += growth * nothing;

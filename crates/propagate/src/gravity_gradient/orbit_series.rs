@@ -8,10 +8,10 @@ use super::envelope::{Reach, decay};
 
 type C64 = Complex<f64>;
 
-/// Logarithm of the largest harmonic over the first that is left out.
-const RANGE: f64 = 28.0;
+/// Harmonics below e^(−`LOG_CUTOFF`) of the largest are left out.
+const LOG_CUTOFF: f64 = 28.0;
 /// Most harmonics; more are needed from an eccentricity of 0.8 on.
-const MOST: f64 = 320.0;
+const MOST_HARMONICS: f64 = 320.0;
 /// Least length of the longer side of a span in orbits: without the pericentre, and with it or on a circle.
 pub(super) const FEWEST_ORBITS: [f64; 2] = [1.5, 0.3];
 
@@ -43,8 +43,8 @@ fn count(eccentricity: f64) -> Option<usize> {
     if eccentricity == 0.0 {
         return Some(2);
     }
-    let count = 6.0 + RANGE / decay(eccentricity);
-    (count <= MOST).then_some(count as usize)
+    let count = 6.0 + LOG_CUTOFF / decay(eccentricity);
+    (count <= MOST_HARMONICS).then_some(count as usize)
 }
 
 /// The coefficients of cos jl in (a/r)³ and (a/r)³ cos 2f and of sin jl in (a/r)³ sin 2f, halved but for j = 0.

@@ -1,19 +1,19 @@
 //! Resonances, where averaging is not valid: terms e^(i(hℓ′+my′)) whose frequency Ω is near a multiple of the mean motion of the disturbing body (theory §9).
 //!
-//! A term with |Ω| at most [`SMALLEST_RATIO`] times the largest rate of twice the true anomaly is slow. It is corrected with exact divisors if the orbit has a
+//! A term with |Ω| at most [`SLOW_RATIO`] times the largest rate of twice the true anomaly is slow. It is corrected with exact divisors if the orbit has a
 //! series and the change is small, otherwise not at all ([`super::selection`]). For a faster term the sum for G contains the whole term except the harmonics of
 //! the mean anomaly that are too high for its powers of d/dt. Their amplitude falls like e^(−|j|(arcosh 1/e − η)), as Hansen's coefficients do. A term with
 //! exact divisors contains all harmonics, except the one nearest to resonance if that is not corrected.
 //!
 //! The attitude error of a term or harmonic that is not corrected is its rate times the time during which it acts in one direction, which is the span or
 //! 2/|Ω − jn|. In addition the phases drift, because the term changes σ and, for m ≠ 0, M. This is an upper estimate. The sum of these errors is part of the
-//! error bound. It is [`Error::Resonance`] if the part by terms that are not corrected exceeds [`MARGIN`] times the larger of the tolerance and the
+//! error bound. It is [`Error::Resonance`] if the part by terms that are not corrected exceeds [`REFUSAL_FACTOR`] times the larger of the tolerance and the
 //! second-order error, or if the orbit has a series and one term may leave more than [`LARGEST_EFFECT`].
 
 use std::f64::consts::{PI, TAU};
 
 use super::aspect::Aspect;
-use super::candidate::{Candidate, SMALLEST_RATIO};
+use super::candidate::{Candidate, SLOW_RATIO};
 use super::divisors::{Divisors, Secular};
 use super::envelope::{Envelope, LARGEST_NUMBER, at_most, harmonic};
 use super::orbit_series::OrbitSeries;
@@ -23,12 +23,12 @@ use crate::error::Error;
 /// Harmonics of the orbit, from −3 to 3, with which the frequency of a slow term is compared.
 const SLOW_HARMONICS: i32 = 3;
 /// A scene is refused if the error by terms that are not corrected exceeds this multiple of the larger of the tolerance and the second-order error.
-const MARGIN: f64 = 10.0;
+const REFUSAL_FACTOR: f64 = 10.0;
 /// If the orbit has a series, a scene is refused if the upper estimate of the attitude error by one term is larger \[rad\].
 const LARGEST_EFFECT: f64 = 0.03;
 /// Harmonics on each side of the nearest one that are looked at.
 const NEIGHBOURS: i32 = 3;
-/// A smaller error by a term that is corrected is no reason to refuse a scene \[rad\].
+/// A scene is not refused for an error by a corrected term of at most this \[rad\].
 const SERVED: f64 = 1e-3;
 /// If the upper estimate of the attitude error by a harmonic is at most this, its coefficient is not computed \[rad\].
 const NEGLIGIBLE: f64 = 1e-14;
@@ -65,10 +65,10 @@ impl Commensurability<'_> {
     /// its harmonics.
     ///
     /// # Errors
-    /// - [`Error::Resonance`] if the errors by terms that are not corrected, and errors by corrected terms above [`SERVED`], sum to more than [`MARGIN`] times
-    ///   `allowed`, or if the orbit has a series and the upper estimate of one term exceeds [`LARGEST_EFFECT`]. It names the term with the largest upper
-    ///   estimate.
-    pub(super) fn left<'a>(
+    /// - [`Error::Resonance`] if the errors by terms that are not corrected, and errors by corrected terms above [`SERVED`], sum to more than
+    ///   [`REFUSAL_FACTOR`] times `allowed`, or if the orbit has a series and the upper estimate of one term exceeds [`LARGEST_EFFECT`]. It names the term with
+    ///   the largest upper estimate.
+    pub(super) fn total_error<'a>(
         &self,
         effects: impl Iterator<Item = ([f64; 2], bool, &'a Candidate)>,
         allowed: f64,
@@ -84,12 +84,14 @@ impl Commensurability<'_> {
             }
         }
         match largest {
-            Some((most, term)) if uncorrected > MARGIN * allowed || self.series.is_some() && most > LARGEST_EFFECT => {
+            Some((most, term))
+                if uncorrected > REFUSAL_FACTOR * allowed || self.series.is_some() && most > LARGEST_EFFECT =>
+            {
                 Err(Error::Resonance {
                     harmonic: term.harmonic,
                     multiple: term.multiple,
                     divisor: 2.0 * term.frequency.abs() / self.fastest,
-                    bound: 2.0 * SMALLEST_RATIO,
+                    bound: 2.0 * SLOW_RATIO,
                 })
             }
             _ => Ok(sum),
@@ -135,7 +137,7 @@ impl Commensurability<'_> {
 
     /// Whether a term is too slow for a sum over time derivatives.
     pub(super) fn is_slow(&self, term: &Candidate) -> bool {
-        term.frequency.abs() <= SMALLEST_RATIO * self.fastest
+        term.frequency.abs() <= SLOW_RATIO * self.fastest
     }
 
     /// The attitude error over the span if the term is not corrected at all \[rad\]: by the low harmonics of the orbit, and by the nearest one above them.

@@ -16,9 +16,9 @@ const LARGEST: f64 = 0.01;
 const LARGEST_TURN: f64 = 0.2;
 /// A harmonic that does not return within the span is corrected only if the largest error of its correction is below this multiple of its effect without
 /// correction.
-const WORTH: f64 = 2.0;
+const CORRECTION_LIMIT: f64 = 2.0;
 /// Safety factor of the error by pairs of the harmonic with other terms and harmonics.
-const MARGIN: f64 = 0.7;
+const PAIR_MARGIN: f64 = 0.7;
 
 /// Safety factor of the error by the parts of the shift of Ω that the divisor lacks.
 const SHIFT_MARGIN: f64 = 1.5;
@@ -30,7 +30,7 @@ const SECOND_SHIFT: f64 = 0.5;
 const SQUARE_DRIFT: f64 = 0.25;
 
 /// The error of a harmonic near resonance is multiplied by 1 plus this times the sum of the sizes of all terms, for its third order.
-const GROWING: f64 = 10.0;
+const HARMONIC_THIRD_ORDER: f64 = 10.0;
 
 /// The data from which a [`Choice`] is made.
 pub(super) struct Selection<'a> {
@@ -64,7 +64,7 @@ pub(super) enum Choice {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Exact {
     /// The harmonic of the orbit that is left out, because the term is too near to a resonance with it.
-    pub(super) left_out: Option<i32>,
+    pub(super) excluded: Option<i32>,
     /// Largest change of the attitude by the term \[rad\].
     pub(super) size: f64,
     /// Attitude error over the span by the harmonics near resonance, corrected or not \[rad\].
@@ -125,7 +125,7 @@ impl Selection<'_> {
         (orders, self.rest(term, orders))
     }
 
-    /// A term with exact divisors. The harmonic nearest to resonance is left out if its correction may leave more than [`WORTH`] times its effect.
+    /// A term with exact divisors. The harmonic nearest to resonance is left out if its correction may leave more than [`CORRECTION_LIMIT`] times its effect.
     fn exact(
         &self,
         term: &Candidate,
@@ -134,23 +134,23 @@ impl Selection<'_> {
     ) -> Exact {
         let Commensurability { duration, .. } = self.commensurability;
         let divisors = self.commensurability.divisors(term);
-        let [left, at_most] = self.left(term, nearest, &divisors);
+        let [left, at_most] = self.correction_error(term, nearest, &divisors);
         let first = self.commensurability.turned(term, nearest.amplitude, nearest.distance);
         let [_, turn] = term.swing_at(nearest.distance).map(|part| nearest.amplitude * part);
         let small = nearest.amplitude * term.size_at(nearest.distance) <= LARGEST && turn <= LARGEST_TURN;
         let nothing = nearest.amplitude == 0.0;
-        let corrected = nothing || returns(nearest.distance, duration) || small && at_most < WORTH * first;
-        let (left_out, both) = if corrected { (None, [left, at_most]) } else { (Some(nearest.harmonic), [first; 2]) };
-        let beside = beside.iter().map(|near| self.left(term, near, &divisors));
+        let corrected = nothing || returns(nearest.distance, duration) || small && at_most < CORRECTION_LIMIT * first;
+        let (excluded, both) = if corrected { (None, [left, at_most]) } else { (Some(nearest.harmonic), [first; 2]) };
+        let beside = beside.iter().map(|near| self.correction_error(term, near, &divisors));
         let [effect, at_most] = beside.fold(both, |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
-        let [size, square] = self.harmonics(term, &divisors.without(left_out), series);
+        let [size, square] = self.harmonics(term, &divisors.without(excluded), series);
         let slow = self.commensurability.is_slow(term);
         let drift = if slow { self.moved(&divisors, nearest.distance) * square * duration } else { 0.0 };
-        Exact { left_out, size, effect: effect + drift, at_most: at_most + drift }
+        Exact { excluded, size, effect: effect + drift, at_most: at_most + drift }
     }
 
     /// Attitude error over the span by the correction of a harmonic near resonance, and its upper estimate \[rad\].
-    fn left(&self, term: &Candidate, near: &NearHarmonic, divisors: &Divisors) -> [f64; 2] {
+    fn correction_error(&self, term: &Candidate, near: &NearHarmonic, divisors: &Divisors) -> [f64; 2] {
         let Commensurability { duration, response, mean_motion, eccentricity, fastest, .. } = self.commensurability;
         let NearHarmonic { amplitude, distance, .. } = *near;
         if amplitude == 0.0 {
@@ -167,7 +167,7 @@ impl Selection<'_> {
         let passing = 2.0 * (term.frequency / fastest).abs();
         let bounded = (size + turn) * (self.whole + passing * term.size());
         let drift = SQUARE_DRIFT * self.moved(divisors, distance) * distance * duration;
-        let second = square * (1.0 + drift) + MARGIN * bounded;
+        let second = square * (1.0 + drift) + PAIR_MARGIN * bounded;
         // The divisors contain the mean shift of Ω by the average torque. They lack its dependence on σ and k, the part that swings with the orbit, and its
         // second order.
         let (steady, angles) = (divisors.steady_shift, turn + amplitude * term.shift / (distance * distance));
@@ -175,7 +175,7 @@ impl Selection<'_> {
         let further =
             steady * steady / (mean_motion * distance) + self.whole * self.whole * term.frequency.abs() / distance;
         let shift = (swinging + further).min(1.0);
-        // A shift that swings makes sidebands with divisors of about n, if the span is several orbits long.
+        // A shift that swings makes sidebands with divisors of about n, if the span has at least `FEWEST_ORBITS[0]` orbits.
         let direct = amplitude * term.rate / distance;
         let shifted = if mean_motion * duration >= FEWEST_ORBITS[0] * TAU {
             swinging * (direct + SIDEBANDS * distance / mean_motion * angles) + SECOND_SHIFT * further * angles
@@ -185,7 +185,7 @@ impl Selection<'_> {
         let of_mean = swing * ((steady / distance).min(1.0) + SQUARE_DRIFT * shift * shift * lasting);
         let left = second + SHIFT_MARGIN * shifted.min(direct + angles) + of_mean;
         let at_most = second + SHIFT_MARGIN * shift * (angles + shift * swing * lasting);
-        let third = 1.0 + GROWING * self.whole;
+        let third = 1.0 + HARMONIC_THIRD_ORDER * self.whole;
         [third * left, third * at_most.max(left)]
     }
 
@@ -199,7 +199,7 @@ impl Selection<'_> {
     fn harmonics(&self, term: &Candidate, divisors: &Divisors, series: &OrbitSeries) -> [f64; 2] {
         let count = series.coefficients.len() as i32;
         let mut sums = [0.0; 2];
-        for j in (1 - count..count).filter(|j| divisors.left_out != Some(*j)) {
+        for j in (1 - count..count).filter(|j| divisors.excluded != Some(*j)) {
             let functions = &series.coefficients[j.unsigned_abs() as usize];
             let largest = functions.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
             let divisor = divisors.smallest(j).abs();

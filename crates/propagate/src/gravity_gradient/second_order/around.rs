@@ -19,11 +19,11 @@ type C64 = Complex<f64>;
 /// Most points around an orbit; more are needed from an eccentricity of 0.77 on, and for a harmonic above 60.
 const MOST_POINTS: f64 = 128.0;
 /// Relative error of a sum around the orbit, because S changes within the span.
-const LEFT: f64 = 0.002;
+const SOURCE_CHANGE: f64 = 0.002;
 /// The same for slow pairs, which K2 lacks. With this value random scenes stay below their bounds (`gradient table`).
-const SLOW_LEFT: f64 = 0.02;
+const SLOW_SOURCE_CHANGE: f64 = 0.02;
 /// Pairs of terms are left out if the product of their sizes, each divided by the largest, is smaller.
-pub(super) const SMALLEST_PRODUCT: f64 = 1e-6;
+pub(super) const PAIR_PRODUCT_CUTOFF: f64 = 1e-6;
 
 /// The disturbing body at one place of its orbit.
 pub(super) struct Point {
@@ -156,7 +156,7 @@ pub(super) fn actions(
             waves.iter_mut().zip(&steps).for_each(|(wave, step)| *wave *= step);
         }
         // With X = Σ_j S_j/(Ω + jn), M changes by −m Re X and L by −h Re X.
-        let share = if frequency.abs() <= stand.slowest { SLOW_LEFT } else { LEFT };
+        let share = if frequency.abs() <= stand.slowest { SLOW_SOURCE_CHANGE } else { SOURCE_CHANGE };
         let left = share * size + still;
         for (i, number) in [*m, *h].into_iter().enumerate() {
             actions[0][i] -= number * sum.re;
@@ -175,7 +175,7 @@ fn pairs(listed: &[(Mode, f64)], totals: &[Total]) -> Vec<Pair> {
                 let sign = if conjugated { -1 } else { 1 };
                 let [h, m] = [a.harmonic + sign * b.harmonic, a.multiple + sign * b.multiple].map(f64::from);
                 let place = totals.iter().position(|total| total.numbers == [h, m] || total.numbers == [-h, -m]);
-                if let Some(place) = place.filter(|_| size * other >= SMALLEST_PRODUCT) {
+                if let Some(place) = place.filter(|_| size * other >= PAIR_PRODUCT_CUTOFF) {
                     let opposite = totals[place].numbers != [h, m];
                     pairs.push(Pair { place, terms: [Some(i), Some(k)], conjugated, opposite });
                 }

@@ -3,7 +3,7 @@
 use num_complex::Complex;
 
 use super::harmonics::{Near, Part, Parts};
-use super::modes::{Mode, SMALLEST_ROOT};
+use super::modes::{Mode, ROOT_FLOOR};
 use crate::gravity_gradient::contraction::{Contraction, Tensor, contraction};
 use crate::gravity_gradient::corrections::Mean;
 use crate::gravity_gradient::generator::ORDERS;
@@ -12,7 +12,7 @@ use crate::gravity_gradient::inertia::Inertia;
 type C64 = Complex<f64>;
 
 /// Relative truncation error of the sum over time derivatives when a term is evaluated at the points around the orbit.
-const ENOUGH: f64 = 1e-4;
+const SUM_ACCURACY: f64 = 1e-4;
 
 /// The state at which the sum is taken.
 pub(super) struct Stand<'a> {
@@ -27,7 +27,7 @@ pub(super) struct Stand<'a> {
     /// The largest on the orbit.
     pub(super) norms: &'a [f64],
     /// Frequency below which pairs have no sum over time derivatives: the largest rate of twice the true anomaly times
-    /// [`SMALLEST_RATIO`](crate::gravity_gradient::candidate::SMALLEST_RATIO).
+    /// [`SLOW_RATIO`](crate::gravity_gradient::candidate::SLOW_RATIO).
     pub(super) slowest: f64,
     /// The harmonics of the orbit in S are multiples of this frequency.
     pub(super) orbital_step: f64,
@@ -100,7 +100,7 @@ impl Row {
 
     /// The number of derivatives for a sum around the orbit.
     pub(super) fn orders_around(&self, stand: &Stand<'_>) -> usize {
-        orders(self.frequency[0], stand.norms, ENOUGH)
+        orders(self.frequency[0], stand.norms, SUM_ACCURACY)
     }
 
     /// D and W of the term with the disturbing body at another place, from the contractions of the tensor and its derivatives there. The harmonics `near` are
@@ -137,7 +137,7 @@ impl Row {
     pub(super) fn single(stand: &Stand<'_>, mode: &Mode, near: &Near) -> Self {
         let row = Self::of(stand, mode, near.parts());
         let share = near.torque.iter().map(|part| part.norm_sqr()).fold(0.0, f64::max).sqrt() / stand.norms[0];
-        let root = stand.inertia.sigma.sqrt().max(SMALLEST_ROOT);
+        let root = stand.inertia.sigma.sqrt().max(ROOT_FLOOR);
         let size = share * mode.strength(root) * stand.mean.momentum / near.divisor.abs();
         let [_, by_sigma, by_momentum] = row.frequency;
         Self { size, frequency: [near.divisor, by_sigma, by_momentum], single: true, shifted: near.shifted, ..row }
@@ -153,7 +153,7 @@ impl Row {
         Self {
             harmonic: h,
             multiple: m,
-            size: mode.size(stand.inertia.sigma.sqrt().max(SMALLEST_ROOT)),
+            size: mode.size(stand.inertia.sigma.sqrt().max(ROOT_FLOOR)),
             frequency: [mean.momentum * nu, mean.momentum * slope, nu],
             weight: if mode.multiple == 1 { phase * -C64::i() } else { phase },
             amplitude: amplitude(mode.harmonic, mode.function, stand.inertia.sigma),

@@ -25,7 +25,7 @@ use crate::gravity_gradient::inertia::Inertia;
 type C64 = Complex<f64>;
 
 /// Terms smaller than this share of the largest are left out, and pairs of terms with a smaller product.
-const SMALLEST_SHARE: f64 = 3e-3;
+const SIZE_CUTOFF: f64 = 3e-3;
 
 /// Share of one harmonic in a pair as e → 1, where many harmonics share the pair. On a circle the share is 1.
 const PART: f64 = 0.3;
@@ -48,7 +48,7 @@ struct Wave {
 }
 
 /// The mean motion of which the change is sought.
-pub(super) struct Motion<'a> {
+pub(super) struct ShortPeriod<'a> {
     inertia: &'a Inertia,
     /// Each with its size over the largest.
     modes: Vec<(Mode, f64)>,
@@ -79,7 +79,7 @@ impl Turns {
     /// Those with the disturbing body at these true anomalies. `sizes` are the turn of the attitude for a unit change of p and the sum of the first-order
     /// changes of the attitude.
     pub(crate) fn new(inertia: &Inertia, mean: &Mean, demand: &Demand<'_>, sizes: [f64; 2], anomalies: &[f64]) -> Self {
-        let motion = Motion::new(inertia, demand, sizes, SMALLEST_SHARE);
+        let motion = ShortPeriod::new(inertia, demand, sizes, SIZE_CUTOFF);
         let [first, second, _] = demand.orbit.axes().map(|axis| mean.frame.inverse() * axis);
         let elements = (demand.mean_motion, demand.orbit.eccentricity());
         let nearest = demand.envelope.span[0];
@@ -107,7 +107,7 @@ fn tensors([first, second]: [Vector3<f64>; 2], (mean_motion, eccentricity): (f64
     [still.map(|part| cube * part), std::array::from_fn(|i| cube * rate * (growth * still[i] + 2.0 * turning[i]))]
 }
 
-impl<'a> Motion<'a> {
+impl<'a> ShortPeriod<'a> {
     pub(super) fn new(inertia: &'a Inertia, demand: &Demand<'_>, [gain, whole]: [f64; 2], share: f64) -> Self {
         Self {
             inertia,

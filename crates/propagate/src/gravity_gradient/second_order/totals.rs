@@ -48,15 +48,15 @@ impl Together {
     }
 
     /// Errors of the changes of M and L by the sum over time derivatives.
-    pub(super) fn left(&self, stand: &Stand<'_>) -> [f64; 2] {
-        self.of_actions(self.size(stand) * stand.left_over(self.total.frequency)).map(f64::abs)
+    pub(super) fn sum_error(&self, stand: &Stand<'_>) -> [f64; 2] {
+        self.of_actions(self.size(stand) * stand.relative_sum_error(self.total.frequency)).map(f64::abs)
     }
 
     /// Whether the harmonics of the orbit are needed, and are not too many. On a circle they are few, and better than the sum over time derivatives.
     pub(super) fn needs(&self, stand: &Stand<'_>, around: &Around<'_>) -> bool {
         let resonant = self.of_actions(self.at_resonance(stand, around)).map(f64::abs);
         let by_sum =
-            if self.is_slow(stand) || around.eccentricity == 0.0 { self.left(stand) } else { Default::default() };
+            if self.is_slow(stand) || around.eccentricity == 0.0 { self.sum_error(stand) } else { Default::default() };
         let enough = stand.enough * stand.mean.momentum;
         let left = [0, 1].map(|i| resonant[i] + by_sum[i]);
         !self.single && left.iter().any(|left| *left > enough) && around.highest(&self.total).is_some()
@@ -96,7 +96,7 @@ impl Together {
 
 impl Stand<'_> {
     /// Error of χ for pairs of frequency Ω, divided by S: the terms of its sum from the third on; for slow pairs all of χ.
-    fn left_over(&self, omega: f64) -> f64 {
+    fn relative_sum_error(&self, omega: f64) -> f64 {
         // A product of two has twice the orbit's rates.
         let fastest = 2.0 * self.bend.sqrt();
         let beyond = omega.abs() - fastest;
