@@ -53,7 +53,7 @@ memcheck: kernels  ## valgrind over the kernels, whose SIMD is pulp's (there is 
 stress: $(VENV)/installed  ## 240,000 random scenes of every regime against 40 digits: docs/data/stress.csv, docs/accuracy.md; minutes
 	$(BIN)/python tests/stress/run.py --write
 
-stress-short: $(VENV)/installed  ## the same with 16,000 scenes, half a minute
+stress-short: $(VENV)/installed  ## the same with 16,000 scenes, a minute
 	$(BIN)/python tests/stress/run.py --short
 
 FUZZED := series_json scene_toml expression scene_numbers

@@ -13,7 +13,7 @@ const SAMPLES: usize = 40;
 
 /// What the integration loses over a span at least \[rad\].
 const LEAST_LOSS: f64 = 1e-12;
-/// From this error over its bound on, it is measured what the integration loses.
+/// Above this error/bound the error of the integration is measured too.
 const SUSPICIOUS: f64 = 0.5;
 
 /// A scene: a state at t = 0 and the span (0, `span`).

@@ -49,7 +49,7 @@ fn a_state_on_the_separatrix_is_recognised_as_such_and_has_a_bound_that_time_lea
 
 #[test]
 fn a_passage_whose_distance_from_the_separatrix_is_rounding_ends_and_says_what_it_does_not_see() {
-    // Moments and rates times odd numbers of forty bits: terms of 200 bits, equal, and Q1 a rounding error. ξ without end over a nome that is not 0 was NaN.
+    // Moments and rates times odd numbers of forty bits: terms of 200 bits, equal, and Q1 a rounding error. An infinite ξ with a nonzero nome gave NaN.
     for (moments, rates) in ON_IT {
         for (large, odd) in [(1_234_567_890_123.0, 987_654_321_987.0), (1_099_511_627_777.0, 1_000_000_000_001.0)] {
             let scene = scene(moments.map(|moment| moment * large), rates.map(|rate| rate * odd / 2.0_f64.powi(40)));

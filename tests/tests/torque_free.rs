@@ -54,7 +54,11 @@ fn error_bound_covers_the_error_of_every_reference_state() {
     for case in &cases(REFERENCE) {
         for method in [Method::Series, Method::Closed] {
             for tolerance in [1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {
-                let Ok(motion) = scene(case).tolerance(tolerance).method(method).solve() else { continue };
+                let motion = match scene(case).tolerance(tolerance).method(method).solve() {
+                    Ok(motion) => motion,
+                    Err(Error::NearSeparatrix { .. }) if method == Method::Series => continue,
+                    Err(error) => panic!("{} to {tolerance} by {method}: {error}", case.name),
+                };
                 let ([error, _], bound) = (errors(&motion, case), motion.plan().error_bound());
                 assert!(error <= bound, "{} to {tolerance}: {error} above the bound {bound}", case.name);
                 // Next to the separatrix the bound has what the error of Q1 makes of the phase over 1e9 rotations.

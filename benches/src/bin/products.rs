@@ -1,7 +1,7 @@
 //! Sparse and dense products, the brackets of a normal form, and normal forms about L1: what `make rivals-products` sets beside other algebras.
 //!
 //! `products` reads the names of tasks from its standard input, a line each, and answers with processor seconds of the main thread, seconds on the clock, the
-//! number of terms, seconds on the clock for the first look at a coefficient, and that coefficient. Factors are made before. Whoever asks checks the answer.
+//! number of terms, seconds on the clock for the first look at a coefficient, and that coefficient. Factors are made before. The caller checks the answer.
 
 use std::hint::black_box;
 use std::io::{BufRead, Write};

@@ -1,4 +1,5 @@
-//! Rotation of a free rigid body from perturbation series: a plan built once for a trajectory, attitude and rates at any epoch.
+//! Rotation of a rigid body, free or under the gravity gradient of other bodies: closed form, perturbation series, averaged theory or numerical integration,
+//! each with an error bound.
 //!
 //! A [`Scene`] (a [`Body`], its [`State`], a tolerance) is solved into a [`Motion`], which is immutable and shared between threads.
 //! Units: none is built in; time, moments and angular velocity in any consistent set, angles in radians. An attitude is the rotation of body

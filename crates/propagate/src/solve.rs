@@ -32,9 +32,9 @@ pub(crate) use several::several;
 
 use choice::{beyond_theory, cheapest, in_ascii, integrated, is_sphere, may_be_integrated, without_span};
 
-/// Error bound below which the corrections are not held against their own effect \[rad\].
-const WORTH: f64 = 1e-3;
-/// Intervals of a span at whose ends they are.
+/// An error bound below this is not compared with the effect of the torque \[rad\].
+const LEAST_CHECKED_BOUND: f64 = 1e-3;
+/// Intervals of the span at whose ends the effect of the torque is sampled.
 const EFFECT_SAMPLES: u32 = 16;
 
 impl Scene {
@@ -315,7 +315,10 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbits: &[Orbit]) -> R
     };
     let fastest = orbits.iter().map(Orbit::mean_motion).fold(0.0, f64::max);
     let turns = request.duration() * fastest / std::f64::consts::TAU;
-    if !matches!(request.level, Level::Paper | Level::Moving) && turns < 1.0 && error > WORTH.max(request.tolerance) {
+    if !matches!(request.level, Level::Paper | Level::Moving)
+        && turns < 1.0
+        && error > LEAST_CHECKED_BOUND.max(request.tolerance)
+    {
         let effect = effect(&motion)?;
         if error > effect {
             return Err(Error::TorqueTooStrong { size: error, bound: effect });

@@ -2,20 +2,16 @@
 
 import doctest
 import inspect
-from importlib.util import find_spec
 
 import pytest
 
 import andoyer
 from andoyer import fit, output
 
-NEEDS = {"output.write_ck": "spiceypy"} | dict.fromkeys(("fit.attitudes", "fit.light_curve", "fit.Fit", "fit.Fit.ensemble"), "scipy")
-
-
-def of_jax():
-    """The functions of andoyer.jax, where there is JAX."""
-    if find_spec("jax"):
-        yield from ((f"jax.{name}", getattr(andoyer.jax, name)) for name in andoyer.jax.__all__)
+JAX = ("jax.angular_velocity", "jax.attitude", "jax.state")
+NEEDS = (
+    {"output.write_ck": "spiceypy"} | dict.fromkeys(("fit.attitudes", "fit.light_curve", "fit.Fit", "fit.Fit.ensemble"), "scipy") | dict.fromkeys(JAX, "jax")
+)
 
 
 def documented():
@@ -29,7 +25,6 @@ def documented():
             )
     for name in fit.__all__:
         yield f"fit.{name}", getattr(fit, name)
-    yield from of_jax()
     yield from ((f"fit.Fit.{member}", value) for member, value in vars(fit.Fit).items() if not member.startswith("_") and callable(value))
     yield from ((f"output.{name}", getattr(output, name)) for name in output.__all__ if callable(getattr(output, name)) and name != "Progress")
 
@@ -37,11 +32,16 @@ def documented():
 EXAMPLES = {name: value for name, value in documented() if ">>>" in (inspect.getdoc(value) or "")}
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+def of_jax():
+    """The functions of andoyer.jax, which is imported only with JAX."""
+    return {f"jax.{name}": getattr(andoyer.jax, name) for name in andoyer.jax.__all__}
+
+
+@pytest.mark.parametrize("name", [*EXAMPLES, *JAX])
 def test_example_of_the_docstring_holds(name, tmp_path, monkeypatch):
     pytest.importorskip(NEEDS.get(name, "numpy"))
     monkeypatch.chdir(tmp_path)
-    text = inspect.getdoc(EXAMPLES[name])
+    text = inspect.getdoc(of_jax()[name] if name in JAX else EXAMPLES[name])
     test = doctest.DocTestParser().get_doctest(text, vars(andoyer).copy(), name, None, None)
     results = doctest.DocTestRunner().run(test)
     assert results.attempted > 0 and results.failed == 0
@@ -63,3 +63,8 @@ def test_every_class_has_an_example_and_everything_public_a_docstring():
         "separatrix_action",
     }
     assert not [name for name, value in documented() if name != "__version__" and not inspect.getdoc(value)]
+
+
+def test_every_function_for_jax_is_among_those_whose_example_is_run():
+    pytest.importorskip("jax")
+    assert set(of_jax()) == set(JAX)

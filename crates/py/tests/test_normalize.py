@@ -40,7 +40,7 @@ def test_text_dictionary_and_sympy_are_the_same_hamiltonian():
 
 
 def test_henon_heiles_of_degree_four_is_that_of_the_published_toda_lattice_less_its_quartic_terms():
-    # -(5/12) N^2 + (7/12) L^2 with N = I_x + I_y and L = x Y - y X: derived in crates/series/tests/birkhoff.rs.
+    # -(5/12) N^2 + (7/12) L^2 with N = I_x + I_y and L = x Y - y X: derived in crates/series/tests/algebra/birkhoff.rs.
     x, p, y, q = sympy.symbols("x X y Y")
     n = (x**2 + p**2 + y**2 + q**2) / 2
     expected = sympy.Poly(n - sympy.Rational(5, 12) * n**2 + sympy.Rational(7, 12) * (x * q - y * p) ** 2, x, p, y, q)

@@ -16,7 +16,7 @@
 //! Legendre polynomials times binomials, theory §5). The harmonic z^j of τ_m is β^j times a polynomial in β², over 2·4^m times a small divisor.
 //!
 //! Cost: the forcing and τ take O(N⁴) additions. The powers of K/J take N⁵/480 products of integers of O(N) bits. They take most of the time above order 20,
-//! and nine tenths of it at order 100. See [`NormalForm`](crate::NormalForm) for times by order. tests/prime_field.rs checks that the divisions are exact.
+//! and nine tenths of it at order 100. Times by order: docs/speed.md (`make bench`). tests/algebra/prime_field.rs checks that the divisions are exact.
 
 use num_bigint::BigInt;
 use num_integer::{Integer, binomial};

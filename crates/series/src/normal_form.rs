@@ -3,9 +3,8 @@
 //! Scaling: orders are those of τ = α/(√γ V). Every form is given without its power of τ. The public coefficients are those of u^j U^k β^l (Gaussian
 //! rationals). The generic triangle computes the transformations of u, U and y when they are first requested.
 //!
-//! Cost in release, one core: order 10 takes 0.06 ms, order 20 0.5 ms, order 30 3 ms, order 50 30 ms and 2 MiB, order 100 0.9 s and 13 MiB. The triangle in
-//! rationals takes 53 ms at order 20, 0.66 s at 30 and 4.3 s at 40. The direct transformation of u or y takes 80 ms at order 20 and 1.1 s at order 30; an
-//! inverse transformation takes a tenth of that. Source: theory §4 and §6; Lara (2017).
+//! Times by order: docs/speed.md (`make bench`). Order 50 takes 2 MiB, order 100 13 MiB. The triangle in rationals takes a hundred times as long at order 20.
+//! An inverse transformation takes a tenth of the time of a direct one. Source: theory §4 and §6; Lara (2017).
 
 use crate::energy::{EnergyNormalization, Generator};
 use crate::rigid_body::{self, MAX_ORDER, PublicForm, Variable};

@@ -1,8 +1,8 @@
 //! The normal form of the rigid body at a given β, in `f64` or in double-double. The propagation evaluates it.
 //!
-//! The Hamiltonian is that of the exact normal form, with a number for β. The module `forms` does the computation. Cost: about N⁴/2 multiply-adds. In `f64`
-//! that is 16 µs at order 12, 0.33 ms at 30 and 4 ms at 60, including the transformation; in [`DoubleDouble`](andoyer_double::DoubleDouble) it is 0.12, 2.6 and
-//! 34 ms. Loss of accuracy against the exact polynomials, for β from 1/16 to 1 − 2^−10 (tests/tests/numeric.rs):
+//! The Hamiltonian is that of the exact normal form, with a number for β. The module `forms` does the computation. Cost: about N⁴/2 multiply-adds; times by
+//! order in `f64` and in [`DoubleDouble`](andoyer_double::DoubleDouble), with the transformation: docs/speed.md (`make bench`). Loss of accuracy against the
+//! exact polynomials, for β from 1/16 to 1 − 2^−10 (tests/tests/numeric.rs):
 //!
 //! ```text
 //! order n                                              10        20        40        60

@@ -41,13 +41,19 @@ impl<C> Terms<C> {
 impl<C: Coefficient> Terms<C> {
     /// Terms in canonical order; no coefficient is 0.
     pub(crate) fn ordered(monomials: Vec<Monomial>, values: Vec<C>) -> Self {
-        debug_assert!(monomials.is_sorted() && monomials.len() == values.len());
+        debug_assert!(
+            monomials.is_sorted() && monomials.len() == values.len(),
+            "terms in canonical order, one value for each monomial"
+        );
         Terms { monomials, values: OnceLock::from(values), words: None, index: None }
     }
 
     /// The same as [`ordered`](Self::ordered), with the coefficients in machine words.
     pub(crate) fn ordered_words(monomials: Vec<Monomial>, words: Words) -> Self {
-        debug_assert!(monomials.is_sorted() && monomials.len() == words.numerators.len());
+        debug_assert!(
+            monomials.is_sorted() && monomials.len() == words.numerators.len(),
+            "terms in canonical order, one value for each monomial"
+        );
         Terms { monomials, values: OnceLock::new(), words: Some(words), index: None }
     }
 

@@ -231,7 +231,8 @@ impl<'a> Run<'a> {
         if self.stop.load(Ordering::Relaxed) { Err(Error::Stopped) } else { Ok(()) }
     }
 
-    /// Of several members that cannot be evaluated the first is told, whatever the threads were; or all of them are `blank`.
+    /// Evaluates each member. The rows of members that fail are filled by `blank`. With [`OnError::Raise`] the error is that of the first such member, for any
+    /// number of threads.
     fn each_member<Rows: Send>(
         &self,
         rows: impl IndexedParallelIterator<Item = Rows>,

@@ -9,7 +9,7 @@ use super::orbit_series::OrbitSeries;
 /// Angles about the normal of the orbit by which the angular momentum may precess \[rad\].
 const PRECESSIONS: [f64; 3] = [-0.3, 0.0, 0.3];
 /// Safety factor for precession.
-const MARGIN: f64 = 1.5;
+const PRECESSION_MARGIN: f64 = 1.5;
 /// The strength is at least this share of what it is at most for any direction.
 const LEAST_SHARE: f64 = 0.2;
 
@@ -46,6 +46,6 @@ impl Aspect {
             sums.iter().map(|sum: &Complex<f64>| sum.norm_sqr()).fold(0.0, f64::max).sqrt()
         };
         let largest = of_functions.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
-        (MARGIN * self.0.iter().map(size).fold(0.0, f64::max)).max(LEAST_SHARE * largest)
+        (PRECESSION_MARGIN * self.0.iter().map(size).fold(0.0, f64::max)).max(LEAST_SHARE * largest)
     }
 }

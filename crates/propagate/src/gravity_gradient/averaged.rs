@@ -1,17 +1,19 @@
 //! The averaged motion of the angular momentum under the gravity gradient (theory §9). The invariable frame moves with the angular momentum and does not turn
 //! about it.
 //!
-//! Let k be the unit angular momentum, Δ(σ) = (3 T33 − A − B − C)/2 averaged over ℓ′ and y′, and κ = 3n Δ/(M η³) times the mass fraction. Then
+//! Let k be the unit angular momentum, Δ(σ) = (3 T33 − A − B − C)/2 averaged over ℓ′ and y′, and κ_o = 3φn Δ/(M η³), where φ is the mass fraction. Then
 //!
 //! ```text
-//! dk/df = κ (1 + e cos f) (k·r̂) (r̂ × k)          dJ/df = n η^(−3) (1 + e cos f) (1 − 3 (k·r̂)²)
+//! dk/df = κ_o (1 + e cos f) (k·r̂) (r̂ × k)        dΨ/df = n η^(−3) (1 + e cos f) (1 − 3 (k·r̂)²)
 //! ```
 //!
-//! where J is the factor of Δ in the phases. `Slow::Spin` solves these equations on quarters of an orbit by Picard's iteration on Chebyshev points. The
-//! right-hand side is a trigonometric polynomial of f and κ is small, so a few iterations converge to rounding error. The result is a polynomial that can be
-//! evaluated at any time of the quarter. A quarter is solved when a time first needs it, and is kept. `Slow::Orbit` is the orbit average: precession about
-//! the orbit's normal, steady in first order, with the periodic part in closed form in f, without an expansion in e. `Slow::Bodies` has the sum over several
-//! disturbing bodies on orbits that may precess. It is averaged over the rotation only, and solved on arcs of time.
+//! where Ψ is the phase integral: to first order the torque adds s Ψ to ℓ′ and −σ s Ψ to y′, with s = −φ Δ′(σ)/(2M) ([`super::averages`]).
+//!
+//! `Slow::Spin` solves these equations on quarters of an orbit by Picard's iteration on Chebyshev points. The right-hand side is a trigonometric polynomial of
+//! f and κ_o is small, so a few iterations converge to rounding error. The result is a polynomial that can be evaluated at any time of the quarter. A quarter
+//! is solved when a time first needs it, and is kept. `Slow::Orbit` is the orbit average: precession about the orbit's normal, steady in first order, with the
+//! periodic part in closed form in f, without an expansion in e. `Slow::Bodies` has the sum over several disturbing bodies on orbits that may precess. It is
+//! averaged over the rotation only, and solved on arcs of time.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::sync::{Arc, LazyLock, RwLock};
@@ -51,7 +53,7 @@ pub(crate) struct AveragedOrbit {
     /// G m/a³ over n².
     fraction: f64,
     axes: [Vector3<f64>; 3],
-    /// κ.
+    /// κ_o.
     strength: f64,
     /// ⟨D⟩ + K2, if the averaged equations are those of second order.
     second: Option<Box<Hamiltonian>>,
@@ -69,7 +71,8 @@ pub(crate) enum Slow {
 }
 
 impl Slow {
-    /// The frame, and what the drifts of ℓ′ and y′ are multiples of, at times after the epoch; `when` is the position of the first body.
+    /// The invariable frame at times after the epoch, and two numbers: the phase integral Ψ twice, or in second order the drifts of ℓ′ and y′. `when` is the
+    /// position of the first body.
     #[inline(always)]
     pub(crate) fn at<S: InstructionSet>(
         &self,
@@ -104,7 +107,7 @@ impl AveragedOrbit {
         Self { second: Some(Box::new(hamiltonian)), ..self }
     }
 
-    /// κ.
+    /// κ_o.
     pub(crate) fn strength(&self) -> f64 {
         self.strength
     }
@@ -134,7 +137,7 @@ impl AveragedOrbit {
         Unit::new_unchecked(self.axes[2])
     }
 
-    /// dJ/dt averaged over the orbit, for an angular momentum along an axis.
+    /// dΨ/dt averaged over the orbit, for an angular momentum along an axis.
     pub(crate) fn secular(&self, axis: &Vector3<f64>) -> f64 {
         // 1 − (3/2) sin² I is computed without cancellation at I = 0.
         let sine_square = axis.cross(&self.axes[2]).norm_squared();
@@ -217,7 +220,7 @@ pub(crate) struct Spin {
 }
 
 impl Spin {
-    /// From the frame at a place of the orbit, where J and the drifts are 0.
+    /// From the frame at a place of the orbit, where Ψ and the drifts are 0.
     pub(crate) fn new(ellipse: AveragedOrbit, frame: UnitQuaternion<f64>, when: &When<pulp::Scalar>) -> Self {
         let (first, inside) = quarter(when.turns.values()[0], when.place.angle.values()[0]);
         let start: Column = [frame.i, frame.j, frame.k, frame.w, 0.0, 0.0];

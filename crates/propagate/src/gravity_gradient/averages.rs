@@ -1,4 +1,4 @@
-//! The averaged torques of a mean motion: what they do to the phases, and the averaged motion that follows from them.
+//! The averaged torques of a mean motion: the drifts of the phases, and the averaged motion that follows from them.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -17,7 +17,8 @@ pub(super) struct Averages {
     pub(super) ellipses: Vec<AveragedOrbit>,
     /// Δ over M.
     delta: f64,
-    /// ⟨D⟩ = −½ (dJ/dt) Δ: dΔ/dσ times −½ over M. The derivatives of ⟨D⟩ with respect to L, and to M at fixed L, follow from it.
+    /// s = −½ (dΔ/dσ)/M, without the mass fraction. ⟨D⟩ = −½ (dΨ/dt) Δ with the phase integral Ψ, so the derivatives of ⟨D⟩ with respect to L, and to M at
+    /// fixed L, are s dΨ/dt and −σ s dΨ/dt.
     pub(super) slope: f64,
 }
 
@@ -36,9 +37,9 @@ impl Averages {
         Self { ellipses: ellipses.collect(), delta, slope: -0.5 * 1.5 * axial_slope / mean.momentum }
     }
 
-    /// The drifts of ℓ′ and y′ over J.
+    /// The drifts of ℓ′ and y′ for a unit of Ψ.
     pub(super) fn per_phase(&self, inertia: &Inertia, request: &Request<'_>) -> [f64; 2] {
-        // J of a single fixed orbit is per mass fraction, which is in its slope.
+        // Ψ of a single fixed orbit does not contain the mass fraction: the slope does.
         let slope = if request.is_fixed() { self.slope * self.ellipses[0].fraction() } else { self.slope };
         [slope, -inertia.sigma * slope]
     }

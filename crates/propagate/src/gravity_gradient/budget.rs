@@ -1,13 +1,17 @@
 //! The parts of the error bound of a motion under a gravity gradient.
 //!
-//! What is bounded in second order, and what harmonics of the orbit near resonance with pairs add, is computed from the pairs of terms
-//! ([`super::second_order::short_period`]). For what grows in third order the largest
-//! first-order change ε is sampled over ℓ′, y′, the position of the disturbing body within the span, and the precession: it is ε times the derivatives of the
-//! change, which have the size of the sum of all terms, times the rates, the time, and again the derivatives. A motion of first order is as far from that of
-//! second order as the drifts of second order lead within the span
-//! ([`super::second_order::drift`]). At the levels of the paper the drift of second order is estimated as what is bounded times rates and time. Further parts
-//! are what the mean M and L lack, the dropped terms, the truncation of the sums for G, the terms that the level omits, the average over the orbit, and
-//! rounding.
+//! The largest first-order change ε is sampled over ℓ′, y′, the position of the disturbing body within the span, and the precession. S is the sum of the sizes
+//! of all terms that are not slow. With one fixed orbit, the levels "full" and "second-order" have these parts:
+//!
+//! 1. the short-period change of second order and its harmonics near resonance ([`super::second_order::short_period`]);
+//! 2. the pairs of terms with a slow term;
+//! 3. the drift of third order, from ε, S, the rates and the time ([`Response::growing`]);
+//! 4. the errors of the mean M and L at the epoch;
+//! 5. at "full" the distance from the averaged motion of second order ([`super::second_order::drift`]).
+//!
+//! At "paper" and "moving", for several bodies and for precessing orbits, the whole error of second order is estimated from ε, S, the rates and the time
+//! ([`Response::second_order`]). Then follow the dropped and resonant terms, the truncation of the sums for G, the terms that the level omits, the average over
+//! the orbit, and rounding.
 
 use std::f64::consts::{PI, TAU};
 
@@ -32,24 +36,24 @@ use largest::Sample;
 const SAMPLES: usize = 48;
 /// Safety factor of the second-order error. The largest change may exceed the largest sample, and enters squared; second order has a factor too. With this
 /// margin the worst case found by hill climbing (docs/gravity-gradient.md) is below its bound.
-const MARGIN: f64 = 2.0;
+const SECOND_ORDER_MARGIN: f64 = 2.0;
 /// The safety factor of the short-period change of second order: the constants that make the motion start at the state may double it, and the distance from the
 /// state grows by its own second order.
 const SHORT_PERIOD_MARGIN: f64 = 2.4;
-/// The safety factor of the drift of third order.
+/// Safety factor of the drift of third order.
 const THIRD_MARGIN: f64 = 2.0;
-/// The same for the pairs of slow terms with others. Their drift is part of the resonant effects.
+/// Safety factor of the pairs of terms with a slow term. Their drift is part of [`Corrections::resonant`].
 const SLOW_MARGIN: f64 = 1.0;
-/// The same for harmonics of the orbit near resonance in pairs.
+/// Safety factor of [`Turns::resonant`].
 const RESONANT_PAIRS_MARGIN: f64 = 2.0;
-/// The third-order part of their charge, over the charge and the sum of all terms.
-const GROWING: f64 = 60.0;
-/// The fourth-order part of the drift of third order, over that drift and the sum of all terms.
+/// [`Turns::resonant`] is multiplied by 1 plus this times S, for its third order.
+const PAIRS_THIRD_ORDER: f64 = 60.0;
+/// The drift of third order is multiplied by 1 plus this times S, for its fourth order.
 const FURTHER: f64 = 15.0;
 /// The safety factor of the distance between the motions of first and of second order.
 const FIRST_MARGIN: f64 = 1.4;
-/// The safety factor of what the average over the orbit leaves in second order. Without it the largest of 1,200 ratios to the average over the rotation alone was
-/// 0.75, the median 0.07.
+/// Safety factor of the error of the average over the orbit in second order. In 1,200 comparisons the distance from the motion averaged over the rotation alone
+/// was at most 0.75 of the estimate without this factor, in the median 0.07.
 const ORBIT_MARGIN: f64 = 1.5;
 /// The derivatives of the change, as a fraction of the sum of the largest sizes of all terms.
 const SLOPE_SHARE: f64 = 0.25;
@@ -79,24 +83,24 @@ pub(super) struct Subject<'a> {
     pub(super) corrections: &'a Corrections,
     pub(super) response: &'a Response,
     pub(super) ellipse: &'a AveragedOrbit,
-    /// What the span has of the orbit.
+    /// The part of the orbit within the span.
     pub(super) reach: &'a Reach,
-    /// What the second order in the torque says; `None` at the levels of the paper.
-    pub(super) further: Option<Further>,
+    /// `None` at the levels "paper" and "moving", for several bodies and for precessing orbits.
+    pub(super) further: Option<SecondOrderErrors>,
     /// d⟨T33⟩/dσ times −3/4 of the mass fraction over M.
     pub(super) drift: f64,
 }
 
-/// What the second order in the torque says of the error of a motion whose mean M and L are those of all terms.
+/// Error estimates from the second order in the torque, for a motion whose mean M and L contain all terms.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Further {
+pub(super) struct SecondOrderErrors {
     /// The short-period change of second order.
     pub(super) short_period: Turns,
-    /// What the mean M and L lack, over M.
+    /// Estimated errors of the mean M and L, divided by M.
     pub(super) left: [f64; 2],
     /// The part of the drifts of second order that K2 lacks over the span.
     pub(super) cut: f64,
-    /// The share of the span in which the drift of third order acts as where it is strongest.
+    /// The mean over the span of the drift of third order, divided by its largest value.
     pub(super) acting: f64,
     /// The distance from the motion of second order over the span, 0 for that motion \[rad\].
     pub(super) apart: f64,
@@ -111,7 +115,7 @@ impl Budget {
         let slope = size.max(SLOPE_SHARE * corrections.size);
         let [anomaly, longitude] = inertia.rate_slopes;
         let strength = ellipse.strength().abs();
-        // The strength of the effect on the phases, like κ for the axis. Δ(σ) may be 0 where its slope is not.
+        // The strength of the effect on the phases, as κ_o is that of the effect on the axis. Δ(σ) may be 0 where its slope is not.
         let by_phase = subject.phase() * mean_motion / ellipse.eta_cubed();
         let sizes = [size, slope];
         let square = strength * (strength + 6.0 * by_phase);
@@ -121,18 +125,18 @@ impl Budget {
             square * (1.0 + orbital)
         };
         let (spin, dropped) = match subject.further {
-            Some(Further { short_period, left, cut, acting, apart }) => {
+            Some(SecondOrderErrors { short_period, left, cut, acting, apart }) => {
                 let growing = response.growing(sizes, p, duration, [acting, cut]) * (1.0 + FURTHER * corrections.size);
                 let left = response.of_actions(left, duration);
                 let slow = SLOW_MARGIN * corrections.slow * (slope + corrections.slow)
-                    + RESONANT_PAIRS_MARGIN * short_period.resonant * (1.0 + GROWING * corrections.size);
+                    + RESONANT_PAIRS_MARGIN * short_period.resonant * (1.0 + PAIRS_THIRD_ORDER * corrections.size);
                 let bounded = SHORT_PERIOD_MARGIN * short_period.largest;
                 let spin = bounded + THIRD_MARGIN * growing + slow + left + FIRST_MARGIN * apart;
                 (spin, corrections.at_once + corrections.resonant)
             }
             None => {
                 let second = response.second_order(sizes, p, duration);
-                (MARGIN * second, corrections.dropped + 2.0 * corrections.rest)
+                (SECOND_ORDER_MARGIN * second, corrections.dropped + 2.0 * corrections.rest)
             }
         };
         Self {
@@ -164,7 +168,7 @@ impl Budget {
 }
 
 impl Subject<'_> {
-    /// The turn of the attitude by J = 1.
+    /// Turn of the attitude for a unit of the phase integral Ψ.
     fn phase(&self) -> f64 {
         self.drift.abs() * (self.response.visible + self.inertia.sigma)
     }

@@ -7,7 +7,7 @@ use super::orbit_series::OrbitSeries;
 
 /// Smallest |Ω| over the largest rate of twice the true anomaly for which the sum for G is used. Below this ratio the sum does not converge. Above it the
 /// truncation error of the sum is part of the error bound.
-pub(super) const SMALLEST_RATIO: f64 = 1.5;
+pub(super) const SLOW_RATIO: f64 = 1.5;
 
 /// The term (h, m), which may be kept or dropped.
 pub(super) struct Candidate {

@@ -4,25 +4,25 @@
 //! The body rotates about its axis of greatest inertia. Its pole k precesses about the normal N of the orbit, and N goes about inertial axis 3, ẑ, with the
 //! rate g of the node at the inclination i. θ is the angle from N to a pole in the plane of ẑ and N, counted away from ẑ.
 //!
-//! A body that rotates fast and out of resonance precesses with −α (k·N), where α = (3/2) (G m/a³) η^(−3) (C − (A+B)/2)/(C ω) (theory §9). In the frame that
-//! turns with the node
+//! A body that rotates fast and out of resonance precesses with −α_p (k·N), where α_p = (3/2) (G m/a³) η^(−3) (C − (A+B)/2)/(C s) with the spin rate s (theory
+//! §9). In the frame that turns with the node
 //!
 //! ```text
-//! dk/dt = −α (k·N) N × k − g ẑ × k,        h = −½ α cos²θ − g cos(i + θ),        dh/dθ = α cos θ sin θ + g sin(i + θ) = 0
+//! dk/dt = −α_p (k·N) N × k − g ẑ × k,        h = −½ α_p cos²θ − g cos(i + θ),        dh/dθ = α_p cos θ sin θ + g sin(i + θ) = 0
 //! ```
 //!
-//! There are four states if |g/α| is below (sin^(2/3) i + cos^(2/3) i)^(−3/2), else two. A state is stable where h has an extremum on the sphere.
+//! There are four states if |g/α_p| is below (sin^(2/3) i + cos^(2/3) i)^(−3/2), else two. A state is stable where h has an extremum on the sphere.
 //!
 //! A body in a spin–orbit resonance makes p rotations an orbit relative to the pericentre, p = ½, 1, 1½, …, and its long axis points to the disturbing body at
 //! the pericentre (or is across, where the coefficient G_p is negative). Of the potential (3/2) (G m/r³) (A x² + B y² + C z²), for the direction (x, y, z) of
 //! the disturbing body about the axes of the body, the part with x² − y² then has a mean as well: −(3/2) (G m/a³) ½ (B − A) ((1 + cos θ)/2)² |G_p|, with
-//! Hansen's coefficient G_p(e) = X_2p of (−3, 2), which is 1 − 5e²/2 + … for p = 1 and 7e/2 − … for p = 3/2. With γ = (3/2) (G m/a³) |G_p| (B − A)/(2 C ω)
+//! Hansen's coefficient G_p(e) = X_2p of (−3, 2), which is 1 − 5e²/2 + … for p = 1 and 7e/2 − … for p = 3/2. With γ_p = (3/2) (G m/a³) |G_p| (B − A)/(2 C s)
 //!
 //! ```text
-//! h = −½ α cos²θ − ¼ γ (1 + cos θ)² − g cos(i + θ),        dh/dθ = α cos θ sin θ + ½ γ (1 + cos θ) sin θ + g sin(i + θ)
+//! h = −½ α_p cos²θ − ¼ γ_p (1 + cos θ)² − g cos(i + θ),        dh/dθ = α_p cos θ sin θ + ½ γ_p (1 + cos θ) sin θ + g sin(i + θ)
 //! ```
 //!
-//! Here ω is the rate of rotation relative to the node, p times the rate of the mean anomaly plus the rate of the pericentre. The terms of h with the argument
+//! Here s is the rate of rotation relative to the node, p times the rate of the mean anomaly plus the rate of the pericentre. The terms of h with the argument
 //! of the pericentre are left out; they average out as the pericentre goes around. For the circular orbit of the Moon this is the condition of Peale (1969).
 
 use std::f64::consts::{PI, TAU};
@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn two_states_merge_at_the_critical_ratio_of_the_rates() {
-        // α = (3/2) 0.02² 0.1 = 6e-5.
+        // α_p = (3/2) 0.02² 0.1 = 6e-5.
         for inclination in [0.01, 0.2, 0.7, 1.4_f64] {
             let (sine, cosine) = inclination.sin_cos();
             let critical = 6e-5 * (sine.powf(2.0 / 3.0) + cosine.powf(2.0 / 3.0)).powf(-1.5);

@@ -13,8 +13,8 @@ use crate::torque_free::polhode::Polhode;
 /// The motion under a gravity gradient at the level that is asked for, and why it is not of second order if that was left open.
 ///
 /// # Errors
-/// Those of [`Outset::new`], of the draft at the level that is asked for, or in first order if it was left open, and of [`Gradient::new`]. An error of second order
-/// becomes the reason if the level was left open.
+/// Those of [`Outset::new`], of the draft at the level that is asked for, or in first order if it was left open, and of [`Gradient::new`]. An error of second
+/// order becomes the reason if the level was left open.
 pub(crate) fn chosen(
     polhode: &Polhode,
     attitude: UnitQuaternion<f64>,

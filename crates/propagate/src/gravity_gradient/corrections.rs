@@ -15,14 +15,13 @@
 //! ```
 //!
 //! where y′ is counted from an axis that turns with k and not about it. A term, or a derivative of g, is dropped here if it is smaller than a fraction of the
-//! second-order error or of the tolerance. A resonant term is dropped if its effect over the span is no larger than that; otherwise it is an error
-//! ([`super::resonance`]).
+//! second-order error or of the tolerance. The error by resonant terms is part of the error bound, or it is an error ([`super::resonance`]).
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use num_complex::Complex;
 
 use super::aspect::Aspect;
-use super::candidate::{Candidate, SMALLEST_RATIO};
+use super::candidate::{Candidate, SLOW_RATIO};
 use super::course::fixed;
 use super::divisors::Secular;
 use super::envelope::Envelope;
@@ -122,7 +121,7 @@ pub(crate) struct Demand<'a> {
     pub(crate) refined: bool,
     /// The orbit's harmonics, where divisors are to be exact in them.
     pub(crate) series: Option<&'a OrbitSeries>,
-    /// What the span has of the orbit.
+    /// The time derivatives of (a/r)³ r̂r̂, with their sizes at the epoch, within the span and at any time.
     pub(crate) envelope: &'a Envelope,
     /// The direction of the angular momentum at the epoch.
     pub(crate) pole: Vector3<f64>,
@@ -134,7 +133,7 @@ impl Demand<'_> {
         1.5 * self.mean_motion * self.mean_motion * self.orbit.disturbing_fraction()
     }
 
-    /// The frequency of which (a/r)³ r̂r̂ has multiples: on a circle it turns twice as fast as the body.
+    /// (a/r)³ r̂r̂ contains only multiples of this frequency: of n, or of 2n on a circle.
     pub(crate) fn orbital_step(&self) -> f64 {
         self.mean_motion * if self.orbit.eccentricity() == 0.0 { 2.0 } else { 1.0 }
     }
@@ -150,7 +149,7 @@ pub(crate) struct Corrections {
     pub(crate) resonant: f64,
     /// Sum of the sizes of the corrected terms that are too slow for the sums \[rad\]; second order does not have their pairs.
     pub(crate) slow: f64,
-    /// Dropped terms, and truncation of the sums for G on both ends \[rad\]: what they do to the mean M and L at the epoch is not in it.
+    /// Dropped terms, and truncation of the sums for G on both ends, without their effect on the mean M and L at the epoch \[rad\].
     pub(crate) at_once: f64,
     /// Sum of the terms that the level omits, over the span \[rad\].
     pub(crate) omitted: f64,
@@ -158,7 +157,7 @@ pub(crate) struct Corrections {
     pub(crate) axial_omitted: [f64; 2],
     /// Truncation error of the sums for G \[rad\].
     pub(crate) rest: f64,
-    /// Sum of the sizes of all terms \[rad\].
+    /// Sum of the sizes of all terms that are not slow, also dropped ones \[rad\].
     pub(crate) size: f64,
     /// Number of terms that are kept.
     pub(crate) count: usize,
@@ -178,7 +177,7 @@ pub(super) struct Terms {
     turning: f64,
     /// The largest rate of twice the true anomaly, at the pericentre, and of the axes.
     fastest: f64,
-    /// Sum of the sizes of the terms that are not resonant \[rad\].
+    /// Sum of the sizes of the terms that are not slow \[rad\].
     pub(super) size: f64,
 }
 
@@ -197,9 +196,9 @@ impl Terms {
         terms
     }
 
-    /// Whether a term is corrected.
+    /// Whether a term is fast enough for a sum over time derivatives.
     fn regular(&self, candidate: &Candidate) -> bool {
-        candidate.frequency.abs() > SMALLEST_RATIO * self.fastest
+        candidate.frequency.abs() > SLOW_RATIO * self.fastest
     }
 }
 
@@ -215,7 +214,7 @@ impl Corrections {
         Self::of(terms, inertia, demand, size)
     }
 
-    /// The corrections of a mean motion for one of several bodies, for which all terms together sum to `whole`.
+    /// The corrections of a mean motion for one of several bodies. The sizes of the terms of all bodies that are not slow sum to `whole`.
     ///
     /// # Errors
     /// As [`Corrections::new`].
@@ -226,7 +225,8 @@ impl Corrections {
         let Demand { orbit, mean_motion, level, duration, envelope, series, .. } = *demand;
         let Terms { response, strength, scale, turning, fastest, size, .. } = terms;
         let eccentricity = orbit.eccentricity();
-        // Refined M and L are those of all terms, but at a place that lacks the dropped ones.
+        // The refined M and L contain all terms but are evaluated at a state found without the dropped ones, so the effect of a dropped term grows in second
+        // order only.
         let further = if demand.refined { whole } else { 1.0 };
         let growth = |multiple: i32| 1.0 + further * (response.growth(multiple, duration) - 1.0);
         let tolerable = TOLERABLE[usize::from(demand.refined)] * demand.tolerance / growth(1);
@@ -253,10 +253,10 @@ impl Corrections {
         let allowed = demand.tolerance.max(second_order(whole, &response, duration));
         let choices: Vec<_> = terms.all.iter().map(|term| selection.choice(term)).collect();
         let effects = terms.all.iter().zip(&choices).map(|(term, choice)| {
-            let corrected = matches!(choice, Choice::Exact(Exact { left_out: None, .. }));
+            let corrected = matches!(choice, Choice::Exact(Exact { excluded: None, .. }));
             (selection.effect(term, choice), corrected, term)
         });
-        let resonant = selection.commensurability.left(effects, allowed)?;
+        let resonant = selection.commensurability.total_error(effects, allowed)?;
         let mut dropped = resonant;
         let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
         let omitted = omitted.iter().map(|term| selection.commensurability.whole(term)).sum();
@@ -272,8 +272,8 @@ impl Corrections {
             let growth = growth(if demand.refined { 1 } else { candidate.multiple });
             let is_slow = selection.commensurability.is_slow(candidate);
             match (*choice, series) {
-                (Choice::Exact(Exact { left_out, size, .. }), Some(series)) => {
-                    let divisors = selection.commensurability.divisors(candidate).without(left_out);
+                (Choice::Exact(Exact { excluded, size, .. }), Some(series)) => {
+                    let divisors = selection.commensurability.divisors(candidate).without(excluded);
                     exact.push(candidate.exact(inertia, (series, divisors), nothing));
                     slow += if is_slow { size } else { 0.0 };
                     rest += growth * nothing;

@@ -35,9 +35,9 @@ pub(crate) struct GradientPlan {
     pub(crate) level: Level,
     /// Number of terms in the short-period corrections.
     pub(crate) terms: usize,
-    /// Sum of the sizes of these terms \[rad\].
+    /// Sum of the sizes of all terms that are not slow, also dropped ones \[rad\].
     pub(crate) size: f64,
-    /// The first neglected term \[rad\].
+    /// The largest of the dropped terms, the truncation errors of kept terms, and the square of `size` \[rad\].
     pub(crate) neglected: f64,
 }
 
@@ -61,7 +61,7 @@ pub(crate) struct Gradient {
     pub(super) anomaly: Phase,
     pub(super) half_longitude: Phase,
     pub(super) root: f64,
-    /// These times J, or in second order times the drifts, are added to ℓ′ and y′.
+    /// These times the phase integral Ψ, or in second order times the drifts, are added to ℓ′ and y′.
     pub(super) drifts: [f64; 2],
     /// The rates that they add to ℓ′ and y′ in the orbit average, in the user's unit.
     secular: [f64; 2],

@@ -15,14 +15,14 @@ use nalgebra::Vector3;
 
 use super::inertia::Inertia;
 
-/// Harmonics with a smaller divisor, over n, are terms of their own in the sum over pairs.
-const NEAR: f64 = 2.5;
-/// With a smaller one, the shift by the average torque matters more than what else is of second order.
+/// A harmonic with |Ω + jn| below this times n is a separate term in the sum over pairs.
+const SINGLE_BELOW: f64 = 2.5;
+/// If |Ω + jn| is below this times n, the divisor contains the shift by the average torque. Above it the shift is no larger than other effects of second order.
 const RESONANT: f64 = 1.0;
-/// Largest shift over n.
+/// A shift of this times n or more is not applied.
 const MOST_SHIFT: f64 = 0.3;
 
-/// What the average torque adds to the frequencies.
+/// The shift of the frequencies by the average torque.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Secular {
     /// Of ℓ′ and y′.
@@ -66,10 +66,10 @@ pub(crate) struct Divisors {
     /// Whether the term is too slow for a sum over time derivatives.
     pub(crate) slow: bool,
     /// The harmonic that is left out.
-    pub(crate) left_out: Option<i32>,
-    /// What the average torque adds for a = 0, and for each unit of a.
+    pub(crate) excluded: Option<i32>,
+    /// The shift by the average torque for a = 0, and for each unit of a.
     shift: [f64; 2],
-    /// The most that it adds to a harmonic near resonance.
+    /// Upper estimate of the constant shift of a harmonic.
     pub(crate) steady_shift: f64,
     /// The shift that swings with twice the true anomaly.
     pub(crate) swinging_shift: f64,
@@ -87,17 +87,17 @@ impl Divisors {
         let shift = [h * anomaly + m * (longitude - along), -precession];
         let steady_shift = shift[0].abs() + 2.0 * precession.abs();
         let swinging_shift = (h - m * sigma).abs() * swinging[0] + (m + 2.0) * swinging[1];
-        Self { frequency, mean_motion, slow, left_out: None, shift, steady_shift, swinging_shift }
+        Self { frequency, mean_motion, slow, excluded: None, shift, steady_shift, swinging_shift }
     }
 
     /// Without one harmonic, or with all.
-    pub(super) fn without(self, left_out: Option<i32>) -> Self {
-        Self { left_out, ..self }
+    pub(super) fn without(self, excluded: Option<i32>) -> Self {
+        Self { excluded, ..self }
     }
 
     /// Whether a harmonic is a term of its own in the sum over pairs: all those of a slow term are.
     pub(crate) fn is_single(&self, harmonic: i32) -> bool {
-        self.slow || self.unshifted(harmonic).abs() < NEAR * self.mean_motion
+        self.slow || self.unshifted(harmonic).abs() < SINGLE_BELOW * self.mean_motion
     }
 
     /// Whether a harmonic is so near resonance that its divisor has the shift by the average torque.
@@ -126,6 +126,6 @@ impl Divisors {
 
     /// 1 over the divisor of U_ja, or 0 for the harmonic that is left out.
     pub(crate) fn reciprocal(&self, harmonic: i32, turns: i32) -> f64 {
-        if self.left_out == Some(harmonic) { 0.0 } else { 1.0 / self.at(harmonic, turns) }
+        if self.excluded == Some(harmonic) { 0.0 } else { 1.0 / self.at(harmonic, turns) }
     }
 }

@@ -4,9 +4,9 @@ use nalgebra::{UnitQuaternion, Vector3};
 use num_complex::Complex;
 
 use super::averages::Averages;
-use super::budget::{Budget, Further, Subject};
+use super::budget::{Budget, SecondOrderErrors, Subject};
 use super::corrections::{Demand, Mean};
-use super::mean_motion::{MeanMotion, Refinement, Refinements, first_order, weak_enough};
+use super::mean_motion::{LevelEstimate, MeanMotion, SecondOrderData, first_order, weak_enough};
 use super::paths::Paths;
 use super::request::Request;
 use super::response::Response;
@@ -29,7 +29,7 @@ pub(super) struct Outset<'a> {
     pub(super) paths: &'a Paths,
     demands: Vec<Demand<'a>>,
     first: MeanMotion,
-    refinements: Option<Refinements>,
+    refinements: Option<SecondOrderData>,
 }
 
 /// A motion at one level.
@@ -69,7 +69,7 @@ impl<'a> Outset<'a> {
         let first = first_order(polhode, &state, &paths.starts, &demands)?;
         let refinements = request.is_refined().then(|| {
             let course = (&paths.starts[0], &paths.reaches[0]);
-            Refinements::new(&first, &state, course, &demands[0])
+            SecondOrderData::new(&first, &state, course, &demands[0])
         });
         Ok(Self { polhode, attitude, request: *request, paths, demands, first, refinements })
     }
@@ -108,13 +108,13 @@ fn slow_enough(averages: &Averages, demands: &[Demand<'_>]) -> Result<(), Error>
 fn error_bound(
     request: &Request<'_>,
     motion: &MeanMotion,
-    refinement: Option<Refinement>,
+    refinement: Option<LevelEstimate>,
     averages: &Averages,
     (paths, demands): (&Paths, &[Demand<'_>]),
 ) -> Result<(bool, f64), Error> {
     let MeanMotion { mean, inertia, corrections, .. } = motion;
     let response = Response::new(inertia);
-    let further = refinement.map(|Refinement { left, apart, hamiltonian, short_period }| {
+    let further = refinement.map(|LevelEstimate { left, apart, hamiltonian, short_period }| {
         let drift = Drift {
             hamiltonian: &hamiltonian.without_first(),
             demand: &demands[0],
@@ -132,7 +132,7 @@ fn error_bound(
         let precessed = (averages.ellipses[0].strength().abs() * demand.mean_motion * demand.duration).min(1.0);
         let unaveraged = (periodic + demand.orbit.eccentricity() * precessed).min(1.0);
         let cut = if demand.series.is_some() { unaveraged * cut } else { cut };
-        Further { short_period, left, cut, acting: envelope.share.third, apart }
+        SecondOrderErrors { short_period, left, cut, acting: envelope.share.third, apart }
     });
     let subject = |i: usize| Subject {
         mean,

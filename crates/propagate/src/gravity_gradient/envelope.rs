@@ -27,25 +27,25 @@ pub(crate) struct Envelope {
     pub(crate) most: [f64; ORDERS + 1],
 }
 
-/// What the drifts over a span are, over those with the disturbing body always where it is nearest within the span. With u = (a/r)³ and the rate of the true
-/// anomaly ḟ:
+/// Drifts over the span, divided by the drifts with the disturbing body always at its nearest position within the span. u = (a/r)³, and ḟ is the rate of the
+/// true anomaly.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Share {
-    /// The drift of third order: the mean of u³ over the span, and what mean variables that are off by u³ at the epoch make.
+    /// Drift of third order: the mean of u³, plus u³ at the epoch for the errors of the mean variables found there.
     pub(crate) third: f64,
-    /// The drift that the terms of K2 with (ḟ/Ω)² make: the mean of u²ḟ².
+    /// Drift by the terms of K2 with (ḟ/Ω)²: the mean of u²ḟ².
     pub(crate) truncation: f64,
     /// The mean of u², which is the size of a product of two terms.
     pub(crate) pairs: f64,
 }
 
-/// The part of an orbit that a span has.
+/// The part of the orbit that the disturbing body passes during the span.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reach {
     pub(crate) eccentricity: f64,
     /// Mean anomaly at the epoch.
     pub(crate) anomaly: f64,
-    /// What it gains from the start of the span to the epoch, and from the epoch to the end.
+    /// Growth of the mean anomaly before and after the epoch within the span \[rad\].
     pub(crate) sides: [f64; 2],
 }
 
@@ -56,7 +56,7 @@ impl Reach {
         before.max(after)
     }
 
-    /// Whether the span has every place of the orbit.
+    /// Whether the disturbing body passes every place of the orbit during the span.
     fn is_whole(&self) -> bool {
         self.sides.iter().sum::<f64>() >= TAU
     }
@@ -160,7 +160,7 @@ impl Envelope {
         let epoch = at(reach.true_anomaly(reach.anomaly));
         let passes = reach.passes();
         let eta_square = (1.0 - eccentricity) * (1.0 + eccentricity);
-        // (a/r)³ is the cube of what the rate is the square of.
+        // ḟ = n η (a/r)², and a/r is the cube root of (a/r)³.
         let nearest = if passes { (1.0 + eccentricity) / eta_square } else { span[0].cbrt() };
         let fastest = 2.0 * mean_motion * eta_square.sqrt() * nearest * nearest;
         let orbital = if rates == [0.0; 2] { orbital } else { Orbital::precessing(eccentricity, mean_motion, rates) };

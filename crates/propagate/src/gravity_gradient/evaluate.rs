@@ -41,7 +41,7 @@ impl Gradient {
         let mean = MeanLanes { turn, spin: half * half, frame };
         let mut change = self.bodies[0].corrections.generator.at(&mean, &first.place, &first.axes);
         for body in &self.bodies[1..] {
-            change = change.plus(elapsed.0.simd().vectorize(Further { body, mean: &mean, elapsed }));
+            change = change.plus(elapsed.0.simd().vectorize(OtherBody { body, mean: &mean, elapsed }));
         }
         let Offset { p, momentum } = self.offset;
         let relative = ComplexLanes { re: change.p.re + all(self.root + p.re), im: change.p.im + all(p.im) };
@@ -99,13 +99,13 @@ impl Gradient {
 }
 
 /// The corrections for one of further bodies, as a task that is compiled separately: the first body's are inlined.
-struct Further<'a, S: InstructionSet> {
+struct OtherBody<'a, S: InstructionSet> {
     body: &'a DisturbedBy,
     mean: &'a MeanLanes<S>,
     elapsed: Elapsed<S>,
 }
 
-impl<S: InstructionSet> NullaryFnOnce for Further<'_, S> {
+impl<S: InstructionSet> NullaryFnOnce for OtherBody<'_, S> {
     type Output = Correction<S>;
 
     #[inline(always)]

@@ -279,8 +279,8 @@ fn summed<S: InstructionSet>(
     sums
 }
 
-/// The contraction of r̂r̂ for one m (r₃² − ⅓, r̄₊ r₃ or r̄₊²) and its derivatives when the frame turns about its axes 1 and 2, times −i for m = 0 and 2, and −1
-/// for m = 1.
+/// The contraction of r̂r̂ for one m (r₃² − ⅓, r̄₊ r₃ or r̄₊²) and its derivatives when the frame turns about its axes 1 and 2, times −i for m = 0 and 2, and
+/// −1 for m = 1.
 type Contracted<S> = [ComplexLanes<S>; 3];
 
 #[inline(always)]

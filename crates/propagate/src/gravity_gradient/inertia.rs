@@ -30,7 +30,7 @@ const COUNT: usize = 2 * HIGHEST + 1;
 /// Whether T33, t1, t2 have the odd harmonics.
 const ODD: [bool; 3] = [false, true, false];
 /// Below this sin²J, functions are extrapolated along their tangent at this value.
-const SMALLEST_SQUARE: f64 = 1e-6;
+const TANGENT_SQUARE: f64 = 1e-6;
 /// Step of the differences in sin²J, relative to 1 − sin²J.
 const STEP: f64 = 2e-3;
 /// Largest step, over sin²J: two of them leave it positive.
@@ -38,7 +38,7 @@ const LARGEST_STEP: f64 = 0.4;
 /// Smallest difference of sin²J, relative to it, from which a slope is taken.
 const SMALLEST_SECANT: f64 = 1e-7;
 /// Largest change of σ, over the distance to the separatrix, that a Taylor polynomial of second order bridges: the third order is 1e-17.
-const NEAR: f64 = 2e-6;
+const TAYLOR_REACH: f64 = 2e-6;
 
 /// The series Σ_h f_h(σ) P_h, with P_h = p^h for h ≥ 0 and P_h = p̄^(−h) for h < 0.
 #[derive(Clone, Debug)]
@@ -101,7 +101,7 @@ impl Inertia {
     /// The tables at σ and M, for the body, the units and the mode of a polhode.
     pub(crate) fn new(polhode: &Polhode, sigma: f64, momentum: f64) -> Self {
         let square = square_of(polhode, sigma, None);
-        let base = square.max(SMALLEST_SQUARE);
+        let base = square.max(TANGENT_SQUARE);
         // Functions vary over the distance to the separatrix, where sin²J is 1. At small J a step that is a fixed share of sin²J would leave rounding over it.
         let step = (STEP * (1.0 - base)).min(LARGEST_STEP * base);
         let members = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| member(polhode, base + k * step, momentum));
@@ -154,7 +154,7 @@ impl Inertia {
     /// The tables at another σ and M of the same body: from Taylor's polynomial if σ is near enough for all digits. The rates are exact in any case.
     pub(crate) fn moved(&self, polhode: &Polhode, sigma: f64, momentum: f64) -> Self {
         let by = sigma - self.sigma;
-        if by.abs() > NEAR * (self.separatrix - self.sigma) {
+        if by.abs() > TAYLOR_REACH * (self.separatrix - self.sigma) {
             return Self::new(polhode, sigma, momentum);
         }
         // The tables of the tensor and of a and b do not depend on M, and the rates are proportional to it.
@@ -212,7 +212,7 @@ fn square_of(polhode: &Polhode, sigma: f64, near: Option<(f64, f64)>) -> f64 {
     let (mut square, mut slope, accurate) = match near {
         Some((square, slope)) if square > 0.0 => (square, slope, 1e-10),
         _ => {
-            let linear = value(SMALLEST_SQUARE) / SMALLEST_SQUARE;
+            let linear = value(TANGENT_SQUARE) / TANGENT_SQUARE;
             ((sigma / linear).min(0.9), linear, 4.0 * f64::EPSILON)
         }
     };
@@ -314,7 +314,7 @@ mod tests {
             let polhode = Polhode::new(&Body::new([0.8, 0.9, 1.0]).expect("a body"), &state).expect("turning");
             let (sigma, _) = super::rates(&polhode);
             let tables = Inertia::new(&polhode, sigma, 0.7);
-            let to = sigma + 0.9 * NEAR * (tables.separatrix - sigma);
+            let to = sigma + 0.9 * TAYLOR_REACH * (tables.separatrix - sigma);
             let (moved, new) = (tables.moved(&polhode, to, 0.71), Inertia::new(&polhode, to, 0.71));
             assert_eq!((moved.sigma, moved.momentum), (to, 0.71));
             // sin²J at σ is known to some units of its last digit.

@@ -5,7 +5,7 @@ use super::course::When;
 use super::envelope::Reach;
 use super::inertia::Inertia;
 use super::response::Response;
-use super::second_order::epoch::{self, Refined};
+use super::second_order::epoch::{self, EpochMean};
 use super::second_order::hamiltonian::Hamiltonian;
 use super::second_order::short_period::Turns;
 use super::second_order::steady::Steady;
@@ -31,19 +31,19 @@ pub(super) struct MeanMotion {
     pub(super) inertia: Inertia,
     /// Of each body.
     pub(super) corrections: Vec<Corrections>,
-    /// What K2 in closed form lacks of its average over the orbit.
+    /// The part of the average of K2 over the orbit that K2 in closed form lacks.
     pub(super) steady: Steady,
 }
 
-/// What the second order in the torque says of a mean motion.
-pub(super) struct Refinement {
-    /// What is left of the mean M and L, over M.
+/// The quantities of second order for a motion at one level.
+pub(super) struct LevelEstimate {
+    /// Estimated errors of the mean M and L, divided by M.
     pub(super) left: [f64; 2],
     /// Rates of ℓ′ and y′ at the mean M and σ of second order, less those of first order.
     pub(super) apart: [f64; 2],
     /// K2.
     pub(super) hamiltonian: Hamiltonian,
-    /// The short-period change of second order, which no motion has.
+    /// The short-period change of second order. The corrections of no level contain it.
     pub(super) short_period: Turns,
 }
 
@@ -54,19 +54,19 @@ fn corrections_of(inertia: &Inertia, demands: &[Demand<'_>]) -> Result<Vec<Corre
     all.into_iter().zip(demands).map(|(terms, demand)| Corrections::of(terms, inertia, demand, whole)).collect()
 }
 
-/// The mean M and L of all terms, in first and in second order.
-pub(super) struct Refinements {
-    both: [Refined; 2],
+/// The mean M and L from all terms, in first and in second order, with the other quantities of second order.
+pub(super) struct SecondOrderData {
+    both: [EpochMean; 2],
     /// Their difference: of M, over M, and of σ.
     apart: [f64; 2],
     /// The short-period change of second order.
     short_period: Turns,
-    /// What K2 in closed form lacks.
+    /// The part of the average of K2 over the orbit that K2 in closed form lacks.
     steady: Steady,
 }
 
-impl Refinements {
-    /// Those of the mean motion of first order, with the disturbing body's place at the epoch and what the span has of its orbit.
+impl SecondOrderData {
+    /// From the mean motion of first order, the position of the disturbing body at the epoch, and the part of its orbit within the span.
     pub(super) fn new(
         first: &MeanMotion,
         state: &Mean,
@@ -75,7 +75,7 @@ impl Refinements {
     ) -> Self {
         let exact = &first.corrections[0].generator.exact;
         let mean = (&first.mean, &first.change, &exact[..]);
-        let (both, apart, steady) = epoch::refined(mean, state, &first.inertia, &start.place, demand);
+        let (both, apart, steady) = epoch::epoch_means(mean, state, &first.inertia, &start.place, demand);
         let sizes = [Response::new(&first.inertia).gain, first.corrections[0].size];
         let short_period = Turns::new(&first.inertia, &first.mean, demand, sizes, &reach.nearest());
         Self { both, apart, short_period, steady }
@@ -88,8 +88,8 @@ impl Refinements {
         first: &MeanMotion,
         demand: &Demand<'_>,
         level: Level,
-    ) -> Result<(MeanMotion, Refinement), Error> {
-        let Refined { mean, momentum, left } = self.both[usize::from(level == Level::SecondOrder)];
+    ) -> Result<(MeanMotion, LevelEstimate), Error> {
+        let EpochMean { mean, momentum, left } = self.both[usize::from(level == Level::SecondOrder)];
         let inertia = first.inertia.moved(polhode, mean.p.norm_sqr(), mean.momentum);
         let [by_momentum, by_sigma] = self.apart;
         let apart = [0, 1].map(|i| inertia.rates[i].to_f64() * by_momentum + inertia.rate_slopes[i] * by_sigma);
@@ -98,7 +98,7 @@ impl Refinements {
         // The iteration leaves M and L its own threshold, which the rates multiply by the time.
         let left = left.map(|part| part + CONVERGED);
         let hamiltonian = epoch::hamiltonian(&inertia, demand, self.steady);
-        let refinement = Refinement { left, apart, hamiltonian, short_period: self.short_period };
+        let refinement = LevelEstimate { left, apart, hamiltonian, short_period: self.short_period };
         Ok((MeanMotion { mean, change, inertia, corrections, steady: self.steady }, refinement))
     }
 }
@@ -113,7 +113,7 @@ pub(super) fn first_order(
     let (mut mean, mut change) = (*state, Change::default());
     let (mut step, mut first) = (0, 0.0_f64);
     let mut inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
-    // Each iteration reduces the error by the relative size of the corrections, which is below a fiftieth.
+    // Each iteration multiplies the error by the size of the corrections, which is at most a twentieth (`LARGEST_SIZE`) for the terms that are not slow.
     loop {
         let corrections = corrections_of(&inertia, demands)?;
         let changes = corrections.iter().zip(starts).map(|(corrections, start)| corrections.at(&mean, &start.place));

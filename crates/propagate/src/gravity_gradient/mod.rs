@@ -1,4 +1,5 @@
-//! Rotation under the gravity gradient of a body on an orbit (theory §9): torque, mean motion, averaged motion, short-period corrections, resonances, evaluation.
+//! Rotation under the gravity gradient of a body on an orbit (theory §9): torque, mean motion, averaged motion, short-period corrections, resonances,
+//! evaluation.
 //!
 //! Imports errors, numerics, simd, input and torque_free.
 

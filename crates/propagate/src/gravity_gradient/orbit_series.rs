@@ -8,11 +8,11 @@ use super::envelope::{Reach, decay};
 
 type C64 = Complex<f64>;
 
-/// Logarithm of the largest harmonic over the first that is left out.
-const RANGE: f64 = 28.0;
+/// Harmonics below e^(−`LOG_CUTOFF`) of the largest are left out.
+const LOG_CUTOFF: f64 = 28.0;
 /// Most harmonics; more are needed from an eccentricity of 0.8 on.
-const MOST: f64 = 320.0;
-/// Least span in orbits, and that of a span with the pericentre or on a circle.
+const MOST_HARMONICS: f64 = 320.0;
+/// Least length of the longer side of a span in orbits: without the pericentre, and with it or on a circle.
 pub(super) const FEWEST_ORBITS: [f64; 2] = [1.5, 0.3];
 
 /// The coefficients of e^(ijl), from j = 0 on.
@@ -23,9 +23,8 @@ pub(crate) struct OrbitSeries {
 }
 
 impl OrbitSeries {
-    /// The series of an orbit, if it is better than the sums over time derivatives: it is short enough, and the span has several orbits or the pericentre. On a circle every place is a
-    /// pericentre. Far
-    /// from the pericentre the sums lack nothing until the next passage, while the series takes the mean over all passages.
+    /// The series of an orbit, or `None` if it needs too many harmonics or the longer side of the span is shorter than [`FEWEST_ORBITS`]. Far from the
+    /// pericentre the sums over time derivatives are better until the next passage, because the series takes the mean over all passages.
     pub(crate) fn new(reach: &Reach) -> Option<Self> {
         let count = count(reach.eccentricity)?;
         let fewest = FEWEST_ORBITS[usize::from(reach.eccentricity == 0.0 || reach.passes())];
@@ -44,8 +43,8 @@ fn count(eccentricity: f64) -> Option<usize> {
     if eccentricity == 0.0 {
         return Some(2);
     }
-    let count = 6.0 + RANGE / decay(eccentricity);
-    (count <= MOST).then_some(count as usize)
+    let count = 6.0 + LOG_CUTOFF / decay(eccentricity);
+    (count <= MOST_HARMONICS).then_some(count as usize)
 }
 
 /// The coefficients of cos jl in (a/r)³ and (a/r)³ cos 2f and of sin jl in (a/r)³ sin 2f, halved but for j = 0.

@@ -1,16 +1,19 @@
 //! Resonances, where averaging is not valid: terms e^(i(hℓ′+my′)) whose frequency Ω is near a multiple of the mean motion of the disturbing body (theory §9).
 //!
-//! A term with Ω below [`SMALLEST_RATIO`] times the largest rate of twice the true anomaly is not corrected. For larger Ω the sum for G contains the whole term
-//! except the harmonics of the mean anomaly that are too high for its powers of d/dt. Their amplitude falls like e^(−|j|(arcosh 1/e − η)), as Hansen's
-//! coefficients do. In both cases the attitude error is the rate of the term times the time during which it acts in one direction, which is the span or 2/|Ω −
-//! jn|. In addition the phases drift, because the term changes σ and, for m ≠ 0, M. This is an upper estimate. If it is not larger than the second-order error,
-//! it becomes part of the error bound; otherwise it is [`Error::Resonance`]. Terms with exact divisors lack none of these harmonics, but the one that is nearest
-//! to resonance may have to be left out ([`super::selection`]).
+//! A term with |Ω| at most [`SLOW_RATIO`] times the largest rate of twice the true anomaly is slow. It is corrected with exact divisors if the orbit has a
+//! series and the change is small, otherwise not at all ([`super::selection`]). For a faster term the sum for G contains the whole term except the harmonics of
+//! the mean anomaly that are too high for its powers of d/dt. Their amplitude falls like e^(−|j|(arcosh 1/e − η)), as Hansen's coefficients do. A term with
+//! exact divisors contains all harmonics, except the one nearest to resonance if that is not corrected.
+//!
+//! The attitude error of a term or harmonic that is not corrected is its rate times the time during which it acts in one direction, which is the span or
+//! 2/|Ω − jn|. In addition the phases drift, because the term changes σ and, for m ≠ 0, M. This is an upper estimate. The sum of these errors is part of the
+//! error bound. It is [`Error::Resonance`] if the part by terms that are not corrected exceeds [`REFUSAL_FACTOR`] times the larger of the tolerance and the
+//! second-order error, or if the orbit has a series and one term may leave more than [`LARGEST_EFFECT`].
 
 use std::f64::consts::{PI, TAU};
 
 use super::aspect::Aspect;
-use super::candidate::{Candidate, SMALLEST_RATIO};
+use super::candidate::{Candidate, SLOW_RATIO};
 use super::divisors::{Divisors, Secular};
 use super::envelope::{Envelope, LARGEST_NUMBER, at_most, harmonic};
 use super::orbit_series::OrbitSeries;
@@ -19,15 +22,15 @@ use crate::error::Error;
 
 /// Harmonics of the orbit, from −3 to 3, with which the frequency of a slow term is compared.
 const SLOW_HARMONICS: i32 = 3;
-/// Largest error of the resonant terms over that of second order.
-const MARGIN: f64 = 10.0;
-/// Where divisors are exact, a scene in which one resonance may have a larger attitude error is refused \[rad\].
+/// A scene is refused if the error by terms that are not corrected exceeds this multiple of the larger of the tolerance and the second-order error.
+const REFUSAL_FACTOR: f64 = 10.0;
+/// If the orbit has a series, a scene is refused if the upper estimate of the attitude error by one term is larger \[rad\].
 const LARGEST_EFFECT: f64 = 0.03;
 /// Harmonics on each side of the nearest one that are looked at.
 const NEIGHBOURS: i32 = 3;
-/// A smaller error by a term that is corrected is no reason to refuse a scene \[rad\].
+/// A scene is not refused for an error by a corrected term of at most this \[rad\].
 const SERVED: f64 = 1e-3;
-/// Attitude error by a harmonic of the orbit of which no more need be known \[rad\].
+/// If the upper estimate of the attitude error by a harmonic is at most this, its coefficient is not computed \[rad\].
 const NEGLIGIBLE: f64 = 1e-14;
 
 /// The frequencies of a mean motion and of its orbit.
@@ -41,7 +44,7 @@ pub(super) struct Commensurability<'a> {
     pub(super) fastest: f64,
     pub(super) envelope: &'a Envelope,
     pub(super) duration: f64,
-    /// What the average torque adds to the frequencies.
+    /// The shift of the frequencies by the average torque.
     pub(super) secular: Secular,
     /// The orbit's harmonics, if the mean M and L at the epoch have them with their divisors.
     pub(super) series: Option<&'a OrbitSeries>,
@@ -58,11 +61,14 @@ pub(super) struct NearHarmonic {
 }
 
 impl Commensurability<'_> {
-    /// The attitude error of all terms together \[rad\]. `effects` holds the error by each term, the most that it may be, and whether the term is corrected.
+    /// The attitude error of all terms together \[rad\]. `effects` holds the error by each term, its upper estimate, and whether the term is corrected with all
+    /// its harmonics.
     ///
     /// # Errors
-    /// - [`Error::Resonance`] if the error by terms that are not corrected, or by more than [`SERVED`], exceeds `allowed` by more than a factor [`MARGIN`], or the most that one term may leave exceeds [`LARGEST_EFFECT`]. It names the largest term.
-    pub(super) fn left<'a>(
+    /// - [`Error::Resonance`] if the errors by terms that are not corrected, and errors by corrected terms above [`SERVED`], sum to more than
+    ///   [`REFUSAL_FACTOR`] times `allowed`, or if the orbit has a series and the upper estimate of one term exceeds [`LARGEST_EFFECT`]. It names the term with
+    ///   the largest upper estimate.
+    pub(super) fn total_error<'a>(
         &self,
         effects: impl Iterator<Item = ([f64; 2], bool, &'a Candidate)>,
         allowed: f64,
@@ -78,12 +84,14 @@ impl Commensurability<'_> {
             }
         }
         match largest {
-            Some((most, term)) if uncorrected > MARGIN * allowed || self.series.is_some() && most > LARGEST_EFFECT => {
+            Some((most, term))
+                if uncorrected > REFUSAL_FACTOR * allowed || self.series.is_some() && most > LARGEST_EFFECT =>
+            {
                 Err(Error::Resonance {
                     harmonic: term.harmonic,
                     multiple: term.multiple,
                     divisor: 2.0 * term.frequency.abs() / self.fastest,
-                    bound: 2.0 * SMALLEST_RATIO,
+                    bound: 2.0 * SLOW_RATIO,
                 })
             }
             _ => Ok(sum),
@@ -129,7 +137,7 @@ impl Commensurability<'_> {
 
     /// Whether a term is too slow for a sum over time derivatives.
     pub(super) fn is_slow(&self, term: &Candidate) -> bool {
-        term.frequency.abs() <= SMALLEST_RATIO * self.fastest
+        term.frequency.abs() <= SLOW_RATIO * self.fastest
     }
 
     /// The attitude error over the span if the term is not corrected at all \[rad\]: by the low harmonics of the orbit, and by the nearest one above them.
@@ -147,8 +155,9 @@ impl Commensurability<'_> {
         let distance = (distance - self.turning).max(0.0);
         let time = self.acting(amplitude, distance);
         let (h, m) = (f64::from(term.harmonic.abs()), f64::from(term.multiple));
-        // M and L are off by half of what they swing, or half as long by all of it; the swings themselves last for that time.
-        // With exact divisors at the epoch the mean M and L have no part of a swing that returns within the span, but for other harmonics of the term.
+        // The mean M and L at the epoch may be wrong by half their swing, for the whole duration. The swing itself adds half the acting time.
+        // With exact divisors at the epoch a swing that returns within the span does not make this error. The other harmonics of the term add the rest of the
+        // acting time.
         let lasting = if self.series.is_some() {
             0.5 * ((-0.25 * (distance * self.duration).powi(2)).exp() * self.duration) + time
         } else {

@@ -61,8 +61,8 @@ impl Response {
         size * slope * (1.0 + self.by_momentum * duration) + self.by_sigma * sigma * duration
     }
 
-    /// What an averaged motion of second order leaves and grows: the drift of third order. `parts` are the shares of the span in which it acts, and of the drifts
-    /// of second order the part that K2 lacks over the span.
+    /// The growing attitude error of an averaged motion of second order \[rad\]. `parts`: the share of the span in which the drift of third order acts, and the
+    /// part of the second-order drifts that K2 lacks.
     pub(super) fn growing(&self, [size, slope]: [f64; 2], p: f64, duration: f64, parts: [f64; 2]) -> f64 {
         let of_sigma = self.of_sigma(p);
         let further = slope + p / self.distance.sqrt() + of_sigma / self.distance;

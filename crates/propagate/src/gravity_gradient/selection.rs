@@ -14,33 +14,34 @@ const LARGEST: f64 = 0.01;
 
 /// The same for the change of y′ through the slope of Ω, in which the correction is linear.
 const LARGEST_TURN: f64 = 0.2;
-/// The most that the correction of a harmonic near resonance may leave, over its effect.
-const WORTH: f64 = 2.0;
-/// The safety factor of what it leaves of pairs.
-const MARGIN: f64 = 0.7;
+/// A harmonic that does not return within the span is corrected only if the largest error of its correction is below this multiple of its effect without
+/// correction.
+const CORRECTION_LIMIT: f64 = 2.0;
+/// Safety factor of the error by pairs of the harmonic with other terms and harmonics.
+const PAIR_MARGIN: f64 = 0.7;
 
-/// The same for what the average torque does to it.
+/// Safety factor of the error by the parts of the shift of Ω that the divisor lacks.
 const SHIFT_MARGIN: f64 = 1.5;
 /// The sum of n over the divisors of both sidebands of a harmonic that is near resonance.
 const SIDEBANDS: f64 = 2.0;
-/// What is charged of an upper estimate of the second-order shift of Ω.
+/// Fraction of the upper estimate of the second-order shift of Ω that enters the error.
 const SECOND_SHIFT: f64 = 0.5;
-/// What is charged of upper estimates of drifts by the square of a harmonic and of its shift.
+/// Fraction of the upper estimates of the drifts by the squares of a harmonic and of its shift that enters the error.
 const SQUARE_DRIFT: f64 = 0.25;
 
-/// What is of third order in the charge of a harmonic near resonance, over the charge and the sum of all terms.
-const GROWING: f64 = 10.0;
+/// The error of a harmonic near resonance is multiplied by 1 plus this times the sum of the sizes of all terms, for its third order.
+const HARMONIC_THIRD_ORDER: f64 = 10.0;
 
-/// What decides it.
+/// The data from which a [`Choice`] is made.
 pub(super) struct Selection<'a> {
     pub(super) commensurability: Commensurability<'a>,
     /// Largest sizes of the time derivatives within the span.
     pub(super) sizes: Vec<f64>,
     /// Largest number of derivatives.
     pub(super) most: usize,
-    /// Smaller changes of the attitude are not looked at \[rad\].
+    /// Terms and truncation errors that change the attitude by less are neglected \[rad\].
     pub(super) nothing: f64,
-    /// What the sum of a term may leave at one time, where exact divisors can replace it \[rad\].
+    /// Truncation error of a sum above which exact divisors replace it, if the orbit has a series \[rad\].
     pub(super) enough: f64,
     /// Sum of the sizes of all terms that are not slow \[rad\].
     pub(super) whole: f64,
@@ -53,7 +54,7 @@ pub(super) struct Selection<'a> {
 pub(super) enum Choice {
     /// Not at all.
     Dropped,
-    /// By a sum with so many derivatives, which leaves so much.
+    /// By a sum: its number of derivatives, and its truncation error \[rad\].
     Sum(usize, f64),
     /// With exact divisors.
     Exact(Exact),
@@ -63,18 +64,18 @@ pub(super) enum Choice {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Exact {
     /// The harmonic of the orbit that is left out, because the term is too near to a resonance with it.
-    pub(super) left_out: Option<i32>,
+    pub(super) excluded: Option<i32>,
     /// Largest change of the attitude by the term \[rad\].
     pub(super) size: f64,
-    /// What the harmonics near resonance do to the attitude over the span, corrected or not \[rad\].
+    /// Attitude error over the span by the harmonics near resonance, corrected or not \[rad\].
     pub(super) effect: f64,
-    /// The most that this may be \[rad\].
+    /// Upper estimate of this error \[rad\].
     pub(super) at_most: f64,
 }
 
 impl Selection<'_> {
-    /// How a term is corrected. Exact divisors are for terms that are too slow for a sum, those of which no sum is accurate enough, and those of which the
-    /// harmonics of the orbit that no sum contains have an effect.
+    /// How a term is corrected. Exact divisors are used for terms that are too slow for a sum, terms whose sum is not accurate enough, and terms with a visible
+    /// effect of the harmonics of the orbit that no sum contains.
     pub(super) fn choice(&self, term: &Candidate) -> Choice {
         let slow = self.commensurability.is_slow(term);
         if let Some((series, aspect)) = &self.series {
@@ -96,7 +97,7 @@ impl Selection<'_> {
         Choice::Sum(orders, left)
     }
 
-    /// What the harmonics of the orbit that a term lacks do to the attitude over the span, and the most that this may be \[rad\].
+    /// Attitude error over the span by the harmonics of the orbit that the correction of a term lacks or leaves, and its upper estimate \[rad\].
     pub(super) fn effect(&self, term: &Candidate, choice: &Choice) -> [f64; 2] {
         match choice {
             Choice::Exact(exact) => [exact.effect, exact.at_most],
@@ -104,7 +105,7 @@ impl Selection<'_> {
         }
     }
 
-    /// What a sum with so many derivatives leaves of a term: the next derivative, and those after it if they fall like a geometric series, at most as much again.
+    /// Truncation error of a sum with `orders` derivatives: the next derivative, and those after it as a geometric series, at most as much again.
     fn rest(&self, term: &Candidate, orders: usize) -> f64 {
         let [last, next] = [orders - 1, orders].map(|orders| self.next(term, orders));
         next / (1.0 - (next / last).min(0.5))
@@ -115,7 +116,8 @@ impl Selection<'_> {
         term.size() * self.sizes[orders] / self.sizes[0] / term.frequency.abs().powi(orders as i32)
     }
 
-    /// The number of derivatives in the sum of a term, and what it leaves. The sum is asymptotic: it ends when it is accurate enough, or where it leaves least.
+    /// The number of derivatives in the sum of a term, and its truncation error. The sum is asymptotic: it ends where it is accurate enough, or where the error
+    /// is least.
     fn sum(&self, term: &Candidate) -> (usize, f64) {
         let least = || (1..=self.most).min_by(|&a, &b| self.next(term, a).total_cmp(&self.next(term, b)));
         let accurate = (1..self.most).find(|&orders| self.rest(term, orders) <= self.nothing);
@@ -123,7 +125,7 @@ impl Selection<'_> {
         (orders, self.rest(term, orders))
     }
 
-    /// A term with exact divisors. The harmonic nearest to resonance is left out if its correction may leave more than [`WORTH`] times its effect.
+    /// A term with exact divisors. The harmonic nearest to resonance is left out if its correction may leave more than [`CORRECTION_LIMIT`] times its effect.
     fn exact(
         &self,
         term: &Candidate,
@@ -132,23 +134,23 @@ impl Selection<'_> {
     ) -> Exact {
         let Commensurability { duration, .. } = self.commensurability;
         let divisors = self.commensurability.divisors(term);
-        let [left, at_most] = self.left(term, nearest, &divisors);
+        let [left, at_most] = self.correction_error(term, nearest, &divisors);
         let first = self.commensurability.turned(term, nearest.amplitude, nearest.distance);
         let [_, turn] = term.swing_at(nearest.distance).map(|part| nearest.amplitude * part);
         let small = nearest.amplitude * term.size_at(nearest.distance) <= LARGEST && turn <= LARGEST_TURN;
         let nothing = nearest.amplitude == 0.0;
-        let corrected = nothing || returns(nearest.distance, duration) || small && at_most < WORTH * first;
-        let (left_out, both) = if corrected { (None, [left, at_most]) } else { (Some(nearest.harmonic), [first; 2]) };
-        let beside = beside.iter().map(|near| self.left(term, near, &divisors));
+        let corrected = nothing || returns(nearest.distance, duration) || small && at_most < CORRECTION_LIMIT * first;
+        let (excluded, both) = if corrected { (None, [left, at_most]) } else { (Some(nearest.harmonic), [first; 2]) };
+        let beside = beside.iter().map(|near| self.correction_error(term, near, &divisors));
         let [effect, at_most] = beside.fold(both, |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
-        let [size, square] = self.harmonics(term, &divisors.without(left_out), series);
+        let [size, square] = self.harmonics(term, &divisors.without(excluded), series);
         let slow = self.commensurability.is_slow(term);
         let drift = if slow { self.moved(&divisors, nearest.distance) * square * duration } else { 0.0 };
-        Exact { left_out, size, effect: effect + drift, at_most: at_most + drift }
+        Exact { excluded, size, effect: effect + drift, at_most: at_most + drift }
     }
 
-    /// What the correction of a harmonic near resonance leaves of the attitude over the span, and the most that this may be \[rad\].
-    fn left(&self, term: &Candidate, near: &NearHarmonic, divisors: &Divisors) -> [f64; 2] {
+    /// Attitude error over the span by the correction of a harmonic near resonance, and its upper estimate \[rad\].
+    fn correction_error(&self, term: &Candidate, near: &NearHarmonic, divisors: &Divisors) -> [f64; 2] {
         let Commensurability { duration, response, mean_motion, eccentricity, fastest, .. } = self.commensurability;
         let NearHarmonic { amplitude, distance, .. } = *near;
         if amplitude == 0.0 {
@@ -157,22 +159,23 @@ impl Selection<'_> {
         let size = amplitude * term.size_at(distance);
         let [swing, turn] = term.swing_at(distance).map(|part| amplitude * part);
         let lasting = response.by_momentum * duration;
-        // Of its square: the averaged Hamiltonian of second order, and the slope of a power of p, which is larger than the change near J = 0.
+        // By the square of the harmonic: the averaged Hamiltonian of second order, and the slope of a power of p, which is larger than the change near J = 0.
         let degree = f64::from((term.harmonic.abs() - 1).max(0));
         let slope = turn + size * degree / (response.gain * response.sigma.sqrt()).max(size).max(f64::MIN_POSITIVE);
         let square = size * (size + slope) + 0.5 * turn * turn;
-        // Of pairs with the other terms, and with the other harmonics of the same one, which act while the body passes the pericentre.
+        // By pairs with the other terms, and with the other harmonics of the same term, which act while the disturbing body passes the pericentre.
         let passing = 2.0 * (term.frequency / fastest).abs();
         let bounded = (size + turn) * (self.whole + passing * term.size());
         let drift = SQUARE_DRIFT * self.moved(divisors, distance) * distance * duration;
-        let second = square * (1.0 + drift) + MARGIN * bounded;
-        // The divisors have the mean shift of Ω by the average torque, but not its dependence on σ and k, the part that swings with the orbit, and its second order.
+        let second = square * (1.0 + drift) + PAIR_MARGIN * bounded;
+        // The divisors contain the mean shift of Ω by the average torque. They lack its dependence on σ and k, the part that swings with the orbit, and its
+        // second order.
         let (steady, angles) = (divisors.steady_shift, turn + amplitude * term.shift / (distance * distance));
         let swinging = (3.0 * eccentricity * steady + 0.25 * divisors.swinging_shift) / mean_motion;
         let further =
             steady * steady / (mean_motion * distance) + self.whole * self.whole * term.frequency.abs() / distance;
         let shift = (swinging + further).min(1.0);
-        // What swings makes sidebands, whose divisors are about n, of which a span needs several.
+        // A shift that swings makes sidebands with divisors of about n, if the span has at least `FEWEST_ORBITS[0]` orbits.
         let direct = amplitude * term.rate / distance;
         let shifted = if mean_motion * duration >= FEWEST_ORBITS[0] * TAU {
             swinging * (direct + SIDEBANDS * distance / mean_motion * angles) + SECOND_SHIFT * further * angles
@@ -182,11 +185,11 @@ impl Selection<'_> {
         let of_mean = swing * ((steady / distance).min(1.0) + SQUARE_DRIFT * shift * shift * lasting);
         let left = second + SHIFT_MARGIN * shifted.min(direct + angles) + of_mean;
         let at_most = second + SHIFT_MARGIN * shift * (angles + shift * swing * lasting);
-        let third = 1.0 + GROWING * self.whole;
+        let third = 1.0 + HARMONIC_THIRD_ORDER * self.whole;
         [third * left, third * at_most.max(left)]
     }
 
-    /// The share of the drift by a square that moves with the angular momentum: K2 has its mean at the direction at the epoch.
+    /// The share of the drift by the square of a harmonic that K2 lacks. K2 contains the mean drift for the direction of the angular momentum at the epoch.
     fn moved(&self, divisors: &Divisors, distance: f64) -> f64 {
         let Commensurability { duration, eccentricity, secular, .. } = &self.commensurability;
         (divisors.steady_shift / distance + eccentricity * secular.precessed(*duration)).min(1.0)
@@ -196,7 +199,7 @@ impl Selection<'_> {
     fn harmonics(&self, term: &Candidate, divisors: &Divisors, series: &OrbitSeries) -> [f64; 2] {
         let count = series.coefficients.len() as i32;
         let mut sums = [0.0; 2];
-        for j in (1 - count..count).filter(|j| divisors.left_out != Some(*j)) {
+        for j in (1 - count..count).filter(|j| divisors.excluded != Some(*j)) {
             let functions = &series.coefficients[j.unsigned_abs() as usize];
             let largest = functions.iter().fold(0.0_f64, |most, g| most.max(g.abs()));
             let divisor = divisors.smallest(j).abs();

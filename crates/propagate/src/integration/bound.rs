@@ -23,7 +23,7 @@ use crate::error::Error;
 use crate::simd::halt::going;
 use crate::simd::instruction_set::{InstructionSet, Task};
 
-/// The least and the most that the bound is of the largest distance of the displaced states.
+/// Least and largest safety factor: the bound is the largest distance of the displaced states times a number in this interval.
 pub(super) const SAFETY: [f64; 2] = [2.0, 8.0];
 /// Times at which the two are compared.
 const COMPARISONS: usize = 256;

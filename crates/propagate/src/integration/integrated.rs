@@ -25,10 +25,9 @@ const FINEST: f64 = 1e-19;
 const COARSEST: f64 = 1e-6;
 /// Error at the end that the steps of an enlarged displacement may leave, before its division by the square of the phase \[rad\].
 const ENLARGED_ERROR: f64 = 3e-5;
-/// The first integration's truncation error relative to the tolerance and the square of the phase. A smaller part takes a higher order, 8 % of the time for a
-/// third, and fewer motions twice.
+/// Truncation error of the first integration, over tolerance/(10 + phase²). A third of it costs 8 % more time, but fewer motions are integrated a second time.
 const CAREFUL: f64 = 0.06;
-/// The second integration's truncation error relative to the first's, after as much as the tolerance asks for.
+/// The truncation error of the second integration is that of the first times tolerance/(error bound of the first), times this.
 const FINER: f64 = 0.05;
 
 /// Length of a step \[rad\], from below.

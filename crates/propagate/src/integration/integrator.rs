@@ -39,7 +39,8 @@ impl Step {
     }
 }
 
-/// The most rows of coefficients that are kept in one direction: 59 MB. Of longer integrations none are, and a step is expanded again when a time falls into it.
+/// The most rows of coefficients that are kept in one direction: 59 MB. Of longer integrations none are, and a step is expanded again when a time falls into
+/// it.
 const MOST_COEFFICIENTS: usize = 1 << 20;
 
 /// The steps in one direction.

@@ -79,7 +79,8 @@ fn the_integrals_of_the_free_motion_drift_by_twice_the_relative_error_of_the_rat
     let motion = Integrated::new(&free, "", &AtomicBool::new(false)).expect("a motion");
     let [first, last] = [&motion.sides[1].steps[0], &motion.sides[1].steps[motion.sides[1].steps.len() - 1]];
     let equations = Equations::new(&free, 0, 1.0);
-    // Along the motion the energy and the angular momentum stay; with rates 1e-9 larger the largest integral, f2 ω1² − f1 ω2² or another, changes by 2e-9 of it.
+    // Along the motion the energy and the angular momentum stay; with rates 1e-9 larger the largest integral, f2 ω1² − f1 ω2² or another, changes by 2e-9 of
+    // it.
     assert!(equations.drift(&first.rates, &last.rates) < 1e-14);
     let wrong = last.rates.map(|rate| rate * (1.0 + 1e-9));
     let drift = equations.drift(&first.rates, &wrong);

@@ -91,10 +91,10 @@ impl Target<'_> {
                 let amplitudes = &amplitudes(integral.zeta((sine, cosine)));
                 self.fill(&Wobbling { tables, integral: &integral, amplitudes }, attitudes, rates);
             }
-            Trajectory::Passage(flip) => {
-                let start = integral.zeta_of_passages(flip.passage.angle((0.0, 0.0)));
+            Trajectory::Passage(passage) => {
+                let start = integral.zeta_of_passages(passage.passage.angle((0.0, 0.0)));
                 let amplitudes = &amplitudes(start);
-                self.fill(&Passing { flip, integral: &integral, amplitudes }, attitudes, rates);
+                self.fill(&Passing { passage, integral: &integral, amplitudes }, attitudes, rates);
             }
             Trajectory::Steady(_) | Trajectory::Gradient(_) | Trajectory::Integrated(_) => {}
         }

@@ -1,8 +1,8 @@
 //! The matrices of derivatives of some times, with a parameter in each lane (theory §12).
 //!
 //! Eight lanes have the last eight columns of a row: two of the initial attitude, then those of the six parameters that change the polhode. Sixteen lanes have
-//! them for two times. A row of a matrix is then a vector, which is stored where it belongs. With a time in each lane, as attitudes and rates are computed, the matrices had to be transposed through the memory: calls with 2,000
-//! times took 61 ns a sample instead of 40.
+//! them for two times. A row of a matrix is then a vector, which is stored where it belongs. With a time in each lane, as attitudes and rates are computed, the
+//! matrices had to be transposed through the memory: calls with 2,000 times took 61 ns a sample instead of 40.
 
 use super::constants::{Change, Setting};
 use super::sources::{COLUMNS, Constant, NUMBERS, Place, Source, UNCHANGING, at_once, direction};

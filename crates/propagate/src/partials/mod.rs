@@ -123,14 +123,14 @@ impl Motion {
         let target = Target { times, epoch, initial: self.scene.state().attitude, setting: &setting };
         match &self.trajectory {
             _ if mode == Mode::Separatrix => Err(Error::SeparatrixPartials),
-            Trajectory::Steady(course) => {
+            Trajectory::Steady(steady) => {
                 let varied = Varied::new(&polhode, &setting, mode);
                 let bound = varied.bound();
                 if let Some(index) = times.iter().position(|time| (time - epoch).abs() > bound) {
                     let reason = ": about the middle axis a change grows beyond every double";
                     return Err(Error::Time { index, value: times[index], bound, reason });
                 }
-                target.fill(&Steadily { course, varied: &varied }, attitudes, rates);
+                target.fill(&Steadily { steady, varied: &varied }, attitudes, rates);
                 Ok(())
             }
             Trajectory::Gradient(_) | Trajectory::Integrated(_) => {

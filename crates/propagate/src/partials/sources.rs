@@ -267,7 +267,7 @@ impl Source for Wobbling<'_> {
 
 /// A passage near the separatrix, evaluated for one time after another.
 pub(super) struct Passing<'a> {
-    pub(super) flip: &'a Passage,
+    pub(super) passage: &'a Passage,
     pub(super) integral: &'a Integral,
     pub(super) amplitudes: &'a Amplitudes,
 }
@@ -279,8 +279,8 @@ impl Source for Passing<'_> {
     #[inline(always)]
     fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S> {
         let now = (elapsed.0.values()[0], elapsed.1.values()[0]);
-        let (attitude, rates) = self.flip.evaluate(now);
-        let zeta = self.integral.zeta_of_passages(self.flip.passage.angle(now));
+        let (attitude, rates) = self.passage.evaluate(now);
+        let zeta = self.integral.zeta_of_passages(self.passage.passage.angle(now));
         let sample = (Lanes::splats(simd, attitude), Lanes::splats(simd, rates));
         self.amplitudes.place(setting, sample, elapsed.0, Lanes::splat(simd, zeta))
     }
@@ -302,7 +302,7 @@ impl Source for Passing<'_> {
 
 /// A steady rotation.
 pub(super) struct Steadily<'a> {
-    pub(super) course: &'a Steady,
+    pub(super) steady: &'a Steady,
     pub(super) varied: &'a Varied,
 }
 
@@ -320,7 +320,7 @@ impl Source for Steadily<'_> {
     /// The numbers are S, C and the time, scaled.
     #[inline(always)]
     fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S> {
-        let (attitude, rates) = self.course.evaluate::<S, true, true>(simd, ready(self.course.phases(), elapsed));
+        let (attitude, rates) = self.steady.evaluate::<S, true, true>(simd, ready(self.steady.phases(), elapsed));
         let time = elapsed.0 * elapsed.0.all(setting.unit);
         let [first, second] = match &self.varied.growth {
             Growth::Oscillation(half, rate) => {

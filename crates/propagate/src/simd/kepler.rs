@@ -1,8 +1,8 @@
 //! Kepler's equation and the true anomaly, in lanes.
 //!
-//! Kepler's equation is solved with a fixed number of steps. Where e is small, the start is Lagrange's series for E − M up to e⁶, accurate to 2e-4, and one step
-//! that is of fourth order follows. Otherwise the start is Markley's (Celest. Mech. Dyn. Astron. 63 (1995) 101), accurate to 1e-4, and two steps follow, with
-//! the residual (1−e)E + e(E − sin E) − M, which is computed without cancellation.
+//! Kepler's equation is solved with a fixed number of steps. Where e is small, the start is Lagrange's series for E − M up to e⁶, accurate to 2e-4, and one
+//! step that is of fourth order follows. Otherwise the start is Markley's (Celest. Mech. Dyn. Astron. 63 (1995) 101), accurate to 1e-4, and two steps follow,
+//! with the residual (1−e)E + e(E − sin E) − M, which is computed without cancellation.
 
 use std::f64::consts::{PI, TAU};
 

@@ -20,7 +20,7 @@ pub(super) fn is_sphere(scene: &Scene) -> bool {
     a == b && b == c
 }
 
-/// What in a scene no theory has, if there is something.
+/// Why no theory covers the scene, or `None`.
 pub(super) fn beyond_theory(scene: &Scene) -> Option<String> {
     match scene.asked_disturbing() {
         _ if is_sphere(scene) => None,
@@ -54,8 +54,8 @@ pub(super) fn may_be_integrated(scene: &Scene) -> bool {
         && scene.asked_level() == Level::default()
 }
 
-/// The theory where it meets the tolerance, else the integration where that does, else the theory: it costs less, and the plan says how near the integration would
-/// come. For several bodies and for orbits that precess the smaller error bound decides instead.
+/// The theory where it meets the tolerance, else the integration where that does, else the theory: it costs less, and the plan says how near the integration
+/// would come. For several bodies and for orbits that precess the smaller error bound decides instead.
 pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
     let mut by_theory = match scene.clone().solve_by_theory(tables) {
         Ok(motion) if motion.plan.meets_tolerance() => return Ok(motion),

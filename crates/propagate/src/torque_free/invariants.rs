@@ -51,7 +51,8 @@ pub(crate) struct Invariants {
     pub(crate) theta: Theta,
     /// |cos ℓ| and |sin ℓ| of the state.
     pub(crate) quadrant: [f64; 2],
-    /// The argument u = √Q2 ∫ dℓ/√Q of the state in the first quadrant, counted from the nearer extremum of cos J: whether that is the maximum, and the distance.
+    /// The argument u = √Q2 ∫ dℓ/√Q of the state in the first quadrant, counted from the nearer extremum of cos J: whether that is the maximum, and the
+    /// distance.
     pub(crate) argument: (bool, f64),
 }
 

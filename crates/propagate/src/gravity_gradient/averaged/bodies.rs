@@ -3,7 +3,7 @@
 //! With the attractions μ = G m/a³ of the bodies and time t
 //!
 //! ```text
-//! dk/dt = Σ 3μ (Δ/M) (a/r)³ (k·r̂) (r̂ × k)          dJ/dt = Σ μ (a/r)³ (1 − 3 (k·r̂)²)
+//! dk/dt = Σ 3μ (Δ/M) (a/r)³ (k·r̂) (r̂ × k)          dΨ/dt = Σ μ (a/r)³ (1 − 3 (k·r̂)²)
 //! ```
 //!
 //! The equations are solved on arcs of time, by polynomials as on the quarters of one orbit. The length of an arc follows from the singularities of the orbits
@@ -48,13 +48,13 @@ struct Equations {
 type Torque = (Vector3<f64>, f64);
 
 impl Bodies {
-    /// From the frame at the epoch, where J and the drifts are 0.
+    /// From the frame at the epoch, where the phase integral Ψ is 0.
     pub(crate) fn new(pulls: Vec<Pull>, delta: f64, frame: UnitQuaternion<f64>) -> Self {
         let start = [frame.i, frame.j, frame.k, frame.w, 0.0, 0.0];
         Self { equations: Equations { pulls, delta }, arcs: Arcs::new(start) }
     }
 
-    /// The frame and J at times after the epoch.
+    /// The frame, and Ψ twice, at times after the epoch.
     #[inline(always)]
     pub(super) fn at<S: InstructionSet>(&self, times: Lanes<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         self.arcs.at(&self.equations, times)

@@ -9,15 +9,15 @@ use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::{Lanes, WIDEST};
 
-/// Chebyshev points in an interval: whole vectors of every width. With degree 15 the interpolation error in a quarter of the orbit is 1e-15 of κ for cos 2f, and
-/// 7e-13 eκ for cos 3f.
+/// Chebyshev points in an interval: whole vectors of every width. With degree 15 the interpolation error in a quarter of the orbit is 1e-15 κ_o for cos 2f, and
+/// 7e-13 e κ_o for cos 3f.
 pub(super) const POINTS: usize = WIDEST;
-/// Largest number of Picard iterations. Each one multiplies the error by κ, which [`super::super::mean_motion::STRONGEST`] bounds, so a dozen are enough.
+/// Largest number of Picard iterations. Each one multiplies the error by κ_o, which [`super::super::mean_motion::STRONGEST`] bounds, so a dozen are enough.
 const MOST_ITERATIONS: usize = 40;
 /// Smaller coefficients are dropped.
 const NEGLIGIBLE: f64 = 1e-17;
 
-/// Frame (quaternion x, y, z, w), and what the drifts of ℓ′ and y′ are multiples of: J twice, or the drifts themselves.
+/// Frame (quaternion x, y, z, w), and two numbers: the phase integral Ψ twice, or the drifts of ℓ′ and y′.
 pub(super) type Column = [f64; COLUMNS];
 /// Components of a column.
 pub(super) const COLUMNS: usize = 6;

@@ -1,7 +1,7 @@
 //! The average over the rotation and the orbit.
 //!
-//! To first order in κ the angular momentum precesses steadily about the orbit's normal. To second order (theory §9) it also nods if the orbit is eccentric: the
-//! averaged equations are then solved on arcs of the precession. Both have the same periodic part of one orbit, of first order in κ.
+//! To first order in κ_o the angular momentum precesses steadily about the orbit's normal. To second order (theory §9) it also nods if the orbit is eccentric:
+//! the averaged equations are then solved on arcs of the precession. Both have the same periodic part of one orbit, of first order in κ_o.
 
 use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -26,13 +26,13 @@ const SLOWEST: f64 = 1e-12;
 pub(crate) struct Precession {
     ellipse: AveragedOrbit,
     mean: MeanFrame,
-    /// What the periodic part of J is multiplied by: 1, or in second order what gives the drifts of ℓ′ and y′.
+    /// Factors of the periodic part of Ψ: 1, or in second order the drifts of ℓ′ and y′ for a unit of Ψ.
     factors: [f64; 2],
-    /// J of the periodic part at the epoch.
+    /// The periodic part of Ψ at the epoch.
     phase: f64,
 }
 
-/// The motion of the mean frame, with J or the drifts of ℓ′ and y′.
+/// The motion of the mean frame, with Ψ or the drifts of ℓ′ and y′.
 #[derive(Clone, Debug)]
 enum MeanFrame {
     /// Steady precession.
@@ -42,7 +42,7 @@ enum MeanFrame {
         /// Half the angle about the orbit's normal. `half_back` is half the angle about the angular momentum that keeps the frame from turning about it.
         half: Phase,
         half_back: Phase,
-        /// The orbit average of dJ/dt.
+        /// The orbit average of dΨ/dt.
         secular: f64,
     },
     /// The solution of the averaged equations of second order.
@@ -81,8 +81,8 @@ impl Averaged for Equations {
 }
 
 impl Precession {
-    /// The motion from the frame at one place of the orbit, where J and the drifts are 0. `unit` is the user's unit of time in units of the motion, and
-    /// `factors` are the drifts of ℓ′ and y′ over J.
+    /// The motion from the frame at one place of the orbit, where Ψ and the drifts are 0. `unit` is the user's unit of time in units of the motion, and
+    /// `factors` are the drifts of ℓ′ and y′ for a unit of Ψ.
     pub(crate) fn new(
         ellipse: AveragedOrbit,
         frame: UnitQuaternion<f64>,
@@ -105,7 +105,7 @@ impl Precession {
         Self { ellipse, mean, factors, phase: phase.values()[0] }
     }
 
-    /// The frame, and J twice or the drifts of ℓ′ and y′.
+    /// The frame, and Ψ twice or the drifts of ℓ′ and y′.
     #[inline(always)]
     pub(super) fn at<S: InstructionSet>(
         &self,
@@ -135,7 +135,7 @@ impl MeanFrame {
     fn steady(ellipse: &AveragedOrbit, frame: UnitQuaternion<f64>, unit: f64) -> Self {
         let axis = frame * Vector3::z();
         let cosine = axis.dot(&ellipse.axes[2]);
-        // dλ/dt = −(3/2) n² Δ cos I/(M η³): κ is 3 n Δ/(M η³).
+        // dλ/dt = −(3/2) φn² Δ cos I/(M η³) = −½ n κ_o cos I.
         let precessing = -0.5 * ellipse.strength * cosine * ellipse.mean_motion * unit;
         let [half, half_back] = [0.5, -0.5 * cosine].map(|part| Phase::new(DoubleDouble::from(part * precessing), 0.0));
         Self::Steady { frame, half, half_back, secular: ellipse.secular(&axis) * unit }
@@ -172,7 +172,7 @@ impl AveragedOrbit {
         Some(OrbitAverage::new(hamiltonian, self.eccentricity, self.mean_motion, self.axes))
     }
 
-    /// The periodic part of one orbit: a rotation in inertial components, and J, by the integrals of theory §9.
+    /// The periodic part of one orbit: a rotation in inertial components, and Ψ, by the integrals of theory §9.
     #[inline(always)]
     fn periodic<S: InstructionSet>(&self, frame: QuaternionLanes<S>, place: &Place<S>) -> ([Lanes<S>; 3], Lanes<S>) {
         let Self { eccentricity, eta_cubed, mean_motion, axes, strength, mean_of_sine, .. } = self;

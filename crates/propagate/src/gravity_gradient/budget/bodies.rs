@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
-use super::{Budget, MARGIN, SAMPLES, SLOPE_SHARE, Sample, Subject, kronecker};
+use super::{Budget, SAMPLES, SECOND_ORDER_MARGIN, SLOPE_SHARE, Sample, Subject, kronecker};
 use crate::gravity_gradient::corrections::Demand;
 
 /// Samples of one body over those of a fixed orbit: the orientations are more.
@@ -44,7 +44,7 @@ impl Budget {
         let [anomaly, longitude] = inertia.rate_slopes;
         let slope = f64::max(size, SLOPE_SHARE * sum);
         Self {
-            spin: MARGIN * response.second_order([size, slope], p, duration),
+            spin: SECOND_ORDER_MARGIN * response.second_order([size, slope], p, duration),
             orbit: f64::INFINITY,
             dropped,
             omitted,

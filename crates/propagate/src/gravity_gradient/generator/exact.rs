@@ -1,15 +1,14 @@
 //! Terms whose divisors are exact in the orbit's harmonics.
 //!
-//! Where the orbit is not much slower than a term, the sum over time derivatives for G ends before it is accurate. With g = Σ g_j e^(ijl) in the mean anomaly l,
+//! If the orbit is not much slower than a term, the sum over time derivatives for G ends before it is accurate. With g = Σ g_j e^(ijl) in the mean anomaly l,
 //!
 //! ```text
 //! G = Σ_j g_j e^(ijl)/(i(Ω + jn)) = (E + iO)/(iΩ)          Ω² ∂G/∂Ω = −(E₁ + iO₁)/i
 //! ```
 //!
-//! With r_± = 1/(Ω ± jn), the coefficients of E and E₁ are Ω(r₊ + r₋) and Ω²(r₊² + r₋²), and those of O and O₁ have differences for the sums; near resonance the
-//! average torque shifts the divisors ([`crate::gravity_gradient::divisors`]). For an even g, E is
-//! a series in cos jl and O one in sin jl. So E and O take the places of the even and of the odd time derivatives. The harmonic nearest to resonance may
-//! be left out (`selection`).
+//! With r_± = 1/(Ω ± jn), the coefficients of E and E₁ are Ω(r₊ + r₋) and Ω²(r₊² + r₋²), and those of O and O₁ have differences instead of the sums. Near
+//! resonance the average torque shifts the divisors ([`crate::gravity_gradient::divisors`]). For an even g, E is a series in cos jl and O one in sin jl. So E
+//! and O take the places of the even and of the odd time derivatives. The harmonic nearest to resonance may be left out (`selection`).
 
 use std::f64::consts::TAU;
 
@@ -49,7 +48,8 @@ pub(crate) struct ExactTerm {
 }
 
 impl ExactTerm {
-    /// The term with these h and m, its factors of G and of −Ω ∂G/∂Ω in the derivatives of W, and its divisors in the series. Coefficients below `negligible` are dropped.
+    /// The term with these h and m, its factors of G and of −Ω ∂G/∂Ω in the derivatives of W, and its divisors in the series. Coefficients below `negligible`
+    /// are dropped.
     pub(crate) fn new(
         numbers: (i32, i32),
         factors: [[f64; SUMS]; 2],

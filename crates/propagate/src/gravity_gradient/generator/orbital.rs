@@ -60,8 +60,8 @@ impl Orbital {
         orbital
     }
 
-    /// The first derivatives, as many as there are bounds, without the lowest and the highest coefficients that do not exceed the bound; and for each the sum of
-    /// the coefficients that it lacks.
+    /// The first derivatives, as many as there are bounds, without the lowest and the highest coefficients that do not exceed the bound; and for each the sum
+    /// of the coefficients that it lacks.
     pub(crate) fn cut(&self, bounds: &[f64]) -> (Self, Vec<f64>) {
         let mut orbital = Self { rows: Vec::new(), coefficients: Vec::new(), norms: Vec::new(), ..*self };
         let cut = |(row, bound): (&Row, &f64)| {

@@ -1,7 +1,7 @@
 //! The changes of M and L = Mσ of first order at the epoch, from all terms.
 //!
-//! The corrections of a motion drop small terms and end their sums early. What that does to the mean M and L grows with the rates and with time; here nothing
-//! is dropped.
+//! The corrections of a motion drop small terms and end their sums early. The resulting error of the mean M and L makes the phases drift. Here nothing is
+//! dropped.
 
 use num_complex::Complex;
 
@@ -18,7 +18,7 @@ type C64 = Complex<f64>;
 pub(super) struct FirstActions {
     pub(super) momentum: f64,
     pub(super) action: f64,
-    /// What the sums over time derivatives leave of them.
+    /// Truncation errors of both by the sums over time derivatives.
     pub(super) left: [f64; 2],
 }
 
@@ -43,7 +43,7 @@ pub(super) fn first_actions(
         };
         let phase = C64::from_polar(amplitude, h * angle + m * stand.mean.longitude);
         let phase = if mode.multiple == 1 { phase * -C64::i() } else { phase };
-        // −i W, of which δM has m times the real part and δL h times.
+        // δM is m times the real part of −i W, and δL is h times.
         let turned = (phase * sum * -C64::i()).re;
         actions.momentum += m * turned;
         actions.action += h * turned;

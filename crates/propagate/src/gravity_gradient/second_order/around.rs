@@ -1,7 +1,7 @@
-//! Pairs of terms by the harmonics of the orbit: those that are slower than the sums over time derivatives allow, and those with a harmonic near resonance.
+//! Pairs of terms by the harmonics of the orbit: pairs that are too slow for the sums over time derivatives, and pairs with a harmonic near resonance.
 //!
-//! The source S of all pairs with one h and m depends on the place of the disturbing body. With S = Σ_j S_j e^(ijl), its integral is Σ_j S_j e^(ijl)/(i(Ω + jn)).
-//! A harmonic with a small x = Ω + jn has the factor 1 − e^(−x²T²/4) of [`super::harmonics`] there.
+//! The source S of all pairs with one h and m depends on the place of the disturbing body. With S = Σ_j S_j e^(ijl), its integral is Σ_j S_j e^(ijl)/(i(Ω +
+//! jn)). A harmonic with a small x = Ω + jn has the factor 1 − e^(−x²T²/4) of [`super::harmonics`] there.
 
 use std::f64::consts::{PI, TAU};
 
@@ -18,12 +18,12 @@ type C64 = Complex<f64>;
 
 /// Most points around an orbit; more are needed from an eccentricity of 0.77 on, and for a harmonic above 60.
 const MOST_POINTS: f64 = 128.0;
-/// The part of a sum around the orbit that the change of S within the span may make wrong.
-const LEFT: f64 = 0.002;
-/// The same for slow pairs, which K2 lacks. With this share random scenes stay below their bounds (`gradient table`).
-const SLOW_LEFT: f64 = 0.02;
-/// Pairs whose sizes, over the largest, have a smaller product are left out.
-pub(super) const SMALLEST_PRODUCT: f64 = 1e-6;
+/// Relative error of a sum around the orbit, because S changes within the span.
+const SOURCE_CHANGE: f64 = 0.002;
+/// The same for slow pairs, which K2 lacks. With this value random scenes stay below their bounds (`gradient table`).
+const SLOW_SOURCE_CHANGE: f64 = 0.02;
+/// Pairs of terms are left out if the product of their sizes, each divided by the largest, is smaller.
+pub(super) const PAIR_PRODUCT_CUTOFF: f64 = 1e-6;
 
 /// The disturbing body at one place of its orbit.
 pub(super) struct Point {
@@ -94,16 +94,16 @@ struct Term<'a> {
 
 /// A pair of terms, by their places in the list; the first may be ⟨D⟩.
 struct Pair {
-    /// Which total they have.
+    /// Index of their total in `totals`.
     place: usize,
     terms: [Option<usize>; 2],
     /// Whether the second has the opposite h and m.
     conjugated: bool,
-    /// Whether both together have the opposite ones.
+    /// Whether the sum of both has the opposite h and m of that total.
     opposite: bool,
 }
 
-/// The changes of M and L by the pairs of these terms that have one of these totals, and what is left of them. A term comes with its relative size.
+/// The changes of M and L by the pairs of these terms that have one of these totals, and their errors. A term comes with its relative size.
 pub(super) fn actions(
     stand: &Stand<'_>,
     listed: &[(Mode, f64)],
@@ -155,8 +155,8 @@ pub(super) fn actions(
             still += harmonic.norm_sqr().sqrt() * unreturned(divisor, stand.duration);
             waves.iter_mut().zip(&steps).for_each(|(wave, step)| *wave *= step);
         }
-        // −i/2 times m or h times S/(iΩ), twice its real part.
-        let share = if frequency.abs() <= stand.slowest { SLOW_LEFT } else { LEFT };
+        // With X = Σ_j S_j/(Ω + jn), M changes by −m Re X and L by −h Re X.
+        let share = if frequency.abs() <= stand.slowest { SLOW_SOURCE_CHANGE } else { SOURCE_CHANGE };
         let left = share * size + still;
         for (i, number) in [*m, *h].into_iter().enumerate() {
             actions[0][i] -= number * sum.re;
@@ -175,7 +175,7 @@ fn pairs(listed: &[(Mode, f64)], totals: &[Total]) -> Vec<Pair> {
                 let sign = if conjugated { -1 } else { 1 };
                 let [h, m] = [a.harmonic + sign * b.harmonic, a.multiple + sign * b.multiple].map(f64::from);
                 let place = totals.iter().position(|total| total.numbers == [h, m] || total.numbers == [-h, -m]);
-                if let Some(place) = place.filter(|_| size * other >= SMALLEST_PRODUCT) {
+                if let Some(place) = place.filter(|_| size * other >= PAIR_PRODUCT_CUTOFF) {
                     let opposite = totals[place].numbers != [h, m];
                     pairs.push(Pair { place, terms: [Some(i), Some(k)], conjugated, opposite });
                 }

@@ -14,7 +14,7 @@ const STEPS: usize = 48;
 /// A turn of the angular momentum in inertial components, and changes of ℓ′ and y′.
 type Difference = [f64; 5];
 
-/// What tells the two motions apart.
+/// The differences between the averaged motions of first and second order.
 pub(crate) struct Drift<'a> {
     /// K2 alone.
     pub(crate) hamiltonian: &'a Hamiltonian,
@@ -59,7 +59,7 @@ impl Drift<'_> {
         largest
     }
 
-    /// Times from the epoch, and what K2 has done by then: over one orbit, or to the end of a shorter span.
+    /// Times from the epoch, and the change by K2 until then: over one orbit, or to the end of a shorter span.
     fn orbit(&self, sign: f64, side: f64) -> Vec<(f64, Difference)> {
         let anomaly = self.reach.anomaly;
         let start = self.reach.true_anomaly(anomaly);

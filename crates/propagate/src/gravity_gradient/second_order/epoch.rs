@@ -19,40 +19,40 @@ use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
 /// Terms smaller than this share of the largest are left out of the sum over pairs.
-const SMALLEST_PAIR: f64 = 1e-6;
+const PAIR_SUM_CUTOFF: f64 = 1e-6;
 /// Terms smaller than this share of the largest are left out of the changes of first order.
-const SMALLEST_FIRST: f64 = 1e-13;
+const FIRST_ORDER_CUTOFF: f64 = 1e-13;
 /// Terms smaller than this share of the largest are left out of K2.
-const SMALLEST_TERM: f64 = 1e-9;
+const K2_CUTOFF: f64 = 1e-9;
 
-/// Pairs that turn the attitude by less than this share of the tolerance are not summed around the orbit. They are charged.
-const ENOUGH: f64 = 0.02;
+/// Pairs whose error turns the attitude by less than this share of the tolerance are not summed around the orbit. Their error is part of the bound.
+const PAIR_TOLERANCE_SHARE: f64 = 0.02;
 
 /// A mean state at the epoch.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Refined {
+pub(crate) struct EpochMean {
     pub(crate) mean: Mean,
     /// The change of M that leads to the state.
     pub(crate) momentum: f64,
-    /// What is left of the mean M and L, over M.
+    /// Estimated errors of the mean M and L, divided by M.
     pub(crate) left: [f64; 2],
 }
 
 /// ⟨D⟩ + K2 at a mean motion.
 pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, steady: Steady) -> Hamiltonian {
-    let modes = modes(inertia, SMALLEST_TERM, slowest(demand));
+    let modes = modes(inertia, K2_CUTOFF, slowest(demand));
     Hamiltonian::new(inertia, &modes, demand.strength()).with_steady(steady)
 }
 
 /// The mean states with |p| and M from all terms of first order, and to second order, and the difference of their M, over M, and σ: from the mean state of the
 /// corrections at the epoch.
-pub(crate) fn refined(
+pub(crate) fn epoch_means(
     (mean, change, exact): (&Mean, &Change, &[ExactTerm]),
     state: &Mean,
     inertia: &Inertia,
     place: &Place<pulp::Scalar>,
     demand: &Demand<'_>,
-) -> ([Refined; 2], [f64; 2], Steady) {
+) -> ([EpochMean; 2], [f64; 2], Steady) {
     let slowest = slowest(demand);
     let (tensors, norms) = tensors(mean, place, demand);
     let stand = Stand {
@@ -67,17 +67,17 @@ pub(crate) fn refined(
         duration: demand.duration,
         closest: demand.envelope.span[0] / demand.envelope.epoch[0],
         bend: demand.envelope.epoch[2] / demand.envelope.epoch[0],
-        enough: ENOUGH * demand.tolerance
+        enough: PAIR_TOLERANCE_SHARE * demand.tolerance
             / (demand.duration * inertia.rates.iter().map(|rate| rate.to_f64().abs()).sum::<f64>()),
     };
     let points = |places: &[(f64, f64)]| points(mean, place, demand, places);
     let harmonics = Harmonics::new(mean, place, demand);
-    let mut terms = modes(inertia, SMALLEST_FIRST, slowest);
+    let mut terms = modes(inertia, FIRST_ORDER_CUTOFF, slowest);
     if harmonics.is_some() {
         terms.extend(slow_modes(inertia, slowest));
     }
     let first = first_actions(&stand, &terms, harmonics.as_ref().map(|harmonics| (harmonics, exact)));
-    let modes = modes(inertia, SMALLEST_PAIR, slowest);
+    let modes = modes(inertia, PAIR_SUM_CUTOFF, slowest);
     let steady = Steady::new(inertia, &mean.frame, demand, (exact, &modes));
     let exact = harmonics.as_ref().map(|harmonics| split(inertia, exact, harmonics)).unwrap_or_default();
     let around = Around { eccentricity: demand.orbit.eccentricity(), mean_motion: demand.mean_motion, points: &points };
@@ -89,14 +89,14 @@ pub(crate) fn refined(
     let used = mean.momentum * 2.0 * (mean.p.conj() * change.p).re + inertia.sigma * change.momentum;
     let (lacking, lacking_action) = (first.momentum - change.momentum, first.action - used);
     let by_sigma = (lacking_action - inertia.sigma * lacking) / mean.momentum;
-    let lower = Refined {
+    let lower = EpochMean {
         mean: at(mean.p.norm_sqr() - by_sigma, mean.momentum - lacking),
         momentum: first.momentum,
         left: first.left.map(|left| left / mean.momentum),
     };
     let by_momentum = first.momentum + second.momentum;
     let momentum = state.momentum - by_momentum;
-    let higher = Refined {
+    let higher = EpochMean {
         mean: at((state.momentum * state.p.norm_sqr() - first.action - second.action) / momentum, momentum),
         momentum: by_momentum,
         left: [0, 1].map(|i| (first.left[i] + second.left[i]) / momentum),

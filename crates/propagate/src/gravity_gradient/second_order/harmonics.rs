@@ -17,12 +17,12 @@ use crate::simd::kepler::Place;
 
 type C64 = Complex<f64>;
 
-/// Harmonics with a larger divisor, over Ω, are in the sums over time derivatives: the corrections take them out at any time.
-const NEAR: f64 = 0.5;
+/// A harmonic with |Ω + jn| above this times |Ω| is contained in the sums over time derivatives, so its divisor has no factor 1 − e^(−x²T²/4).
+const SUMMED_ABOVE: f64 = 0.5;
 
 /// The factors of f in the functions of the series.
 const TURNS: [i32; 3] = [0, 2, -2];
-/// The highest harmonic of ⟨D⟩ that meets them there. At e = 0.6 the next is a four-hundredth of the mean.
+/// Highest |j| of the harmonics of ⟨D⟩ that are paired with single harmonics of terms. At e = 0.6 the next one is 1/400 of the mean of ⟨D⟩.
 const MOST_OF_AVERAGE: usize = 24;
 
 /// A harmonic of the orbit in a term.
@@ -144,7 +144,7 @@ impl Harmonics {
             let unshifted = self.inverse(omega + f64::from(j) * self.mean_motion, omega);
             for ((sum, part), turns) in sums.iter_mut().zip(harmonic).zip(TURNS) {
                 let inverse = match term {
-                    Some(term) if term.divisors.left_out != Some(j) => term.divisors.reciprocal(j, turns),
+                    Some(term) if term.divisors.excluded != Some(j) => term.divisors.reciprocal(j, turns),
                     _ => unshifted,
                 };
                 *sum += part * inverse;
@@ -160,7 +160,7 @@ impl Harmonics {
         let mut split = Split::default();
         for (i, harmonic) in self.waves.iter().enumerate() {
             let j = i as i32 - count;
-            if divisors.left_out == Some(j) {
+            if divisors.excluded == Some(j) {
                 continue;
             }
             let torque = self.contracted(harmonic, multiple);
@@ -200,7 +200,7 @@ impl Harmonics {
 
     /// The reciprocal of a divisor, with its factor where the sums over time derivatives lack the harmonic.
     fn inverse(&self, divisor: f64, omega: f64) -> f64 {
-        let summed = omega.abs() > self.slowest && divisor.abs() > NEAR * omega.abs();
+        let summed = omega.abs() > self.slowest && divisor.abs() > SUMMED_ABOVE * omega.abs();
         if summed { 1.0 / divisor } else { inverse(divisor, self.duration) }
     }
 }

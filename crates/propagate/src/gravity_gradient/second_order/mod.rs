@@ -26,15 +26,15 @@ mod tests;
 mod totals;
 
 /// Terms smaller than this share of the largest have no weight in [`cut`].
-const SMALLEST_WEIGHT: f64 = 1e-6;
+const WEIGHT_CUTOFF: f64 = 1e-6;
 
 /// The part of the drifts of second order that K2 to first order in n/Ω lacks: (fastest/Ω)², each term by its weight in K2.
 pub(super) fn cut(inertia: &Inertia, demand: &Demand<'_>) -> f64 {
     let slowest = modes::slowest(demand);
     let fastest = demand.envelope.fastest;
-    let root = inertia.sigma.sqrt().max(modes::SMALLEST_ROOT);
+    let root = inertia.sigma.sqrt().max(modes::ROOT_FLOOR);
     let (mut sum, mut whole) = (0.0, f64::MIN_POSITIVE);
-    for mode in modes::modes(inertia, SMALLEST_WEIGHT, slowest) {
+    for mode in modes::modes(inertia, WEIGHT_CUTOFF, slowest) {
         let omega = mode.frequency[0].abs() * inertia.momentum;
         let weight = mode.size(root).powi(2) * omega;
         sum += weight * (fastest / omega).powi(2);

@@ -1,12 +1,12 @@
 //! The terms of the disturbing function that the second order has: those that are large enough, and fast enough for the sums over time derivatives.
 
-use crate::gravity_gradient::candidate::SMALLEST_RATIO;
+use crate::gravity_gradient::candidate::SLOW_RATIO;
 use crate::gravity_gradient::corrections::Demand;
 use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
 
-/// Smallest √σ in the size of a term: forced wobble has no smaller one.
-pub(super) const SMALLEST_ROOT: f64 = 1e-9;
-/// The same for second derivatives of terms with |h| ≤ 2, over that of the separatrix.
+/// Lower limit of √σ in the size of a term. The wobble that the torque forces is larger.
+pub(super) const ROOT_FLOOR: f64 = 1e-9;
+/// Lower limit of √σ/√σ_sep for second derivatives of terms with |h| ≤ 2, which do not vanish at p = 0.
 const LEAST_ROOT_OF_SECOND: f64 = 0.2;
 
 /// A term f σ^(|h|/2) e^(i(hℓ′+my′)) of the disturbing function over q = 3φn²/2.
@@ -74,18 +74,18 @@ impl Mode {
 
 /// The largest rate of twice the true anomaly within the span, times the ratio below which sums over time derivatives do not converge.
 pub(super) fn slowest(demand: &Demand<'_>) -> f64 {
-    SMALLEST_RATIO * demand.envelope.fastest
+    SLOW_RATIO * demand.envelope.fastest
 }
 
 /// The modes with m > 0, and those with m = 0 and h > 0, that are larger than `share` of the largest and faster than `slowest`, a frequency.
 pub(super) fn modes(inertia: &Inertia, share: f64, slowest: f64) -> Vec<Mode> {
-    let root = inertia.sigma.sqrt().max(SMALLEST_ROOT);
+    let root = inertia.sigma.sqrt().max(ROOT_FLOOR);
     selected(inertia, share, slowest, |mode| mode.size(root)).into_iter().map(|(mode, _)| mode).collect()
 }
 
 /// The same for second derivatives with respect to p, in which |h| ≤ 2 counts at p = 0 too, each with its size over the largest.
 pub(super) fn large_modes(inertia: &Inertia, share: f64, slowest: f64) -> Vec<(Mode, f64)> {
-    let root = inertia.sigma.sqrt().max(SMALLEST_ROOT);
+    let root = inertia.sigma.sqrt().max(ROOT_FLOOR);
     let least = LEAST_ROOT_OF_SECOND * inertia.separatrix.sqrt();
     selected(inertia, share, slowest, |mode| mode.size(if mode.harmonic.abs() <= 2 { root.max(least) } else { root }))
 }

@@ -18,7 +18,7 @@ use std::mem::take;
 
 use num_complex::Complex;
 
-use super::around::{self, Around, SMALLEST_PRODUCT, Total};
+use super::around::{self, Around, PAIR_PRODUCT_CUTOFF, Total};
 use super::harmonics::{Near, Split, inverse, unreturned};
 use super::modes::Mode;
 use super::rows::{Row, Stand};
@@ -34,14 +34,15 @@ type Lists = [Vec<Together>; 2];
 pub(super) struct Actions {
     pub(super) momentum: f64,
     pub(super) action: f64,
-    /// What is left of them: the rest of the two terms in d/dt, harmonics of the orbit that the sum lacks or that do not return within the span, pairs that are too
-    /// slow where the orbit has too many harmonics, and pairs that are left out for their size. Their phases are independent: the squares add up.
+    /// Their errors: the truncation of the sum over time derivatives after two terms, harmonics of the orbit that the sum lacks or that do not return within
+    /// the span, pairs that are too slow where the orbit has too many harmonics, and pairs that are left out for their size. Their phases are independent: the
+    /// squares add up.
     pub(super) left: [f64; 2],
     /// The largest changes by one pair over the product of its relative sizes.
     largest: [f64; 2],
 }
 
-/// What the sum has of the orbit's harmonics.
+/// The harmonics of the orbit in the sum.
 #[derive(Default)]
 pub(super) struct OrbitParts<'a> {
     /// The terms whose divisors are exact.
@@ -71,7 +72,7 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &OrbitPar
     let largest_of = |rows: &[Row]| rows.iter().fold(0.0_f64, |most, row| most.max(row.size));
     let largest = if half.is_empty() { largest_of(&single) } else { largest_of(&half) };
     let (single, dropped): (Vec<Row>, Vec<Row>) =
-        single.into_iter().partition(|row| row.size > SMALLEST_PRODUCT * largest);
+        single.into_iter().partition(|row| row.size > PAIR_PRODUCT_CUTOFF * largest);
     half.extend(single);
     half.iter_mut().for_each(|row| row.size /= largest);
     let sum = |rows: &[Row], unit: f64| rows.iter().map(|row| (row.size / unit).powi(2)).sum::<f64>();
@@ -84,7 +85,7 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &OrbitPar
         // The other half of the sum is its conjugate.
         for a in &half {
             let product = a.size * b.size;
-            if product < SMALLEST_PRODUCT {
+            if product < PAIR_PRODUCT_CUTOFF {
                 pruned += product * product;
             } else {
                 actions.add(stand, (a, b), 2.0, &mut together);
@@ -102,12 +103,12 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &OrbitPar
         let listed: Vec<_> = listed.into_iter().zip(half.iter().map(|row| row.size)).collect();
         together[0] = actions.around(stand, &listed, take(&mut together[0]), (around, &exact.terms));
         for all in together.iter().flatten() {
-            actions.leave(all.of_actions(all.at_resonance(stand, around)).map(f64::abs));
+            actions.add_error(all.of_actions(all.at_resonance(stand, around)).map(f64::abs));
         }
     }
-    together.iter().flatten().for_each(|all| actions.leave(all.left(stand)));
+    together.iter().flatten().for_each(|all| actions.add_error(all.sum_error(stand)));
     // A pair that is left out changes M and L by no more than its product times what the pairs of the sum do.
-    actions.leave(actions.largest.map(|largest| pruned.sqrt() * largest));
+    actions.add_error(actions.largest.map(|largest| pruned.sqrt() * largest));
     actions
 }
 
@@ -133,7 +134,7 @@ impl Actions {
                 chi = source * inverse(omega, stand.duration) * -0.5;
                 // The same two in the other order have the same phase.
                 let left = SQRT_2 * 0.5 * factor * source.norm_sqr().sqrt() * unreturned(omega, stand.duration);
-                self.leave([left * m.abs(), left * h.abs()]);
+                self.add_error([left * m.abs(), left * h.abs()]);
             } else {
                 let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
                 let total = Total { numbers: [h, m], frequency: omega };
@@ -161,7 +162,7 @@ impl Actions {
         if !served.is_empty() {
             let totals: Vec<_> = served.iter().map(|all| all.total).collect();
             let [changes, left] = around::actions(stand, listed, &totals, (around, exact));
-            self.leave(left);
+            self.add_error(left);
             let by_sums = served.iter().map(|all| all.of_actions(all.by_sum(stand)));
             let [momentum, action] = by_sums.fold(changes, |sum, part| [sum[0] - part[0], sum[1] - part[1]]);
             self.momentum += momentum;
@@ -171,7 +172,7 @@ impl Actions {
     }
 
     /// Adds to what is left.
-    fn leave(&mut self, left: [f64; 2]) {
+    fn add_error(&mut self, left: [f64; 2]) {
         self.left = [0, 1].map(|i| (self.left[i] * self.left[i] + left[i] * left[i]).sqrt());
     }
 

@@ -3,7 +3,7 @@
 use num_complex::Complex;
 
 use super::harmonics::{Near, Part, Parts};
-use super::modes::{Mode, SMALLEST_ROOT};
+use super::modes::{Mode, ROOT_FLOOR};
 use crate::gravity_gradient::contraction::{Contraction, Tensor, contraction};
 use crate::gravity_gradient::corrections::Mean;
 use crate::gravity_gradient::generator::ORDERS;
@@ -11,8 +11,8 @@ use crate::gravity_gradient::inertia::Inertia;
 
 type C64 = Complex<f64>;
 
-/// What the sum over time derivatives of a term may leave, over its first part, in a sum around the orbit.
-const ENOUGH: f64 = 1e-4;
+/// Relative truncation error of the sum over time derivatives when a term is evaluated at the points around the orbit.
+const SUM_ACCURACY: f64 = 1e-4;
 
 /// The state at which the sum is taken.
 pub(super) struct Stand<'a> {
@@ -26,9 +26,10 @@ pub(super) struct Stand<'a> {
     pub(super) sizes: &'a [f64; ORDERS + 1],
     /// The largest on the orbit.
     pub(super) norms: &'a [f64],
-    /// Frequency below which pairs have no sum over time derivatives: the fastest of the orbit's times [`SMALLEST_RATIO`](crate::gravity_gradient::candidate::SMALLEST_RATIO).
+    /// Frequency below which pairs have no sum over time derivatives: the largest rate of twice the true anomaly times
+    /// [`SLOW_RATIO`](crate::gravity_gradient::candidate::SLOW_RATIO).
     pub(super) slowest: f64,
-    /// S has the harmonics of the orbit with multiples of this frequency.
+    /// The harmonics of the orbit in S are multiples of this frequency.
     pub(super) orbital_step: f64,
     /// Longest time from the epoch.
     pub(super) duration: f64,
@@ -99,11 +100,11 @@ impl Row {
 
     /// The number of derivatives for a sum around the orbit.
     pub(super) fn orders_around(&self, stand: &Stand<'_>) -> usize {
-        orders(self.frequency[0], stand.norms, ENOUGH)
+        orders(self.frequency[0], stand.norms, SUM_ACCURACY)
     }
 
-    /// D and W of the term with the disturbing body at another place, from the contractions there of as many derivatives as are needed, without harmonics of the orbit
-    /// that are terms of their own; `elapsed` is the time from the place where they have their amplitudes. dD/dt and dW/dt are not computed.
+    /// D and W of the term with the disturbing body at another place, from the contractions of the tensor and its derivatives there. The harmonics `near` are
+    /// terms of their own and are subtracted; `elapsed` is the time from the place of their amplitudes. dD/dt and dW/dt are not computed.
     pub(super) fn elsewhere(&self, contracted: &[Contraction], near: &[Near], elapsed: f64) -> Self {
         let omega = self.frequency[0];
         let inverse = (C64::i() * omega).inv();
@@ -136,7 +137,7 @@ impl Row {
     pub(super) fn single(stand: &Stand<'_>, mode: &Mode, near: &Near) -> Self {
         let row = Self::of(stand, mode, near.parts());
         let share = near.torque.iter().map(|part| part.norm_sqr()).fold(0.0, f64::max).sqrt() / stand.norms[0];
-        let root = stand.inertia.sigma.sqrt().max(SMALLEST_ROOT);
+        let root = stand.inertia.sigma.sqrt().max(ROOT_FLOOR);
         let size = share * mode.strength(root) * stand.mean.momentum / near.divisor.abs();
         let [_, by_sigma, by_momentum] = row.frequency;
         Self { size, frequency: [near.divisor, by_sigma, by_momentum], single: true, shifted: near.shifted, ..row }
@@ -152,7 +153,7 @@ impl Row {
         Self {
             harmonic: h,
             multiple: m,
-            size: mode.size(stand.inertia.sigma.sqrt().max(SMALLEST_ROOT)),
+            size: mode.size(stand.inertia.sigma.sqrt().max(ROOT_FLOOR)),
             frequency: [mean.momentum * nu, mean.momentum * slope, nu],
             weight: if mode.multiple == 1 { phase * -C64::i() } else { phase },
             amplitude: amplitude(mode.harmonic, mode.function, stand.inertia.sigma),
@@ -169,7 +170,7 @@ impl Row {
         Self { frequency, parts: Parts { torque, ..Parts::default() }, single: true, ..*self }
     }
 
-    /// ⟨D⟩, twice: it is no part of D̃, and S has not the half of it.
+    /// 2⟨D⟩. The source of a pair with ⟨D⟩ is [⟨D⟩, W_b], without the factor ½ of S_ab = ½ [D_a, W_b].
     pub(super) fn average(stand: &Stand<'_>) -> Self {
         let function = Mode::average(stand.inertia).function;
         let part = |tensor: &Tensor| Part { value: contraction(tensor, 0), slope: C64::default() };

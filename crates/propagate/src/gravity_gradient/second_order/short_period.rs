@@ -1,4 +1,4 @@
-//! The size of the short-period change of second order. The corrections do not have it, and far from resonances it is the error of a motion of second order.
+//! The size of the short-period change of second order. The corrections do not contain it. Far from resonances it is the error of a motion of second order.
 //!
 //! The mean variables Z have the rates f₀ + ⟨g⟩, with those of the free motion f₀ and g = {Z, D}. The motion is at Z + v, with the first-order change
 //! v = {Z, W}. To second order its rates differ from the true ones there by
@@ -8,9 +8,9 @@
 //! ```
 //!
 //! where ′ is the derivative with respect to Z. d is a sum over pairs of terms a, b. A part e^(i(a+b)θ) of it with a + b ≠ 0 makes a change e of the same
-//! frequency, ė = f₀′ e + d. The parts with a + b = 0 are the rates that K2 gives; there the change is the mean of ½ v′ v. A size needs few terms of the sums over
-//! time derivatives: W has two, D_a/(iΩ_a) − Ḋ_a/(iΩ_a)², enlarged for the others, and e has one. A harmonic e^(ijl) of d, which is a product of two factors
-//! (a/r)³ r̂r̂, has the divisor Ω + jn. Where this is small, [`Turns::resonant`] has the change by this harmonic.
+//! frequency, ė = f₀′ e + d. The parts with a + b = 0 are the rates that K2 gives; there the change is the mean of ½ v′ v. A size needs few terms of the sums
+//! over time derivatives: W has two, D_a/(iΩ_a) − Ḋ_a/(iΩ_a)², enlarged for the others, and e has one. A harmonic e^(ijl) of d, which is a product of two
+//! factors (a/r)³ r̂r̂, has the divisor Ω + jn. Where this is small, [`Turns::resonant`] has the change by this harmonic.
 
 use nalgebra::Vector3;
 use num_complex::Complex;
@@ -25,9 +25,9 @@ use crate::gravity_gradient::inertia::Inertia;
 type C64 = Complex<f64>;
 
 /// Terms smaller than this share of the largest are left out, and pairs of terms with a smaller product.
-const SMALLEST_SHARE: f64 = 3e-3;
+const SIZE_CUTOFF: f64 = 3e-3;
 
-/// The part of a pair that one of its harmonics has on an eccentric orbit, where they are many. On a circle it may have all.
+/// Share of one harmonic in a pair as e → 1, where many harmonics share the pair. On a circle the share is 1.
 const PART: f64 = 0.3;
 
 /// What harmonics near resonance add is not computed where it is less than this share of the largest change.
@@ -48,7 +48,7 @@ struct Wave {
 }
 
 /// The mean motion of which the change is sought.
-pub(super) struct Motion<'a> {
+pub(super) struct ShortPeriod<'a> {
     inertia: &'a Inertia,
     /// Each with its size over the largest.
     modes: Vec<(Mode, f64)>,
@@ -79,7 +79,7 @@ impl Turns {
     /// Those with the disturbing body at these true anomalies. `sizes` are the turn of the attitude for a unit change of p and the sum of the first-order
     /// changes of the attitude.
     pub(crate) fn new(inertia: &Inertia, mean: &Mean, demand: &Demand<'_>, sizes: [f64; 2], anomalies: &[f64]) -> Self {
-        let motion = Motion::new(inertia, demand, sizes, SMALLEST_SHARE);
+        let motion = ShortPeriod::new(inertia, demand, sizes, SIZE_CUTOFF);
         let [first, second, _] = demand.orbit.axes().map(|axis| mean.frame.inverse() * axis);
         let elements = (demand.mean_motion, demand.orbit.eccentricity());
         let nearest = demand.envelope.span[0];
@@ -107,7 +107,7 @@ fn tensors([first, second]: [Vector3<f64>; 2], (mean_motion, eccentricity): (f64
     [still.map(|part| cube * part), std::array::from_fn(|i| cube * rate * (growth * still[i] + 2.0 * turning[i]))]
 }
 
-impl<'a> Motion<'a> {
+impl<'a> ShortPeriod<'a> {
     pub(super) fn new(inertia: &'a Inertia, demand: &Demand<'_>, [gain, whole]: [f64; 2], share: f64) -> Self {
         Self {
             inertia,
@@ -199,7 +199,8 @@ impl<'a> Motion<'a> {
         self.waves(tensors, 0.0).iter().map(|wave| (wave.numbers, wave.change)).collect()
     }
 
-    /// The terms, of which e^(±2if) turns at a rate: the sums of two time derivatives are enlarged to what all of them are there, derivatives with respect to Ω twice.
+    /// The terms with their first-order changes. Two terms of the sum over time derivatives are added; the factor 1/(1 − (turning/Ω)²) stands for the others,
+    /// squared for the slopes. `turning` is the rate of 2f.
     fn waves(&self, tensors: &[Tensor; 2], turning: f64) -> Vec<Wave> {
         let tensors = tensors.each_ref().map(with_turns);
         let wave = |(mode, share): &(Mode, f64)| {

@@ -1,4 +1,4 @@
-//! What K2 in closed form lacks of its average over the orbit: the terms from (n/Ω)² on, and those of terms that it does not have.
+//! The part of the average of K2 over the orbit that K2 in closed form lacks: the terms from (n/Ω)² on, and the terms that it does not contain.
 //!
 //! With the harmonics c_mj e^(ijl) of the contractions, F = σ^(|h|/2) f and q = 3φn²/2, the average is
 //!
@@ -7,14 +7,14 @@
 //! α_mj = −|c_mj|²,   β_mj = −2 Im (X₁c_mj X₂c̄_mj),   G = 1/(Ω + jn)
 //! ```
 //!
-//! with h > 0 for m = 0, and X₁, X₂ the turns of the frame about its axes 1 and 2. K2 in closed form has 1/Ω − jn/Ω² for G, so that (jn)²/(Ω² (Ω + jn)) is left. Its
-//! derivatives are taken at the epoch. As k precesses, the part of the turning about the normal of the orbit turns with it; the rest, of the order of e², stays in
-//! space.
+//! with h > 0 for m = 0, and X₁, X₂ the turns of the frame about its axes 1 and 2. K2 in closed form has 1/Ω − jn/Ω² for G, so that (jn)²/(Ω² (Ω + jn)) is
+//! left. Its derivatives are taken at the epoch. As k precesses, the part of the turning about the normal of the orbit turns with it; the rest, of the order of
+//! e², stays in space.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::jet::with_turns;
-use super::modes::{Mode, SMALLEST_ROOT};
+use super::modes::{Mode, ROOT_FLOOR};
 #[cfg(test)]
 use super::modes::{modes, slowest};
 use crate::gravity_gradient::contraction::{Contraction, coefficients, contraction, factors};
@@ -25,9 +25,9 @@ use crate::gravity_gradient::inertia::Inertia;
 use crate::gravity_gradient::orbit_series::OrbitSeries;
 
 /// Terms and harmonics with a smaller share of what is left are not summed, unless divisors are exact.
-const SMALLEST_SHARE: f64 = 1e-6;
+const STEADY_CUTOFF: f64 = 1e-6;
 /// Largest squared sine of the inclination at which the turning is not split into parts.
-const SMALLEST_SQUARE: f64 = 1e-12;
+const SPLIT_SQUARE: f64 = 1e-12;
 
 /// Constant rates by K2.
 #[derive(Clone, Copy, Debug, Default)]
@@ -157,7 +157,7 @@ impl<'a> Rates<'a> {
             let table: Vec<(i32, Geometry)> = (-reach..=reach).map(|j| (j, geometry(multiple, j))).collect();
             for term in exact {
                 let shape = Shape::new(&Mode::new(inertia, term.numbers.0, multiple), inertia);
-                for (j, geometry) in table.iter().filter(|(j, _)| term.divisors.left_out != Some(*j)) {
+                for (j, geometry) in table.iter().filter(|(j, _)| term.divisors.excluded != Some(*j)) {
                     rates.add(&shape, geometry, of_divisors(&term.divisors, *j));
                 }
             }
@@ -198,7 +198,7 @@ impl<'a> Rates<'a> {
         let pole = frame * Vector3::z();
         let inclined = pole.cross(normal).norm_squared();
         // ∂K2/∂k across k: the part along N − (k·N) k is that of ∂K2/∂k_N.
-        let force = if inclined > SMALLEST_SQUARE {
+        let force = if inclined > SPLIT_SQUARE {
             let along = normal - pole * pole.dot(normal);
             let share = across.dot(normal) / inclined;
             across + (normal - along) * share
@@ -216,21 +216,21 @@ fn highest(series: &OrbitSeries) -> i32 {
         .map(|(j, g)| f64::from(j) * g.iter().fold(0.0_f64, |most, g| most.max(g.abs())))
         .collect();
     let largest = sizes.iter().copied().fold(0.0, f64::max);
-    sizes.iter().rposition(|size| *size > SMALLEST_SHARE.sqrt() * largest).unwrap_or(0) as i32
+    sizes.iter().rposition(|size| *size > STEADY_CUTOFF.sqrt() * largest).unwrap_or(0) as i32
 }
 
 /// The terms with sums over time derivatives that have a share of what K2 lacks.
 fn summed(inertia: &Inertia, modes: &[Mode], exact: &[ExactTerm]) -> Vec<Mode> {
-    let root = inertia.sigma.sqrt().max(SMALLEST_ROOT);
+    let root = inertia.sigma.sqrt().max(ROOT_FLOOR);
     let weight = |mode: &Mode| mode.size(root).powi(2) / mode.frequency[0].abs();
-    let least = SMALLEST_SHARE * modes.iter().map(weight).sum::<f64>();
+    let least = STEADY_CUTOFF * modes.iter().map(weight).sum::<f64>();
     let is_exact = |mode: &Mode| exact.iter().any(|term| term.numbers == (mode.harmonic, mode.multiple));
     modes.iter().filter(|mode| weight(mode) > least && !is_exact(mode)).copied().collect()
 }
 
 /// G and its derivatives for a harmonic of a term whose divisors are exact.
 fn of_divisors(divisors: &Divisors, j: i32) -> [f64; 3] {
-    // One divisor for all parts of the harmonic: what this leaves is charged with the shift.
+    // One divisor for all parts of the harmonic. The error is part of that of the shift.
     let divisor = divisors.at(j, 2 * j.signum());
     if divisors.slow {
         let inverse = divisor.recip();

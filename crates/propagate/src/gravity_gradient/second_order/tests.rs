@@ -11,7 +11,7 @@ use super::modes::{Mode, modes, slowest};
 use super::over_orbit::OrbitAverage;
 use super::pairs::{OrbitParts, averaged, second_actions};
 use super::rows::Stand;
-use super::short_period::Motion;
+use super::short_period::ShortPeriod;
 use crate::gravity_gradient::contraction::Tensor;
 use crate::gravity_gradient::corrections::{Change, Corrections, Demand, Mean};
 use crate::gravity_gradient::envelope::{Envelope, whole};
@@ -323,7 +323,7 @@ fn the_change_of_second_order_has_the_actions_of_the_sum_over_pairs() {
         tensors[1..].fill([0.0; 6]);
         let stand = scene.stand(&inertia, &tensors, norms, slowest(&demand));
         let pairs = second_actions(&stand, &modes(&inertia, 0.0, slowest(&demand)), &OrbitParts::default());
-        let motion = Motion::new(&inertia, &demand, [1.0, 0.0], 0.0);
+        let motion = ShortPeriod::new(&inertia, &demand, [1.0, 0.0], 0.0);
         let phase = |[h, m]: [i32; 2]| C64::from_polar(2.0, f64::from(h) * p.arg() + f64::from(m) * longitude);
         let at = |harmonics: &[([i32; 2], Field)], n: usize| -> f64 {
             harmonics.iter().map(|(numbers, change)| (change[n] * phase(*numbers)).re).sum()

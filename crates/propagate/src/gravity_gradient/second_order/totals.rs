@@ -1,4 +1,4 @@
-//! All pairs of terms with one h and m together: whether the sum over time derivatives serves them, and what it leaves.
+//! All pairs of terms with one h and m together: whether the sum over time derivatives is accurate enough for them, and its error.
 
 use num_complex::Complex;
 
@@ -41,22 +41,22 @@ impl Together {
         }
     }
 
-    /// `part` times m and times h: what it is of M and of L.
+    /// `part` times m and times h: the parts of M and of L.
     pub(super) fn of_actions(&self, part: f64) -> [f64; 2] {
         let [h, m] = self.total.numbers;
         [m * part, h * part]
     }
 
-    /// What the sum over time derivatives lacks of the changes of M and L.
-    pub(super) fn left(&self, stand: &Stand<'_>) -> [f64; 2] {
-        self.of_actions(self.size(stand) * stand.left_over(self.total.frequency)).map(f64::abs)
+    /// Errors of the changes of M and L by the sum over time derivatives.
+    pub(super) fn sum_error(&self, stand: &Stand<'_>) -> [f64; 2] {
+        self.of_actions(self.size(stand) * stand.relative_sum_error(self.total.frequency)).map(f64::abs)
     }
 
     /// Whether the harmonics of the orbit are needed, and are not too many. On a circle they are few, and better than the sum over time derivatives.
     pub(super) fn needs(&self, stand: &Stand<'_>, around: &Around<'_>) -> bool {
         let resonant = self.of_actions(self.at_resonance(stand, around)).map(f64::abs);
         let by_sum =
-            if self.is_slow(stand) || around.eccentricity == 0.0 { self.left(stand) } else { Default::default() };
+            if self.is_slow(stand) || around.eccentricity == 0.0 { self.sum_error(stand) } else { Default::default() };
         let enough = stand.enough * stand.mean.momentum;
         let left = [0, 1].map(|i| resonant[i] + by_sum[i]);
         !self.single && left.iter().any(|left| *left > enough) && around.highest(&self.total).is_some()
@@ -67,7 +67,7 @@ impl Together {
         self.total.frequency.abs() <= stand.slowest
     }
 
-    /// What the harmonic of S that is nearest to resonance does, if there is a sum over time derivatives, which has no such harmonic.
+    /// The change by the harmonic of S nearest to resonance, which the sum over time derivatives lacks; 0 for slow pairs, which have no such sum.
     pub(super) fn at_resonance(&self, stand: &Stand<'_>, around: &Around<'_>) -> f64 {
         if self.is_slow(stand) {
             return 0.0;
@@ -78,7 +78,7 @@ impl Together {
         self.size(stand) * stand.closest.powi(factors) * size * (1.0 / distance).min(stand.duration)
     }
 
-    /// S, which may be near 0 at the epoch, but not with its time derivative.
+    /// Size of S. S may vanish at the epoch, so its time derivative is included.
     fn size(&self, stand: &Stand<'_>) -> f64 {
         let swing = if stand.bend > 0.0 { self.change.norm_sqr() / (4.0 * stand.bend) } else { 0.0 };
         (self.source.norm_sqr() + swing).sqrt()
@@ -95,8 +95,8 @@ impl Together {
 }
 
 impl Stand<'_> {
-    /// What χ lacks of pairs of frequency Ω, over S: the terms of its sum from the third on, or all of it if the pairs are too slow.
-    fn left_over(&self, omega: f64) -> f64 {
+    /// Error of χ for pairs of frequency Ω, divided by S: the terms of its sum from the third on; for slow pairs all of χ.
+    fn relative_sum_error(&self, omega: f64) -> f64 {
         // A product of two has twice the orbit's rates.
         let fastest = 2.0 * self.bend.sqrt();
         let beyond = omega.abs() - fastest;

@@ -98,7 +98,7 @@ class _Problem:
         enough(3 * count, self.basis.shape[1], "attitudes", "give more attitudes, or name fewer in free")
 
     def windows(self) -> list[Places]:
-        """The data next to the epoch, twice as many each time, and not all of them: what a poor state still predicts comes first."""
+        """Growing parts of the data nearest to the epoch, each twice as large, without the full set. A poor first state still predicts data near the epoch."""
         nearest = np.argsort(self.elapsed, kind="stable")
         sizes = [len(nearest) >> halvings for halvings in range(1, len(nearest).bit_length())]
         return [nearest[:size] for size in reversed(sizes) if 3 * size >= self.basis.shape[1]]

@@ -36,7 +36,7 @@ class States(NamedTuple):
     rates: Array
 
     def part(self, rows: "slice | Places") -> "States":
-        """Some of them."""
+        """The states of these rows."""
         return States(*(array[rows] for array in self))
 
 
@@ -67,7 +67,7 @@ class Curve:
     """Whether the axis ratios are free."""
 
     def in_chunks(self, states: States, task: Callable[[States], T]) -> list[T]:
-        """What a task makes of the states, some at a time, on one thread for each core."""
+        """Apply `task` to parts of the states, on one thread for each core; the list of results."""
         count = max(1, CHUNK // len(self.times))
         parts = [states.part(slice(start, start + count)) for start in range(0, len(states.axes), count)]
         with ThreadPoolExecutor(os.cpu_count()) as pool:

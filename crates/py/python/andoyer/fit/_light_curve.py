@@ -225,7 +225,7 @@ def _residuals(step: Array, curve: Curve, state: States) -> Array:
 
 
 def _jacobian(step: Array, curve: Curve, state: States) -> Array:
-    """Of the residuals, measured minus model, with respect to a step from `state`."""
+    """Derivatives of the residuals (measured minus model) with respect to a step from `state`."""
     there = moved(state, step[None])
     jacobian: Array = -curve.residuals(there)[1][0].T
     jacobian[:, :3] = jacobian[:, :3] @ right_jacobian(step[:3])

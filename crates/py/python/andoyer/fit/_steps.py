@@ -106,7 +106,7 @@ class Steps:
         return Scene(body, attitude, rates, **options)
 
     def columns(self, partials: Array, step: ArrayLike, body: Body) -> Array:
-        """Derivatives with respect to the free components of what has these derivatives with respect to the nine parameters of `Motion.partials`."""
+        """Convert derivatives by the nine parameters of `Motion.partials` into derivatives by the free components."""
         full = self.full(step)
         moments = self.moments(step)
         # The body of the step may have its principal axes in another order.
