@@ -155,7 +155,7 @@ def by_work(bench, precision, stress):
         ],
         ["against SciPy's closed form, calls from Python", f"{min(ratios):.3g} to {max(ratios):.3g} times as fast"],
         [
-            f"attitude error, {total:,} random scenes: largest q99.9 of a regime / maximum",
+            f"attitude error, {total:,} random scenes: 99.9th percentile in the worst regime / maximum",
             f"{max(float(r['q99.9']) for r in attitude):.1e} / {max(float(r['max']) for r in attitude):.1e} rad",
         ],
     ]

@@ -42,7 +42,7 @@ ENSEMBLE = (100_000, 10)
 METHODS: tuple[Literal["closed", "series"], ...] = ("closed", "series")
 
 HEADER = ("scene", "mode", "method", "σ/σ_sep", "order", "harmonics", "error [rad]", "bound [rad]", "ns/sample")
-ROW = "{:<40} {:<14} {:<7} {:>8} {:>6} {:>10} {:>12} {:>12} {:>10}"
+ROW = "{:<62} {:<14} {:<7} {:>8} {:>6} {:>10} {:>12} {:>12} {:>10}"
 
 
 def span_of(scene: andoyer.Scene) -> tuple[float, float]:

@@ -156,9 +156,11 @@ pub(crate) fn scalar_first(quaternions: &mut [[f64; 4]], asked: bool, stop: &Ato
     }
 }
 
-/// Attitudes as rotations of SciPy.
+/// Attitudes as rotations of SciPy. Without SciPy the error names the package and its installation.
 pub(crate) fn rotation<'py>(attitudes: &Bound<'py, PyArrayDyn<f64>>) -> PyResult<Bound<'py, PyAny>> {
     let py = attitudes.py();
-    let rotation = py.import(intern!(py, "scipy.spatial.transform"))?.getattr(intern!(py, "Rotation"))?;
+    let extra = py.import(intern!(py, "andoyer._extra"))?.getattr(intern!(py, "extra"))?;
+    let transform = extra.call1((intern!(py, "scipy.spatial.transform"), intern!(py, "rotation")))?;
+    let rotation = transform.getattr(intern!(py, "Rotation"))?;
     rotation.call_method1(intern!(py, "from_quat"), (attitudes,))
 }

@@ -212,7 +212,7 @@ impl Motion {
     /// Raises
     /// ------
     /// ImportError
-    ///     SciPy is not installed; the extra ``andoyer[scipy]`` installs it.
+    ///     SciPy is not installed; ``pip install scipy`` installs it.
     fn rotation<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         foreign::rotation(&self.attitude(times, None, false)?)
     }

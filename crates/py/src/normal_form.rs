@@ -248,7 +248,7 @@ impl NormalForm {
     /// InputError
     ///     An unknown part (``"lagrangian"``).
     /// ImportError
-    ///     SymPy is not installed; the extra ``andoyer[sympy]`` installs it.
+    ///     SymPy is not installed; ``pip install sympy`` installs it.
     #[pyo3(signature = (what="hamiltonian"))]
     fn to_sympy<'py>(slf: &Bound<'py, Self>, what: &str) -> PyResult<Bound<'py, PyAny>> {
         let _: Part = what.parse().map_err(error::algebra_as("what"))?;

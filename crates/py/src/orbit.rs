@@ -14,16 +14,16 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 /// The relative Keplerian orbit of a body whose gravity gradient acts on the rotating body (theory §9).
 ///
 /// The elements refer to the inertial frame of the attitudes. With the mean motion alone, the orbit is a circle in the x, y plane with the disturbing body on
-/// the x axis at time 0.
+/// the x axis at time 0 (J2000 if the epoch is a `Time`: give `time_of_pericentre`).
 ///
 /// Parameters
 /// ----------
 /// mean_motion : float
-///     Mean motion n, in rad per unit of time; n²a³ is G times the sum of both masses.
+///     Mean motion n = √(GM/a³), in rad per unit of time, with the sum M of both masses. With quantities of astropy: ``np.sqrt(GM / a**3) * u.rad``.
 /// eccentricity : float, optional
 ///     Eccentricity e, 0 ≤ e < 1.
 /// time_of_pericentre : float, optional
-///     A time of passage through the pericentre.
+///     A time of passage through the pericentre, a number or a `Time`; by default 0, which is J2000 if the epoch is a `Time`.
 /// inclination, node, argument_of_pericentre : float, optional
 ///     Inclination of the orbit plane, longitude of the ascending node, and argument of the pericentre from the node, in rad.
 /// mass_fraction : float, optional

@@ -51,7 +51,7 @@ impl Plan {
         self.0.harmonics()
     }
 
-    /// Upper estimate of the attitude error over the span, in rad. It includes truncation, dropped harmonics and rounding.
+    /// Estimated bound of the attitude error over the span, in rad; it is not proved. It includes truncation, dropped harmonics and rounding.
     #[getter]
     fn error_bound(&self) -> f64 {
         self.0.error_bound()
@@ -75,7 +75,7 @@ impl Plan {
         self.0.missed_tolerance()
     }
 
-    /// σ/σ_sep (theory §5): 0 for rotation about the axis of greatest inertia, 1 on the separatrix.
+    /// σ/σ_sep (theory §5): 0 for rotation about the axis of the mode, 1 on the separatrix.
     #[getter]
     fn separatrix_ratio(&self) -> f64 {
         self.0.separatrix_ratio()

@@ -132,7 +132,7 @@ impl Samples {
     /// Raises
     /// ------
     /// ImportError
-    ///     pandas is not installed; the extra ``andoyer[pandas]`` installs it.
+    ///     pandas is not installed; ``pip install pandas`` installs it.
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("andoyer._frames")?.call_method1("pandas", (slf,))
     }
@@ -148,7 +148,7 @@ impl Samples {
     /// Raises
     /// ------
     /// ImportError
-    ///     xarray is not installed; the extra ``andoyer[xarray]`` installs it.
+    ///     xarray is not installed; ``pip install xarray`` installs it.
     fn to_xarray<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("andoyer._frames")?.call_method1("xarray", (slf,))
     }

@@ -104,8 +104,8 @@ impl Scene {
     /// phases : (float, float), optional
     ///     Phases of P_ψ and P_φ at the epoch, in turns. At (0, 0) the axis of the mode is nearest to the angular momentum, tilted towards
     ///     (inertial axis 3) × momentum, or towards inertial axis 1 if the momentum is along axis 3.
-    /// epoch : float, optional
-    ///     Time of the state.
+    /// epoch : float or Time, optional
+    ///     Time of the state. With a `Time` the unit of the periods is the second.
     /// **options
     ///     The other keyword arguments of `Scene`: orbit, tolerance, method, order, span, averaging, level, name, source.
     ///
@@ -117,7 +117,7 @@ impl Scene {
     ///
     /// Examples
     /// --------
-    /// Apophis, in hours (Pravec et al. 2014):
+    /// Apophis, in hours (Pravec et al. 2014). With a `Time` epoch the unit is the second.
     ///
     /// >>> scene = Scene.from_periods(Body([0.61, 0.965, 1.0]), 27.38, 263.0)
     /// >>> motion = scene.solve()

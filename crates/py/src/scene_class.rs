@@ -42,7 +42,7 @@ use crate::foreign::Calendar;
 ///     1e15 rotations from the epoch; a later time is a `RepresentationError` of the motion. An integrated motion needs a span and can be evaluated within the span and at the epoch only.
 /// averaging : {"auto", "orbit", "spin"}, optional
 ///     Averaging of a scene with an orbit: "orbit" averages over rotation and orbit and uses formulas alone; "spin" averages over the rotation alone;
-///     "auto" uses "orbit" if it meets the tolerance.
+///     "auto" in first order uses "orbit" if it meets the tolerance, otherwise "spin"; in second order it uses "spin", or "orbit" beyond 65,534 orbits.
 /// level : {"auto", "full", "second-order", "moving", "paper"}, optional
 ///     How much of the theory of the gravity gradient is used. "full": first order in the torque, to all orders in J. "second-order": the
 ///     averaged motion to second order too, by either averaging (theory, section 9). "auto" (default): "full" where it meets the

@@ -219,7 +219,7 @@ def test_numbers_of_32_bits_are_an_error():
 def test_without_jax_the_error_names_the_extra():
     code = "import sys; sys.modules['jax'] = None\nimport andoyer\ntry: andoyer.jax\nexcept ImportError as error: print(error)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert done.stdout == "andoyer.jax needs jax, which is not installed: pip install andoyer[jax]\n", done.stdout + done.stderr
+    assert done.stdout == "andoyer.jax needs jax, which is not installed: pip install jax\n", done.stdout + done.stderr
 
 
 def test_import_of_the_package_does_not_import_jax():

@@ -353,7 +353,7 @@ class Plan:
         """The highest multiple of the anomaly ℓ′ in the evaluation; 0 if the method has no harmonics."""
     @property
     def error_bound(self) -> float:
-        """Upper estimate of the attitude error over the span, in rad. It includes truncation, dropped harmonics and rounding."""
+        """Estimated bound of the attitude error over the span, in rad; it is not proved. It includes truncation, dropped harmonics and rounding."""
     @property
     def tolerance(self) -> float:
         """The requested attitude error over the span, in rad."""
@@ -365,7 +365,7 @@ class Plan:
         """The text of the `ToleranceWarning` if the tolerance is not met, otherwise None."""
     @property
     def separatrix_ratio(self) -> float:
-        """σ/σ_sep (theory §5): 0 for rotation about the axis of greatest inertia, 1 on the separatrix."""
+        """σ/σ_sep (theory §5): 0 for rotation about the axis of the mode, 1 on the separatrix."""
     @property
     def averaging(self) -> Literal["orbit", "spin"] | None:
         """The averaging of a scene with an orbit: "orbit" or "spin" (theory §9); None without an orbit and for an integrated motion."""

@@ -4,8 +4,8 @@ import importlib
 from typing import Any
 
 
-def extra(module: str, purpose: str, requirement: str | None = None) -> Any:
-    """Import the module `module` of an optional package, which `requirement` installs: by default its name.
+def extra(module: str, purpose: str) -> Any:
+    """Import the module `module` of an optional package.
 
     Raises
     ------
@@ -16,4 +16,4 @@ def extra(module: str, purpose: str, requirement: str | None = None) -> Any:
         return importlib.import_module(module)
     except ImportError as error:
         package = module.partition(".")[0]
-        raise ImportError(f"{purpose} needs {package}, which is not installed: pip install {requirement or package}", name=package) from error
+        raise ImportError(f"{purpose} needs {package}, which is not installed: pip install {package}", name=package) from error

@@ -4,7 +4,7 @@
 `Ensemble`, which JAX calls on the host. Derivatives with respect to the moments and the state are those of `Motion.partials`; they are first derivatives, and a second one is an error.
 Derivatives with respect to the times follow from q′ = ½ q ⊗ (ω, 0) and Euler's equations, to any order.
 
-The module needs JAX, which the extra ``andoyer[jax]`` installs, with 64-bit numbers: ``jax.config.update("jax_enable_x64", True)``. `import andoyer` does not import it.
+The module needs JAX, which ``pip install jax`` installs, with 64-bit numbers: ``jax.config.update("jax_enable_x64", True)``. `import andoyer` does not import it.
 """
 
 from typing import Any
@@ -15,9 +15,9 @@ from andoyer._core import Body, Ensemble, InputError, Motion, RepresentationErro
 from andoyer._extra import extra
 from andoyer._quaternions import Array
 
-jax: Any = extra("jax", "andoyer.jax", "andoyer[jax]")
-jnp: Any = extra("jax.numpy", "andoyer.jax", "andoyer[jax]")
-SymbolicZero: Any = extra("jax.custom_derivatives", "andoyer.jax", "andoyer[jax]").SymbolicZero
+jax: Any = extra("jax", "andoyer.jax")
+jnp: Any = extra("jax.numpy", "andoyer.jax")
+SymbolicZero: Any = extra("jax.custom_derivatives", "andoyer.jax").SymbolicZero
 
 __all__ = ["angular_velocity", "attitude", "state"]
 

@@ -2,7 +2,7 @@
 
 Each function takes a `Motion`, and optionally times and the axes to draw into. It returns the axes; `summary` returns a figure. Angles are those of Andoyer
 (theory §1), in degrees. The labels assume that times are in seconds. Lines on the far side of a surface are pale, grey lines are other motions of the same body, and the dashed line is the separatrix. The colours are
-those of Okabe and Ito, which colour-blind readers can distinguish; lines also differ in style or marker. The module needs matplotlib, which the extra ``andoyer[plot]`` installs.
+those of Okabe and Ito, which colour-blind readers can distinguish; lines also differ in style or marker. The module needs matplotlib, which ``pip install matplotlib`` installs.
 """
 
 import math

@@ -34,7 +34,7 @@ impl BirkhoffNormalForm {
     /// InputError
     ///     ``"lagrangian"``.
     /// ImportError
-    ///     SymPy is not installed; the extra ``andoyer[sympy]`` installs it.
+    ///     SymPy is not installed; ``pip install sympy`` installs it.
     ///
     /// Examples
     /// --------

@@ -209,7 +209,7 @@ impl Ensemble {
     /// Raises
     /// ------
     /// ImportError
-    ///     SciPy is not installed; the extra ``andoyer[scipy]`` installs it.
+    ///     SciPy is not installed; ``pip install scipy`` installs it.
     /// ValueError
     ///     Several times with SciPy before 1.17, whose rotations have only one axis.
     ///

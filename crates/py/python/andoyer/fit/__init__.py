@@ -1,6 +1,6 @@
 """Fits of states to data: `attitudes` fits measured attitudes, and `light_curve` fits brightnesses of an ellipsoid. Both return a `Fit`.
 
-The module needs SciPy, which the extra ``andoyer[fit]`` installs; pictures need matplotlib.
+The module needs SciPy, which ``pip install scipy`` installs; pictures need matplotlib.
 """
 
 from andoyer.fit._attitudes import attitudes

@@ -33,7 +33,7 @@ def attitudes(
 
     The residuals are the rotation vectors about body axes from model to measured attitude, divided by their standard deviations. `scipy.optimize.least_squares` minimizes their sum of squares with
     the derivatives of `Motion.partials` (theory §12; with an orbit by differences). Attitudes determine the moments only up to a common factor; the fit keeps the product of the
-    given moments. Times may be in any order. The function needs SciPy, which the extra ``andoyer[fit]`` installs.
+    given moments. Times may be in any order. The function needs SciPy, which ``pip install scipy`` installs.
 
     Parameters
     ----------

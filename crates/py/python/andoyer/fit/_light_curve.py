@@ -46,7 +46,7 @@ def light_curve(
     The starts have random directions of the angular momentum in space and in the body, half of them in each mode, and precession frequencies between those of `periods`. All starts are
     evaluated. The best of each mode are improved together by Levenberg and Marquardt's method with the derivatives of `Ensemble.partials` (theory §12), in rounds with fewer and fewer states.
     `scipy.optimize.least_squares` improves the last few. The fit includes a brightness factor for each curve. Half turns about the body axes do not change the brightness; one of the four
-    equivalent states is returned. The function needs SciPy, which the extra ``andoyer[fit]`` installs.
+    equivalent states is returned. The function needs SciPy, which ``pip install scipy`` installs.
 
     Parameters
     ----------

@@ -120,7 +120,7 @@ def write_ck(
     Raises
     ------
     ImportError
-        SpiceyPy is not installed; the extra ``andoyer[spice]`` installs it.
+        SpiceyPy is not installed; ``pip install spiceypy`` installs it.
     FileExistsError
         The file exists, and ``force=False``.
     ValueError

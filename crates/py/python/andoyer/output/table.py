@@ -134,7 +134,7 @@ def write_parquet(path: str | os.PathLike[str], samples: Samples, *, scene: Scen
     Raises
     ------
     ImportError
-        pyarrow is not installed; the extra ``andoyer[parquet]`` installs it.
+        pyarrow is not installed; ``pip install pyarrow`` installs it.
     FileExistsError, ValueError
         As in `write_npz`.
     """
