@@ -47,10 +47,10 @@ def counted(program):
     return {kernel: (instructions(program, kernel, 1 + n) - instructions(program, kernel, 1)) // n for kernel, n in KERNELS.items()}
 
 
-def skip(reason):
-    """Say that nothing is compared. With CI set this is an error."""
+def skip(reason, installable=False):
+    """Say that nothing is compared. With CI set it is an error if what is missing can be installed."""
     message = f"instruction counts are not checked: {reason}"
-    if os.environ.get("CI"):
+    if installable and os.environ.get("CI"):
         sys.exit(message)
     print(f"skipped: {message}")
 
@@ -61,7 +61,7 @@ def main():
     parser.add_argument("--write", action="store_true")
     arguments = parser.parse_args()
     if not shutil.which("valgrind"):
-        skip("no valgrind on this machine (apt-get install valgrind)")
+        skip("no valgrind on this machine (apt-get install valgrind)", installable=True)
         return
     if missing := lacking(Path("/proc/cpuinfo").read_text(encoding="utf-8")):
         skip(f"no {' and no '.join(missing)} on this processor")

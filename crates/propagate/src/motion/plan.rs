@@ -77,7 +77,7 @@ impl Plan {
         self.harmonics
     }
 
-    /// Upper estimate of the attitude error over the span \[rad\]: truncation, dropped harmonics, rounding.
+    /// Estimated bound of the attitude error over the span \[rad\], not proved: truncation, dropped harmonics, rounding, and under a torque what the average leaves.
     pub fn error_bound(&self) -> f64 {
         self.error_bound
     }
