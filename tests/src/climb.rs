@@ -130,7 +130,7 @@ impl Family {
         let (mean_motion, span) = match self {
             Self::Pericentre => (squeezed * power(-3.0, -0.7, motion), power(-0.5, 2.0, span)),
             Self::AfterPericentre => {
-                let mean_motion = power(-4.0, -2.3, motion);
+                let mean_motion = power(-3.3, -2.3, motion);
                 (mean_motion, mix(0.05, 0.95, span) * (TAU - mix(0.05, PI, anomaly)) / mean_motion)
             }
             Self::NearlySphere => (power(-2.0, -0.8, motion), power(1.3, 3.0, span)),

@@ -237,15 +237,16 @@ impl Spin {
             (quarters[lane], insides[lane]) = quarter(*turns, *angle);
         }
         let inside = when.turns.like(&insides);
+        let count = turns.len();
+        if quarters[1..count].iter().all(|quarter| *quarter == quarters[0]) {
+            let [x, y, z, w, anomaly, longitude] = self.sums(quarters[0] - self.first, inside);
+            return (QuaternionLanes([x, y, z, w]), [anomaly, longitude]);
+        }
         let mut rows = [[0.0; WIDEST]; COLUMNS];
         let mut lane = 0;
-        while lane < turns.len() {
-            let next = lane + quarters[lane..turns.len()].iter().take_while(|other| **other == quarters[lane]).count();
+        while lane < count {
+            let next = lane + quarters[lane..count].iter().take_while(|other| **other == quarters[lane]).count();
             let columns = self.sums(quarters[lane] - self.first, inside);
-            if next - lane == turns.len() {
-                let [x, y, z, w, anomaly, longitude] = columns;
-                return (QuaternionLanes([x, y, z, w]), [anomaly, longitude]);
-            }
             for (row, column) in rows.iter_mut().zip(&columns) {
                 row[lane..next].copy_from_slice(&column.values()[lane..next]);
             }
