@@ -167,9 +167,9 @@ fn resonances_are_errors_that_name_the_pair_and_only_where_a_term_is_there() {
         (wobbling, faint(wobble, 0.0), (2, 0)),
     ] {
         match solve([0.95, 0.98, 1.0], rates, orbit) {
-            Err(Error::Resonance { harmonic, multiple, divisor, bound }) => {
+            Err(Error::Resonance { harmonic, multiple, divisor, bound, effect, limit }) => {
                 assert_eq!((harmonic, multiple), pair, "{rates:?}");
-                assert!(divisor < bound);
+                assert!(divisor < bound && effect > limit);
             }
             other => panic!("{:?}: {}", pair, other.map_or_else(|e| e.to_string(), |m| m.plan().to_string())),
         }

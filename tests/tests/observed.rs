@@ -58,7 +58,7 @@ proptest! {
         let body = Body::new(moments).expect("a body");
         let mode = if long { Mode::LongAxis } else { Mode::ShortAxis };
         let [lower, _] = body.period_ratios(mode, Convention::ExtremalAxis).expect("a mode");
-        let start = ObservedPeriods { mode, ..ObservedPeriods::new(1.3, 1.3 * lower * beyond).towards(0.7, -0.4) };
+        let start = ObservedPeriods { mode, ..ObservedPeriods::new(1.3, 1.3 * lower * beyond).towards(0.7, -0.4).expect("a latitude") };
         let later = ObservedPeriods { phases: [time / start.rotation, time / start.precession], epoch: time, ..start };
         let expected = scene(&body, &start).solve().expect("a motion").at(time).expect("a time");
         let found = *scene(&body, &later).state();
@@ -178,7 +178,28 @@ fn bad_periods_are_named() {
     assert!(refused(ObservedPeriods { phases: [0.0, f64::INFINITY], ..good }).starts_with("phases = "));
     assert!(refused(ObservedPeriods { mode: Mode::Spherical, ..good }).starts_with("mode = \"spherical\""));
     let swapped = refused(ObservedPeriods { precession: 263.0, rotation: 27.38, ..good });
-    assert!(swapped.contains("P_ψ/P_φ from 7.56"), "{swapped}");
+    // The upper end was printed as 5.469655e1.
+    let [lower, upper] = body.period_ratios(Mode::ShortAxis, Convention::ExtremalAxis).expect("a mode");
+    assert!(swapped.ends_with(&format!("P_ψ/P_φ from {lower} up to {upper}")), "{swapped}");
+}
+
+#[test]
+fn a_latitude_beyond_a_quarter_turn_is_refused_and_named() {
+    let good = ObservedPeriods::new(27.38, 263.0);
+    for latitude in [-std::f64::consts::FRAC_PI_2, 0.0, std::f64::consts::FRAC_PI_2] {
+        assert!(good.towards(400.0, latitude).is_ok(), "{latitude}");
+    }
+    for latitude in [3.0, -85.0, f64::INFINITY] {
+        let error = good.towards(1.0, latitude).expect_err("a latitude");
+        assert_eq!((error.argument(), error.value()), (Some("momentum_direction"), Some([1.0, latitude].into())));
+        assert!(error.to_string().ends_with("the latitude must be from -π/2 to π/2"), "{error}");
+    }
+    let file = "[body]\nmoments = [0.61, 0.965, 1]\n[periods]\nprecession = 27.38\nrotation = 263\nmomentum_direction = [275, -85]";
+    let error = Scene::parse_toml(file, "f").expect_err("degrees").to_string();
+    assert!(
+        error.starts_with("f: periods.momentum_direction: momentum_direction = [275, -85]: it is [longitude"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -187,10 +208,11 @@ fn bad_andoyer_variables_are_named() {
     for (index, value) in [(0, f64::NAN), (3, 1.1), (4, 0.0), (4, -1.0), (5, -1.1)] {
         let mut variables = [0.1, 0.2, 0.3, 0.5, 1.0, 0.9];
         variables[index] = value;
-        let Err(Error::Andoyer { index: named, .. }) = Scene::from_andoyer(body.clone(), variables, 0.0) else {
+        let Err(Error::Andoyer { index: named, bound, .. }) = Scene::from_andoyer(body.clone(), variables, 0.0) else {
             panic!("{index}")
         };
         assert_eq!(named, index);
+        assert!(index == 0 || index == 4 || bound == "at most M = 1 in magnitude", "{bound}");
     }
 }
 
@@ -198,7 +220,9 @@ fn bad_andoyer_variables_are_named() {
 fn a_scene_file_states_periods_or_a_tensor() {
     let file = "[body]\nmoments = [0.61, 0.965, 1]\n[periods]\nprecession = 27.38\nrotation = 263\nmomentum_direction = [4.36, -1.3]\nphases = [0.25, 0]";
     let read = Scene::parse_toml(file, "apophis.toml").expect("a scene");
-    let periods = ObservedPeriods { phases: [0.25, 0.0], ..ObservedPeriods::new(27.38, 263.0) }.towards(4.36, -1.3);
+    let periods = ObservedPeriods { phases: [0.25, 0.0], ..ObservedPeriods::new(27.38, 263.0) }
+        .towards(4.36, -1.3)
+        .expect("a latitude");
     assert_eq!(read, scene(&Body::new([0.61, 0.965, 1.0]).expect("a body"), &periods));
     assert_eq!(Scene::parse_toml(&read.to_toml(), "again").expect("a scene"), read);
     let tensor = "[body]\ninertia = [[17.0, 0.4, -2.2], [0.4, 124.8, 0.3], [-2.2, 0.3, 129.1]]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0.01, 0.05]";

@@ -53,6 +53,36 @@ fn the_plan_says_over_what_the_tolerance_is_missed() {
 }
 
 #[test]
+fn the_plan_of_a_torque_without_a_span_says_how_far_the_average_reaches() {
+    // It said 1e9 rotations, and the motion refused times beyond 65,534 orbits.
+    let by_spin = triaxial().orbit(orbit()).averaging(Averaging::Spin).tolerance(1e-9);
+    let motion = by_spin.clone().solve().expect("averaged");
+    let reach = 65_534.0 / 1e-3 * motion.frequencies().longitude;
+    let said = format!("over {reach:.1e} rotations (no span given; averaging = spin reaches no farther)");
+    let text = motion.plan().to_string();
+    assert!(reach < 1e9 && text.contains(&said), "{said}, {text}");
+    assert!(motion.plan().missed_tolerance().is_some_and(|text| text.contains(&said)));
+    let text = by_spin.span(0.0, 1e4).solve().expect("averaged").plan().to_string();
+    assert!(!text.contains("reaches no farther"), "{text}");
+    let text = triaxial().orbit(orbit()).averaging(Averaging::Orbit).solve().expect("averaged").plan().to_string();
+    assert!(text.contains("is not met over 1e9 rotations (no span given)"), "{text}");
+}
+
+#[test]
+fn the_plan_says_that_nothing_is_known_instead_of_a_bound_of_half_a_turn() {
+    let wobbling =
+        scene([1.0, 1.5, 2.0], [0.3, 0.1, 1.0]).orbit(Orbit::new(2e-2, 0.3).expect("an orbit")).level(Level::Paper);
+    let plan = wobbling.clone().method(Method::Closed).solve().expect("averaged").plan().clone();
+    assert_eq!(plan.error_bound(), std::f64::consts::PI);
+    assert!(plan.to_string().contains("\nerror bound   unknown (half a turn or more); give a span\n"), "{plan}");
+    let text = plan.missed_tolerance().expect("missed");
+    assert!(text.starts_with("the error bound of the attitude, half a turn or more, exceeds"), "{text}");
+    assert!(text.ends_with("; give a span"), "{text}");
+    let plan = wobbling.method(Method::Closed).span(0.0, 1e9).solve().expect("averaged").plan().clone();
+    assert!(plan.to_string().contains("unknown (half a turn or more); give a shorter span"), "{plan}");
+}
+
+#[test]
 fn the_plan_shows_no_order_where_there_is_none_and_how_near_the_separatrix_is() {
     let line = |scene: &Scene, name: &str| {
         let text = scene.solve().expect("served").plan().to_string();
@@ -96,10 +126,13 @@ fn an_index_beyond_an_ensemble_is_named_with_the_number_of_members() {
 #[test]
 fn refusals_are_sentences() {
     let error = scene([1.0, 1.5, 2.0], [0.0; 3]).orbit(orbit()).solve().expect_err("at rest");
-    let text = "orbit: no averaged theory is valid for this motion (mode at-rest, σ/σ_sep = 0.000000, which must be at most 0.9)";
-    assert_eq!(error.to_string(), text);
+    // The message gave σ/σ_sep = 0 as what must be at most 0.9.
+    assert_eq!(error.to_string(), "orbit: a body at rest has no averaged theory");
+    assert_eq!((error.value(), error.bound()), (Some("at-rest".into()), Some("a body that rotates".into())));
+    let error = scene([1.0, 1.02, 1.05], [0.0, 1.0, 1e-3]).orbit(orbit()).solve().expect_err("near the separatrix");
+    assert!(error.to_string().ends_with("which must be at most 0.9)") && error.bound() == Some(0.9.into()), "{error}");
     let motion = scene([1.0, 1.5, 2.0], [0.0; 3]).solve().expect("rest");
-    let text = "times[0] = 2e300: a time must be finite and within 1.000e300 of the epoch";
+    let text = "times[0] = 2e300: the epoch is 0; a time must be finite and within 1.000e300 of the epoch";
     assert_eq!(motion.at(2e300).expect_err("too far").to_string(), text);
     let error = triaxial().solve().expect("served").at(1e30).expect_err("too far");
     assert!(error.to_string().ends_with("of the epoch: farther away the motion has no phase"), "{error}");
@@ -111,10 +144,65 @@ fn refusals_are_sentences() {
         .solve()
         .expect("averaged");
     let text = spun.at(4.2e8).expect_err("too far").to_string();
+    let expected = "times[0] = 420000000: the epoch is 0, the span is from 0 to 10000; a time must be finite and within 4.118e8 of the epoch: averaging = spin";
+    assert!(text.starts_with(expected), "{text}");
+}
+
+#[test]
+fn a_resonance_states_the_effect_that_is_too_large() {
+    let resonant = |n: f64, e: f64, fraction: f64, rates: [f64; 3]| {
+        let orbit =
+            Orbit::new(n, e).and_then(|orbit| orbit.plane(0.5, 0.0, 0.0)?.mass_fraction(fraction)).expect("an orbit");
+        scene([1.0, 1.02, 1.05], rates).orbit(orbit).method(Method::Closed)
+    };
+    let error = resonant(0.038_348, 0.0, 1e-2, [0.0, 0.01, 1.0]).solve().expect_err("too slow");
+    let Error::Resonance { divisor, bound, effect, limit, .. } = error else { panic!("{error}") };
+    assert!(divisor < bound && effect > limit);
+    assert_eq!((error.value(), error.bound()), (Some(divisor.into()), Some(bound.into())));
+    let text = error.to_string();
+    assert!(text.starts_with("spin resonance (h, m) = (2, 0): the terms in h times the angle"), "{text}");
+    assert!(text.contains("allowed; their frequency is") && text.contains("needs more than 3:"), "{text}");
+    // A term faster than the orbit, whose harmonic of the orbit is at resonance: the message said that 5.9 must be more than 3.
+    let error = (1..400)
+        .filter_map(|k| resonant(0.05 + 5e-4 * f64::from(k), 0.3, 1.0, [0.0, 0.1, 1.0]).span(0.0, 1e4).solve().err())
+        .find(|error| matches!(error, Error::Resonance { divisor, bound, .. } if divisor > bound))
+        .expect("a resonance of a fast term");
+    let Error::Resonance { effect, limit, .. } = error else { panic!("{error}") };
+    assert!(effect > limit);
+    assert_eq!((error.value(), error.bound()), (Some(effect.into()), Some(limit.into())));
+    let text = error.to_string();
     assert!(
-        text.contains("within 4.118e8 of the epoch: averaging = spin solves the averaged equations no farther"),
+        text.contains("rad is allowed: give a shorter span, or integrate") && !text.contains("frequency"),
         "{text}"
     );
+}
+
+#[test]
+fn a_torque_that_is_too_strong_is_measured_in_words_and_with_its_limit() {
+    let error = |scene: Scene| scene.method(Method::Closed).solve().expect_err("too strong").to_string();
+    let round = scene([1.0, 1.2, 1.5], [0.0, 0.0, 1.0]).orbit(Orbit::new(0.32, 0.0).expect("an orbit"));
+    let text = error(round.span(0.0, 60.0));
+    assert!(text.contains("in it: the short-period corrections add up to 0."), "{text}");
+    assert!(text.ends_with(" rad, and must add up to at most 0.05 rad"), "{text}");
+    let wobbling = scene([1.0, 1.5, 2.0], [0.3, 0.1, 1.0]).orbit(Orbit::new(0.1, 0.3).expect("an orbit"));
+    let text = error(wobbling.level(Level::Paper));
+    assert!(
+        text.contains("in it: its strength 3n²C(C−A)/2M², where the disturbing body is nearest, is 0.02"),
+        "{text}"
+    );
+    assert!(text.ends_with(", and must be at most 0.02"), "{text}");
+}
+
+#[test]
+fn a_span_that_no_integration_serves_is_the_argument_of_its_error() {
+    // A chaotic tumbling: the argument was the tolerance, and the bound a pair of times.
+    let chaotic = scene([0.5, 0.8, 1.0], [0.01, 0.02, 1.0]).orbit(Orbit::new(1.0, 0.1).expect("an orbit"));
+    let error = chaotic.span(0.0, 2000.0).tolerance(1e-8).method(Method::Integrated).solve().expect_err("chaos");
+    let Error::Unpredictable { start, stop, .. } = error else { panic!("{error}") };
+    assert!(start == 0.0 && stop > 0.0 && stop < 2000.0, "{error}");
+    assert_eq!((error.argument(), error.value()), (Some("span"), Some([0.0, 2000.0].into())));
+    assert_eq!(error.bound(), Some([start, stop].into()));
+    assert!(error.to_string().starts_with("span = [0, 2000]: nearby states separate so fast"), "{error}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Scene files: what is read back, and what is refused with file, key and bound.
 
 use andoyer_propagate::options::{Averaging, Level};
-use andoyer_propagate::{Error, Scene};
+use andoyer_propagate::{Error, Orbit, Scene};
 
 const GOOD: &str = "name = \"A body\"
 source = \"made up\"
@@ -71,7 +71,7 @@ fn what_is_wrong_with_an_orbit_is_named_with_its_bound() {
         ("mean_motion = 2e-4\n", "", "orbit.mean_motion", "is missing"),
         ("eccentricity = 0.1", "eccentricity = 1", "orbit.eccentricity", "less than 1"),
         ("time_of_pericentre = -3", "time_of_pericentre = nan", "orbit.time_of_pericentre", "finite"),
-        ("inclination = 0.4", "inclination = \"tilted\"", "orbit.inclination", "expected f64"),
+        ("inclination = 0.4", "inclination = \"tilted\"", "orbit.inclination", "must be a number"),
         ("node = 0.5", "node = inf", "orbit.node", "finite"),
         ("argument_of_pericentre = 0.6", "argument_of_pericentre = nan", "orbit.argument_of_pericentre", "finite"),
         ("mass_fraction = 0.7", "mass_fraction = 1.1", "orbit.mass_fraction", "at most 1"),
@@ -115,10 +115,10 @@ fn unknown_and_missing_keys_are_named() {
 fn bad_values_are_named_with_their_bound() {
     let cases = [
         ("tolerance = 1e-10", "tolerance = 0", "tolerance", "must be positive"),
-        ("tolerance = 1e-10", "tolerance = \"fine\"", "tolerance", "expected f64"),
+        ("tolerance = 1e-10", "tolerance = \"fine\"", "tolerance", "must be a number"),
         ("order = 12", "order = 61", "order", "at most 60"),
-        ("order = 12", "order = -1", "order", "expected usize"),
-        ("order = 12", "order = 1.5", "order", "expected usize"),
+        ("order = 12", "order = -1", "order", "must be a whole number, 0 or more"),
+        ("order = 12", "order = 1.5", "order", "must be a whole number, 0 or more"),
         ("\"series\"", "\"magic\"", "method", "`auto`, `series`, `closed`, `integrated`"),
         ("span = [0, 1e3]", "span = [1, 0]", "span", "start ≤ stop"),
         ("span = [0, 1e3]", "span = [1]", "span", "an array of length 2"),
@@ -145,4 +145,39 @@ fn what_is_no_toml_is_named_by_its_line_and_a_missing_file_by_its_path() {
     assert_eq!(refused("epoch = 0\nspan = [").0, "line 2");
     let error = Scene::from_toml("no/such/scene.toml").expect_err("no file");
     assert!(error.to_string().starts_with("no/such/scene.toml: file: "), "{error}");
+}
+
+#[test]
+fn a_date_in_the_place_of_a_time_is_refused_in_words() {
+    let text = |line: &str| {
+        format!("{line}\n[body]\nmoments = [1, 1.5, 2]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0, 1]")
+    };
+    for (line, key, bound) in [
+        ("epoch = 2013-01-09T12:00:00", "epoch", "a number of time units"),
+        ("span = [2013-01-09, 2013-01-10]", "span", "a number of time units"),
+        ("epoch = \"noon\"", "epoch", "a number of time units"),
+        ("tolerance = \"small\"", "tolerance", "a number"),
+    ] {
+        let error = Scene::parse_toml(&text(line), "f").expect_err("a date");
+        assert!(error.to_string().starts_with(&format!("f: {key}: must be {bound}: ")), "{error}");
+        assert!(!error.to_string().contains("f64"), "{error}");
+        assert_eq!((error.argument(), error.bound()), (Some(key), Some(bound.into())));
+    }
+}
+
+#[test]
+fn an_attraction_stands_without_a_mass_fraction() {
+    let text = |line: &str| {
+        format!(
+            "[body]\nmoments = [1, 1.5, 2]\n[state]\nattitude = [0, 0, 0, 1]\nangular_velocity = [0, 0, 1]\n[orbit]\nmean_motion = 1e-3\nattraction = 2e-6\n{line}"
+        )
+    };
+    assert!(Scene::parse_toml(&text(""), "f").is_ok() && Scene::parse_toml(&text("mass_fraction = 1.0"), "f").is_ok());
+    // The fraction was ignored.
+    let error = Scene::parse_toml(&text("mass_fraction = 0.5"), "f").expect_err("both").to_string();
+    assert!(error.starts_with("f: orbit.attraction: ") && error.contains("without a mass_fraction"), "{error}");
+    let orbit = Orbit::new(1e-3, 0.0).and_then(|orbit| orbit.attraction(2e-6)).expect("an orbit");
+    assert_eq!(orbit.mass_fraction(1.0), Ok(orbit));
+    let error = orbit.mass_fraction(0.5).expect_err("both");
+    assert_eq!(error.argument(), Some("mass_fraction"));
 }

@@ -5,8 +5,10 @@
 mod facts;
 mod message;
 mod place;
+mod torque_measure;
 
 pub use facts::{Kind, Value};
+pub use torque_measure::TorqueMeasure;
 
 /// Memory of one integration step, in bytes.
 pub(crate) const STEP_BYTES: f64 = 72.0;
@@ -117,6 +119,10 @@ pub enum Error {
         index: usize,
         /// The time as given.
         value: f64,
+        /// The epoch on the scale of the times: 0 if they count from the epoch.
+        epoch: f64,
+        /// The span of the scene on the same scale, if it has one.
+        span: Option<[f64; 2]>,
         /// Largest accepted time from the epoch.
         bound: f64,
         /// The reason for the bound, as the end of a sentence; empty if the bound only prevents an overflow.
@@ -197,6 +203,11 @@ pub enum Error {
         /// The largest ratio near the separatrix that doubles can represent.
         upper: f64,
     },
+    /// A direction whose latitude exceeds a quarter turn.
+    Latitude {
+        /// Longitude and latitude as given \[rad\].
+        value: [f64; 2],
+    },
     /// A vector or a number that is not finite, or a direction of length 0.
     Direction {
         /// The argument.
@@ -211,7 +222,7 @@ pub enum Error {
         /// The value as given.
         value: f64,
         /// The requirement.
-        bound: &'static str,
+        bound: String,
     },
     /// An invalid orbital element.
     Orbit {
@@ -239,23 +250,28 @@ pub enum Error {
         /// The averaging as given.
         value: String,
     },
-    /// A rotation that is too slow, or too near a resonance with its orbit, for averaging.
+    /// A rotation that is too slow, or too near a resonance with its orbit, for averaging. The terms of the torque in hℓ′ + my′ have too large an effect.
     Resonance {
-        /// k − j, the multiple of dℓ′/dt.
+        /// h, the multiple of dℓ′/dt.
         harmonic: i32,
         /// m, the multiple of dy′/dt.
         multiple: i32,
-        /// The frequency over the orbital angular rate at pericentre.
+        /// The frequency of the terms over the largest angular rate of the orbit within the span.
         divisor: f64,
-        /// The smallest value that averaging allows.
+        /// The smallest value for which a term is corrected by a sum over time derivatives.
         bound: f64,
+        /// The largest attitude error over the span \[rad\]: by this term, or by all terms together.
+        effect: f64,
+        /// Upper limit of the effect \[rad\].
+        limit: f64,
     },
     /// A torque that is too strong for an expansion in it.
     TorqueTooStrong {
-        /// A measure of the torque. It is one of: 3n²C(C − A)/2M² times the mass fraction at the pericentre; the sum of the short-period corrections \[rad\];
-        /// the ratio of the changes of successive iterations for the mean variables; the error bound of a span below one orbit \[rad\].
+        /// What is measured.
+        measure: TorqueMeasure,
+        /// The measured value.
         size: f64,
-        /// Upper limit of the measure. For the error bound it is the effect of the torque over the span \[rad\].
+        /// Its upper limit.
         bound: f64,
     },
     /// A span with more orbits than the averaged equations can be solved for.
@@ -317,7 +333,7 @@ pub enum Error {
     },
     /// An integration with too many steps.
     TooManySteps {
-        /// Steps over the span, estimated.
+        /// Steps over the span, estimated; infinite if only the bound is known to be exceeded.
         steps: f64,
         /// The largest number of steps.
         bound: usize,
@@ -328,6 +344,8 @@ pub enum Error {
     Unpredictable {
         /// The tolerance \[rad\].
         tolerance: f64,
+        /// First and last time of the span.
+        span: [f64; 2],
         /// The earliest time at which the tolerance holds.
         start: f64,
         /// The latest time at which the tolerance holds.

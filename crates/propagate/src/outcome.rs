@@ -1,7 +1,7 @@
 //! What became of the members of an ensemble: which were refused, and which miss the tolerance.
 
 use crate::error::Error;
-use crate::motion::plan::{Plan, missed};
+use crate::motion::plan::{Over, Plan, missed};
 
 /// A member that misses the tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,7 +9,7 @@ struct Missed {
     member: usize,
     bound: f64,
     tolerance: f64,
-    spanned: bool,
+    over: Over,
 }
 
 /// What became of the members of an ensemble.
@@ -44,8 +44,8 @@ impl Outcome {
 
     /// One sentence with their number and the worst of them where members miss the tolerance.
     pub fn missed_tolerance(&self) -> Option<String> {
-        let Missed { member, bound, tolerance, spanned } = self.worst?;
-        let said = missed(bound, tolerance, spanned);
+        let Missed { member, bound, tolerance, over } = self.worst?;
+        let said = missed(bound, tolerance, over);
         Some(format!(
             "{} of {} members miss the tolerance, the worst is member {member}: {said}",
             self.missing, self.solved
@@ -57,8 +57,8 @@ impl Outcome {
         self.solved += 1;
         if !plan.meets_tolerance() {
             self.missing += 1;
-            let (bound, tolerance, spanned) = (plan.error_bound, plan.tolerance, plan.spanned);
-            self.worst = worse(self.worst, Some(Missed { member, bound, tolerance, spanned }));
+            let (bound, tolerance, over) = (plan.error_bound, plan.tolerance, plan.over());
+            self.worst = worse(self.worst, Some(Missed { member, bound, tolerance, over }));
         }
         self
     }

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use crate::error::{Error, Kind};
+use crate::error::{Error, Kind, TorqueMeasure};
 use crate::gravity_gradient::choice::chosen;
 use crate::gravity_gradient::osculating::{LARGEST_SEPARATRIX_RATIO, osculating};
 use crate::gravity_gradient::request::Request;
@@ -14,7 +14,7 @@ use crate::motion::solved::{Frequencies, Given, Motion};
 use crate::motion::trajectory::Trajectory;
 use crate::numerics::scaling::{exponent, half, scaled, user_rate};
 use crate::simd::halt::GOING;
-use crate::torque_free::error_budget::{ROUNDING, phase_rounding, sides};
+use crate::torque_free::error_budget::{DEFAULT_ROTATIONS, ROUNDING, phase_rounding, sides};
 use crate::torque_free::frequencies::Secular;
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::{Polhode, UserFrame};
@@ -302,6 +302,8 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbits: &[Orbit]) -> R
     skipped.extend(gradient.skipped());
     let mut plan = Plan::new(&scene, mode, ratio, gradient.error + 4.0 * ROUNDING);
     (plan.gradient, plan.skipped) = (Some(gradient.plan()), skipped);
+    let reach = gradient.bound() * longitude / std::f64::consts::TAU;
+    plan.reach = Some(reach).filter(|reach| *reach < DEFAULT_ROTATIONS);
     let error = gradient.error;
     let motion = Motion {
         plan,
@@ -321,7 +323,7 @@ fn disturbed(scene: Scene, polhode: &Polhode, mode: Mode, orbits: &[Orbit]) -> R
     {
         let effect = effect(&motion)?;
         if error > effect {
-            return Err(Error::TorqueTooStrong { size: error, bound: effect });
+            return Err(Error::TorqueTooStrong { measure: TorqueMeasure::ErrorBound, size: error, bound: effect });
         }
     }
     Ok(motion)

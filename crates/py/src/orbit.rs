@@ -32,7 +32,7 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 ///     Secular rates of the node (about inertial axis 3) and of the argument of the pericentre, in rad per unit of time. `node` and `argument_of_pericentre` are then
 ///     the values at `time_of_pericentre`, and `mean_motion` is the rate of the mean anomaly.
 /// attraction : float, optional
-///     G × disturbing mass / a³, in 1/time², instead of mean_motion² × mass_fraction.
+///     G × disturbing mass / a³, in 1/time², instead of mean_motion² × mass_fraction. `mass_fraction` is then 1, its default.
 ///
 /// Warns
 /// -----
@@ -42,7 +42,8 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 /// Raises
 /// ------
 /// InputError
-///     A mean motion or an attraction that is not positive; an eccentricity outside 0 ≤ e < 1; a mass fraction that is not positive or is above 1; a value that is not finite.
+///     A mean motion or an attraction that is not positive; an eccentricity outside 0 ≤ e < 1; a mass fraction that is not positive or is above 1; a mass fraction beside an attraction; a value
+///     that is not finite.
 /// TypeError
 ///     A text.
 ///

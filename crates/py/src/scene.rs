@@ -20,7 +20,9 @@ use crate::{array, error};
 
 mod arguments;
 
-use arguments::{disturbing_bodies, disturbing_body, epoch, not_a_body, precession, rotation, tolerance, with_options};
+use arguments::{
+    disturbing_bodies, disturbing_body, doubt, epoch, not_a_body, precession, rotation, tolerance, with_options,
+};
 
 #[pymethods]
 impl Scene {
@@ -100,7 +102,7 @@ impl Scene {
     /// convention : {"extremal-axis", "long-axis", "short-axis"}, optional
     ///     The axis of the periods. The default is the axis of the mode, as in light-curve papers; radar papers use the long axis.
     /// momentum_direction : array_like, shape (3,) or (2,), optional
-    ///     Direction of the angular momentum: inertial components of any length, or (longitude, latitude) in rad; by default inertial axis 3.
+    ///     Direction of the angular momentum: inertial components of any length, or (longitude, latitude) in rad, |latitude| ≤ π/2; by default inertial axis 3.
     /// phases : (float, float), optional
     ///     Phases of P_ψ and P_φ at the epoch, in turns. At (0, 0) the axis of the mode is nearest to the angular momentum, tilted towards
     ///     (inertial axis 3) × momentum, or towards inertial axis 1 if the momentum is along axis 3.
@@ -113,7 +115,12 @@ impl Scene {
     /// ------
     /// InputError
     ///     A ratio P_ψ/P_φ that the body cannot have; the message states the interval of `Body.period_ratios`. A mode that an axisymmetric body does not
-    ///     have. A period that is not positive, a direction of length 0, a value that is not finite.
+    ///     have. A period that is not positive, a direction of length 0, a latitude beyond ±π/2, a value that is not finite.
+    ///
+    /// Warns
+    /// -----
+    /// UserWarning
+    ///     A phase beyond a whole turn, which is probably in degrees.
     ///
     /// Examples
     /// --------
@@ -150,10 +157,13 @@ impl Scene {
         }
         if let Some(direction) = momentum_direction {
             periods = match array::two_or_three("momentum_direction", direction)? {
-                TwoOrThree::Two([longitude, latitude]) => periods.towards(longitude, latitude),
+                TwoOrThree::Two([longitude, latitude]) => {
+                    periods.towards(longitude, latitude).map_err(error::propagation)?
+                }
                 TwoOrThree::Three(vector) => ObservedPeriods { momentum_direction: vector.into(), ..periods },
             };
         }
+        doubt(class.py(), &periods)?;
         let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
         let solve = || andoyer_propagate::Scene::from_periods(of_body, &periods);
         let scene = detached(class.py(), error::propagation, solve)?;
@@ -237,7 +247,7 @@ impl Scene {
     /// TheoryError
     ///     ``method="series"`` if the motion is on the separatrix, or so near it that the tolerance needs an order above 60.
     ///     Without a span, or with a fixed method, averaging or level: an orbit that is in resonance with the rotation or not much slower (the message names the
-    ///     pair (k−j, m)); a torque that is too strong for an expansion; an orbit with a motion too near the separatrix, a body at rest or rotating about its middle axis, or
+    ///     pair (h, m) of the term in hℓ′ + my′, theory §9); a torque that is too strong for an expansion; an orbit with a motion too near the separatrix, a body at rest or rotating about its middle axis, or
     ///     an axisymmetric body that rotates about a perpendicular axis; more orbits than ``averaging="spin"`` can solve. With a span ``method="auto"`` integrates these motions.
     ///     ``method="closed"`` or ``"series"`` with a table; a span that is too long for the averaged equations of several orbits, or of an orbit with secular rates.
     ///     An integration with more than 8,388,608 steps on one side of the epoch, or one that is so unstable that the final state is unknown.

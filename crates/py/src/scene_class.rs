@@ -38,8 +38,8 @@ use crate::foreign::Calendar;
 ///     says that the tolerance "is not met over the span".
 /// span : (float, float), optional
 ///     First and last time over which the tolerance is requested: two numbers, two Time objects, or two TimeDelta from the epoch. By default it is
-///     1e9 rotations. A motion can be evaluated outside the span, up to
-///     1e15 rotations from the epoch; a later time is a `RepresentationError` of the motion. An integrated motion needs a span and can be evaluated within the span and at the epoch only.
+///     1e9 rotations. With ``averaging="spin"`` a motion reaches 65,534 orbits, and ``str(plan)`` says how many rotations these are if they are fewer.
+///     A motion can be evaluated outside the span, up to 1e15 rotations (with ``averaging="spin"`` 65,534 orbits) from the epoch; a later time is a `RepresentationError` of the motion. An integrated motion needs a span and can be evaluated within the span and at the epoch only.
 /// averaging : {"auto", "orbit", "spin"}, optional
 ///     Averaging of a scene with an orbit: "orbit" averages over rotation and orbit and uses formulas alone; "spin" averages over the rotation alone;
 ///     "auto" in first order uses "orbit" if it meets the tolerance, otherwise "spin"; in second order it uses "spin", or "orbit" beyond 65,534 orbits.

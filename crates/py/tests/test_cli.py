@@ -145,6 +145,10 @@ BAD_LINES = {
     "no directory": (["propagate", "SCENE", "-o", "absent/out.csv"], "absent"),
     "NaN start": (["propagate", "SCENE", "-o", "out.csv", "--start", "nan"], "--start: must be a finite number: got 'nan'"),
     "text start": (["propagate", "SCENE", "-o", "out.csv", "--start", "noon"], "argument --start: must be a finite number: got 'noon'"),
+    "date start": (
+        ["propagate", "SCENE", "-o", "out.csv", "--start", "2013-01-09T12:00:00"],
+        r"--start: must be a finite number, a time in the unit of the scene \(if its epoch is a date, TDB seconds since J2000\): got '2013-01-09T12:00:00'",
+    ),
     "text stop": (["propagate", "SCENE", "-o", "out.csv", "--stop", "later"], "--stop.*later"),
     "stop before start": (["propagate", "SCENE", "-o", "out.csv", "--start", "5", "--stop", "4"], "--stop.*4.0.*5.0"),
     "no samples": (["propagate", "SCENE", "-o", "out.csv", "--samples", "0"], "--samples"),

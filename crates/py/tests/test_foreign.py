@@ -155,10 +155,38 @@ sys.exit(bool({'scipy', 'astropy', 'pandas', 'xarray', 'andoyer._foreign'} & set
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
+def test_quantities_of_periods_and_orbits_are_taken_in_si_units(body):
+    apophis = andoyer.Body([0.61, 0.965, 1.0])
+    pole, phases = np.array([275.0, -85.0]) * units.deg, [90, 180] * units.deg
+    scene = andoyer.Scene.from_periods(apophis, 27.38 * units.h, 263 * units.h, momentum_direction=pole, phases=phases)
+    plain = andoyer.Scene.from_periods(apophis, 27.38 * 3600, 263 * 3600, momentum_direction=np.radians([275, -85]), phases=(0.25, 0.5))
+    assert np.allclose(scene.attitude, plain.attitude, atol=1e-14) and np.allclose(scene.angular_velocity, plain.angular_velocity, rtol=1e-12)
+    bare = {"momentum_direction": units.Quantity([0.0, 3.0, 4.0]), "phases": units.Quantity([0.25, 0.5])}
+    assert andoyer.Scene.from_periods(apophis, 1, 9, **bare) == andoyer.Scene.from_periods(apophis, 1, 9, momentum_direction=[0, 3, 4], phases=(0.25, 0.5))
+    orbit = andoyer.Orbit(1e-3, node_rate=-1 * units.deg / units.day, pericentre_rate=2 * units.deg / units.day, attraction=3.6e-3 / units.min**2)
+    degree = math.radians(1) / 86400
+    assert (orbit.node_rate, orbit.pericentre_rate) == (pytest.approx(-degree), pytest.approx(2 * degree))
+    assert orbit.attraction == pytest.approx(1e-6)
+    low = andoyer.Orbit.around_oblate(
+        398600.4415 * units.km**3 / units.s**2, 6878.1363 * units.km, 0.001, 51.6 * units.deg, j2=1e-3, radius=6378.1363 * units.km
+    )
+    assert low.mean_motion == pytest.approx(
+        andoyer.Orbit.around_oblate(3.986004415e14, 6878136.3, 0.001, math.radians(51.6), j2=1e-3, radius=6378136.3).mean_motion
+    )
+    rate = np.sqrt(398600.4415 * units.km**3 / units.s**2 / (7000 * units.km) ** 3)
+    with pytest.raises(TypeError, match=r"mean_motion must be in rad / s.*; multiply by u\.rad, or by u\.cycle if it counts turns"):
+        andoyer.Orbit(rate)
+    assert andoyer.Orbit(rate * units.rad).mean_motion == pytest.approx(1.078e-3, rel=1e-3)
+    with pytest.raises(TypeError, match="momentum_direction must be in rad, or what converts to it: got m"):
+        andoyer.Scene.from_periods(apophis, 1, 9, momentum_direction=[1, 1] * units.m)
+    with pytest.raises(TypeError, match="precession must be no astropy Time"):
+        andoyer.Scene.from_periods(apophis, Time("2000-01-01"), 9)
+
+
 def test_rates_in_hertz_are_refused_with_the_unit_that_says_turns(body):
-    with pytest.raises(TypeError, match=r"angular_velocity must be in rad / s.*got Hz; rates in turns per second have the unit u\.cycle / u\.s"):
+    with pytest.raises(TypeError, match=r"angular_velocity must be in rad / s.*got Hz; multiply by u\.rad, or by u\.cycle if it counts turns"):
         andoyer.Scene(body, QUATERNION, [0.0, 0.0, 1.0] * units.Hz)
-    with pytest.raises(TypeError, match=r"mean_motion.*u\.cycle / u\.s"):
+    with pytest.raises(TypeError, match=r"mean_motion.*multiply by u\.rad"):
         andoyer.Orbit(1 / units.day)
     with pytest.raises(TypeError, match=r"angular_velocity must be in rad / s, or what converts to it: got m$"):
         andoyer.Scene(body, QUATERNION, [0.0, 0.0, 1.0] * units.m)

@@ -110,9 +110,9 @@ def test_plan_says_how_the_torque_is_averaged_and_how_large_it_is(scene):
 
 
 NOT_AVERAGED = {
-    "resonance": (andoyer.TheoryError, [0, 0.01, 1], Orbit(0.038348, inclination=0.5, mass_fraction=1e-2), r"\(k−j, m\) = \(2, 0\).*more than 3"),
+    "resonance": (andoyer.TheoryError, [0, 0.01, 1], Orbit(0.038348, inclination=0.5, mass_fraction=1e-2), r"\(h, m\) = \(2, 0\).*more than 3"),
     "separatrix": (andoyer.TheoryError, [0, 1, 1e-3], Orbit(1e-3), "σ/σ_sep = 0.99.*0.9"),
-    "rest": (andoyer.TheoryError, [0, 0, 0], Orbit(1e-3), "at-rest"),
+    "rest": (andoyer.TheoryError, [0, 0, 0], Orbit(1e-3), "^orbit: a body at rest has no averaged theory$"),
 }
 
 
@@ -132,6 +132,16 @@ def test_what_is_no_orbit_is_refused_by_its_kind():
     with pytest.raises(TypeError) as caught:
         Scene(Body([1, 2, 2]), [0, 0, 0, 1], [0, 0, 1], orbit=1e-3)
     assert str(caught.value) == "orbit must be an andoyer.Orbit, a TabulatedOrbit, a sequence of them or None: got float; use Orbit(mean_motion)"
+    # The keys of a dict were taken for bodies: "got str".
+    with pytest.raises(TypeError, match="got dict; use Orbit"):
+        Scene(Body([1, 2, 2]), [0, 0, 0, 1], [0, 0, 1], orbit={"n": 1e-3})
+
+
+def test_attraction_stands_without_a_mass_fraction():
+    assert Orbit(1.0, 0.5, attraction=0.3, mass_fraction=1.0) == Orbit(1.0, 0.5, attraction=0.3)
+    # The fraction was ignored.
+    with pytest.raises(andoyer.InputError, match="orbit.attraction = 0.3: it must be given without a mass_fraction"):
+        Orbit(1.0, 0.5, attraction=0.3, mass_fraction=0.5)
 
 
 def test_example_scene_precesses_at_the_rate_of_the_averaged_theory():

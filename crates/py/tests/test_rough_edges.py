@@ -25,6 +25,16 @@ def test_angles_within_a_turn_do_not_warn():
         Orbit(1e-3, 0.1, inclination=3.1, node=-6.28, argument_of_pericentre=6.28)
 
 
+def test_phase_beyond_a_turn_warns_and_is_taken():
+    body = Body([0.61, 0.965, 1.0])
+    with pytest.warns(UserWarning, match=r"phases\[1\] = 152\.0 is more than a whole turn: phases are in turns") as caught:
+        scene = Scene.from_periods(body, 27.38, 263.0, phases=[14, 152])
+    assert len(caught) == 2 and scene.solve().plan.mode == "short-axis"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Scene.from_periods(body, 27.38, 263.0, phases=[-1.0, 1.0])
+
+
 def test_scene_file_in_degrees_warns_from_python_and_from_the_shell(tmp_path, capsys):
     path = tmp_path / "degrees.toml"
     with warnings.catch_warnings():

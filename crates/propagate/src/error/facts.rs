@@ -56,6 +56,7 @@ impl Error {
             | Self::ModeName { .. }
             | Self::NoSuchMode { .. }
             | Self::PeriodRatio { .. }
+            | Self::Latitude { .. }
             | Self::Direction { .. }
             | Self::Andoyer { .. }
             | Self::Orbit { .. }
@@ -138,7 +139,8 @@ impl Error {
                 let zero = value.iter().all(|x| *x == 0.0);
                 facts(argument, Value::Numbers(value.clone()), if zero { "finite and not 0" } else { "finite" })
             }
-            Self::Andoyer { value, bound, .. } => facts("andoyer", *value, *bound),
+            Self::Latitude { value } => facts("momentum_direction", *value, "a latitude from -pi/2 to pi/2"),
+            Self::Andoyer { value, bound, .. } => facts("andoyer", *value, bound),
             Self::Orbit { argument, value, bound } => facts(argument, *value, *bound),
             Self::Table { argument, value, bound, .. } => facts(argument, *value, *bound),
             _ => return None,
@@ -175,16 +177,19 @@ impl Error {
             Self::Separatrix => facts("method", "series", "closed"),
             Self::NoCode { motion } => facts("motion", *motion, "rest, steady rotation or a torque-free wobble"),
             Self::SeparatrixPartials => facts("angular_velocity", 1.0, "sigma/sigma_sep other than 1"),
-            Self::Resonance { divisor, bound, .. } => facts("orbit", *divisor, *bound),
-            Self::TorqueTooStrong { size, bound } => facts("orbit", *size, *bound),
+            // The requirement that is broken: that of the frequency comes first.
+            Self::Resonance { divisor, bound, .. } if divisor < bound => facts("orbit", *divisor, *bound),
+            Self::Resonance { effect, limit, .. } => facts("orbit", *effect, *limit),
+            Self::TorqueTooStrong { size, bound, .. } => facts("orbit", *size, *bound),
             Self::TooManyOrbits { orbits, bound } => facts("span", *orbits, *bound),
             Self::SpanOfBodies { value, bound } => facts("span", *value, *bound),
-            Self::Unaveraged { ratio, bound, .. } => facts("orbit", *ratio, *bound),
+            Self::Unaveraged { ratio, bound, .. } if ratio > bound => facts("orbit", *ratio, *bound),
+            Self::Unaveraged { mode, .. } => facts("orbit", mode, "a body that rotates"),
             Self::TableSpan { start, stop, first, last } => facts("span", [*start, *stop], [*first, *last]),
             Self::NoSpan { .. } => facts("span", "none", "start <= stop"),
             Self::OnlyIntegrated { method, .. } => facts("method", method, "integrated"),
             Self::TooManySteps { steps, bound, .. } => facts("span", *steps, *bound as f64),
-            Self::Unpredictable { tolerance, start, stop } => facts("tolerance", *tolerance, [*start, *stop]),
+            Self::Unpredictable { span, start, stop, .. } => facts("span", *span, [*start, *stop]),
             _ => (None, None, None),
         }
     }

@@ -1,10 +1,11 @@
 //! The sentence of each error: the argument, its value, the bound, and what the caller can do.
 
+use std::f64::consts::PI;
 use std::fmt;
 
 use andoyer_series::error::Short;
 
-use super::{Error, STEP_BYTES};
+use super::{Error, STEP_BYTES, TorqueMeasure};
 
 impl fmt::Display for Error {
     // A table: one line for each variant, in the order of the enumeration. rustfmt leaves it, since the sentences are longer than its width.
@@ -24,7 +25,7 @@ impl fmt::Display for Error {
             Self::Span { start, stop } => write!(f, "span = [{start}, {stop}]: it must be finite with start ≤ stop", start = Short(*start), stop = Short(*stop)),
             Self::Order { value, bound } => write!(f, "order = {value}: it must be at most {bound}"),
             Self::Method { value } => write!(f, "method = {value:?}: it must be \"auto\", \"series\", \"closed\" or \"integrated\""),
-            Self::Time { index, value, bound, reason } => write!(f, "times[{index}] = {value:e}: a time must be finite and within {bound:.3e} of the epoch{reason}"),
+            Self::Time { index, value, epoch, span, bound, reason } => write!(f, "times[{index}] = {value}: {}a time must be finite and within {bound:.3e} of the epoch{reason}", setting(*epoch, *span), value = Short(*value)),
             Self::Length { argument, found, expected } => write!(f, "{argument} has {found} entries: it must have {expected}"),
             Self::TooFew { argument, found, least } => write!(f, "{argument} has {found} entries: it must have {least} or more"),
             Self::NearSeparatrix { ratio, tolerance, attainable, highest } => write!(f, "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {highest}, is good to {}, and the tolerance is {tolerance:e} rad", rounded_up(*attainable), ratio = Short(*ratio)),
@@ -35,24 +36,27 @@ impl fmt::Display for Error {
             Self::Convention { value } => write!(f, "convention = {value:?}: it must be \"extremal-axis\", \"long-axis\" or \"short-axis\""),
             Self::ModeName { value } => write!(f, "mode = {value:?}: it must be \"short-axis\" or \"long-axis\""),
             Self::NoSuchMode { mode, moments, pair } => write!(f, "mode = {mode:?}: a body with moments {moments:?} does not have this mode, since its {pair} moments are equal"),
-            Self::PeriodRatio { ratio, mode, convention, lower, upper } => write!(f, "rotation/precession = {ratio}: in the {mode} mode and the {convention} convention this body has P_ψ/P_φ from {lower} up to {upper:.6e}", ratio = Short(*ratio), lower = Short(*lower)),
+            Self::PeriodRatio { ratio, mode, convention, lower, upper } => write!(f, "rotation/precession = {ratio}: in the {mode} mode and the {convention} convention this body has P_ψ/P_φ from {lower} up to {upper}", ratio = Short(*ratio), lower = Short(*lower), upper = Short(*upper)),
+            Self::Latitude { value: [longitude, latitude] } => write!(f, "momentum_direction = [{longitude}, {latitude}]: it is [longitude, latitude] in radians, and the latitude must be from -π/2 to π/2", longitude = Short(*longitude), latitude = Short(*latitude)),
             Self::Direction { argument, value } => write!(f, "{argument} = {value:?}: it must be finite{}", if value.iter().any(|x| *x != 0.0) { "" } else { " and not 0" }),
             Self::Andoyer { index, value, bound } => write!(f, "andoyer[{index}] = {value}: it must be {bound}", value = Short(*value)),
             Self::Orbit { argument, value, bound } => write!(f, "orbit.{argument} = {value}: it must be {bound}", value = Short(*value)),
             Self::Level { value } => write!(f, "level = {value:?}: it must be \"auto\", \"paper\", \"moving\", \"full\" or \"second-order\""),
             Self::OneFixedOrbit { argument, value } => write!(f, "{argument} = \"{value}\" needs one disturbing body on an orbit without node_rate and pericentre_rate"),
             Self::Averaging { value } => write!(f, "averaging = {value:?}: it must be \"auto\", \"orbit\" or \"spin\""),
-            Self::Resonance { harmonic, multiple, divisor, bound } => write!(f, "spin resonance (k−j, m) = ({harmonic}, {multiple}): its frequency is {divisor:.3} times the orbital angular rate at pericentre, and averaging needs more than {bound} or a shorter span"),
-            Self::TorqueTooStrong { size, bound } => write!(f, "the torque, or its effect on the motion, measures {size:.3e} at pericentre, and an expansion in it needs less than {bound:.3e}"),
+            Self::Resonance { harmonic, multiple, divisor, bound, effect, limit } => write!(f, "spin resonance (h, m) = ({harmonic}, {multiple}): the terms in h times the angle of the wobble plus m times that of the rotation may turn the attitude by {} over the span (1e9 rotations if none is given); at most {} rad is allowed{}: give a shorter span, or integrate (method = integrated, with a span)", turn(*effect, *limit), four_digits(*limit), slow(*divisor, *bound)),
+            Self::TorqueTooStrong { measure, size, bound } => write!(f, "the torque is too strong for an expansion in it: {}", measured(*measure, *size, *bound)),
             Self::TooManyOrbits { orbits, bound } => write!(f, "averaging = spin: the span has {orbits:.0} orbits on one side of the epoch, and the averaged equations are solved for {bound} at most; averaging over the orbit reaches farther"),
             Self::SpanOfBodies { value, bound } => write!(f, "span: it reaches {value} from the epoch, and the averaged equations are solved up to {bound:.6e}", value = Short(*value)),
-            Self::Unaveraged { mode, ratio, bound } => write!(f, "orbit: no averaged theory is valid for this motion (mode {mode}, σ/σ_sep = {ratio:.6}, which must be at most {bound})"),
+            Self::Unaveraged { mode, ratio, bound } if ratio > bound => write!(f, "orbit: no averaged theory is valid for this motion (mode {mode}, σ/σ_sep = {ratio:.6}, which must be at most {bound})"),
+            Self::Unaveraged { .. } => f.write_str("orbit: a body at rest has no averaged theory"),
             Self::Table { argument, index, value, bound } => write!(f, "orbit.{argument}[{index}] = {value}: it must be {bound}", value = Short(*value)),
             Self::TableSpan { start, stop, first, last } => write!(f, "span: the integration goes from {start} to {stop}, and the table of positions only from {first} to {last}", start = Short(*start), stop = Short(*stop), first = Short(*first), last = Short(*last)),
             Self::NoSpan { reason } => write!(f, "span: none is given, and the integrated method needs one{}", because(reason)),
             Self::OnlyIntegrated { method, reason } => write!(f, "method = \"{method}\": {reason}; use method = \"integrated\" or \"auto\" with a span"),
+            Self::TooManySteps { steps, bound, reason } if steps.is_infinite() => write!(f, "span: the integration needs more than {bound} steps, and no more are kept: use a shorter span{}", instead_of(reason)),
             Self::TooManySteps { steps, bound, reason } => write!(f, "span: the integration needs about {steps:.1e} steps, which take {:.1} GB; at most {bound} are kept: use a span shorter by a factor of {:.1}{}", memory(*steps), steps / *bound as f64, instead_of(reason)),
-            Self::Unpredictable { tolerance, start, stop } => write!(f, "tolerance = {tolerance:e}: nearby states separate so fast that the attitude is unknown at the end of the span; {tolerance:e} rad holds from {start} to {stop}", start = Short(*start), stop = Short(*stop)),
+            Self::Unpredictable { tolerance, span: [first, last], start, stop } => write!(f, "span = [{first}, {last}]: nearby states separate so fast that the attitude is unknown at its end; the tolerance, {tolerance:e} rad, holds from {start} to {stop}", first = Short(*first), last = Short(*last), start = Short(*start), stop = Short(*stop)),
             Self::Member { index, others, problem } => write!(f, "member {index}: {problem}{}", and_others(*others)),
             Self::OnError { value } => write!(f, "errors = {value:?}: it must be \"raise\" or \"nan\""),
             Self::Stopped => f.write_str("stopped before the end"),
@@ -82,6 +86,55 @@ fn because(reason: &str) -> String {
 /// Why the theory does not serve a motion, as a sentence after another.
 fn instead_of(reason: &str) -> String {
     if reason.is_empty() { String::new() } else { format!(". The scene is integrated because of the {reason}") }
+}
+
+/// The epoch and the span to which the bound of a time belongs.
+fn setting(epoch: f64, span: Option<[f64; 2]>) -> String {
+    let span = span.map(|[start, stop]| format!(", the span is from {} to {}", Short(start), Short(stop)));
+    format!("the epoch is {}{}; ", Short(epoch), span.unwrap_or_default())
+}
+
+/// An angle by which an attitude may be wrong, and which is too large.
+fn turn(angle: f64, limit: f64) -> String {
+    if angle < PI || limit >= PI { format!("{} rad", four_digits(angle)) } else { "half a turn or more".to_owned() }
+}
+
+/// A number rounded to four digits.
+fn four_digits(value: f64) -> Short {
+    Short(format!("{value:.3e}").parse().unwrap_or(value))
+}
+
+/// What shows that a torque is too strong, with its value and its limit.
+fn measured(measure: TorqueMeasure, size: f64, bound: f64) -> String {
+    let [size, bound] = [size, bound].map(four_digits);
+    match measure {
+        TorqueMeasure::Strength => format!(
+            "its strength 3n²C(C−A)/2M², where the disturbing body is nearest, is {size}, and must be at most {bound}"
+        ),
+        TorqueMeasure::Corrections => {
+            format!("the short-period corrections add up to {size} rad, and must add up to at most {bound} rad")
+        }
+        TorqueMeasure::Contraction => format!(
+            "an iteration for the mean variables leaves {size} of the last change, and must leave at most {bound}"
+        ),
+        TorqueMeasure::Precession => format!(
+            "the angular momentum precesses by {size} rad in one radian of the fastest orbit, and must precess by at most {bound} rad"
+        ),
+        TorqueMeasure::ErrorBound => {
+            format!("the error bound over the span, {size} rad, exceeds the effect of the torque, {bound} rad")
+        }
+    }
+}
+
+/// Why the terms of a resonance are not corrected, if their frequency is the reason.
+fn slow(divisor: f64, bound: f64) -> String {
+    if divisor < bound {
+        format!(
+            "; their frequency is {divisor:.3} times the largest angular rate of the orbit, and a correction needs more than {bound}"
+        )
+    } else {
+        String::new()
+    }
 }
 
 /// Memory of a number of integration steps, in units of 1e9 bytes.

@@ -12,7 +12,9 @@ impl Error {
     #[must_use]
     pub fn later(self, start: usize) -> Self {
         match self {
-            Self::Time { index, value, bound, reason } => Self::Time { index: start + index, value, bound, reason },
+            Self::Time { index, value, epoch, span, bound, reason } => {
+                Self::Time { index: start + index, value, epoch, span, bound, reason }
+            }
             other => other,
         }
     }

@@ -1,5 +1,7 @@
 //! The level that the theory chooses by itself: first order where it meets the tolerance, else second order where its error bound is smaller.
 
+use std::f64::consts::PI;
+
 use nalgebra::UnitQuaternion;
 
 use super::disturbed::Gradient;
@@ -37,6 +39,7 @@ pub(crate) fn chosen(
                 Ok(second) => return Ok((second, None)),
                 Err(error) => error.to_string(),
             },
+            Ok(second) if second.error >= PI => "its error bound is half a turn or more".to_owned(),
             Ok(second) => format!("its error bound, {:.1e} rad, is no smaller", second.error),
             Err(error) => error.to_string(),
         }

@@ -31,7 +31,7 @@ use super::orbit_series::OrbitSeries;
 use super::resonance::Commensurability;
 use super::response::Response;
 use super::selection::{Choice, Exact, Selection};
-use crate::error::Error;
+use crate::error::{Error, TorqueMeasure};
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
@@ -220,7 +220,11 @@ impl Corrections {
     /// As [`Corrections::new`].
     pub(super) fn of(terms: Terms, inertia: &Inertia, demand: &Demand<'_>, whole: f64) -> Result<Self, Error> {
         if whole > LARGEST_SIZE {
-            return Err(Error::TorqueTooStrong { size: whole, bound: LARGEST_SIZE });
+            return Err(Error::TorqueTooStrong {
+                measure: TorqueMeasure::Corrections,
+                size: whole,
+                bound: LARGEST_SIZE,
+            });
         }
         let Demand { orbit, mean_motion, level, duration, envelope, series, .. } = *demand;
         let Terms { response, strength, scale, turning, fastest, size, .. } = terms;

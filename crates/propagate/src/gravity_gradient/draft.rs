@@ -12,7 +12,7 @@ use super::request::Request;
 use super::response::Response;
 use super::second_order;
 use super::second_order::drift::Drift;
-use crate::error::Error;
+use crate::error::{Error, TorqueMeasure};
 use crate::input::options::{Averaging, Level};
 use crate::torque_free::polhode::Polhode;
 
@@ -101,7 +101,11 @@ fn slow_enough(averages: &Averages, demands: &[Demand<'_>]) -> Result<(), Error>
     let turns =
         averages.ellipses.iter().zip(demands).map(|(ellipse, demand)| ellipse.strength().abs() * demand.mean_motion);
     let size = turns.sum::<f64>() / fastest;
-    if size <= FASTEST_PRECESSION { Ok(()) } else { Err(Error::TorqueTooStrong { size, bound: FASTEST_PRECESSION }) }
+    if size <= FASTEST_PRECESSION {
+        Ok(())
+    } else {
+        Err(Error::TorqueTooStrong { measure: TorqueMeasure::Precession, size, bound: FASTEST_PRECESSION })
+    }
 }
 
 /// Whether the equations are averaged over the orbit as well, and the error bound.

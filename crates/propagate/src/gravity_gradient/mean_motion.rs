@@ -9,7 +9,7 @@ use super::second_order::epoch::{self, EpochMean};
 use super::second_order::hamiltonian::Hamiltonian;
 use super::second_order::short_period::Turns;
 use super::second_order::steady::Steady;
-use crate::error::Error;
+use crate::error::{Error, TorqueMeasure};
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
 use crate::torque_free::polhode::Polhode;
@@ -133,7 +133,11 @@ pub(super) fn first_order(
             return if contraction <= CONTRACTION {
                 Ok(MeanMotion { mean, change, inertia, corrections, steady: Steady::default() })
             } else {
-                Err(Error::TorqueTooStrong { size: contraction, bound: CONTRACTION })
+                Err(Error::TorqueTooStrong {
+                    measure: TorqueMeasure::Contraction,
+                    size: contraction,
+                    bound: CONTRACTION,
+                })
             };
         }
         (mean, change) = (next, next_change);
@@ -162,5 +166,5 @@ pub(super) fn weak_enough(polhode: &Polhode, sigma: f64, demands: &[Demand<'_>])
     }
     // If there is a resonance, report that instead, because it explains more.
     corrections_of(&Inertia::new(polhode, sigma, momentum), demands)?;
-    Err(Error::TorqueTooStrong { size, bound: STRONGEST })
+    Err(Error::TorqueTooStrong { measure: TorqueMeasure::Strength, size, bound: STRONGEST })
 }

@@ -84,17 +84,24 @@ impl Commensurability<'_> {
             }
         }
         match largest {
-            Some((most, term))
-                if uncorrected > REFUSAL_FACTOR * allowed || self.series.is_some() && most > LARGEST_EFFECT =>
-            {
-                Err(Error::Resonance {
-                    harmonic: term.harmonic,
-                    multiple: term.multiple,
-                    divisor: 2.0 * term.frequency.abs() / self.fastest,
-                    bound: 2.0 * SLOW_RATIO,
-                })
+            Some((most, term)) if self.series.is_some() && most > LARGEST_EFFECT => {
+                Err(self.resonance(term, most, LARGEST_EFFECT))
+            }
+            Some((_, term)) if uncorrected > REFUSAL_FACTOR * allowed => {
+                Err(self.resonance(term, uncorrected, REFUSAL_FACTOR * allowed))
             }
             _ => Ok(sum),
+        }
+    }
+
+    fn resonance(&self, term: &Candidate, effect: f64, limit: f64) -> Error {
+        Error::Resonance {
+            harmonic: term.harmonic,
+            multiple: term.multiple,
+            divisor: 2.0 * term.frequency.abs() / self.fastest,
+            bound: 2.0 * SLOW_RATIO,
+            effect,
+            limit,
         }
     }
 

@@ -18,6 +18,10 @@ const MOST_TURNS: f64 = TAU * 1e15;
 
 const POSITIVE: &str = "positive and finite";
 
+/// The bounds of mass_fraction and attraction, of which one excludes the other.
+const NOT_BOTH: [&str; 2] =
+    ["given without an attraction, which replaces it", "given without a mass_fraction, which it replaces"];
+
 /// An oblate primary body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Oblateness {
@@ -146,9 +150,10 @@ impl Orbit {
     /// Sets the disturbing mass as a fraction of the sum of both masses: 1 for the Sun and an asteroid, 1/82.3 for the Moon and the Earth.
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for 0, −1, 1.1 or NaN.
+    /// - [`Error::Orbit`] for 0, −1, 1.1 or NaN, and for a fraction other than 1 beside an [`Orbit::attraction`].
     pub fn mass_fraction(self, fraction: f64) -> Result<Self, Error> {
         check("mass_fraction", fraction, fraction > 0.0 && fraction <= 1.0, "greater than 0 and at most 1")?;
+        check("mass_fraction", fraction, fraction == 1.0 || self.attraction.is_none(), NOT_BOTH[0])?;
         Ok(Self { mass_fraction: fraction, ..self })
     }
 
@@ -165,10 +170,18 @@ impl Orbit {
 
     /// Sets the attraction G × disturbing mass / a³ [1/time²]. The default is mean_motion² × mass_fraction.
     ///
+    /// ```
+    /// use andoyer_propagate::Orbit;
+    /// assert_eq!(Orbit::new(1e-3, 0.1)?.attraction(2e-6)?.strength(), 2e-6);
+    /// assert!(Orbit::new(1e-3, 0.1)?.mass_fraction(0.5)?.attraction(2e-6).is_err());
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// - [`Error::Orbit`] for 0, −1 or NaN.
+    /// - [`Error::Orbit`] for 0, −1 or NaN, and beside an [`Orbit::mass_fraction`] other than 1.
     pub fn attraction(self, attraction: f64) -> Result<Self, Error> {
         check("attraction", attraction, attraction > 0.0 && attraction.is_finite(), POSITIVE)?;
+        check("attraction", attraction, self.mass_fraction == 1.0, NOT_BOTH[1])?;
         Ok(Self { attraction: Some(attraction), ..self })
     }
 

@@ -73,7 +73,8 @@ impl Integrated {
             let held = profile.iter().take_while(|(_, error)| *error <= tolerance).last();
             scene.state().epoch + scaled(held.map_or(0.0, |(time, _)| *time), -problem.exponent)
         });
-        Err(Error::Unpredictable { tolerance, start, stop })
+        let span = scene.asked_span().map_or([start, stop], <[f64; 2]>::from);
+        Err(Error::Unpredictable { tolerance, span, start, stop })
     }
 
     /// What the plan says of it.

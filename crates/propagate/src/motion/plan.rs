@@ -1,5 +1,6 @@
 //! The evaluation plan of a motion: mode, method, order, harmonics, error bound, and the parts of the theory that were not needed.
 
+use std::f64::consts::PI;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
@@ -8,6 +9,7 @@ use crate::gravity_gradient::disturbed::GradientPlan;
 use crate::input::options::{Averaging, Level, Method};
 use crate::input::scene::Scene;
 use crate::integration::integrated::IntegrationPlan;
+use crate::torque_free::error_budget::DEFAULT_ROTATIONS;
 use crate::torque_free::mode::Mode;
 
 /// If σ/σ_sep exceeds this, its distance from 1 is printed.
@@ -27,6 +29,8 @@ pub struct Plan {
     pub(crate) tolerance: f64,
     /// Whether the scene has a span.
     pub(crate) spanned: bool,
+    /// Rotations from the epoch over which the averaged equations are solved, if they are fewer than the tolerance is for.
+    pub(crate) reach: Option<f64>,
     pub(crate) separatrix_ratio: f64,
     pub(crate) gradient: Option<GradientPlan>,
     pub(crate) integration: Option<IntegrationPlan>,
@@ -44,6 +48,7 @@ impl Plan {
             error_bound: error_bound.min(std::f64::consts::PI),
             tolerance: scene.asked_tolerance(),
             spanned: scene.asked_span().is_some(),
+            reach: None,
             separatrix_ratio,
             gradient: None,
             integration: None,
@@ -104,7 +109,12 @@ impl Plan {
 
     /// A sentence with the error bound and the tolerance if the tolerance is not met, otherwise `None`.
     pub fn missed_tolerance(&self) -> Option<String> {
-        (!self.meets_tolerance()).then(|| missed(self.error_bound, self.tolerance, self.spanned))
+        (!self.meets_tolerance()).then(|| missed(self.error_bound, self.tolerance, self.over()))
+    }
+
+    /// The times over which the tolerance must hold.
+    pub(crate) fn over(&self) -> Over {
+        if self.spanned { Over::Span } else { Over::Rotations(self.averaging().zip(self.reach)) }
     }
 
     /// σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5).
@@ -190,9 +200,13 @@ impl fmt::Display for Plan {
                  first neglected {neglected:.1e}"
             )?;
         }
-        write!(f, "error bound   {:.1e} rad", self.error_bound)?;
+        if self.error_bound < PI {
+            write!(f, "error bound   {:.1e} rad", self.error_bound)?;
+        } else {
+            write!(f, "error bound   unknown (half a turn or more); {}", self.over().advice())?;
+        }
         if !self.meets_tolerance() {
-            write!(f, "\ntolerance     {:e} rad is not met over {}", self.tolerance, asked_span(self.spanned))?;
+            write!(f, "\ntolerance     {:e} rad is not met over {}", self.tolerance, self.over())?;
         }
         for reason in &self.skipped {
             write!(f, "\nskipped       {reason}")?;
@@ -201,13 +215,42 @@ impl fmt::Display for Plan {
     }
 }
 
-/// The times over which the tolerance must hold, in words.
-fn asked_span(spanned: bool) -> &'static str {
-    if spanned { "the span" } else { "1e9 rotations (no span given)" }
+/// The times over which a tolerance must hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Over {
+    /// The span of the scene.
+    Span,
+    /// The rotations that count without a span, or the fewer ones that an averaging reaches.
+    Rotations(Option<(Averaging, f64)>),
+}
+
+impl Over {
+    /// What to do where nothing is known of the attitude.
+    fn advice(self) -> &'static str {
+        if self == Self::Span { "give a shorter span" } else { "give a span" }
+    }
+}
+
+impl fmt::Display for Over {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Span => f.write_str("the span"),
+            Self::Rotations(None) => write!(f, "{DEFAULT_ROTATIONS:e} rotations (no span given)"),
+            Self::Rotations(Some((averaging, reach))) => {
+                write!(f, "{reach:.1e} rotations (no span given; averaging = {averaging} reaches no farther)")
+            }
+        }
+    }
 }
 
 /// The sentence for a tolerance that is not met.
-pub(crate) fn missed(bound: f64, tolerance: f64, spanned: bool) -> String {
-    let over = asked_span(spanned);
-    format!("the error bound of the attitude, {bound:.1e} rad, exceeds the tolerance, {tolerance:e} rad, over {over}")
+pub(crate) fn missed(bound: f64, tolerance: f64, over: Over) -> String {
+    let advice = if bound < PI { String::new() } else { format!("; {}", over.advice()) };
+    let bound = bound_in_words(bound);
+    format!("the error bound of the attitude, {bound}, exceeds the tolerance, {tolerance:e} rad, over {over}{advice}")
+}
+
+/// An error bound as text. Of half a turn or more nothing is known.
+pub(crate) fn bound_in_words(bound: f64) -> String {
+    if bound < PI { format!("{bound:.1e} rad") } else { "half a turn or more".to_owned() }
 }

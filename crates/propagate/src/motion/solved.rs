@@ -245,7 +245,14 @@ impl Motion {
             Trajectory::Integrated(motion) => (motion.reach[1], AFTER),
             _ => self.distance(),
         };
-        Error::Time { index, value: times[index], bound, reason }
+        self.too_far((index, times[index]), epoch, bound, reason)
+    }
+
+    /// The error of a time that is more than `bound` from the epoch; `epoch` is in the scale of the time.
+    pub(crate) fn too_far(&self, (index, value): (usize, f64), epoch: f64, bound: f64, reason: &'static str) -> Error {
+        let shift = epoch - self.scene.state().epoch;
+        let span = self.scene.asked_span().map(|(start, stop)| [start + shift, stop + shift]);
+        Error::Time { index, value, epoch, span, bound, reason }
     }
 }
 

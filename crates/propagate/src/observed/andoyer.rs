@@ -3,6 +3,8 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::scene_about_principal_axes;
+use andoyer_series::error::Short;
+
 use crate::error::Error;
 use crate::input::body::Body;
 use crate::input::scene::Scene;
@@ -29,7 +31,8 @@ impl Scene {
     /// # Ok::<(), andoyer_propagate::Error>(())
     /// ```
     pub fn from_andoyer(body: Body, variables: [f64; 6], epoch: f64) -> Result<Self, Error> {
-        let refused = |index: usize, bound| Error::Andoyer { index, value: variables[index], bound };
+        let refused =
+            |index: usize, bound: &str| Error::Andoyer { index, value: variables[index], bound: bound.to_owned() };
         if let Some(index) = variables.iter().position(|value| !value.is_finite()) {
             return Err(refused(index, "finite"));
         }
@@ -42,7 +45,7 @@ impl Scene {
         }
         for (index, part) in [(3, vertical), (5, axial)] {
             if part.abs() > momentum * (1.0 + SLACK) {
-                return Err(refused(index, "at most M in magnitude"));
+                return Err(refused(index, &format!("at most M = {} in magnitude", Short(momentum))));
             }
         }
         // Sine and cosine of an inclination, and the rotation by it, from M and one of its components.

@@ -7,7 +7,7 @@
 //! the periods depend, by up to 2e-16 (cos J₁ + √f √(cos²J₁ − cos²J₀)). Motions are refused if this is more than 2e-6 of cos²J₀, because a state in doubles
 //! does not hold their periods to 1e-5.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use andoyer_double::DoubleDouble;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
@@ -64,11 +64,33 @@ impl ObservedPeriods {
     }
 
     /// Sets the direction of the angular momentum by longitude and latitude \[rad\].
-    #[must_use]
-    pub fn towards(self, longitude: f64, latitude: f64) -> Self {
+    ///
+    /// # Errors
+    /// - [`Error::Latitude`] for a latitude beyond ±π/2, such as −85, which is probably in degrees.
+    ///
+    /// ```
+    /// use andoyer_propagate::periods::ObservedPeriods;
+    /// assert!(ObservedPeriods::new(27.38, 263.0).towards(4.8, -1.48).is_ok());
+    /// assert!(ObservedPeriods::new(27.38, 263.0).towards(275.0, -85.0).is_err());
+    /// ```
+    pub fn towards(self, longitude: f64, latitude: f64) -> Result<Self, Error> {
+        if latitude.abs() > FRAC_PI_2 {
+            return Err(Error::Latitude { value: [longitude, latitude] });
+        }
         let (sine, cosine) = latitude.sin_cos();
         let direction = Vector3::new(cosine * longitude.cos(), cosine * longitude.sin(), sine);
-        Self { momentum_direction: direction, ..self }
+        Ok(Self { momentum_direction: direction, ..self })
+    }
+
+    /// The phases that exceed a whole turn, with their indices \[turns\]. They are accepted, but they are often degrees given by mistake.
+    ///
+    /// ```
+    /// use andoyer_propagate::periods::ObservedPeriods;
+    /// let periods = ObservedPeriods { phases: [14.0, 0.5], ..ObservedPeriods::new(27.38, 263.0) };
+    /// assert_eq!(periods.beyond_a_turn().collect::<Vec<_>>(), [(0, 14.0)]);
+    /// ```
+    pub fn beyond_a_turn(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.phases.into_iter().enumerate().filter(|(_, phase)| phase.abs() > 1.0)
     }
 }
 

@@ -128,7 +128,7 @@ impl Motion {
                 let bound = varied.bound();
                 if let Some(index) = times.iter().position(|time| (time - epoch).abs() > bound) {
                     let reason = ": about the middle axis a change grows beyond every double";
-                    return Err(Error::Time { index, value: times[index], bound, reason });
+                    return Err(self.too_far((index, times[index]), epoch, bound, reason));
                 }
                 target.fill(&Steadily { steady, varied: &varied }, attitudes, rates);
                 Ok(())

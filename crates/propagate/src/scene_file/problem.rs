@@ -5,6 +5,10 @@ use toml::{Table, Value};
 
 use crate::error::{Error, Value as Fact};
 
+/// The keys of times, which a file gives as numbers and not as dates.
+const TIMES: [&str; 6] =
+    ["epoch", "span", "periods.precession", "periods.rotation", "orbit.time_of_pericentre", "orbit.times"];
+
 /// A value that a scene cannot have, with its key.
 pub(super) struct Refusal {
     key: String,
@@ -36,6 +40,7 @@ impl Refusal {
             Error::InertiaSymmetry { .. } | Error::InertiaMoments { .. } => "body.inertia",
             Error::Positive { argument, .. } | Error::Direction { argument, .. } => &format!("periods.{argument}"),
             Error::PeriodRatio { .. } => "periods.rotation",
+            Error::Latitude { .. } => "periods.momentum_direction",
             Error::ModeName { .. } | Error::NoSuchMode { .. } => "periods.mode",
             Error::UnknownBody { .. } => "body.named",
             Error::Attitude { .. } => "state.attitude",
@@ -83,6 +88,15 @@ pub(super) fn located(file: &str, document: &Table, error: &serde_path_to_error:
         return Refusal::missing(&key).in_file(file, document);
     }
     let (problem, bound) = message.split_once(", expected ").unwrap_or((message, "a value that a scene has"));
+    let number = match bound {
+        "f64" if TIMES.contains(&key.as_str()) => Some("a number of time units"),
+        "f64" => Some("a number"),
+        "usize" => Some("a whole number, 0 or more"),
+        _ => None,
+    };
+    if let Some(number) = number {
+        return in_file(file, &key, format!("must be {number}: {problem}"), value, Some(number.into()));
+    }
     let problem = if problem == message { message.to_owned() } else { format!("{problem}, expected {bound}") };
     in_file(file, &key, problem, value, Some(bound.replace('`', "").into()))
 }

@@ -83,7 +83,7 @@ impl PeriodsTable {
         let periods = ObservedPeriods { epoch, convention: self.convention, phases: self.phases, ..periods };
         match self.momentum_direction.as_deref() {
             None => Ok(periods),
-            Some(&[longitude, latitude]) => Ok(periods.towards(longitude, latitude)),
+            Some(&[longitude, latitude]) => Ok(periods.towards(longitude, latitude)?),
             Some(&[x, y, z]) => Ok(ObservedPeriods { momentum_direction: Vector3::new(x, y, z), ..periods }),
             Some(_) => {
                 let bound = "three inertial components, or longitude and latitude";

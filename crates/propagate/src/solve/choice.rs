@@ -9,7 +9,7 @@ use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
 use crate::integration::integrated::{Integrated, prospect};
 use crate::integration::integrator::MOST_STEPS;
-use crate::motion::plan::{Plan, ROUNDED_TOLERANCE};
+use crate::motion::plan::{Plan, ROUNDED_TOLERANCE, bound_in_words};
 use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
 use crate::torque_free::series::tables::SeriesTables;
@@ -74,13 +74,13 @@ pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -
             format!("it would take about {steps:.1e} steps, and at most {MOST_STEPS} are kept")
         }
         Some((bound, _)) if bound > enough => {
-            format!("its error bound would be about {bound:.1e} rad (method \"integrated\" has it)")
+            format!("its error bound would be about {} (method \"integrated\" has it)", bound_in_words(bound))
         }
         _ => {
-            let reason = format!("theory: its error bound is {:.1e} rad", by_theory.plan.error_bound);
+            let reason = format!("theory: its error bound is {}", bound_in_words(by_theory.plan.error_bound));
             match integrated(scene, tables, reason, stop) {
                 Ok(motion) if motion.plan.error_bound < by_theory.plan.error_bound => return Ok(motion),
-                Ok(motion) => format!("its error bound is {:.1e} rad", motion.plan.error_bound),
+                Ok(motion) => format!("its error bound is {}", bound_in_words(motion.plan.error_bound)),
                 Err(Error::Stopped) => return Err(Error::Stopped),
                 Err(error) => in_ascii(&error.to_string()),
             }

@@ -17,7 +17,7 @@ use crate::numerics::scaling::scaled;
 /// Rounding error of an attitude \[rad\]: the frames, two quaternion products, and the sums of eight harmonics each.
 pub(crate) const ROUNDING: f64 = 3e-15;
 /// Rotations over which the tolerance holds if no span is given.
-const DEFAULT_ROTATIONS: f64 = 1e9;
+pub(crate) const DEFAULT_ROTATIONS: f64 = 1e9;
 /// Relative error of frequencies and phases in double-double: 2^−104 after twenty operations.
 const PHASE_ROUNDING: f64 = 1e-30;
 /// Relative error of the terms of Q1 in double-double, with inputs taken as exact.

@@ -21,6 +21,21 @@ def number(text: str) -> float:
     return checked(text, float, math.isfinite, "a finite number")
 
 
+def time(text: str) -> float:
+    """A time of a scene. For a date the message says what the number counts."""
+    advice = ", a time in the unit of the scene (if its epoch is a date, TDB seconds since J2000)" if is_date(text) else ""
+    return checked(text, float, math.isfinite, f"a finite number{advice}")
+
+
+def is_date(text: str) -> bool:
+    """Whether a text is a date and no number."""
+    try:
+        datetime.fromisoformat(text)
+    except ValueError:
+        return False
+    return not text.isdigit()
+
+
 def step(text: str) -> float:
     """A step of time."""
     return checked(text, float, lambda value: 0 < value < math.inf, "a finite number above 0")

@@ -17,7 +17,11 @@ from andoyer._core import InputError
 
 UNITS = {
     "times": "s",
+    "time": "s",
     "periods": "s",
+    "precession": "s",
+    "rotation": "s",
+    "phases": "cycle",
     "epoch": "s",
     "epochs": "s",
     "span": "s",
@@ -25,13 +29,25 @@ UNITS = {
     "angular_velocity": "rad / s",
     "angular_velocities": "rad / s",
     "mean_motion": "rad / s",
+    "node_rate": "rad / s",
+    "pericentre_rate": "rad / s",
+    "spin_rate": "rad / s",
+    "attraction": "1 / s2",
+    "gm": "m3 / s2",
+    "semi_major_axis": "m",
+    "radius": "m",
+    "positions": "m",
     "moments": "kg m2",
+    "tensor": "kg m2",
     "tolerance": "rad",
     "inclination": "rad",
     "node": "rad",
     "argument_of_pericentre": "rad",
 }
-"""Unit of each argument that has one."""
+"""Unit of each argument that has one. That of longitude and latitude is in `unit_of`."""
+
+DURATIONS = {"periods", "precession", "rotation"}
+"""Times that have no calendar date."""
 
 J2000 = 2451545.0
 DAY = 86400.0
@@ -51,7 +67,7 @@ def plain(argument: str, value: Any) -> Any:
     unmasked(argument, value)
     units, time = sys.modules.get("astropy.units"), sys.modules.get("astropy.time")
     if time is not None and isinstance(value, time.Time):
-        if UNITS.get(argument) != "s":
+        if UNITS.get(argument) != "s" or argument in DURATIONS:
             raise TypeError(f"{argument} must be no astropy Time: got {value!r}")
         return seconds(value.tdb)
     if time is not None and isinstance(value, time.TimeDelta):
@@ -59,14 +75,22 @@ def plain(argument: str, value: Any) -> Any:
             raise TypeError(f"{argument} must be no astropy TimeDelta: got {value!r}")
         return value.jd1 * DAY + value.jd2 * DAY
     if units is not None and isinstance(value, units.Quantity):
-        unit = UNITS.get(argument, "")
+        unit = unit_of(argument, value)
         try:
             return value.to_value(unit)
         except units.UnitConversionError:
             # astropy does not convert 1 Hz to rad/s, since a frequency may count turns or radians.
-            advice = "; rates in turns per second have the unit u.cycle / u.s" if unit == "rad / s" and value.unit.is_equivalent("Hz") else ""
+            advice = "; multiply by u.rad, or by u.cycle if it counts turns" if unit == "rad / s" and value.unit.is_equivalent("Hz") else ""
             raise TypeError(f"{argument} must be in {unit or 'no unit'}, or what converts to it: got {value.unit}{advice}") from None
     return value
+
+
+def unit_of(argument: str, quantity: Any) -> str:
+    """The unit to which a quantity is converted. A quantity without a unit is taken as it is for a direction and for phases, which are numbers of turns."""
+    bare = quantity.unit.is_equivalent("")
+    if argument == "momentum_direction":
+        return "rad" if quantity.shape == (2,) and not bare else ""
+    return "" if argument == "phases" and bare else UNITS.get(argument, "")
 
 
 def seconds(moment: Any) -> Any:

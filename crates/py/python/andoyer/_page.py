@@ -190,7 +190,11 @@ def _facts(motion: Motion, unit: str, error: float) -> list[list[str]]:
     facts = [["mode", plan.mode], ["method", plan.method]]
     for convention, (precession, rotation) in motion.periods.items():
         facts += [[f"P_φ, {convention}", f"{precession:.8g} {unit}"], [f"P_ψ, {convention}", f"{rotation:.8g} {unit}"]]
-    facts += [["E/E₀", f"{motion.energy_ratio:.8g}"], ["error bound", f"{plan.error_bound:.2g} rad"], ["error of this page", f"{error:.2g} rad"]]
+    facts += [
+        ["E/E₀", f"{motion.energy_ratio:.8g}"],
+        ["error bound", f"{plan.error_bound:.2g} rad" if plan.error_bound < np.pi else "unknown"],
+        ["error of this page", f"{error:.2g} rad"],
+    ]
     return facts
 
 

@@ -22,7 +22,7 @@ import andoyer
 from andoyer import _reading as reading
 from andoyer import _writing as writing
 from andoyer import output
-from andoyer._arguments import MOST_SAMPLES, InputError, count, number, step, whole
+from andoyer._arguments import MOST_SAMPLES, InputError, count, number, step, time, whole
 from andoyer._extra import extra
 from andoyer._page import page
 from andoyer._terminal import Progress, named
@@ -127,10 +127,8 @@ def parser() -> Parser:
     )
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
     command.add_argument("-o", "--output", metavar="FILE", required=True, help=f"file to write; its ending chooses the format: {ENDINGS}; - is CSV on stdout")
-    command.add_argument("--start", type=number, metavar="T", help="first time (default: start of the scene's span, or its epoch)")
-    command.add_argument(
-        "--stop", type=number, metavar="T", help=f"last time (default: end of the scene's span, or {ROTATIONS} rotations after the first time)"
-    )
+    command.add_argument("--start", type=time, metavar="T", help="first time (default: start of the scene's span, or its epoch)")
+    command.add_argument("--stop", type=time, metavar="T", help=f"last time (default: end of the scene's span, or {ROTATIONS} rotations after the first time)")
     spacing = command.add_mutually_exclusive_group()
     spacing.add_argument("--samples", type=count, metavar="N", help=f"number of times, the last one included (default: {SAMPLES})")
     spacing.add_argument("--step", type=step, metavar="DT", help="time between samples")

@@ -67,6 +67,20 @@ fn objects<'py>(argument: &str, array: &Bound<'py, PyUntypedArray>) -> PyResult<
     values.into_pyarray(array.py()).reshape(array.shape())
 }
 
+/// The exception for an array of a wrong shape. A single number is shown itself.
+fn wrong_shape(argument: &str, array: &Bound<'_, PyArrayDyn<f64>>, bound: &str) -> PyErr {
+    let number = read(argument, array).ok().filter(|_| array.ndim() == 0);
+    match number.as_ref().and_then(|number| number.as_slice().ok()?.first()) {
+        Some(number) => error::input(
+            argument,
+            *number,
+            bound,
+            format!("{argument} = {number} is one number: its shape must be {bound}"),
+        ),
+        None => error::shape(argument, array.shape(), bound),
+    }
+}
+
 fn in_use(argument: &str) -> PyErr {
     let message = format!("{argument} shares memory with an array that is in use");
     error::input(argument, "an array in use", "an array that is not in use", message)
@@ -112,7 +126,7 @@ impl<const N: usize> MemberRows<N> {
                 let text = format!("{argument} is empty: it must be (m, {N}) or ({N},), and for no members (0, {N})");
                 Err(error::input(argument, &[0_i64][..], format!("(m, {N}) or ({N},)"), text))
             }
-            (shape, _) => Err(error::shape(argument, shape, &format!("(m, {N}) or ({N},)"))),
+            _ => Err(wrong_shape(argument, &array, &format!("(m, {N}) or ({N},)"))),
         }
     }
 
@@ -157,7 +171,7 @@ pub(crate) fn vectors(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<
     let array = numbers(argument, value)?;
     match array.shape() {
         &[_, 3] => Ok(read(argument, &array)?.as_slice()?.as_chunks().0.to_vec()),
-        shape => Err(error::shape(argument, shape, "(n, 3)")),
+        _ => Err(wrong_shape(argument, &array, "(n, 3)")),
     }
 }
 
@@ -165,7 +179,7 @@ pub(crate) fn vectors(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<
 pub(crate) fn fixed_length(argument: &str, value: &Bound<'_, PyAny>, length: usize) -> PyResult<Vec<f64>> {
     let array = numbers(argument, value)?;
     if array.shape() != [length] {
-        return Err(error::shape(argument, array.shape(), &format!("({length},)")));
+        return Err(wrong_shape(argument, &array, &format!("({length},)")));
     }
     Ok(read(argument, &array)?.as_slice()?.to_vec())
 }
@@ -173,7 +187,7 @@ pub(crate) fn fixed_length(argument: &str, value: &Bound<'_, PyAny>, length: usi
 /// `value` as N numbers.
 pub(crate) fn fixed<const N: usize>(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
     let array = numbers(argument, value)?;
-    let wrong = || error::shape(argument, array.shape(), &format!("({N},)"));
+    let wrong = || wrong_shape(argument, &array, &format!("({N},)"));
     if array.shape() != [N] {
         return Err(wrong());
     }
@@ -200,7 +214,7 @@ pub(crate) fn two_or_three(argument: &str, value: &Bound<'_, PyAny>) -> PyResult
     match (array.shape(), read(argument, &array)?.as_slice()?) {
         (&[2], &[x, y]) => Ok(TwoOrThree::Two([x, y])),
         (&[3], &[x, y, z]) => Ok(TwoOrThree::Three([x, y, z])),
-        (shape, _) => Err(error::shape(argument, shape, "(3,) or (2,)")),
+        _ => Err(wrong_shape(argument, &array, "(3,) or (2,)")),
     }
 }
 
@@ -212,7 +226,7 @@ pub(crate) fn is_matrix(value: &Bound<'_, PyAny>) -> bool {
 /// `value` as a 3 × 3 matrix, row by row.
 pub(crate) fn matrix(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<[[f64; 3]; 3]> {
     let array = numbers(argument, value)?;
-    let wrong = || error::shape(argument, array.shape(), "(3, 3)");
+    let wrong = || wrong_shape(argument, &array, "(3, 3)");
     if array.shape() != [3, 3] {
         return Err(wrong());
     }
@@ -230,7 +244,7 @@ impl<'py> Rows<'py> {
         let array = numbers(argument, value)?;
         let fits = matches!(array.shape(), [n] | [_, n] if *n == columns);
         if !fits {
-            return Err(error::shape(argument, array.shape(), &format!("({columns},) or (m, {columns})")));
+            return Err(wrong_shape(argument, &array, &format!("({columns},) or (m, {columns})")));
         }
         Ok(Self { array: read(argument, &array)?, columns })
     }

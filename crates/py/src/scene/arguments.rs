@@ -1,8 +1,11 @@
 //! Arguments of a scene.
 
+use std::ffi::CString;
+
 use andoyer_propagate::State;
 use andoyer_propagate::disturbers::DisturbingBody;
-use pyo3::exceptions::PyTypeError;
+use andoyer_propagate::periods::ObservedPeriods;
+use pyo3::exceptions::{PyTypeError, PyUserWarning};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
@@ -29,6 +32,17 @@ pub(super) fn precession(value: &Bound<'_, PyAny>) -> PyResult<f64> {
 
 pub(super) fn rotation(value: &Bound<'_, PyAny>) -> PyResult<f64> {
     array::number("rotation", value)
+}
+
+/// Warns of phases beyond a whole turn, which are probably in degrees.
+pub(super) fn doubt(py: Python<'_>, periods: &ObservedPeriods) -> PyResult<()> {
+    for (index, phase) in periods.beyond_a_turn() {
+        let said = format!(
+            "phases[{index}] = {phase:?} is more than a whole turn: phases are in turns, not in degrees or radians"
+        );
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(said)?, 1)?;
+    }
+    Ok(())
 }
 
 /// The scene of this state, at the epoch as it was given, with the keyword arguments of `Scene`.
@@ -65,6 +79,9 @@ pub(super) fn disturbing_bodies(value: &Bound<'_, PyAny>) -> PyResult<Vec<Distur
     };
     if let Some(body) = one(value) {
         return Ok(vec![body]);
+    }
+    if value.is_instance_of::<PyDict>() {
+        return Err(not_an_orbit(value));
     }
     let members = value.try_iter().map_err(|_| not_an_orbit(value))?;
     members.map(|member| member.and_then(|member| one(&member).ok_or_else(|| not_an_orbit(&member)))).collect()

@@ -1,0 +1,17 @@
+//! What an error about the strength of a torque measures.
+
+/// What shows that a torque is too strong for an expansion in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TorqueMeasure {
+    /// The strength 3n²C(C − A)/2M² times the mass fraction, where the disturbing body is nearest within the span.
+    Strength,
+    /// The sum of the sizes of the short-period corrections \[rad\].
+    Corrections,
+    /// The ratio of the changes of successive iterations for the mean variables.
+    Contraction,
+    /// The precession of the angular momentum in one radian of the fastest orbit \[rad\].
+    Precession,
+    /// The error bound of a span of less than one orbit \[rad\]. Its limit is the effect of the torque over the span.
+    ErrorBound,
+}
