@@ -233,8 +233,8 @@ def test_sizes_and_orders_out_of_bounds_are_refused():
     with pytest.raises(andoyer.InputError, match="cannot hold"):
         normalize("x^2", 2, [("x", "x")])
     normal_form = pendulum(2)
-    for wrong in [[0.1], [[[0.1, 0.0]]], 0.1, [0.1, 0.0, 0.0]]:
-        with pytest.raises(andoyer.InputError, match="states has shape"):
+    for wrong, message in [([0.1], "has shape"), ([[[0.1, 0.0]]], "has shape"), (0.1, "= 0.1 is one number"), ([0.1, 0.0, 0.0], "has shape")]:
+        with pytest.raises(andoyer.InputError, match=f"states {message}"):
             normal_form.to_normal(wrong)
     for wrong in [[math.nan, 0.0], [math.inf, 0.0], [1e200, 0.0]]:
         with pytest.raises(andoyer.InputError, match="not finite"):
