@@ -38,7 +38,7 @@ pub(crate) use bodies::{Bodies, Pull};
 use polynomial::{COLUMNS, Column, NODES, Polynomial, Row, Slopes};
 pub(crate) use precession::Precession;
 
-/// Number of quarters that are kept on each side of the epoch, 0.9 kB each.
+/// Number of quarters that are kept on each side of the epoch, 0.8 kB each.
 pub(crate) const MOST_QUARTERS: usize = 1 << 18;
 
 /// The orbit and the strength of its torque, in the units of the averaged motion.

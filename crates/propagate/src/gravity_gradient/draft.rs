@@ -3,6 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use num_complex::Complex;
 
+use super::averaged::AveragedOrbit;
 use super::averages::Averages;
 use super::budget::{Budget, SecondOrderErrors, Subject};
 use super::corrections::{Demand, Mean};
@@ -18,8 +19,9 @@ use crate::torque_free::polhode::Polhode;
 
 type C64 = Complex<f64>;
 
-/// Largest precession of the angular momentum in one radian of the fastest orbit \[rad\].
-const FASTEST_PRECESSION: f64 = 1.0;
+/// Largest precession of the angular momentum in one radian of the true anomaly, or of the fastest orbit if that is shorter \[rad\]. At this limit polynomials
+/// of degree 15 follow the frame to 1e-10 rad.
+const FASTEST_PRECESSION: f64 = 0.3;
 
 /// What the levels of a motion share.
 pub(super) struct Outset<'a> {
@@ -98,14 +100,16 @@ impl<'a> Outset<'a> {
 /// Checks that the averaged equations can be solved: their solution on a quarter of the orbit is a polynomial, which cannot follow a faster precession.
 fn slow_enough(averages: &Averages, demands: &[Demand<'_>]) -> Result<(), Error> {
     let fastest = demands.iter().fold(0.0_f64, |most, demand| most.max(demand.mean_motion));
-    let turns =
-        averages.ellipses.iter().zip(demands).map(|(ellipse, demand)| ellipse.strength().abs() * demand.mean_motion);
-    let size = turns.sum::<f64>() / fastest;
+    let turn = |(ellipse, demand): (&AveragedOrbit, &Demand<'_>)| {
+        // The largest rate of the true anomaly within the span is half of that of twice the anomaly.
+        let share = (0.5 * demand.envelope.fastest / fastest).min(1.0);
+        ellipse.strength().abs() * (1.0 + ellipse.eccentricity) * share
+    };
+    let size = averages.ellipses.iter().zip(demands).map(turn).sum::<f64>();
     if size <= FASTEST_PRECESSION {
-        Ok(())
-    } else {
-        Err(Error::TorqueTooStrong { measure: TorqueMeasure::Precession, size, bound: FASTEST_PRECESSION })
+        return Ok(());
     }
+    Err(Error::TorqueTooStrong { measure: TorqueMeasure::Precession, size, bound: FASTEST_PRECESSION })
 }
 
 /// Whether the equations are averaged over the orbit as well, and the error bound.
