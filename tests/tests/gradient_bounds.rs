@@ -238,6 +238,32 @@ fn a_slow_term_that_the_average_torque_shifts_within_half_an_orbit_is_in_the_bou
 }
 
 #[test]
+fn a_precession_that_is_fast_at_the_pericentre_is_followed_at_the_apocentre() {
+    // Found by the climb: κ_o(1 + e) = 0.1, which polynomials of degree 15 do not follow over a quarter of the orbit.
+    let scene = Disturbed::new(
+        [0.098_782_947_555_817_54, 0.938_350_690_958_704_4, 1.0],
+        normalized([
+            0.363_510_069_883_399_57,
+            -0.398_703_247_879_228_9,
+            -0.773_885_621_866_579_9,
+            0.331_658_248_038_695_7,
+        ]),
+        [9.889_408_522_411_784, 0.187_393_509_301_147_6, -0.121_395_113_011_303_39],
+        [
+            0.001_585_995_382_079_040_5,
+            0.949_894_355_585_129_4,
+            -1_918.556_699_352_881_4,
+            0.0,
+            0.0,
+            2.891_821_562_199_621_3,
+        ],
+        137.027_499_048_465_5,
+    );
+    let found = second_order(scene);
+    assert!(found.error <= 1e-12, "{found:?}");
+}
+
+#[test]
 fn the_bound_of_a_span_of_one_time_is_that_of_its_epoch() {
     let scene = Disturbed::new([0.5, 0.8, 1.0], ATTITUDE, [0.1, 0.2, 1.0], [6e-3, 0.2, 0.0, 0.0, 0.0, 0.0], 0.0);
     for averaging in [Averaging::Auto, Averaging::Spin] {

@@ -102,7 +102,7 @@ impl Scene {
     /// convention : {"extremal-axis", "long-axis", "short-axis"}, optional
     ///     The axis of the periods. The default is the axis of the mode, as in light-curve papers; radar papers use the long axis.
     /// momentum_direction : array_like, shape (3,) or (2,), optional
-    ///     Direction of the angular momentum: inertial components of any length, or (longitude, latitude) in rad, |latitude| ≤ π/2; by default inertial axis 3.
+    ///     Direction of the angular momentum: inertial components of any length, or (longitude, latitude) in rad, the latitude from −π/2 to π/2; by default inertial axis 3.
     /// phases : (float, float), optional
     ///     Phases of P_ψ and P_φ at the epoch, in turns. At (0, 0) the axis of the mode is nearest to the angular momentum, tilted towards
     ///     (inertial axis 3) × momentum, or towards inertial axis 1 if the momentum is along axis 3.

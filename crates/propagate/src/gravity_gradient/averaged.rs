@@ -9,13 +9,13 @@
 //!
 //! where Ψ is the phase integral: to first order the torque adds s Ψ to ℓ′ and −σ s Ψ to y′, with s = −φ Δ′(σ)/(2M) ([`super::averages`]).
 //!
-//! `Slow::Spin` solves these equations on quarters of an orbit by Picard's iteration on Chebyshev points. The right-hand side is a trigonometric polynomial of
+//! `Slow::Spin` solves these equations on quarters or eighths of an orbit by Picard's iteration on Chebyshev points. The right-hand side is a trigonometric polynomial of
 //! f and κ_o is small, so a few iterations converge to rounding error. The result is a polynomial that can be evaluated at any time of the quarter. A quarter
 //! is solved when a time first needs it, and is kept. `Slow::Orbit` is the orbit average: precession about the orbit's normal, steady in first order, with the
 //! periodic part in closed form in f, without an expansion in e. `Slow::Bodies` has the sum over several disturbing bodies on orbits that may precess. It is
 //! averaged over the rotation only, and solved on arcs of time.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::f64::consts::PI;
 use std::sync::{Arc, LazyLock, RwLock};
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
@@ -38,7 +38,11 @@ pub(crate) use bodies::{Bodies, Pull};
 use polynomial::{COLUMNS, Column, NODES, Polynomial, Row, Slopes};
 pub(crate) use precession::Precession;
 
-/// Number of quarters that are kept on each side of the epoch, 0.8 kB each.
+/// Pieces of an orbit.
+const FEWEST_PIECES: i64 = 4;
+/// An orbit on which the angular momentum precesses by more in one radian has twice as many: with degree 15 the error in a quarter is then 1e-14 rad.
+const FASTEST_IN_QUARTERS: f64 = 0.02;
+/// Number of quarters that are kept on each side of the epoch, 0.8 kB each; of eighths twice as many.
 pub(crate) const MOST_QUARTERS: usize = 1 << 18;
 
 /// The orbit and the strength of its torque, in the units of the averaged motion.
@@ -145,23 +149,26 @@ impl AveragedOrbit {
     }
 }
 
-/// The averaged equations at the points of a quarter, by true anomaly.
-struct Quarter<'a> {
+/// The averaged equations at the points of a piece of the orbit, by true anomaly.
+struct Piece<'a> {
     ellipse: &'a AveragedOrbit,
     sine: &'a Row,
     cosine: &'a Row,
 }
 
-/// The sines and the cosines of the true anomalies at the points, by quarter.
-static CIRCLES: LazyLock<[[Row; 2]; 4]> = LazyLock::new(|| {
-    std::array::from_fn(|quarter| {
-        let middle = (quarter as f64 + 0.5) * FRAC_PI_2;
-        let circles = NODES.map(|x| (middle + FRAC_PI_4 * x).sin_cos());
-        [circles.map(|(sine, _)| sine), circles.map(|(_, cosine)| cosine)]
+/// The sines and the cosines of the true anomalies at the points, by piece, for [`FEWEST_PIECES`] and for twice as many.
+static CIRCLES: LazyLock<[Vec<[Row; 2]>; 2]> = LazyLock::new(|| {
+    [FEWEST_PIECES, 2 * FEWEST_PIECES].map(|count| {
+        let half = PI / count as f64;
+        let piece = |piece: i64| {
+            let circles = NODES.map(|x| (half * ((2 * piece + 1) as f64 + x)).sin_cos());
+            [circles.map(|(sine, _)| sine), circles.map(|(_, cosine)| cosine)]
+        };
+        (0..count).map(piece).collect()
     })
 });
 
-impl Slopes for Quarter<'_> {
+impl Slopes for Piece<'_> {
     #[inline(always)]
     fn at<S: InstructionSet>(&self, first: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS] {
         let AveragedOrbit { eccentricity, eta_cubed, mean_motion, axes, strength, .. } = self.ellipse;
@@ -208,45 +215,49 @@ impl Slopes for Quarter<'_> {
     }
 }
 
-/// The averaged motion, solved for each quarter of the orbit.
+/// The averaged motion, solved for each piece of the orbit: quarters, or eighths if the precession is fast.
 #[derive(Clone, Debug)]
 pub(crate) struct Spin {
     ellipse: AveragedOrbit,
-    /// The quarter that contains the epoch, counted from the pericentre before the epoch.
+    /// Number of pieces of an orbit.
+    count: i64,
+    /// The piece that contains the epoch, counted from the pericentre before the epoch.
     first: i64,
     epoch: Polynomial,
-    /// The solved quarters after the epoch's quarter, and before it.
+    /// The solved pieces after the epoch's piece, and before it.
     kept: Arc<[RwLock<Vec<Polynomial>>; 2]>,
 }
 
 impl Spin {
     /// From the frame at a place of the orbit, where Ψ and the drifts are 0.
     pub(crate) fn new(ellipse: AveragedOrbit, frame: UnitQuaternion<f64>, when: &When<pulp::Scalar>) -> Self {
-        let (first, inside) = quarter(when.turns.values()[0], when.place.angle.values()[0]);
+        let fast = ellipse.strength.abs() * (1.0 + ellipse.eccentricity) > FASTEST_IN_QUARTERS;
+        let count = if fast { 2 * FEWEST_PIECES } else { FEWEST_PIECES };
+        let (first, inside) = piece(count, when.turns.values()[0], when.place.angle.values()[0]);
         let start: Column = [frame.i, frame.j, frame.k, frame.w, 0.0, 0.0];
-        let epoch = in_quarter(&ellipse, first, inside, &start);
-        Self { ellipse, first, epoch, kept: Arc::default() }
+        let epoch = in_piece(&ellipse, (count, first), inside, &start);
+        Self { ellipse, count, first, epoch, kept: Arc::default() }
     }
 
-    /// Consecutive times in the same quarter are evaluated together.
+    /// Consecutive times in the same piece are evaluated together.
     #[inline(always)]
     fn at<S: InstructionSet>(&self, when: &When<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         let (turns, angles) = (when.turns.values(), when.place.angle.values());
-        let (mut quarters, mut insides) = ([0_i64; WIDEST], [0.0; WIDEST]);
+        let (mut pieces, mut insides) = ([0_i64; WIDEST], [0.0; WIDEST]);
         for (lane, (turns, angle)) in turns.iter().zip(angles).enumerate() {
-            (quarters[lane], insides[lane]) = quarter(*turns, *angle);
+            (pieces[lane], insides[lane]) = piece(self.count, *turns, *angle);
         }
         let inside = when.turns.like(&insides);
         let count = turns.len();
-        if quarters[1..count].iter().all(|quarter| *quarter == quarters[0]) {
-            let [x, y, z, w, anomaly, longitude] = self.sums(quarters[0] - self.first, inside);
+        if pieces[1..count].iter().all(|piece| *piece == pieces[0]) {
+            let [x, y, z, w, anomaly, longitude] = self.sums(pieces[0] - self.first, inside);
             return (QuaternionLanes([x, y, z, w]), [anomaly, longitude]);
         }
         let mut rows = [[0.0; WIDEST]; COLUMNS];
         let mut lane = 0;
         while lane < count {
-            let next = lane + quarters[lane..count].iter().take_while(|other| **other == quarters[lane]).count();
-            let columns = self.sums(quarters[lane] - self.first, inside);
+            let next = lane + pieces[lane..count].iter().take_while(|other| **other == pieces[lane]).count();
+            let columns = self.sums(pieces[lane] - self.first, inside);
             for (row, column) in rows.iter_mut().zip(&columns) {
                 row[lane..next].copy_from_slice(&column.values()[lane..next]);
             }
@@ -260,7 +271,7 @@ impl Spin {
         (QuaternionLanes([x, y, z, w]), [anomaly, longitude])
     }
 
-    /// The sums of the quarter at a distance from the epoch's quarter. If it is not known yet, it is solved together with all quarters between.
+    /// The sums of the piece at a distance from the epoch's piece. If it is not known yet, it is solved together with all pieces between.
     #[inline(always)]
     fn sums<S: InstructionSet>(&self, distance: i64, inside: Lanes<S>) -> [Lanes<S>; COLUMNS] {
         let (side, index) = match distance {
@@ -269,10 +280,10 @@ impl Spin {
             earlier => (1, earlier.unsigned_abs() as usize - 1),
         };
         {
-            // If a thread panicked while it held the lock, the quarters are still complete.
+            // If a thread panicked while it held the lock, the pieces are still complete.
             let known = self.kept[side].read().unwrap_or_else(|poisoned| poisoned.into_inner());
-            if let Some(quarter) = known.get(index) {
-                return quarter.sums(inside);
+            if let Some(piece) = known.get(index) {
+                return piece.sums(inside);
             }
         }
         self.solved(side, index).sums(inside)
@@ -280,30 +291,31 @@ impl Spin {
 
     #[cold]
     fn solved(&self, side: usize, index: usize) -> Polynomial {
-        let mut quarters = self.kept[side].write().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let mut known = self.kept[side].write().unwrap_or_else(|poisoned| poisoned.into_inner());
         let (step, end) = if side == 0 { (1, 1.0) } else { (-1, -1.0) };
-        while quarters.len() <= index {
-            let start = quarters.last().unwrap_or(&self.epoch).at(end);
-            let number = self.first + step * (quarters.len() as i64 + 1);
-            quarters.push(in_quarter(&self.ellipse, number, -end, &start));
+        while known.len() <= index {
+            let start = known.last().unwrap_or(&self.epoch).at(end);
+            let number = self.first + step * (known.len() as i64 + 1);
+            known.push(in_piece(&self.ellipse, (self.count, number), -end, &start));
         }
-        quarters[index]
+        known[index]
     }
 }
 
-/// The quarter, counted from the pericentre before the epoch, and the place in it from −1 to 1.
+/// The piece of so many in an orbit, counted from the pericentre before the epoch, and the place in it from −1 to 1.
 #[inline(always)]
-fn quarter(turns: f64, angle: f64) -> (i64, f64) {
-    let quarters = angle / FRAC_PI_2;
-    let part = quarters.floor().clamp(-2.0, 1.0);
-    let inside = (2.0 * (quarters - part) - 1.0).clamp(-1.0, 1.0);
-    // The bound of the motion keeps the number within MOST_QUARTERS.
-    (4 * turns as i64 + part as i64, inside)
+fn piece(count: i64, turns: f64, angle: f64) -> (i64, f64) {
+    let half = (count / 2) as f64;
+    let pieces = angle * (half / PI);
+    let part = pieces.floor().clamp(-half, half - 1.0);
+    let inside = (2.0 * (pieces - part) - 1.0).clamp(-1.0, 1.0);
+    // The bound of the motion keeps the number within 2 MOST_QUARTERS.
+    (count * turns as i64 + part as i64, inside)
 }
 
-/// The solution in a quarter that passes through `start` at a place of the quarter.
-fn in_quarter(ellipse: &AveragedOrbit, number: i64, place: f64, start: &Column) -> Polynomial {
-    let [sine, cosine] = &CIRCLES[number.rem_euclid(4) as usize];
-    let equations = Quarter { ellipse, sine, cosine };
-    Polynomial::solved(FRAC_PI_4, (place, start), &equations)
+/// The solution in a piece that passes through `start` at a place of the piece.
+fn in_piece(ellipse: &AveragedOrbit, (count, number): (i64, i64), place: f64, start: &Column) -> Polynomial {
+    let circles = &CIRCLES[usize::from(count != FEWEST_PIECES)];
+    let [sine, cosine] = &circles[number.rem_euclid(count) as usize]; // 0 ≤ number < count
+    Polynomial::solved(PI / count as f64, (place, start), &Piece { ellipse, sine, cosine })
 }

@@ -10,7 +10,7 @@ use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::{Lanes, WIDEST};
 
 /// Chebyshev points in an interval: whole vectors of every width. With degree 15 the interpolation error in a quarter of the orbit is 1e-15 κ_o for cos 2f, and
-/// 7e-13 e κ_o for cos 3f.
+/// 7e-13 e κ_o for cos 3f, and about 3e-9 (κ_o(1 + e))⁴ for the powers of κ_o.
 pub(super) const POINTS: usize = WIDEST;
 /// Largest number of Picard iterations. Each one multiplies the error by about κ_o, which `draft::FASTEST_PRECESSION` bounds; 16 is the most seen.
 const MOST_ITERATIONS: usize = 40;
