@@ -118,7 +118,7 @@ fn measured(measure: TorqueMeasure, size: f64, bound: f64) -> String {
             "an iteration for the mean variables leaves {size} of the last change, and must leave at most {bound}"
         ),
         TorqueMeasure::Precession => format!(
-            "the angular momentum precesses by {size} rad in one radian of the fastest orbit, and must precess by at most {bound} rad"
+            "the angular momentum precesses by {size} rad in one radian of the orbit, and must precess by at most {bound} rad"
         ),
         TorqueMeasure::ErrorBound => {
             format!("the error bound over the span, {size} rad, exceeds the effect of the torque, {bound} rad")
@@ -126,11 +126,11 @@ fn measured(measure: TorqueMeasure, size: f64, bound: f64) -> String {
     }
 }
 
-/// Why the terms of a resonance are not corrected, if their frequency is the reason.
+/// That the terms of a resonance are too slow for a sum over time derivatives, if they are.
 fn slow(divisor: f64, bound: f64) -> String {
     if divisor < bound {
         format!(
-            "; their frequency is {divisor:.3} times the largest angular rate of the orbit, and a correction needs more than {bound}"
+            "; their frequency is {divisor:.3} times the largest angular rate of the orbit, and a sum over time derivatives needs more than {bound}"
         )
     } else {
         String::new()

@@ -10,7 +10,8 @@ pub enum TorqueMeasure {
     Corrections,
     /// The ratio of the changes of successive iterations for the mean variables.
     Contraction,
-    /// The precession of the angular momentum in one radian of the fastest orbit \[rad\].
+    /// The precession of the angular momentum in one radian of the true anomaly at the nearest place within the span \[rad\]. Of several bodies the precessions in
+    /// the same time are added, and the time is one radian of the fastest mean anomaly if that is shorter.
     Precession,
     /// The error bound of a span of less than one orbit \[rad\]. Its limit is the effect of the torque over the span.
     ErrorBound,

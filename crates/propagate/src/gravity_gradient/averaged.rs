@@ -9,9 +9,9 @@
 //!
 //! where Ψ is the phase integral: to first order the torque adds s Ψ to ℓ′ and −σ s Ψ to y′, with s = −φ Δ′(σ)/(2M) ([`super::averages`]).
 //!
-//! `Slow::Spin` solves these equations on quarters or eighths of an orbit by Picard's iteration on Chebyshev points. The right-hand side is a trigonometric polynomial of
-//! f and κ_o is small, so a few iterations converge to rounding error. The result is a polynomial that can be evaluated at any time of the quarter. A quarter
-//! is solved when a time first needs it, and is kept. `Slow::Orbit` is the orbit average: precession about the orbit's normal, steady in first order, with the
+//! `Slow::Spin` solves these equations on quarters or eighths of an orbit by Picard's iteration on Chebyshev points. The right-hand side is a trigonometric
+//! polynomial of f and κ_o(1 + e) is at most 0.3, so the iteration converges to rounding error. The result is a polynomial that can be evaluated at any time of
+//! the piece. A piece is solved when a time first needs it, and is kept. `Slow::Orbit` is the orbit average: precession about the orbit's normal, steady in first order, with the
 //! periodic part in closed form in f, without an expansion in e. `Slow::Bodies` has the sum over several disturbing bodies on orbits that may precess. It is
 //! averaged over the rotation only, and solved on arcs of time.
 
@@ -38,9 +38,10 @@ pub(crate) use bodies::{Bodies, Pull};
 use polynomial::{COLUMNS, Column, NODES, Polynomial, Row, Slopes};
 pub(crate) use precession::Precession;
 
-/// Pieces of an orbit.
+/// Number of pieces of an orbit, each with a polynomial of its own.
 const FEWEST_PIECES: i64 = 4;
-/// An orbit on which the angular momentum precesses by more in one radian has twice as many: with degree 15 the error in a quarter is then 1e-14 rad.
+/// Largest precession of the angular momentum in one radian of the true anomaly for which an orbit has this number of pieces \[rad\]. The polynomials on quarters
+/// then have an error of 1e-14 rad. If the precession is faster, an orbit has twice as many pieces.
 const FASTEST_IN_QUARTERS: f64 = 0.02;
 /// Number of quarters that are kept on each side of the epoch, 0.8 kB each; of eighths twice as many.
 pub(crate) const MOST_QUARTERS: usize = 1 << 18;
