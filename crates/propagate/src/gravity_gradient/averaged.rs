@@ -15,7 +15,7 @@
 //! periodic part in closed form in f, without an expansion in e. `Slow::Bodies` has the sum over several disturbing bodies on orbits that may precess. It is
 //! averaged over the rotation only, and solved on arcs of time.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::sync::{Arc, LazyLock, RwLock};
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
@@ -25,7 +25,7 @@ use super::course::{Elapsed, When};
 use super::second_order::hamiltonian::{DisturberLanes, Hamiltonian, dot};
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::InstructionSet;
-use crate::simd::lanes::{Lanes, WIDEST};
+use crate::simd::lanes::Lanes;
 
 mod arcs;
 mod bodies;
@@ -234,39 +234,29 @@ impl Spin {
     pub(crate) fn new(ellipse: AveragedOrbit, frame: UnitQuaternion<f64>, when: &When<pulp::Scalar>) -> Self {
         let fast = ellipse.strength.abs() * (1.0 + ellipse.eccentricity) > FASTEST_IN_QUARTERS;
         let count = if fast { 2 * FEWEST_PIECES } else { FEWEST_PIECES };
-        let (first, inside) = piece(count, when.turns.values()[0], when.place.angle.values()[0]);
+        let (number, inside) = piece(count, when);
+        let (first, inside) = (number.values()[0] as i64, inside.values()[0]);
         let start: Column = [frame.i, frame.j, frame.k, frame.w, 0.0, 0.0];
         let epoch = in_piece(&ellipse, (count, first), inside, &start);
         Self { ellipse, count, first, epoch, kept: Arc::default() }
     }
 
-    /// Consecutive times in the same piece are evaluated together.
+    /// Times in the same piece are evaluated together.
     #[inline(always)]
     fn at<S: InstructionSet>(&self, when: &When<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
-        let (turns, angles) = (when.turns.values(), when.place.angle.values());
-        let (mut pieces, mut insides) = ([0_i64; WIDEST], [0.0; WIDEST]);
-        for (lane, (turns, angle)) in turns.iter().zip(angles).enumerate() {
-            (pieces[lane], insides[lane]) = piece(self.count, *turns, *angle);
-        }
-        let inside = when.turns.like(&insides);
-        let count = turns.len();
-        if pieces[1..count].iter().all(|piece| *piece == pieces[0]) {
-            let [x, y, z, w, anomaly, longitude] = self.sums(pieces[0] - self.first, inside);
-            return (QuaternionLanes([x, y, z, w]), [anomaly, longitude]);
-        }
-        let mut rows = [[0.0; WIDEST]; COLUMNS];
-        let mut lane = 0;
-        while lane < count {
-            let next = lane + pieces[lane..count].iter().take_while(|other| **other == pieces[lane]).count();
-            let columns = self.sums(pieces[lane] - self.first, inside);
-            for (row, column) in rows.iter_mut().zip(&columns) {
-                row[lane..next].copy_from_slice(&column.values()[lane..next]);
+        let (number, inside) = piece(self.count, when);
+        let pieces = number.values();
+        // The bound of the motion keeps the numbers within 2 MOST_QUARTERS.
+        let mut columns = self.sums(pieces[0] as i64 - self.first, inside);
+        for (lane, piece) in pieces.iter().enumerate().skip(1) {
+            if *piece == pieces[lane - 1] || pieces[..lane].contains(piece) {
+                continue;
             }
-            lane = next;
-        }
-        let mut columns = [inside; COLUMNS];
-        for (column, row) in columns.iter_mut().zip(&rows) {
-            *column = inside.like(row);
+            let distance = (number - inside.all(*piece)).magnitude();
+            let others = self.sums(*piece as i64 - self.first, inside);
+            for (column, other) in columns.iter_mut().zip(others) {
+                *column = distance.up_to(0.5, other, *column);
+            }
         }
         let [x, y, z, w, anomaly, longitude] = columns;
         (QuaternionLanes([x, y, z, w]), [anomaly, longitude])
@@ -303,15 +293,14 @@ impl Spin {
     }
 }
 
-/// The piece of so many in an orbit, counted from the pericentre before the epoch, and the place in it from −1 to 1.
+/// The number of the piece of so many in an orbit, counted from the pericentre before the epoch, and the place in it from −1 to 1, both to rounding: the end of
+/// a piece is the start of the next.
 #[inline(always)]
-fn piece(count: i64, turns: f64, angle: f64) -> (i64, f64) {
-    let half = (count / 2) as f64;
-    let pieces = angle * (half / PI);
-    let part = pieces.floor().clamp(-half, half - 1.0);
-    let inside = (2.0 * (pieces - part) - 1.0).clamp(-1.0, 1.0);
-    // The bound of the motion keeps the number within 2 MOST_QUARTERS.
-    (count * turns as i64 + part as i64, inside)
+fn piece<S: InstructionSet>(count: i64, when: &When<S>) -> (Lanes<S>, Lanes<S>) {
+    let all = |value: f64| when.turns.all(value);
+    let pieces = when.place.angle * all(count as f64 / TAU);
+    let part = (pieces - all(0.5)).rounded();
+    (when.turns.mul_add(all(count as f64), part), all(2.0).mul_add(pieces - part, all(-1.0)))
 }
 
 /// The solution in a piece that passes through `start` at a place of the piece.

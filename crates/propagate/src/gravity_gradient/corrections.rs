@@ -25,7 +25,7 @@ use super::candidate::{Candidate, SLOW_RATIO};
 use super::course::fixed;
 use super::divisors::Secular;
 use super::envelope::Envelope;
-use super::generator::{self, Generator, Harmonic, ORDERS};
+use super::generator::{self, Factors, Generator, Harmonic, ORDERS};
 use super::inertia::{HIGHEST, Inertia};
 use super::orbit_series::OrbitSeries;
 use super::resonance::Commensurability;
@@ -314,15 +314,8 @@ impl Corrections {
         let (level_axial, full_axial) = (level.axial(inertia), Level::Full.axial(inertia));
         let axial_omitted = [full_axial.0 - level_axial.0, full_axial.1 - level_axial.1];
         let axial_omitted = axial_omitted.map(|part| part.abs() * per_momentum);
-        let generator = Generator {
-            harmonics,
-            exact,
-            orbital,
-            axes: [first, second],
-            strength,
-            root: inertia.sigma.sqrt(),
-            momentum: inertia.momentum,
-        };
+        let factors = Factors { strength, root: inertia.sigma.sqrt(), momentum: inertia.momentum };
+        let generator = Generator::new(&harmonics, exact, (orbital, [first, second]), factors);
         Ok(Self { generator, resonant, slow, at_once, dropped, omitted, axial_omitted, rest, size, count, neglected })
     }
 

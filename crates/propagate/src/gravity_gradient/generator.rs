@@ -10,11 +10,14 @@ use nalgebra::Vector3;
 
 mod exact;
 mod orbital;
+mod sums;
 
 use exact::ExactTerms;
 pub(crate) use exact::{ExactTerm, returns};
-use orbital::WIDTH;
+use orbital::Circle;
 pub(crate) use orbital::{ORDERS, Orbital};
+pub(crate) use sums::Harmonic;
+use sums::{SUMS, Sums};
 
 use super::course::{Axes, fixed};
 use super::inertia::HIGHEST;
@@ -22,44 +25,31 @@ use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
+use crate::simd::unit_powers::UnitPowers;
 
-/// Number of sums over the terms: W, M ∂W/∂M, ∂W/∂p̄ + ∂W/∂p and ∂W/∂p̄ − ∂W/∂p.
-const SUMS: usize = 4;
-
-/// All terms of one |h|: the factors of cos hℓ′ and of i sin hℓ′, by j and sum.
-#[derive(Clone, Debug)]
-pub(crate) struct Harmonic {
-    pub(crate) degree: usize,
-    pub(crate) factors: Vec<[[f64; 2]; SUMS]>,
-}
-
-impl Harmonic {
-    /// Adds a term e^(ihℓ′) with these factors of the sums.
-    pub(crate) fn add(&mut self, negative: bool, factors: &[[f64; SUMS]]) {
-        if self.factors.len() < factors.len() {
-            self.factors.resize(factors.len(), [[0.0; 2]; SUMS]);
-        }
-        let sign = if negative { -1.0 } else { 1.0 };
-        for (slots, factors) in self.factors.iter_mut().zip(factors) {
-            for ([even, odd], factor) in slots.iter_mut().zip(factors) {
-                *even += factor;
-                *odd += sign * factor;
-            }
-        }
-    }
-}
+/// The powers of e^(iℓ′). Most scenes do with few.
+type Turns<S> = UnitPowers<S, 7, { HIGHEST + 1 }>;
 
 /// The terms by m, the Fourier polynomials, and the plane of the orbit.
 #[derive(Clone, Debug)]
 pub(crate) struct Generator {
-    pub(crate) harmonics: [Vec<Harmonic>; 3],
+    sums: [Sums; 3],
     /// Terms that the sums over time derivatives do not serve.
     pub(crate) exact: Vec<ExactTerm>,
-    pub(crate) orbital: Orbital,
+    orbital: Orbital,
+    /// Largest |h| of all terms.
+    highest: usize,
     /// Unit vectors to the pericentre and perpendicular to it at the epoch, in inertial components.
     pub(crate) axes: [Vector3<f64>; 2],
+    factors: Factors,
+}
+
+/// Factors of the torque's terms.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Factors {
     /// 3n²/2 times the disturbing mass fraction.
     pub(crate) strength: f64,
+    /// √σ.
     pub(crate) root: f64,
     pub(crate) momentum: f64,
 }
@@ -95,33 +85,41 @@ impl<S: InstructionSet> Correction<S> {
 }
 
 impl Generator {
+    /// From the terms by m, those with exact divisors, the Fourier polynomials, and the axes of the orbit at the epoch.
+    pub(crate) fn new(
+        harmonics: &[Vec<Harmonic>; 3],
+        exact: Vec<ExactTerm>,
+        (orbital, axes): (Orbital, [Vector3<f64>; 2]),
+        factors: Factors,
+    ) -> Self {
+        let sums = harmonics.each_ref().map(|harmonics| Sums::new(harmonics));
+        let highest = sums.iter().map(Sums::highest).chain(exact.iter().map(ExactTerm::degree)).max().unwrap_or(0);
+        Self { sums, exact, orbital, highest, axes, factors }
+    }
+
     /// The changes from mean to osculating variables, for |p| = √σ and an ellipse with these axes.
     #[inline(always)]
     pub(crate) fn at<S: InstructionSet>(&self, mean: &MeanLanes<S>, place: &Place<S>, axes: &Axes<S>) -> Correction<S> {
         let none = place.sine.all(0.0);
         let (products, node) = products(mean.frame, axes, mean.spin);
-        let degrees = self.harmonics.iter().flatten().map(|harmonic| harmonic.degree);
-        let highest = degrees.chain(self.exact.iter().map(ExactTerm::degree)).max().unwrap_or(0);
-        let mut turns = [ComplexLanes { re: none.all(1.0), im: none }; HIGHEST + 1];
-        for h in 1..=highest {
-            turns[h] = turns[h - 1] * mean.turn;
-        }
+        let mut room = Turns::new(mean.turn);
+        let turns = room.of(mean.turn, self.highest + 1);
         let mut sums = Derivatives { by_p: [none; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
         if self.orbital.node_rate == 0.0 {
-            let mut circle = [[none; 2]; WIDTH + 1];
-            self.orbital.fill(&mut circle, place);
+            let mut room = Circle::new(place.turn());
+            let circle = room.of(place.turn(), self.orbital.multiples());
             for j in 0..self.orbital.orders() {
-                let tensor = tensor_of(self.orbital.derivative(j, &circle), &products);
-                sums.add_all(&self.harmonics, &turns, j, &tensor);
+                let tensor = tensor_of(self.orbital.derivative(j, circle), &products);
+                sums.add_all(&self.sums, turns, j, &tensor);
             }
         } else {
             let tensors = self.tensors_of(&products, node, place);
             for (j, tensor) in tensors.iter().enumerate().take(self.orbital.orders()) {
-                sums.add_all(&self.harmonics, &turns, j, tensor);
+                sums.add_all(&self.sums, turns, j, tensor);
             }
         }
         if !self.exact.is_empty() {
-            let terms = ExactTerms { terms: &self.exact, turns: &turns, products: &products, place, sums };
+            let terms = ExactTerms { terms: &self.exact, turns, products: &products, place, sums };
             sums = none.simd().vectorize(terms);
         }
         self.change(&sums, mean.spin)
@@ -147,12 +145,12 @@ impl Generator {
         place: &Place<S>,
     ) -> [[Lanes<S>; 6]; ORDERS] {
         let none = x.all(0.0);
-        let mut circle = [[none; 2]; WIDTH + 1];
-        self.orbital.fill(&mut circle, place);
+        let mut room = Circle::new(place.turn());
+        let circle = room.of(place.turn(), self.orbital.multiples());
         let mut tensors = [[none; 6]; ORDERS];
         let orders = self.orbital.orders().min(ORDERS);
         for (j, tensor) in tensors.iter_mut().enumerate().take(orders) {
-            *tensor = tensor_of(self.orbital.derivative(j, &circle), products);
+            *tensor = tensor_of(self.orbital.derivative(j, circle), products);
         }
         if self.orbital.node_rate != 0.0 {
             let rate = x.all(self.orbital.node_rate);
@@ -165,12 +163,12 @@ impl Generator {
     fn change<S: InstructionSet>(&self, sums: &Derivatives<S>, spin: ComplexLanes<S>) -> Correction<S> {
         let all = |value: f64| sums.by_longitude.all(value);
         // Each sum is half of a term plus its conjugate.
-        let momentum = sums.by_longitude * all(2.0 * self.strength);
-        let relative = all(2.0 * self.strength / self.momentum);
+        let momentum = sums.by_longitude * all(2.0 * self.factors.strength);
+        let relative = all(2.0 * self.factors.strength / self.factors.momentum);
         let half = all(0.5) * relative;
         let [by_p, across] = sums.by_p;
-        let real = momentum.negate_mul_add(all(0.5 * self.root / self.momentum), -(across * half));
-        let circling = by_p.negate_mul_add(all(0.5 * self.root), -sums.by_momentum);
+        let real = momentum.negate_mul_add(all(0.5 * self.factors.root / self.factors.momentum), -(across * half));
+        let circling = by_p.negate_mul_add(all(0.5 * self.factors.root), -sums.by_momentum);
         // Back from the axes that are turned by y′.
         let [first, second] = sums.by_rotation;
         let x = spin.im.negate_mul_add(second, spin.re * first);
@@ -258,27 +256,6 @@ fn tensor_of<S: InstructionSet>([one, cosine, sine]: [Lanes<S>; 3], products: &P
 /// Pairs of axes of a symmetric tensor.
 const COMPONENTS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
-/// The sums over the terms of one m, for one j.
-#[inline(always)]
-fn summed<S: InstructionSet>(
-    harmonics: &[Harmonic],
-    turns: &[ComplexLanes<S>; HIGHEST + 1],
-    j: usize,
-) -> [ComplexLanes<S>; SUMS] {
-    let none = turns[0].im;
-    let mut sums = [ComplexLanes { re: none, im: none }; SUMS];
-    for harmonic in harmonics {
-        let turn = turns[harmonic.degree];
-        if let Some(factors) = harmonic.factors.get(j) {
-            for (sum, [even, odd]) in sums.iter_mut().zip(factors) {
-                sum.re = turn.re.mul_add(none.all(*even), sum.re);
-                sum.im = turn.im.mul_add(none.all(*odd), sum.im);
-            }
-        }
-    }
-    sums
-}
-
 /// The contraction of r̂r̂ for one m (r₃² − ⅓, r̄₊ r₃ or r̄₊²) and its derivatives when the frame turns about its axes 1 and 2, times −i for m = 0 and 2, and
 /// −1 for m = 1.
 type Contracted<S> = [ComplexLanes<S>; 3];
@@ -324,50 +301,28 @@ impl<S: InstructionSet> Derivatives<S> {
     #[inline(always)]
     fn add_all(
         &mut self,
-        [axial, first, second]: &[Vec<Harmonic>; 3],
-        turns: &[ComplexLanes<S>; HIGHEST + 1],
+        [axial, first, second]: &[Sums; 3],
+        turns: &[ComplexLanes<S>],
         j: usize,
         tensor: &[Lanes<S>; 6],
     ) {
-        let has = |harmonics: &[Harmonic]| harmonics.iter().any(|harmonic| harmonic.factors.len() > j);
-        if has(axial) {
-            self.add_axial(axial, turns, j, tensor);
+        if let Some(sums) = axial.axial(j, turns) {
+            self.add_axial(sums, tensor);
         }
-        if has(first) {
-            self.add(first, turns, (j, tensor, 1));
+        if let Some(sums) = first.at(j, turns) {
+            self.add(sums, j, contractions(tensor, 1), 1.0);
         }
-        if has(second) {
-            self.add(second, turns, (j, tensor, 2));
+        if let Some(sums) = second.at(j, turns) {
+            self.add(sums, j, contractions(tensor, 2), 2.0);
         }
     }
 
-    /// Adds the terms with m = 0. Their contraction is imaginary for even j and real for odd j.
+    /// Adds the terms with m = 0.
     #[inline(always)]
-    fn add_axial(
-        &mut self,
-        harmonics: &[Harmonic],
-        turns: &[ComplexLanes<S>; HIGHEST + 1],
-        j: usize,
-        tensor: &[Lanes<S>; 6],
-    ) {
-        let none = self.by_momentum.all(0.0);
-        let mut sums = [none; SUMS];
-        let (main, other) = (1 - j % 2, j % 2);
-        for harmonic in harmonics {
-            if let Some(factors) = harmonic.factors.get(j) {
-                let turn = turns[harmonic.degree];
-                let waves = [turn.re, turn.im];
-                for s in 0..3 {
-                    sums[s] = waves[main].mul_add(none.all(factors[s][main]), sums[s]);
-                }
-                sums[3] = waves[other].mul_add(none.all(factors[3][other]), sums[3]);
-            }
-        }
-        let [whole, slope, sum, difference] = sums;
+    fn add_axial(&mut self, [whole, slope, sum, difference]: [Lanes<S>; SUMS], tensor: &[Lanes<S>; 6]) {
         let [value, first, second] = axial_contractions(tensor);
         self.by_momentum = slope.mul_add(value, self.by_momentum);
         self.by_p[0] = sum.mul_add(value, self.by_p[0]);
-        let difference = if main == 1 { -difference } else { difference };
         self.by_p[1] = difference.mul_add(value, self.by_p[1]);
         self.by_rotation[0] = whole.mul_add(first, self.by_rotation[0]);
         self.by_rotation[1] = whole.mul_add(second, self.by_rotation[1]);
@@ -377,19 +332,18 @@ impl<S: InstructionSet> Derivatives<S> {
     #[inline(always)]
     fn add(
         &mut self,
-        harmonics: &[Harmonic],
-        turns: &[ComplexLanes<S>; HIGHEST + 1],
-        (j, tensor, multiple): (usize, &[Lanes<S>; 6], usize),
+        [whole, slope, sum, difference]: [ComplexLanes<S>; SUMS],
+        j: usize,
+        mut contracted: Contracted<S>,
+        multiple: f64,
     ) {
-        let [whole, slope, sum, difference] = summed(harmonics, turns, j);
-        let mut contracted = contractions(tensor, multiple);
         if j % 2 == 1 {
             for function in &mut contracted {
                 *function = function.quarter_turned();
             }
         }
         let [value, first, second] = contracted;
-        let multiple = self.by_momentum.all(multiple as f64);
+        let multiple = self.by_momentum.all(multiple);
         self.by_longitude = multiple.mul_add(whole.im_of_product(value), self.by_longitude);
         self.by_momentum = slope.plus_re_of_product(value, self.by_momentum);
         self.by_p[0] = sum.plus_re_of_product(value, self.by_p[0]);

@@ -6,6 +6,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::complex_quaternion::ComplexLanes;
 use super::instruction_set::InstructionSet;
 use super::lanes::Lanes;
 use super::sincos::{sin_cos_of_turns, twice_arc, twice_short_arc};
@@ -117,6 +118,12 @@ pub(crate) struct Place<S: InstructionSet> {
 }
 
 impl<S: InstructionSet> Place<S> {
+    /// e^(if) for the true anomaly f.
+    #[inline(always)]
+    pub(crate) fn turn(&self) -> ComplexLanes<S> {
+        ComplexLanes { re: self.cosine, im: self.sine }
+    }
+
     /// [`Ellipse::place`] for an ellipse with this eccentricity.
     pub(crate) fn of(mean_anomaly: Lanes<S>, eccentricity: f64) -> Self {
         Ellipse::new(eccentricity).place(mean_anomaly)

@@ -54,6 +54,19 @@ fn primitive(point: usize) -> [f64; POINTS] {
     })
 }
 
+/// The coefficients of the Chebyshev polynomials in powers of x.
+static CHEBYSHEV: LazyLock<[Row; POINTS]> = LazyLock::new(|| {
+    let mut polynomials = [[0.0; POINTS]; POINTS];
+    (polynomials[0][0], polynomials[1][1]) = (1.0, 1.0);
+    for k in 2..POINTS {
+        for power in 0..POINTS {
+            let twice = if power > 0 { 2.0 * polynomials[k - 1][power - 1] } else { 0.0 };
+            polynomials[k][power] = twice - polynomials[k - 2][power];
+        }
+    }
+    polynomials
+});
+
 /// A Chebyshev series by Clenshaw's rule.
 fn sum(coefficients: &[f64; POINTS], x: f64) -> f64 {
     let (mut next, mut after) = (0.0, 0.0);
@@ -102,7 +115,7 @@ impl<F: Fn(usize, &Quaternion<f64>) -> Column> Slopes for PointByPoint<F> {
     }
 }
 
-/// Chebyshev coefficients in one interval.
+/// The coefficients of a polynomial in the place in one interval, from −1 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Polynomial {
     coefficients: [Column; POINTS],
@@ -213,34 +226,38 @@ impl Polynomial {
     /// The solution that passes through a column at a place of the interval, from −1 to 1. `half` is half the length of the interval.
     pub(super) fn solved(half: f64, (place, start): (f64, &Column), equations: &impl Slopes) -> Self {
         let columns = dispatch(pulp::Arch::new(), Solve { half, place, start, equations });
-        let coefficients = std::array::from_fn(|k| columns.each_ref().map(|column| column[k]));
-        Self { coefficients, terms: POINTS }.trimmed()
+        Self::new(std::array::from_fn(|k| columns.each_ref().map(|column| column[k])))
     }
 
-    /// The sums of the Chebyshev series, by Clenshaw's rule.
+    /// The values at a place of the interval, by Horner's rule.
     #[inline(always)]
     pub(super) fn sums<S: InstructionSet>(&self, x: Lanes<S>) -> [Lanes<S>; COLUMNS] {
-        let twice = x + x;
-        let (mut next, mut after) = ([x.all(0.0); COLUMNS], [x.all(0.0); COLUMNS]);
-        for coefficient in self.coefficients[1..self.terms].iter().rev() {
-            for c in 0..COLUMNS {
-                (next[c], after[c]) = (twice.mul_add(next[c], x.all(coefficient[c]) - after[c]), next[c]);
+        let mut sums = [x.all(0.0); COLUMNS];
+        for coefficient in self.coefficients[..self.terms].iter().rev() {
+            for (sum, coefficient) in sums.iter_mut().zip(coefficient) {
+                *sum = sum.mul_add(x, x.all(*coefficient));
             }
         }
-        for c in 0..COLUMNS {
-            next[c] = x.mul_add(next[c], x.all(self.coefficients[0][c]) - after[c]);
-        }
-        next
+        sums
     }
 
     pub(super) fn at(&self, x: f64) -> Column {
         self.sums(Lanes::splat(pulp::Scalar, x)).map(|lanes| lanes.values()[0])
     }
 
-    /// Drops the last terms if they are negligible.
-    fn trimmed(mut self) -> Self {
+    /// From the coefficients of a Chebyshev series. Its last terms are dropped if they are negligible, and it becomes a polynomial in x. The coefficients fall
+    /// faster than those of the Chebyshev polynomials grow, so that no digit is lost.
+    fn new(series: [Column; POINTS]) -> Self {
         let something = |column: &Column| column.iter().any(|c| c.abs() > NEGLIGIBLE);
-        self.terms = self.coefficients.iter().rposition(something).map_or(1, |last| last + 1);
-        self
+        let terms = series.iter().rposition(something).map_or(1, |last| last + 1);
+        let mut coefficients = [[0.0; COLUMNS]; POINTS];
+        for (k, (column, chebyshev)) in series[..terms].iter().zip(CHEBYSHEV.iter()).enumerate() {
+            for power in (k % 2..=k).step_by(2) {
+                for (sum, c) in coefficients[power].iter_mut().zip(column) {
+                    *sum += chebyshev[power] * c;
+                }
+            }
+        }
+        Self { coefficients, terms }
     }
 }

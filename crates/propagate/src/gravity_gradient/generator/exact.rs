@@ -15,7 +15,6 @@ use std::f64::consts::TAU;
 use pulp::NullaryFnOnce;
 
 use crate::gravity_gradient::divisors::Divisors;
-use crate::gravity_gradient::inertia::HIGHEST;
 use crate::gravity_gradient::orbit_series::OrbitSeries;
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
@@ -129,7 +128,7 @@ impl ExactTerm {
         &self,
         sums: &mut Derivatives<S>,
         functions: &[Contracted<S>; 3],
-        turns: &[ComplexLanes<S>; HIGHEST + 1],
+        turns: &[ComplexLanes<S>],
         anomaly: ComplexLanes<S>,
     ) {
         let parts = self.parts(anomaly);
@@ -162,7 +161,7 @@ impl ExactTerm {
 /// The sums with the exact terms added, as a task that is compiled separately: most scenes do without it.
 pub(super) struct ExactTerms<'a, S: InstructionSet> {
     pub(super) terms: &'a [ExactTerm],
-    pub(super) turns: &'a [ComplexLanes<S>; HIGHEST + 1],
+    pub(super) turns: &'a [ComplexLanes<S>],
     pub(super) products: &'a Products<S>,
     pub(super) place: &'a Place<S>,
     pub(super) sums: Derivatives<S>,

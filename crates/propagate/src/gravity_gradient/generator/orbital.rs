@@ -2,13 +2,16 @@
 
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
-use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
+use crate::simd::unit_powers::UnitPowers;
 
 /// Number of functions in G: g and its time derivatives.
 pub(crate) const ORDERS: usize = 7;
 /// Highest multiple of f in the last derivative.
 pub(crate) const WIDTH: usize = 5 + 2 * (ORDERS - 1);
+
+/// The powers of e^(if). Most scenes do with few.
+pub(super) type Circle<S> = UnitPowers<S, 10, { WIDTH + 1 }>;
 
 /// Time derivatives of (a/r)³ times 1, cos 2f and sin 2f. Even derivatives of the first two and odd derivatives of the third are series in cos kf. The others
 /// are series in sin kf.
@@ -17,6 +20,8 @@ pub(crate) struct Orbital {
     rows: Vec<Row>,
     /// Coefficients of the three functions, row after row.
     coefficients: Vec<[f64; 3]>,
+    /// Number of multiples of f, from 0, in the derivatives.
+    multiples: usize,
     /// Rate of the node about inertial axis 3.
     pub(super) node_rate: f64,
     /// Largest sum of the coefficients' magnitudes, by j.
@@ -51,7 +56,8 @@ impl Orbital {
             .collect();
         // A rate of the axes turns a symmetric tensor of rank 2 at most twice as fast.
         let norms = (0..=ORDERS).map(|j| leibniz(j, 2.0 * node_rate.abs()).zip(&sizes[..=j]).map(|(c, s)| c * s).sum());
-        let mut orbital = Self { rows: Vec::new(), coefficients: Vec::new(), node_rate, norms: norms.collect() };
+        let mut orbital =
+            Self { rows: Vec::new(), coefficients: Vec::new(), multiples: 0, node_rate, norms: norms.collect() };
         for [one, cosine, sine] in &turned {
             let series = one.iter().zip(cosine).zip(sine).map(|((one, cosine), sine)| [*one, *cosine, *sine]);
             let largest = one.iter().chain(cosine).chain(sine).fold(0.0_f64, |most, c| most.max(c.abs()));
@@ -63,7 +69,7 @@ impl Orbital {
     /// The first derivatives, as many as there are bounds, without the lowest and the highest coefficients that do not exceed the bound; and for each the sum
     /// of the coefficients that it lacks.
     pub(crate) fn cut(&self, bounds: &[f64]) -> (Self, Vec<f64>) {
-        let mut orbital = Self { rows: Vec::new(), coefficients: Vec::new(), norms: Vec::new(), ..*self };
+        let mut orbital = Self { rows: Vec::new(), coefficients: Vec::new(), multiples: 0, norms: Vec::new(), ..*self };
         let cut = |(row, bound): (&Row, &f64)| {
             orbital.push(row.first, self.coefficients[row.start..row.end].iter().copied(), *bound)
         };
@@ -96,7 +102,9 @@ impl Orbital {
             }
         }
         self.coefficients.truncate(end);
-        self.rows.push(Row { first: if end > start { skipped } else { 0 }, start, end });
+        let row = Row { first: if end > start { skipped } else { 0 }, start, end };
+        self.multiples = self.multiples.max(row.first + row.end - row.start);
+        self.rows.push(row);
         dropped + pending
     }
 
@@ -195,14 +203,14 @@ fn times_w(series: &[f64], eccentricity: f64, odd: bool) -> Vec<f64> {
 }
 
 impl Orbital {
-    /// The derivative j of the three functions, from cos kf and sin kf for k = 0, 1, …
+    /// The derivative j of the three functions, from e^(ikf) for k = 0, 1, …
     #[inline(always)]
-    pub(super) fn derivative<S: InstructionSet>(&self, j: usize, circle: &[[Lanes<S>; 2]; WIDTH + 1]) -> [Lanes<S>; 3] {
+    pub(super) fn derivative<S: InstructionSet>(&self, j: usize, circle: &[ComplexLanes<S>]) -> [Lanes<S>; 3] {
         let row = &self.rows[j];
-        let none = circle[0][1];
+        let none = circle[0].im;
         let mut sums = [none; 3];
         for (turn, [one, cosine, sine]) in circle[row.first..].iter().zip(&self.coefficients[row.start..row.end]) {
-            let (even, odd) = (turn[j % 2], turn[1 - j % 2]);
+            let (even, odd) = if j.is_multiple_of(2) { (turn.re, turn.im) } else { (turn.im, turn.re) };
             sums[0] = even.mul_add(none.all(*one), sums[0]);
             sums[1] = even.mul_add(none.all(*cosine), sums[1]);
             sums[2] = odd.mul_add(none.all(*sine), sums[2]);
@@ -210,27 +218,16 @@ impl Orbital {
         sums
     }
 
-    /// Fills in cos kf and sin kf for k = 0, 1, …, as many as the derivatives need.
-    #[inline(always)]
-    pub(super) fn fill<S: InstructionSet>(&self, circle: &mut [[Lanes<S>; 2]; WIDTH + 1], place: &Place<S>) {
-        let mut highest = 0;
-        for row in &self.rows {
-            highest = highest.max(row.first + row.end - row.start);
-        }
-        circle[0][0] = place.sine.all(1.0);
-        let step = ComplexLanes { re: place.cosine, im: place.sine };
-        let mut turn = step;
-        for slot in circle.iter_mut().take(highest).skip(1) {
-            *slot = [turn.re, turn.im];
-            turn = turn * step;
-        }
+    /// The number of multiples of f, from 0, in the derivatives that are evaluated. One derivative more is known only by its size.
+    pub(super) fn multiples(&self) -> usize {
+        self.multiples.clamp(1, WIDTH + 1)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simd::lanes::Lanes;
+    use crate::simd::kepler::Place;
 
     #[test]
     fn a_cut_derivative_lacks_no_more_than_it_says() {
@@ -241,12 +238,10 @@ mod tests {
         assert!((0..ORDERS).all(|j| row(&cut, j) <= row(&orbital, j)) && row(&cut, 0) < row(&orbital, 0));
         for k in 0..=24 {
             let place = Place::of(Lanes::splat(pulp::Scalar, 0.25 * f64::from(k) - 3.0), 0.3);
-            let none = [[Lanes::splat(pulp::Scalar, 0.0); 2]; WIDTH + 1];
-            let (mut whole_circle, mut cut_circle) = (none, none);
-            orbital.fill(&mut whole_circle, &place);
-            cut.fill(&mut cut_circle, &place);
+            let mut room = Circle::new(place.turn());
+            let circle = room.of(place.turn(), WIDTH + 1);
             for (j, lost) in lost.iter().enumerate() {
-                let [whole, cut] = [orbital.derivative(j, &whole_circle), cut.derivative(j, &cut_circle)];
+                let [whole, cut] = [&orbital, &cut].map(|orbital| orbital.derivative(j, circle));
                 for (whole, cut) in whole.iter().zip(cut) {
                     let gap = (whole.values()[0] - cut.values()[0]).abs();
                     assert!(gap <= lost * (1.0 + 1e-12) + 1e-14 * orbital.norms[j], "{j}: {gap:e} of {lost:e}");

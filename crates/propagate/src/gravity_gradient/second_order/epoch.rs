@@ -12,7 +12,7 @@ use super::rows::Stand;
 use super::steady::Steady;
 use crate::gravity_gradient::contraction::Tensor;
 use crate::gravity_gradient::corrections::{Change, Demand, Mean};
-use crate::gravity_gradient::generator::{ExactTerm, Generator, ORDERS};
+use crate::gravity_gradient::generator::{ExactTerm, Factors, Generator, ORDERS};
 use crate::gravity_gradient::inertia::Inertia;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::kepler::Place;
@@ -149,13 +149,6 @@ fn tensors_by(generator: &Generator, mean: &Mean, place: &Place<pulp::Scalar>) -
 /// The orbit's part of a generating function.
 fn without_terms(mean: &Mean, demand: &Demand<'_>) -> Generator {
     let [first, second, _] = demand.orbit.axes();
-    Generator {
-        harmonics: Default::default(),
-        exact: Vec::new(),
-        orbital: demand.envelope.orbital.clone(),
-        axes: [first, second],
-        strength: 0.0,
-        root: 0.0,
-        momentum: mean.momentum,
-    }
+    let factors = Factors { strength: 0.0, root: 0.0, momentum: mean.momentum };
+    Generator::new(&Default::default(), Vec::new(), (demand.envelope.orbital.clone(), [first, second]), factors)
 }

@@ -1,0 +1,36 @@
+//! Powers of complex numbers of size 1.
+
+use super::complex_quaternion::ComplexLanes;
+use super::instruction_set::InstructionSet;
+
+/// Memory for at most `MOST` powers of a complex number, from the power 0 on. All of it is written only if more than `FEW` are computed.
+pub(crate) struct UnitPowers<S: InstructionSet, const FEW: usize, const MOST: usize> {
+    few: [ComplexLanes<S>; FEW],
+    many: Option<[ComplexLanes<S>; MOST]>,
+}
+
+impl<S: InstructionSet, const FEW: usize, const MOST: usize> UnitPowers<S, FEW, MOST> {
+    /// Without powers; `like` has the instruction set.
+    #[inline(always)]
+    pub(crate) fn new(like: ComplexLanes<S>) -> Self {
+        Self { few: [one(like); FEW], many: None }
+    }
+
+    /// The powers 0, 1, … of a number, as many as `count`, which is 1 to `MOST`.
+    #[inline(always)]
+    pub(crate) fn of(&mut self, number: ComplexLanes<S>, count: usize) -> &[ComplexLanes<S>] {
+        let powers =
+            if count <= FEW { &mut self.few[..] } else { self.many.insert([one(number); MOST]).as_mut_slice() };
+        let mut last = one(number);
+        for power in powers.iter_mut().take(count).skip(1) {
+            last = last * number;
+            *power = last;
+        }
+        powers
+    }
+}
+
+#[inline(always)]
+fn one<S: InstructionSet>(like: ComplexLanes<S>) -> ComplexLanes<S> {
+    ComplexLanes { re: like.re.all(1.0), im: like.re.all(0.0) }
+}
