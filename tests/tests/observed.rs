@@ -189,7 +189,9 @@ fn a_latitude_beyond_a_quarter_turn_is_refused_and_named() {
     for latitude in [-std::f64::consts::FRAC_PI_2, 0.0, std::f64::consts::FRAC_PI_2] {
         assert!(good.towards(400.0, latitude).is_ok(), "{latitude}");
     }
-    for latitude in [3.0, -85.0, f64::INFINITY] {
+    let single = f64::from(std::f32::consts::FRAC_PI_2);
+    assert!(good.towards(0.0, single).is_ok() && good.towards(0.0, -single).is_ok());
+    for latitude in [1.571, 3.0, -85.0, f64::INFINITY] {
         let error = good.towards(1.0, latitude).expect_err("a latitude");
         assert_eq!((error.argument(), error.value()), (Some("momentum_direction"), Some([1.0, latitude].into())));
         assert!(error.to_string().ends_with("the latitude must be from -π/2 to π/2"), "{error}");

@@ -158,7 +158,7 @@ fn a_resonance_states_the_effect_that_is_too_large() {
     let error = resonant(0.038_348, 0.0, 1e-2, [0.0, 0.01, 1.0]).solve().expect_err("too slow");
     let Error::Resonance { divisor, bound, effect, limit, .. } = error else { panic!("{error}") };
     assert!(divisor < bound && effect > limit);
-    assert_eq!((error.value(), error.bound()), (Some(divisor.into()), Some(bound.into())));
+    assert_eq!((error.value(), error.bound()), (Some(effect.into()), Some(limit.into())));
     let text = error.to_string();
     assert!(text.starts_with("spin resonance (h, m) = (2, 0): the terms in h times the angle"), "{text}");
     assert!(text.contains("allowed; their frequency is") && text.contains("needs more than 3:"), "{text}");

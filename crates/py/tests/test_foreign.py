@@ -167,6 +167,8 @@ def test_quantities_of_periods_and_orbits_are_taken_in_si_units(body):
     degree = math.radians(1) / 86400
     assert (orbit.node_rate, orbit.pericentre_rate) == (pytest.approx(-degree), pytest.approx(2 * degree))
     assert orbit.attraction == pytest.approx(1e-6)
+    rate = 6e-2 * units.rad / units.min
+    assert andoyer.Orbit(1e-3, attraction=rate**2).attraction == pytest.approx(1e-6)
     low = andoyer.Orbit.around_oblate(
         398600.4415 * units.km**3 / units.s**2, 6878.1363 * units.km, 0.001, 51.6 * units.deg, j2=1e-3, radius=6378.1363 * units.km
     )

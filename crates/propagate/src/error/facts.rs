@@ -177,8 +177,6 @@ impl Error {
             Self::Separatrix => facts("method", "series", "closed"),
             Self::NoCode { motion } => facts("motion", *motion, "rest, steady rotation or a torque-free wobble"),
             Self::SeparatrixPartials => facts("angular_velocity", 1.0, "sigma/sigma_sep other than 1"),
-            // The requirement that is broken: that of the frequency comes first.
-            Self::Resonance { divisor, bound, .. } if divisor < bound => facts("orbit", *divisor, *bound),
             Self::Resonance { effect, limit, .. } => facts("orbit", *effect, *limit),
             Self::TorqueTooStrong { size, bound, .. } => facts("orbit", *size, *bound),
             Self::TooManyOrbits { orbits, bound } => facts("span", *orbits, *bound),

@@ -100,7 +100,7 @@ impl Commensurability<'_> {
             multiple: term.multiple,
             divisor: 2.0 * term.frequency.abs() / self.fastest,
             bound: 2.0 * SLOW_RATIO,
-            effect: effect.min(PI),
+            effect,
             limit,
         }
     }

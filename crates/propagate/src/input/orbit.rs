@@ -18,9 +18,9 @@ const MOST_TURNS: f64 = TAU * 1e15;
 
 const POSITIVE: &str = "positive and finite";
 
-/// The bounds of mass_fraction and attraction, of which one excludes the other.
+/// The bounds of mass_fraction and of attraction if both are given: the attraction of the disturbing body contains its share of the mass.
 const NOT_BOTH: [&str; 2] =
-    ["given without an attraction, which replaces it", "given without a mass_fraction, which it replaces"];
+    ["1 or absent if an attraction is given", "absent, or given with no mass_fraction other than 1"];
 
 /// An oblate primary body.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,7 +7,7 @@
 //! the periods depend, by up to 2e-16 (cos J₁ + √f √(cos²J₁ − cos²J₀)). Motions are refused if this is more than 2e-6 of cos²J₀, because a state in doubles
 //! does not hold their periods to 1e-5.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::TAU;
 
 use andoyer_double::DoubleDouble;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
@@ -26,6 +26,8 @@ use crate::torque_free::polhode::Polhode;
 const RANGE: [f64; 2] = [-78.0, 667.0];
 /// Largest relative change of cos²J at ℓ = 0, over that of a component of the state, for which the state holds the periods to 1e-5.
 const LARGEST_GAIN: f64 = 1e10;
+/// A quarter turn in single precision, which exceeds it by 4e-8 rad: a pole that is given in single precision is a pole.
+const HIGHEST_LATITUDE: f64 = std::f32::consts::FRAC_PI_2 as f64;
 /// A ratio this near to that on the axis counts as equal to it.
 const RATIO_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -74,7 +76,7 @@ impl ObservedPeriods {
     /// assert!(ObservedPeriods::new(27.38, 263.0).towards(275.0, -85.0).is_err());
     /// ```
     pub fn towards(self, longitude: f64, latitude: f64) -> Result<Self, Error> {
-        if latitude.abs() > FRAC_PI_2 {
+        if latitude.abs() > HIGHEST_LATITUDE {
             return Err(Error::Latitude { value: [longitude, latitude] });
         }
         let (sine, cosine) = latitude.sin_cos();

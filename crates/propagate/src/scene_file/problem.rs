@@ -82,12 +82,15 @@ pub(super) fn located(file: &str, document: &Table, error: &serde_path_to_error:
     if let Some(key) = named.filter(|key| keys.last().is_none_or(|last| last != key)) {
         keys.push(key.to_owned());
     }
-    let value = at(document, keys.iter().map(String::as_str)).map(fact);
     let key = keys.join(".");
     if quoted("missing field `").is_some() {
         return Refusal::missing(&key).in_file(file, document);
     }
+    let found = at(document, keys.iter().map(String::as_str));
+    let date = found.and_then(first_date).map(|date| format!("invalid type: date {date}"));
+    let value = found.map(fact);
     let (problem, bound) = message.split_once(", expected ").unwrap_or((message, "a value that a scene has"));
+    let problem = date.as_deref().unwrap_or(problem);
     let number = match bound {
         "f64" if TIMES.contains(&key.as_str()) => Some("a number of time units"),
         "f64" => Some("a number"),
@@ -99,6 +102,15 @@ pub(super) fn located(file: &str, document: &Table, error: &serde_path_to_error:
     }
     let problem = if problem == message { message.to_owned() } else { format!("{problem}, expected {bound}") };
     in_file(file, &key, problem, value, Some(bound.replace('`', "").into()))
+}
+
+/// A date, or the first one in a list.
+fn first_date(value: &Value) -> Option<&Value> {
+    match value {
+        Value::Datetime(_) => Some(value),
+        Value::Array(values) => values.iter().find(|value| value.is_datetime()),
+        _ => None,
+    }
 }
 
 /// The value of a key in nested tables.

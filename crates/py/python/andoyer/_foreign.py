@@ -76,8 +76,10 @@ def plain(argument: str, value: Any) -> Any:
         return value.jd1 * DAY + value.jd2 * DAY
     if units is not None and isinstance(value, units.Quantity):
         unit = unit_of(argument, value)
+        # The square of a mean motion in rad/s is in rad²/s².
+        angles = units.dimensionless_angles() if argument == "attraction" else []
         try:
-            return value.to_value(unit)
+            return value.to_value(unit, equivalencies=angles)
         except units.UnitConversionError:
             # astropy does not convert 1 Hz to rad/s, since a frequency may count turns or radians.
             advice = "; multiply by u.rad, or by u.cycle if it counts turns" if unit == "rad / s" and value.unit.is_equivalent("Hz") else ""
