@@ -39,17 +39,23 @@ const SAMPLES: usize = 48;
 const SECOND_ORDER_MARGIN: f64 = 2.0;
 /// The safety factor of the short-period change of second order: the constants that make the motion start at the state may double it, and the distance from the
 /// state grows by its own second order.
-const SHORT_PERIOD_MARGIN: f64 = 2.4;
+const SHORT_PERIOD_MARGIN: f64 = 2.65;
 /// Safety factor of the drift of third order.
-const THIRD_MARGIN: f64 = 2.0;
+const THIRD_MARGIN: f64 = 0.85;
+/// Safety factor of the part of the second-order drifts that K2 lacks.
+const CUT_MARGIN: f64 = 1.45;
+/// Safety factor of the errors of the mean M and L at the epoch.
+const ACTIONS_MARGIN: f64 = 1.1;
+/// Fraction of the dropped terms and truncations that enters the error: they do not all reach their largest sizes at one time.
+const AT_ONCE_SHARE: f64 = 0.8;
 /// Safety factor of the pairs of terms with a slow term. Their drift is part of [`Corrections::resonant`].
-const SLOW_MARGIN: f64 = 1.0;
+const SLOW_MARGIN: f64 = 0.5;
 /// Safety factor of [`Turns::resonant`].
-const RESONANT_PAIRS_MARGIN: f64 = 2.0;
+const RESONANT_PAIRS_MARGIN: f64 = 1.2;
 /// [`Turns::resonant`] is multiplied by 1 plus this times S, for its third order.
-const PAIRS_THIRD_ORDER: f64 = 60.0;
+const PAIRS_THIRD_ORDER: f64 = 36.0;
 /// The drift of third order is multiplied by 1 plus this times S, for its fourth order.
-const FURTHER: f64 = 15.0;
+const FURTHER: f64 = 85.0;
 /// The safety factor of the distance between the motions of first and of second order.
 const FIRST_MARGIN: f64 = 1.4;
 /// Safety factor of the error of the average over the orbit in second order. In 1,200 comparisons the distance from the motion averaged over the rotation alone
@@ -126,13 +132,14 @@ impl Budget {
         };
         let (spin, dropped) = match subject.further {
             Some(SecondOrderErrors { short_period, left, cut, acting, apart }) => {
-                let growing = response.growing(sizes, p, duration, [acting, cut]) * (1.0 + FURTHER * corrections.size);
-                let left = response.of_actions(left, duration);
+                let parts = [THIRD_MARGIN * acting, CUT_MARGIN * cut];
+                let growing = response.growing(sizes, p, duration, parts) * (1.0 + FURTHER * corrections.size);
+                let left = ACTIONS_MARGIN * response.of_actions(left, duration);
                 let slow = SLOW_MARGIN * corrections.slow * (slope + corrections.slow)
                     + RESONANT_PAIRS_MARGIN * short_period.resonant * (1.0 + PAIRS_THIRD_ORDER * corrections.size);
                 let bounded = SHORT_PERIOD_MARGIN * short_period.largest;
-                let spin = bounded + THIRD_MARGIN * growing + slow + left + FIRST_MARGIN * apart;
-                (spin, corrections.at_once + corrections.resonant)
+                let spin = bounded + growing + slow + left + FIRST_MARGIN * apart;
+                (spin, AT_ONCE_SHARE * corrections.at_once + corrections.resonant)
             }
             None => {
                 let second = response.second_order(sizes, p, duration);

@@ -244,7 +244,7 @@ impl Corrections {
                 fastest,
                 envelope,
                 duration,
-                secular: Secular::new(inertia, strength, eccentricity, [&demand.axes[2], &demand.pole]),
+                secular: Secular::new(inertia, strength, [eccentricity, mean_motion], (&demand.axes, &demand.pole)),
                 series,
             },
             sizes: if demand.rates == [0.0; 2] { envelope.span.to_vec() } else { envelope.orbital.norms.clone() },

@@ -11,6 +11,9 @@
 //! The second line is the divisor: in axes that precess with k, the frame turns about k and the disturbing body about N. On the average k_N is constant, and so
 //! is this divisor. In harmonics that are not near resonance, and for j = 0, the bracket with the average torque has the same effect.
 
+use std::f64::consts::{PI, TAU};
+use std::sync::LazyLock;
+
 use nalgebra::Vector3;
 
 use super::inertia::Inertia;
@@ -29,24 +32,30 @@ pub(crate) struct Secular {
     phases: [f64; 2],
     /// ω and ω k_N.
     precession: [f64; 2],
-    /// ρ |C′| η^(−3)/M and √ρ |C| η^(−3)/M: what swings with twice the true anomaly, without the eccentricity.
-    swinging: [f64; 2],
+    /// What the average torque does within an orbit beside its mean: the ranges of ℓ′, and of k \[rad\]. That of y′ is σ times that of ℓ′.
+    swings: [f64; 2],
     sigma: f64,
 }
 
 impl Secular {
-    /// For an orbit of this eccentricity and normal, with q = 3φn²/2, and an angular momentum along a unit vector.
-    pub(super) fn new(inertia: &Inertia, strength: f64, eccentricity: f64, [normal, pole]: [&Vector3<f64>; 2]) -> Self {
+    /// For an orbit of this eccentricity and mean motion with these axes, with q = 3φn²/2, and an angular momentum along a unit vector.
+    pub(super) fn new(
+        inertia: &Inertia,
+        strength: f64,
+        [eccentricity, mean_motion]: [f64; 2],
+        (axes, pole): (&[Vector3<f64>; 3], &Vector3<f64>),
+    ) -> Self {
         let Inertia { sigma, momentum, .. } = *inertia;
         let scale = strength * ((1.0 - eccentricity) * (1.0 + eccentricity)).powf(-1.5) / momentum;
         let [torque, slope] = inertia.average_torque().map(|part| scale * part);
-        let (along, across) = (pole.dot(normal), pole.cross(normal).norm_squared());
+        let (along, across) = (pole.dot(&axes[2]), pole.cross(&axes[2]).norm_squared());
         let by_action = slope * (0.5 * across - 1.0 / 3.0);
         let precession = -torque * along;
+        let [by_phase, by_axis] = ranges(eccentricity, axes, pole);
         Self {
             phases: [by_action, -sigma * by_action],
             precession: [precession, precession * along],
-            swinging: [slope.abs() * across, torque.abs() * across.sqrt()],
+            swings: [by_phase * slope.abs() / mean_motion, 2.0 * by_axis * torque.abs() / mean_motion],
             sigma,
         }
     }
@@ -55,6 +64,43 @@ impl Secular {
     pub(super) fn precessed(&self, duration: f64) -> f64 {
         (self.precession[0].abs() * duration).min(1.0)
     }
+}
+
+/// Points of the orbit at which the average torque is taken.
+const PLACES: usize = 32;
+
+/// Sines and cosines of equal steps of the true anomaly.
+static CIRCLE: LazyLock<[(f64, f64); PLACES]> =
+    LazyLock::new(|| std::array::from_fn(|i| (TAU * i as f64 / PLACES as f64).sin_cos()));
+
+/// The ranges over an orbit of ∫ w ((k·r̂)² − ⅓) df and ∫ w (k·r̂)(r̂×k) df, w = 1 + e cos f, without the parts that grow with the mean anomaly, for a fixed k.
+/// The averaged equations have them with the factors C′η^(−3)/(Mn) and 2Cη^(−3)/(Mn).
+fn ranges(eccentricity: f64, axes: &[Vector3<f64>; 3], pole: &Vector3<f64>) -> [f64; 2] {
+    let eta_cubed = ((1.0 - eccentricity) * (1.0 + eccentricity)).powf(1.5);
+    // The slopes of the mean anomaly, of the first integral and of the components of the second one.
+    let slopes = |(sine, cosine): (f64, f64)| {
+        let direction = axes[0] * cosine + axes[1] * sine;
+        let weight = 1.0 + eccentricity * cosine;
+        let along = pole.dot(&direction);
+        let turning = direction.cross(pole) * (weight * along);
+        [eta_cubed / (weight * weight), weight * (along * along - 1.0 / 3.0), turning.x, turning.y, turning.z]
+    };
+    let all = CIRCLE.map(slopes);
+    let means: [f64; 5] = std::array::from_fn(|c| all.iter().map(|slopes| slopes[c]).sum::<f64>());
+    let half_step = PI / PLACES as f64;
+    let (mut sums, mut extremes) = ([0.0; 5], [[0.0_f64; 2]; 5]);
+    for (i, slopes) in all.iter().enumerate() {
+        let next = &all[(i + 1) % PLACES];
+        for c in 0..5 {
+            sums[c] += half_step * (slopes[c] + next[c]);
+        }
+        for c in 1..5 {
+            let swing = sums[c] - means[c] / means[0] * sums[0];
+            extremes[c] = [extremes[c][0].min(swing), extremes[c][1].max(swing)];
+        }
+    }
+    let [_, phase, x, y, z] = extremes.map(|[least, most]| most - least);
+    [phase, Vector3::new(x, y, z).norm()]
 }
 
 /// The divisors of one term.
@@ -71,8 +117,8 @@ pub(crate) struct Divisors {
     shift: [f64; 2],
     /// Upper estimate of the constant shift of a harmonic.
     pub(crate) steady_shift: f64,
-    /// The shift that swings with twice the true anomaly.
-    pub(crate) swinging_shift: f64,
+    /// Upper estimate of what the average torque does within an orbit beside its mean, to the phase of the term and to its factors \[rad\].
+    pub(crate) swing: f64,
 }
 
 impl Divisors {
@@ -82,12 +128,12 @@ impl Divisors {
         slow: bool,
         secular: &Secular,
     ) -> Self {
-        let Secular { phases: [anomaly, longitude], precession: [precession, along], swinging, sigma } = *secular;
+        let Secular { phases: [anomaly, longitude], precession: [precession, along], swings, sigma } = *secular;
         let (h, m) = (f64::from(harmonic), f64::from(multiple));
         let shift = [h * anomaly + m * (longitude - along), -precession];
         let steady_shift = shift[0].abs() + 2.0 * precession.abs();
-        let swinging_shift = (h - m * sigma).abs() * swinging[0] + (m + 2.0) * swinging[1];
-        Self { frequency, mean_motion, slow, excluded: None, shift, steady_shift, swinging_shift }
+        let swing = (h - m * sigma).abs() * swings[0] + (m + 2.0) * swings[1];
+        Self { frequency, mean_motion, slow, excluded: None, shift, steady_shift, swing }
     }
 
     /// Without one harmonic, or with all.
@@ -120,12 +166,51 @@ impl Divisors {
 
     /// The divisor of the harmonic's part that is nearest to resonance: of those with 1 and with the e^(±2if) that turns with it.
     pub(crate) fn smallest(&self, harmonic: i32) -> f64 {
-        let [one, other] = [0, 2 * harmonic.signum()].map(|turns| self.at(harmonic, turns));
-        if one.abs() < other.abs() { one } else { other }
+        self.nearest(harmonic, &[0, 2])
+    }
+
+    /// The same for the parts with e^(iaf) that turn with the harmonic, for these |a|.
+    pub(crate) fn nearest(&self, harmonic: i32, turns: &[i32]) -> f64 {
+        let parts = turns.iter().map(|turns| self.at(harmonic, turns * harmonic.signum()));
+        parts.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or_else(|| self.unshifted(harmonic))
     }
 
     /// 1 over the divisor of U_ja, or 0 for the harmonic that is left out.
     pub(crate) fn reciprocal(&self, harmonic: i32, turns: i32) -> f64 {
         if self.excluded == Some(harmonic) { 0.0 } else { 1.0 / self.at(harmonic, turns) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_swings_on_a_circle_are_those_of_twice_the_anomaly() {
+        // ρ/4 sin 2g of the phase; of k the parts sin I/4 (cos I cos 2g, cos I sin 2g, sin I cos 2g).
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        for inclination in [0.0, 0.3, 1.2, 2.5_f64] {
+            let (sine, cosine) = inclination.sin_cos();
+            let pole = Vector3::new(0.6 * sine, -0.8 * sine, cosine);
+            let expected = [0.5 * sine * sine, 0.5 * sine * (1.0 + cosine * cosine).sqrt()];
+            for (found, expected) in ranges(0.0, &axes, &pole).into_iter().zip(expected) {
+                assert!((found - expected).abs() <= 0.03 * expected + 1e-14, "{inclination}: {found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_swing_of_an_axis_that_is_normal_to_the_orbit_is_the_equation_of_the_centre() {
+        // ⅓ w df − ⅓ dl for all places: e sin f/3 and the equation of the centre, whose extremes are at E = ±π/2.
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let eccentricity = 0.4_f64;
+        let swing = |eccentric: f64| {
+            let (sine, cosine) = eccentric.sin_cos();
+            let f = ((1.0 - eccentricity * eccentricity).sqrt() * sine).atan2(cosine - eccentricity);
+            (f + eccentricity * f.sin() - (eccentric - eccentricity * sine)) / 3.0
+        };
+        let most = (0..1000).map(|k| swing(PI * f64::from(k) / 1000.0)).fold(0.0, f64::max);
+        let [phase, axis] = ranges(eccentricity, &axes, &Vector3::z());
+        assert!((phase - 2.0 * most).abs() <= 0.03 * most && axis == 0.0, "{phase} {axis} {most}");
     }
 }

@@ -30,6 +30,8 @@ const LARGEST_EFFECT: f64 = 0.03;
 const NEIGHBOURS: i32 = 3;
 /// A scene is not refused for an error by a corrected term of at most this \[rad\].
 const SERVED: f64 = 1e-3;
+/// Fraction of the upper estimate of the attitude error by a term that is not corrected with all its harmonics that enters the error.
+const UNCORRECTED_SHARE: f64 = 0.65;
 /// If the upper estimate of the attitude error by a harmonic is at most this, its coefficient is not computed \[rad\].
 const NEGLIGIBLE: f64 = 1e-14;
 
@@ -75,7 +77,7 @@ impl Commensurability<'_> {
     ) -> Result<f64, Error> {
         let (mut sum, mut uncorrected, mut largest) = (0.0, 0.0, None::<(f64, &Candidate)>);
         for ([effect, at_most], corrected, term) in effects {
-            sum += effect;
+            sum += if corrected { effect } else { UNCORRECTED_SHARE * effect };
             uncorrected += if corrected && effect <= SERVED { 0.0 } else { effect };
             // Of two terms with the same largest effect, the one nearer to the commensurability is named.
             let nearer = |other: &Candidate| self.slow_distance(term) < self.slow_distance(other);

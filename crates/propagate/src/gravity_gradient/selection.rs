@@ -17,15 +17,19 @@ const LARGEST_TURN: f64 = 0.2;
 /// A harmonic that does not return within the span is corrected only if the largest error of its correction is below this multiple of its effect without
 /// correction.
 const CORRECTION_LIMIT: f64 = 2.0;
-/// Safety factor of the error by pairs of the harmonic with other terms and harmonics.
+/// Safety factor of the upper estimate of the error by pairs of the harmonic with other terms and harmonics.
 const PAIR_MARGIN: f64 = 0.7;
+/// Fraction of the upper estimate of the error by the square of a harmonic that enters the error.
+const SQUARE_SHARE: f64 = 0.5;
 
 /// Safety factor of the error by the parts of the shift of Ω that the divisor lacks.
-const SHIFT_MARGIN: f64 = 1.5;
-/// The sum of n over the divisors of both sidebands of a harmonic that is near resonance.
-const SIDEBANDS: f64 = 2.0;
+const SHIFT_MARGIN: f64 = 1.35;
+/// Fraction of the changes of the angles by a harmonic that follows the swing of its phase.
+const SWINGING_ANGLES: f64 = 0.16;
 /// Fraction of the upper estimate of the second-order shift of Ω that enters the error.
-const SECOND_SHIFT: f64 = 0.5;
+const SECOND_SHIFT: f64 = 0.16;
+/// Fraction of the swing of the phase that enters the error of a span with few orbits.
+const SHORT_SPAN_SWING: f64 = 0.2;
 /// Fraction of the upper estimates of the drifts by the squares of a harmonic and of its shift that enters the error.
 const SQUARE_DRIFT: f64 = 0.25;
 
@@ -151,7 +155,7 @@ impl Selection<'_> {
 
     /// Attitude error over the span by the correction of a harmonic near resonance, and its upper estimate \[rad\].
     fn correction_error(&self, term: &Candidate, near: &NearHarmonic, divisors: &Divisors) -> [f64; 2] {
-        let Commensurability { duration, response, mean_motion, eccentricity, fastest, .. } = self.commensurability;
+        let Commensurability { duration, response, mean_motion, fastest, .. } = self.commensurability;
         let NearHarmonic { amplitude, distance, .. } = *near;
         if amplitude == 0.0 {
             return [0.0; 2];
@@ -167,24 +171,24 @@ impl Selection<'_> {
         let passing = 2.0 * (term.frequency / fastest).abs();
         let bounded = (size + turn) * (self.whole + passing * term.size());
         let drift = SQUARE_DRIFT * self.moved(divisors, distance) * distance * duration;
-        let second = square * (1.0 + drift) + PAIR_MARGIN * bounded;
+        let (square, pairs) = (square * (1.0 + drift), PAIR_MARGIN * bounded);
         // The divisors contain the mean shift of Ω by the average torque. They lack its dependence on σ and k, the part that swings with the orbit, and its
         // second order.
         let (steady, angles) = (divisors.steady_shift, turn + amplitude * term.shift / (distance * distance));
-        let swinging = (3.0 * eccentricity * steady + 0.25 * divisors.swinging_shift) / mean_motion;
         let further =
             steady * steady / (mean_motion * distance) + self.whole * self.whole * term.frequency.abs() / distance;
-        let shift = (swinging + further).min(1.0);
-        // A shift that swings makes sidebands with divisors of about n, if the span has at least `FEWEST_ORBITS[0]` orbits.
+        let shift = (divisors.swing + further).min(1.0);
         let direct = amplitude * term.rate / distance;
+        // The harmonic's phase has the swing in the correction and not in the motion, where it makes sidebands with divisors of about n, if the span has at
+        // least `FEWEST_ORBITS[0]` orbits.
         let shifted = if mean_motion * duration >= FEWEST_ORBITS[0] * TAU {
-            swinging * (direct + SIDEBANDS * distance / mean_motion * angles) + SECOND_SHIFT * further * angles
+            divisors.swing * (direct + SWINGING_ANGLES * angles) + SECOND_SHIFT * further * angles
         } else {
-            shift * (direct + angles)
+            (SHORT_SPAN_SWING * divisors.swing + further).min(1.0) * (direct + angles)
         };
         let of_mean = swing * ((steady / distance).min(1.0) + SQUARE_DRIFT * shift * shift * lasting);
-        let left = second + SHIFT_MARGIN * shifted.min(direct + angles) + of_mean;
-        let at_most = second + SHIFT_MARGIN * shift * (angles + shift * swing * lasting);
+        let left = SQUARE_SHARE * square + pairs + SHIFT_MARGIN * shifted.min(direct + angles) + of_mean;
+        let at_most = square + pairs + SHIFT_MARGIN * shift * (angles + shift * swing * lasting);
         let third = 1.0 + HARMONIC_THIRD_ORDER * self.whole;
         [third * left, third * at_most.max(left)]
     }

@@ -19,6 +19,7 @@ use super::jet::{Field, Jet, Point, SIZE, Slopes, along, with_turns};
 use super::modes::{Mode, large_modes, slowest};
 use crate::gravity_gradient::contraction::{Tensor, product};
 use crate::gravity_gradient::corrections::{Demand, Mean};
+use crate::gravity_gradient::divisors::{Divisors, Secular};
 use crate::gravity_gradient::envelope::{at_most, on_ellipse};
 use crate::gravity_gradient::inertia::Inertia;
 
@@ -64,6 +65,8 @@ pub(super) struct ShortPeriod<'a> {
     whole: f64,
     /// Slower pairs are taken to be as fast as this.
     slowest: f64,
+    /// The shift of the frequencies by the average torque.
+    secular: Secular,
 }
 
 /// Turns of the attitude by the change \[rad\].
@@ -119,6 +122,12 @@ impl<'a> ShortPeriod<'a> {
             gain,
             whole,
             slowest: slowest(demand),
+            secular: Secular::new(
+                inertia,
+                demand.strength(),
+                [demand.orbit.eccentricity(), demand.mean_motion],
+                (&demand.axes, &demand.pole),
+            ),
         }
     }
 
@@ -135,10 +144,11 @@ impl<'a> ShortPeriod<'a> {
         // (a/r)⁶ r̂r̂r̂r̂ on a circle has no higher one.
         let highest = 4.0 * demand.mean_motion;
         let part = PART + (1.0 - PART) * (1.0 - eccentricity).powi(8);
-        // Second order shifts the frequencies.
+        // Second order shifts the frequencies as well.
         let shift = self.whole * self.whole * self.frequency([0, 1]).abs();
         let size = |([h, m], lacking): &([i32; 2], Field)| {
             let omega = self.frequency([*h, *m]);
+            let divisors = Divisors::new((*h, *m), [omega, demand.mean_motion], false, &self.secular);
             let counted = omega.abs().max(self.slowest);
             let by = |harmonic: f64| {
                 let share = if omega.abs() <= self.slowest || harmonic.abs() <= highest {
@@ -149,7 +159,10 @@ impl<'a> ShortPeriod<'a> {
                     // Without the pericentre a span has no higher harmonics.
                     0.0
                 };
-                let apart = omega - harmonic;
+                let number = -(harmonic / demand.mean_motion).round() as i32;
+                // On a circle a harmonic is one power of e^(if), on an ellipse all powers of two factors have it.
+                let turns = if eccentricity == 0.0 { &[number.abs()][..] } else { &[0, 2, 4] };
+                let apart = divisors.nearest(number, turns);
                 let distance = (apart.abs() - shift).max(1.0 / demand.duration);
                 let added = (1.0 - distance / counted).max(0.0) * part * share.min(envelope.share.pairs);
                 // The change is at most (counted/distance)² of what its term has in the largest.
