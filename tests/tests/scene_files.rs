@@ -155,6 +155,7 @@ fn a_date_in_the_place_of_a_time_is_refused_in_words() {
     for (line, key, bound, found) in [
         ("epoch = 2013-01-09T12:00:00", "epoch", "a number of time units", "date 2013-01-09T12:00:00"),
         ("span = [0, 2013-01-10]", "span", "a number of time units", "date 2013-01-10"),
+        ("span = [\"noon\", 2013-01-10]", "span", "a number of time units", "string \"noon\""),
         ("epoch = \"noon\"", "epoch", "a number of time units", "string \"noon\""),
         ("tolerance = \"small\"", "tolerance", "a number", "string \"small\""),
     ] {

@@ -249,7 +249,7 @@ impl Spin {
         // The bound of the motion keeps the numbers within 2 MOST_QUARTERS.
         let mut columns = self.sums(pieces[0] as i64 - self.first, inside);
         for (lane, piece) in pieces.iter().enumerate().skip(1) {
-            if *piece == pieces[lane - 1] || pieces[..lane].contains(piece) {
+            if pieces[..lane].contains(piece) {
                 continue;
             }
             let distance = (number - inside.all(*piece)).magnitude();
@@ -293,8 +293,8 @@ impl Spin {
     }
 }
 
-/// The number of the piece of so many in an orbit, counted from the pericentre before the epoch, and the place in it from −1 to 1, both to rounding: the end of
-/// a piece is the start of the next.
+/// The number of the piece of so many in an orbit, counted from the pericentre before the epoch, and the place in it from −1 to 1. At the end of a piece rounding
+/// decides between it and the next one, and the place may exceed ±1 by rounding.
 #[inline(always)]
 fn piece<S: InstructionSet>(count: i64, when: &When<S>) -> (Lanes<S>, Lanes<S>) {
     let all = |value: f64| when.turns.all(value);

@@ -40,21 +40,21 @@ const SECOND_ORDER_MARGIN: f64 = 2.0;
 /// The safety factor of the short-period change of second order: the constants that make the motion start at the state may double it, and the distance from the
 /// state grows by its own second order.
 const SHORT_PERIOD_MARGIN: f64 = 2.65;
-/// Safety factor of the drift of third order.
-const THIRD_MARGIN: f64 = 0.85;
+/// Fraction of the upper estimate of the drift of third order that enters the error.
+const THIRD_SHARE: f64 = 0.85;
 /// Safety factor of the part of the second-order drifts that K2 lacks.
 const CUT_MARGIN: f64 = 1.45;
 /// Safety factor of the errors of the mean M and L at the epoch.
 const ACTIONS_MARGIN: f64 = 1.1;
 /// Fraction of the dropped terms and truncations that enters the error: they do not all reach their largest sizes at one time.
 const AT_ONCE_SHARE: f64 = 0.8;
-/// Safety factor of the pairs of terms with a slow term. Their drift is part of [`Corrections::resonant`].
-const SLOW_MARGIN: f64 = 0.5;
+/// Fraction of the upper estimate of the pairs of terms with a slow term that enters the error. Their drift is part of [`Corrections::resonant`].
+const SLOW_SHARE: f64 = 0.5;
 /// Safety factor of [`Turns::resonant`].
-const RESONANT_PAIRS_MARGIN: f64 = 1.2;
+const RESONANT_PAIRS_MARGIN: f64 = 1.5;
 /// [`Turns::resonant`] is multiplied by 1 plus this times S, for its third order.
-const PAIRS_THIRD_ORDER: f64 = 36.0;
-/// The drift of third order is multiplied by 1 plus this times S, for its fourth order.
+const PAIRS_THIRD_ORDER: f64 = 50.0;
+/// The growing drifts are multiplied by 1 plus this times S, for the next order.
 const FURTHER: f64 = 85.0;
 /// The safety factor of the distance between the motions of first and of second order.
 const FIRST_MARGIN: f64 = 1.4;
@@ -132,10 +132,10 @@ impl Budget {
         };
         let (spin, dropped) = match subject.further {
             Some(SecondOrderErrors { short_period, left, cut, acting, apart }) => {
-                let parts = [THIRD_MARGIN * acting, CUT_MARGIN * cut];
+                let parts = [THIRD_SHARE * acting, CUT_MARGIN * cut];
                 let growing = response.growing(sizes, p, duration, parts) * (1.0 + FURTHER * corrections.size);
                 let left = ACTIONS_MARGIN * response.of_actions(left, duration);
-                let slow = SLOW_MARGIN * corrections.slow * (slope + corrections.slow)
+                let slow = SLOW_SHARE * corrections.slow * (slope + corrections.slow)
                     + RESONANT_PAIRS_MARGIN * short_period.resonant * (1.0 + PAIRS_THIRD_ORDER * corrections.size);
                 let bounded = SHORT_PERIOD_MARGIN * short_period.largest;
                 let spin = bounded + growing + slow + left + FIRST_MARGIN * apart;

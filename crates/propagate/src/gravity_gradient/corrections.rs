@@ -245,6 +245,7 @@ impl Corrections {
                 envelope,
                 duration,
                 secular: Secular::new(inertia, strength, [eccentricity, mean_motion], (&demand.axes, &demand.pole)),
+                whole_effects: !demand.refined,
                 series,
             },
             sizes: if demand.rates == [0.0; 2] { envelope.span.to_vec() } else { envelope.orbital.norms.clone() },

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! The second line is the divisor: in axes that precess with k, the frame turns about k and the disturbing body about N. On the average k_N is constant, and so
-//! is this divisor. In harmonics that are not near resonance, and for j = 0, the bracket with the average torque has the same effect.
+//! is this divisor. Within an orbit the phases and k swing about their mean motion ([`ranges`]). In harmonics that are not near resonance, and for j = 0, the bracket with the average torque has the same effect.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::LazyLock;
@@ -25,14 +25,14 @@ const RESONANT: f64 = 1.0;
 /// A shift of this times n or more is not applied.
 const MOST_SHIFT: f64 = 0.3;
 
-/// The shift of the frequencies by the average torque.
+/// The shift of the frequencies by the average torque, and the swings within an orbit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Secular {
     /// Of ℓ′ and y′.
     phases: [f64; 2],
     /// ω and ω k_N.
     precession: [f64; 2],
-    /// What the average torque does within an orbit beside its mean: the ranges of ℓ′, and of k \[rad\]. That of y′ is σ times that of ℓ′.
+    /// The ranges of the swings within an orbit, of ℓ′ and of k \[rad\]. That of y′ is σ times that of ℓ′.
     swings: [f64; 2],
     sigma: f64,
 }
@@ -83,7 +83,8 @@ fn ranges(eccentricity: f64, axes: &[Vector3<f64>; 3], pole: &Vector3<f64>) -> [
         let weight = 1.0 + eccentricity * cosine;
         let along = pole.dot(&direction);
         let turning = direction.cross(pole) * (weight * along);
-        [eta_cubed / (weight * weight), weight * (along * along - 1.0 / 3.0), turning.x, turning.y, turning.z]
+        let [x, y, z] = axes.each_ref().map(|axis| turning.dot(axis));
+        [eta_cubed / (weight * weight), weight * (along * along - 1.0 / 3.0), x, y, z]
     };
     let all = CIRCLE.map(slopes);
     let means: [f64; 5] = std::array::from_fn(|c| all.iter().map(|slopes| slopes[c]).sum::<f64>());
@@ -115,9 +116,9 @@ pub(crate) struct Divisors {
     pub(crate) excluded: Option<i32>,
     /// The shift by the average torque for a = 0, and for each unit of a.
     shift: [f64; 2],
-    /// Upper estimate of the constant shift of a harmonic.
+    /// Upper estimate of the constant shift of a harmonic, for |a| up to 2.
     pub(crate) steady_shift: f64,
-    /// Upper estimate of what the average torque does within an orbit beside its mean, to the phase of the term and to its factors \[rad\].
+    /// Upper estimate of the swing, within an orbit, of the term's phase and factors by the average torque \[rad\].
     pub(crate) swing: f64,
 }
 
@@ -201,7 +202,7 @@ mod tests {
 
     #[test]
     fn the_swing_of_an_axis_that_is_normal_to_the_orbit_is_the_equation_of_the_centre() {
-        // ⅓ w df − ⅓ dl for all places: e sin f/3 and the equation of the centre, whose extremes are at E = ±π/2.
+        // −⅓ of f + e sin f − l. Its extremes are at r = aη.
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
         let eccentricity = 0.4_f64;
         let swing = |eccentric: f64| {

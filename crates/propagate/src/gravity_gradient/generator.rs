@@ -51,6 +51,7 @@ pub(crate) struct Factors {
     pub(crate) strength: f64,
     /// √σ.
     pub(crate) root: f64,
+    /// M.
     pub(crate) momentum: f64,
 }
 
@@ -106,8 +107,8 @@ impl Generator {
         let turns = room.of(mean.turn, self.highest + 1);
         let mut sums = Derivatives { by_p: [none; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
         if self.orbital.node_rate == 0.0 {
-            let mut room = Circle::new(place.turn());
-            let circle = room.of(place.turn(), self.orbital.multiples());
+            let mut places = Circle::new(place.turn());
+            let circle = places.of(place.turn(), self.orbital.multiples());
             for j in 0..self.orbital.orders() {
                 let tensor = tensor_of(self.orbital.derivative(j, circle), &products);
                 sums.add_all(&self.sums, turns, j, &tensor);

@@ -6,8 +6,8 @@
 //! exact divisors contains all harmonics, except the one nearest to resonance if that is not corrected.
 //!
 //! The attitude error of a term or harmonic that is not corrected is its rate times the time during which it acts in one direction, which is the span or
-//! 2/|Ω − jn|. In addition the phases drift, because the term changes σ and, for m ≠ 0, M. This is an upper estimate. The sum of these errors is part of the
-//! error bound. It is [`Error::Resonance`] if the part by terms that are not corrected exceeds [`REFUSAL_FACTOR`] times the larger of the tolerance and the
+//! 2/|Ω − jn|. In addition the phases drift, because the term changes σ and, for m ≠ 0, M. This is an upper estimate. A part of it
+//! ([`UNCORRECTED_SHARE`]) enters the error bound. It is [`Error::Resonance`] if the part by terms that are not corrected exceeds [`REFUSAL_FACTOR`] times the larger of the tolerance and the
 //! second-order error, or if the orbit has a series and one term may leave more than [`LARGEST_EFFECT`].
 
 use std::f64::consts::{PI, TAU};
@@ -30,7 +30,7 @@ const LARGEST_EFFECT: f64 = 0.03;
 const NEIGHBOURS: i32 = 3;
 /// A scene is not refused for an error by a corrected term of at most this \[rad\].
 const SERVED: f64 = 1e-3;
-/// Fraction of the upper estimate of the attitude error by a term that is not corrected with all its harmonics that enters the error.
+/// The error of a term with no or incomplete correction enters the bound with this factor, unless it may be half a turn.
 const UNCORRECTED_SHARE: f64 = 0.65;
 /// If the upper estimate of the attitude error by a harmonic is at most this, its coefficient is not computed \[rad\].
 const NEGLIGIBLE: f64 = 1e-14;
@@ -48,6 +48,8 @@ pub(super) struct Commensurability<'a> {
     pub(super) duration: f64,
     /// The shift of the frequencies by the average torque.
     pub(super) secular: Secular,
+    /// Whether the bound has the whole error of terms that are not corrected.
+    pub(super) whole_effects: bool,
     /// The orbit's harmonics, if the mean M and L at the epoch have them with their divisors.
     pub(super) series: Option<&'a OrbitSeries>,
 }
@@ -77,7 +79,7 @@ impl Commensurability<'_> {
     ) -> Result<f64, Error> {
         let (mut sum, mut uncorrected, mut largest) = (0.0, 0.0, None::<(f64, &Candidate)>);
         for ([effect, at_most], corrected, term) in effects {
-            sum += if corrected { effect } else { UNCORRECTED_SHARE * effect };
+            sum += if corrected || self.whole_effects || effect >= PI { effect } else { UNCORRECTED_SHARE * effect };
             uncorrected += if corrected && effect <= SERVED { 0.0 } else { effect };
             // Of two terms with the same largest effect, the one nearer to the commensurability is named.
             let nearer = |other: &Candidate| self.slow_distance(term) < self.slow_distance(other);

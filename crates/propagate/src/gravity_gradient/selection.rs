@@ -161,7 +161,7 @@ impl Selection<'_> {
             return [0.0; 2];
         }
         let size = amplitude * term.size_at(distance);
-        let [swing, turn] = term.swing_at(distance).map(|part| amplitude * part);
+        let [of_momentum, turn] = term.swing_at(distance).map(|part| amplitude * part);
         let lasting = response.by_momentum * duration;
         // By the square of the harmonic: the averaged Hamiltonian of second order, and the slope of a power of p, which is larger than the change near J = 0.
         let degree = f64::from((term.harmonic.abs() - 1).max(0));
@@ -186,9 +186,9 @@ impl Selection<'_> {
         } else {
             (SHORT_SPAN_SWING * divisors.swing + further).min(1.0) * (direct + angles)
         };
-        let of_mean = swing * ((steady / distance).min(1.0) + SQUARE_DRIFT * shift * shift * lasting);
+        let of_mean = of_momentum * ((steady / distance).min(1.0) + SQUARE_DRIFT * shift * shift * lasting);
         let left = SQUARE_SHARE * square + pairs + SHIFT_MARGIN * shifted.min(direct + angles) + of_mean;
-        let at_most = square + pairs + SHIFT_MARGIN * shift * (angles + shift * swing * lasting);
+        let at_most = square + pairs + SHIFT_MARGIN * shift * (angles + shift * of_momentum * lasting);
         let third = 1.0 + HARMONIC_THIRD_ORDER * self.whole;
         [third * left, third * at_most.max(left)]
     }

@@ -87,10 +87,10 @@ pub(super) fn located(file: &str, document: &Table, error: &serde_path_to_error:
         return Refusal::missing(&key).in_file(file, document);
     }
     let found = at(document, keys.iter().map(String::as_str));
-    let date = found.and_then(first_date).map(|date| format!("invalid type: date {date}"));
+    // toml tells a date as a string.
+    let date = found.and_then(first_date).map(ToString::to_string);
     let value = found.map(fact);
     let (problem, bound) = message.split_once(", expected ").unwrap_or((message, "a value that a scene has"));
-    let problem = date.as_deref().unwrap_or(problem);
     let number = match bound {
         "f64" if TIMES.contains(&key.as_str()) => Some("a number of time units"),
         "f64" => Some("a number"),
@@ -98,6 +98,8 @@ pub(super) fn located(file: &str, document: &Table, error: &serde_path_to_error:
         _ => None,
     };
     if let Some(number) = number {
+        let told = date.as_ref().map(|date| problem.replace(&format!("string \"{date}\""), &format!("date {date}")));
+        let problem = told.as_deref().unwrap_or(problem);
         return in_file(file, &key, format!("must be {number}: {problem}"), value, Some(number.into()));
     }
     let problem = if problem == message { message.to_owned() } else { format!("{problem}, expected {bound}") };

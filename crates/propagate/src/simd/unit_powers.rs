@@ -26,7 +26,7 @@ impl<S: InstructionSet, const FEW: usize, const MOST: usize> UnitPowers<S, FEW, 
             last = last * number;
             *power = last;
         }
-        powers
+        &powers[..count.min(powers.len())]
     }
 }
 

@@ -160,7 +160,7 @@ impl<'a> ShortPeriod<'a> {
                     0.0
                 };
                 let number = -(harmonic / demand.mean_motion).round() as i32;
-                // On a circle a harmonic is one power of e^(if), on an ellipse all powers of two factors have it.
+                // The shifts are too small to make a neighbour the nearest. On a circle a harmonic is one power of e^(if), on an ellipse all powers of two factors have it.
                 let turns = if eccentricity == 0.0 { &[number.abs()][..] } else { &[0, 2, 4] };
                 let apart = divisors.nearest(number, turns);
                 let distance = (apart.abs() - shift).max(1.0 / demand.duration);
