@@ -17,6 +17,8 @@
 //! where y′ is counted from an axis that turns with k and not about it. A term, or a derivative of g, is dropped here if it is smaller than a fraction of the
 //! second-order error or of the tolerance. The error by resonant terms is part of the error bound, or it is an error ([`super::resonance`]).
 
+use std::cell::OnceCell;
+
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use num_complex::Complex;
 
@@ -244,7 +246,9 @@ impl Corrections {
                 fastest,
                 envelope,
                 duration,
-                secular: Secular::new(inertia, strength, [eccentricity, mean_motion], (&demand.axes, &demand.pole)),
+                secular: Secular::new(inertia, strength, eccentricity, [&demand.axes[2], &demand.pole]),
+                directions: (&demand.axes, &demand.pole),
+                swings: OnceCell::new(),
                 whole_effects: !demand.refined,
                 series,
             },

@@ -25,39 +25,50 @@ const RESONANT: f64 = 1.0;
 /// A shift of this times n or more is not applied.
 const MOST_SHIFT: f64 = 0.3;
 
-/// The shift of the frequencies by the average torque, and the swings within an orbit.
+/// The shift of the frequencies by the average torque.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Secular {
     /// Of ℓ′ and y′.
     phases: [f64; 2],
     /// ω and ω k_N.
     precession: [f64; 2],
-    /// The ranges of the swings within an orbit, of ℓ′ and of k \[rad\]. That of y′ is σ times that of ℓ′.
-    swings: [f64; 2],
+    /// C′η^(−3)/M and Cη^(−3)/M.
+    torque: [f64; 2],
     sigma: f64,
 }
 
 impl Secular {
-    /// For an orbit of this eccentricity and mean motion with these axes, with q = 3φn²/2, and an angular momentum along a unit vector.
-    pub(super) fn new(
-        inertia: &Inertia,
-        strength: f64,
-        [eccentricity, mean_motion]: [f64; 2],
-        (axes, pole): (&[Vector3<f64>; 3], &Vector3<f64>),
-    ) -> Self {
+    /// For an orbit of this eccentricity and normal, with q = 3φn²/2, and an angular momentum along a unit vector.
+    pub(super) fn new(inertia: &Inertia, strength: f64, eccentricity: f64, [normal, pole]: [&Vector3<f64>; 2]) -> Self {
         let Inertia { sigma, momentum, .. } = *inertia;
         let scale = strength * ((1.0 - eccentricity) * (1.0 + eccentricity)).powf(-1.5) / momentum;
         let [torque, slope] = inertia.average_torque().map(|part| scale * part);
-        let (along, across) = (pole.dot(&axes[2]), pole.cross(&axes[2]).norm_squared());
+        let (along, across) = (pole.dot(normal), pole.cross(normal).norm_squared());
         let by_action = slope * (0.5 * across - 1.0 / 3.0);
         let precession = -torque * along;
-        let [by_phase, by_axis] = ranges(eccentricity, axes, pole);
         Self {
             phases: [by_action, -sigma * by_action],
             precession: [precession, precession * along],
-            swings: [by_phase * slope.abs() / mean_motion, 2.0 * by_axis * torque.abs() / mean_motion],
+            torque: [slope, torque],
             sigma,
         }
+    }
+
+    /// The ranges of the swings within an orbit, of ℓ′ and of k \[rad\]. That of y′ is σ times that of ℓ′.
+    pub(super) fn swings(
+        &self,
+        [eccentricity, mean_motion]: [f64; 2],
+        (axes, pole): (&[Vector3<f64>; 3], &Vector3<f64>),
+    ) -> [f64; 2] {
+        let [slope, torque] = self.torque.map(|part| part.abs() / mean_motion);
+        let [by_phase, by_axis] = ranges(eccentricity, axes, pole);
+        [by_phase * slope, 2.0 * by_axis * torque]
+    }
+
+    /// Upper estimate of the swing, within an orbit, of the phase and factors of a term with these h and m \[rad\], from [`Secular::swings`].
+    pub(super) fn swing(&self, (harmonic, multiple): (i32, i32), [phase, axis]: [f64; 2]) -> f64 {
+        let (h, m) = (f64::from(harmonic), f64::from(multiple));
+        (h - m * self.sigma).abs() * phase + (m + 2.0) * axis
     }
 
     /// The angle by which k precesses in a time, at most 1.
@@ -118,8 +129,6 @@ pub(crate) struct Divisors {
     shift: [f64; 2],
     /// Upper estimate of the constant shift of a harmonic, for |a| up to 2.
     pub(crate) steady_shift: f64,
-    /// Upper estimate of the swing, within an orbit, of the term's phase and factors by the average torque \[rad\].
-    pub(crate) swing: f64,
 }
 
 impl Divisors {
@@ -129,12 +138,11 @@ impl Divisors {
         slow: bool,
         secular: &Secular,
     ) -> Self {
-        let Secular { phases: [anomaly, longitude], precession: [precession, along], swings, sigma } = *secular;
+        let Secular { phases: [anomaly, longitude], precession: [precession, along], .. } = *secular;
         let (h, m) = (f64::from(harmonic), f64::from(multiple));
         let shift = [h * anomaly + m * (longitude - along), -precession];
         let steady_shift = shift[0].abs() + 2.0 * precession.abs();
-        let swing = (h - m * sigma).abs() * swings[0] + (m + 2.0) * swings[1];
-        Self { frequency, mean_motion, slow, excluded: None, shift, steady_shift, swing }
+        Self { frequency, mean_motion, slow, excluded: None, shift, steady_shift }
     }
 
     /// Without one harmonic, or with all.

@@ -10,7 +10,10 @@
 //! ([`UNCORRECTED_SHARE`]) enters the error bound. It is [`Error::Resonance`] if the part by terms that are not corrected exceeds [`REFUSAL_FACTOR`] times the larger of the tolerance and the
 //! second-order error, or if the orbit has a series and one term may leave more than [`LARGEST_EFFECT`].
 
+use std::cell::OnceCell;
 use std::f64::consts::{PI, TAU};
+
+use nalgebra::Vector3;
 
 use super::aspect::Aspect;
 use super::candidate::{Candidate, SLOW_RATIO};
@@ -48,6 +51,10 @@ pub(super) struct Commensurability<'a> {
     pub(super) duration: f64,
     /// The shift of the frequencies by the average torque.
     pub(super) secular: Secular,
+    /// The axes of the orbit, and the direction of the angular momentum.
+    pub(super) directions: (&'a [Vector3<f64>; 3], &'a Vector3<f64>),
+    /// [`Secular::swings`], if a harmonic near resonance has needed them.
+    pub(super) swings: OnceCell<[f64; 2]>,
     /// Whether the bound has the whole error of terms that are not corrected.
     pub(super) whole_effects: bool,
     /// The orbit's harmonics, if the mean M and L at the epoch have them with their divisors.
@@ -144,6 +151,13 @@ impl Commensurability<'_> {
     pub(super) fn divisors(&self, term: &Candidate) -> Divisors {
         let numbers = (term.harmonic, term.multiple);
         Divisors::new(numbers, [term.frequency, self.mean_motion], self.is_slow(term), &self.secular)
+    }
+
+    /// Upper estimate of the swing, within an orbit, of a term's phase and factors by the average torque \[rad\].
+    pub(super) fn swing(&self, term: &Candidate) -> f64 {
+        let elements = [self.eccentricity, self.mean_motion];
+        let swings = self.swings.get_or_init(|| self.secular.swings(elements, self.directions));
+        self.secular.swing((term.harmonic, term.multiple), *swings)
     }
 
     /// Whether a term is too slow for a sum over time derivatives.

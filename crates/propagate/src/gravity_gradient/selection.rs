@@ -177,14 +177,15 @@ impl Selection<'_> {
         let (steady, angles) = (divisors.steady_shift, turn + amplitude * term.shift / (distance * distance));
         let further =
             steady * steady / (mean_motion * distance) + self.whole * self.whole * term.frequency.abs() / distance;
-        let shift = (divisors.swing + further).min(1.0);
+        let swing = self.commensurability.swing(term);
+        let shift = (swing + further).min(1.0);
         let direct = amplitude * term.rate / distance;
         // The harmonic's phase has the swing in the correction and not in the motion, where it makes sidebands with divisors of about n, if the span has at
         // least `FEWEST_ORBITS[0]` orbits.
         let shifted = if mean_motion * duration >= FEWEST_ORBITS[0] * TAU {
-            divisors.swing * (direct + SWINGING_ANGLES * angles) + SECOND_SHIFT * further * angles
+            swing * (direct + SWINGING_ANGLES * angles) + SECOND_SHIFT * further * angles
         } else {
-            (SHORT_SPAN_SWING * divisors.swing + further).min(1.0) * (direct + angles)
+            (SHORT_SPAN_SWING * swing + further).min(1.0) * (direct + angles)
         };
         let of_mean = of_momentum * ((steady / distance).min(1.0) + SQUARE_DRIFT * shift * shift * lasting);
         let left = SQUARE_SHARE * square + pairs + SHIFT_MARGIN * shifted.min(direct + angles) + of_mean;

@@ -125,8 +125,8 @@ impl<'a> ShortPeriod<'a> {
             secular: Secular::new(
                 inertia,
                 demand.strength(),
-                [demand.orbit.eccentricity(), demand.mean_motion],
-                (&demand.axes, &demand.pole),
+                demand.orbit.eccentricity(),
+                [&demand.axes[2], &demand.pole],
             ),
         }
     }

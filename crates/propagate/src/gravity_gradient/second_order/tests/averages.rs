@@ -36,7 +36,7 @@ fn divisors_have_the_rates_of_the_average_torque() {
         let [first, second, _] = axes.map(|axis| frame.inverse() * axis);
         let turning = frame.inverse() * slopes.turning;
         let [one, cosine, sine] = factors([first, second]);
-        let secular = Secular::new(&inertia, strength, [ECCENTRICITY, MEAN_MOTION], (&axes, &pole));
+        let secular = Secular::new(&inertia, strength, ECCENTRICITY, [&axes[2], &pole]);
         for (harmonic, multiple) in [(2, 0), (-3, 1), (1, 1), (4, 2)] {
             let divisors = Divisors::new((harmonic, multiple), [-3.0 * MEAN_MOTION, MEAN_MOTION], false, &secular);
             for (turns, sign) in [(0, 0.0), (2, -1.0), (-2, 1.0)] {
