@@ -9,11 +9,12 @@
 //!
 //! where Ψ is the phase integral: to first order the torque adds s Ψ to ℓ′ and −σ s Ψ to y′, with s = −φ Δ′(σ)/(2M) ([`super::averages`]).
 //!
-//! `Slow::Spin` solves these equations on quarters or eighths of an orbit by Picard's iteration on Chebyshev points. The right-hand side is a trigonometric
-//! polynomial of f and κ_o(1 + e) is at most 0.3, so the iteration converges to rounding error. The result is a polynomial that can be evaluated at any time of
-//! the piece. A piece is solved when a time first needs it, and is kept. `Slow::Orbit` is the orbit average: precession about the orbit's normal, steady in first order, with the
-//! periodic part in closed form in f, without an expansion in e. `Slow::Bodies` has the sum over several disturbing bodies on orbits that may precess. It is
-//! averaged over the rotation only, and solved on arcs of time.
+//! `Slow::Spin` solves these equations on quarters or eighths of an orbit by Picard's iteration on Chebyshev points. In first order the right-hand side is a
+//! trigonometric polynomial of f; what second order adds is not, but small: at e = 0.95 quarters and eighths agree to 7e-15 over 20 orbits. κ_o(1 + e) is at most
+//! 0.3, so the iteration converges to rounding error. The result is a polynomial that can be evaluated at any time of the piece. A piece is solved when a time
+//! first needs it, and is kept. `Slow::Orbit` is the orbit average: precession about the orbit's normal, steady in first order, with the periodic part in closed
+//! form in f, without an expansion in e. `Slow::Bodies` has the sum over several disturbing bodies on orbits that may precess. It is averaged over the rotation
+//! only, and solved on arcs of time.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::{Arc, LazyLock, RwLock};
