@@ -134,7 +134,8 @@ impl Commensurability<'_> {
     ) -> (NearHarmonic, Vec<NearHarmonic>) {
         let divisors = self.divisors(term);
         let distance = |j: i32| divisors.smallest(j).abs();
-        let about = -(term.frequency / self.mean_motion).round() as i32;
+        // Harmonics as high as this have no strength.
+        let about = -(term.frequency / self.mean_motion).round().clamp(-1e9, 1e9) as i32;
         // The shift may make a neighbour the nearest.
         let number = [about, about - 1, about + 1].into_iter().min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
         let number = number.unwrap_or(about);

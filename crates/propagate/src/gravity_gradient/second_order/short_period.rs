@@ -28,6 +28,8 @@ type C64 = Complex<f64>;
 /// Terms smaller than this share of the largest are left out, and pairs of terms with a smaller product.
 const SIZE_CUTOFF: f64 = 3e-3;
 
+/// Highest harmonic of the orbit whose divisor in a pair has the shift by the average torque.
+const HIGHEST_SHIFTED: f64 = 1e6;
 /// Share of one harmonic in a pair as e → 1, where many harmonics share the pair. On a circle the share is 1.
 const PART: f64 = 0.3;
 
@@ -159,10 +161,16 @@ impl<'a> ShortPeriod<'a> {
                     // Without the pericentre a span has no higher harmonics.
                     0.0
                 };
-                let number = -(harmonic / demand.mean_motion).round() as i32;
-                // The shifts are too small to make a neighbour the nearest. On a circle a harmonic is one power of e^(if), on an ellipse all powers of two factors have it.
-                let turns = if eccentricity == 0.0 { &[number.abs()][..] } else { &[0, 2, 4] };
-                let apart = divisors.nearest(number, turns);
+                let number = -(harmonic / demand.mean_motion).round();
+                // The shifts are too small to make a neighbour the nearest. On a circle a harmonic is one power of e^(if), on an ellipse all powers of two
+                // factors have it. The highest harmonics have no strength.
+                let apart = if number.abs() <= HIGHEST_SHIFTED {
+                    let number = number as i32;
+                    let turns = if eccentricity == 0.0 { &[number.abs()][..] } else { &[0, 2, 4] };
+                    divisors.nearest(number, turns)
+                } else {
+                    omega - harmonic
+                };
                 let distance = (apart.abs() - shift).max(1.0 / demand.duration);
                 let added = (1.0 - distance / counted).max(0.0) * part * share.min(envelope.share.pairs);
                 // The change is at most (counted/distance)² of what its term has in the largest.
