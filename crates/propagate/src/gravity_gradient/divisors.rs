@@ -77,6 +77,11 @@ impl Secular {
     }
 }
 
+/// The multiple of the mean motion nearest to a frequency. Harmonics beyond 1e9 have no strength.
+pub(crate) fn multiple_of(mean_motion: f64, frequency: f64) -> i32 {
+    (frequency / mean_motion).round().clamp(-1e9, 1e9) as i32
+}
+
 /// Points of the orbit at which the average torque is taken.
 const PLACES: usize = 32;
 

@@ -7,8 +7,8 @@
 //!
 //! The attitude error of a term or harmonic that is not corrected is its rate times the time during which it acts in one direction, which is the span or
 //! 2/|Ω − jn|. In addition the phases drift, because the term changes σ and, for m ≠ 0, M. This is an upper estimate. A part of it
-//! ([`UNCORRECTED_SHARE`]) enters the error bound. It is [`Error::Resonance`] if the part by terms that are not corrected exceeds [`REFUSAL_FACTOR`] times the larger of the tolerance and the
-//! second-order error, or if the orbit has a series and one term may leave more than [`LARGEST_EFFECT`].
+//! ([`UNCORRECTED_SHARE`]) enters the error bound. It is [`Error::Resonance`] if the part by terms that are not corrected exceeds [`REFUSAL_FACTOR`] times
+//! the larger of the tolerance and the second-order error, or if the orbit has a series and one term may leave more than [`LARGEST_EFFECT`].
 
 use std::cell::OnceCell;
 use std::f64::consts::{PI, TAU};
@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 
 use super::aspect::Aspect;
 use super::candidate::{Candidate, SLOW_RATIO};
-use super::divisors::{Divisors, Secular};
+use super::divisors::{Divisors, Secular, multiple_of};
 use super::envelope::{Envelope, LARGEST_NUMBER, at_most, harmonic};
 use super::orbit_series::OrbitSeries;
 use super::response::Response;
@@ -134,8 +134,7 @@ impl Commensurability<'_> {
     ) -> (NearHarmonic, Vec<NearHarmonic>) {
         let divisors = self.divisors(term);
         let distance = |j: i32| divisors.smallest(j).abs();
-        // Harmonics as high as this have no strength.
-        let about = -(term.frequency / self.mean_motion).round().clamp(-1e9, 1e9) as i32;
+        let about = -multiple_of(self.mean_motion, term.frequency);
         // The shift may make a neighbour the nearest.
         let number = [about, about - 1, about + 1].into_iter().min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
         let number = number.unwrap_or(about);

@@ -98,8 +98,10 @@ pub(super) fn located(file: &str, document: &Table, error: &serde_path_to_error:
         _ => None,
     };
     if let Some(number) = number {
-        let told = date.as_ref().map(|date| problem.replace(&format!("string \"{date}\""), &format!("date {date}")));
-        let problem = told.as_deref().unwrap_or(problem);
+        let problem = match date {
+            Some(date) => problem.replace(&format!("string \"{date}\""), &format!("date {date}")),
+            None => problem.to_owned(),
+        };
         return in_file(file, &key, format!("must be {number}: {problem}"), value, Some(number.into()));
     }
     let problem = if problem == message { message.to_owned() } else { format!("{problem}, expected {bound}") };

@@ -30,10 +30,13 @@ impl Harmonic {
     }
 }
 
-/// The terms of one m, derivative after derivative: |h| and the factors.
+/// |h| of a term, and its factors of cos hℓ′ and of i sin hℓ′ by sum.
+type Part = (usize, [[f64; 2]; SUMS]);
+
+/// The terms of one m, derivative after derivative.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sums {
-    terms: Vec<(usize, [[f64; 2]; SUMS])>,
+    terms: Vec<Part>,
     /// Where the terms of each derivative end.
     ends: Vec<usize>,
 }
@@ -55,21 +58,18 @@ impl Sums {
         self.terms.iter().map(|(degree, _)| *degree).max().unwrap_or(0)
     }
 
-    /// The terms with the derivative j.
+    /// The terms with the derivative j, if there are any: a term with a derivative has those below it.
     #[inline(always)]
-    fn of(&self, j: usize) -> &[(usize, [[f64; 2]; SUMS])] {
-        let Some(&end) = self.ends.get(j) else { return &[] };
+    fn of(&self, j: usize) -> Option<&[Part]> {
+        let end = *self.ends.get(j)?;
         let start = if j == 0 { 0 } else { self.ends[j - 1] };
-        &self.terms[start..end]
+        Some(&self.terms[start..end])
     }
 
     /// The sums for the derivative j, from the powers of e^(iℓ′); none if there is no such term.
     #[inline(always)]
     pub(super) fn at<S: InstructionSet>(&self, j: usize, turns: &[ComplexLanes<S>]) -> Option<[ComplexLanes<S>; SUMS]> {
-        let terms = self.of(j);
-        if terms.is_empty() {
-            return None;
-        }
+        let terms = self.of(j)?;
         let none = turns[0].im;
         let mut sums = [ComplexLanes { re: none, im: none }; SUMS];
         for (degree, factors) in terms {
@@ -85,10 +85,7 @@ impl Sums {
     /// The parts of the sums that count for m = 0, whose contractions are imaginary for even j and real for odd j.
     #[inline(always)]
     pub(super) fn axial<S: InstructionSet>(&self, j: usize, turns: &[ComplexLanes<S>]) -> Option<[Lanes<S>; SUMS]> {
-        let terms = self.of(j);
-        if terms.is_empty() {
-            return None;
-        }
+        let terms = self.of(j)?;
         let none = turns[0].im;
         let mut sums = [none; SUMS];
         let (main, other) = (1 - j % 2, j % 2);

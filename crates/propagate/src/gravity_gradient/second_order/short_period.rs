@@ -19,7 +19,7 @@ use super::jet::{Field, Jet, Point, SIZE, Slopes, along, with_turns};
 use super::modes::{Mode, large_modes, slowest};
 use crate::gravity_gradient::contraction::{Tensor, product};
 use crate::gravity_gradient::corrections::{Demand, Mean};
-use crate::gravity_gradient::divisors::{Divisors, Secular};
+use crate::gravity_gradient::divisors::{Divisors, Secular, multiple_of};
 use crate::gravity_gradient::envelope::{at_most, on_ellipse};
 use crate::gravity_gradient::inertia::Inertia;
 
@@ -28,8 +28,6 @@ type C64 = Complex<f64>;
 /// Terms smaller than this share of the largest are left out, and pairs of terms with a smaller product.
 const SIZE_CUTOFF: f64 = 3e-3;
 
-/// Highest harmonic of the orbit whose divisor in a pair has the shift by the average torque.
-const HIGHEST_SHIFTED: f64 = 1e6;
 /// Share of one harmonic in a pair as e → 1, where many harmonics share the pair. On a circle the share is 1.
 const PART: f64 = 0.3;
 
@@ -161,16 +159,11 @@ impl<'a> ShortPeriod<'a> {
                     // Without the pericentre a span has no higher harmonics.
                     0.0
                 };
-                let number = -(harmonic / demand.mean_motion).round();
+                let number = -multiple_of(demand.mean_motion, harmonic);
                 // The shifts are too small to make a neighbour the nearest. On a circle a harmonic is one power of e^(if), on an ellipse all powers of two
-                // factors have it. The highest harmonics have no strength.
-                let apart = if number.abs() <= HIGHEST_SHIFTED {
-                    let number = number as i32;
-                    let turns = if eccentricity == 0.0 { &[number.abs()][..] } else { &[0, 2, 4] };
-                    divisors.nearest(number, turns)
-                } else {
-                    omega - harmonic
-                };
+                // factors have it.
+                let turns = if eccentricity == 0.0 { &[number.abs()][..] } else { &[0, 2, 4] };
+                let apart = divisors.nearest(number, turns);
                 let distance = (apart.abs() - shift).max(1.0 / demand.duration);
                 let added = (1.0 - distance / counted).max(0.0) * part * share.min(envelope.share.pairs);
                 // The change is at most (counted/distance)² of what its term has in the largest.
