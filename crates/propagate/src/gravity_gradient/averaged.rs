@@ -17,7 +17,7 @@
 //! only, and solved on arcs of time.
 
 use std::f64::consts::{PI, TAU};
-use std::sync::{Arc, LazyLock, RwLock};
+use std::sync::{Arc, LazyLock};
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
@@ -30,12 +30,14 @@ use crate::simd::lanes::Lanes;
 
 mod arcs;
 mod bodies;
+mod chain;
 mod polynomial;
 mod precession;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use bodies::{Bodies, Pull};
+use chain::Chain;
 use polynomial::{COLUMNS, Column, NODES, Polynomial, Row, Slopes};
 pub(crate) use precession::Precession;
 
@@ -227,7 +229,7 @@ pub(crate) struct Spin {
     first: i64,
     epoch: Polynomial,
     /// The solved pieces after the epoch's piece, and before it.
-    kept: Arc<[RwLock<Vec<Polynomial>>; 2]>,
+    kept: Arc<[Chain<Polynomial>; 2]>,
 }
 
 impl Spin {
@@ -271,26 +273,17 @@ impl Spin {
             later if later > 0 => (0, later as usize - 1),
             earlier => (1, earlier.unsigned_abs() as usize - 1),
         };
-        {
-            // If a thread panicked while it held the lock, the pieces are still complete.
-            let known = self.kept[side].read().unwrap_or_else(|poisoned| poisoned.into_inner());
-            if let Some(piece) = known.get(index) {
-                return piece.sums(inside);
-            }
-        }
-        self.solved(side, index).sums(inside)
+        self.kept[side].get(index).unwrap_or_else(|| self.solved(side, index)).sums(inside)
     }
 
     #[cold]
-    fn solved(&self, side: usize, index: usize) -> Polynomial {
-        let mut known = self.kept[side].write().unwrap_or_else(|poisoned| poisoned.into_inner());
+    fn solved(&self, side: usize, index: usize) -> &Polynomial {
         let (step, end) = if side == 0 { (1, 1.0) } else { (-1, -1.0) };
-        while known.len() <= index {
-            let start = known.last().unwrap_or(&self.epoch).at(end);
-            let number = self.first + step * (known.len() as i64 + 1);
-            known.push(in_piece(&self.ellipse, (self.count, number), -end, &start));
-        }
-        known[index]
+        self.kept[side].get_or_compute(index, |index, last| {
+            let start = last.unwrap_or(&self.epoch).at(end);
+            let number = self.first + step * (index as i64 + 1);
+            in_piece(&self.ellipse, (self.count, number), -end, &start)
+        })
     }
 }
 

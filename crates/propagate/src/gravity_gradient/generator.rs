@@ -8,10 +8,12 @@
 
 use nalgebra::Vector3;
 
+mod deviator;
 mod exact;
 mod orbital;
 mod sums;
 
+use deviator::{Contracted, Deviator, Products, axial_contractions, contractions, deviator_of, products, turned};
 use exact::ExactTerms;
 pub(crate) use exact::{ExactTerm, returns};
 use orbital::Circle;
@@ -110,7 +112,7 @@ impl Generator {
             let mut places = Circle::new(place.turn());
             let circle = places.of(place.turn(), self.orbital.multiples());
             for j in 0..self.orbital.orders() {
-                let tensor = tensor_of(self.orbital.derivative(j, circle), &products);
+                let tensor = deviator_of(self.orbital.derivative(j, circle), &products);
                 sums.add_all(&self.sums, turns, j, &tensor);
             }
         } else {
@@ -126,13 +128,13 @@ impl Generator {
         self.change(&sums, mean.spin)
     }
 
-    /// r̂r̂ (a/r)³ and its time derivatives in the frame at the epoch's axes, as components 11, 22, 33, 12, 13, 23.
+    /// The traceless part of (a/r)³ r̂r̂ and its time derivatives in the frame, for the orbit's axes at the epoch.
     #[inline(always)]
     pub(crate) fn tensors<S: InstructionSet>(
         &self,
         frame: QuaternionLanes<S>,
         place: &Place<S>,
-    ) -> [[Lanes<S>; 6]; ORDERS] {
+    ) -> [Deviator<S>; ORDERS] {
         let straight = ComplexLanes { re: place.sine.all(1.0), im: place.sine.all(0.0) };
         let (products, node) = products(frame, &fixed(&self.axes, place.sine), straight);
         self.tensors_of(&products, node, place)
@@ -144,14 +146,14 @@ impl Generator {
         products: &Products<S>,
         [x, y, z]: [Lanes<S>; 3],
         place: &Place<S>,
-    ) -> [[Lanes<S>; 6]; ORDERS] {
+    ) -> [Deviator<S>; ORDERS] {
         let none = x.all(0.0);
         let mut room = Circle::new(place.turn());
         let circle = room.of(place.turn(), self.orbital.multiples());
-        let mut tensors = [[none; 6]; ORDERS];
+        let mut tensors = [[none; 5]; ORDERS];
         let orders = self.orbital.orders().min(ORDERS);
         for (j, tensor) in tensors.iter_mut().enumerate().take(orders) {
-            *tensor = tensor_of(self.orbital.derivative(j, circle), products);
+            *tensor = deviator_of(self.orbital.derivative(j, circle), products);
         }
         if self.orbital.node_rate != 0.0 {
             let rate = x.all(self.orbital.node_rate);
@@ -184,108 +186,6 @@ impl Generator {
     }
 }
 
-/// Time derivatives of a tensor from those relative to axes that turn with an angular velocity, which is constant relative to them. The lists hold the orders
-/// from 0.
-#[inline(always)]
-fn turned<S: InstructionSet>(tensors: &mut [[Lanes<S>; 6]; ORDERS], orders: usize, [a, b, c]: [Lanes<S>; 3]) {
-    for first in 1..orders {
-        // Each pass replaces the derivative j by (d/dt + ω×) of the derivative j − 1 of the pass before, beginning with the highest.
-        for j in (first..orders).rev() {
-            let [xx, yy, zz, xy, xz, yz] = tensors[j - 1];
-            let two = a.all(2.0);
-            let change = [
-                two * b.mul_add(xz, -(c * xy)),
-                two * c.mul_add(xy, -(a * yz)),
-                two * a.mul_add(yz, -(b * xz)),
-                c.mul_add(xx - yy, b.mul_add(yz, -(a * xz))),
-                b.mul_add(zz - xx, a.mul_add(xy, -(c * yz))),
-                a.mul_add(yy - zz, c.mul_add(xz, -(b * xy))),
-            ];
-            for (component, more) in tensors[j].iter_mut().zip(change) {
-                *component = *component + more;
-            }
-        }
-    }
-}
-
-/// The products PP, QQ and PQ + QP of the axes of the orbit in the frame, by component.
-type Products<S> = [[Lanes<S>; 3]; 6];
-
-/// The products in the frame whose axes 1 and 2 are turned by the angle of `spin`, and inertial axis 3 there.
-#[inline(always)]
-fn products<S: InstructionSet>(
-    frame: QuaternionLanes<S>,
-    inertial: &Axes<S>,
-    spin: ComplexLanes<S>,
-) -> (Products<S>, [Lanes<S>; 3]) {
-    let rows = frame.rows();
-    let none = rows[0][0].all(0.0);
-    let mut axes = [[none; 3]; 2];
-    for (components, [x, y, z]) in axes.iter_mut().zip(inertial) {
-        for (c, component) in components.iter_mut().enumerate() {
-            let part = rows[0][c].mul_add(*x, rows[1][c] * *y);
-            *component = rows[2][c].mul_add(*z, part);
-        }
-        *components = turned_axes(*components, spin);
-    }
-    let [first, second] = axes;
-    let mut products = [[none; 3]; 6];
-    for (product, (a, b)) in products.iter_mut().zip(COMPONENTS) {
-        *product = [first[a] * first[b], second[a] * second[b], first[a].mul_add(second[b], first[b] * second[a])];
-    }
-    (products, turned_axes(rows[2], spin))
-}
-
-/// A vector's components along axes 1 and 2 that are turned by an angle, and along axis 3.
-#[inline(always)]
-fn turned_axes<S: InstructionSet>([x, y, z]: [Lanes<S>; 3], spin: ComplexLanes<S>) -> [Lanes<S>; 3] {
-    [spin.im.mul_add(y, spin.re * x), spin.im.negate_mul_add(x, spin.re * y), z]
-}
-
-/// r̂r̂ = (PP + QQ)/2 + (PP − QQ)/2 cos 2f + (PQ + QP)/2 sin 2f, from the factors of the three functions.
-#[inline(always)]
-fn tensor_of<S: InstructionSet>([one, cosine, sine]: [Lanes<S>; 3], products: &Products<S>) -> [Lanes<S>; 6] {
-    let half = one.all(0.5);
-    let (pp, qq, pq) = (half * (one + cosine), half * (one - cosine), half * sine);
-    let mut tensor = [half; 6];
-    for (slot, [first, second, mixed]) in tensor.iter_mut().zip(products) {
-        *slot = pp.mul_add(*first, qq.mul_add(*second, pq * *mixed));
-    }
-    tensor
-}
-
-/// Pairs of axes of a symmetric tensor.
-const COMPONENTS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
-
-/// The contraction of r̂r̂ for one m (r₃² − ⅓, r̄₊ r₃ or r̄₊²) and its derivatives when the frame turns about its axes 1 and 2, times −i for m = 0 and 2, and
-/// −1 for m = 1.
-type Contracted<S> = [ComplexLanes<S>; 3];
-
-#[inline(always)]
-fn contractions<S: InstructionSet>(tensor: &[Lanes<S>; 6], multiple: usize) -> Contracted<S> {
-    let c = |re: Lanes<S>, im: Lanes<S>| ComplexLanes { re, im };
-    let [xx, yy, zz, xy, xz, yz] = *tensor;
-    match multiple {
-        0 => {
-            let none = xx.all(0.0);
-            let [value, first, second] = axial_contractions(tensor);
-            [c(none, -value), c(none, -first), c(none, -second)]
-        }
-        1 => [c(-xz, yz), c(xy, zz - yy), c(zz - xx, xy)],
-        _ => {
-            let (two_xz, two_yz) = (xz + xz, yz + yz);
-            [c(-(xy + xy), yy - xx), c(-two_xz, two_yz), c(two_yz, two_xz)]
-        }
-    }
-}
-
-/// r₃² − ⅓ and its derivatives, which are real.
-#[inline(always)]
-fn axial_contractions<S: InstructionSet>([xx, yy, zz, _, xz, yz]: &[Lanes<S>; 6]) -> [Lanes<S>; 3] {
-    let three = xx.all(3.0);
-    [(*xx + *yy).negate_mul_add(xx.all(0.5), *zz), -(three * *yz), three * *xz]
-}
-
 /// The parts of the derivatives of W that count, divided by twice the strength.
 #[derive(Clone, Copy)]
 struct Derivatives<S: InstructionSet> {
@@ -305,7 +205,7 @@ impl<S: InstructionSet> Derivatives<S> {
         [axial, first, second]: &[Sums; 3],
         turns: &[ComplexLanes<S>],
         j: usize,
-        tensor: &[Lanes<S>; 6],
+        tensor: &Deviator<S>,
     ) {
         if let Some(sums) = axial.axial(j, turns) {
             self.add_axial(sums, tensor);
@@ -320,7 +220,7 @@ impl<S: InstructionSet> Derivatives<S> {
 
     /// Adds the terms with m = 0.
     #[inline(always)]
-    fn add_axial(&mut self, [whole, slope, sum, difference]: [Lanes<S>; SUMS], tensor: &[Lanes<S>; 6]) {
+    fn add_axial(&mut self, [whole, slope, sum, difference]: [Lanes<S>; SUMS], tensor: &Deviator<S>) {
         let [value, first, second] = axial_contractions(tensor);
         self.by_momentum = slope.mul_add(value, self.by_momentum);
         self.by_p[0] = sum.mul_add(value, self.by_p[0]);

@@ -3,7 +3,8 @@
 use super::complex_quaternion::ComplexLanes;
 use super::instruction_set::InstructionSet;
 
-/// Memory for at most `MOST` powers of a complex number, from the power 0 on. All of it is written only if more than `FEW` are computed.
+/// Memory for at most `MOST` powers of a complex number, from the power 0 on. Where `FEW` of them suffice, just these are computed: their number is known to the
+/// compiler, and none waits for more than three others.
 pub(crate) struct UnitPowers<S: InstructionSet, const FEW: usize, const MOST: usize> {
     few: [ComplexLanes<S>; FEW],
     many: Option<[ComplexLanes<S>; MOST]>,
@@ -16,17 +17,23 @@ impl<S: InstructionSet, const FEW: usize, const MOST: usize> UnitPowers<S, FEW, 
         Self { few: [one(like); FEW], many: None }
     }
 
-    /// The powers 0, 1, … of a number, as many as `count`, which is 1 to `MOST`.
+    /// The powers 0, 1, … of a number, as many as `count`, which is 1 to `MOST`. `FEW` is at least 2.
     #[inline(always)]
     pub(crate) fn of(&mut self, number: ComplexLanes<S>, count: usize) -> &[ComplexLanes<S>] {
-        let powers =
-            if count <= FEW { &mut self.few[..] } else { self.many.insert([one(number); MOST]).as_mut_slice() };
+        if count <= FEW {
+            self.few[1] = number;
+            for k in 2..FEW {
+                self.few[k] = self.few[k / 2] * self.few[k - k / 2];
+            }
+            return &self.few[..count];
+        }
+        let powers = self.many.insert([one(number); MOST]);
         let mut last = one(number);
         for power in powers.iter_mut().take(count).skip(1) {
             last = last * number;
             *power = last;
         }
-        &powers[..count.min(powers.len())]
+        &powers[..count]
     }
 }
 

@@ -22,7 +22,8 @@ use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 use crate::simd::sincos::sin_cos_of_turns;
 
-use super::{Contracted, Derivatives, Products, SUMS, contractions, tensor_of};
+use super::deviator::{Contracted, Products, axial_contractions, contractions};
+use super::{Derivatives, SUMS};
 
 /// E, O, E₁ and O₁.
 const PARTS: usize = 4;
@@ -122,7 +123,14 @@ impl ExactTerm {
         parts
     }
 
-    /// Adds this term to the sums. `functions` holds the contractions of the factors of 1, cos 2f and sin 2f in r̂r̂ for its m.
+    /// e^(ihℓ′), from the powers of e^(iℓ′).
+    #[inline(always)]
+    fn turn<S: InstructionSet>(&self, turns: &[ComplexLanes<S>]) -> ComplexLanes<S> {
+        let turn = turns[self.degree()];
+        if self.numbers.0 < 0 { turn.conjugate() } else { turn }
+    }
+
+    /// Adds this term to the sums for m = 1 or 2. `functions` holds the contractions of the factors of 1, cos 2f and sin 2f in r̂r̂.
     #[inline(always)]
     fn add<S: InstructionSet>(
         &self,
@@ -132,8 +140,7 @@ impl ExactTerm {
         anomaly: ComplexLanes<S>,
     ) {
         let parts = self.parts(anomaly);
-        let turn = turns[self.degree()];
-        let turn = if self.numbers.0 < 0 { turn.conjugate() } else { turn };
+        let turn = self.turn(turns);
         let none = turn.re.all(0.0);
         let mut value = ComplexLanes { re: none, im: none };
         let (mut slope, mut rotation) = (none, [none; 2]);
@@ -146,8 +153,50 @@ impl ExactTerm {
                 *part = wave.plus_re_of_product(*by, *part);
             }
         }
+        self.add_parts(sums, value, slope, rotation);
+    }
+
+    /// Adds this term to the sums for m = 0, where the contractions are real.
+    #[inline(always)]
+    fn add_axial<S: InstructionSet>(
+        &self,
+        sums: &mut Derivatives<S>,
+        functions: &[[Lanes<S>; 3]; 3],
+        turns: &[ComplexLanes<S>],
+        anomaly: ComplexLanes<S>,
+    ) {
+        let parts = self.parts(anomaly);
+        let turn = self.turn(turns);
+        let none = turn.re.all(0.0);
+        let mut wave = [ComplexLanes { re: none, im: none }; 3];
+        let mut moving = wave[0];
+        for (f, function) in functions.iter().enumerate() {
+            for (sum, by) in wave.iter_mut().zip(function) {
+                sum.re = parts[0][f].mul_add(*by, sum.re);
+                sum.im = parts[1][f].mul_add(*by, sum.im);
+            }
+            moving.re = parts[2][f].mul_add(function[0], moving.re);
+            moving.im = parts[3][f].mul_add(function[0], moving.im);
+        }
+        // Times −i.
+        let [value, first, second] = wave;
+        let minus_re = turn.re.negate_mul_add(value.re, turn.im * value.im);
+        let value = ComplexLanes { re: turn.im_of_product(value), im: minus_re };
+        let rotation = [turn.im_of_product(first), turn.im_of_product(second)];
+        self.add_parts(sums, value, turn.im_of_product(moving), rotation);
+    }
+
+    /// Adds the derivatives of W from this term's part of W, of −Ω times its slope by Ω, and of its derivatives by rotations.
+    #[inline(always)]
+    fn add_parts<S: InstructionSet>(
+        &self,
+        sums: &mut Derivatives<S>,
+        value: ComplexLanes<S>,
+        slope: Lanes<S>,
+        rotation: [Lanes<S>; 2],
+    ) {
         let [[whole, _, sum, difference], [_, _, sum_by_frequency, _]] = self.factors;
-        let all = |factor: f64| none.all(factor);
+        let all = |factor: f64| slope.all(factor);
         sums.by_longitude = value.im.mul_add(all(whole * f64::from(self.numbers.1)), sums.by_longitude);
         sums.by_momentum = slope.mul_add(all(whole), sums.by_momentum);
         sums.by_p[0] = slope.mul_add(all(sum_by_frequency), value.re.mul_add(all(sum), sums.by_p[0]));
@@ -173,26 +222,31 @@ impl<S: InstructionSet> NullaryFnOnce for ExactTerms<'_, S> {
     #[inline(always)]
     fn call(self) -> Derivatives<S> {
         let Self { terms, turns, products, place, mut sums } = self;
-        let (none, one) = (place.sine.all(0.0), place.sine.all(1.0));
+        let none = place.sine.all(0.0);
         let (sine, cosine) = sin_cos_of_turns((place.angle - place.centre) * none.all(1.0 / TAU));
         let anomaly = ComplexLanes { re: cosine, im: sine };
         // Not `map`, which is not inlined into code for an instruction set.
-        let units = [
-            tensor_of([one, none, none], products),
-            tensor_of([none, one, none], products),
-            tensor_of([none, none, one], products),
-        ];
-        let zero = ComplexLanes { re: none, im: none };
         for multiple in 0..=2 {
-            if terms.iter().any(|term| term.multiple() == multiple) {
-                let mut functions = [[zero; 3]; 3];
-                for (function, tensor) in functions.iter_mut().zip(&units) {
-                    *function = contractions(tensor, multiple);
+            let mut terms = terms.iter().filter(|term| term.multiple() == multiple).peekable();
+            if terms.peek().is_none() {
+                continue;
+            }
+            if multiple == 0 {
+                let mut functions = [[none; 3]; 3];
+                for (function, product) in functions.iter_mut().zip(products) {
+                    *function = axial_contractions(product);
                 }
                 for term in terms {
-                    if term.multiple() == multiple {
-                        term.add(&mut sums, &functions, turns, anomaly);
-                    }
+                    term.add_axial(&mut sums, &functions, turns, anomaly);
+                }
+            } else {
+                let zero = ComplexLanes { re: none, im: none };
+                let mut functions = [[zero; 3]; 3];
+                for (function, product) in functions.iter_mut().zip(products) {
+                    *function = contractions(product, multiple);
+                }
+                for term in terms {
+                    term.add(&mut sums, &functions, turns, anomaly);
                 }
             }
         }

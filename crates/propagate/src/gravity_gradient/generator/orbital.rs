@@ -206,11 +206,16 @@ impl Orbital {
     /// The derivative j of the three functions, from e^(ikf) for k = 0, 1, …
     #[inline(always)]
     pub(super) fn derivative<S: InstructionSet>(&self, j: usize, circle: &[ComplexLanes<S>]) -> [Lanes<S>; 3] {
+        if j.is_multiple_of(2) { self.series::<S, false>(j, circle) } else { self.series::<S, true>(j, circle) }
+    }
+
+    #[inline(always)]
+    fn series<S: InstructionSet, const ODD: bool>(&self, j: usize, circle: &[ComplexLanes<S>]) -> [Lanes<S>; 3] {
         let row = &self.rows[j];
         let none = circle[0].im;
         let mut sums = [none; 3];
         for (turn, [one, cosine, sine]) in circle[row.first..].iter().zip(&self.coefficients[row.start..row.end]) {
-            let (even, odd) = if j.is_multiple_of(2) { (turn.re, turn.im) } else { (turn.im, turn.re) };
+            let (even, odd) = if ODD { (turn.im, turn.re) } else { (turn.re, turn.im) };
             sums[0] = even.mul_add(none.all(*one), sums[0]);
             sums[1] = even.mul_add(none.all(*cosine), sums[1]);
             sums[2] = odd.mul_add(none.all(*sine), sums[2]);

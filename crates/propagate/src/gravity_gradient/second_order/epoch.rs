@@ -132,7 +132,7 @@ fn split<'a>(inertia: &Inertia, exact: &[ExactTerm], harmonics: &Harmonics) -> O
     OrbitParts { terms: exact.iter().map(split).collect(), average: harmonics.average(), around: None }
 }
 
-/// (a/r)³ r̂r̂ in the frame of a mean state, its time derivatives, and their largest sizes.
+/// The traceless part of (a/r)³ r̂r̂ in the frame of a mean state, its time derivatives, and their largest sizes.
 pub(super) fn tensors<'a>(
     mean: &Mean,
     place: &Place<pulp::Scalar>,
@@ -143,7 +143,11 @@ pub(super) fn tensors<'a>(
 
 fn tensors_by(generator: &Generator, mean: &Mean, place: &Place<pulp::Scalar>) -> [Tensor; ORDERS] {
     let frame = QuaternionLanes::all(Lanes::splat(pulp::Scalar, 0.0), &mean.frame);
-    generator.tensors(frame, place).map(|tensor| tensor.map(|lanes| lanes.values()[0]))
+    generator.tensors(frame, place).map(|deviator| {
+        let [axial, across, xy, xz, yz] = deviator.map(|lanes| lanes.values()[0]);
+        let mean = -axial / 3.0;
+        [mean - 0.5 * across, mean + 0.5 * across, -2.0 * mean, xy, xz, yz]
+    })
 }
 
 /// The orbit's part of a generating function.
