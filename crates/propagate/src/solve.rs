@@ -73,7 +73,8 @@ impl Scene {
         self.solve_until(tables, &GOING)
     }
 
-    /// As [`Scene::solve_with`], and ends early, with [`Error::Stopped`], once another thread has set the flag: an integration may take seconds.
+    /// As [`Scene::solve_with`], and ends early, with [`Error::Stopped`], once another thread has set the flag: an integration may take seconds. A flag that is
+    /// set from the start ends an integration before its first step; a motion that needs none is returned.
     ///
     /// # Errors
     /// As [`Scene::solve`], and [`Error::Stopped`].

@@ -1,11 +1,12 @@
 //! `andoyer.Scene`.
 
 use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::disturbers::DisturbingBody;
 use andoyer_propagate::options::MAX_ORDER;
 use andoyer_propagate::periods::ObservedPeriods;
-use andoyer_propagate::{Method, State};
+use andoyer_propagate::{Error, State};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
@@ -382,9 +383,15 @@ impl Scene {
 impl Scene {
     /// The motion; an integration can be interrupted.
     pub(crate) fn solved(&self, py: Python<'_>) -> PyResult<andoyer_propagate::Motion> {
-        let integrated = !self.scene.asked_disturbing().is_empty() || self.scene.asked_method() == Method::Integrated;
-        let long = integrated && self.scene.asked_span().is_some();
-        interruptible(py, long, error::propagation, |stop| self.scene.solve_until(&self.tables, stop))
+        // Most scenes are solved in less time than a thread needs to start. A flag that is set from the start ends an integration before its first step.
+        let promptly = || match self.scene.solve_until(&self.tables, &AtomicBool::new(true)) {
+            Err(Error::Stopped) => Ok(None),
+            solved => solved.map(Some),
+        };
+        match detached(py, error::propagation, promptly)? {
+            Some(motion) => Ok(motion),
+            None => interruptible(py, true, error::propagation, |stop| self.scene.solve_until(&self.tables, stop)),
+        }
     }
 
     /// The keyword arguments that make this scene.
