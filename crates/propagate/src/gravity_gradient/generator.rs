@@ -111,8 +111,10 @@ impl Generator {
         if self.orbital.node_rate == 0.0 {
             let mut places = Circle::new(place.turn());
             let circle = places.of(place.turn(), self.orbital.multiples());
+            let [mut power, growth] = self.orbital.powers(place.cosine);
             for j in 0..self.orbital.orders() {
-                let tensor = deviator_of(self.orbital.derivative(j, circle), &products);
+                let tensor = deviator_of(self.orbital.derivative(j, circle, power), &products);
+                power = power * growth;
                 sums.add_all(&self.sums, turns, j, &tensor);
             }
         } else {
@@ -152,8 +154,10 @@ impl Generator {
         let circle = room.of(place.turn(), self.orbital.multiples());
         let mut tensors = [[none; 5]; ORDERS];
         let orders = self.orbital.orders().min(ORDERS);
+        let [mut power, growth] = self.orbital.powers(place.cosine);
         for (j, tensor) in tensors.iter_mut().enumerate().take(orders) {
-            *tensor = deviator_of(self.orbital.derivative(j, circle), products);
+            *tensor = deviator_of(self.orbital.derivative(j, circle, power), products);
+            power = power * growth;
         }
         if self.orbital.node_rate != 0.0 {
             let rate = x.all(self.orbital.node_rate);
