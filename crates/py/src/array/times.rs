@@ -16,6 +16,8 @@ use crate::foreign::{self, Calendar};
 
 /// Numbers that fill 128 KiB. From this size on glibc asks the system for memory.
 const FEWEST_SHARED: usize = 16_384;
+/// Numbers below which zeros take less time than the call of `numpy.empty`.
+const MOST_ZEROED: usize = 512;
 /// Number of times of a motion above which an evaluation counts as a long call; it takes 1 to 200 ms.
 const LONG: usize = 1 << 19;
 /// The same number for derivatives in closed form; it takes 10 to 30 ms. With 16,384 times the thread of a long call took 10 ns for each time.
@@ -141,10 +143,13 @@ impl<'py> Times<'py> {
         Ok([part(0, 0)?, part(sizes[0], 1)?, part(sizes[0] + sizes[1], 2)?])
     }
 
-    /// An uninitialized array to be filled; writing zeros first would write it twice.
+    /// An array to be filled. A large one is not initialized: writing zeros first would write it twice.
     fn empty(&self, shape: &[usize]) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         static EMPTY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
         let py = self.array.py();
+        if shape.iter().product::<usize>() < MOST_ZEROED {
+            return Ok(PyArrayDyn::zeros(py, shape, false));
+        }
         let shape = PyTuple::new(py, shape)?;
         Ok(EMPTY.import(py, "numpy", "empty")?.call1((shape,))?.cast_into()?)
     }
