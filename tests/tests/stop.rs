@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use andoyer_propagate::ensemble::OnError;
-use andoyer_propagate::{Body, Ensemble, Error, Motion, Orbit, Scene, State};
+use andoyer_propagate::{Body, Ensemble, Error, Method, Motion, Orbit, Scene, SeriesTables, State};
 
 fn scene(epoch: f64) -> Scene {
     let state = State::new(epoch, [0.0, 0.0, 0.0, 1.0], [0.0, 0.01, 1.0]).expect("a state");
@@ -38,6 +38,31 @@ fn flag_ends_every_evaluation_of_a_motion() {
             }
         }
     }
+}
+
+#[test]
+fn flag_that_is_set_from_the_start_ends_integrations_alone() {
+    let orbit = |motion: f64| Orbit::new(motion, 0.1).expect("an orbit");
+    let (stop, tables) = (AtomicBool::new(true), SeriesTables::default());
+    let solved = |scene: &Scene| scene.solve_until(&tables, &stop);
+    let by_theory = scene(0.0).orbit(orbit(2e-3)).tolerance(1e-6).span(0.0, 1e3);
+    for scene in [scene(0.0), by_theory.clone()] {
+        let (early, usual) = (solved(&scene).expect("theory"), scene.solve().expect("a motion"));
+        assert_eq!(early.at(3.0).expect("a time").attitude, usual.at(3.0).expect("a time").attitude);
+        assert_eq!(early.plan().to_string(), usual.plan().to_string());
+    }
+    // By request; since the theory does not hold; and since the theory misses the tolerance.
+    let integrated = [
+        by_theory.clone().method(Method::Integrated),
+        scene(0.0).orbit(orbit(0.4)).span(0.0, 50.0),
+        scene(0.0).orbit(orbit(2e-2)).tolerance(1e-10).span(0.0, 50.0),
+    ];
+    for scene in integrated {
+        assert_eq!(scene.solve().expect("an integration").plan().method(), Method::Integrated);
+        assert!(matches!(solved(&scene), Err(Error::Stopped)));
+    }
+    let nothing = scene(0.0).orbit(orbit(0.4)).method(Method::Integrated).span(0.0, 0.0);
+    assert_eq!(solved(&nothing).expect("no step").plan().method(), Method::Integrated);
 }
 
 #[test]

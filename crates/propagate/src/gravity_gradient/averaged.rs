@@ -48,6 +48,7 @@ const FEWEST_PIECES: i64 = 4;
 const FASTEST_IN_QUARTERS: f64 = 0.02;
 /// Number of quarters that are kept on each side of the epoch, 0.8 kB each; of eighths twice as many.
 pub(crate) const MOST_QUARTERS: usize = 1 << 18;
+const _: () = assert!(2 * MOST_QUARTERS < chain::MOST);
 
 /// The orbit and the strength of its torque, in the units of the averaged motion.
 #[derive(Clone, Debug)]

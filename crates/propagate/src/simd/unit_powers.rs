@@ -4,7 +4,7 @@ use super::complex_quaternion::ComplexLanes;
 use super::instruction_set::InstructionSet;
 
 /// Memory for at most `MOST` powers of a complex number, from the power 0 on. Where `FEW` of them suffice, just these are computed: their number is known to the
-/// compiler, and none waits for more than three others.
+/// compiler, and the longest chain of products has four (up to 17 powers).
 pub(crate) struct UnitPowers<S: InstructionSet, const FEW: usize, const MOST: usize> {
     few: [ComplexLanes<S>; FEW],
     many: Option<[ComplexLanes<S>; MOST]>,
@@ -14,10 +14,11 @@ impl<S: InstructionSet, const FEW: usize, const MOST: usize> UnitPowers<S, FEW, 
     /// Without powers; `like` has the instruction set.
     #[inline(always)]
     pub(crate) fn new(like: ComplexLanes<S>) -> Self {
+        const { assert!(2 <= FEW && FEW <= MOST) };
         Self { few: [one(like); FEW], many: None }
     }
 
-    /// The powers 0, 1, … of a number, as many as `count`, which is 1 to `MOST`. `FEW` is at least 2.
+    /// The powers 0, 1, … of a number, as many as `count`, which is 1 to `MOST`.
     #[inline(always)]
     pub(crate) fn of(&mut self, number: ComplexLanes<S>, count: usize) -> &[ComplexLanes<S>] {
         if count <= FEW {

@@ -16,8 +16,8 @@ use crate::foreign::{self, Calendar};
 
 /// Numbers that fill 128 KiB. From this size on glibc asks the system for memory.
 const FEWEST_SHARED: usize = 16_384;
-/// Numbers below which zeros take less time than the call of `numpy.empty`.
-const MOST_ZEROED: usize = 512;
+/// From this size on a call of `numpy.empty` takes less time than zeros.
+const FEWEST_UNINITIALIZED: usize = 512;
 /// Number of times of a motion above which an evaluation counts as a long call; it takes 1 to 200 ms.
 const LONG: usize = 1 << 19;
 /// The same number for derivatives in closed form; it takes 10 to 30 ms. With 16,384 times the thread of a long call took 10 ns for each time.
@@ -147,7 +147,7 @@ impl<'py> Times<'py> {
     fn empty(&self, shape: &[usize]) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         static EMPTY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
         let py = self.array.py();
-        if shape.iter().product::<usize>() < MOST_ZEROED {
+        if shape.iter().product::<usize>() < FEWEST_UNINITIALIZED {
             return Ok(PyArrayDyn::zeros(py, shape, false));
         }
         let shape = PyTuple::new(py, shape)?;

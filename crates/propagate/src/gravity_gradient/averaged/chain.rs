@@ -1,12 +1,14 @@
-//! Values by number, each of which is computed from the one before when it is first needed, and is kept. A value that is known is read without a lock.
+//! A sequence of values. Each is computed from the one before when it is first needed, and is kept. A known value is read without a lock.
 
 use std::sync::OnceLock;
 
-/// Blocks of 1, 2, 4, … values: those for all numbers below 2³².
-const BLOCKS: usize = 32;
+/// Blocks of 1, 2, 4, … values.
+const BLOCKS: usize = 20;
+/// Number of values that a chain can hold.
+pub(super) const MOST: usize = (1 << BLOCKS) - 1;
 
-/// A value that is computed once.
-type Cell<T> = OnceLock<T>;
+/// A value that is computed once. A block has many that are never needed, so that the values are not in the block.
+type Cell<T> = OnceLock<Box<T>>;
 
 /// The values from the number 0 on.
 #[derive(Debug)]
@@ -32,17 +34,17 @@ impl<T> Chain<T> {
     #[inline(always)]
     pub(super) fn get(&self, number: usize) -> Option<&T> {
         let (block, place) = position(number);
-        self.blocks.get(block)?.get()?.get(place)?.get()
+        Some(self.blocks.get(block)?.get()?.get(place)?.get()?)
     }
 
     /// The value, computed by `next` together with all unknown ones before it. `next` has a number and the value before it, if there is one. The number is below
-    /// 2³².
+    /// [`MOST`].
     #[cold]
     pub(super) fn get_or_compute(&self, number: usize, next: impl Fn(usize, Option<&T>) -> T) -> &T {
         let known = (0..number).rev().find_map(|number| Some((number, self.get(number)?)));
         let (mut from, mut last) = known.map_or((0, None), |(known, value)| (known + 1, Some(value)));
         loop {
-            let value = self.cell(from).get_or_init(|| next(from, last));
+            let value: &T = self.cell(from).get_or_init(|| Box::new(next(from, last)));
             if from == number {
                 return value;
             }
@@ -83,6 +85,21 @@ mod tests {
         });
         assert_eq!(computed.into_inner(), 1000);
         assert!((0..1000).all(|number| chain.get(number) == Some(&(number * number))));
-        assert_eq!((chain.get(1000), chain.get(usize::MAX - 1)), (None, None));
+        assert_eq!((chain.get(1000), chain.get(MOST - 1), chain.get(usize::MAX - 1)), (None, None, None));
+    }
+
+    #[test]
+    fn a_panic_leaves_the_values_before_it() {
+        let chain = Chain::default();
+        let panicked = std::thread::scope(|scope| {
+            let value =
+                || *chain.get_or_compute(9, |number, _| if number < 5 { number } else { panic!("at {number}") });
+            scope.spawn(value).join().is_err()
+        });
+        assert!(panicked && chain.get(4) == Some(&4) && chain.get(5).is_none());
+        assert_eq!(
+            chain.get_or_compute(9, |number, last| number + last.copied().unwrap_or_default()),
+            &(4 + 5 + 6 + 7 + 8 + 9)
+        );
     }
 }

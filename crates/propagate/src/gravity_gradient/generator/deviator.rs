@@ -58,7 +58,7 @@ fn turned_axes<S: InstructionSet>([x, y, z]: [Lanes<S>; 3], spin: ComplexLanes<S
     [spin.im.mul_add(y, spin.re * x), spin.im.negate_mul_add(x, spin.re * y), z]
 }
 
-/// The sum of the products with these factors, which are those of 1, cos 2f and sin 2f in r̂r̂.
+/// Σ factor × product, for the factors of the products' sequence: those of 1, cos 2f and sin 2f.
 #[inline(always)]
 pub(super) fn deviator_of<S: InstructionSet>(
     [one, cosine, sine]: [Lanes<S>; 3],
@@ -95,8 +95,7 @@ pub(super) fn turned<S: InstructionSet>(tensors: &mut [Deviator<S>; ORDERS], ord
     }
 }
 
-/// The contraction of r̂r̂ for one m (r₃² − ⅓, r̄₊ r₃ or r̄₊²) and its derivatives when the frame turns about its axes 1 and 2, times −i for m = 2, and −1 for
-/// m = 1.
+/// The contraction of r̂r̂ for m = 1 (r̄₊ r₃, times −1) or m = 2 (r̄₊², times −i), and its derivatives when the frame turns about its axes 1 and 2.
 pub(super) type Contracted<S> = [ComplexLanes<S>; 3];
 
 /// The contractions for m = 1 or 2.
@@ -113,7 +112,7 @@ pub(super) fn contractions<S: InstructionSet>(deviator: &Deviator<S>, multiple: 
     }
 }
 
-/// r₃² − ⅓ and its derivatives, which are real.
+/// (3r₃² − 1)/2, the contraction for m = 0, and its derivatives when the frame turns about its axes 1 and 2. All are real.
 #[inline(always)]
 pub(super) fn axial_contractions<S: InstructionSet>([axial, _, _, xz, yz]: &Deviator<S>) -> [Lanes<S>; 3] {
     [*axial, yz.all(-3.0) * *yz, xz.all(3.0) * *xz]

@@ -186,7 +186,8 @@ impl ExactTerm {
         self.add_parts(sums, value, turn.im_of_product(moving), rotation);
     }
 
-    /// Adds the derivatives of W from this term's part of W, of −Ω times its slope by Ω, and of its derivatives by rotations.
+    /// Adds this term to the derivatives of W. `value` is its part of W, `slope` the real part of −Ω ∂/∂Ω of it, and `rotation` has its derivatives when the
+    /// frame turns about its axes 1 and 2, all without the factors.
     #[inline(always)]
     fn add_parts<S: InstructionSet>(
         &self,
@@ -225,7 +226,7 @@ impl<S: InstructionSet> NullaryFnOnce for ExactTerms<'_, S> {
         let none = place.sine.all(0.0);
         let (sine, cosine) = sin_cos_of_turns((place.angle - place.centre) * none.all(1.0 / TAU));
         let anomaly = ComplexLanes { re: cosine, im: sine };
-        // Not `map`, which is not inlined into code for an instruction set.
+        // The lists are filled without `map`, which is not inlined into code for an instruction set.
         for multiple in 0..=2 {
             let mut terms = terms.iter().filter(|term| term.multiple() == multiple).peekable();
             if terms.peek().is_none() {

@@ -1,7 +1,8 @@
-//! Time derivatives of the orbit's functions in the torque, as Fourier polynomials in the true anomaly.
+//! Time derivatives of the orbit's functions in the torque, as powers of 1 + e cos f times Fourier polynomials in the true anomaly f.
 //!
 //! With w = 1 + e cos f, (a/r)³ = w³/η⁶ and d/dt = n η^(−3) w² d/df. So the derivative j of (a/r)³ times 1, cos 2f or sin 2f is w^(3+j) times a polynomial of
-//! degree 2 + j. Without the factor it would have the degree 5 + 2j, and near the apocentre of an elongated ellipse its terms would cancel.
+//! degree 2 + j. Without the factor it would have the degree 5 + 2j, and near the apocentre of an elongated ellipse its terms would cancel. If
+//! the pericentre precesses, only the factor w³ is taken out.
 
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
@@ -97,15 +98,15 @@ impl Orbital {
     /// the sum of the effects of the coefficients that it lacks.
     pub(crate) fn cut(&self, bounds: &[f64]) -> (Self, Vec<f64>) {
         let mut orbital = Self::empty(self.eccentricity, self.climbs, self.node_rate);
-        let mut highest = (1.0 + self.eccentricity).powi(3);
+        let mut largest_power = (1.0 + self.eccentricity).powi(3);
         let cut = |(row, bound): (&Row, &f64)| {
             let coefficients = self.coefficients[row.start..row.end].iter().copied();
-            let cut = highest * orbital.push(row.first, coefficients, bound / highest);
-            highest *= if self.climbs { 1.0 + self.eccentricity } else { 1.0 };
-            cut
+            let lost = largest_power * orbital.push(row.first, coefficients, bound / largest_power);
+            largest_power *= if self.climbs { 1.0 + self.eccentricity } else { 1.0 };
+            lost
         };
-        let cut = self.rows.iter().zip(bounds).map(cut).collect();
-        (orbital, cut)
+        let losses = self.rows.iter().zip(bounds).map(cut).collect();
+        (orbital, losses)
     }
 
     /// Number of derivatives.
@@ -345,16 +346,21 @@ mod tests {
 
     #[test]
     fn a_cut_derivative_lacks_no_more_than_it_says() {
-        let orbital = Orbital::new(0.3, 1e-2);
+        for rate in [0.0, 1e-3] {
+            cut_of(&Orbital::precessing(0.3, 1e-2, [0.0, rate]));
+        }
+    }
+
+    fn cut_of(orbital: &Orbital) {
         let bounds: [f64; ORDERS] = std::array::from_fn(|j| 0.02 * orbital.norms[j]);
         let (cut, lost) = orbital.cut(&bounds);
         let row = |orbital: &Orbital, j: usize| orbital.rows[j].end - orbital.rows[j].start;
         assert!(
-            (0..ORDERS).all(|j| row(&cut, j) <= row(&orbital, j)) && row(&cut, ORDERS - 1) < row(&orbital, ORDERS - 1)
+            (0..ORDERS).all(|j| row(&cut, j) <= row(orbital, j)) && row(&cut, ORDERS - 1) < row(orbital, ORDERS - 1)
         );
         for k in 0..=24 {
             for (j, lost) in lost.iter().enumerate() {
-                let [whole, cut] = [&orbital, &cut].map(|orbital| at(orbital, 0.25 * f64::from(k) - 3.0, j));
+                let [whole, cut] = [orbital, &cut].map(|orbital| at(orbital, 0.25 * f64::from(k) - 3.0, j));
                 for (whole, cut) in whole.iter().zip(cut) {
                     let gap = (whole - cut).abs();
                     assert!(gap <= lost * (1.0 + 1e-12) + 1e-14 * orbital.norms[j], "{j}: {gap:e} of {lost:e}");
@@ -363,5 +369,24 @@ mod tests {
         }
         let (nothing, lost) = orbital.cut(&[f64::INFINITY; 2]);
         assert!(nothing.orders() == 2 && nothing.coefficients.is_empty() && lost.iter().all(|lost| *lost > 0.0));
+    }
+
+    #[test]
+    fn sizes_are_those_of_the_derivatives() {
+        for (e, rate) in [(0.0, 0.0), (0.9, 0.0), (0.9, 1e-3)] {
+            let orbital = Orbital::precessing(e, 1e-2, [0.0, rate]);
+            for anomaly in [-3.1, -0.2, 1.3] {
+                let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), e);
+                let sizes = orbital.sizes_at(place.angle.values()[0]);
+                for (j, found) in sizes.iter().enumerate().take(ORDERS) {
+                    let [one, cosine, sine] = at(&orbital, anomaly, j);
+                    let size = one.abs().max(cosine.hypot(sine));
+                    assert!(
+                        (found - size).abs() <= 1e-9 * size + 1e-15 * orbital.norms[j],
+                        "{e} {rate} {anomaly} {j}: {found} {size}"
+                    );
+                }
+            }
+        }
     }
 }

@@ -145,8 +145,8 @@ fn tensors_by(generator: &Generator, mean: &Mean, place: &Place<pulp::Scalar>) -
     let frame = QuaternionLanes::all(Lanes::splat(pulp::Scalar, 0.0), &mean.frame);
     generator.tensors(frame, place).map(|deviator| {
         let [axial, across, xy, xz, yz] = deviator.map(|lanes| lanes.values()[0]);
-        let mean = -axial / 3.0;
-        [mean - 0.5 * across, mean + 0.5 * across, -2.0 * mean, xy, xz, yz]
+        let transverse = -axial / 3.0;
+        [transverse - 0.5 * across, transverse + 0.5 * across, -2.0 * transverse, xy, xz, yz]
     })
 }
 

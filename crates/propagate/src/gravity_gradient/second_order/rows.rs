@@ -20,7 +20,7 @@ pub(super) struct Stand<'a> {
     pub(super) mean: &'a Mean,
     /// q = 3φn²/2.
     pub(super) strength: f64,
-    /// (a/r)³ r̂r̂ in the frame and its time derivatives.
+    /// The traceless part of (a/r)³ r̂r̂ in the frame, and its time derivatives.
     pub(super) tensors: &'a [Tensor; ORDERS],
     /// Sizes of the time derivatives at the epoch, as many and one more.
     pub(super) sizes: &'a [f64; ORDERS + 1],
