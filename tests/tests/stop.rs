@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use andoyer_propagate::ensemble::OnError;
-use andoyer_propagate::{Body, Ensemble, Error, Method, Motion, Orbit, Scene, SeriesTables, State};
+use andoyer_propagate::{Body, Ensemble, Error, Method, Motion, Orbit, Scene, SeriesTables, State, TabulatedOrbit};
 
 fn scene(epoch: f64) -> Scene {
     let state = State::new(epoch, [0.0, 0.0, 0.0, 1.0], [0.0, 0.01, 1.0]).expect("a state");
@@ -57,6 +57,18 @@ fn flag_that_is_set_from_the_start_ends_integrations_alone() {
         scene(0.0).orbit(orbit(0.4)).span(0.0, 50.0),
         scene(0.0).orbit(orbit(2e-2)).tolerance(1e-10).span(0.0, 50.0),
     ];
+    assert_eq!(integrated.each_ref().map(Scene::needs_integration), [true, false, false]);
+    assert!(!by_theory.needs_integration());
+    let times: Vec<f64> = (0..60).map(f64::from).collect();
+    let positions = times.iter().map(|time| [100.0 + time, 0.0, 0.0]).collect();
+    let table = TabulatedOrbit::new(times, positions, 1.0).expect("a table");
+    let by_table = scene(0.0).disturbing([table.clone()]).span(0.0, 50.0);
+    let sphere =
+        Scene::new(Body::new([1.0; 3]).expect("a body"), *by_table.state()).disturbing([table]).span(0.0, 50.0);
+    assert!(matches!(solved(&by_table), Err(Error::Stopped)));
+    assert!(solved(&sphere).is_ok());
+    let closed = by_table.clone().method(Method::Closed);
+    assert_eq!([&by_table, &sphere, &closed].map(Scene::needs_integration), [true, false, false]);
     for scene in integrated {
         assert_eq!(scene.solve().expect("an integration").plan().method(), Method::Integrated);
         assert!(matches!(solved(&scene), Err(Error::Stopped)));

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use andoyer_propagate::disturbers::DisturbingBody;
 use andoyer_propagate::options::MAX_ORDER;
 use andoyer_propagate::periods::ObservedPeriods;
-use andoyer_propagate::{Error, Method, State};
+use andoyer_propagate::{Error, State};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
@@ -383,27 +383,17 @@ impl Scene {
 impl Scene {
     /// The motion; an integration can be interrupted.
     pub(crate) fn solved(&self, py: Python<'_>) -> PyResult<andoyer_propagate::Motion> {
-        // Most scenes are solved in less time than a thread needs to start. A flag that is set from the start ends an integration before its first step; the scene
-        // is then solved again, in its own thread.
-        let without_integration = || match self.scene.solve_until(&self.tables, &AtomicBool::new(true)) {
-            Err(Error::Stopped) => Ok(None),
-            solved => solved.map(Some),
-        };
-        match self
-            .begins_with_theory()
-            .then(|| detached(py, error::propagation, without_integration))
-            .transpose()?
-            .flatten()
-        {
-            Some(motion) => Ok(motion),
-            None => interruptible(py, true, error::propagation, |stop| self.scene.solve_until(&self.tables, stop)),
+        if !self.scene.needs_integration() {
+            // Theory takes less time than a thread needs to start. A flag that is set from the start ends an integration before its first step.
+            let by_theory = || match self.scene.solve_until(&self.tables, &AtomicBool::new(true)) {
+                Err(Error::Stopped) => Ok(None),
+                solved => solved.map(Some),
+            };
+            if let Some(motion) = detached(py, error::propagation, by_theory)? {
+                return Ok(motion);
+            }
         }
-    }
-
-    /// False if it is known that the scene is integrated.
-    fn begins_with_theory(&self) -> bool {
-        let tabulated = |body: &DisturbingBody| matches!(body, DisturbingBody::Tabulated(_));
-        self.scene.asked_method() != Method::Integrated && !self.scene.asked_disturbing().iter().any(tabulated)
+        interruptible(py, true, error::propagation, |stop| self.scene.solve_until(&self.tables, stop))
     }
 
     /// The keyword arguments that make this scene.

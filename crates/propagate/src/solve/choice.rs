@@ -14,6 +14,18 @@ use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
 use crate::torque_free::series::tables::SeriesTables;
 
+impl Scene {
+    /// Whether the scene is integrated without an attempt by theory: on request, or under a body with a table of positions.
+    #[must_use]
+    pub fn needs_integration(&self) -> bool {
+        match self.asked_method() {
+            Method::Integrated => true,
+            Method::Auto => beyond_theory(self).is_some(),
+            Method::Series | Method::Closed => false,
+        }
+    }
+}
+
 /// Whether all moments are equal: no body exerts a torque on a sphere.
 pub(super) fn is_sphere(scene: &Scene) -> bool {
     let [a, b, c] = scene.body().moments();
