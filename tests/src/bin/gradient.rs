@@ -315,6 +315,40 @@ fn tabled(random: &mut Uniform, mean_motion: f64, eccentricity: f64) -> Disturbe
     Disturbed { averaging: Averaging::Spin, ..scene }
 }
 
+/// Errors and estimates of random scenes of all families and of the table, at both levels.
+fn safety(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn std::error::Error>> {
+    writeln!(out, "family,mode,level,n,e,error,bound,effect,lost,scene")?;
+    let mut random = Uniform(seed);
+    for k in 0..count {
+        let long_axis = random.draw() < 0.5;
+        let (name, mut scene) = match FAMILIES.get(k % 16).filter(|family| **family != Family::Levels) {
+            Some(family) => (family.name(), family.random(long_axis, THEORIES[2], &mut random)),
+            None => {
+                let mean_motion = 10.0_f64.powf(random.between(-3.5, -0.9));
+                let eccentricity = (random.between(-0.2, 0.95)).max(0.0);
+                ("table", tabled(&mut random, mean_motion, eccentricity))
+            }
+        };
+        scene.averaging = Averaging::Spin;
+        scene.span *= if random.draw() < 0.3 { -1.0 } else { 1.0 };
+        scene.span *= if random.draw() < 0.2 { random.between(0.02, 1.0) } else { 1.0 };
+        scene.tolerance = 10.0_f64.powf(random.between(-12.0, -6.0));
+        for level in [Level::Full, Level::SecondOrder] {
+            let Ok(measured) = (Disturbed { level, ..scene }).measured() else { continue };
+            let Measured { error, bound, effect, lost } = measured;
+            let Disturbed { moments, attitude, rates, orbit, span, .. } = scene;
+            writeln!(
+                out,
+                "{name},{},{level},{:.2e},{:.3},{error:.3e},{bound:.3e},{effect:.2e},{lost:.1e},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {span}\"",
+                if long_axis { "long" } else { "short" },
+                orbit[0],
+                orbit[1],
+            )?;
+        }
+    }
+    Ok(())
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut out = io::BufWriter::new(io::stdout().lock());
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -322,6 +356,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     match words[..] {
         ["cases"] => reference_cases(&mut out),
         ["levels"] => levels(&mut out),
+        ["safety", count, seed] => safety(&mut out, count.parse()?, seed.parse()?),
         ["climb", starts, steps, seed] => climbs(&mut out, starts.parse()?, steps.parse()?, seed.parse()?),
         ["table", count, seed] => table(&mut out, count.parse()?, seed.parse()?),
         ["bounds", count, seed] => bounds(&mut out, count.parse()?, seed.parse()?),

@@ -19,7 +19,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::{Arc, LazyLock};
 
-use nalgebra::{Unit, UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 
 use super::corrections::Demand;
 use super::course::{Elapsed, When};
@@ -121,11 +121,6 @@ impl AveragedOrbit {
         self.strength
     }
 
-    /// Whether the averaged equations are those of second order.
-    pub(crate) fn is_of_second_order(&self) -> bool {
-        self.second.is_some()
-    }
-
     /// G m/a³ over n².
     pub(crate) fn fraction(&self) -> f64 {
         self.fraction
@@ -139,11 +134,6 @@ impl AveragedOrbit {
     /// η³.
     pub(crate) fn eta_cubed(&self) -> f64 {
         self.eta_cubed
-    }
-
-    /// The orbit's normal.
-    pub(crate) fn normal(&self) -> Unit<Vector3<f64>> {
-        Unit::new_unchecked(self.axes[2])
     }
 
     /// dΨ/dt averaged over the orbit, for an angular momentum along an axis.

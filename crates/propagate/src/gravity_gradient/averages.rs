@@ -8,6 +8,7 @@ use super::inertia::Inertia;
 use super::mean_motion::MeanMotion;
 use super::paths::Paths;
 use super::request::Request;
+use super::response::Response;
 use super::second_order;
 use crate::input::options::Level;
 use crate::torque_free::polhode::Polhode;
@@ -52,6 +53,16 @@ impl Averages {
         }
         let rate = self.ellipses.iter().map(|ellipse| ellipse.secular(&axis) * ellipse.fraction()).sum::<f64>();
         [self.slope * rate, -inertia.sigma * self.slope * rate]
+    }
+
+    /// The error by the average over the orbit \[rad\]: of second order in the precession κ_o in one radian of the orbit, in second order of third.
+    pub(super) fn over_orbit_error(&self, response: &Response, inertia: &Inertia, demand: &Demand<'_>, level: Level) -> f64 {
+        let ellipse = &self.ellipses[0];
+        let precession = ellipse.strength().abs();
+        let slope = (self.slope * ellipse.fraction()).abs() * (response.visible + inertia.sigma);
+        let phase = slope * demand.mean_motion / ellipse.eta_cubed();
+        let growing = if level == Level::SecondOrder { precession } else { 1.0 };
+        precession * (precession + 6.0 * phase) * (1.0 + growing * demand.mean_motion * demand.duration)
     }
 
     /// The averaged motion from a frame at the epoch.

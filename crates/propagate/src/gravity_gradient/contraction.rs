@@ -37,3 +37,9 @@ pub(super) fn factors([first, second]: [Vector3<f64>; 2]) -> [Tensor; 3] {
 pub(super) fn coefficients(&[one, cosine, sine]: &[f64; 3], j: f64) -> [C64; 3] {
     [one.into(), cosine.into(), C64::new(0.0, -sine * j.signum())]
 }
+
+/// A tensor, and its derivatives when the frame turns about its axis 1 or 2, in one place.
+pub(super) fn with_turns(tensor: &Tensor) -> [Tensor; 3] {
+    let [xx, yy, zz, xy, xz, yz] = *tensor;
+    [*tensor, [0.0, 2.0 * yz, -2.0 * yz, xz, -xy, zz - yy], [-2.0 * xz, 0.0, 2.0 * xz, -yz, xx - zz, xy]]
+}

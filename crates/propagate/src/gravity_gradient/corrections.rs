@@ -17,12 +17,9 @@
 //! where y′ is counted from an axis that turns with k and not about it. A term, or a derivative of g, is dropped here if it is smaller than a fraction of the
 //! second-order error or of the tolerance. The error by resonant terms is part of the error bound, or it is an error ([`super::resonance`]).
 
-use std::cell::OnceCell;
-
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use num_complex::Complex;
 
-use super::aspect::Aspect;
 use super::candidate::{Candidate, SLOW_RATIO};
 use super::course::fixed;
 use super::divisors::Secular;
@@ -30,9 +27,8 @@ use super::envelope::Envelope;
 use super::generator::{self, Factors, Generator, Harmonic, ORDERS};
 use super::inertia::{HIGHEST, Inertia};
 use super::orbit_series::OrbitSeries;
-use super::resonance::Commensurability;
+use super::regime::{Regime, Regimes};
 use super::response::Response;
-use super::selection::{Choice, Exact, Selection};
 use crate::error::{Error, TorqueMeasure};
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
@@ -146,20 +142,16 @@ impl Demand<'_> {
 #[derive(Clone, Debug)]
 pub(crate) struct Corrections {
     pub(crate) generator: Generator,
-    /// Sum of the dropped terms over the span \[rad\].
-    pub(crate) dropped: f64,
-    /// Effect of the resonances over the span \[rad\].
+    /// What is not corrected of terms in resonance, over the span \[rad\].
     pub(crate) resonant: f64,
-    /// Sum of the sizes of the corrected terms that are too slow for the sums \[rad\]; second order does not have their pairs.
-    pub(crate) slow: f64,
-    /// Dropped terms, and truncation of the sums for G on both ends, without their effect on the mean M and L at the epoch \[rad\].
-    pub(crate) at_once: f64,
+    /// The root of the sum of the squared sizes of all terms that are not slow, and of the slow ones that are corrected \[rad\].
+    pub(crate) rms: f64,
+    /// Dropped terms, and truncated sums for G on both ends \[rad\].
+    pub(crate) dropped: f64,
     /// Sum of the terms that the level omits, over the span \[rad\].
     pub(crate) omitted: f64,
     /// The parts of ⟨T33⟩ and of its slope that the level omits, times the mass fraction over M.
     pub(crate) axial_omitted: [f64; 2],
-    /// Truncation error of the sums for G \[rad\].
-    pub(crate) rest: f64,
     /// Sum of the sizes of all terms that are not slow, also dropped ones \[rad\].
     pub(crate) size: f64,
     /// Number of terms that are kept.
@@ -238,62 +230,48 @@ impl Corrections {
         let growth = |multiple: i32| 1.0 + further * (response.growth(multiple, duration) - 1.0);
         let tolerable = TOLERABLE[usize::from(demand.refined)] * demand.tolerance / growth(1);
         let nothing = tolerable.max(demand.share * whole * whole);
-        let selection = Selection {
-            commensurability: Commensurability {
-                response: &response,
-                mean_motion,
-                eccentricity,
-                turning,
-                fastest,
-                envelope,
-                duration,
-                secular: Secular::new(inertia, strength, eccentricity, [&demand.axes[2], &demand.pole]),
-                directions: (&demand.axes, &demand.pole),
-                swings: OnceCell::new(),
-                whole_effects: !demand.refined,
-                series,
-            },
+        let regimes = Regimes {
+            response: &response,
+            envelope,
+            eccentricity,
+            mean_motion,
+            turning,
+            fastest,
+            duration,
+            secular: Secular::new(inertia, strength, eccentricity, [&demand.axes[2], &demand.pole]),
+            series,
             sizes: if demand.rates == [0.0; 2] { envelope.span.to_vec() } else { envelope.orbital.norms.clone() },
             most: if level == Level::Paper { 1 } else { ORDERS },
             nothing,
             enough: nothing.max(0.01 * demand.tolerance),
-            whole,
-            series: series.map(|series| (series, Aspect::new(demand.axes, &demand.pole))),
         };
-        let allowed = demand.tolerance.max(second_order(whole, &response, duration));
-        let choices: Vec<_> = terms.all.iter().map(|term| selection.choice(term)).collect();
-        let effects = terms.all.iter().zip(&choices).map(|(term, choice)| {
-            let corrected = matches!(choice, Choice::Exact(Exact { excluded: None, .. }));
-            (selection.effect(term, choice), corrected, term)
-        });
-        let resonant = selection.commensurability.total_error(effects, allowed)?;
-        let mut dropped = resonant;
+        let chosen: Vec<_> = terms.all.iter().map(|term| (term, regimes.of(term))).collect();
+        let effects = chosen.iter().map(|(term, regime)| (*term, regimes.uncorrected(term, regime)));
+        let resonant = regimes.total(effects, demand.tolerance.max(second_order(whole, &response, duration)))?;
         let omitted = candidates(inertia, &response, scale, |m, h| level.omitted(inertia, m, h));
-        let omitted = omitted.iter().map(|term| selection.commensurability.whole(term)).sum();
-        let (mut rest, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
-        let mut at_once = 0.0;
+        let omitted = omitted.iter().map(|term| regimes.whole(term)).sum();
+        let (mut dropped, mut count, mut most_orders, mut neglected) = (0.0, 0, 0, 0.0_f64);
+        let mut squares = 0.0;
         // Of the terms together, for a time derivative of 1.
         let mut amplitudes = [0.0; ORDERS];
         let mut harmonics = [const { Vec::<Harmonic>::new() }; 3];
         let mut exact = Vec::new();
-        let mut slow = 0.0;
-        for (candidate, choice) in terms.all.iter().zip(&choices) {
+        for (candidate, regime) in &chosen {
             // The tilt of the angular momentum by a dropped term changes its precession, for m = 0 too.
             let growth = growth(if demand.refined { 1 } else { candidate.multiple });
-            let is_slow = selection.commensurability.is_slow(candidate);
-            match (*choice, series) {
-                (Choice::Exact(Exact { excluded, size, .. }), Some(series)) => {
-                    let divisors = selection.commensurability.divisors(candidate).without(excluded);
+            let is_slow = regimes.is_slow(candidate);
+            squares += if is_slow { 0.0 } else { candidate.size().powi(2) };
+            match (*regime, series) {
+                (Regime::Exact { resonant, size }, Some(series)) => {
+                    let divisors = regimes.divisors(candidate).without(resonant);
                     exact.push(candidate.exact(inertia, (series, divisors), nothing));
-                    slow += if is_slow { size } else { 0.0 };
-                    rest += growth * nothing;
-                    at_once += growth * nothing;
+                    squares += if is_slow { size * size } else { 0.0 };
+                    dropped += growth * nothing;
                     count += 1;
                 }
-                (Choice::Sum(orders, left), _) => {
-                    rest += growth * left;
-                    at_once += 2.0 * growth * left;
-                    neglected = neglected.max(left);
+                (Regime::Fast { orders, truncation }, _) => {
+                    dropped += 2.0 * growth * truncation;
+                    neglected = neglected.max(truncation);
                     most_orders = most_orders.max(orders);
                     for (j, amplitude) in amplitudes.iter_mut().enumerate().take(orders) {
                         let of_derivative = candidate.size() / candidate.frequency.abs().powi(j as i32); // j < ORDERS
@@ -302,9 +280,8 @@ impl Corrections {
                     candidate.join(&mut harmonics[candidate.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2
                     count += 1;
                 }
-                _ if !is_slow => {
+                (Regime::Negligible, _) => {
                     dropped += growth * candidate.size();
-                    at_once += growth * candidate.size();
                     neglected = neglected.max(candidate.size());
                 }
                 _ => {}
@@ -313,8 +290,7 @@ impl Corrections {
         let bounds = amplitudes.map(|amplitude| SMALLEST_COEFFICIENT * nothing / amplitude);
         let (orbital, cut) = envelope.orbital.cut(&bounds[..most_orders]);
         let cut: f64 = cut.iter().zip(&amplitudes).map(|(cut, amplitude)| cut * amplitude).sum();
-        rest += growth(1) * cut;
-        at_once += 2.0 * growth(1) * cut;
+        dropped += 2.0 * growth(1) * cut;
         let [first, second, _] = demand.axes;
         let per_momentum = orbit.disturbing_fraction() / inertia.momentum;
         let (level_axial, full_axial) = (level.axial(inertia), Level::Full.axial(inertia));
@@ -322,7 +298,8 @@ impl Corrections {
         let axial_omitted = axial_omitted.map(|part| part.abs() * per_momentum);
         let factors = Factors { strength, root: inertia.sigma.sqrt(), momentum: inertia.momentum };
         let generator = Generator::new(&harmonics, exact, (orbital, [first, second]), factors);
-        Ok(Self { generator, resonant, slow, at_once, dropped, omitted, axial_omitted, rest, size, count, neglected })
+        let rms = squares.sqrt();
+        Ok(Self { generator, resonant, rms, dropped, omitted, axial_omitted, size, count, neglected })
     }
 
     /// The changes from mean to osculating variables, for |p| = √σ and the axes of the orbit at the epoch.

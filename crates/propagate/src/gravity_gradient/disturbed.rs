@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 use andoyer_double::DoubleDouble;
 
 use super::averaged::{MOST_QUARTERS, Slow};
-use super::budget::MOST_ORBITS;
+use super::estimate::MOST_ORBITS;
 use super::corrections::Corrections;
 use super::course::Course;
 use super::draft::{Draft, Outset};

@@ -5,16 +5,13 @@ use num_complex::Complex;
 
 use super::averaged::AveragedOrbit;
 use super::averages::Averages;
-use super::budget::{Budget, SecondOrderErrors, Subject};
 use super::corrections::{Demand, Mean};
-use super::mean_motion::{LevelEstimate, MeanMotion, SecondOrderData, first_order, weak_enough};
+use super::estimate::Estimate;
+use super::mean_motion::{MeanMotion, SecondOrderData, first_order, weak_enough};
 use super::paths::Paths;
 use super::request::Request;
-use super::response::Response;
-use super::second_order;
-use super::second_order::drift::Drift;
 use crate::error::{Error, TorqueMeasure};
-use crate::input::options::{Averaging, Level};
+use crate::input::options::Level;
 use crate::torque_free::polhode::Polhode;
 
 type C64 = Complex<f64>;
@@ -70,8 +67,7 @@ impl<'a> Outset<'a> {
         let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
         let first = first_order(polhode, &state, &paths.starts, &demands)?;
         let refinements = request.is_refined().then(|| {
-            let course = (&paths.starts[0], &paths.reaches[0]);
-            SecondOrderData::new(&first, &state, course, &demands[0])
+            SecondOrderData::new(&first, &state, &paths.starts[0], &demands[0])
         });
         Ok(Self { polhode, attitude, request: *request, paths, demands, first, refinements })
     }
@@ -81,19 +77,17 @@ impl<'a> Outset<'a> {
     /// # Errors
     /// As [`Outset::new`], those of the average over the orbit, and [`Error::TorqueTooStrong`] if the angular momentum precesses faster than the disturbing bodies move.
     pub(super) fn draft(&self, level: Level) -> Result<Draft, Error> {
-        let Self { polhode, paths, demands, first, .. } = self;
-        let (motion, refinement) = match &self.refinements {
-            Some(refinements) => {
-                let (motion, refinement) = refinements.motion(polhode, first, &demands[0], level)?;
-                (motion, Some(refinement))
-            }
-            None => (first.clone(), None),
+        let Self { polhode, demands, first, .. } = self;
+        let (motion, left) = match &self.refinements {
+            Some(refinements) => refinements.motion(polhode, first, &demands[0], level)?,
+            None => (first.clone(), [0.0; 2]),
         };
         let averages = Averages::new(polhode, &motion, demands, level);
         slow_enough(&averages, demands)?;
         let request = Request { level, ..self.request };
-        let (by_orbit, error) = error_bound(&request, &motion, refinement, &averages, (paths, demands))?;
-        Ok(Draft { level, motion, averages, by_orbit, error })
+        let estimate = Estimate::new(&motion.inertia, &motion.corrections, &averages, demands, (level, left));
+        let by_orbit = estimate.by_orbit(&request)?;
+        Ok(Draft { level, motion, averages, by_orbit, error: estimate.error(by_orbit) })
     }
 }
 
@@ -110,56 +104,4 @@ fn slow_enough(averages: &Averages, demands: &[Demand<'_>]) -> Result<(), Error>
         return Ok(());
     }
     Err(Error::TorqueTooStrong { measure: TorqueMeasure::Precession, size, bound: FASTEST_PRECESSION })
-}
-
-/// Whether the equations are averaged over the orbit as well, and the error bound.
-fn error_bound(
-    request: &Request<'_>,
-    motion: &MeanMotion,
-    refinement: Option<LevelEstimate>,
-    averages: &Averages,
-    (paths, demands): (&Paths, &[Demand<'_>]),
-) -> Result<(bool, f64), Error> {
-    let MeanMotion { mean, inertia, corrections, .. } = motion;
-    let response = Response::new(inertia);
-    let further = refinement.map(|LevelEstimate { left, apart, hamiltonian, short_period }| {
-        let drift = Drift {
-            hamiltonian: &hamiltonian.without_first(),
-            demand: &demands[0],
-            reach: &paths.reaches[0],
-            axis: mean.frame * Vector3::z(),
-            rates: apart,
-            visible: response.visible,
-        };
-        let apart = if request.level == Level::SecondOrder { 0.0 } else { drift.largest() };
-        let envelope = &paths.envelopes[0];
-        let demand = &demands[0];
-        let cut = second_order::cut(inertia, demand) * envelope.share.truncation;
-        // With the orbit's harmonics K2 has the average of what its closed form lacks, at the direction of the angular momentum at the epoch.
-        let periodic = 2.0 / (demand.mean_motion * demand.duration);
-        let precessed = (averages.ellipses[0].strength().abs() * demand.mean_motion * demand.duration).min(1.0);
-        let unaveraged = (periodic + demand.orbit.eccentricity() * precessed).min(1.0);
-        let cut = if demand.series.is_some() { unaveraged * cut } else { cut };
-        SecondOrderErrors { short_period, left, cut, acting: envelope.share.third, apart }
-    });
-    let subject = |i: usize| Subject {
-        mean,
-        inertia,
-        corrections: &corrections[i],
-        response: &response,
-        ellipse: &averages.ellipses[i],
-        reach: &paths.reaches[i],
-        drift: averages.slope * demands[i].orbit.disturbing_fraction(),
-        further,
-    };
-    if request.is_fixed() {
-        let budget = Budget::new(&subject(0), demands[0].mean_motion, paths.duration);
-        let by_orbit = budget.by_orbit(request)?;
-        return Ok((by_orbit, budget.error(by_orbit)));
-    }
-    if request.averaging == Averaging::Orbit {
-        return Err(Error::OneFixedOrbit { argument: "averaging", value: Averaging::Orbit.to_string() });
-    }
-    let subjects: Vec<_> = (0..demands.len()).map(subject).collect();
-    Ok((false, Budget::of_bodies(&subjects, demands, paths.duration).error(false)))
 }

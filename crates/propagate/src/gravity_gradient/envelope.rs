@@ -7,8 +7,6 @@ use crate::simd::kepler::eccentric_anomaly;
 
 /// Points of a span at which the sizes are taken.
 const POINTS: usize = 48;
-/// Number of places at which the short-period change of second order is computed.
-const NEAREST: usize = 5;
 /// Largest number of a harmonic of the orbit whose coefficient is computed.
 pub(crate) const LARGEST_NUMBER: f64 = 4096.0;
 
@@ -27,16 +25,13 @@ pub(crate) struct Envelope {
     pub(crate) most: [f64; ORDERS + 1],
 }
 
-/// Drifts over the span, divided by the drifts with the disturbing body always at its nearest position within the span. u = (a/r)³, and ḟ is the rate of the
-/// true anomaly.
+/// Means of powers of u = (a/r)³ over the span, over the power where the disturbing body is nearest within the span.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Share {
-    /// Drift of third order: the mean of u³, plus u³ at the epoch for the errors of the mean variables found there.
-    pub(crate) third: f64,
-    /// Drift by the terms of K2 with (ḟ/Ω)²: the mean of u²ḟ².
-    pub(crate) truncation: f64,
-    /// The mean of u², which is the size of a product of two terms.
-    pub(crate) pairs: f64,
+    /// The mean of u²: a drift of second order.
+    pub(crate) square: f64,
+    /// The mean of u³, plus u³ at the epoch for the errors of the mean variables found there: a drift of third order.
+    pub(crate) cube: f64,
 }
 
 /// The part of the orbit that the disturbing body passes during the span.
@@ -61,12 +56,6 @@ impl Reach {
         self.sides.iter().sum::<f64>() >= TAU
     }
 
-    /// The mean anomaly, from −π to π, that divides the span, or at most one orbit of it, in these parts.
-    pub(crate) fn at(&self, part: f64) -> f64 {
-        let [before, after] = if self.is_whole() { [PI; 2] } else { self.sides };
-        wrapped(self.anomaly + part * after - (1.0 - part) * before)
-    }
-
     /// Whether the span has a mean anomaly.
     pub(crate) fn contains(&self, anomaly: f64) -> bool {
         let [before, after] = self.sides;
@@ -85,21 +74,6 @@ impl Reach {
         let first = if first > middle { first - TAU } else { first };
         let last = if last < middle { last + TAU } else { last };
         (0..=POINTS).map(|k| first + (last - first) * k as f64 / POINTS as f64).collect()
-    }
-
-    /// True anomalies within the span: half an orbit around the place where the disturbing body is nearest, as far as the span has it, evenly divided.
-    pub(crate) fn nearest(&self) -> [f64; NEAREST] {
-        let places = self.places();
-        let near = |place: &usize| self.eccentricity * places[*place].cos();
-        let nearest = (0..places.len()).max_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or_default();
-        let count = places.len();
-        // Half an orbit has every direction of r̂r̂.
-        let half =
-            if self.is_whole() { count / 2 } else { (PI / (places[1] - places[0]).max(PI / POINTS as f64)) as usize };
-        let wide = half.min(count - 1);
-        let first = (nearest + count - wide / 2) % count;
-        let first = if self.is_whole() { first } else { nearest.saturating_sub(wide / 2).min(count - 1 - wide) };
-        std::array::from_fn(|k| places[(first + k * wide / (NEAREST - 1)) % count])
     }
 
     /// The shares of the drifts.
@@ -123,7 +97,7 @@ impl Reach {
             (sum / POINTS as f64 * eta_square.powf(1.5) * passages / self.longest().max(f64::MIN_POSITIVE)).min(1.0)
         };
         let epoch = near(self.true_anomaly(self.anomaly)) / nearest;
-        Share { third: (mean(9) + epoch.powi(9)).min(1.0), truncation: mean(10), pairs: mean(6) }
+        Share { square: mean(6), cube: (mean(9) + epoch.powi(9)).min(1.0) }
     }
 
     /// Whether the span has the pericentre.
@@ -168,13 +142,6 @@ impl Envelope {
     }
 }
 
-/// The rate of the true anomaly f, and (a/r)³.
-pub(crate) fn on_ellipse(mean_motion: f64, eccentricity: f64, f: f64) -> [f64; 2] {
-    let eta_square = (1.0 - eccentricity) * (1.0 + eccentricity);
-    let near = (1.0 + eccentricity * f.cos()) / eta_square;
-    [mean_motion * eta_square.sqrt() * near * near, near.powi(3)]
-}
-
 /// arcosh 1/e − η: Hansen's coefficients fall like e^(−|j| times this). On a circle it is infinite.
 pub(crate) fn decay(eccentricity: f64) -> f64 {
     if eccentricity == 0.0 {
@@ -203,6 +170,7 @@ pub(crate) fn at_most(eccentricity: f64, number: f64, factors: i32) -> f64 {
     }
 }
 
+#[cfg(test)]
 /// The largest size of the Fourier coefficient of e^(ijl) in (a/r)³ times 1, e^(2if) and e^(−2if), for the mean anomaly l.
 pub(crate) fn harmonic(eccentricity: f64, number: f64) -> f64 {
     harmonics(eccentricity, number).into_iter().fold(0.0, |most: f64, size| most.max(size.abs()))
@@ -301,9 +269,6 @@ mod tests {
         let reach = |anomaly: f64, sides: [f64; 2]| Reach { eccentricity: 0.6, anomaly, sides };
         assert!(!reach(0.2, [0.0, 3.0]).passes() && reach(0.2, [0.3, 3.0]).passes() && reach(0.2, [0.0, 6.1]).passes());
         assert!(!reach(-0.2, [5.0, 0.1]).passes() && reach(-0.2, [6.1, 0.1]).passes());
-        for part in [0.0, 0.3, 1.0] {
-            assert!(reach(0.2, [0.0, 3.0]).contains(reach(0.2, [0.0, 3.0 - 1e-9]).at(part) + 1e-12), "{part}");
-        }
         let places = reach(0.2, [0.0, 6.0]).places();
         let gained = places[POINTS] - places[0];
         assert!(gained < TAU && gained > 4.9, "{gained}");
@@ -321,15 +286,15 @@ mod tests {
             * (1.0 + 10.5 * square + 13.125 * square.powi(2) + 2.1875 * square.powi(3))
             * (1.0 - eccentricity).powi(9);
         let at_apocentre = 4.0_f64.powi(-9);
-        let found = share(PI, TAU * 99.5).third;
+        let found = share(PI, TAU * 99.5).cube;
         assert!((found - (mean * 100.0 / 99.5 + at_apocentre)).abs() <= 1e-12, "{found:e} {mean:e}");
         // From the pericentre the mean variables are as far off as they can be. On a circle every place is alike.
-        assert_eq!(share(0.0, 1e3).third, 1.0);
+        assert_eq!(share(0.0, 1e3).cube, 1.0);
         let circle =
             Envelope::new(0.0, 1e-3, [0.0; 2], &Reach { eccentricity: 0.0, anomaly: 1.0, sides: [0.1; 2] }).share;
-        assert!(circle.third == 1.0 && circle.truncation >= 1.0 - 1e-12);
+        assert!(circle.cube == 1.0 && circle.square >= 1.0 - 1e-12);
         // Half an orbit past the apocentre sees nothing of the pericentre, and is measured by its own nearest place.
         let far = share(PI, 0.5);
-        assert!(far.third >= 0.9 && far.truncation <= 1.0);
+        assert!(far.cube >= 0.9 && far.square <= 1.0);
     }
 }

@@ -2,12 +2,8 @@
 
 use super::corrections::{Change, Corrections, Demand, Mean, Terms};
 use super::course::When;
-use super::envelope::Reach;
 use super::inertia::Inertia;
-use super::response::Response;
 use super::second_order::epoch::{self, EpochMean};
-use super::second_order::hamiltonian::Hamiltonian;
-use super::second_order::short_period::Turns;
 use super::second_order::steady::Steady;
 use crate::error::{Error, TorqueMeasure};
 use crate::input::options::Level;
@@ -35,18 +31,6 @@ pub(super) struct MeanMotion {
     pub(super) steady: Steady,
 }
 
-/// The quantities of second order for a motion at one level.
-pub(super) struct LevelEstimate {
-    /// Estimated errors of the mean M and L, divided by M.
-    pub(super) left: [f64; 2],
-    /// Rates of ℓ′ and y′ at the mean M and σ of second order, less those of first order.
-    pub(super) apart: [f64; 2],
-    /// K2.
-    pub(super) hamiltonian: Hamiltonian,
-    /// The short-period change of second order. The corrections of no level contain it.
-    pub(super) short_period: Turns,
-}
-
 /// The corrections for each body at a mean motion.
 fn corrections_of(inertia: &Inertia, demands: &[Demand<'_>]) -> Result<Vec<Corrections>, Error> {
     let all: Vec<_> = demands.iter().map(|demand| Terms::new(inertia, demand)).collect();
@@ -57,49 +41,39 @@ fn corrections_of(inertia: &Inertia, demands: &[Demand<'_>]) -> Result<Vec<Corre
 /// The mean M and L from all terms, in first and in second order, with the other quantities of second order.
 pub(super) struct SecondOrderData {
     both: [EpochMean; 2],
-    /// Their difference: of M, over M, and of σ.
-    apart: [f64; 2],
-    /// The short-period change of second order.
-    short_period: Turns,
     /// The part of the average of K2 over the orbit that K2 in closed form lacks.
     steady: Steady,
 }
 
 impl SecondOrderData {
-    /// From the mean motion of first order, the position of the disturbing body at the epoch, and the part of its orbit within the span.
+    /// From the mean motion of first order, and the position of the disturbing body at the epoch.
     pub(super) fn new(
         first: &MeanMotion,
         state: &Mean,
-        (start, reach): (&When<pulp::Scalar>, &Reach),
+        start: &When<pulp::Scalar>,
         demand: &Demand<'_>,
     ) -> Self {
         let exact = &first.corrections[0].generator.exact;
         let mean = (&first.mean, &first.change, &exact[..]);
-        let (both, apart, steady) = epoch::epoch_means(mean, state, &first.inertia, &start.place, demand);
-        let sizes = [Response::new(&first.inertia).gain, first.corrections[0].size];
-        let short_period = Turns::new(&first.inertia, &first.mean, demand, sizes, &reach.nearest());
-        Self { both, apart, short_period, steady }
+        let (both, steady) = epoch::epoch_means(mean, state, &first.inertia, &start.place, demand);
+        Self { both, steady }
     }
 
-    /// The mean motion with the mean M and L of a level, and how far the rates of second order are from those of first.
+    /// The mean motion with the mean M and L of a level, and their estimated errors over M.
     pub(super) fn motion(
         &self,
         polhode: &Polhode,
         first: &MeanMotion,
         demand: &Demand<'_>,
         level: Level,
-    ) -> Result<(MeanMotion, LevelEstimate), Error> {
+    ) -> Result<(MeanMotion, [f64; 2]), Error> {
         let EpochMean { mean, momentum, left } = self.both[usize::from(level == Level::SecondOrder)];
         let inertia = first.inertia.moved(polhode, mean.p.norm_sqr(), mean.momentum);
-        let [by_momentum, by_sigma] = self.apart;
-        let apart = [0, 1].map(|i| inertia.rates[i].to_f64() * by_momentum + inertia.rate_slopes[i] * by_sigma);
         let corrections = vec![Corrections::new(&inertia, demand)?];
         let change = Change { momentum, ..first.change };
         // The iteration leaves M and L its own threshold, which the rates multiply by the time.
         let left = left.map(|part| part + CONVERGED);
-        let hamiltonian = epoch::hamiltonian(&inertia, demand, self.steady);
-        let refinement = LevelEstimate { left, apart, hamiltonian, short_period: self.short_period };
-        Ok((MeanMotion { mean, change, inertia, corrections, steady: self.steady }, refinement))
+        Ok((MeanMotion { mean, change, inertia, corrections, steady: self.steady }, left))
     }
 }
 

@@ -3,10 +3,8 @@
 //!
 //! Imports errors, numerics, simd, input and torque_free.
 
-mod aspect;
 mod averaged;
 mod averages;
-mod budget;
 mod candidate;
 pub(crate) mod cassini;
 pub(crate) mod choice;
@@ -18,6 +16,7 @@ mod divisors;
 mod draft;
 mod envelope;
 mod epoch;
+mod estimate;
 mod evaluate;
 mod generator;
 mod inertia;
@@ -28,8 +27,7 @@ pub(crate) mod osculating;
 mod paths;
 mod powers;
 pub(crate) mod request;
-mod resonance;
+mod regime;
 mod response;
 mod second_order;
-mod selection;
 mod torque;

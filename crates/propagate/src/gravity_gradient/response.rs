@@ -13,15 +13,13 @@ pub(super) struct Response {
     pub(super) by_sigma: f64,
     /// Rate of the turn for a unit relative change of M.
     pub(super) by_momentum: f64,
-    /// σ; `distance` is its distance from σ of the separatrix.
     pub(super) sigma: f64,
-    distance: f64,
 }
 
 impl Response {
     /// The factors from the series of a and b.
     pub(super) fn new(inertia: &Inertia) -> Self {
-        let Inertia { sigma, separatrix, .. } = *inertia;
+        let sigma = inertia.sigma;
         let root = sigma.sqrt();
         let highest = HIGHEST as i32;
         let mut slope = 0.0;
@@ -43,32 +41,13 @@ impl Response {
             by_sigma: visible * anomaly_slope + longitude_slope,
             by_momentum: visible * anomaly + longitude,
             sigma,
-            distance: (separatrix - sigma).max(0.1 * separatrix),
         }
     }
 
-    /// The change of σ that a change of p causes.
-    pub(super) fn of_sigma(&self, p: f64) -> f64 {
-        p * (2.0 * self.sigma.sqrt() + p)
-    }
-
-    /// Second-order attitude error over a time \[rad\], for first-order changes of this size and with derivatives of size `slope`. `p` is the change of p
-    /// \[1\].
-    pub(super) fn second_order(&self, [size, slope]: [f64; 2], p: f64, duration: f64) -> f64 {
-        let of_sigma = self.of_sigma(p);
-        // The bracket of two changes of p, and the curvature of the functions of σ. The distance from the separatrix bounds the curvature.
-        let sigma = of_sigma * (slope + p / self.distance.sqrt() + of_sigma / self.distance);
-        size * slope * (1.0 + self.by_momentum * duration) + self.by_sigma * sigma * duration
-    }
-
-    /// The growing attitude error of an averaged motion of second order \[rad\]. `parts`: the share of the span in which the drift of third order acts, and the
-    /// part of the second-order drifts that K2 lacks.
-    pub(super) fn growing(&self, [size, slope]: [f64; 2], p: f64, duration: f64, parts: [f64; 2]) -> f64 {
-        let of_sigma = self.of_sigma(p);
-        let further = slope + p / self.distance.sqrt() + of_sigma / self.distance;
-        let growing = (size * slope * self.by_momentum + self.by_sigma * of_sigma * further) * duration;
-        let [acting, cut] = parts;
-        growing * (acting * further + cut)
+    /// Rate of the turn of the attitude for a relative change of this size of the mean variables.
+    pub(super) fn drift(&self, change: f64) -> f64 {
+        let p = change / self.gain;
+        change * self.by_momentum + p * (2.0 * self.sigma.sqrt() + p) * self.by_sigma
     }
 
     /// The attitude error over a time that errors of the mean M and L make, over M \[rad\].

@@ -44,15 +44,14 @@ pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, steady: Steady
     Hamiltonian::new(inertia, &modes, demand.strength()).with_steady(steady)
 }
 
-/// The mean states with |p| and M from all terms of first order, and to second order, and the difference of their M, over M, and σ: from the mean state of the
-/// corrections at the epoch.
+/// The mean states at the epoch with |p| and M from all terms of first order, and to second order, from the mean state of the corrections.
 pub(crate) fn epoch_means(
     (mean, change, exact): (&Mean, &Change, &[ExactTerm]),
     state: &Mean,
     inertia: &Inertia,
     place: &Place<pulp::Scalar>,
     demand: &Demand<'_>,
-) -> ([EpochMean; 2], [f64; 2], Steady) {
+) -> ([EpochMean; 2], Steady) {
     let slowest = slowest(demand);
     let (tensors, norms) = tensors(mean, place, demand);
     let stand = Stand {
@@ -101,8 +100,7 @@ pub(crate) fn epoch_means(
         momentum: by_momentum,
         left: [0, 1].map(|i| (first.left[i] + second.left[i]) / momentum),
     };
-    let apart = [-second.momentum / momentum, higher.mean.p.norm_sqr() - lower.mean.p.norm_sqr()];
-    ([lower, higher], apart, steady)
+    ([lower, higher], steady)
 }
 
 /// The disturbing body at mean anomalies with weights.

@@ -34,6 +34,7 @@ pub(crate) struct Hamiltonian {
 }
 
 /// Where the disturbing body is, as the averaged equations see it.
+#[cfg(test)]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Disturber {
     /// Unit vector to it.
@@ -103,6 +104,7 @@ impl Hamiltonian {
     }
 
     /// K2 without ⟨D⟩.
+    #[cfg(test)]
     pub(crate) fn without_first(self) -> Self {
         Self { first: [0.0; 3], ..self }
     }
@@ -149,6 +151,7 @@ impl Hamiltonian {
     }
 
     /// The derivatives of the mean variables for an angular momentum along a unit vector.
+#[cfg(test)]
     pub(crate) fn slopes(&self, axis: &Vector3<f64>, disturber: &Disturber) -> Slopes {
         let one = |value: f64| Lanes::splat(pulp::Scalar, value);
         let vector = |vector: &Vector3<f64>| [one(vector.x), one(vector.y), one(vector.z)];

@@ -6,8 +6,6 @@ use crate::gravity_gradient::inertia::{HIGHEST, Inertia};
 
 /// Lower limit of √σ in the size of a term. The wobble that the torque forces is larger.
 pub(super) const ROOT_FLOOR: f64 = 1e-9;
-/// Lower limit of √σ/√σ_sep for second derivatives of terms with |h| ≤ 2, which do not vanish at p = 0.
-const LEAST_ROOT_OF_SECOND: f64 = 0.2;
 
 /// A term f σ^(|h|/2) e^(i(hℓ′+my′)) of the disturbing function over q = 3φn²/2.
 #[derive(Clone, Copy, Debug)]
@@ -80,23 +78,10 @@ pub(super) fn slowest(demand: &Demand<'_>) -> f64 {
 /// The modes with m > 0, and those with m = 0 and h > 0, that are larger than `share` of the largest and faster than `slowest`, a frequency.
 pub(super) fn modes(inertia: &Inertia, share: f64, slowest: f64) -> Vec<Mode> {
     let root = inertia.sigma.sqrt().max(ROOT_FLOOR);
-    selected(inertia, share, slowest, |mode| mode.size(root)).into_iter().map(|(mode, _)| mode).collect()
-}
-
-/// The same for second derivatives with respect to p, in which |h| ≤ 2 counts at p = 0 too, each with its size over the largest.
-pub(super) fn large_modes(inertia: &Inertia, share: f64, slowest: f64) -> Vec<(Mode, f64)> {
-    let root = inertia.sigma.sqrt().max(ROOT_FLOOR);
-    let least = LEAST_ROOT_OF_SECOND * inertia.separatrix.sqrt();
-    selected(inertia, share, slowest, |mode| mode.size(if mode.harmonic.abs() <= 2 { root.max(least) } else { root }))
-}
-
-fn selected(inertia: &Inertia, share: f64, slowest: f64, size: impl Fn(&Mode) -> f64) -> Vec<(Mode, f64)> {
-    let modes = all(inertia).into_iter().map(|mode| (mode, size(&mode)));
-    let fast = |(mode, size): &(Mode, f64)| mode.frequency[0].abs() * inertia.momentum > slowest && *size > 0.0;
-    let mut modes: Vec<_> = modes.filter(fast).collect();
-    let largest = modes.iter().fold(0.0_f64, |most, (_, size)| most.max(*size));
-    modes.iter_mut().for_each(|(_, size)| *size /= largest);
-    modes.retain(|(_, size)| *size >= share);
+    let mut modes = all(inertia);
+    modes.retain(|mode| mode.frequency[0].abs() * inertia.momentum > slowest && mode.size(root) > 0.0);
+    let largest = modes.iter().map(|mode| mode.size(root)).fold(0.0, f64::max);
+    modes.retain(|mode| mode.size(root) >= share * largest);
     modes
 }
 

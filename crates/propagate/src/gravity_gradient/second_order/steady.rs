@@ -13,11 +13,10 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::jet::with_turns;
 use super::modes::{Mode, ROOT_FLOOR};
 #[cfg(test)]
 use super::modes::{modes, slowest};
-use crate::gravity_gradient::contraction::{Contraction, coefficients, contraction, factors};
+use crate::gravity_gradient::contraction::{Contraction, coefficients, contraction, factors, with_turns};
 use crate::gravity_gradient::corrections::Demand;
 use crate::gravity_gradient::divisors::Divisors;
 use crate::gravity_gradient::generator::ExactTerm;

@@ -6,12 +6,10 @@ use num_complex::Complex;
 use super::around::Around;
 use super::epoch::{points, tensors};
 use super::hamiltonian::{Disturber, Hamiltonian};
-use super::jet::{Field, Jet, Point, with_turns};
 use super::modes::{Mode, modes, slowest};
 use super::over_orbit::OrbitAverage;
 use super::pairs::{OrbitParts, averaged, second_actions};
 use super::rows::Stand;
-use super::short_period::ShortPeriod;
 use crate::gravity_gradient::contraction::Tensor;
 use crate::gravity_gradient::corrections::{Change, Corrections, Demand, Mean};
 use crate::gravity_gradient::envelope::{Envelope, whole};
@@ -259,88 +257,6 @@ fn the_average_over_the_orbit_is_the_mean_over_the_mean_anomaly() {
             }
             assert!(turning.norm() <= average.fastest());
         }
-    }
-}
-
-#[test]
-fn the_slopes_of_a_change_are_its_differences() {
-    for scene in Scene::all() {
-        let Mean { p, momentum, frame, .. } = scene.mean;
-        let root = p.norm();
-        let tensor =
-            |frame: UnitQuaternion<f64>| tensors(&Mean { frame, ..scene.mean }, &scene.place, &scene.demand()).0[0];
-        let fields = |root: f64, momentum: f64, tensor: &Tensor| -> Vec<(Mode, Field)> {
-            let inertia = Inertia::new(&scene.polhode, root * root, momentum);
-            let point = Point { momentum, root };
-            let field = |mode: Mode| {
-                let torque = Jet::torque(&mode, &with_turns(tensor), 1.0, root);
-                (mode, torque.over(mode.frequency.map(|part| part * momentum), point).field(point))
-            };
-            modes(&inertia, 0.0, 0.0).into_iter().filter(|mode| mode.harmonic.abs() <= 3).map(field).collect()
-        };
-        let here = tensor(frame);
-        let (step, small) = (1e-3 * root, 1e-4);
-        let turned = |axis: Vector3<f64>| {
-            let turn = |by: f64| fields(root, momentum, &tensor(frame * UnitQuaternion::new(axis * by)));
-            (4 + axis.y as usize, small, turn(small), turn(-small))
-        };
-        let pairs = [
-            (0, step, fields(root + step, momentum, &here), fields(root - step, momentum, &here)),
-            (3, small, fields(root, momentum + small, &here), fields(root, momentum - small, &here)),
-            turned(Vector3::x()),
-            turned(Vector3::y()),
-        ];
-        let inertia = Inertia::new(&scene.polhode, root * root, momentum);
-        let point = Point { momentum, root };
-        for (variable, step, after, before) in pairs {
-            for ((mode, after), (_, before)) in after.iter().zip(&before) {
-                let mode_here = modes(&inertia, 0.0, 0.0)
-                    .into_iter()
-                    .find(|other| (other.harmonic, other.multiple) == (mode.harmonic, mode.multiple))
-                    .expect("the same mode");
-                let generator = Jet::torque(&mode_here, &with_turns(&here), 1.0, root)
-                    .over(mode_here.frequency.map(|part| part * momentum), point);
-                let slopes = generator.field_slopes(point);
-                let scale = slopes.iter().flatten().map(|slope| slope.norm()).fold(0.0, f64::max);
-                for n in 0..after.len() {
-                    let difference = (after[n] - before[n]) / (2.0 * step);
-                    let off = (difference - slopes[variable][n]).norm();
-                    assert!(off <= 1e-4 * scale, "{variable} {n} {off:e} {scale:e}");
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn the_change_of_second_order_has_the_actions_of_the_sum_over_pairs() {
-    for scene in Scene::all() {
-        let demand = scene.demand();
-        let Mean { p, longitude, momentum, .. } = scene.mean;
-        let inertia = Inertia::new(&scene.polhode, p.norm_sqr(), momentum);
-        let (mut tensors, norms) = tensors(&scene.mean, &scene.place, &demand);
-        // The disturbing body is at rest.
-        tensors[1..].fill([0.0; 6]);
-        let stand = scene.stand(&inertia, &tensors, norms, slowest(&demand));
-        let pairs = second_actions(&stand, &modes(&inertia, 0.0, slowest(&demand)), &OrbitParts::default());
-        let motion = ShortPeriod::new(&inertia, &demand, [1.0, 0.0], 0.0);
-        let phase = |[h, m]: [i32; 2]| C64::from_polar(2.0, f64::from(h) * p.arg() + f64::from(m) * longitude);
-        let at = |harmonics: &[([i32; 2], Field)], n: usize| -> f64 {
-            harmonics.iter().map(|(numbers, change)| (change[n] * phase(*numbers)).re).sum()
-        };
-        let (harmonics, mean) = motion.change(&[tensors[0], [0.0; 6]]);
-        let first = motion.first(&[tensors[0], [0.0; 6]]);
-        let second = [0, 3].map(|n| at(&harmonics, n) + mean[n].re);
-        let [radial, tangential, turned] = [0, 1, 3].map(|n| at(&first, n));
-        let root = inertia.sigma.sqrt();
-        // Of L = M|p|².
-        let action = inertia.sigma * second[1]
-            + momentum * (2.0 * root * second[0] + radial * radial + tangential * tangential)
-            + 2.0 * root * radial * turned;
-        let scale = pairs.momentum.abs() + pairs.action.abs();
-        // The sum over pairs leaves out products of small terms.
-        assert!((second[1] - pairs.momentum).abs() <= 3e-4 * scale, "M {second:?} {pairs:?}");
-        assert!((action - pairs.action).abs() <= 3e-4 * scale, "L {action:e} {pairs:?}");
     }
 }
 
