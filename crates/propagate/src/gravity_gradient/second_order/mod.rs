@@ -16,6 +16,7 @@ pub(crate) mod hamiltonian;
 pub(super) mod harmonics;
 mod jet;
 mod modes;
+pub(crate) mod orbit_periodic;
 pub(crate) mod over_orbit;
 mod pairs;
 mod rows;
