@@ -12,8 +12,8 @@
 //! `Slow::Spin` solves these equations on quarters or eighths of an orbit by Picard's iteration on Chebyshev points. In first order the right-hand side is a
 //! trigonometric polynomial of f; what second order adds is not, but small: at e = 0.95 quarters and eighths agree to 7e-15 over 20 orbits. κ_o(1 + e) is at most
 //! 0.3, so the iteration converges to rounding error. The result is a polynomial that can be evaluated at any time of the piece. A piece is solved when a time
-//! first needs it, and is kept. `Slow::Orbit` is the orbit average: precession about the orbit's normal, steady in first order, with the periodic part in closed
-//! form in f, without an expansion in e. `Slow::Bodies` has the sum over several disturbing bodies on orbits that may precess. It is averaged over the rotation
+//! first needs it, and is kept. `Slow::Orbit` is the average over the true anomaly: precession about the orbit's normal, steady in first order, with the periodic
+//! part, a trigonometric polynomial of f. `Slow::Bodies` has the sum over several disturbing bodies on orbits that may precess. It is averaged over the rotation
 //! only, and solved on arcs of time.
 
 use std::f64::consts::{PI, TAU};
@@ -55,8 +55,6 @@ const _: () = assert!(2 * MOST_QUARTERS < chain::MOST);
 pub(crate) struct AveragedOrbit {
     pub(crate) eccentricity: f64,
     eta_cubed: f64,
-    /// The mean over the mean anomaly of ½ cos 2f + ½ e cos f + ⅙ e cos 3f, with its sign changed.
-    mean_of_sine: f64,
     /// n in the units of the motion.
     mean_motion: f64,
     /// G m/a³ over n².
@@ -103,12 +101,8 @@ impl AveragedOrbit {
         let (eccentricity, fraction) = (orbit.eccentricity(), orbit.disturbing_fraction());
         let eta = (1.0 - eccentricity * eccentricity).sqrt();
         let eta_cubed = eta * eta * eta;
-        // ⟨cos kf⟩ = (−β)^k (1 + kη).
-        let beta = eccentricity / (1.0 + eta);
-        let third = eccentricity / 6.0 * beta * (1.0 + 3.0 * eta);
-        let mean_of_sine = 0.5 * eccentricity * eccentricity - beta * beta * (0.5 * (1.0 + 2.0 * eta) - third);
         let strength = 3.0 * mean_motion * (delta * fraction) / eta_cubed;
-        Self { eccentricity, eta_cubed, mean_of_sine, mean_motion, fraction, axes, strength, second: None }
+        Self { eccentricity, eta_cubed, mean_motion, fraction, axes, strength, second: None }
     }
 
     /// With the averaged equations of second order.

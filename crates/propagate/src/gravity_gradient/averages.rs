@@ -48,7 +48,7 @@ impl Averages {
     /// The rates of ℓ′ and y′ in the orbit average.
     pub(super) fn secular(&self, inertia: &Inertia, mean: &Mean) -> [f64; 2] {
         let axis = mean.frame * Vector3::z();
-        if let Some(average) = self.ellipses[0].over_orbit() {
+        if let Some((average, _)) = self.ellipses[0].over_orbit() {
             return average.slopes(&axis).phases;
         }
         let rate = self.ellipses.iter().map(|ellipse| ellipse.secular(&axis) * ellipse.fraction()).sum::<f64>();

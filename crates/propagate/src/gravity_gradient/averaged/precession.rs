@@ -1,7 +1,8 @@
-//! The average over the rotation and the orbit.
+//! The average over the rotation and the true anomaly f of the orbit. The time of the averaged motion is f/n.
 //!
 //! To first order in κ_o the angular momentum precesses steadily about the orbit's normal. To second order (theory §9) it also nods if the orbit is eccentric:
-//! the averaged equations are then solved on arcs of the precession. Both have the same periodic part of one orbit, of first order in κ_o.
+//! the averaged equations are then solved on arcs of the precession. The periodic part of one orbit is of the same order: in second order it is the motion by
+//! W₁ + W₂ as a Hamiltonian over a unit of time, by the midpoint rule.
 
 use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -9,6 +10,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use super::AveragedOrbit;
 use super::arcs::{Arcs, Averaged, Stretch};
 use super::polynomial::{Column, PointByPoint, Polynomial};
+use crate::gravity_gradient::second_order::orbit_periodic::OrbitPeriodic;
 use crate::gravity_gradient::second_order::over_orbit::OrbitAverage;
 use crate::numerics::phase::Phase;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
@@ -21,15 +23,58 @@ const TURN: f64 = 1.0;
 /// An angular momentum that turns by less than this in one radian of the orbit has arcs as long as one that turns so much.
 const SLOWEST: f64 = 1e-12;
 
+/// Number of steps to the mean frame at the epoch. Each one multiplies its error by κ_o.
+const EPOCH_STEPS: usize = 4;
+
 /// Precession with the periodic part of one orbit.
 #[derive(Clone, Debug)]
 pub(crate) struct Precession {
-    ellipse: AveragedOrbit,
+    periodic: Periodic,
     mean: MeanFrame,
+    /// The periodic parts of Ψ twice, or of the drifts of ℓ′ and y′, at the epoch.
+    phases: [f64; 2],
+    /// f − l at the epoch, and 1/n.
+    centre: f64,
+    per_radian: f64,
+}
+
+/// The periodic part of one orbit.
+#[derive(Clone, Debug)]
+struct Periodic {
+    ellipse: AveragedOrbit,
     /// Factors of the periodic part of Ψ: 1, or in second order the drifts of ℓ′ and y′ for a unit of Ψ.
     factors: [f64; 2],
-    /// The periodic part of Ψ at the epoch.
-    phase: f64,
+    second: Option<Box<OrbitPeriodic>>,
+}
+
+impl Periodic {
+    /// A rotation of the mean frame in inertial components, and Ψ twice or the drifts of ℓ′ and y′.
+    #[inline(always)]
+    fn at<S: InstructionSet>(&self, mean: QuaternionLanes<S>, place: &Place<S>) -> ([Lanes<S>; 3], [Lanes<S>; 2]) {
+        let (mut rotation, mut phase) = self.ellipse.periodic(mean, place);
+        let all = |value: f64| phase.all(value);
+        let (mut further, mut phases) = ([all(0.0); 3], [all(0.0); 2]);
+        if let Some(second) = &self.second {
+            let half = turned(mean, rotation.map(|component| component * all(0.5)));
+            (rotation, phase) = self.ellipse.periodic(half, place);
+            let rows = half.rows();
+            (further, phases) = second.at(&[rows[0][2], rows[1][2], rows[2][2]], place);
+        }
+        for (component, further) in rotation.iter_mut().zip(further) {
+            *component = *component + further;
+        }
+        for (sum, factor) in phases.iter_mut().zip(self.factors) {
+            *sum = phase.mul_add(phase.all(factor), *sum);
+        }
+        (rotation, phases)
+    }
+}
+
+/// A frame after a small rotation in inertial components.
+#[inline(always)]
+fn turned<S: InstructionSet>(frame: QuaternionLanes<S>, [x, y, z]: [Lanes<S>; 3]) -> QuaternionLanes<S> {
+    let (half, one) = (x.all(0.5), x.all(1.0));
+    (QuaternionLanes([half * x, half * y, half * z, one]) * frame).normalized()
 }
 
 /// The motion of the mean frame, with Ψ or the drifts of ℓ′ and y′.
@@ -89,20 +134,25 @@ impl Precession {
         place: &Place<pulp::Scalar>,
         (unit, factors): (f64, [f64; 2]),
     ) -> Self {
+        let (average, second) = ellipse.over_orbit().unzip();
+        let factors = if average.is_some() { factors } else { [1.0; 2] };
+        let periodic = Periodic { ellipse, factors, second: second.map(Box::new) };
         let one = Lanes::splat(pulp::Scalar, 1.0);
         // The mean axis to first order, then again with the periodic part evaluated at the mean axis.
-        let (mut start, mut phase) = (frame, one);
-        for _ in 0..3 {
-            let (rotation, next) = ellipse.periodic(QuaternionLanes::all(one, &start), place);
-            let [x, y, z] = rotation.map(|lanes| -0.5 * lanes.values()[0]);
-            start = UnitQuaternion::new_normalize(Quaternion::new(1.0, x, y, z)) * frame;
-            phase = next;
+        let (mut start, mut phases) = (frame, [one; 2]);
+        for _ in 0..EPOCH_STEPS {
+            let (rotation, next) = periodic.at(QuaternionLanes::all(one, &start), place);
+            let [x, y, z] = rotation.map(|lanes| 0.5 * lanes.values()[0]);
+            start = UnitQuaternion::new_normalize(Quaternion::new(1.0, x, y, z)).inverse() * frame;
+            phases = next;
         }
-        let (mean, factors) = match ellipse.over_orbit() {
-            Some(average) => (MeanFrame::nodding(average, &ellipse, start, unit), factors),
-            None => (MeanFrame::steady(&ellipse, start, unit), [1.0; 2]),
+        let ellipse = &periodic.ellipse;
+        let mean = match average {
+            Some(average) => MeanFrame::nodding(average, ellipse, start, unit),
+            None => MeanFrame::steady(ellipse, start, unit),
         };
-        Self { ellipse, mean, factors, phase: phase.values()[0] }
+        let (centre, per_radian) = (place.centre.values()[0], 1.0 / (ellipse.mean_motion * unit));
+        Self { periodic, mean, phases: phases.map(|lanes| lanes.values()[0]), centre, per_radian }
     }
 
     /// The frame, and Ψ twice or the drifts of ℓ′ and y′.
@@ -112,14 +162,14 @@ impl Precession {
         place: &Place<S>,
         elapsed: (Lanes<S>, Lanes<S>),
     ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
-        let (mean, drifts) = self.mean.at(&self.ellipse, elapsed);
-        let ([x, y, z], phase) = self.ellipse.periodic(mean, place);
-        let (half, one) = (x.all(0.5), x.all(1.0));
-        let frame = QuaternionLanes([half * x, half * y, half * z, one]) * mean;
-        let periodic = phase - x.all(self.phase);
-        let [by_anomaly, by_longitude] = self.factors.map(|factor| x.all(factor));
-        let drifts = [by_anomaly.mul_add(periodic, drifts[0]), by_longitude.mul_add(periodic, drifts[1])];
-        (frame.normalized(), drifts)
+        let all = |value: f64| elapsed.0.all(value);
+        let by_anomaly = (place.centre - all(self.centre)).mul_add(all(self.per_radian), elapsed.0);
+        let (mean, mut drifts) = self.mean.at(&self.periodic.ellipse, (by_anomaly, elapsed.1));
+        let (rotation, phases) = self.periodic.at(mean, place);
+        for ((drift, phase), at_epoch) in drifts.iter_mut().zip(phases).zip(self.phases) {
+            *drift = *drift + (phase - all(at_epoch));
+        }
+        (turned(mean, rotation), drifts)
     }
 
     /// The longest time from the epoch for which there are at most so many arcs, in the user's unit.
@@ -166,24 +216,26 @@ impl MeanFrame {
 }
 
 impl AveragedOrbit {
-    /// ⟨D⟩ + K2 averaged over the orbit, if the averaged equations are those of second order.
-    pub(crate) fn over_orbit(&self) -> Option<OrbitAverage> {
+    /// ⟨D⟩ + K2 averaged over the orbit, and the generating function of its periodic part, if the averaged equations are those of second order.
+    pub(crate) fn over_orbit(&self) -> Option<(OrbitAverage, OrbitPeriodic)> {
+        let Self { eccentricity, mean_motion, axes, .. } = *self;
         let hamiltonian = self.second.as_deref()?;
-        Some(OrbitAverage::new(hamiltonian, self.eccentricity, self.mean_motion, self.axes))
+        let average = OrbitAverage::new(hamiltonian, eccentricity, mean_motion, axes);
+        Some((average, OrbitPeriodic::new(hamiltonian, eccentricity, mean_motion, axes)))
     }
 
-    /// The periodic part of one orbit: a rotation in inertial components, and Ψ, by the integrals of theory §9.
+    /// The periodic part of one orbit by W₁: a rotation in inertial components, and Ψ, by the integrals of theory §9.
     #[inline(always)]
     fn periodic<S: InstructionSet>(&self, frame: QuaternionLanes<S>, place: &Place<S>) -> ([Lanes<S>; 3], Lanes<S>) {
-        let Self { eccentricity, eta_cubed, mean_motion, axes, strength, mean_of_sine, .. } = self;
-        let Place { centre, sine, cosine, .. } = *place;
+        let Self { eccentricity, eta_cubed, mean_motion, axes, strength, .. } = self;
+        let Place { sine, cosine, .. } = *place;
         let all = |value: f64| sine.all(value);
         let double = ComplexLanes { re: cosine, im: sine } * ComplexLanes { re: cosine, im: sine };
         let triple = double * ComplexLanes { re: cosine, im: sine };
         let (half, first, third) = (all(0.5), all(0.5 * eccentricity), all(eccentricity / 6.0));
-        let constant = sine.mul_add(all(*eccentricity), centre);
+        let constant = sine * all(*eccentricity);
         let by_cosine = triple.im.mul_add(third, sine.mul_add(first, half * double.im));
-        let by_sine = -triple.re.mul_add(third, cosine.mul_add(first, half.mul_add(double.re, all(*mean_of_sine))));
+        let by_sine = -triple.re.mul_add(third, cosine.mul_add(first, half * double.re));
         // The tensor ½ [(PP + QQ) constant + (PP − QQ) by_cosine + (PQ + QP) by_sine] times the axis.
         let rows = frame.rows();
         let axis = [rows[0][2], rows[1][2], rows[2][2]];

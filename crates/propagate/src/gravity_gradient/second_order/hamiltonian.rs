@@ -103,6 +103,13 @@ impl Hamiltonian {
         Self { steady, ..self }
     }
 
+    /// C²/Mn, and its derivatives with respect to L and to M at fixed L; `mean_motion` is n.
+    pub(super) fn squares(&self, mean_motion: f64) -> [f64; 3] {
+        let [c, by_action, by_momentum] = self.first;
+        let square = c / (self.momentum * mean_motion);
+        [c * square, 2.0 * by_action * square, (2.0 * by_momentum - c / self.momentum) * square]
+    }
+
     /// K2 without ⟨D⟩.
     #[cfg(test)]
     pub(crate) fn without_first(self) -> Self {

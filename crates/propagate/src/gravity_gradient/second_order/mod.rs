@@ -10,6 +10,7 @@ pub(super) mod epoch;
 pub(crate) mod hamiltonian;
 pub(super) mod harmonics;
 mod modes;
+pub(crate) mod orbit_periodic;
 pub(crate) mod over_orbit;
 mod pairs;
 mod rows;

@@ -1,14 +1,15 @@
 //! ⟨D⟩ + K2 averaged over the orbit as well, in closed form.
 //!
-//! Let k_P, k_Q, k_N be the components of k along the pericentre, across it and along the normal, ρ = k_P² + k_Q², δ = k_P² − k_Q², β = e/(1 + η), and
+//! Let k_P, k_Q, k_N be the components of k along the pericentre, across it and along the normal, ρ = k_P² + k_Q², δ = k_P² − k_Q², and
 //! ⟨D⟩ = C (a/r)³ ((k·r̂)² − ⅓). Then
 //!
 //! ```text
 //! K̄ = C η^(−3) (½ρ − ⅓) + (C²/Mn) k_N (I_c ρ + I_1 δ) + ⟨K2⟩
-//! I_c = −η^(−6) (¼ + e²/6)          I_1 = η^(−6) [−¾ e² + ½ β² (1 + 2η) − (e/6) β³ (1 + 3η)]
+//! I_c = −η^(−6) (¼ + e²/6)          I_1 = −¼ η^(−6) e²
 //! ```
 //!
-//! The middle term is the effect of second order of the periodic part of ⟨D⟩. ⟨K2⟩ has the means of (a/r)⁶ and (a/r)⁶ ḟ times powers of k·r̂. K̄ is a
+//! The middle term is the effect of second order of the part of ⟨D⟩ that is periodic in the true anomaly f, whose mean over f is 0
+//! ([`super::orbit_periodic`]). K̄ acts in the time f/n. ⟨K2⟩ has the means of (a/r)⁶ and (a/r)⁶ ḟ times powers of k·r̂. K̄ is a
 //! polynomial in ρ, δ and k_N. For e = 0 it has no δ, and k precesses steadily about the normal. For e ≠ 0 it nods with twice the angle of the node.
 
 use nalgebra::Vector3;
@@ -34,10 +35,7 @@ impl OrbitAverage {
     pub(crate) fn new(hamiltonian: &Hamiltonian, eccentricity: f64, mean_motion: f64, axes: [Vector3<f64>; 3]) -> Self {
         let Hamiltonian { first, second, momentum, steady } = hamiltonian;
         let means = Means::new(eccentricity, mean_motion);
-        let [c, by_action, by_momentum] = *first;
-        let square = c / (momentum * mean_motion);
-        // C²/Mn and its derivatives.
-        let squares = [c * square, 2.0 * by_action * square, (2.0 * by_momentum - c / momentum) * square];
+        let squares = hamiltonian.squares(mean_motion);
         let rows = std::array::from_fn(|row| means.coefficients(first[row], squares[row], &second[row]));
         Self { rows, momentum: *momentum, axes, steady: *steady }
     }
@@ -85,13 +83,11 @@ impl Means {
     fn new(e: f64, mean_motion: f64) -> Self {
         let square = e * e;
         let eta = ((1.0 - e) * (1.0 + e)).sqrt();
-        let beta = e / (1.0 + eta);
         let cube = eta.powi(-3);
-        let of_square = -0.75 * square + beta * beta * (0.5 * (1.0 + 2.0 * eta) - e / 6.0 * beta * (1.0 + 3.0 * eta));
         let [still, moving] = [cube.powi(3), mean_motion * cube.powi(4)];
         Self {
             cube,
-            square: [-cube * cube * (0.25 + square / 6.0), cube * cube * of_square],
+            square: [-cube * cube * (0.25 + square / 6.0), -0.25 * cube * cube * square],
             still: [
                 still * (1.0 + square * (3.0 + 0.375 * square)),
                 still * square * (1.5 + 0.25 * square),
