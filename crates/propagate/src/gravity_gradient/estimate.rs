@@ -16,6 +16,7 @@ use super::averaged::MOST_QUARTERS;
 use super::corrections::{Corrections, Demand};
 use super::averages::Averages;
 use super::inertia::Inertia;
+use super::mean_motion::CONVERGED;
 use super::request::Request;
 use super::response::Response;
 use crate::error::Error;
@@ -41,7 +42,7 @@ pub(super) struct Estimate {
     dropped: f64,
     /// Terms that the level omits.
     omitted: f64,
-    /// Rounding of σ to a double in the phases.
+    /// Rounding of σ to a double in the phases, and of the mean M and L.
     rounding: f64,
     /// The average over the orbit.
     orbit: f64,
@@ -77,7 +78,9 @@ impl Estimate {
             resonant: RESONANT * sum(|corrections| corrections.resonant),
             dropped: sum(|corrections| corrections.dropped),
             omitted: omitted.sum(),
-            rounding: 4.0 * f64::EPSILON * inertia.sigma * (anomaly + longitude) * duration,
+            // The iteration to the mean M and L ends at its own threshold.
+            rounding: 4.0 * f64::EPSILON * inertia.sigma * (anomaly + longitude) * duration
+                + response.of_actions([CONVERGED; 2], duration),
             orbit: ORBIT * averages.over_orbit_error(&response, inertia, &demands[0], level),
             orbits,
         }

@@ -11,7 +11,7 @@ use crate::input::orbit::Orbit;
 use crate::torque_free::polhode::Polhode;
 
 /// The iteration has converged if the mean variables change by less than this.
-const CONVERGED: f64 = 1e-15;
+pub(super) const CONVERGED: f64 = 1e-15;
 /// Largest number of iterations for the mean variables.
 const MOST_STEPS: usize = 24;
 /// Largest mean ratio of the changes of successive iterations. With a larger ratio there is no mean motion.
@@ -71,8 +71,6 @@ impl SecondOrderData {
         let inertia = first.inertia.moved(polhode, mean.p.norm_sqr(), mean.momentum);
         let corrections = vec![Corrections::new(&inertia, demand)?];
         let change = Change { momentum, ..first.change };
-        // The iteration leaves M and L its own threshold, which the rates multiply by the time.
-        let left = left.map(|part| part + CONVERGED);
         Ok((MeanMotion { mean, change, inertia, corrections, steady: self.steady }, left))
     }
 }
