@@ -20,6 +20,8 @@ mod torque_free;
 
 mod gravity_gradient;
 
+mod cassini;
+
 mod integration;
 
 mod motion;
@@ -65,7 +67,7 @@ pub mod periods {
 
 pub mod disturbers {
     //! Bodies whose gravity gradient acts: by elements of an orbit or by a table of positions; Cassini states.
-    pub use crate::gravity_gradient::cassini::{CassiniState, cassini_states};
+    pub use crate::cassini::{CassiniState, cassini_states};
     pub use crate::input::disturbing_body::DisturbingBody;
     pub use crate::input::orbit::{Oblateness, Orbit};
     pub use crate::input::tabulated::TabulatedOrbit;

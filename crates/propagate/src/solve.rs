@@ -3,8 +3,8 @@
 use std::sync::atomic::AtomicBool;
 
 use crate::error::{Error, Kind, TorqueMeasure};
-use crate::gravity_gradient::choice::chosen;
-use crate::gravity_gradient::osculating::{LARGEST_SEPARATRIX_RATIO, osculating};
+use crate::gravity_gradient::body::osculating::{LARGEST_SEPARATRIX_RATIO, osculating};
+use crate::gravity_gradient::level::chosen;
 use crate::gravity_gradient::request::Request;
 use crate::input::options::{Averaging, Level, Method};
 use crate::input::orbit::Orbit;

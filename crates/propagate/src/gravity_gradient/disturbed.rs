@@ -1,32 +1,29 @@
 //! Rotation under the gravity gradient of one or more bodies on Keplerian orbits (theory §9).
 //!
-//! The mean motion is the free motion at the mean σ and M, in an invariable frame that the averaged torque moves ([`super::averaged`]). Short-period
-//! [`super::corrections`] of first order lead from it to the motion. To first order the torques of several bodies, and their corrections, add up. Both are
+//! The mean motion is the free motion at the mean σ and M, in an invariable frame that the averaged torque moves ([`crate::gravity_gradient::averaged`]). Short-period
+//! [`crate::gravity_gradient::first_order::corrections`] of first order lead from it to the motion. To first order the torques of several bodies, and their corrections, add up. Both are
 //! regular at J = 0 and at any inclination. Validity: the rotation is much faster than the orbit, and the torque is weak. A divisor that is too small is
 //! [`Error::Resonance`]. The error is of second order in the torque and grows with time.
-
-#[cfg(test)]
-#[path = "tests.rs"]
-mod tests;
 
 use std::f64::consts::TAU;
 
 use andoyer_double::DoubleDouble;
 
-use super::averaged::{MOST_QUARTERS, Slow};
-use super::estimate::MOST_ORBITS;
-use super::corrections::Corrections;
-use super::course::Course;
-use super::draft::{Draft, Outset};
-use super::inertia::Inertia;
-use super::mean_motion::MeanMotion;
-use super::offset::Offset;
-use super::powers::Powers;
 use crate::error::Error;
+use crate::gravity_gradient::averaged::slow::Slow;
+use crate::gravity_gradient::averaged::spin::MOST_QUARTERS;
+use crate::gravity_gradient::body::cayley_klein::Powers;
+use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::draft::{Draft, Outset};
+use crate::gravity_gradient::estimate::MOST_ORBITS;
+use crate::gravity_gradient::first_order::corrections::Corrections;
+use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
+use crate::gravity_gradient::orbit::elliptic_motion::Course;
 use crate::input::options::{Averaging, Level};
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
 use crate::torque_free::polhode::Frame;
+use num_complex::Complex;
 
 /// The entries of a plan that concern the gravity gradient.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -43,33 +40,42 @@ pub(crate) struct GradientPlan {
 
 /// A disturbing body and its corrections.
 #[derive(Clone, Debug)]
-pub(super) struct DisturbedBy {
-    pub(super) course: Course,
-    pub(super) corrections: Corrections,
+pub(crate) struct DisturbedBy {
+    pub(crate) course: Course,
+    pub(crate) corrections: Corrections,
+}
+
+/// Constants of second order for which the motion passes through the given state.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Offset {
+    /// Added to p, times e^(−iℓ′).
+    pub(crate) p: Complex<f64>,
+    /// Added to M.
+    pub(crate) momentum: f64,
 }
 
 /// A motion under the gravity gradient.
 #[derive(Clone, Debug)]
 pub(crate) struct Gradient {
-    pub(super) inertia: Inertia,
-    pub(super) pair: [Powers; 2],
+    pub(crate) inertia: Inertia,
+    pub(crate) pair: [Powers; 2],
     /// At least one.
-    pub(super) bodies: Vec<DisturbedBy>,
-    pub(super) slow: Slow,
+    pub(crate) bodies: Vec<DisturbedBy>,
+    pub(crate) slow: Slow,
     /// Constants that correct the error of first order at the epoch.
-    pub(super) offset: Offset,
-    pub(super) anomaly: Phase,
-    pub(super) half_longitude: Phase,
-    pub(super) root: f64,
+    pub(crate) offset: Offset,
+    pub(crate) anomaly: Phase,
+    pub(crate) half_longitude: Phase,
+    pub(crate) root: f64,
     /// These times the phase integral Ψ, or in second order times the drifts, are added to ℓ′ and y′.
-    pub(super) drifts: [f64; 2],
+    pub(crate) drifts: [f64; 2],
     /// The rates that they add to ℓ′ and y′ in the orbit average, in the user's unit.
     secular: [f64; 2],
-    pub(super) frame: Frame,
-    pub(super) moments: [f64; 3],
+    pub(crate) frame: Frame,
+    pub(crate) moments: [f64; 3],
     level: Level,
     /// The motion's units of rate and of angular momentum, in the user's units.
-    pub(super) units: [f64; 2],
+    pub(crate) units: [f64; 2],
     pub(crate) error: f64,
 }
 
@@ -78,8 +84,8 @@ impl Gradient {
     ///
     /// # Errors
     /// [`Error::SpanOfBodies`] if the averaged equations are not solved over all of the span.
-    pub(super) fn new(outset: &Outset<'_>, draft: Draft) -> Result<Self, Error> {
-        let Outset { polhode, attitude, request, paths, .. } = outset;
+    pub(crate) fn new(outset: &Outset<'_>, draft: Draft) -> Result<Self, Error> {
+        let Outset { polhode, attitude, request, orbits, .. } = outset;
         let Draft { level, motion, averages, by_orbit, error } = draft;
         let MeanMotion { mean, change, inertia, corrections, .. } = motion;
         let exponent = polhode.scales.1;
@@ -92,7 +98,7 @@ impl Gradient {
         });
         let unit = scaled(1.0, exponent);
         let factors = averages.per_phase(&inertia, request);
-        let slow = |frame| averages.slow(frame, (request, by_orbit), paths, (unit, factors));
+        let slow = |frame| averages.slow(frame, (request, by_orbit), orbits, (unit, factors));
         let mut gradient = Self {
             anomaly: Phase::new(anomaly_rate, mean.p.arg()),
             half_longitude: Phase::new(longitude_rate * 0.5.into(), 0.5 * mean.longitude),
@@ -102,11 +108,10 @@ impl Gradient {
             pair: inertia.pair.each_ref().map(|series| Powers::new(series, inertia.sigma.sqrt())),
             inertia,
             slow: slow(mean.frame),
-            bodies: paths
-                .courses
+            bodies: orbits
                 .iter()
                 .zip(corrections)
-                .map(|(course, corrections)| DisturbedBy { course: course.clone(), corrections })
+                .map(|(orbit, corrections)| DisturbedBy { course: orbit.course.clone(), corrections })
                 .collect(),
             offset: Offset::default(),
             frame: polhode.frame.clone(),

@@ -3,14 +3,16 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use num_complex::Complex;
 
-use super::averaged::AveragedOrbit;
-use super::averages::Averages;
-use super::corrections::{Demand, Mean};
-use super::estimate::Estimate;
-use super::mean_motion::{MeanMotion, SecondOrderData, first_order, weak_enough};
-use super::paths::Paths;
-use super::request::Request;
 use crate::error::{Error, TorqueMeasure};
+use crate::gravity_gradient::averaged::averaged_orbit::AveragedOrbit;
+use crate::gravity_gradient::averaged::torque::Averages;
+use crate::gravity_gradient::estimate::Estimate;
+use crate::gravity_gradient::first_order::corrections::Mean;
+use crate::gravity_gradient::first_order::mean_motion::{MeanMotion, first_order, weak_enough};
+use crate::gravity_gradient::orbit::elliptic_orbit::{Demand, EllipticOrbit};
+use crate::gravity_gradient::request::Request;
+use crate::gravity_gradient::second_order::k2_remainder::Steady;
+use crate::gravity_gradient::second_order::mean_elements::SecondOrderData;
 use crate::input::options::Level;
 use crate::torque_free::polhode::Polhode;
 
@@ -21,25 +23,25 @@ type C64 = Complex<f64>;
 const FASTEST_PRECESSION: f64 = 0.3;
 
 /// What the levels of a motion share.
-pub(super) struct Outset<'a> {
-    pub(super) polhode: &'a Polhode,
-    pub(super) attitude: UnitQuaternion<f64>,
-    pub(super) request: Request<'a>,
-    pub(super) paths: &'a Paths,
+pub(crate) struct Outset<'a> {
+    pub(crate) polhode: &'a Polhode,
+    pub(crate) attitude: UnitQuaternion<f64>,
+    pub(crate) request: Request<'a>,
+    pub(crate) orbits: &'a [EllipticOrbit<'a>],
     demands: Vec<Demand<'a>>,
     first: MeanMotion,
     refinements: Option<SecondOrderData>,
 }
 
 /// A motion at one level.
-pub(super) struct Draft {
-    pub(super) level: Level,
-    pub(super) motion: MeanMotion,
-    pub(super) averages: Averages,
+pub(crate) struct Draft {
+    pub(crate) level: Level,
+    pub(crate) motion: MeanMotion,
+    pub(crate) averages: Averages,
     /// Whether the equations are averaged over the orbit as well.
-    pub(super) by_orbit: bool,
+    pub(crate) by_orbit: bool,
     /// The error bound \[rad\].
-    pub(super) error: f64,
+    pub(crate) error: f64,
 }
 
 impl<'a> Outset<'a> {
@@ -48,41 +50,41 @@ impl<'a> Outset<'a> {
     /// # Errors
     /// - [`Error::OneFixedOrbit`] for the second order under several bodies.
     /// - [`Error::TorqueTooStrong`] and [`Error::Resonance`] if there is no such motion, and the error of an orbit that is out of reach at the epoch.
-    pub(super) fn new(
+    pub(crate) fn new(
         polhode: &'a Polhode,
         attitude: UnitQuaternion<f64>,
         osculating: (f64, [f64; 2]),
-        (request, paths): (&Request<'a>, &'a Paths),
+        (request, orbits): (&Request<'a>, &'a [EllipticOrbit<'a>]),
     ) -> Result<Self, Error> {
         let level = request.level;
         if level == Level::SecondOrder && !request.is_fixed() {
             return Err(Error::OneFixedOrbit { argument: "level", value: level.to_string() });
         }
         let pole = polhode.invariable_frame(attitude) * Vector3::z();
-        let demands = paths.demands(request, polhode.scales.1, pole)?;
+        let demand = |orbit: &'a EllipticOrbit<'a>| orbit.demand(request, polhode.scales.1, pole);
+        let demands = orbits.iter().map(demand).collect::<Result<Vec<_>, _>>()?;
         weak_enough(polhode, osculating.0, &demands)?;
         let (sigma, [anomaly, longitude]) = osculating;
         let p = C64::from_polar(sigma.sqrt(), anomaly);
         let momentum = polhode.invariants.momentum.to_f64();
         let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
-        let first = first_order(polhode, &state, &paths.starts, &demands)?;
-        let refinements = request.is_refined().then(|| {
-            SecondOrderData::new(&first, &state, &paths.starts[0], &demands[0])
-        });
-        Ok(Self { polhode, attitude, request: *request, paths, demands, first, refinements })
+        let first = first_order(polhode, &state, orbits, &demands)?;
+        let refinements =
+            request.is_refined().then(|| SecondOrderData::new(&first, &state, &orbits[0].start, &demands[0]));
+        Ok(Self { polhode, attitude, request: *request, orbits, demands, first, refinements })
     }
 
     /// The motion at a level.
     ///
     /// # Errors
     /// As [`Outset::new`], those of the average over the orbit, and [`Error::TorqueTooStrong`] if the angular momentum precesses faster than the disturbing bodies move.
-    pub(super) fn draft(&self, level: Level) -> Result<Draft, Error> {
+    pub(crate) fn draft(&self, level: Level) -> Result<Draft, Error> {
         let Self { polhode, demands, first, .. } = self;
-        let (motion, left) = match &self.refinements {
+        let (motion, steady, left) = match &self.refinements {
             Some(refinements) => refinements.motion(polhode, first, &demands[0], level)?,
-            None => (first.clone(), [0.0; 2]),
+            None => (first.clone(), Steady::default(), [0.0; 2]),
         };
-        let averages = Averages::new(polhode, &motion, demands, level);
+        let averages = Averages::new(polhode, (&motion, steady), demands, level);
         slow_enough(&averages, demands)?;
         let request = Request { level, ..self.request };
         let estimate = Estimate::new(&motion.inertia, &motion.corrections, &averages, demands, (level, left));

@@ -5,21 +5,22 @@
 //! 1. the periodic change of the next order, ε²;
 //! 2. the drift of the next order: ε times the drift that a relative change ε of the mean variables makes, in second order ε² times it, and the drift by the
 //!    errors of the mean M and L at the epoch;
-//! 3. what is not corrected of terms in resonance ([`super::regime`]).
+//! 3. what is not corrected of terms in resonance ([`crate::gravity_gradient::terms::regime`]).
 //!
 //! Each has one safety factor below. Dropped terms, truncated sums, terms that the level omits, the average over the orbit, and rounding follow.
 //! `gradient safety` of the test crate measures the factors against integrations.
 
 use std::f64::consts::TAU;
 
-use super::averaged::MOST_QUARTERS;
-use super::corrections::{Corrections, Demand};
-use super::averages::Averages;
-use super::inertia::Inertia;
-use super::mean_motion::CONVERGED;
-use super::request::Request;
-use super::response::Response;
 use crate::error::Error;
+use crate::gravity_gradient::averaged::spin::MOST_QUARTERS;
+use crate::gravity_gradient::averaged::torque::Averages;
+use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::first_order::corrections::Corrections;
+use crate::gravity_gradient::first_order::mean_motion::CONVERGED;
+use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
+use crate::gravity_gradient::request::Request;
+use crate::gravity_gradient::terms::sensitivity::Response;
 use crate::input::options::{Averaging, Level};
 
 /// Safety factor of the periodic change of the next order.
@@ -31,10 +32,10 @@ const RESONANT: f64 = 0.3;
 /// Safety factor of the average over the orbit.
 const ORBIT: f64 = 1.5;
 /// Number of orbits on each side of the epoch for which quarters are kept.
-pub(super) const MOST_ORBITS: f64 = (MOST_QUARTERS / 4 - 2) as f64;
+pub(crate) const MOST_ORBITS: f64 = (MOST_QUARTERS / 4 - 2) as f64;
 
 /// The parts of the attitude error \[rad\], with their safety factors.
-pub(super) struct Estimate {
+pub(crate) struct Estimate {
     periodic: f64,
     drift: f64,
     resonant: f64,
@@ -52,7 +53,7 @@ pub(super) struct Estimate {
 
 impl Estimate {
     /// For the torques of all bodies. `left` has the errors of the mean M and L at the epoch, over M, if these are known to the order of the level.
-    pub(super) fn new(
+    pub(crate) fn new(
         inertia: &Inertia,
         corrections: &[Corrections],
         averages: &Averages,
@@ -69,7 +70,8 @@ impl Estimate {
             _ => drift * acting(|demand| demand.envelope.share.square),
         };
         let sum = |part: fn(&Corrections) -> f64| corrections.iter().map(part).sum::<f64>();
-        let omitted = corrections.iter().zip(demands).map(|(corrections, demand)| omitted(corrections, &response, demand));
+        let omitted =
+            corrections.iter().zip(demands).map(|(corrections, demand)| omitted(corrections, &response, demand));
         let [anomaly, longitude] = inertia.rate_slopes.map(f64::abs);
         let orbits = demands.iter().map(|demand| demand.mean_motion * duration / TAU).fold(0.0, f64::max);
         Self {
@@ -87,7 +89,7 @@ impl Estimate {
     }
 
     /// Whether the equations are averaged over the orbit as well.
-    pub(super) fn by_orbit(&self, request: &Request<'_>) -> Result<bool, Error> {
+    pub(crate) fn by_orbit(&self, request: &Request<'_>) -> Result<bool, Error> {
         if !request.is_fixed() {
             return match request.averaging {
                 Averaging::Orbit => {
@@ -107,7 +109,7 @@ impl Estimate {
     }
 
     /// The sum of all parts \[rad\].
-    pub(super) fn error(&self, by_orbit: bool) -> f64 {
+    pub(crate) fn error(&self, by_orbit: bool) -> f64 {
         let Self { periodic, drift, resonant, dropped, omitted, rounding, orbit, .. } = *self;
         periodic + drift + resonant + dropped + omitted + rounding + if by_orbit { orbit } else { 0.0 }
     }

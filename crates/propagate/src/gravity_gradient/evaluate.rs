@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 
 use pulp::NullaryFnOnce;
 
-use super::course::Elapsed;
-use super::disturbed::{DisturbedBy, Gradient};
-use super::generator::{Correction, MeanLanes};
-use super::offset::Offset;
+use crate::gravity_gradient::disturbed::Offset;
+use crate::gravity_gradient::disturbed::{DisturbedBy, Gradient};
+use crate::gravity_gradient::first_order::generator::{Correction, MeanLanes};
+use crate::gravity_gradient::orbit::elliptic_motion::Elapsed;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
@@ -16,17 +16,17 @@ use crate::simd::phase::elapsed;
 
 /// Osculating variables at some times: p, cosine and sine of y′/2, M, and the invariable frame, which is not normalized.
 #[derive(Clone, Copy)]
-pub(super) struct Osculating<S: InstructionSet> {
-    pub(super) p: ComplexLanes<S>,
-    pub(super) half: ComplexLanes<S>,
-    pub(super) momentum: Lanes<S>,
-    pub(super) frame: QuaternionLanes<S>,
+pub(crate) struct Osculating<S: InstructionSet> {
+    pub(crate) p: ComplexLanes<S>,
+    pub(crate) half: ComplexLanes<S>,
+    pub(crate) momentum: Lanes<S>,
+    pub(crate) frame: QuaternionLanes<S>,
 }
 
 impl Gradient {
     /// The osculating variables at times after the epoch. The function is compiled separately, once for each instruction set.
     #[inline(always)]
-    pub(super) fn state<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
+    pub(crate) fn state<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
         elapsed.0.simd().vectorize(At { gradient: self, elapsed })
     }
 
@@ -87,7 +87,7 @@ impl Gradient {
 
     /// The quaternion of theory §8 for a state near the mean state, not normalized.
     #[inline(always)]
-    pub(super) fn relative<S: InstructionSet>(&self, state: &Osculating<S>) -> QuaternionLanes<S> {
+    pub(crate) fn relative<S: InstructionSet>(&self, state: &Osculating<S>) -> QuaternionLanes<S> {
         let Osculating { p, half, .. } = *state;
         let beyond = p.re.mul_add(p.re, p.im.mul_add(p.im, p.re.all(-self.inertia.sigma)));
         let square = p * p;

@@ -4,30 +4,17 @@
 //! Imports errors, numerics, simd, input and torque_free.
 
 mod averaged;
-mod averages;
-mod candidate;
-pub(crate) mod cassini;
-pub(crate) mod choice;
-mod contraction;
-mod corrections;
-mod course;
+pub(crate) mod body;
 pub(crate) mod disturbed;
-mod divisors;
 mod draft;
-mod envelope;
-mod epoch;
 mod estimate;
 mod evaluate;
-mod generator;
-mod inertia;
-mod mean_motion;
-mod offset;
-mod orbit_series;
-pub(crate) mod osculating;
-mod paths;
-mod powers;
+mod first_order;
+mod initial_constants;
+pub(crate) mod level;
+pub(crate) mod orbit;
 pub(crate) mod request;
-mod regime;
-mod response;
 mod second_order;
-mod torque;
+mod terms;
+#[cfg(test)]
+mod tests;

@@ -3,11 +3,12 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use num_complex::Complex;
 
-use crate::gravity_gradient::choice::chosen;
-use crate::gravity_gradient::corrections::{Change, Corrections, Demand, Mean};
-use crate::gravity_gradient::envelope::{Reach, whole};
-use crate::gravity_gradient::inertia::Inertia;
-use crate::gravity_gradient::orbit_series::OrbitSeries;
+use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::first_order::corrections::{Change, Corrections, Mean};
+use crate::gravity_gradient::level::chosen;
+use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
+use crate::gravity_gradient::orbit::hansen::OrbitSeries;
+use crate::gravity_gradient::orbit::span::{Reach, whole};
 use crate::gravity_gradient::request::Request;
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
@@ -64,7 +65,7 @@ impl Case {
             sides: [1.0; 2],
             spanned: true,
         };
-        let (_, osculating) = crate::gravity_gradient::osculating::osculating(&polhode).expect("no separatrix");
+        let (_, osculating) = crate::gravity_gradient::body::osculating::osculating(&polhode).expect("no separatrix");
         let gradient = chosen(&polhode, state.attitude, osculating, &request).expect("averaged").0;
         [
             polhode.user_momentum(),
@@ -134,7 +135,7 @@ impl Stand {
         let state = State::new(0.0, [0.1, -0.2, 0.3, 0.927_361_849_549_570_4], rates).expect("a state");
         let polhode = Polhode::new(&Body::new(moments).expect("a body"), &state).expect("turning");
         let (_, (sigma, [anomaly, longitude])) =
-            crate::gravity_gradient::osculating::osculating(&polhode).expect("no separatrix");
+            crate::gravity_gradient::body::osculating::osculating(&polhode).expect("no separatrix");
         let orbit = Orbit::new(MEAN_MOTION, 0.3).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
         let mean = Mean {
             p: C64::from_polar(sigma.sqrt(), anomaly),

@@ -10,17 +10,17 @@ use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::{Lanes, WIDEST};
 
 /// Averaged equations that are solved arc by arc.
-pub(super) trait Averaged {
+pub(crate) trait Averaged {
     /// The arc that begins with a column at a distance from the epoch, after it (`sign` 1) or before it (−1).
     fn arc(&self, sign: f64, from: f64, start: &Column) -> Stretch;
 }
 
 /// One arc: the distances of its ends from the epoch, and the solution.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stretch {
-    pub(super) from: f64,
-    pub(super) length: f64,
-    pub(super) solution: Polynomial,
+pub(crate) struct Stretch {
+    pub(crate) from: f64,
+    pub(crate) length: f64,
+    pub(crate) solution: Polynomial,
 }
 
 impl Stretch {
@@ -31,20 +31,20 @@ impl Stretch {
 
 /// The arcs of one solution. Times are those from the epoch.
 #[derive(Clone, Debug)]
-pub(super) struct Arcs {
+pub(crate) struct Arcs {
     start: Column,
     /// The solved arcs after the epoch, and before it.
     kept: Arc<[RwLock<Vec<Stretch>>; 2]>,
 }
 
 impl Arcs {
-    pub(super) fn new(start: Column) -> Self {
+    pub(crate) fn new(start: Column) -> Self {
         Self { start, kept: Arc::default() }
     }
 
     /// The frame and the other columns at times after the epoch. The function is compiled separately: one fixed orbit does without it.
     #[inline(always)]
-    pub(super) fn at<S: InstructionSet>(
+    pub(crate) fn at<S: InstructionSet>(
         &self,
         averaged: &impl Averaged,
         times: Lanes<S>,

@@ -14,7 +14,7 @@ use pulp::Arch;
 
 use super::arcs::{Arcs, Averaged, Stretch};
 use super::polynomial::{Column, NODES, POINTS, PointByPoint, Polynomial};
-use crate::gravity_gradient::course::Course;
+use crate::gravity_gradient::orbit::elliptic_motion::Course;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::Lanes;
@@ -56,7 +56,7 @@ impl Bodies {
 
     /// The frame, and Ψ twice, at times after the epoch.
     #[inline(always)]
-    pub(super) fn at<S: InstructionSet>(&self, times: Lanes<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
+    pub(crate) fn at<S: InstructionSet>(&self, times: Lanes<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         self.arcs.at(&self.equations, times)
     }
 }

@@ -5,14 +5,14 @@ use std::sync::OnceLock;
 /// Blocks of 1, 2, 4, … values.
 const BLOCKS: usize = 20;
 /// Number of values that a chain can hold.
-pub(super) const MOST: usize = (1 << BLOCKS) - 1;
+pub(crate) const MOST: usize = (1 << BLOCKS) - 1;
 
 /// A value that is computed once. A block has many that are never needed, so that the values are not in the block.
 type Cell<T> = OnceLock<Box<T>>;
 
 /// The values from the number 0 on.
 #[derive(Debug)]
-pub(super) struct Chain<T> {
+pub(crate) struct Chain<T> {
     blocks: [OnceLock<Box<[Cell<T>]>>; BLOCKS],
 }
 
@@ -32,7 +32,7 @@ fn position(number: usize) -> (usize, usize) {
 impl<T> Chain<T> {
     /// The value, if it is known.
     #[inline(always)]
-    pub(super) fn get(&self, number: usize) -> Option<&T> {
+    pub(crate) fn get(&self, number: usize) -> Option<&T> {
         let (block, place) = position(number);
         Some(self.blocks.get(block)?.get()?.get(place)?.get()?)
     }
@@ -40,7 +40,7 @@ impl<T> Chain<T> {
     /// The value, computed by `next` together with all unknown ones before it. `next` has a number and the value before it, if there is one. The number is below
     /// [`MOST`].
     #[cold]
-    pub(super) fn get_or_compute(&self, number: usize, next: impl Fn(usize, Option<&T>) -> T) -> &T {
+    pub(crate) fn get_or_compute(&self, number: usize, next: impl Fn(usize, Option<&T>) -> T) -> &T {
         let known = (0..number).rev().find_map(|number| Some((number, self.get(number)?)));
         let (mut from, mut last) = known.map_or((0, None), |(known, value)| (known + 1, Some(value)));
         loop {

@@ -11,21 +11,21 @@ use crate::simd::lanes::{Lanes, WIDEST};
 
 /// Chebyshev points in an interval: whole vectors of every width. With degree 15 the interpolation error in a quarter of the orbit is 1e-15 κ_o for cos 2f, and
 /// 7e-13 e κ_o for cos 3f, and about 3e-9 (κ_o(1 + e))⁴ for the powers of κ_o.
-pub(super) const POINTS: usize = WIDEST;
+pub(crate) const POINTS: usize = WIDEST;
 /// Largest number of Picard iterations. Each one multiplies the error by about κ_o, which `draft::FASTEST_PRECESSION` bounds; 16 is the most seen.
 const MOST_ITERATIONS: usize = 40;
 /// Smaller coefficients are dropped.
 const NEGLIGIBLE: f64 = 1e-17;
 
 /// Frame (quaternion x, y, z, w), and two numbers: the phase integral Ψ twice, or the drifts of ℓ′ and y′.
-pub(super) type Column = [f64; COLUMNS];
+pub(crate) type Column = [f64; COLUMNS];
 /// Components of a column.
-pub(super) const COLUMNS: usize = 6;
+pub(crate) const COLUMNS: usize = 6;
 /// Those of the frame.
 const FRAME: usize = 4;
 
 /// The Chebyshev points, from −1 to 1.
-pub(super) static NODES: LazyLock<[f64; POINTS]> =
+pub(crate) static NODES: LazyLock<[f64; POINTS]> =
     LazyLock::new(|| std::array::from_fn(|i| (PI * (i as f64 + 0.5) / POINTS as f64).cos()));
 /// The coefficients of a primitive for a function that is 1 at one of the points and 0 at the others, by the point.
 static PRIMITIVES: LazyLock<[[f64; POINTS]; POINTS]> = LazyLock::new(|| std::array::from_fn(primitive));
@@ -77,7 +77,7 @@ fn sum(coefficients: &[f64; POINTS], x: f64) -> f64 {
 }
 
 /// A number for each point.
-pub(super) type Row = [f64; POINTS];
+pub(crate) type Row = [f64; POINTS];
 
 /// [`PRIMITIVES`] and the transposed [`VALUES`] in rows, by the point of the function.
 static ROWS: LazyLock<[[Row; POINTS]; 2]> = LazyLock::new(|| {
@@ -86,13 +86,13 @@ static ROWS: LazyLock<[[Row; POINTS]; 2]> = LazyLock::new(|| {
 });
 
 /// Averaged equations on an interval.
-pub(super) trait Slopes {
+pub(crate) trait Slopes {
     /// The derivatives at the points from `first` on, for the frames there.
     fn at<S: InstructionSet>(&self, first: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS];
 }
 
 /// Equations that are computed point by point, from the number of the point and the frame there.
-pub(super) struct PointByPoint<F>(pub(super) F);
+pub(crate) struct PointByPoint<F>(pub(crate) F);
 
 impl<F: Fn(usize, &Quaternion<f64>) -> Column> Slopes for PointByPoint<F> {
     #[inline(always)]
@@ -117,7 +117,7 @@ impl<F: Fn(usize, &Quaternion<f64>) -> Column> Slopes for PointByPoint<F> {
 
 /// The coefficients of a polynomial in the place in one interval, from −1 to 1.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Polynomial {
+pub(crate) struct Polynomial {
     coefficients: [Column; POINTS],
     terms: usize,
 }
@@ -224,14 +224,14 @@ fn combined<S: InstructionSet>(
 
 impl Polynomial {
     /// The solution that passes through a column at a place of the interval, from −1 to 1. `half` is half the length of the interval.
-    pub(super) fn solved(half: f64, (place, start): (f64, &Column), equations: &impl Slopes) -> Self {
+    pub(crate) fn solved(half: f64, (place, start): (f64, &Column), equations: &impl Slopes) -> Self {
         let columns = dispatch(pulp::Arch::new(), Solve { half, place, start, equations });
         Self::new(std::array::from_fn(|k| columns.each_ref().map(|column| column[k])))
     }
 
     /// The values at a place of the interval, by Horner's rule.
     #[inline(always)]
-    pub(super) fn sums<S: InstructionSet>(&self, x: Lanes<S>) -> [Lanes<S>; COLUMNS] {
+    pub(crate) fn sums<S: InstructionSet>(&self, x: Lanes<S>) -> [Lanes<S>; COLUMNS] {
         let mut sums = [x.all(0.0); COLUMNS];
         for coefficient in self.coefficients[..self.terms].iter().rev() {
             for (sum, coefficient) in sums.iter_mut().zip(coefficient) {
@@ -241,7 +241,7 @@ impl Polynomial {
         sums
     }
 
-    pub(super) fn at(&self, x: f64) -> Column {
+    pub(crate) fn at(&self, x: f64) -> Column {
         self.sums(Lanes::splat(pulp::Scalar, x)).map(|lanes| lanes.values()[0])
     }
 

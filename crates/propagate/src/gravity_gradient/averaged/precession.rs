@@ -7,11 +7,11 @@
 use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use super::AveragedOrbit;
 use super::arcs::{Arcs, Averaged, Stretch};
+use super::averaged_orbit::AveragedOrbit;
 use super::polynomial::{Column, PointByPoint, Polynomial};
-use crate::gravity_gradient::second_order::orbit_periodic::OrbitPeriodic;
-use crate::gravity_gradient::second_order::over_orbit::OrbitAverage;
+use crate::gravity_gradient::second_order::k2_orbit_mean::OrbitAverage;
+use crate::gravity_gradient::second_order::k2_orbit_periodic::OrbitPeriodic;
 use crate::numerics::phase::Phase;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
@@ -157,7 +157,7 @@ impl Precession {
 
     /// The frame, and Ψ twice or the drifts of ℓ′ and y′.
     #[inline(always)]
-    pub(super) fn at<S: InstructionSet>(
+    pub(crate) fn at<S: InstructionSet>(
         &self,
         place: &Place<S>,
         elapsed: (Lanes<S>, Lanes<S>),

@@ -11,18 +11,19 @@
 //! formed before σ is: the sum is regular at σ = 0.
 //!
 //! A harmonic of the orbit near resonance is a term of its own, of frequency Ω + jn and of constant amplitude; a pair of two such terms has the divisor of both
-//! frequencies together. Pairs for which two terms of χ are not enough are summed around the orbit ([`super::around`]).
+//! frequencies together. Pairs for which two terms of χ are not enough are summed around the orbit ([`crate::gravity_gradient::second_order::pairs_around`]).
 
 use std::f64::consts::SQRT_2;
 use std::mem::take;
 
 use num_complex::Complex;
 
-use super::around::{self, Around, PAIR_PRODUCT_CUTOFF, Total};
-use super::harmonics::{Near, Split, inverse, unreturned};
-use super::modes::Mode;
-use super::rows::{Row, Stand};
-use super::totals::Together;
+use super::pair_harmonics::{Near, Split, inverse, unreturned};
+use super::pair_terms::{Row, Stand};
+use super::pair_totals::Together;
+use super::pairs_around;
+use super::pairs_around::{Around, PAIR_PRODUCT_CUTOFF, Total};
+use crate::gravity_gradient::terms::modes::Mode;
 
 type C64 = Complex<f64>;
 
@@ -31,30 +32,30 @@ type Lists = [Vec<Together>; 2];
 
 /// δ₂M and δ₂L.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Actions {
-    pub(super) momentum: f64,
-    pub(super) action: f64,
+pub(crate) struct Actions {
+    pub(crate) momentum: f64,
+    pub(crate) action: f64,
     /// Their errors: the truncation of the sum over time derivatives after two terms, harmonics of the orbit that the sum lacks or that do not return within
     /// the span, pairs that are too slow where the orbit has too many harmonics, and pairs that are left out for their size. Their phases are independent: the
     /// squares add up.
-    pub(super) left: [f64; 2],
+    pub(crate) left: [f64; 2],
     /// The largest changes by one pair over the product of its relative sizes.
     largest: [f64; 2],
 }
 
 /// The harmonics of the orbit in the sum.
 #[derive(Default)]
-pub(super) struct OrbitParts<'a> {
+pub(crate) struct OrbitParts<'a> {
     /// The terms whose divisors are exact.
-    pub(super) terms: Vec<(Mode, Split)>,
+    pub(crate) terms: Vec<(Mode, Split)>,
     /// ⟨D⟩'s harmonics.
-    pub(super) average: Vec<Near>,
+    pub(crate) average: Vec<Near>,
     /// The orbit, where its harmonics are known.
-    pub(super) around: Option<Around<'a>>,
+    pub(crate) around: Option<Around<'a>>,
 }
 
 /// δ₂M and δ₂L at a mean state of first order.
-pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &OrbitParts<'_>) -> Actions {
+pub(crate) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &OrbitParts<'_>) -> Actions {
     let is_exact = |mode: &Mode| exact.terms.iter().any(|(other, _)| mode.is(other));
     let mut listed: Vec<Mode> = modes.iter().filter(|mode| !is_exact(mode)).copied().collect();
     let mut half: Vec<Row> = listed.iter().map(|mode| Row::new(stand, mode)).collect();
@@ -114,7 +115,7 @@ pub(super) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &OrbitPar
 
 /// ½ ⟨{D̃, W}⟩ from the pairs whose phases cancel, with as many time derivatives as the sums have.
 #[cfg(test)]
-pub(super) fn averaged(stand: &Stand<'_>, modes: &[Mode]) -> f64 {
+pub(crate) fn averaged(stand: &Stand<'_>, modes: &[Mode]) -> f64 {
     let rows = modes.iter().map(|mode| Row::new(stand, mode));
     rows.map(|a| stand.bracket(&a, &a.parts.torque[0], &a.conjugate(), &a.conjugate().parts.generator[0]).re).sum()
 }
@@ -161,7 +162,7 @@ impl Actions {
         let (served, others): (Vec<_>, Vec<_>) = together.into_iter().partition(|all| all.needs(stand, around));
         if !served.is_empty() {
             let totals: Vec<_> = served.iter().map(|all| all.total).collect();
-            let [changes, left] = around::actions(stand, listed, &totals, (around, exact));
+            let [changes, left] = pairs_around::actions(stand, listed, &totals, (around, exact));
             self.add_error(left);
             let by_sums = served.iter().map(|all| all.of_actions(all.by_sum(stand)));
             let [momentum, action] = by_sums.fold(changes, |sum, part| [sum[0] - part[0], sum[1] - part[1]]);

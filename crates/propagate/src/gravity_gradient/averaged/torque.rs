@@ -1,0 +1,109 @@
+//! The averaged torques of a mean motion: the drifts of the phases, and the averaged motion that follows from them.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::averaged_orbit::AveragedOrbit;
+use super::bodies::{Bodies, Pull};
+use super::precession::Precession;
+use super::slow::Slow;
+use super::spin::Spin;
+use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::first_order::corrections::Mean;
+use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
+use crate::gravity_gradient::orbit::elliptic_orbit::{Demand, EllipticOrbit};
+use crate::gravity_gradient::request::Request;
+use crate::gravity_gradient::second_order::k2_remainder::Steady;
+use crate::gravity_gradient::second_order::mean_elements;
+use crate::gravity_gradient::terms::sensitivity::Response;
+use crate::input::options::Level;
+use crate::torque_free::polhode::Polhode;
+
+/// The averaged torques.
+pub(crate) struct Averages {
+    pub(crate) ellipses: Vec<AveragedOrbit>,
+    /// Δ over M.
+    delta: f64,
+    /// s = −½ (dΔ/dσ)/M, without the mass fraction. ⟨D⟩ = −½ (dΨ/dt) Δ with the phase integral Ψ, so the derivatives of ⟨D⟩ with respect to L, and to M at
+    /// fixed L, are s dΨ/dt and −σ s dΨ/dt.
+    pub(crate) slope: f64,
+}
+
+impl Averages {
+    pub(crate) fn new(
+        polhode: &Polhode,
+        (motion, steady): (&MeanMotion, Steady),
+        demands: &[Demand<'_>],
+        level: Level,
+    ) -> Self {
+        let MeanMotion { mean, inertia, .. } = motion;
+        let (axial, axial_slope) = level.axial(inertia);
+        let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) / mean.momentum;
+        let ellipses = demands.iter().map(|demand| {
+            let ellipse = AveragedOrbit::new(demand, delta);
+            match level {
+                Level::SecondOrder => ellipse.with_second(mean_elements::hamiltonian(inertia, demand, steady)),
+                _ => ellipse,
+            }
+        });
+        Self { ellipses: ellipses.collect(), delta, slope: -0.5 * 1.5 * axial_slope / mean.momentum }
+    }
+
+    /// The drifts of ℓ′ and y′ for a unit of Ψ.
+    pub(crate) fn per_phase(&self, inertia: &Inertia, request: &Request<'_>) -> [f64; 2] {
+        // Ψ of a single fixed orbit does not contain the mass fraction: the slope does.
+        let slope = if request.is_fixed() { self.slope * self.ellipses[0].fraction() } else { self.slope };
+        [slope, -inertia.sigma * slope]
+    }
+
+    /// The rates of ℓ′ and y′ in the orbit average.
+    pub(crate) fn secular(&self, inertia: &Inertia, mean: &Mean) -> [f64; 2] {
+        let axis = mean.frame * Vector3::z();
+        if let Some((average, _)) = self.ellipses[0].over_orbit() {
+            return average.slopes(&axis).phases;
+        }
+        let rate = self.ellipses.iter().map(|ellipse| ellipse.secular(&axis) * ellipse.fraction()).sum::<f64>();
+        [self.slope * rate, -inertia.sigma * self.slope * rate]
+    }
+
+    /// The error by the average over the orbit \[rad\]: of second order in the precession κ_o in one radian of the orbit, in second order of third.
+    pub(crate) fn over_orbit_error(
+        &self,
+        response: &Response,
+        inertia: &Inertia,
+        demand: &Demand<'_>,
+        level: Level,
+    ) -> f64 {
+        let ellipse = &self.ellipses[0];
+        let precession = ellipse.strength().abs();
+        let slope = (self.slope * ellipse.fraction()).abs() * (response.visible + inertia.sigma);
+        let phase = slope * demand.mean_motion / ellipse.eta_cubed();
+        let growing = if level == Level::SecondOrder { precession } else { 1.0 };
+        precession * (precession + 6.0 * phase) * (1.0 + growing * demand.mean_motion * demand.duration)
+    }
+
+    /// The averaged motion from a frame at the epoch.
+    pub(crate) fn slow(
+        &self,
+        frame: UnitQuaternion<f64>,
+        (request, by_orbit): (&Request<'_>, bool),
+        orbits: &[EllipticOrbit<'_>],
+        (unit, factors): (f64, [f64; 2]),
+    ) -> Slow {
+        let ellipse = &self.ellipses[0];
+        match (request.is_fixed(), by_orbit) {
+            (false, _) => {
+                let bodies = orbits.iter().zip(&self.ellipses);
+                let pulls = bodies.map(|(orbit, ellipse)| Pull {
+                    course: orbit.course.clone(),
+                    attraction: ellipse.attraction() * unit,
+                });
+                Slow::Bodies(Box::new(Bodies::new(pulls.collect(), self.delta, frame)))
+            }
+            (true, true) => {
+                let place = &orbits[0].start.place;
+                Slow::Orbit(Box::new(Precession::new(ellipse.clone(), frame, place, (unit, factors))))
+            }
+            (true, false) => Slow::Spin(Box::new(Spin::new(ellipse.clone(), frame, &orbits[0].start))),
+        }
+    }
+}

@@ -1,0 +1,342 @@
+//! The inertia tensor in the invariable frame as Fourier series in ℓ′ and y′, to all orders in J (theory §9).
+//!
+//! T = Q diag(A, B, C) Qᵀ is sampled over a quarter turn of ℓ′ on the closed form at y′ = 0: T33, i t1 e^(−iy′), t2 e^(−2iy′). The parameters a and b of theory
+//! §8 need no normalization here. They are the theta series themselves, which have a few harmonics where the tensor has tens. Time reversal makes all
+//! coefficients real, and ℓ′ → ℓ′ + π leaves only the odd or only the even ones. A harmonic h is σ^(|h|/2) times a function that is analytic in σ at 0. This
+//! function and its slope are tabulated, so that with p = √σ e^(iℓ′) everything is regular at J = 0. Slopes are differences of fourth order in sin²J. Their
+//! step is 0.2 % of the distance to the separatrix (sin²J = 1), and at most 40 % of sin²J. A smaller step at small J would amplify rounding. The relative error
+//! is 1e-10.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::LazyLock;
+
+use andoyer_double::DoubleDouble;
+use num_complex::Complex;
+
+use crate::torque_free::closed_form::ClosedForm;
+use crate::torque_free::frequencies::Secular;
+use crate::torque_free::polhode::Polhode;
+
+type C64 = Complex<f64>;
+
+/// Number of samples in a period of ℓ′.
+const SAMPLES: [usize; 2] = [64, 128];
+/// Highest harmonic. At σ/σ_sep = 0.9 the higher harmonics are 1e-14 of the tensor.
+pub(crate) const HIGHEST: usize = 32;
+/// Below this nome, half as many harmonics and samples have the same accuracy: harmonic h falls like h q^(h/2), and its derivative like h² q^(h/2).
+const SMALL_NOME: f64 = 0.012;
+/// Number of harmonics from −[`HIGHEST`] to [`HIGHEST`].
+const COUNT: usize = 2 * HIGHEST + 1;
+/// Whether T33, t1, t2 have the odd harmonics.
+const ODD: [bool; 3] = [false, true, false];
+/// Below this sin²J, functions are extrapolated along their tangent at this value.
+const TANGENT_SQUARE: f64 = 1e-6;
+/// Step of the differences in sin²J, relative to 1 − sin²J.
+const STEP: f64 = 2e-3;
+/// Largest step, over sin²J: two of them leave it positive.
+const LARGEST_STEP: f64 = 0.4;
+/// Smallest difference of sin²J, relative to it, from which a slope is taken.
+const SMALLEST_SECANT: f64 = 1e-7;
+/// Largest change of σ, over the distance to the separatrix, that a Taylor polynomial of second order bridges: the third order is 1e-17.
+const TAYLOR_REACH: f64 = 2e-6;
+
+/// The series Σ_h f_h(σ) P_h, with P_h = p^h for h ≥ 0 and P_h = p̄^(−h) for h < 0.
+#[derive(Clone, Debug)]
+pub(crate) struct Harmonics {
+    /// f_h at index h + [`HIGHEST`].
+    pub(crate) values: Vec<f64>,
+    /// df_h/dσ.
+    pub(crate) slopes: Vec<f64>,
+    /// d²f_h/dσ².
+    pub(crate) curvatures: Vec<f64>,
+}
+
+impl Harmonics {
+    /// f_h and its slope.
+    pub(crate) fn at(&self, harmonic: i32) -> (f64, f64) {
+        let index = (harmonic + HIGHEST as i32) as usize; // −HIGHEST ≤ h ≤ HIGHEST
+        (self.values[index], self.slopes[index])
+    }
+
+    /// f_h, df_h/dσ and d²f_h/dσ².
+    pub(crate) fn jet(&self, harmonic: i32) -> [f64; 3] {
+        let index = (harmonic + HIGHEST as i32) as usize; // −HIGHEST ≤ h ≤ HIGHEST
+        [self.values[index], self.slopes[index], self.curvatures[index]]
+    }
+}
+
+/// The tables of the free motion with one σ and M.
+#[derive(Clone, Debug)]
+pub(crate) struct Inertia {
+    pub(crate) momentum: f64,
+    pub(crate) sigma: f64,
+    /// A + B + C.
+    pub(crate) trace: f64,
+    /// σ_sep.
+    pub(crate) separatrix: f64,
+    /// sin²J at ℓ = 0, and the slope of σ with respect to it.
+    square: [f64; 2],
+    /// dℓ′/dt and dy′/dt.
+    pub(crate) rates: [DoubleDouble; 2],
+    /// The derivatives of the two rates with respect to σ, at fixed M.
+    pub(crate) rate_slopes: [f64; 2],
+    /// Their second derivatives.
+    pub(crate) rate_curvatures: [f64; 2],
+    /// T33, i t1 e^(−iy′), t2 e^(−2iy′).
+    pub(crate) tensor: [Harmonics; 3],
+    /// The series of a and b, up to a common factor.
+    pub(crate) pair: [Harmonics; 2],
+    /// T33 and t2 e^(−2iy′) at J = 0.
+    pub(crate) untilted: [f64; 2],
+}
+
+/// σ, rates and harmonics of one free motion.
+struct Member {
+    sigma: f64,
+    rates: [DoubleDouble; 2],
+    harmonics: Vec<f64>,
+}
+
+impl Inertia {
+    /// The tables at σ and M, for the body, the units and the mode of a polhode.
+    pub(crate) fn new(polhode: &Polhode, sigma: f64, momentum: f64) -> Self {
+        let square = square_of(polhode, sigma, None);
+        let base = square.max(TANGENT_SQUARE);
+        // Functions vary over the distance to the separatrix, where sin²J is 1. At small J a step that is a fixed share of sin²J would leave rounding over it.
+        let step = (STEP * (1.0 - base)).min(LARGEST_STEP * base);
+        let members = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| member(polhode, base + k * step, momentum));
+        let slope = |part: &dyn Fn(&Member) -> f64| {
+            let [a, b, _, c, d] = members.each_ref().map(part);
+            (8.0 * (c - b) - (d - a)) / (12.0 * step)
+        };
+        let curvature = |part: &dyn Fn(&Member) -> f64| {
+            let [a, b, middle, c, d] = members.each_ref().map(part);
+            (16.0 * (b - middle + c - middle) - (a - middle + d - middle)) / (12.0 * step * step)
+        };
+        let sigma_slope = slope(&|m| m.sigma);
+        let sigma_curvature = curvature(&|m| m.sigma);
+        // d²f/dσ² from the derivatives with respect to sin²J.
+        let by_sigma = |tangent: f64, second: f64| (second - tangent * sigma_curvature) / (sigma_slope * sigma_slope);
+        let mut values = members[2].harmonics.clone();
+        let (mut slopes, mut curvatures) = (vec![0.0; values.len()], vec![0.0; values.len()]);
+        for (index, (value, tangent)) in values.iter_mut().zip(&mut slopes).enumerate() {
+            *tangent = slope(&|m| m.harmonics[index]) / sigma_slope;
+            curvatures[index] = by_sigma(*tangent, curvature(&|m| m.harmonics[index]));
+            *value += *tangent * (sigma - members[2].sigma);
+        }
+        let rate_slopes = [0, 1].map(|i| slope(&|m| (m.rates[i] - members[2].rates[i]).to_f64()) / sigma_slope);
+        let rate_curvatures =
+            [0, 1].map(|i| by_sigma(rate_slopes[i], curvature(&|m| (m.rates[i] - members[2].rates[i]).to_f64())));
+        let exact = rates(&polhode.tilted(square, momentum));
+        let part = |index: usize| {
+            let range = index * COUNT..(index + 1) * COUNT;
+            Harmonics {
+                values: values[range.clone()].to_vec(),
+                slopes: slopes[range.clone()].to_vec(),
+                curvatures: curvatures[range].to_vec(),
+            }
+        };
+        Self {
+            momentum,
+            sigma,
+            trace: polhode.moments.iter().sum(),
+            separatrix: polhode.separatrix_action(),
+            square: [square, sigma_slope],
+            rates: exact.1,
+            rate_slopes,
+            rate_curvatures,
+            tensor: [part(0), part(1), part(2)],
+            pair: [part(3), part(4)],
+            untilted: [polhode.moments[2], 0.25 * (polhode.moments[0] - polhode.moments[1])],
+        }
+    }
+
+    /// The tables at another σ and M of the same body: from Taylor's polynomial if σ is near enough for all digits. The rates are exact in any case.
+    pub(crate) fn moved(&self, polhode: &Polhode, sigma: f64, momentum: f64) -> Self {
+        let by = sigma - self.sigma;
+        if by.abs() > TAYLOR_REACH * (self.separatrix - self.sigma) {
+            return Self::new(polhode, sigma, momentum);
+        }
+        // The tables of the tensor and of a and b do not depend on M, and the rates are proportional to it.
+        let scale = momentum / self.momentum;
+        let shifted = |series: &Harmonics| {
+            let mut shifted = series.clone();
+            for ((value, slope), curvature) in
+                shifted.values.iter_mut().zip(&mut shifted.slopes).zip(&series.curvatures)
+            {
+                *value += by * (*slope + 0.5 * by * curvature);
+                *slope += by * curvature;
+            }
+            shifted
+        };
+        let [square, slope] = self.square;
+        let square = square_of(polhode, sigma, Some((square + by / slope, slope)));
+        Self {
+            momentum,
+            sigma,
+            square: [square, slope],
+            rates: rates(&polhode.tilted(square, momentum)).1,
+            rate_slopes: [0, 1].map(|i| scale * (self.rate_slopes[i] + by * self.rate_curvatures[i])),
+            rate_curvatures: self.rate_curvatures.map(|curvature| scale * curvature),
+            tensor: self.tensor.each_ref().map(shifted),
+            pair: self.pair.each_ref().map(shifted),
+            ..*self
+        }
+    }
+
+    /// C of the average torque's ⟨D⟩ = C (a/r)³ ((k·r̂)² − ⅓), over q = 3φn²/2, and its slope.
+    pub(crate) fn average_torque(&self) -> [f64; 2] {
+        let (axial, slope) = self.mean_axial();
+        [1.5 * (axial - self.trace / 3.0), 1.5 * slope]
+    }
+
+    /// T33 averaged over ℓ′, and its slope.
+    pub(crate) fn mean_axial(&self) -> (f64, f64) {
+        self.tensor[0].at(0)
+    }
+}
+
+/// σ and the two rates. For J = 0 they are limits.
+fn rates(polhode: &Polhode) -> (f64, [DoubleDouble; 2]) {
+    let secular = Secular::exact(polhode);
+    (secular.kappa_sigma / polhode.invariants.kappa, [secular.anomaly_rate, secular.longitude_rate])
+}
+
+/// sin²J at ℓ = 0 for a given σ, by the secant method. σ is nearly linear and convex in sin²J. A near value may be known, with the slope of σ there.
+fn square_of(polhode: &Polhode, sigma: f64, near: Option<(f64, f64)>) -> f64 {
+    let value = |square: f64| rates(&polhode.tilted(square, 1.0)).0;
+    if sigma == 0.0 {
+        return 0.0;
+    }
+    // The slope at a near value is good to 1e-5, and what a step of 1e-10 leaves is rounding.
+    let (mut square, mut slope, accurate) = match near {
+        Some((square, slope)) if square > 0.0 => (square, slope, 1e-10),
+        _ => {
+            let linear = value(TANGENT_SQUARE) / TANGENT_SQUARE;
+            ((sigma / linear).min(0.9), linear, 4.0 * f64::EPSILON)
+        }
+    };
+    let mut before = None::<(f64, f64)>;
+    for _ in 0..40 {
+        let found = value(square);
+        if let Some((other, then)) = before
+            && (square - other).abs() > SMALLEST_SECANT * square
+        {
+            slope = (found - then) / (square - other);
+        }
+        before = Some((square, found));
+        let next = (square + (sigma - found) / slope).clamp(0.25 * square, 0.5 * (1.0 + square));
+        let done = (next - square).abs() <= accurate * square;
+        square = next;
+        if done {
+            break;
+        }
+    }
+    square
+}
+
+/// Sine and cosine of the angles of the larger number of samples. Those of the smaller number are among them.
+static CIRCLE: LazyLock<Vec<(f64, f64)>> =
+    LazyLock::new(|| (0..SAMPLES[1]).map(|k| (TAU * k as f64 / SAMPLES[1] as f64).sin_cos()).collect());
+
+fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
+    let tilted = polhode.tilted(square, momentum);
+    let (sigma, rates) = rates(&tilted);
+    let theta = tilted.invariants.theta;
+    let closed = ClosedForm::new(&tilted, &theta);
+    let [few, many] = SAMPLES;
+    let samples = if (-PI * theta.conjugate / theta.quarter).exp() < SMALL_NOME { few } else { many };
+    let stride = many / samples;
+    let mut sums = vec![0.0; 5 * COUNT];
+    for k in 0..=samples / 4 {
+        // A period contains an end point twice and an inner point four times.
+        let weight = if k == 0 || k == samples / 4 { 2.0 } else { 4.0 } / samples as f64;
+        let functions = sample(&closed, TAU * k as f64 / samples as f64, tilted.moments).map(|f| f * weight);
+        for ((function, series), odd) in functions.iter().zip(sums.chunks_exact_mut(COUNT)).zip(ODD) {
+            for h in (usize::from(odd)..=samples / 4).step_by(2) {
+                let (sine, cosine) = CIRCLE[stride * h * k % many];
+                let (even, odd) = (function.re * cosine, function.im * sine);
+                series[HIGHEST + h] += even + odd;
+                if h > 0 {
+                    series[HIGHEST - h] += even - odd;
+                }
+            }
+        }
+    }
+    for (k, (even, odd)) in closed.series.terms().iter().enumerate() {
+        for (part, h, [plus, minus]) in [(3, 2 * k, even), (4, 2 * k + 1, odd)] {
+            let middle = part * COUNT + HIGHEST;
+            sums[middle + h] = if h == 0 { *plus } else { 0.5 * (plus + minus) };
+            if h > 0 {
+                sums[middle - h] = 0.5 * (plus - minus);
+            }
+        }
+    }
+    // The samples are accurate to 1e-16 of the largest, which has a size of about 1, so smaller sums are set to 0. σ^(h/2) may be small: near B = C the other
+    // factor grows like σ_sep^(−h/2).
+    let noise = 4.0 * f64::EPSILON;
+    let root = sigma.sqrt();
+    let powers: Vec<f64> = std::iter::successors(Some(1.0), |power| Some(power * root)).take(HIGHEST + 1).collect();
+    for series in sums.chunks_exact_mut(COUNT) {
+        for (index, sum) in series.iter_mut().enumerate() {
+            *sum = if sum.abs() < noise { 0.0 } else { *sum / powers[index.abs_diff(HIGHEST)] };
+        }
+    }
+    Member { sigma, rates, harmonics: sums }
+}
+
+/// T33, i t1, t2 at ℓ′ and y′ = 0.
+fn sample(closed: &ClosedForm, angle: f64, moments: [f64; 3]) -> [C64; 3] {
+    let [a, b] = closed.series.pair(angle);
+    // The rows of Q are the axes of the invariable frame in body components, from the quaternion (x, y, z, w) = (Re b, Im b, Im a, Re a).
+    let (x, y, z, w) = (b.re, b.im, a.im, a.re);
+    let rows = [
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
+        [2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)],
+        [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)],
+    ];
+    let entry = |i: usize, j: usize| (0..3).map(|k| rows[i][k] * moments[k] * rows[j][k]).sum::<f64>();
+    let turned = C64::new(-entry(1, 2), entry(0, 2));
+    let t2 = C64::new(entry(0, 0) - entry(1, 1), 2.0 * entry(0, 1)) / 4.0;
+    [entry(2, 2).into(), turned, t2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::body::Body;
+    use crate::input::state::State;
+
+    #[test]
+    fn tables_moved_to_a_near_sigma_have_the_digits_of_new_tables() {
+        for rates in [[1e-3, 2e-3, 1.0], [0.1, 0.2, 1.0], [0.5, 0.3, 0.8]] {
+            let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], rates).expect("a state");
+            let polhode = Polhode::new(&Body::new([0.8, 0.9, 1.0]).expect("a body"), &state).expect("turning");
+            let (sigma, _) = crate::gravity_gradient::body::inertia::rates(&polhode);
+            let tables = Inertia::new(&polhode, sigma, 0.7);
+            let to = sigma + 0.9 * TAYLOR_REACH * (tables.separatrix - sigma);
+            let (moved, new) = (tables.moved(&polhode, to, 0.71), Inertia::new(&polhode, to, 0.71));
+            assert_eq!((moved.sigma, moved.momentum), (to, 0.71));
+            // sin²J at σ is known to some units of its last digit.
+            for i in 0..2 {
+                let apart = (moved.rates[i] - new.rates[i]).to_f64().abs();
+                let rounding = 8.0 * f64::EPSILON * to * new.rate_slopes[i].abs();
+                assert!(apart <= rounding, "rate {i}: {apart:e} of {rounding:e}");
+            }
+            for (moved, new) in moved.tensor.iter().zip(&new.tensor).chain(moved.pair.iter().zip(&new.pair)) {
+                // Rounding of the samples, over σ^(|h|/2).
+                for h in -4..=4_i32 {
+                    let rounding = 4e-15 / to.powf(0.5 * f64::from(h.abs()));
+                    assert!(
+                        (moved.at(h).0 - new.at(h).0).abs() <= rounding,
+                        "{h} {:e} {:e}",
+                        moved.at(h).0,
+                        new.at(h).0
+                    );
+                }
+            }
+            let slope = |tables: &Inertia| tables.rate_slopes[0];
+            assert!((slope(&moved) / slope(&new) - 1.0).abs() <= 1e-8);
+        }
+    }
+}

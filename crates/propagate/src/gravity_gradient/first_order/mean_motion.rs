@@ -1,0 +1,101 @@
+//! The mean motion from which the corrections lead to a state: its mean variables, tables, and corrections.
+
+use super::corrections::{Change, Corrections, Mean, Terms};
+use crate::error::{Error, TorqueMeasure};
+use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::orbit::elliptic_orbit::{Demand, EllipticOrbit};
+use crate::input::orbit::Orbit;
+use crate::torque_free::polhode::Polhode;
+
+/// The iteration has converged if the mean variables change by less than this.
+pub(crate) const CONVERGED: f64 = 1e-15;
+/// Largest number of iterations for the mean variables.
+const MOST_STEPS: usize = 24;
+/// Largest mean ratio of the changes of successive iterations. With a larger ratio there is no mean motion.
+const CONTRACTION: f64 = 0.5;
+/// Largest torque over M²/C for which first order in the torque is accepted.
+pub(crate) const STRONGEST: f64 = 0.02;
+
+/// A mean state, its change to the osculating state, and its tables.
+#[derive(Clone)]
+pub(crate) struct MeanMotion {
+    pub(crate) mean: Mean,
+    pub(crate) change: Change,
+    pub(crate) inertia: Inertia,
+    /// Of each body.
+    pub(crate) corrections: Vec<Corrections>,
+}
+
+/// The corrections for each body at a mean motion.
+fn corrections_of(inertia: &Inertia, demands: &[Demand<'_>]) -> Result<Vec<Corrections>, Error> {
+    let all: Vec<_> = demands.iter().map(|demand| Terms::new(inertia, demand)).collect();
+    let whole = all.iter().map(|terms| terms.size).sum();
+    all.into_iter().zip(demands).map(|(terms, demand)| Corrections::of(terms, inertia, demand, whole)).collect()
+}
+
+/// The mean variables whose corrections give a state, by fixed-point iteration.
+pub(crate) fn first_order(
+    polhode: &Polhode,
+    state: &Mean,
+    orbits: &[EllipticOrbit<'_>],
+    demands: &[Demand<'_>],
+) -> Result<MeanMotion, Error> {
+    let (mut mean, mut change) = (*state, Change::default());
+    let (mut step, mut first) = (0, 0.0_f64);
+    let mut inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
+    // Each iteration multiplies the error by the size of the corrections, which is at most a twentieth (`LARGEST_SIZE`) for the terms that are not slow.
+    loop {
+        let corrections = corrections_of(&inertia, demands)?;
+        let changes =
+            corrections.iter().zip(orbits).map(|(corrections, orbit)| corrections.at(&mean, &orbit.start.place));
+        let next_change = changes.reduce(|sum, change| sum.plus(&change)).unwrap_or_default();
+        let next = state.changed(&next_change, -1.0);
+        let moved = (next.p - mean.p).norm()
+            + (next.longitude - mean.longitude).abs()
+            + (next.momentum / mean.momentum - 1.0).abs()
+            + next.frame.angle_to(&mean.frame);
+        if moved <= CONVERGED {
+            return Ok(MeanMotion { mean, change, inertia, corrections });
+        }
+        first = first.max(moved);
+        if step == MOST_STEPS {
+            // Rounding of large corrections may prevent full convergence. A motion without contraction has no mean motion.
+            let contraction = (moved / first).powf(1.0 / MOST_STEPS as f64);
+            return if contraction <= CONTRACTION {
+                Ok(MeanMotion { mean, change, inertia, corrections })
+            } else {
+                Err(Error::TorqueTooStrong {
+                    measure: TorqueMeasure::Contraction,
+                    size: contraction,
+                    bound: CONTRACTION,
+                })
+            };
+        }
+        (mean, change) = (next, next_change);
+        inertia = inertia.moved(polhode, mean.p.norm_sqr(), mean.momentum);
+        step += 1;
+    }
+}
+
+/// The largest torque over M²/C: 3n²C(C − A)/2M² at the pericentre times the mass fraction, where C is the largest and A the smallest moment; `rate` is n/M.
+pub(crate) fn strongest_torque(polhode: &Polhode, orbit: &Orbit, rate: f64) -> f64 {
+    let [first, _, third] = polhode.moments;
+    let product = first.max(third) * (first - third).abs();
+    1.5 * rate * rate * product * orbit.disturbing_fraction() / (1.0 - orbit.eccentricity()).powi(3)
+}
+
+/// Checks that the torques are weak enough for first order.
+pub(crate) fn weak_enough(polhode: &Polhode, sigma: f64, demands: &[Demand<'_>]) -> Result<(), Error> {
+    let momentum = polhode.invariants.momentum.to_f64();
+    let size = |demand: &Demand<'_>| {
+        let share = demand.envelope.span[0] / demand.envelope.most[0];
+        share * strongest_torque(polhode, demand.orbit, demand.mean_motion / momentum)
+    };
+    let size = demands.iter().map(size).sum::<f64>();
+    if size <= STRONGEST {
+        return Ok(());
+    }
+    // If there is a resonance, report that instead, because it explains more.
+    corrections_of(&Inertia::new(polhode, sigma, momentum), demands)?;
+    Err(Error::TorqueTooStrong { measure: TorqueMeasure::Strength, size, bound: STRONGEST })
+}

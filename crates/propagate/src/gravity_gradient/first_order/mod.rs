@@ -1,0 +1,10 @@
+//! First order in the torque: the generating function W, the short-period corrections, and the mean motion from which they lead to a state.
+
+pub(crate) mod corrections;
+pub(crate) mod deviator;
+pub(crate) mod fourier;
+pub(crate) mod generator;
+pub(crate) mod mean_motion;
+pub(crate) mod sums;
+mod term_in_generator;
+pub(crate) mod w_derivatives;

@@ -1,0 +1,105 @@
+//! Sums over the terms of one m, by time derivative.
+
+use crate::simd::complex_quaternion::ComplexLanes;
+use crate::simd::instruction_set::InstructionSet;
+use crate::simd::lanes::Lanes;
+
+/// Number of sums over the terms: W, M ∂W/∂M, ∂W/∂p̄ + ∂W/∂p and ∂W/∂p̄ − ∂W/∂p.
+pub(crate) const SUMS: usize = 4;
+
+/// All terms of one |h|: the factors of cos hℓ′ and of i sin hℓ′, by j and sum.
+#[derive(Clone, Debug)]
+pub(crate) struct Harmonic {
+    pub(crate) degree: usize,
+    pub(crate) factors: Vec<[[f64; 2]; SUMS]>,
+}
+
+impl Harmonic {
+    /// Adds a term e^(ihℓ′) with these factors of the sums.
+    pub(crate) fn add(&mut self, negative: bool, factors: &[[f64; SUMS]]) {
+        if self.factors.len() < factors.len() {
+            self.factors.resize(factors.len(), [[0.0; 2]; SUMS]);
+        }
+        let sign = if negative { -1.0 } else { 1.0 };
+        for (slots, factors) in self.factors.iter_mut().zip(factors) {
+            for ([even, odd], factor) in slots.iter_mut().zip(factors) {
+                *even += factor;
+                *odd += sign * factor;
+            }
+        }
+    }
+}
+
+/// |h| of a term, and its factors of cos hℓ′ and of i sin hℓ′ by sum.
+type Part = (usize, [[f64; 2]; SUMS]);
+
+/// The terms of one m, derivative after derivative.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sums {
+    terms: Vec<Part>,
+    /// Where the terms of each derivative end.
+    ends: Vec<usize>,
+}
+
+impl Sums {
+    pub(crate) fn new(harmonics: &[Harmonic]) -> Self {
+        let mut sums = Self::default();
+        let orders = harmonics.iter().map(|harmonic| harmonic.factors.len()).max().unwrap_or(0);
+        for j in 0..orders {
+            let terms = harmonics.iter().filter_map(|harmonic| Some((harmonic.degree, *harmonic.factors.get(j)?)));
+            sums.terms.extend(terms);
+            sums.ends.push(sums.terms.len());
+        }
+        sums
+    }
+
+    /// The largest |h|.
+    pub(crate) fn highest(&self) -> usize {
+        self.terms.iter().map(|(degree, _)| *degree).max().unwrap_or(0)
+    }
+
+    /// The terms with the derivative j, if there are any: a term with a derivative has those below it.
+    #[inline(always)]
+    fn of(&self, j: usize) -> Option<&[Part]> {
+        let end = *self.ends.get(j)?;
+        let start = if j == 0 { 0 } else { self.ends[j - 1] };
+        Some(&self.terms[start..end])
+    }
+
+    /// The sums for the derivative j, from the powers of e^(iℓ′); none if there is no such term.
+    #[inline(always)]
+    pub(crate) fn at<S: InstructionSet>(&self, j: usize, turns: &[ComplexLanes<S>]) -> Option<[ComplexLanes<S>; SUMS]> {
+        let terms = self.of(j)?;
+        let none = turns[0].im;
+        let mut sums = [ComplexLanes { re: none, im: none }; SUMS];
+        for (degree, factors) in terms {
+            let turn = turns[*degree];
+            for (sum, [even, odd]) in sums.iter_mut().zip(factors) {
+                sum.re = turn.re.mul_add(none.all(*even), sum.re);
+                sum.im = turn.im.mul_add(none.all(*odd), sum.im);
+            }
+        }
+        Some(sums)
+    }
+
+    /// The parts of the sums that count for m = 0, whose contractions are imaginary for even j and real for odd j.
+    #[inline(always)]
+    pub(crate) fn axial<S: InstructionSet>(&self, j: usize, turns: &[ComplexLanes<S>]) -> Option<[Lanes<S>; SUMS]> {
+        let terms = self.of(j)?;
+        let none = turns[0].im;
+        let mut sums = [none; SUMS];
+        let (main, other) = (1 - j % 2, j % 2);
+        for (degree, factors) in terms {
+            let turn = turns[*degree];
+            let waves = if main == 0 { [turn.re, turn.im] } else { [turn.im, turn.re] };
+            for s in 0..3 {
+                sums[s] = waves[0].mul_add(none.all(factors[s][main]), sums[s]);
+            }
+            sums[3] = waves[1].mul_add(none.all(factors[3][other]), sums[3]);
+        }
+        if main == 1 {
+            sums[3] = -sums[3];
+        }
+        Some(sums)
+    }
+}

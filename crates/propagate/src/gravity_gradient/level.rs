@@ -1,0 +1,49 @@
+//! The level that the theory chooses by itself: first order where it meets the tolerance, else second order where its error bound is smaller.
+
+use std::f64::consts::PI;
+
+use nalgebra::UnitQuaternion;
+
+use crate::error::Error;
+use crate::gravity_gradient::disturbed::Gradient;
+use crate::gravity_gradient::draft::Outset;
+use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
+use crate::gravity_gradient::request::Request;
+use crate::input::options::Level;
+use crate::torque_free::polhode::Polhode;
+
+/// The motion under a gravity gradient at the level that is asked for, and why it is not of second order if that was left open.
+///
+/// # Errors
+/// Those of [`Outset::new`], of the draft at the level that is asked for, or in first order if it was left open, and of [`Gradient::new`]. An error of second
+/// order becomes the reason if the level was left open.
+pub(crate) fn chosen(
+    polhode: &Polhode,
+    attitude: UnitQuaternion<f64>,
+    osculating: (f64, [f64; 2]),
+    request: &Request<'_>,
+) -> Result<(Gradient, Option<String>), Error> {
+    let orbits = request.orbits.iter().map(|orbit| EllipticOrbit::new(orbit, request, polhode.scales.1));
+    let orbits: Vec<_> = orbits.collect();
+    let outset = Outset::new(polhode, attitude, osculating, (request, &orbits))?;
+    if request.level != Level::Auto {
+        return Ok((Gradient::new(&outset, outset.draft(request.level)?)?, None));
+    }
+    let first = outset.draft(Level::Full)?;
+    let reason = if first.error <= request.tolerance {
+        "first order meets the tolerance".to_owned()
+    } else if !request.is_fixed() {
+        "several disturbing bodies, and orbits that precess, are of first order".to_owned()
+    } else {
+        match outset.draft(Level::SecondOrder) {
+            Ok(second) if second.error < first.error => match Gradient::new(&outset, second) {
+                Ok(second) => return Ok((second, None)),
+                Err(error) => error.to_string(),
+            },
+            Ok(second) if second.error >= PI => "its error bound is half a turn or more".to_owned(),
+            Ok(second) => format!("its error bound, {:.1e} rad, is no smaller", second.error),
+            Err(error) => error.to_string(),
+        }
+    };
+    Ok((Gradient::new(&outset, first)?, Some(format!("second order: {reason}"))))
+}

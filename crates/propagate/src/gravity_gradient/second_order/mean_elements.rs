@@ -1,0 +1,196 @@
+//! The mean σ and M of second order, and the averaged Hamiltonian there.
+
+use num_complex::Complex;
+
+use super::first_actions::first_actions;
+use super::k2::Hamiltonian;
+use super::k2_remainder::Steady;
+use super::pair_harmonics::Harmonics;
+use super::pair_terms::Stand;
+use super::pairs::{OrbitParts, second_actions};
+use super::pairs_around::{Around, Point};
+use crate::error::Error;
+use crate::gravity_gradient::body::contraction::Tensor;
+use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::first_order::corrections::{Change, Corrections, Mean};
+use crate::gravity_gradient::first_order::fourier::ExactTerm;
+use crate::gravity_gradient::first_order::generator::{Factors, Generator};
+use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
+use crate::gravity_gradient::orbit::derivatives::ORDERS;
+use crate::gravity_gradient::orbit::elliptic_motion::When;
+use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
+use crate::gravity_gradient::terms::modes::{Mode, modes, slow_modes, slowest};
+use crate::input::options::Level;
+use crate::simd::complex_quaternion::QuaternionLanes;
+use crate::simd::kepler::Place;
+use crate::simd::lanes::Lanes;
+use crate::torque_free::polhode::Polhode;
+
+/// Terms smaller than this share of the largest are left out of the sum over pairs.
+const PAIR_SUM_CUTOFF: f64 = 1e-6;
+/// Terms smaller than this share of the largest are left out of the changes of first order.
+const FIRST_ORDER_CUTOFF: f64 = 1e-13;
+/// Terms smaller than this share of the largest are left out of K2.
+const K2_CUTOFF: f64 = 1e-9;
+
+/// Pairs whose error turns the attitude by less than this share of the tolerance are not summed around the orbit. Their error is part of the bound.
+const PAIR_TOLERANCE_SHARE: f64 = 0.02;
+
+/// A mean state at the epoch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct EpochMean {
+    pub(crate) mean: Mean,
+    /// The change of M that leads to the state.
+    pub(crate) momentum: f64,
+    /// Estimated errors of the mean M and L, divided by M.
+    pub(crate) left: [f64; 2],
+}
+
+/// The mean M and L from all terms, in first and in second order, with the other quantities of second order.
+pub(crate) struct SecondOrderData {
+    both: [EpochMean; 2],
+    /// The part of the average of K2 over the orbit that K2 in closed form lacks.
+    steady: Steady,
+}
+
+impl SecondOrderData {
+    /// From the mean motion of first order, and the position of the disturbing body at the epoch.
+    pub(crate) fn new(first: &MeanMotion, state: &Mean, start: &When<pulp::Scalar>, demand: &Demand<'_>) -> Self {
+        let exact = &first.corrections[0].generator.exact;
+        let mean = (&first.mean, &first.change, &exact[..]);
+        let (both, steady) = epoch_means(mean, state, &first.inertia, &start.place, demand);
+        Self { both, steady }
+    }
+
+    /// The mean motion with the mean M and L of a level, and their estimated errors over M.
+    pub(crate) fn motion(
+        &self,
+        polhode: &Polhode,
+        first: &MeanMotion,
+        demand: &Demand<'_>,
+        level: Level,
+    ) -> Result<(MeanMotion, Steady, [f64; 2]), Error> {
+        let EpochMean { mean, momentum, left } = self.both[usize::from(level == Level::SecondOrder)];
+        let inertia = first.inertia.moved(polhode, mean.p.norm_sqr(), mean.momentum);
+        let corrections = vec![Corrections::new(&inertia, demand)?];
+        let change = Change { momentum, ..first.change };
+        Ok((MeanMotion { mean, change, inertia, corrections }, self.steady, left))
+    }
+}
+
+/// ⟨D⟩ + K2 at a mean motion.
+pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, steady: Steady) -> Hamiltonian {
+    let modes = modes(inertia, K2_CUTOFF, slowest(demand));
+    Hamiltonian::new(inertia, &modes, demand.strength()).with_steady(steady)
+}
+
+/// The mean states at the epoch with |p| and M from all terms of first order, and to second order, from the mean state of the corrections.
+pub(crate) fn epoch_means(
+    (mean, change, exact): (&Mean, &Change, &[ExactTerm]),
+    state: &Mean,
+    inertia: &Inertia,
+    place: &Place<pulp::Scalar>,
+    demand: &Demand<'_>,
+) -> ([EpochMean; 2], Steady) {
+    let slowest = slowest(demand);
+    let (tensors, norms) = tensors(mean, place, demand);
+    let stand = Stand {
+        inertia,
+        mean,
+        strength: demand.strength(),
+        tensors: &tensors,
+        sizes: &demand.envelope.epoch,
+        norms,
+        slowest,
+        orbital_step: demand.orbital_step(),
+        duration: demand.duration,
+        closest: demand.envelope.span[0] / demand.envelope.epoch[0],
+        bend: demand.envelope.epoch[2] / demand.envelope.epoch[0],
+        enough: PAIR_TOLERANCE_SHARE * demand.tolerance
+            / (demand.duration * inertia.rates.iter().map(|rate| rate.to_f64().abs()).sum::<f64>()),
+    };
+    let points = |places: &[(f64, f64)]| points(mean, place, demand, places);
+    let harmonics = Harmonics::new(mean, place, demand);
+    let mut terms = modes(inertia, FIRST_ORDER_CUTOFF, slowest);
+    if harmonics.is_some() {
+        terms.extend(slow_modes(inertia, slowest));
+    }
+    let first = first_actions(&stand, &terms, harmonics.as_ref().map(|harmonics| (harmonics, exact)));
+    let modes = modes(inertia, PAIR_SUM_CUTOFF, slowest);
+    let steady = Steady::new(inertia, &mean.frame, demand, (exact, &modes));
+    let exact = harmonics.as_ref().map(|harmonics| split(inertia, exact, harmonics)).unwrap_or_default();
+    let around = Around { eccentricity: demand.orbit.eccentricity(), mean_motion: demand.mean_motion, points: &points };
+    let exact = OrbitParts { around: harmonics.is_some().then_some(around), ..exact };
+    let second = second_actions(&stand, &modes, &exact);
+    let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
+    let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };
+    // What the corrections of the motion, which drop terms and end their sums early, lack of M and L.
+    let used = mean.momentum * 2.0 * (mean.p.conj() * change.p).re + inertia.sigma * change.momentum;
+    let (lacking, lacking_action) = (first.momentum - change.momentum, first.action - used);
+    let by_sigma = (lacking_action - inertia.sigma * lacking) / mean.momentum;
+    let lower = EpochMean {
+        mean: at(mean.p.norm_sqr() - by_sigma, mean.momentum - lacking),
+        momentum: first.momentum,
+        left: first.left.map(|left| left / mean.momentum),
+    };
+    let by_momentum = first.momentum + second.momentum;
+    let momentum = state.momentum - by_momentum;
+    let higher = EpochMean {
+        mean: at((state.momentum * state.p.norm_sqr() - first.action - second.action) / momentum, momentum),
+        momentum: by_momentum,
+        left: [0, 1].map(|i| (first.left[i] + second.left[i]) / momentum),
+    };
+    ([lower, higher], steady)
+}
+
+/// The disturbing body at mean anomalies with weights.
+pub(crate) fn points(
+    mean: &Mean,
+    place: &Place<pulp::Scalar>,
+    demand: &Demand<'_>,
+    places: &[(f64, f64)],
+) -> Vec<Point> {
+    let eccentricity = demand.orbit.eccentricity();
+    let epoch = place.angle.values()[0] - place.centre.values()[0];
+    let generator = without_terms(mean, demand);
+    let at = |&(anomaly, weight): &(f64, f64)| {
+        let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
+        Point { anomaly: anomaly - epoch, weight, tensors: tensors_by(&generator, mean, &place) }
+    };
+    places.iter().map(at).collect()
+}
+
+/// The terms with exact divisors, split into harmonics.
+fn split<'a>(inertia: &Inertia, exact: &[ExactTerm], harmonics: &Harmonics) -> OrbitParts<'a> {
+    let split = |term: &ExactTerm| {
+        let (harmonic, multiple) = term.numbers;
+        let mode = Mode::new(inertia, harmonic, multiple);
+        (mode, harmonics.split(multiple, &term.divisors))
+    };
+    OrbitParts { terms: exact.iter().map(split).collect(), average: harmonics.average(), around: None }
+}
+
+/// The traceless part of (a/r)³ r̂r̂ in the frame of a mean state, its time derivatives, and their largest sizes.
+pub(crate) fn tensors<'a>(
+    mean: &Mean,
+    place: &Place<pulp::Scalar>,
+    demand: &Demand<'a>,
+) -> ([Tensor; ORDERS], &'a [f64]) {
+    (tensors_by(&without_terms(mean, demand), mean, place), &demand.envelope.orbital.norms)
+}
+
+fn tensors_by(generator: &Generator, mean: &Mean, place: &Place<pulp::Scalar>) -> [Tensor; ORDERS] {
+    let frame = QuaternionLanes::all(Lanes::splat(pulp::Scalar, 0.0), &mean.frame);
+    generator.tensors(frame, place).map(|deviator| {
+        let [axial, across, xy, xz, yz] = deviator.map(|lanes| lanes.values()[0]);
+        let transverse = -axial / 3.0;
+        [transverse - 0.5 * across, transverse + 0.5 * across, -2.0 * transverse, xy, xz, yz]
+    })
+}
+
+/// The orbit's part of a generating function.
+fn without_terms(mean: &Mean, demand: &Demand<'_>) -> Generator {
+    let [first, second, _] = demand.orbit.axes();
+    let factors = Factors { strength: 0.0, root: 0.0, momentum: mean.momentum };
+    Generator::new(&Default::default(), Vec::new(), (demand.envelope.orbital.clone(), [first, second]), factors)
+}

@@ -1,0 +1,357 @@
+//! The disturbing body's part of the torque as a Fourier series in its mean anomaly l, and the divisors that belong to it.
+//!
+//! With U = (a/r)³ r̂r̂ᵀ = Σ_j U_j e^(ijl), the solution of V̇ + iΩV = U is Σ_j U_j e^(ijl)/(i(Ω + jn)). The sums over time derivatives are its expansion in
+//! jn/Ω: they have low harmonics to a few powers, and high ones not at all. Here nothing is expanded. A harmonic that does not return within the time T is no
+//! part of the mean: with x = Ω + jn the divisor has the factor 1 − e^(−x²T²/4). The factor must reach 1 fast: with 1 − sin(xT)/(xT), which is that of the mean
+//! over (−T, T), the error of the attitude was four times as large in scenes without a resonance, because the corrections take the regular harmonics as a
+//! whole.
+
+use num_complex::Complex;
+
+use crate::gravity_gradient::body::contraction::{Contraction, coefficients, contraction, factors};
+use crate::gravity_gradient::first_order::corrections::Mean;
+use crate::gravity_gradient::first_order::fourier::ExactTerm;
+use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
+use crate::gravity_gradient::terms::divisors::{Divisors, returns};
+use crate::gravity_gradient::terms::modes::slowest;
+use crate::simd::kepler::Place;
+
+type C64 = Complex<f64>;
+
+/// A harmonic with |Ω + jn| above this times |Ω| is contained in the sums over time derivatives, so its divisor has no factor 1 − e^(−x²T²/4).
+const SUMMED_ABOVE: f64 = 0.5;
+
+/// The factors of f in the functions of the series.
+const TURNS: [i32; 3] = [0, 2, -2];
+/// Highest |j| of the harmonics of ⟨D⟩ that are paired with single harmonics of terms. At e = 0.6 the next one is 1/400 of the mean of ⟨D⟩.
+const MOST_OF_AVERAGE: usize = 24;
+
+/// A harmonic of the orbit in a term.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Near {
+    /// Ω + jn.
+    pub(crate) frequency: f64,
+    /// The same with the shift by the average torque.
+    pub(crate) divisor: f64,
+    /// The contraction of U_j e^(ijl).
+    pub(crate) torque: Contraction,
+    /// That of W, with its divisors.
+    generator: Part,
+    /// Whether the divisors have the shift by the average torque.
+    pub(crate) shifted: bool,
+}
+
+/// A contraction and its derivative with respect to Ω.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Part {
+    pub(crate) value: Contraction,
+    pub(crate) slope: C64,
+}
+
+/// The amplitudes of D, dD/dt, W and dW/dt of one term.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Parts {
+    pub(crate) torque: [Part; 2],
+    pub(crate) generator: [Part; 2],
+}
+
+/// A term whose divisors are exact.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Split {
+    pub(crate) near: Vec<Near>,
+    pub(crate) rest: Parts,
+}
+
+impl Near {
+    /// As a term of this frequency, whose amplitude is constant.
+    pub(crate) fn parts(&self) -> Parts {
+        let torque = Part { value: self.torque, slope: C64::default() };
+        Parts { torque: [torque, Part::default()], generator: [self.generator, Part::default()] }
+    }
+}
+
+impl Part {
+    /// Adds a part of D with its divisor, as one of W.
+    fn add(&mut self, torque: Contraction, reciprocal: f64) {
+        let inverse = C64::new(0.0, -reciprocal);
+        for (w, part) in self.value.iter_mut().zip(torque) {
+            *w += part * inverse;
+        }
+        self.slope -= torque[0] * inverse * reciprocal;
+    }
+}
+
+impl Parts {
+    /// Adds a harmonic of frequency jn with its divisor.
+    fn add(&mut self, torque: Contraction, step: f64, reciprocal: f64) {
+        let mut torque = torque;
+        for (d, w) in self.torque.iter_mut().zip(&mut self.generator) {
+            for (d, part) in d.value.iter_mut().zip(torque) {
+                *d += part;
+            }
+            w.add(torque, reciprocal);
+            torque = torque.map(|part| part * C64::new(0.0, step));
+        }
+    }
+}
+
+/// The series of one orbit at one place of the disturbing body.
+pub(crate) struct Harmonics {
+    /// U_j e^(ijl) of (a/r)³ times 1, e^(2if) and e^(−2if), from −j to j.
+    waves: Vec<[C64; 3]>,
+    /// The contractions for m = 0, 1, 2 of the tensors that belong to these functions.
+    contracted: [[Contraction; 3]; 3],
+    mean_motion: f64,
+    /// T.
+    duration: f64,
+    /// Terms of a lower frequency have no sum over time derivatives.
+    slowest: f64,
+}
+
+impl Harmonics {
+    /// The series in the frame of a mean state, if the orbit has one.
+    pub(crate) fn new(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<'_>) -> Option<Self> {
+        let series = &demand.series?.coefficients;
+        let count = series.len() - 1;
+        let at = place.angle.values()[0] - place.centre.values()[0];
+        let waves = (0..=2 * count).map(|i| {
+            let j = i as f64 - count as f64;
+            let turn = C64::from_polar(1.0, j * at);
+            let [one, cosine, sine] = coefficients(&series[i.abs_diff(count)], j);
+            let [even, odd] = [cosine, C64::i() * sine];
+            [one, even + odd, even - odd].map(|coefficient| turn * coefficient)
+        });
+        let [first, second, _] = demand.orbit.axes().map(|axis| mean.frame.inverse() * axis);
+        let tensors = factors([first, second]);
+        Some(Self {
+            waves: waves.collect(),
+            contracted: [0, 1, 2].map(|m| {
+                let [one, cosine, sine] = tensors.map(|tensor| contraction(&tensor, m));
+                let half = |sign: f64| std::array::from_fn(|i| 0.5 * (cosine[i] - C64::new(0.0, sign) * sine[i]));
+                [one, half(1.0), half(-1.0)]
+            }),
+            mean_motion: demand.mean_motion,
+            duration: demand.duration,
+            slowest: slowest(demand),
+        })
+    }
+
+    /// c_m of V for a frequency Ω; `term` is the correction with exact divisors, if there is one.
+    pub(crate) fn solution(&self, omega: f64, multiple: i32, term: Option<&ExactTerm>) -> C64 {
+        let count = (self.waves.len() / 2) as i32;
+        let mut sums = [C64::default(); 3];
+        for (i, harmonic) in self.waves.iter().enumerate() {
+            let j = i as i32 - count;
+            let unshifted = self.inverse(omega + f64::from(j) * self.mean_motion, omega);
+            for ((sum, part), turns) in sums.iter_mut().zip(harmonic).zip(TURNS) {
+                let inverse = match term {
+                    Some(term) if term.divisors.excluded != Some(j) => term.divisors.reciprocal(j, turns),
+                    _ => unshifted,
+                };
+                *sum += part * inverse;
+            }
+        }
+        let contracted = &self.contracted[multiple as usize]; // 0 ≤ m ≤ 2
+        sums.iter().zip(contracted).map(|(sum, part)| sum * part[0]).sum::<C64>() * -C64::i()
+    }
+
+    /// A corrected term, split into the harmonics near resonance and the rest. A term without a sum over time derivatives has no rest.
+    pub(crate) fn split(&self, multiple: i32, divisors: &Divisors) -> Split {
+        let count = (self.waves.len() / 2) as i32;
+        let mut split = Split::default();
+        for (i, harmonic) in self.waves.iter().enumerate() {
+            let j = i as i32 - count;
+            if divisors.excluded == Some(j) {
+                continue;
+            }
+            let torque = self.contracted(harmonic, multiple);
+            let frequency = divisors.unshifted(j);
+            if divisors.is_single(j) {
+                let mut generator = Part::default();
+                for (k, turns) in TURNS.into_iter().enumerate() {
+                    let functions = &self.contracted[multiple as usize][k]; // 0 ≤ m ≤ 2
+                    generator.add(functions.map(|function| harmonic[k] * function), divisors.reciprocal(j, turns));
+                }
+                let (divisor, shifted) = (divisors.smallest(j), divisors.is_shifted(j));
+                split.near.push(Near { frequency, divisor, torque, generator, shifted });
+            } else {
+                split.rest.add(torque, f64::from(j) * self.mean_motion, 1.0 / frequency);
+            }
+        }
+        split
+    }
+
+    /// The lowest harmonics of c_0 with their frequencies: those of ⟨D⟩.
+    pub(crate) fn average(&self) -> Vec<Near> {
+        let count = self.waves.len() / 2;
+        let most = count.min(MOST_OF_AVERAGE);
+        let near = (count - most..=count + most).map(|i| {
+            let frequency = (i as f64 - count as f64) * self.mean_motion;
+            let torque = self.contracted(&self.waves[i], 0);
+            Near { frequency, divisor: frequency, torque, generator: Part::default(), shifted: false }
+        });
+        near.collect()
+    }
+
+    /// One harmonic's contraction.
+    fn contracted(&self, harmonic: &[C64; 3], multiple: i32) -> Contraction {
+        let functions = &self.contracted[multiple as usize]; // 0 ≤ m ≤ 2
+        std::array::from_fn(|i| harmonic.iter().zip(functions).map(|(part, function)| part * function[i]).sum())
+    }
+
+    /// The reciprocal of a divisor, with its factor where the sums over time derivatives lack the harmonic.
+    fn inverse(&self, divisor: f64, omega: f64) -> f64 {
+        let summed = omega.abs() > self.slowest && divisor.abs() > SUMMED_ABOVE * omega.abs();
+        if summed { 1.0 / divisor } else { inverse(divisor, self.duration) }
+    }
+}
+
+/// The reciprocal of a divisor, with the factor 1 − e^(−x²T²/4).
+pub(crate) fn inverse(divisor: f64, duration: f64) -> f64 {
+    let turn = 0.5 * divisor * duration;
+    if returns(divisor, duration) {
+        1.0 / divisor
+    } else if turn == 0.0 {
+        0.0
+    } else {
+        -(-turn * turn).exp_m1() / divisor
+    }
+}
+
+/// The time over which a harmonic acts without returning.
+pub(crate) fn unreturned(divisor: f64, duration: f64) -> f64 {
+    let turn = 0.5 * divisor * duration;
+    duration * (-turn * turn).exp()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use nalgebra::{UnitQuaternion, Vector3};
+
+    use super::*;
+    use crate::gravity_gradient::body::contraction::Tensor;
+    use crate::gravity_gradient::orbit::hansen::OrbitSeries;
+    use crate::gravity_gradient::orbit::span::{Reach, whole};
+    use crate::gravity_gradient::second_order::mean_elements::tensors;
+    use crate::gravity_gradient::terms::divisors::Secular;
+    use crate::input::options::Level;
+    use crate::input::orbit::Orbit;
+    use crate::simd::lanes::Lanes;
+
+    const MEAN_MOTION: f64 = 0.02;
+
+    /// Calls `with` with a state and an orbit of many harmonics.
+    fn on_orbit<R>(eccentricity: f64, duration: f64, with: impl FnOnce(&Mean, &Demand<'_>) -> R) -> R {
+        let orbit =
+            Orbit::new(MEAN_MOTION, eccentricity).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
+        let envelope = whole(eccentricity, MEAN_MOTION);
+        let reach = Reach { eccentricity, anomaly: 0.0, sides: [10.0 * TAU; 2] };
+        let series = OrbitSeries::new(&reach).expect("a series");
+        let frame = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.1);
+        let demand = Demand {
+            orbit: &orbit,
+            mean_motion: MEAN_MOTION,
+            rates: [0.0; 2],
+            axes: orbit.axes(),
+            level: Level::Full,
+            tolerance: 1e-30,
+            duration,
+            share: 0.0,
+            refined: true,
+            series: Some(&series),
+            envelope: &envelope,
+            pole: frame * Vector3::z(),
+        };
+        with(&Mean { p: C64::new(0.1, 0.0), longitude: 0.0, momentum: 1.0, frame }, &demand)
+    }
+
+    /// c_m of V for T, and by the quadrature ∫ e^(iΩs) U(s) ds over the period before, over 1 − e^(−iΩP).
+    fn solutions(eccentricity: f64, omega: f64, multiple: i32, duration: f64) -> [C64; 2] {
+        on_orbit(eccentricity, duration, |mean, demand| solutions_at(mean, demand, omega, multiple))
+    }
+
+    fn solutions_at(mean: &Mean, demand: &Demand<'_>, omega: f64, multiple: i32) -> [C64; 2] {
+        let eccentricity = demand.orbit.eccentricity();
+        let frame = mean.frame;
+        let place = |anomaly: f64| Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
+        let (points, start, period) = (4000, 0.8, TAU / MEAN_MOTION);
+        let [first, second, _] = demand.orbit.axes().map(|axis| frame.inverse() * axis);
+        let sum: C64 = (0..points)
+            .map(|k| {
+                let back = k as f64 / points as f64;
+                let wrapped = start - TAU * back;
+                let place = place(wrapped - TAU * (wrapped / TAU).round());
+                let (sine, cosine) = (place.sine.values()[0], place.cosine.values()[0]);
+                let to_body = first * cosine + second * sine;
+                let cube = ((1.0 + eccentricity * cosine) / (1.0 - eccentricity * eccentricity)).powi(3);
+                let [x, y, z] = to_body.into();
+                let tensor: Tensor = [x * x, y * y, z * z, x * y, x * z, y * z].map(|part: f64| cube * part);
+                C64::from_polar(1.0, -omega * period * back) * contraction(&tensor, multiple)[0]
+            })
+            .sum();
+        // The integrand jumps by 1 − e^(−iΩP) of its value at the end: the trapezoidal rule and its first correction.
+        let now = tensors(mean, &place(start), demand);
+        let value = |j: usize| contraction(&now.0[j], multiple)[0];
+        let jump = 1.0 - C64::from_polar(1.0, -omega * period);
+        let step = period / points as f64;
+        let slope = C64::i() * omega * value(0) + value(1);
+        let quadrature = (sum * step - value(0) * jump * (0.5 * step) - slope * jump * (step * step / 12.0)) / jump;
+        let series = Harmonics::new(mean, &place(start), demand).expect("few harmonics");
+        [series.solution(omega, multiple, None), quadrature]
+    }
+
+    #[test]
+    fn the_series_solves_the_equation_of_the_generator_between_harmonics() {
+        for (eccentricity, number) in [(0.0, 1.6), (0.1, 3.3), (0.6, 7.3), (0.6, -12.6), (0.75, 20.4)] {
+            for multiple in 0..3 {
+                let [series, quadrature] = solutions(eccentricity, number * MEAN_MOTION, multiple, 1e6);
+                // Series left out at 1e-12, and (Ω step)⁴/720 of the quadrature.
+                let gap = (series - quadrature).norm() / quadrature.norm();
+                assert!(gap <= 1e-8, "{eccentricity} {number} {multiple}: {gap:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_harmonic_that_does_not_return_is_no_part_of_the_mean() {
+        // Ω = −6.9999 n: the divisor of the seventh harmonic is 2e-6, which returns in 3e6 units of time.
+        let at = |duration: f64| solutions(0.3, -6.9999 * MEAN_MOTION, 2, duration)[0].norm();
+        let [short, long] = [at(1e3), at(1e8)];
+        assert!(long >= 100.0 * short, "{short:e} {long:e}");
+        // Those that the sums have are there in any time.
+        assert!(at(1e-3) >= 0.1 * short, "{:e} {short:e}", at(1e-3));
+    }
+
+    #[test]
+    fn a_term_split_into_harmonics_is_the_term() {
+        on_orbit(0.6, 1e6, |mean, demand| {
+            let place = Place::of(Lanes::splat(pulp::Scalar, 0.8), 0.6);
+            let (tensors, _) = tensors(mean, &place, demand);
+            let series = Harmonics::new(mean, &place, demand).expect("few harmonics");
+            // The last is slow: all its harmonics are terms.
+            for (number, multiple) in [(22.6, 0), (-31.4, 1), (1.3, 2)] {
+                let omega = number * MEAN_MOTION;
+                let divisors = Divisors::new((1, multiple), [omega, MEAN_MOTION], multiple == 2, &Secular::default());
+                let Split { near, rest } = series.split(multiple, &divisors);
+                assert!(if multiple == 2 { near.len() > 100 } else { near.len() == 5 }, "{}", near.len());
+                let (mut torque, mut change, mut generator) =
+                    (rest.torque[0].value, rest.torque[1].value[0], rest.generator[0].value[0]);
+                for harmonic in &near {
+                    torque = std::array::from_fn(|i| torque[i] + harmonic.torque[i]);
+                    change += harmonic.torque[0] * C64::i() * (harmonic.frequency - omega);
+                    generator += harmonic.parts().generator[0].value[0];
+                }
+                let expected = contraction(&tensors[0], multiple);
+                let scale = expected.iter().map(|part| part.norm()).fold(0.0, f64::max);
+                let off = torque.iter().zip(expected).map(|(one, other)| (one - other).norm()).fold(0.0, f64::max);
+                assert!(off <= 1e-9 * scale, "{number} {off:e}");
+                let by_time = contraction(&tensors[1], multiple)[0];
+                assert!((change - by_time).norm() <= 1e-8 * by_time.norm(), "{number} {change} {by_time}");
+                let whole = series.solution(omega, multiple, None);
+                assert!((generator - whole).norm() <= 1e-9 * whole.norm(), "{number} {generator} {whole}");
+            }
+        });
+    }
+}

@@ -1,0 +1,192 @@
+//! Pairs of terms by the harmonics of the orbit: pairs that are too slow for the sums over time derivatives, and pairs with a harmonic near resonance.
+//!
+//! The source S of all pairs with one h and m depends on the place of the disturbing body. With S = Σ_j S_j e^(ijl), its integral is Σ_j S_j e^(ijl)/(i(Ω +
+//! jn)). A harmonic with a small x = Ω + jn has the factor 1 − e^(−x²T²/4) of [`crate::gravity_gradient::second_order::pair_harmonics`] there.
+
+use std::f64::consts::{PI, TAU};
+
+use num_complex::Complex;
+
+use super::pair_harmonics::{Near, Parts, Split, inverse, unreturned};
+use super::pair_terms::{Row, Stand};
+use crate::gravity_gradient::body::contraction::{Tensor, contraction};
+use crate::gravity_gradient::orbit::derivatives::ORDERS;
+use crate::gravity_gradient::orbit::hansen::{at_most, decay};
+use crate::gravity_gradient::terms::modes::Mode;
+
+type C64 = Complex<f64>;
+
+/// Most points around an orbit; more are needed from an eccentricity of 0.77 on, and for a harmonic above 60.
+const MOST_POINTS: f64 = 128.0;
+/// Relative error of a sum around the orbit, because S changes within the span.
+const SOURCE_CHANGE: f64 = 0.002;
+/// The same for slow pairs, which K2 lacks. With this value random scenes stay below their bounds (`gradient table`).
+const SLOW_SOURCE_CHANGE: f64 = 0.02;
+/// Pairs of terms are left out if the product of their sizes, each divided by the largest, is smaller.
+pub(crate) const PAIR_PRODUCT_CUTOFF: f64 = 1e-6;
+
+/// The disturbing body at one place of its orbit.
+pub(crate) struct Point {
+    /// l less l at the epoch.
+    pub(crate) anomaly: f64,
+    pub(crate) weight: f64,
+    pub(crate) tensors: [Tensor; ORDERS],
+}
+
+/// The disturbing body at mean anomalies with weights.
+pub(crate) type Points<'a> = dyn Fn(&[(f64, f64)]) -> Vec<Point> + 'a;
+
+/// An orbit, and the disturbing body on it.
+#[derive(Clone, Copy)]
+pub(crate) struct Around<'a> {
+    pub(crate) eccentricity: f64,
+    pub(crate) mean_motion: f64,
+    pub(crate) points: &'a Points<'a>,
+}
+
+/// h and m of a pair together, and their frequency Ω.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Total {
+    pub(crate) numbers: [f64; 2],
+    pub(crate) frequency: f64,
+}
+
+impl Around<'_> {
+    /// The highest harmonic that a pair needs, if they are not too many.
+    pub(crate) fn highest(&self, total: &Total) -> Option<f64> {
+        let slow = 6.0 + 4.0 / decay(self.eccentricity);
+        let highest = slow.max((total.frequency / self.mean_motion).abs() + 4.0).ceil();
+        (points_for(highest) <= MOST_POINTS).then_some(highest)
+    }
+
+    /// An upper estimate of the harmonic nearest to resonance in a product of so many factors (a/r)³, over the product at the pericentre, and its distance from
+    /// resonance.
+    pub(crate) fn nearest(&self, frequency: f64, factors: i32) -> [f64; 2] {
+        let number = (frequency / self.mean_motion).abs().round();
+        [at_most(self.eccentricity, number, factors), (frequency.abs() - number * self.mean_motion).abs()]
+    }
+}
+
+/// Number of points for so many harmonics.
+fn points_for(highest: f64) -> f64 {
+    2.0 * highest + 4.0
+}
+
+/// Mean anomalies and weights of points around an ellipse, even in the eccentric anomaly.
+fn even(eccentricity: f64, count: f64) -> Vec<(f64, f64)> {
+    let point = |k: usize| {
+        let anomaly = TAU * (k as f64 + 0.5) / count - PI;
+        (anomaly - eccentricity * anomaly.sin(), (1.0 - eccentricity * anomaly.cos()) / count)
+    };
+    (0..count as usize).map(point).collect()
+}
+
+/// A term of these pairs.
+struct Term<'a> {
+    row: Row,
+    /// m.
+    multiple: usize,
+    /// The number of derivatives in its sum.
+    orders: usize,
+    /// The harmonics of the orbit in it that are terms of their own.
+    near: &'a [Near],
+}
+
+/// A pair of terms, by their places in the list; the first may be ⟨D⟩.
+struct Pair {
+    /// Index of their total in `totals`.
+    place: usize,
+    terms: [Option<usize>; 2],
+    /// Whether the second has the opposite h and m.
+    conjugated: bool,
+    /// Whether the sum of both has the opposite h and m of that total.
+    opposite: bool,
+}
+
+/// The changes of M and L by the pairs of these terms that have one of these totals, and their errors. A term comes with its relative size.
+pub(crate) fn actions(
+    stand: &Stand<'_>,
+    listed: &[(Mode, f64)],
+    totals: &[Total],
+    (around, exact): (&Around<'_>, &[(Mode, Split)]),
+) -> [[f64; 2]; 2] {
+    let pairs = pairs(listed, totals);
+    let highest = totals.iter().filter_map(|total| around.highest(total)).fold(0.0, f64::max);
+    let points = (around.points)(&even(around.eccentricity, points_for(highest)));
+    let needed = |k: usize| pairs.iter().any(|pair| pair.terms.contains(&Some(k)));
+    let near = |mode: &Mode| exact.iter().find(|(other, _)| mode.is(other)).map_or(&[][..], |(_, split)| &split.near);
+    let term = |mode: &Mode| {
+        let row = Row::of(stand, mode, Parts::default());
+        Term { row, multiple: mode.multiple as usize, orders: row.orders_around(stand), near: near(mode) } // 0 ≤ m ≤ 2
+    };
+    let terms: Vec<_> = listed.iter().enumerate().map(|(k, (mode, _))| needed(k).then(|| term(mode))).collect();
+    let mut sources = vec![vec![C64::default(); points.len()]; totals.len()];
+    for (k, point) in points.iter().enumerate() {
+        let stand = Stand { tensors: &point.tensors, ..*stand };
+        let elapsed = point.anomaly / around.mean_motion;
+        let contracted = [0, 1, 2].map(|multiple| point.tensors.map(|tensor| contraction(&tensor, multiple)));
+        let here = |Term { row, multiple, orders, near }: &Term<'_>| {
+            row.elsewhere(&contracted[*multiple][..*orders], near, elapsed)
+        };
+        let rows: Vec<Option<[Row; 2]>> =
+            terms.iter().map(|term| term.as_ref().map(here).map(|row| [row, row.conjugate()])).collect();
+        let average = [Row::average(&stand); 2];
+        let both = |place: Option<usize>| place.and_then(|place| rows[place].as_ref()).unwrap_or(&average);
+        for pair in &pairs {
+            let [[a, _], b] = pair.terms.map(both);
+            let source = stand.source(a, &b[usize::from(pair.conjugated)]);
+            sources[pair.place][k] += if pair.opposite { source.conj() } else { source };
+        }
+    }
+    let highest = highest as i32;
+    let turn = |j: i32| points.iter().map(move |point| C64::from_polar(1.0, f64::from(j) * point.anomaly));
+    let steps: Vec<C64> = turn(-1).collect();
+    let mut actions = [[0.0; 2]; 2];
+    for (Total { numbers: [h, m], frequency }, source) in totals.iter().zip(&sources) {
+        let (mut sum, mut size, mut still) = (C64::default(), 0.0, 0.0);
+        let waves = turn(highest).zip(&points).zip(source).map(|((turn, point), value)| value * turn * point.weight);
+        let mut waves: Vec<C64> = waves.collect();
+        for j in -highest..=highest {
+            let harmonic: C64 = waves.iter().sum();
+            let divisor = frequency + f64::from(j) * around.mean_motion;
+            let part = harmonic * inverse(divisor, stand.duration);
+            sum += part;
+            size += part.norm_sqr().sqrt();
+            still += harmonic.norm_sqr().sqrt() * unreturned(divisor, stand.duration);
+            waves.iter_mut().zip(&steps).for_each(|(wave, step)| *wave *= step);
+        }
+        // With X = Σ_j S_j/(Ω + jn), M changes by −m Re X and L by −h Re X.
+        let share = if frequency.abs() <= stand.slowest { SLOW_SOURCE_CHANGE } else { SOURCE_CHANGE };
+        let left = share * size + still;
+        for (i, number) in [*m, *h].into_iter().enumerate() {
+            actions[0][i] -= number * sum.re;
+            actions[1][i] += number.abs() * left;
+        }
+    }
+    actions
+}
+
+/// The pairs of these terms that have one of these totals, or its opposite.
+fn pairs(listed: &[(Mode, f64)], totals: &[Total]) -> Vec<Pair> {
+    let mut pairs = Vec::new();
+    for (i, (a, size)) in listed.iter().enumerate() {
+        for (k, (b, other)) in listed.iter().enumerate() {
+            for conjugated in [false, true] {
+                let sign = if conjugated { -1 } else { 1 };
+                let [h, m] = [a.harmonic + sign * b.harmonic, a.multiple + sign * b.multiple].map(f64::from);
+                let place = totals.iter().position(|total| total.numbers == [h, m] || total.numbers == [-h, -m]);
+                if let Some(place) = place.filter(|_| size * other >= PAIR_PRODUCT_CUTOFF) {
+                    let opposite = totals[place].numbers != [h, m];
+                    pairs.push(Pair { place, terms: [Some(i), Some(k)], conjugated, opposite });
+                }
+            }
+        }
+    }
+    for (k, (b, _)) in listed.iter().enumerate() {
+        let numbers = [b.harmonic, b.multiple].map(f64::from);
+        if let Some(place) = totals.iter().position(|total| total.numbers == numbers) {
+            pairs.push(Pair { place, terms: [None, Some(k)], conjugated: false, opposite: false });
+        }
+    }
+    pairs
+}

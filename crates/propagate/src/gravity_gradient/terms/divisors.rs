@@ -1,0 +1,133 @@
+//! The divisors of a term in the orbit's harmonics.
+//!
+//! On an ellipse (a/r)³ r̂r̂ = Σ U_ja e^(ijl) with a = 0, ±2 for its parts with 1 and e^(±2if). A term of frequency Ω has the divisor Ω + jn there. Near a
+//! resonance it matters that the average torque changes Ω. From its mean over the orbit, K̄ = C η^(−3) (½ρ − ⅓) with ρ = 1 − k_N², follow
+//!
+//! ```text
+//! dℓ′/dt: ∂K̄/∂L = (C′/M) η^(−3) (½ρ − ⅓)    dy′/dt: −σ ∂K̄/∂L    dk/dt = ω N × k,  ω = −C η^(−3) k_N/M
+//! Ω + jn + (h − mσ) ∂K̄/∂L − ω (m k_N + a)
+//! ```
+//!
+//! The second line is the divisor: in axes that precess with k, the frame turns about k and the disturbing body about N. On the average k_N is constant, and so
+//! is this divisor. In harmonics that are not near resonance, and for j = 0, the bracket with the average torque has the same effect.
+
+use nalgebra::Vector3;
+
+use crate::gravity_gradient::body::inertia::Inertia;
+
+/// A harmonic with |Ω + jn| below this times n is a separate term in the sum over pairs.
+const SINGLE_BELOW: f64 = 2.5;
+/// If |Ω + jn| is below this times n, the divisor contains the shift by the average torque. Above it the shift is no larger than other effects of second order.
+const RESONANT: f64 = 1.0;
+/// A shift of this times n or more is not applied.
+const MOST_SHIFT: f64 = 0.3;
+
+/// The shift of the frequencies by the average torque.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Secular {
+    /// Of ℓ′ and y′.
+    phases: [f64; 2],
+    /// ω and ω k_N.
+    precession: [f64; 2],
+}
+
+impl Secular {
+    /// For an orbit of this eccentricity and normal, with q = 3φn²/2, and an angular momentum along a unit vector.
+    pub(crate) fn new(inertia: &Inertia, strength: f64, eccentricity: f64, [normal, pole]: [&Vector3<f64>; 2]) -> Self {
+        let Inertia { sigma, momentum, .. } = *inertia;
+        let scale = strength * ((1.0 - eccentricity) * (1.0 + eccentricity)).powf(-1.5) / momentum;
+        let [torque, slope] = inertia.average_torque().map(|part| scale * part);
+        let (along, across) = (pole.dot(normal), pole.cross(normal).norm_squared());
+        let by_action = slope * (0.5 * across - 1.0 / 3.0);
+        let precession = -torque * along;
+        Self { phases: [by_action, -sigma * by_action], precession: [precession, precession * along] }
+    }
+}
+
+/// The multiple of the mean motion nearest to a frequency. Harmonics beyond 1e9 have no strength.
+pub(crate) fn multiple_of(mean_motion: f64, frequency: f64) -> i32 {
+    (frequency / mean_motion).round().clamp(-1e9, 1e9) as i32
+}
+
+/// The divisors of one term.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Divisors {
+    /// Ω.
+    pub(crate) frequency: f64,
+    pub(crate) mean_motion: f64,
+    /// Whether the term is too slow for a sum over time derivatives.
+    pub(crate) slow: bool,
+    /// The harmonic that is left out.
+    pub(crate) excluded: Option<i32>,
+    /// The shift by the average torque for a = 0, and for each unit of a.
+    shift: [f64; 2],
+    /// Upper estimate of the constant shift of a harmonic, for |a| up to 2.
+    pub(crate) steady_shift: f64,
+}
+
+impl Divisors {
+    pub(crate) fn new(
+        (harmonic, multiple): (i32, i32),
+        [frequency, mean_motion]: [f64; 2],
+        slow: bool,
+        secular: &Secular,
+    ) -> Self {
+        let Secular { phases: [anomaly, longitude], precession: [precession, along], .. } = *secular;
+        let (h, m) = (f64::from(harmonic), f64::from(multiple));
+        let shift = [h * anomaly + m * (longitude - along), -precession];
+        let steady_shift = shift[0].abs() + 2.0 * precession.abs();
+        Self { frequency, mean_motion, slow, excluded: None, shift, steady_shift }
+    }
+
+    /// Without one harmonic, or with all.
+    pub(crate) fn without(self, excluded: Option<i32>) -> Self {
+        Self { excluded, ..self }
+    }
+
+    /// Whether a harmonic is a term of its own in the sum over pairs: all those of a slow term are.
+    pub(crate) fn is_single(&self, harmonic: i32) -> bool {
+        self.slow || self.unshifted(harmonic).abs() < SINGLE_BELOW * self.mean_motion
+    }
+
+    /// Whether a harmonic is so near resonance that its divisor has the shift by the average torque.
+    pub(crate) fn is_shifted(&self, harmonic: i32) -> bool {
+        harmonic != 0
+            && self.steady_shift < MOST_SHIFT * self.mean_motion
+            && self.unshifted(harmonic).abs() < RESONANT * self.mean_motion
+    }
+
+    /// Ω + jn.
+    pub(crate) fn unshifted(&self, harmonic: i32) -> f64 {
+        self.frequency + f64::from(harmonic) * self.mean_motion
+    }
+
+    /// The divisor of U_ja.
+    pub(crate) fn at(&self, harmonic: i32, turns: i32) -> f64 {
+        let [shift, precession] = if self.is_shifted(harmonic) { self.shift } else { [0.0; 2] };
+        self.unshifted(harmonic) + shift + f64::from(turns) * precession
+    }
+
+    /// The divisor of the harmonic's part that is nearest to resonance: of those with 1 and with the e^(±2if) that turns with it.
+    pub(crate) fn smallest(&self, harmonic: i32) -> f64 {
+        self.nearest(harmonic, &[0, 2])
+    }
+
+    /// The same for the parts with e^(iaf) that turn with the harmonic, for these |a|.
+    pub(crate) fn nearest(&self, harmonic: i32, turns: &[i32]) -> f64 {
+        let parts = turns.iter().map(|turns| self.at(harmonic, turns * harmonic.signum()));
+        parts.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or_else(|| self.unshifted(harmonic))
+    }
+
+    /// 1 over the divisor of U_ja, or 0 for the harmonic that is left out.
+    pub(crate) fn reciprocal(&self, harmonic: i32, turns: i32) -> f64 {
+        if self.excluded == Some(harmonic) { 0.0 } else { 1.0 / self.at(harmonic, turns) }
+    }
+}
+
+/// From this xT/2 on, a harmonic with the divisor x returns within the time T: e^(−x²T²/4) is below rounding.
+const RETURNS: f64 = 6.1;
+
+/// Whether a harmonic with this divisor returns within the span.
+pub(crate) fn returns(divisor: f64, duration: f64) -> bool {
+    0.5 * (divisor * duration).abs() > RETURNS
+}
