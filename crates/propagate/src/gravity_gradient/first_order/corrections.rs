@@ -215,13 +215,15 @@ impl Corrections {
         for (candidate, regime) in &chosen {
             // The tilt of the angular momentum by a dropped term changes its precession, for m = 0 too.
             let growth = growth(if demand.refined { 1 } else { candidate.multiple });
-            let is_slow = regimes.is_slow(candidate);
-            squares += if is_slow { 0.0 } else { candidate.size().powi(2) };
+            squares += match *regime {
+                Regime::Exact { size, .. } => size * size,
+                Regime::Slow => 0.0,
+                Regime::Fast { .. } | Regime::Negligible => candidate.size().powi(2),
+            };
             match (*regime, series) {
-                (Regime::Exact { resonant, size }, Some(series)) => {
+                (Regime::Exact { resonant, .. }, Some(series)) => {
                     let divisors = regimes.divisors(candidate).without(resonant);
                     exact.push(candidate.exact(inertia, (series, divisors), nothing));
-                    squares += if is_slow { size * size } else { 0.0 };
                     dropped += growth * nothing;
                     count += 1;
                 }
