@@ -200,6 +200,7 @@ impl Corrections {
             most: if level == Level::Paper { 1 } else { ORDERS },
             nothing,
             enough: nothing.max(0.01 * demand.tolerance),
+            whole,
         };
         let chosen: Vec<_> = terms.all.iter().map(|term| (term, regimes.of(term))).collect();
         let effects = chosen.iter().map(|(term, regime)| (*term, regimes.uncorrected(term, regime)));

@@ -75,6 +75,8 @@ pub(crate) struct Regimes<'a> {
     pub(crate) nothing: f64,
     /// Truncation error of a sum above which exact divisors replace it \[rad\].
     pub(crate) enough: f64,
+    /// Sum of the sizes of all terms that are not slow \[rad\].
+    pub(crate) whole: f64,
 }
 
 impl Regimes<'_> {
@@ -107,10 +109,12 @@ impl Regimes<'_> {
     /// The largest turn of the attitude within the span by what is not corrected of a term, at most π \[rad\].
     pub(crate) fn uncorrected(&self, term: &Candidate, regime: &Regime) -> f64 {
         match (regime, self.series) {
-            (Regime::Exact { resonant: None, .. }, _) => 0.0,
-            (Regime::Exact { resonant: Some(_), .. }, Some(series)) => {
+            (Regime::Exact { resonant, .. }, Some(series)) => {
                 let [_, amplitude, distance] = self.nearest(term, series);
-                self.turned(term, amplitude, distance)
+                match resonant {
+                    Some(_) => self.turned(term, amplitude, distance),
+                    None => self.corrected(term, amplitude, distance),
+                }
             }
             (Regime::Slow, _) => self.whole(term),
             _ => {
@@ -118,6 +122,25 @@ impl Regimes<'_> {
                 self.turned(term, amplitude, distance)
             }
         }
+    }
+
+    /// The turn that the correction of the harmonic nearest to resonance leaves. Its relative error is what the divisor lacks of the shift of Ω, by the average
+    /// torque within an orbit and by second order, the correction itself, and the part that does not return within the span.
+    fn corrected(&self, term: &Candidate, amplitude: f64, distance: f64) -> f64 {
+        if amplitude == 0.0 {
+            return 0.0;
+        }
+        let distance = distance.max(1.0 / self.duration);
+        let size = amplitude * term.size_at(distance);
+        let [_, turn] = term.swing_at(distance).map(|part| amplitude * part);
+        let shift = self.divisors(term).steady_shift / self.mean_motion;
+        let further = self.whole * self.whole * term.frequency.abs() / distance;
+        size * (shift + further + size + turn + self.unreturned(distance)).min(1.0)
+    }
+
+    /// The part of a harmonic that does not return within the span.
+    fn unreturned(&self, distance: f64) -> f64 {
+        (-0.25 * (distance * self.duration).powi(2)).exp()
     }
 
     /// The turn by all terms together, from the turn by each.
