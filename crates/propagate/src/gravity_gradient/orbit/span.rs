@@ -1,6 +1,6 @@
 //! The part of the orbit within the span, and the sizes of the time derivatives of (a/r)³ r̂r̂ there.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use super::derivatives::{ORDERS, Orbital};
 use crate::simd::kepler::eccentric_anomaly;
