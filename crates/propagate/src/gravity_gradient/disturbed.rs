@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 use andoyer_double::DoubleDouble;
 
 use crate::error::Error;
-use crate::gravity_gradient::averaged::slow::Slow;
 use crate::gravity_gradient::averaged::spin::MOST_QUARTERS;
+use crate::gravity_gradient::averaged::torque::Slow;
 use crate::gravity_gradient::body::cayley_klein::Powers;
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::draft::{Draft, Outset};

@@ -5,8 +5,7 @@ use std::f64::consts::TAU;
 
 use pulp::NullaryFnOnce;
 
-use crate::gravity_gradient::disturbed::Offset;
-use crate::gravity_gradient::disturbed::{DisturbedBy, Gradient};
+use crate::gravity_gradient::disturbed::{DisturbedBy, Gradient, Offset};
 use crate::gravity_gradient::first_order::generator::{Correction, MeanLanes};
 use crate::gravity_gradient::orbit::elliptic_motion::Elapsed;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};

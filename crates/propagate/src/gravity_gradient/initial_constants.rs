@@ -7,7 +7,7 @@
 use nalgebra::{Matrix2, Quaternion, UnitQuaternion, Vector2, Vector3};
 use num_complex::Complex;
 
-use crate::gravity_gradient::averaged::slow::Slow;
+use crate::gravity_gradient::averaged::torque::Slow;
 use crate::gravity_gradient::disturbed::Gradient;
 use crate::gravity_gradient::evaluate::Osculating;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};

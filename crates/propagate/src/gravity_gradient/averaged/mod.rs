@@ -19,10 +19,8 @@
 mod arcs;
 pub(crate) mod averaged_orbit;
 mod bodies;
-mod chain;
 mod polynomial;
 mod precession;
-pub(crate) mod slow;
 pub(crate) mod spin;
 #[cfg(test)]
 mod tests;

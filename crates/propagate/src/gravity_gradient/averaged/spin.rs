@@ -5,8 +5,8 @@ use std::sync::{Arc, LazyLock};
 
 use nalgebra::UnitQuaternion;
 
+use super::arcs::{Chain, MOST};
 use super::averaged_orbit::AveragedOrbit;
-use super::chain::{self, Chain};
 use super::polynomial::{COLUMNS, Column, NODES, Polynomial, Row, Slopes};
 use crate::gravity_gradient::orbit::elliptic_motion::When;
 use crate::gravity_gradient::second_order::k2::{DisturberLanes, dot};
@@ -21,7 +21,7 @@ const FEWEST_PIECES: i64 = 4;
 const FASTEST_IN_QUARTERS: f64 = 0.02;
 /// Number of quarters that are kept on each side of the epoch, 0.8 kB each; of eighths twice as many.
 pub(crate) const MOST_QUARTERS: usize = 1 << 18;
-const _: () = assert!(2 * MOST_QUARTERS < chain::MOST);
+const _: () = assert!(2 * MOST_QUARTERS < MOST);
 
 /// The averaged equations at the points of a piece of the orbit, by true anomaly.
 struct Piece<'a> {

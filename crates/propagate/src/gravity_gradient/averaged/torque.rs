@@ -1,22 +1,24 @@
 //! The averaged torques of a mean motion: the drifts of the phases, and the averaged motion that follows from them.
 
-use nalgebra::{UnitQuaternion, Vector3};
-
 use super::averaged_orbit::AveragedOrbit;
 use super::bodies::{Bodies, Pull};
 use super::precession::Precession;
-use super::slow::Slow;
 use super::spin::Spin;
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::first_order::corrections::Mean;
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
+use crate::gravity_gradient::orbit::elliptic_motion::{Elapsed, When};
 use crate::gravity_gradient::orbit::elliptic_orbit::{Demand, EllipticOrbit};
 use crate::gravity_gradient::request::Request;
 use crate::gravity_gradient::second_order::k2_remainder::Steady;
 use crate::gravity_gradient::second_order::mean_elements;
 use crate::gravity_gradient::terms::sensitivity::Response;
 use crate::input::options::Level;
+use crate::simd::complex_quaternion::QuaternionLanes;
+use crate::simd::instruction_set::InstructionSet;
+use crate::simd::lanes::Lanes;
 use crate::torque_free::polhode::Polhode;
+use nalgebra::{UnitQuaternion, Vector3};
 
 /// The averaged torques.
 pub(crate) struct Averages {
@@ -104,6 +106,34 @@ impl Averages {
                 Slow::Orbit(Box::new(Precession::new(ellipse.clone(), frame, place, (unit, factors))))
             }
             (true, false) => Slow::Spin(Box::new(Spin::new(ellipse.clone(), frame, &orbits[0].start))),
+        }
+    }
+}
+
+/// The averaged motion.
+#[derive(Clone, Debug)]
+pub(crate) enum Slow {
+    /// Averaged over the rotation only.
+    Spin(Box<Spin>),
+    /// Averaged over the rotation and the orbit.
+    Orbit(Box<Precession>),
+    /// Averaged over the rotation only, for several bodies or for orbits that precess.
+    Bodies(Box<Bodies>),
+}
+
+impl Slow {
+    /// The invariable frame at times after the epoch, and two numbers: the phase integral Ψ twice, or in second order the drifts of ℓ′ and y′. `when` is the
+    /// position of the first body.
+    #[inline(always)]
+    pub(crate) fn at<S: InstructionSet>(
+        &self,
+        when: &When<S>,
+        elapsed: Elapsed<S>,
+    ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
+        match self {
+            Self::Spin(spin) => spin.at(when),
+            Self::Orbit(precession) => precession.at(&when.place, elapsed),
+            Self::Bodies(bodies) => bodies.at(elapsed.0),
         }
     }
 }

@@ -7,16 +7,14 @@
 //! step is 0.2 % of the distance to the separatrix (sin²J = 1), and at most 40 % of sin²J. A smaller step at small J would amplify rounding. The relative error
 //! is 1e-10.
 
-use std::f64::consts::{PI, TAU};
-use std::sync::LazyLock;
-
-use andoyer_double::DoubleDouble;
-use num_complex::Complex;
-
+use crate::input::options::Level;
 use crate::torque_free::closed_form::ClosedForm;
 use crate::torque_free::frequencies::Secular;
 use crate::torque_free::polhode::Polhode;
-
+use andoyer_double::DoubleDouble;
+use num_complex::Complex;
+use std::f64::consts::{PI, TAU};
+use std::sync::LazyLock;
 type C64 = Complex<f64>;
 
 /// Number of samples in a period of ℓ′.
@@ -299,6 +297,32 @@ fn sample(closed: &ClosedForm, angle: f64, moments: [f64; 3]) -> [C64; 3] {
     let turned = C64::new(-entry(1, 2), entry(0, 2));
     let t2 = C64::new(entry(0, 0) - entry(1, 1), 2.0 * entry(0, 1)) / 4.0;
     [entry(2, 2).into(), turned, t2]
+}
+
+impl Level {
+    /// f_h for a multiple of y′, and its slope, at this level; for the first multiple those of i t1.
+    pub(crate) fn tensor(self, inertia: &Inertia, multiple: i32, harmonic: i32) -> (f64, f64) {
+        match self {
+            Self::Auto | Self::Full | Self::SecondOrder => inertia.tensor[multiple as usize].at(harmonic), // 0 ≤ m ≤ 2
+            Self::Paper | Self::Moving if (multiple, harmonic) == (2, 0) => (inertia.untilted[1], 0.0),
+            Self::Paper | Self::Moving => (0.0, 0.0),
+        }
+    }
+
+    /// The parts of f_h and of its slope that the level omits.
+    pub(crate) fn omitted(self, inertia: &Inertia, multiple: i32, harmonic: i32) -> (f64, f64) {
+        let (value, slope) = Self::Full.tensor(inertia, multiple, harmonic);
+        let (kept, kept_slope) = self.tensor(inertia, multiple, harmonic);
+        (value - kept, slope - kept_slope)
+    }
+
+    /// T33 averaged over ℓ′, and its slope, at this level.
+    pub(crate) fn axial(self, inertia: &Inertia) -> (f64, f64) {
+        match self {
+            Self::Auto | Self::Full | Self::SecondOrder => inertia.mean_axial(),
+            Self::Paper | Self::Moving => (inertia.untilted[0], 0.0),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -3,5 +3,4 @@
 pub(crate) mod cayley_klein;
 pub(crate) mod contraction;
 pub(crate) mod inertia;
-pub(crate) mod level_terms;
 pub(crate) mod osculating;

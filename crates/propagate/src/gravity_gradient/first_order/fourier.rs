@@ -14,6 +14,8 @@ use std::f64::consts::TAU;
 
 use pulp::NullaryFnOnce;
 
+use super::deviator::{Contracted, Products, axial_contractions, contractions};
+use super::sums::{Derivatives, SUMS};
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::terms::divisors::Divisors;
 use crate::simd::complex_quaternion::ComplexLanes;
@@ -21,10 +23,6 @@ use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 use crate::simd::sincos::sin_cos_of_turns;
-
-use super::deviator::{Contracted, Products, axial_contractions, contractions};
-use super::sums::SUMS;
-use super::w_derivatives::Derivatives;
 
 /// E, O, E₁ and O₁.
 const PARTS: usize = 4;

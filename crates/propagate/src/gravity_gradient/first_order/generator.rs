@@ -10,8 +10,7 @@ use nalgebra::Vector3;
 
 use super::deviator::{Deviator, Products, deviator_of, products, turned};
 use super::fourier::{ExactTerm, ExactTerms};
-use super::sums::{Harmonic, Sums};
-use super::w_derivatives::Derivatives;
+use super::sums::{Derivatives, Harmonic, Sums};
 use crate::gravity_gradient::body::inertia::HIGHEST;
 use crate::gravity_gradient::orbit::derivatives::{Circle, ORDERS, Orbital};
 use crate::gravity_gradient::orbit::elliptic_motion::{Axes, fixed};

@@ -148,6 +148,8 @@ pub(crate) fn whole(eccentricity: f64, mean_motion: f64) -> Envelope {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
 
     #[test]

@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 
 use super::k2_remainder::Steady;
 use crate::gravity_gradient::body::inertia::Inertia;
-use crate::gravity_gradient::terms::modes::Mode;
+use crate::gravity_gradient::terms::term::Mode;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 

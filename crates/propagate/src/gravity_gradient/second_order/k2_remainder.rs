@@ -19,9 +19,9 @@ use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::terms::divisors::Divisors;
-use crate::gravity_gradient::terms::modes::{Mode, ROOT_FLOOR};
+use crate::gravity_gradient::terms::term::{Mode, ROOT_FLOOR};
 #[cfg(test)]
-use crate::gravity_gradient::terms::modes::{modes, slowest};
+use crate::gravity_gradient::terms::term::{modes, slowest};
 
 /// Terms and harmonics with a smaller share of what is left are not summed, unless divisors are exact.
 const STEADY_CUTOFF: f64 = 1e-6;

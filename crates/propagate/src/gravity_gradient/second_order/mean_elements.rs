@@ -1,16 +1,13 @@
 //! The mean σ and M of second order, and the averaged Hamiltonian there.
 
-use num_complex::Complex;
-
-use super::first_actions::first_actions;
 use super::k2::Hamiltonian;
 use super::k2_remainder::Steady;
 use super::pair_harmonics::Harmonics;
-use super::pair_terms::Stand;
+use super::pair_terms::{Stand, orders};
 use super::pairs::{OrbitParts, second_actions};
 use super::pairs_around::{Around, Point};
 use crate::error::Error;
-use crate::gravity_gradient::body::contraction::Tensor;
+use crate::gravity_gradient::body::contraction::{Tensor, contraction};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::first_order::corrections::{Change, Corrections, Mean};
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
@@ -19,12 +16,14 @@ use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
 use crate::gravity_gradient::orbit::elliptic_motion::When;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
-use crate::gravity_gradient::terms::modes::{Mode, modes, slow_modes, slowest};
+use crate::gravity_gradient::terms::term::{Mode, modes, slow_modes, slowest};
 use crate::input::options::Level;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 use crate::torque_free::polhode::Polhode;
+use num_complex::Complex;
+type C64 = Complex<f64>;
 
 /// Terms smaller than this share of the largest are left out of the sum over pairs.
 const PAIR_SUM_CUTOFF: f64 = 1e-6;
@@ -193,4 +192,57 @@ fn without_terms(mean: &Mean, demand: &Demand<'_>) -> Generator {
     let [first, second, _] = demand.orbit.axes();
     let factors = Factors { strength: 0.0, root: 0.0, momentum: mean.momentum };
     Generator::new(&Default::default(), Vec::new(), (demand.envelope.orbital.clone(), [first, second]), factors)
+}
+
+/// δM and δL of first order.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct FirstActions {
+    pub(crate) momentum: f64,
+    pub(crate) action: f64,
+    /// Truncation errors of both by the sums over time derivatives.
+    pub(crate) left: [f64; 2],
+}
+
+pub(crate) fn first_actions(
+    stand: &Stand<'_>,
+    modes: &[Mode],
+    harmonics: Option<(&Harmonics, &[ExactTerm])>,
+) -> FirstActions {
+    let mut actions = FirstActions::default();
+    let angle = if stand.mean.p == C64::default() { 0.0 } else { stand.mean.p.arg() };
+    let root = stand.inertia.sigma.sqrt();
+    for mode in modes {
+        let (h, m) = (f64::from(mode.harmonic), f64::from(mode.multiple));
+        let omega = stand.mean.momentum * mode.frequency[0];
+        let amplitude = 2.0 * stand.strength * mode.function[0] * root.powi(mode.harmonic.abs());
+        let (sum, rest) = match harmonics {
+            Some((harmonics, exact)) => {
+                let term = exact.iter().find(|term| term.numbers == (mode.harmonic, mode.multiple));
+                (harmonics.solution(omega, mode.multiple, term), 0.0)
+            }
+            None => solution_by_sums(stand, omega, mode.multiple),
+        };
+        let phase = C64::from_polar(amplitude, h * angle + m * stand.mean.longitude);
+        let phase = if mode.multiple == 1 { phase * -C64::i() } else { phase };
+        // δM is m times the real part of −i W, and δL is h times.
+        let turned = (phase * sum * -C64::i()).re;
+        actions.momentum += m * turned;
+        actions.action += h * turned;
+        let rest = amplitude.abs() * rest;
+        actions.left = [actions.left[0] + m * rest, actions.left[1] + h.abs() * rest];
+    }
+    actions
+}
+
+/// c_m of V by the sum over time derivatives, and the size of the first term that the sum lacks.
+fn solution_by_sums(stand: &Stand<'_>, omega: f64, multiple: i32) -> (C64, f64) {
+    let orders = orders(omega, stand.sizes, 0.0);
+    let mut factor = (C64::i() * omega).inv();
+    let inverse = factor;
+    let mut sum = C64::default();
+    for tensor in stand.tensors.iter().take(orders) {
+        sum += factor * contraction(tensor, multiple)[0];
+        factor *= -inverse;
+    }
+    (sum, stand.sizes[orders] / omega.abs().powi(orders as i32 + 1))
 }

@@ -4,15 +4,12 @@
 //! Both parts are needed together: the rates of ℓ′ and y′ turn an error of second order in the mean σ or M into a drift of the size of K2's.
 //! Short-period corrections stay those of first order.
 
-mod first_actions;
 pub(crate) mod k2;
 pub(crate) mod k2_orbit_mean;
-pub(crate) mod k2_orbit_periodic;
 pub(crate) mod k2_remainder;
 pub(crate) mod mean_elements;
 mod pair_harmonics;
 mod pair_terms;
-mod pair_totals;
 mod pairs;
 mod pairs_around;
 #[cfg(test)]

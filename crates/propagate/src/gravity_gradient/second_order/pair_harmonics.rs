@@ -13,7 +13,7 @@ use crate::gravity_gradient::first_order::corrections::Mean;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 use crate::gravity_gradient::terms::divisors::{Divisors, returns};
-use crate::gravity_gradient::terms::modes::slowest;
+use crate::gravity_gradient::terms::term::slowest;
 use crate::simd::kepler::Place;
 
 type C64 = Complex<f64>;

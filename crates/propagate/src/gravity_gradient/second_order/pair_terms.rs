@@ -7,7 +7,7 @@ use crate::gravity_gradient::body::contraction::{Contraction, Tensor, contractio
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::first_order::corrections::Mean;
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
-use crate::gravity_gradient::terms::modes::{Mode, ROOT_FLOOR};
+use crate::gravity_gradient::terms::term::{Mode, ROOT_FLOOR};
 
 type C64 = Complex<f64>;
 

@@ -12,7 +12,7 @@ use super::pair_terms::{Row, Stand};
 use crate::gravity_gradient::body::contraction::{Tensor, contraction};
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
 use crate::gravity_gradient::orbit::hansen::{at_most, decay};
-use crate::gravity_gradient::terms::modes::Mode;
+use crate::gravity_gradient::terms::term::Mode;
 
 type C64 = Complex<f64>;
 

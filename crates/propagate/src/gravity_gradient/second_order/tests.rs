@@ -16,7 +16,7 @@ use crate::gravity_gradient::second_order::mean_elements::{points, tensors};
 use crate::gravity_gradient::second_order::pair_terms::Stand;
 use crate::gravity_gradient::second_order::pairs::{OrbitParts, averaged, second_actions};
 use crate::gravity_gradient::second_order::pairs_around::Around;
-use crate::gravity_gradient::terms::modes::{modes, slowest};
+use crate::gravity_gradient::terms::term::{modes, slowest};
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
 use crate::simd::kepler::Place;

@@ -1,7 +1,6 @@
 //! The terms e^(i(hℓ′+my′)) of the torque: size, frequency, divisors in the harmonics of the orbit, and regime.
 
 pub(crate) mod divisors;
-pub(crate) mod modes;
 pub(crate) mod regime;
 pub(crate) mod sensitivity;
 pub(crate) mod term;

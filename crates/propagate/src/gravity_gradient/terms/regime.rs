@@ -14,8 +14,7 @@ use super::divisors::{Divisors, Secular, multiple_of, returns};
 use super::sensitivity::Response;
 use super::term::{Candidate, SLOW_RATIO};
 use crate::error::Error;
-use crate::gravity_gradient::orbit::hansen::OrbitSeries;
-use crate::gravity_gradient::orbit::hansen::at_most;
+use crate::gravity_gradient::orbit::hansen::{OrbitSeries, at_most};
 use crate::gravity_gradient::orbit::span::Envelope;
 
 /// Harmonics of the orbit, from −3 to 3, with which the frequency of a slow term is compared.

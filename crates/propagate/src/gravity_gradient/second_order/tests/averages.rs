@@ -17,7 +17,7 @@ use crate::gravity_gradient::second_order::mean_elements::tensors;
 use crate::gravity_gradient::second_order::pairs::averaged;
 use crate::gravity_gradient::second_order::tests::{ECCENTRICITY, MEAN_MOTION, Q, Scene};
 use crate::gravity_gradient::terms::divisors::{Divisors, Secular};
-use crate::gravity_gradient::terms::modes::{Mode, modes, slowest};
+use crate::gravity_gradient::terms::term::{Mode, modes, slowest};
 use crate::input::orbit::Orbit;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
