@@ -34,8 +34,8 @@ impl<'a> Cursor<'a> {
         // The end of the last step begins none.
         let last = steps.len().saturating_sub(2);
         let place = match self.expanded {
-            Some((expanded, place)) if expanded == side && within(time.0, &steps[place..]) => place,
-            _ => steps.partition_point(|step| step.time.0.abs() <= time.0.abs()).saturating_sub(1).min(last),
+            Some((expanded, place)) if expanded == side && within(time, side == 0, &steps[place..]) => place,
+            _ => steps.partition_point(|step| reached(time, side == 0, step)).saturating_sub(1).min(last),
         };
         let start = &steps[place];
         if self.expanded != Some((side, place)) {
@@ -57,10 +57,15 @@ impl<'a> Cursor<'a> {
     }
 }
 
+/// Whether a time is not before the start of a step, in its direction: in double-double, since a step at a pericentre may be shorter than the spacing of doubles.
+fn reached(time: (f64, f64), backward: bool, step: &Step) -> bool {
+    if backward { time <= step.time } else { step.time <= time }
+}
+
 /// Whether a time lies in the first of some steps.
-fn within(time: f64, steps: &[Step]) -> bool {
+fn within(time: (f64, f64), backward: bool, steps: &[Step]) -> bool {
     match steps {
-        [start, end, ..] => start.time.0.abs() <= time.abs() && time.abs() < end.time.0.abs(),
+        [start, end, ..] => reached(time, backward, start) && !reached(time, backward, end),
         _ => false,
     }
 }

@@ -189,6 +189,8 @@ pub(super) struct Workspace<const W: usize> {
     pub(super) parts: [Rows<W>; 2],
     factors: [Factors<W>; ROWS],
     places: Vec<Series>,
+    /// The least radius of convergence of the series of a body, infinite without a body.
+    pub(super) radius: f64,
     /// The next and the next but one of s1, s2, s3 of each body.
     directions: Vec<[[Rows<W>; 2]; ROWS]>,
 }
@@ -201,6 +203,7 @@ impl<const W: usize> Workspace<W> {
             parts: [[0.0; W]; 2],
             factors: [Factors::ZERO; ROWS],
             places: vec![ZERO; bodies],
+            radius: f64::INFINITY,
             directions: vec![[[[0.0; W]; 2]; ROWS]; bodies],
         })
     }
@@ -214,8 +217,9 @@ impl<const W: usize> Workspace<W> {
         start: &Start<W>,
         order: usize,
     ) {
+        self.radius = f64::INFINITY;
         for (body, place) in equations.bodies.iter().zip(&mut self.places) {
-            body.series(simd.four(), (start.time, start.backward), order, place);
+            self.radius = self.radius.min(body.series(simd.four(), (start.time, start.backward), order, place));
         }
         self.attitude[0] = start.attitude;
         self.rates[0] = start.rates;

@@ -117,11 +117,13 @@ impl Problem {
         let (start, stop) = scene.asked_span().ok_or_else(|| Error::NoSpan { reason: reason.to_owned() })?;
         let epoch = scene.state().epoch;
         let (start, stop) = (start.min(epoch), stop.max(epoch));
-        let (mut fastest, mut square) = (scene.state().angular_velocity.norm(), 0.0_f64);
+        let spin = scene.state().angular_velocity.norm();
+        let (mut fastest, mut lasting, mut square) = (spin, spin, 0.0_f64);
         for body in scene.asked_disturbing() {
             let (rate, least) = match body {
                 DisturbingBody::Orbit(orbit) => {
                     orbit.within_reach(epoch)?;
+                    lasting = lasting.max(orbit.mean_motion());
                     rates_of_orbit(orbit)
                 }
                 DisturbingBody::Tabulated(table) => {
@@ -133,9 +135,11 @@ impl Problem {
                 }
             };
             fastest = fastest.max(rate);
+            lasting = lasting.max(least);
             square += least * least;
         }
-        let exponent = if fastest > 0.0 { exponent(fastest) } else { 0 };
+        // A coefficient of order k is a rate to the power k: the unit is the mean of a pericentre and the rest, so that neither leaves the range of a double.
+        let exponent = if fastest > 0.0 { (exponent(fastest) + exponent(lasting)) / 2 } else { 0 };
         let scale = scaled(square.sqrt(), -exponent).max(f64::MIN_POSITIVE);
         let rates = scene.state().angular_velocity.map(|rate| scaled(rate, -exponent));
         let end = |time: f64| {

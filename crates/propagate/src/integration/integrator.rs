@@ -16,10 +16,14 @@ use crate::simd::instruction_set::{InstructionSet, Task};
 pub(crate) const MOST_STEPS: usize = 1 << 23;
 /// Steps between two looks at the flag: about 0.3 ms.
 const AT_ONCE: usize = 64;
-/// An integration whose first steps would need more than this many times the steps that are kept is refused at once.
-const HOPELESS: f64 = 16.0;
+/// An integration is refused where the steps so far foretell more than are kept: this many times more, until there are so many steps that they are typical.
+const HOPELESS: f64 = 4.0;
+const TYPICAL: usize = MOST_STEPS / 64;
 /// The terms after the last, relative to it: steps are e^−2 of the radius of convergence, so that their sum is 0.16 of it.
 const OMITTED: f64 = 0.2;
+/// A step is at most this part of the radius of convergence of each torque. The coefficients of the motion show a torque only where it exceeds the rounding
+/// errors: the steps towards a pericentre would pass over it where it does not. Where they show it, they give shorter steps.
+const NEAREST: f64 = 0.5;
 /// Relative rounding errors of a torque and of ω × Iω.
 pub(super) const ROUNDING: [f64; 2] = [4.0 * 1.2e-16, 2.0 * 1.2e-16];
 
@@ -154,7 +158,7 @@ impl<const W: usize> Runner<W> {
             let ratio = (largest(&workspace.rates[k]) / scale).max(largest(&workspace.attitude[k]));
             -ratio.ln() / k as f64
         });
-        let whole = (before.min(last) + shrinkage).exp();
+        let whole = (before.min(last) + shrinkage).exp().min(NEAREST * workspace.radius);
         let left = (target.0 - self.time.0) + (target.1 - self.time.1);
         let last = whole >= left.abs();
         let length = if last { left } else { whole.copysign(left) };
@@ -184,8 +188,9 @@ impl<const W: usize> Runner<W> {
     #[inline(always)]
     fn account(&mut self, length: f64, order: usize, (equations, workspace): (&Equations<W>, &Workspace<W>)) {
         let last = length.powi(order as i32);
-        self.systematic[0] += 2.0 * OMITTED * largest(&workspace.attitude[order]) * last;
-        self.systematic[1] += OMITTED * largest(&workspace.rates[order]) * last;
+        let omitted = OMITTED.max(length / (workspace.radius - length));
+        self.systematic[0] += 2.0 * omitted * largest(&workspace.attitude[order]) * last;
+        self.systematic[1] += omitted * largest(&workspace.rates[order]) * last;
         let [torque, gyration] = &workspace.parts;
         let by_rates = ROUNDING[0] * largest(torque) + ROUNDING[1] * largest(gyration);
         let rate = by_rates * largest(&equations.factors) * length;
@@ -255,7 +260,7 @@ impl Task for Kept<'_> {
         while runner.time != target {
             if steps.len() % AT_ONCE == 0 {
                 going(stop).map_err(|_| Error::Stopped)?;
-                affordable(&steps, &runner, target)?;
+                affordable(equations, steps.len(), runner.time, target)?;
             }
             let knot = next_knot(equations, runner.time.0, forward);
             let end = knot.filter(|knot| knot.0.abs() < target.0.abs()).unwrap_or(target);
@@ -283,15 +288,13 @@ pub(super) fn next_knot<const W: usize>(equations: &Equations<W>, time: f64, for
     knots.min_by(|one, other| one.0.abs().total_cmp(&other.0.abs()))
 }
 
-/// Whether the steps so far leave the whole within the bound.
-fn affordable(steps: &[Step], runner: &Runner<4>, target: (f64, f64)) -> Result<(), Error> {
-    let done = runner.time.0.abs();
-    if steps.is_empty() || done == 0.0 {
-        return Ok(());
-    }
-    let whole = steps.len() as f64 * (target.0.abs() / done);
-    let bound = MOST_STEPS as f64;
-    if whole > HOPELESS * bound || steps.len() >= MOST_STEPS {
+/// Whether the steps so far leave the whole within the bound. Some of the steps are due to the rotation, and others to the passage of each body. The number of
+/// each kind grows at least by the least of the factors by which they grow.
+fn affordable(equations: &Equations<4>, steps: usize, now: (f64, f64), target: (f64, f64)) -> Result<(), Error> {
+    let growth = equations.bodies.iter().map(|body| body.growth(now, target)).fold(target.0 / now.0, f64::min);
+    let whole = steps as f64 * growth;
+    let bound = MOST_STEPS as f64 * if steps < TYPICAL { HOPELESS } else { 1.0 };
+    if steps > 0 && whole > bound || steps >= MOST_STEPS {
         return Err(Error::TooManySteps { steps: whole, bound: MOST_STEPS, reason: String::new() });
     }
     Ok(())

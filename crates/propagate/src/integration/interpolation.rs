@@ -54,8 +54,13 @@ impl Table {
         }
     }
 
-    /// Newton's divided differences, expanded about the time.
-    pub(super) fn series(&self, (time, backward): ((f64, f64), bool), order: usize, out: &mut Series) {
+    /// The number of intervals between the epoch and a time, that of the time included.
+    pub(super) fn passed(&self, time: (f64, f64)) -> f64 {
+        self.interval(time).abs_diff(self.interval((0.0, 0.0))) as f64 + 1.0
+    }
+
+    /// Newton's divided differences, expanded about the time. Returns a radius of convergence: that of a straight path, and less of a bent one.
+    pub(super) fn series(&self, (time, backward): ((f64, f64), bool), order: usize, out: &mut Series) -> f64 {
         let interval = self.interval(time);
         // A step backwards from a time of the table lies in the interval before it.
         let interval = if backward && self.knots[interval] == time { interval.saturating_sub(1) } else { interval };
@@ -97,5 +102,8 @@ impl Table {
             let [x, y, z] = position.each_ref().map(|p| product(p, &factor, k));
             out[k] = [x, y, z, 0.0];
         }
+        let size = |k: usize| position.iter().map(|p| p[k] * p[k]).sum::<f64>();
+        let nearest = |k: usize| (size(0) / size(k)).powf(0.5 / k as f64);
+        (1..self.nodes).map(nearest).fold(f64::INFINITY, f64::min)
     }
 }
