@@ -238,6 +238,7 @@ fn wobbling(scene: Scene, preparation: Preparation<'_>, polhode: &Polhode, mode:
     let phases = phase_rounding(&scene, exact.longitude_rate, polhode.scales.1);
     let mut plan = Plan::new(&scene, mode, ratio, solution.error_bound + phases);
     plan.method = if by_series { Method::Series } else { Method::Closed };
+    plan.expanded = polhode.has_small_divisor(scene.body().has_tensor());
     Ok(assembled(scene, polhode, plan, solution))
 }
 

@@ -8,7 +8,7 @@ use pyo3::types::PyTuple;
 use crate::{array, error};
 
 /// The arguments of `pickle` for a body with its own axes: a function and its arguments.
-type Reduced<'py, 'a> = (Bound<'py, PyAny>, (Rows, Option<&'a str>));
+type Reduced<'py, 'a> = (Bound<'py, PyAny>, (Rows, Option<&'a str>, bool));
 
 /// A rigid body, given by its principal moments of inertia.
 ///
@@ -230,6 +230,12 @@ impl Body {
         array::constant(py, &self.body.moments()).into_any()
     }
 
+    /// Whether the body was made by `from_inertia`. `Motion.partials` then has twelve parameters instead of nine.
+    #[getter]
+    fn has_tensor(&self) -> bool {
+        self.body.has_tensor()
+    }
+
     /// The inertia tensor about the user's axes: a read-only array, shape (3, 3). It is diagonal unless the body was made by `from_inertia`.
     #[getter]
     fn inertia<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -304,12 +310,21 @@ impl Body {
 
     /// Rebuilds a body for `pickle`.
     #[staticmethod]
-    fn _restored(inertia: [[f64; 3]; 3], name: Option<&str>) -> PyResult<Self> {
-        named(andoyer_propagate::Body::from_inertia(inertia), name)
+    #[pyo3(signature = (inertia, name, by_tensor=false))]
+    fn _restored(inertia: [[f64; 3]; 3], name: Option<&str>, by_tensor: bool) -> PyResult<Self> {
+        let [[a, p, q], [_, b, r], [_, _, c]] = inertia;
+        let by_moments = !by_tensor && [p, q, r] == [0.0; 3];
+        let body = if by_moments {
+            andoyer_propagate::Body::new([a, b, c])
+        } else {
+            andoyer_propagate::Body::from_inertia(inertia)
+        };
+        named(body, name)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py, '_>> {
-        Ok((py.get_type::<Self>().getattr("_restored")?, (self.body.inertia(), self.body.name())))
+        let body = (self.body.inertia(), self.body.name(), self.body.has_tensor());
+        Ok((py.get_type::<Self>().getattr("_restored")?, body))
     }
 }
 

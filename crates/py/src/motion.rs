@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use andoyer_propagate::partials::PARAMETERS;
+use andoyer_propagate::partials::{INERTIA_PARAMETERS, PARAMETERS};
 use andoyer_propagate::periods::Convention;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
@@ -219,9 +219,10 @@ impl Motion {
 
     /// Evaluates the derivatives of attitude and angular velocity with respect to the initial state and the moments (theory §12).
     ///
-    /// The nine columns are the initial attitude (a small rotation about body axes 1, 2, 3), the initial angular velocity, and the moments as given. A change
-    /// of attitude is a rotation vector δθ about body axes, R → R exp([δθ]×); rates are body components. The derivatives are in closed form at any time and in
-    /// every mode. A scene with an orbit uses differences (see `Plan.partials`).
+    /// The nine columns are the initial attitude (a small rotation about body axes 1, 2, 3), the initial angular velocity, and the moments as given. For a body
+    /// made by `Body.from_inertia` there are twelve: the six elements I11, I22, I33, I12, I13, I23 of the tensor replace the moments, and a change of I12 is one
+    /// of I21 too. A change of attitude is a rotation vector δθ about body axes, R → R exp([δθ]×); rates are body components. The derivatives are in closed form
+    /// at any time and in every mode, or power series where the closed form cancels. A scene with an orbit uses differences (see `Plan.partials`).
     ///
     /// Parameters
     /// ----------
@@ -231,7 +232,7 @@ impl Motion {
     /// Returns
     /// -------
     /// Partials
-    ///     Derivatives (n, 3, 9) of attitude and angular velocity.
+    ///     Derivatives (n, 3, 9) of attitude and angular velocity, (n, 3, 12) for a body from a tensor.
     ///
     /// Raises
     /// ------
@@ -248,12 +249,21 @@ impl Motion {
     fn partials(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Partials> {
         let times = self.times(times)?;
         let since_epoch = times.since_epoch();
-        let [copy, attitude, rates] = times.matrices(PARAMETERS)?;
+        let by_tensor = self.0.scene().body().has_tensor();
+        let [copy, attitude, rates] = times.matrices(if by_tensor { INERTIA_PARAMETERS } else { PARAMETERS })?;
         {
-            let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
-            let (values, attitude, rates) = (times.values()?, matrices(&mut attitude)?, matrices(&mut rates)?);
-            let evaluate = |stop: &AtomicBool| self.batch(since_epoch, stop).partials_into(values, attitude, rates);
-            interruptible(py, times.long_partials(), error::propagation, evaluate)?;
+            let (values, mut attitude, mut rates) = (times.values()?, write(&attitude)?, write(&rates)?);
+            let long = times.long_partials();
+            if by_tensor {
+                let (attitude, rates) = (matrices(&mut attitude)?, matrices(&mut rates)?);
+                let evaluate =
+                    |stop: &AtomicBool| self.batch(since_epoch, stop).inertia_partials_into(values, attitude, rates);
+                interruptible(py, long, error::propagation, evaluate)?;
+            } else {
+                let (attitude, rates) = (matrices(&mut attitude)?, matrices(&mut rates)?);
+                let evaluate = |stop: &AtomicBool| self.batch(since_epoch, stop).partials_into(values, attitude, rates);
+                interruptible(py, long, error::propagation, evaluate)?;
+            }
         }
         Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
     }

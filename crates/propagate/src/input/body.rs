@@ -15,11 +15,20 @@ const TRIANGLE_SLACK: f64 = 8.0 * f64::EPSILON;
 const LARGEST_RATIO: f64 = 1e100;
 
 /// Principal moments of inertia [any unit] about body axes 1, 2, 3, or an inertia tensor about the user's axes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Body {
     moments: [f64; 3],
     name: Option<String>,
     tensor: Option<Box<Tensor>>,
+    /// Whether the body was given by a tensor. A tensor about the principal axes is kept as moments.
+    by_tensor: bool,
+}
+
+/// A body of a diagonal tensor is equal to that of its moments.
+impl PartialEq for Body {
+    fn eq(&self, other: &Self) -> bool {
+        (self.moments, &self.name, &self.tensor) == (other.moments, &other.name, &other.tensor)
+    }
 }
 
 /// An inertia tensor about axes that are not the principal ones.
@@ -51,7 +60,7 @@ impl Body {
                 return Err(Error::Moment { axis, value });
             }
         }
-        let body = Self { moments, name: None, tensor: None };
+        let body = Self { moments, name: None, tensor: None, by_tensor: false };
         let [a, b, c] = body.sorted();
         // Each quotient is computed by itself, because the sum of two large moments may overflow.
         let sum = a / c + b / c;
@@ -96,12 +105,17 @@ impl Body {
         if moments.iter().any(|moment| *moment <= 0.0) {
             return Err(Error::InertiaMoments { moments });
         }
-        let mut body = Self::new(moments)?;
+        Ok(Self::new(moments)?.about(axes, tensor))
+    }
+
+    /// The same body about axes of which these are the principal ones.
+    fn about(mut self, axes: Matrix3<f64>, given: [[f64; 3]; 3]) -> Self {
+        self.by_tensor = true;
         if axes != Matrix3::identity() {
             let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
-            body.tensor = Some(Box::new(Tensor { given: tensor, axes, turn }));
+            self.tensor = Some(Box::new(Tensor { given, axes, turn }));
         }
-        Ok(body)
+        self
     }
 
     /// A homogeneous ellipsoid with the given semi-axes along body axes 1, 2, 3: the moment about axis 1 is m (b² + c²)/5, and so on.
@@ -143,9 +157,9 @@ impl Body {
         Self::new([b + c, a + c, a + b].map(|sum| mass * sum / divisor))
     }
 
-    /// Whether the body was given by an inertia tensor about axes that are not principal axes.
+    /// Whether the body was given by an inertia tensor.
     pub fn has_tensor(&self) -> bool {
-        self.tensor.is_some()
+        self.by_tensor
     }
 
     /// The inertia tensor about the user's axes, as it was given. It is diagonal for a body given by principal moments.
@@ -170,9 +184,17 @@ impl Body {
         Self { tensor: None, ..self.clone() }
     }
 
-    /// The same body with slightly different moments, which are not validated.
-    pub(crate) fn with_moments(&self, moments: [f64; 3]) -> Self {
-        Self { moments, ..self.clone() }
+    /// The body about its principal axes with a slightly different tensor, which is not validated; from the changes of I11, I22, I33, I12, I13, I23.
+    pub(crate) fn displaced(&self, [i11, i22, i33, i12, i13, i23]: [f64; 6]) -> Self {
+        let [a, b, c] = self.moments;
+        let body = Self { moments: [a + i11, b + i22, c + i33], ..self.clone() };
+        if [i12, i13, i23] == [0.0; 3] {
+            return body;
+        }
+        let tensor =
+            Matrix3::from_diagonal(&body.moments.into()) + Matrix3::new(0.0, i12, i13, i12, 0.0, i23, i13, i23, 0.0);
+        let (moments, axes) = principal_axes(&tensor);
+        Self { moments, ..body }.about(axes, tensor.into())
     }
 
     /// A body of the catalogue by its name, in upper or lower case: "earth", "ceres", … ([`Body::catalogue`] lists the names).

@@ -34,6 +34,8 @@ pub struct Plan {
     pub(crate) separatrix_ratio: f64,
     pub(crate) gradient: Option<GradientPlan>,
     pub(crate) integration: Option<IntegrationPlan>,
+    /// Whether derivatives are computed by power series, because their closed form cancels.
+    pub(crate) expanded: bool,
     pub(crate) skipped: Vec<String>,
 }
 
@@ -52,6 +54,7 @@ impl Plan {
             separatrix_ratio,
             gradient: None,
             integration: None,
+            expanded: false,
             skipped: Vec::new(),
         }
     }
@@ -155,12 +158,19 @@ impl Plan {
         self.gradient.map_or(0.0, |gradient| gradient.neglected)
     }
 
-    /// The method for derivatives with respect to the state and the moments: "closed" (theory §12), or "differences" of fourth order for a scene with an orbit
-    /// and for an integrated motion. It is `None` on the separatrix, where the frequencies have no derivatives.
+    /// The method for derivatives with respect to the state and the moments or the tensor:
+    ///
+    /// - "closed": the closed form (theory §12).
+    /// - "series": power series in time. They replace the closed form where it cancels: next to a sphere, to the separatrix and to the middle axis, and for a body
+    ///   from a tensor also with nearly equal moments.
+    /// - "differences": differences of fourth order, for a scene with an orbit and for an integrated motion. Their error is some 1e-9 of the largest derivative.
+    ///
+    /// It is `None` on the separatrix, where the frequencies have no derivatives.
     pub fn partials(&self) -> Option<&'static str> {
         match (self.mode, self.method, self.gradient) {
             (_, Method::Integrated, _) | (_, _, Some(_)) => Some("differences"),
             (Mode::Separatrix, _, None) => None,
+            _ if self.expanded => Some("series"),
             _ => Some("closed"),
         }
     }

@@ -2,7 +2,8 @@
 //!
 //! They are central differences of fourth order. A step turns the body by [`STEP`] at the most distant time. The truncation error is STEP⁴/30 of the largest
 //! derivative, 3e-10. The rounding error of a solution, 1e-13, divided by the step is as large. Derivatives of the mean motion alone would lack those of the
-//! short-period corrections, which have the size of the torque. One call solves 37 motions for any number of times.
+//! short-period corrections, which have the size of the torque. One call solves 37 motions for any number of times, 49 for the
+//! parameters of a body with a tensor.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -12,7 +13,7 @@ use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::motion::solved::Motion;
 
-use super::{Derivatives, PARAMETERS};
+use super::Derivatives;
 
 /// Angle by which a step turns the body at the most distant time \[rad\].
 const STEP: f64 = 1e-2;
@@ -24,23 +25,23 @@ const TOLERANCE: f64 = 1e-13;
 const STENCIL: [(f64, f64); 4] = [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)];
 
 /// Computes derivatives at times that are valid for the motion.
-pub(super) fn fill(
+pub(super) fn fill<const N: usize>(
     motion: &Motion,
     times: &[f64],
-    attitudes: &mut [Derivatives],
-    rates: &mut [Derivatives],
+    attitudes: &mut [Derivatives<N>],
+    rates: &mut [Derivatives<N>],
 ) -> Result<(), Error> {
     let scene = motion.scene.clone().tolerance(TOLERANCE.min(motion.scene.asked_tolerance()));
     let scene = match motion.plan.averaging() {
         Some(averaging) => scene.averaging(averaging).method(Method::Closed),
         None => scene.method(Method::Integrated),
     };
-    let steps = steps(&scene, times);
+    let steps = steps::<N>(&scene, times);
     let mut samples = Samples::new(times.len());
     samples.evaluate(&scene, times)?;
     let origins = samples.attitudes.clone();
-    attitudes.fill([[0.0; PARAMETERS]; 3]);
-    rates.fill([[0.0; PARAMETERS]; 3]);
+    attitudes.fill([[0.0; N]; 3]);
+    rates.fill([[0.0; N]; 3]);
     for (parameter, step) in steps.into_iter().enumerate() {
         for (place, weight) in STENCIL {
             samples.evaluate(&changed(&scene, parameter, place * step), times)?;
@@ -74,7 +75,7 @@ impl Samples {
 }
 
 /// The step of each parameter.
-fn steps(scene: &Scene, times: &[f64]) -> [f64; PARAMETERS] {
+fn steps<const N: usize>(scene: &Scene, times: &[f64]) -> [f64; N] {
     let State { epoch, angular_velocity, .. } = *scene.state();
     let farthest = times.iter().fold(0.0_f64, |most, time| most.max((time - epoch).abs()));
     // The rates of a body at rest need a step that is not 0.
@@ -87,13 +88,14 @@ fn steps(scene: &Scene, times: &[f64]) -> [f64; PARAMETERS] {
     std::array::from_fn(|parameter| match parameter {
         0..3 => STEP,
         3..6 => part * rate,
-        _ => part * moments[parameter - 6],
+        6..9 => part * moments[parameter - 6],
+        _ => part * moments.into_iter().fold(0.0, f64::max),
     })
 }
 
 /// The scene with one parameter changed.
 fn changed(scene: &Scene, parameter: usize, step: f64) -> Scene {
-    let (mut state, mut moments) = (*scene.state(), scene.body().moments());
+    let (mut state, mut tensor) = (*scene.state(), [0.0; 6]);
     match parameter {
         0..3 => {
             let mut axis = Vector3::zeros();
@@ -101,9 +103,9 @@ fn changed(scene: &Scene, parameter: usize, step: f64) -> Scene {
             state.attitude *= UnitQuaternion::from_scaled_axis(axis);
         }
         3..6 => state.angular_velocity[parameter - 3] += step,
-        _ => moments[parameter - 6] += step,
+        _ => tensor[parameter - 6] = step,
     }
-    scene.starting_from(scene.body().with_moments(moments), state)
+    scene.starting_from(scene.body().displaced(tensor), state)
 }
 
 /// The rotation vector from one attitude to a nearby one, in body components.

@@ -3,17 +3,23 @@
 //! There are nine parameters: a small rotation of the initial attitude about the three body axes, the initial angular velocity, and the three moments as given.
 //! A change of attitude, at the epoch and at the time, is a rotation vector about body axes, R → R exp(\[δθ\]×). With g = G/M, ν_i = M/(A, B, C)_i and the
 //! invariants of the polhode, every derivative is an algebraic function of attitude and rates at the time and of one elliptic integral of the second kind, ∫g2²
-//! dt. Set-up takes some microseconds. Accuracy: 1e-14 of the largest derivative over Q1, where Q1 is the minimum of cos²J, which is small near the separatrix.
+//! dt. Set-up takes some microseconds. Accuracy: 1e-14 of the largest derivative over the smaller of Q1, the minimum of cos²J, and C/B − 1. Q1 is small next to the
+//! separatrix, C/B − 1 next to a sphere. Where one of them is below 1e-4, power series in time replace the closed form ([`expansion`]).
+//!
+//! For a body with an inertia tensor there are twelve parameters: the six elements of the tensor replace the moments ([`tensor`]).
 //!
 //! Imports errors, numerics, simd, input, torque_free, motion and solve.
 
 mod constants;
 mod differences;
+mod displacement;
 mod evaluate;
+mod expansion;
 mod integral;
 mod matrices;
 mod sources;
 mod steady;
+mod tensor;
 
 use nalgebra::{Matrix3, SMatrix};
 
@@ -32,20 +38,23 @@ use steady::Varied;
 /// Number of parameters of the derivatives.
 pub const PARAMETERS: usize = 9;
 
+/// Number of parameters of the derivatives with respect to the elements of an inertia tensor.
+pub const INERTIA_PARAMETERS: usize = 12;
+
 /// Derivatives of one vector. The rows are its components, the columns the parameters.
-pub type Derivatives = [[f64; PARAMETERS]; 3];
+pub type Derivatives<const N: usize = PARAMETERS> = [[f64; N]; 3];
 
 /// Derivatives of attitude and rates at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Partials {
+pub struct Partials<const N: usize = PARAMETERS> {
     /// The time.
     pub time: f64,
     /// Derivatives of the attitude, as a rotation vector about body axes. Three columns are for the initial attitude \[1\], three for the initial angular
     /// velocity \[unit of time\], three for the moments [1/unit of moment]. For a body with an inertia tensor the last three are for the principal moments,
-    /// with fixed principal axes.
-    pub attitude: Derivatives,
+    /// with fixed principal axes. Of [`Motion::inertia_partials`] the last six are for the elements I11, I22, I33, I12, I13, I23 of the tensor.
+    pub attitude: Derivatives<N>,
     /// Derivatives of the angular velocity in body components, in the same order [rate, 1, rate/unit of moment].
-    pub angular_velocity: Derivatives,
+    pub angular_velocity: Derivatives<N>,
 }
 
 impl Motion {
@@ -83,6 +92,62 @@ impl Motion {
         self.batch().partials_into(times, attitudes, rates)
     }
 
+    /// Derivatives of attitude and angular velocity at a time with respect to the initial attitude, the initial angular velocity and the six elements of the
+    /// inertia tensor about the body's axes: I11, I22, I33, I12, I13, I23. A change of I12 is one of I21 too. A body given by moments has a diagonal tensor.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Body, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?;
+    /// let body = Body::from_inertia([[1.0, 0.1, 0.0], [0.1, 1.5, 0.0], [0.0, 0.0, 2.0]])?;
+    /// let motion = Scene::new(body, state).solve()?;
+    /// let partials = motion.inertia_partials(10.0)?;
+    /// // A common factor of the tensor has no effect on attitude and rates.
+    /// let [i11, i22, i33, i12, ..] = partials.attitude[0][6..] else { unreachable!() };
+    /// assert!((i11 + 1.5 * i22 + 2.0 * i33 + 0.1 * i12).abs() < 1e-12);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The errors of [`Motion::partials_into`].
+    pub fn inertia_partials(&self, time: f64) -> Result<Partials<INERTIA_PARAMETERS>, Error> {
+        let zero = [[0.0; INERTIA_PARAMETERS]; 3];
+        let (mut attitude, mut rates) = ([zero], [zero]);
+        self.batch().inertia_partials_into(&[time], &mut attitude, &mut rates)?;
+        Ok(Partials { time, attitude: attitude[0], angular_velocity: rates[0] })
+    }
+
+    /// Computes the derivatives with respect to the tensor for times counted from `epoch`.
+    fn inertia_partials_since(
+        &self,
+        epoch: f64,
+        times: &[f64],
+        attitudes: &mut [Derivatives<INERTIA_PARAMETERS>],
+        rates: &mut [Derivatives<INERTIA_PARAMETERS>],
+    ) -> Result<(), Error> {
+        self.valid(times, epoch)?;
+        tensor::about_principal_axes(self, epoch, times, (&mut *attitudes, &mut *rates))?;
+        if let Some(given) = &self.given {
+            let axes = given.turn.to_rotation_matrix().into_inner();
+            attitudes.iter_mut().chain(rates).for_each(|derivatives| tensor::turn(&axes, derivatives));
+        }
+        Ok(())
+    }
+
+    /// Times counted from `epoch` in the scale of the scene.
+    fn in_scene(&self, epoch: f64, times: &[f64]) -> Vec<f64> {
+        let start = self.scene.state().epoch - epoch;
+        times.iter().map(|time| start + time).collect()
+    }
+
+    /// Attitudes and rates about the principal axes at times counted from `epoch`.
+    fn samples_about_principal_axes(&self, epoch: f64, times: &[f64]) -> Result<(Vec<[f64; 4]>, Vec<[f64; 3]>), Error> {
+        let (mut attitudes, mut rates) = (vec![[0.0; 4]; times.len()], vec![[0.0; 3]; times.len()]);
+        let batch = self.batch();
+        let batch = if epoch == batch.epoch() { batch } else { batch.since_epoch() };
+        batch.about_principal_axes(times, &mut attitudes, &mut rates)?;
+        Ok((attitudes, rates))
+    }
+
     /// Computes the derivatives for times counted from `epoch`.
     fn partials_since(
         &self,
@@ -107,12 +172,8 @@ impl Motion {
         attitudes: &mut [Derivatives],
         rates: &mut [Derivatives],
     ) -> Result<(), Error> {
-        let disturbed = || {
-            let start = self.scene.state().epoch - epoch;
-            times.iter().map(|time| start + time).collect::<Vec<f64>>()
-        };
-        if matches!(self.trajectory, Trajectory::Integrated(_)) {
-            return differences::fill(self, &disturbed(), attitudes, rates);
+        if matches!(self.trajectory, Trajectory::Integrated(_) | Trajectory::Gradient(_)) {
+            return differences::fill(self, &self.in_scene(epoch, times), attitudes, rates);
         }
         let Some(polhode) = Polhode::new(self.scene.body(), self.scene.state()) else {
             steady::at_rest(times, epoch, attitudes, rates);
@@ -125,18 +186,12 @@ impl Motion {
             _ if mode == Mode::Separatrix => Err(Error::SeparatrixPartials),
             Trajectory::Steady(steady) => {
                 let varied = Varied::new(&polhode, &setting, mode);
-                let bound = varied.bound();
-                if let Some(index) = times.iter().position(|time| (time - epoch).abs() > bound) {
-                    let reason = ": about the middle axis a change grows beyond every double";
-                    return Err(self.too_far((index, times[index]), epoch, bound, reason));
-                }
+                varied.valid(self, epoch, times)?;
                 target.fill(&Steadily { steady, varied: &varied }, attitudes, rates);
                 Ok(())
             }
-            Trajectory::Gradient(_) | Trajectory::Integrated(_) => {
-                differences::fill(self, &disturbed(), attitudes, rates)
-            }
-            Trajectory::Wobble(_) | Trajectory::Passage(_) => target.wobbling(self, &polhode, (attitudes, rates)),
+            _ if polhode.has_small_divisor(false) => expansion::fill(self, &polhode, target, (attitudes, rates)),
+            _ => target.wobbling(self, &polhode, (attitudes, rates)),
         }
     }
 }
@@ -155,13 +210,41 @@ impl Batch<'_> {
         attitudes: &mut [Derivatives],
         rates: &mut [Derivatives],
     ) -> Result<(), Error> {
+        let part = |times: &[f64], attitudes: &mut [_], rates: &mut [_]| {
+            self.motion().partials_since(self.epoch(), times, attitudes, rates)
+        };
+        self.in_parts(times, attitudes, rates, part)
+    }
+
+    /// Writes the derivatives with respect to the elements of the inertia tensor, as [`Motion::inertia_partials`] does.
+    ///
+    /// # Errors
+    /// The errors of [`Batch::partials_into`].
+    pub fn inertia_partials_into(
+        &self,
+        times: &[f64],
+        attitudes: &mut [Derivatives<INERTIA_PARAMETERS>],
+        rates: &mut [Derivatives<INERTIA_PARAMETERS>],
+    ) -> Result<(), Error> {
+        let part = |times: &[f64], attitudes: &mut [_], rates: &mut [_]| {
+            self.motion().inertia_partials_since(self.epoch(), times, attitudes, rates)
+        };
+        self.in_parts(times, attitudes, rates, part)
+    }
+
+    fn in_parts<const N: usize>(
+        &self,
+        times: &[f64],
+        attitudes: &mut [Derivatives<N>],
+        rates: &mut [Derivatives<N>],
+        fill: impl Fn(&[f64], &mut [Derivatives<N>], &mut [Derivatives<N>]) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         length("attitudes", attitudes.len(), times.len())?;
         length("rates", rates.len(), times.len())?;
         let parts = times.chunks(AT_ONCE).zip(attitudes.chunks_mut(AT_ONCE)).zip(rates.chunks_mut(AT_ONCE));
         for (index, ((times, attitudes), rates)) in parts.enumerate() {
             self.going()?;
-            let done = self.motion().partials_since(self.epoch(), times, attitudes, rates);
-            done.map_err(|problem| problem.later(index * AT_ONCE))?;
+            fill(times, attitudes, rates).map_err(|problem| problem.later(index * AT_ONCE))?;
         }
         Ok(())
     }

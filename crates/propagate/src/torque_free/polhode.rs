@@ -113,6 +113,9 @@ const DECIDED: f64 = 1e-14;
 /// Sums of squares above this have normal doubles for terms, but for negligible ones.
 const SMALLEST_SQUARE: f64 = 1e-290;
 
+/// Smallest divisor of the closed form of the derivatives. Its rounding error, 4e-15 over the divisor, is then 4e-11.
+const SMALLEST_DIVISOR: f64 = 1e-4;
+
 /// The axes of a state, and its body and rates on them in scaled units.
 struct Placed {
     frame: Frame,
@@ -237,6 +240,13 @@ impl Polhode {
     pub(crate) fn alpha(&self) -> DoubleDouble {
         let [first, second] = self.invariants.excesses;
         (first + second).times_double(0.5)
+    }
+
+    /// Whether the closed form of the derivatives cancels (theory §12): it divides by Q1 and C/B − 1, and for the elements of a tensor by C/A − C/B too.
+    pub(crate) fn has_small_divisor(&self, tensor: bool) -> bool {
+        let Invariants { cosine_squares: [least, _], excesses: [_, second], difference, .. } = self.invariants;
+        let divisors = [least, second, if tensor { difference } else { DoubleDouble::ONE }];
+        divisors.into_iter().any(|divisor| divisor.high.abs() < SMALLEST_DIVISOR)
     }
 
     /// M/B in scaled units of rate.
