@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from andoyer._core import Error, InputError, Motion, Scene
 from andoyer._extra import extra
 from andoyer._quaternions import Array, conjugate, product
+from andoyer.fit._degeneracy import undetermined
 from andoyer.fit._given import as_one, enough, epoch_of, freed, from_epoch, quaternions, scene_of, whitening
 from andoyer.fit._members import about_body_axes, bodies, members
 from andoyer.fit._message import composed
@@ -87,6 +88,7 @@ def attitudes(
     problem.motion(first).attitude(times)  # what is wrong with the scene or the times is told here
     for window in problem.windows():
         first = optimize.least_squares(problem.leaning, first, problem.leaning_jacobian, args=(window,), method="trf", ftol=1e-3).x
+    first = problem.without_undetermined(first)
     solution = optimize.least_squares(problem.whitened, first, problem.jacobian, method="trf", xtol=1e-12, ftol=1e-12, gtol=1e-15)
     return problem.result(solution.x)
 
@@ -106,9 +108,9 @@ class _Problem:
         enough(3 * count, self.basis.shape[1], "attitudes", "give more attitudes, or name fewer in free")
 
     def windows(self) -> list[Places]:
-        """Growing parts of the data nearest to the epoch, each twice as large, without the full set. A poor first state still predicts data near the epoch."""
+        """Growing parts of the data nearest to the epoch, each twice as large, up to the full set. A poor first state still predicts data near the epoch."""
         nearest = np.argsort(self.elapsed, kind="stable")
-        sizes = [len(nearest) >> halvings for halvings in range(1, len(nearest).bit_length())]
+        sizes = [len(nearest) >> halvings for halvings in range(len(nearest).bit_length())]
         return [nearest[:size] for size in reversed(sizes) if 3 * size >= self.basis.shape[1]]
 
     def leaning(self, reduced: Array, window: Places) -> Array:
@@ -119,6 +121,14 @@ class _Problem:
         jacobian = self.jacobian(reduced)
         of_window = jacobian.reshape(-1, 3, len(reduced))[window].reshape(-1, len(reduced))
         return np.concatenate([of_window, np.eye(len(reduced)) / LEANING])
+
+    def without_undetermined(self, reduced: Array) -> Array:
+        """Takes the state at a step as the first one and holds there what the data determine worse than what is taken for granted: noise would lead the search far along it. Returns the step 0."""
+        _, singular, directions = np.linalg.svd(self.jacobian(reduced))
+        lost = undetermined(singular, directions, LEANING)
+        self.steps = Steps(self.steps.scene(self.basis @ reduced), self.steps.free, pace=self.steps.pace)
+        self.basis = self.basis @ directions[: len(directions) - len(lost)].T
+        return np.zeros(self.basis.shape[1])
 
     def motion(self, reduced: Array) -> Motion:
         return self.steps.scene(self.basis @ reduced).solve()

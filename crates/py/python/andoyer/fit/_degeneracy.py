@@ -20,11 +20,11 @@ SMALL = 0.05
 """Part of a difference in the directions that are not determined below which it is determined: √(1 − PART²)."""
 
 
-def undetermined(singular: Array, directions: Array) -> Array:
-    """Directions, as rows, along which the data do not determine a step; `singular` values of the whitened Jacobian and its right `directions` as rows."""
+def undetermined(singular: Array, directions: Array, loose: float = LOOSE) -> Array:
+    """Directions, as rows, along which a step has a standard deviation above `loose`; `singular` values of the whitened Jacobian and its right `directions` as rows."""
     largest = singular[0] if len(singular) else 0.0
     known = np.zeros(len(directions), dtype=bool)
-    known[: len(singular)] = (singular > LOST * largest) & (singular * LOOSE > 1.0)
+    known[: len(singular)] = (singular > LOST * largest) & (singular * loose > 1.0)
     rows: Array = directions[~known]
     return rows
 
@@ -54,7 +54,7 @@ def _named(steps: Steps) -> list[tuple[str, Array]]:
     moments = unit[[place for place, label in enumerate(labels) if label in MOMENTS]]
     if len(moments):
         named = [("the moments", moments), ("a common factor of the moments", moments.sum(axis=0, keepdims=True) / np.sqrt(3)), *named]
-    return [*_symmetric(steps), *named]
+    return [*named, *_symmetric(steps)]
 
 
 def _symmetric(steps: Steps) -> list[tuple[str, Array]]:

@@ -16,8 +16,8 @@ from andoyer._quaternions import Array
 
 CHUNK = 1000
 """Candidates that are solved for together."""
-ENOUGH = 0.5
-"""Least effective size, in parts of the number of draws, with which candidates are taken as they are."""
+SPARE = 2
+"""Candidates of the normal distribution for each draw. They are taken if their effective size is the number of draws."""
 GAP = 1e-3
 """Largest difference of Qᵀ[r(x) − r(0)] from z, in standard deviations."""
 LONGEST_STEP = 0.3
@@ -66,16 +66,16 @@ class Candidates(NamedTuple):
 
 
 def candidates(model: Model, lost: Array, count: int, generator: np.random.Generator) -> Candidates:
-    """Weighted steps about the minimum, without components along the rows of `lost`."""
+    """Weighted steps about the minimum for this number of draws, without components along the rows of `lost`."""
     basis = np.linalg.svd(lost)[2][len(lost) :].T if len(lost) else np.eye(lost.shape[1])
     residuals, jacobian = (array[0] for array in model.derivatives(np.zeros((1, lost.shape[1]))))
     frame, triangle = np.linalg.qr(jacobian @ basis)
-    normal = generator.standard_normal((count, basis.shape[1]))
+    normal = generator.standard_normal((SPARE * count, basis.shape[1]))
     least = float(residuals @ residuals)
     steps = np.linalg.solve(triangle, normal.T).T @ basis.T
     chi_squares = model.chi_squares(steps)
     found = _weighed(steps, chi_squares, -0.5 * (chi_squares - least - np.sum(normal**2, axis=1)))
-    if found.effective_size >= ENOUGH * count:
+    if found.effective_size >= count:
         return found
     search = _Search(model, basis, frame, triangle, residuals)
     parts = [search.solved(normal[start : start + CHUNK]) for start in range(0, count, CHUNK)]

@@ -42,7 +42,7 @@ def rivals(optima: Sequence[Optimum], duration: float) -> str | None:
         return None
     other = aliases(near, duration)
     best = near[0].periods
-    parts = [f"{_written(alias)}" for alias in other[:NAMED]]
+    parts = [_written(alias) for alias in other[:NAMED]]
     if len(other) > NAMED:
         parts.append(f"{len(other) - NAMED} more pairs of periods")
     # One minimum stands for each pair; the others have the periods of the best or of a pair before them.
@@ -52,10 +52,8 @@ def rivals(optima: Sequence[Optimum], duration: float) -> str | None:
         least = min(optimum.chi_square for optimum in near[1:] if all(optimum.scene is not alias.scene for alias in other)) - near[0].chi_square
         parts.append(f"{same} {whose}, such as mirrored motions (Δχ² from {least:.1f})")
     count = len(near) - 1
-    return (
-        f"{'Another minimum fits' if count == 1 else f'{count} other minima fit'} nearly as well as the best (P_φ {best.precession:.6g}, P_ψ {best.rotation:.6g}): "
-        f"{'; '.join(parts)}."
-    )
+    lie = "Another minimum lies" if count == 1 else f"{count} other minima lie"
+    return f"{lie} within Δχ² = {NEAR:g} of the best (P_φ {best.precession:.6g}, P_ψ {best.rotation:.6g}): {'; '.join(parts)}."
 
 
 def _written(alias: Alias) -> str:

@@ -11,7 +11,7 @@ import numpy as np
 from andoyer._core import Ensemble, Scene
 from andoyer._quaternions import Array
 from andoyer.fit._degeneracy import sentence, undetermined
-from andoyer.fit._draws import ENOUGH, Model, candidates
+from andoyer.fit._draws import Model, candidates
 from andoyer.fit._given import generator_of, refusal, whole
 from andoyer.fit._members import members
 from andoyer.fit._optimum import Alias, Optimum, aliases
@@ -21,6 +21,10 @@ from andoyer.fit._summary import one_line, summary
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+
+LITTLE = 0.5
+"""Effective size, in parts of the number of draws, below which there is a warning."""
 
 
 class Draws(NamedTuple):
@@ -110,7 +114,7 @@ class Fit:
         """Draws states about the best one from the density exp(−χ²/2), with their Δχ² and effective size.
 
         The density is per rotation vector of the attitude, angular velocity, and logarithms of moments or axis ratios. Components that the data do not determine are equal in all states. Other
-        minima of χ² are not drawn from: see `aliases` and `optima`. Draws from the covariance get the weight exp(−χ²/2) over their own density. If their effective size is below n/2, nonlinear
+        minima of χ² are not drawn from: see `aliases` and `optima`. 2n draws from the covariance get the weight exp(−χ²/2) over their own density. If their effective size is below n, nonlinear
         equations are solved for each draw (Bardsley and others, SIAM J. Sci. Comput. 36, A1895, 2014): some milliseconds a state. A state of large weight can be drawn several times.
 
         Parameters
@@ -152,10 +156,10 @@ class Fit:
         if not count:
             return Draws(members(self._steps, np.zeros((0, len(self.parameters))), threads=threads), np.zeros(0), 0.0)
         found = candidates(self._model, self.undetermined, count, generator)
-        size = found.effective_size
+        size = min(found.effective_size, float(count))
         if not size > 0:
             raise refusal("n", count, 0, f"= {count}: no draw of the covariance is a body; fit fewer parameters, or hold the moments")
-        if size < ENOUGH * count:
+        if size < LITTLE * count:
             warnings.warn(
                 f"the {count} draws have the effective size {size:.0f}: the data determine the state loosely, and few draws have most of the weight",
                 stacklevel=2,
