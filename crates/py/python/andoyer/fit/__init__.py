@@ -5,7 +5,8 @@ The module needs SciPy, which ``pip install scipy`` installs; pictures need matp
 
 from andoyer.fit._attitudes import attitudes
 from andoyer.fit._light_curve import light_curve
-from andoyer.fit._result import Fit, Optimum
+from andoyer.fit._optimum import Alias, Optimum
+from andoyer.fit._result import Draws, Fit
 from andoyer.fit._scattering import brightness
 
-__all__ = ["Fit", "Optimum", "attitudes", "brightness", "light_curve"]
+__all__ = ["Alias", "Draws", "Fit", "Optimum", "attitudes", "brightness", "light_curve"]

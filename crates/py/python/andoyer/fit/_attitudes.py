@@ -1,15 +1,20 @@
 """`attitudes`: a state from measured attitudes."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from andoyer._core import InputError, Motion, Scene
+from andoyer._core import Error, InputError, Motion, Scene
 from andoyer._extra import extra
 from andoyer._quaternions import Array, conjugate, product
+from andoyer.fit._degeneracy import undetermined
 from andoyer.fit._given import as_one, enough, epoch_of, freed, from_epoch, quaternions, scene_of, whitening
+from andoyer.fit._members import about_body_axes, bodies, members
+from andoyer.fit._message import composed
 from andoyer.fit._result import Fit, judged
 from andoyer.fit._rotations import inverse_left_jacobian, logarithm
 from andoyer.fit._steps import Steps
@@ -17,6 +22,9 @@ from andoyer.fit._steps import Steps
 Places: TypeAlias = NDArray[np.intp]
 
 KNOWN = ("attitude", "angular_velocity", "moments")
+ADVICE = "Try a first state nearer to the data, more names in free, or an orbit; check sigma and that the quaternions rotate body components [x, y, z, w] into inertial ones."
+POINTS = 1_000_000
+"""Attitudes that are compared together, which limits the memory."""
 LEANING = 0.5
 """Standard deviation of a step, relative or in rad, that is taken for granted while only a part of the data is fitted."""
 
@@ -80,6 +88,7 @@ def attitudes(
     problem.motion(first).attitude(times)  # what is wrong with the scene or the times is told here
     for window in problem.windows():
         first = optimize.least_squares(problem.leaning, first, problem.leaning_jacobian, args=(window,), method="trf", ftol=1e-3).x
+    first = problem.without_undetermined(first)
     solution = optimize.least_squares(problem.whitened, first, problem.jacobian, method="trf", xtol=1e-12, ftol=1e-12, gtol=1e-15)
     return problem.result(solution.x)
 
@@ -92,15 +101,16 @@ class _Problem:
         count = np.size(self.times) if np.ndim(self.times) else 1
         self.measured = quaternions("attitudes", measured, count)
         self.whiten = whitening(sigma, count)
-        self.elapsed = elapsed(scene, self.times)
+        self.since = since_epoch(scene, self.times)
+        self.elapsed = np.abs(self.since)
         self.steps = Steps(scene, names, pace=1 / max(self.elapsed.max(initial=0.0), np.finfo(float).tiny))
         self.basis = _without_factor(self.steps.labels)
         enough(3 * count, self.basis.shape[1], "attitudes", "give more attitudes, or name fewer in free")
 
     def windows(self) -> list[Places]:
-        """Growing parts of the data nearest to the epoch, each twice as large, without the full set. A poor first state still predicts data near the epoch."""
+        """Growing parts of the data nearest to the epoch, each twice as large, up to the full set. A poor first state still predicts data near the epoch."""
         nearest = np.argsort(self.elapsed, kind="stable")
-        sizes = [len(nearest) >> halvings for halvings in range(1, len(nearest).bit_length())]
+        sizes = [len(nearest) >> halvings for halvings in range(len(nearest).bit_length())]
         return [nearest[:size] for size in reversed(sizes) if 3 * size >= self.basis.shape[1]]
 
     def leaning(self, reduced: Array, window: Places) -> Array:
@@ -111,6 +121,14 @@ class _Problem:
         jacobian = self.jacobian(reduced)
         of_window = jacobian.reshape(-1, 3, len(reduced))[window].reshape(-1, len(reduced))
         return np.concatenate([of_window, np.eye(len(reduced)) / LEANING])
+
+    def without_undetermined(self, reduced: Array) -> Array:
+        """Takes the state at a step as the first one and holds there what the data determine worse than what is taken for granted: noise would lead the search far along it. Returns the step 0."""
+        _, singular, directions = np.linalg.svd(self.jacobian(reduced))
+        lost = undetermined(singular, directions, LEANING)
+        self.steps = Steps(self.steps.scene(self.basis @ reduced), self.steps.free, pace=self.steps.pace)
+        self.basis = self.basis @ directions[: len(directions) - len(lost)].T
+        return np.zeros(self.basis.shape[1])
 
     def motion(self, reduced: Array) -> Motion:
         return self.steps.scene(self.basis @ reduced).solve()
@@ -142,16 +160,45 @@ class _Problem:
         scene = self.steps.scene(self.basis @ reduced)
         self.steps = Steps(scene, self.steps.free, pace=self.steps.pace)
         step = np.zeros(len(self.basis))
-        covariance, lost, message = judged(self.steps, step, self.full_jacobian(step))
+        covariance, lost, sentence = judged(self.steps, step, self.full_jacobian(step))
         chi_square = float(np.sum(self.whitened(np.zeros_like(reduced)) ** 2))
         degrees = 3 * len(self.measured) - (len(step) - len(lost))
         residuals = self.residuals(scene.solve())
-        return Fit(scene, self.steps.labels, covariance, lost, residuals, chi_square, degrees, message, self.times)
+        message = composed(chi_square, degrees, ADVICE, sentence)
+        return Fit(scene, self.steps.labels, covariance, lost, residuals, chi_square, degrees, message, self.times, self.steps, self)
+
+    @property
+    def duration(self) -> float:
+        """From the first to the last time."""
+        return float(np.ptp(self.since))
+
+    def chi_squares(self, steps: Array) -> Array:
+        """χ² of full steps in rows; NaN where no body has the moments."""
+        chi_squares = np.full(len(steps), np.nan)
+        valid = bodies(self.steps, steps)
+        for rows in np.array_split(np.flatnonzero(valid), 1 + len(steps) * len(self.measured) // POINTS):
+            attitudes = about_body_axes(self.steps.origin, members(self.steps, steps[rows], errors="nan").attitude(self.times))
+            residuals = logarithm(product(conjugate(attitudes), np.broadcast_to(self.measured, attitudes.shape)))
+            chi_squares[rows] = np.sum(np.einsum("nij,mnj->mni", self.whiten, residuals) ** 2, axis=(1, 2))
+        return chi_squares
+
+    def derivatives(self, steps: Array) -> tuple[Array, Array]:
+        """Residuals over their standard deviations of full steps in rows, with their derivatives; NaN where no body has the moments."""
+        residuals = np.full((len(steps), 3 * len(self.measured)), np.nan)
+        jacobians = np.full((*residuals.shape, steps.shape[1]), np.nan)
+        for place in np.flatnonzero(bodies(self.steps, steps)):
+            try:
+                motion = self.steps.scene(steps[place]).solve()
+                residuals[place] = np.einsum("nij,nj->ni", self.whiten, self.residuals(motion)).ravel()
+                jacobians[place] = self.full_jacobian(steps[place])
+            except Error:  # the step leads to the separatrix, where derivatives do not exist
+                continue
+        return residuals, jacobians
 
 
-def elapsed(scene: Scene, times: Any) -> Array:
-    """Times from the epoch, without their signs, in units of time, or in seconds for values of astropy, shape (n,)."""
-    return np.abs(np.atleast_1d(from_epoch("times", times, epoch_of(scene), scene.epoch)))
+def since_epoch(scene: Scene, times: Any) -> Array:
+    """Times from the epoch, in units of time, or in seconds for values of astropy, shape (n,)."""
+    return np.atleast_1d(from_epoch("times", times, epoch_of(scene), scene.epoch))
 
 
 def _without_factor(labels: tuple[str, ...]) -> Array:

@@ -153,6 +153,21 @@ def enough(data: int, parameters: int, argument: str, advice: str) -> None:
         raise refusal(argument, data, parameters, f"are {data} numbers for {parameters} parameters: {advice}")
 
 
+def whole(argument: str, value: Any, least: int) -> int:
+    """A whole number that is not below the least."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
+        raise refusal(argument, value, least, f"= {value!r}: it must be a whole number, {least} or more")
+    return int(value)
+
+
+def generator_of(rng: Any) -> np.random.Generator:
+    """A generator of random numbers from a seed or a generator."""
+    try:
+        return np.random.default_rng(rng)
+    except (TypeError, ValueError):
+        raise refusal("rng", repr(rng), "a seed or a Generator", f"= {rng!r}: it must be a whole number, 0 or more, or a numpy.random.Generator") from None
+
+
 def scene_of(value: Any) -> Scene:
     """A scene."""
     if not isinstance(value, Scene):

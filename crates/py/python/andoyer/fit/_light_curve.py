@@ -1,5 +1,9 @@
 """`light_curve`: a state from brightnesses."""
 
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -9,11 +13,13 @@ from andoyer._core import Body, Ensemble, Scene
 from andoyer._extra import extra
 from andoyer._quaternions import Array, angle_between, product
 from andoyer.fit._curve import Curve, States
-from andoyer.fit._given import enough, epoch_of, from_first, positive, refusal, scene_of, shaped, span
-from andoyer.fit._result import Fit, Optimum, judged
+from andoyer.fit._given import enough, epoch_of, from_first, generator_of, positive, refusal, scene_of, shaped, span, whole
+from andoyer.fit._message import composed, largest_reduced, rivals
+from andoyer.fit._optimum import Optimum
+from andoyer.fit._result import Fit, judged
 from andoyer.fit._rotations import right_jacobian
 from andoyer.fit._scattering import axes_of, directions, law
-from andoyer.fit._search import Population, best, improve, moved, random_states, search
+from andoyer.fit._search import Population, best, improve, moved, random_states, reflections, search
 from andoyer.fit._steps import LABELS, Steps, moments_of_ellipsoid
 
 POLISHED = 32
@@ -119,9 +125,10 @@ def light_curve(
         first = _state_of(scene_of(scene), semi_axes, epoch)
         population = improve(curve, Population(first, curve.chi_squares(first)), SETTLING)
     else:
-        drawn = random_states(semi_axes, _range(periods), _count(starts), _generator(rng))
+        drawn = random_states(semi_axes, _range(periods), whole("starts", starts, 1), generator_of(rng))
         population = search(curve, drawn)
         population = improve(curve, best(_distinct(curve, population), POLISHED), SETTLING)
+        population = _with_reflections(curve, _polished(curve, population))
     return _result(curve, _polished(curve, population), epoch, times, largest)
 
 
@@ -131,7 +138,10 @@ def _curve(
     """The data, and the epoch: a number, a Time for times of astropy, or None for durations."""
     at, epoch = from_first("times", times)
     count = len(at)
-    values = positive("brightness", brightness, (count,))
+    values = shaped("brightness", brightness, (count,))
+    if not np.all(values > 0):
+        worst = float(values.min())
+        raise refusal("brightness", worst, "above 0", f"= {worst}: an intensity is above 0; for magnitudes m give the intensities 10**(-0.4*m)")
     deviations = np.broadcast_to(positive("sigma", sigma, (), (count,)), (count,))
     for argument, vectors in zip(("sun", "observer"), seen):
         shaped(argument, vectors, (3,), (count, 3))
@@ -150,12 +160,6 @@ def _range(periods: Any) -> tuple[float, float]:
     return float(shortest), float(longest)
 
 
-def _count(starts: int) -> int:
-    if not isinstance(starts, (int, np.integer)) or starts < 1:
-        raise refusal("starts", starts, 1, f"= {starts!r}: it must be a whole number above 0")
-    return int(starts)
-
-
 def _difference(delta_chi_square: Any) -> float:
     if np.ndim(delta_chi_square) == 0 and delta_chi_square == np.inf:
         return np.inf
@@ -163,13 +167,6 @@ def _difference(delta_chi_square: Any) -> float:
     if difference < 0:
         raise refusal("delta_chi_square", difference, 0.0, f"= {difference}: it must be 0 or more")
     return difference
-
-
-def _generator(rng: Any) -> np.random.Generator:
-    try:
-        return np.random.default_rng(rng)
-    except (TypeError, ValueError):
-        raise refusal("rng", repr(rng), "a seed or a Generator", f"= {rng!r}: it must be a whole number, 0 or more, or a numpy.random.Generator") from None
 
 
 def _state_of(scene: Scene, axes: Array, epoch: Any) -> States:
@@ -181,6 +178,13 @@ def _state_of(scene: Scene, axes: Array, epoch: Any) -> States:
     sample = scene.solve().at(epoch)
     return States(axes[None].copy(), sample.attitude[None], sample.angular_velocity[None])
 
+
+ADVICE = (
+    "Try more starts, other periods, shape=True, curves with their own factors or the other law of scattering; check sigma, the directions, "
+    "and that the brightnesses are intensities, not magnitudes."
+)
+BRIGHTEST, FAINTEST = 3.0, 30.0
+"""Numbers between them are read as magnitudes. Relative intensities are smaller."""
 
 HALF_TURNS = np.array([[0, 0, 0, 1.0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]])
 """Turns of the body that leave the ellipsoid as it is."""
@@ -201,6 +205,15 @@ def _distinct(curve: Curve, population: Population) -> Population:
             kept.append(place)
     chosen = order[kept]
     return Population(population.states.part(chosen), population.chi_squares[chosen])
+
+
+def _with_reflections(curve: Curve, minima: Population) -> Population:
+    """Minima together with those to which their reflections lead."""
+    mirrored = reflections(curve, minima.states)
+    found = improve(curve, Population(mirrored, curve.chi_squares(mirrored)), SETTLING)
+    states = States(*(np.concatenate(arrays) for arrays in zip(minima.states, found.states)))
+    together = Population(states, np.concatenate([minima.chi_squares, found.chi_squares]))
+    return best(_distinct(curve, together), POLISHED)
 
 
 def _polished(curve: Curve, population: Population) -> Population:
@@ -226,27 +239,67 @@ def _residuals(step: Array, curve: Curve, state: States) -> Array:
 
 def _jacobian(step: Array, curve: Curve, state: States) -> Array:
     """Derivatives of the residuals (measured minus model) with respect to a step from `state`."""
-    there = moved(state, step[None])
-    jacobian: Array = -curve.residuals(there)[1][0].T
-    jacobian[:, :3] = jacobian[:, :3] @ right_jacobian(step[:3])
-    jacobian[:, 3:6] *= np.linalg.norm(state.rates) / np.linalg.norm(there.rates)
+    jacobian: Array = Seen(curve, state).derivatives(step[None])[1][0]
     return jacobian
 
 
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """The data with the model, as functions of steps from one state."""
+
+    curve: Curve
+    state: States
+
+    @property
+    def duration(self) -> float:
+        """From the first to the last time."""
+        return float(np.ptp(self.curve.times))
+
+    def _moved(self, steps: Array) -> States:
+        return moved(States(*(np.repeat(array, len(steps), axis=0) for array in self.state)), steps)
+
+    def chi_squares(self, steps: Array) -> Array:
+        """χ² of steps in rows."""
+        return self.curve.chi_squares(self._moved(steps))
+
+    def derivatives(self, steps: Array) -> tuple[Array, Array]:
+        """Residuals (measured minus model) over σ of steps in rows, and their derivatives with respect to the steps."""
+        there = self._moved(steps)
+        parts = self.curve.in_chunks(there, self.curve.residuals)
+        residuals, slopes = (np.concatenate(arrays) for arrays in zip(*parts))
+        jacobian = -np.swapaxes(slopes, 1, 2)
+        jacobian[..., :3] = jacobian[..., :3] @ right_jacobian(steps[:, :3])
+        jacobian[..., 3:6] *= (np.linalg.norm(self.state.rates) / np.linalg.norm(there.rates, axis=1))[:, None, None]
+        return residuals, jacobian
+
+
 def _result(curve: Curve, population: Population, epoch: Any, times: Any, delta_chi_square: float) -> Fit:
-    optima = tuple(
-        _optimum(population.states.part(slice(place, place + 1)), float(chi_square), epoch)
-        for place, chi_square in enumerate(population.chi_squares)
-        if chi_square <= population.chi_squares[0] + delta_chi_square
-    )
+    minima = [_optimum(population.states.part(slice(place, place + 1)), float(chi_square), epoch) for place, chi_square in enumerate(population.chi_squares)]
+    best = minima[0]
+    optima = tuple(minimum for minimum in minima if minimum.chi_square <= best.chi_square + delta_chi_square)
     state = population.states.part(slice(0, 1))
-    jacobian = _jacobian(np.zeros(6 + 2 * curve.shape), curve, state)
+    model = Seen(curve, state)
+    residuals, jacobian = (array[0] for array in model.derivatives(np.zeros((1, 6 + 2 * curve.shape))))
     names = tuple(name for name in LABELS if name in ("attitude", "angular_velocity") or (name == "shape" and curve.shape))
-    steps = Steps(optima[0].scene, names, state.axes[0])
-    covariance, lost, message = judged(steps, np.zeros(jacobian.shape[1]), jacobian)
+    steps = Steps(best.scene, names, state.axes[0])
+    covariance, lost, sentence = judged(steps, np.zeros(jacobian.shape[1]), jacobian)
     degrees = len(curve.times) - curve.members.shape[1] - (jacobian.shape[1] - len(lost))
-    residuals = curve.residuals(state)[0][0] / np.sqrt(curve.weights)
-    return Fit(optima[0].scene, steps.labels, covariance, lost, residuals, optima[0].chi_square, degrees, message, times, optima, state.axes[0])
+    message = composed(best.chi_square, degrees, ADVICE, sentence, rivals(minima, model.duration))
+    _warn_of_magnitudes(curve.brightness, best.chi_square, degrees)
+    measured = residuals / np.sqrt(curve.weights)
+    return Fit(best.scene, steps.labels, covariance, lost, measured, best.chi_square, degrees, message, times, steps, model, optima, state.axes[0])
+
+
+def _warn_of_magnitudes(brightness: Array, chi_square: float, degrees: int) -> None:
+    """Warns where the brightnesses look like magnitudes. Those between 0 and 3 can also be intensities, relative to their mean for example; a bad fit makes them suspicious."""
+    least, most = float(brightness.min()), float(brightness.max())
+    bad = degrees > 0 and chi_square / degrees > largest_reduced(degrees)
+    if most <= FAINTEST and (least >= BRIGHTEST or bad):
+        warnings.warn(
+            f"the brightnesses lie between {least:.3g} and {most:.3g}{', and the fit is bad' if bad else ''}: if they are magnitudes m, give the intensities 10**(-0.4*m) "
+            "with the standard deviations 0.921*intensity*sigma",
+            stacklevel=4,
+        )
 
 
 def _optimum(state: States, chi_square: float, epoch: Any) -> Optimum:

@@ -1,38 +1,49 @@
 """`Fit`: a state with its uncertainty."""
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from andoyer._core import Ensemble, Orbit, Scene
+from andoyer._core import Ensemble, Scene
 from andoyer._quaternions import Array
 from andoyer.fit._degeneracy import sentence, undetermined
-from andoyer.fit._given import refusal
+from andoyer.fit._draws import Model, candidates
+from andoyer.fit._given import generator_of, refusal, whole
+from andoyer.fit._members import members
+from andoyer.fit._optimum import Alias, Optimum, aliases
 from andoyer.fit._steps import Steps
+from andoyer.fit._summary import one_line, summary
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-MOST_DRAWS = 100
-"""Largest number of draws for each valid state."""
+
+LITTLE = 0.5
+"""Effective size, in parts of the number of draws, below which there is a warning."""
 
 
-@dataclass(frozen=True, eq=False)
-class Optimum:
-    """A minimum of χ² from a search with many starts."""
+class Draws(NamedTuple):
+    """States drawn from a fit, by `Fit.draws`."""
 
-    scene: Scene
-    mode: str
-    """The mode of its motion, such as "short-axis"."""
-    chi_square: float
-    """χ² at the minimum."""
+    states: Ensemble
+    """The states, about principal axes."""
+    delta_chi_square: Array
+    """χ² of each state less that of the best, shape (n,)."""
+    effective_size: float
+    """The number of independent states that the draws are worth, at most n: (Σw)²/Σw² of the weights."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Fit:
     """The state that fits the data best, with its uncertainty, from `attitudes` or `light_curve`.
+
+    `print` shows mean periods in the convention "extremal-axis", the direction of the angular momentum (pole), the Andoyer angles μ and ν at the epoch, and the moments. Each has its standard
+    deviation, to first order in the covariance. With an orbit these are osculating values at the epoch.
 
     Examples
     --------
@@ -62,9 +73,11 @@ class Fit:
     degrees_of_freedom: int
     """Number of data minus number of parameters that they determine."""
     message: str
-    """A sentence on the directions that the data do not determine."""
-    times: Any = field(repr=False)
+    """Sentences that say if the fit is bad, which other minima lie within Δχ² = 25 of the best, and which directions the data do not determine."""
+    times: Any
     """The times of the data as given."""
+    _steps: Steps
+    _model: Model
     optima: tuple[Optimum, ...] = ()
     """All minima within Δχ² of the best, the best first; of `light_curve`."""
     semi_axes: Array | None = None
@@ -75,25 +88,16 @@ class Fit:
         """χ² divided by the degrees of freedom: near 1 if the model and `sigma` are right; NaN if there are no degrees of freedom."""
         return self.chi_square / self.degrees_of_freedom if self.degrees_of_freedom > 0 else float("nan")
 
+    @property
+    def aliases(self) -> list[Alias]:
+        """The best minimum with each pair of periods other than that of the best state, the best first; of `light_curve`.
+
+        Two pairs of periods count as different if one of their phases differs by more than half a turn over the data. A fit of attitudes, or one that began from a `scene`, has none.
+        """
+        return aliases(self.optima, self._model.duration)
+
     def ensemble(self, n: int, rng: Any = None, *, threads: int | None = None) -> Ensemble:
-        """Draw states from the covariance, as an `Ensemble` about principal axes.
-
-        Attitude and rates are drawn from a normal distribution, moments and axis ratios from a log-normal distribution. A draw with impossible moments is repeated. Components that the data do not
-        determine are equal in all states.
-
-        Parameters
-        ----------
-        n : int
-            Number of states.
-        rng : int or numpy.random.Generator, optional
-            A seed or a generator of random numbers.
-        threads : int, optional
-            Number of threads, as for `Ensemble`.
-
-        Raises
-        ------
-        InputError
-            The moments are so uncertain that less than one draw in a hundred is valid. A scene with several disturbing bodies or a `TabulatedOrbit`.
+        """Draws states by their χ², as an `Ensemble` about principal axes: the states of `draws`, where parameters and errors are listed.
 
         Examples
         --------
@@ -104,34 +108,72 @@ class Fit:
         >>> len(found.ensemble(20, rng=1))
         20
         """
-        orbit = self.scene.orbit
-        if not (orbit is None or isinstance(orbit, Orbit)):
-            raise refusal("scene", type(orbit).__name__, "Orbit", "has several disturbing bodies or a table of positions: an Ensemble takes one Orbit at most")
-        steps = Steps(self.scene, self._names(), self.semi_axes)
-        root = _root(self.covariance / np.outer(*[steps.units(np.zeros(len(self.parameters)))] * 2))
-        generator = np.random.default_rng(rng)
-        chosen: list[Array] = []
-        missing = n
-        for _ in range(MOST_DRAWS):
-            draws = generator.standard_normal((missing, len(root))) @ root.T
-            moments = steps.moments(draws)
-            chosen.append(draws[2 * moments.max(axis=1) <= moments.sum(axis=1)])
-            missing -= len(chosen[-1])
-            if not missing:
-                break
-        if missing:
-            raise refusal("n", n, n - missing, f"= {n}: only {n - missing} draws of the covariance are bodies; fit fewer parameters, or hold the moments")
-        moments, attitudes, rates = steps.states(np.concatenate(chosen))
-        _, options = self.scene.__getnewargs_ex__()
-        shared = {"epochs": options.get("epoch", 0.0), "orbits": orbit, "tolerance": self.scene.tolerance, "span": self.scene.span}
-        return Ensemble(moments, _about_principal_axes(self.scene, attitudes), rates @ self.scene.body.principal_axes, threads=threads, **shared)
+        return self.draws(n, rng, threads=threads).states
 
-    def _names(self) -> tuple[str, ...]:
-        from andoyer.fit._steps import LABELS
+    def draws(self, n: int, rng: Any = None, *, threads: int | None = None) -> Draws:
+        """Draws states about the best one from the density exp(−χ²/2), with their Δχ² and effective size.
 
-        return tuple(name for name, labels in LABELS.items() if labels[0] in self.parameters)
+        The density is per rotation vector of the attitude, angular velocity, and logarithms of moments or axis ratios. Components that the data do not determine are equal in all states. Other
+        minima of χ² are not drawn from: see `aliases` and `optima`. 2n draws from the covariance get the weight exp(−χ²/2) over their own density. If their effective size is below n, nonlinear
+        equations are solved for each draw (Bardsley and others, SIAM J. Sci. Comput. 36, A1895, 2014): some milliseconds a state. A state of large weight can be drawn several times.
 
-    def corner(self, figure: "Figure | None" = None) -> "Figure":
+        Parameters
+        ----------
+        n : int
+            Number of states.
+        rng : int or numpy.random.Generator, optional
+            A seed or a generator of random numbers.
+        threads : int, optional
+            Number of threads, as for `Ensemble`.
+
+        Returns
+        -------
+        Draws
+            The states, Δχ² of each, and the effective size. The mean Δχ² is near the number of parameters that the data determine.
+
+        Raises
+        ------
+        InputError
+            An `n` below 0. No draw is a body: the moments are too uncertain. A scene with several disturbing bodies or a `TabulatedOrbit`.
+
+        Warns
+        -----
+        UserWarning
+            The effective size is below n/2.
+
+        Examples
+        --------
+        >>> from andoyer import Body, Scene, fit
+        >>> scene = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0])
+        >>> times = range(100)
+        >>> drawn = fit.attitudes(scene, times, scene.solve().attitude(times), sigma=0.01).draws(1000, rng=1)
+        >>> drawn.effective_size > 900
+        True
+        >>> bool(7.5 < drawn.delta_chi_square.mean() < 8.5)    # nine parameters without a common factor of the moments
+        True
+        """
+        count, generator = whole("n", n, 0), generator_of(rng)
+        if not count:
+            return Draws(members(self._steps, np.zeros((0, len(self.parameters))), threads=threads), np.zeros(0), 0.0)
+        found = candidates(self._model, self.undetermined, count, generator)
+        size = min(found.effective_size, float(count))
+        if not size > 0:
+            raise refusal("n", count, 0, f"= {count}: no draw of the covariance is a body; fit fewer parameters, or hold the moments")
+        if size < LITTLE * count:
+            warnings.warn(
+                f"the {count} draws have the effective size {size:.0f}: the data determine the state loosely, and few draws have most of the weight",
+                stacklevel=2,
+            )
+        places = found.drawn(count, generator)
+        return Draws(members(self._steps, found.steps[places], threads=threads), found.chi_squares[places] - self.chi_square, size)
+
+    def __repr__(self) -> str:
+        return one_line(self)
+
+    def __str__(self) -> str:
+        return summary(self)
+
+    def corner(self, figure: Figure | None = None) -> Figure:
         """Draws the ellipses of one and two standard deviations of every pair of free parameters. Needs matplotlib.
 
         Parameters
@@ -143,7 +185,7 @@ class Fit:
 
         return corner(self, figure)
 
-    def residual_picture(self, axes: "Axes | None" = None) -> "Axes":
+    def residual_picture(self, axes: Axes | None = None) -> Axes:
         """Draws the residuals against time. Needs matplotlib.
 
         Parameters
@@ -156,30 +198,12 @@ class Fit:
         return residuals(self, axes)
 
 
-def _root(covariance: Array) -> Array:
-    """A square root of a covariance that may be singular."""
-    values, vectors = np.linalg.eigh((covariance + covariance.T) / 2)
-    root: Array = vectors * np.sqrt(np.maximum(values, 0.0))
-    return root
-
-
-def _about_principal_axes(scene: Scene, attitudes: Array) -> Array:
-    """Attitudes of the principal axes."""
-    axes = scene.body.principal_axes
-    if np.array_equal(axes, np.eye(3)):
-        return attitudes
-    from scipy.spatial.transform import Rotation
-
-    turned: Array = (Rotation.from_quat(attitudes) * Rotation.from_matrix(np.array(axes))).as_quat()
-    return turned
-
-
-def judged(steps: Steps, step: Array, whitened: Array) -> tuple[Array, Array, str]:
-    """Covariance of the parameters, directions that are not determined, and the sentence about them, from the whitened Jacobian at a step."""
+def judged(steps: Steps, step: Array, whitened: Array) -> tuple[Array, Array, str | None]:
+    """Covariance of the parameters, directions that are not determined, and the sentence about them if there are any, from the whitened Jacobian at a step."""
     _, singular, directions = np.linalg.svd(whitened, full_matrices=True)
     lost = undetermined(singular, directions)
     kept = len(directions) - len(lost)
     known = directions[:kept] / singular[:kept, None]
     units = steps.units(step)
-    covariance = known.T @ known * np.outer(units, units)
-    return covariance, lost, sentence(lost, steps.labels)
+    relative = known.T @ known
+    return relative * np.outer(units, units), lost, sentence(lost, steps, step, relative)

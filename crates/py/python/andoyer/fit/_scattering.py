@@ -13,6 +13,8 @@ The first is that of Connelly and Ostro (Geometriae Dedicata 17, 1984), the inte
 (Muinonen and Lumme, A&A 584, A23, 2015), written without their angles. Tests compare both with sums over a triangulated ellipsoid.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import NamedTuple
 

@@ -74,6 +74,19 @@ def short_axis(moments: Array, rates: Array) -> NDArray[np.bool_]:
     return short
 
 
+def reflections(curve: Curve, states: States) -> States:
+    """Three motions for each state that look nearly the same: the motion turned by π about each principal axis of the directions to Sun and observer.
+
+    The brightness depends on squares and products of the two directions about body axes. If both lie in a plane at all times, a half turn about its normal changes the sign of both and
+    leaves the brightness as it is. Near opposition half turns about the other two axes nearly do so.
+    """
+    directions = np.concatenate(np.broadcast_arrays(curve.sun, curve.observer), axis=1)
+    _, axes = np.linalg.eigh(directions @ directions.T)
+    turns = np.concatenate([axes.T, np.zeros((3, 1))], axis=1)
+    attitudes = np.concatenate([product(np.broadcast_to(turn, states.attitudes.shape), states.attitudes) for turn in turns])
+    return States(np.tile(states.axes, (3, 1)), attitudes, np.tile(states.rates, (3, 1)))
+
+
 def search(curve: Curve, starts: States) -> Population:
     """The states to which the best starts lead."""
     population = Population(starts, _finite(curve.chi_squares(starts)))

@@ -125,6 +125,14 @@ class Steps:
         return units
 
 
+def root(covariance: Array, steps: Steps) -> Array:
+    """A square root of the covariance of the steps, which may be singular, from that of the parameters."""
+    units = steps.units(np.zeros(len(covariance)))
+    values, vectors = np.linalg.eigh((covariance + covariance.T) / 2 / np.outer(units, units))
+    square_root: Array = vectors * np.sqrt(np.maximum(values, 0.0))
+    return square_root
+
+
 def moments_of_ellipsoid(axes: Array) -> Array:
     """Moments of homogeneous ellipsoids of mass 5: b² + c², a² + c², a² + b²."""
     squares = axes**2

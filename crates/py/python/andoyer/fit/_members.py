@@ -1,0 +1,54 @@
+"""States that steps lead to, as an `Ensemble` about principal axes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from andoyer._core import Ensemble, Orbit, Scene
+from andoyer._quaternions import Array, conjugate, product
+from andoyer.fit._given import refusal
+from andoyer.fit._steps import Steps
+
+
+def bodies(steps: Steps, rows: Array) -> np.ndarray[Any, np.dtype[np.bool_]]:
+    """Whether a body has the moments of each row of steps: none exceeds the sum of the two others."""
+    moments = steps.moments(rows)
+    valid: np.ndarray[Any, np.dtype[np.bool_]] = 2 * moments.max(axis=1) <= moments.sum(axis=1)
+    return valid
+
+
+def members(steps: Steps, rows: Array, *, threads: int | None = None, errors: str = "raise") -> Ensemble:
+    """The states that rows of steps lead to, shape (m, k), about principal axes, with the options of the scene of the steps.
+
+    Raises
+    ------
+    InputError
+        A scene with several disturbing bodies or a `TabulatedOrbit`.
+    """
+    scene = steps.origin
+    orbit = scene.orbit
+    if not (orbit is None or isinstance(orbit, Orbit)):
+        raise refusal("scene", type(orbit).__name__, "Orbit", "has several disturbing bodies or a table of positions: an Ensemble takes one Orbit at most")
+    moments, attitudes, rates = steps.states(rows)
+    _, options = scene.__getnewargs_ex__()
+    shared = {"epochs": options.get("epoch", 0.0), "orbits": orbit, "tolerance": scene.tolerance, "span": scene.span}
+    about_principal_axes = product(attitudes, _turn(scene)) if len(rows) else attitudes
+    return Ensemble(moments, about_principal_axes, rates @ scene.body.principal_axes, threads=threads, errors=errors, **shared)
+
+
+def about_body_axes(scene: Scene, attitudes: Array) -> Array:
+    """Attitudes of the body axes, from those of the principal axes of `members`, shape (…, 4)."""
+    return product(attitudes, np.broadcast_to(conjugate(_turn(scene)), attitudes.shape))
+
+
+def _turn(scene: Scene) -> Array:
+    """The quaternion of the principal axes of a scene's body in its body axes."""
+    axes = scene.body.principal_axes
+    if np.array_equal(axes, np.eye(3)):
+        return np.array([0.0, 0.0, 0.0, 1.0])
+    from scipy.spatial.transform import Rotation
+
+    turn: Array = Rotation.from_matrix(np.array(axes)).as_quat()
+    return turn

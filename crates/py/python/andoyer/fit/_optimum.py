@@ -1,0 +1,72 @@
+"""Minima of χ², and pairs of periods that fit nearly as well as the best."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from andoyer._core import Scene
+from andoyer.mean import Periods
+
+HALF_TURN = 0.5
+"""Difference of two phases [turns] over the data from which two pairs of periods count as different: half the resolution of the data in frequency."""
+
+
+@dataclass(frozen=True, eq=False)
+class Optimum:
+    """A minimum of χ² from a search with many starts."""
+
+    scene: Scene
+    mode: str
+    """The mode of its motion, such as "short-axis"."""
+    chi_square: float
+    """χ² at the minimum."""
+
+    @property
+    def periods(self) -> Periods:
+        """The mean periods (P_φ, P_ψ) in the convention "extremal-axis" of `Motion.periods`."""
+        return periods_of(self.scene)
+
+    def __repr__(self) -> str:
+        precession, rotation = self.periods
+        return f"Optimum({self.mode}, P_φ={precession:.6g}, P_ψ={rotation:.6g}, χ²={self.chi_square:.6g})"
+
+
+@dataclass(frozen=True, eq=False)
+class Alias:
+    """A pair of periods other than that of the best state, with which the data are fitted next best."""
+
+    periods: Periods
+    """The mean periods (P_φ, P_ψ) in the convention "extremal-axis" of `Motion.periods`."""
+    delta_chi_square: float
+    """χ² of the best minimum with these periods, less the least χ² of all minima."""
+    scene: Scene
+    """The scene of this minimum."""
+
+    def __repr__(self) -> str:
+        return f"Alias(P_φ={self.periods.precession:.6g}, P_ψ={self.periods.rotation:.6g}, Δχ²={self.delta_chi_square:.4g})"
+
+
+def periods_of(scene: Scene) -> Periods:
+    """The mean periods of the free motion from the state of a scene, in the convention "extremal-axis"."""
+    return Scene(scene.body, scene.attitude, scene.angular_velocity).solve().periods["extremal-axis"]
+
+
+def aliases(optima: Sequence[Optimum], duration: float) -> list[Alias]:
+    """Of the minima with other periods than the best, the first of `optima`, the best with each pair of periods."""
+    found: list[Alias] = []
+    known: list[Periods] = [optima[0].periods] if optima else []
+    for optimum in optima[1:]:
+        periods = optimum.periods
+        if all(_turns(periods, other, duration) > HALF_TURN for other in known):
+            known.append(periods)
+            found.append(Alias(periods, optimum.chi_square - optima[0].chi_square, optimum.scene))
+    return found
+
+
+def _turns(first: Periods, second: Periods, duration: float) -> float:
+    """The largest difference of the phases [turns] of two pairs of periods after a duration."""
+    # A period that does not exist is infinite, and its frequency 0.
+    return float(np.max(np.abs(1 / np.array(first) - 1 / np.array(second)))) * duration

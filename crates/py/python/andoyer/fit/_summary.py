@@ -1,0 +1,127 @@
+"""`print(fit)`: periods, pole, phases and moments of the best state, each with its standard deviation."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from andoyer._core import Error, Motion, Scene
+from andoyer._quaternions import Array
+from andoyer.fit._optimum import periods_of
+from andoyer.fit._steps import Steps, root
+
+if TYPE_CHECKING:
+    from andoyer.fit._result import Fit
+
+PART = 1e-2
+"""Steps of the differences, in standard deviations, or relative and in rad along what the data do not determine."""
+ANGLES = {"pole longitude": "°", "pole latitude": "°", "phase μ": "°", "phase ν": "°"}
+
+
+def summary(fit: Fit) -> str:
+    """Several lines for people."""
+    scene = fit.scene
+    lines = [
+        f"Fit of {len(fit.parameters)} parameters ({', '.join(fit.parameters)}) to {fit.residuals.size} data",
+        _line("reduced χ²", f"{fit.reduced_chi_square:.4g}  (χ² {fit.chi_square:.6g}, {fit.degrees_of_freedom} degrees of freedom)"),
+        _line("mode", f"{free_motion(scene).plan.mode}  (state at the epoch {scene.epoch:g})"),
+    ]
+    lines += [_line(name, text) for name, text in _written(fit)]
+    if len(fit.optima) > 1:
+        lines.append(_line("minima", f"{len(fit.optima)}, the second with Δχ² {fit.optima[1].chi_square - fit.optima[0].chi_square:.3g}"))
+    return "\n".join([*lines, fit.message])
+
+
+def one_line(fit: Fit) -> str:
+    """One line for people who program."""
+    precession, rotation = periods_of(fit.scene)
+    of_motion = f"{free_motion(fit.scene).plan.mode}, P_φ={precession:.6g}, P_ψ={rotation:.6g}"
+    return f"Fit({of_motion}, reduced χ²={fit.reduced_chi_square:.4g}, {len(fit.parameters)} parameters, {fit.residuals.size} data)"
+
+
+def free_motion(scene: Scene) -> Motion:
+    """The motion without torques from the state of a scene."""
+    return Scene(scene.body, scene.attitude, scene.angular_velocity).solve()
+
+
+def _line(name: str, text: str) -> str:
+    return f"  {name:<15} {text}"
+
+
+def _quantities(scene: Scene, semi_axes: Array | None) -> dict[str, float]:
+    """What the summary lists."""
+    motion = free_motion(scene)
+    periods = motion.periods["extremal-axis"]
+    x, y, z = (float(component) for component in motion.angular_momentum(0.0))
+    _, mu, nu = (float(angle) for angle in motion.andoyer(0.0)[:3])
+    values = {
+        "P_φ": periods.precession,
+        "P_ψ": periods.rotation,
+        "pole longitude": np.degrees(np.arctan2(y, x)) % 360,
+        "pole latitude": np.degrees(np.arctan2(z, np.hypot(x, y))),
+        "phase μ": np.degrees(mu),
+        "phase ν": np.degrees(nu),
+    }
+    values |= {f"moment I{place}": float(moment) for place, moment in enumerate(scene.body.moments, 1)}
+    if semi_axes is not None:
+        values |= {f"axis ratio {name}": float(axis / semi_axes[0]) for name, axis in zip(("b/a", "c/a"), semi_axes[1:])}
+    return values
+
+
+def _written(fit: Fit) -> list[tuple[str, str]]:
+    """Each quantity with its value and its standard deviation."""
+    steps = fit._steps
+    values = _quantities(fit.scene, fit.semi_axes)
+    deviations = _slopes(steps, root(fit.covariance, steps), list(values))
+    lost = _slopes(steps, fit.undetermined.T, list(values))
+    written = []
+    for name, value in values.items():
+        deviation = float(np.linalg.norm(deviations[name]))
+        unit = ANGLES.get(name, "")
+        # The moments keep their common factor, which the message names.
+        if not np.isfinite(value):
+            text = "none"
+        elif not name.startswith(("moment", "axis")) and _is_lost(name, deviation, float(np.linalg.norm(lost[name]))):
+            text = "not determined"
+        elif not np.isfinite(deviation):
+            text = f"{value:.6g}{unit}"
+        elif deviation <= 1e-14 * abs(value):
+            text = f"{value:.6g}{unit}  (held)"
+        else:
+            text = _with_deviation(value, deviation, unit)
+        written.append((name, text))
+    return written
+
+
+def _is_lost(name: str, deviation: float, lost: float) -> bool:
+    """Whether a quantity changes along what the data do not determine by more than its standard deviation, or an angle is anything."""
+    return lost > max(deviation, 1e-6) or (name in ANGLES and deviation > 180)
+
+
+def _slopes(steps: Steps, columns: Array, names: list[str]) -> dict[str, Array]:
+    """Derivatives of the quantities along the columns of an array of steps, by central differences; NaN where one of them has no motion."""
+    found: dict[str, list[float]] = {name: [] for name in names}
+    for column in columns.T:
+        try:
+            up, down = (_quantities(steps.scene(sign * PART * column), _axes(steps, sign * PART * column)) for sign in (1, -1))
+        except Error:
+            up = down = dict.fromkeys(names, np.nan)
+        for name in names:
+            with np.errstate(invalid="ignore"):
+                difference = np.subtract(up[name], down[name])
+            turned = (difference + 180) % 360 - 180 if name in ANGLES else difference
+            found[name].append(float(turned) / (2 * PART))
+    return {name: np.array(slopes) for name, slopes in found.items()}
+
+
+def _axes(steps: Steps, step: Array) -> Array | None:
+    return None if steps.semi_axes is None else steps.axes(step)
+
+
+def _with_deviation(value: float, deviation: float, unit: str) -> str:
+    """A value and its standard deviation to two digits, both with as many decimals."""
+    decimals = max(0, 1 - int(np.floor(np.log10(deviation))))
+    if decimals > 15:
+        return f"{value:.15g} ± {deviation:.2g}{unit}"
+    return f"{value:.{decimals}f} ± {deviation:.{decimals}f}{unit}"
