@@ -77,13 +77,20 @@ def main():
         normal.append(of_normal)
         sizes.append(drawn.effective_size / arguments.draws)
         pulls.append(pull)
-        print(f"{seed:3}  {found._steps.origin.solve().plan.mode:10}  covariance {of_normal:7.1f}  draws {means[-1]:5.2f}  effective size {sizes[-1]:.0%}", flush=True)
+        print(
+            f"{seed:3}  {found._steps.origin.solve().plan.mode:10}  covariance {of_normal:7.1f}  draws {means[-1]:5.2f}  effective size {sizes[-1]:.0%}",
+            flush=True,
+        )
     pulls = np.array(pulls)
     count = pulls.size / expected  # pulls of one curve depend on each other
     mean, spread = float(pulls.mean()), float(pulls.std())
-    print(f"mean Δχ² of {expected} parameters: {np.mean(means):.2f} (of single curves {min(means):.2f} to {max(means):.2f}); from the covariance {np.mean(normal):.1f} ({min(normal):.1f} to {max(normal):.1f})")
+    print(
+        f"mean Δχ² of {expected} parameters: {np.mean(means):.2f} (of single curves {min(means):.2f} to {max(means):.2f}); from the covariance {np.mean(normal):.1f} ({min(normal):.1f} to {max(normal):.1f})"
+    )
     print(f"effective size: median {np.median(sizes):.0%}, least {min(sizes):.0%}")
-    print(f"pulls: mean {mean:.3f}, standard deviation {spread:.3f}; within 1: {np.mean(np.abs(pulls) < 1):.1%} (68.3 %), within 2: {np.mean(np.abs(pulls) < 2):.1%} (95.4 %)")
+    print(
+        f"pulls: mean {mean:.3f}, standard deviation {spread:.3f}; within 1: {np.mean(np.abs(pulls) < 1):.1%} (68.3 %), within 2: {np.mean(np.abs(pulls) < 2):.1%} (95.4 %)"
+    )
     print("standard deviation of each parameter's pulls:", " ".join(f"{value:.2f}" for value in pulls.std(axis=0)))
     right = abs(np.mean(means) / expected - 1) < 0.1 and abs(mean) < 4 / np.sqrt(count) and abs(spread - 1) < 4 / np.sqrt(2 * count)
     return 0 if right else 1

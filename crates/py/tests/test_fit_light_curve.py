@@ -43,7 +43,8 @@ def test_known_answer_is_found_from_ten_thousand_starts_that_do_not_know_it(mode
     assert found.optima[0].mode == mode and found.optima[0].chi_square == found.chi_square
     # χ² with 93 degrees of freedom: quantiles 1e-4 and 1 − 1e-4.
     assert found.degrees_of_freedom == 93 and 49 < found.chi_square < 152
-    assert found.message == "The data determine every free parameter."
+    # Sun and observer are near one plane: the motion turned by π about its normal fits nearly as well.
+    assert found.message.startswith("2 other minima lie within Δχ² = 25 of the best") and "2 with the same periods" in found.message
     chi_squares = [optimum.chi_square for optimum in found.optima]
     assert chi_squares == sorted(chi_squares)
     wrong = [optimum for optimum in found.optima if optimum.mode != mode]

@@ -34,7 +34,7 @@ def test_free_rotation_fits_the_radar_attitudes_of_toutatis_to_seven_degrees(rad
     motion = found.scene.solve()
     assert 7.0 < rms < 8.0 and motion.plan.mode == "long-axis"
     assert 5.37 < motion.periods["long-axis"].rotation < 5.38 and 7.39 < motion.periods["long-axis"].precession < 7.45
-    assert found.message == "The data do not determine a common factor of the moments."
+    assert found.message.startswith("The data do not determine a common factor of the moments, nor the difference of the moments I1 and I2 (")
     ratios = found.scene.body.moments[:2] / found.scene.body.moments[2]
     assert np.allclose(ratios, [3.0836, 3.235], atol=0.3)
     states = found.ensemble(500, rng=1)

@@ -4,6 +4,8 @@ The page calls `evaluate(t)`, which returns the attitude and the angular velocit
 everything else, including the Andoyer variables, from these seven numbers and the moments.
 """
 
+from __future__ import annotations
+
 import base64
 import html
 import json

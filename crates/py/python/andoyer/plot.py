@@ -5,6 +5,8 @@ Each function takes a `Motion`, and optionally times and the axes to draw into. 
 those of Okabe and Ito, which colour-blind readers can distinguish; lines also differ in style or marker. The module needs matplotlib, which ``pip install matplotlib`` installs.
 """
 
+from __future__ import annotations
+
 import math
 from typing import TYPE_CHECKING, Any
 
@@ -73,7 +75,7 @@ def whole_turns(motion: Motion, turns: int = TURNS, samples: int = SAMPLES) -> A
     return np.linspace(*within_span(motion, motion.scene.epoch, motion.scene.epoch + turns * period), samples)
 
 
-def polhode(motion: Motion, axes: "Axes | None" = None, *, surface: str = "sphere") -> "Axes":
+def polhode(motion: Motion, axes: Axes | None = None, *, surface: str = "sphere") -> Axes:
     """Draw the polhode with the separatrix, on the sphere of momentum directions or on Poinsot's inertia ellipsoid, axis 3 up.
 
     Parameters
@@ -99,7 +101,7 @@ def polhode(motion: Motion, axes: "Axes | None" = None, *, surface: str = "spher
     return axes
 
 
-def phase_portrait(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = None) -> "Axes":
+def phase_portrait(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None) -> Axes:
     """Draw Andoyer's plane (ν, N/M): level curves of the energy, the separatrix, the motion and its start."""
     axes, times = _axes(axes), _times(motion, times)
     _, moments, directions = _sorted(motion, times)
@@ -108,7 +110,7 @@ def phase_portrait(motion: Motion, times: ArrayLike | None = None, axes: "Axes |
     return axes
 
 
-def polhode_near_pole(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = None) -> "Axes":
+def polhode_near_pole(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None) -> Axes:
     """Draw the path of the angular momentum in the body near the axis of greatest inertia, for a motion with small J."""
     axes, times = _axes(axes), _times(motion, times)
     numbers, _, directions = _sorted(motion, times)
@@ -116,7 +118,7 @@ def polhode_near_pole(motion: Motion, times: ArrayLike | None = None, axes: "Axe
     return axes
 
 
-def pole_path(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = None) -> "Axes":
+def pole_path(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None) -> Axes:
     """Draw the inertial path of the direction of the angular momentum, in arcseconds from its start. Without a torque the path is a point.
 
     The default times are one period of the orbit, or the span for several bodies or a table. East is along z × k and north is from k towards z, where k is the first direction.
@@ -148,7 +150,7 @@ def pole_path(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None
     return axes
 
 
-def nutation(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = None) -> "Axes":
+def nutation(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None) -> Axes:
     """Draw the nutation J, the angle from the angular momentum to the axis of greatest inertia, over time."""
     axes, times = _axes(axes), _times(motion, times)
     angle = _nutation(_sorted(motion, times)[2])
@@ -160,7 +162,7 @@ def nutation(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None"
     return axes
 
 
-def angles(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = None, *, residual: bool = True) -> "Axes":
+def angles(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None, *, residual: bool = True) -> Axes:
     """Draw Andoyer's angles μ and ν over time without their mean motion, or ν itself.
 
     Parameters
@@ -195,7 +197,7 @@ def angles(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" =
     return axes
 
 
-def rates(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = None) -> "Axes":
+def rates(motion: Motion, times: ArrayLike | None = None, axes: Axes | None = None) -> Axes:
     """Draw the angular velocity about the body axes over time. If J is tiny, the rate about the short axis is a text."""
     axes, times = _axes(axes), _times(motion, times)
     numbers, _, directions = _sorted(motion, times)
@@ -216,7 +218,7 @@ def rates(motion: Motion, times: ArrayLike | None = None, axes: "Axes | None" = 
     return axes
 
 
-def summary(motion: Motion, times: ArrayLike | None = None) -> "Figure":
+def summary(motion: Motion, times: ArrayLike | None = None) -> Figure:
     """Draw a figure of a motion: polhode, phase portrait (the path near the pole if J is tiny, the inertial path of the pole under a torque), nutation, angles, rates.
 
     The labels assume times in seconds and show hours or days for long spans. The default times are three periods of the polhode.
@@ -247,7 +249,7 @@ def summary(motion: Motion, times: ArrayLike | None = None) -> "Figure":
     return figure
 
 
-def samples_summary(samples: Samples, motion: Motion | None = None, *, name: str = "") -> "Figure":
+def samples_summary(samples: Samples, motion: Motion | None = None, *, name: str = "") -> Figure:
     """Draw a figure of the samples of a file: quaternions, rates and, if a motion is given, the angle between the samples and the motion.
 
     Parameters
@@ -273,7 +275,7 @@ def samples_summary(samples: Samples, motion: Motion | None = None, *, name: str
     return figure
 
 
-def animate(motion: Motion, times: ArrayLike | None = None, *, interval: float = 40.0) -> "FuncAnimation":
+def animate(motion: Motion, times: ArrayLike | None = None, *, interval: float = 40.0) -> FuncAnimation:
     """Animate a motion: body axes, angular momentum upwards, angular velocity, polhode and herpolhode. ``.save`` writes a film.
 
     Parameters
@@ -339,7 +341,7 @@ def _without_mean(angle: Array, times: Array) -> tuple[Array, float, Array]:
     return rest - rest.mean(), slope, unwrapped
 
 
-def _legend(axes: "Axes") -> None:
+def _legend(axes: Axes) -> None:
     """A legend above the right end of a panel, outside of the curves."""
     axes.legend(loc="lower right", bbox_to_anchor=(1, 0.98), ncols=3, fontsize=9, frameon=False)
 

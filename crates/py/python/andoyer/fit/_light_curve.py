@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from andoyer._core import Body, Ensemble, Scene
 from andoyer._extra import extra
 from andoyer._quaternions import Array, angle_between, product
-from andoyer.fit._curve import Curve, States
+from andoyer.fit._curve import Curve, Places, States
 from andoyer.fit._given import enough, epoch_of, from_first, generator_of, positive, refusal, scene_of, shaped, span, whole
 from andoyer.fit._message import composed, largest_reduced, rivals
 from andoyer.fit._optimum import Optimum
@@ -128,8 +128,10 @@ def light_curve(
         drawn = random_states(semi_axes, _range(periods), whole("starts", starts, 1), generator_of(rng))
         population = search(curve, drawn)
         population = improve(curve, best(_distinct(curve, population), POLISHED), SETTLING)
-        population = _with_reflections(curve, _polished(curve, population))
-    return _result(curve, _polished(curve, population), epoch, times, largest)
+    population = _polished(curve, population)
+    if scene is None:
+        population = _with_reflections(curve, population)
+    return _result(curve, population, epoch, times, largest)
 
 
 def _curve(
@@ -190,30 +192,54 @@ HALF_TURNS = np.array([[0, 0, 0, 1.0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]
 """Turns of the body that leave the ellipsoid as it is."""
 
 
+def _sorting(axes: Array) -> Array:
+    """Turns of the body axes that put the semi-axes in descending order, shape (m, 4): a fit of the shape can find the same ellipsoid with its axes in any order."""
+    columns = np.swapaxes(np.eye(3)[np.argsort(-axes, axis=1, kind="stable")], 1, 2)
+    columns[:, :, 2] *= np.linalg.det(columns)[:, None]
+    rotation = extra("scipy.spatial.transform", "andoyer.fit").Rotation
+    turns: Array = rotation.from_matrix(columns).as_quat()
+    return turns
+
+
 def _distinct(curve: Curve, population: Population) -> Population:
-    """The best of all states that show the same attitudes, but for half turns of the body."""
+    """The best of all states that show the same attitudes."""
+    chosen = _different(curve, population)
+    return Population(population.states.part(chosen), population.chi_squares[chosen])
+
+
+def _different(curve: Curve, population: Population) -> Places:
+    """Places of the best of all states that show the same attitudes of their sorted axes, but for half turns of the body; the best first."""
     order = np.argsort(population.chi_squares, kind="stable")
     states = population.states.part(order)
     times = curve.times[[0, len(curve.times) // 2, -1]]
     moments = moments_of_ellipsoid(states.axes)
-    attitudes = Ensemble(moments, states.attitudes, states.rates, tolerance=1e-6, span=(times.min(), times.max()), errors="nan").attitude(times)
+    motions = Ensemble(moments, states.attitudes, states.rates, tolerance=1e-6, span=(times.min(), times.max()), errors="nan")
+    attitudes = product(motions.attitude(times), _sorting(states.axes)[:, None])
     kept: list[int] = []
     for place, attitude in enumerate(attitudes):
         turned = product(attitude[None], HALF_TURNS[:, None, :])
         apart = angle_between(attitudes[kept][:, None], turned[None]).max(axis=-1).min(axis=-1, initial=np.inf)
         if np.isfinite(attitude).all() and not np.any(apart < SAME):
             kept.append(place)
-    chosen = order[kept]
-    return Population(population.states.part(chosen), population.chi_squares[chosen])
+    places: Places = order[kept]
+    return places
 
 
 def _with_reflections(curve: Curve, minima: Population) -> Population:
     """Minima together with those to which their reflections lead."""
     mirrored = reflections(curve, minima.states)
     found = improve(curve, Population(mirrored, curve.chi_squares(mirrored)), SETTLING)
-    states = States(*(np.concatenate(arrays) for arrays in zip(minima.states, found.states)))
-    together = Population(states, np.concatenate([minima.chi_squares, found.chi_squares]))
-    return best(_distinct(curve, together), POLISHED)
+    places = _different(curve, _joined(minima, found))[:POLISHED]
+    new = places[places >= len(minima.chi_squares)] - len(minima.chi_squares)
+    if not len(new):
+        return minima
+    polished = _polished(curve, Population(found.states.part(new), found.chi_squares[new]))
+    return best(_distinct(curve, _joined(minima, polished)), POLISHED)
+
+
+def _joined(first: Population, second: Population) -> Population:
+    states = States(*(np.concatenate(arrays) for arrays in zip(first.states, second.states)))
+    return Population(states, np.concatenate([first.chi_squares, second.chi_squares]))
 
 
 def _polished(curve: Curve, population: Population) -> Population:

@@ -46,11 +46,12 @@ def rivals(optima: Sequence[Optimum], duration: float) -> str | None:
     if len(other) > NAMED:
         parts.append(f"{len(other) - NAMED} more pairs of periods")
     # One minimum stands for each pair; the others have the periods of the best or of a pair before them.
-    same = len(near) - 1 - len(other)
-    if same:
-        whose = "of these periods" if other else "of the same periods"
-        least = min(optimum.chi_square for optimum in near[1:] if all(optimum.scene is not alias.scene for alias in other)) - near[0].chi_square
-        parts.append(f"{same} {whose}, such as mirrored motions (Δχ² from {least:.1f})")
+    rest = [optimum for optimum in near[1:] if all(optimum.scene is not alias.scene for alias in other)]
+    if rest:
+        least = min(optimum.chi_square for optimum in rest) - near[0].chi_square
+        parts.append(
+            f"{len(rest)} with {'one of these pairs' if other else 'the same periods'}, such as a mirrored motion (Δχ² {'from ' * (len(rest) > 1)}{least:.1f})"
+        )
     count = len(near) - 1
     lie = "Another minimum lies" if count == 1 else f"{count} other minima lie"
     return f"{lie} within Δχ² = {NEAR:g} of the best (P_φ {best.precession:.6g}, P_ψ {best.rotation:.6g}): {'; '.join(parts)}."

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 PART = 1e-2
 """Steps of the differences, in standard deviations, or relative and in rad along what the data do not determine."""
-ANGLES = {"pole longitude": "°", "pole latitude": "°", "phase μ": "°", "phase ν": "°"}
+ANGLES = ("pole longitude", "pole latitude", "phase μ", "phase ν")
 
 
 def summary(fit: Fit) -> str:
@@ -78,7 +78,7 @@ def _written(fit: Fit) -> list[tuple[str, str]]:
     written = []
     for name, value in values.items():
         deviation = float(np.linalg.norm(deviations[name]))
-        unit = ANGLES.get(name, "")
+        unit = "°" if name in ANGLES else ""
         # The moments keep their common factor, which the message names.
         if not np.isfinite(value):
             text = "none"
@@ -100,19 +100,28 @@ def _is_lost(name: str, deviation: float, lost: float) -> bool:
 
 
 def _slopes(steps: Steps, columns: Array, names: list[str]) -> dict[str, Array]:
-    """Derivatives of the quantities along the columns of an array of steps, by central differences; NaN where one of them has no motion."""
+    """Derivatives of the quantities along the columns of an array of steps, by central differences; by one side where the other is no body, NaN where both are none."""
     found: dict[str, list[float]] = {name: [] for name in names}
+    here = _after(steps, np.zeros(len(columns)))
     for column in columns.T:
-        try:
-            up, down = (_quantities(steps.scene(sign * PART * column), _axes(steps, sign * PART * column)) for sign in (1, -1))
-        except Error:
-            up = down = dict.fromkeys(names, np.nan)
+        sides = [(side, _after(steps, side * column)) for side in (PART, -PART)]
+        (first, up), (last, down) = ((side, values) if values is not None else (0.0, here) for side, values in sides)
         for name in names:
-            with np.errstate(invalid="ignore"):
-                difference = np.subtract(up[name], down[name])
+            if up is None or down is None or first == last or not (np.isfinite(up[name]) and np.isfinite(down[name])):
+                found[name].append(np.nan)
+                continue
+            difference = up[name] - down[name]
             turned = (difference + 180) % 360 - 180 if name in ANGLES else difference
-            found[name].append(float(turned) / (2 * PART))
+            found[name].append(turned / (first - last))
     return {name: np.array(slopes) for name, slopes in found.items()}
+
+
+def _after(steps: Steps, step: Array) -> dict[str, float] | None:
+    """The quantities after a step; None where it leads to no body."""
+    try:
+        return _quantities(steps.scene(step), _axes(steps, step))
+    except Error:
+        return None
 
 
 def _axes(steps: Steps, step: Array) -> Array | None:

@@ -5,6 +5,8 @@ attitude, scalar last. Version 2 has neither ATTITUDE_DIR nor QUATERNION_TYPE. V
 those of the quaternion, because version 1 does not state the frame of RATE.
 """
 
+from __future__ import annotations
+
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,6 +17,7 @@ from itertools import pairwise
 import numpy as np
 
 from andoyer._core import Body, Samples
+from andoyer._record import ShortRecord
 from andoyer.output.attitude_types import FROM_SAMPLES, VERSION_1, columns_of
 from andoyer.output.calendar import J2000, count, counts, written
 from andoyer.output.files import whole_file
@@ -28,8 +31,8 @@ LONGEST_LINE = 254
 METHODS = ["LINEAR", "HERMITE", "LAGRANGE"]
 
 
-@dataclass(frozen=True)
-class Heading:
+@dataclass(frozen=True, repr=False)
+class Heading(ShortRecord):
     """The header and metadata of an AEM. Texts are in ASCII; the standard uses names in capitals."""
 
     name: str = "UNKNOWN"

@@ -6,6 +6,8 @@ their times. Type 2 has one angular velocity for each record. If no clock kernel
 the seconds of ephemeris time (TDB) minus a whole number, so that no digit is lost.
 """
 
+from __future__ import annotations
+
 import math
 import os
 from collections.abc import Iterator, Sequence
@@ -20,6 +22,7 @@ import numpy as np
 from andoyer._core import Motion, __version__
 from andoyer._extra import extra
 from andoyer._quaternions import Array, rotate
+from andoyer._record import ShortRecord
 from andoyer.output.calendar import J2000, seconds_of_tdb
 from andoyer.output.files import whole_file
 from andoyer.output.nodes import SMALLEST_ERROR, estimate, nodes, windows
@@ -42,8 +45,8 @@ ROUNDING = 2.0**-51
 """Part of a rotation angle by which its sine may be off, with room."""
 
 
-@dataclass(frozen=True)
-class Kernel:
+@dataclass(frozen=True, repr=False)
+class Kernel(ShortRecord):
     """The codes, frames, clock and comments of a C-kernel."""
 
     instrument: int = -999000
