@@ -202,6 +202,10 @@ pub enum Error {
         lower: f64,
         /// The largest ratio near the separatrix that doubles can represent.
         upper: f64,
+        /// The modes and conventions in which the body can have the ratio.
+        possible: Vec<[String; 2]>,
+        /// If there are none: the modes and conventions in which it can have the periods exchanged with each other.
+        swapped: Vec<[String; 2]>,
     },
     /// A direction whose latitude exceeds a quarter turn.
     Latitude {
@@ -233,6 +237,8 @@ pub enum Error {
         /// The requirement.
         bound: &'static str,
     },
+    /// A position on an orbit whose semi-major axis was not given.
+    NoSemiMajorAxis,
     /// An unknown level of the gravity-gradient theory.
     Level {
         /// The level as given.

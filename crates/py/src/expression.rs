@@ -3,6 +3,7 @@
 //! This module does not import SymPy; it reads the terms of an expression of the caller by its methods. Numbers have their exact value.
 //! A flag tells if one of them was a float.
 
+use andoyer_series::error::ParseProblem;
 use andoyer_series::real_field::RealField;
 use andoyer_series::{Coefficient, Monomial, PhaseSpace, Polynomial};
 use num_bigint::BigInt;
@@ -82,7 +83,8 @@ impl Expression {
         let polynomial = if present.is_empty() { None } else { Some(value.call_method1("as_poly", symbols)?) };
         let Some(polynomial) = polynomial.filter(|polynomial| !polynomial.is_none()) else {
             let shown = value.str()?.to_string();
-            let message = format!("{argument} is no polynomial: {shown}");
+            let remedy = remedy(value, &names[..2 * space.degrees_of_freedom()])?;
+            let message = format!("{argument} is no polynomial: {shown}{remedy}");
             return Err(error::input(argument, shown, "a polynomial", message));
         };
         let mut expression = Self::zero();
@@ -98,8 +100,37 @@ impl Expression {
     }
 }
 
+/// What to do about the first function, or power with another exponent than 0, 1, 2, …, in an expression that is no polynomial, as the end of a sentence.
+fn remedy(expression: &Bound<'_, PyAny>, variables: &[&str]) -> PyResult<String> {
+    let mut waiting = vec![expression.clone()];
+    while let Some(part) = waiting.pop() {
+        let arguments = part.getattr("args")?.try_iter()?.collect::<PyResult<Vec<_>>>()?;
+        let symbols = part.getattr("free_symbols")?.try_iter()?.map(|symbol| Ok(symbol?.str()?.to_string()));
+        let symbols = symbols.collect::<PyResult<Vec<_>>>()?;
+        let constant = symbols.iter().all(|symbol| !variables.contains(&symbol.as_str()));
+        if !symbols.is_empty() && part.getattr("is_Function")?.extract()? {
+            let function = ParseProblem::Function(part.getattr("func")?.str()?.to_string());
+            return Ok(format!("; {function}"));
+        }
+        let whole =
+            |power: &Bound<'_, PyAny>| Ok::<bool, PyErr>(power.getattr("is_Integer")?.extract()? && power.gt(0)?);
+        if !symbols.is_empty() && part.getattr("is_Pow")?.extract()? && !whole(&arguments[1])? {
+            let shown = part.str()?;
+            return Ok(if constant {
+                format!(
+                    "; write a parameter w in place of {shown}, and scale w away with frequency = (\"w\", \"s\") if all frequencies are proportional to w"
+                )
+            } else {
+                format!("; expand {shown} as a Taylor polynomial, for a normal form of order N to degree N + 2")
+            });
+        }
+        waiting.extend(arguments.into_iter().rev());
+    }
+    Ok(String::new())
+}
+
 /// The exact value of a number, and true if it is a float. Every number except integers, fractions and texts counts as a float.
-fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<(BigRational, bool)> {
+pub(crate) fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<(BigRational, bool)> {
     let refused = || -> PyResult<PyErr> {
         Ok(PyTypeError::new_err(format!(
             "{argument}: a coefficient must be a real number or a text, not {}",

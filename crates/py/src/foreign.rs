@@ -110,6 +110,18 @@ pub(crate) fn epochs<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult
     epochs.call1((argument, value))?.extract()
 }
 
+/// A time as seconds since J2000 and as a calendar time: seconds since an epoch or, if not `since_epoch`, since J2000.
+pub(crate) fn later<'py>(
+    py: Python<'py>,
+    epoch: Calendar,
+    since_epoch: bool,
+    seconds: f64,
+) -> PyResult<(Bound<'py, PyAny>, Vec<Calendar>)> {
+    let start = since_epoch.then_some(epoch);
+    let later = py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "later"))?;
+    epochs("epoch", &later.call1((start, seconds))?)
+}
+
 /// Epochs as Times of astropy.
 pub(crate) fn calendar<'py>(py: Python<'py>, epochs: &[Calendar]) -> PyResult<Bound<'py, PyAny>> {
     let [first, second]: [Vec<f64>; 2] = [0, 1].map(|part| epochs.iter().map(|epoch| epoch[part]).collect());

@@ -20,6 +20,7 @@ use crate::samples::Samples;
 use crate::scene_class::Scene;
 
 mod copies;
+mod later;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 

@@ -11,7 +11,7 @@ use pyo3::types::{PyDict, PyString};
 
 use crate::birkhoff::BirkhoffNormalForm;
 use crate::error;
-use crate::expression::Expression;
+use crate::expression::{Expression, number};
 use crate::form::{Form, rounded};
 use crate::order::order;
 use crate::progress;
@@ -32,14 +32,14 @@ use crate::progress;
 ///     Order N, at least 0. Terms above degree N + 2 are ignored.
 /// variables : sequence of (str, str)
 ///     Up to four pairs (q, p), as names or SymPy symbols. All lists of exponents and states have the order q₁, p₁, q₂, p₂, …
-/// parameters : sequence of str, optional
+/// parameters : sequence of str, or dict of {str: number}, optional
 ///     Symbols in the coefficients, as names or SymPy symbols. Variables and parameters together are at most eight. A parameter in the quadratic part is a
-///     detuning, like d in ``(1 + d)*y^2/2``.
+///     detuning, like d in ``(1 + d)*y^2/2``. In a dict the number of a parameter is put in its place, and the form does not contain this parameter; a parameter with None stays a symbol.
 /// degrees : dict of {str: int}, optional
 ///     The degree of each parameter in the ordering of the terms; by default 2 for a detuning and 0 for any other parameter.
 /// frequency : (str, str), optional
 ///     A parameter w that all frequencies are proportional to, and a name s for 1/√w. The form is that of H/w in the variables q√w, p/√w, under the names of the old ones, with s
-///     in the place of w: K of H is w times it, and its time is wt.
+///     in the place of w: K of H is w times it, and its time is wt. Terms without variables are dropped.
 /// resonances : sequence of sequences of int, optional
 ///     Vectors k with k·ω = 0. Terms proportional to e^{i k·φ} are kept, for k and all integer combinations. Example: ``[(1, -1)]`` for equal frequencies.
 /// keep : {"hyperbolic"}, optional
@@ -71,6 +71,8 @@ use crate::progress;
 /// {(1,): Fraction(1, 1), (2,): Fraction(-1, 16), (3,): Fraction(-1, 256)}
 /// >>> print(normalize("p^2/2 + w^2*q^2/2 + q^4/4", 2, [("q", "p")], parameters=["w"], frequency=("w", "s")))
 /// I_q + 3/8*I_q^2*s^6
+/// >>> print(normalize("(p^2 + q^2)/2 + c*q^4/4", 2, [("q", "p")], parameters={"c": 2}))
+/// I_q + 3/4*I_q^2
 /// >>> henon_heiles = "(x^2 + X^2 + y^2 + Y^2)/2 + x^2*y - y^3/3"
 /// >>> normalize(henon_heiles, 2, [("x", "X"), ("y", "Y")], resonances=[(1, -1)]).in_real()[4, 0, 0, 0]
 /// Fraction(-5, 48)
@@ -98,6 +100,11 @@ pub(crate) fn normalize(
     let symbols = symbols(py, hamiltonian, variables, parameters)?;
     let order = self::order("order", order, 0, <BigRational as RealField>::MAX_ORDER)?;
     let Expression { polynomial, float } = Expression::new("hamiltonian", hamiltonian, &space)?;
+    let (values, given_float) = values(parameters)?;
+    let values: Vec<_> = values.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
+    let given = space.with_values(&polynomial, &values);
+    let (polynomial, space) = given.map_err(|problem| error::algebra_of("parameters", problem))?;
+    let float = float || given_float;
     let (polynomial, space) = match frequency {
         None => (polynomial, space),
         Some((letter, root)) => {
@@ -185,6 +192,19 @@ fn space(
         space = space.with_degree(&name, degree).map_err(|problem| error::algebra_of("degrees", problem))?;
     }
     Ok(space)
+}
+
+/// The numbers of the parameters that have one, and whether one of them is a float.
+fn values(parameters: Option<&Bound<'_, PyAny>>) -> PyResult<(Vec<(String, BigRational)>, bool)> {
+    let (mut values, mut any_float) = (Vec::new(), false);
+    let dictionary = parameters.and_then(|parameters| parameters.cast::<PyDict>().ok());
+    for (name, value) in dictionary.into_iter().flatten().filter(|(_, value)| !value.is_none()) {
+        let name = name.str()?.to_string();
+        let (value, float) = number(&format!("parameters[{name:?}]"), &value)?;
+        values.push((name, value));
+        any_float |= float;
+    }
+    Ok((values, any_float))
 }
 
 /// The resonances as vectors of integers.

@@ -1,12 +1,15 @@
 //! `andoyer.Orbit`.
 
 use std::ffi::CString;
+use std::sync::atomic::{AtomicBool, Ordering};
 
+use numpy::PyArrayDyn;
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::{array, error};
+use crate::array::Times;
+use crate::{array, error, foreign};
 
 /// The names of the elements after the mean motion and the eccentricity, in the order of the core's.
 const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argument_of_pericentre", "mass_fraction"];
@@ -33,6 +36,8 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 ///     the values at `time_of_pericentre`, and `mean_motion` is the rate of the mean anomaly.
 /// attraction : float, optional
 ///     G × disturbing mass / a³, in 1/time², instead of mean_motion² × mass_fraction. `mass_fraction` is then 1, its default.
+/// semi_major_axis : float, optional
+///     Semi-major axis a, in any unit of length. `position` needs it; the torque of the gravity gradient does not depend on it.
 ///
 /// Warns
 /// -----
@@ -42,7 +47,7 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 /// Raises
 /// ------
 /// InputError
-///     A mean motion or an attraction that is not positive; an eccentricity outside 0 ≤ e < 1; a mass fraction that is not positive or is above 1; a mass fraction beside an attraction; a value
+///     A mean motion, an attraction or a semi-major axis that is not positive; an eccentricity outside 0 ≤ e < 1; a mass fraction that is not positive or is above 1; a mass fraction beside an attraction; a value
 ///     that is not finite.
 /// TypeError
 ///     A text.
@@ -67,7 +72,7 @@ impl Orbit {
     #[new]
     #[pyo3(signature = (
         mean_motion, eccentricity=0.0, *, time_of_pericentre=0.0, inclination=0.0, node=0.0, argument_of_pericentre=0.0, mass_fraction=1.0,
-        node_rate=0.0, pericentre_rate=0.0, attraction=None
+        node_rate=0.0, pericentre_rate=0.0, attraction=None, semi_major_axis=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "the elements, by keyword")]
     fn new(
@@ -82,20 +87,26 @@ impl Orbit {
         #[pyo3(from_py_with = node_rate)] node_rate: f64,
         #[pyo3(from_py_with = pericentre_rate)] pericentre_rate: f64,
         attraction: Option<&Bound<'_, PyAny>>,
+        semi_major_axis: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let attraction = attraction.map(|value| array::number("attraction", value)).transpose()?;
+        let semi_major_axis = semi_major_axis.map(self::semi_major_axis).transpose()?;
         let orbit = andoyer_propagate::Orbit::new(mean_motion, eccentricity)
             .and_then(|orbit| orbit.time_of_pericentre(time_of_pericentre))
             .and_then(|orbit| orbit.plane(inclination, node, argument_of_pericentre))
             .and_then(|orbit| orbit.mass_fraction(mass_fraction))
             .and_then(|orbit| orbit.secular_rates(node_rate, pericentre_rate))
             .and_then(|orbit| attraction.map_or(Ok(orbit), |attraction| orbit.attraction(attraction)))
+            .and_then(|orbit| semi_major_axis.map_or(Ok(orbit), |length| orbit.semi_major_axis(length)))
             .map_err(error::propagation)?;
         doubt(py, &orbit)?;
         Ok(Self(orbit))
     }
 
-    /// The orbit of a satellite about an oblate primary, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3).
+    /// The orbit of a satellite about an oblate primary from its mean elements, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3).
+    ///
+    /// All elements are mean ones. Osculating elements, such as those of a position and a velocity, differ from them by the periodic terms. Given instead of the mean
+    /// ones they change the mean motion, and a satellite near the Earth is then some 100 km off after an hour.
     ///
     /// Let n0² = GM/a³, p = a (1 − e²) and k = (3/2) n0 J2 (R/p)². The rate of the node is −k cos i, the rate of the argument of the pericentre is k (2 − (5/2)
     /// sin² i), and the rate of the mean anomaly is n0 + k √(1 − e²) (1 − (3/2) sin² i), which is `mean_motion`. Periodic terms of relative size J2 (R/p)² are
@@ -108,15 +119,15 @@ impl Orbit {
     /// semi_major_axis : float
     ///     Mean semi-major axis a, in units of length.
     /// eccentricity : float
-    ///     0 or more and less than 1.
+    ///     Mean eccentricity, 0 or more and less than 1.
     /// inclination : float
-    ///     Inclination i to the equator of the primary, which is the inertial x, y plane, in rad.
+    ///     Mean inclination i to the equator of the primary, which is the inertial x, y plane, in rad.
     /// j2 : float
     ///     J2 of the primary.
     /// radius : float
     ///     The reference radius of J2, in units of length.
     /// node, argument_of_pericentre : float, optional
-    ///     Longitude of the node and argument of the pericentre at `time_of_pericentre`, in rad.
+    ///     Mean longitude of the node and mean argument of the pericentre at `time_of_pericentre`, in rad.
     /// time_of_pericentre : float, optional
     ///     A time at which the pericentre is passed.
     ///
@@ -161,6 +172,93 @@ impl Orbit {
             .map_err(error::propagation)?;
         doubt(py, &orbit)?;
         Ok(Self(orbit))
+    }
+
+    /// The Keplerian orbit through a position with a velocity at a time.
+    ///
+    /// The semi-major axis follows from 1/a = 2/r − v²/GM, and the mean motion is √(GM/a³). Node and argument of the pericentre are in [0, 2π), and the time of
+    /// pericentre is the one nearest to `time`. If the inclination is 0 or π, the node is on the inertial x axis. If the eccentricity is 0, the pericentre is
+    /// the given position.
+    ///
+    /// Parameters
+    /// ----------
+    /// position : array_like, shape (3,)
+    ///     Position of the disturbing body relative to the rotating one, or of a satellite relative to its primary, in inertial components.
+    /// velocity : array_like, shape (3,)
+    ///     Velocity, in inertial components.
+    /// gm : float
+    ///     G × the sum of both masses, in length³/time².
+    /// time : float or Time
+    ///     The time of position and velocity.
+    /// mass_fraction : float, optional
+    ///     As for `Orbit`.
+    ///
+    /// Returns
+    /// -------
+    /// Orbit
+    ///     With its `semi_major_axis`.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A position of 0; a gm that is not positive; an eccentricity of 1 or more (parabola, hyperbola, straight fall); a value that is not finite.
+    ///
+    /// Examples
+    /// --------
+    /// >>> orbit = Orbit.from_state([7e6, 0, 0], [0, 0, 7.5e3], 3.986004415e14, 60.0)
+    /// >>> round(orbit.semi_major_axis), round(orbit.eccentricity, 6)
+    /// (6915843, 0.012169)
+    /// >>> bool(abs(orbit.position(60.0) - [7e6, 0, 0]).max() < 1e-7)
+    /// True
+    #[staticmethod]
+    #[pyo3(signature = (position, velocity, gm, time, *, mass_fraction=1.0))]
+    fn from_state(
+        position: &Bound<'_, PyAny>,
+        velocity: &Bound<'_, PyAny>,
+        #[pyo3(from_py_with = gm)] gm: f64,
+        #[pyo3(from_py_with = time)] time: f64,
+        #[pyo3(from_py_with = mass_fraction)] mass_fraction: f64,
+    ) -> PyResult<Self> {
+        let [position, velocity] = [array::fixed("position", position)?, array::fixed("velocity", velocity)?];
+        let orbit = andoyer_propagate::Orbit::from_state(position, velocity, gm, time);
+        orbit.and_then(|orbit| orbit.mass_fraction(mass_fraction)).map(Self).map_err(error::propagation)
+    }
+
+    /// The positions at some times, in inertial components and in the unit of the semi-major axis.
+    ///
+    /// They are what the elements describe: the positions of the disturbing body relative to the rotating one. Elements of a satellite about its primary, as
+    /// of `around_oblate`, give the positions of the satellite relative to the primary. With secular rates, node and pericentre are those of each time.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,), or Time
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (3,) or (n, 3)
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     An orbit without a `semi_major_axis`; a time that is not finite, or more than 1e15 periods from the pericentre.
+    ///
+    /// Examples
+    /// --------
+    /// >>> Orbit(1.0, 0.5, semi_major_axis=2.0).position([0.0, 3.141592653589793]).round(12) + 0.0
+    /// array([[ 1.,  0.,  0.],
+    ///        [-3.,  0.,  0.]])
+    fn position<'py>(&self, times: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let times = Times::new(&foreign::plain("times", times)?, None, false)?;
+        let evaluate = |times: &[f64], rows: &mut [[f64; 3]], stop: &AtomicBool| {
+            for (time, row) in times.iter().zip(rows) {
+                if stop.load(Ordering::Relaxed) {
+                    return Err(andoyer_propagate::Error::Stopped);
+                }
+                *row = self.0.position(*time)?;
+            }
+            Ok(())
+        };
+        times.evaluate(None, evaluate).map(|(rows, ())| rows)
     }
 
     /// Mean motion n, in rad per unit of time.
@@ -223,6 +321,12 @@ impl Orbit {
         self.0.strength()
     }
 
+    /// Semi-major axis a, in units of length, or None.
+    #[getter]
+    fn semi_major_axis(&self) -> Option<f64> {
+        self.0.asked_semi_major_axis()
+    }
+
     pub(crate) fn __repr__(&self) -> String {
         let [mean_motion, eccentricity, ..] = self.0.elements();
         let keywords: Vec<_> = self.keywords().iter().map(|(key, value)| format!(", {key}={value:?}")).collect();
@@ -231,7 +335,8 @@ impl Orbit {
 
     pub(crate) fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
         let [node_rate, pericentre_rate] = self.0.rates();
-        let rest = [node_rate, pericentre_rate, self.0.asked_attraction().unwrap_or(0.0)];
+        let [attraction, length] = [self.0.asked_attraction(), self.0.asked_semi_major_axis()];
+        let rest = [node_rate, pericentre_rate, attraction.unwrap_or(0.0), length.unwrap_or(0.0)];
         PyTuple::new(py, self.0.elements().into_iter().chain(rest).collect::<Vec<_>>())?.hash()
     }
 
@@ -254,13 +359,14 @@ impl Orbit {
 }
 
 impl Orbit {
-    /// The keyword arguments of this orbit; rates and attraction only if they were given.
+    /// The keyword arguments of this orbit; rates, attraction and semi-major axis only if they were given.
     fn keywords(&self) -> Vec<(&'static str, f64)> {
         let [_, _, rest @ ..] = self.0.elements();
         let [node_rate, pericentre_rate] = self.0.rates();
         let rates = [("node_rate", node_rate), ("pericentre_rate", pericentre_rate)];
         let attraction = self.0.asked_attraction().map(|attraction| ("attraction", attraction));
-        let more = rates.into_iter().filter(|(_, rate)| *rate != 0.0).chain(attraction);
+        let length = self.0.asked_semi_major_axis().map(|length| ("semi_major_axis", length));
+        let more = rates.into_iter().filter(|(_, rate)| *rate != 0.0).chain(attraction).chain(length);
         KEYWORDS.into_iter().zip(rest).chain(more).collect()
     }
 }
@@ -286,4 +392,4 @@ macro_rules! number {
 }
 
 number!(mean_motion, eccentricity, time_of_pericentre, inclination, node, argument_of_pericentre, mass_fraction);
-number!(node_rate, pericentre_rate, gm, semi_major_axis, j2, radius);
+number!(node_rate, pericentre_rate, gm, semi_major_axis, j2, radius, time);

@@ -7,6 +7,8 @@ use crate::foreign::Calendar;
 
 /// A body, its state at an epoch, and the requested accuracy of the solution.
 ///
+/// Only the gravity of point masses acts on the body: there is no magnetic torque, no wheel, no drag, no radiation pressure and no damping.
+///
 /// Time, moments and angular velocity are in any consistent set of units; angles are in rad.
 ///
 /// Parameters

@@ -146,7 +146,7 @@ pub enum Error {
     },
     /// A quadratic part with rational coefficients whose eigenvalues are not rational.
     #[error(
-        "the eigenvalues {eigenvalue} of the quadratic part in {pairs} are not rational (with a denominator below 1e7): use floats"
+        "the eigenvalues {eigenvalue} of the quadratic part in {pairs} are not rational (with a denominator below 1e7): use floats, or, if all frequencies are rational multiples of one root, write a parameter w for the root and scale w away (PhaseSpace::scaled; in Python the argument frequency)"
     )]
     SpectrumIrrational {
         /// The pairs of the coupled block.
@@ -156,7 +156,7 @@ pub enum Error {
     },
     /// A frequency √(ab) that is not rational although the coefficients are.
     #[error(
-        "the frequency of the mode ({coordinate}, {momentum}) is the square root of {square}, which is not rational: use floats"
+        "the frequency of the mode ({coordinate}, {momentum}) is the square root of {square}, which is not rational: use floats, or, if all frequencies are rational multiples of this root, write w^2 for {square} with a parameter w and scale w away (PhaseSpace::scaled; in Python the argument frequency)"
     )]
     FrequencyIrrational {
         /// Name of q.

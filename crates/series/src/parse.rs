@@ -232,6 +232,9 @@ impl Parser<'_> {
                 let polynomial = match (names.iter().position(|known| *known == name), C::imaginary_unit()) {
                     (Some(slot), _) => Polynomial::variable(slot)?,
                     (None, Some(unit)) if name == "i" => Polynomial::constant(unit),
+                    _ if called && name == "sqrt" => {
+                        return Err(Error::Parse { position, problem: ParseProblem::SquareRoot });
+                    }
                     _ if called => return Err(Error::Parse { position, problem: ParseProblem::Function(name) }),
                     _ => return Err(Error::Parse { position, problem: ParseProblem::UnknownName(name) }),
                 };

@@ -60,6 +60,7 @@ impl Error {
             | Self::Direction { .. }
             | Self::Andoyer { .. }
             | Self::Orbit { .. }
+            | Self::NoSemiMajorAxis
             | Self::Table { .. }
             | Self::TableSpan { .. }
             | Self::NoSpan { .. }
@@ -142,6 +143,7 @@ impl Error {
             Self::Latitude { value } => facts("momentum_direction", *value, "a latitude from -pi/2 to pi/2"),
             Self::Andoyer { value, bound, .. } => facts("andoyer", *value, bound),
             Self::Orbit { argument, value, bound } => facts(argument, *value, *bound),
+            Self::NoSemiMajorAxis => facts("semi_major_axis", "none", "positive"),
             Self::Table { argument, value, bound, .. } => facts(argument, *value, *bound),
             _ => return None,
         })

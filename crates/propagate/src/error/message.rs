@@ -36,11 +36,12 @@ impl fmt::Display for Error {
             Self::Convention { value } => write!(f, "convention = {value:?}: it must be \"extremal-axis\", \"long-axis\" or \"short-axis\""),
             Self::ModeName { value } => write!(f, "mode = {value:?}: it must be \"short-axis\" or \"long-axis\""),
             Self::NoSuchMode { mode, moments, pair } => write!(f, "mode = {mode:?}: a body with moments {moments:?} does not have this mode, since its {pair} moments are equal"),
-            Self::PeriodRatio { ratio, mode, convention, lower, upper } => write!(f, "rotation/precession = {ratio}: in the {mode} mode and the {convention} convention this body has P_ψ/P_φ from {lower} up to {upper}", ratio = Short(*ratio), lower = Short(*lower), upper = Short(*upper)),
+            Self::PeriodRatio { ratio, mode, convention, lower, upper, possible, swapped } => write!(f, "rotation/precession = {ratio}: in the {mode} mode and the {convention} convention this body has P_ψ/P_φ from {lower} up to {upper}; {}", elsewhere(possible, swapped), ratio = Short(*ratio), lower = Short(*lower), upper = Short(*upper)),
             Self::Latitude { value: [longitude, latitude] } => write!(f, "momentum_direction = [{longitude}, {latitude}]: it is [longitude, latitude] in radians, and the latitude must be from -π/2 to π/2", longitude = Short(*longitude), latitude = Short(*latitude)),
             Self::Direction { argument, value } => write!(f, "{argument} = {value:?}: it must be finite{}", if value.iter().any(|x| *x != 0.0) { "" } else { " and not 0" }),
             Self::Andoyer { index, value, bound } => write!(f, "andoyer[{index}] = {value}: it must be {bound}", value = Short(*value)),
             Self::Orbit { argument, value, bound } => write!(f, "orbit.{argument} = {value}: it must be {bound}", value = Short(*value)),
+            Self::NoSemiMajorAxis => f.write_str("orbit.semi_major_axis: none is given, and a position on the orbit needs it; it must be positive, in the unit of length of the position"),
             Self::Level { value } => write!(f, "level = {value:?}: it must be \"auto\", \"paper\", \"moving\", \"full\" or \"second-order\""),
             Self::OneFixedOrbit { argument, value } => write!(f, "{argument} = \"{value}\" needs one disturbing body on an orbit without node_rate and pericentre_rate"),
             Self::Averaging { value } => write!(f, "averaging = {value:?}: it must be \"auto\", \"orbit\" or \"spin\""),
@@ -66,6 +67,19 @@ impl fmt::Display for Error {
             Self::Series(error) => error.fmt(f),
             Self::SceneFile { file, key, problem, .. } => write!(f, "{file}: {key}: {problem}"),
         }
+    }
+}
+
+/// The modes and conventions in which a pair of periods is possible, as the end of a sentence.
+fn elsewhere(possible: &[[String; 2]], swapped: &[[String; 2]]) -> String {
+    let listed = |pairs: &[[String; 2]]| {
+        let named = pairs.iter().map(|[mode, convention]| format!("mode = {mode:?} and convention = {convention:?}"));
+        named.collect::<Vec<_>>().join(", or with ")
+    };
+    match (possible, swapped) {
+        ([], []) => "no mode and no convention has this ratio, nor its inverse".to_owned(),
+        ([], swapped) => format!("the two periods fit only if they are swapped, with {}", listed(swapped)),
+        (possible, _) => format!("the ratio is possible with {}", listed(possible)),
     }
 }
 

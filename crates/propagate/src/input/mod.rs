@@ -7,6 +7,7 @@ mod catalogue;
 pub(crate) mod disturbing_body;
 pub(crate) mod options;
 pub(crate) mod orbit;
+mod orbit_state;
 mod principal_axes;
 pub(crate) mod scene;
 pub(crate) mod state;

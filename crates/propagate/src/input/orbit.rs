@@ -14,7 +14,10 @@ use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
 /// Largest mean anomaly from the pericentre \[rad\]. Beyond it a double has no phase.
-const MOST_TURNS: f64 = TAU * 1e15;
+pub(super) const MOST_TURNS: f64 = TAU * 1e15;
+
+/// Largest semi-major axis. No position on its orbit overflows.
+const LONGEST: f64 = 1e300;
 
 const POSITIVE: &str = "positive and finite";
 
@@ -54,6 +57,7 @@ pub struct Orbit {
     node_rate: f64,
     pericentre_rate: f64,
     attraction: Option<f64>,
+    semi_major_axis: Option<f64>,
 }
 
 impl Orbit {
@@ -77,15 +81,17 @@ impl Orbit {
             node_rate: 0.0,
             pericentre_rate: 0.0,
             attraction: None,
+            semi_major_axis: None,
         })
     }
 
-    /// The orbit about an oblate primary, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3). The rotating
-    /// body is the satellite and the primary is the disturbing body.
+    /// The orbit about an oblate primary from its mean elements, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter
+    /// 3). The rotating body is the satellite and the primary is the disturbing body.
     ///
     /// Let n0² = GM/a³, p = a(1 − e²) and k = (3/2) n0 J2 (R/p)². The node rate is −k cos i, the pericentre rate k (2 − (5/2) sin² i), and the mean motion n0 +
-    /// k √(1 − e²) (1 − (3/2) sin² i), which is the rate of the mean anomaly. The attraction is GM/a³. `semi_major_axis` is the mean semi-major axis. Periodic
-    /// terms, of relative size J2 (R/p)², are omitted.
+    /// k √(1 − e²) (1 − (3/2) sin² i), which is the rate of the mean anomaly. The attraction is GM/a³. All elements are mean ones.
+    /// Periodic terms, of relative size J2 (R/p)², are omitted. Osculating elements differ from the mean ones by these terms; given instead of the mean ones they
+    /// change the mean motion, and an orbit near the Earth is some 100 km off after an hour.
     ///
     /// ```
     /// use andoyer_propagate::Orbit;
@@ -124,7 +130,8 @@ impl Orbit {
         Self::new(anomaly, eccentricity)?
             .plane(inclination, 0.0, 0.0)?
             .secular_rates(-k * cosine, k * (2.0 - 2.5 * sine * sine))?
-            .attraction(attraction)
+            .attraction(attraction)?
+            .semi_major_axis(semi_major_axis)
     }
 
     /// Sets a time of pericentre passage [unit of time].
@@ -183,6 +190,20 @@ impl Orbit {
         check("attraction", attraction, attraction > 0.0 && attraction.is_finite(), POSITIVE)?;
         check("attraction", attraction, self.mass_fraction == 1.0, NOT_BOTH[1])?;
         Ok(Self { attraction: Some(attraction), ..self })
+    }
+
+    /// Sets the semi-major axis a \[length\], which [`Orbit::position`] needs. Torques of the gravity gradient do not depend on it.
+    ///
+    /// # Errors
+    /// - [`Error::Orbit`] for 0, −1, NaN or 1e301.
+    pub fn semi_major_axis(self, length: f64) -> Result<Self, Error> {
+        check("semi_major_axis", length, length > 0.0 && length <= LONGEST, "positive and at most 1e300")?;
+        Ok(Self { semi_major_axis: Some(length), ..self })
+    }
+
+    /// The given semi-major axis \[length\], or `None`.
+    pub fn asked_semi_major_axis(&self) -> Option<f64> {
+        self.semi_major_axis
     }
 
     /// Sets node and argument of the pericentre at the time of pericentre, which replace those of [`Orbit::plane`] \[rad\].
@@ -303,10 +324,14 @@ impl Orbit {
         Phase::new(rate.into(), TAU * rest.to_f64())
     }
 
+    /// The largest rate of an angle of the orbit [rad per unit of time].
+    pub(crate) fn fastest(&self) -> f64 {
+        self.mean_motion.max(self.node_rate.abs()).max(self.pericentre_rate.abs())
+    }
+
     /// Checks that the mean anomaly can be computed at an epoch.
     pub(crate) fn within_reach(&self, epoch: f64) -> Result<(), Error> {
-        let fastest = self.mean_motion.max(self.node_rate.abs()).max(self.pericentre_rate.abs());
-        let bounded = (epoch - self.time_of_pericentre).abs() * fastest <= MOST_TURNS;
+        let bounded = (epoch - self.time_of_pericentre).abs() * self.fastest() <= MOST_TURNS;
         check("time_of_pericentre", self.time_of_pericentre, bounded, "within 1e15 periods of the epoch of the state")
     }
 
@@ -324,7 +349,7 @@ impl Orbit {
     }
 }
 
-fn check(argument: &'static str, value: f64, holds: bool, bound: &'static str) -> Result<(), Error> {
+pub(super) fn check(argument: &'static str, value: f64, holds: bool, bound: &'static str) -> Result<(), Error> {
     if holds { Ok(()) } else { Err(Error::Orbit { argument, value, bound }) }
 }
 

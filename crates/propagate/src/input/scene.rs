@@ -139,6 +139,12 @@ impl Scene {
         self.starting_from(self.body.about_principal_axes(), state)
     }
 
+    /// The same scene with another state. The span stays.
+    #[must_use]
+    pub fn with_state(&self, state: State) -> Self {
+        Self { state, ..self.clone() }
+    }
+
     /// The same scene with another body and another state.
     pub(crate) fn starting_from(&self, body: Body, state: State) -> Self {
         Self { body, state, ..self.clone() }

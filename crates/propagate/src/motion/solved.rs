@@ -9,6 +9,7 @@ use super::trajectory::Trajectory;
 use crate::error::Error;
 use crate::input::options::Convention;
 use crate::input::scene::Scene;
+use crate::input::state::State;
 
 /// Largest number of rotations from the epoch, within which phases are accurate to 1e-14 rad. Not far beyond, a double no longer distinguishes one turn from
 /// the next.
@@ -172,6 +173,26 @@ impl Motion {
         self.batch().samples_into(&[time], &mut attitude, &mut rates)?;
         let attitude = UnitQuaternion::new_unchecked(attitude[0].into());
         Ok(Sample { time, attitude, angular_velocity: rates[0].into() })
+    }
+
+    /// The scene of the state at a time, with that time as its epoch: the same body, disturbing bodies and options.
+    ///
+    /// After a torque its motion has the periods of that time. The frequencies of an integrated motion are those of the free motion at the epoch.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Body, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?;
+    /// let motion = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).solve()?;
+    /// let later = motion.scene_at(100.0)?;
+    /// assert!(later.state().epoch == 100.0 && later.solve()?.at(150.0)?.attitude.angle_to(&motion.at(150.0)?.attitude) < 1e-13);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The errors of [`Motion::at`].
+    pub fn scene_at(&self, time: f64) -> Result<Scene, Error> {
+        let Sample { time: epoch, attitude, angular_velocity } = self.at(time)?;
+        self.scene().with_state(State { epoch, attitude, angular_velocity }).into_validated()
     }
 
     /// Writes the attitudes [x, y, z, w] at many times to `out`, without an allocation.

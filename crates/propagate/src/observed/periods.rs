@@ -31,6 +31,14 @@ const HIGHEST_LATITUDE: f64 = std::f32::consts::FRAC_PI_2 as f64;
 /// A ratio this near to that on the axis counts as equal to it.
 const RATIO_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
+/// Every mode with its two different conventions; the extremal axis is the axis of the mode.
+const FAMILIES: [(Mode, Convention); 4] = [
+    (Mode::ShortAxis, Convention::ExtremalAxis),
+    (Mode::ShortAxis, Convention::LongAxis),
+    (Mode::LongAxis, Convention::ExtremalAxis),
+    (Mode::LongAxis, Convention::ShortAxis),
+];
+
 /// The periods of a tumbler, as published.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ObservedPeriods {
@@ -141,8 +149,9 @@ impl Scene {
     pub fn from_periods(body: Body, periods: &ObservedPeriods) -> Result<Self, Error> {
         periods.validate()?;
         let family = Family::new(&body, periods.mode, periods.convention)?;
+        family.admits(periods.rotation / periods.precession, &body)?;
         let principal = body.about_principal_axes();
-        let start = family.state(periods)?;
+        let start = family.state(periods);
         let passed = Scene::new(principal, start).solve()?.at(periods.phases[0].rem_euclid(1.0) * periods.rotation)?;
         // The precession during the phase along the polhode is subtracted.
         let turns = periods.phases[1] - periods.phases[0].rem_euclid(1.0) * periods.rotation / periods.precession;
@@ -253,20 +262,41 @@ impl Family {
         (own / gamma).to_f64().abs()
     }
 
-    /// The polhode with M = 1 and this ratio of periods.
-    fn with_ratio(&self, ratio: f64) -> Result<Polhode, Error> {
-        let highest = self.highest();
-        let (lower, upper) = (self.lowest(), self.ratio(highest));
+    /// Whether the ratio is between the lowest and the highest, which are returned too.
+    fn reaches(&self, ratio: f64) -> (bool, [f64; 2]) {
+        let (lower, upper) = (self.lowest(), self.ratio(self.highest()));
         // This condition is false for NaN.
-        let within = ratio >= lower * (1.0 - RATIO_ROUNDING) && ratio <= upper;
-        if !within {
-            let (mode, convention) = (self.mode.to_string(), self.convention.to_string());
-            return Err(Error::PeriodRatio { ratio, mode, convention, lower, upper });
+        (ratio >= lower * (1.0 - RATIO_ROUNDING) && ratio <= upper, [lower, upper])
+    }
+
+    /// Refuses a ratio that the body cannot have in this mode and convention, and names those in which it can.
+    fn admits(&self, ratio: f64, body: &Body) -> Result<(), Error> {
+        let (reached, [lower, upper]) = self.reaches(ratio);
+        if reached {
+            return Ok(());
         }
-        if ratio <= lower * (1.0 + RATIO_ROUNDING) {
-            return Ok(self.axial.with_squares([DoubleDouble::ZERO, DoubleDouble::ONE], 1.0));
+        let fitting = |ratio: f64| {
+            let fits = |&(mode, convention): &(Mode, Convention)| {
+                Family::new(body, mode, convention).is_ok_and(|family| family.reaches(ratio).0)
+            };
+            FAMILIES
+                .into_iter()
+                .filter(fits)
+                .map(|(mode, convention)| [mode.to_string(), convention.to_string()])
+                .collect::<Vec<_>>()
+        };
+        let possible = fitting(ratio);
+        let swapped = if possible.is_empty() { fitting(1.0 / ratio) } else { Vec::new() };
+        let (mode, convention) = (self.mode.to_string(), self.convention.to_string());
+        Err(Error::PeriodRatio { ratio, mode, convention, lower, upper, possible, swapped })
+    }
+
+    /// The polhode with M = 1 and this ratio of periods.
+    fn with_ratio(&self, ratio: f64) -> Polhode {
+        if ratio <= self.lowest() * (1.0 + RATIO_ROUNDING) {
+            return self.axial.with_squares([DoubleDouble::ZERO, DoubleDouble::ONE], 1.0);
         }
-        Ok(self.polhode(bisected([RANGE[0], highest], |logarithm| self.ratio(logarithm) < ratio)))
+        self.polhode(bisected([RANGE[0], self.highest()], |logarithm| self.ratio(logarithm) < ratio))
     }
 
     /// The largest ln(sin²J/cos²J) at ℓ = 0 for which the state holds the periods.
@@ -281,8 +311,8 @@ impl Family {
     }
 
     /// The state at time 0 with phases 0: ℓ = π/2, where cos J has its maximum.
-    fn state(&self, periods: &ObservedPeriods) -> Result<State, Error> {
-        let polhode = self.with_ratio(periods.rotation / periods.precession)?;
+    fn state(&self, periods: &ObservedPeriods) -> State {
+        let polhode = self.with_ratio(periods.rotation / periods.precession);
         let [precession, _] = self.rates(&polhode);
         let momentum = TAU / (precession.to_f64() * periods.precession);
         let [_, sine] = polhode.invariants.sine_squares.map(|square| square.to_f64().sqrt());
@@ -295,6 +325,6 @@ impl Family {
         let columns = [pole * -sine + node * cosine, pole.cross(&node), pole * cosine + node * sine];
         let sorted = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&columns));
         let attitude = UnitQuaternion::from_rotation_matrix(&sorted) * self.axial.frame.quaternion;
-        Ok(State { epoch: 0.0, attitude, angular_velocity: rates.into() })
+        State { epoch: 0.0, attitude, angular_velocity: rates.into() }
     }
 }

@@ -135,6 +135,7 @@ impl OrbitTable {
             ("node_rate", self.node_rate),
             ("pericentre_rate", self.pericentre_rate),
             ("attraction", self.attraction),
+            ("semi_major_axis", self.semi_major_axis),
         ];
         elements.into_iter().find_map(|(key, element)| element.map(|_| key))
     }
@@ -148,9 +149,7 @@ impl OrbitTable {
             .plane(inclination, node, argument)?
             .mass_fraction(self.mass_fraction.unwrap_or(1.0))?
             .secular_rates(self.node_rate.unwrap_or_default(), self.pericentre_rate.unwrap_or_default())?;
-        Ok(match self.attraction {
-            Some(attraction) => orbit.attraction(attraction)?,
-            None => orbit,
-        })
+        let orbit = self.attraction.map_or(Ok(orbit), |attraction| orbit.attraction(attraction))?;
+        Ok(self.semi_major_axis.map_or(Ok(orbit), |length| orbit.semi_major_axis(length))?)
     }
 }

@@ -104,6 +104,8 @@ pub(super) struct OrbitTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) attraction: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) semi_major_axis: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) times: Option<Vec<f64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) positions: Option<Vec<[f64; 3]>>,

@@ -79,6 +79,7 @@ impl OrbitTable {
             node_rate,
             pericentre_rate,
             attraction: orbit.asked_attraction(),
+            semi_major_axis: orbit.asked_semi_major_axis(),
             ..Self::default()
         }
     }

@@ -124,7 +124,13 @@ class Orbit:
         node_rate: float = 0.0,
         pericentre_rate: float = 0.0,
         attraction: float | None = None,
+        semi_major_axis: float | None = None,
     ) -> Orbit: ...
+    @staticmethod
+    def from_state(position: ArrayLike, velocity: ArrayLike, gm: float, time: float | Any, *, mass_fraction: float = 1.0) -> Orbit:
+        """The Keplerian orbit through a position with a velocity at a time."""
+    def position(self, times: ArrayLike | Any) -> _Array:
+        """The positions at some times, in inertial components and in the unit of the semi-major axis."""
     @staticmethod
     def around_oblate(
         gm: float,
@@ -138,7 +144,7 @@ class Orbit:
         argument_of_pericentre: float = 0.0,
         time_of_pericentre: float = 0.0,
     ) -> Orbit:
-        """The orbit of a satellite about an oblate primary, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3)."""
+        """The orbit of a satellite about an oblate primary from its mean elements, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3)."""
     @property
     def mean_motion(self) -> float:
         """Mean motion n, in rad per unit of time."""
@@ -169,6 +175,9 @@ class Orbit:
     @property
     def attraction(self) -> float:
         """G × disturbing mass / a³, in 1/time²: by default mean_motion² × mass_fraction."""
+    @property
+    def semi_major_axis(self) -> float | None:
+        """Semi-major axis a, in units of length, or None."""
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
@@ -307,6 +316,8 @@ class Motion:
         """Evaluates attitudes as a `scipy.spatial.transform.Rotation`, body to inertial. This method imports SciPy."""
     def partials(self, times: ArrayLike) -> Partials:
         """Evaluates the derivatives of attitude and angular velocity with respect to the initial state and the moments (theory §12)."""
+    def scene_at(self, time: float | Any) -> Scene:
+        """The scene of the state at a time: the same body, disturbing bodies and options, with this time as the epoch."""
     def to_code(self, language: Literal["c", "rust", "python", "javascript"] = "c") -> str:
         """Writes a source file with a self-contained function `rotation(time)` that evaluates this motion (theory §8)."""
     def _code(self, language: Literal["c", "rust", "python", "javascript"]) -> tuple[str, float, float]:
@@ -601,6 +612,8 @@ class BirkhoffNormalForm:
         """The resonances that were kept: vectors k with k·ω = 0. Their terms depend on the resonant angles k·φ."""
     def in_actions(self) -> _Polynomial:
         """K as a function of the actions: coefficients by exponents of I₁, I₂, …, parameters. It includes the constant term of H."""
+    def in_angles(self) -> dict[tuple[int, ...], dict[tuple[int, ...], tuple[float, float]]]:
+        """K in the actions and the resonant angles: the terms of each angle k·φ, by k."""
     def in_complex(self) -> dict[tuple[int, ...], tuple[_Number, _Number]]:
         """K in the complex variables: (re, im) by exponents of u₁, U₁, u₂, U₂, …, parameters."""
     def in_real(self) -> _Polynomial:
@@ -667,7 +680,7 @@ def normalize(
     order: int,
     variables: Sequence[tuple[Any, Any]],
     *,
-    parameters: Sequence[Any] | None = None,
+    parameters: Sequence[Any] | dict[Any, Any] | None = None,
     degrees: dict[str, int] | None = None,
     frequency: tuple[str, str] | None = None,
     resonances: Sequence[Sequence[int]] | None = None,

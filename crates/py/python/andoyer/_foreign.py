@@ -37,6 +37,8 @@ UNITS = {
     "semi_major_axis": "m",
     "radius": "m",
     "positions": "m",
+    "position": "m",
+    "velocity": "m / s",
     "moments": "kg m2",
     "tensor": "kg m2",
     "tolerance": "rad",
@@ -187,6 +189,14 @@ def calendar(first: list[float], second: list[float]) -> Any:
     import astropy.time  # type: ignore[import-untyped, import-not-found, unused-ignore]
 
     return astropy.time.Time(np.array(first), np.array(second), format="jd", scale="tdb")
+
+
+def later(epoch: list[float] | None, seconds: float) -> Any:
+    """The Time that is some TDB seconds after an epoch, given as a TDB Julian date in two doubles, or after J2000."""
+    import astropy.time
+
+    first, second = epoch or (J2000, 0.0)
+    return calendar([first], [second])[0] + astropy.time.TimeDelta(seconds, format="sec", scale="tdb")
 
 
 def numbers(times: Any) -> NDArray[Any]:

@@ -4,6 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::Error as Propagation;
 use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PySlice, PyTuple};
@@ -77,6 +78,11 @@ impl<'py> Times<'py> {
         }
         let leading = if shape.len() < 2 { std::iter::once(members).chain(shape).collect() } else { shape };
         Ok(Self { array: read("times", &array)?, members: Some(members), leading, given, disturbed })
+    }
+
+    /// The exception for an axis of times where one time is required.
+    pub(crate) fn scalar(&self, argument: &str) -> PyErr {
+        PyTypeError::new_err(format!("{argument} must be one time, not an array of shape {:?}", self.leading))
     }
 
     /// True if the numbers are seconds since the epoch.

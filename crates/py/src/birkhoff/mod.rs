@@ -145,6 +145,38 @@ impl BirkhoffNormalForm {
         either!(&self.form, form => real(py, &detached(py, error::algebra, || form.in_actions())?, slots))
     }
 
+    /// K in the actions and the resonant angles: the terms of each angle k·φ, by k.
+    ///
+    /// K = Σ √I₁^n₁ √I₂^n₂ … c^m (a cos k·φ + b sin k·φ). A centre has q = √(2rI) sin φ, p = √(2I/r) cos φ. For k = 0 the terms are those without angles; there
+    /// saddles and quartets have the actions of `in_actions`.
+    ///
+    /// Returns
+    /// -------
+    /// dict of {tuple of int: dict of {tuple of int: (float, float)}}
+    ///     (a, b) by the exponents n₁, n₂, … of the square roots of the actions and the exponents m of the parameters.
+    ///
+    /// Raises
+    /// ------
+    /// TheoryError
+    ///     A resonant term of a saddle or a quartet, which has no angle.
+    ///
+    /// Examples
+    /// --------
+    /// >>> spring = normalize("(p^2 + x^2)/2 + (P^2 + 4*y^2)/2 + x^2*y", 1, [("x", "p"), ("y", "P")], resonances=[(2, -1)])
+    /// >>> spring.in_angles()
+    /// {(0, 0): {(2, 0): (1.0, 0.0), (0, 2): (2.0, 0.0)}, (2, -1): {(2, 1): (0.0, 0.5)}}
+    fn in_angles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let result = PyDict::new(py);
+        for (multiples, terms) in either!(&self.form, form => detached(py, error::algebra, || form.angle_terms())?) {
+            let part = PyDict::new(py);
+            for (exponents, [cosine, sine]) in terms {
+                part.set_item(PyTuple::new(py, exponents)?, (cosine, sine))?;
+            }
+            result.set_item(PyTuple::new(py, multiples)?, part)?;
+        }
+        Ok(result)
+    }
+
     /// K in the complex variables: (re, im) by exponents of u₁, U₁, u₂, U₂, …, parameters.
     fn in_complex<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         match &self.form {

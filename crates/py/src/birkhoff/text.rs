@@ -143,7 +143,10 @@ impl BirkhoffNormalForm {
         format!("<BirkhoffNormalForm of order {} in {}, {numbers}{radius}>", self.order(), space.names().join(", "))
     }
 
-    /// K as text, in the actions or, if it has resonant terms, in the complex variables.
+    /// K as text, in the actions: ``I_q`` of a centre, ``(q*p)`` of a saddle, ``(q*p + Q*P)`` and ``(q*P - Q*p)`` of a quartet.
+    ///
+    /// With resonant terms there are two lines: in the complex variables, and in the actions and the resonant angles. The second line is in the real variables if
+    /// there are resonant terms of saddles or quartets, or if ``keep="hyperbolic"``.
     fn __str__(&self, py: Python<'_>) -> PyResult<String> {
         detached(py, |never: Infallible| match never {}, || Ok(either!(&self.form, form => form.to_string())))
     }

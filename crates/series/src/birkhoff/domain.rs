@@ -43,7 +43,8 @@ impl<R: RealField> BirkhoffNormalForm<R> {
                 let powers = sizes.iter().enumerate().map(|(slot, size)| size.powi(monomial.exponent(slot) as i32));
                 modulus::<R>(c) * powers.product::<f64>()
             };
-            generator.terms().map(bound).sum::<f64>()
+            // `sum` of no terms is −0.
+            generator.terms().map(bound).fold(0.0, |sum, size| sum + size)
         };
         let generators = (1..=self.order()).filter_map(|m| self.transform().scaled_generator(m));
         Ok(Domain { norms: generators.map(norm).collect() })

@@ -11,6 +11,7 @@
 //! Amer. J. Math. 58 (1936) 141; F. G. Gustavson, Astron. J. 71 (1966) 670; A. Deprit, Celest. Mech. 1 (1969) 12; A. Jorba and J. Masdemont, Physica D 132
 //! (1999) 189.
 
+mod actions;
 mod code;
 mod diagonal;
 mod domain;
@@ -29,6 +30,7 @@ mod transformation;
 mod verify;
 mod williamson;
 
+pub use actions::{AnglePart, AngleTerms};
 pub use domain::Domain;
 pub use map::BirkhoffMap;
 pub use mode::Mode;
@@ -40,7 +42,7 @@ use crate::triangle::{LieTransform, Normalization, Progress, quiet};
 use crate::triangle::{Removal, normalize_by};
 use crate::{Coefficient, Error, Monomial, Polynomial};
 use diagonal::Diagonal;
-use mode::{modulus, substitute};
+use mode::modulus;
 use resonances::{divisor, is_small};
 use transformation::{changed, to_complex, to_real};
 
@@ -268,48 +270,6 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// - None for an existing normal form: degrees do not change.
     pub fn in_real(&self) -> Result<Polynomial<R>, Error> {
         to_real(&self.in_complex(), self.modes())
-    }
-
-    /// The normal form in the actions, including the offset: Iᵢ is in slot i, and the parameters follow.
-    ///
-    /// I is (q²/r + r p²)/2 for a centre and q p for a saddle. For the two modes (q, p), (Q, P) of a quartet the actions are q p + Q P and q P − Q p.
-    ///
-    /// # Errors
-    /// - resonant terms: [`Error::ResonantTerm`].
-    pub fn in_actions(&self) -> Result<Polynomial<R>, Error> {
-        let modes = self.modes().len();
-        let mut products = Polynomial::zero();
-        for (monomial, c) in self.in_complex().terms() {
-            if turns(monomial, modes).iter().any(|&k| k != 0) {
-                let term = Polynomial::from_terms([(monomial, 1.0)]);
-                return Err(Error::ResonantTerm { term: PhaseSpace::text(&term, &self.space.complex_names()) });
-            }
-            let exponents = (0..modes).map(|mode| monomial.exponent(2 * mode));
-            let parameters = (0..self.space.parameters()).map(|j| monomial.exponent(2 * modes + j));
-            let target = Monomial::new(&exponents.chain(parameters).collect::<Vec<_>>())?;
-            products.add_term(target, c);
-        }
-        let images = self.modes().iter().enumerate().map(|(mode, kind)| self.action_form(mode, kind));
-        let images = images.collect::<Result<Vec<_>, Error>>()?;
-        Ok(substitute(&products, &images)?.map(|c| R::parts(c).0))
-    }
-
-    /// The product u U of a mode as a function of the actions.
-    fn action_form(&self, mode: usize, kind: &Mode<R>) -> Result<Polynomial<R::Complex>, Error> {
-        let action = |mode: usize, re, im| Ok::<_, Error>((Monomial::ONE.with(mode, 1)?, R::complex(re, im)));
-        let terms = match kind {
-            Mode::Elliptic { .. } => vec![action(mode, R::zero(), R::one())?],
-            Mode::Hyperbolic { .. } => vec![action(mode, R::one(), R::zero())?],
-            Mode::Complex { frequency, partner, .. } => {
-                let half = R::ratio(1, 2).ok_or(Error::DivisionByZero)?;
-                if frequency.sign() > 0 {
-                    vec![action(mode, half.clone(), R::zero())?, action(*partner, R::zero(), half)?]
-                } else {
-                    vec![action(*partner, half.clone(), R::zero())?, action(mode, R::zero(), -half)?]
-                }
-            }
-        };
-        Ok(Polynomial::from_terms(terms))
     }
 
     /// The Hamiltonian on the centre manifold, in the new real variables of the centres. On this manifold the saddles and quartets have q = p = 0.

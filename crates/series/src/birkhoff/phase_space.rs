@@ -94,6 +94,21 @@ impl PhaseSpace {
         renamed.checked()
     }
 
+    /// This space without some of its parameters.
+    pub(super) fn without(&self, parameters: &[&str]) -> Result<Self, Error> {
+        let mut rest = self.clone();
+        for &parameter in parameters {
+            // Refuses a name that is not a parameter.
+            rest = rest.with_degree(parameter, 0)?;
+            let first = 2 * rest.degrees_of_freedom;
+            if let Some(at) = rest.names[first..].iter().position(|name| name == parameter) {
+                rest.names.remove(first + at);
+                rest.degrees.remove(at);
+            }
+        }
+        Ok(rest)
+    }
+
     /// The names as `String`s.
     pub(super) fn owned_names(&self) -> Vec<String> {
         self.names.clone()

@@ -1,13 +1,48 @@
-//! Scaling by a parameter to which all frequencies are proportional. The quadratic part then has numbers as coefficients.
+//! Parameters that are replaced: by numbers, or by a scaling with a parameter to which all frequencies are proportional. The quadratic part then has numbers
+//! as coefficients.
 
 use super::PhaseSpace;
 use crate::{Coefficient, Error, Monomial, Polynomial};
 
 impl PhaseSpace {
+    /// Returns H with numbers in place of some parameters, and the space without these parameters.
+    ///
+    /// ```
+    /// use andoyer_series::PhaseSpace;
+    /// let space = PhaseSpace::new(&[("q", "p")])?.with_parameters(&["c", "d"])?;
+    /// let (h, rest) = space.with_values(&space.parse("p^2/2 + q^2/2 + c^2*d*q^4")?, &[("c", 0.5)])?;
+    /// assert_eq!((h, rest.names()), (rest.parse::<f64>("p^2/2 + q^2/2 + 0.25*d*q^4")?, vec!["q", "p", "d"]));
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - a name that is not a parameter: [`Error::ParameterUnknown`].
+    pub fn with_values<C: Coefficient>(
+        &self,
+        hamiltonian: &Polynomial<C>,
+        values: &[(&str, C)],
+    ) -> Result<(Polynomial<C>, Self), Error> {
+        let value = |slot: usize| values.iter().find(|(name, _)| self.names().get(slot) == Some(name)).map(|(_, c)| c);
+        let space = self.without(&values.iter().map(|(name, _)| *name).collect::<Vec<_>>())?;
+        let mut replaced = Polynomial::zero();
+        for (monomial, c) in hamiltonian.terms() {
+            let (mut c, mut exponents) = (c.clone(), Vec::new());
+            for slot in 0..self.names().len() {
+                match value(slot) {
+                    Some(value) => (0..monomial.exponent(slot)).for_each(|_| c *= value),
+                    None => exponents.push(monomial.exponent(slot)),
+                }
+            }
+            replaced.add_term(Monomial::new(&exponents)?, &c);
+        }
+        Ok((replaced, space))
+    }
+
     /// Returns H/w in the variables x = q√w, y = p/√w, with the parameter s = 1/√w in place of the parameter w, and the space of these variables.
     ///
     /// `letter` is the name of w, `root` the name of s. Divisors k·ω with the parameter w are not polynomials; after the scaling the frequencies are numbers. A
-    /// term c qᵃ pᵇ wᵐ becomes c xᵃ yᵇ s^(a−b−2m+2). The motion is that of H in the time wt, and K of H is w times K of H/w.
+    /// term c qᵃ pᵇ wᵐ becomes c xᵃ yᵇ s^(a−b−2m+2). The motion is that of H in the time wt, and K of H is w times K of H/w. Terms without variables do not
+    /// change the motion, and are dropped.
     ///
     /// ```
     /// use andoyer_series::{PhaseSpace, normalize};
@@ -32,7 +67,7 @@ impl PhaseSpace {
         let (names, pairs) = (space.names(), 2 * self.degrees_of_freedom());
         let slot = names.iter().position(|name| *name == root).unwrap_or(pairs);
         let mut scaled = Polynomial::zero();
-        for (monomial, c) in hamiltonian.terms() {
+        for (monomial, c) in hamiltonian.terms().filter(|(monomial, _)| monomial.degree_in(&self.phase_slots()) > 0) {
             let mut exponents = monomial.exponents()[..names.len()].to_vec();
             let sum = |first: usize| exponents[first..pairs].iter().step_by(2).map(|&e| i64::from(e)).sum::<i64>();
             let power = sum(0) - sum(1) - 2 * i64::from(exponents[slot]) + 2;

@@ -3,7 +3,7 @@
 //! The rounding error of a sum is relative to its largest term. Within each degree, coefficients are printed to the twelfth digit of the largest coefficient,
 //! and smaller coefficients are omitted. Exact numbers are printed unchanged.
 
-use super::{BirkhoffNormalForm, PhaseSpace};
+use super::{AnglePart, BirkhoffNormalForm, PhaseSpace};
 use crate::latex::Part;
 use crate::real_field::RealField;
 use crate::{Error, Polynomial, SLOTS};
@@ -14,17 +14,80 @@ const DIGITS: i32 = 12;
 /// Number of terms in one line of LaTeX.
 const TERMS: usize = 6;
 
-/// Prints the normal form in the actions `I_q`, or in the complex variables `u_q`, `U_q` if it has resonant terms.
+/// Prints the normal form in the actions: `I_q` of a centre (q, p), `(q*p)` of a saddle, `(q*p + Q*P)` and `(q*P - Q*p)` of a quartet.
+///
+/// If it has resonant terms, the first line is in the complex variables `u_q`, `U_q` of the modes. The second line is in the actions and the resonant angles, with the
+/// angle `phi_q` of a centre. If the terms of saddles or all terms of the centres are kept, the second line is in the real variables.
 impl<R: RealField> std::fmt::Display for BirkhoffNormalForm<R> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let space = self.space();
-        formatter.write_str(&match self.in_actions() {
-            Ok(actions) => {
-                let actions = significant::<R>(&actions.map(|c| R::complex(c.clone(), R::zero())));
-                PhaseSpace::text::<R::Complex>(&actions, &space.action_names())
+        let complex = significant::<R>(&self.in_complex());
+        let real = |polynomial: &Polynomial<R>, names: &[String]| {
+            let polynomial = significant::<R>(&polynomial.map(|c| R::complex(c.clone(), R::zero())));
+            PhaseSpace::text::<R::Complex>(&polynomial, names)
+        };
+        if let Ok(actions) = self.in_actions() {
+            return formatter.write_str(&real(&actions, &self.action_texts()));
+        }
+        formatter.write_str(&PhaseSpace::text(&complex, &self.space().complex_names()))?;
+        match self.angles_of(&complex).ok().filter(|_| !self.resonances().keeps_centre()) {
+            Some((mean, parts)) => {
+                write!(formatter, "\n= {}", real(&mean, &self.action_texts()))?;
+                parts.iter().try_for_each(|part| self.write_part(formatter, part))
             }
-            Err(_) => PhaseSpace::text(&significant::<R>(&self.in_complex()), &space.complex_names()),
-        })
+            None => {
+                let names: Vec<String> = self.space().names().iter().map(|&name| name.to_owned()).collect();
+                self.in_real().map_or(Ok(()), |polynomial| write!(formatter, "\n= {}", real(&polynomial, &names)))
+            }
+        }
+    }
+}
+
+impl<R: RealField> BirkhoffNormalForm<R> {
+    /// Writes the terms of one resonant angle, each with its sign: ` - 1/2*sqrt(2)*I_x*I_y^(1/2)*sin(2*phi_x - phi_y)`.
+    fn write_part(&self, formatter: &mut std::fmt::Formatter<'_>, part: &AnglePart<R>) -> std::fmt::Result {
+        let (names, angle) = (self.action_texts(), self.angle_text(&part.multiples));
+        for (function, (monomial, c)) in
+            part.cosine.terms().map(|term| ("cos", term)).chain(part.sine.terms().map(|term| ("sin", term)))
+        {
+            let twelve_digits = || R::candidates(rounded(c.to_float(), c.to_float().abs())).pop();
+            let (negative, magnitude) =
+                if R::EPSILON > 0.0 { twelve_digits() } else { None }.as_ref().unwrap_or(c).literal();
+            write!(formatter, " {} ", if negative { '-' } else { '+' })?;
+            if magnitude != "1" {
+                write!(formatter, "{magnitude}*")?;
+            }
+            if part.radicand != R::one() {
+                write!(formatter, "sqrt({})*", part.radicand.literal().1)?;
+            }
+            for (slot, name) in names.iter().enumerate() {
+                // The power of the square root of an action or, for a parameter, twice its power.
+                let halves =
+                    2 * u64::from(monomial.exponent(slot)) + part.multiples.get(slot).map_or(0, |k| k.unsigned_abs());
+                match (halves, halves % 2) {
+                    (0, _) => {}
+                    (2, _) => write!(formatter, "{name}*")?,
+                    (_, 0) => write!(formatter, "{name}^{}*", halves / 2)?,
+                    _ => write!(formatter, "{name}^({halves}/2)*")?,
+                }
+            }
+            write!(formatter, "{function}({angle})")?;
+        }
+        Ok(())
+    }
+
+    /// k·φ as text: `2*phi_x - phi_y`.
+    fn angle_text(&self, multiples: &[i64]) -> String {
+        let (names, mut text) = (self.space().names(), String::new());
+        for (mode, &k) in multiples.iter().enumerate().filter(|(_, k)| **k != 0) {
+            text += match (text.is_empty(), k < 0) {
+                (true, _) => "",
+                (false, true) => " - ",
+                (false, false) => " + ",
+            };
+            let multiple = if k.abs() == 1 { String::new() } else { format!("{}*", k.abs()) };
+            text += &format!("{multiple}phi_{}", names[2 * mode]);
+        }
+        text
     }
 }
 
@@ -88,7 +151,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         let mut text = "\\begingroup\\allowdisplaybreaks\n".to_owned();
         match what {
             Part::Hamiltonian => match self.in_actions() {
-                Ok(actions) => align::<R>(&mut text, "K", &complex(&actions), &space.action_names(), false),
+                Ok(actions) => align::<R>(&mut text, "K", &complex(&actions), &self.action_texts(), false),
                 Err(Error::ResonantTerm { .. }) => {
                     align::<R>(&mut text, "K", &self.in_complex(), &space.complex_names(), false);
                 }
@@ -136,7 +199,7 @@ fn align<R: RealField>(
         });
         let mut factors = String::new();
         for slot in (0..SLOTS.min(names.len())).filter(|&slot| monomial.exponent(slot) > 0) {
-            let base = symbol(&names[slot], if primed { "'" } else { "" });
+            let base = factor(&names[slot], if primed { "'" } else { "" });
             factors += &match monomial.exponent(slot) {
                 1 => base,
                 exponent if primed => format!("{{{base}}}^{{{exponent}}}"),
@@ -147,6 +210,21 @@ fn align<R: RealField>(
         text.push_str(&factors);
     }
     text.push_str(if polynomial.is_zero() { " 0\n\\end{align*}\n" } else { "\n\\end{align*}\n" });
+}
+
+/// The action of a saddle or of a quartet in brackets, or a name, as LaTeX.
+fn factor(name: &str, prime: &str) -> String {
+    let Some(inner) = name.strip_prefix('(').and_then(|name| name.strip_suffix(')')) else {
+        return symbol(name, prime);
+    };
+    let word = |word: &str| {
+        if matches!(word, "+" | "-") {
+            word.to_owned()
+        } else {
+            word.split('*').map(|name| symbol(name, prime)).collect()
+        }
+    };
+    format!("({})", inner.split(' ').map(word).collect::<Vec<_>>().join(" "))
 }
 
 /// A name as a LaTeX symbol. Greek letters are recognized by name. The text after an underscore, or the digits at the end, become an index.

@@ -279,6 +279,7 @@ impl ParseProblem {
             Self::UnexpectedCharacter(found) => nameless(found.to_string(), "a polynomial"),
             Self::UnknownName(name) => nameless(name, "a variable or parameter"),
             Self::Function(name) => nameless(name, "a polynomial"),
+            Self::SquareRoot => nameless("sqrt", "a polynomial"),
             Self::UnusableName(name) => nameless(name, "an identifier, once"),
             Self::ExponentTooLarge { bound } | Self::TooDeep { bound } => nameless(position, *bound),
             _ => nameless(position, "a polynomial"),

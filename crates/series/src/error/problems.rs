@@ -20,6 +20,11 @@ pub enum ParseProblem {
         "{0:?} is a function, and only polynomials are read: expand it as a Taylor polynomial, for a normal form of order N to degree N + 2"
     )]
     Function(String),
+    /// A square root.
+    #[error(
+        "\"sqrt\" is a square root, and only polynomials are read: write a number in decimals, or, if all frequencies are rational multiples of the root, write a parameter w for the root and scale w away (PhaseSpace::scaled; in Python the argument frequency)"
+    )]
+    SquareRoot,
     /// A bracket after an operand: a product without its sign.
     #[error("a factor in brackets needs * before it")]
     ProductWithoutSign,

@@ -48,11 +48,11 @@ fn a_point_without_a_diagonal_form_is_refused_by_term() {
     );
     assert_message(
         "x^2 + X^2 + y^2 + Y^2 + x*y",
-        "the eigenvalues ±2.449489743i of the quadratic part in (x, X), (y, Y) are not rational (with a denominator below 1e7): use floats",
+        "the eigenvalues ±2.449489743i of the quadratic part in (x, X), (y, Y) are not rational (with a denominator below 1e7): use floats, or, if all frequencies are rational multiples of one root, write a parameter w for the root and scale w away (PhaseSpace::scaled; in Python the argument frequency)",
     );
     assert_message(
         "x^2 + X^2 + y^2 + Y^2/2",
-        "the frequency of the mode (y, Y) is the square root of 2, which is not rational: use floats",
+        "the frequency of the mode (y, Y) is the square root of 2, which is not rational: use floats, or, if all frequencies are rational multiples of this root, write w^2 for 2 with a parameter w and scale w away (PhaseSpace::scaled; in Python the argument frequency)",
     );
 }
 
