@@ -105,14 +105,12 @@ impl OrbitPeriodic {
         let t2 = half * rho.mul_add(d0.re, real(zd2));
         let a = rho.mul_add(axial.re, real(za));
         let slope2 = scaled(conjugate, b0.re) + zb2;
-        let slope4 =
-            scaled(conjugate, (all(1.5) * rho).mul_add(b0.re, by2)) + scaled(zb2, rho) + scaled(zb4, half);
+        let slope4 = scaled(conjugate, (all(1.5) * rho).mul_add(b0.re, by2)) + scaled(zb2, rho) + scaled(zb4, half);
         let slope_t = scaled(conjugate, d0.re) + zd2;
         let slope_a = scaled(scaled(conjugate, axial.re) + za, all(2.0));
 
-        let odd = |row: &Factors| {
-            t2.mul_add(all(row.moving[1]), d0.re.mul_add(all(row.moving[0]), a * all(row.square)))
-        };
+        let odd =
+            |row: &Factors| t2.mul_add(all(row.moving[1]), d0.re.mul_add(all(row.moving[0]), a * all(row.square)));
         // t − f/n, in which the constant rates act.
         let late = place.centre * all(-1.0 / self.mean_motion);
         let mut phases = [late; 2];
