@@ -16,7 +16,7 @@ const LEAST_LOSS: f64 = 1e-12;
 /// Above this error/bound the error of the integration is measured too.
 const SUSPICIOUS: f64 = 0.5;
 
-/// A scene: a state at t = 0 and the span (0, `span`).
+/// A scene: a state at t = 0 and the span (`from`, `span`).
 #[derive(Clone, Copy, Debug)]
 pub struct Disturbed {
     /// Moments about body axes 1, 2, 3.
@@ -27,6 +27,12 @@ pub struct Disturbed {
     pub rates: [f64; 3],
     /// Mean motion, eccentricity, time of the pericentre, inclination, node, argument of the pericentre.
     pub orbit: [f64; 6],
+    /// Rates of the node and of the argument of the pericentre.
+    pub secular: [f64; 2],
+    /// Further disturbing bodies: the same elements, and the attraction.
+    pub further: [Option<([f64; 6], f64)>; 2],
+    /// Beginning of the span, 0 if it is not apart from the state.
+    pub from: f64,
     /// End of the span; negative for times before the state.
     pub span: f64,
     /// How far the equations are averaged.
@@ -61,7 +67,8 @@ impl Disturbed {
     /// The full level, either averaging, tolerance 1e-8.
     pub fn new(moments: [f64; 3], attitude: [f64; 4], rates: [f64; 3], orbit: [f64; 6], span: f64) -> Self {
         let (averaging, level) = (Averaging::Auto, Level::Full);
-        Self { moments, attitude, rates, orbit, span, averaging, level, tolerance: 1e-8 }
+        let (secular, further, from, tolerance) = ([0.0; 2], [None; 2], 0.0, 1e-8);
+        Self { moments, attitude, rates, orbit, secular, further, from, span, averaging, level, tolerance }
     }
 
     /// The orbit of the disturbing body.
@@ -73,13 +80,26 @@ impl Disturbed {
         Orbit::new(mean_motion, eccentricity)?.plane(inclination, node, argument)?.time_of_pericentre(pericentre)
     }
 
+    /// The orbits of all disturbing bodies.
+    ///
+    /// # Errors
+    /// That of the element that is out of range.
+    pub fn disturbers(&self) -> Result<Vec<Orbit>, Error> {
+        let [node, pericentre] = self.secular;
+        let mut orbits = vec![self.disturber()?.secular_rates(node, pericentre)?];
+        for (orbit, attraction) in self.further.into_iter().flatten() {
+            orbits.push(Self { orbit, ..*self }.disturber()?.attraction(attraction)?);
+        }
+        Ok(orbits)
+    }
+
     /// The scene without the orbit, by theory.
     ///
     /// # Errors
     /// Those of [`Body::new`] and [`State::new`].
     pub fn free(&self) -> Result<Scene, Error> {
         let state = State::new(0.0, self.attitude, self.rates)?;
-        let [start, stop] = [self.span.min(0.0), self.span.max(0.0)];
+        let [start, stop] = [self.span.min(self.from), self.span.max(self.from)];
         Ok(Scene::new(Body::new(self.moments)?, state)
             .span(start, stop)
             .tolerance(self.tolerance)
@@ -91,7 +111,7 @@ impl Disturbed {
     /// # Errors
     /// Those of [`Scene::solve`].
     pub fn solve(&self) -> Result<Motion, Error> {
-        self.free()?.orbit(self.disturber()?).averaging(self.averaging).level(self.level).solve()
+        self.free()?.disturbing(self.disturbers()?).averaging(self.averaging).level(self.level).solve()
     }
 
     /// Error, bound and effect over the span.
@@ -101,9 +121,10 @@ impl Disturbed {
     pub fn measured(&self) -> Result<Measured, Error> {
         let motion = self.solve()?;
         let free = self.free()?.solve()?;
-        let times: Vec<f64> = (1..=SAMPLES).map(|k| self.span * k as f64 / SAMPLES as f64).collect();
-        let problem = Problem { moments: self.moments, orbit: Some(self.disturber()?) };
-        let truth = problem.integrate(0.0, self.attitude, self.rates, &times);
+        let times: Vec<f64> =
+            (1..=SAMPLES).map(|k| self.from + (self.span - self.from) * k as f64 / SAMPLES as f64).collect();
+        let problem = Problem { moments: self.moments, orbit: None };
+        let truth = problem.integrate_under(&self.disturbers()?, 0.0, (self.attitude, self.rates), &times);
         let worst = |motion: &Motion| -> Result<f64, Error> {
             times.iter().zip(&truth).try_fold(0.0_f64, |worst, (&time, &(attitude, _))| {
                 Ok(worst.max(attitude_error(motion.at(time)?.attitude.coords.into(), attitude)))

@@ -1,6 +1,6 @@
 //! The full equations of a rigid body under a gravity gradient, integrated: Gauss's collocation of order 16, fixed step, compensated sums.
 //!
-//! Attitude and Euler's equations with the torque 3 n² (a/r)³ r̂ × I r̂ times the mass fraction, the disturbing body on Kepler's orbit. It shares no formula
+//! Attitude and Euler's equations with the torques 3 n² (a/r)³ r̂ × I r̂ times the mass fraction, each disturbing body on Kepler's orbit. It shares no formula
 //! with the averaged theory. Steps of at most 1 rad of the fastest rate: the method leaves 1e-23 h^17 of a step, so that rounding is all that is left.
 //! Coefficients in plain doubles would make the energy drift by 1e-16 a step, and the phase by that times the square of their number: they carry a second
 //! double.
@@ -41,6 +41,17 @@ impl Problem {
         rates: [f64; 3],
         times: &[f64],
     ) -> Vec<([f64; 4], [f64; 3])> {
+        self.integrate_under(self.orbit.as_slice(), epoch, (attitude, rates), times)
+    }
+
+    /// The same under the bodies of these orbits, which may precess, in place of the problem's.
+    pub fn integrate_under(
+        &self,
+        orbits: &[Orbit],
+        epoch: f64,
+        (attitude, rates): ([f64; 4], [f64; 3]),
+        times: &[f64],
+    ) -> Vec<([f64; 4], [f64; 3])> {
         let tableau = Tableau::gauss();
         let fastest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         let [x, y, z, w] = attitude;
@@ -52,7 +63,7 @@ impl Problem {
             let steps = ((time - now).abs() * fastest / STEP).ceil().max(1.0);
             let step = (time - now) / steps;
             for k in 0..steps as usize {
-                self.advance(&tableau, now + k as f64 * step, step, &mut state, &mut lost);
+                self.advance((&tableau, orbits), (now + k as f64 * step, step), &mut state, &mut lost);
             }
             now = time;
             let norm = state[..4].iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -61,9 +72,17 @@ impl Problem {
         states
     }
 
-    fn advance(&self, tableau: &Tableau, start: f64, step: f64, state: &mut Vector, lost: &mut Vector) {
-        let places = tableau.nodes.map(|node| self.disturber(start + node * step));
-        let mut slopes = places.map(|place| self.slope(state, &place));
+    fn advance(
+        &self,
+        (tableau, orbits): (&Tableau, &[Orbit]),
+        (start, step): (f64, f64),
+        state: &mut Vector,
+        lost: &mut Vector,
+    ) {
+        let places = tableau
+            .nodes
+            .map(|node| orbits.iter().map(|orbit| disturber(orbit, start + node * step)).collect::<Vec<_>>());
+        let mut slopes = places.each_ref().map(|places| self.slope(state, places));
         let mut last = f64::INFINITY;
         loop {
             let mut change = 0.0_f64;
@@ -88,42 +107,43 @@ impl Problem {
         }
     }
 
-    /// 3n²(a/r)³ times the mass fraction, and r̂.
-    fn disturber(&self, time: f64) -> (f64, Vector3<f64>) {
-        let Some(orbit) = self.orbit else { return (0.0, Vector3::z()) };
-        let [n, e, pericentre, inclination, node, argument, fraction] = orbit.elements();
-        let mean = (n * (time - pericentre)).rem_euclid(std::f64::consts::TAU);
-        // Newton's method from π converges for every mean anomaly in a turn.
-        let mut anomaly = std::f64::consts::PI;
-        for _ in 0..40 {
-            let step = (anomaly - e * anomaly.sin() - mean) / (1.0 - e * anomaly.cos());
-            anomaly -= step;
-            if step.abs() <= 1e-15 {
-                break;
-            }
-        }
-        let radius = 1.0 - e * anomaly.cos();
-        let place = Vector3::new(anomaly.cos() - e, (1.0 - e * e).sqrt() * anomaly.sin(), 0.0) / radius;
-        let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), node)
-            * Rotation3::from_axis_angle(&Vector3::x_axis(), inclination)
-            * Rotation3::from_axis_angle(&Vector3::z_axis(), argument);
-        (3.0 * n * n * fraction / radius.powi(3), turn * place)
-    }
-
-    fn slope(&self, state: &Vector, place: &(f64, Vector3<f64>)) -> Vector {
+    fn slope(&self, state: &Vector, places: &[(f64, Vector3<f64>)]) -> Vector {
         let [x, y, z, w, rates @ ..] = *state;
         let rates = Vector3::from(rates);
         let attitude = Quaternion::new(w, x, y, z);
         let moments = Vector3::from(self.moments);
         let mut torque = moments.component_mul(&rates).cross(&rates);
-        if place.0 != 0.0 {
-            let direction = UnitQuaternion::new_normalize(attitude).inverse() * place.1;
-            torque += direction.cross(&moments.component_mul(&direction)) * place.0;
+        for (strength, direction) in places {
+            let direction = UnitQuaternion::new_normalize(attitude).inverse() * direction;
+            torque += direction.cross(&moments.component_mul(&direction)) * *strength;
         }
         let turning = attitude * Quaternion::from_parts(0.0, rates * 0.5);
         let acceleration = torque.component_div(&moments);
         [turning.i, turning.j, turning.k, turning.w, acceleration.x, acceleration.y, acceleration.z]
     }
+}
+
+/// 3 G m/r³ of the disturbing body, and r̂.
+fn disturber(orbit: &Orbit, time: f64) -> (f64, Vector3<f64>) {
+    let [n, e, pericentre, inclination, node, argument, _] = orbit.elements();
+    let [node_rate, pericentre_rate] = orbit.rates();
+    let (node, argument) = (node + node_rate * (time - pericentre), argument + pericentre_rate * (time - pericentre));
+    let mean = (n * (time - pericentre)).rem_euclid(std::f64::consts::TAU);
+    // Newton's method from π converges for every mean anomaly in a turn.
+    let mut anomaly = std::f64::consts::PI;
+    for _ in 0..40 {
+        let step = (anomaly - e * anomaly.sin() - mean) / (1.0 - e * anomaly.cos());
+        anomaly -= step;
+        if step.abs() <= 1e-15 {
+            break;
+        }
+    }
+    let radius = 1.0 - e * anomaly.cos();
+    let place = Vector3::new(anomaly.cos() - e, (1.0 - e * e).sqrt() * anomaly.sin(), 0.0) / radius;
+    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), node)
+        * Rotation3::from_axis_angle(&Vector3::x_axis(), inclination)
+        * Rotation3::from_axis_angle(&Vector3::z_axis(), argument);
+    (3.0 * orbit.strength() / radius.powi(3), turn * place)
 }
 
 /// A component of a weighted sum of slopes.

@@ -1,7 +1,7 @@
 //! Figures of the gravity-gradient theory against an integration of the full equations, as CSV on standard output.
 //!
 //! `cases`: the share of the torque's effect on the attitude that each level leaves in the reference cases. `levels`: the share of the torque's effect on the
-//! attitude that each level leaves, against J, n/spin, e and B − A, one of them varied at a time. `climb STARTS STEPS SEED`: the largest error over its bound
+//! attitude that each level leaves, against J, n/spin, e and B − A, one of them varied at a time. `climb STARTS STEPS SEED [FAMILY]`: the largest error over its bound
 //! that hill climbing finds, by family, mode and averaging. `bounds N SEED`: the error of N random scenes and the bound that the plan states, for both
 //! averagings and for second order, and what the integration loses of the free motion over the span. `table N SEED`: by n/spin and e, how many of N random
 //! scenes are served, the share of the torque's effect that is left, and the bound over the error.
@@ -11,14 +11,10 @@ use std::io::{self, Write};
 
 use andoyer_propagate::options::{Averaging, Level};
 use andoyer_propagate::{Body, Error, Method, Motion, Orbit, Scene, State};
-use andoyer_tests::climb::{FAMILIES, Family, Summit, Theory, Uniform, climb};
+use andoyer_tests::climb::{FAMILIES, FURTHER_FAMILIES, Summit, THEORIES, Uniform, climb};
 use andoyer_tests::disturbed::{Disturbed, Measured};
 use andoyer_tests::integration::Problem;
 use andoyer_tests::{attitude_error, cases, orbits};
-
-/// What is climbed with: first order by either averaging, and second order.
-const THEORIES: [Theory; 3] =
-    [(Averaging::Spin, Level::Full), (Averaging::Orbit, Level::Full), (Averaging::Spin, Level::SecondOrder)];
 
 /// Samples of a run.
 const SAMPLES: usize = 61;
@@ -204,17 +200,24 @@ fn bounds(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn s
     Ok(())
 }
 
-fn climbs(out: &mut impl Write, starts: u64, steps: usize, seed: u64) -> Result<(), Box<dyn std::error::Error>> {
+fn climbs(
+    out: &mut impl Write,
+    (starts, steps, seed): (u64, usize, u64),
+    only: Option<&str>,
+) -> Result<(), Box<dyn std::error::Error>> {
     writeln!(out, "family,mode,averaging,level,starts,solved,error,bound,ratio,scene")?;
     let mut tasks = Vec::new();
-    for family in FAMILIES {
+    for family in FAMILIES.into_iter().chain(FURTHER_FAMILIES) {
         for long_axis in [false, true] {
-            for theory in THEORIES {
+            for &theory in family.theories() {
                 tasks.push((family, long_axis, theory));
             }
         }
     }
-    tasks.retain(|&(family, _, (_, level))| family != Family::Levels || level != Level::SecondOrder);
+    tasks.retain(|(family, ..)| only.is_none_or(|name| name == family.name()));
+    if tasks.is_empty() {
+        return Err("an unknown family".into());
+    }
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(tasks.len());
     let run = |&(family, long_axis, theory): &(_, _, _)| -> Vec<Summit> {
         let climbs = (0..starts).map(|start| climb(family, long_axis, theory, steps, &mut Uniform(seed + start)));
@@ -240,10 +243,10 @@ fn climbs(out: &mut impl Write, starts: u64, steps: usize, seed: u64) -> Result<
         let solved: usize = found.iter().map(|summit| summit.solved).sum();
         let Some(worst) = found.into_iter().max_by(|a, b| a.ratio().total_cmp(&b.ratio())) else { continue };
         let mode = if long_axis { "long" } else { "short" };
-        let Disturbed { moments, attitude, rates, orbit, span, .. } = worst.scene;
+        let Disturbed { moments, attitude, rates, orbit, secular, further, from, span, tolerance, .. } = worst.scene;
         writeln!(
             out,
-            "{},{mode},{averaging},{level},{starts},{solved},{:.3e},{:.3e},{:.3},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {span}\"",
+            "{},{mode},{averaging},{level},{starts},{solved},{:.3e},{:.3e},{:.3},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {secular:?} {further:?} {from} {span} {tolerance}\"",
             family.name(),
             worst.measured.error,
             worst.measured.bound,
@@ -357,11 +360,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ["cases"] => reference_cases(&mut out),
         ["levels"] => levels(&mut out),
         ["safety", count, seed] => safety(&mut out, count.parse()?, seed.parse()?),
-        ["climb", starts, steps, seed] => climbs(&mut out, starts.parse()?, steps.parse()?, seed.parse()?),
+        ["climb", starts, steps, seed] => climbs(&mut out, (starts.parse()?, steps.parse()?, seed.parse()?), None),
+        ["climb", starts, steps, seed, family] => {
+            climbs(&mut out, (starts.parse()?, steps.parse()?, seed.parse()?), Some(family))
+        }
         ["table", count, seed] => table(&mut out, count.parse()?, seed.parse()?),
         ["bounds", count, seed] => bounds(&mut out, count.parse()?, seed.parse()?),
         _ => Err(
-            "usage: gradient cases | gradient levels | gradient bounds COUNT SEED | gradient table COUNT SEED | gradient climb STARTS STEPS SEED"
+            "usage: gradient cases | gradient levels | gradient bounds COUNT SEED | gradient table COUNT SEED | gradient climb STARTS STEPS SEED [FAMILY]"
                 .into(),
         ),
     }
