@@ -22,17 +22,17 @@ def undetermined(singular: Array, directions: Array) -> Array:
     return rows
 
 
-def sentence(lost: Array, labels: tuple[str, ...]) -> str:
-    """One sentence that names the directions."""
+def sentence(lost: Array, labels: tuple[str, ...], factor: Array | None = None) -> str:
+    """One sentence that names the directions; `factor` is the common factor of a tensor's elements."""
     if not len(lost):
         return "The data determine every free parameter."
-    return f"The data do not determine {', nor '.join(_names(lost, labels))}."
+    return f"The data do not determine {', nor '.join(_names(lost, labels, factor))}."
 
 
-def _names(lost: Array, labels: tuple[str, ...]) -> list[str]:
+def _names(lost: Array, labels: tuple[str, ...], factor: Array | None) -> list[str]:
     """Names that span the directions: all moments, a common factor of them and single components where they fit, combinations for the rest."""
     names = []
-    for name, rows in _named(labels):
+    for name, rows in _named(labels, factor):
         if len(lost) >= len(rows) and np.all(np.linalg.norm(rows @ lost.T, axis=1) > PART):
             names.append(name)
             for row in rows:
@@ -40,12 +40,14 @@ def _names(lost: Array, labels: tuple[str, ...]) -> list[str]:
     return names + [_combination(row, labels) for row in lost]
 
 
-def _named(labels: tuple[str, ...]) -> list[tuple[str, Array]]:
+def _named(labels: tuple[str, ...], factor: Array | None) -> list[tuple[str, Array]]:
     """Names with the directions that they stand for, the widest first."""
     unit = np.eye(len(labels))
     moments = unit[[place for place, label in enumerate(labels) if label in ("I1", "I2", "I3")]]
     together = [("the moments", moments), ("a common factor of the moments", moments.sum(axis=0, keepdims=True) / np.sqrt(3))]
-    return (together if len(moments) else []) + [(WORDS[label], unit[[place]]) for place, label in enumerate(labels)]
+    if factor is not None:
+        together = [("the inertia tensor", unit[labels.index("I11") :]), ("a common factor of the inertia tensor", factor[None])]
+    return (together if len(moments) or factor is not None else []) + [(WORDS[label], unit[[place]]) for place, label in enumerate(labels)]
 
 
 def _without(lost: Array, direction: Array) -> Array:

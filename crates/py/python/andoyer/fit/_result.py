@@ -50,7 +50,7 @@ class Fit:
     scene: Scene
     """The scene of the best state, with the options of the given scene."""
     parameters: tuple[str, ...]
-    """Names of the free parameters: a small rotation θ1…θ3 about body axes at the epoch [rad], angular velocities ω1…ω3, principal moments I1…I3, axis ratios b/a, c/a."""
+    """Names of the free parameters: a small rotation θ1…θ3 about body axes at the epoch [rad], angular velocities ω1…ω3, principal moments I1…I3, elements of the tensor I11…I23, axis ratios b/a, c/a."""
     covariance: Array
     """Covariance of the free parameters, shape (k, k), in their units; 0 along directions that the data do not determine (see `undetermined`)."""
     undetermined: Array
@@ -78,7 +78,7 @@ class Fit:
     def ensemble(self, n: int, rng: Any = None, *, threads: int | None = None) -> Ensemble:
         """Draw states from the covariance, as an `Ensemble` about principal axes.
 
-        Attitude and rates are drawn from a normal distribution, moments and axis ratios from a log-normal distribution. A draw with impossible moments is repeated. Components that the data do not
+        Attitude, rates and the elements of a tensor are drawn from a normal distribution, moments and axis ratios from a log-normal distribution. A draw with impossible moments is repeated. Components that the data do not
         determine are equal in all states.
 
         Parameters
@@ -121,10 +121,12 @@ class Fit:
                 break
         if missing:
             raise refusal("n", n, n - missing, f"= {n}: only {n - missing} draws of the covariance are bodies; fit fewer parameters, or hold the moments")
-        moments, attitudes, rates = steps.states(np.concatenate(chosen))
+        draws = np.concatenate(chosen)
+        moments, attitudes, rates = steps.states(draws)
+        axes = steps.principal_axes(draws)
         _, options = self.scene.__getnewargs_ex__()
         shared = {"epochs": options.get("epoch", 0.0), "orbits": orbit, "tolerance": self.scene.tolerance, "span": self.scene.span}
-        return Ensemble(moments, _about_principal_axes(self.scene, attitudes), rates @ self.scene.body.principal_axes, threads=threads, **shared)
+        return Ensemble(moments, _about_principal_axes(axes, attitudes), np.einsum("mi,mij->mj", rates, axes), threads=threads, **shared)
 
     def _names(self) -> tuple[str, ...]:
         from andoyer.fit._steps import LABELS
@@ -163,14 +165,13 @@ def _root(covariance: Array) -> Array:
     return root
 
 
-def _about_principal_axes(scene: Scene, attitudes: Array) -> Array:
-    """Attitudes of the principal axes."""
-    axes = scene.body.principal_axes
-    if np.array_equal(axes, np.eye(3)):
+def _about_principal_axes(axes: Array, attitudes: Array) -> Array:
+    """Attitudes of the principal axes, which are rotations."""
+    if np.all(axes == np.eye(3)):
         return attitudes
     from scipy.spatial.transform import Rotation
 
-    turned: Array = (Rotation.from_quat(attitudes) * Rotation.from_matrix(np.array(axes))).as_quat()
+    turned: Array = (Rotation.from_quat(attitudes) * Rotation.from_matrix(axes)).as_quat()
     return turned
 
 
@@ -182,4 +183,4 @@ def judged(steps: Steps, step: Array, whitened: Array) -> tuple[Array, Array, st
     known = directions[:kept] / singular[:kept, None]
     units = steps.units(step)
     covariance = known.T @ known * np.outer(units, units)
-    return covariance, lost, sentence(lost, steps.labels)
+    return covariance, lost, sentence(lost, steps.labels, steps.common_factor(step))
