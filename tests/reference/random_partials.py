@@ -1,4 +1,4 @@
-"""Derivatives of random bodies in multiple precision: the reference of `tests/tests/partials_everywhere.rs`.
+"""Derivatives of random bodies in multiple precision: the reference of `tests/tests/partials_of_random_bodies.rs`.
 
 The first file has 300 bodies given by moments: 200 with random moments and rates, and 100 of which 25 each are within 1e-16 to 1e-6 of a sphere, of A = B, of B = C and of rotation about the middle
 axis. Every third body next to A = B or B = C rotates almost across its axis of symmetry, where its polhode is slow. The second file has 48 bodies given by inertia tensors, of the same kinds, and

@@ -17,6 +17,7 @@ mod observed;
 mod oracle;
 mod orders;
 mod partials;
+mod partials_of_random_bodies;
 mod plans;
 mod printed_equations;
 mod scene_files;

@@ -93,6 +93,18 @@ struct Side {
     steps: Vec<Step>,
     /// The point at which the next step begins.
     next: Point,
+    /// What half a turn changes, once a time needs it.
+    half_turn: Option<HalfTurn>,
+}
+
+/// The changes in half a turn of ℓ′ on one side of the epoch.
+#[derive(Clone, Copy)]
+struct HalfTurn {
+    integrals: [f64; 6],
+    /// δT, with the sign of the side.
+    delays: [f64; DISPLACEMENTS],
+    /// The first two components of the rotation vector of axis 3.
+    tilts: [[f64; 2]; DISPLACEMENTS],
 }
 
 /// The expansion about one point.
@@ -116,7 +128,7 @@ impl<'a> Expansion<'a> {
             changes: displacements.map(|displacement| displacement.step),
             integrals: [0.0; 6],
         };
-        let sides = [1.0, -1.0].map(|sign| Side { sign, steps: Vec::new(), next: start });
+        let sides = [1.0, -1.0].map(|sign| Side { sign, steps: Vec::new(), next: start, half_turn: None });
         let invariants = Invariants::new(writer, slopes, rate);
         Self { writer, count, rate, half_turn, turns, slopes, invariants, sides }
     }
@@ -156,37 +168,48 @@ impl<'a> Expansion<'a> {
 
     /// The point after a whole number of half turns.
     fn later(&mut self, here: Point, whole: f64) -> Point {
-        let displacements = self.writer.displacements;
-        let start = self.writer.setting.direction;
-        let end = self.point(self.half_turn.copysign(whole));
-        let slopes = self.slopes;
-        let (from, motion) = (velocity(slopes, start), velocity(slopes, here.direction));
-        let square: f64 = from.iter().map(|component| component * component).sum();
+        let HalfTurn { integrals, delays, tilts } = self.half_turn(whole);
+        let motion = velocity(self.slopes, here.direction);
         let odd = whole.abs() % 2.0 == 1.0;
         let sign = if odd { -1.0 } else { 1.0 };
         let mut point = here;
-        for (index, displacement) in displacements.iter().enumerate().take(self.count) {
-            let tilt = tilt(displacement, slopes, self.rate);
-            // One half turn from the epoch: S (δg(0) ∓ δT ġ(0)) + δS g(0).
-            let (tilted, moved) = (tilted(tilt, start), end.changes[index]);
-            let back = [tilted[0] - moved[0], tilted[1] - moved[1], moved[2] - tilted[2]];
-            let late: f64 = (0..3).map(|i| (displacement.step[i] - back[i]) * from[i]).sum();
-            let delay = whole.abs() * late / square;
-            let change = std::array::from_fn(|i| here.changes[index][i] - delay * motion[i]);
-            let [a, b, c]: [f64; 3] = change;
-            let [p, q, r] = if odd { self::tilted(tilt, here.direction) } else { [0.0; 3] };
+        for index in 0..self.count {
+            let delay = whole.abs() * delays[index];
+            let [a, b, c]: [f64; 3] = std::array::from_fn(|i| here.changes[index][i] - delay * motion[i]);
+            let [p, q, r] = if odd { tilted(tilts[index], here.direction) } else { [0.0; 3] };
             point.changes[index] = [sign * a + p, sign * b + q, c + r];
         }
         point.direction = [sign * here.direction[0], sign * here.direction[1], here.direction[2]];
         for (index, (i, j)) in ELEMENTS.into_iter().enumerate() {
             // g1 g3 and g2 g3 change their sign after half a turn, the other products do not.
             point.integrals[index] = if i != 2 && j == 2 {
-                (if odd { end.integrals[index] } else { 0.0 }) + sign * here.integrals[index]
+                (if odd { integrals[index] } else { 0.0 }) + sign * here.integrals[index]
             } else {
-                whole.abs() * end.integrals[index] + here.integrals[index]
+                whole.abs() * integrals[index] + here.integrals[index]
             };
         }
         point
+    }
+
+    /// The changes in half a turn on one side, from S (δg(0) ∓ δT ġ(0)) + δS g(0) at its end.
+    fn half_turn(&mut self, whole: f64) -> HalfTurn {
+        let side = usize::from(whole < 0.0);
+        if let Some(found) = self.sides[side].half_turn {
+            return found;
+        }
+        let end = self.point(self.half_turn.copysign(whole));
+        let start = self.writer.setting.direction;
+        let from = velocity(self.slopes, start);
+        let square: f64 = from.iter().map(|component| component * component).sum();
+        let tilts = self.writer.displacements.map(|displacement| tilt(&displacement, self.slopes, self.rate));
+        let delays = std::array::from_fn(|index| {
+            let ([a, b, c], [p, q, r]) = (end.changes[index], tilted(tilts[index], start));
+            let (step, back) = (self.writer.displacements[index].step, [p - a, q - b, c - r]);
+            (0..3).map(|i| (step[i] - back[i]) * from[i]).sum::<f64>() / square
+        });
+        let found = HalfTurn { integrals: end.integrals, delays, tilts };
+        self.sides[side].half_turn = Some(found);
+        found
     }
 }
 

@@ -127,8 +127,8 @@ impl Motion {
         self.valid(times, epoch)?;
         tensor::about_principal_axes(self, epoch, times, (&mut *attitudes, &mut *rates))?;
         if let Some(given) = &self.given {
-            let axes = given.turn.to_rotation_matrix().into_inner();
-            attitudes.iter_mut().chain(rates).for_each(|derivatives| tensor::turn(&axes, derivatives));
+            let turn = tensor::Turn::new(given.turn.to_rotation_matrix().matrix());
+            attitudes.iter_mut().chain(rates).for_each(|derivatives| turn.apply(derivatives));
         }
         Ok(())
     }

@@ -4,7 +4,7 @@
 //! attitude of the principal axes changes by ψ, and the rates about them by ω × ψ. This divides by the differences of the moments. Where one of them is small,
 //! [`super::expansion`] serves; in steady rotation the varied equations are solved directly.
 
-use nalgebra::{Matrix3, Quaternion, SMatrix, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use super::constants::Setting;
 use super::displacement::{Displacement, ELEMENTS, Response, Writer};
@@ -59,28 +59,33 @@ fn by_turned_axes(motion: &Motion, epoch: f64, times: &[f64], (attitudes, rates)
     motion.partials_about_principal_axes(epoch, times, &mut turned, &mut faster)?;
     let (_, now) = motion.samples_about_principal_axes(epoch, times)?;
     let (moments, start) = (motion.scene.body().moments(), motion.scene.state().angular_velocity);
+    // ψ for a unit of each product of inertia, and ω × ψ at the epoch.
+    let turns: [[Vector3<f64>; 2]; 3] = std::array::from_fn(|product| {
+        let (row, column) = ELEMENTS[3 + product];
+        let (i, j) = if (row + 1) % 3 == column { (row, column) } else { (column, row) };
+        let turn = Vector3::ith(3 - i - j, 1.0 / (moments[i] - moments[j]));
+        [turn, start.cross(&turn)]
+    });
     for index in 0..times.len() {
-        let (turned, faster, now) = (matrix(&turned[index]), matrix(&faster[index]), Vector3::from(now[index]));
+        let ([by_attitude, by_rates], spun) = (blocks(&turned[index]), blocks(&faster[index])[1]);
+        let now = Vector3::from(now[index]);
+        let columns = turns
+            .map(|[turn, pushed]| (by_attitude * turn + by_rates * pushed - turn, spun * pushed + turn.cross(&now)));
         for row in 0..3 {
-            attitudes[index][row][..PARAMETERS].copy_from_slice(turned.row(row).transpose().as_slice());
-            rates[index][row][..PARAMETERS].copy_from_slice(faster.row(row).transpose().as_slice());
-        }
-        for (column, (i, j)) in ELEMENTS.into_iter().enumerate().skip(3) {
-            let (i, j) = if (i + 1) % 3 == j { (i, j) } else { (j, i) };
-            let axis = Vector3::ith(3 - i - j, 1.0 / (moments[i] - moments[j]));
-            let pushed = start.cross(&axis);
-            let by_attitude = turned.fixed_columns::<3>(0) * axis + turned.fixed_columns::<3>(3) * pushed - axis;
-            let by_rates = faster.fixed_columns::<3>(3) * pushed + axis.cross(&now);
-            for row in 0..3 {
-                (attitudes[index][row][6 + column], rates[index][row][6 + column]) = (by_attitude[row], by_rates[row]);
+            attitudes[index][row][..PARAMETERS].copy_from_slice(&turned[index][row]);
+            rates[index][row][..PARAMETERS].copy_from_slice(&faster[index][row]);
+            for (column, (of_attitude, of_rates)) in columns.iter().enumerate() {
+                attitudes[index][row][PARAMETERS + column] = of_attitude[row];
+                rates[index][row][PARAMETERS + column] = of_rates[row];
             }
         }
     }
     Ok(())
 }
 
-fn matrix<const N: usize>(rows: &Derivatives<N>) -> SMatrix<f64, 3, N> {
-    SMatrix::from_fn(|row, column| rows[row][column])
+/// The columns of the attitude and those of the rates.
+fn blocks(rows: &Derivatives) -> [Matrix3<f64>; 2] {
+    [0, 3].map(|first| Matrix3::from_fn(|row, column| rows[row][first + column]))
 }
 
 /// Derivatives of a steady rotation.
@@ -108,24 +113,52 @@ fn steadily(
     Ok(())
 }
 
-/// Transforms derivatives from the principal axes to the user's: the vector, the parameters that are vectors, and the elements of the tensor.
-pub(super) fn turn(axes: &Matrix3<f64>, derivatives: &mut Derivatives<INERTIA_PARAMETERS>) {
-    let mut turned = axes * matrix(derivatives);
-    for first in [0, 3] {
-        let block = turned.fixed_columns::<3>(first) * axes.transpose();
-        turned.fixed_columns_mut::<3>(first).copy_from(&block);
+/// The transformation from the principal axes to the user's.
+pub(super) struct Turn {
+    /// The principal axes, as columns.
+    axes: [[f64; 3]; 3],
+    /// Changes of the parameters about the principal axes, as rows, for a unit of each of the user's parameters.
+    parameters: [[f64; INERTIA_PARAMETERS]; INERTIA_PARAMETERS],
+}
+
+impl Turn {
+    /// The transformation for principal axes A as columns. A unit of the user's element k l changes the element i j by A_ki A_lj, summed over both orders of k
+    /// and l.
+    pub(super) fn new(axes: &Matrix3<f64>) -> Self {
+        let mut parameters = [[0.0; INERTIA_PARAMETERS]; INERTIA_PARAMETERS];
+        for i in 0..3 {
+            for k in 0..3 {
+                (parameters[i][k], parameters[3 + i][3 + k]) = (axes[(k, i)], axes[(k, i)]);
+            }
+        }
+        for (element, (i, j)) in ELEMENTS.into_iter().enumerate() {
+            for (user, (k, l)) in ELEMENTS.into_iter().enumerate() {
+                let one = axes[(k, i)] * axes[(l, j)];
+                parameters[6 + element][6 + user] = if k == l { one } else { one + axes[(l, i)] * axes[(k, j)] };
+            }
+        }
+        Self { axes: std::array::from_fn(|row| std::array::from_fn(|column| axes[(row, column)])), parameters }
     }
-    // A unit of the element k l of the user's tensor changes the element i j about the principal axes by the sum of A_ki A_lj over both orders.
-    let weights = SMatrix::<f64, 6, 6>::from_fn(|element, user| {
-        let ((i, j), (k, l)) = (ELEMENTS[element], ELEMENTS[user]);
-        let one = axes[(k, i)] * axes[(l, j)];
-        if k == l { one } else { one + axes[(l, i)] * axes[(k, j)] }
-    });
-    let elements = turned.fixed_columns::<6>(6) * weights;
-    turned.fixed_columns_mut::<6>(6).copy_from(&elements);
-    for (row, values) in derivatives.iter_mut().enumerate() {
-        for (column, value) in values.iter_mut().enumerate() {
-            *value = turned[(row, column)];
+
+    /// Transforms the vector, the parameters that are vectors, and the elements of the tensor. The sums are over whole rows, which vectors of any width hold.
+    pub(super) fn apply(&self, derivatives: &mut Derivatives<INERTIA_PARAMETERS>) {
+        let mut turned = [[0.0; INERTIA_PARAMETERS]; 3];
+        for (row, axes) in turned.iter_mut().zip(&self.axes) {
+            for (given, axis) in derivatives.iter().zip(axes) {
+                for (sum, value) in row.iter_mut().zip(given) {
+                    *sum += axis * value;
+                }
+            }
+        }
+        for (row, values) in turned.iter().zip(derivatives) {
+            let mut sums = [0.0; INERTIA_PARAMETERS];
+            for (index, value) in row.iter().enumerate() {
+                let block = [0..3, 3..6, 6..INERTIA_PARAMETERS][(index / 3).min(2)].clone();
+                for (sum, weight) in sums[block.clone()].iter_mut().zip(&self.parameters[index][block]) {
+                    *sum += value * weight;
+                }
+            }
+            *values = sums;
         }
     }
 }

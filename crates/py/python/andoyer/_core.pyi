@@ -82,6 +82,9 @@ class Body:
     def moments(self) -> _Array:
         """The moments of inertia about body axes 1, 2, 3 in the given order: a read-only array, shape (3,)."""
     @property
+    def has_tensor(self) -> bool:
+        """Whether the body was made by `from_inertia`. `Motion.partials` then has twelve parameters instead of nine."""
+    @property
     def inertia(self) -> _Array:
         """The inertia tensor about the user's axes: a read-only array, shape (3, 3). It is diagonal unless the body was made by `from_inertia`."""
     @property
@@ -390,8 +393,8 @@ class Plan:
     def first_neglected(self) -> float:
         """The first neglected term of the gravity gradient, in rad: a short-period term of second order in the torque, which no level has, or one of first order that was dropped; 0 without an orbit."""
     @property
-    def partials(self) -> Literal["closed", "differences"] | None:
-        """The method of `Motion.partials`: "closed" (theory §12), "differences" of fourth order for a scene with an orbit and for an integrated motion, or None on the separatrix, where the derivatives do not exist."""
+    def partials(self) -> Literal["closed", "series", "differences"] | None:
+        """The method of `Motion.partials`: "closed" (theory §12); "series", power series in time where the closed form cancels: next to a sphere, to the separatrix and to the middle axis, and for a body from a tensor also with nearly equal moments; "differences" of fourth order, with an error of some 1e-9 of the largest derivative, for a scene with an orbit and for an integrated motion; or None on the separatrix, where the derivatives do not exist."""
     @property
     def skipped(self) -> list[str]:
         """The steps that this scene did not need, with the reasons: a list of str."""
@@ -434,10 +437,10 @@ class Partials:
         """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n)."""
     @property
     def attitude(self) -> _Array:
-        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9) or (m, n, 3, 9)."""
+        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9) or (n, 3, 12), of an ensemble (m, n, 3, 9)."""
     @property
     def angular_velocity(self) -> _Array:
-        """Derivatives of the angular velocity in body components, shape (n, 3, 9) or (m, n, 3, 9)."""
+        """Derivatives of the angular velocity in body components, shape (n, 3, 9) or (n, 3, 12), of an ensemble (m, n, 3, 9)."""
     def __len__(self) -> int: ...
 
 @final

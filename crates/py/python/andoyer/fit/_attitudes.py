@@ -12,7 +12,7 @@ from andoyer._core import Error, InputError, Motion, Scene
 from andoyer._extra import extra
 from andoyer._quaternions import Array, conjugate, product
 from andoyer.fit._degeneracy import undetermined
-from andoyer.fit._given import as_one, enough, epoch_of, freed, from_epoch, quaternions, scene_of, whitening
+from andoyer.fit._given import as_one, enough, epoch_of, freed, from_epoch, quaternions, refusal, scene_of, whitening
 from andoyer.fit._members import about_body_axes, bodies, members
 from andoyer.fit._message import composed
 from andoyer.fit._result import Fit, judged
@@ -21,7 +21,8 @@ from andoyer.fit._steps import Steps
 
 Places: TypeAlias = NDArray[np.intp]
 
-KNOWN = ("attitude", "angular_velocity", "moments")
+DEFAULT = ("attitude", "angular_velocity", "moments")
+KNOWN = (*DEFAULT, "inertia")
 ADVICE = "Try a first state nearer to the data, more names in free, or an orbit; check sigma and that the quaternions rotate body components [x, y, z, w] into inertial ones."
 POINTS = 1_000_000
 """Attitudes that are compared together, which limits the memory."""
@@ -35,13 +36,13 @@ def attitudes(
     attitudes: Any,
     *,
     sigma: ArrayLike,
-    free: str | Iterable[str] = KNOWN,
+    free: str | Iterable[str] = DEFAULT,
 ) -> Fit:
     """Fits the state of a body, and its moments, to measured attitudes.
 
     The residuals are the rotation vectors about body axes from model to measured attitude, divided by their standard deviations. `scipy.optimize.least_squares` minimizes their sum of squares with
     the derivatives of `Motion.partials` (theory §12; with an orbit by differences). Attitudes determine the moments only up to a common factor; the fit keeps the product of the
-    given moments. Times may be in any order. The function needs SciPy, which ``pip install scipy`` installs.
+    given moments, or the trace of the tensor. Times may be in any order. The function needs SciPy, which ``pip install scipy`` installs.
 
     Parameters
     ----------
@@ -53,8 +54,9 @@ def attitudes(
         Measured unit quaternions [x, y, z, w], body to inertial.
     sigma : float or array_like, shape (n,) or (n, 3, 3)
         Standard deviation about each body axis [rad], or covariances of the error as a rotation vector about body axes [rad²].
-    free : iterable of {"attitude", "angular_velocity", "moments"}, optional
-        The fitted quantities. The others keep the values of `scene`.
+    free : iterable of {"attitude", "angular_velocity", "moments", "inertia"}, optional
+        The fitted quantities. The others keep the values of `scene`. "moments" are the principal moments about fixed principal axes. "inertia" are the six elements I11, I22, I33, I12, I13, I23 of
+        the tensor of a body made by `Body.from_inertia`, in place of "moments".
 
     Returns
     -------
@@ -64,7 +66,8 @@ def attitudes(
     Raises
     ------
     InputError
-        Fewer data than parameters; quaternions whose norm is not 1 or whose shape is not (n, 4); a `sigma` that is not positive; an unknown name in `free`; a time that is not finite.
+        Fewer data than parameters; quaternions whose norm is not 1 or whose shape is not (n, 4); a `sigma` that is not positive; an unknown name in `free`, "inertia" for a body without a tensor or
+        together with "moments"; a time that is not finite.
     TheoryError
         A motion on the separatrix, where derivatives do not exist.
 
@@ -82,8 +85,8 @@ def attitudes(
     array([0.1, 0.2, 1. ])
     """
     optimize = extra("scipy.optimize", "andoyer.fit")
-    names = freed(free, KNOWN)
-    problem = _Problem(scene_of(scene), times, attitudes, sigma, names)
+    names = _of_body(freed(free, KNOWN), scene_of(scene))
+    problem = _Problem(scene, times, attitudes, sigma, names)
     first = np.zeros(problem.basis.shape[1])
     problem.motion(first).attitude(times)  # what is wrong with the scene or the times is told here
     for window in problem.windows():
@@ -91,6 +94,25 @@ def attitudes(
     first = problem.without_undetermined(first)
     solution = optimize.least_squares(problem.whitened, first, problem.jacobian, method="trf", xtol=1e-12, ftol=1e-12, gtol=1e-15)
     return problem.result(solution.x)
+
+
+def _of_body(names: tuple[str, ...], scene: Scene) -> tuple[str, ...]:
+    """The free quantities, if they are those of the body.
+
+    Raises
+    ------
+    InputError
+        "inertia" for a body without a tensor, or with "moments".
+    """
+    if "inertia" in names:
+        if not scene.body.has_tensor:
+            bound = "attitude, angular_velocity or moments"
+            raise refusal("free", "inertia", bound, f"has 'inertia' for a body given by moments: it must be {bound}, or the body one of Body.from_inertia")
+        if "moments" in names:
+            raise refusal(
+                "free", "moments, inertia", "one of them", "has 'moments' and 'inertia': it must have one of them, because the tensor has the moments"
+            )
+    return names
 
 
 class _Problem:
@@ -177,7 +199,7 @@ class _Problem:
         chi_squares = np.full(len(steps), np.nan)
         valid = bodies(self.steps, steps)
         for rows in np.array_split(np.flatnonzero(valid), 1 + len(steps) * len(self.measured) // POINTS):
-            attitudes = about_body_axes(self.steps.origin, members(self.steps, steps[rows], errors="nan").attitude(self.times))
+            attitudes = about_body_axes(self.steps, steps[rows], members(self.steps, steps[rows], errors="nan").attitude(self.times))
             residuals = logarithm(product(conjugate(attitudes), np.broadcast_to(self.measured, attitudes.shape)))
             chi_squares[rows] = np.sum(np.einsum("nij,mnj->mni", self.whiten, residuals) ** 2, axis=(1, 2))
         return chi_squares
@@ -202,11 +224,10 @@ def since_epoch(scene: Scene, times: Any) -> Array:
 
 
 def _without_factor(labels: tuple[str, ...]) -> Array:
-    """A basis of the steps that keep the product of the moments."""
-    if "I1" not in labels:
+    """A basis of the steps that keep the product of the moments, or the trace of the tensor."""
+    first = next((labels.index(label) for label in ("I1", "I11") if label in labels), None)
+    if first is None:
         return np.eye(len(labels))
-    state = len(labels) - 3
-    basis = np.zeros((len(labels), state + 2))
-    basis[:state, :state] = np.eye(state)
-    basis[state:, state:] = np.array([[1, 1], [-1, 1], [0, -2]]) / np.sqrt([2, 6])
-    return basis
+    basis = np.eye(len(labels))
+    basis[first : first + 3, first : first + 2] = np.array([[1, 1], [-1, 1], [0, -2]]) / np.sqrt([2, 6])
+    return np.delete(basis, first + 2, axis=1)

@@ -31,14 +31,14 @@ def undetermined(singular: Array, directions: Array, loose: float = LOOSE) -> Ar
 
 def sentence(lost: Array, steps: Steps, step: Array, covariance: Array) -> str | None:
     """One sentence that names the directions, and the sizes that are equal within their uncertainty; None if there are none. `covariance` is that of steps at `step`."""
-    names = [*_names(lost, steps), *_equal(lost, steps, step, covariance)]
+    names = [*_names(lost, steps, step), *_equal(lost, steps, step, covariance)]
     return f"The data do not determine {', nor '.join(names)}." if names else None
 
 
-def _names(lost: Array, steps: Steps) -> list[str]:
+def _names(lost: Array, steps: Steps, step: Array) -> list[str]:
     """Names that span the directions: all moments, a common factor of them and single components where they fit, combinations for the rest."""
     names = []
-    for name, rows in _named(steps):
+    for name, rows in _named(steps, step):
         if len(lost) >= len(rows) and np.all(np.linalg.norm(rows @ lost.T, axis=1) > PART):
             names.append(name)
             for row in rows:
@@ -46,7 +46,7 @@ def _names(lost: Array, steps: Steps) -> list[str]:
     return names + [_combination(row, steps.labels) for row in lost]
 
 
-def _named(steps: Steps) -> list[tuple[str, Array]]:
+def _named(steps: Steps, step: Array) -> list[tuple[str, Array]]:
     """Names with the directions that they stand for, the widest first."""
     labels = steps.labels
     unit = np.eye(len(labels))
@@ -54,6 +54,9 @@ def _named(steps: Steps) -> list[tuple[str, Array]]:
     moments = unit[[place for place, label in enumerate(labels) if label in MOMENTS]]
     if len(moments):
         named = [("the moments", moments), ("a common factor of the moments", moments.sum(axis=0, keepdims=True) / np.sqrt(3)), *named]
+    factor = steps.common_factor(step)
+    if factor is not None:
+        named = [("the inertia tensor", unit[labels.index("I11") :]), ("a common factor of the inertia tensor", factor[None]), *named]
     return [*named, *_symmetric(steps)]
 
 

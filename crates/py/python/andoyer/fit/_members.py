@@ -6,16 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from andoyer._core import Ensemble, Orbit, Scene
+from andoyer._core import Ensemble, Orbit
 from andoyer._quaternions import Array, conjugate, product
 from andoyer.fit._given import refusal
 from andoyer.fit._steps import Steps
 
 
 def bodies(steps: Steps, rows: Array) -> np.ndarray[Any, np.dtype[np.bool_]]:
-    """Whether a body has the moments of each row of steps: none exceeds the sum of the two others."""
+    """Whether a body has the moments of each row of steps: they are positive, and none exceeds the sum of the two others."""
     moments = steps.moments(rows)
-    valid: np.ndarray[Any, np.dtype[np.bool_]] = 2 * moments.max(axis=1) <= moments.sum(axis=1)
+    valid: np.ndarray[Any, np.dtype[np.bool_]] = (2 * moments.max(axis=1) <= moments.sum(axis=1)) & (moments.min(axis=1) > 0)
     return valid
 
 
@@ -34,21 +34,21 @@ def members(steps: Steps, rows: Array, *, threads: int | None = None, errors: st
     moments, attitudes, rates = steps.states(rows)
     _, options = scene.__getnewargs_ex__()
     shared = {"epochs": options.get("epoch", 0.0), "orbits": orbit, "tolerance": scene.tolerance, "span": scene.span}
-    about_principal_axes = product(attitudes, _turn(scene)) if len(rows) else attitudes
-    return Ensemble(moments, about_principal_axes, rates @ scene.body.principal_axes, threads=threads, errors=errors, **shared)
+    rates = np.einsum("mi,mij->mj", rates, steps.principal_axes(rows))
+    return Ensemble(moments, product(attitudes, _turns(steps, rows)), rates, threads=threads, errors=errors, **shared)
 
 
-def about_body_axes(scene: Scene, attitudes: Array) -> Array:
-    """Attitudes of the body axes, from those of the principal axes of `members`, shape (…, 4)."""
-    return product(attitudes, np.broadcast_to(conjugate(_turn(scene)), attitudes.shape))
+def about_body_axes(steps: Steps, rows: Array, attitudes: Array) -> Array:
+    """Attitudes of the body axes, from those of the principal axes of `members`, shape (m, n, 4)."""
+    return product(attitudes, np.broadcast_to(conjugate(_turns(steps, rows))[:, None], attitudes.shape))
 
 
-def _turn(scene: Scene) -> Array:
-    """The quaternion of the principal axes of a scene's body in its body axes."""
-    axes = scene.body.principal_axes
-    if np.array_equal(axes, np.eye(3)):
-        return np.array([0.0, 0.0, 0.0, 1.0])
+def _turns(steps: Steps, rows: Array) -> Array:
+    """The quaternions of the principal axes in the body axes, shape (m, 4)."""
+    axes = steps.principal_axes(rows)
+    if np.all(axes == np.eye(3)):
+        return np.broadcast_to(np.array([0.0, 0.0, 0.0, 1.0]), (len(rows), 4))
     from scipy.spatial.transform import Rotation
 
-    turn: Array = Rotation.from_matrix(np.array(axes)).as_quat()
-    return turn
+    turns: Array = Rotation.from_matrix(np.array(axes)).as_quat()
+    return turns

@@ -61,7 +61,7 @@ class Fit:
     scene: Scene
     """The scene of the best state, with the options of the given scene."""
     parameters: tuple[str, ...]
-    """Names of the free parameters: a small rotation θ1…θ3 about body axes at the epoch [rad], angular velocities ω1…ω3, principal moments I1…I3, axis ratios b/a, c/a."""
+    """Names of the free parameters: a small rotation θ1…θ3 about body axes at the epoch [rad], angular velocities ω1…ω3, principal moments I1…I3, elements of the tensor I11…I23, axis ratios b/a, c/a."""
     covariance: Array
     """Covariance of the free parameters, shape (k, k), in their units; 0 along directions that the data do not determine (see `undetermined`)."""
     undetermined: Array

@@ -2,6 +2,7 @@
 
 A step has three components for the attitude, R → R exp([s]×) with s in rad about body axes; three for the angular velocity, in units of its size at the first state; three for
 the logarithms of the moments, or two for those of the axis ratios of a homogeneous ellipsoid. So no step leads to a moment below 0, and all have the size of a relative change.
+A body from an inertia tensor has six components for its elements too, in units of their mean principal moment.
 """
 
 from dataclasses import dataclass
@@ -17,17 +18,21 @@ LABELS = {
     "attitude": ("θ1", "θ2", "θ3"),
     "angular_velocity": ("ω1", "ω2", "ω3"),
     "moments": ("I1", "I2", "I3"),
+    "inertia": ("I11", "I22", "I33", "I12", "I13", "I23"),
     "shape": ("b/a", "c/a"),
 }
-"""Names of the components: a rotation vector, body rates, principal moments, ratios of semi-axes."""
+"""Names of the components: a rotation vector, body rates, principal moments, elements of the inertia tensor, ratios of semi-axes."""
 WORDS = {
     "θ1": "the attitude about axis 1", "θ2": "the attitude about axis 2", "θ3": "the attitude about axis 3",
     "ω1": "the angular velocity about axis 1", "ω2": "the angular velocity about axis 2", "ω3": "the angular velocity about axis 3",
     "I1": "the moment about axis 1", "I2": "the moment about axis 2", "I3": "the moment about axis 3",
+    "I11": "the element I11", "I22": "the element I22", "I33": "the element I33", "I12": "the element I12", "I13": "the element I13", "I23": "the element I23",
     "b/a": "the axis ratio b/a", "c/a": "the axis ratio c/a",
 }  # fmt: skip
 FIXED_MOMENTS = 6
 """Components of a state before those of the body."""
+ELEMENTS = ([0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2])
+"""Rows and columns of the six elements of a tensor."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +53,7 @@ class Steps:
 
     @property
     def _body(self) -> str:
-        return "moments" if self.semi_axes is None else "shape"
+        return "inertia" if "inertia" in self.free else "moments" if self.semi_axes is None else "shape"
 
     @property
     def _places(self) -> list[int]:
@@ -76,18 +81,52 @@ class Steps:
         axes: Array = self.semi_axes * np.exp(np.concatenate([np.zeros((*logarithms.shape[:-1], 1)), logarithms], axis=-1))
         return axes
 
+    def tensors(self, steps: ArrayLike) -> Array:
+        """Inertia tensors about the user's axes, whose elements are free, shape (…, 3, 3)."""
+        elements = self.full(steps)[..., FIXED_MOMENTS:] * self.size
+        changes = np.zeros((*elements.shape[:-1], 3, 3))
+        changes[..., ELEMENTS[0], ELEMENTS[1]] = elements
+        changes[..., ELEMENTS[1], ELEMENTS[0]] = elements
+        tensors: Array = self.origin.body.inertia + changes
+        return tensors
+
+    @property
+    def size(self) -> float:
+        """Mean principal moment, in units of which the elements of a tensor step."""
+        return float(np.mean(self.origin.body.moments))
+
     def moments(self, steps: ArrayLike) -> Array:
         """Principal moments."""
-        if self.semi_axes is None:
-            moments: Array = self.origin.body.moments * np.exp(self.full(steps)[..., FIXED_MOMENTS:])
-            return moments
-        return moments_of_ellipsoid(self.axes(steps))
+        if self._body == "inertia":
+            moments: Array = np.linalg.eigvalsh(self.tensors(steps))
+        elif self.semi_axes is None:
+            moments = self.origin.body.moments * np.exp(self.full(steps)[..., FIXED_MOMENTS:])
+        else:
+            moments = moments_of_ellipsoid(self.axes(steps))
+        return moments
 
     def states(self, steps: ArrayLike) -> tuple[Array, Array, Array]:
         """Principal moments, attitudes and angular velocities, each with the leading axes of the steps."""
         full = self.full(steps)
         attitudes = product(np.broadcast_to(self.origin.attitude, (*full.shape[:-1], 4)), exponential(full[..., :3]))
         return self.moments(steps), attitudes, self.origin.angular_velocity + self.rate * full[..., 3:6]
+
+    def principal_axes(self, steps: ArrayLike) -> Array:
+        """Principal axes as the columns of rotations, in the order of `moments`, with the leading axes of the steps."""
+        if self._body != "inertia":
+            return np.broadcast_to(self.origin.body.principal_axes, (*np.shape(steps)[:-1], 3, 3))
+        _, axes = np.linalg.eigh(self.tensors(steps))
+        axes[..., 2] *= np.linalg.det(axes)[..., None]
+        return axes
+
+    def common_factor(self, step: ArrayLike) -> Array | None:
+        """The direction in which all elements of the tensor change by a common factor, or None where they are not free."""
+        if self._body != "inertia":
+            return None
+        factor = np.zeros(len(self.labels))
+        factor[self.labels.index("I11") :] = self.tensors(step)[ELEMENTS]
+        normalized: Array = factor / np.linalg.norm(factor)
+        return normalized
 
     def scene(self, step: ArrayLike) -> Scene:
         """The scene that a step leads to, with the options of the first.
@@ -99,28 +138,36 @@ class Steps:
         """
         moments, attitude, rates = self.states(step)
         body = self.origin.body
-        if np.any(moments != body.moments):
+        if self._body == "inertia":
+            body = Body.from_inertia(self.tensors(step), name=body.name)
+        elif np.any(moments != body.moments):
             axes = body.principal_axes
-            body = Body(moments, name=body.name) if np.array_equal(axes, np.eye(3)) else Body.from_inertia(axes * moments @ axes.T, name=body.name)
+            body = Body.from_inertia(axes * moments @ axes.T, name=body.name) if body.has_tensor else Body(moments, name=body.name)
         _, options = self.origin.__getnewargs_ex__()
         return Scene(body, attitude, rates, **options)
 
     def columns(self, partials: Array, step: ArrayLike, body: Body) -> Array:
-        """Convert derivatives by the nine parameters of `Motion.partials` into derivatives by the free components."""
+        """Convert derivatives by the nine or twelve parameters of `Motion.partials` into derivatives by the free components."""
         full = self.full(step)
-        moments = self.moments(step)
-        # The body of the step may have its principal axes in another order.
-        order = np.argmax(np.abs(body.principal_axes.T @ self.origin.body.principal_axes), axis=0)
-        by_logarithm = partials[..., FIXED_MOMENTS:][..., order] * moments
-        if self.semi_axes is not None:
-            by_logarithm = by_logarithm @ logarithms_by_shape(self.axes(step))
-        attitude = partials[..., :3] @ right_jacobian(full[:3])
-        columns: Array = np.concatenate([attitude, partials[..., 3:6] * self.rate, by_logarithm], axis=-1)[..., self._places]
+        attitude, rates = partials[..., :3] @ right_jacobian(full[:3]), partials[..., 3:6] * self.rate
+        by_body = partials[..., FIXED_MOMENTS:]
+        if self._body == "inertia":
+            by_step = by_body * self.size
+        else:
+            if body.has_tensor:
+                by_body = by_body @ elements_by_moments(self.origin.body.principal_axes)
+            by_step = by_body * self.moments(step)
+            if self.semi_axes is not None:
+                by_step = by_step @ logarithms_by_shape(self.axes(step))
+        columns: Array = np.concatenate([attitude, rates, by_step], axis=-1)[..., self._places]
         return columns
 
     def units(self, step: ArrayLike) -> Array:
         """The change of each free parameter, in its unit, for a small unit step."""
-        body = self.moments(step) if self.semi_axes is None else self.axes(step)[1:] / self.axes(step)[0]
+        if self._body == "inertia":
+            body = np.full(6, self.size)
+        else:
+            body = self.moments(step) if self.semi_axes is None else self.axes(step)[1:] / self.axes(step)[0]
         units: Array = np.concatenate([np.ones(3), np.full(3, self.rate), body])[self._places]
         return units
 
@@ -131,6 +178,12 @@ def root(covariance: Array, steps: Steps) -> Array:
     values, vectors = np.linalg.eigh((covariance + covariance.T) / 2 / np.outer(units, units))
     square_root: Array = vectors * np.sqrt(np.maximum(values, 0.0))
     return square_root
+
+
+def elements_by_moments(axes: Array) -> Array:
+    """Derivatives of the elements of a tensor with respect to its principal moments, about fixed principal axes, shape (6, 3)."""
+    elements: Array = axes[ELEMENTS[0]] * axes[ELEMENTS[1]]
+    return elements
 
 
 def moments_of_ellipsoid(axes: Array) -> Array:
