@@ -18,6 +18,7 @@ use super::budget::MOST_ORBITS;
 use super::corrections::Corrections;
 use super::course::Course;
 use super::draft::{Draft, Outset};
+use super::generator::ExactTerm;
 use super::inertia::Inertia;
 use super::mean_motion::MeanMotion;
 use super::offset::Offset;
@@ -27,6 +28,9 @@ use crate::input::options::{Averaging, Level};
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
 use crate::torque_free::polhode::Frame;
+
+/// Memory of the tables for one disturbing body, at most \[bytes\]: 18 to 50 kB.
+const TABLES: usize = 1 << 16;
 
 /// The entries of a plan that concern the gravity gradient.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -121,6 +125,12 @@ impl Gradient {
             return Err(Error::SpanOfBodies { value: request.duration(), bound });
         }
         Ok(gradient)
+    }
+
+    /// Its memory, in bytes.
+    pub(crate) fn memory(&self) -> usize {
+        let exact = self.bodies.iter().flat_map(|body| &body.corrections.generator.exact).map(ExactTerm::memory);
+        TABLES * self.bodies.len() + exact.sum::<usize>() + self.slow.memory()
     }
 
     /// Mean rates of ℓ′ and y′ in the user's unit. y′ is counted from an axis that turns with the angular momentum and not about it.

@@ -42,6 +42,13 @@ impl Arcs {
         Self { start, kept: Arc::default() }
     }
 
+    /// The memory of the solved arcs, in bytes.
+    pub(super) fn memory(&self) -> usize {
+        let side =
+            |arcs: &RwLock<Vec<Stretch>>| arcs.read().unwrap_or_else(|poisoned| poisoned.into_inner()).capacity();
+        self.kept.iter().map(side).sum::<usize>() * size_of::<Stretch>()
+    }
+
     /// The frame and the other columns at times after the epoch. The function is compiled separately: one fixed orbit does without it.
     #[inline(always)]
     pub(super) fn at<S: InstructionSet>(

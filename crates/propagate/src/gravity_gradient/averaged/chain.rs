@@ -52,6 +52,12 @@ impl<T> Chain<T> {
         }
     }
 
+    /// The memory of the values that are known, in bytes. Values are computed in order, so that a block is filled before the next is made.
+    pub(super) fn memory(&self) -> usize {
+        let made = self.blocks.iter().enumerate().filter(|(_, block)| block.get().is_some());
+        made.map(|(block, _)| (size_of::<Cell<T>>() + size_of::<T>()) << block).sum()
+    }
+
     fn cell(&self, number: usize) -> &Cell<T> {
         let (block, place) = position(number);
         &self.blocks[block].get_or_init(|| (0..1_usize << block).map(|_| OnceLock::new()).collect())[place]

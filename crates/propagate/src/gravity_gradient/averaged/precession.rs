@@ -105,6 +105,14 @@ impl Precession {
         Self { ellipse, mean, factors, phase: phase.values()[0] }
     }
 
+    /// The memory of what is solved so far, in bytes.
+    pub(super) fn memory(&self) -> usize {
+        match &self.mean {
+            MeanFrame::Steady { .. } => 0,
+            MeanFrame::Nodding(nodding) => nodding.arcs.memory(),
+        }
+    }
+
     /// The frame, and Ψ twice or the drifts of ℓ′ and y′.
     #[inline(always)]
     pub(super) fn at<S: InstructionSet>(
