@@ -121,7 +121,7 @@ def tensors(generator):
     for limit in [None] * 24 + [limit for limit in LIMITS for _ in range(4)]:
         moments, rates = body(generator, limit, 1)
         cx = MPContext()
-        quaternion = direction(generator) + [0.5]
+        quaternion = [*direction(generator), 0.5]
         norm = sum(x * x for x in quaternion)
         x, y, z, w = quaternion
         turn = [

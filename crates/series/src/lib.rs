@@ -6,7 +6,7 @@
 //! the same in floating point at a given β, for the propagation.
 //!
 //! Contract: exact input gives exact results. Overflow of an exponent is an error. Iteration, printing and summation follow the canonical order of the
-//! monomials, so two runs give the same bits. The crate does no I/O and has no global state, and every type is `Send + Sync`. Brackets follow {q; p} = 1.
+//! monomials, so two runs give the same bits. The crate does no I/O and has no global state except its [`threads`], and every type is `Send + Sync`. Brackets follow {q; p} = 1.
 //! Theory: M. Lara, *Short-axis-mode rotation in complex variables* (2017), with its errata.
 //!
 #![doc = include_str!("../doc/formulas.html")]
@@ -33,6 +33,7 @@ pub mod real_field;
 pub mod rigid_body;
 mod ring;
 mod terms;
+pub mod threads;
 mod triangle;
 mod words;
 

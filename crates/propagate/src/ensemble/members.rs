@@ -2,25 +2,19 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use andoyer_series::threads::shared;
 use rayon::prelude::*;
 
 use crate::error::Error;
 use crate::input::body::Body;
 use crate::input::orbit::Orbit;
-use crate::input::scene::Scene;
-use crate::input::state::State;
-use crate::motion::solved::{Motion, length};
+use crate::motion::solved::length;
 use crate::simd::halt::GOING;
-use crate::simd::lanes::WIDEST;
-use crate::solve::several;
 
+use super::kept::Kept;
+use super::motions::BLOCK;
 use super::on_error::OnError;
-use super::pool::{MAX_THREADS, Pool};
-
-/// Members that a thread takes at least: 64 of them are some 100 µs.
-const BLOCK: usize = 64;
-/// The same under a gravity gradient, at 200 µs each.
-const DISTURBED_BLOCK: usize = 2;
+use super::pool::MAX_THREADS;
 
 /// Bodies with their states, at one epoch or each at its own.
 ///
@@ -38,7 +32,10 @@ const DISTURBED_BLOCK: usize = 2;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ensemble {
+    /// Principal moments; NaN for a tensor that has none.
     moments: Vec<[f64; 3]>,
+    /// None, or one for each.
+    tensors: Vec<[[f64; 3]; 3]>,
     attitudes: Vec<[f64; 4]>,
     angular_velocities: Vec<[f64; 3]>,
     /// None for 0, one for all, or one for each.
@@ -49,6 +46,7 @@ pub struct Ensemble {
     tolerance: f64,
     span: Option<(f64, f64)>,
     threads: Option<usize>,
+    pub(super) kept: Kept,
 }
 
 impl Ensemble {
@@ -92,10 +90,52 @@ impl Ensemble {
         on_error: OnError,
         stop: &AtomicBool,
     ) -> Result<Self, Error> {
+        Self::checked((moments, Vec::new()), attitudes, angular_velocities, on_error, stop)
+    }
+
+    /// An ensemble from inertia tensors about axes that the user chose, each as [`Body::from_inertia`] takes it; else as [`Ensemble::new_or`]. Attitudes, rates
+    /// and momenta are about these axes.
+    ///
+    /// ```
+    /// use std::sync::atomic::AtomicBool;
+    /// use andoyer_propagate::Ensemble;
+    /// use andoyer_propagate::ensemble::OnError;
+    /// let tensors = vec![[[1.5, 0.5, 0.0], [0.5, 1.5, 0.0], [0.0, 0.0, 2.0]]; 2];
+    /// let (level, rates) = (vec![[0.0, 0.0, 0.0, 1.0]; 2], vec![[0.0, 0.0, 1.0], [0.1, 0.2, 1.0]]);
+    /// let ensemble = Ensemble::from_inertia_or(tensors, level, rates, OnError::Raise, &AtomicBool::new(false))?;
+    /// assert!((ensemble.moments()[1][0] - 1.0).abs() < 1e-15 && ensemble.inertia(1)[0] == [1.5, 0.5, 0.0]);
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - Those of [`Ensemble::new_or`]; [`Error::Member`] also with what [`Body::from_inertia`] says.
+    pub fn from_inertia_or(
+        tensors: Vec<[[f64; 3]; 3]>,
+        attitudes: Vec<[f64; 4]>,
+        angular_velocities: Vec<[f64; 3]>,
+        on_error: OnError,
+        stop: &AtomicBool,
+    ) -> Result<Self, Error> {
+        let principal = |tensor: &[[f64; 3]; 3]| match stop.load(Ordering::Relaxed) {
+            true => [f64::NAN; 3],
+            false => Body::from_inertia(*tensor).map_or([f64::NAN; 3], |body| body.moments()),
+        };
+        let moments = tensors.iter().map(principal).collect();
+        Self::checked((moments, tensors), attitudes, angular_velocities, on_error, stop)
+    }
+
+    fn checked(
+        (moments, tensors): (Vec<[f64; 3]>, Vec<[[f64; 3]; 3]>),
+        attitudes: Vec<[f64; 4]>,
+        angular_velocities: Vec<[f64; 3]>,
+        on_error: OnError,
+        stop: &AtomicBool,
+    ) -> Result<Self, Error> {
         length("attitudes", attitudes.len(), moments.len())?;
         length("angular_velocities", angular_velocities.len(), moments.len())?;
         let ensemble = Self {
             moments,
+            tensors,
             attitudes,
             angular_velocities,
             epochs: Vec::new(),
@@ -104,6 +144,7 @@ impl Ensemble {
             tolerance: 1e-12,
             span: None,
             threads: None,
+            kept: Kept::default(),
         };
         ensemble.raise_bad_members(stop)?;
         Ok(ensemble)
@@ -111,15 +152,18 @@ impl Ensemble {
 
     /// The first member that is no body or no state, as an error, unless they are to be NaN.
     fn raise_bad_members(&self, stop: &AtomicBool) -> Result<(), Error> {
-        if self.on_error == OnError::Nan {
+        if self.on_error == OnError::Nan && !stop.load(Ordering::Relaxed) {
             return Ok(());
         }
         let problems = |index: usize| match stop.load(Ordering::Relaxed) {
             true => Some((index, Error::Stopped)),
             false => self.scene(index).err().map(|problem| (index, problem)),
         };
-        let bad: Vec<(usize, Error)> =
-            (0..self.len()).into_par_iter().with_min_len(BLOCK).filter_map(problems).collect();
+        let members = 0..self.len();
+        let bad: Vec<(usize, Error)> = shared(self.len() / BLOCK, |threads| match threads {
+            1 => members.filter_map(problems).collect(),
+            _ => members.into_par_iter().with_min_len(BLOCK).filter_map(problems).collect(),
+        });
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Stopped);
         }
@@ -162,14 +206,14 @@ impl Ensemble {
         if self.epochs.windows(2).all(|pair| pair[0] == pair[1]) {
             self.epochs.truncate(usize::from(self.epochs.first().is_some_and(|&epoch| epoch != 0.0)));
         }
-        Ok(self)
+        Ok(self.changed())
     }
 
     /// The attitude error asked for \[rad\], as for [`Scene::tolerance`].
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
-        self
+        self.changed()
     }
 
     /// Orbits of bodies whose gravity gradient acts on the members: one for all, or one or none for each, as for [`Scene::orbit`].
@@ -198,14 +242,19 @@ impl Ensemble {
             orbits.truncate(usize::from(orbits.first().is_some_and(Option::is_some)));
         }
         self.orbits = orbits;
-        Ok(self)
+        Ok(self.changed())
     }
 
     /// The times over which the tolerance is asked for and error bounds hold, as for [`Scene::span`].
     #[must_use]
     pub fn span(mut self, start: f64, stop: f64) -> Self {
         self.span = Some((start, stop));
-        self
+        self.changed()
+    }
+
+    /// Without the motions that were kept: they are those of other options.
+    fn changed(self) -> Self {
+        Self { kept: Kept::default(), ..self }
     }
 
     /// The number of threads, instead of one for each core.
@@ -225,9 +274,20 @@ impl Ensemble {
         self.moments.is_empty()
     }
 
-    /// The moments about body axes 1, 2, 3 of each member.
+    /// The moments about body axes 1, 2, 3 of each member, as [`Body::moments`]; NaN for a tensor that is not valid.
     pub fn moments(&self) -> &[[f64; 3]] {
         &self.moments
+    }
+
+    /// The inertia tensors: none, or one for each member.
+    pub fn asked_tensors(&self) -> &[[[f64; 3]; 3]] {
+        &self.tensors
+    }
+
+    /// The inertia tensor of a member as given, diagonal if moments were given.
+    pub fn inertia(&self, index: usize) -> [[f64; 3]; 3] {
+        let [a, b, c] = self.moments[index];
+        self.tensors.get(index).copied().unwrap_or([[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]])
     }
 
     /// The attitude of each member at the epoch, as given.
@@ -306,48 +366,11 @@ impl Ensemble {
         }
     }
 
-    fn validate_threads(&self) -> Result<(), Error> {
+    pub(super) fn validate_threads(&self) -> Result<(), Error> {
         match self.threads {
             None | Some(1..=MAX_THREADS) => Ok(()),
             Some(value) => Err(Error::Threads { value, problem: format!("it must be from 1 to {MAX_THREADS}") }),
         }
-    }
-
-    fn scene(&self, index: usize) -> Result<Scene, Error> {
-        let state = State::new(self.epoch(index), self.attitudes[index], self.angular_velocities[index])?;
-        let mut scene = Scene::new(Body::new(self.moments[index])?, state).tolerance(self.tolerance);
-        if let Some(&orbit) = self.orbit(index) {
-            scene = scene.orbit(orbit);
-        }
-        if let Some((start, stop)) = self.span {
-            scene = scene.span(start, stop);
-        }
-        // The state is valid already.
-        scene.validate_options()?;
-        Ok(scene)
-    }
-
-    /// Calls `each` with the motions of members, one after another. Their plans do not say what was skipped. There are at most [`Ensemble::group`] of them.
-    pub(super) fn each_motion(&self, indices: &[usize], each: impl FnMut(&Result<Motion, Error>)) {
-        several(indices.iter().map(|index| self.scene(*index)).collect(), each);
-    }
-
-    /// Members that are solved at once. Those under a gravity gradient are solved one by one.
-    pub(super) fn group(&self) -> usize {
-        if self.orbits.is_empty() { WIDEST } else { 1 }
-    }
-
-    /// The motion of one member.
-    ///
-    /// # Errors
-    /// - [`Error::Index`] for an index that no member has.
-    /// - [`Error::Member`] with what [`Scene::solve`] says of it.
-    pub fn motion(&self, index: usize) -> Result<Motion, Error> {
-        if index >= self.len() {
-            return Err(Error::Index { index, members: self.len() });
-        }
-        let motion = self.scene(index).and_then(|scene| scene.solve());
-        motion.map_err(|problem| Error::of_member(index, problem))
     }
 
     /// The number of times of a member, if that many rows belong to `times`.
@@ -362,15 +385,5 @@ impl Ensemble {
         let each = rows / self.len();
         length("times", times.len(), each * self.len())?;
         Ok(each)
-    }
-
-    pub(super) fn pool(&self) -> Result<Pool, Error> {
-        self.validate_threads()?;
-        Pool::new(self.threads)
-    }
-
-    /// Members that a thread takes at least, a multiple of the group.
-    pub(super) fn block(&self) -> usize {
-        if self.orbits.is_empty() { BLOCK } else { DISTURBED_BLOCK }
     }
 }

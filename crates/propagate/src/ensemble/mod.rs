@@ -5,12 +5,15 @@
 //! one by one, in some 200 µs. A member's motion lives while its rows are written; nothing of it is kept. Every bad member is found before any is computed, and
 //! the error names the first with its index.
 
+mod kept;
 mod members;
+mod motions;
 mod on_error;
 mod pool;
 mod run;
 
 pub use crate::outcome::Outcome;
+pub use kept::KEPT_MEMORY;
 pub use members::Ensemble;
 pub use on_error::OnError;
 pub use pool::MAX_THREADS;

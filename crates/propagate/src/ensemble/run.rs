@@ -17,6 +17,7 @@ use crate::simd::halt::GOING;
 
 use super::members::Ensemble;
 use super::on_error::OnError;
+use super::pool::on_threads;
 
 impl Ensemble {
     /// How its members are evaluated.
@@ -89,8 +90,11 @@ impl<'a> Run<'a> {
             self.going()?;
             ensemble.motion(index).map(|motion| motion.plan().clone())
         };
-        let members = || (0..ensemble.len()).into_par_iter().with_min_len(ensemble.block()).map(plan).collect();
-        let plans = ensemble.pool()?.install(members);
+        let members = 0..ensemble.len();
+        let plans = self.on_threads(|threads| match threads {
+            1 => members.map(plan).collect(),
+            _ => members.into_par_iter().with_min_len(ensemble.block()).map(plan).collect(),
+        })?;
         self.going().map(|()| plans)
     }
 
@@ -129,7 +133,7 @@ impl<'a> Run<'a> {
         let evaluate = |motion: &Motion, index: usize, rows: &mut &mut [[f64; N]]| {
             evaluate(&self.batch(motion), of_member(times, index, each), rows)
         };
-        self.each_member(out.par_chunks_mut(each.max(1)), evaluate, |rows| rows.fill([f64::NAN; N]))
+        self.each_member(out.chunks_mut(each.max(1)), evaluate, |rows| rows.fill([f64::NAN; N]))
     }
 
     /// As [`Ensemble::samples_into`].
@@ -144,7 +148,7 @@ impl<'a> Run<'a> {
     ) -> Result<Outcome, Error> {
         length("rates", rates.len(), attitudes.len())?;
         let each = self.ensemble.times_of_each("attitudes", times, attitudes.len())?;
-        let rows = attitudes.par_chunks_mut(each.max(1)).zip(rates.par_chunks_mut(each.max(1)));
+        let rows = attitudes.chunks_mut(each.max(1)).zip(rates.chunks_mut(each.max(1)));
         let evaluate = |motion: &Motion, index: usize, rows: &mut (&mut [[f64; 4]], &mut [[f64; 3]])| {
             self.batch(motion).samples_into(of_member(times, index, each), rows.0, rows.1)
         };
@@ -178,7 +182,7 @@ impl<'a> Run<'a> {
     ) -> Result<Outcome, Error> {
         length("rates", rates.len(), attitudes.len())?;
         let each = self.ensemble.times_of_each("attitudes", times, attitudes.len())?;
-        let rows = attitudes.par_chunks_mut(each.max(1)).zip(rates.par_chunks_mut(each.max(1)));
+        let rows = attitudes.chunks_mut(each.max(1)).zip(rates.chunks_mut(each.max(1)));
         let evaluate = |motion: &Motion, index: usize, rows: &mut (&mut [Derivatives], &mut [Derivatives])| {
             self.batch(motion).partials_into(of_member(times, index, each), rows.0, rows.1)
         };
@@ -219,7 +223,14 @@ impl<'a> Run<'a> {
             **slot = value(motion);
             Ok(())
         };
-        self.each_member(out.par_iter_mut(), evaluate, |slot| **slot = none)
+        self.each_member(out.iter_mut(), evaluate, |slot| **slot = none)
+    }
+
+    /// Shares work on the members among the threads, each with a block of them at least.
+    fn on_threads<R: Send>(&self, work: impl FnOnce(usize) -> R + Send) -> Result<R, Error> {
+        let Self { ensemble, .. } = *self;
+        ensemble.validate_threads()?;
+        on_threads(ensemble.asked_threads(), ensemble.len() / ensemble.block(), work)
     }
 
     fn batch(&self, motion: &'a Motion) -> Batch<'a> {
@@ -235,39 +246,44 @@ impl<'a> Run<'a> {
     /// number of threads.
     fn each_member<Rows: Send>(
         &self,
-        rows: impl IndexedParallelIterator<Item = Rows>,
+        rows: impl Iterator<Item = Rows>,
         evaluate: impl Fn(&Motion, usize, &mut Rows) -> Result<(), Error> + Sync,
         blank: impl Fn(&mut Rows) + Sync,
     ) -> Result<Outcome, Error> {
         let Self { ensemble, .. } = *self;
-        let told = |outcome: Outcome, (index, mut rows): (usize, Rows), motion: &Result<Motion, Error>| {
+        let told = |outcome: Outcome, (index, rows): (usize, &mut Rows), motion: &Result<Motion, Error>| {
             let refused = match motion {
-                Ok(motion) => match evaluate(motion, index, &mut rows) {
+                Ok(motion) => match evaluate(motion, index, rows) {
                     Ok(()) => return outcome.solved(index, motion.plan()),
                     Err(error) => error,
                 },
                 Err(error) => error.clone(),
             };
-            blank(&mut rows);
+            blank(rows);
             outcome.refused(index, Error::of_member(index, refused))
         };
-        let all_told = |outcome: Outcome, group: Vec<(usize, Rows)>| {
+        let size = ensemble.group();
+        let all_told = |outcome: Outcome, (group, rows): (usize, &mut [Rows])| {
             if let Err(stopped) = self.going() {
                 return outcome.refused(0, stopped);
             }
-            let indices: Vec<usize> = group.iter().map(|(index, _)| *index).collect();
-            let (mut all, mut members) = (outcome, group.into_iter());
-            ensemble.each_motion(&indices, |motion| {
-                if let Some(member) = members.next() {
+            let members = group * size..group * size + rows.len();
+            let (mut all, mut rows) = (outcome, members.clone().zip(rows.iter_mut()));
+            ensemble.each_motion(members, |motion| {
+                if let Some(member) = rows.next() {
                     all = told(std::mem::take(&mut all), member, motion);
                 }
             });
             all
         };
-        let members = rows.enumerate().chunks(ensemble.group()).with_min_len(ensemble.block() / ensemble.group());
-        let outcome = ensemble
-            .pool()?
-            .install(|| members.fold(Outcome::default, all_told).reduce(Outcome::default, Outcome::and));
+        let mut rows: Vec<Rows> = rows.collect();
+        let outcome = self.on_threads(|threads| {
+            if threads == 1 {
+                return rows.chunks_mut(size).enumerate().fold(Outcome::default(), all_told);
+            }
+            let groups = rows.par_chunks_mut(size).enumerate().with_min_len(ensemble.block() / size);
+            groups.fold(Outcome::default, all_told).reduce(Outcome::default, Outcome::and)
+        })?;
         self.going()?;
         match ensemble.asked_on_error() {
             OnError::Nan => Ok(outcome),

@@ -8,6 +8,7 @@
 use std::f64::consts::TAU;
 
 use andoyer_double::DoubleDouble;
+use num_complex::Complex;
 
 use crate::error::Error;
 use crate::gravity_gradient::averaged::spin::MOST_QUARTERS;
@@ -17,13 +18,16 @@ use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::draft::{Draft, Outset};
 use crate::gravity_gradient::estimate::MOST_ORBITS;
 use crate::gravity_gradient::first_order::corrections::Corrections;
+use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
 use crate::gravity_gradient::orbit::elliptic_motion::Course;
 use crate::input::options::{Averaging, Level};
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
 use crate::torque_free::polhode::Frame;
-use num_complex::Complex;
+
+/// Memory of the tables for one disturbing body, at most \[bytes\]: 18 to 50 kB.
+const TABLES: usize = 1 << 16;
 
 /// The entries of a plan that concern the gravity gradient.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -126,6 +130,12 @@ impl Gradient {
             return Err(Error::SpanOfBodies { value: request.duration(), bound });
         }
         Ok(gradient)
+    }
+
+    /// Its memory, in bytes.
+    pub(crate) fn memory(&self) -> usize {
+        let exact = self.bodies.iter().flat_map(|body| &body.corrections.generator.exact).map(ExactTerm::memory);
+        TABLES * self.bodies.len() + exact.sum::<usize>() + self.slow.memory()
     }
 
     /// Mean rates of ℓ′ and y′ in the user's unit. y′ is counted from an axis that turns with the angular momentum and not about it.

@@ -10,7 +10,7 @@ use super::bound::{FLOOR, INPUT, Measured, Profile, SAFETY};
 use super::disturber::Disturber;
 use super::expansion::Equations;
 use super::integrator::{Kept, Precision, ROUNDING, Runner, Side, Step};
-use super::series::{Row, largest};
+use super::series::{Coefficients, Row, largest};
 use crate::error::Error;
 use crate::input::disturbing_body::DisturbingBody;
 use crate::input::orbit::Orbit;
@@ -81,6 +81,14 @@ impl Integrated {
     pub(crate) fn plan(&self) -> IntegrationPlan {
         let steps = self.sides.iter().map(|side| side.steps.len() - 1).sum();
         IntegrationPlan { steps, bodies: self.equations.bodies.len() }
+    }
+
+    /// Its memory, in bytes.
+    pub(crate) fn memory(&self) -> usize {
+        let side = |Side { steps, coefficients }: &Side| {
+            steps.capacity() * size_of::<Step>() + coefficients.capacity() * size_of::<Coefficients>()
+        };
+        size_of::<Self>() + self.sides.iter().map(side).sum::<usize>()
     }
 
     /// The order of the series.

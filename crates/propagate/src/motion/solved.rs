@@ -109,6 +109,11 @@ impl Motion {
         &self.plan
     }
 
+    /// Its memory in bytes, to some kilobytes; that of a motion under a torque grows while times are evaluated.
+    pub(crate) fn memory(&self) -> usize {
+        size_of::<Self>() + self.trajectory.memory()
+    }
+
     /// The mean frequencies [rad per unit of time]; 0 if the motion has none.
     pub fn frequencies(&self) -> Frequencies {
         self.frequencies

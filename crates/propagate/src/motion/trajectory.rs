@@ -12,6 +12,7 @@
 
 use std::sync::atomic::AtomicBool;
 
+use andoyer_series::threads::shared;
 use pulp::Arch;
 
 use crate::gravity_gradient::disturbed::Gradient;
@@ -63,6 +64,19 @@ impl Trajectory {
     }
 }
 
+impl Trajectory {
+    /// Its memory without that of the variant itself, in bytes.
+    pub(crate) fn memory(&self) -> usize {
+        match self {
+            Self::Steady(steady) => size_of_val(&**steady),
+            Self::Wobble(wobble) => size_of_val(&**wobble),
+            Self::Passage(passage) => size_of_val(&**passage),
+            Self::Gradient(gradient) => gradient.memory(),
+            Self::Integrated(motion) => motion.memory(),
+        }
+    }
+}
+
 /// A trajectory with the bounds of its times and the instruction set.
 #[derive(Clone, Copy)]
 pub(crate) struct Evaluation<'a> {
@@ -80,9 +94,7 @@ impl Evaluation<'_> {
     pub(crate) fn fill(&self, times: &[f64], outputs: Outputs<'_>, threads: usize) -> Result<(), Halt> {
         let grid = self.trajectory.phases().and_then(|phases| Grid::new(self.arch, phases, times));
         let enough = times.len() / SAMPLES_PER_THREAD;
-        // Reading the size of the thread pool starts the pool, so it is not read for a few samples.
-        let threads = if enough.min(threads) <= 1 { 1 } else { enough.min(threads).min(rayon::current_num_threads()) };
-        self.spread(times, outputs, grid.as_ref(), threads)
+        shared(enough.min(threads), |threads| self.spread(times, outputs, grid.as_ref(), threads))
     }
 
     /// Gives each half to a thread. A half begins where a group begins, so that each sample is computed as with one thread.

@@ -10,6 +10,7 @@
 //! Attitude, rates and the numbers of theory §12 are computed with a time in each lane, the matrices ([`super::matrices`]) with a parameter in each lane. All
 //! quantities are in units of M = 1 and of the scaled time.
 
+use andoyer_series::threads::shared;
 use nalgebra::UnitQuaternion;
 use pulp::Arch;
 
@@ -51,18 +52,19 @@ impl Target<'_> {
     /// the number of threads.
     pub(super) fn fill<T: Source + Sync>(self, source: &T, attitudes: &mut [Derivatives], rates: &mut [Derivatives]) {
         let length = self.times.len();
-        if length < 2 * SAMPLES_PER_THREAD || rayon::current_num_threads() == 1 {
-            dispatch(Arch::new(), Run { target: self, source, attitudes, rates });
-            return;
-        }
-        let threads = (length / SAMPLES_PER_THREAD).min(rayon::current_num_threads());
-        let part = length.div_ceil(threads).next_multiple_of(WIDEST);
-        rayon::scope(|scope| {
-            let outputs = attitudes.chunks_mut(part).zip(rates.chunks_mut(part));
-            for (times, (attitudes, rates)) in self.times.chunks(part).zip(outputs) {
-                let target = Target { times, ..self };
-                scope.spawn(move |_| dispatch(Arch::new(), Run { target, source, attitudes, rates }));
+        shared(length / SAMPLES_PER_THREAD, |threads| {
+            if threads == 1 {
+                dispatch(Arch::new(), Run { target: self, source, attitudes, rates });
+                return;
             }
+            let part = length.div_ceil(threads).next_multiple_of(WIDEST);
+            rayon::scope(|scope| {
+                let outputs = attitudes.chunks_mut(part).zip(rates.chunks_mut(part));
+                for (times, (attitudes, rates)) in self.times.chunks(part).zip(outputs) {
+                    let target = Target { times, ..self };
+                    scope.spawn(move |_| dispatch(Arch::new(), Run { target, source, attitudes, rates }));
+                }
+            });
         });
     }
 

@@ -5,7 +5,7 @@
 
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::V3_128b;
-use pulp::{Arch, NullaryFnOnce, Simd, bytemuck, cast};
+use pulp::{Arch, NullaryFnOnce, Simd, bytemuck};
 
 /// An instruction set.
 pub(crate) trait InstructionSet: Simd {
@@ -67,7 +67,7 @@ pub(crate) fn dispatch<T: Task>(arch: Arch, task: T) -> T::Output {
         Arch::V3(simd) => simd.vectorize(On(simd, task)),
         #[cfg(target_arch = "aarch64")]
         Arch::Neon(simd) => simd.vectorize(On(simd, task)),
-        _ => task.run(pulp::Scalar),
+        _ => On(pulp::Scalar, task).call(),
     }
 }
 
@@ -90,7 +90,7 @@ pub(crate) fn dispatch_one<T: Task>(arch: Arch, task: T) -> T::Output {
         Arch::V3(simd) => simd.vectorize(On(V3_128b(simd), task)),
         #[cfg(target_arch = "aarch64")]
         Arch::Neon(simd) => simd.vectorize(On(simd, task)),
-        _ => task.run(pulp::Scalar),
+        _ => On(pulp::Scalar, task).call(),
     }
 }
 
@@ -133,9 +133,9 @@ impl InstructionSet for pulp::Scalar {
 mod x86 {
     use std::arch::x86_64::{__m128d, __m256d, __m512d};
 
-    use super::{InstructionSet, Simd, cast};
+    use super::{InstructionSet, Simd};
     use pulp::x86::{V3, V3_128b, V4};
-    use pulp::{f64x2, f64x4, f64x8, u64x2, u64x4, u64x8};
+    use pulp::{cast, f64x2, f64x4, f64x8, u64x2, u64x4, u64x8};
 
     /// One vector of two lanes, with fused multiply-add.
     impl InstructionSet for V3_128b {
@@ -280,9 +280,9 @@ mod x86 {
 mod aarch64 {
     use std::arch::aarch64::float64x2_t;
 
-    use super::{InstructionSet, Simd, cast};
+    use super::{InstructionSet, Simd};
     use pulp::aarch64::Neon;
-    use pulp::{f64x2, u64x2};
+    use pulp::{cast, f64x2, u64x2};
 
     /// NEON: two lanes.
     impl InstructionSet for Neon {

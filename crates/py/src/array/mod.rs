@@ -125,6 +125,11 @@ pub(crate) enum MemberRows<const N: usize> {
 
 impl<const N: usize> MemberRows<N> {
     pub(crate) fn new(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Self::of_shape(argument, value, &format!("(m, {N}) or ({N},)"))
+    }
+
+    /// As [`MemberRows::new`], with what the error says that the shape must be.
+    pub(crate) fn of_shape(argument: &str, value: &Bound<'_, PyAny>, bound: &str) -> PyResult<Self> {
         let array = numbers(argument, value)?;
         let values = read(argument, &array)?;
         match (array.shape(), values.as_slice()?.as_chunks().0) {
@@ -134,7 +139,7 @@ impl<const N: usize> MemberRows<N> {
                 let text = format!("{argument} is empty: it must be (m, {N}) or ({N},), and for no members (0, {N})");
                 Err(error::input(argument, &[0_i64][..], format!("(m, {N}) or ({N},)"), text))
             }
-            _ => Err(wrong_shape(argument, &array, &format!("(m, {N}) or ({N},)"))),
+            _ => Err(wrong_shape(argument, &array, bound)),
         }
     }
 
@@ -162,6 +167,15 @@ impl<const N: usize> MemberRows<N> {
             Self::One(row) => vec![row; members],
             Self::Many(rows) => rows,
         }
+    }
+}
+
+/// `value` as 3 × 3 matrices if it is an array_like of shape (m, 3, 3).
+pub(crate) fn tensors(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Vec<[[f64; 3]; 3]>>> {
+    let array = numbers(argument, value)?;
+    match array.shape() {
+        &[_, 3, 3] => Ok(Some(read(argument, &array)?.as_slice()?.as_chunks().0.as_chunks().0.to_vec())),
+        _ => Ok(None),
     }
 }
 

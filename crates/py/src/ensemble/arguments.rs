@@ -3,8 +3,7 @@
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-use crate::array::{MemberRows, number, numbers_of};
-use crate::error;
+use crate::array::{number, numbers_of};
 use crate::foreign::{self, Calendar};
 use crate::orbit::Orbit;
 
@@ -52,13 +51,4 @@ pub(super) fn orbits_of(value: &Bound<'_, PyAny>) -> PyResult<Vec<Option<andoyer
 
 pub(super) fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
     number("tolerance", value)
-}
-
-/// The number of members: of the arguments that have one row each, one must have more.
-pub(super) fn members_of(moments: &MemberRows<3>, attitudes: &MemberRows<4>, rates: &MemberRows<3>) -> PyResult<usize> {
-    moments.members().or(attitudes.members()).or(rates.members()).ok_or_else(|| {
-        let text =
-            "moments, attitudes and angular_velocities are one row each: one of them must have an axis of members";
-        error::input("moments", "one row", "(m, 3)", text.to_owned())
-    })
 }

@@ -20,13 +20,17 @@ impl Ensemble {
         let range = slice.indices(self.0.len() as isize)?;
         let chosen: Vec<usize> =
             (0..range.slicelength as isize).map(|k| (range.start + k * range.step) as usize).collect();
-        let moments = chosen.iter().map(|&member| self.0.moments()[member]).collect();
         let attitudes = chosen.iter().map(|&member| self.0.attitudes()[member]).collect();
         let rates = chosen.iter().map(|&member| self.0.angular_velocities()[member]).collect();
         let (on_error, going) = (self.0.asked_on_error(), AtomicBool::new(false));
-        let part = andoyer_propagate::Ensemble::new_or(moments, attitudes, rates, on_error, &going)
-            .map_err(error::propagation)?
-            .tolerance(self.0.asked_tolerance());
+        let part = if self.0.asked_tensors().is_empty() {
+            let moments = chosen.iter().map(|&member| self.0.moments()[member]).collect();
+            andoyer_propagate::Ensemble::new_or(moments, attitudes, rates, on_error, &going)
+        } else {
+            let tensors = chosen.iter().map(|&member| self.0.asked_tensors()[member]).collect();
+            andoyer_propagate::Ensemble::from_inertia_or(tensors, attitudes, rates, on_error, &going)
+        };
+        let part = part.map_err(error::propagation)?.tolerance(self.0.asked_tolerance());
         let part = match self.0.asked_epochs() {
             [] => Ok(part),
             [of_all] => part.epochs(vec![*of_all]),
@@ -49,7 +53,8 @@ impl Ensemble {
 
     /// Positional and keyword arguments of the constructor.
     pub(super) fn arguments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let arrays = (self.moments(py)?, self.attitudes(py)?, self.angular_velocities(py)?);
+        let bodies = if self.0.asked_tensors().is_empty() { self.moments(py)? } else { self.inertia(py)? };
+        let arrays = (bodies, self.attitudes(py)?, self.angular_velocities(py)?);
         let keywords = PyDict::new(py);
         match &self.1[..] {
             [] => keywords.set_item("epochs", self.epochs(py)?)?,

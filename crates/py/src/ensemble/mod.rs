@@ -7,6 +7,7 @@ use andoyer_propagate::error::Kind;
 use andoyer_propagate::options::Convention;
 use andoyer_propagate::partials::PARAMETERS;
 use andoyer_propagate::periods::Periods;
+use andoyer_series::threads::alone;
 use numpy::{IntoPyArray, PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -23,9 +24,11 @@ use crate::plan::Plan;
 use crate::samples::Samples;
 
 mod arguments;
+mod bodies;
 mod copies;
 mod evaluate;
-use arguments::{asked, epochs_of, members_of, orbits_of, tolerance};
+use arguments::{asked, epochs_of, orbits_of, tolerance};
+use bodies::Bodies;
 use evaluate::refused;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
@@ -56,7 +59,7 @@ impl Ensemble {
         errors: &str,
         scalar_first: bool,
     ) -> PyResult<Self> {
-        let moments = MemberRows::new("moments", moments)?;
+        let bodies = Bodies::new(moments)?;
         let scalar_first = scalar_first && !foreign::is_rotation(attitudes)?;
         let mut attitudes = MemberRows::new("attitudes", attitudes)?;
         attitudes.each(|quaternion| foreign::scalar_last(quaternion, scalar_first));
@@ -67,11 +70,11 @@ impl Ensemble {
         let (epochs, calendar) = epochs.map(epochs_of).transpose()?.unwrap_or_default();
         let first = epochs.first().copied().unwrap_or(0.0);
         let span = span.map(|value| span_of(value, first, calendar.first().copied())).transpose()?;
-        let members = members_of(&moments, &attitudes, &rates)?;
+        let members = bodies.members(&attitudes, &rates)?;
         let new = |stop: &AtomicBool| {
-            let [moments, rates] = [moments, rates].map(|rows| rows.repeated(members));
-            let attitudes = attitudes.repeated(members);
-            let ensemble = andoyer_propagate::Ensemble::new_or(moments, attitudes, rates, on_error, stop)?;
+            let states = (attitudes.repeated(members), rates.repeated(members));
+            let checked = || bodies.ensemble(members, states, on_error, stop);
+            let ensemble = if threads == Some(1) { alone(checked) } else { checked() }?;
             let ensemble = if epochs.is_empty() { ensemble } else { ensemble.epochs(epochs)? };
             let span = span.map(|[start, stop]: [f64; 2]| (start, stop));
             let ensemble = asked(ensemble.tolerance(tolerance), orbits, span, threads)?;
@@ -326,12 +329,6 @@ impl Ensemble {
             [of_all] => Ok(of_all.into_pyobject(py)?.into_any()),
             each => Ok(constant(py, each).into_any()),
         }
-    }
-
-    /// The moments about body axes 1, 2, 3: a read-only array, shape (m, 3).
-    #[getter]
-    fn moments<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-        constant_rows(py, self.0.moments())
     }
 
     /// The attitudes at the epoch as given: unit quaternions [x, y, z, w], a read-only array, shape (m, 4).

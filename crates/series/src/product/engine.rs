@@ -14,6 +14,7 @@ use super::piece::{Collection, Piece};
 use super::store::{Array, Store, Table};
 use super::{PRODUCTS_PER_PAUSE, Pause};
 use crate::Error;
+use crate::threads::shared;
 use rayon::prelude::*;
 
 /// Smallest number of products for which several threads are used.
@@ -206,7 +207,8 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
             }
         }
         sums.retain(|&code| code > whole.low && code < whole.high);
-        sums.par_sort_unstable();
+        let sortable = if pairs < PARALLEL_PRODUCTS { 1 } else { usize::MAX };
+        shared(sortable, |threads| if threads > 1 { sums.par_sort_unstable() } else { sums.sort_unstable() });
         let mut boundaries = vec![whole.low];
         boundaries.extend((1..count).filter_map(|at| sums.get(at * sums.len() / count)));
         boundaries.push(whole.high);
@@ -222,7 +224,7 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
         pairs: usize,
         pause: &mut Pause<'_>,
     ) -> Result<Piece<A::Value>, Error> {
-        let threads = if pairs < PARALLEL_PRODUCTS { 1 } else { rayon::current_num_threads().min(windows.len()) };
+        let threads = if pairs < PARALLEL_PRODUCTS { 1 } else { shared(windows.len(), |threads| threads) };
         let expected = pairs / windows.len().max(1);
         if threads > 1 {
             return self.windows_of_threads(store, windows, (threads, expected), pause);
@@ -253,13 +255,14 @@ impl<K: Key, A: Arithmetic> Sum<'_, K, A> {
         let stores = Mutex::new(Vec::new());
         let held = || stores.lock().unwrap_or_else(PoisonError::into_inner);
         let compute = |windows: &[Window<K>], pieces: &mut [Piece<A::Value>]| {
-            windows.par_iter().zip(pieces).with_max_len(1).try_for_each(|(&window, piece)| {
+            let each = |(&window, piece): (&Window<K>, &mut Piece<A::Value>)| {
                 let free = held().pop();
                 let mut store = free.unwrap_or_else(&store);
                 self.window(window, products, &mut store, piece, &mut |_| Ok(()))?;
                 held().push(store);
                 Ok(())
-            })
+            };
+            shared(threads, |_| windows.par_iter().zip(pieces).with_max_len(1).try_for_each(each))
         };
         let in_batch = threads * WINDOWS_PER_BATCH[usize::from(!A::LIGHT)];
         let mut pieces: Vec<_> = std::iter::repeat_with(Piece::new).take(in_batch.min(windows.len())).collect();

@@ -2,6 +2,8 @@
 
 use rayon::prelude::*;
 
+use crate::threads::shared;
+
 /// The terms of a part of the result, in the order of their codes.
 pub(super) struct Piece<V> {
     pub(super) keys: Vec<u128>,
@@ -57,10 +59,14 @@ impl<V: Clone + Send + Sync> Collection<V> {
             places.push((piece, keys, values));
             (free_keys, free_values) = (rest_of_keys, rest_of_values);
         }
-        places.into_par_iter().for_each(|(piece, keys, values)| {
+        let copy = |(piece, keys, values): (&mut Piece<V>, &mut [u128], &mut [V])| {
             keys.copy_from_slice(&piece.keys);
             values.clone_from_slice(&piece.values);
             piece.clear();
+        };
+        shared(places.len(), |threads| match threads {
+            1 => places.into_iter().for_each(copy),
+            _ => places.into_par_iter().for_each(copy),
         });
         self.terms += added;
     }

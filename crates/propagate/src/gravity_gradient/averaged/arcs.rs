@@ -41,6 +41,13 @@ impl Arcs {
         Self { start, kept: Arc::default() }
     }
 
+    /// The memory of the solved arcs, in bytes.
+    pub(crate) fn memory(&self) -> usize {
+        let side =
+            |arcs: &RwLock<Vec<Stretch>>| arcs.read().unwrap_or_else(|poisoned| poisoned.into_inner()).capacity();
+        self.kept.iter().map(side).sum::<usize>() * size_of::<Stretch>()
+    }
+
     /// The frame and the other columns at times after the epoch. The function is compiled separately: one fixed orbit does without it.
     #[inline(always)]
     pub(crate) fn at<S: InstructionSet>(
@@ -172,6 +179,12 @@ impl<T> Chain<T> {
             }
             (from, last) = (from + 1, Some(value));
         }
+    }
+
+    /// The memory of the values that are known, in bytes. Values are computed in order, so that a block is filled before the next is made.
+    pub(crate) fn memory(&self) -> usize {
+        let made = self.blocks.iter().enumerate().filter(|(_, block)| block.get().is_some());
+        made.map(|(block, _)| (size_of::<Cell<T>>() + size_of::<T>()) << block).sum()
     }
 
     fn cell(&self, number: usize) -> &Cell<T> {

@@ -54,6 +54,11 @@ impl Bodies {
         Self { equations: Equations { pulls, delta }, arcs: Arcs::new(start) }
     }
 
+    /// The memory of what is solved so far, in bytes.
+    pub(crate) fn memory(&self) -> usize {
+        self.arcs.memory()
+    }
+
     /// The frame, and Ψ twice, at times after the epoch.
     #[inline(always)]
     pub(crate) fn at<S: InstructionSet>(&self, times: Lanes<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {

@@ -154,6 +154,14 @@ impl Precession {
         Self { periodic, mean, phases: phases.map(|lanes| lanes.values()[0]), centre, per_radian }
     }
 
+    /// The memory of what is solved so far, in bytes.
+    pub(crate) fn memory(&self) -> usize {
+        match &self.mean {
+            MeanFrame::Steady { .. } => 0,
+            MeanFrame::Nodding(nodding) => nodding.arcs.memory(),
+        }
+    }
+
     /// The frame, and Ψ twice or the drifts of ℓ′ and y′.
     #[inline(always)]
     pub(crate) fn at<S: InstructionSet>(

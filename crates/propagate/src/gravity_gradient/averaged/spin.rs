@@ -114,6 +114,11 @@ impl Spin {
         Self { ellipse, count, first, epoch, kept: Arc::default() }
     }
 
+    /// The memory of the pieces that are solved, in bytes.
+    pub(crate) fn memory(&self) -> usize {
+        self.kept.iter().map(Chain::memory).sum()
+    }
+
     /// Times in the same piece are evaluated together.
     #[inline(always)]
     pub(crate) fn at<S: InstructionSet>(&self, when: &When<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {

@@ -122,6 +122,15 @@ pub(crate) enum Slow {
 }
 
 impl Slow {
+    /// The memory of what is solved so far, in bytes.
+    pub(crate) fn memory(&self) -> usize {
+        match self {
+            Self::Spin(spin) => spin.memory(),
+            Self::Orbit(precession) => precession.memory(),
+            Self::Bodies(bodies) => bodies.memory(),
+        }
+    }
+
     /// The invariable frame at times after the epoch, and two numbers: the phase integral Ψ twice, or in second order the drifts of ℓ′ and y′. `when` is the
     /// position of the first body.
     #[inline(always)]

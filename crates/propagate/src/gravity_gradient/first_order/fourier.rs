@@ -39,6 +39,11 @@ pub(crate) struct ExactTerm {
 }
 
 impl ExactTerm {
+    /// Its memory, in bytes.
+    pub(crate) fn memory(&self) -> usize {
+        size_of::<Self>() + size_of_val(&self.coefficients[..])
+    }
+
     /// The term with these h and m, its factors of G and of −Ω ∂G/∂Ω in the derivatives of W, and its divisors in the series. Coefficients below `negligible`
     /// are dropped.
     pub(crate) fn new(
