@@ -27,3 +27,4 @@ mod stop;
 mod threads;
 mod torque_free;
 mod user_axes;
+mod verify;

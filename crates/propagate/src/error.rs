@@ -2,11 +2,13 @@
 //!
 //! A variant stands in three places: here with its fields, in `message` with its sentence, and in `facts` with its kind, argument, value and bound.
 
+mod duration;
 mod facts;
 mod message;
 mod place;
 mod torque_measure;
 
+pub(crate) use duration::duration_in_words;
 pub use facts::{Kind, Value};
 pub use torque_measure::TorqueMeasure;
 
@@ -356,6 +358,37 @@ pub enum Error {
         start: f64,
         /// The latest time at which the tolerance holds.
         stop: f64,
+    },
+    /// A number of times at which a motion cannot be verified.
+    Samples {
+        /// The number as given.
+        value: usize,
+        /// The least number.
+        least: usize,
+        /// The largest number.
+        most: usize,
+    },
+    /// A span of a verification that goes beyond the times for which the error bound of the motion holds.
+    VerifiedSpan {
+        /// Its first time.
+        start: f64,
+        /// Its last time.
+        stop: f64,
+        /// The first time for which the bound holds.
+        first: f64,
+        /// The last time for which the bound holds.
+        last: f64,
+    },
+    /// A verification without a span that would take too long.
+    LongVerification {
+        /// The time that it would take, estimated from the number of steps \[s\].
+        seconds: f64,
+        /// The number of steps.
+        steps: f64,
+        /// The longest time without a span \[s\].
+        bound: f64,
+        /// The times over which the motion would be integrated, in words.
+        over: String,
     },
     /// An invalid member of an ensemble, or a member that could not be evaluated.
     Member {

@@ -28,6 +28,8 @@ mod motion;
 
 mod solve;
 
+pub mod verification;
+
 pub mod partials;
 
 pub mod motion_code;

@@ -34,6 +34,7 @@ mod samples;
 mod scene;
 mod scene_class;
 mod tabulated;
+mod verification;
 
 /// The compiled core of the package `andoyer`, which re-exports all its names.
 #[pyo3::pymodule]
@@ -72,6 +73,8 @@ mod _core {
     use super::scene_class::Scene;
     #[pymodule_export]
     use super::tabulated::TabulatedOrbit;
+    #[pymodule_export]
+    use super::verification::Verification;
 
     #[pymodule_init]
     fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {

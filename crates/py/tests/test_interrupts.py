@@ -62,6 +62,7 @@ CALLS = {
     "derivatives of an ensemble under an orbit": "andoyer.Ensemble(body.moments, level, few[:8000], orbits=sun, span=(0, 1e5)).partials(0.0)",
     "members at many times": "andoyer.Ensemble(body.moments, level, few[:2], orbits=sun, span=(0, 1e5)).at(np.linspace(0, 1e5, 6_000_000))",
     "integration": "andoyer.Scene(body, level, [0, 0.1, 1], orbit=andoyer.Orbit(0.5), span=(0, 4e6), method='integrated').solve()",
+    "verification": "andoyer.Scene(body, level, [0, 0.1, 1], orbit=sun, span=(0, 4e6)).solve().verify((0, 4e6))",
 }
 
 

@@ -64,6 +64,9 @@ impl Error {
             | Self::Table { .. }
             | Self::TableSpan { .. }
             | Self::NoSpan { .. }
+            | Self::Samples { .. }
+            | Self::VerifiedSpan { .. }
+            | Self::LongVerification { .. }
             | Self::Level { .. }
             | Self::OneFixedOrbit { .. }
             | Self::Averaging { .. }
@@ -168,6 +171,9 @@ impl Error {
             Self::Index { index, members } => facts("index", *index, members.saturating_sub(1)),
             Self::Length { argument, found, expected } => facts(argument, *found, *expected),
             Self::TooFew { argument, found, least } => facts(argument, *found, *least),
+            Self::Samples { value, least, most } => {
+                facts("samples", *value, Value::Integers(vec![*least as i64, *most as i64]))
+            }
             _ => return None,
         })
     }
@@ -186,6 +192,8 @@ impl Error {
             Self::Unaveraged { ratio, bound, .. } if ratio > bound => facts("orbit", *ratio, *bound),
             Self::Unaveraged { mode, .. } => facts("orbit", mode, "a body that rotates"),
             Self::TableSpan { start, stop, first, last } => facts("span", [*start, *stop], [*first, *last]),
+            Self::VerifiedSpan { start, stop, first, last } => facts("span", [*start, *stop], [*first, *last]),
+            Self::LongVerification { seconds, bound, .. } => facts("span", *seconds, *bound),
             Self::NoSpan { .. } => facts("span", "none", "start <= stop"),
             Self::OnlyIntegrated { method, .. } => facts("method", method, "integrated"),
             Self::TooManySteps { steps, bound, .. } => facts("span", *steps, *bound as f64),

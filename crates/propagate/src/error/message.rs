@@ -5,7 +5,7 @@ use std::fmt;
 
 use andoyer_series::error::Short;
 
-use super::{Error, STEP_BYTES, TorqueMeasure};
+use super::{Error, STEP_BYTES, TorqueMeasure, duration_in_words};
 
 impl fmt::Display for Error {
     // A table: one line for each variant, in the order of the enumeration. rustfmt leaves it, since the sentences are longer than its width.
@@ -58,6 +58,9 @@ impl fmt::Display for Error {
             Self::TooManySteps { steps, bound, reason } if steps.is_infinite() => write!(f, "span: the integration needs more than {bound} steps, and no more are kept: use a shorter span{}", instead_of(reason)),
             Self::TooManySteps { steps, bound, reason } => write!(f, "span: the integration needs about {steps:.1e} steps, which take {:.1} GB; at most {bound} are kept: use a span shorter by a factor of {:.1}{}", memory(*steps), steps / *bound as f64, instead_of(reason)),
             Self::Unpredictable { tolerance, span: [first, last], start, stop } => write!(f, "span = [{first}, {last}]: nearby states separate so fast that the attitude is unknown at its end; the tolerance, {tolerance:e} rad, holds from {start} to {stop}", first = Short(*first), last = Short(*last), start = Short(*start), stop = Short(*stop)),
+            Self::Samples { value, least, most } => write!(f, "samples = {value}: it must be from {least} to {most}"),
+            Self::VerifiedSpan { start, stop, first, last } => write!(f, "span = [{start}, {stop}]: it must be within [{first}, {last}], for which the error bound holds", start = Short(*start), stop = Short(*stop), first = Short(*first), last = Short(*last)),
+            Self::LongVerification { seconds, steps, bound, over } => write!(f, "span: none is given to verify, and an integration over {over} takes about {} ({steps:.1e} steps); at most {bound} s are allowed without a span", duration_in_words(*seconds)),
             Self::Member { index, others, problem } => write!(f, "member {index}: {problem}{}", and_others(*others)),
             Self::OnError { value } => write!(f, "errors = {value:?}: it must be \"raise\" or \"nan\""),
             Self::Stopped => f.write_str("stopped before the end"),

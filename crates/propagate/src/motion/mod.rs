@@ -1,6 +1,6 @@
 //! A solved motion: its trajectory (the formulas that evaluate it), plan, evaluation at times, Andoyer variables and energy.
 //!
-//! Imports errors, numerics, simd, input, torque_free and gravity_gradient.
+//! Imports errors, numerics, simd, input, torque_free, gravity_gradient and integration.
 
 mod andoyer;
 pub(crate) mod batch;
@@ -8,3 +8,4 @@ mod energy;
 pub(crate) mod plan;
 pub(crate) mod solved;
 pub(crate) mod trajectory;
+mod verification_cost;

@@ -5,6 +5,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::verification_cost::VerificationCost;
+use crate::error::duration_in_words;
 use crate::gravity_gradient::disturbed::GradientPlan;
 use crate::input::options::{Averaging, Level, Method};
 use crate::input::scene::Scene;
@@ -17,6 +19,9 @@ const NEAR_ONE: f64 = 0.999;
 
 /// A smaller tolerance counts as met if the error bound is within this limit, which rounding sets \[rad\].
 pub(crate) const ROUNDED_TOLERANCE: f64 = 2e-14;
+
+/// The longest verification without a span \[s\].
+pub(crate) const LONGEST_VERIFICATION: f64 = 60.0;
 
 /// The evaluation plan of a motion. It is printed in ASCII, and can be serialized.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,6 +41,8 @@ pub struct Plan {
     pub(crate) integration: Option<IntegrationPlan>,
     /// Whether derivatives are computed by power series, because their closed form cancels.
     pub(crate) expanded: bool,
+    /// The cost of a verification over the span, if the scene has one.
+    pub(crate) verification: Option<VerificationCost>,
     pub(crate) skipped: Vec<String>,
 }
 
@@ -55,6 +62,7 @@ impl Plan {
             gradient: None,
             integration: None,
             expanded: false,
+            verification: VerificationCost::over_span(scene, mode == Mode::Spherical),
             skipped: Vec::new(),
         }
     }
@@ -118,6 +126,17 @@ impl Plan {
     /// The times over which the tolerance must hold.
     pub(crate) fn over(&self) -> Over {
         if self.spanned { Over::Span } else { Over::Rotations(self.averaging().zip(self.reach)) }
+    }
+
+    /// The cost of [`Motion::verify`](crate::Motion::verify) without a span.
+    pub(crate) fn verification_cost(&self) -> VerificationCost {
+        if let Some(IntegrationPlan { steps, bodies }) = self.integration {
+            return VerificationCost { steps: steps as f64, bodies };
+        }
+        self.verification.unwrap_or_else(|| {
+            let rotations = if self.mode == Mode::AtRest { 0.0 } else { self.reach.unwrap_or(DEFAULT_ROTATIONS) };
+            VerificationCost::over_rotations(rotations, usize::from(self.gradient.is_some()))
+        })
     }
 
     /// σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5).
@@ -217,6 +236,13 @@ impl fmt::Display for Plan {
         }
         if !self.meets_tolerance() {
             write!(f, "\ntolerance     {:e} rad is not met over {}", self.tolerance, self.over())?;
+        }
+        let cost = self.verification_cost();
+        let (time, steps) = (duration_in_words(cost.seconds()), cost.steps);
+        if cost.seconds() > LONGEST_VERIFICATION {
+            write!(f, "\nverify        needs a span: about {time} ({steps:.1e} steps) over {}", self.over())?;
+        } else {
+            write!(f, "\nverify        takes about {time} ({steps:.1e} steps)")?;
         }
         for reason in &self.skipped {
             write!(f, "\nskipped       {reason}")?;

@@ -321,6 +321,8 @@ class Motion:
         """Evaluates the derivatives of attitude and angular velocity with respect to the initial state and the moments (theory §12)."""
     def scene_at(self, time: float | Any) -> Scene:
         """The scene of the state at a time: the same body, disturbing bodies and options, with this time as the epoch."""
+    def verify(self, span: ArrayLike | None = None, samples: int = 64, *, tolerance: float | None = None) -> Verification:
+        """Measures the error of the attitude: integrates the full equations from the epoch and compares the attitudes."""
     def to_code(self, language: Literal["c", "rust", "python", "javascript"] = "c") -> str:
         """Writes a source file with a self-contained function `rotation(time)` that evaluates this motion (theory §8)."""
     def _code(self, language: Literal["c", "rust", "python", "javascript"]) -> tuple[str, float, float]:
@@ -442,6 +444,34 @@ class Partials:
     def angular_velocity(self) -> _Array:
         """Derivatives of the angular velocity in body components, shape (n, 3, 9) or (n, 3, 12), of an ensemble (m, n, 3, 9)."""
     def __len__(self) -> int: ...
+
+@final
+class Verification:
+    """The difference between a motion and an integration of the full equations, from `Motion.verify`. ``str(verification)`` is a sentence."""
+
+    @property
+    def times(self) -> _Array:
+        """The times at which the attitudes were compared, shape (n,), read-only. If the epoch of the scene is a Time, they are TDB seconds since J2000."""
+    @property
+    def errors(self) -> _Array:
+        """The angle between the two attitudes at each time, in rad, shape (n,), read-only."""
+    @property
+    def error(self) -> float:
+        """The largest of the errors, in rad."""
+    @property
+    def integration_bound(self) -> float:
+        """The error bound of the integration, in rad."""
+    @property
+    def error_bound(self) -> float:
+        """The error bound of the motion's plan, in rad."""
+    @property
+    def holds(self) -> bool:
+        """True if error + integration_bound ≤ error_bound."""
+    @property
+    def refuted(self) -> bool:
+        """True if error − integration_bound > error_bound. If neither this nor `holds` is True, the integration is not accurate enough to decide."""
+    def __copy__(self) -> Verification: ...
+    def __deepcopy__(self, _memo: Any) -> Verification: ...
 
 @final
 class Ensemble:

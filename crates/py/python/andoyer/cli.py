@@ -51,7 +51,9 @@ andoyer propagate eros.toml -o eros.csv
 andoyer propagate eros.toml -o eros.npz --start 0 --stop 86400 --step 60
 andoyer propagate eros.toml -o eros.aem --date 2026-01-01T00:00:00 --frame ICRF
 andoyer propagate eros.toml -o eros.bc --stop 86400 --interpolation-error 1e-6 --frame ECLIPJ2000""",
-    "plan": "andoyer plan eros.toml",
+    "plan": """\
+andoyer plan eros.toml
+andoyer plan eros.toml --verify --stop 86400""",
     "plot": """\
 andoyer plot eros.toml -o eros.png
 andoyer plot eros.toml -o eros.html
@@ -162,6 +164,9 @@ def parser() -> Parser:
 
     command = commands.add_parser("plan", help="print the plan of a scene: method, order, error bound, periods", **examples("", EXAMPLES["plan"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
+    command.add_argument("--verify", action="store_true", help="integrate the full equations, and print the largest error of the attitude")
+    command.add_argument("--start", type=time, metavar="T", help="first time of --verify (default: start of the scene's span, or its epoch)")
+    command.add_argument("--stop", type=time, metavar="T", help="last time of --verify (default: end of the scene's span)")
     strictly(command)
     command.set_defaults(run=plan)
 
@@ -337,7 +342,10 @@ def interval(motion: andoyer.Motion, start: float | None, stop: float | None) ->
 
 
 def plan(arguments: argparse.Namespace) -> int:
-    """Print the plan of a scene, and the periods of its motion."""
+    """Print the plan of a scene, the periods of its motion and, on request, its measured error."""
+    for option in ("start", "stop"):
+        if getattr(arguments, option) is not None and not arguments.verify:
+            raise InputError(f"argument --{option}: goes with --verify alone")
     motion = solved(arguments.scene)
     scene = motion.scene
     print(named("scene"), scene.name or arguments.scene)
@@ -347,7 +355,17 @@ def plan(arguments: argparse.Namespace) -> int:
     print(named("energy"), f"E/E0 {motion.energy_ratio:.8g}, k^2 {motion.elliptic_parameter:.8g}")
     for convention, (precession, rotation) in motion.periods.items():
         print(named("periods"), f"{convention}: P_phi {precession:.10g}, P_psi {rotation:.10g}")
-    return status(arguments, motion)
+    return max(status(arguments, motion), verified(arguments, motion))
+
+
+def verified(arguments: argparse.Namespace, motion: andoyer.Motion) -> int:
+    """Print the measured error, if it is asked for; return the exit status."""
+    asked = arguments.start is not None or arguments.stop is not None
+    if not arguments.verify:
+        return 0
+    verification = motion.verify(interval(motion, arguments.start, arguments.stop) if asked else None)
+    print(named("verified"), verification)
+    return MISSED if arguments.strict and verification.refuted else 0
 
 
 def bodies(_arguments: argparse.Namespace) -> int:
