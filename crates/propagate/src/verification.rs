@@ -288,6 +288,10 @@ mod tests {
         let coarse = motion.verify(VerifyOptions::default().tolerance(0.01)).expect("a verification");
         let coarse = Verification { error_bound: coarse.error(), ..coarse };
         assert!(!coarse.holds() && !coarse.refuted(), "{coarse}");
-        assert!(coarse.to_string().ends_with("is neither confirmed nor refuted, because the integration is not accurate enough"));
+        assert!(
+            coarse
+                .to_string()
+                .ends_with("is neither confirmed nor refuted, because the integration is not accurate enough")
+        );
     }
 }

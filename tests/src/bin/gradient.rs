@@ -318,35 +318,39 @@ fn tabled(random: &mut Uniform, mean_motion: f64, eccentricity: f64) -> Disturbe
     Disturbed { averaging: Averaging::Spin, ..scene }
 }
 
-/// Errors and estimates of random scenes of all families and of the table, at both levels.
+/// Errors and estimates of random scenes of all families and of the table.
 fn safety(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn std::error::Error>> {
-    writeln!(out, "family,mode,level,n,e,error,bound,effect,lost,scene")?;
+    writeln!(out, "family,mode,averaging,level,n,e,error,bound,effect,lost,scene")?;
+    let families: Vec<_> = FAMILIES.into_iter().chain(FURTHER_FAMILIES).collect();
     let mut random = Uniform(seed);
     for k in 0..count {
         let long_axis = random.draw() < 0.5;
-        let (name, mut scene) = match FAMILIES.get(k % 16).filter(|family| **family != Family::Levels) {
-            Some(family) => (family.name(), family.random(long_axis, THEORIES[2], &mut random)),
-            None => {
-                let mean_motion = 10.0_f64.powf(random.between(-3.5, -0.9));
-                let eccentricity = (random.between(-0.2, 0.95)).max(0.0);
-                ("table", tabled(&mut random, mean_motion, eccentricity))
-            }
-        };
-        scene.averaging = Averaging::Spin;
-        scene.span *= if random.draw() < 0.3 { -1.0 } else { 1.0 };
-        scene.span *= if random.draw() < 0.2 { random.between(0.02, 1.0) } else { 1.0 };
-        scene.tolerance = 10.0_f64.powf(random.between(-12.0, -6.0));
-        for level in [Level::Full, Level::SecondOrder] {
-            let Ok(measured) = (Disturbed { level, ..scene }).measured() else { continue };
+        // Every other scene is one of the table.
+        let family = (k % 2 == 0).then(|| families[k / 2 % families.len()]);
+        let theories = family.map_or(&THEORIES[..], |family| family.theories());
+        let [mean_motion, eccentricity] =
+            [10.0_f64.powf(random.between(-3.5, -0.9)), random.between(-0.2, 0.95).max(0.0)];
+        let table = tabled(&mut random, mean_motion, eccentricity);
+        let draws = random.clone();
+        for &theory in theories {
+            let (averaging, level) = theory;
+            let (name, scene) = match family {
+                Some(family) => (family.name(), family.random(long_axis, theory, &mut draws.clone())),
+                None => ("table", Disturbed { averaging, level, ..table }),
+            };
+            let Ok(measured) = scene.measured() else { continue };
             let Measured { error, bound, effect, lost } = measured;
             let Disturbed { moments, attitude, rates, orbit, span, .. } = scene;
             writeln!(
                 out,
-                "{name},{},{level},{:.2e},{:.3},{error:.3e},{bound:.3e},{effect:.2e},{lost:.1e},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {span}\"",
+                "{name},{},{averaging},{level},{:.2e},{:.3},{error:.3e},{bound:.3e},{effect:.2e},{lost:.1e},\"{moments:?} {attitude:?} {rates:?} {orbit:?} {span}\"",
                 if long_axis { "long" } else { "short" },
                 orbit[0],
                 orbit[1],
             )?;
+        }
+        for _ in 0..20 {
+            random.draw();
         }
     }
     Ok(())
