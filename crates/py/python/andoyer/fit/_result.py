@@ -93,7 +93,7 @@ class Fit:
         Raises
         ------
         InputError
-            The moments are so uncertain that less than one draw in a hundred is valid. A scene with several disturbing bodies or a `TabulatedOrbit`.
+            A number of states that is negative or not whole. The moments are so uncertain that less than one draw in a hundred is valid. A scene with several disturbing bodies or a `TabulatedOrbit`.
 
         Examples
         --------
@@ -104,6 +104,8 @@ class Fit:
         >>> len(found.ensemble(20, rng=1))
         20
         """
+        if not isinstance(n, (int, np.integer)) or isinstance(n, bool) or n < 0:
+            raise refusal("n", n, 0, f"= {n!r}: it must be a whole number, 0 or more")
         orbit = self.scene.orbit
         if not (orbit is None or isinstance(orbit, Orbit)):
             raise refusal("scene", type(orbit).__name__, "Orbit", "has several disturbing bodies or a table of positions: an Ensemble takes one Orbit at most")
