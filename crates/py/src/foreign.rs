@@ -75,8 +75,8 @@ fn first_of<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>
     Ok((!number && !first.is(value)).then_some(first))
 }
 
-/// Julian date TDB as the two doubles of astropy.
-pub(crate) type Calendar = [f64; 2];
+/// A Time of astropy: its Julian date in two doubles, the index of its scale in `andoyer._foreign.SCALES`, and its location \[m\], which TDB depends on.
+pub(crate) type Calendar = ([f64; 2], u8, Option<[f64; 3]>);
 
 /// Times relative to epochs: in seconds, as given, and with the given shape.
 pub(crate) type Since<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Vec<usize>);
@@ -95,9 +95,23 @@ pub(crate) fn since<'py>(
         return Ok(None);
     }
     let py = value.py();
-    let [first, second]: [Vec<f64>; 2] = [0, 1].map(|part| epochs.iter().map(|epoch| epoch[part]).collect());
     let since = py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "since"))?;
-    Ok(Some(since.call1((argument, value, first, second))?.extract()?))
+    Ok(Some(since.call1((argument, value, epochs.to_vec()))?.extract()?))
+}
+
+/// Times of astropy as TDB seconds since J2000, for a state with a calendar epoch; None for anything else.
+pub(crate) fn instants<'py>(
+    argument: &str,
+    value: &Bound<'py, PyAny>,
+    epoch: Option<Calendar>,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let Some(epoch) = epoch else { return Ok(None) };
+    if !holds_times(value)? {
+        return Ok(None);
+    }
+    let py = value.py();
+    let instants = py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "instants"))?;
+    instants.call1((argument, value, vec![epoch])).map(Some)
 }
 
 /// Epochs as numbers, and as calendar times if they are Time objects.
@@ -124,8 +138,7 @@ pub(crate) fn later<'py>(
 
 /// Epochs as Times of astropy.
 pub(crate) fn calendar<'py>(py: Python<'py>, epochs: &[Calendar]) -> PyResult<Bound<'py, PyAny>> {
-    let [first, second]: [Vec<f64>; 2] = [0, 1].map(|part| epochs.iter().map(|epoch| epoch[part]).collect());
-    py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "calendar"))?.call1((first, second))
+    py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "calendar"))?.call1((epochs.to_vec(),))
 }
 
 /// The message for a date of Python or NumPy, which has no time scale; None for any other value.

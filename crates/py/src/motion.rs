@@ -27,7 +27,8 @@ type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// A solved motion, from `Scene.solve`. It is immutable, and several threads can evaluate it in parallel.
 ///
 /// The argument `times` of every method is a scalar or an array_like of shape (n,), of floats or integers, in the unit of time of the scene. For a scalar the
-/// results have no leading axis. If the epoch of the scene is a Time of astropy, the times may be Time objects too. A TimeDelta is a duration from the epoch.
+/// results have no leading axis. If the epoch of the scene is a Time of astropy, the times may be Time objects too. A TimeDelta is a duration from the epoch, to which
+/// astropy adds it: in its own time scale, or without one in that of the epoch (UTC: in TAI).
 /// The difference from the epoch is formed in the two doubles of astropy, and `Samples.times` has the times as given. Ctrl-C ends every call within a second.
 ///
 /// Raises

@@ -219,7 +219,7 @@ impl Scene {
     /// Raises
     /// ------
     /// FileError
-    ///     A missing file, a file that is not TOML, an unknown or missing key, a value outside its bound. The message names file, key and bound.
+    ///     A missing file, a file of more than 16 MiB or one that is not TOML, an unknown or missing key, a value outside its bound. The message names file, key and bound.
     #[classmethod]
     fn from_toml(class: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Self> {
         let scene = andoyer_propagate::Scene::from_toml(path).map_err(error::propagation)?;

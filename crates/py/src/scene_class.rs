@@ -24,7 +24,7 @@ use crate::foreign::Calendar;
 /// scalar_first : bool, optional
 ///     If True, the argument `attitude` is [w, x, y, z]. The property `attitude` is always [x, y, z, w].
 /// epoch : float or astropy.time.Time, optional
-///     Time of the state. The two doubles of a Time are kept, in TDB. The times of the motion may then be Time objects, and numbers are seconds since J2000.
+///     Time of the state. The two doubles of a Time are kept, with its time scale. The times of the motion may then be Time objects, and numbers are seconds since J2000.
 /// orbit : Orbit or TabulatedOrbit, or a sequence of them, optional
 ///     Relative orbits of the bodies whose gravity gradients act (theory §9). By default there is no orbit, and the motion is free.
 /// tolerance : float, optional

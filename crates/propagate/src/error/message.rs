@@ -25,7 +25,7 @@ impl fmt::Display for Error {
             Self::Span { start, stop } => write!(f, "span = [{start}, {stop}]: it must be finite with start ≤ stop", start = Short(*start), stop = Short(*stop)),
             Self::Order { value, bound } => write!(f, "order = {value}: it must be at most {bound}"),
             Self::Method { value } => write!(f, "method = {value:?}: it must be \"auto\", \"series\", \"closed\" or \"integrated\""),
-            Self::Time { index, value, epoch, span, bound, reason } => write!(f, "times[{index}] = {value}: {}a time must be finite and within {bound:.3e} of the epoch{reason}", setting(*epoch, *span), value = Short(*value)),
+            Self::Time { index, value, epoch, span, bound, reason } => write!(f, "times[{index}] = {value}: {}a time must be finite and within {} of the epoch{reason}", setting(*epoch, *span), distance(*bound), value = Short(*value)),
             Self::Length { argument, found, expected } => write!(f, "{argument} has {found} entries: it must have {expected}"),
             Self::TooFew { argument, found, least } => write!(f, "{argument} has {found} entries: it must have {least} or more"),
             Self::NearSeparatrix { ratio, tolerance, attainable, highest } => write!(f, "too near the separatrix for the series: at σ/σ_sep = {ratio} the highest order, {highest}, is good to {}, and the tolerance is {tolerance:e} rad", rounded_up(*attainable), ratio = Short(*ratio)),
@@ -56,7 +56,7 @@ impl fmt::Display for Error {
             Self::NoSpan { reason } => write!(f, "span: none is given, and the integrated method needs one{}", because(reason)),
             Self::OnlyIntegrated { method, reason } => write!(f, "method = \"{method}\": {reason}; use method = \"integrated\" or \"auto\" with a span"),
             Self::TooManySteps { steps, bound, reason } if steps.is_infinite() => write!(f, "span: the integration needs more than {bound} steps, and no more are kept: use a shorter span{}", instead_of(reason)),
-            Self::TooManySteps { steps, bound, reason } => write!(f, "span: the integration needs about {steps:.1e} steps, which take {:.1} GB; at most {bound} are kept: use a span shorter by a factor of {:.1}{}", memory(*steps), steps / *bound as f64, instead_of(reason)),
+            Self::TooManySteps { steps, bound, reason } => write!(f, "span: the integration needs about {steps:.1e} steps, which take {} GB; at most {bound} are kept: use a span shorter by a factor of {}{}", two_digits(memory(*steps)), two_digits(1.05 * steps / *bound as f64), instead_of(reason)),
             Self::Unpredictable { tolerance, span: [first, last], start, stop } => write!(f, "span = [{first}, {last}]: nearby states separate so fast that the attitude is unknown at its end; the tolerance, {tolerance:e} rad, holds from {start} to {stop}", first = Short(*first), last = Short(*last), start = Short(*start), stop = Short(*stop)),
             Self::Samples { value, least, most } => write!(f, "samples = {value}: it must be from {least} to {most}"),
             Self::VerifiedSpan { start, stop, first, last } => write!(f, "span = [{start}, {stop}]: it must be within [{first}, {last}], for which the error bound holds", start = Short(*start), stop = Short(*stop), first = Short(*first), last = Short(*last)),
@@ -111,6 +111,11 @@ fn setting(epoch: f64, span: Option<[f64; 2]>) -> String {
     format!("the epoch is {}{}; ", Short(epoch), span.unwrap_or_default())
 }
 
+/// The largest time from the epoch; it is 0 where the span begins or ends at the epoch.
+fn distance(bound: f64) -> String {
+    if bound == 0.0 { "0".to_owned() } else { format!("{bound:.3e}") }
+}
+
 /// An angle by which an attitude may be wrong, and which is too large.
 fn turn(angle: f64, limit: f64) -> String {
     if angle < PI || limit >= PI { format!("{} rad", four_digits(angle)) } else { "half a turn or more".to_owned() }
@@ -119,6 +124,12 @@ fn turn(angle: f64, limit: f64) -> String {
 /// A number rounded to four digits.
 fn four_digits(value: f64) -> Short {
     Short(format!("{value:.3e}").parse().unwrap_or(value))
+}
+
+/// A number rounded to two digits, with an exponent if it has more than six of them.
+fn two_digits(value: f64) -> String {
+    let text = format!("{value:.1e}");
+    if value < 1e6 { Short(text.parse().unwrap_or(value)).to_string() } else { text }
 }
 
 /// What shows that a torque is too strong, with its value and its limit.

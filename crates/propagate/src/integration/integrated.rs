@@ -69,10 +69,14 @@ impl Integrated {
         if motion.error < PI {
             return Ok(motion);
         }
-        let [start, stop] = profiles.map(|profile| {
-            let held = profile.iter().take_while(|(_, error)| *error <= tolerance).last();
-            scene.state().epoch + scaled(held.map_or(0.0, |(time, _)| *time), -problem.exponent)
-        });
+        let mut held = [0.0; 2];
+        for (side, profile) in profiles.iter().enumerate() {
+            held[side] = match profile.iter().take_while(|(_, error)| *error <= tolerance).last() {
+                Some((time, _)) => *time,
+                None => problem.held(side, &motion.sides[side].steps, (first, tolerance), stop)?,
+            };
+        }
+        let [start, stop] = held.map(|time| scene.state().epoch + scaled(time, -problem.exponent));
         let span = scene.asked_span().map_or([start, stop], <[f64; 2]>::from);
         Err(Error::Unpredictable { tolerance, span, start, stop })
     }
@@ -204,6 +208,28 @@ impl Problem {
         let equations = equations.clone();
         let motion = Integrated { equations, order: precision.order, sides, exponent, reach, error: bound };
         Ok((motion, profiles))
+    }
+
+    /// The farthest of the ends of 1, 2, 4, … steps at which an integration up to there meets the tolerance. The bound of a longer integration has the errors of all
+    /// its steps from the epoch on: errors made at a pericentre would hide that nothing is lost before it.
+    fn held(
+        &self,
+        side: usize,
+        steps: &[Step],
+        (error, tolerance): (f64, f64),
+        stop: &AtomicBool,
+    ) -> Result<f64, Error> {
+        let mut held = 0.0;
+        for count in (0..usize::BITS).map(|power| 1 << power).take_while(|count| *count < steps.len()) {
+            let mut ends = [(0.0, 0.0); 2];
+            ends[side] = steps[count].time;
+            let shorter = Self { equations: self.equations.clone(), ends, ..*self };
+            if shorter.solved(error, stop)?.0.error > tolerance {
+                break;
+            }
+            held = steps[count].time.0;
+        }
+        Ok(held)
     }
 
     /// The error bound of the steps in one direction.

@@ -156,7 +156,8 @@ impl<'a> Batch<'a> {
 
     fn fill(&self, times: &[f64], outputs: Outputs<'_>) -> Result<(), Error> {
         let Self { motion, threads, stop, .. } = *self;
-        let (epoch, reach, arch) = (self.epoch(), motion.reach(), Arch::new());
+        let (epoch, arch) = (self.epoch(), Arch::new());
+        let reach = motion.reach_from(epoch);
         let evaluation = Evaluation { trajectory: &motion.trajectory, epoch, reach, arch, stop };
         evaluation.fill(times, outputs, threads).map_err(|halt| self.halted(halt, times))
     }

@@ -241,6 +241,20 @@ impl Motion {
         }
     }
 
+    /// The reach for times in the scale of `epoch`, which is that of the scene or 0. Times that count from the epoch have more digits than the ends of the span,
+    /// which were rounded as sums with the epoch: an end may be later by this rounding.
+    pub(crate) fn reach_from(&self, epoch: f64) -> [f64; 2] {
+        let [least, most] = self.reach();
+        let of_scene = self.scene.state().epoch;
+        match &self.trajectory {
+            Trajectory::Integrated(_) if epoch != of_scene => {
+                let rounding = f64::EPSILON * (of_scene.abs() + least.abs().max(most));
+                [least - rounding, most + rounding]
+            }
+            _ => [least, most],
+        }
+    }
+
     /// The largest time from the epoch that can be evaluated, and the reason for the bound.
     fn distance(&self) -> (f64, &'static str) {
         // The time is also bounded for a body at rest, or for one that turns once in 1e285 units, so that no sum of two times overflows.
@@ -256,7 +270,7 @@ impl Motion {
 
     /// Checks that all times have a phase; `epoch` is in the same scale as the times.
     pub(crate) fn valid(&self, times: &[f64], epoch: f64) -> Result<(), Error> {
-        let [least, most] = self.reach();
+        let [least, most] = self.reach_from(epoch);
         // This condition is false for NaN.
         let valid = |time: &f64| least <= time - epoch && time - epoch <= most;
         match times.iter().position(|time| !valid(time)) {
@@ -267,7 +281,7 @@ impl Motion {
 
     pub(crate) fn no_phase(&self, index: usize, times: &[f64], epoch: f64) -> Error {
         let (bound, reason) = match &self.trajectory {
-            Trajectory::Integrated(motion) if times[index] < epoch => (-motion.reach[0], BEFORE),
+            Trajectory::Integrated(motion) if times[index] < epoch => (motion.reach[0].abs(), BEFORE),
             Trajectory::Integrated(motion) => (motion.reach[1], AFTER),
             _ => self.distance(),
         };

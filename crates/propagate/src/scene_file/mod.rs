@@ -34,24 +34,44 @@ mod read;
 mod tables;
 mod write;
 
+use std::io::Read;
 use std::path::Path;
 
 use crate::error::{Error, Value as Fact};
 use crate::input::scene::Scene;
 use problem::{in_file, located};
 
+/// The longest scene file \[bytes\]: 100,000 positions of a table of a disturbing body take 6 MB.
+const MOST_BYTES: u64 = 16 << 20;
+
 impl Scene {
     /// The scene of a TOML file.
     ///
     /// # Errors
-    /// - [`Error::SceneFile`] for no such file, no TOML, an unknown or missing key, or a value that no scene can have. The error has file, key, value and bound.
+    /// - [`Error::SceneFile`] for no such file, a file of more than 16 MiB, no TOML, an unknown or missing key, or a value that no scene can have. The error has
+    ///   file, key, value and bound.
     pub fn from_toml(path: impl AsRef<Path>) -> Result<Self, Error> {
         let file = path.as_ref().display().to_string();
         let unreadable = |error: std::io::Error| {
             let value = Some(Fact::from(&file));
             in_file(&file, "file", error.to_string(), value, Some("a file that can be read".into()))
         };
-        let text = std::fs::read_to_string(path.as_ref()).map_err(unreadable)?;
+        let opened = std::fs::File::open(path.as_ref()).map_err(unreadable)?;
+        let mut bytes = Vec::new();
+        // A device such as /dev/zero has no end.
+        opened.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+        if bytes.len() as u64 > MOST_BYTES {
+            let problem = format!("a scene file must have at most {MOST_BYTES} bytes, and this one has more");
+            return Err(in_file(
+                &file,
+                "file",
+                problem,
+                Some(Fact::from(&file)),
+                Some("at most 16777216 bytes".into()),
+            ));
+        }
+        let not_text = |error| unreadable(std::io::Error::new(std::io::ErrorKind::InvalidData, error));
+        let text = String::from_utf8(bytes).map_err(not_text)?;
         Self::parse_toml(&text, &file)
     }
 

@@ -7,6 +7,7 @@ import numpy as np
 from andoyer._core import InputError, Motion, Samples
 from andoyer._diagrams import axes_or_new
 from andoyer._quaternions import angle_between
+from andoyer._refusal import refusal
 from andoyer._style import BLACK, BLUE, GREEN, VERMILION, Array
 from andoyer.output.rows import rows
 
@@ -76,7 +77,7 @@ def difference(samples: Samples, motion: Motion | Samples, axes: "Axes | None" =
 
     Raises
     ------
-    ValueError
+    InputError
         The two samples have different times.
     """
     axes = axes_or_new(axes)
@@ -95,7 +96,7 @@ def angles_between(samples: Samples, motion: Motion | Samples) -> Array:
     table = rows(samples)
     other = rows(_at(motion, samples, table[:, 0]) if isinstance(motion, Motion) else motion)
     if not np.array_equal(other[:, 0], table[:, 0]):
-        raise ValueError("samples that are compared must have the same times")
+        raise refusal("samples", "different times", "the same times", "that are compared must have the same times")
     return angle_between(table[:, 1:5], other[:, 1:5])
 
 

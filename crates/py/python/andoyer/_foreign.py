@@ -1,6 +1,7 @@
 """Conversion of values of astropy and SciPy to plain numbers. Quantities become SI units; times become TDB seconds since J2000 (2000-01-01T12:00:00 TDB).
 
 Times of a motion are differences from its epoch, formed in the two doubles of astropy, because seconds since J2000 in one double are accurate only to 1e-7 s.
+A duration from a calendar epoch is added to it by astropy: in the scale of the duration, or without one in the scale of the epoch (UTC: in TAI).
 
 A package is imported only when one of its values is given.
 """
@@ -8,12 +9,12 @@ A package is imported only when one of its values is given.
 from __future__ import annotations
 
 import sys
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from andoyer._core import InputError
+from andoyer._refusal import refusal
 
 UNITS = {
     "times": "s",
@@ -25,6 +26,7 @@ UNITS = {
     "epoch": "s",
     "epochs": "s",
     "span": "s",
+    "interval": "s",
     "time_of_pericentre": "s",
     "angular_velocity": "rad / s",
     "angular_velocities": "rad / s",
@@ -50,6 +52,12 @@ UNITS = {
 
 DURATIONS = {"periods", "precession", "rotation"}
 """Times that have no calendar date."""
+
+SCALES = ["tdb", "tt", "tai", "utc", "tcb", "tcg", "ut1"]
+"""Scales of a calendar epoch."""
+
+Epoch: TypeAlias = tuple[list[float], int, list[float] | None]
+"""A Julian date in two doubles, the index of its scale in `SCALES`, its geocentric location [m]."""
 
 J2000 = 2451545.0
 DAY = 86400.0
@@ -123,6 +131,9 @@ def joined(argument: str, value: Any) -> Any:
         if not isinstance(first, sys.modules["astropy.time"].TimeDelta):
             return kind(value)
         # Durations do not join by themselves.
+        scales = sorted({str(part.scale) for part in value})
+        if len(scales) > 1:
+            raise ValueError(f"one has the scale {scales[0]}, another {scales[1]}")
         return kind([part.jd1 for part in value], [part.jd2 for part in value], format="jd", scale=first.scale)
     except Exception as error:
         raise TypeError(f"{argument} must hold values of one kind, here {kind.__name__}: {str(error).splitlines()[0]}") from error
@@ -141,54 +152,118 @@ def unmasked(argument: str, value: Any) -> None:
         raise TypeError(f"{argument} is a masked array: give the entries that count, such as values[~mask]")
 
 
-def since(argument: str, value: Any, first: list[float], second: list[float]) -> tuple[Any, Any, tuple[int, ...]]:
+def since(argument: str, value: Any, epochs: list[Epoch]) -> tuple[Any, Any, tuple[int, ...]]:
     """Seconds from epochs to times. Returns the seconds, the times as one object, and their shape.
 
-    `first` and `second` are the TDB Julian dates of the epochs in two doubles: empty if the epoch is a number, otherwise one date, or one for each member. With one
-    for each member the first axis of the seconds is that of the members.
+    `epochs` is empty if the epoch is a number; otherwise it has one epoch, or one for each member. With one for each member the first axis of the seconds is that of the members.
 
     Raises
     ------
     InputError
         A calendar time if the epoch is a number.
+    TypeError
+        A duration in a scale that the epochs do not have.
     """
     value = joined(argument, value)
     unmasked(argument, value)
-    if isinstance(value, sys.modules["astropy.time"].TimeDelta):
-        return np.asarray(value.jd1 * DAY + value.jd2 * DAY, dtype=float), value, value.shape
-    if not first:
-        error = InputError(
-            f"{argument} is a calendar time, and the epoch of the state is a number: give the epoch as a Time too, or a TimeDelta from the epoch"
-        )
-        error.argument, error.value, error.bound = argument, value, "numbers or a TimeDelta"
-        raise error
-    moment, epoch = value.tdb, calendar(first, second)
-    if len(first) == 1:
+    if not epochs:
+        if isinstance(value, sys.modules["astropy.time"].TimeDelta):
+            return np.asarray(value.jd1 * DAY + value.jd2 * DAY, dtype=float), value, value.shape
+        message = "is a calendar time, and the epoch of the state is a number: give the epoch as a Time too, or a TimeDelta from the epoch"
+        raise refusal(argument, value, "numbers or a TimeDelta", message)
+    given, epoch = value, calendar(epochs)
+    if len(epochs) == 1:
         epoch = epoch[0]
     elif value.ndim < 2:
         # A row for each member.
-        moment, epoch = moment.reshape(1, -1), epoch.reshape(-1, 1)
+        given, epoch = value.reshape(1, -1), epoch.reshape(-1, 1)
     else:
         epoch = epoch.reshape(-1, 1)
-    delta = moment - epoch
+    moment, epoch = dated(argument, given, epoch)
+    delta = moment.tdb - epoch.tdb
     return np.asarray(delta.jd1 * DAY + delta.jd2 * DAY, dtype=float), value, value.shape
 
 
-def epochs(argument: str, value: Any) -> tuple[Any, list[tuple[float, float]]]:
-    """Calendar times as TDB seconds since J2000, and as the two doubles of their TDB Julian dates; durations as seconds."""
+def instants(argument: str, value: Any, epochs: list[Epoch]) -> Any:
+    """Calendar times, and durations from the one epoch, as TDB seconds since J2000."""
+    value = joined(argument, value)
+    unmasked(argument, value)
+    return seconds(dated(argument, value, calendar(epochs)[0])[0].tdb)
+
+
+def dated(argument: str, value: Any, epoch: Any) -> tuple[Any, Any]:
+    """Calendar times with the epoch; for durations the dates that astropy finds by adding them to the epoch, and the epoch plus a duration of 0.
+
+    astropy adds a duration with a scale in this scale, and one without in the scale of the epoch, or in TAI if this scale is UTC.
+    """
+    if not isinstance(value, sys.modules["astropy.time"].TimeDelta):
+        return value, epoch
+    try:
+        # The sum with 0 has the rounding of the other sum, so that the difference is 0 for a duration of 0.
+        return epoch + value, epoch + 0 * value
+    except TypeError:
+        raise TypeError(f"{argument} is a TimeDelta in the scale {value.scale}, which cannot be added to an epoch in the scale {epoch.scale}") from None
+
+
+def scene_times(argument: str, value: Any, epoch: Any) -> Any:
+    """Times of a scene as numbers: in the unit of the scene, or TDB seconds since J2000 if its epoch is a Time.
+
+    Raises
+    ------
+    InputError
+        A calendar time if the epoch is a number; a Quantity if the epoch is a Time.
+    """
+    value, of_calendar = as_one(argument, value), hasattr(epoch, "jd1")
+    if not hasattr(value, "jd1"):
+        if of_calendar and hasattr(value, "unit"):
+            raise refusal(
+                argument, "a Quantity", "a Time or a TimeDelta", "is a Quantity, and the epoch a calendar time: give a Time, or a TimeDelta from the epoch"
+            )
+        return plain(argument, value) if hasattr(value, "unit") else value
+    if of_calendar:
+        return instants(argument, value, parts(epoch))
+    return epoch + since(argument, value, [])[0]
+
+
+def as_one(argument: str, value: Any) -> Any:
+    """A list of times or quantities as one object. Any other value is returned unchanged."""
+    first = value[0] if isinstance(value, (list, tuple)) and len(value) else value
+    return joined(argument, value) if hasattr(first, "unit") or hasattr(first, "jd1") else value
+
+
+def epoch_of(scene: Any) -> Any:
+    """The epoch of a scene as given: a number or a Time."""
+    _, options = scene.__getnewargs_ex__()
+    return options.get("epoch", 0.0)
+
+
+def epochs(argument: str, value: Any) -> tuple[Any, list[Epoch]]:
+    """Calendar times as TDB seconds since J2000, and their parts; durations as seconds."""
     value = joined(argument, value)
     unmasked(argument, value)
     if isinstance(value, sys.modules["astropy.time"].TimeDelta):
         return plain(argument, value), []
-    moment = value.tdb
-    return seconds(moment), list(zip(np.ravel(moment.jd1).tolist(), np.ravel(moment.jd2).tolist()))
+    return seconds(value.tdb), parts(value)
 
 
-def calendar(first: list[float], second: list[float]) -> Any:
-    """The Time objects of TDB Julian dates in two doubles."""
+def parts(moment: Any) -> list[Epoch]:
+    """The parts of each epoch: its Julian date in two doubles, the index of its scale, and its location."""
+    julian = np.stack([np.ravel(moment.jd1), np.ravel(moment.jd2)], axis=-1).tolist()
+    if moment.location is None:
+        return [(date, SCALES.index(moment.scale), None) for date in julian]
+    places = np.stack([np.broadcast_to(axis.to_value("m"), moment.shape).ravel() for axis in moment.location.geocentric], axis=-1).tolist()
+    return [(date, SCALES.index(moment.scale), place) for date, place in zip(julian, places)]
+
+
+def calendar(epochs: list[Epoch]) -> Any:
+    """The Time objects of epochs in one scale, shape (n,)."""
+    import astropy.coordinates  # type: ignore[import-untyped, import-not-found, unused-ignore]
     import astropy.time  # type: ignore[import-untyped, import-not-found, unused-ignore]
 
-    return astropy.time.Time(np.array(first), np.array(second), format="jd", scale="tdb")
+    julian, scales, places = zip(*epochs)
+    first, second = np.array(julian).T
+    location = None if places[0] is None else astropy.coordinates.EarthLocation.from_geocentric(*np.array(places).T, unit="m")
+    return astropy.time.Time(first, second, format="jd", scale=SCALES[scales[0]], location=location)
 
 
 def later(epoch: list[float] | None, seconds: float) -> Any:

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 
 from andoyer._core import Motion, RepresentationError
 from andoyer._quaternions import angle_between
+from andoyer._refusal import refusal
 from andoyer._span import within_span
 from andoyer.output.attitude_types import derivative
 from andoyer.output.files import whole_file
@@ -76,7 +77,7 @@ def page(
     ------
     FileExistsError
         The file exists, and ``force=False``.
-    ValueError
+    InputError
         An interval of zero length; for a motion without code (`Motion.to_code`) an interval of more than 208 rotations; a mesh of another shape.
 
     Examples
@@ -88,7 +89,7 @@ def page(
     """
     start, stop = _interval(motion) if interval is None else (float(interval[0]), float(interval[1]))
     if not (math.isfinite(start) and math.isfinite(stop) and start < stop):
-        raise ValueError(f"interval must be two finite times, the first below the second: got {(start, stop)!r}")
+        raise refusal("interval", (start, stop), "two finite times", f"must be two finite times, the first below the second: got {(start, stop)!r}")
     source, error = evaluator(motion, start, stop)
     scene = motion.scene
     title = html.escape(scene.name or scene.body.name or "A rigid body")
@@ -124,7 +125,8 @@ def _table(motion: Motion, start: float, stop: float) -> tuple[str, float]:
     count = max(LEAST_NODES, math.ceil(rate * (stop - start) / (2 * math.pi) * NODES))
     if count > MOST_NODES:
         rotations = MOST_NODES // NODES
-        raise ValueError(f"interval must have at most {rotations} rotations: got {rate * (stop - start) / (2 * math.pi):.4g}")
+        asked = rate * (stop - start) / (2 * math.pi)
+        raise refusal("interval", asked, rotations, f"must have at most {rotations} rotations: got {asked:.4g}")
     times = np.linspace(start, stop, count + 1)
     samples = motion.at(times)
     turned = np.concatenate([[False], np.cumsum(np.sum(samples.attitude[1:] * samples.attitude[:-1], axis=1) < 0) % 2 == 1])
@@ -203,9 +205,10 @@ def _facts(motion: Motion, unit: str, error: float) -> list[list[str]]:
 def _mesh(vertices: ArrayLike, faces: ArrayLike) -> dict[str, Any]:
     points, corners = np.asarray(vertices, dtype=np.float64), np.asarray(faces)
     if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all():
-        raise ValueError(f"mesh must have finite vertices of shape (n, 3): got {points.shape}")
+        raise refusal("mesh", points.shape, "(n, 3)", f"must have finite vertices of shape (n, 3): got {points.shape}")
     if corners.ndim != 2 or corners.shape[1] != 3 or corners.dtype.kind not in "iu" or corners.size == 0 or corners.min() < 0 or corners.max() >= len(points):
-        raise ValueError(f"mesh must have faces of shape (m, 3), whole numbers from 0 to {len(points) - 1}: got shape {corners.shape}")
+        bound = f"of shape (m, 3), whole numbers from 0 to {len(points) - 1}"
+        raise refusal("mesh", corners.shape, bound, f"must have faces {bound}: got shape {corners.shape}")
     return {"vertices": points.tolist(), "faces": corners.tolist()}
 
 

@@ -1,4 +1,4 @@
-"""Output for terminals: a progress bar and bold names. Files and pipes get plain text."""
+"""Output for terminals: a progress bar and bold names, and streams that are closed. Files and pipes get plain text."""
 
 import os
 import sys
@@ -43,3 +43,24 @@ def named(name: str, stream: TextIO | None = None) -> str:
     """A name in front of a value, bold on a terminal unless NO_COLOR is set."""
     terminal = (sys.stdout if stream is None else stream).isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
     return f"\x1b[1m{name:13}\x1b[0m" if terminal else f"{name:13}"
+
+
+def replace_closed_streams() -> None:
+    """Replace stdout and stderr if the shell has closed them (``>&-``): writing to stdout is then an error of the system, and what goes to stderr is lost."""
+    if sys.stdout is None:
+        sys.stdout = os.fdopen(os.open(os.devnull, os.O_RDONLY), "w", encoding="utf-8")
+    if sys.stderr is None:
+        sys.stderr = os.fdopen(os.open(os.devnull, os.O_WRONLY), "w", encoding="utf-8")
+
+
+def discard_stdout() -> None:
+    """Discard what cannot be written to stdout, so that Python does not try again at exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def flush_or_discard_stdout() -> None:
+    """Write what is left for stdout, or discard it if it cannot be written."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        discard_stdout()

@@ -6,7 +6,6 @@ no command. A tolerance that is not met prints one line on stderr, and the exit 
 
 import argparse
 import math
-import os
 import shutil
 import sys
 import textwrap
@@ -25,7 +24,7 @@ from andoyer import output
 from andoyer._arguments import MOST_SAMPLES, InputError, count, number, step, time, whole
 from andoyer._extra import extra
 from andoyer._page import page
-from andoyer._terminal import Progress, named
+from andoyer._terminal import Progress, discard_stdout, flush_or_discard_stdout, named, replace_closed_streams
 from andoyer._writing import ENDINGS
 from andoyer.output import COLUMNS, CONVENTION
 from andoyer.output.files import whole_file
@@ -80,23 +79,29 @@ class Parser(argparse.ArgumentParser):
 
 def main(argv: list[str] | None = None) -> int:
     """Run the command line `argv`, by default that of the process; return the exit status."""
+    replace_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         # A name that the terminal cannot show is shown escaped.
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
     try:
         top = parser()
-        arguments = top.parse_args(argv)
+        try:
+            arguments = top.parse_args(argv)
+        finally:
+            # --help and --version end the process here.
+            sys.stdout.flush()
         if arguments.run is None:
             raise InputError(f"a command is missing: {', '.join(COMMANDS)} (--help says more)")
         status: int = arguments.run(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
-        # The reader of a pipe has seen enough; nothing may be flushed into it at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # The reader of a pipe has seen enough.
+        discard_stdout()
         return 0
     except (InputError, andoyer.Error, ImportError, OSError, MemoryError) as error:
         print("andoyer: error:", " ".join(str(error).split()) or type(error).__name__, file=sys.stderr)
+        flush_or_discard_stdout()
         return 2
     except KeyboardInterrupt:
         print("andoyer: interrupted", file=sys.stderr)

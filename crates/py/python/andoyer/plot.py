@@ -23,6 +23,7 @@ from andoyer._drawing import surface as draw_surface
 from andoyer._extra import extra
 from andoyer._film import film
 from andoyer._page import page
+from andoyer._refusal import refusal
 from andoyer._span import within_span
 from andoyer._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION, Array
 
@@ -88,11 +89,11 @@ def polhode(motion: Motion, axes: Axes | None = None, *, surface: str = "sphere"
 
     Raises
     ------
-    ValueError
+    InputError
         An unknown surface (``"cube"``).
     """
     if surface not in ("sphere", "ellipsoid"):
-        raise ValueError(f'surface = {surface!r}: it must be "sphere" or "ellipsoid"')
+        raise refusal("surface", surface, "sphere or ellipsoid", f'= {surface!r}: it must be "sphere" or "ellipsoid"')
     axes = _axes(axes)
     numbers, moments, directions = _sorted(motion, whole_turns(motion, 1))
     place = (lambda curve: curve) if surface == "sphere" else on_ellipsoid(moments)

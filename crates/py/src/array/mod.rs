@@ -218,6 +218,9 @@ pub(crate) fn fixed<const N: usize>(argument: &str, value: &Bound<'_, PyAny>) ->
 
 /// First and last time of a span, for a state at an epoch.
 pub(crate) fn span(value: &Bound<'_, PyAny>, epoch: f64, calendar: Option<Calendar>) -> PyResult<[f64; 2]> {
+    if let Some(seconds) = foreign::instants("span", value, calendar)? {
+        return fixed("span", &seconds);
+    }
     match foreign::since("span", value, calendar.as_slice())? {
         Some((seconds, ..)) => Ok(fixed("span", &seconds)?.map(|seconds: f64| epoch + seconds)),
         None => fixed("span", value),

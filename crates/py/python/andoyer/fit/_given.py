@@ -6,19 +6,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from andoyer._core import InputError, Scene
-from andoyer._foreign import joined, plain, since
+from andoyer._core import Scene
+from andoyer._foreign import as_one, epoch_of, parts, plain, since
 from andoyer._quaternions import Array
+from andoyer._refusal import refusal
 
+LARGEST = 1e40
+"""Bound of semi-axes, brightnesses and standard deviations: χ² and its derivatives have products of up to six of them."""
 NEAR_UNIT = 1e-6
 """Deviation of the norm of a quaternion from 1 that is rounding."""
-
-
-def refusal(argument: str, value: Any, bound: Any, message: str) -> InputError:
-    """The error of an argument."""
-    error = InputError(f"{argument}{message}" if message.startswith("[") else f"{argument} {message}")
-    error.argument, error.value, error.bound = argument, value, bound
-    return error
 
 
 def numbers(argument: str, value: ArrayLike) -> Array:
@@ -34,11 +30,11 @@ def numbers(argument: str, value: ArrayLike) -> Array:
     return array
 
 
-def from_first(argument: str, times: Any) -> tuple[Array, Any]:
+def from_first(argument: str, times: Any, scene: Any = None) -> tuple[Array, Any]:
     """Times since the first one, shape (n,), and the first one.
 
     The unit is that of plain numbers; it is the second for times, durations and quantities of astropy. The first one is a Time for times of astropy, None for durations, which count from the
-    epoch of a scene, otherwise a number.
+    epoch of `scene`, otherwise a number.
     """
     astropy = sys.modules.get("astropy.time")
     value = as_one(argument, times)
@@ -49,9 +45,12 @@ def from_first(argument: str, times: Any) -> tuple[Array, Any]:
         raise refusal(argument, shape, "(n,)", f"has shape {shape}: it must be (n,) with n above 0")
     if calendar:
         epoch = value[0]
-        seconds, _, _ = since(argument, value, [epoch.tdb.jd1], [epoch.tdb.jd2])
+        seconds, _, _ = since(argument, value, parts(epoch))
         return numbers(argument, seconds), epoch
-    at = numbers(argument, _numbers_of(argument, value))
+    if duration and isinstance(scene, Scene):
+        at = from_epoch(argument, value, epoch_of(scene), 0.0)
+    else:
+        at = numbers(argument, _numbers_of(argument, value))
     if duration and at[0] != 0:
         raise refusal(
             argument, float(at[0]), 0.0, f"[0] = {at[0]} s: durations count from the epoch of the scene, which is the first time, so the first must be 0"
@@ -65,8 +64,7 @@ def from_epoch(argument: str, times: Any, epoch: Any, number: float) -> Array:
     astropy = sys.modules.get("astropy.time")
     if astropy is None or not isinstance(value, (astropy.Time, astropy.TimeDelta)):
         return np.asarray(_numbers_of(argument, value), dtype=np.float64) - number
-    first = [epoch.tdb] if hasattr(epoch, "jd1") else []
-    seconds, _, _ = since(argument, value, [date.jd1 for date in first], [date.jd2 for date in first])
+    seconds, _, _ = since(argument, value, parts(epoch) if hasattr(epoch, "jd1") else [])
     return np.asarray(seconds, dtype=np.float64)
 
 
@@ -79,10 +77,14 @@ def _numbers_of(argument: str, value: Any) -> Any:
     return value if isinstance(value, (list, tuple)) else plain(argument, value)
 
 
-def as_one(argument: str, value: Any) -> Any:
-    """A list of times or quantities as one object. Any other value is returned unchanged."""
-    first = value[0] if isinstance(value, (list, tuple)) and len(value) else value
-    return joined(argument, value) if hasattr(first, "unit") or hasattr(first, "jd1") else value
+def moderate(argument: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Array:
+    """Numbers above 0 whose squares and their products are doubles."""
+    array = positive(argument, value, *shapes)
+    for worst in (float(array.min()), float(array.max())):
+        if not 1 / LARGEST <= worst <= LARGEST:
+            bound = f"from {1 / LARGEST:g} to {LARGEST:g}"
+            raise refusal(argument, worst, (1 / LARGEST, LARGEST), f"= {worst}: it must be {bound}; choose another unit")
+    return array
 
 
 def shaped(argument: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Array:
@@ -173,9 +175,3 @@ def scene_of(value: Any) -> Scene:
     if not isinstance(value, Scene):
         raise refusal("scene", type(value).__name__, "Scene", f"= {value!r}: it must be an andoyer.Scene")
     return value
-
-
-def epoch_of(scene: Scene) -> Any:
-    """The epoch of a scene as given: a number or a Time."""
-    _, options = scene.__getnewargs_ex__()
-    return options.get("epoch", 0.0)

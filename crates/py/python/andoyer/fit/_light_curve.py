@@ -13,7 +13,7 @@ from andoyer._core import Body, Ensemble, Scene
 from andoyer._extra import extra
 from andoyer._quaternions import Array, angle_between, product
 from andoyer.fit._curve import Curve, Places, States
-from andoyer.fit._given import enough, epoch_of, from_first, generator_of, positive, refusal, scene_of, shaped, span, whole
+from andoyer.fit._given import enough, epoch_of, from_first, generator_of, moderate, refusal, scene_of, shaped, span, whole
 from andoyer.fit._message import composed, largest_reduced, rivals
 from andoyer.fit._optimum import Optimum
 from andoyer.fit._result import Fit, judged
@@ -93,7 +93,7 @@ def light_curve(
     Raises
     ------
     InputError
-        Fewer points than parameters; a brightness or a `sigma` that is not positive; a shortest period above the longest; a direction of length 0; Sun and observer on opposite sides; a first
+        Fewer points than parameters; a semi-axis, a brightness or a `sigma` that is not from 1e-40 to 1e40; no start with a motion over the times; a shortest period above the longest; a direction of length 0; Sun and observer on opposite sides; a first
         TimeDelta other than 0; a `scene` with an orbit or at rest.
 
     Examples
@@ -117,7 +117,7 @@ def light_curve(
     if not isinstance(shape, (bool, np.bool_)):
         raise refusal("shape", repr(shape), "True or False", f"= {shape!r}: it must be True or False")
     largest = _difference(delta_chi_square)
-    curve, epoch = _curve(times, brightness, (sun, observer), sigma, curves, (scattering, shape))
+    curve, epoch = _curve((times, scene), brightness, (sun, observer), sigma, curves, (scattering, shape))
     enough(len(curve.times), 6 + 2 * shape + curve.members.shape[1], "times", "give more points")
     if epoch is None:
         epoch = 0.0 if scene is None else epoch_of(scene_of(scene))
@@ -135,16 +135,22 @@ def light_curve(
 
 
 def _curve(
-    times: Any, brightness: ArrayLike, seen: tuple[ArrayLike, ArrayLike], sigma: ArrayLike, curves: ArrayLike | None, model: tuple[str, bool]
+    dates: tuple[Any, Scene | None],
+    brightness: ArrayLike,
+    seen: tuple[ArrayLike, ArrayLike],
+    sigma: ArrayLike,
+    curves: ArrayLike | None,
+    model: tuple[str, bool],
 ) -> tuple[Curve, Any]:
-    """The data, and the epoch: a number, a Time for times of astropy, or None for durations."""
-    at, epoch = from_first("times", times)
+    """The data, and the epoch: a number, a Time for times of astropy, or None for durations, which count from the epoch of the scene."""
+    at, epoch = from_first("times", *dates)
     count = len(at)
     values = shaped("brightness", brightness, (count,))
     if not np.all(values > 0):
         worst = float(values.min())
         raise refusal("brightness", worst, "above 0", f"= {worst}: an intensity is above 0; for magnitudes m give the intensities 10**(-0.4*m)")
-    deviations = np.broadcast_to(positive("sigma", sigma, (), (count,)), (count,))
+    values = moderate("brightness", values, (count,))
+    deviations = np.broadcast_to(moderate("sigma", sigma, (), (count,)), (count,))
     for argument, vectors in zip(("sun", "observer"), seen):
         shaped(argument, vectors, (3,), (count, 3))
     sun, observer = (np.atleast_2d(vectors).T for vectors in directions(*seen))
@@ -253,6 +259,9 @@ def _polished(curve: Curve, population: Population) -> Population:
             continue
         solution = optimize.least_squares(_residuals, first, _jacobian, args=(curve, state), method="trf", xtol=1e-12, ftol=1e-12, gtol=1e-15)
         found.append((moved(state, solution.x[None]), 2 * solution.cost))
+    if not found:
+        last = float(curve.times[-1])
+        raise refusal("times", last, "within the reach of a motion", f"[-1] is {last} after the first: no start has a motion and a finite χ² up to there")
     states = States(*(np.concatenate(arrays) for arrays in zip(*(state for state, _ in found))))
     return _distinct(curve, Population(states, np.array([chi_square for _, chi_square in found])))
 

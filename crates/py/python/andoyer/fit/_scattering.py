@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from andoyer._quaternions import Array, conjugate, rotate
-from andoyer.fit._given import numbers, positive, quaternions, refusal
+from andoyer.fit._given import moderate, numbers, quaternions, refusal
 
 TINY = 1e-300
 
@@ -103,7 +103,7 @@ def brightness(axes: ArrayLike, attitudes: ArrayLike, sun: ArrayLike, observer: 
     Raises
     ------
     InputError
-        Semi-axes that are not positive, quaternions whose norm is not 1, shapes that do not fit, a direction of length 0, Sun and observer on opposite sides, an unknown law.
+        Semi-axes that are not from 1e-40 to 1e40, quaternions whose norm is not 1, shapes that do not fit, a direction of length 0, Sun and observer on opposite sides, an unknown law.
 
     Examples
     --------
@@ -137,7 +137,7 @@ THINNEST = 1e-6
 
 def axes_of(axes: ArrayLike) -> Array:
     """Semi-axes."""
-    given = positive("axes", axes, (3,))
+    given = moderate("axes", axes, (3,))
     ratio = float(given.min() / given.max())
     if not ratio >= THINNEST:
         raise refusal("axes", ratio, THINNEST, f"have the ratio {ratio} of the smallest to the largest: it must be {THINNEST} at least")

@@ -13,13 +13,15 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
 from andoyer._core import Body, Samples
 from andoyer._record import ShortRecord
+from andoyer._refusal import refusal
 from andoyer.output.attitude_types import FROM_SAMPLES, VERSION_1, columns_of
-from andoyer.output.calendar import J2000, count, counts, written
+from andoyer.output.calendar import J2000, TIME_SYSTEMS, count, counts, written
 from andoyer.output.files import whole_file
 from andoyer.output.rows import Array, calendar_times, rows
 
@@ -88,9 +90,9 @@ def write_aem(path: str | os.PathLike[str], samples: Samples, heading: Heading =
         The file exists, and ``force=False``.
     ImportError
         UTC without astropy.
-    ValueError
-        Samples of an ensemble; times that do not ascend by at least 1e-12 s; years outside 1 to 9999; a type, version or interpolation that the
-        standard does not have, or that is not possible for this motion.
+    InputError
+        Samples of an ensemble; times that do not ascend by at least 1e-12 s (times of astropy: 1e-10 s); years outside 1 to 9999; UTC before 1972; a type, version, time
+        system or interpolation that the standard does not have, or that is not possible for this motion.
 
     Examples
     --------
@@ -103,12 +105,13 @@ def write_aem(path: str | os.PathLike[str], samples: Samples, heading: Heading =
     table = rows(samples)
     numbers = columns_of(heading.type, table[:, 1:5], table[:, 5:], body)
     if not np.isfinite(numbers).all():
-        raise ValueError(f"samples must be finite for attitude_type {heading.type}: without angular velocities QUATERNION can be written")
-    epochs = [written(moment, heading.time_system) for moment in _moments(samples, table[:, 0], heading)]
-    if any(first >= second for first, second in pairwise(epochs)):
-        raise ValueError("an AEM must have ascending times, 1e-12 s apart at least")
+        raise refusal(
+            "samples", "not finite", "finite", f"must be finite for attitude_type {heading.type}: without angular velocities QUATERNION can be written"
+        )
+    calendar = calendar_times(samples)
+    epochs = _epochs(table[:, 0], calendar, heading)
     with whole_file(path, force) as temporary, temporary.open("w", encoding="ascii", newline="\n") as file:
-        file.writelines(f"{line}\n" for line in heading_lines(heading, epochs))
+        file.writelines(f"{line}\n" for line in heading_lines(heading, epochs, calendar is not None))
         file.write("DATA_START\n")
         # The standard has no -0.
         for start, row in zip(epochs, numbers + 0.0):
@@ -116,9 +119,23 @@ def write_aem(path: str | os.PathLike[str], samples: Samples, heading: Heading =
         file.write("DATA_STOP\n")
 
 
-def _moments(samples: Samples, times: Array, heading: Heading) -> list[Fraction]:
-    """The calendar times of the samples: numbers count from the date of time 0, calendar times are unchanged."""
-    calendar = calendar_times(samples)
+def _epochs(times: Array, calendar: Any, heading: Heading) -> list[str]:
+    """The calendar times of the samples as texts."""
+    if not len(times):
+        raise refusal("samples", 0, 1, "must have one time at least: got none")
+    try:
+        epochs = [written(moment, heading.time_system) for moment in _moments(times, calendar, heading)]
+    except ValueError as error:
+        raise refusal("samples", [float(times[0]), float(times[-1])], "times of the calendar", f"must have times that can be written: {error}") from error
+    apart = "1e-12 s" if calendar is None else "1e-10 s"
+    for first, second in pairwise(epochs):
+        if first >= second:
+            raise refusal("samples", second, f"{apart} after {first}", f"must have ascending times, {apart} apart at least: got {second} after {first}")
+    return epochs
+
+
+def _moments(times: Array, calendar: Any, heading: Heading) -> list[Fraction]:
+    """Calendar times in seconds: numbers count from the date of time 0."""
     if calendar is not None:
         return counts(calendar, heading.time_system)
     zero = count(heading.date, heading.time_system)
@@ -127,25 +144,33 @@ def _moments(samples: Samples, times: Array, heading: Heading) -> list[Fraction]
 
 def _check(heading: Heading, samples: Samples) -> None:
     if heading.version not in (1, 2):
-        raise ValueError(f"version must be 1 or 2: got {heading.version!r}")
+        raise refusal("version", heading.version, "1 or 2", f"must be 1 or 2: got {heading.version!r}")
+    if heading.time_system not in TIME_SYSTEMS:
+        allowed = ", ".join(TIME_SYSTEMS)
+        raise refusal("time_system", heading.time_system, allowed, f"must be one of {allowed}: got {heading.time_system!r}")
     types = [name for name in FROM_SAMPLES if heading.version == 2 or name in VERSION_1]
     if heading.type not in types:
-        raise ValueError(f"attitude_type must be one of {', '.join(types)} in version {heading.version}: got {heading.type!r}")
+        allowed = ", ".join(types)
+        raise refusal("attitude_type", heading.type, allowed, f"must be one of {allowed} in version {heading.version}: got {heading.type!r}")
     if heading.interpolation is not None:
         method, degree = heading.interpolation
         most = len(np.atleast_2d(samples.attitude)) - 1
         if method not in METHODS or not 1 <= degree <= most:
-            raise ValueError(f"interpolation must be {', '.join(METHODS)} of degree 1 to {most}, which these samples allow: got {heading.interpolation!r}")
+            allowed = f"{', '.join(METHODS)} of degree 1 to {most}"
+            raise refusal("interpolation", heading.interpolation, allowed, f"must be {allowed}, which these samples allow: got {heading.interpolation!r}")
 
 
-def heading_lines(heading: Heading, epochs: list[str]) -> Iterator[str]:
-    """The header and the metadata of an AEM."""
+def heading_lines(heading: Heading, epochs: list[str], calendar: bool) -> Iterator[str]:
+    """The header and the metadata of an AEM; `calendar` says that the samples have calendar times."""
     old = heading.version == 1
     yield f"CCSDS_AEM_VERS = {heading.version}.0"
     yield f"CREATION_DATE = {datetime.now(UTC):%Y-%m-%dT%H:%M:%S}"
     yield f"ORIGINATOR = {_text(heading.originator)}"
     yield "META_START"
-    yield f"COMMENT Time 0 of the scene is {heading.date.isoformat()} {heading.time_system}; its unit of time is taken as the second."
+    if calendar:
+        yield f"COMMENT The times are the calendar times of the samples. Time 0 of the scene is {J2000.isoformat()} TDB."
+    else:
+        yield f"COMMENT Time 0 of the scene is {heading.date.isoformat()} {heading.time_system}; its unit of time is taken as the second."
     yield "COMMENT REF_FRAME_A is the inertial frame of the scene, REF_FRAME_B the axes of the body."
     yield from (_ascii(f"COMMENT {line}") for line in heading.comments)
     yield f"OBJECT_NAME = {_text(heading.name)}"[:LONGEST_LINE]

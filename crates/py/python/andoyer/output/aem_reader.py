@@ -16,6 +16,7 @@ import numpy as np
 
 from andoyer._core import Samples
 from andoyer._quaternions import Array, conjugate, rotate
+from andoyer._refusal import refusal, unreadable
 from andoyer.output.aem import METHODS, Heading
 from andoyer.output.attitude_types import FIELDS, VERSION_1, VERSION_2, attitudes_of
 from andoyer.output.calendar import J2000, READABLE, count, parse, tdb
@@ -69,8 +70,10 @@ def read_aem(path: str | os.PathLike[str], segment: int | None = None, *, date: 
     ------
     ImportError
         UTC, or the conversion to TDB, without astropy.
-    ValueError
-        Text that the standard does not allow, with the number of the line; a segment that does not exist; a time system that does not count seconds.
+    FileError
+        Text that the standard does not allow, with the number of the line; a time system that does not count seconds.
+    InputError
+        A segment that does not exist, or none for a message with several.
 
     Examples
     --------
@@ -82,9 +85,9 @@ def read_aem(path: str | os.PathLike[str], segment: int | None = None, *, date: 
     """
     found = read_aem_segments(path, date=date)
     if segment is None and len(found) > 1:
-        raise ValueError(f"{path}: segment must be given, from 0 to {len(found) - 1}: the message has {len(found)}")
+        raise refusal("segment", segment, (0, len(found) - 1), f"must be given, from 0 to {len(found) - 1}: the message has {len(found)} ({path})")
     if not 0 <= (segment or 0) < len(found):
-        raise ValueError(f"{path}: segment must be from 0 to {len(found) - 1}: got {segment}")
+        raise refusal("segment", segment, (0, len(found) - 1), f"must be from 0 to {len(found) - 1}: got {segment} ({path})")
     return found[segment or 0].samples
 
 
@@ -104,7 +107,7 @@ def read_aem_segments(path: str | os.PathLike[str], *, date: datetime | None = N
 
     Raises
     ------
-    ImportError, ValueError
+    ImportError, FileError
         As in `read_aem`.
     """
     data = Path(path).read_bytes()
@@ -112,7 +115,7 @@ def read_aem_segments(path: str | os.PathLike[str], *, date: datetime | None = N
         messages = parse_xml(data) if data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<") else [parse_kvn(_decoded(data))]
         return [_segment(message, segment, date) for message in messages for segment in message.segments]
     except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error
+        raise unreadable(path, error) from error
 
 
 def _decoded(data: bytes) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 
 from andoyer._core import Body
 from andoyer._quaternions import Array, conjugate, product, rotate
+from andoyer._refusal import refusal
 
 QUATERNION = ["Q1", "Q2", "Q3", "QC"]
 ANGLES = ["ANGLE_1", "ANGLE_2", "ANGLE_3"]
@@ -47,7 +48,7 @@ def columns_of(name: str, attitude: Array, rates: Array, body: Body | None = Non
 
     Raises
     ------
-    ValueError
+    InputError
         SPIN for a body that does not rotate about axis 3 alone; a nutation without a `Body`, for a body whose moments about axes 1 and 2 differ, or for a body at rest.
     """
     if name == "QUATERNION":
@@ -64,7 +65,12 @@ def columns_of(name: str, attitude: Array, rates: Array, body: Body | None = Non
     if name == "SPIN":
         across = np.hypot(rates[:, 0], rates[:, 1])
         if np.any(across > 1e-9 * np.abs(rates[:, 2])):
-            raise ValueError(f"attitude_type SPIN must have a rotation about body axis 3 alone: {across.max():.3g} rad/s is across it")
+            raise refusal(
+                "attitude_type",
+                name,
+                "a rotation about body axis 3",
+                f"SPIN must have a rotation about body axis 3 alone: {across.max():.3g} rad/s is across it",
+            )
         return _degrees(alpha, delta, angle, rates[:, 2])
     momentum, nutation_rate, spin_rate = _nutation(name, rates, body)
     spin = np.column_stack([alpha, delta, angle, spin_rate])
@@ -83,15 +89,16 @@ def _degrees(*columns: Array) -> Array:
 def _nutation(name: str, rates: Array, body: Body | None) -> tuple[Array, Array, Array]:
     """Directions of the angular momentum in the body, the rate of axis 3 about it, the rate of the body about axis 3 against that motion."""
     if body is None:
-        raise ValueError(f"attitude_type {name} must have a body with equal moments about axes 1 and 2: no body was given")
+        raise refusal("attitude_type", name, "a body", f"{name} must have a body with equal moments about axes 1 and 2: no body was given")
     tensor = (body.principal_axes * body.moments) @ body.principal_axes.T
     across, along = (tensor[0, 0] + tensor[1, 1]) / 2, tensor[2, 2]
     if np.abs(tensor - np.diag([across, across, along])).max() > SYMMETRIC * body.moments.max():
-        raise ValueError(f"attitude_type {name} must have a body with equal moments about axes 1 and 2: its inertia tensor is {tensor.tolist()}")
+        message = f"{name} must have a body with equal moments about axes 1 and 2: its inertia tensor is {tensor.tolist()}"
+        raise refusal("attitude_type", name, "equal moments about axes 1 and 2", message)
     momentum = rates * np.array([across, across, along])
     size = np.linalg.norm(momentum, axis=1)
     if np.any(size == 0):
-        raise ValueError(f"attitude_type {name} must have a body that turns: its angular velocity is 0")
+        raise refusal("attitude_type", name, "a body that turns", f"{name} must have a body that turns: its angular velocity is 0")
     return momentum / size[:, None], size / across, (1 - along / across) * rates[:, 2]
 
 

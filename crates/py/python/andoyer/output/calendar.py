@@ -29,6 +29,9 @@ READABLE = [*TIME_SYSTEMS, "TCB", "TCG"]
 EPOCH_DIGITS = 12
 """Decimals of the second in an epoch that is written."""
 
+CALENDAR_DIGITS = 10
+"""Decimals of the second in a time of astropy: its part of a day in a double is good to 2.4e-12 s, and the conversion to another scale adds a few times this."""
+
 DAY = 86400
 JULIAN_J2000 = 2451545
 GPS_BEHIND_TAI = 19
@@ -74,13 +77,14 @@ def count(date: datetime, system: str) -> Fraction:
 
 
 def counts(times: Any, system: str) -> list[Fraction]:
-    """Seconds since 2000-01-01T12:00:00 of the scale at the times of an astropy Time, exactly as its two doubles have them."""
+    """Seconds since 2000-01-01T12:00:00 of the scale at the times of an astropy Time, rounded to `CALENDAR_DIGITS` decimals."""
     offset = {"GPS": -GPS_BEHIND_TAI, "UTC": -_leap_seconds(J2000.date())}.get(system, 0)
     moments = getattr(times, "tai" if offset else system.lower())
-    return [
+    exact = [
         (Fraction(float(first)) - JULIAN_J2000 + Fraction(float(second))) * DAY + offset
         for first, second in zip(np.atleast_1d(moments.jd1), np.atleast_1d(moments.jd2))
     ]
+    return [round(moment, CALENDAR_DIGITS) for moment in exact]
 
 
 def written(seconds: Fraction, system: str) -> str:
@@ -98,7 +102,7 @@ def written(seconds: Fraction, system: str) -> str:
     try:
         then = J2000 + timedelta(seconds=whole)
     except OverflowError:
-        raise ValueError(f"must have years from 1 to 9999: {float(seconds)!r} s after {J2000.isoformat()} is outside") from None
+        raise ValueError(f"years from 1 to 9999, and {float(seconds)!r} s after {J2000.isoformat()} is outside") from None
     return f"{then:%Y-%m-%dT%H:%M:}{then.second + leap:02d}.{parts:0{EPOCH_DIGITS}d}".rjust(20 + EPOCH_DIGITS, "0")
 
 

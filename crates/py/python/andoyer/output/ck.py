@@ -4,12 +4,16 @@ A C-kernel gives the matrix from an inertial frame to the body axes, and the ang
 The SPICE quaternion of that matrix is [w, -x, -y, -z] for the attitude [x, y, z, w]. Type 3 rotates uniformly between its records; `andoyer.output.nodes` computes
 their times. Type 2 has one angular velocity for each record. If no clock kernel is given, one is written too. Its ticks are
 the seconds of ephemeris time (TDB) minus a whole number, so that no digit is lost.
+
+SPICE has one state for the whole process and is not safe for threads. `write_ck` therefore writes one kernel at a time; calls of SpiceyPy elsewhere in the process must not run
+in another thread meanwhile.
 """
 
 from __future__ import annotations
 
 import math
 import os
+import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -21,9 +25,11 @@ import numpy as np
 
 from andoyer._core import Motion, __version__
 from andoyer._extra import extra
+from andoyer._foreign import epoch_of, scene_times
 from andoyer._quaternions import Array, rotate
 from andoyer._record import ShortRecord
-from andoyer.output.calendar import J2000, seconds_of_tdb
+from andoyer._refusal import refusal
+from andoyer.output.calendar import J2000, TIME_SYSTEMS, seconds_of_tdb
 from andoyer.output.files import whole_file
 from andoyer.output.nodes import SMALLEST_ERROR, estimate, nodes, windows
 from andoyer.output.table import Progress, silent
@@ -39,6 +45,9 @@ LONGEST_SEGMENT = 200_000
 
 LONGEST_NAME = 255
 """Characters of a path that SPICE opens."""
+
+SPICE = threading.RLock()
+"""Held while a kernel is written. A progress callback may write another kernel in the same thread."""
 
 LONGEST_LINE = 80
 ROUNDING = 2.0**-51
@@ -62,7 +71,7 @@ class Kernel(ShortRecord):
     clock_id: int | None = None
     """Code of the clock: by default the thousands of a negative instrument code, otherwise -999."""
     date: datetime = J2000
-    """Calendar date of time 0 in `time_system`; the seconds of the scene are TDB seconds."""
+    """Calendar date of time 0 in `time_system`; the seconds of the scene are TDB seconds. A scene whose epoch is a Time has its time 0 at the default."""
     time_system: str = "TDB"
     comments: tuple[str, ...] = ()
     """Lines for the comment area, after those on the scene."""
@@ -87,7 +96,7 @@ class Written(NamedTuple):
 def write_ck(
     path: str | os.PathLike[str],
     motion: Motion,
-    interval: tuple[float, float],
+    interval: Any,
     kernel: Kernel = Kernel(),
     *,
     interpolation_error: float = 1e-8,
@@ -96,7 +105,8 @@ def write_ck(
 ) -> Written:
     """Write a motion as a C-kernel. The attitude that SPICE interpolates differs from the motion by at most a given angle.
 
-    The function also writes the text kernel FILE.tsc for FILE.bc, with the frame of the body and, if no clock is given, a clock.
+    The function also writes the text kernel FILE.tsc for FILE.bc, with the frame of the body and, if no clock is given, a clock. SPICE has one state for the whole process: kernels
+    are written one at a time, and other calls of SpiceyPy must wait until the function returns.
 
     Parameters
     ----------
@@ -104,8 +114,8 @@ def write_ck(
         File of the C-kernel, usually with the ending .bc.
     motion : Motion
         A motion with times in seconds, the unit of SPICE.
-    interval : pair of float
-        First and last time [s] of the scene.
+    interval : pair of float, Time or TimeDelta
+        First and last time [s] of the scene. Times of astropy if the epoch of the scene is one; a TimeDelta counts from the epoch.
     kernel : Kernel, optional
         Codes, frames, clock, date of time 0, comments.
     interpolation_error : float, optional
@@ -126,9 +136,11 @@ def write_ck(
         SpiceyPy is not installed; ``pip install spiceypy`` installs it.
     FileExistsError
         The file exists, and ``force=False``.
-    ValueError
-        An interval of zero length; an error below 1e-13 rad, or one that needs more than 5e7 records; a frame that SPICE does not know; a
-        name that is too long for SPICE.
+    InputError
+        An interval of zero length, or of Time objects if the epoch of the scene is a number; an error below 1e-13 rad, or one that needs more than 5e7 records; a frame that SPICE does
+        not know; a name that is too long for SPICE; a date of time 0 for a scene whose epoch is a Time.
+    OSError
+        An error of SPICE, with its message.
 
     Examples
     --------
@@ -138,19 +150,21 @@ def write_ck(
     (3, True)
     """
     spice = extra("spiceypy", "writing a C-kernel")
-    begin, end = (float(time) for time in interval)
-    path = Path(os.path.realpath(path))
+    epoch = epoch_of(motion.scene)
+    begin, end = _ends(scene_times("interval", interval, epoch))
     _check(path, begin, end, interpolation_error)
-    zero = seconds_of_tdb(kernel.date, kernel.time_system)
+    zero = _time_zero(kernel, hasattr(epoch, "jd1"))
     steady = motion.plan.mode in STEADY and motion.scene.orbit is None
     segments = _uniform(motion, begin, end, interpolation_error, zero) if steady else _tabulated(motion, begin, end, interpolation_error, zero, progress)
-    text = path.with_suffix(".tsc")
-    with whole_file(path, force) as binary, whole_file(text, force) as beside, _plain_errors(spice), _clock(spice, kernel, zero + begin) as ticks:
+    # The text kernel is beside the given name, also if this is a link to a file elsewhere.
+    text = Path(path).with_suffix(".tsc")
+    with SPICE, whole_file(path, force) as binary, whole_file(text, force) as beside, _plain_errors(spice), _clock(spice, kernel, zero + begin) as ticks:
         if not spice.namfrm(kernel.frame):
-            raise ValueError(f"frame must be one that SPICE knows, such as J2000 or ECLIPJ2000: got {kernel.frame!r}")
+            known = "one that SPICE knows, such as J2000 or ECLIPJ2000"
+            raise refusal("frame", kernel.frame, known, f"must be {known}: got {kernel.frame!r}")
         beside.write_text(_text_kernel(kernel, zero + begin), encoding="ascii", errors="replace")
         binary.unlink()
-        return _write(spice, binary, segments, kernel, ticks, zero, _comments(motion, kernel, interpolation_error))
+        return _write(spice, binary, segments, kernel, (ticks, zero), _comments(motion, kernel, interpolation_error), interpolation_error)
 
 
 class _Segment(NamedTuple):
@@ -162,13 +176,38 @@ class _Segment(NamedTuple):
     uniform: bool
 
 
-def _check(path: Path, begin: float, end: float, error: float) -> None:
+def _ends(interval: Any) -> tuple[float, float]:
+    """First and last time."""
+    try:
+        begin, end = (float(time) for time in interval)
+    except (TypeError, ValueError):
+        raise refusal("interval", repr(interval), "two times", f"must be two times: got {interval!r}") from None
+    return begin, end
+
+
+def _check(path: str | os.PathLike[str], begin: float, end: float, error: float) -> None:
     if not (math.isfinite(begin) and math.isfinite(end) and begin < end):
-        raise ValueError(f"interval must be two finite times, the first below the second: got {(begin, end)!r}")
+        raise refusal("interval", (begin, end), "two finite times", f"must be two finite times, the first below the second: got {(begin, end)!r}")
     if not SMALLEST_ERROR <= error < math.inf:
-        raise ValueError(f"interpolation_error must be finite and at least {SMALLEST_ERROR:g} rad: got {error!r}")
-    if len(os.fsencode(path)) + 16 > LONGEST_NAME:
-        raise ValueError(f"path must have fewer than {LONGEST_NAME - 16} characters for SPICE: got {len(os.fsencode(path))}")
+        raise refusal("interpolation_error", error, SMALLEST_ERROR, f"must be finite and at least {SMALLEST_ERROR:g} rad: got {error!r}")
+    length, most = len(os.fsencode(os.path.realpath(path))), LONGEST_NAME - 16
+    if length >= most:
+        raise refusal("path", length, most, f"must have fewer than {most} characters for SPICE: got {length}")
+
+
+def _time_zero(kernel: Kernel, of_calendar: bool) -> float:
+    """Time 0 of the scene in TDB seconds since J2000."""
+    given = f"{kernel.date.isoformat()} {kernel.time_system}"
+    if kernel.time_system not in TIME_SYSTEMS:
+        allowed = ", ".join(TIME_SYSTEMS)
+        raise refusal("time_system", kernel.time_system, allowed, f"must be one of {allowed}: got {kernel.time_system!r}")
+    if of_calendar and (kernel.date, kernel.time_system) != (J2000, "TDB"):
+        default = f"{J2000.isoformat()} TDB"
+        raise refusal("date", given, default, f"must be {default}, the time 0 of a scene whose epoch is a Time: got {given}")
+    try:
+        return seconds_of_tdb(kernel.date, kernel.time_system)
+    except ValueError as error:
+        raise refusal("date", given, "a time of the calendar", f"= {given}: {error}") from error
 
 
 def _segment(motion: Motion, times: Array, zero: float, uniform: bool) -> _Segment:
@@ -199,14 +238,14 @@ def _tabulated(motion: Motion, begin: float, end: float, error: float, zero: flo
                 parts = []
             progress(done, len(borders) - 1)
     except ArithmeticError as left:
-        raise ValueError(f"interpolation_error must be above what rounding leaves of this motion: got {error!r}, but {left}") from left
+        message = f"must be above the rounding error of this motion: got {error!r}, but {left}"
+        raise refusal("interpolation_error", error, "above the rounding error", message) from left
 
 
 def _limit(records: int, error: float) -> None:
     if records > MOST_RECORDS:
-        raise ValueError(
-            f"interpolation_error = {error:g} rad needs about {records} records over this interval, more than {MOST_RECORDS}: ask for a larger error or a shorter interval"
-        )
+        message = f"= {error:g} rad needs about {records} records over this interval, more than {MOST_RECORDS}: ask for a larger error or a shorter interval"
+        raise refusal("interpolation_error", records, MOST_RECORDS, message)
 
 
 @contextmanager
@@ -232,7 +271,9 @@ def _plain_errors(spice: Any) -> Iterator[None]:
         raise OSError(f"SPICE: {error.short} {' '.join((error.long or error.explain or '').split())}") from error
 
 
-def _write(spice: Any, path: Path, segments: Iterator[_Segment], kernel: Kernel, ticks: Any, zero: float, comments: Sequence[str]) -> Written:
+def _write(spice: Any, path: Path, segments: Iterator[_Segment], kernel: Kernel, clock: tuple[Any, float], comments: Sequence[str], error: float) -> Written:
+    """Write the segments; `clock` has the conversion to ticks and time 0 of the scene."""
+    ticks, zero = clock
     handle = spice.ckopn(str(path), "ANDOYER", 0)
     try:
         spice.dafac(handle, list(comments))
@@ -240,9 +281,9 @@ def _write(spice: Any, path: Path, segments: Iterator[_Segment], kernel: Kernel,
         for segment in segments:
             times = ticks(zero + segment.times)
             if np.any(np.diff(times) <= 0):
-                raise ValueError(
-                    f"interpolation_error must leave records that the clock tells apart: some are less than {np.spacing(times[-1]):.2g} ticks apart"
-                )
+                apart = float(np.spacing(times[-1]))
+                message = f"must leave records that the clock tells apart: some are less than {apart:.2g} ticks apart"
+                raise refusal("interpolation_error", error, f"records {apart:.2g} ticks apart", message)
             quaternions = np.ascontiguousarray(segment.attitude[:, [3, 0, 1, 2]] * np.array([1.0, -1.0, -1.0, -1.0]))
             head = (handle, times[0], times[-1], kernel.instrument, kernel.frame)
             if segment.uniform:

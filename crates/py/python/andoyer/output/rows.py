@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from andoyer._core import Samples
 from andoyer._foreign import plain
+from andoyer._refusal import refusal
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -24,12 +25,12 @@ def rows(samples: Samples) -> Array:
 
     Raises
     ------
-    ValueError
+    InputError
         Samples of an ensemble.
     """
     times = plain("times", samples.times)
     if samples.times.ndim > 1 or samples.attitude.ndim > samples.times.ndim + 1:
-        raise ValueError(f"samples must be of one motion: got {samples!r}; a file holds one member of an ensemble")
+        raise refusal("samples", repr(samples), "one motion", f"must be of one motion: got {samples!r}; a file holds one member of an ensemble")
     attitude = np.atleast_2d(samples.attitude)
     if samples.scalar_first:
         attitude = np.roll(attitude, -1, axis=1)

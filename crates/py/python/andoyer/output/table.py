@@ -14,8 +14,9 @@ from typing import Any, TextIO, TypeAlias
 
 import numpy as np
 
-from andoyer._core import Samples, Scene
+from andoyer._core import Error, Samples, Scene
 from andoyer._extra import extra
+from andoyer._refusal import unreadable
 from andoyer.output.files import whole_file
 from andoyer.output.rows import COLUMNS, CONVENTION, Array, calendar_times, rows, samples_of
 
@@ -68,7 +69,7 @@ def write_csv(path: str | os.PathLike[str], samples: Samples, progress: Progress
     ------
     FileExistsError
         The file exists, and ``force=False``.
-    ValueError
+    InputError
         Samples of an ensemble.
 
     Examples
@@ -111,7 +112,7 @@ def write_npz(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | 
     ------
     FileExistsError
         The file exists, and ``force=False``.
-    ValueError
+    InputError
         Samples of an ensemble.
     """
     table = rows(samples)
@@ -135,7 +136,7 @@ def write_parquet(path: str | os.PathLike[str], samples: Samples, *, scene: Scen
     ------
     ImportError
         pyarrow is not installed; ``pip install pyarrow`` installs it.
-    FileExistsError, ValueError
+    FileExistsError, InputError
         As in `write_npz`.
     """
     arrow, parquet = (extra(module, "writing Parquet") for module in ("pyarrow", "pyarrow.parquet"))
@@ -170,8 +171,8 @@ def read_table(path: str | os.PathLike[str]) -> Table:
     ------
     ImportError
         A Parquet file without pyarrow; calendar times without astropy.
-    ValueError
-        Another ending; a column that is missing or has a value that is not a finite number; a file whose content does not fit its ending.
+    FileError
+        Another ending; a column that is missing, is there twice or has a value that is not a finite number; a file whose content does not fit its ending.
 
     Examples
     --------
@@ -182,16 +183,25 @@ def read_table(path: str | os.PathLike[str]) -> Table:
     (True, (2, 4))
     """
     path = Path(path)
+    try:
+        return _read(path)
+    except Error:
+        raise
+    except (ValueError, KeyError) as error:
+        raise unreadable(path, error) from error
+
+
+def _read(path: Path) -> Table:
     readers = {".csv": _read_csv, ".npz": _read_npz, ".parquet": _read_parquet}
     if path.suffix.lower() not in readers:
-        raise ValueError(f"{path}: the name must end in {', '.join(ENDINGS)}")
+        raise ValueError(f"the name must end in {', '.join(ENDINGS)}")
     columns, texts = readers[path.suffix.lower()](path)
     missing = [name for name in COLUMNS.split(",") if name not in columns]
     if missing:
-        raise ValueError(f"{path}: must have the columns {COLUMNS}: {', '.join(missing)} missing")
+        raise ValueError(f"must have the columns {COLUMNS}: {', '.join(missing)} missing")
     table = np.column_stack([columns[name] for name in COLUMNS.split(",")])
     if not np.isfinite(table).all():
-        raise ValueError(f"{path}: must hold finite numbers: row {np.flatnonzero(~np.isfinite(table).all(axis=1))[0] + 1} does not")
+        raise ValueError(f"must hold finite numbers: row {np.flatnonzero(~np.isfinite(table).all(axis=1))[0] + 1} does not")
     times = None
     if texts.get("time_scale"):
         time = extra("astropy.time", f"reading calendar times of {path}")
@@ -216,13 +226,15 @@ def _about(scene: Scene | None, times: Any) -> tuple[dict[str, str], dict[str, A
 
 def _read_csv(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
     try:
-        with path.open(encoding="utf-8") as file:
+        # Spreadsheets write a byte-order mark.
+        with path.open(encoding="utf-8-sig") as file:
             names = file.readline().strip().split(",")
             table = np.loadtxt(file, delimiter=",", ndmin=2, comments=None)
     except ValueError as error:
-        raise ValueError(f"{path}: must be a table in CSV: {error}") from error
+        raise ValueError(f"must be a table in CSV: {error}") from error
+    _once(names)
     if table.size and table.shape[1] != len(names):
-        raise ValueError(f"{path}: must have as many numbers in a line as names in the first: {table.shape[1]} and {len(names)}")
+        raise ValueError(f"must have as many numbers in a line as names in the first: {table.shape[1]} and {len(names)}")
     return dict(zip(names, table.reshape(-1, len(names)).T)), {}
 
 
@@ -232,7 +244,7 @@ def _read_npz(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
             arrays = {key: file[key] for key in file.files}
             numbers = [arrays[key].astype(np.float64).reshape(len(arrays["times"]), -1) for key in ("times", "attitude", "angular_velocity")]
     except (KeyError, ValueError, TypeError, EOFError, AttributeError, zipfile.BadZipFile) as error:
-        raise ValueError(f"{path}: must be an NPZ with the arrays times, attitude, angular_velocity: {error}") from error
+        raise ValueError(f"must be an NPZ with the arrays times, attitude, angular_velocity: {error}") from error
     table = np.column_stack(numbers)
     texts = {key: str(value) for key, value in arrays.items() if value.dtype.kind == "U"}
     return dict(zip(COLUMNS.split(","), table.T)) | {name: arrays[name] for name in JULIAN if name in arrays}, texts
@@ -241,11 +253,19 @@ def _read_npz(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
 def _read_parquet(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
     arrow, parquet = (extra(module, "reading Parquet") for module in ("pyarrow", "pyarrow.parquet"))
     try:
+        _once(parquet.read_schema(path).names)
         table = parquet.read_table(path)
         columns = {name: table.column(name).to_numpy().astype(np.float64) for name in table.column_names if name in [*COLUMNS.split(","), *JULIAN]}
     except (arrow.ArrowInvalid, ValueError, TypeError) as error:
-        raise ValueError(f"{path}: must be a Parquet table of numbers: {error}") from error
+        raise ValueError(f"must be a Parquet table of numbers: {error}") from error
     return columns, {key.decode(): value.decode() for key, value in (table.schema.metadata or {}).items() if not key.startswith(b"ARROW:")}
+
+
+def _once(names: list[str]) -> None:
+    """Refuse a column of samples that is there twice."""
+    for name in [*COLUMNS.split(","), *JULIAN]:
+        if names.count(name) > 1:
+            raise ValueError(f"must have the column {name} once: got {names.count(name)} columns of this name")
 
 
 def _scene(text: str) -> Scene:
