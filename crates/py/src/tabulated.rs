@@ -13,7 +13,7 @@ use crate::foreign;
 /// A table of the position of a disturbing body relative to the rotating body. Only the integrated method uses it.
 ///
 /// Between two times the position is the polynomial of degree seven through the eight nearest positions. `Plan.error_bound` includes the error of the
-/// interpolation, which is estimated with the polynomial of degree five. The span and the epoch of a scene must be within the times.
+/// interpolation, which is estimated with the two neighbouring polynomials of each interval. The span and the epoch of a scene must be within the times.
 ///
 /// Parameters
 /// ----------

@@ -10,8 +10,9 @@
 //!
 //! First the displacements are enlarged to about 1e-3 rad at the end, where steps of low order are enough, and the distance is scaled back. Where the displaced
 //! states go far away, they are brought nearer to the motion, in the same direction, and the scale changes, as for Lyapunov exponents. The four are integrated
-//! at once, in lanes. If no scale is left, and with tables, the displacements themselves are integrated, with shorter steps, and tables are interpolated by
-//! polynomials of lower degree.
+//! at once, in lanes. If no scale is left, the displacements themselves are integrated, with shorter steps.
+//!
+//! The interpolation error of tables is measured with two more integrations, by the neighbouring polynomials ([`Interpolated`]).
 
 use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
@@ -165,6 +166,55 @@ impl Task for Measured<'_> {
             }
         }
         Ok(Some(profile))
+    }
+}
+
+/// The steps of a motion in one direction, and equations with other interpolations of its tables.
+#[derive(Clone, Copy)]
+pub(super) struct Interpolated<'a> {
+    pub(super) equations: &'a Equations<4>,
+    pub(super) precision: Precision,
+    pub(super) steps: &'a [Step],
+    pub(super) backward: bool,
+    pub(super) stop: &'a AtomicBool,
+}
+
+impl Task for Interpolated<'_> {
+    /// The largest angle so far between the two motions, at the times of the error bound.
+    type Output = Result<Profile, Error>;
+
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, simd: S) -> Self::Output {
+        let Self { equations, precision, steps, backward, stop } = self;
+        let first = steps[0].start(backward);
+        let mut runner = Runner::new(first.attitude, first.rates, backward);
+        let mut workspace = Workspace::new(equations.bodies.len());
+        let (mut profile, mut largest) = (Profile::new(), 0.0_f64);
+        for group in steps[1..].chunks(steps.len().div_ceil(COMPARISONS)) {
+            let Some(target) = group.last() else { continue };
+            while largest < LOST && runner.time != target.time {
+                going(stop).map_err(|_| Error::Stopped)?;
+                let knot = next_knot(equations, runner.time.0, !backward);
+                let end = knot.filter(|knot| knot.0.abs() < target.time.0.abs()).unwrap_or(target.time);
+                if runner.advance(simd, (equations, precision), end, &mut workspace).is_nan() {
+                    largest = PI;
+                }
+            }
+            if largest < LOST {
+                largest = runner.attitudes().map(|attitude| angle(&target.attitude, &attitude)).fold(largest, worse);
+            }
+            profile.push((target.time.0, largest));
+        }
+        Ok(profile)
+    }
+}
+
+/// Adds what two other interpolations say to an error bound. Beyond [`LOST`] nothing is known.
+pub(super) fn with_interpolation(bound: &mut Profile, departures: &[Profile; 2]) {
+    let [one, other] = departures;
+    for ((entry, one), other) in bound.iter_mut().zip(one).zip(other) {
+        let departure = SAFETY[1] * worse(one.1, other.1);
+        entry.1 = if departure < LOST { (entry.1 + departure).min(PI) } else { PI };
     }
 }
 

@@ -78,20 +78,20 @@ impl Disturber {
         }
     }
 
-    /// How many times the steps that the body needs until now it needs until the target: the ratio of the integrals of dt/R from the epoch, where R is the radius
-    /// of convergence, or of the intervals of a table. Infinite where the body needs none of its own.
-    pub(super) fn growth(&self, now: (f64, f64), target: (f64, f64)) -> f64 {
+    /// What the number of steps that the body needs until a time is proportional to: the integral of dt/R from the epoch, where R is the radius of convergence,
+    /// or the number of intervals of a table.
+    pub(super) fn passed(&self, time: (f64, f64)) -> f64 {
         match self {
-            Self::Orbiting(orbit) => orbit.passed(target) / orbit.passed(now),
-            Self::Tabulated(table) => table.passed(target) / table.passed(now),
+            Self::Orbiting(orbit) => orbit.passed(time),
+            Self::Tabulated(table) => table.passed(time),
         }
     }
 
-    /// With an interpolation of lower degree, where there is one.
-    pub(super) fn coarser(&self) -> Self {
+    /// With the earlier or the later of the neighbouring polynomials, where it has a table.
+    pub(super) fn neighbouring(&self, earlier: bool) -> Self {
         match self {
             Self::Orbiting(orbit) => Self::Orbiting(orbit.clone()),
-            Self::Tabulated(table) => Self::Tabulated(Box::new(table.coarser())),
+            Self::Tabulated(table) => Self::Tabulated(Box::new(table.neighbouring(earlier))),
         }
     }
 }

@@ -59,9 +59,9 @@ impl Equations<4> {
         if scale > 0.0 { changes / scale } else { 0.0 }
     }
 
-    /// The same with tables interpolated by polynomials of lower degree.
-    pub(super) fn coarser(&self) -> Self {
-        Self { bodies: self.bodies.iter().map(Disturber::coarser).collect(), ..self.clone() }
+    /// The same with tables interpolated by the earlier or the later of the neighbouring polynomials.
+    pub(super) fn neighbouring(&self, earlier: bool) -> Self {
+        Self { bodies: self.bodies.iter().map(|body| body.neighbouring(earlier)).collect(), ..self.clone() }
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use andoyer_double::two_sum;
 use pulp::Arch;
 
-use super::bound::{FLOOR, INPUT, Measured, Profile, SAFETY};
+use super::bound::{FLOOR, INPUT, Interpolated, Measured, Profile, SAFETY, with_interpolation};
 use super::disturber::Disturber;
 use super::expansion::Equations;
 use super::integrator::{Kept, Precision, ROUNDING, Runner, Side, Step};
@@ -38,6 +38,9 @@ const STEP: f64 = 0.65;
 pub(crate) struct IntegrationPlan {
     pub(crate) steps: usize,
     pub(crate) bodies: usize,
+    /// The error bound without the interpolation of tables, where it is less than half of the whole and the whole exceeds the tolerance \[rad\].
+    #[serde(default)]
+    pub(crate) uninterpolated: Option<f64>,
 }
 
 /// A motion by integration. Times are those from the epoch in its own unit.
@@ -51,6 +54,8 @@ pub(crate) struct Integrated {
     /// The first and the last time from the epoch, in the user's unit.
     pub(crate) reach: [f64; 2],
     pub(crate) error: f64,
+    /// As in the plan.
+    uninterpolated: Option<f64>,
 }
 
 impl Integrated {
@@ -62,12 +67,17 @@ impl Integrated {
         // Truncation errors of the rates add up over the steps, and their effect on the angle over time.
         let first = (CAREFUL * tolerance / (10.0 + phase * phase)).clamp(FINEST, COARSEST);
         let (mut motion, mut profiles) = problem.solved(first, stop)?;
-        if motion.error > tolerance && first > FINEST {
-            let second = (FINER * first * tolerance / motion.error).clamp(FINEST, first);
+        // Shorter steps leave the interpolation of a table as it is.
+        let error = motion.uninterpolated.unwrap_or(motion.error);
+        if error > tolerance && first > FINEST {
+            let second = (FINER * first * tolerance / error).clamp(FINEST, first);
             (motion, profiles) = problem.solved(second, stop)?;
         }
         if motion.error < PI {
             return Ok(motion);
+        }
+        if let (Some(_), Some(error)) = (motion.uninterpolated, too_coarse(scene, motion.reach)) {
+            return Err(error);
         }
         let mut held = [0.0; 2];
         for (side, profile) in profiles.iter().enumerate() {
@@ -84,7 +94,7 @@ impl Integrated {
     /// What the plan says of it.
     pub(crate) fn plan(&self) -> IntegrationPlan {
         let steps = self.sides.iter().map(|side| side.steps.len() - 1).sum();
-        IntegrationPlan { steps, bodies: self.equations.bodies.len() }
+        IntegrationPlan { steps, bodies: self.equations.bodies.len(), uninterpolated: self.uninterpolated }
     }
 
     /// Its memory, in bytes.
@@ -110,7 +120,7 @@ pub(crate) fn prospect(scene: &Scene) -> Option<(f64, f64)> {
     let problem = Problem::new(scene, "").ok()?;
     let phase = problem.phase();
     let rates = INPUT + ROUNDING[1] * problem.gyration() * (STEP * phase).sqrt();
-    Some((FLOOR + SAFETY[0] * rates * phase, 10.0 + 2.0 * phase))
+    Some((FLOOR + SAFETY[0] * rates * phase, problem.most_steps()))
 }
 
 /// The equations with the state and the times.
@@ -119,6 +129,9 @@ struct Problem {
     attitude: Row,
     rates: Row,
     exponent: i32,
+    tolerance: f64,
+    /// The largest of the secular rates.
+    secular: f64,
     /// From the epoch, in double-double and the unit of the integration.
     ends: [(f64, f64); 2],
     reach: [f64; 2],
@@ -130,12 +143,13 @@ impl Problem {
         let epoch = scene.state().epoch;
         let (start, stop) = (start.min(epoch), stop.max(epoch));
         let spin = scene.state().angular_velocity.norm();
-        let (mut fastest, mut lasting, mut square) = (spin, spin, 0.0_f64);
+        let (mut fastest, mut lasting, mut secular, mut square) = (spin, spin, 0.0_f64, 0.0_f64);
         for body in scene.asked_disturbing() {
             let (rate, least) = match body {
                 DisturbingBody::Orbit(orbit) => {
                     orbit.within_reach(epoch)?;
                     lasting = lasting.max(orbit.mean_motion());
+                    secular = orbit.rates().iter().fold(secular, |most, rate| most.max(rate.abs()));
                     rates_of_orbit(orbit)
                 }
                 DisturbingBody::Tabulated(table) => {
@@ -163,12 +177,14 @@ impl Problem {
             attitude: scene.state().attitude.coords.into(),
             rates: [rates.x, rates.y, rates.z, 0.0],
             exponent,
+            tolerance: scene.asked_tolerance(),
+            secular: scaled(secular, -exponent),
             ends: [end(start), end(stop)],
             reach: [start - epoch, stop - epoch],
         })
     }
 
-    /// Whether a disturbing body has a table, whose interpolation is measured with every integration.
+    /// Whether a disturbing body has a table.
     fn tabulated(&self) -> bool {
         self.equations.bodies.iter().any(|body| matches!(body, Disturber::Tabulated(_)))
     }
@@ -178,6 +194,14 @@ impl Problem {
         let longest = self.ends[0].0.abs().max(self.ends[1].0.abs());
         let [x, y, z, _] = self.rates;
         longest * x.hypot(y).hypot(z).max(self.equations.scale)
+    }
+
+    /// How many steps there will be at most: by the fastest of the rates that last, and by the passages of the pericentres, where a step is e^−2 of the radius
+    /// of convergence or more.
+    fn most_steps(&self) -> f64 {
+        let longest = self.ends[0].0.abs().max(self.ends[1].0.abs());
+        let passages: f64 = self.equations.bodies.iter().flat_map(|body| self.ends.map(|end| body.passed(end))).sum();
+        10.0 + 2.0 * self.phase().max(self.secular * longest) + 8.0 * passages
     }
 
     /// ω × Iω in Euler's equations at the epoch, relative to the square of the rates.
@@ -193,20 +217,29 @@ impl Problem {
         let (arch, precision, equations) = (Arch::new(), Precision::of(error), &self.equations);
         let mut sides = [Side::default(), Side::default()];
         let mut profiles = [Profile::new(), Profile::new()];
-        let mut bound = FLOOR;
+        let (mut bound, mut uninterpolated) = (FLOOR, FLOOR);
         for (side, target) in self.ends.into_iter().enumerate() {
             let backward = side == 0;
             let runner = Runner::new(self.attitude, self.rates, backward);
             let (kept, runner) = dispatch_few(arch, Kept { equations, precision, runner, target, stop })?;
             if kept.steps.len() > 1 {
-                profiles[side] = self.measured(&kept.steps, (precision, &runner), backward, stop)?;
+                let largest = |profile: &Profile| profile.last().map_or(FLOOR, |(_, error)| *error);
+                let mut profile = self.measured(&kept.steps, (precision, &runner), backward, stop)?;
+                uninterpolated = uninterpolated.max(largest(&profile));
+                if self.tabulated() {
+                    with_interpolation(&mut profile, &self.departures(&kept.steps, precision, backward, stop)?);
+                }
+                bound = bound.max(largest(&profile));
+                profiles[side] = profile;
             }
-            bound = profiles[side].last().map_or(bound, |(_, error)| bound.max(*error));
             sides[side] = kept;
         }
         let Self { exponent, reach, .. } = *self;
         let equations = equations.clone();
-        let motion = Integrated { equations, order: precision.order, sides, exponent, reach, error: bound };
+        let dominated = bound > self.tolerance && 2.0 * uninterpolated < bound;
+        let uninterpolated = dominated.then_some(uninterpolated);
+        let order = precision.order;
+        let motion = Integrated { equations, order, sides, exponent, reach, error: bound, uninterpolated };
         Ok((motion, profiles))
     }
 
@@ -232,7 +265,7 @@ impl Problem {
         Ok(held)
     }
 
-    /// The error bound of the steps in one direction.
+    /// The error bound of the steps in one direction, without the interpolation of tables.
     fn measured(
         &self,
         steps: &[Step],
@@ -242,7 +275,6 @@ impl Problem {
     ) -> Result<Profile, Error> {
         let phase = self.phase();
         let coarse = Precision::of((ENLARGED_ERROR / (10.0 + phase * phase)).clamp(FINEST, COARSEST));
-        let coarser = self.equations.coarser();
         let enlarged = Measured {
             equations: &self.equations,
             precision: coarse,
@@ -253,14 +285,41 @@ impl Problem {
             enlarged: true,
             stop,
         };
-        let exact = Measured { equations: &coarser, precision, enlarged: false, ..enlarged };
-        let cheap = !self.tabulated() && coarse.order < precision.order;
-        let profile = if cheap { dispatch(Arch::new(), enlarged)? } else { None };
+        let exact = Measured { precision, enlarged: false, ..enlarged };
+        let profile = if coarse.order < precision.order { dispatch(Arch::new(), enlarged)? } else { None };
         Ok(match profile {
             Some(profile) => profile,
             None => dispatch(Arch::new(), exact)?.unwrap_or_default(),
         })
     }
+
+    /// The angles between the motion and those with the two neighbouring interpolations.
+    fn departures(
+        &self,
+        steps: &[Step],
+        precision: Precision,
+        backward: bool,
+        stop: &AtomicBool,
+    ) -> Result<[Profile; 2], Error> {
+        let departure = |earlier: bool| {
+            let equations = &self.equations.neighbouring(earlier);
+            dispatch_few(Arch::new(), Interpolated { equations, precision, steps, backward, stop })
+        };
+        Ok([departure(true)?, departure(false)?])
+    }
+}
+
+/// The error of a scene with a table whose interpolation leaves the attitude unknown: the time after the worst interval.
+fn too_coarse(scene: &Scene, [start, stop]: [f64; 2]) -> Option<Error> {
+    let epoch = scene.state().epoch;
+    scene.asked_disturbing().iter().find_map(|body| match body {
+        DisturbingBody::Tabulated(table) => {
+            let index = table.coarsest(epoch + start, epoch + stop) + 1;
+            let bound = "nearer to the time before it: the interpolation of the positions leaves the attitude unknown";
+            Some(Error::Table { argument: "times", index, value: table.times()[index], bound })
+        }
+        DisturbingBody::Orbit(_) => None,
+    })
 }
 
 /// The fastest rate that an orbit brings in, and the torque's √(3μ/ρ³) at the apocentre.

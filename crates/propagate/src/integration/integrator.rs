@@ -291,7 +291,9 @@ pub(super) fn next_knot<const W: usize>(equations: &Equations<W>, time: f64, for
 /// Whether the steps so far leave the whole within the bound. Some of the steps are due to the rotation, and others to the passage of each body. The number of
 /// each kind grows at least by the least of the factors by which they grow.
 fn affordable(equations: &Equations<4>, steps: usize, now: (f64, f64), target: (f64, f64)) -> Result<(), Error> {
-    let growth = equations.bodies.iter().map(|body| body.growth(now, target)).fold(target.0 / now.0, f64::min);
+    // A circle has 0/0 here, which is no minimum.
+    let growth = equations.bodies.iter().map(|body| body.passed(target) / body.passed(now));
+    let growth = growth.fold(target.0 / now.0, f64::min);
     let whole = steps as f64 * growth;
     let bound = MOST_STEPS as f64 * if steps < TYPICAL { HOPELESS } else { 1.0 };
     if steps > 0 && whole > bound || steps >= MOST_STEPS {

@@ -20,8 +20,8 @@ pub(super) struct Table {
     length: f64,
     /// √(3 gm/length³).
     strength: f64,
-    /// Positions through which a polynomial goes.
-    nodes: usize,
+    /// Whether a polynomial is the earlier or the later neighbour of the one of its interval.
+    earlier: Option<bool>,
 }
 
 impl Table {
@@ -33,11 +33,11 @@ impl Table {
         let [x, y, z] = orbit.positions()[0];
         let length = x.hypot(y).hypot(z);
         let strength = scaled((3.0 * orbit.gm() / length).sqrt() / length, -exponent);
-        Self { orbit: orbit.clone(), knots: Arc::new(knots.collect()), length, strength, nodes: NODES }
+        Self { orbit: orbit.clone(), knots: Arc::new(knots.collect()), length, strength, earlier: None }
     }
 
-    pub(super) fn coarser(&self) -> Self {
-        Self { nodes: NODES - 2, ..self.clone() }
+    pub(super) fn neighbouring(&self, earlier: bool) -> Self {
+        Self { earlier: Some(earlier), ..self.clone() }
     }
 
     /// The index of the interval that begins at a time or contains it.
@@ -64,16 +64,19 @@ impl Table {
         let interval = self.interval(time);
         // A step backwards from a time of the table lies in the interval before it.
         let interval = if backward && self.knots[interval] == time { interval.saturating_sub(1) } else { interval };
-        let start = self.orbit.first_node(interval, self.nodes);
+        let (start, nodes) = match self.earlier {
+            Some(earlier) => self.orbit.neighbour(interval, earlier),
+            None => (self.orbit.first_node(interval, NODES), NODES),
+        };
         let mut at = [0.0; NODES];
         let mut values = [[0.0; 3]; NODES];
-        for i in 0..self.nodes {
+        for i in 0..nodes {
             let knot = self.knots[start + i];
             at[i] = (knot.0 - time.0) + (knot.1 - time.1);
             values[i] = self.orbit.positions()[start + i].map(|value| value / self.length);
         }
-        for level in 1..self.nodes {
-            for i in (level..self.nodes).rev() {
+        for level in 1..nodes {
+            for i in (level..nodes).rev() {
                 let share = 1.0 / (at[i] - at[i - level]);
                 let before = values[i - 1];
                 for (value, before) in values[i].iter_mut().zip(before) {
@@ -83,9 +86,9 @@ impl Table {
         }
         let mut position: [Scalars; 3] = [[0.0; ROWS]; 3];
         for (axis, p) in position.iter_mut().enumerate() {
-            for i in (0..self.nodes).rev() {
+            for i in (0..nodes).rev() {
                 // p ← p · (t − at) + value.
-                for k in (1..self.nodes).rev() {
+                for k in (1..nodes).rev() {
                     p[k] = p[k - 1] - at[i] * p[k];
                 }
                 p[0] = values[i][axis] - at[i] * p[0];
@@ -104,6 +107,6 @@ impl Table {
         }
         let size = |k: usize| position.iter().map(|p| p[k] * p[k]).sum::<f64>();
         let nearest = |k: usize| (size(0) / size(k)).powf(0.5 / k as f64);
-        (1..self.nodes).map(nearest).fold(f64::INFINITY, f64::min)
+        (1..nodes).map(nearest).fold(f64::INFINITY, f64::min)
     }
 }

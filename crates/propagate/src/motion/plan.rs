@@ -120,7 +120,16 @@ impl Plan {
 
     /// A sentence with the error bound and the tolerance if the tolerance is not met, otherwise `None`.
     pub fn missed_tolerance(&self) -> Option<String> {
-        (!self.meets_tolerance()).then(|| missed(self.error_bound, self.tolerance, self.over()))
+        (!self.meets_tolerance()).then(|| missed(self.error_bound, self.tolerance, self.over()) + &self.interpolation())
+    }
+
+    /// That a table has too few times for the tolerance, where it has, as the end of a sentence.
+    fn interpolation(&self) -> String {
+        let alone = self.integration.and_then(|integration| integration.uninterpolated);
+        alone.map_or_else(String::new, |alone| {
+            let alone = bound_in_words(alone);
+            format!("; the interpolation of the table of positions makes most of it (the integration alone has {alone}): give closer times")
+        })
     }
 
     /// The times over which the tolerance must hold.
@@ -218,7 +227,7 @@ impl fmt::Display for Plan {
             0 => writeln!(f, "harmonics     -")?,
             harmonics => writeln!(f, "harmonics     {harmonics}")?,
         }
-        if let Some(IntegrationPlan { steps, bodies }) = self.integration {
+        if let Some(IntegrationPlan { steps, bodies, .. }) = self.integration {
             let plural = if bodies == 1 { "body" } else { "bodies" };
             writeln!(f, "steps         {steps} over the span, under {bodies} disturbing {plural}")?;
         }
@@ -235,7 +244,13 @@ impl fmt::Display for Plan {
             write!(f, "error bound   unknown (half a turn or more); {}", self.over().advice())?;
         }
         if !self.meets_tolerance() {
-            write!(f, "\ntolerance     {:e} rad is not met over {}", self.tolerance, self.over())?;
+            write!(
+                f,
+                "\ntolerance     {:e} rad is not met over {}{}",
+                self.tolerance,
+                self.over(),
+                self.interpolation()
+            )?;
         }
         let cost = self.verification_cost();
         let (time, steps) = (duration_in_words(cost.seconds()), cost.steps);
