@@ -139,7 +139,7 @@ impl Plan {
 
     /// The cost of [`Motion::verify`](crate::Motion::verify) without a span.
     pub(crate) fn verification_cost(&self) -> VerificationCost {
-        if let Some(IntegrationPlan { steps, bodies }) = self.integration {
+        if let Some(IntegrationPlan { steps, bodies, .. }) = self.integration {
             return VerificationCost { steps: steps as f64, bodies };
         }
         self.verification.unwrap_or_else(|| {
