@@ -71,13 +71,22 @@ def test_limit_of_a_good_fit_is_the_quantile_of_chi_square():
 
 def test_reflected_motion_is_a_start_and_a_rival_minimum():
     """Sun and observer in one plane: the motion turned by π about its normal has the same brightness, and χ² to rounding."""
+    truth, times, values, given = observed("short-axis", height=0.0)
+    curve, _ = _light_curve._curve(times, values, (given["sun"], given["observer"]), given["sigma"], None, ("lommel-seeliger", False))
+    state = _light_curve._state_of(truth, AXES, times[0])
+    one = _light_curve._polished(curve, _search.Population(state, curve.chi_squares(state)))
+    found = _light_curve._with_reflections(curve, one)
+    assert len(one.chi_squares) == 1 and abs(found.chi_squares[1] - found.chi_squares[0]) < 1e-6
+    assert list(found.chi_squares) == sorted(found.chi_squares)
+    best, mirrored = (Scene(Body.ellipsoid(*AXES), found.states.attitudes[place], found.states.rates[place], epoch=times[0]) for place in range(2))
+    turned = Rotation.from_rotvec([0, 0, np.pi]) * best.solve().rotation(times)
+    symmetric = [(turned * Rotation.from_quat(turn)).inv() * mirrored.solve().rotation(times) for turn in _light_curve.HALF_TURNS]
+    assert min(difference.magnitude().max() for difference in symmetric) < 1e-4
+
+
+def test_search_names_the_mirrored_motion():
     _, times, values, given = observed("short-axis", height=0.0)
     found = fit.light_curve(AXES, times, values, periods=(0.6, 2.0), starts=2000, **given)
-    best, mirrored = found.optima[:2]
-    assert abs(mirrored.chi_square - best.chi_square) < 1e-6
-    turned = Rotation.from_rotvec([0, 0, np.pi]) * best.scene.solve().rotation(times)
-    symmetric = [(turned * Rotation.from_quat(turn)).inv() * mirrored.scene.solve().rotation(times) for turn in _light_curve.HALF_TURNS]
-    assert min(difference.magnitude().max() for difference in symmetric) < 1e-4
     assert "with the same periods, such as a mirrored motion (Δχ² from 0.0)" in found.message
     assert all(alias.delta_chi_square > 25 for alias in found.aliases)
 
@@ -142,10 +151,10 @@ def test_brightness_does_not_show_the_rotation_of_an_ellipsoid_of_revolution_abo
 
 
 def test_rotation_about_an_axis_leaves_the_moments_near_their_first_values():
-    """The data do not show the moments. The search went to moments 1 : 300,000 before."""
+    """The data do not show the moments. With seeds 0, 2 and 5 the search went to ratios of 100,000 to 700,000 before."""
     scene = Scene(Body([1.0, 1.5, 2.0]), [0, 0, 0, 1], [0, 0, 1.0])
-    for seed in range(4):
-        found = fit.attitudes(Scene(Body([1.5, 1.5, 1.5]), [0, 0, 0, 1], [0, 0, 1.0]), TIMES, noisy(scene, np.random.default_rng(seed)), sigma=0.01)
+    for seed in (0, 2, 5):
+        found = fit.attitudes(Scene(Body([1.0, 1.0, 2.0]), [0, 0, 0, 1], [0, 0, 1.0]), TIMES, noisy(scene, np.random.default_rng(seed)), sigma=0.01)
         assert found.scene.body.moments.min() > 0.3 and found.scene.body.moments.max() < 4
         assert found.message.startswith("The data do not determine ") and found.reduced_chi_square < 1.3
 
