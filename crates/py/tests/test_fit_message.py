@@ -2,10 +2,12 @@
 
 import inspect
 import pickle
+import sys
 import warnings
 
 import numpy as np
 import pytest
+from conftest import REPOSITORY
 
 import andoyer
 from andoyer import Body, Scene, TabulatedOrbit, output, plot
@@ -17,7 +19,9 @@ from andoyer import fit
 from andoyer.fit import _light_curve, _search
 from andoyer.fit._message import composed, rivals
 from andoyer.fit._optimum import Optimum, aliases
-from andoyer.fit._steps import root
+
+sys.path.insert(0, str(REPOSITORY / "tests/stress"))
+import light_curves
 
 AXES = np.array([1.0, 0.7, 0.5])
 RATES = {"short-axis": [0.8, 1.2, 4.5], "long-axis": [5.5, 0.9, 0.6]}
@@ -59,21 +63,30 @@ def test_bad_fit_is_called_bad_with_what_to_try():
 
 
 def test_limit_of_a_good_fit_is_the_quantile_of_chi_square():
-    """292 degrees of freedom: noise exceeds 1.435 times as many with the probability 1e-6."""
-    assert composed(1.43 * 292, 292, "Try.", None) == "The data determine every free parameter."
-    assert composed(1.44 * 292, 292, "Try.", None).endswith("Its uncertainties are too small. Try.")
+    """292 degrees of freedom: noise exceeds 1.444 times as many with the probability 1e-6."""
+    assert composed(1.443 * 292, 292, "Try.", None) == "The data determine every free parameter."
+    assert composed(1.445 * 292, 292, "Try.", None).endswith("Its uncertainties are too small. Try.")
     assert composed(0.0, 0, "Try.", "The data do not determine a.") == "The data do not determine a."
 
 
 def test_reflected_motion_is_a_start_and_a_rival_minimum():
     """Sun and observer in one plane: the motion turned by π about its normal has the same brightness, and χ² to rounding."""
+    truth, times, values, given = observed("short-axis", height=0.0)
+    curve, _ = _light_curve._curve(times, values, (given["sun"], given["observer"]), given["sigma"], None, ("lommel-seeliger", False))
+    state = _light_curve._state_of(truth, AXES, times[0])
+    one = _light_curve._polished(curve, _search.Population(state, curve.chi_squares(state)))
+    found = _light_curve._with_reflections(curve, one)
+    assert len(one.chi_squares) == 1 and abs(found.chi_squares[1] - found.chi_squares[0]) < 1e-6
+    assert list(found.chi_squares) == sorted(found.chi_squares)
+    best, mirrored = (Scene(Body.ellipsoid(*AXES), found.states.attitudes[place], found.states.rates[place], epoch=times[0]) for place in range(2))
+    turned = Rotation.from_rotvec([0, 0, np.pi]) * best.solve().rotation(times)
+    symmetric = [(turned * Rotation.from_quat(turn)).inv() * mirrored.solve().rotation(times) for turn in _light_curve.HALF_TURNS]
+    assert min(difference.magnitude().max() for difference in symmetric) < 1e-4
+
+
+def test_search_names_the_mirrored_motion():
     _, times, values, given = observed("short-axis", height=0.0)
     found = fit.light_curve(AXES, times, values, periods=(0.6, 2.0), starts=2000, **given)
-    best, mirrored = found.optima[:2]
-    assert abs(mirrored.chi_square - best.chi_square) < 1e-6
-    turned = Rotation.from_rotvec([0, 0, np.pi]) * best.scene.solve().rotation(times)
-    symmetric = [(turned * Rotation.from_quat(turn)).inv() * mirrored.scene.solve().rotation(times) for turn in _light_curve.HALF_TURNS]
-    assert min(difference.magnitude().max() for difference in symmetric) < 1e-4
     assert "with the same periods, such as a mirrored motion (Δχ² from 0.0)" in found.message
     assert all(alias.delta_chi_square > 25 for alias in found.aliases)
 
@@ -122,7 +135,7 @@ def test_aliases_are_pairs_of_periods_that_differ_by_half_a_turn_over_the_data()
 def test_equal_moments_are_named():
     """A body of revolution: the difference of its equal moments is 0 within its uncertainty. With three moments apart nothing is named."""
     for moments, named in (([1.0, 1.0, 2.0], ["I1 and I2"]), ([1.0, 2.0, 2.0], ["I2 and I3"]), ([1.0, 1.5, 2.0], [])):
-        scene = Scene(Body(moments), [0, 0, 0, 1], [0.1, 0.4, 0.9])
+        scene = Scene(Body(moments), [0, 0, 0, 1], [0.5, 0.6, 0.7])
         said = fit.attitudes(scene, TIMES, noisy(scene, np.random.default_rng(2)), sigma=0.01).message
         assert ("the difference of the moments" in said) == bool(named) and all(pair in said for pair in named)
         assert said.count(" and ") == len(named)
@@ -138,10 +151,10 @@ def test_brightness_does_not_show_the_rotation_of_an_ellipsoid_of_revolution_abo
 
 
 def test_rotation_about_an_axis_leaves_the_moments_near_their_first_values():
-    """The data do not show the moments. The search went to moments 1 : 300,000 before."""
+    """The data do not show the moments. With seeds 0, 2 and 5 the search went to ratios of 100,000 to 700,000 before."""
     scene = Scene(Body([1.0, 1.5, 2.0]), [0, 0, 0, 1], [0, 0, 1.0])
-    for seed in range(4):
-        found = fit.attitudes(Scene(Body([1.5, 1.5, 1.5]), [0, 0, 0, 1], [0, 0, 1.0]), TIMES, noisy(scene, np.random.default_rng(seed)), sigma=0.01)
+    for seed in (0, 2, 5):
+        found = fit.attitudes(Scene(Body([1.0, 1.0, 2.0]), [0, 0, 0, 1], [0, 0, 1.0]), TIMES, noisy(scene, np.random.default_rng(seed)), sigma=0.01)
         assert found.scene.body.moments.min() > 0.3 and found.scene.body.moments.max() < 4
         assert found.message.startswith("The data do not determine ") and found.reduced_chi_square < 1.3
 
@@ -165,21 +178,20 @@ def test_intensities_do_not_warn():
             fit.light_curve(AXES, times, unit * values, scene=truth, **(given | {"sigma": unit * given["sigma"]}))
 
 
-@pytest.mark.parametrize("mode", RATES)
-def test_draws_have_the_chi_square_of_their_parameters_where_those_of_the_covariance_do_not(mode):
-    """Noise of 10 %: the covariance is curved. E[Δχ²] is 6; its standard error for 600 draws is √(12/600) = 0.14, and the bound of 10 % is 0.6."""
-    truth, times, values, given = observed(mode, noise=0.1, points=300)
+@pytest.mark.parametrize("seed", [0, 1])
+def test_draws_have_the_chi_square_of_their_parameters_where_those_of_the_covariance_do_not(seed):
+    """Twenty nights, of either mode. E[Δχ²] is near 6; its standard error for 600 draws is √(12/600) = 0.14, and the bound of 10 % is 0.6. The command makes it with 50 curves."""
+    truth, times, given, values = light_curves.simulated(seed, 0.02)
     found = fit.light_curve(AXES, times, values, scene=truth, **given)
-    steps = np.random.default_rng(1).standard_normal((600, 6)) @ root(found.covariance, found._steps).T
-    assert np.mean(found._model.chi_squares(steps)) - found.chi_square > 6.7
+    assert light_curves.of_covariance(found, 600, seed) > 9
     drawn = found.draws(600, rng=1)
     assert abs(drawn.delta_chi_square.mean() - 6) < 0.6
-    assert 500 < drawn.effective_size <= 600
+    assert 550 < drawn.effective_size <= 600
     # Δχ² is that of the states in the ensemble.
     brightness = np.array([fit.brightness(AXES, attitude, given["sun"], given["observer"]) for attitude in drawn.states[:5].attitude(times)])
     factors = brightness @ values / np.sum(brightness**2, axis=1)
     chi_squares = np.sum((values - factors[:, None] * brightness) ** 2, axis=1) / given["sigma"] ** 2
-    assert np.allclose(chi_squares - found.chi_square, drawn.delta_chi_square[:5], atol=1e-5)
+    assert np.allclose(chi_squares - found.chi_square, drawn.delta_chi_square[:5], atol=1e-4)
     assert drawn.states == found.ensemble(600, rng=1) and drawn.states != found.ensemble(600, rng=2)
 
 
@@ -210,12 +222,13 @@ def test_newton_draws_and_weighted_draws_of_attitudes_agree(monkeypatch):
 
 
 def test_draws_say_that_their_effective_size_is_small(monkeypatch):
-    truth, times, values, given = observed("long-axis", noise=0.1, points=300)
+    truth, times, given, values = light_curves.simulated(1, 0.02)
     found = fit.light_curve(AXES, times, values, scene=truth, **given)
-    monkeypatch.setattr("andoyer.fit._draws.ITERATIONS", 1)  # nearly no candidate is solved for
+    monkeypatch.setattr("andoyer.fit._draws.ITERATIONS", 2)  # a part of the candidates is not solved for: the effective size is 122
+    monkeypatch.setattr("andoyer.fit._result.LITTLE", 0.9)
     with pytest.warns(UserWarning, match=r"the 200 draws have the effective size \d+"):
         drawn = found.draws(200, rng=1)
-    assert len(drawn.states) == 200 and drawn.effective_size < 100
+    assert len(drawn.states) == 200 and drawn.effective_size < 180
 
 
 @pytest.mark.parametrize("n", [-1, 2.5, "3", True])
@@ -267,7 +280,7 @@ def test_summary_has_each_quantity_with_its_deviation():
 def test_summary_says_what_is_held_and_what_is_not_determined():
     scene = Scene(Body.ellipsoid(*AXES), [0, 0, 0, 1], [0.1, 0.2, 1.0])
     text = str(fit.attitudes(scene, TIMES, scene.solve().attitude(TIMES), sigma=0.01, free="attitude"))
-    assert text.count("(held)") == 3 + 4  # moments; periods and phases of given rates, of which the body's do not depend on the attitude
+    assert text.count("(held)") == 6  # the moments, both periods and ν, which do not depend on the attitude
     still = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0, 0, 0])
     assert "P_φ             none" in str(fit.attitudes(still, TIMES, still.solve().attitude(TIMES), sigma=0.01))
     sphere = Scene(Body.ellipsoid(1, 1, 1), [0, 0, 0, 1], [0.1, 0.2, 1.0])

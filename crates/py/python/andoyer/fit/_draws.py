@@ -8,11 +8,14 @@ Laine, SIAM J. Sci. Comput. 36, A1895, 2014). The draws are taken from the candi
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from andoyer._quaternions import Array
+
+Places: TypeAlias = NDArray[np.intp]
 
 CHUNK = 1000
 """Candidates that are solved for together."""
@@ -58,11 +61,12 @@ class Candidates(NamedTuple):
         squares = float(np.sum(self.weights**2))
         return float(np.sum(self.weights)) ** 2 / squares if squares > 0 else 0.0
 
-    def drawn(self, count: int, generator: np.random.Generator) -> Array:
+    def drawn(self, count: int, generator: np.random.Generator) -> Places:
         """Places of draws: of each candidate n times its weight, rounded up or down (systematic resampling)."""
         total = np.cumsum(self.weights)
-        places: Array = np.searchsorted(total, total[-1] * (generator.uniform() + np.arange(count)) / count, side="right")
-        return np.minimum(places, np.flatnonzero(self.weights)[-1])
+        found = np.searchsorted(total, total[-1] * (generator.uniform() + np.arange(count)) / count, side="right")
+        places: Places = np.minimum(found, np.flatnonzero(self.weights)[-1])
+        return places
 
 
 def candidates(model: Model, lost: Array, count: int, generator: np.random.Generator) -> Candidates:

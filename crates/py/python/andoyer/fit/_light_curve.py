@@ -51,7 +51,7 @@ def light_curve(
 
     The starts have random directions of the angular momentum in space and in the body, half of them in each mode, and precession frequencies between those of `periods`. All starts are
     evaluated. The best of each mode are improved together by Levenberg and Marquardt's method with the derivatives of `Ensemble.partials` (theory §12), in rounds with fewer and fewer states.
-    `scipy.optimize.least_squares` improves the last few. The fit includes a brightness factor for each curve. Half turns about the body axes do not change the brightness; one of the four
+    `scipy.optimize.least_squares` improves the last few. Reflections of these minima, which can look nearly the same, are starts too. The fit includes a brightness factor for each curve. Half turns about the body axes do not change the brightness; one of the four
     equivalent states is returned. The function needs SciPy, which ``pip install scipy`` installs.
 
     Parameters
@@ -62,7 +62,7 @@ def light_curve(
         Times, in the unit of `periods`; for a Time, a TimeDelta or a Quantity of astropy the unit is the second. The first time is the epoch of the fitted scene. A TimeDelta counts from the
         epoch of `scene`, or from 0 without it; the first one must be 0.
     brightness : array_like, shape (n,)
-        Brightnesses as intensities (not magnitudes), each in the unit of its curve.
+        Brightnesses as intensities, each in the unit of its curve; magnitudes m are converted by ``10**(-0.4*m)``.
     sun, observer : array_like, shape (3,) or (n, 3)
         Directions from the body to the Sun and the observer, inertial components.
     sigma : float or array_like, shape (n,)
@@ -77,7 +77,7 @@ def light_curve(
     shape : bool, optional
         If True, the axis ratios b/a and c/a are fitted too.
     scene : Scene, optional
-        A torque-free first state that rotates, instead of random states; its moments are replaced by those of the ellipsoid.
+        A torque-free first state that rotates, instead of random states; its moments are replaced by those of the ellipsoid. The fit finds the minimum next to it, and no rival minima.
     starts : int, optional
         Number of random starts.
     delta_chi_square : float, optional
@@ -95,6 +95,11 @@ def light_curve(
     InputError
         Fewer points than parameters; a semi-axis, a brightness or a `sigma` that is not from 1e-40 to 1e40; no start with a motion over the times; a shortest period above the longest; a direction of length 0; Sun and observer on opposite sides; a first
         TimeDelta other than 0; a `scene` with an orbit or at rest.
+
+    Warns
+    -----
+    UserWarning
+        The brightnesses look like magnitudes: all lie between 3 and 30, or all are below 30 and the fit is bad.
 
     Examples
     --------
@@ -232,7 +237,7 @@ def _different(curve: Curve, population: Population) -> Places:
 
 
 def _with_reflections(curve: Curve, minima: Population) -> Population:
-    """Minima together with those to which their reflections lead."""
+    """Minima together with those to which their reflections lead, the best first."""
     mirrored = reflections(curve, minima.states)
     found = improve(curve, Population(mirrored, curve.chi_squares(mirrored)), SETTLING)
     places = _different(curve, _joined(minima, found))[:POLISHED]
@@ -240,7 +245,9 @@ def _with_reflections(curve: Curve, minima: Population) -> Population:
     if not len(new):
         return minima
     polished = _polished(curve, Population(found.states.part(new), found.chi_squares[new]))
-    return best(_distinct(curve, _joined(minima, polished)), POLISHED)
+    kept = best(_distinct(curve, _joined(minima, polished)), POLISHED)
+    order = np.argsort(kept.chi_squares, kind="stable")
+    return Population(kept.states.part(order), kept.chi_squares[order])
 
 
 def _joined(first: Population, second: Population) -> Population:

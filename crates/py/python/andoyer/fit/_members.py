@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from andoyer._core import Ensemble, Orbit
 from andoyer._quaternions import Array, conjugate, product
@@ -12,14 +13,14 @@ from andoyer.fit._given import refusal
 from andoyer.fit._steps import Steps
 
 
-def bodies(steps: Steps, rows: Array) -> np.ndarray[Any, np.dtype[np.bool_]]:
+def bodies(steps: Steps, rows: Array) -> NDArray[np.bool_]:
     """Whether a body has the moments of each row of steps: they are positive, and none exceeds the sum of the two others."""
     moments = steps.moments(rows)
-    valid: np.ndarray[Any, np.dtype[np.bool_]] = (2 * moments.max(axis=1) <= moments.sum(axis=1)) & (moments.min(axis=1) > 0)
+    valid: NDArray[np.bool_] = (2 * moments.max(axis=1) <= moments.sum(axis=1)) & (moments.min(axis=1) > 0)
     return valid
 
 
-def members(steps: Steps, rows: Array, *, threads: int | None = None, errors: str = "raise") -> Ensemble:
+def members(steps: Steps, rows: Array, *, threads: int | None = None, errors: Literal["raise", "nan"] = "raise") -> Ensemble:
     """The states that rows of steps lead to, shape (m, k), about principal axes, with the options of the scene of the steps.
 
     Raises

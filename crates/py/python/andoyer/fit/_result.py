@@ -134,7 +134,7 @@ class Fit:
         Raises
         ------
         InputError
-            An `n` below 0. No draw is a body: the moments are too uncertain. A scene with several disturbing bodies or a `TabulatedOrbit`.
+            An `n` below 0. No draw has a motion: the moments are too uncertain, for example. A scene with several disturbing bodies or a `TabulatedOrbit`.
 
         Warns
         -----
@@ -158,7 +158,7 @@ class Fit:
         found = candidates(self._model, self.undetermined, count, generator)
         size = min(found.effective_size, float(count))
         if not size > 0:
-            raise refusal("n", count, 0, f"= {count}: no draw of the covariance is a body; fit fewer parameters, or hold the moments")
+            raise refusal("n", count, 0, f"= {count}: no draw has a motion whose χ² could be found; fit fewer parameters, or hold the moments")
         if size < LITTLE * count:
             warnings.warn(
                 f"the {count} draws have the effective size {size:.0f}: the data determine the state loosely, and few draws have most of the weight",

@@ -60,8 +60,8 @@ def _quantities(scene: Scene, semi_axes: Array | None) -> dict[str, float]:
         "P_ψ": periods.rotation,
         "pole longitude": np.degrees(np.arctan2(y, x)) % 360,
         "pole latitude": np.degrees(np.arctan2(z, np.hypot(x, y))),
-        "phase μ": np.degrees(mu),
-        "phase ν": np.degrees(nu),
+        "phase μ": np.degrees(mu) % 360,
+        "phase ν": np.degrees(nu) % 360,
     }
     values |= {f"moment I{place}": float(moment) for place, moment in enumerate(scene.body.moments, 1)}
     if semi_axes is not None:
