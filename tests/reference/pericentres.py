@@ -60,7 +60,9 @@ def segments(case):
 
 class Cases:
     def __init__(self, cases):
-        column = lambda name: np.array([case[name] for case in cases], dtype=LONG)
+        def column(name):
+            return np.array([case[name] for case in cases], dtype=LONG)
+
         self.e, self.n, self.fraction = column("eccentricity"), column("mean_motion"), column("mass_fraction")
         self.beta = np.sqrt(2 * (1 - self.e))
         self.root = np.sqrt((1 - self.e) * (1 + self.e))

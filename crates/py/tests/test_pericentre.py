@@ -69,7 +69,10 @@ def test_table_of_a_straight_path_is_not_passed_over_where_it_is_nearest():
     dense = TabulatedOrbit(dense_times, np.stack([speed * (dense_times - 5), near + 0 * dense_times, 0.3 * near + 0 * dense_times], axis=1), gm)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        one, other = (Scene(Body([0.5, 0.8, 1.0]), ATTITUDE, [0.1, 0.2, 1.0], epoch=-30.0, orbit=orbit, span=(-30, 40), tolerance=1e-9).solve() for orbit in (table, dense))
+        one, other = (
+            Scene(Body([0.5, 0.8, 1.0]), ATTITUDE, [0.1, 0.2, 1.0], epoch=-30.0, orbit=orbit, span=(-30, 40), tolerance=1e-9).solve()
+            for orbit in (table, dense)
+        )
     free = Scene(Body([0.5, 0.8, 1.0]), ATTITUDE, [0.1, 0.2, 1.0], epoch=-30.0).solve()
     assert angle(one.attitude(40.0), free.attitude(40.0)) > 1e-6
     assert angle(one.attitude(40.0), other.attitude(40.0)) < one.plan.error_bound + other.plan.error_bound < 1e-9
@@ -113,7 +116,9 @@ def test_interpolation_error_of_coarse_tables_is_within_the_bound():
 def test_tolerance_that_a_table_misses_by_its_interpolation_is_said_to_be_so():
     body, state = Body([0.5, 0.8, 1.0]), (ATTITUDE, [0.5, 1.0, 1.5])
     _, table = orbit_and_table(30, 0.3, 0.1, 0.1, (0, 60))
-    with pytest.warns(andoyer.ToleranceWarning, match=r"interpolation of the table of positions.*\(the integration alone has \d.\de-1\d rad\): give closer times"):
+    with pytest.warns(
+        andoyer.ToleranceWarning, match=r"interpolation of the table of positions.*\(the integration alone has \d.\de-1\d rad\): give closer times"
+    ):
         motion = Scene(body, *state, orbit=table, span=(0, 60), tolerance=1e-9).solve()
     assert "give closer times" in str(motion.plan)
     _, table = orbit_and_table(7, 0.6, 0.1, 1.0, (0, 200))

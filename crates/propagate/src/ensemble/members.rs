@@ -12,9 +12,11 @@ use crate::motion::solved::length;
 use crate::simd::halt::GOING;
 
 use super::kept::Kept;
-use super::motions::BLOCK;
 use super::on_error::OnError;
 use super::pool::MAX_THREADS;
+
+/// Members that a thread takes at least: 64 of them are some 100 µs.
+pub(super) const BLOCK: usize = 64;
 
 /// Bodies with their states, at one epoch or each at its own.
 ///

@@ -12,11 +12,9 @@ use crate::simd::lanes::WIDEST;
 use crate::solve::several;
 
 use super::kept::Solved;
-use super::members::Ensemble;
+use super::members::{BLOCK, Ensemble};
 
-/// Members that a thread takes at least: 64 of them are some 100 µs.
-pub(super) const BLOCK: usize = 64;
-/// The same under a gravity gradient, at 200 µs each.
+/// Members under a gravity gradient that a thread takes at least, at 200 µs each.
 const DISTURBED_BLOCK: usize = 2;
 
 impl Ensemble {
