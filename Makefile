@@ -6,7 +6,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
+.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -74,6 +74,10 @@ deny:  ## the same rules by cargo-deny, which is installed if it is not there
 
 msrv:  ## the oldest compiler that Cargo.toml promises
 	cargo +$$(sed -n 's/^rust-version = "\(.*\)"/\1.0/p' Cargo.toml) check --workspace --all-targets --locked --quiet --target-dir target/msrv
+
+wasm:  ## the crates for WebAssembly, without a warning; rustup adds the target if it is not there
+	rustup target add wasm32-unknown-unknown
+	RUSTFLAGS='-D warnings' cargo check --locked --quiet --target wasm32-unknown-unknown -p andoyer-double -p andoyer-series -p andoyer-propagate --target-dir target/wasm
 
 MINIMAL := target/minimal-versions
 minimal-versions:  ## the oldest versions of the direct dependencies that Cargo.toml promises, in a copy

@@ -1,6 +1,6 @@
 //! Evaluation of the members of an ensemble, each by one thread.
 //!
-//! A member's motion lives while its rows are written; nothing of it is kept.
+//! A member's motion lives while its rows are written; those under a torque are kept ([`super::kept`]).
 
 use std::sync::atomic::{AtomicBool, Ordering};
 

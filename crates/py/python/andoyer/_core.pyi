@@ -520,7 +520,10 @@ class Ensemble:
         """The times of the states: a float for all members, or a read-only array, shape (m,)."""
     @property
     def moments(self) -> _Array:
-        """The moments about body axes 1, 2, 3: a read-only array, shape (m, 3)."""
+        """The moments about body axes 1, 2, 3: a read-only array, shape (m, 3). If tensors were given, they are the principal moments, as `Body.moments`."""
+    @property
+    def inertia(self) -> _Array:
+        """The inertia tensors as given, diagonal if moments were given: a read-only array, shape (m, 3, 3)."""
     @property
     def attitudes(self) -> _Array:
         """The attitudes at the epoch as given: unit quaternions [x, y, z, w], a read-only array, shape (m, 4)."""
