@@ -106,7 +106,7 @@ impl Orbit {
     /// The orbit of a satellite about an oblate primary from its mean elements, with its secular rates of first order in J2 (Kaula, Theory of Satellite Geodesy, 1966, chapter 3).
     ///
     /// All elements are mean ones. Osculating elements, such as those of a position and a velocity, differ from them by the periodic terms. Given instead of the mean
-    /// ones they change the mean motion, and a satellite near the Earth is then some 100 km off after an hour.
+    /// ones they change the mean motion: on circles 500 km above the Earth the satellite is then 9 to 80 km off after an hour.
     ///
     /// Let n0² = GM/a³, p = a (1 − e²) and k = (3/2) n0 J2 (R/p)². The rate of the node is −k cos i, the rate of the argument of the pericentre is k (2 − (5/2)
     /// sin² i), and the rate of the mean anomaly is n0 + k √(1 − e²) (1 − (3/2) sin² i), which is `mean_motion`. Periodic terms of relative size J2 (R/p)² are

@@ -183,6 +183,27 @@ def test_first_sentence_about_an_oblate_primary_says_mean_elements():
     assert "from its mean elements" in Orbit.around_oblate.__doc__.split(".")[0]
 
 
+@pytest.mark.parametrize("inclination", [28.5, 51.6, 98.0])
+def test_osculating_elements_about_an_oblate_primary_miss_by_the_distance_that_the_docstring_states(inclination):
+    from scipy.integrate import solve_ivp
+
+    def rates(_, y):
+        r, square = np.linalg.norm(y[:3]), (y[2] / np.linalg.norm(y[:3])) ** 2
+        oblate = 1.5 * EARTH["j2"] * (EARTH["radius"] / r) ** 2
+        return np.r_[y[3:], -GM * y[:3] / r**3 * (1 + oblate * (np.array([1, 1, 3]) - 5 * square))]
+
+    misses = []
+    for f in np.linspace(0, 2 * math.pi, 13)[:-1]:
+        r, v = state(0.0, math.radians(inclination), 0.0, 0.0, f, p=6878e3, gm=GM)
+        osculating = Orbit.from_state(r, v, GM, 0.0)
+        names = ("semi_major_axis", "eccentricity", "inclination", "node", "argument_of_pericentre", "time_of_pericentre")
+        given = Orbit.around_oblate(GM, **{name: getattr(osculating, name) for name in names}, **EARTH)
+        truth = solve_ivp(rates, (0, 3600), np.r_[r, v], method="DOP853", rtol=1e-11, atol=1e-6).y[:3, -1]
+        misses.append(np.linalg.norm(given.position(3600.0) - truth) / 1e3)
+    assert 9 <= min(misses) < max(misses) < 80
+    assert "9 to 80 km off after an hour" in " ".join(Orbit.around_oblate.__doc__.split())
+
+
 # The scene of a later state.
 
 
