@@ -57,8 +57,17 @@ fn bounds_of_theory_hold_for_every_kind_of_scene() {
         ("averaged over the orbit", disturbed().averaging(Averaging::Orbit).span(0.0, 3e4)),
         ("several bodies", tumbling().disturbing([orbit(2e-3, 0.2), orbit(3e-3, 0.0)]).tolerance(1e-5).span(0.0, 3e3)),
         ("precessing orbit", tumbling().orbit(precessing).tolerance(1e-5).span(0.0, 3e3)),
-        ("long axis", rotating([0.5, 0.75, 1.0], [1.1, 0.1, 0.1]).orbit(orbit(2e-3, 0.2)).tolerance(1e-7).span(0.0, 3e3)),
-        ("user axes", scene(Body::from_inertia(tensor).expect("a tensor"), [0.1, 0.1, 1.0]).orbit(orbit(2e-3, 0.2)).tolerance(1e-7).span(0.0, 3e3)),
+        (
+            "long axis",
+            rotating([0.5, 0.75, 1.0], [1.1, 0.1, 0.1]).orbit(orbit(2e-3, 0.2)).tolerance(1e-7).span(0.0, 3e3),
+        ),
+        (
+            "user axes",
+            scene(Body::from_inertia(tensor).expect("a tensor"), [0.1, 0.1, 1.0])
+                .orbit(orbit(2e-3, 0.2))
+                .tolerance(1e-7)
+                .span(0.0, 3e3),
+        ),
         ("free, by the series", tumbling().method(Method::Series).tolerance(1e-7).span(0.0, 1e3)),
     ] {
         let motion = solved(scene);
@@ -164,11 +173,15 @@ fn more_than_a_minute_needs_a_span_and_the_error_says_how_long_it_takes() {
     let sentence = "span: none is given to verify, and an integration over 1e9 rotations (no span given) takes about 28 hours (2.5e10 steps); at most 60 s \
                     are allowed without a span";
     assert_eq!((error.to_string().as_str(), error.kind(), error.argument()), (sentence, Kind::Input, Some("span")));
-    assert!(error.bound() == Some(Value::from(60.0)) && matches!(error.value(), Some(Value::Number(time)) if time > 1e5));
+    assert!(
+        error.bound() == Some(Value::from(60.0)) && matches!(error.value(), Some(Value::Number(time)) if time > 1e5)
+    );
     assert!(free.verify(VerifyOptions::default().span(0.0, 100.0)).is_ok());
     // A whole span of 5e7 steps.
     let long = solved(tumbling().orbit(orbit(1e-4, 0.2)).span(0.0, 2e7).tolerance(1e-3));
-    assert!(matches!(refused(&long, VerifyOptions::default()), Error::LongVerification { seconds, .. } if seconds > 300.0));
+    assert!(
+        matches!(refused(&long, VerifyOptions::default()), Error::LongVerification { seconds, .. } if seconds > 300.0)
+    );
     assert!(long.verify(VerifyOptions::default().span(0.0, 100.0)).is_ok());
 }
 
