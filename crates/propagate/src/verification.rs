@@ -147,8 +147,8 @@ impl Motion {
     /// use andoyer_propagate::verification::VerifyOptions;
     /// use andoyer_propagate::{Body, Orbit, Scene, State};
     /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.2, 0.3, 1.1])?;
-    /// let scene = Scene::new(Body::new([0.5, 0.75, 1.0])?, state).orbit(Orbit::new(2e-3, 0.2)?).tolerance(1e-9);
-    /// let motion = scene.span(0.0, 1e4).solve()?;
+    /// let scene = Scene::new(Body::new([0.5, 0.75, 1.0])?, state).orbit(Orbit::new(2e-3, 0.2)?).tolerance(1e-8);
+    /// let motion = scene.span(0.0, 1e3).solve()?;
     /// let verification = motion.verify(VerifyOptions::default())?;
     /// assert!(verification.holds() && verification.error() < motion.plan().error_bound());
     /// let part = motion.verify(VerifyOptions::default().span(0.0, 100.0).samples(5))?;

@@ -44,10 +44,10 @@ impl Motion {
     ///
     /// Examples
     /// --------
-    /// >>> scene = Scene(Body([0.5, 0.75, 1.0]), [0, 0, 0, 1], [0.2, 0.3, 1.1], orbit=Orbit(2e-3, 0.2), span=(0, 1e4), tolerance=1e-9)
+    /// >>> scene = Scene(Body([0.5, 0.75, 1.0]), [0, 0, 0, 1], [0.2, 0.3, 1.1], orbit=Orbit(2e-3, 0.2), span=(0, 1e3), tolerance=1e-8)
     /// >>> motion = scene.solve()
     /// >>> verification = motion.verify()
-    /// >>> verification.holds, verification.error < 1e-9
+    /// >>> verification.holds, verification.error < 1e-8
     /// (True, True)
     /// >>> motion.verify((0, 100), samples=5).times
     /// array([  0.,  25.,  50.,  75., 100.])
@@ -82,7 +82,7 @@ impl Motion {
 ///
 /// Examples
 /// --------
-/// >>> scene = Scene(Body([0.5, 0.75, 1.0]), [0, 0, 0, 1], [0.2, 0.3, 1.1], orbit=Orbit(2e-3, 0.2), span=(0, 1e4), tolerance=1e-9)
+/// >>> scene = Scene(Body([0.5, 0.75, 1.0]), [0, 0, 0, 1], [0.2, 0.3, 1.1], orbit=Orbit(2e-3, 0.2), span=(0, 1e3), tolerance=1e-8)
 /// >>> verification = scene.solve().verify()
 /// >>> verification.times.shape, verification.errors.shape
 /// ((64,), (64,))
