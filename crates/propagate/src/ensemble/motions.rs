@@ -54,7 +54,7 @@ impl Ensemble {
     }
 
     /// The motion of a member that is kept.
-    fn solved(&self, member: usize) -> Solved {
+    pub(super) fn solved(&self, member: usize) -> Solved {
         self.kept.get(member).unwrap_or_else(|| Arc::new(self.scene(member).and_then(|scene| scene.solve())))
     }
 
