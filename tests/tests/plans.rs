@@ -49,7 +49,7 @@ fn what_was_asked_for_and_not_used_is_said() {
 fn the_plan_says_over_what_the_tolerance_is_missed() {
     let plan = |scene: Scene| scene.order(1).solve().expect("served").plan().to_string();
     assert!(plan(triaxial()).contains("is not met over 1e9 rotations (no span given)"), "{}", plan(triaxial()));
-    assert!(plan(triaxial().span(0.0, 100.0)).ends_with("is not met over the span"));
+    assert!(plan(triaxial().span(0.0, 100.0)).contains("is not met over the span"));
 }
 
 #[test]
@@ -155,7 +155,7 @@ fn a_resonance_states_the_effect_that_is_too_large() {
             Orbit::new(n, e).and_then(|orbit| orbit.plane(0.5, 0.0, 0.0)?.mass_fraction(fraction)).expect("an orbit");
         scene([1.0, 1.02, 1.05], rates).orbit(orbit).method(Method::Closed)
     };
-    let error = resonant(0.038_348, 0.0, 1e-2, [0.0, 0.01, 1.0]).solve().expect_err("too slow");
+    let error = resonant(0.038_348, 0.0, 3e-2, [0.0, 0.01, 1.0]).solve().expect_err("too slow");
     let Error::Resonance { divisor, bound, effect, limit, .. } = error else { panic!("{error}") };
     assert!(divisor < bound && effect > limit);
     assert_eq!((error.value(), error.bound()), (Some(effect.into()), Some(limit.into())));

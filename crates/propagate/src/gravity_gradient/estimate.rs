@@ -7,7 +7,7 @@
 //!    errors of the mean M and L at the epoch;
 //! 3. what is not corrected of terms in resonance ([`crate::gravity_gradient::terms::regime`]).
 //!
-//! Each has one safety factor below. Dropped terms, truncated sums, terms that the level omits, the average over the orbit, and rounding follow.
+//! The first two have one safety factor each below; the third is an upper estimate. Dropped terms, truncated sums, terms that the level omits, the average over the orbit, and rounding follow.
 //! `gradient safety` of the test crate measures the factors against integrations.
 
 use std::f64::consts::TAU;
@@ -27,8 +27,6 @@ use crate::input::options::{Averaging, Level};
 const PERIODIC: f64 = 13.0;
 /// Safety factor of the drift of the next order.
 const DRIFT: f64 = 8.0;
-/// Factor of the upper estimate of what is not corrected.
-const RESONANT: f64 = 0.3;
 /// Safety factor of the average over the orbit.
 const ORBIT: f64 = 1.5;
 /// Number of orbits on each side of the epoch for which quarters are kept.
@@ -77,7 +75,7 @@ impl Estimate {
         Self {
             periodic: PERIODIC * change * change,
             drift: DRIFT * (drift + response.of_actions(left, duration)),
-            resonant: RESONANT * sum(|corrections| corrections.resonant),
+            resonant: sum(|corrections| corrections.resonant),
             dropped: sum(|corrections| corrections.dropped),
             omitted: omitted.sum(),
             // The iteration to the mean M and L ends at its own threshold.
