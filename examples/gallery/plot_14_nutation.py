@@ -83,9 +83,9 @@ def solved(**options: Any) -> tuple[andoyer.Motion, NDArray[np.float64]]:
 
 
 # %%
-# At a tolerance of 1e-8 rad the averaged theory of first order is enough. The integration has a tolerance of 1e-10 rad.
+# At a tolerance of 1e-7 rad the averaged theory of first order is enough. The integration has a tolerance of 1e-10 rad.
 
-averaged, axis = solved(tolerance=1e-8)
+averaged, axis = solved(tolerance=1e-7)
 integrated, integrated_axis = solved(tolerance=1e-10, method="integrated")
 assert averaged.plan.method == "closed"
 between = np.linalg.norm(axis - integrated_axis, axis=1).max()

@@ -36,12 +36,12 @@ fn error<const N: usize>(found: &[Derivatives<N>; 2], expected: &[f64]) -> f64 {
         _ => rates[(N - 3) * row + column - 3],
     };
     let mut worst = 0.0_f64;
-    for matrix in 0..2 {
+    for (matrix, derivatives) in found.iter().enumerate() {
         for block in [0..3, 3..6, 6..N] {
             let entries = || (0..3).flat_map(|row| block.clone().map(move |column| (row, column)));
             let size = entries().fold(1.0_f64, |size, (row, column)| size.max(expected(matrix, row, column).abs()));
             for (row, column) in entries() {
-                let lost = (found[matrix][row][column] - expected(matrix, row, column)).abs() / size;
+                let lost = (derivatives[row][column] - expected(matrix, row, column)).abs() / size;
                 worst = if lost <= worst { worst } else { lost };
             }
         }

@@ -57,6 +57,9 @@ pub struct Partials<const N: usize = PARAMETERS> {
     pub angular_velocity: Derivatives<N>,
 }
 
+/// Attitudes [x, y, z, w] and angular velocities at several times.
+type AttitudesAndRates = (Vec<[f64; 4]>, Vec<[f64; 3]>);
+
 impl Motion {
     /// Derivatives of attitude and angular velocity at a time with respect to the initial attitude, the initial angular velocity and the moments (theory §12).
     ///
@@ -140,7 +143,7 @@ impl Motion {
     }
 
     /// Attitudes and rates about the principal axes at times counted from `epoch`.
-    fn samples_about_principal_axes(&self, epoch: f64, times: &[f64]) -> Result<(Vec<[f64; 4]>, Vec<[f64; 3]>), Error> {
+    fn samples_about_principal_axes(&self, epoch: f64, times: &[f64]) -> Result<AttitudesAndRates, Error> {
         let (mut attitudes, mut rates) = (vec![[0.0; 4]; times.len()], vec![[0.0; 3]; times.len()]);
         let batch = self.batch();
         let batch = if epoch == batch.epoch() { batch } else { batch.since_epoch() };

@@ -266,12 +266,12 @@ def calendar(epochs: list[Epoch]) -> Any:
     return astropy.time.Time(first, second, format="jd", scale=SCALES[scales[0]], location=location)
 
 
-def later(epoch: list[float] | None, seconds: float) -> Any:
-    """The Time that is some TDB seconds after an epoch, given as a TDB Julian date in two doubles, or after J2000."""
+def later(epoch: Epoch | None, seconds: float) -> Any:
+    """The Time in TDB that is some TDB seconds after an epoch, or after J2000."""
     import astropy.time
 
-    first, second = epoch or (J2000, 0.0)
-    return calendar([first], [second])[0] + astropy.time.TimeDelta(seconds, format="sec", scale="tdb")
+    start = calendar([epoch or ([J2000, 0.0], SCALES.index("tdb"), None)])[0]
+    return start.tdb + astropy.time.TimeDelta(seconds, format="sec", scale="tdb")
 
 
 def numbers(times: Any) -> NDArray[Any]:

@@ -10,9 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from andoyer._core import Error, InputError, Motion, Scene
 from andoyer._extra import extra
+from andoyer._foreign import as_one, epoch_of
 from andoyer._quaternions import Array, conjugate, product
+from andoyer._refusal import refusal
 from andoyer.fit._degeneracy import undetermined
-from andoyer.fit._given import as_one, enough, epoch_of, freed, from_epoch, quaternions, refusal, scene_of, whitening
+from andoyer.fit._given import enough, freed, from_epoch, quaternions, scene_of, whitening
 from andoyer.fit._members import about_body_axes, bodies, members
 from andoyer.fit._message import composed
 from andoyer.fit._result import Fit, judged

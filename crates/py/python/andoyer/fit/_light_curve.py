@@ -11,9 +11,11 @@ from numpy.typing import ArrayLike
 
 from andoyer._core import Body, Ensemble, Scene
 from andoyer._extra import extra
+from andoyer._foreign import epoch_of
 from andoyer._quaternions import Array, angle_between, product
+from andoyer._refusal import refusal
 from andoyer.fit._curve import Curve, Places, States
-from andoyer.fit._given import enough, epoch_of, from_first, generator_of, moderate, refusal, scene_of, shaped, span, whole
+from andoyer.fit._given import enough, from_first, generator_of, moderate, scene_of, shaped, span, whole
 from andoyer.fit._message import composed, largest_reduced, rivals
 from andoyer.fit._optimum import Optimum
 from andoyer.fit._result import Fit, judged

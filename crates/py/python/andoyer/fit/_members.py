@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from andoyer._core import Ensemble, Orbit
 from andoyer._quaternions import Array, conjugate, product
-from andoyer.fit._given import refusal
+from andoyer._refusal import refusal
 from andoyer.fit._steps import Steps
 
 

@@ -10,9 +10,10 @@ import numpy as np
 
 from andoyer._core import Ensemble, Scene
 from andoyer._quaternions import Array
+from andoyer._refusal import refusal
 from andoyer.fit._degeneracy import sentence, undetermined
 from andoyer.fit._draws import Model, candidates
-from andoyer.fit._given import generator_of, refusal, whole
+from andoyer.fit._given import generator_of, whole
 from andoyer.fit._members import members
 from andoyer.fit._optimum import Alias, Optimum, aliases
 from andoyer.fit._steps import Steps

@@ -22,7 +22,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from andoyer._quaternions import Array, conjugate, rotate
-from andoyer.fit._given import moderate, numbers, quaternions, refusal
+from andoyer._refusal import refusal
+from andoyer.fit._given import moderate, numbers, quaternions
 
 TINY = 1e-300
 

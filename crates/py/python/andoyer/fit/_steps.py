@@ -98,9 +98,9 @@ class Steps:
     def moments(self, steps: ArrayLike) -> Array:
         """Principal moments."""
         if self._body == "inertia":
-            moments: Array = np.linalg.eigvalsh(self.tensors(steps))
+            moments: Array = np.asarray(np.linalg.eigvalsh(self.tensors(steps)), dtype=np.float64)
         elif self.semi_axes is None:
-            moments = self.origin.body.moments * np.exp(self.full(steps)[..., FIXED_MOMENTS:])
+            moments = np.asarray(self.origin.body.moments * np.exp(self.full(steps)[..., FIXED_MOMENTS:]), dtype=np.float64)
         else:
             moments = moments_of_ellipsoid(self.axes(steps))
         return moments
