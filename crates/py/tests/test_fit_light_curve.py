@@ -118,7 +118,7 @@ def test_derivatives_of_the_projected_residuals_give_the_gradient_of_chi_square(
 def test_normal_equations_are_those_of_the_state_and_the_factor_without_the_factor():
     """JᵀJ of the projected problem is the Schur complement of the full one, whose derivatives are differences here."""
     truth, times, sun, observer, values, sigma = observed("short-axis", points=30)
-    curve, _ = _light_curve._curve(times, values, (sun, observer), sigma, None, ("lommel-seeliger", True))
+    curve, _ = _light_curve._curve((times, None), values, (sun, observer), sigma, None, ("lommel-seeliger", True))
     state = _light_curve._state_of(truth, AXES, times[0])
 
     def model(step):

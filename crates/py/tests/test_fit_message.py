@@ -72,7 +72,7 @@ def test_limit_of_a_good_fit_is_the_quantile_of_chi_square():
 def test_reflected_motion_is_a_start_and_a_rival_minimum():
     """Sun and observer in one plane: the motion turned by π about its normal has the same brightness, and χ² to rounding."""
     truth, times, values, given = observed("short-axis", height=0.0)
-    curve, _ = _light_curve._curve(times, values, (given["sun"], given["observer"]), given["sigma"], None, ("lommel-seeliger", False))
+    curve, _ = _light_curve._curve((times, None), values, (given["sun"], given["observer"]), given["sigma"], None, ("lommel-seeliger", False))
     state = _light_curve._state_of(truth, AXES, times[0])
     one = _light_curve._polished(curve, _search.Population(state, curve.chi_squares(state)))
     found = _light_curve._with_reflections(curve, one)
@@ -94,7 +94,7 @@ def test_search_names_the_mirrored_motion():
 def test_reflections_keep_the_brightness_in_one_plane():
     _, times, _, given = observed("long-axis", height=0.0)
     units = [vectors / np.linalg.norm(vectors, axis=1, keepdims=True) for vectors in (given["sun"], given["observer"])]
-    curve, _ = _light_curve._curve(times, np.ones(len(times)), units, 0.1, None, ("lommel-seeliger", False))
+    curve, _ = _light_curve._curve((times, None), np.ones(len(times)), units, 0.1, None, ("lommel-seeliger", False))
     state = _search.random_states(AXES, (0.6, 2.0), 1, np.random.default_rng(3))
     mirrored = _search.reflections(curve, state)
     seen_by = [curve._seen(part, curve._ensemble(part).attitude(curve.times)) for part in (state, *(mirrored.part([place]) for place in range(3)))]
@@ -105,7 +105,7 @@ def test_reflections_keep_the_brightness_in_one_plane():
 
 def test_ellipsoid_with_its_axes_in_another_order_is_the_same_minimum():
     truth, times, values, given = observed("short-axis")
-    curve, _ = _light_curve._curve(times, values, (given["sun"], given["observer"]), given["sigma"], None, ("lommel-seeliger", True))
+    curve, _ = _light_curve._curve((times, None), values, (given["sun"], given["observer"]), given["sigma"], None, ("lommel-seeliger", True))
     state = _light_curve._state_of(truth, AXES, times[0])
     cycle = np.array([[0, 0, 1.0], [1, 0, 0], [0, 1, 0]])  # columns: the new axes in the old ones
     attitude = (Rotation.from_quat(state.attitudes[0]) * Rotation.from_matrix(cycle)).as_quat()

@@ -52,7 +52,7 @@ pub struct Ensemble {
 }
 
 impl Ensemble {
-    /// An ensemble from moments, attitudes [x, y, z, w] and body rates of its members, each as a [`Body`] and a [`State`] take them, with a tolerance of 1e-12
+    /// An ensemble from moments, attitudes [x, y, z, w] and body rates of its members, each as a [`Body`] and a [`State`](crate::State) take them, with a tolerance of 1e-12
     /// rad.
     ///
     /// # Errors
@@ -211,14 +211,14 @@ impl Ensemble {
         Ok(self.changed())
     }
 
-    /// The attitude error asked for \[rad\], as for [`Scene::tolerance`].
+    /// The attitude error asked for \[rad\], as for [`Scene::tolerance`](crate::Scene::tolerance).
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
         self.changed()
     }
 
-    /// Orbits of bodies whose gravity gradient acts on the members: one for all, or one or none for each, as for [`Scene::orbit`].
+    /// Orbits of bodies whose gravity gradient acts on the members: one for all, or one or none for each, as for [`Scene::orbit`](crate::Scene::orbit).
     ///
     /// What averaging leaves grows with time: without [`Ensemble::span`] the error bounds are those after 1e9 rotations. Which motions are served is known only
     /// when they are solved.
@@ -247,7 +247,7 @@ impl Ensemble {
         Ok(self.changed())
     }
 
-    /// The times over which the tolerance is asked for and error bounds hold, as for [`Scene::span`].
+    /// The times over which the tolerance is asked for and error bounds hold, as for [`Scene::span`](crate::Scene::span).
     #[must_use]
     pub fn span(mut self, start: f64, stop: f64) -> Self {
         self.span = Some((start, stop));

@@ -218,7 +218,7 @@ fn velocity(slopes: [f64; 3], g: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| slopes[i] * g[(i + 1) % 3] * g[(i + 2) % 3])
 }
 
-/// The rotation vector of axis 3 for a displacement, without its third component: δν = [ψ]× ν − ν [ψ]×.
+/// The rotation vector of axis 3 for a displacement, without its third component: δν = \[ψ\]× ν − ν \[ψ\]×.
 fn tilt(displacement: &Displacement, slopes: [f64; 3], rate: f64) -> [f64; 2] {
     [(1, 0), (0, 1)].map(|(moved, axis)| -displacement.rates[moved][2] / (slopes[axis] * rate))
 }

@@ -4,9 +4,9 @@
 //! A change of attitude, at the epoch and at the time, is a rotation vector about body axes, R → R exp(\[δθ\]×). With g = G/M, ν_i = M/(A, B, C)_i and the
 //! invariants of the polhode, every derivative is an algebraic function of attitude and rates at the time and of one elliptic integral of the second kind, ∫g2²
 //! dt. Set-up takes some microseconds. Accuracy: 1e-14 of the largest derivative over the smaller of Q1, the minimum of cos²J, and C/B − 1. Q1 is small next to the
-//! separatrix, C/B − 1 next to a sphere. Where one of them is below 1e-4, power series in time replace the closed form ([`expansion`]).
+//! separatrix, C/B − 1 next to a sphere. Where one of them is below 1e-4, power series in time replace the closed form (`expansion.rs`).
 //!
-//! For a body with an inertia tensor there are twelve parameters: the six elements of the tensor replace the moments ([`tensor`]).
+//! For a body with an inertia tensor there are twelve parameters: the six elements of the tensor replace the moments (`tensor.rs`).
 //!
 //! Imports errors, numerics, simd, input, torque_free, motion and solve.
 

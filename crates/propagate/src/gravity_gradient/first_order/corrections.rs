@@ -7,7 +7,7 @@
 //! ```
 //!
 //! solves dW/dt = D − ⟨D⟩ for a disturbing body that moves on its orbit. Where this sum is not accurate enough, the divisors in G are exact
-//! ([`crate::gravity_gradient::selection`]). The first term of G alone holds the body fixed, as in the paper. G is a Fourier polynomial in f. The corrections are brackets with W
+//! ([`crate::gravity_gradient::terms::regime`]). The first term of G alone holds the body fixed, as in the paper. G is a Fourier polynomial in f. The corrections are brackets with W
 //! in variables that are regular at J = 0 and at any inclination: p = √σ e^(iℓ′), M, y′ and rotations of the invariable frame,
 //!
 //! ```text
@@ -15,7 +15,7 @@
 //! ```
 //!
 //! where y′ is counted from an axis that turns with k and not about it. A term, or a derivative of g, is dropped here if it is smaller than a fraction of the
-//! second-order error or of the tolerance. The error by resonant terms is part of the error bound, or it is an error ([`crate::gravity_gradient::resonance`]).
+//! second-order error or of the tolerance. The error by resonant terms is part of the error bound, or it is an error ([`crate::gravity_gradient::terms::regime`]).
 
 use nalgebra::{Quaternion, UnitQuaternion};
 use num_complex::Complex;

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! The middle term is the effect of second order of the part of ⟨D⟩ that is periodic in the true anomaly f, whose mean over f is 0
-//! ([`crate::gravity_gradient::second_order::k2_orbit_periodic`]). K̄ acts in the time f/n. ⟨K2⟩ has the means of (a/r)⁶ and (a/r)⁶ ḟ times powers of k·r̂. K̄ is a
+//! ([`OrbitPeriodic`]). K̄ acts in the time f/n. ⟨K2⟩ has the means of (a/r)⁶ and (a/r)⁶ ḟ times powers of k·r̂. K̄ is a
 //! polynomial in ρ, δ and k_N. For e = 0 it has no δ, and k precesses steadily about the normal. For e ≠ 0 it nods with twice the angle of the node.
 
 use super::k2::{Hamiltonian, Slopes, dot};
