@@ -74,7 +74,7 @@ fn bounds_of_theory_hold_for_every_kind_of_scene() {
         assert_ne!(motion.plan().method(), Method::Integrated, "{name}");
         let verification = verified(&motion);
         assert!(verification.holds() && !verification.refuted(), "{name}: {verification}");
-        assert!(verification.integration_bound() <= 0.1 * verification.error_bound(), "{name}: {verification}");
+        assert!(verification.integration_bound() < 0.1 * verification.error_bound(), "{name}: {verification}");
         assert!(verification.error() > 0.0 && verification.error_bound() == motion.plan().error_bound(), "{name}");
     }
 }
@@ -136,8 +136,8 @@ fn times_are_spread_evenly_over_the_span_with_both_ends() {
     assert_eq!(part.times(), [3.0, 4.0, 5.0, 6.0, 7.0]);
     // The epoch is among the times, and the motion has the given state there.
     assert!(part.errors()[0] < FLOOR && part.error() >= part.errors()[4]);
-    let finer = motion.verify(VerifyOptions::default().tolerance(1e-14)).expect("a verification");
-    assert!(finer.integration_bound() <= whole.integration_bound());
+    let coarse = motion.verify(VerifyOptions::default().tolerance(1e-4)).expect("a verification");
+    assert!(coarse.integration_bound() > 3.0 * whole.integration_bound());
 }
 
 #[test]

@@ -148,6 +148,17 @@ impl Plan {
         })
     }
 
+    /// How long a verification takes, and whether it needs a span.
+    fn cost_in_words(&self) -> String {
+        let cost = self.verification_cost();
+        let (time, steps) = (duration_in_words(cost.seconds()), cost.steps);
+        if cost.seconds() > LONGEST_VERIFICATION {
+            format!("needs a span: about {time} ({steps:.1e} steps) over {}", self.over())
+        } else {
+            format!("takes about {time} ({steps:.1e} steps)")
+        }
+    }
+
     /// σ/σ_sep: 0 on the axis of greatest inertia, 1 on the separatrix (theory §5).
     pub fn separatrix_ratio(&self) -> f64 {
         self.separatrix_ratio
@@ -243,6 +254,7 @@ impl fmt::Display for Plan {
         } else {
             write!(f, "error bound   unknown (half a turn or more); {}", self.over().advice())?;
         }
+        write!(f, "\nverify        {}", self.cost_in_words())?;
         if !self.meets_tolerance() {
             write!(
                 f,
@@ -251,13 +263,6 @@ impl fmt::Display for Plan {
                 self.over(),
                 self.interpolation()
             )?;
-        }
-        let cost = self.verification_cost();
-        let (time, steps) = (duration_in_words(cost.seconds()), cost.steps);
-        if cost.seconds() > LONGEST_VERIFICATION {
-            write!(f, "\nverify        needs a span: about {time} ({steps:.1e} steps) over {}", self.over())?;
-        } else {
-            write!(f, "\nverify        takes about {time} ({steps:.1e} steps)")?;
         }
         for reason in &self.skipped {
             write!(f, "\nskipped       {reason}")?;
