@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use crate::input::scene::Scene;
 use crate::integration::integrated::prospect;
 
-/// Time of one step and of its part of the error bound \[s\], and what each disturbing body adds: rounded medians of integrations with 1e3 to 1e5 steps on the
-/// machine of docs/speed.md. `verify` is timed nowhere, so that a plan is the same on every machine.
+/// Time of one step and of its part of the error bound \[s\], and what each disturbing body adds: rough values from a busy machine, which no command measures yet.
+/// `verify` is timed nowhere, so that a plan is the same on every machine.
 const SECONDS: [f64; 2] = [4e-6, 3e-6];
 /// Steps in one radian of the fastest rate, at most: as `prospect` counts them.
 const STEPS_A_RADIAN: f64 = 2.0;
