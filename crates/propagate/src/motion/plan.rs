@@ -306,6 +306,11 @@ pub(crate) fn missed(bound: f64, tolerance: f64, over: Over) -> String {
     format!("the error bound of the attitude, {bound}, exceeds the tolerance, {tolerance:e} rad, over {over}{advice}")
 }
 
+/// A message without the signs that a plan does not print.
+pub(crate) fn in_ascii(message: &str) -> String {
+    message.replace('σ', "sigma").replace('−', "-").replace('²', "^2")
+}
+
 /// An error bound as text. Of half a turn or more nothing is known.
 pub(crate) fn bound_in_words(bound: f64) -> String {
     if bound < PI { format!("{bound:.1e} rad") } else { "half a turn or more".to_owned() }

@@ -1,6 +1,6 @@
 //! The motions of several free bodies at once: the constants of their polhodes and their frequencies are computed in lanes.
 
-use super::Preparation;
+use super::free::{self, Preparation};
 use crate::error::Error;
 use crate::input::body::Body;
 use crate::input::options::Method;
@@ -26,7 +26,7 @@ pub(crate) fn several(scenes: Vec<Result<Scene, Error>>, mut each: impl FnMut(&R
             Ok(scene) if is_free(&scene) => {
                 let polhode = polhodes.next().and_then(Option::as_ref);
                 let secular = polhode.filter(wobbles).and_then(|_| frequencies.next());
-                scene.solve_on(polhode, Preparation { tables: &tables, secular, remarks: false })
+                free::motion(scene, polhode, Preparation { tables: &tables, secular, remarks: false })
             }
             Ok(scene) => scene.solve(),
             Err(error) => Err(error),

@@ -2,16 +2,18 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::free::{self, Preparation};
+use super::{averaged, integrated};
 use crate::error::{Error, Kind};
 use crate::input::disturbing_body::DisturbingBody;
 use crate::input::options::{Averaging, Level, Method};
 use crate::input::orbit::Orbit;
 use crate::input::scene::Scene;
-use crate::integration::integrated::{Integrated, prospect};
+use crate::integration::integrated::prospect;
 use crate::integration::integrator::MOST_STEPS;
-use crate::motion::plan::{Plan, ROUNDED_TOLERANCE, bound_in_words};
+use crate::motion::plan::{ROUNDED_TOLERANCE, bound_in_words, in_ascii};
 use crate::motion::solved::Motion;
-use crate::motion::trajectory::Trajectory;
+use crate::torque_free::polhode::Polhode;
 use crate::torque_free::series::tables::SeriesTables;
 
 impl Scene {
@@ -26,14 +28,45 @@ impl Scene {
     }
 }
 
+/// The motion of a scene about principal axes, by the method that it asks for or that serves it.
+///
+/// # Errors
+/// As [`Scene::solve_until`].
+pub(super) fn motion(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
+    match (scene.asked_method(), beyond_theory(&scene)) {
+        (Method::Integrated, _) => integrated::motion(scene, tables, String::new(), stop),
+        (Method::Auto, Some(reason)) => integrated::motion(scene, tables, format!("theory: {reason}"), stop),
+        (method, Some(reason)) => Err(Error::OnlyIntegrated { method: method.to_string(), reason }),
+        (_, None) if may_be_integrated(&scene) => cheapest(scene, tables, stop),
+        (_, None) => {
+            let bodies = without_span(&scene);
+            by_theory(scene, tables).map_err(|error| match bodies {
+                Some(bodies) if error.kind() == Kind::Theory => {
+                    Error::NoSpan { reason: format!("theory for {bodies}: {}", in_ascii(&error.to_string())) }
+                }
+                _ => error,
+            })
+        }
+    }
+}
+
+/// The motion by theory: averaged if a torque acts, else free.
+fn by_theory(scene: Scene, tables: &SeriesTables) -> Result<Motion, Error> {
+    let polhode = Polhode::new(scene.body(), scene.state());
+    match scene.asked_orbits().filter(|_| !is_sphere(&scene)) {
+        Some(orbits) => averaged::motion(scene, polhode.as_ref(), &orbits),
+        None => free::motion(scene, polhode.as_ref(), Preparation::new(tables)),
+    }
+}
+
 /// Whether all moments are equal: no body exerts a torque on a sphere.
-pub(super) fn is_sphere(scene: &Scene) -> bool {
+fn is_sphere(scene: &Scene) -> bool {
     let [a, b, c] = scene.body().moments();
     a == b && b == c
 }
 
 /// Why no theory covers the scene, or `None`.
-pub(super) fn beyond_theory(scene: &Scene) -> Option<String> {
+fn beyond_theory(scene: &Scene) -> Option<String> {
     match scene.asked_disturbing() {
         _ if is_sphere(scene) => None,
         bodies if bodies.iter().any(|body| matches!(body, DisturbingBody::Tabulated(_))) => {
@@ -44,7 +77,7 @@ pub(super) fn beyond_theory(scene: &Scene) -> Option<String> {
 }
 
 /// What a scene would need the integration for if theory does not serve it, but gives no span: several bodies, or an orbit that precesses.
-pub(super) fn without_span(scene: &Scene) -> Option<String> {
+fn without_span(scene: &Scene) -> Option<String> {
     if scene.asked_method() != Method::Auto || scene.asked_span().is_some() {
         return None;
     }
@@ -57,7 +90,7 @@ pub(super) fn without_span(scene: &Scene) -> Option<String> {
 }
 
 /// Whether a scene with disturbing bodies leaves the choice between theory and integration.
-pub(super) fn may_be_integrated(scene: &Scene) -> bool {
+fn may_be_integrated(scene: &Scene) -> bool {
     scene.asked_method() == Method::Auto
         && scene.asked_span().is_some()
         && !scene.asked_disturbing().is_empty()
@@ -68,12 +101,12 @@ pub(super) fn may_be_integrated(scene: &Scene) -> bool {
 
 /// The theory where it meets the tolerance, else the integration where that does, else the theory: it costs less, and the plan says how near the integration
 /// would come. For several bodies and for orbits that precess the smaller error bound decides instead.
-pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
-    let mut by_theory = match scene.clone().solve_by_theory(tables) {
+fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
+    let mut by_theory = match by_theory(scene.clone(), tables) {
         Ok(motion) if motion.plan.meets_tolerance() => return Ok(motion),
         Ok(motion) => motion,
         Err(error) if error.kind() == Kind::Theory => {
-            return integrated(scene, tables, format!("theory: {}", in_ascii(&error.to_string())), stop);
+            return integrated::motion(scene, tables, format!("theory: {}", in_ascii(&error.to_string())), stop);
         }
         Err(error) => return Err(error),
     };
@@ -90,7 +123,7 @@ pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -
         }
         _ => {
             let reason = format!("theory: its error bound is {}", bound_in_words(by_theory.plan.error_bound));
-            match integrated(scene, tables, reason, stop) {
+            match integrated::motion(scene, tables, reason, stop) {
                 Ok(motion) if motion.plan.error_bound < by_theory.plan.error_bound => return Ok(motion),
                 Ok(motion) => format!("its error bound is {}", bound_in_words(motion.plan.error_bound)),
                 Err(Error::Stopped) => return Err(Error::Stopped),
@@ -100,32 +133,4 @@ pub(super) fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -
     };
     by_theory.plan.skipped.push(format!("integration: {unused}"));
     Ok(by_theory)
-}
-
-/// A message without the signs that a plan does not print.
-pub(super) fn in_ascii(message: &str) -> String {
-    message.replace('σ', "sigma").replace('−', "-").replace('²', "^2")
-}
-
-/// The motion by integration over the span; mode and frequencies are those of the free motion at the epoch.
-pub(super) fn integrated(
-    scene: Scene,
-    tables: &SeriesTables,
-    reason: String,
-    stop: &AtomicBool,
-) -> Result<Motion, Error> {
-    let free = Scene::new(scene.body().clone(), *scene.state()).solve_by_theory(tables)?;
-    let motion = Integrated::new(&scene, &reason, stop).map_err(|error| match error {
-        Error::TooManySteps { steps, bound, .. } => Error::TooManySteps { steps, bound, reason: reason.clone() },
-        error => error,
-    })?;
-    let mut plan = Plan::new(&scene, free.plan.mode, free.plan.separatrix_ratio, motion.error);
-    plan.method = Method::Integrated;
-    plan.order = motion.order();
-    plan.integration = Some(motion.plan());
-    plan.skipped.extend(Some(reason).filter(|reason| !reason.is_empty()));
-    if let Some(order) = scene.asked_order() {
-        plan.skipped.push(format!("order {order}, which was asked for: it is one of the series"));
-    }
-    Ok(Motion { scene, plan, trajectory: Trajectory::Integrated(Box::new(motion)), ..free })
 }

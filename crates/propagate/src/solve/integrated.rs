@@ -1,0 +1,37 @@
+//! The motion by numerical integration.
+
+use std::sync::atomic::AtomicBool;
+
+use super::free::{self, Preparation};
+use crate::error::Error;
+use crate::input::options::Method;
+use crate::input::scene::Scene;
+use crate::integration::integrated::Integrated;
+use crate::motion::plan::Plan;
+use crate::motion::solved::Motion;
+use crate::motion::trajectory::Trajectory;
+use crate::torque_free::polhode::Polhode;
+use crate::torque_free::series::tables::SeriesTables;
+
+/// The motion by integration over the span; mode and frequencies are those of the free motion at the epoch.
+///
+/// # Errors
+/// Those of the integration.
+pub(super) fn motion(scene: Scene, tables: &SeriesTables, reason: String, stop: &AtomicBool) -> Result<Motion, Error> {
+    let unforced = Scene::new(scene.body().clone(), *scene.state());
+    let polhode = Polhode::new(unforced.body(), unforced.state());
+    let free = free::motion(unforced, polhode.as_ref(), Preparation::new(tables))?;
+    let motion = Integrated::new(&scene, &reason, stop).map_err(|error| match error {
+        Error::TooManySteps { steps, bound, .. } => Error::TooManySteps { steps, bound, reason: reason.clone() },
+        error => error,
+    })?;
+    let mut plan = Plan::new(&scene, free.plan.mode, free.plan.separatrix_ratio, motion.error);
+    plan.method = Method::Integrated;
+    plan.order = motion.order();
+    plan.integration = Some(motion.plan());
+    plan.skipped.extend(Some(reason).filter(|reason| !reason.is_empty()));
+    if let Some(order) = scene.asked_order() {
+        plan.skipped.push(format!("order {order}, which was asked for: it is one of the series"));
+    }
+    Ok(Motion { scene, plan, trajectory: Trajectory::Integrated(Box::new(motion)), ..free })
+}
