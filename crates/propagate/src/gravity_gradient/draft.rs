@@ -1,22 +1,20 @@
 //! A motion at one level, before its constants are found: the mean motion, the averaged torques, and the error bound. What the levels share is computed once.
 
 use nalgebra::{UnitQuaternion, Vector3};
-use num_complex::Complex;
 
 use crate::error::{Error, TorqueMeasure};
 use crate::gravity_gradient::averaged::averaged_orbit::AveragedOrbit;
 use crate::gravity_gradient::averaged::torque::Averages;
 use crate::gravity_gradient::estimate::Estimate;
-use crate::gravity_gradient::first_order::corrections::Mean;
 use crate::gravity_gradient::first_order::mean_motion::{MeanMotion, first_order, weak_enough};
+use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::orbit::elliptic_orbit::{Demand, EllipticOrbit};
 use crate::gravity_gradient::request::Request;
 use crate::gravity_gradient::second_order::k2_remainder::Steady;
 use crate::gravity_gradient::second_order::mean_elements::SecondOrderData;
 use crate::input::options::Level;
+use crate::numerics::C64;
 use crate::torque_free::polhode::Polhode;
-
-type C64 = Complex<f64>;
 
 /// Largest precession of the angular momentum in one radian of the true anomaly, or of the fastest orbit if that is shorter \[rad\]. At this limit polynomials
 /// of degree 15 follow the frame to 1e-10 rad.

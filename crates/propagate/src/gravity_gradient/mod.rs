@@ -18,3 +18,4 @@ mod second_order;
 mod terms;
 #[cfg(test)]
 mod tests;
+mod tolerance;

@@ -1,23 +1,23 @@
 //! Tests of the corrections with the mean variables, which are not public: the mean M is nearly constant, and the brackets are preserved.
 
 use nalgebra::{UnitQuaternion, Vector3};
-use num_complex::Complex;
 
 use crate::gravity_gradient::body::inertia::Inertia;
-use crate::gravity_gradient::first_order::corrections::{Change, Corrections, Mean};
+use crate::gravity_gradient::first_order::corrections::Corrections;
+use crate::gravity_gradient::first_order::mean_variables::{Mean, PeriodicChange};
 use crate::gravity_gradient::level::chosen;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::orbit::span::{Reach, whole};
 use crate::gravity_gradient::request::Request;
+use crate::gravity_gradient::tolerance::Ledger;
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
+use crate::numerics::C64;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 use crate::torque_free::polhode::Polhode;
 use crate::{Body, State};
-
-type C64 = Complex<f64>;
 
 const REFERENCE: &str = include_str!("../../../../tests/data/gravity_gradient.json");
 
@@ -147,7 +147,7 @@ impl Stand {
     }
 
     /// The corrections, with exact divisors if there is a series.
-    fn change(&self, mean: &Mean, series: Option<&OrbitSeries>) -> Change {
+    fn change(&self, mean: &Mean, series: Option<&OrbitSeries>) -> PeriodicChange {
         let inertia = Inertia::new(&self.polhode, mean.p.norm_sqr(), mean.momentum);
         let demand = Demand {
             orbit: &self.orbit,
@@ -155,10 +155,8 @@ impl Stand {
             rates: [0.0; 2],
             axes: self.orbit.axes(),
             level: Level::Full,
-            tolerance: 1e-30,
             duration: 1e5,
-            share: 0.0,
-            refined: true,
+            ledger: Ledger { of_second_order: 0.0, ..Ledger::new(1e-30, true) },
             series,
             envelope: &whole(self.orbit.eccentricity(), MEAN_MOTION),
             pole: self.mean.frame * Vector3::z(),
@@ -169,7 +167,7 @@ impl Stand {
     /// Central difference of δp, δM, δy′ and δk along axes 1 and 2 when the mean state changes by ±h.
     fn slope(&self, series: Option<&OrbitSeries>, moved: impl Fn(&Mean, f64) -> Mean) -> [C64; 5] {
         const STEP: f64 = 1e-4;
-        let parts = |change: Change| {
+        let parts = |change: PeriodicChange| {
             let [about_first, about_second] = change.rotation;
             [change.p, change.momentum.into(), change.longitude.into(), about_second.into(), (-about_first).into()]
         };

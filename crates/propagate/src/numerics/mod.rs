@@ -5,3 +5,6 @@
 pub(crate) mod phase;
 pub(crate) mod scaling;
 pub(crate) mod theta;
+
+/// A complex number of doubles.
+pub(crate) type C64 = num_complex::Complex<f64>;

@@ -1,9 +1,7 @@
 //! Contractions of (a/r)³ r̂r̂ that the terms of each m have, and its parts on an ellipse.
 
+use crate::numerics::C64;
 use nalgebra::Vector3;
-use num_complex::Complex;
-
-type C64 = Complex<f64>;
 
 /// A symmetric tensor: components 11, 22, 33, 12, 13, 23.
 pub(crate) type Tensor = [f64; 6];

@@ -8,15 +8,13 @@
 //! is 1e-10.
 
 use crate::input::options::Level;
+use crate::numerics::C64;
 use crate::torque_free::closed_form::ClosedForm;
 use crate::torque_free::frequencies::Secular;
 use crate::torque_free::polhode::Polhode;
 use andoyer_double::DoubleDouble;
-use num_complex::Complex;
 use std::f64::consts::{PI, TAU};
 use std::sync::LazyLock;
-type C64 = Complex<f64>;
-
 /// Number of samples in a period of ℓ′.
 const SAMPLES: [usize; 2] = [64, 128];
 /// Highest harmonic. At σ/σ_sep = 0.9 the higher harmonics are 1e-14 of the tensor.

@@ -1,9 +1,11 @@
 //! The mean motion from which the corrections lead to a state: its mean variables, tables, and corrections.
 
-use super::corrections::{Change, Corrections, Mean, Terms};
+use super::corrections::Corrections;
+use super::mean_variables::{Mean, PeriodicChange};
 use crate::error::{Error, TorqueMeasure};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::orbit::elliptic_orbit::{Demand, EllipticOrbit};
+use crate::gravity_gradient::terms::regime::Terms;
 use crate::input::orbit::Orbit;
 use crate::torque_free::polhode::Polhode;
 
@@ -20,7 +22,7 @@ pub(crate) const STRONGEST: f64 = 0.02;
 #[derive(Clone)]
 pub(crate) struct MeanMotion {
     pub(crate) mean: Mean,
-    pub(crate) change: Change,
+    pub(crate) change: PeriodicChange,
     pub(crate) inertia: Inertia,
     /// Of each body.
     pub(crate) corrections: Vec<Corrections>,
@@ -30,7 +32,7 @@ pub(crate) struct MeanMotion {
 fn corrections_of(inertia: &Inertia, demands: &[Demand<'_>]) -> Result<Vec<Corrections>, Error> {
     let all: Vec<_> = demands.iter().map(|demand| Terms::new(inertia, demand)).collect();
     let whole = all.iter().map(|terms| terms.size).sum();
-    all.into_iter().zip(demands).map(|(terms, demand)| Corrections::of(terms, inertia, demand, whole)).collect()
+    all.iter().zip(demands).map(|(terms, demand)| Corrections::of(terms, inertia, demand, whole)).collect()
 }
 
 /// The mean variables whose corrections give a state, by fixed-point iteration.
@@ -40,7 +42,7 @@ pub(crate) fn first_order(
     orbits: &[EllipticOrbit<'_>],
     demands: &[Demand<'_>],
 ) -> Result<MeanMotion, Error> {
-    let (mut mean, mut change) = (*state, Change::default());
+    let (mut mean, mut change) = (*state, PeriodicChange::default());
     let (mut step, mut first) = (0, 0.0_f64);
     let mut inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
     // Each iteration multiplies the error by the size of the corrections, which is at most a twentieth (`LARGEST_SIZE`) for the terms that are not slow.

@@ -5,5 +5,6 @@ pub(crate) mod deviator;
 pub(crate) mod fourier;
 pub(crate) mod generator;
 pub(crate) mod mean_motion;
+pub(crate) mod mean_variables;
 pub(crate) mod sums;
 mod term_in_generator;

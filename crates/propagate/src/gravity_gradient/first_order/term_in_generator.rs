@@ -5,14 +5,17 @@ use super::sums::Harmonic;
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::terms::divisors::Divisors;
-use crate::gravity_gradient::terms::term::Candidate;
+use crate::gravity_gradient::terms::term::{SizedTerm, Term};
 
-impl Candidate {
+impl SizedTerm {
     /// The factors of G and of −Ω ∂G/∂Ω in W, M ∂W/∂M, ∂W/∂p̄ + ∂W/∂p and ∂W/∂p̄ − ∂W/∂p.
     fn factors(&self, inertia: &Inertia) -> [[f64; 4]; 2] {
-        let Self { harmonic, multiple, value, slope, frequency, .. } = *self;
-        let [anomaly, longitude] = inertia.rate_slopes;
-        let by_sigma = f64::from(harmonic) * anomaly + f64::from(multiple) * longitude;
+        let Self {
+            term: Term { harmonic, function: [value, slope, _], frequency: [_, by_sigma, _], .. },
+            frequency,
+            ..
+        } = *self;
+        let by_sigma = inertia.momentum * by_sigma;
         let (root, degree) = (inertia.sigma.sqrt(), harmonic.abs());
         let inverse = 1.0 / frequency;
         let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value };
@@ -28,12 +31,12 @@ impl Candidate {
     /// This term with divisors that are exact in the orbit's harmonics. What is smaller than `nothing` is left out.
     pub(crate) fn exact(&self, inertia: &Inertia, orbit: (&OrbitSeries, Divisors), nothing: f64) -> ExactTerm {
         let negligible = 0.1 * nothing / self.size();
-        ExactTerm::new((self.harmonic, self.multiple), self.factors(inertia), orbit, negligible)
+        ExactTerm::new((self.term.harmonic, self.term.multiple), self.factors(inertia), orbit, negligible)
     }
 
     /// Adds this term to the other terms of its |h|, with `orders` derivatives of g.
     pub(crate) fn join(&self, harmonics: &mut Vec<Harmonic>, inertia: &Inertia, orders: usize) {
-        let Self { harmonic, frequency, .. } = *self;
+        let Self { term: Term { harmonic, .. }, frequency, .. } = *self;
         let [still, moving] = self.factors(inertia);
         let factors: Vec<_> = (0..orders)
             .map(|j| {

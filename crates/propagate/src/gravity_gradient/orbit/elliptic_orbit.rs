@@ -7,15 +7,11 @@ use super::hansen::OrbitSeries;
 use super::span::{Envelope, Reach};
 use crate::error::Error;
 use crate::gravity_gradient::request::Request;
+use crate::gravity_gradient::tolerance::Ledger;
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
 use crate::numerics::scaling::scaled;
 use crate::simd::lanes::Lanes;
-
-/// [`Demand::share`] of a motion whose mean M and L lack the dropped terms. A few tens of terms may be dropped.
-const GROWING_SHARE: f64 = 1e-5;
-/// The same if they are those of all terms. With a third of it a sample at n/spin = 0.02 takes 7 % longer.
-const REFINED_SHARE: f64 = 3e-4;
 
 /// The orbit of one disturbing body from the epoch, in the units of the tables. The rotation does not enter it.
 pub(crate) struct EllipticOrbit<'a> {
@@ -61,10 +57,8 @@ impl<'a> EllipticOrbit<'a> {
             rates: self.rates,
             axes: self.orbit.axes_at(epoch),
             level: if level == Level::Auto { Level::Full } else { level },
-            tolerance,
             duration: scaled(request.duration(), exponent),
-            share: if request.is_refined() { REFINED_SHARE } else { GROWING_SHARE },
-            refined: request.is_refined(),
+            ledger: Ledger::new(tolerance, request.is_refined()),
             series: self.series.as_ref(),
             envelope: &self.envelope,
             pole,
@@ -83,14 +77,10 @@ pub(crate) struct Demand<'a> {
     /// The axes of the orbit at the epoch.
     pub(crate) axes: [Vector3<f64>; 3],
     pub(crate) level: Level,
-    /// Largest attitude error \[rad\].
-    pub(crate) tolerance: f64,
     /// Longest time from the epoch, in the units of the tables.
     pub(crate) duration: f64,
-    /// Terms smaller than this fraction of the second-order error are dropped.
-    pub(crate) share: f64,
-    /// Whether the mean M and L at the epoch are those of all terms, so that the effect of dropped terms grows in second order only.
-    pub(crate) refined: bool,
+    /// The parts of the tolerance.
+    pub(crate) ledger: Ledger,
     /// The orbit's harmonics, where divisors are to be exact in them.
     pub(crate) series: Option<&'a OrbitSeries>,
     /// The time derivatives of (a/r)³ r̂r̂, with their sizes at the epoch, within the span and at any time.

@@ -2,11 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use num_complex::Complex;
-
 use super::span::Reach;
-
-type C64 = Complex<f64>;
+use crate::numerics::C64;
 
 /// Harmonics below e^(−`LOG_CUTOFF`) of the largest are left out.
 const LOG_CUTOFF: f64 = 28.0;

@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 
 use super::k2_remainder::Steady;
 use crate::gravity_gradient::body::inertia::Inertia;
-use crate::gravity_gradient::terms::term::Mode;
+use crate::gravity_gradient::terms::term::Term;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 
@@ -82,9 +82,9 @@ impl Hamiltonian {
     }
 
     /// From the terms of the disturbing function.
-    pub(crate) fn new(inertia: &Inertia, modes: &[Mode], strength: f64) -> Self {
+    pub(crate) fn new(inertia: &Inertia, terms: &[Term], strength: f64) -> Self {
         let Inertia { sigma, momentum, .. } = *inertia;
-        let sums = [0, 1].map(|order| Sums::new(modes, sigma, order));
+        let sums = [0, 1].map(|order| Sums::new(terms, sigma, order));
         let mut second = [[0.0; 5]; 3];
         let [values, slopes] = [0, 1].map(|part| coefficients(&sums, part));
         for i in 0..5 {
@@ -187,13 +187,13 @@ struct Sums {
 }
 
 impl Sums {
-    fn new(modes: &[Mode], sigma: f64, order: i32) -> Self {
+    fn new(terms: &[Term], sigma: f64, order: i32) -> Self {
         let mut sums = Self { by_action: [[0.0; 2]; 3], by_turn: [[0.0; 2]; 3] };
-        for mode in modes {
-            let (h, m) = (f64::from(mode.harmonic), f64::from(mode.multiple));
-            let [value, slope, curvature] = product(mode.square(sigma), power(mode.frequency, -(order + 1)));
+        for term in terms {
+            let (h, m) = (f64::from(term.harmonic), f64::from(term.multiple));
+            let [value, slope, curvature] = product(term.square(sigma), power(term.frequency, -(order + 1)));
             let weight = m * f64::from(order + 1);
-            let index = mode.multiple as usize; // 0 ≤ m ≤ 2
+            let index = term.multiple as usize; // 0 ≤ m ≤ 2
             sums.by_action[index][0] += (h - m * sigma) * slope - weight * value;
             sums.by_action[index][1] += (h - m * sigma) * curvature - (m + weight) * slope;
             sums.by_turn[index][0] += value;

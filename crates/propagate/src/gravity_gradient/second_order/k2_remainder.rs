@@ -19,9 +19,9 @@ use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::terms::divisors::Divisors;
-use crate::gravity_gradient::terms::term::{Mode, ROOT_FLOOR};
+use crate::gravity_gradient::terms::term::{ROOT_FLOOR, Term};
 #[cfg(test)]
-use crate::gravity_gradient::terms::term::{modes, slowest};
+use crate::gravity_gradient::terms::term::{fast_terms, slowest};
 
 /// Terms and harmonics with a smaller share of what is left are not summed, unless divisors are exact.
 const STEADY_CUTOFF: f64 = 1e-6;
@@ -66,10 +66,10 @@ struct Shape {
 }
 
 impl Shape {
-    fn new(mode: &Mode, inertia: &Inertia) -> Self {
-        let (h, m) = (f64::from(mode.harmonic), f64::from(mode.multiple));
+    fn new(term: &Term, inertia: &Inertia) -> Self {
+        let (h, m) = (f64::from(term.harmonic), f64::from(term.multiple));
         let Inertia { sigma, momentum, .. } = *inertia;
-        Self { numbers: [h - m * sigma, m], square: mode.square(sigma), frequency: mode.frequency, momentum }
+        Self { numbers: [h - m * sigma, m], square: term.square(sigma), frequency: term.frequency, momentum }
     }
 
     /// The factors of α and of β, and their derivatives with respect to σ and M, for G and its derivatives with respect to Ω.
@@ -98,10 +98,10 @@ impl Steady {
         inertia: &Inertia,
         frame: &UnitQuaternion<f64>,
         demand: &Demand<'_>,
-        (exact, modes): (&[ExactTerm], &[Mode]),
+        (exact, terms): (&[ExactTerm], &[Term]),
     ) -> Self {
         let rates = demand.series.map(|series| {
-            let summed = summed(inertia, modes, exact);
+            let summed = summed(inertia, terms, exact);
             Rates::new(inertia, frame, (demand, series), (exact, &summed))
         });
         rates.map(|rates| rates.steady(frame, &demand.axes[2])).unwrap_or_default()
@@ -126,7 +126,7 @@ impl<'a> Rates<'a> {
         inertia: &'a Inertia,
         frame: &UnitQuaternion<f64>,
         (demand, series): (&Demand<'_>, &OrbitSeries),
-        (exact, summed): (&[ExactTerm], &[Mode]),
+        (exact, summed): (&[ExactTerm], &[Term]),
     ) -> Self {
         let [first, second, _] = demand.orbit.axes().map(|axis| frame.inverse() * axis);
         let tensors = factors([first, second]).map(|tensor| with_turns(&tensor));
@@ -155,14 +155,14 @@ impl<'a> Rates<'a> {
             let reach = if exact.is_empty() { highest } else { last };
             let table: Vec<(i32, Geometry)> = (-reach..=reach).map(|j| (j, geometry(multiple, j))).collect();
             for term in exact {
-                let shape = Shape::new(&Mode::new(inertia, term.numbers.0, multiple), inertia);
+                let shape = Shape::new(&Term::new(inertia, term.numbers.0, multiple), inertia);
                 for (j, geometry) in table.iter().filter(|(j, _)| term.divisors.excluded != Some(*j)) {
                     rates.add(&shape, geometry, of_divisors(&term.divisors, *j));
                 }
             }
-            for mode in summed.iter().filter(|mode| of_multiple((mode.harmonic, mode.multiple))) {
-                let shape = Shape::new(mode, inertia);
-                let omega = inertia.momentum * mode.frequency[0];
+            for term in summed.iter().filter(|term| of_multiple((term.harmonic, term.multiple))) {
+                let shape = Shape::new(term, inertia);
+                let omega = inertia.momentum * term.frequency[0];
                 for (j, geometry) in table.iter().filter(|(j, _)| *j != 0 && j.abs() <= highest) {
                     let step = f64::from(*j) * demand.mean_motion;
                     // A harmonic at resonance is so small that the term needs no exact divisors.
@@ -219,12 +219,12 @@ fn highest(series: &OrbitSeries) -> i32 {
 }
 
 /// The terms with sums over time derivatives that have a share of what K2 lacks.
-fn summed(inertia: &Inertia, modes: &[Mode], exact: &[ExactTerm]) -> Vec<Mode> {
+fn summed(inertia: &Inertia, terms: &[Term], exact: &[ExactTerm]) -> Vec<Term> {
     let root = inertia.sigma.sqrt().max(ROOT_FLOOR);
-    let weight = |mode: &Mode| mode.size(root).powi(2) / mode.frequency[0].abs();
-    let least = STEADY_CUTOFF * modes.iter().map(weight).sum::<f64>();
-    let is_exact = |mode: &Mode| exact.iter().any(|term| term.numbers == (mode.harmonic, mode.multiple));
-    modes.iter().filter(|mode| weight(mode) > least && !is_exact(mode)).copied().collect()
+    let weight = |term: &Term| term.size(root).powi(2) / term.frequency[0].abs();
+    let least = STEADY_CUTOFF * terms.iter().map(weight).sum::<f64>();
+    let is_exact = |term: &Term| exact.iter().any(|other| other.numbers == (term.harmonic, term.multiple));
+    terms.iter().filter(|term| weight(term) > least && !is_exact(term)).copied().collect()
 }
 
 /// G and its derivatives for a harmonic of a term whose divisors are exact.
@@ -254,7 +254,7 @@ pub(crate) fn lacking(
     demand: &Demand<'_>,
     series: &OrbitSeries,
 ) -> (f64, Steady) {
-    let summed = summed(inertia, &modes(inertia, 0.0, slowest(demand)), &[]);
+    let summed = summed(inertia, &fast_terms(inertia, 0.0, slowest(demand)), &[]);
     let rates = Rates::new(inertia, frame, (demand, series), (&[], &summed));
     (rates.value, rates.steady(frame, &demand.axes[2]))
 }

@@ -9,31 +9,28 @@ use super::pairs_around::{Around, Point};
 use crate::error::Error;
 use crate::gravity_gradient::body::contraction::{Tensor, contraction};
 use crate::gravity_gradient::body::inertia::Inertia;
-use crate::gravity_gradient::first_order::corrections::{Change, Corrections, Mean};
+use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::generator::{Factors, Generator};
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
+use crate::gravity_gradient::first_order::mean_variables::{Mean, PeriodicChange};
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
 use crate::gravity_gradient::orbit::elliptic_motion::When;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
-use crate::gravity_gradient::terms::term::{Mode, modes, slow_modes, slowest};
+use crate::gravity_gradient::terms::term::{Term, fast_terms, slow_terms, slowest};
 use crate::input::options::Level;
+use crate::numerics::C64;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 use crate::torque_free::polhode::Polhode;
 use num_complex::Complex;
-type C64 = Complex<f64>;
-
 /// Terms smaller than this share of the largest are left out of the sum over pairs.
 const PAIR_SUM_CUTOFF: f64 = 1e-6;
 /// Terms smaller than this share of the largest are left out of the changes of first order.
 const FIRST_ORDER_CUTOFF: f64 = 1e-13;
 /// Terms smaller than this share of the largest are left out of K2.
 const K2_CUTOFF: f64 = 1e-9;
-
-/// Pairs whose error turns the attitude by less than this share of the tolerance are not summed around the orbit. Their error is part of the bound.
-const PAIR_TOLERANCE_SHARE: f64 = 0.02;
 
 /// A mean state at the epoch.
 #[derive(Clone, Copy, Debug)]
@@ -72,20 +69,20 @@ impl SecondOrderData {
         let EpochMean { mean, momentum, left } = self.both[usize::from(level == Level::SecondOrder)];
         let inertia = first.inertia.moved(polhode, mean.p.norm_sqr(), mean.momentum);
         let corrections = vec![Corrections::new(&inertia, demand)?];
-        let change = Change { momentum, ..first.change };
+        let change = PeriodicChange { momentum, ..first.change };
         Ok((MeanMotion { mean, change, inertia, corrections }, self.steady, left))
     }
 }
 
 /// ⟨D⟩ + K2 at a mean motion.
 pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, steady: Steady) -> Hamiltonian {
-    let modes = modes(inertia, K2_CUTOFF, slowest(demand));
-    Hamiltonian::new(inertia, &modes, demand.strength()).with_steady(steady)
+    let terms = fast_terms(inertia, K2_CUTOFF, slowest(demand));
+    Hamiltonian::new(inertia, &terms, demand.strength()).with_steady(steady)
 }
 
 /// The mean states at the epoch with |p| and M from all terms of first order, and to second order, from the mean state of the corrections.
 pub(crate) fn epoch_means(
-    (mean, change, exact): (&Mean, &Change, &[ExactTerm]),
+    (mean, change, exact): (&Mean, &PeriodicChange, &[ExactTerm]),
     state: &Mean,
     inertia: &Inertia,
     place: &Place<pulp::Scalar>,
@@ -105,22 +102,22 @@ pub(crate) fn epoch_means(
         duration: demand.duration,
         closest: demand.envelope.span[0] / demand.envelope.epoch[0],
         bend: demand.envelope.epoch[2] / demand.envelope.epoch[0],
-        enough: PAIR_TOLERANCE_SHARE * demand.tolerance
+        enough: demand.ledger.pairs
             / (demand.duration * inertia.rates.iter().map(|rate| rate.to_f64().abs()).sum::<f64>()),
     };
     let points = |places: &[(f64, f64)]| points(mean, place, demand, places);
     let harmonics = Harmonics::new(mean, place, demand);
-    let mut terms = modes(inertia, FIRST_ORDER_CUTOFF, slowest);
+    let mut terms = fast_terms(inertia, FIRST_ORDER_CUTOFF, slowest);
     if harmonics.is_some() {
-        terms.extend(slow_modes(inertia, slowest));
+        terms.extend(slow_terms(inertia, slowest));
     }
     let first = first_actions(&stand, &terms, harmonics.as_ref().map(|harmonics| (harmonics, exact)));
-    let modes = modes(inertia, PAIR_SUM_CUTOFF, slowest);
-    let steady = Steady::new(inertia, &mean.frame, demand, (exact, &modes));
+    let terms = fast_terms(inertia, PAIR_SUM_CUTOFF, slowest);
+    let steady = Steady::new(inertia, &mean.frame, demand, (exact, &terms));
     let exact = harmonics.as_ref().map(|harmonics| split(inertia, exact, harmonics)).unwrap_or_default();
     let around = Around { eccentricity: demand.orbit.eccentricity(), mean_motion: demand.mean_motion, points: &points };
     let exact = OrbitParts { around: harmonics.is_some().then_some(around), ..exact };
-    let second = second_actions(&stand, &modes, &exact);
+    let second = second_actions(&stand, &terms, &exact);
     let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
     let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };
     // What the corrections of the motion, which drop terms and end their sums early, lack of M and L.
@@ -161,10 +158,9 @@ pub(crate) fn points(
 
 /// The terms with exact divisors, split into harmonics.
 fn split<'a>(inertia: &Inertia, exact: &[ExactTerm], harmonics: &Harmonics) -> OrbitParts<'a> {
-    let split = |term: &ExactTerm| {
-        let (harmonic, multiple) = term.numbers;
-        let mode = Mode::new(inertia, harmonic, multiple);
-        (mode, harmonics.split(multiple, &term.divisors))
+    let split = |exact: &ExactTerm| {
+        let (harmonic, multiple) = exact.numbers;
+        (Term::new(inertia, harmonic, multiple), harmonics.split(multiple, &exact.divisors))
     };
     OrbitParts { terms: exact.iter().map(split).collect(), average: harmonics.average(), around: None }
 }
@@ -205,25 +201,25 @@ pub(crate) struct FirstActions {
 
 pub(crate) fn first_actions(
     stand: &Stand<'_>,
-    modes: &[Mode],
+    terms: &[Term],
     harmonics: Option<(&Harmonics, &[ExactTerm])>,
 ) -> FirstActions {
     let mut actions = FirstActions::default();
     let angle = if stand.mean.p == C64::default() { 0.0 } else { stand.mean.p.arg() };
     let root = stand.inertia.sigma.sqrt();
-    for mode in modes {
-        let (h, m) = (f64::from(mode.harmonic), f64::from(mode.multiple));
-        let omega = stand.mean.momentum * mode.frequency[0];
-        let amplitude = 2.0 * stand.strength * mode.function[0] * root.powi(mode.harmonic.abs());
+    for term in terms {
+        let (h, m) = (f64::from(term.harmonic), f64::from(term.multiple));
+        let omega = stand.mean.momentum * term.frequency[0];
+        let amplitude = 2.0 * stand.strength * term.weighted()[0] * root.powi(term.harmonic.abs());
         let (sum, rest) = match harmonics {
             Some((harmonics, exact)) => {
-                let term = exact.iter().find(|term| term.numbers == (mode.harmonic, mode.multiple));
-                (harmonics.solution(omega, mode.multiple, term), 0.0)
+                let exact = exact.iter().find(|other| other.numbers == (term.harmonic, term.multiple));
+                (harmonics.solution(omega, term.multiple, exact), 0.0)
             }
-            None => solution_by_sums(stand, omega, mode.multiple),
+            None => solution_by_sums(stand, omega, term.multiple),
         };
         let phase = C64::from_polar(amplitude, h * angle + m * stand.mean.longitude);
-        let phase = if mode.multiple == 1 { phase * -C64::i() } else { phase };
+        let phase = if term.multiple == 1 { phase * -C64::i() } else { phase };
         // δM is m times the real part of −i W, and δL is h times.
         let turned = (phase * sum * -C64::i()).re;
         actions.momentum += m * turned;

@@ -6,17 +6,14 @@
 //! over (−T, T), the error of the attitude was four times as large in scenes without a resonance, because the corrections take the regular harmonics as a
 //! whole.
 
-use num_complex::Complex;
-
 use crate::gravity_gradient::body::contraction::{Contraction, coefficients, contraction, factors};
-use crate::gravity_gradient::first_order::corrections::Mean;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
+use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 use crate::gravity_gradient::terms::divisors::{Divisors, returns};
 use crate::gravity_gradient::terms::term::slowest;
+use crate::numerics::C64;
 use crate::simd::kepler::Place;
-
-type C64 = Complex<f64>;
 
 /// A harmonic with |Ω + jn| above this times |Ω| is contained in the sums over time derivatives, so its divisor has no factor 1 − e^(−x²T²/4).
 const SUMMED_ABOVE: f64 = 0.5;
@@ -236,6 +233,7 @@ mod tests {
     use crate::gravity_gradient::orbit::span::{Reach, whole};
     use crate::gravity_gradient::second_order::mean_elements::tensors;
     use crate::gravity_gradient::terms::divisors::Secular;
+    use crate::gravity_gradient::tolerance::Ledger;
     use crate::input::options::Level;
     use crate::input::orbit::Orbit;
     use crate::simd::lanes::Lanes;
@@ -256,10 +254,8 @@ mod tests {
             rates: [0.0; 2],
             axes: orbit.axes(),
             level: Level::Full,
-            tolerance: 1e-30,
             duration,
-            share: 0.0,
-            refined: true,
+            ledger: Ledger { of_second_order: 0.0, ..Ledger::new(1e-30, true) },
             series: Some(&series),
             envelope: &envelope,
             pole: frame * Vector3::z(),

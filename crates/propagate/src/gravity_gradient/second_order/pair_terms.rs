@@ -1,15 +1,12 @@
 //! The terms of the sum over pairs at one state: their amplitudes, those of the generating function, and the bracket of two.
 
-use num_complex::Complex;
-
 use super::pair_harmonics::{Near, Part, Parts};
 use crate::gravity_gradient::body::contraction::{Contraction, Tensor, contraction};
 use crate::gravity_gradient::body::inertia::Inertia;
-use crate::gravity_gradient::first_order::corrections::Mean;
+use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
-use crate::gravity_gradient::terms::term::{Mode, ROOT_FLOOR};
-
-type C64 = Complex<f64>;
+use crate::gravity_gradient::terms::term::{ROOT_FLOOR, Term};
+use crate::numerics::C64;
 
 /// Relative truncation error of the sum over time derivatives when a term is evaluated at the points around the orbit.
 const SUM_ACCURACY: f64 = 1e-4;
@@ -88,14 +85,14 @@ impl Stand<'_> {
 
 impl Row {
     /// A term by the sums over time derivatives.
-    pub(crate) fn new(stand: &Stand<'_>, mode: &Mode) -> Self {
-        let contracted = stand.tensors.map(|tensor| contraction(&tensor, mode.multiple));
-        let omega = stand.mean.momentum * mode.frequency[0];
+    pub(crate) fn new(stand: &Stand<'_>, term: &Term) -> Self {
+        let contracted = stand.tensors.map(|tensor| contraction(&tensor, term.multiple));
+        let omega = stand.mean.momentum * term.frequency[0];
         let parts = Parts {
             torque: [0, 1].map(|j| Part { value: contracted[j], slope: C64::default() }),
             generator: generating(&contracted, omega, stand.sizes),
         };
-        Self::of(stand, mode, parts)
+        Self::of(stand, term, parts)
     }
 
     /// The number of derivatives for a sum around the orbit.
@@ -134,29 +131,29 @@ impl Row {
     }
 
     /// One harmonic of the orbit in a term.
-    pub(crate) fn single(stand: &Stand<'_>, mode: &Mode, near: &Near) -> Self {
-        let row = Self::of(stand, mode, near.parts());
+    pub(crate) fn single(stand: &Stand<'_>, term: &Term, near: &Near) -> Self {
+        let row = Self::of(stand, term, near.parts());
         let share = near.torque.iter().map(|part| part.norm_sqr()).fold(0.0, f64::max).sqrt() / stand.norms[0];
         let root = stand.inertia.sigma.sqrt().max(ROOT_FLOOR);
-        let size = share * mode.strength(root) * stand.mean.momentum / near.divisor.abs();
+        let size = share * term.strength(root) * stand.mean.momentum / near.divisor.abs();
         let [_, by_sigma, by_momentum] = row.frequency;
         Self { size, frequency: [near.divisor, by_sigma, by_momentum], single: true, shifted: near.shifted, ..row }
     }
 
     /// A term with these amplitudes of D and W.
-    pub(crate) fn of(stand: &Stand<'_>, mode: &Mode, parts: Parts) -> Self {
-        let (h, m) = (f64::from(mode.harmonic), f64::from(mode.multiple));
+    pub(crate) fn of(stand: &Stand<'_>, term: &Term, parts: Parts) -> Self {
+        let (h, m) = (f64::from(term.harmonic), f64::from(term.multiple));
         let Stand { mean, strength, .. } = stand;
-        let [nu, slope, _] = mode.frequency;
+        let [nu, slope, _] = term.frequency;
         let angle = if mean.p == C64::default() { 0.0 } else { mean.p.arg() };
         let phase = C64::from_polar(*strength, h * angle + m * mean.longitude);
         Self {
             harmonic: h,
             multiple: m,
-            size: mode.size(stand.inertia.sigma.sqrt().max(ROOT_FLOOR)),
+            size: term.size(stand.inertia.sigma.sqrt().max(ROOT_FLOOR)),
             frequency: [mean.momentum * nu, mean.momentum * slope, nu],
-            weight: if mode.multiple == 1 { phase * -C64::i() } else { phase },
-            amplitude: amplitude(mode.harmonic, mode.function, stand.inertia.sigma),
+            weight: if term.multiple == 1 { phase * -C64::i() } else { phase },
+            amplitude: amplitude(term.harmonic, term.weighted(), stand.inertia.sigma),
             parts,
             single: false,
             shifted: false,
@@ -172,7 +169,7 @@ impl Row {
 
     /// 2⟨D⟩. The source of a pair with ⟨D⟩ is [⟨D⟩, W_b], without the factor ½ of S_ab = ½ [D_a, W_b].
     pub(crate) fn average(stand: &Stand<'_>) -> Self {
-        let function = Mode::average(stand.inertia).function;
+        let function = Term::average(stand.inertia);
         let part = |tensor: &Tensor| Part { value: contraction(tensor, 0), slope: C64::default() };
         Self {
             harmonic: 0.0,

@@ -17,12 +17,10 @@ use super::pair_harmonics::{Near, Split, inverse, unreturned};
 use super::pair_terms::{Row, Stand};
 use super::pairs_around;
 use super::pairs_around::{Around, PAIR_PRODUCT_CUTOFF, Total};
-use crate::gravity_gradient::terms::term::Mode;
-use num_complex::Complex;
+use crate::gravity_gradient::terms::term::Term;
+use crate::numerics::C64;
 use std::f64::consts::SQRT_2;
 use std::mem::take;
-type C64 = Complex<f64>;
-
 /// Pairs of ordinary terms, joined by their totals, and those with a single harmonic of the orbit.
 type Lists = [Vec<Together>; 2];
 
@@ -43,7 +41,7 @@ pub(crate) struct Actions {
 #[derive(Default)]
 pub(crate) struct OrbitParts<'a> {
     /// The terms whose divisors are exact.
-    pub(crate) terms: Vec<(Mode, Split)>,
+    pub(crate) terms: Vec<(Term, Split)>,
     /// ⟨D⟩'s harmonics.
     pub(crate) average: Vec<Near>,
     /// The orbit, where its harmonics are known.
@@ -51,20 +49,20 @@ pub(crate) struct OrbitParts<'a> {
 }
 
 /// δ₂M and δ₂L at a mean state of first order.
-pub(crate) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &OrbitParts<'_>) -> Actions {
-    let is_exact = |mode: &Mode| exact.terms.iter().any(|(other, _)| mode.is(other));
-    let mut listed: Vec<Mode> = modes.iter().filter(|mode| !is_exact(mode)).copied().collect();
-    let mut half: Vec<Row> = listed.iter().map(|mode| Row::new(stand, mode)).collect();
-    for (mode, split) in &exact.terms {
-        if stand.mean.momentum * mode.frequency[0].abs() > stand.slowest {
-            listed.push(*mode);
-            half.push(Row::of(stand, mode, split.rest));
+pub(crate) fn second_actions(stand: &Stand<'_>, terms: &[Term], exact: &OrbitParts<'_>) -> Actions {
+    let is_exact = |term: &Term| exact.terms.iter().any(|(other, _)| term.is(other));
+    let mut listed: Vec<Term> = terms.iter().filter(|term| !is_exact(term)).copied().collect();
+    let mut half: Vec<Row> = listed.iter().map(|term| Row::new(stand, term)).collect();
+    for (term, split) in &exact.terms {
+        if stand.mean.momentum * term.frequency[0].abs() > stand.slowest {
+            listed.push(*term);
+            half.push(Row::of(stand, term, split.rest));
         }
     }
     let single: Vec<Row> = exact
         .terms
         .iter()
-        .flat_map(|(mode, split)| split.near.iter().map(|near| Row::single(stand, mode, near)))
+        .flat_map(|(term, split)| split.near.iter().map(|near| Row::single(stand, term, near)))
         .collect();
     let largest_of = |rows: &[Row]| rows.iter().fold(0.0_f64, |most, row| most.max(row.size));
     let largest = if half.is_empty() { largest_of(&single) } else { largest_of(&half) };
@@ -111,8 +109,8 @@ pub(crate) fn second_actions(stand: &Stand<'_>, modes: &[Mode], exact: &OrbitPar
 
 /// ½ ⟨{D̃, W}⟩ from the pairs whose phases cancel, with as many time derivatives as the sums have.
 #[cfg(test)]
-pub(crate) fn averaged(stand: &Stand<'_>, modes: &[Mode]) -> f64 {
-    let rows = modes.iter().map(|mode| Row::new(stand, mode));
+pub(crate) fn averaged(stand: &Stand<'_>, terms: &[Term]) -> f64 {
+    let rows = terms.iter().map(|term| Row::new(stand, term));
     rows.map(|a| stand.bracket(&a, &a.parts.torque[0], &a.conjugate(), &a.conjugate().parts.generator[0]).re).sum()
 }
 
@@ -151,9 +149,9 @@ impl Actions {
     fn around(
         &mut self,
         stand: &Stand<'_>,
-        listed: &[(Mode, f64)],
+        listed: &[(Term, f64)],
         together: Vec<Together>,
-        (around, exact): (&Around<'_>, &[(Mode, Split)]),
+        (around, exact): (&Around<'_>, &[(Term, Split)]),
     ) -> Vec<Together> {
         let (served, others): (Vec<_>, Vec<_>) = together.into_iter().partition(|all| all.needs(stand, around));
         if !served.is_empty() {

@@ -5,16 +5,13 @@
 
 use std::f64::consts::{PI, TAU};
 
-use num_complex::Complex;
-
 use super::pair_harmonics::{Near, Parts, Split, inverse, unreturned};
 use super::pair_terms::{Row, Stand};
 use crate::gravity_gradient::body::contraction::{Tensor, contraction};
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
 use crate::gravity_gradient::orbit::hansen::{at_most, decay};
-use crate::gravity_gradient::terms::term::Mode;
-
-type C64 = Complex<f64>;
+use crate::gravity_gradient::terms::term::Term;
+use crate::numerics::C64;
 
 /// Most points around an orbit; more are needed from an eccentricity of 0.77 on, and for a harmonic above 60.
 const MOST_POINTS: f64 = 128.0;
@@ -81,8 +78,8 @@ fn even(eccentricity: f64, count: f64) -> Vec<(f64, f64)> {
     (0..count as usize).map(point).collect()
 }
 
-/// A term of these pairs.
-struct Term<'a> {
+/// A term of these pairs, around the orbit.
+struct TermAround<'a> {
     row: Row,
     /// m.
     multiple: usize,
@@ -106,26 +103,26 @@ struct Pair {
 /// The changes of M and L by the pairs of these terms that have one of these totals, and their errors. A term comes with its relative size.
 pub(crate) fn actions(
     stand: &Stand<'_>,
-    listed: &[(Mode, f64)],
+    listed: &[(Term, f64)],
     totals: &[Total],
-    (around, exact): (&Around<'_>, &[(Mode, Split)]),
+    (around, exact): (&Around<'_>, &[(Term, Split)]),
 ) -> [[f64; 2]; 2] {
     let pairs = pairs(listed, totals);
     let highest = totals.iter().filter_map(|total| around.highest(total)).fold(0.0, f64::max);
     let points = (around.points)(&even(around.eccentricity, points_for(highest)));
     let needed = |k: usize| pairs.iter().any(|pair| pair.terms.contains(&Some(k)));
-    let near = |mode: &Mode| exact.iter().find(|(other, _)| mode.is(other)).map_or(&[][..], |(_, split)| &split.near);
-    let term = |mode: &Mode| {
-        let row = Row::of(stand, mode, Parts::default());
-        Term { row, multiple: mode.multiple as usize, orders: row.orders_around(stand), near: near(mode) } // 0 ≤ m ≤ 2
+    let near = |term: &Term| exact.iter().find(|(other, _)| term.is(other)).map_or(&[][..], |(_, split)| &split.near);
+    let around_orbit = |term: &Term| {
+        let row = Row::of(stand, term, Parts::default());
+        TermAround { row, multiple: term.multiple as usize, orders: row.orders_around(stand), near: near(term) } // 0 ≤ m ≤ 2
     };
-    let terms: Vec<_> = listed.iter().enumerate().map(|(k, (mode, _))| needed(k).then(|| term(mode))).collect();
+    let terms: Vec<_> = listed.iter().enumerate().map(|(k, (term, _))| needed(k).then(|| around_orbit(term))).collect();
     let mut sources = vec![vec![C64::default(); points.len()]; totals.len()];
     for (k, point) in points.iter().enumerate() {
         let stand = Stand { tensors: &point.tensors, ..*stand };
         let elapsed = point.anomaly / around.mean_motion;
         let contracted = [0, 1, 2].map(|multiple| point.tensors.map(|tensor| contraction(&tensor, multiple)));
-        let here = |Term { row, multiple, orders, near }: &Term<'_>| {
+        let here = |TermAround { row, multiple, orders, near }: &TermAround<'_>| {
             row.elsewhere(&contracted[*multiple][..*orders], near, elapsed)
         };
         let rows: Vec<Option<[Row; 2]>> =
@@ -167,7 +164,7 @@ pub(crate) fn actions(
 }
 
 /// The pairs of these terms that have one of these totals, or its opposite.
-fn pairs(listed: &[(Mode, f64)], totals: &[Total]) -> Vec<Pair> {
+fn pairs(listed: &[(Term, f64)], totals: &[Total]) -> Vec<Pair> {
     let mut pairs = Vec::new();
     for (i, (a, size)) in listed.iter().enumerate() {
         for (k, (b, other)) in listed.iter().enumerate() {

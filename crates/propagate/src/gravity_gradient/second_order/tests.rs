@@ -1,12 +1,12 @@
 //! K2 in closed form against a numerical average over both angles, its derivatives against differences, and the brackets of the sum over pairs against it.
 
 use nalgebra::{UnitQuaternion, Vector3};
-use num_complex::Complex;
 
 use crate::gravity_gradient::body::contraction::Tensor;
 use crate::gravity_gradient::body::inertia::{HIGHEST, Inertia};
 use crate::gravity_gradient::body::osculating::osculating;
-use crate::gravity_gradient::first_order::corrections::{Change, Corrections, Mean};
+use crate::gravity_gradient::first_order::corrections::Corrections;
+use crate::gravity_gradient::first_order::mean_variables::{Mean, PeriodicChange};
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 use crate::gravity_gradient::orbit::span::{Envelope, whole};
@@ -16,17 +16,17 @@ use crate::gravity_gradient::second_order::mean_elements::{points, tensors};
 use crate::gravity_gradient::second_order::pair_terms::Stand;
 use crate::gravity_gradient::second_order::pairs::{OrbitParts, averaged, second_actions};
 use crate::gravity_gradient::second_order::pairs_around::Around;
-use crate::gravity_gradient::terms::term::{modes, slowest};
+use crate::gravity_gradient::terms::term::{fast_terms, slowest};
+use crate::gravity_gradient::tolerance::Ledger;
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
+use crate::numerics::C64;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 use crate::torque_free::polhode::Polhode;
 use crate::{Body, State};
 
 mod averages;
-
-type C64 = Complex<f64>;
 
 /// Of the disturbing body: what the closed form lacks is (n/Ω)² of it.
 const MEAN_MOTION: f64 = 1e-4;
@@ -73,10 +73,8 @@ impl Scene {
             rates: [0.0; 2],
             axes: self.orbit.axes(),
             level: Level::Full,
-            tolerance: 1e-30,
             duration: 0.0,
-            share: 0.0,
-            refined: true,
+            ledger: Ledger { of_second_order: 0.0, ..Ledger::new(1e-30, true) },
             series: None,
             envelope: &self.envelope,
             pole: self.mean.frame * Vector3::z(),
@@ -121,7 +119,7 @@ impl Scene {
     }
 
     fn closed(&self, inertia: &Inertia, strength: f64) -> Hamiltonian {
-        Hamiltonian::new(inertia, &modes(inertia, 0.0, slowest(&self.demand())), strength)
+        Hamiltonian::new(inertia, &fast_terms(inertia, 0.0, slowest(&self.demand())), strength)
     }
 }
 
@@ -168,7 +166,8 @@ fn the_closed_form_is_the_average_of_the_bracket_over_both_angles() {
                 let longitude = std::f64::consts::TAU * f64::from(l) / f64::from(count.1);
                 let p = C64::from_polar(inertia.sigma.sqrt(), anomaly);
                 let mean = Mean { p, longitude, ..scene.mean };
-                let Change { p: by_p, longitude: by_longitude, rotation, .. } = corrections.at(&mean, &scene.place);
+                let PeriodicChange { p: by_p, longitude: by_longitude, rotation, .. } =
+                    corrections.at(&mean, &scene.place);
                 let value = |step: f64| {
                     periodic(&inertia, p + by_p * step, longitude + by_longitude * step, &turned(rotation, step))
                 };
@@ -189,7 +188,7 @@ fn the_pairs_that_cancel_add_up_to_the_closed_form() {
         let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
         let (tensors, norms) = tensors(&scene.mean, &scene.place, &scene.demand());
         let stand = scene.stand(&inertia, &tensors, norms, 0.0);
-        let pairs = averaged(&stand, &modes(&inertia, 0.0, slowest(&scene.demand())));
+        let pairs = averaged(&stand, &fast_terms(&inertia, 0.0, slowest(&scene.demand())));
         let axis = scene.mean.frame * Vector3::z();
         let [_, closed] = scene.closed(&inertia, Q).values(&axis, &scene.disturber());
         assert!((pairs / closed - 1.0).abs() <= 1e-6, "{pairs:e} {closed:e} {:e}", pairs / closed - 1.0);
@@ -273,13 +272,13 @@ fn pairs_by_the_harmonics_of_the_orbit_are_those_by_time_derivatives() {
     let demand = Demand { mean_motion, ..scene.demand() };
     let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
     let (tensors, norms) = tensors(&scene.mean, &scene.place, &demand);
-    let modes = modes(&inertia, 1e-4, slowest(&demand));
+    let terms = fast_terms(&inertia, 1e-4, slowest(&demand));
     let stand = scene.stand(&inertia, &tensors, norms, slowest(&demand));
     let stand = Stand { duration: 1e6, orbital_step: mean_motion, ..stand };
     let points = |places: &[(f64, f64)]| points(&scene.mean, &scene.place, &demand, places);
     let around = Around { eccentricity, mean_motion, points: &points };
-    let by_sums = second_actions(&stand, &modes, &OrbitParts::default());
-    let by_orbit = second_actions(&stand, &modes, &OrbitParts { around: Some(around), ..OrbitParts::default() });
+    let by_sums = second_actions(&stand, &terms, &OrbitParts::default());
+    let by_orbit = second_actions(&stand, &terms, &OrbitParts { around: Some(around), ..OrbitParts::default() });
     // The sums end after two derivatives: the next has a few times (2n/Ω)², where Ω is 30 n and more.
     let scale = by_sums.momentum.abs() + by_sums.action.abs();
     for (one, other) in [(by_sums.momentum, by_orbit.momentum), (by_sums.action, by_orbit.action)] {

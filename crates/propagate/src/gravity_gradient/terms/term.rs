@@ -1,66 +1,33 @@
-//! A term of the generating function that may be kept or dropped.
+//! A term of the disturbing function: its coefficient and its frequency, and the change of the motion by it.
 
+use super::sensitivity::Response;
 use crate::gravity_gradient::body::inertia::{HIGHEST, Inertia};
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 
-/// Smallest |Ω| over the largest rate of twice the true anomaly for which the sum for G is used. Below this ratio the sum does not converge. Above it the
-/// truncation error of the sum is part of the error bound.
+/// Smallest |Ω| over the largest rate of twice the true anomaly for which the sum over time derivatives is used. Below this ratio the sum does not converge.
+/// Above it the truncation error of the sum is part of the error estimate.
 pub(crate) const SLOW_RATIO: f64 = 1.5;
-
-/// The term (h, m), which may be kept or dropped.
-pub(crate) struct Candidate {
-    pub(crate) harmonic: i32,
-    pub(crate) multiple: i32,
-    /// The real f_h and df_h/dσ; for m = 1 those of i t1.
-    pub(crate) value: f64,
-    pub(crate) slope: f64,
-    pub(crate) frequency: f64,
-    /// Rate of change of the attitude by the term [rad per unit of time].
-    pub(crate) rate: f64,
-    /// Rate of change of M or L by the term, over M and over m or h.
-    pub(crate) action: f64,
-    /// The part of the change that comes from the slope of Ω, times Ω.
-    pub(crate) shift: f64,
-}
-
-impl Candidate {
-    /// Largest change of the attitude by the term \[rad\].
-    pub(crate) fn size(&self) -> f64 {
-        self.size_at(self.frequency.abs())
-    }
-
-    /// The same with another divisor.
-    pub(crate) fn size_at(&self, divisor: f64) -> f64 {
-        (self.rate + self.shift / divisor) / divisor
-    }
-
-    /// With another divisor, the change of M or L over M, and that of y′ by the slope of Ω with respect to M, which is not in the size.
-    pub(crate) fn swing_at(&self, divisor: f64) -> [f64; 2] {
-        let swing = self.action / divisor;
-        [swing, swing * self.frequency.abs() / divisor]
-    }
-}
-
 /// Lower limit of √σ in the size of a term. The wobble that the torque forces is larger.
 pub(crate) const ROOT_FLOOR: f64 = 1e-9;
+/// Largest size of the contraction of r̂r̂ for each m.
+const CONTRACTED: [f64; 3] = [2.0 / 3.0, 0.5, 1.0];
 
-/// A term f σ^(|h|/2) e^(i(hℓ′+my′)) of the disturbing function over q = 3φn²/2.
+/// f σ^(|h|/2) e^(i(hℓ′+my′)) times the contraction c_m of (a/r)³ r̂r̂: a term of the disturbing function over q = 3φn²/2.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Mode {
+pub(crate) struct Term {
     /// h.
     pub(crate) harmonic: i32,
     /// m, 0 to 2.
     pub(crate) multiple: i32,
-    /// f, df/dσ and d²f/dσ²; for m = 1 without the factor −i.
+    /// The real f, df/dσ and d²f/dσ², without the factors 3/2 for m = 0 and −i for m = 1.
     pub(crate) function: [f64; 3],
-    /// ν = Ω/M and its first two derivatives with respect to σ.
+    /// ν = Ω/M with Ω = h dℓ′/dt + m dy′/dt, and its first two derivatives with respect to σ.
     pub(crate) frequency: [f64; 3],
 }
 
-impl Mode {
+impl Term {
     pub(crate) fn new(inertia: &Inertia, harmonic: i32, multiple: i32) -> Self {
-        let factor = if multiple == 0 { 1.5 } else { 1.0 };
-        let function = inertia.tensor[multiple as usize].jet(harmonic).map(|part| factor * part); // 0 ≤ m ≤ 2
+        let function = inertia.tensor[multiple as usize].jet(harmonic); // 0 ≤ m ≤ 2
         let rates = [inertia.rates.map(|rate| rate.to_f64()), inertia.rate_slopes, inertia.rate_curvatures];
         let combined = |[anomaly, longitude]: [f64; 2]| {
             (f64::from(harmonic) * anomaly + f64::from(multiple) * longitude) / inertia.momentum
@@ -68,21 +35,37 @@ impl Mode {
         Self { harmonic, multiple, function, frequency: rates.map(combined) }
     }
 
+    /// The terms with m > 0, and those with m = 0 and h > 0.
+    pub(crate) fn all(inertia: &Inertia) -> impl Iterator<Item = Self> {
+        let highest = HIGHEST as i32;
+        (0..=2_i32).flat_map(move |multiple| {
+            let lowest = if multiple == 0 { 1 } else { -highest };
+            // ℓ′ → ℓ′ + π turns the body by half a turn about axis 3, so h and m are both even or both odd.
+            let harmonics = (lowest..=highest).filter(move |h| (h + multiple) % 2 == 0);
+            harmonics.map(move |harmonic| Self::new(inertia, harmonic, multiple))
+        })
+    }
+
     /// Whether both are the same term.
     pub(crate) fn is(&self, other: &Self) -> bool {
         (self.harmonic, self.multiple) == (other.harmonic, other.multiple)
     }
 
-    /// ⟨D⟩.
-    pub(crate) fn average(inertia: &Inertia) -> Self {
-        let mut average = Self::new(inertia, 0, 0);
-        average.function[0] -= 0.5 * inertia.trace;
-        average
+    /// f and its derivatives with the factor 3/2 for m = 0.
+    pub(crate) fn weighted(&self) -> [f64; 3] {
+        let factor = if self.multiple == 0 { 1.5 } else { 1.0 };
+        self.function.map(|part| factor * part)
+    }
+
+    /// ⟨D⟩ and its derivatives by σ, weighted.
+    pub(crate) fn average(inertia: &Inertia) -> [f64; 3] {
+        let [value, slope, curvature] = Self::new(inertia, 0, 0).weighted();
+        [value - 0.5 * inertia.trace, slope, curvature]
     }
 
     /// f² σ^|h| and its first two derivatives: regular at σ = 0.
     pub(crate) fn square(&self, sigma: f64) -> [f64; 3] {
-        let [f, slope, curvature] = self.function;
+        let [f, slope, curvature] = self.weighted();
         let degree = self.harmonic.abs();
         let d = f64::from(degree);
         let falling = |lower: i32| if degree >= lower { sigma.powi(degree - lower) } else { 0.0 };
@@ -102,8 +85,61 @@ impl Mode {
     /// The same times ν.
     pub(crate) fn strength(&self, root: f64) -> f64 {
         let degree = self.harmonic.abs();
-        let [value, slope, _] = self.function.map(f64::abs);
+        let [value, slope, _] = self.weighted().map(f64::abs);
         (value + root * root * slope) * root.powi((degree - 1).max(0)) * f64::from(degree + 1)
+    }
+}
+
+/// A term with the change of the attitude by it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SizedTerm {
+    pub(crate) term: Term,
+    /// Ω.
+    pub(crate) frequency: f64,
+    /// Rate of change of the attitude by the term [rad per unit of time].
+    pub(crate) rate: f64,
+    /// Rate of change of M or L by the term, over M and over m or h.
+    pub(crate) action: f64,
+    /// The part of the change that comes from the slope of Ω, times Ω.
+    pub(crate) shift: f64,
+}
+
+impl SizedTerm {
+    /// The sizes of a term whose f and df/dσ are `function`, or `None` if it is 0. `scale` is four times the strength of the torque at the pericentre over M.
+    pub(crate) fn new(
+        term: Term,
+        function: (f64, f64),
+        inertia: &Inertia,
+        (response, scale): (&Response, f64),
+    ) -> Option<Self> {
+        let term = Term { function: [function.0, function.1, term.function[2]], ..term };
+        let [value, slope, _] = term.function.map(f64::abs);
+        let root = inertia.sigma.sqrt();
+        let degree = term.harmonic.abs();
+        let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value };
+        let further = root.powi(degree + 1);
+        let by_p = 0.5 * response.gain * (falling + 2.0 * further * slope);
+        let rate = scale * (root.powi(degree) * value + by_p);
+        let [frequency, by_sigma, _] = term.frequency.map(|part| inertia.momentum * part);
+        let shift = scale * 0.5 * response.gain * further * value * by_sigma.abs();
+        let action = 0.5 * scale * CONTRACTED[term.multiple as usize] * root.powi(degree) * value; // 0 ≤ m ≤ 2
+        (rate > 0.0).then_some(Self { term, frequency, rate, action, shift })
+    }
+
+    /// Largest change of the attitude by the term \[rad\].
+    pub(crate) fn size(&self) -> f64 {
+        self.size_at(self.frequency.abs())
+    }
+
+    /// Largest change of the attitude by the term with another divisor \[rad\].
+    pub(crate) fn size_at(&self, divisor: f64) -> f64 {
+        (self.rate + self.shift / divisor) / divisor
+    }
+
+    /// The relative change of M (or L) and the change of y′ through ∂Ω/∂M for a given divisor. [`SizedTerm::size`] contains neither.
+    pub(crate) fn swing_at(&self, divisor: f64) -> [f64; 2] {
+        let swing = self.action / divisor;
+        [swing, swing * self.frequency.abs() / divisor]
     }
 }
 
@@ -112,30 +148,17 @@ pub(crate) fn slowest(demand: &Demand<'_>) -> f64 {
     SLOW_RATIO * demand.envelope.fastest
 }
 
-/// The modes with m > 0, and those with m = 0 and h > 0, that are larger than `share` of the largest and faster than `slowest`, a frequency.
-pub(crate) fn modes(inertia: &Inertia, share: f64, slowest: f64) -> Vec<Mode> {
+/// The terms that are larger than `share` of the largest and faster than `slowest`, a frequency.
+pub(crate) fn fast_terms(inertia: &Inertia, share: f64, slowest: f64) -> Vec<Term> {
     let root = inertia.sigma.sqrt().max(ROOT_FLOOR);
-    let mut modes = all(inertia);
-    modes.retain(|mode| mode.frequency[0].abs() * inertia.momentum > slowest && mode.size(root) > 0.0);
-    let largest = modes.iter().map(|mode| mode.size(root)).fold(0.0, f64::max);
-    modes.retain(|mode| mode.size(root) >= share * largest);
-    modes
+    let is_fast = |term: &Term| term.frequency[0].abs() * inertia.momentum > slowest && term.size(root) > 0.0;
+    let mut terms: Vec<_> = Term::all(inertia).filter(is_fast).collect();
+    let largest = terms.iter().map(|term| term.size(root)).fold(0.0, f64::max);
+    terms.retain(|term| term.size(root) >= share * largest);
+    terms
 }
 
-/// The modes that are not faster than `slowest`, of any size.
-pub(crate) fn slow_modes(inertia: &Inertia, slowest: f64) -> Vec<Mode> {
-    let mut modes = all(inertia);
-    modes.retain(|mode| mode.frequency[0].abs() * inertia.momentum <= slowest);
-    modes
-}
-
-fn all(inertia: &Inertia) -> Vec<Mode> {
-    let highest = HIGHEST as i32;
-    let mut modes = Vec::new();
-    for multiple in 0..=2_i32 {
-        let lowest = if multiple == 0 { 1 } else { -highest };
-        let harmonics = (lowest..=highest).filter(|h| (h + multiple) % 2 == 0);
-        modes.extend(harmonics.map(|harmonic| Mode::new(inertia, harmonic, multiple)));
-    }
-    modes
+/// The terms that are not faster than `slowest`, of any size.
+pub(crate) fn slow_terms(inertia: &Inertia, slowest: f64) -> Vec<Term> {
+    Term::all(inertia).filter(|term| term.frequency[0].abs() * inertia.momentum <= slowest).collect()
 }

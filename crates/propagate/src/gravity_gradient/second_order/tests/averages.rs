@@ -1,11 +1,10 @@
 //! The rates of the average torque in the divisors, and what K2 in closed form lacks of its average over the orbit.
 
 use nalgebra::{UnitQuaternion, Vector3};
-use num_complex::Complex;
 
 use crate::gravity_gradient::body::contraction::{Tensor, contraction, factors};
 use crate::gravity_gradient::body::inertia::Inertia;
-use crate::gravity_gradient::first_order::corrections::Mean;
+use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
@@ -17,12 +16,11 @@ use crate::gravity_gradient::second_order::mean_elements::tensors;
 use crate::gravity_gradient::second_order::pairs::averaged;
 use crate::gravity_gradient::second_order::tests::{ECCENTRICITY, MEAN_MOTION, Q, Scene};
 use crate::gravity_gradient::terms::divisors::{Divisors, Secular};
-use crate::gravity_gradient::terms::term::{Mode, modes, slowest};
+use crate::gravity_gradient::terms::term::{Term, fast_terms, slowest};
 use crate::input::orbit::Orbit;
+use crate::numerics::C64;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
-
-type C64 = Complex<f64>;
 
 #[test]
 fn divisors_have_the_rates_of_the_average_torque() {
@@ -81,7 +79,7 @@ fn what_the_closed_form_lacks_is_the_rest_of_the_average_over_the_orbit() {
             let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), ECCENTRICITY);
             let moved = Scene { place, ..scene.clone() };
             let (tensors, norms) = tensors(&moved.mean, &moved.place, &demand);
-            let all: Vec<Mode> = modes(&inertia, 0.0, slowest(&demand));
+            let all: Vec<Term> = fast_terms(&inertia, 0.0, slowest(&demand));
             let mut still = tensors;
             still[2..].fill([0.0; 6]);
             let of = |tensors: &[Tensor; ORDERS]| averaged(&moved.stand(&inertia, tensors, norms, 0.0), &all);
