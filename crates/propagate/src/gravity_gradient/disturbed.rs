@@ -13,7 +13,7 @@ use num_complex::Complex;
 use crate::error::Error;
 use crate::gravity_gradient::averaged::spin::MOST_QUARTERS;
 use crate::gravity_gradient::averaged::torque::Slow;
-use crate::gravity_gradient::body::cayley_klein::Powers;
+use crate::gravity_gradient::body::cayley_klein::WobbleSeries;
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::draft::{Draft, Outset};
 use crate::gravity_gradient::estimate::MOST_ORBITS;
@@ -62,7 +62,7 @@ pub(crate) struct Offset {
 #[derive(Clone, Debug)]
 pub(crate) struct Gradient {
     pub(crate) inertia: Inertia,
-    pub(crate) pair: [Powers; 2],
+    pub(crate) pair: [WobbleSeries; 2],
     /// At least one.
     pub(crate) bodies: Vec<DisturbedBy>,
     pub(crate) slow: Slow,
@@ -109,7 +109,7 @@ impl Gradient {
             root: mean.p.norm(),
             drifts: if level == Level::SecondOrder { [1.0; 2] } else { factors },
             secular: averages.secular(&inertia, &mean).map(|rate| rate * unit),
-            pair: inertia.pair.each_ref().map(|series| Powers::new(series, inertia.sigma.sqrt())),
+            pair: inertia.pair.each_ref().map(|series| WobbleSeries::new(series, inertia.sigma.sqrt())),
             inertia,
             slow: slow(mean.frame),
             bodies: orbits

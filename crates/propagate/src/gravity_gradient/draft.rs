@@ -10,7 +10,7 @@ use crate::gravity_gradient::first_order::mean_motion::{MeanMotion, first_order,
 use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::orbit::elliptic_orbit::{Demand, EllipticOrbit};
 use crate::gravity_gradient::request::Request;
-use crate::gravity_gradient::second_order::k2_remainder::Steady;
+use crate::gravity_gradient::second_order::k2_remainder::SteadyRates;
 use crate::gravity_gradient::second_order::mean_elements::SecondOrderData;
 use crate::input::options::Level;
 use crate::numerics::C64;
@@ -80,7 +80,7 @@ impl<'a> Outset<'a> {
         let Self { polhode, demands, first, .. } = self;
         let (motion, steady, left) = match &self.refinements {
             Some(refinements) => refinements.motion(polhode, first, &demands[0], level)?,
-            None => (first.clone(), Steady::default(), [0.0; 2]),
+            None => (first.clone(), SteadyRates::default(), [0.0; 2]),
         };
         let averages = Averages::new(polhode, (&motion, steady), demands, level);
         slow_enough(&averages, demands)?;

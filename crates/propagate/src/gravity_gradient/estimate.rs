@@ -20,7 +20,7 @@ use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::mean_motion::CONVERGED;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 use crate::gravity_gradient::request::Request;
-use crate::gravity_gradient::terms::sensitivity::Response;
+use crate::gravity_gradient::terms::term::Response;
 use crate::input::options::{Averaging, Level};
 
 /// Safety factor of the periodic change of the next order.

@@ -26,7 +26,7 @@ impl Gradient {
     /// The osculating variables at times after the epoch. The function is compiled separately, once for each instruction set.
     #[inline(always)]
     pub(crate) fn state<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Osculating<S> {
-        elapsed.0.simd().vectorize(At { gradient: self, elapsed })
+        elapsed.0.simd().vectorize(GradientAt { gradient: self, elapsed })
     }
 
     #[inline(always)]
@@ -115,12 +115,12 @@ impl<S: InstructionSet> NullaryFnOnce for OtherBody<'_, S> {
 }
 
 /// [`Gradient::state`] as a task that is compiled separately.
-struct At<'a, S: InstructionSet> {
+struct GradientAt<'a, S: InstructionSet> {
     gradient: &'a Gradient,
     elapsed: Elapsed<S>,
 }
 
-impl<S: InstructionSet> NullaryFnOnce for At<'_, S> {
+impl<S: InstructionSet> NullaryFnOnce for GradientAt<'_, S> {
     type Output = Osculating<S>;
 
     #[inline(always)]

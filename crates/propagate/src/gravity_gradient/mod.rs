@@ -18,4 +18,3 @@ mod second_order;
 mod terms;
 #[cfg(test)]
 mod tests;
-mod tolerance;

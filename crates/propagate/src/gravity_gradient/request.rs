@@ -1,7 +1,13 @@
-//! The options of a scene that concern the motion under a torque.
+//! What a scene asks of the motion under a torque: its options, the parts of its tolerance, and the averaged variables of its state.
 
+use crate::error::Error;
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
+use crate::torque_free::closed_form::ClosedForm;
+use crate::torque_free::frequencies::Secular;
+use crate::torque_free::mode::Mode;
+use crate::torque_free::polhode::{Polhode, SMALLEST_TILT};
+use andoyer_double::DoubleDouble;
 
 /// The requested options of the perturbed motion.
 #[derive(Clone, Copy, Debug)]
@@ -33,5 +39,70 @@ impl Request<'_> {
     /// Whether the mean M and L at the epoch are those of all terms.
     pub(crate) fn is_refined(&self) -> bool {
         self.is_fixed() && matches!(self.level, Level::Auto | Level::Full | Level::SecondOrder)
+    }
+}
+
+/// Largest σ/σ_sep for which the tables for the gravity gradient have enough harmonics.
+pub(crate) const LARGEST_SEPARATRIX_RATIO: f64 = 0.9;
+
+/// The variables of a state that can be averaged: σ/σ_sep, and σ, ℓ′, y′ − y.
+pub(crate) fn osculating(polhode: &Polhode) -> Result<(f64, (f64, [f64; 2])), Error> {
+    let mode = Mode::of(polhode);
+    let [g1, g2, g3] = polhode.invariants.direction;
+    let [_, second] = polhode.invariants.excesses;
+    let principal = mode == Mode::PrincipalAxis && g3.abs() >= SMALLEST_TILT && g1.abs().max(g2.abs()) < SMALLEST_TILT;
+    let unaveraged = |ratio: f64| Error::Unaveraged { mode: mode.to_string(), ratio, bound: LARGEST_SEPARATRIX_RATIO };
+    if second == DoubleDouble::ZERO || mode == Mode::Separatrix || (mode == Mode::PrincipalAxis && !principal) {
+        return Err(unaveraged(1.0));
+    }
+    if principal {
+        return Ok((0.0, (0.0, [0.0; 2])));
+    }
+    let sigma = Secular::exact(polhode).kappa_sigma / polhode.invariants.kappa;
+    let ratio = (sigma / polhode.separatrix_action()).min(1.0);
+    if ratio > LARGEST_SEPARATRIX_RATIO {
+        return Err(unaveraged(ratio));
+    }
+    let closed = ClosedForm::new(polhode, &polhode.invariants.theta);
+    Ok((ratio, (sigma, [closed.anomaly, -2.0 * closed.series.pair(closed.anomaly)[0].arg()])))
+}
+
+/// The part of a dropped term, if the mean M and L lack the dropped terms and if they have them. The second is so small that in scenes of weak torques the error
+/// stays near rounding; ten times as much makes a sample 3 % faster.
+const DROPPED: [f64; 2] = [0.01, 2e-5];
+/// A term below this share of the second-order change is dropped too, in the same two cases. A few tens of terms may be dropped. With a third of the second share
+/// a sample at n/spin = 0.02 takes 7 % longer.
+const DROPPED_OF_SECOND_ORDER: [f64; 2] = [1e-5, 3e-4];
+/// The part of the truncation error of a sum over time derivatives; above it exact divisors replace the sum.
+const TRUNCATED: f64 = 0.01;
+/// The part of a pair that is not summed around the orbit.
+const PAIRS: f64 = 0.02;
+
+/// The parts of the tolerance \[rad\].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ledger {
+    pub(crate) dropped: f64,
+    pub(crate) truncated: f64,
+    pub(crate) pairs: f64,
+    /// All of it: resonances that turn the attitude by much more are refused.
+    pub(crate) refused: f64,
+    /// Terms below this share of the second-order change are dropped.
+    pub(crate) of_second_order: f64,
+    /// Whether the mean M and L at the epoch are those of all terms, so that the effect of dropped terms grows in second order only.
+    pub(crate) refined: bool,
+}
+
+impl Ledger {
+    /// The parts of a tolerance.
+    pub(crate) fn new(tolerance: f64, refined: bool) -> Self {
+        let case = usize::from(refined);
+        Self {
+            dropped: DROPPED[case] * tolerance,
+            truncated: TRUNCATED * tolerance,
+            pairs: PAIRS * tolerance,
+            refused: tolerance,
+            of_second_order: DROPPED_OF_SECOND_ORDER[case],
+            refined,
+        }
     }
 }

@@ -9,8 +9,8 @@ use crate::gravity_gradient::level::chosen;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::orbit::span::{Reach, whole};
+use crate::gravity_gradient::request::Ledger;
 use crate::gravity_gradient::request::Request;
-use crate::gravity_gradient::tolerance::Ledger;
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
 use crate::numerics::C64;
@@ -65,7 +65,7 @@ impl Case {
             sides: [1.0; 2],
             spanned: true,
         };
-        let (_, osculating) = crate::gravity_gradient::body::osculating::osculating(&polhode).expect("no separatrix");
+        let (_, osculating) = crate::gravity_gradient::request::osculating(&polhode).expect("no separatrix");
         let gradient = chosen(&polhode, state.attitude, osculating, &request).expect("averaged").0;
         [
             polhode.user_momentum(),
@@ -135,7 +135,7 @@ impl Stand {
         let state = State::new(0.0, [0.1, -0.2, 0.3, 0.927_361_849_549_570_4], rates).expect("a state");
         let polhode = Polhode::new(&Body::new(moments).expect("a body"), &state).expect("turning");
         let (_, (sigma, [anomaly, longitude])) =
-            crate::gravity_gradient::body::osculating::osculating(&polhode).expect("no separatrix");
+            crate::gravity_gradient::request::osculating(&polhode).expect("no separatrix");
         let orbit = Orbit::new(MEAN_MOTION, 0.3).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
         let mean = Mean {
             p: C64::from_polar(sigma.sqrt(), anomaly),

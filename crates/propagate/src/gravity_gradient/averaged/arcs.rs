@@ -11,18 +11,18 @@ use std::sync::{Arc, RwLock};
 /// Averaged equations that are solved arc by arc.
 pub(crate) trait Averaged {
     /// The arc that begins with a column at a distance from the epoch, after it (`sign` 1) or before it (−1).
-    fn arc(&self, sign: f64, from: f64, start: &Column) -> Stretch;
+    fn arc(&self, sign: f64, from: f64, start: &Column) -> SolvedArc;
 }
 
 /// One arc: the distances of its ends from the epoch, and the solution.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stretch {
+pub(crate) struct SolvedArc {
     pub(crate) from: f64,
     pub(crate) length: f64,
     pub(crate) solution: Polynomial,
 }
 
-impl Stretch {
+impl SolvedArc {
     fn end(&self) -> f64 {
         self.from + self.length
     }
@@ -33,7 +33,7 @@ impl Stretch {
 pub(crate) struct Arcs {
     start: Column,
     /// The solved arcs after the epoch, and before it.
-    kept: Arc<[RwLock<Vec<Stretch>>; 2]>,
+    kept: Arc<[RwLock<Vec<SolvedArc>>; 2]>,
 }
 
 impl Arcs {
@@ -44,8 +44,8 @@ impl Arcs {
     /// The memory of the solved arcs, in bytes.
     pub(crate) fn memory(&self) -> usize {
         let side =
-            |arcs: &RwLock<Vec<Stretch>>| arcs.read().unwrap_or_else(|poisoned| poisoned.into_inner()).capacity();
-        self.kept.iter().map(side).sum::<usize>() * size_of::<Stretch>()
+            |arcs: &RwLock<Vec<SolvedArc>>| arcs.read().unwrap_or_else(|poisoned| poisoned.into_inner()).capacity();
+        self.kept.iter().map(side).sum::<usize>() * size_of::<SolvedArc>()
     }
 
     /// The frame and the other columns at times after the epoch. The function is compiled separately: one fixed orbit does without it.
@@ -55,7 +55,7 @@ impl Arcs {
         averaged: &impl Averaged,
         times: Lanes<S>,
     ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
-        times.simd().vectorize(At { arcs: self, averaged, times })
+        times.simd().vectorize(ArcsAt { arcs: self, averaged, times })
     }
 
     /// Consecutive times in the same arc are evaluated together.
@@ -96,8 +96,8 @@ impl Arcs {
     }
 
     /// The arc that contains a time at this distance from the epoch. If it is not known yet, it is solved together with all arcs between.
-    fn stretch(&self, averaged: &impl Averaged, side: usize, distance: f64) -> Stretch {
-        let found = |arcs: &[Stretch]| arcs.get(arcs.partition_point(|arc| arc.end() < distance)).copied();
+    fn stretch(&self, averaged: &impl Averaged, side: usize, distance: f64) -> SolvedArc {
+        let found = |arcs: &[SolvedArc]| arcs.get(arcs.partition_point(|arc| arc.end() < distance)).copied();
         // If a thread panicked while it held the lock, the arcs are still complete.
         let known = found(&self.kept[side].read().unwrap_or_else(|poisoned| poisoned.into_inner()));
         if let Some(arc) = known {
@@ -116,13 +116,13 @@ impl Arcs {
 }
 
 /// [`Arcs::evaluated`] as a task that is compiled separately.
-struct At<'a, S: InstructionSet, A> {
+struct ArcsAt<'a, S: InstructionSet, A> {
     arcs: &'a Arcs,
     averaged: &'a A,
     times: Lanes<S>,
 }
 
-impl<S: InstructionSet, A: Averaged> NullaryFnOnce for At<'_, S, A> {
+impl<S: InstructionSet, A: Averaged> NullaryFnOnce for ArcsAt<'_, S, A> {
     type Output = (QuaternionLanes<S>, [Lanes<S>; 2]);
 
     #[inline(always)]

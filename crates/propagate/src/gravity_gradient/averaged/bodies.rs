@@ -12,7 +12,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use pulp::Arch;
 
-use super::arcs::{Arcs, Averaged, Stretch};
+use super::arcs::{Arcs, Averaged, SolvedArc};
 use super::polynomial::{Column, NODES, POINTS, PointByPoint, Polynomial};
 use crate::gravity_gradient::orbit::elliptic_motion::Course;
 use crate::simd::complex_quaternion::QuaternionLanes;
@@ -32,13 +32,13 @@ pub(crate) struct Pull {
 /// The averaged motion; times are those from the epoch in the user's unit.
 #[derive(Clone, Debug)]
 pub(crate) struct Bodies {
-    equations: Equations,
+    equations: BodiesEquations,
     arcs: Arcs,
 }
 
 /// The averaged equations.
 #[derive(Clone, Debug)]
-struct Equations {
+struct BodiesEquations {
     pulls: Vec<Pull>,
     /// Δ/M.
     delta: f64,
@@ -51,7 +51,7 @@ impl Bodies {
     /// From the frame at the epoch, where the phase integral Ψ is 0.
     pub(crate) fn new(pulls: Vec<Pull>, delta: f64, frame: UnitQuaternion<f64>) -> Self {
         let start = [frame.i, frame.j, frame.k, frame.w, 0.0, 0.0];
-        Self { equations: Equations { pulls, delta }, arcs: Arcs::new(start) }
+        Self { equations: BodiesEquations { pulls, delta }, arcs: Arcs::new(start) }
     }
 
     /// The memory of what is solved so far, in bytes.
@@ -66,8 +66,8 @@ impl Bodies {
     }
 }
 
-impl Averaged for Equations {
-    fn arc(&self, sign: f64, from: f64, start: &Column) -> Stretch {
+impl Averaged for BodiesEquations {
+    fn arc(&self, sign: f64, from: f64, start: &Column) -> SolvedArc {
         let longest = |pull: &Pull| pull.course.arc(pull.course.mean_anomaly.angle((sign * from, 0.0)));
         let length = self.pulls.iter().map(longest).fold(f64::INFINITY, f64::min);
         // Next to the pericentre of a nearly parabolic orbit an arc may be shorter than the spacing of the times.
@@ -76,11 +76,11 @@ impl Averaged for Equations {
         let times = NODES.map(|x| sign * (from + half * (1.0 + x)));
         let torques = dispatch(Arch::new(), Torques { pulls: &self.pulls, times });
         let slope = |i: usize, frame: &Quaternion<f64>| self.slope(torques.iter().map(|body| &body[i]), frame);
-        Stretch { from, length, solution: Polynomial::solved(sign * half, (-1.0, start), &PointByPoint(slope)) }
+        SolvedArc { from, length, solution: Polynomial::solved(sign * half, (-1.0, start), &PointByPoint(slope)) }
     }
 }
 
-impl Equations {
+impl BodiesEquations {
     /// The derivative of a column by time, from the directions of the bodies and μ(a/r)³.
     fn slope<'a>(&self, torques: impl Iterator<Item = &'a Torque>, frame: &Quaternion<f64>) -> Column {
         let axis = (frame * Quaternion::new(0.0, 0.0, 0.0, 1.0) * frame.conjugate()).imag();

@@ -55,7 +55,7 @@ fn primitive(point: usize) -> [f64; POINTS] {
 }
 
 /// The coefficients of the Chebyshev polynomials in powers of x.
-static CHEBYSHEV: LazyLock<[Row; POINTS]> = LazyLock::new(|| {
+static CHEBYSHEV: LazyLock<[AtPoints; POINTS]> = LazyLock::new(|| {
     let mut polynomials = [[0.0; POINTS]; POINTS];
     (polynomials[0][0], polynomials[1][1]) = (1.0, 1.0);
     for k in 2..POINTS {
@@ -77,16 +77,16 @@ fn sum(coefficients: &[f64; POINTS], x: f64) -> f64 {
 }
 
 /// A number for each point.
-pub(crate) type Row = [f64; POINTS];
+pub(crate) type AtPoints = [f64; POINTS];
 
 /// [`PRIMITIVES`] and the transposed [`VALUES`] in rows, by the point of the function.
-static ROWS: LazyLock<[[Row; POINTS]; 2]> = LazyLock::new(|| {
+static ROWS: LazyLock<[[AtPoints; POINTS]; 2]> = LazyLock::new(|| {
     let values = |k: usize| VALUES.each_ref().map(|at| at[k]);
     [*PRIMITIVES, std::array::from_fn(values)]
 });
 
 /// Averaged equations on an interval.
-pub(crate) trait Slopes {
+pub(crate) trait AveragedEquations {
     /// The derivatives at the points from `first` on, for the frames there.
     fn at<S: InstructionSet>(&self, first: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS];
 }
@@ -94,7 +94,7 @@ pub(crate) trait Slopes {
 /// Equations that are computed point by point, from the number of the point and the frame there.
 pub(crate) struct PointByPoint<F>(pub(crate) F);
 
-impl<F: Fn(usize, &Quaternion<f64>) -> Column> Slopes for PointByPoint<F> {
+impl<F: Fn(usize, &Quaternion<f64>) -> Column> AveragedEquations for PointByPoint<F> {
     #[inline(always)]
     fn at<S: InstructionSet>(&self, first: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS] {
         let like = frame.0[0];
@@ -130,12 +130,12 @@ struct Solve<'a, E> {
     equations: &'a E,
 }
 
-impl<E: Slopes> Task for Solve<'_, E> {
-    type Output = [Row; COLUMNS];
+impl<E: AveragedEquations> Task for Solve<'_, E> {
+    type Output = [AtPoints; COLUMNS];
 
     /// The Chebyshev coefficients, by column.
     #[inline(always)]
-    fn run<S: InstructionSet>(self, simd: S) -> [Row; COLUMNS] {
+    fn run<S: InstructionSet>(self, simd: S) -> [AtPoints; COLUMNS] {
         let Self { half, place, start, equations } = self;
         let [nodes, at_nodes] = &*ROWS;
         let at_place = if place == -1.0 {
@@ -207,8 +207,8 @@ impl<E: Slopes> Task for Solve<'_, E> {
 #[inline(always)]
 fn combined<S: InstructionSet>(
     simd: S,
-    rows: &[Row; POINTS],
-    slopes: &[Row; COLUMNS],
+    rows: &[AtPoints; POINTS],
+    slopes: &[AtPoints; COLUMNS],
     constant: &Column,
     first: usize,
 ) -> [Lanes<S>; COLUMNS] {
@@ -224,7 +224,7 @@ fn combined<S: InstructionSet>(
 
 impl Polynomial {
     /// The solution that passes through a column at a place of the interval, from −1 to 1. `half` is half the length of the interval.
-    pub(crate) fn solved(half: f64, (place, start): (f64, &Column), equations: &impl Slopes) -> Self {
+    pub(crate) fn solved(half: f64, (place, start): (f64, &Column), equations: &impl AveragedEquations) -> Self {
         let columns = dispatch(pulp::Arch::new(), Solve { half, place, start, equations });
         Self::new(std::array::from_fn(|k| columns.each_ref().map(|column| column[k])))
     }

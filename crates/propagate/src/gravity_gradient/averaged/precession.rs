@@ -7,7 +7,7 @@
 use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use super::arcs::{Arcs, Averaged, Stretch};
+use super::arcs::{Arcs, Averaged, SolvedArc};
 use super::averaged_orbit::AveragedOrbit;
 use super::polynomial::{Column, PointByPoint, Polynomial};
 use crate::gravity_gradient::second_order::k2_orbit_mean::{OrbitAverage, OrbitPeriodic};
@@ -80,7 +80,7 @@ fn turned<S: InstructionSet>(frame: QuaternionLanes<S>, [x, y, z]: [Lanes<S>; 3]
 #[derive(Clone, Debug)]
 enum MeanFrame {
     /// Steady precession.
-    Steady {
+    SteadyRates {
         /// The frame at the epoch.
         frame: UnitQuaternion<f64>,
         /// Half the angle about the orbit's normal. `half_back` is half the angle about the angular momentum that keeps the frame from turning about it.
@@ -96,13 +96,13 @@ enum MeanFrame {
 /// The averaged equations of second order, and their solution.
 #[derive(Clone, Debug)]
 struct Nodding {
-    equations: Equations,
+    equations: PrecessionEquations,
     arcs: Arcs,
 }
 
 /// The averaged equations of second order.
 #[derive(Clone, Debug)]
-struct Equations {
+struct PrecessionEquations {
     average: OrbitAverage,
     /// The user's unit of time in units of the motion.
     unit: f64,
@@ -110,8 +110,8 @@ struct Equations {
     length: f64,
 }
 
-impl Averaged for Equations {
-    fn arc(&self, sign: f64, from: f64, start: &Column) -> Stretch {
+impl Averaged for PrecessionEquations {
+    fn arc(&self, sign: f64, from: f64, start: &Column) -> SolvedArc {
         let slope = |_: usize, frame: &Quaternion<f64>| {
             let axis = (frame * Quaternion::new(0.0, 0.0, 0.0, 1.0) * frame.conjugate()).imag();
             let slopes = self.average.slopes(&axis);
@@ -120,7 +120,7 @@ impl Averaged for Equations {
             [change.i, change.j, change.k, change.w, anomaly, longitude]
         };
         let solution = Polynomial::solved(sign * 0.5 * self.length, (-1.0, start), &PointByPoint(slope));
-        Stretch { from, length: self.length, solution }
+        SolvedArc { from, length: self.length, solution }
     }
 }
 
@@ -157,7 +157,7 @@ impl Precession {
     /// The memory of what is solved so far, in bytes.
     pub(crate) fn memory(&self) -> usize {
         match &self.mean {
-            MeanFrame::Steady { .. } => 0,
+            MeanFrame::SteadyRates { .. } => 0,
             MeanFrame::Nodding(nodding) => nodding.arcs.memory(),
         }
     }
@@ -182,7 +182,7 @@ impl Precession {
     /// The longest time from the epoch for which there are at most so many arcs, in the user's unit.
     pub(crate) fn bound(&self, most_arcs: usize) -> f64 {
         match &self.mean {
-            MeanFrame::Steady { .. } => f64::INFINITY,
+            MeanFrame::SteadyRates { .. } => f64::INFINITY,
             MeanFrame::Nodding(nodding) => most_arcs as f64 * nodding.equations.length,
         }
     }
@@ -195,13 +195,13 @@ impl MeanFrame {
         // dλ/dt = −(3/2) φn² Δ cos I/(M η³) = −½ n κ_o cos I.
         let precessing = -0.5 * ellipse.strength * cosine * ellipse.mean_motion * unit;
         let [half, half_back] = [0.5, -0.5 * cosine].map(|part| Phase::new(DoubleDouble::from(part * precessing), 0.0));
-        Self::Steady { frame, half, half_back, secular: ellipse.secular(&axis) * unit }
+        Self::SteadyRates { frame, half, half_back, secular: ellipse.secular(&axis) * unit }
     }
 
     fn nodding(average: OrbitAverage, ellipse: &AveragedOrbit, frame: UnitQuaternion<f64>, unit: f64) -> Self {
         let length = TURN / (average.fastest().max(SLOWEST * ellipse.mean_motion) * unit);
         let arcs = Arcs::new([frame.i, frame.j, frame.k, frame.w, 0.0, 0.0]);
-        Self::Nodding(Box::new(Nodding { equations: Equations { average, unit, length }, arcs }))
+        Self::Nodding(Box::new(Nodding { equations: PrecessionEquations { average, unit, length }, arcs }))
     }
 
     #[inline(always)]
@@ -211,7 +211,7 @@ impl MeanFrame {
         elapsed: (Lanes<S>, Lanes<S>),
     ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         match self {
-            Self::Steady { frame, half, half_back, secular } => {
+            Self::SteadyRates { frame, half, half_back, secular } => {
                 let turn = QuaternionLanes::about(&ellipse.axes[2], half.sin_cos(elapsed));
                 let back = QuaternionLanes::about(&Vector3::z(), half_back.sin_cos(elapsed));
                 let phase = elapsed.0 * elapsed.0.all(*secular);

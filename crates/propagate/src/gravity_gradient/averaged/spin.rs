@@ -7,7 +7,7 @@ use nalgebra::UnitQuaternion;
 
 use super::arcs::{Chain, MOST};
 use super::averaged_orbit::AveragedOrbit;
-use super::polynomial::{COLUMNS, Column, NODES, Polynomial, Row, Slopes};
+use super::polynomial::{AtPoints, AveragedEquations, COLUMNS, Column, NODES, Polynomial};
 use crate::gravity_gradient::orbit::elliptic_motion::When;
 use crate::gravity_gradient::second_order::k2::{DisturberLanes, dot};
 use crate::simd::complex_quaternion::QuaternionLanes;
@@ -26,12 +26,12 @@ const _: () = assert!(2 * MOST_QUARTERS < MOST);
 /// The averaged equations at the points of a piece of the orbit, by true anomaly.
 struct Piece<'a> {
     ellipse: &'a AveragedOrbit,
-    sine: &'a Row,
-    cosine: &'a Row,
+    sine: &'a AtPoints,
+    cosine: &'a AtPoints,
 }
 
 /// The sines and the cosines of the true anomalies at the points, by piece, for [`FEWEST_PIECES`] and for twice as many.
-static CIRCLES: LazyLock<[Vec<[Row; 2]>; 2]> = LazyLock::new(|| {
+static CIRCLES: LazyLock<[Vec<[AtPoints; 2]>; 2]> = LazyLock::new(|| {
     [FEWEST_PIECES, 2 * FEWEST_PIECES].map(|count| {
         let half = PI / count as f64;
         let piece = |piece: i64| {
@@ -42,7 +42,7 @@ static CIRCLES: LazyLock<[Vec<[Row; 2]>; 2]> = LazyLock::new(|| {
     })
 });
 
-impl Slopes for Piece<'_> {
+impl AveragedEquations for Piece<'_> {
     #[inline(always)]
     fn at<S: InstructionSet>(&self, first: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS] {
         let AveragedOrbit { eccentricity, eta_cubed, mean_motion, axes, strength, .. } = self.ellipse;

@@ -10,9 +10,9 @@ use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::orbit::elliptic_motion::{Elapsed, When};
 use crate::gravity_gradient::orbit::elliptic_orbit::{Demand, EllipticOrbit};
 use crate::gravity_gradient::request::Request;
-use crate::gravity_gradient::second_order::k2_remainder::Steady;
+use crate::gravity_gradient::second_order::k2_remainder::SteadyRates;
 use crate::gravity_gradient::second_order::mean_elements;
-use crate::gravity_gradient::terms::sensitivity::Response;
+use crate::gravity_gradient::terms::term::Response;
 use crate::input::options::Level;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::InstructionSet;
@@ -33,7 +33,7 @@ pub(crate) struct Averages {
 impl Averages {
     pub(crate) fn new(
         polhode: &Polhode,
-        (motion, steady): (&MeanMotion, Steady),
+        (motion, steady): (&MeanMotion, SteadyRates),
         demands: &[Demand<'_>],
         level: Level,
     ) -> Self {

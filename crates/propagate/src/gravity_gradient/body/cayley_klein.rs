@@ -10,9 +10,9 @@ const NEGLIGIBLE: f64 = 1e-18;
 
 /// The harmonics of a or b that are not negligible, with their slopes, as polynomials in p² and p̄². The first list has h ≥ 0, the second h < 0.
 #[derive(Clone, Debug)]
-pub(crate) struct Powers([Vec<[f64; 2]>; 2]);
+pub(crate) struct WobbleSeries([Vec<[f64; 2]>; 2]);
 
-impl Powers {
+impl WobbleSeries {
     pub(crate) fn new(series: &Harmonics, root: f64) -> Self {
         let odd = series.values[HIGHEST] == 0.0;
         let side = |first: usize, sign: i32| {

@@ -3,4 +3,3 @@
 pub(crate) mod cayley_klein;
 pub(crate) mod contraction;
 pub(crate) mod inertia;
-pub(crate) mod osculating;

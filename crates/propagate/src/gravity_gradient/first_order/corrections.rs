@@ -19,7 +19,7 @@
 
 use super::fourier::ExactTerm;
 use super::generator;
-use super::generator::{Factors, Generator};
+use super::generator::{Generator, TorqueScale};
 use super::mean_variables::{Mean, PeriodicChange};
 use super::sums::Harmonic;
 use crate::error::{Error, TorqueMeasure};
@@ -28,7 +28,7 @@ use crate::gravity_gradient::orbit::derivatives::ORDERS;
 use crate::gravity_gradient::orbit::elliptic_motion::fixed;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 use crate::gravity_gradient::terms::regime::{Regime, Regimes, Terms};
-use crate::gravity_gradient::terms::sensitivity::Response;
+use crate::gravity_gradient::terms::term::Response;
 use crate::gravity_gradient::terms::term::SizedTerm;
 use crate::input::options::Level;
 use crate::numerics::C64;
@@ -191,7 +191,8 @@ impl Collected {
         let cut: f64 = cut.iter().zip(&self.amplitudes).map(|(cut, amplitude)| cut * amplitude).sum();
         self.dropped += 2.0 * regimes.growth_of(1) * cut;
         let [first, second, _] = demand.axes;
-        let factors = Factors { strength: demand.strength(), root: inertia.sigma.sqrt(), momentum: inertia.momentum };
+        let factors =
+            TorqueScale { strength: demand.strength(), root: inertia.sigma.sqrt(), momentum: inertia.momentum };
         Generator::new(&self.harmonics, std::mem::take(&mut self.exact), (orbital, [first, second]), factors)
     }
 }

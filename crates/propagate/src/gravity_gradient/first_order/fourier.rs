@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 use pulp::NullaryFnOnce;
 
 use super::deviator::{Contracted, Products, axial_contractions, contractions};
-use super::sums::{Derivatives, SUMS};
+use super::sums::{GeneratorSlopes, SUMS};
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::terms::divisors::Divisors;
 use crate::simd::complex_quaternion::ComplexLanes;
@@ -130,7 +130,7 @@ impl ExactTerm {
     #[inline(always)]
     fn add<S: InstructionSet>(
         &self,
-        sums: &mut Derivatives<S>,
+        sums: &mut GeneratorSlopes<S>,
         functions: &[Contracted<S>; 3],
         turns: &[ComplexLanes<S>],
         anomaly: ComplexLanes<S>,
@@ -156,7 +156,7 @@ impl ExactTerm {
     #[inline(always)]
     fn add_axial<S: InstructionSet>(
         &self,
-        sums: &mut Derivatives<S>,
+        sums: &mut GeneratorSlopes<S>,
         functions: &[[Lanes<S>; 3]; 3],
         turns: &[ComplexLanes<S>],
         anomaly: ComplexLanes<S>,
@@ -187,7 +187,7 @@ impl ExactTerm {
     #[inline(always)]
     fn add_parts<S: InstructionSet>(
         &self,
-        sums: &mut Derivatives<S>,
+        sums: &mut GeneratorSlopes<S>,
         value: ComplexLanes<S>,
         slope: Lanes<S>,
         rotation: [Lanes<S>; 2],
@@ -210,14 +210,14 @@ pub(crate) struct ExactTerms<'a, S: InstructionSet> {
     pub(crate) turns: &'a [ComplexLanes<S>],
     pub(crate) products: &'a Products<S>,
     pub(crate) place: &'a Place<S>,
-    pub(crate) sums: Derivatives<S>,
+    pub(crate) sums: GeneratorSlopes<S>,
 }
 
 impl<S: InstructionSet> NullaryFnOnce for ExactTerms<'_, S> {
-    type Output = Derivatives<S>;
+    type Output = GeneratorSlopes<S>;
 
     #[inline(always)]
-    fn call(self) -> Derivatives<S> {
+    fn call(self) -> GeneratorSlopes<S> {
         let Self { terms, turns, products, place, mut sums } = self;
         let none = place.sine.all(0.0);
         let (sine, cosine) = sin_cos_of_turns((place.angle - place.centre) * none.all(1.0 / TAU));

@@ -10,9 +10,9 @@ use nalgebra::Vector3;
 
 use super::deviator::{Deviator, Products, deviator_of, products, turned};
 use super::fourier::{ExactTerm, ExactTerms};
-use super::sums::{Derivatives, Harmonic, Sums};
+use super::sums::{GeneratorSlopes, Harmonic, TermSums};
 use crate::gravity_gradient::body::inertia::HIGHEST;
-use crate::gravity_gradient::orbit::derivatives::{Circle, ORDERS, Orbital};
+use crate::gravity_gradient::orbit::derivatives::{AnomalyPowers, ORDERS, Orbital};
 use crate::gravity_gradient::orbit::elliptic_motion::{Axes, fixed};
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
@@ -26,7 +26,7 @@ type Turns<S> = UnitPowers<S, 7, { HIGHEST + 1 }>;
 /// The terms by m, the Fourier polynomials, and the plane of the orbit.
 #[derive(Clone, Debug)]
 pub(crate) struct Generator {
-    sums: [Sums; 3],
+    sums: [TermSums; 3],
     /// Terms that the sums over time derivatives do not serve.
     pub(crate) exact: Vec<ExactTerm>,
     orbital: Orbital,
@@ -34,12 +34,12 @@ pub(crate) struct Generator {
     highest: usize,
     /// Unit vectors to the pericentre and perpendicular to it at the epoch, in inertial components.
     pub(crate) axes: [Vector3<f64>; 2],
-    factors: Factors,
+    factors: TorqueScale,
 }
 
 /// Factors of the torque's terms.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Factors {
+pub(crate) struct TorqueScale {
     /// 3n²/2 times the disturbing mass fraction.
     pub(crate) strength: f64,
     /// √σ.
@@ -84,10 +84,10 @@ impl Generator {
         harmonics: &[Vec<Harmonic>; 3],
         exact: Vec<ExactTerm>,
         (orbital, axes): (Orbital, [Vector3<f64>; 2]),
-        factors: Factors,
+        factors: TorqueScale,
     ) -> Self {
-        let sums = harmonics.each_ref().map(|harmonics| Sums::new(harmonics));
-        let highest = sums.iter().map(Sums::highest).chain(exact.iter().map(ExactTerm::degree)).max().unwrap_or(0);
+        let sums = harmonics.each_ref().map(|harmonics| TermSums::new(harmonics));
+        let highest = sums.iter().map(TermSums::highest).chain(exact.iter().map(ExactTerm::degree)).max().unwrap_or(0);
         Self { sums, exact, orbital, highest, axes, factors }
     }
 
@@ -98,9 +98,10 @@ impl Generator {
         let (products, node) = products(mean.frame, axes, mean.spin);
         let mut room = Turns::new(mean.turn);
         let turns = room.of(mean.turn, self.highest + 1);
-        let mut sums = Derivatives { by_p: [none; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
+        let mut sums =
+            GeneratorSlopes { by_p: [none; 2], by_longitude: none, by_momentum: none, by_rotation: [none; 2] };
         if self.orbital.node_rate == 0.0 {
-            let mut places = Circle::new(place.turn());
+            let mut places = AnomalyPowers::new(place.turn());
             let circle = places.of(place.turn(), self.orbital.multiples());
             let [mut power, growth] = self.orbital.powers(place.cosine);
             for j in 0..self.orbital.orders() {
@@ -141,7 +142,7 @@ impl Generator {
         place: &Place<S>,
     ) -> [Deviator<S>; ORDERS] {
         let none = x.all(0.0);
-        let mut room = Circle::new(place.turn());
+        let mut room = AnomalyPowers::new(place.turn());
         let circle = room.of(place.turn(), self.orbital.multiples());
         let mut tensors = [[none; 5]; ORDERS];
         let orders = self.orbital.orders().min(ORDERS);
@@ -158,7 +159,7 @@ impl Generator {
     }
 
     #[inline(always)]
-    fn change<S: InstructionSet>(&self, sums: &Derivatives<S>, spin: ComplexLanes<S>) -> Correction<S> {
+    fn change<S: InstructionSet>(&self, sums: &GeneratorSlopes<S>, spin: ComplexLanes<S>) -> Correction<S> {
         let all = |value: f64| sums.by_longitude.all(value);
         // Each sum is half of a term plus its conjugate.
         let momentum = sums.by_longitude * all(2.0 * self.factors.strength);

@@ -7,4 +7,3 @@ pub(crate) mod generator;
 pub(crate) mod mean_motion;
 pub(crate) mod mean_variables;
 pub(crate) mod sums;
-mod term_in_generator;

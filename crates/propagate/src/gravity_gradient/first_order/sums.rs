@@ -1,6 +1,11 @@
-//! Sums over the terms of one m, by time derivative.
+//! Sums over the terms of one m, by time derivative, and what each term adds to them.
 
 use super::deviator::{Contracted, Deviator, axial_contractions, contractions};
+use super::fourier::ExactTerm;
+use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::orbit::hansen::OrbitSeries;
+use crate::gravity_gradient::terms::divisors::Divisors;
+use crate::gravity_gradient::terms::term::{SizedTerm, Term};
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
@@ -32,17 +37,17 @@ impl Harmonic {
 }
 
 /// |h| of a term, and its factors of cos hℓ′ and of i sin hℓ′ by sum.
-type Part = (usize, [[f64; 2]; SUMS]);
+type HarmonicFactors = (usize, [[f64; 2]; SUMS]);
 
 /// The terms of one m, derivative after derivative.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Sums {
-    terms: Vec<Part>,
+pub(crate) struct TermSums {
+    terms: Vec<HarmonicFactors>,
     /// Where the terms of each derivative end.
     ends: Vec<usize>,
 }
 
-impl Sums {
+impl TermSums {
     pub(crate) fn new(harmonics: &[Harmonic]) -> Self {
         let mut sums = Self::default();
         let orders = harmonics.iter().map(|harmonic| harmonic.factors.len()).max().unwrap_or(0);
@@ -61,7 +66,7 @@ impl Sums {
 
     /// The terms with the derivative j, if there are any: a term with a derivative has those below it.
     #[inline(always)]
-    fn of(&self, j: usize) -> Option<&[Part]> {
+    fn of(&self, j: usize) -> Option<&[HarmonicFactors]> {
         let end = *self.ends.get(j)?;
         let start = if j == 0 { 0 } else { self.ends[j - 1] };
         Some(&self.terms[start..end])
@@ -107,7 +112,7 @@ impl Sums {
 
 /// The parts of the derivatives of W that count, divided by twice the strength.
 #[derive(Clone, Copy)]
-pub(crate) struct Derivatives<S: InstructionSet> {
+pub(crate) struct GeneratorSlopes<S: InstructionSet> {
     /// The real part with respect to p̄ and to p together, and the imaginary part of their difference.
     pub(crate) by_p: [Lanes<S>; 2],
     pub(crate) by_longitude: Lanes<S>,
@@ -116,12 +121,12 @@ pub(crate) struct Derivatives<S: InstructionSet> {
     pub(crate) by_rotation: [Lanes<S>; 2],
 }
 
-impl<S: InstructionSet> Derivatives<S> {
+impl<S: InstructionSet> GeneratorSlopes<S> {
     /// Adds the terms that have the derivative j.
     #[inline(always)]
     pub(crate) fn add_all(
         &mut self,
-        [axial, first, second]: &[Sums; 3],
+        [axial, first, second]: &[TermSums; 3],
         turns: &[ComplexLanes<S>],
         j: usize,
         tensor: &Deviator<S>,
@@ -170,5 +175,53 @@ impl<S: InstructionSet> Derivatives<S> {
         self.by_p[1] = self.by_p[1] + difference.im_of_product(value);
         self.by_rotation[0] = whole.plus_re_of_product(first, self.by_rotation[0]);
         self.by_rotation[1] = whole.plus_re_of_product(second, self.by_rotation[1]);
+    }
+}
+
+impl SizedTerm {
+    /// The factors of G and of −Ω ∂G/∂Ω in W, M ∂W/∂M, ∂W/∂p̄ + ∂W/∂p and ∂W/∂p̄ − ∂W/∂p.
+    fn factors(&self, inertia: &Inertia) -> [[f64; 4]; 2] {
+        let Self {
+            term: Term { harmonic, function: [value, slope, _], frequency: [_, by_sigma, _], .. },
+            frequency,
+            ..
+        } = *self;
+        let by_sigma = inertia.momentum * by_sigma;
+        let (root, degree) = (inertia.sigma.sqrt(), harmonic.abs());
+        let inverse = 1.0 / frequency;
+        let falling = if degree == 0 { 0.0 } else { f64::from(degree) * root.powi(degree - 1) * value };
+        let further = root.powi(degree + 1);
+        let [by_p, by_p_bar] = if harmonic > 0 { [falling, 0.0] } else { [0.0, falling] };
+        let [sum, difference] = [by_p_bar + by_p, by_p_bar - by_p];
+        let by_frequency = -inverse * inverse * further * value * by_sigma;
+        let whole = inverse * root.powi(degree) * value;
+        let sum = inverse * (sum + 2.0 * further * slope);
+        [[whole, 0.0, sum, inverse * difference], [0.0, whole, 2.0 * by_frequency, 0.0]]
+    }
+
+    /// This term with divisors that are exact in the orbit's harmonics. What is smaller than `nothing` is left out.
+    pub(crate) fn exact(&self, inertia: &Inertia, orbit: (&OrbitSeries, Divisors), nothing: f64) -> ExactTerm {
+        let negligible = 0.1 * nothing / self.size();
+        ExactTerm::new((self.term.harmonic, self.term.multiple), self.factors(inertia), orbit, negligible)
+    }
+
+    /// Adds this term to the other terms of its |h|, with `orders` derivatives of g.
+    pub(crate) fn join(&self, harmonics: &mut Vec<Harmonic>, inertia: &Inertia, orders: usize) {
+        let Self { term: Term { harmonic, .. }, frequency, .. } = *self;
+        let [still, moving] = self.factors(inertia);
+        let factors: Vec<_> = (0..orders)
+            .map(|j| {
+                // (iε)^j without the factor i for odd j, and the same times j + 1.
+                let weight = if j / 2 % 2 == 0 { 1.0 } else { -1.0 } * frequency.powi(-(j as i32)); // j < ORDERS
+                let slope = (j as f64 + 1.0) * weight;
+                std::array::from_fn(|i| still[i] * weight + moving[i] * slope)
+            })
+            .collect();
+        let degree = harmonic.unsigned_abs() as usize;
+        let place = harmonics.iter().position(|other| other.degree == degree).unwrap_or_else(|| {
+            harmonics.push(Harmonic { degree, factors: Vec::new() });
+            harmonics.len() - 1
+        });
+        harmonics[place].add(harmonic < 0, &factors);
     }
 }

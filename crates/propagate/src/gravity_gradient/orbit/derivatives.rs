@@ -17,10 +17,10 @@ const EXPANDED: usize = 6 + 2 * ORDERS;
 const MULTIPLES: usize = 3 + 2 * ORDERS;
 
 /// The powers of e^(if). Orbits whose pericentre is fixed do with few.
-pub(crate) type Circle<S> = UnitPowers<S, { ORDERS + 3 }, MULTIPLES>;
+pub(crate) type AnomalyPowers<S> = UnitPowers<S, { ORDERS + 3 }, MULTIPLES>;
 
 /// Coefficients of a series in cos kf or in sin kf.
-type Series = [f64; EXPANDED];
+type FourierSeries = [f64; EXPANDED];
 
 /// Time derivatives of (a/r)³ times 1, cos 2f and sin 2f, without powers of w. Even derivatives of the first two and odd derivatives of the third are series in
 /// cos kf. The others are series in sin kf.
@@ -29,7 +29,7 @@ pub(crate) struct Orbital {
     eccentricity: f64,
     /// Whether the power of w is 3 + j for the derivative j, and not 3 for all.
     climbs: bool,
-    rows: Vec<Row>,
+    rows: Vec<DerivativeRow>,
     /// Coefficients of the three functions, row after row.
     coefficients: Vec<[f64; 3]>,
     /// Number of multiples of f, from 0, in the derivatives.
@@ -42,7 +42,7 @@ pub(crate) struct Orbital {
 
 /// The first k of a derivative, and where its coefficients are.
 #[derive(Clone, Copy, Debug)]
-struct Row {
+struct DerivativeRow {
     first: usize,
     start: usize,
     end: usize,
@@ -99,7 +99,7 @@ impl Orbital {
     pub(crate) fn cut(&self, bounds: &[f64]) -> (Self, Vec<f64>) {
         let mut orbital = Self::empty(self.eccentricity, self.climbs, self.node_rate);
         let mut largest_power = (1.0 + self.eccentricity).powi(3);
-        let cut = |(row, bound): (&Row, &f64)| {
+        let cut = |(row, bound): (&DerivativeRow, &f64)| {
             let coefficients = self.coefficients[row.start..row.end].iter().copied();
             let lost = largest_power * orbital.push(row.first, coefficients, bound / largest_power);
             largest_power *= if self.climbs { 1.0 + self.eccentricity } else { 1.0 };
@@ -134,7 +134,7 @@ impl Orbital {
             }
         }
         self.coefficients.truncate(end);
-        let row = Row { first: if end > start { skipped } else { 0 }, start, end };
+        let row = DerivativeRow { first: if end > start { skipped } else { 0 }, start, end };
         self.multiples = self.multiples.max(row.first + row.end - row.start);
         self.rows.push(row);
         dropped + pending
@@ -167,7 +167,7 @@ impl Orbital {
 }
 
 /// The time derivatives of (a/r)³, (a/r)³ cos 2f and (a/r)³ sin 2f on a fixed ellipse, over w^(3+j): from P to n η^(−3) (w P′ + (3 + j) w′ P).
-fn derivatives(eccentricity: f64, mean_motion: f64) -> [[Series; 3]; ORDERS + 1] {
+fn derivatives(eccentricity: f64, mean_motion: f64) -> [[FourierSeries; 3]; ORDERS + 1] {
     let eta_square = (1.0 - eccentricity) * (1.0 + eccentricity);
     let rate = mean_motion / (eta_square * eta_square.sqrt());
     let mut all = [[[0.0; EXPANDED]; 3]; ORDERS + 1];
@@ -177,7 +177,7 @@ fn derivatives(eccentricity: f64, mean_motion: f64) -> [[Series; 3]; ORDERS + 1]
     for j in 0..ORDERS {
         for (f, odd) in odd(j).into_iter().enumerate() {
             let (series, sign) = (all[j][f], if odd { rate } else { -rate });
-            let slope: Series = std::array::from_fn(|k| sign * k as f64 * series[k]);
+            let slope: FourierSeries = std::array::from_fn(|k| sign * k as f64 * series[k]);
             let (slope, turned) = (times_w(&slope, eccentricity, !odd), times_sine(&series, odd));
             let factor = (3 + j) as f64 * eccentricity * rate;
             all[j + 1][f] = std::array::from_fn(|k| slope[k] - factor * turned[k]);
@@ -193,13 +193,13 @@ fn odd(j: usize) -> [bool; 3] {
 }
 
 /// The derivatives j times a power of w.
-fn times_powers_of_w(functions: &[Series; 3], eccentricity: f64, j: usize, power: usize) -> [Series; 3] {
+fn times_powers_of_w(functions: &[FourierSeries; 3], eccentricity: f64, j: usize, power: usize) -> [FourierSeries; 3] {
     let odd = odd(j);
     std::array::from_fn(|f| (0..power).fold(functions[f], |series, _| times_w(&series, eccentricity, odd[f])))
 }
 
 /// The j-th derivatives of the three functions, where e^(2if) also turns with `rate`.
-fn with_turning(fixed: &[[Series; 3]], rate: f64, j: usize) -> [Series; 3] {
+fn with_turning(fixed: &[[FourierSeries; 3]], rate: f64, j: usize) -> [FourierSeries; 3] {
     let [one, cosine, sine] = &fixed[j];
     let (mut real, mut imaginary) = (*cosine, *sine);
     if rate != 0.0 {
@@ -235,10 +235,10 @@ fn leibniz(j: usize, rate: f64) -> impl Iterator<Item = f64> {
 }
 
 /// A series in cos kf, or in sin kf if `odd`, times 1 + e cos f.
-fn times_w(series: &Series, eccentricity: f64, odd: bool) -> Series {
+fn times_w(series: &FourierSeries, eccentricity: f64, odd: bool) -> FourierSeries {
     let at = |k: usize| series.get(k).copied().unwrap_or_default();
     let half = 0.5 * eccentricity;
-    let mut product: Series = std::array::from_fn(|k| at(k) + half * (at(k + 1) + at(k.wrapping_sub(1))));
+    let mut product: FourierSeries = std::array::from_fn(|k| at(k) + half * (at(k + 1) + at(k.wrapping_sub(1))));
     // cos(−f) = cos f and sin(−f) = −sin f; the mean has only one coefficient.
     match odd {
         true => product[0] = 0.0,
@@ -248,10 +248,10 @@ fn times_w(series: &Series, eccentricity: f64, odd: bool) -> Series {
 }
 
 /// A series in cos kf, or in sin kf if `odd`, times sin f.
-fn times_sine(series: &Series, odd: bool) -> Series {
+fn times_sine(series: &FourierSeries, odd: bool) -> FourierSeries {
     let at = |k: usize| series.get(k).copied().unwrap_or_default();
     let sign = if odd { 0.5 } else { -0.5 };
-    let mut product: Series = std::array::from_fn(|k| sign * (at(k + 1) - at(k.wrapping_sub(1))));
+    let mut product: FourierSeries = std::array::from_fn(|k| sign * (at(k + 1) - at(k.wrapping_sub(1))));
     match odd {
         true => product[0] = 0.5 * at(1),
         false => (product[0], product[1]) = (0.0, at(0) - 0.5 * at(2)),
@@ -308,7 +308,7 @@ mod tests {
     /// The derivatives j at a mean anomaly.
     fn at(orbital: &Orbital, mean_anomaly: f64, j: usize) -> [f64; 3] {
         let place = Place::of(Lanes::splat(pulp::Scalar, mean_anomaly), orbital.eccentricity);
-        let mut room = Circle::new(place.turn());
+        let mut room = AnomalyPowers::new(place.turn());
         let circle = room.of(place.turn(), orbital.multiples());
         let [mut power, growth] = orbital.powers(place.cosine);
         for _ in 0..j {

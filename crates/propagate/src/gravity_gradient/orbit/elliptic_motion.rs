@@ -41,12 +41,12 @@ pub(crate) struct Course {
     pub(crate) ellipse: Ellipse,
     /// At the epoch.
     pub(crate) axes: [Vector3<f64>; 3],
-    turning: Option<Turning>,
+    turning: Option<TurningPlane>,
 }
 
 /// Node, argument of the pericentre, and sine and cosine of the inclination.
 #[derive(Clone, Debug)]
-struct Turning {
+struct TurningPlane {
     node: Phase,
     argument: Phase,
     tilt: (f64, f64),
@@ -56,7 +56,7 @@ impl Course {
     pub(crate) fn new(orbit: &Orbit, epoch: f64) -> Self {
         let turning = (!orbit.is_fixed()).then(|| {
             let [node, argument] = orbit.node_and_argument(epoch);
-            Turning { node, argument, tilt: orbit.tilt() }
+            TurningPlane { node, argument, tilt: orbit.tilt() }
         });
         Self {
             mean_anomaly: orbit.mean_anomaly(epoch),
@@ -112,9 +112,9 @@ impl Course {
     }
 }
 
-/// [`Turning::axes`] as a task that is compiled separately: a fixed orbit does without it.
+/// [`TurningPlane::axes`] as a task that is compiled separately: a fixed orbit does without it.
 struct AxesAt<'a, S: InstructionSet> {
-    turning: &'a Turning,
+    turning: &'a TurningPlane,
     elapsed: Elapsed<S>,
 }
 
@@ -127,7 +127,7 @@ impl<S: InstructionSet> NullaryFnOnce for AxesAt<'_, S> {
     }
 }
 
-impl Turning {
+impl TurningPlane {
     #[inline(always)]
     fn axes<S: InstructionSet>(&self, elapsed: Elapsed<S>) -> Axes<S> {
         let (node_sine, node_cosine) = self.node.sin_cos(elapsed);

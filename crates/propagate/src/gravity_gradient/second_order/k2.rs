@@ -12,14 +12,14 @@
 
 use nalgebra::Vector3;
 
-use super::k2_remainder::Steady;
+use super::k2_remainder::SteadyRates;
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::terms::term::Term;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 
 /// P0, P1, P2, Q0, Q1, times their factors before the geometry.
-type Coefficients = [f64; 5];
+type K2Factors = [f64; 5];
 
 /// ⟨D⟩ + K2 at one mean σ and M, as a function of the angular momentum's direction and of the disturbing body's place.
 #[derive(Clone, Copy, Debug, Default)]
@@ -27,16 +27,16 @@ pub(crate) struct Hamiltonian {
     /// C of ⟨D⟩ = C u (s² − ⅓), and its derivatives with respect to L and to M at fixed L.
     pub(crate) first: [f64; 3],
     /// K2's coefficients, and their derivatives likewise.
-    pub(crate) second: [Coefficients; 3],
+    pub(crate) second: [K2Factors; 3],
     pub(crate) momentum: f64,
     /// What K2 in closed form lacks.
-    pub(crate) steady: Steady,
+    pub(crate) steady: SteadyRates,
 }
 
 /// Where the disturbing body is, as the averaged equations see it.
 #[cfg(test)]
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Disturber {
+pub(crate) struct PlacedBody {
     /// Unit vector to it.
     pub(crate) direction: Vector3<f64>,
     /// Normal of its orbit.
@@ -64,7 +64,7 @@ pub(crate) fn dot<S: InstructionSet>(one: &[Lanes<S>; 3], other: &[Lanes<S>; 3])
 
 /// Time derivatives of the mean motion.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Slopes {
+pub(crate) struct MeanRates {
     /// Rotation of the invariable frame, across the angular momentum.
     pub(crate) turning: Vector3<f64>,
     /// What is added to dℓ′/dt and dy′/dt.
@@ -84,7 +84,7 @@ impl Hamiltonian {
     /// From the terms of the disturbing function.
     pub(crate) fn new(inertia: &Inertia, terms: &[Term], strength: f64) -> Self {
         let Inertia { sigma, momentum, .. } = *inertia;
-        let sums = [0, 1].map(|order| Sums::new(terms, sigma, order));
+        let sums = [0, 1].map(|order| K2Sums::new(terms, sigma, order));
         let mut second = [[0.0; 5]; 3];
         let [values, slopes] = [0, 1].map(|part| coefficients(&sums, part));
         for i in 0..5 {
@@ -99,7 +99,7 @@ impl Hamiltonian {
     }
 
     /// With what K2 in closed form lacks.
-    pub(crate) fn with_steady(self, steady: Steady) -> Self {
+    pub(crate) fn with_steady(self, steady: SteadyRates) -> Self {
         Self { steady, ..self }
     }
 
@@ -159,19 +159,22 @@ impl Hamiltonian {
 
     /// The derivatives of the mean variables for an angular momentum along a unit vector.
     #[cfg(test)]
-    pub(crate) fn slopes(&self, axis: &Vector3<f64>, disturber: &Disturber) -> Slopes {
+    pub(crate) fn slopes(&self, axis: &Vector3<f64>, disturber: &PlacedBody) -> MeanRates {
         let one = |value: f64| Lanes::splat(pulp::Scalar, value);
         let vector = |vector: &Vector3<f64>| [one(vector.x), one(vector.y), one(vector.z)];
-        let Disturber { direction, normal, cube, rate } = disturber;
+        let PlacedBody { direction, normal, cube, rate } = disturber;
         let disturber =
             DisturberLanes { direction: vector(direction), normal: *normal, cube: one(*cube), rate: one(*rate) };
         let (turning, phases) = self.slopes_at(&vector(axis), &disturber);
-        Slopes { turning: turning.map(|lanes| lanes.values()[0]).into(), phases: phases.map(|lanes| lanes.values()[0]) }
+        MeanRates {
+            turning: turning.map(|lanes| lanes.values()[0]).into(),
+            phases: phases.map(|lanes| lanes.values()[0]),
+        }
     }
 
     /// ⟨D⟩ and K2.
     #[cfg(test)]
-    pub(crate) fn values(&self, axis: &Vector3<f64>, disturber: &Disturber) -> [f64; 2] {
+    pub(crate) fn values(&self, axis: &Vector3<f64>, disturber: &PlacedBody) -> [f64; 2] {
         let square = axis.dot(&disturber.direction).powi(2);
         let [p0, p1, p2, q0, q1] = self.second[0];
         let moving = disturber.rate * axis.dot(&disturber.normal) * (q0 + q1 * square);
@@ -181,12 +184,12 @@ impl Hamiltonian {
 }
 
 /// Â_mj and B̂_mj of one j, by m, and their derivatives with respect to σ.
-struct Sums {
+struct K2Sums {
     by_action: [[f64; 2]; 3],
     by_turn: [[f64; 2]; 3],
 }
 
-impl Sums {
+impl K2Sums {
     fn new(terms: &[Term], sigma: f64, order: i32) -> Self {
         let mut sums = Self { by_action: [[0.0; 2]; 3], by_turn: [[0.0; 2]; 3] };
         for term in terms {
@@ -204,7 +207,7 @@ impl Sums {
 }
 
 /// P0, P1, P2, Q0, Q1 (`part` 0) or their derivatives with respect to σ (1) from the sums for j = 0 and 1.
-fn coefficients([still, moving]: &[Sums; 2], part: usize) -> Coefficients {
+fn coefficients([still, moving]: &[K2Sums; 2], part: usize) -> K2Factors {
     let [a0, a1, a2] = still.by_action.map(|sum| sum[part]);
     let [_, b1, b2] = still.by_turn.map(|sum| sum[part]);
     let [_, c1, c2] = moving.by_action.map(|sum| sum[part]);

@@ -12,8 +12,8 @@
 //! ([`OrbitPeriodic`]). K̄ acts in the time f/n. ⟨K2⟩ has the means of (a/r)⁶ and (a/r)⁶ ḟ times powers of k·r̂. K̄ is a
 //! polynomial in ρ, δ and k_N. For e = 0 it has no δ, and k precesses steadily about the normal. For e ≠ 0 it nods with twice the angle of the node.
 
-use super::k2::{Hamiltonian, Slopes, dot};
-use super::k2_remainder::Steady;
+use super::k2::{Hamiltonian, MeanRates, dot};
+use super::k2_remainder::SteadyRates;
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
@@ -21,33 +21,33 @@ use crate::simd::lanes::Lanes;
 use nalgebra::Vector3;
 
 /// Factors of 1, ρ, δ, ρ², ρδ, δ², k_N, k_N ρ, k_N δ.
-type Coefficients = [f64; 9];
+type MeanFactors = [f64; 9];
 
 /// K̄ at one mean σ and M, as a function of the angular momentum's direction.
 #[derive(Clone, Debug)]
 pub(crate) struct OrbitAverage {
     /// K̄, and its derivatives with respect to L and to M at fixed L.
-    rows: [Coefficients; 3],
+    rows: [MeanFactors; 3],
     momentum: f64,
     axes: [Vector3<f64>; 3],
-    steady: Steady,
+    steady: SteadyRates,
 }
 
 impl OrbitAverage {
     /// From ⟨D⟩ + K2, and the eccentricity, the mean motion and the axes of the orbit.
     pub(crate) fn new(hamiltonian: &Hamiltonian, eccentricity: f64, mean_motion: f64, axes: [Vector3<f64>; 3]) -> Self {
         let Hamiltonian { first, second, momentum, steady } = hamiltonian;
-        let means = Means::new(eccentricity, mean_motion);
+        let means = OrbitMeans::new(eccentricity, mean_motion);
         let squares = hamiltonian.squares(mean_motion);
         let rows = std::array::from_fn(|row| means.coefficients(first[row], squares[row], &second[row]));
         Self { rows, momentum: *momentum, axes, steady: *steady }
     }
 
     /// The derivatives of the mean variables for an angular momentum along a unit vector.
-    pub(crate) fn slopes(&self, axis: &Vector3<f64>) -> Slopes {
+    pub(crate) fn slopes(&self, axis: &Vector3<f64>) -> MeanRates {
         let [p, q, n] = self.axes.map(|direction| axis.dot(&direction));
         let (rho, delta) = (p * p + q * q, p * p - q * q);
-        let value = |[one, r, d, rr, rd, dd, z, zr, zd]: Coefficients| {
+        let value = |[one, r, d, rr, rd, dd, z, zr, zd]: MeanFactors| {
             one + rho * (r + rr * rho + rd * delta) + delta * (d + dd * delta) + n * (z + zr * rho + zd * delta)
         };
         let [_, r, d, rr, rd, dd, z, zr, zd] = self.rows[0];
@@ -57,7 +57,7 @@ impl OrbitAverage {
             + self.axes[1] * (2.0 * q * (by_rho - by_delta))
             + self.axes[2] * (z + zr * rho + zd * delta)
             + self.steady.force;
-        Slopes {
+        MeanRates {
             turning: (force - axis * axis.dot(&force)) / self.momentum,
             phases: [0, 1].map(|i| value(self.rows[i + 1]) + self.steady.phases[i]),
         }
@@ -71,7 +71,7 @@ impl OrbitAverage {
 }
 
 /// The means over one orbit.
-struct Means {
+struct OrbitMeans {
     /// ⟨(a/r)³⟩.
     cube: f64,
     /// I_c and I_1.
@@ -82,7 +82,7 @@ struct Means {
     moving: [f64; 2],
 }
 
-impl Means {
+impl OrbitMeans {
     fn new(e: f64, mean_motion: f64) -> Self {
         let square = e * e;
         let eta = ((1.0 - e) * (1.0 + e)).sqrt();
@@ -104,7 +104,7 @@ impl Means {
     }
 
     /// One row of K̄, from the factors of ⟨D⟩, of C²/Mn and of K2.
-    fn coefficients(&self, first: f64, square: f64, second: &[f64; 5]) -> Coefficients {
+    fn coefficients(&self, first: f64, square: f64, second: &[f64; 5]) -> MeanFactors {
         let [p0, p1, p2, q0, q1] = *second;
         let [c0, c2, c4] = self.still;
         let [d0, d2] = self.moving;
@@ -128,11 +128,11 @@ const HIGHEST: usize = 8;
 const SERIES: usize = 7;
 
 /// The factors of a real or complex series Σ_k (p_k sin kf − i q_k cos kf), k from 1 on.
-type Series = [[f64; 2]; HIGHEST];
+type SineSeries = [[f64; 2]; HIGHEST];
 
 /// The factors of S0, S2, S4, of T0, T2, and of A.
 #[derive(Clone, Copy, Debug)]
-struct Factors {
+struct PoleFactors {
     still: [f64; 3],
     moving: [f64; 2],
     square: f64,
@@ -142,12 +142,12 @@ struct Factors {
 #[derive(Clone, Debug)]
 pub(crate) struct OrbitPeriodic {
     /// Of W₂, and of its derivatives with respect to L and to M at fixed L.
-    rows: [Factors; 3],
-    series: [Series; SERIES],
+    rows: [PoleFactors; 3],
+    series: [SineSeries; SERIES],
     momentum: f64,
     mean_motion: f64,
     axes: [Vector3<f64>; 3],
-    steady: Steady,
+    steady: SteadyRates,
 }
 
 impl OrbitPeriodic {
@@ -158,13 +158,13 @@ impl OrbitPeriodic {
         let squares = hamiltonian.squares(mean_motion);
         let rows = std::array::from_fn(|row| {
             let [p0, p1, p2, q0, q1] = second[row];
-            Factors {
+            PoleFactors {
                 still: [p0, p1, p2].map(|factor| factor / (mean_motion * eta.powi(9))),
                 moving: [q0, q1].map(|factor| factor / eta.powi(12)),
                 square: squares[row] / (mean_motion * eta.powi(6)),
             }
         });
-        let [still, moving] = [4, 6].map(|power| Powers::new(eccentricity, power));
+        let [still, moving] = [4, 6].map(|power| DistancePowers::new(eccentricity, power));
         let [axial, double] = of_square(eccentricity);
         let series = [
             still.primitive(0),
@@ -211,7 +211,7 @@ impl OrbitPeriodic {
         let slope_a = scaled(scaled(conjugate, axial.re) + za, all(2.0));
 
         let odd =
-            |row: &Factors| t2.mul_add(all(row.moving[1]), d0.re.mul_add(all(row.moving[0]), a * all(row.square)));
+            |row: &PoleFactors| t2.mul_add(all(row.moving[1]), d0.re.mul_add(all(row.moving[0]), a * all(row.square)));
         // t − f/n, in which the constant rates act.
         let late = place.centre * all(-1.0 / self.mean_motion);
         let mut phases = [late; 2];
@@ -258,9 +258,9 @@ impl OrbitPeriodic {
 }
 
 /// The Fourier coefficients of (1 + e cos f)^power, by the number of the harmonic from −8 to 8.
-struct Powers([f64; 2 * HIGHEST + 1]);
+struct DistancePowers([f64; 2 * HIGHEST + 1]);
 
-impl Powers {
+impl DistancePowers {
     fn new(eccentricity: f64, power: usize) -> Self {
         let mut coefficients = [0.0; 2 * HIGHEST + 1];
         coefficients[HIGHEST] = 1.0;
@@ -274,7 +274,7 @@ impl Powers {
     }
 
     /// The primitive of the product with e^(imf), without its mean.
-    fn primitive(&self, m: usize) -> Series {
+    fn primitive(&self, m: usize) -> SineSeries {
         let of = |harmonic: i32| {
             let index = harmonic - m as i32 + HIGHEST as i32;
             usize::try_from(index).ok().and_then(|index| self.0.get(index)).copied().unwrap_or(0.0)
@@ -288,7 +288,7 @@ impl Powers {
 }
 
 /// The two series of A: the factor of ρ, and B with Re z²B.
-fn of_square(e: f64) -> [Series; 2] {
+fn of_square(e: f64) -> [SineSeries; 2] {
     // g e^(2if) = Σ c_k e^(ikf), b = −i Σ (c_k/k) e^(ikf), a = −½ie (e^(if) − e^(−if)).
     let c = [0.0, 0.5 * e, 1.0, 0.5 * e];
     let (mut axial, mut double) = ([[0.0; 2]; HIGHEST], [[0.0; 2]; HIGHEST]);

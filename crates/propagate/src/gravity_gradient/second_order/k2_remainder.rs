@@ -30,7 +30,7 @@ const SPLIT_SQUARE: f64 = 1e-12;
 
 /// Constant rates by K2.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Steady {
+pub(crate) struct SteadyRates {
     /// ∂K2/∂k, in inertial components.
     pub(crate) force: Vector3<f64>,
     /// What is added to dℓ′/dt and dy′/dt.
@@ -92,7 +92,7 @@ impl Shape {
     }
 }
 
-impl Steady {
+impl SteadyRates {
     /// At a mean motion whose frame is known, from the terms whose divisors are exact and all terms with sums over time derivatives.
     pub(crate) fn new(
         inertia: &Inertia,
@@ -189,7 +189,7 @@ impl<'a> Rates<'a> {
         self.turned = [self.turned[0] + turned[0], self.turned[1] + turned[1]];
     }
 
-    fn steady(&self, frame: &UnitQuaternion<f64>, normal: &Vector3<f64>) -> Steady {
+    fn steady(&self, frame: &UnitQuaternion<f64>, normal: &Vector3<f64>) -> SteadyRates {
         let Inertia { sigma, momentum, .. } = *self.inertia;
         let by_action = self.by_sigma / momentum;
         let [first, second] = self.turned;
@@ -204,7 +204,7 @@ impl<'a> Rates<'a> {
         } else {
             across
         };
-        Steady { force, phases: [by_action, self.by_momentum - sigma * by_action] }
+        SteadyRates { force, phases: [by_action, self.by_momentum - sigma * by_action] }
     }
 }
 
@@ -253,7 +253,7 @@ pub(crate) fn lacking(
     frame: &UnitQuaternion<f64>,
     demand: &Demand<'_>,
     series: &OrbitSeries,
-) -> (f64, Steady) {
+) -> (f64, SteadyRates) {
     let summed = summed(inertia, &fast_terms(inertia, 0.0, slowest(demand)), &[]);
     let rates = Rates::new(inertia, frame, (demand, series), (&[], &summed));
     (rates.value, rates.steady(frame, &demand.axes[2]))

@@ -1,17 +1,17 @@
 //! The mean σ and M of second order, and the averaged Hamiltonian there.
 
 use super::k2::Hamiltonian;
-use super::k2_remainder::Steady;
-use super::pair_harmonics::Harmonics;
+use super::k2_remainder::SteadyRates;
+use super::pair_harmonics::OrbitHarmonics;
 use super::pair_terms::{Stand, orders};
 use super::pairs::{OrbitParts, second_actions};
-use super::pairs_around::{Around, Point};
+use super::pairs_around::{Around, OrbitPoint};
 use crate::error::Error;
-use crate::gravity_gradient::body::contraction::{Tensor, contraction};
+use crate::gravity_gradient::body::contraction::{SymmetricTensor, contraction};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
-use crate::gravity_gradient::first_order::generator::{Factors, Generator};
+use crate::gravity_gradient::first_order::generator::{Generator, TorqueScale};
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
 use crate::gravity_gradient::first_order::mean_variables::{Mean, PeriodicChange};
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
@@ -46,7 +46,7 @@ pub(crate) struct EpochMean {
 pub(crate) struct SecondOrderData {
     both: [EpochMean; 2],
     /// The part of the average of K2 over the orbit that K2 in closed form lacks.
-    steady: Steady,
+    steady: SteadyRates,
 }
 
 impl SecondOrderData {
@@ -65,7 +65,7 @@ impl SecondOrderData {
         first: &MeanMotion,
         demand: &Demand<'_>,
         level: Level,
-    ) -> Result<(MeanMotion, Steady, [f64; 2]), Error> {
+    ) -> Result<(MeanMotion, SteadyRates, [f64; 2]), Error> {
         let EpochMean { mean, momentum, left } = self.both[usize::from(level == Level::SecondOrder)];
         let inertia = first.inertia.moved(polhode, mean.p.norm_sqr(), mean.momentum);
         let corrections = vec![Corrections::new(&inertia, demand)?];
@@ -75,7 +75,7 @@ impl SecondOrderData {
 }
 
 /// ⟨D⟩ + K2 at a mean motion.
-pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, steady: Steady) -> Hamiltonian {
+pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, steady: SteadyRates) -> Hamiltonian {
     let terms = fast_terms(inertia, K2_CUTOFF, slowest(demand));
     Hamiltonian::new(inertia, &terms, demand.strength()).with_steady(steady)
 }
@@ -87,7 +87,7 @@ pub(crate) fn epoch_means(
     inertia: &Inertia,
     place: &Place<pulp::Scalar>,
     demand: &Demand<'_>,
-) -> ([EpochMean; 2], Steady) {
+) -> ([EpochMean; 2], SteadyRates) {
     let slowest = slowest(demand);
     let (tensors, norms) = tensors(mean, place, demand);
     let stand = Stand {
@@ -106,14 +106,14 @@ pub(crate) fn epoch_means(
             / (demand.duration * inertia.rates.iter().map(|rate| rate.to_f64().abs()).sum::<f64>()),
     };
     let points = |places: &[(f64, f64)]| points(mean, place, demand, places);
-    let harmonics = Harmonics::new(mean, place, demand);
+    let harmonics = OrbitHarmonics::new(mean, place, demand);
     let mut terms = fast_terms(inertia, FIRST_ORDER_CUTOFF, slowest);
     if harmonics.is_some() {
         terms.extend(slow_terms(inertia, slowest));
     }
     let first = first_actions(&stand, &terms, harmonics.as_ref().map(|harmonics| (harmonics, exact)));
     let terms = fast_terms(inertia, PAIR_SUM_CUTOFF, slowest);
-    let steady = Steady::new(inertia, &mean.frame, demand, (exact, &terms));
+    let steady = SteadyRates::new(inertia, &mean.frame, demand, (exact, &terms));
     let exact = harmonics.as_ref().map(|harmonics| split(inertia, exact, harmonics)).unwrap_or_default();
     let around = Around { eccentricity: demand.orbit.eccentricity(), mean_motion: demand.mean_motion, points: &points };
     let exact = OrbitParts { around: harmonics.is_some().then_some(around), ..exact };
@@ -145,19 +145,19 @@ pub(crate) fn points(
     place: &Place<pulp::Scalar>,
     demand: &Demand<'_>,
     places: &[(f64, f64)],
-) -> Vec<Point> {
+) -> Vec<OrbitPoint> {
     let eccentricity = demand.orbit.eccentricity();
     let epoch = place.angle.values()[0] - place.centre.values()[0];
     let generator = without_terms(mean, demand);
     let at = |&(anomaly, weight): &(f64, f64)| {
         let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
-        Point { anomaly: anomaly - epoch, weight, tensors: tensors_by(&generator, mean, &place) }
+        OrbitPoint { anomaly: anomaly - epoch, weight, tensors: tensors_by(&generator, mean, &place) }
     };
     places.iter().map(at).collect()
 }
 
 /// The terms with exact divisors, split into harmonics.
-fn split<'a>(inertia: &Inertia, exact: &[ExactTerm], harmonics: &Harmonics) -> OrbitParts<'a> {
+fn split<'a>(inertia: &Inertia, exact: &[ExactTerm], harmonics: &OrbitHarmonics) -> OrbitParts<'a> {
     let split = |exact: &ExactTerm| {
         let (harmonic, multiple) = exact.numbers;
         (Term::new(inertia, harmonic, multiple), harmonics.split(multiple, &exact.divisors))
@@ -170,11 +170,11 @@ pub(crate) fn tensors<'a>(
     mean: &Mean,
     place: &Place<pulp::Scalar>,
     demand: &Demand<'a>,
-) -> ([Tensor; ORDERS], &'a [f64]) {
+) -> ([SymmetricTensor; ORDERS], &'a [f64]) {
     (tensors_by(&without_terms(mean, demand), mean, place), &demand.envelope.orbital.norms)
 }
 
-fn tensors_by(generator: &Generator, mean: &Mean, place: &Place<pulp::Scalar>) -> [Tensor; ORDERS] {
+fn tensors_by(generator: &Generator, mean: &Mean, place: &Place<pulp::Scalar>) -> [SymmetricTensor; ORDERS] {
     let frame = QuaternionLanes::all(Lanes::splat(pulp::Scalar, 0.0), &mean.frame);
     generator.tensors(frame, place).map(|deviator| {
         let [axial, across, xy, xz, yz] = deviator.map(|lanes| lanes.values()[0]);
@@ -186,7 +186,7 @@ fn tensors_by(generator: &Generator, mean: &Mean, place: &Place<pulp::Scalar>) -
 /// The orbit's part of a generating function.
 fn without_terms(mean: &Mean, demand: &Demand<'_>) -> Generator {
     let [first, second, _] = demand.orbit.axes();
-    let factors = Factors { strength: 0.0, root: 0.0, momentum: mean.momentum };
+    let factors = TorqueScale { strength: 0.0, root: 0.0, momentum: mean.momentum };
     Generator::new(&Default::default(), Vec::new(), (demand.envelope.orbital.clone(), [first, second]), factors)
 }
 
@@ -202,7 +202,7 @@ pub(crate) struct FirstActions {
 pub(crate) fn first_actions(
     stand: &Stand<'_>,
     terms: &[Term],
-    harmonics: Option<(&Harmonics, &[ExactTerm])>,
+    harmonics: Option<(&OrbitHarmonics, &[ExactTerm])>,
 ) -> FirstActions {
     let mut actions = FirstActions::default();
     let angle = if stand.mean.p == C64::default() { 0.0 } else { stand.mean.p.arg() };

@@ -33,14 +33,14 @@ pub(crate) struct Near {
     /// The contraction of U_j e^(ijl).
     pub(crate) torque: Contraction,
     /// That of W, with its divisors.
-    generator: Part,
+    generator: ContractedPart,
     /// Whether the divisors have the shift by the average torque.
     pub(crate) shifted: bool,
 }
 
 /// A contraction and its derivative with respect to Ω.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Part {
+pub(crate) struct ContractedPart {
     pub(crate) value: Contraction,
     pub(crate) slope: C64,
 }
@@ -48,8 +48,8 @@ pub(crate) struct Part {
 /// The amplitudes of D, dD/dt, W and dW/dt of one term.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Parts {
-    pub(crate) torque: [Part; 2],
-    pub(crate) generator: [Part; 2],
+    pub(crate) torque: [ContractedPart; 2],
+    pub(crate) generator: [ContractedPart; 2],
 }
 
 /// A term whose divisors are exact.
@@ -62,12 +62,12 @@ pub(crate) struct Split {
 impl Near {
     /// As a term of this frequency, whose amplitude is constant.
     pub(crate) fn parts(&self) -> Parts {
-        let torque = Part { value: self.torque, slope: C64::default() };
-        Parts { torque: [torque, Part::default()], generator: [self.generator, Part::default()] }
+        let torque = ContractedPart { value: self.torque, slope: C64::default() };
+        Parts { torque: [torque, ContractedPart::default()], generator: [self.generator, ContractedPart::default()] }
     }
 }
 
-impl Part {
+impl ContractedPart {
     /// Adds a part of D with its divisor, as one of W.
     fn add(&mut self, torque: Contraction, reciprocal: f64) {
         let inverse = C64::new(0.0, -reciprocal);
@@ -93,7 +93,7 @@ impl Parts {
 }
 
 /// The series of one orbit at one place of the disturbing body.
-pub(crate) struct Harmonics {
+pub(crate) struct OrbitHarmonics {
     /// U_j e^(ijl) of (a/r)³ times 1, e^(2if) and e^(−2if), from −j to j.
     waves: Vec<[C64; 3]>,
     /// The contractions for m = 0, 1, 2 of the tensors that belong to these functions.
@@ -105,7 +105,7 @@ pub(crate) struct Harmonics {
     slowest: f64,
 }
 
-impl Harmonics {
+impl OrbitHarmonics {
     /// The series in the frame of a mean state, if the orbit has one.
     pub(crate) fn new(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<'_>) -> Option<Self> {
         let series = &demand.series?.coefficients;
@@ -164,7 +164,7 @@ impl Harmonics {
             let torque = self.contracted(harmonic, multiple);
             let frequency = divisors.unshifted(j);
             if divisors.is_single(j) {
-                let mut generator = Part::default();
+                let mut generator = ContractedPart::default();
                 for (k, turns) in TURNS.into_iter().enumerate() {
                     let functions = &self.contracted[multiple as usize][k]; // 0 ≤ m ≤ 2
                     generator.add(functions.map(|function| harmonic[k] * function), divisors.reciprocal(j, turns));
@@ -185,7 +185,7 @@ impl Harmonics {
         let near = (count - most..=count + most).map(|i| {
             let frequency = (i as f64 - count as f64) * self.mean_motion;
             let torque = self.contracted(&self.waves[i], 0);
-            Near { frequency, divisor: frequency, torque, generator: Part::default(), shifted: false }
+            Near { frequency, divisor: frequency, torque, generator: ContractedPart::default(), shifted: false }
         });
         near.collect()
     }
@@ -228,12 +228,12 @@ mod tests {
     use nalgebra::{UnitQuaternion, Vector3};
 
     use super::*;
-    use crate::gravity_gradient::body::contraction::Tensor;
+    use crate::gravity_gradient::body::contraction::SymmetricTensor;
     use crate::gravity_gradient::orbit::hansen::OrbitSeries;
     use crate::gravity_gradient::orbit::span::{Reach, whole};
+    use crate::gravity_gradient::request::Ledger;
     use crate::gravity_gradient::second_order::mean_elements::tensors;
-    use crate::gravity_gradient::terms::divisors::Secular;
-    use crate::gravity_gradient::tolerance::Ledger;
+    use crate::gravity_gradient::terms::divisors::AverageShift;
     use crate::input::options::Level;
     use crate::input::orbit::Orbit;
     use crate::simd::lanes::Lanes;
@@ -283,7 +283,7 @@ mod tests {
                 let to_body = first * cosine + second * sine;
                 let cube = ((1.0 + eccentricity * cosine) / (1.0 - eccentricity * eccentricity)).powi(3);
                 let [x, y, z] = to_body.into();
-                let tensor: Tensor = [x * x, y * y, z * z, x * y, x * z, y * z].map(|part: f64| cube * part);
+                let tensor: SymmetricTensor = [x * x, y * y, z * z, x * y, x * z, y * z].map(|part: f64| cube * part);
                 C64::from_polar(1.0, -omega * period * back) * contraction(&tensor, multiple)[0]
             })
             .sum();
@@ -294,7 +294,7 @@ mod tests {
         let step = period / points as f64;
         let slope = C64::i() * omega * value(0) + value(1);
         let quadrature = (sum * step - value(0) * jump * (0.5 * step) - slope * jump * (step * step / 12.0)) / jump;
-        let series = Harmonics::new(mean, &place(start), demand).expect("few harmonics");
+        let series = OrbitHarmonics::new(mean, &place(start), demand).expect("few harmonics");
         [series.solution(omega, multiple, None), quadrature]
     }
 
@@ -325,11 +325,12 @@ mod tests {
         on_orbit(0.6, 1e6, |mean, demand| {
             let place = Place::of(Lanes::splat(pulp::Scalar, 0.8), 0.6);
             let (tensors, _) = tensors(mean, &place, demand);
-            let series = Harmonics::new(mean, &place, demand).expect("few harmonics");
+            let series = OrbitHarmonics::new(mean, &place, demand).expect("few harmonics");
             // The last is slow: all its harmonics are terms.
             for (number, multiple) in [(22.6, 0), (-31.4, 1), (1.3, 2)] {
                 let omega = number * MEAN_MOTION;
-                let divisors = Divisors::new((1, multiple), [omega, MEAN_MOTION], multiple == 2, &Secular::default());
+                let divisors =
+                    Divisors::new((1, multiple), [omega, MEAN_MOTION], multiple == 2, &AverageShift::default());
                 let Split { near, rest } = series.split(multiple, &divisors);
                 assert!(if multiple == 2 { near.len() > 100 } else { near.len() == 5 }, "{}", near.len());
                 let (mut torque, mut change, mut generator) =

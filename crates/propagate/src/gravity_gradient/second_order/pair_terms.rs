@@ -1,7 +1,7 @@
 //! The terms of the sum over pairs at one state: their amplitudes, those of the generating function, and the bracket of two.
 
-use super::pair_harmonics::{Near, Part, Parts};
-use crate::gravity_gradient::body::contraction::{Contraction, Tensor, contraction};
+use super::pair_harmonics::{ContractedPart, Near, Parts};
+use crate::gravity_gradient::body::contraction::{Contraction, SymmetricTensor, contraction};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
@@ -18,7 +18,7 @@ pub(crate) struct Stand<'a> {
     /// q = 3φn²/2.
     pub(crate) strength: f64,
     /// The traceless part of (a/r)³ r̂r̂ in the frame, and its time derivatives.
-    pub(crate) tensors: &'a [Tensor; ORDERS],
+    pub(crate) tensors: &'a [SymmetricTensor; ORDERS],
     /// Sizes of the time derivatives at the epoch, as many and one more.
     pub(crate) sizes: &'a [f64; ORDERS + 1],
     /// The largest on the orbit.
@@ -40,7 +40,7 @@ pub(crate) struct Stand<'a> {
 
 /// One term, or ⟨D⟩.
 #[derive(Clone, Copy)]
-pub(crate) struct Row {
+pub(crate) struct PairTerm {
     pub(crate) harmonic: f64,
     pub(crate) multiple: f64,
     /// Relative size.
@@ -60,16 +60,16 @@ pub(crate) struct Row {
 
 impl Stand<'_> {
     /// [D_a, W_b].
-    pub(crate) fn source(&self, a: &Row, b: &Row) -> C64 {
+    pub(crate) fn source(&self, a: &PairTerm, b: &PairTerm) -> C64 {
         self.bracket(a, &a.parts.torque[0], b, &b.parts.generator[0])
     }
 
     /// The bracket of a part of one term with a part of another, with the phases.
-    pub(crate) fn bracket(&self, a: &Row, a_part: &Part, b: &Row, b_part: &Part) -> C64 {
+    pub(crate) fn bracket(&self, a: &PairTerm, a_part: &ContractedPart, b: &PairTerm, b_part: &ContractedPart) -> C64 {
         let (momentum, sigma) = (self.mean.momentum, self.inertia.sigma);
         let ([x, x1, x2], [z, z1, z2]) = (a_part.value, b_part.value);
         // The derivative (h − mσ)/M ∂/∂σ + m ∂/∂M, with the factor that b's or a's amplitude gives.
-        let along = |row: &Row, other: &Row, value: C64, slope: C64| {
+        let along = |row: &PairTerm, other: &PairTerm, value: C64, slope: C64| {
             let [whole, _, lowered] = row.amplitude;
             let [_, by_sigma, by_momentum] = other.frequency;
             let turned = (lowered - row.multiple * sigma.sqrt() * whole) * other.amplitude[1] / momentum;
@@ -83,13 +83,13 @@ impl Stand<'_> {
     }
 }
 
-impl Row {
+impl PairTerm {
     /// A term by the sums over time derivatives.
     pub(crate) fn new(stand: &Stand<'_>, term: &Term) -> Self {
         let contracted = stand.tensors.map(|tensor| contraction(&tensor, term.multiple));
         let omega = stand.mean.momentum * term.frequency[0];
         let parts = Parts {
-            torque: [0, 1].map(|j| Part { value: contracted[j], slope: C64::default() }),
+            torque: [0, 1].map(|j| ContractedPart { value: contracted[j], slope: C64::default() }),
             generator: generating(&contracted, omega, stand.sizes),
         };
         Self::of(stand, term, parts)
@@ -107,7 +107,7 @@ impl Row {
         let inverse = (C64::i() * omega).inv();
         let mut turns: Vec<C64> =
             near.iter().map(|harmonic| C64::from_polar(1.0, (harmonic.frequency - omega) * elapsed)).collect();
-        let (mut torque, mut generator) = (Part::default(), Part::default());
+        let (mut torque, mut generator) = (ContractedPart::default(), ContractedPart::default());
         let mut factor = inverse;
         for (j, &values) in contracted.iter().enumerate() {
             let mut values = values;
@@ -126,7 +126,8 @@ impl Row {
             generator.slope += factor * inverse * -C64::i() * (j as f64 + 1.0) * values[0];
             factor *= -inverse;
         }
-        let parts = Parts { torque: [torque, Part::default()], generator: [generator, Part::default()] };
+        let parts =
+            Parts { torque: [torque, ContractedPart::default()], generator: [generator, ContractedPart::default()] };
         Self { parts, ..*self }
     }
 
@@ -162,7 +163,7 @@ impl Row {
 
     /// One harmonic of ⟨D⟩.
     pub(crate) fn at(&self, near: &Near) -> Self {
-        let torque = [Part { value: near.torque, slope: C64::default() }, Part::default()];
+        let torque = [ContractedPart { value: near.torque, slope: C64::default() }, ContractedPart::default()];
         let frequency = [near.frequency, 0.0, 0.0];
         Self { frequency, parts: Parts { torque, ..Parts::default() }, single: true, ..*self }
     }
@@ -170,7 +171,7 @@ impl Row {
     /// 2⟨D⟩. The source of a pair with ⟨D⟩ is [⟨D⟩, W_b], without the factor ½ of S_ab = ½ [D_a, W_b].
     pub(crate) fn average(stand: &Stand<'_>) -> Self {
         let function = Term::average(stand.inertia);
-        let part = |tensor: &Tensor| Part { value: contraction(tensor, 0), slope: C64::default() };
+        let part = |tensor: &SymmetricTensor| ContractedPart { value: contraction(tensor, 0), slope: C64::default() };
         Self {
             harmonic: 0.0,
             multiple: 0.0,
@@ -180,7 +181,7 @@ impl Row {
             amplitude: amplitude(0, function, stand.inertia.sigma),
             parts: Parts {
                 torque: [part(&stand.tensors[0]), part(&stand.tensors[1])],
-                generator: [Part::default(); 2],
+                generator: [ContractedPart::default(); 2],
             },
             single: false,
             shifted: false,
@@ -188,8 +189,10 @@ impl Row {
     }
 
     pub(crate) fn conjugate(&self) -> Self {
-        let conjugated =
-            |part: &Part, sign: f64| Part { value: part.value.map(|c| c.conj()), slope: part.slope.conj() * sign };
+        let conjugated = |part: &ContractedPart, sign: f64| ContractedPart {
+            value: part.value.map(|c| c.conj()),
+            slope: part.slope.conj() * sign,
+        };
         let [whole, slope, lowered] = self.amplitude;
         Self {
             harmonic: -self.harmonic,
@@ -219,10 +222,10 @@ fn amplitude(harmonic: i32, [value, slope, _]: [f64; 3], sigma: f64) -> [f64; 3]
 }
 
 /// V and dV/dt with V̇ + iΩV = U, from the contractions of U and its time derivatives: sums that end where what they leave is least.
-fn generating(contracted: &[Contraction; ORDERS], omega: f64, sizes: &[f64]) -> [Part; 2] {
+fn generating(contracted: &[Contraction; ORDERS], omega: f64, sizes: &[f64]) -> [ContractedPart; 2] {
     let orders = orders(omega, sizes, 0.0);
     let inverse = (C64::i() * omega).inv();
-    let mut parts = [Part::default(); 2];
+    let mut parts = [ContractedPart::default(); 2];
     // (−1)^j/(iΩ)^(j+1).
     let mut factor = inverse;
     for (j, values) in contracted.iter().enumerate().take(orders) {

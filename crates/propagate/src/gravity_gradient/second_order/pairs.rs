@@ -14,7 +14,7 @@
 //! frequencies together. Pairs for which two terms of χ are not enough are summed around the orbit ([`crate::gravity_gradient::second_order::pairs_around`]).
 
 use super::pair_harmonics::{Near, Split, inverse, unreturned};
-use super::pair_terms::{Row, Stand};
+use super::pair_terms::{PairTerm, Stand};
 use super::pairs_around;
 use super::pairs_around::{Around, PAIR_PRODUCT_CUTOFF, Total};
 use crate::gravity_gradient::terms::term::Term;
@@ -22,7 +22,7 @@ use crate::numerics::C64;
 use std::f64::consts::SQRT_2;
 use std::mem::take;
 /// Pairs of ordinary terms, joined by their totals, and those with a single harmonic of the orbit.
-type Lists = [Vec<Together>; 2];
+type Lists = [Vec<PairSum>; 2];
 
 /// δ₂M and δ₂L.
 #[derive(Clone, Copy, Debug, Default)]
@@ -52,29 +52,29 @@ pub(crate) struct OrbitParts<'a> {
 pub(crate) fn second_actions(stand: &Stand<'_>, terms: &[Term], exact: &OrbitParts<'_>) -> Actions {
     let is_exact = |term: &Term| exact.terms.iter().any(|(other, _)| term.is(other));
     let mut listed: Vec<Term> = terms.iter().filter(|term| !is_exact(term)).copied().collect();
-    let mut half: Vec<Row> = listed.iter().map(|term| Row::new(stand, term)).collect();
+    let mut half: Vec<PairTerm> = listed.iter().map(|term| PairTerm::new(stand, term)).collect();
     for (term, split) in &exact.terms {
         if stand.mean.momentum * term.frequency[0].abs() > stand.slowest {
             listed.push(*term);
-            half.push(Row::of(stand, term, split.rest));
+            half.push(PairTerm::of(stand, term, split.rest));
         }
     }
-    let single: Vec<Row> = exact
+    let single: Vec<PairTerm> = exact
         .terms
         .iter()
-        .flat_map(|(term, split)| split.near.iter().map(|near| Row::single(stand, term, near)))
+        .flat_map(|(term, split)| split.near.iter().map(|near| PairTerm::single(stand, term, near)))
         .collect();
-    let largest_of = |rows: &[Row]| rows.iter().fold(0.0_f64, |most, row| most.max(row.size));
+    let largest_of = |rows: &[PairTerm]| rows.iter().fold(0.0_f64, |most, row| most.max(row.size));
     let largest = if half.is_empty() { largest_of(&single) } else { largest_of(&half) };
-    let (single, dropped): (Vec<Row>, Vec<Row>) =
+    let (single, dropped): (Vec<PairTerm>, Vec<PairTerm>) =
         single.into_iter().partition(|row| row.size > PAIR_PRODUCT_CUTOFF * largest);
     half.extend(single);
     half.iter_mut().for_each(|row| row.size /= largest);
-    let sum = |rows: &[Row], unit: f64| rows.iter().map(|row| (row.size / unit).powi(2)).sum::<f64>();
+    let sum = |rows: &[PairTerm], unit: f64| rows.iter().map(|row| (row.size / unit).powi(2)).sum::<f64>();
     let dropped = sum(&dropped, largest.max(f64::MIN_POSITIVE)) * sum(&half, 1.0);
-    let rows: Vec<Row> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
-    let average = Row::average(stand);
-    let averages: Vec<Row> = exact.average.iter().map(|near| average.at(near)).collect();
+    let rows: Vec<PairTerm> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
+    let average = PairTerm::average(stand);
+    let averages: Vec<PairTerm> = exact.average.iter().map(|near| average.at(near)).collect();
     let (mut actions, mut pruned, mut together) = (Actions::default(), dropped, Lists::default());
     for b in &rows {
         // The other half of the sum is its conjugate.
@@ -110,13 +110,13 @@ pub(crate) fn second_actions(stand: &Stand<'_>, terms: &[Term], exact: &OrbitPar
 /// ½ ⟨{D̃, W}⟩ from the pairs whose phases cancel, with as many time derivatives as the sums have.
 #[cfg(test)]
 pub(crate) fn averaged(stand: &Stand<'_>, terms: &[Term]) -> f64 {
-    let rows = terms.iter().map(|term| Row::new(stand, term));
+    let rows = terms.iter().map(|term| PairTerm::new(stand, term));
     rows.map(|a| stand.bracket(&a, &a.parts.torque[0], &a.conjugate(), &a.conjugate().parts.generator[0]).re).sum()
 }
 
 impl Actions {
     /// Adds a pair, `factor` times: a term with another, or ⟨D⟩ with one.
-    fn add(&mut self, stand: &Stand<'_>, (a, b): (&Row, &Row), factor: f64, together: &mut Lists) {
+    fn add(&mut self, stand: &Stand<'_>, (a, b): (&PairTerm, &PairTerm), factor: f64, together: &mut Lists) {
         let i = C64::i();
         let (torque, wave) = (&a.parts.torque, &b.parts.generator);
         let (h, m) = (a.harmonic + b.harmonic, a.multiple + b.multiple);
@@ -134,7 +134,7 @@ impl Actions {
                 let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
                 let total = Total { numbers: [h, m], frequency: omega };
                 let single = a.single || b.single;
-                let pair = Together { total, source, change, single };
+                let pair = PairSum { total, source, change, single };
                 pair.join(0.5 * factor, &mut together[usize::from(single)]);
                 if omega.abs() > stand.slowest {
                     let inverse = (i * omega).inv();
@@ -150,9 +150,9 @@ impl Actions {
         &mut self,
         stand: &Stand<'_>,
         listed: &[(Term, f64)],
-        together: Vec<Together>,
+        together: Vec<PairSum>,
         (around, exact): (&Around<'_>, &[(Term, Split)]),
-    ) -> Vec<Together> {
+    ) -> Vec<PairSum> {
         let (served, others): (Vec<_>, Vec<_>) = together.into_iter().partition(|all| all.needs(stand, around));
         if !served.is_empty() {
             let totals: Vec<_> = served.iter().map(|all| all.total).collect();
@@ -171,7 +171,7 @@ impl Actions {
         self.left = [0, 1].map(|i| (self.left[i] * self.left[i] + left[i] * left[i]).sqrt());
     }
 
-    fn sum(&mut self, factor: f64, both: C64, chi: C64, (a, b, [h, m]): (&Row, &Row, [f64; 2])) {
+    fn sum(&mut self, factor: f64, both: C64, chi: C64, (a, b, [h, m]): (&PairTerm, &PairTerm, [f64; 2])) {
         let parts = [both * a.multiple + chi * m, both * a.harmonic + chi * h].map(|part| factor * part);
         self.momentum += parts[0].re;
         self.action += parts[1].re;
@@ -186,7 +186,7 @@ const SOURCE_MARGIN: f64 = 3.0;
 
 /// All pairs with one total, either with a single harmonic of the orbit in them or without.
 #[derive(Clone, Copy)]
-pub(crate) struct Together {
+pub(crate) struct PairSum {
     pub(crate) total: Total,
     /// S and Ṡ.
     pub(crate) source: C64,
@@ -195,7 +195,7 @@ pub(crate) struct Together {
     pub(crate) single: bool,
 }
 
-impl Together {
+impl PairSum {
     /// Adds this, `factor` times, to that with the same total, or with the opposite one.
     pub(crate) fn join(self, factor: f64, all: &mut Vec<Self>) {
         let Total { numbers: [h, m], frequency } = self.total;

@@ -6,8 +6,8 @@
 use std::f64::consts::{PI, TAU};
 
 use super::pair_harmonics::{Near, Parts, Split, inverse, unreturned};
-use super::pair_terms::{Row, Stand};
-use crate::gravity_gradient::body::contraction::{Tensor, contraction};
+use super::pair_terms::{PairTerm, Stand};
+use crate::gravity_gradient::body::contraction::{SymmetricTensor, contraction};
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
 use crate::gravity_gradient::orbit::hansen::{at_most, decay};
 use crate::gravity_gradient::terms::term::Term;
@@ -23,15 +23,15 @@ const SLOW_SOURCE_CHANGE: f64 = 0.02;
 pub(crate) const PAIR_PRODUCT_CUTOFF: f64 = 1e-6;
 
 /// The disturbing body at one place of its orbit.
-pub(crate) struct Point {
+pub(crate) struct OrbitPoint {
     /// l less l at the epoch.
     pub(crate) anomaly: f64,
     pub(crate) weight: f64,
-    pub(crate) tensors: [Tensor; ORDERS],
+    pub(crate) tensors: [SymmetricTensor; ORDERS],
 }
 
 /// The disturbing body at mean anomalies with weights.
-pub(crate) type Points<'a> = dyn Fn(&[(f64, f64)]) -> Vec<Point> + 'a;
+pub(crate) type Points<'a> = dyn Fn(&[(f64, f64)]) -> Vec<OrbitPoint> + 'a;
 
 /// An orbit, and the disturbing body on it.
 #[derive(Clone, Copy)]
@@ -80,7 +80,7 @@ fn even(eccentricity: f64, count: f64) -> Vec<(f64, f64)> {
 
 /// A term of these pairs, around the orbit.
 struct TermAround<'a> {
-    row: Row,
+    row: PairTerm,
     /// m.
     multiple: usize,
     /// The number of derivatives in its sum.
@@ -90,7 +90,7 @@ struct TermAround<'a> {
 }
 
 /// A pair of terms, by their places in the list; the first may be ⟨D⟩.
-struct Pair {
+struct TermPair {
     /// Index of their total in `totals`.
     place: usize,
     terms: [Option<usize>; 2],
@@ -113,7 +113,7 @@ pub(crate) fn actions(
     let needed = |k: usize| pairs.iter().any(|pair| pair.terms.contains(&Some(k)));
     let near = |term: &Term| exact.iter().find(|(other, _)| term.is(other)).map_or(&[][..], |(_, split)| &split.near);
     let around_orbit = |term: &Term| {
-        let row = Row::of(stand, term, Parts::default());
+        let row = PairTerm::of(stand, term, Parts::default());
         TermAround { row, multiple: term.multiple as usize, orders: row.orders_around(stand), near: near(term) } // 0 ≤ m ≤ 2
     };
     let terms: Vec<_> = listed.iter().enumerate().map(|(k, (term, _))| needed(k).then(|| around_orbit(term))).collect();
@@ -125,9 +125,9 @@ pub(crate) fn actions(
         let here = |TermAround { row, multiple, orders, near }: &TermAround<'_>| {
             row.elsewhere(&contracted[*multiple][..*orders], near, elapsed)
         };
-        let rows: Vec<Option<[Row; 2]>> =
+        let rows: Vec<Option<[PairTerm; 2]>> =
             terms.iter().map(|term| term.as_ref().map(here).map(|row| [row, row.conjugate()])).collect();
-        let average = [Row::average(&stand); 2];
+        let average = [PairTerm::average(&stand); 2];
         let both = |place: Option<usize>| place.and_then(|place| rows[place].as_ref()).unwrap_or(&average);
         for pair in &pairs {
             let [[a, _], b] = pair.terms.map(both);
@@ -164,7 +164,7 @@ pub(crate) fn actions(
 }
 
 /// The pairs of these terms that have one of these totals, or its opposite.
-fn pairs(listed: &[(Term, f64)], totals: &[Total]) -> Vec<Pair> {
+fn pairs(listed: &[(Term, f64)], totals: &[Total]) -> Vec<TermPair> {
     let mut pairs = Vec::new();
     for (i, (a, size)) in listed.iter().enumerate() {
         for (k, (b, other)) in listed.iter().enumerate() {
@@ -174,7 +174,7 @@ fn pairs(listed: &[(Term, f64)], totals: &[Total]) -> Vec<Pair> {
                 let place = totals.iter().position(|total| total.numbers == [h, m] || total.numbers == [-h, -m]);
                 if let Some(place) = place.filter(|_| size * other >= PAIR_PRODUCT_CUTOFF) {
                     let opposite = totals[place].numbers != [h, m];
-                    pairs.push(Pair { place, terms: [Some(i), Some(k)], conjugated, opposite });
+                    pairs.push(TermPair { place, terms: [Some(i), Some(k)], conjugated, opposite });
                 }
             }
         }
@@ -182,7 +182,7 @@ fn pairs(listed: &[(Term, f64)], totals: &[Total]) -> Vec<Pair> {
     for (k, (b, _)) in listed.iter().enumerate() {
         let numbers = [b.harmonic, b.multiple].map(f64::from);
         if let Some(place) = totals.iter().position(|total| total.numbers == numbers) {
-            pairs.push(Pair { place, terms: [None, Some(k)], conjugated: false, opposite: false });
+            pairs.push(TermPair { place, terms: [None, Some(k)], conjugated: false, opposite: false });
         }
     }
     pairs

@@ -2,22 +2,22 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::gravity_gradient::body::contraction::Tensor;
+use crate::gravity_gradient::body::contraction::SymmetricTensor;
 use crate::gravity_gradient::body::inertia::{HIGHEST, Inertia};
-use crate::gravity_gradient::body::osculating::osculating;
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::mean_variables::{Mean, PeriodicChange};
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 use crate::gravity_gradient::orbit::span::{Envelope, whole};
-use crate::gravity_gradient::second_order::k2::{Disturber, Hamiltonian};
+use crate::gravity_gradient::request::Ledger;
+use crate::gravity_gradient::request::osculating;
+use crate::gravity_gradient::second_order::k2::{Hamiltonian, PlacedBody};
 use crate::gravity_gradient::second_order::k2_orbit_mean::OrbitAverage;
 use crate::gravity_gradient::second_order::mean_elements::{points, tensors};
 use crate::gravity_gradient::second_order::pair_terms::Stand;
 use crate::gravity_gradient::second_order::pairs::{OrbitParts, averaged, second_actions};
 use crate::gravity_gradient::second_order::pairs_around::Around;
 use crate::gravity_gradient::terms::term::{fast_terms, slowest};
-use crate::gravity_gradient::tolerance::Ledger;
 use crate::input::options::Level;
 use crate::input::orbit::Orbit;
 use crate::numerics::C64;
@@ -81,12 +81,12 @@ impl Scene {
         }
     }
 
-    fn disturber(&self) -> Disturber {
+    fn disturber(&self) -> PlacedBody {
         let [first, second, normal] = self.orbit.axes();
         let (sine, cosine) = (self.place.sine.values()[0], self.place.cosine.values()[0]);
         let eta = (1.0 - ECCENTRICITY * ECCENTRICITY).sqrt();
         let weight = 1.0 + ECCENTRICITY * cosine;
-        Disturber {
+        PlacedBody {
             direction: first * cosine + second * sine,
             normal,
             cube: (weight / (eta * eta)).powi(3),
@@ -98,7 +98,7 @@ impl Scene {
     fn stand<'a>(
         &'a self,
         inertia: &'a Inertia,
-        tensors: &'a [Tensor; ORDERS],
+        tensors: &'a [SymmetricTensor; ORDERS],
         norms: &'a [f64],
         slowest: f64,
     ) -> Stand<'a> {
@@ -126,7 +126,7 @@ impl Scene {
 const Q: f64 = 1.5 * MEAN_MOTION * MEAN_MOTION;
 
 /// D less its average at a state whose σ is near that of the tables, over q.
-fn periodic(inertia: &Inertia, p: C64, longitude: f64, tensor: &Tensor) -> f64 {
+fn periodic(inertia: &Inertia, p: C64, longitude: f64, tensor: &SymmetricTensor) -> f64 {
     let beyond = p.norm_sqr() - inertia.sigma;
     let [xx, yy, zz, xy, xz, yz] = *tensor;
     let sum = |multiple: usize| -> C64 {
@@ -152,7 +152,7 @@ fn the_closed_form_is_the_average_of_the_bracket_over_both_angles() {
         let corrections = Corrections::new(&inertia, &scene.demand()).expect("no resonance");
         let (tensor, _) = tensors(&scene.mean, &scene.place, &scene.demand());
         // The torus is filled at one frame: the change turns the tensor.
-        let turned = |rotation: [f64; 2], step: f64| -> Tensor {
+        let turned = |rotation: [f64; 2], step: f64| -> SymmetricTensor {
             let [x, y] = rotation.map(|angle| step * angle);
             let turn = UnitQuaternion::new(Vector3::new(x, y, 0.0));
             tensors(&Mean { frame: scene.mean.frame * turn, ..scene.mean }, &scene.place, &scene.demand()).0[0]

@@ -24,14 +24,14 @@ const MOST_SHIFT: f64 = 0.3;
 
 /// The shift of the frequencies by the average torque.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Secular {
+pub(crate) struct AverageShift {
     /// Of ℓ′ and y′.
     phases: [f64; 2],
     /// ω and ω k_N.
     precession: [f64; 2],
 }
 
-impl Secular {
+impl AverageShift {
     /// For an orbit of this eccentricity and normal, with q = 3φn²/2, and an angular momentum along a unit vector.
     pub(crate) fn new(inertia: &Inertia, strength: f64, eccentricity: f64, [normal, pole]: [&Vector3<f64>; 2]) -> Self {
         let Inertia { sigma, momentum, .. } = *inertia;
@@ -70,9 +70,9 @@ impl Divisors {
         (harmonic, multiple): (i32, i32),
         [frequency, mean_motion]: [f64; 2],
         slow: bool,
-        secular: &Secular,
+        secular: &AverageShift,
     ) -> Self {
-        let Secular { phases: [anomaly, longitude], precession: [precession, along], .. } = *secular;
+        let AverageShift { phases: [anomaly, longitude], precession: [precession, along], .. } = *secular;
         let (h, m) = (f64::from(harmonic), f64::from(multiple));
         let shift = [h * anomaly + m * (longitude - along), -precession];
         let steady_shift = shift[0].abs() + 2.0 * precession.abs();

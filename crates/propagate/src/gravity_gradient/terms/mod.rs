@@ -2,5 +2,4 @@
 
 pub(crate) mod divisors;
 pub(crate) mod regime;
-pub(crate) mod sensitivity;
 pub(crate) mod term;

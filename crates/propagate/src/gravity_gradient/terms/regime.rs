@@ -10,9 +10,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::divisors::{Divisors, Secular, multiple_of, returns};
-use super::sensitivity::Response;
-use super::term::{SLOW_RATIO, SizedTerm, Term};
+use super::divisors::{AverageShift, Divisors, multiple_of, returns};
+use super::term::{Response, SLOW_RATIO, SizedTerm, Term};
 use crate::error::Error;
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
@@ -93,7 +92,7 @@ pub(crate) struct Regimes<'a> {
     demand: &'a Demand<'a>,
     terms: &'a Terms,
     /// The shift of the frequencies by the average torque.
-    secular: Secular,
+    secular: AverageShift,
     /// Largest sizes of the time derivatives of the orbit's functions within the span.
     sizes: &'a [f64],
     /// Largest number of time derivatives in a sum.
@@ -111,7 +110,7 @@ impl<'a> Regimes<'a> {
     pub(crate) fn new(terms: &'a Terms, inertia: &Inertia, demand: &'a Demand<'a>, whole: f64) -> Self {
         let Demand { orbit, level, ledger, envelope, .. } = *demand;
         let eccentricity = orbit.eccentricity();
-        let secular = Secular::new(inertia, demand.strength(), eccentricity, [&demand.axes[2], &demand.pole]);
+        let secular = AverageShift::new(inertia, demand.strength(), eccentricity, [&demand.axes[2], &demand.pole]);
         let sizes = if demand.rates == [0.0; 2] { &envelope.span[..] } else { &envelope.orbital.norms };
         let most = if level == Level::Paper { 1 } else { ORDERS };
         let mut regimes = Self { demand, terms, secular, sizes, most, nothing: 0.0, enough: 0.0, whole };

@@ -2,7 +2,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::gravity_gradient::body::contraction::{Tensor, contraction, factors};
+use crate::gravity_gradient::body::contraction::{SymmetricTensor, contraction, factors};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
@@ -15,7 +15,7 @@ use crate::gravity_gradient::second_order::k2_remainder::lacking;
 use crate::gravity_gradient::second_order::mean_elements::tensors;
 use crate::gravity_gradient::second_order::pairs::averaged;
 use crate::gravity_gradient::second_order::tests::{ECCENTRICITY, MEAN_MOTION, Q, Scene};
-use crate::gravity_gradient::terms::divisors::{Divisors, Secular};
+use crate::gravity_gradient::terms::divisors::{AverageShift, Divisors};
 use crate::gravity_gradient::terms::term::{Term, fast_terms, slowest};
 use crate::input::orbit::Orbit;
 use crate::numerics::C64;
@@ -35,7 +35,7 @@ fn divisors_have_the_rates_of_the_average_torque() {
         let [first, second, _] = axes.map(|axis| frame.inverse() * axis);
         let turning = frame.inverse() * slopes.turning;
         let [one, cosine, sine] = factors([first, second]);
-        let secular = Secular::new(&inertia, strength, ECCENTRICITY, [&axes[2], &pole]);
+        let secular = AverageShift::new(&inertia, strength, ECCENTRICITY, [&axes[2], &pole]);
         for (harmonic, multiple) in [(2, 0), (-3, 1), (1, 1), (4, 2)] {
             let divisors = Divisors::new((harmonic, multiple), [-3.0 * MEAN_MOTION, MEAN_MOTION], false, &secular);
             for (turns, sign) in [(0, 0.0), (2, -1.0), (-2, 1.0)] {
@@ -82,7 +82,7 @@ fn what_the_closed_form_lacks_is_the_rest_of_the_average_over_the_orbit() {
             let all: Vec<Term> = fast_terms(&inertia, 0.0, slowest(&demand));
             let mut still = tensors;
             still[2..].fill([0.0; 6]);
-            let of = |tensors: &[Tensor; ORDERS]| averaged(&moved.stand(&inertia, tensors, norms, 0.0), &all);
+            let of = |tensors: &[SymmetricTensor; ORDERS]| averaged(&moved.stand(&inertia, tensors, norms, 0.0), &all);
             mean += (of(&tensors) - of(&still)) / (Q * Q) / STEPS as f64;
         }
         let found = value / (scale * scale);
