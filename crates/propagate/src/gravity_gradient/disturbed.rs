@@ -152,7 +152,7 @@ impl Gradient {
     /// The longest time from the epoch for which the averaged equations are solved, in the user's unit.
     pub(crate) fn bound(&self) -> f64 {
         match &self.slow {
-            Slow::Spin(_) => MOST_ORBITS / self.bodies[0].course.mean_anomaly.frequency(),
+            Slow::Spin(_) => MOST_ORBITS as f64 / self.bodies[0].course.mean_anomaly.frequency(),
             Slow::Orbit(precession) => precession.bound(MOST_QUARTERS),
             Slow::Bodies(_) => longest(self.bodies.iter().map(|body| &body.course)),
         }

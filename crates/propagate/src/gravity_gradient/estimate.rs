@@ -30,7 +30,7 @@ const DRIFT: f64 = 8.0;
 /// Safety factor of the average over the orbit.
 const ORBIT: f64 = 1.5;
 /// Number of orbits on each side of the epoch for which quarters are kept.
-pub(crate) const MOST_ORBITS: f64 = (MOST_QUARTERS / 4 - 2) as f64;
+pub(crate) const MOST_ORBITS: usize = MOST_QUARTERS / 4 - 2;
 
 /// The parts of the attitude error \[rad\], with their safety factors.
 pub(crate) struct Estimate {
@@ -96,12 +96,12 @@ impl Estimate {
                 _ => Ok(false),
             };
         }
-        let too_far = request.spanned && self.orbits > MOST_ORBITS;
+        let too_far = request.spanned && self.orbits > MOST_ORBITS as f64;
         match request.averaging {
             Averaging::Orbit => Ok(true),
             // Second order is for accuracy, which the average over the orbit takes from it.
             Averaging::Auto => Ok(too_far || request.level != Level::SecondOrder && self.orbit <= request.tolerance),
-            Averaging::Spin if too_far => Err(Error::TooManyOrbits { orbits: self.orbits, bound: MOST_ORBITS }),
+            Averaging::Spin if too_far => Err(Error::TooManyOrbits { orbits: self.orbits, bound: MOST_ORBITS as f64 }),
             Averaging::Spin => Ok(false),
         }
     }

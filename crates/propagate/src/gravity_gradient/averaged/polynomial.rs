@@ -138,13 +138,7 @@ impl<E: AveragedEquations> Task for Solve<'_, E> {
     fn run<S: InstructionSet>(self, simd: S) -> [AtPoints; COLUMNS] {
         let Self { half, place, start, equations } = self;
         let [nodes, at_nodes] = &*ROWS;
-        let at_place = if place == -1.0 {
-            ENDS[0]
-        } else if place == 1.0 {
-            ENDS[1]
-        } else {
-            PRIMITIVES.each_ref().map(|primitive| sum(primitive, place))
-        };
+        let at_place = primitives_at(place);
         let width = Lanes::<S>::WIDTH;
         let none = Lanes::splat(simd, 0.0);
         let mut values = [[0.0; POINTS]; COLUMNS];
@@ -189,18 +183,40 @@ impl<E: AveragedEquations> Task for Solve<'_, E> {
             }
             before = change;
         }
-        let mut coefficients = [[0.0; POINTS]; COLUMNS];
-        for first in (0..POINTS).step_by(width) {
-            let found = combined(simd, nodes, &slopes, &[0.0; COLUMNS], first);
-            for (column, found) in coefficients.iter_mut().zip(found) {
-                found.store(&mut column[first..]);
-            }
-        }
-        for (column, constant) in coefficients.iter_mut().zip(constant) {
-            column[0] += constant;
-        }
-        coefficients
+        coefficients(simd, nodes, &slopes, &constant)
     }
+}
+
+/// The primitives of the points' functions at a place of the interval.
+fn primitives_at(place: f64) -> AtPoints {
+    if place == -1.0 {
+        ENDS[0]
+    } else if place == 1.0 {
+        ENDS[1]
+    } else {
+        PRIMITIVES.each_ref().map(|primitive| sum(primitive, place))
+    }
+}
+
+/// The Chebyshev coefficients of a constant plus the primitive of the slopes, by column.
+#[inline(always)]
+fn coefficients<S: InstructionSet>(
+    simd: S,
+    nodes: &[AtPoints; POINTS],
+    slopes: &[AtPoints; COLUMNS],
+    constant: &Column,
+) -> [AtPoints; COLUMNS] {
+    let mut coefficients = [[0.0; POINTS]; COLUMNS];
+    for first in (0..POINTS).step_by(Lanes::<S>::WIDTH) {
+        let found = combined(simd, nodes, slopes, &[0.0; COLUMNS], first);
+        for (column, found) in coefficients.iter_mut().zip(found) {
+            found.store(&mut column[first..]);
+        }
+    }
+    for (column, constant) in coefficients.iter_mut().zip(constant) {
+        column[0] += constant;
+    }
+    coefficients
 }
 
 /// A constant plus Σ slope × row over the points, in each column, at the places from `first` on.

@@ -13,6 +13,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use super::CUTOFF;
 use crate::gravity_gradient::body::contraction::{Contraction, coefficients, contraction, factors, with_turns};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
@@ -23,8 +24,6 @@ use crate::gravity_gradient::terms::term::{ROOT_FLOOR, Term};
 #[cfg(test)]
 use crate::gravity_gradient::terms::term::{fast_terms, slowest};
 
-/// Terms and harmonics with a smaller share of what is left are not summed, unless divisors are exact.
-const STEADY_CUTOFF: f64 = 1e-6;
 /// Largest squared sine of the inclination at which the turning is not split into parts.
 const SPLIT_SQUARE: f64 = 1e-12;
 
@@ -215,14 +214,14 @@ fn highest(series: &OrbitSeries) -> i32 {
         .map(|(j, g)| f64::from(j) * g.iter().fold(0.0_f64, |most, g| most.max(g.abs())))
         .collect();
     let largest = sizes.iter().copied().fold(0.0, f64::max);
-    sizes.iter().rposition(|size| *size > STEADY_CUTOFF.sqrt() * largest).unwrap_or(0) as i32
+    sizes.iter().rposition(|size| *size > CUTOFF.sqrt() * largest).unwrap_or(0) as i32
 }
 
 /// The terms with sums over time derivatives that have a share of what K2 lacks.
 fn summed(inertia: &Inertia, terms: &[Term], exact: &[ExactTerm]) -> Vec<Term> {
     let root = inertia.sigma.sqrt().max(ROOT_FLOOR);
     let weight = |term: &Term| term.size(root).powi(2) / term.frequency[0].abs();
-    let least = STEADY_CUTOFF * terms.iter().map(weight).sum::<f64>();
+    let least = CUTOFF * terms.iter().map(weight).sum::<f64>();
     let is_exact = |term: &Term| exact.iter().any(|other| other.numbers == (term.harmonic, term.multiple));
     terms.iter().filter(|term| weight(term) > least && !is_exact(term)).copied().collect()
 }

@@ -1,5 +1,6 @@
 //! The mean σ and M of second order, and the averaged Hamiltonian there.
 
+use super::CUTOFF;
 use super::k2::Hamiltonian;
 use super::k2_remainder::SteadyRates;
 use super::pair_harmonics::OrbitHarmonics;
@@ -25,12 +26,8 @@ use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 use crate::torque_free::polhode::Polhode;
 use num_complex::Complex;
-/// Terms smaller than this share of the largest are left out of the sum over pairs.
-const PAIR_SUM_CUTOFF: f64 = 1e-6;
 /// Terms smaller than this share of the largest are left out of the changes of first order.
 const FIRST_ORDER_CUTOFF: f64 = 1e-13;
-/// Terms smaller than this share of the largest are left out of K2.
-const K2_CUTOFF: f64 = 1e-9;
 
 /// A mean state at the epoch.
 #[derive(Clone, Copy, Debug)]
@@ -76,7 +73,7 @@ impl SecondOrderData {
 
 /// ⟨D⟩ + K2 at a mean motion.
 pub(crate) fn hamiltonian(inertia: &Inertia, demand: &Demand<'_>, steady: SteadyRates) -> Hamiltonian {
-    let terms = fast_terms(inertia, K2_CUTOFF, slowest(demand));
+    let terms = fast_terms(inertia, CUTOFF, slowest(demand));
     Hamiltonian::new(inertia, &terms, demand.strength()).with_steady(steady)
 }
 
@@ -112,7 +109,7 @@ pub(crate) fn epoch_means(
         terms.extend(slow_terms(inertia, slowest));
     }
     let first = first_actions(&stand, &terms, harmonics.as_ref().map(|harmonics| (harmonics, exact)));
-    let terms = fast_terms(inertia, PAIR_SUM_CUTOFF, slowest);
+    let terms = fast_terms(inertia, CUTOFF, slowest);
     let steady = SteadyRates::new(inertia, &mean.frame, demand, (exact, &terms));
     let exact = harmonics.as_ref().map(|harmonics| split(inertia, exact, harmonics)).unwrap_or_default();
     let around = Around { eccentricity: demand.orbit.eccentricity(), mean_motion: demand.mean_motion, points: &points };

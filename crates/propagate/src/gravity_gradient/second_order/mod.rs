@@ -14,3 +14,6 @@ mod pairs;
 mod pairs_around;
 #[cfg(test)]
 mod tests;
+
+/// Terms, pairs and harmonics whose share of the largest, or of the sum, is smaller are left out of second order.
+pub(crate) const CUTOFF: f64 = 1e-6;

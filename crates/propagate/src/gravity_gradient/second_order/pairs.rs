@@ -13,10 +13,11 @@
 //! A harmonic of the orbit near resonance is a term of its own, of frequency Ω + jn and of constant amplitude; a pair of two such terms has the divisor of both
 //! frequencies together. Pairs for which two terms of χ are not enough are summed around the orbit ([`crate::gravity_gradient::second_order::pairs_around`]).
 
+use super::CUTOFF;
 use super::pair_harmonics::{Near, Split, inverse, unreturned};
 use super::pair_terms::{PairTerm, Stand};
 use super::pairs_around;
-use super::pairs_around::{Around, PAIR_PRODUCT_CUTOFF, Total};
+use super::pairs_around::{Around, Total};
 use crate::gravity_gradient::terms::term::Term;
 use crate::numerics::C64;
 use std::f64::consts::SQRT_2;
@@ -67,7 +68,7 @@ pub(crate) fn second_actions(stand: &Stand<'_>, terms: &[Term], exact: &OrbitPar
     let largest_of = |rows: &[PairTerm]| rows.iter().fold(0.0_f64, |most, row| most.max(row.size));
     let largest = if half.is_empty() { largest_of(&single) } else { largest_of(&half) };
     let (single, dropped): (Vec<PairTerm>, Vec<PairTerm>) =
-        single.into_iter().partition(|row| row.size > PAIR_PRODUCT_CUTOFF * largest);
+        single.into_iter().partition(|row| row.size > CUTOFF * largest);
     half.extend(single);
     half.iter_mut().for_each(|row| row.size /= largest);
     let sum = |rows: &[PairTerm], unit: f64| rows.iter().map(|row| (row.size / unit).powi(2)).sum::<f64>();
@@ -80,7 +81,7 @@ pub(crate) fn second_actions(stand: &Stand<'_>, terms: &[Term], exact: &OrbitPar
         // The other half of the sum is its conjugate.
         for a in &half {
             let product = a.size * b.size;
-            if product < PAIR_PRODUCT_CUTOFF {
+            if product < CUTOFF {
                 pruned += product * product;
             } else {
                 actions.add(stand, (a, b), 2.0, &mut together);

@@ -5,6 +5,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::CUTOFF;
 use super::pair_harmonics::{Near, Parts, Split, inverse, unreturned};
 use super::pair_terms::{PairTerm, Stand};
 use crate::gravity_gradient::body::contraction::{SymmetricTensor, contraction};
@@ -19,8 +20,6 @@ const MOST_POINTS: f64 = 128.0;
 const SOURCE_CHANGE: f64 = 0.002;
 /// The same for slow pairs, which K2 lacks. With this value random scenes stay below their bounds (`gradient table`).
 const SLOW_SOURCE_CHANGE: f64 = 0.02;
-/// Pairs of terms are left out if the product of their sizes, each divided by the largest, is smaller.
-pub(crate) const PAIR_PRODUCT_CUTOFF: f64 = 1e-6;
 
 /// The disturbing body at one place of its orbit.
 pub(crate) struct OrbitPoint {
@@ -107,34 +106,9 @@ pub(crate) fn actions(
     totals: &[Total],
     (around, exact): (&Around<'_>, &[(Term, Split)]),
 ) -> [[f64; 2]; 2] {
-    let pairs = pairs(listed, totals);
     let highest = totals.iter().filter_map(|total| around.highest(total)).fold(0.0, f64::max);
     let points = (around.points)(&even(around.eccentricity, points_for(highest)));
-    let needed = |k: usize| pairs.iter().any(|pair| pair.terms.contains(&Some(k)));
-    let near = |term: &Term| exact.iter().find(|(other, _)| term.is(other)).map_or(&[][..], |(_, split)| &split.near);
-    let around_orbit = |term: &Term| {
-        let row = PairTerm::of(stand, term, Parts::default());
-        TermAround { row, multiple: term.multiple as usize, orders: row.orders_around(stand), near: near(term) } // 0 ≤ m ≤ 2
-    };
-    let terms: Vec<_> = listed.iter().enumerate().map(|(k, (term, _))| needed(k).then(|| around_orbit(term))).collect();
-    let mut sources = vec![vec![C64::default(); points.len()]; totals.len()];
-    for (k, point) in points.iter().enumerate() {
-        let stand = Stand { tensors: &point.tensors, ..*stand };
-        let elapsed = point.anomaly / around.mean_motion;
-        let contracted = [0, 1, 2].map(|multiple| point.tensors.map(|tensor| contraction(&tensor, multiple)));
-        let here = |TermAround { row, multiple, orders, near }: &TermAround<'_>| {
-            row.elsewhere(&contracted[*multiple][..*orders], near, elapsed)
-        };
-        let rows: Vec<Option<[PairTerm; 2]>> =
-            terms.iter().map(|term| term.as_ref().map(here).map(|row| [row, row.conjugate()])).collect();
-        let average = [PairTerm::average(&stand); 2];
-        let both = |place: Option<usize>| place.and_then(|place| rows[place].as_ref()).unwrap_or(&average);
-        for pair in &pairs {
-            let [[a, _], b] = pair.terms.map(both);
-            let source = stand.source(a, &b[usize::from(pair.conjugated)]);
-            sources[pair.place][k] += if pair.opposite { source.conj() } else { source };
-        }
-    }
+    let sources = sources(stand, (listed, totals), (around, exact), &points);
     let highest = highest as i32;
     let turn = |j: i32| points.iter().map(move |point| C64::from_polar(1.0, f64::from(j) * point.anomaly));
     let steps: Vec<C64> = turn(-1).collect();
@@ -163,6 +137,42 @@ pub(crate) fn actions(
     actions
 }
 
+/// S of the pairs with each of these totals, at each point of the orbit.
+fn sources(
+    stand: &Stand<'_>,
+    (listed, totals): (&[(Term, f64)], &[Total]),
+    (around, exact): (&Around<'_>, &[(Term, Split)]),
+    points: &[OrbitPoint],
+) -> Vec<Vec<C64>> {
+    let pairs = pairs(listed, totals);
+    let needed = |k: usize| pairs.iter().any(|pair| pair.terms.contains(&Some(k)));
+    let near = |term: &Term| exact.iter().find(|(other, _)| term.is(other)).map_or(&[][..], |(_, split)| &split.near);
+    let around_orbit = |term: &Term| {
+        let row = PairTerm::of(stand, term, Parts::default());
+        TermAround { row, multiple: term.multiple as usize, orders: row.orders_around(stand), near: near(term) } // 0 ≤ m ≤ 2
+    };
+    let terms: Vec<_> = listed.iter().enumerate().map(|(k, (term, _))| needed(k).then(|| around_orbit(term))).collect();
+    let mut sources = vec![vec![C64::default(); points.len()]; totals.len()];
+    for (k, point) in points.iter().enumerate() {
+        let stand = Stand { tensors: &point.tensors, ..*stand };
+        let elapsed = point.anomaly / around.mean_motion;
+        let contracted = [0, 1, 2].map(|multiple| point.tensors.map(|tensor| contraction(&tensor, multiple)));
+        let here = |TermAround { row, multiple, orders, near }: &TermAround<'_>| {
+            row.elsewhere(&contracted[*multiple][..*orders], near, elapsed)
+        };
+        let rows: Vec<Option<[PairTerm; 2]>> =
+            terms.iter().map(|term| term.as_ref().map(here).map(|row| [row, row.conjugate()])).collect();
+        let average = [PairTerm::average(&stand); 2];
+        let both = |place: Option<usize>| place.and_then(|place| rows[place].as_ref()).unwrap_or(&average);
+        for pair in &pairs {
+            let [[a, _], b] = pair.terms.map(both);
+            let source = stand.source(a, &b[usize::from(pair.conjugated)]);
+            sources[pair.place][k] += if pair.opposite { source.conj() } else { source };
+        }
+    }
+    sources
+}
+
 /// The pairs of these terms that have one of these totals, or its opposite.
 fn pairs(listed: &[(Term, f64)], totals: &[Total]) -> Vec<TermPair> {
     let mut pairs = Vec::new();
@@ -172,7 +182,7 @@ fn pairs(listed: &[(Term, f64)], totals: &[Total]) -> Vec<TermPair> {
                 let sign = if conjugated { -1 } else { 1 };
                 let [h, m] = [a.harmonic + sign * b.harmonic, a.multiple + sign * b.multiple].map(f64::from);
                 let place = totals.iter().position(|total| total.numbers == [h, m] || total.numbers == [-h, -m]);
-                if let Some(place) = place.filter(|_| size * other >= PAIR_PRODUCT_CUTOFF) {
+                if let Some(place) = place.filter(|_| size * other >= CUTOFF) {
                     let opposite = totals[place].numbers != [h, m];
                     pairs.push(TermPair { place, terms: [Some(i), Some(k)], conjugated, opposite });
                 }
