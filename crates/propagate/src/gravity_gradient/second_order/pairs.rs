@@ -14,28 +14,17 @@
 //! frequencies together. Pairs for which two terms of χ are not enough are summed around the orbit ([`crate::gravity_gradient::second_order::pairs_around`]).
 
 use super::CUTOFF;
-use super::pair_harmonics::{Near, Split, inverse, unreturned};
+use super::pair_harmonics::{Near, Split, inverse};
 use super::pair_terms::{PairTerm, Stand};
 use super::pairs_around;
 use super::pairs_around::{Around, Total};
 use crate::gravity_gradient::terms::term::Term;
 use crate::numerics::C64;
-use std::f64::consts::SQRT_2;
-use std::mem::take;
-/// Pairs of ordinary terms, joined by their totals, and those with a single harmonic of the orbit.
-type Lists = [Vec<PairSum>; 2];
-
 /// δ₂M and δ₂L.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Actions {
     pub(crate) momentum: f64,
     pub(crate) action: f64,
-    /// Their errors: the truncation of the sum over time derivatives after two terms, harmonics of the orbit that the sum lacks or that do not return within
-    /// the span, pairs that are too slow where the orbit has too many harmonics, and pairs that are left out for their size. Their phases are independent: the
-    /// squares add up.
-    pub(crate) left: [f64; 2],
-    /// The largest changes by one pair over the product of its relative sizes.
-    largest: [f64; 2],
 }
 
 /// The harmonics of the orbit in the sum.
@@ -67,25 +56,16 @@ pub(crate) fn second_actions(stand: &Stand<'_>, terms: &[Term], exact: &OrbitPar
         .collect();
     let largest_of = |rows: &[PairTerm]| rows.iter().fold(0.0_f64, |most, row| most.max(row.size));
     let largest = if half.is_empty() { largest_of(&single) } else { largest_of(&half) };
-    let (single, dropped): (Vec<PairTerm>, Vec<PairTerm>) =
-        single.into_iter().partition(|row| row.size > CUTOFF * largest);
-    half.extend(single);
+    half.extend(single.into_iter().filter(|row| row.size > CUTOFF * largest));
     half.iter_mut().for_each(|row| row.size /= largest);
-    let sum = |rows: &[PairTerm], unit: f64| rows.iter().map(|row| (row.size / unit).powi(2)).sum::<f64>();
-    let dropped = sum(&dropped, largest.max(f64::MIN_POSITIVE)) * sum(&half, 1.0);
     let rows: Vec<PairTerm> = half.iter().flat_map(|row| [*row, row.conjugate()]).collect();
     let average = PairTerm::average(stand);
     let averages: Vec<PairTerm> = exact.average.iter().map(|near| average.at(near)).collect();
-    let (mut actions, mut pruned, mut together) = (Actions::default(), dropped, Lists::default());
+    let (mut actions, mut together) = (Actions::default(), Vec::new());
     for b in &rows {
         // The other half of the sum is its conjugate.
-        for a in &half {
-            let product = a.size * b.size;
-            if product < CUTOFF {
-                pruned += product * product;
-            } else {
-                actions.add(stand, (a, b), 2.0, &mut together);
-            }
+        for a in half.iter().filter(|a| a.size * b.size >= CUTOFF) {
+            actions.add(stand, (a, b), 2.0, &mut together);
         }
         if b.single {
             // The mean of ⟨D⟩ is in the divisors of harmonics near resonance.
@@ -97,14 +77,8 @@ pub(crate) fn second_actions(stand: &Stand<'_>, terms: &[Term], exact: &OrbitPar
     }
     if let Some(around) = &exact.around {
         let listed: Vec<_> = listed.into_iter().zip(half.iter().map(|row| row.size)).collect();
-        together[0] = actions.around(stand, &listed, take(&mut together[0]), (around, &exact.terms));
-        for all in together.iter().flatten() {
-            actions.add_error(all.of_actions(all.at_resonance(stand, around)).map(f64::abs));
-        }
+        actions.around(stand, &listed, &together, (around, &exact.terms));
     }
-    together.iter().flatten().for_each(|all| actions.add_error(all.sum_error(stand)));
-    // A pair that is left out changes M and L by no more than its product times what the pairs of the sum do.
-    actions.add_error(actions.largest.map(|largest| pruned.sqrt() * largest));
     actions
 }
 
@@ -117,7 +91,7 @@ pub(crate) fn averaged(stand: &Stand<'_>, terms: &[Term]) -> f64 {
 
 impl Actions {
     /// Adds a pair, `factor` times: a term with another, or ⟨D⟩ with one.
-    fn add(&mut self, stand: &Stand<'_>, (a, b): (&PairTerm, &PairTerm), factor: f64, together: &mut Lists) {
+    fn add(&mut self, stand: &Stand<'_>, (a, b): (&PairTerm, &PairTerm), factor: f64, together: &mut Vec<PairSum>) {
         let i = C64::i();
         let (torque, wave) = (&a.parts.torque, &b.parts.generator);
         let (h, m) = (a.harmonic + b.harmonic, a.multiple + b.multiple);
@@ -128,56 +102,39 @@ impl Actions {
             let source = stand.source(a, b);
             if a.single && b.single {
                 chi = source * inverse(omega, stand.duration) * -0.5;
-                // The same two in the other order have the same phase.
-                let left = SQRT_2 * 0.5 * factor * source.norm_sqr().sqrt() * unreturned(omega, stand.duration);
-                self.add_error([left * m.abs(), left * h.abs()]);
             } else {
                 let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
                 let total = Total { numbers: [h, m], frequency: omega };
-                let single = a.single || b.single;
-                let pair = PairSum { total, source, change, single };
-                pair.join(0.5 * factor, &mut together[usize::from(single)]);
+                // A pair with a single harmonic of the orbit in it has its own frequency, and is not joined.
+                if !a.single && !b.single {
+                    PairSum { total, source, change }.join(0.5 * factor, together);
+                }
                 if omega.abs() > stand.slowest {
                     let inverse = (i * omega).inv();
                     chi = (source - change * inverse) * inverse * 0.5 * -i;
                 }
             }
         }
-        self.sum(factor, both, chi, (a, b, [h, m]));
+        self.momentum += factor * (both * a.multiple + chi * m).re;
+        self.action += factor * (both * a.harmonic + chi * h).re;
     }
 
-    /// Takes the pairs that need it by the harmonics of the orbit instead, and returns the others.
+    /// Takes the pairs that need it by the harmonics of the orbit instead.
     fn around(
         &mut self,
         stand: &Stand<'_>,
         listed: &[(Term, f64)],
-        together: Vec<PairSum>,
+        together: &[PairSum],
         (around, exact): (&Around<'_>, &[(Term, Split)]),
-    ) -> Vec<PairSum> {
-        let (served, others): (Vec<_>, Vec<_>) = together.into_iter().partition(|all| all.needs(stand, around));
+    ) {
+        let served: Vec<_> = together.iter().filter(|all| all.needs(stand, around)).collect();
         if !served.is_empty() {
             let totals: Vec<_> = served.iter().map(|all| all.total).collect();
-            let [changes, left] = pairs_around::actions(stand, listed, &totals, (around, exact));
-            self.add_error(left);
+            let changes = pairs_around::actions(stand, listed, &totals, (around, exact));
             let by_sums = served.iter().map(|all| all.of_actions(all.by_sum(stand)));
             let [momentum, action] = by_sums.fold(changes, |sum, part| [sum[0] - part[0], sum[1] - part[1]]);
             self.momentum += momentum;
             self.action += action;
-        }
-        others
-    }
-
-    /// Adds to what is left.
-    fn add_error(&mut self, left: [f64; 2]) {
-        self.left = [0, 1].map(|i| (self.left[i] * self.left[i] + left[i] * left[i]).sqrt());
-    }
-
-    fn sum(&mut self, factor: f64, both: C64, chi: C64, (a, b, [h, m]): (&PairTerm, &PairTerm, [f64; 2])) {
-        let parts = [both * a.multiple + chi * m, both * a.harmonic + chi * h].map(|part| factor * part);
-        self.momentum += parts[0].re;
-        self.action += parts[1].re;
-        if a.multiple != 0.0 || a.harmonic != 0.0 {
-            self.largest = [0, 1].map(|i| self.largest[i].max(parts[i].norm_sqr().sqrt() / (a.size * b.size)));
         }
     }
 }
@@ -185,15 +142,13 @@ impl Actions {
 /// Safety factor of slow pairs. S is taken at the epoch, and elsewhere on the orbit the directions to the disturbing body may make it larger.
 const SOURCE_MARGIN: f64 = 3.0;
 
-/// All pairs with one total, either with a single harmonic of the orbit in them or without.
+/// All pairs with one total.
 #[derive(Clone, Copy)]
 pub(crate) struct PairSum {
     pub(crate) total: Total,
     /// S and Ṡ.
     pub(crate) source: C64,
     pub(crate) change: C64,
-    /// Whether one of the pair is a single harmonic of the orbit.
-    pub(crate) single: bool,
 }
 
 impl PairSum {
@@ -205,14 +160,13 @@ impl PairSum {
         let total = Total { numbers: [sign * h, sign * m], frequency: sign * frequency };
         let [source, change] =
             [self.source, self.change].map(|part| if opposite { part.conj() } else { part } * factor);
-        // A pair with a single harmonic of the orbit in it has its own frequency, and is not joined.
-        let same = all.iter_mut().filter(|_| !self.single).find(|other| other.total.numbers == total.numbers);
+        let same = all.iter_mut().find(|other| other.total.numbers == total.numbers);
         match same {
             Some(other) => {
                 other.source += source;
                 other.change += change;
             }
-            None => all.push(Self { total, source, change, ..self }),
+            None => all.push(Self { total, source, change }),
         }
     }
 
@@ -234,7 +188,7 @@ impl PairSum {
             if self.is_slow(stand) || around.eccentricity == 0.0 { self.sum_error(stand) } else { Default::default() };
         let enough = stand.enough * stand.mean.momentum;
         let left = [0, 1].map(|i| resonant[i] + by_sum[i]);
-        !self.single && left.iter().any(|left| *left > enough) && around.highest(&self.total).is_some()
+        left.iter().any(|left| *left > enough) && around.highest(&self.total).is_some()
     }
 
     /// Whether there is no sum over time derivatives.
@@ -247,10 +201,8 @@ impl PairSum {
         if self.is_slow(stand) {
             return 0.0;
         }
-        // The amplitude of a single harmonic is the same everywhere.
-        let factors = if self.single { 1 } else { 2 };
-        let [size, distance] = around.nearest(self.total.frequency, factors);
-        self.size(stand) * stand.closest.powi(factors) * size * (1.0 / distance).min(stand.duration)
+        let [size, distance] = around.nearest(self.total.frequency);
+        self.size(stand) * stand.closest * stand.closest * size * (1.0 / distance).min(stand.duration)
     }
 
     /// Size of S. S may vanish at the epoch, so its time derivative is included.

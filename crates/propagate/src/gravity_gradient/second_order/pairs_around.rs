@@ -6,7 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::CUTOFF;
-use super::pair_harmonics::{Near, Parts, Split, inverse, unreturned};
+use super::pair_harmonics::{Near, Parts, Split, inverse};
 use super::pair_terms::{PairTerm, Stand};
 use crate::gravity_gradient::body::contraction::{SymmetricTensor, contraction};
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
@@ -16,10 +16,6 @@ use crate::numerics::C64;
 
 /// Most points around an orbit; more are needed from an eccentricity of 0.77 on, and for a harmonic above 60.
 const MOST_POINTS: f64 = 128.0;
-/// Relative error of a sum around the orbit, because S changes within the span.
-const SOURCE_CHANGE: f64 = 0.002;
-/// The same for slow pairs, which K2 lacks. With this value random scenes stay below their bounds (`gradient table`).
-const SLOW_SOURCE_CHANGE: f64 = 0.02;
 
 /// The disturbing body at one place of its orbit.
 pub(crate) struct OrbitPoint {
@@ -57,9 +53,9 @@ impl Around<'_> {
 
     /// An upper estimate of the harmonic nearest to resonance in a product of so many factors (a/r)³, over the product at the pericentre, and its distance from
     /// resonance.
-    pub(crate) fn nearest(&self, frequency: f64, factors: i32) -> [f64; 2] {
+    pub(crate) fn nearest(&self, frequency: f64) -> [f64; 2] {
         let number = (frequency / self.mean_motion).abs().round();
-        [at_most(self.eccentricity, number, factors), (frequency.abs() - number * self.mean_motion).abs()]
+        [at_most(self.eccentricity, number, 2), (frequency.abs() - number * self.mean_motion).abs()]
     }
 }
 
@@ -99,40 +95,32 @@ struct TermPair {
     opposite: bool,
 }
 
-/// The changes of M and L by the pairs of these terms that have one of these totals, and their errors. A term comes with its relative size.
+/// The changes of M and L by the pairs of these terms that have one of these totals, A term comes with its relative size.
 pub(crate) fn actions(
     stand: &Stand<'_>,
     listed: &[(Term, f64)],
     totals: &[Total],
     (around, exact): (&Around<'_>, &[(Term, Split)]),
-) -> [[f64; 2]; 2] {
+) -> [f64; 2] {
     let highest = totals.iter().filter_map(|total| around.highest(total)).fold(0.0, f64::max);
     let points = (around.points)(&even(around.eccentricity, points_for(highest)));
     let sources = sources(stand, (listed, totals), (around, exact), &points);
     let highest = highest as i32;
     let turn = |j: i32| points.iter().map(move |point| C64::from_polar(1.0, f64::from(j) * point.anomaly));
     let steps: Vec<C64> = turn(-1).collect();
-    let mut actions = [[0.0; 2]; 2];
+    let mut actions = [0.0; 2];
     for (Total { numbers: [h, m], frequency }, source) in totals.iter().zip(&sources) {
-        let (mut sum, mut size, mut still) = (C64::default(), 0.0, 0.0);
+        let mut sum = C64::default();
         let waves = turn(highest).zip(&points).zip(source).map(|((turn, point), value)| value * turn * point.weight);
         let mut waves: Vec<C64> = waves.collect();
         for j in -highest..=highest {
             let harmonic: C64 = waves.iter().sum();
-            let divisor = frequency + f64::from(j) * around.mean_motion;
-            let part = harmonic * inverse(divisor, stand.duration);
-            sum += part;
-            size += part.norm_sqr().sqrt();
-            still += harmonic.norm_sqr().sqrt() * unreturned(divisor, stand.duration);
+            sum += harmonic * inverse(frequency + f64::from(j) * around.mean_motion, stand.duration);
             waves.iter_mut().zip(&steps).for_each(|(wave, step)| *wave *= step);
         }
         // With X = Σ_j S_j/(Ω + jn), M changes by −m Re X and L by −h Re X.
-        let share = if frequency.abs() <= stand.slowest { SLOW_SOURCE_CHANGE } else { SOURCE_CHANGE };
-        let left = share * size + still;
-        for (i, number) in [*m, *h].into_iter().enumerate() {
-            actions[0][i] -= number * sum.re;
-            actions[1][i] += number.abs() * left;
-        }
+        actions[0] -= m * sum.re;
+        actions[1] -= h * sum.re;
     }
     actions
 }
