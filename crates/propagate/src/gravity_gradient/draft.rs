@@ -1,4 +1,4 @@
-//! A motion at one level, before its constants are found: the mean motion, the averaged torques, and the error bound. What the levels share is computed once.
+//! A motion at one level, before its constants are found: the mean motion, the averaged torques, and the error estimate. What the levels share is computed once.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -38,7 +38,7 @@ pub(crate) struct Draft {
     pub(crate) averages: Averages,
     /// Whether the equations are averaged over the orbit as well.
     pub(crate) by_orbit: bool,
-    /// The error bound \[rad\].
+    /// The estimate of the error \[rad\].
     pub(crate) error: f64,
 }
 

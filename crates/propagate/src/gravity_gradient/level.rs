@@ -1,4 +1,4 @@
-//! The level that the theory chooses by itself: first order where it meets the tolerance, else second order where its error bound is smaller.
+//! The level that the theory chooses by itself: first order where it meets the tolerance, else second order where its error estimate is smaller.
 
 use std::f64::consts::PI;
 

@@ -32,7 +32,7 @@ static PRIMITIVES: LazyLock<[[f64; POINTS]; POINTS]> = LazyLock::new(|| std::arr
 /// The values of these primitives at the points, by the point of the value.
 static VALUES: LazyLock<[[f64; POINTS]; POINTS]> =
     LazyLock::new(|| std::array::from_fn(|i| PRIMITIVES.each_ref().map(|primitive| sum(primitive, NODES[i]))));
-/// The same at the ends of the interval, −1 and 1.
+/// The values of the primitives at the ends of the interval, −1 and 1.
 static ENDS: LazyLock<[[f64; POINTS]; 2]> =
     LazyLock::new(|| [-1.0, 1.0].map(|end| PRIMITIVES.each_ref().map(|primitive| sum(primitive, end))));
 

@@ -15,7 +15,7 @@
 //! ```
 //!
 //! where y′ is counted from an axis that turns with k and not about it. A term, or a derivative of g, is dropped here if it is smaller than a fraction of the
-//! second-order error or of the tolerance. The error by resonant terms is part of the error bound, or it is an error ([`crate::gravity_gradient::terms::regime`]).
+//! second-order error or of the tolerance. The error by resonant terms is part of the error estimate; if it is large, the scene is refused ([`crate::gravity_gradient::terms::regime`]).
 
 use super::fourier::ExactTerm;
 use super::generator;

@@ -13,7 +13,7 @@ use crate::simd::unit_powers::UnitPowers;
 pub(crate) const ORDERS: usize = 7;
 /// Multiples of f, from 0, in the expanded derivatives; one derivative more than G has is known by its size.
 const EXPANDED: usize = 6 + 2 * ORDERS;
-/// The same in the polynomials without w³, if the pericentre precesses. Otherwise there are at most `ORDERS` + 3.
+/// Multiples of f, from 0, in the polynomials without w³ if the pericentre precesses. If it is fixed there are at most `ORDERS` + 3.
 const MULTIPLES: usize = 3 + 2 * ORDERS;
 
 /// The powers of e^(if). Orbits whose pericentre is fixed do with few.
@@ -54,7 +54,7 @@ impl Orbital {
         Self::precessing(eccentricity, mean_motion, [0.0; 2])
     }
 
-    /// The same on an orbit whose node and pericentre precess with these rates. With the pericentre's rate ω̇, the derivatives of (a/r)³ e^(2i(f+ω)), times
+    /// The derivatives on an orbit whose node and pericentre precess with these rates. With the pericentre's rate ω̇, the derivatives of (a/r)³ e^(2i(f+ω)), times
     /// e^(−2iω), are those of (d/dt + 2iω̇)^j; the rate of the node enters at the evaluation.
     pub(crate) fn precessing(eccentricity: f64, mean_motion: f64, [node_rate, pericentre_rate]: [f64; 2]) -> Self {
         let climbs = pericentre_rate == 0.0;
@@ -95,7 +95,7 @@ impl Orbital {
     }
 
     /// The first derivatives, as many as there are bounds, without the lowest and the highest coefficients whose effect does not exceed the bound; and for each
-    /// the sum of the effects of the coefficients that it lacks.
+    /// derivative the summed effect of its dropped coefficients.
     pub(crate) fn cut(&self, bounds: &[f64]) -> (Self, Vec<f64>) {
         let mut orbital = Self::empty(self.eccentricity, self.climbs, self.node_rate);
         let mut largest_power = (1.0 + self.eccentricity).powi(3);

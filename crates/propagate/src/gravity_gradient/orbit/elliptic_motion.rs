@@ -91,7 +91,7 @@ impl Course {
         self.to_singularity(mean_anomaly).min(LONGEST_ARC / self.rate())
     }
 
-    /// The same without the precession of the orbit.
+    /// The longest time over which a polynomial represents the torque, without the precession of the orbit.
     fn to_singularity(&self, mean_anomaly: f64) -> f64 {
         let eccentricity = self.ellipse.eccentricity;
         let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
@@ -145,7 +145,7 @@ impl TurningPlane {
     }
 }
 
-/// The same axes at all times.
+/// Axes that are fixed in space, as a function of time.
 #[inline(always)]
 pub(crate) fn fixed<S: InstructionSet>(axes: &[Vector3<f64>], like: Lanes<S>) -> Axes<S> {
     // Not `map`, which is not inlined into code for an instruction set.

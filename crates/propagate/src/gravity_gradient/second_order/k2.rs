@@ -26,10 +26,10 @@ type K2Factors = [f64; 5];
 pub(crate) struct Hamiltonian {
     /// C of ⟨D⟩ = C u (s² − ⅓), and its derivatives with respect to L and to M at fixed L.
     pub(crate) first: [f64; 3],
-    /// K2's coefficients, and their derivatives likewise.
+    /// The coefficients of K2, and their derivatives with respect to L and to M at fixed L.
     pub(crate) second: [K2Factors; 3],
     pub(crate) momentum: f64,
-    /// What K2 in closed form lacks.
+    /// The constant rates by the part of K2 that the closed form omits.
     pub(crate) steady: SteadyRates,
 }
 
@@ -47,7 +47,7 @@ pub(crate) struct PlacedBody {
     pub(crate) rate: f64,
 }
 
-/// The same for several places on one orbit.
+/// The disturbing body at several places of one orbit.
 #[derive(Clone, Copy)]
 pub(crate) struct DisturberLanes<S: InstructionSet> {
     pub(crate) direction: [Lanes<S>; 3],
@@ -98,7 +98,7 @@ impl Hamiltonian {
         Self { second, ..Self::first(inertia, strength) }
     }
 
-    /// With what K2 in closed form lacks.
+    /// With the constant rates by the part of K2 that the closed form omits.
     pub(crate) fn with_steady(self, steady: SteadyRates) -> Self {
         Self { steady, ..self }
     }

@@ -78,7 +78,7 @@ struct OrbitMeans {
     square: [f64; 2],
     /// ⟨(a/r)⁶⟩ times c0, c2, c4: the even cosines of the true anomaly.
     still: [f64; 3],
-    /// ⟨(a/r)⁶ ḟ⟩ likewise.
+    /// ⟨(a/r)⁶ ḟ⟩ times d0 and d2.
     moving: [f64; 2],
 }
 

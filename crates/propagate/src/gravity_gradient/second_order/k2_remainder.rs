@@ -1,4 +1,4 @@
-//! The part of the average of K2 over the orbit that K2 in closed form lacks: the terms from (n/Ω)² on, and the terms that it does not contain.
+//! The part of ⟨K2⟩ over the orbit that the closed form of K2 omits: the terms from (n/Ω)² on, and slow terms.
 //!
 //! With the harmonics c_mj e^(ijl) of the contractions, F = σ^(|h|/2) f and q = 3φn²/2, the average is
 //!
@@ -59,7 +59,7 @@ struct Shape {
     numbers: [f64; 2],
     /// F² and its derivatives with respect to σ.
     square: [f64; 3],
-    /// ν likewise.
+    /// ν and its derivatives with respect to σ.
     frequency: [f64; 3],
     momentum: f64,
 }
@@ -217,7 +217,7 @@ fn highest(series: &OrbitSeries) -> i32 {
     sizes.iter().rposition(|size| *size > CUTOFF.sqrt() * largest).unwrap_or(0) as i32
 }
 
-/// The terms with sums over time derivatives that have a share of what K2 lacks.
+/// The terms with sums over time derivatives that count in the omitted part of K2.
 fn summed(inertia: &Inertia, terms: &[Term], exact: &[ExactTerm]) -> Vec<Term> {
     let root = inertia.sigma.sqrt().max(ROOT_FLOOR);
     let weight = |term: &Term| term.size(root).powi(2) / term.frequency[0].abs();
@@ -245,7 +245,7 @@ fn beyond(omega: f64, step: f64, divisor: f64) -> [f64; 3] {
     [value, value * slope, value * (slope * slope + 2.0 / (omega * omega) + 1.0 / (divisor * divisor))]
 }
 
-/// What K2 in closed form lacks, and its derivatives at a fixed σ or M and by turns of the frame, without terms whose divisors are exact.
+/// The part of K2 that the closed form omits, and its derivatives at a fixed σ or M and by turns of the frame, without terms whose divisors are exact.
 #[cfg(test)]
 pub(crate) fn lacking(
     inertia: &Inertia,

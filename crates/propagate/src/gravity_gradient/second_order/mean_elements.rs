@@ -42,7 +42,7 @@ pub(crate) struct EpochMean {
 /// The mean M and L from all terms, in first and in second order, with the other quantities of second order.
 pub(crate) struct SecondOrderData {
     both: [EpochMean; 2],
-    /// The part of the average of K2 over the orbit that K2 in closed form lacks.
+    /// The constant rates by the part of ⟨K2⟩ that the closed form omits.
     steady: SteadyRates,
 }
 
@@ -117,7 +117,7 @@ pub(crate) fn epoch_means(
     let second = second_actions(&stand, &terms, &exact);
     let turn = if mean.p == Complex::default() { Complex::new(1.0, 0.0) } else { mean.p / mean.p.norm() };
     let at = |sigma: f64, momentum: f64| Mean { p: turn * sigma.max(0.0).sqrt(), momentum, ..*mean };
-    // What the corrections of the motion, which drop terms and end their sums early, lack of M and L.
+    // The corrections drop terms and truncate sums. `lacking` is M of all terms less M of the corrections.
     let used = mean.momentum * 2.0 * (mean.p.conj() * change.p).re + inertia.sigma * change.momentum;
     let (lacking, lacking_action) = (first.momentum - change.momentum, first.action - used);
     let by_sigma = (lacking_action - inertia.sigma * lacking) / mean.momentum;
@@ -227,7 +227,7 @@ pub(crate) fn first_actions(
     actions
 }
 
-/// c_m of V by the sum over time derivatives, and the size of the first term that the sum lacks.
+/// c_m of V by the sum over time derivatives, and the size of the first term after the sum.
 fn solution_by_sums(stand: &Stand<'_>, omega: f64, multiple: i32) -> (C64, f64) {
     let orders = orders(omega, stand.sizes, 0.0);
     let mut factor = (C64::i() * omega).inv();

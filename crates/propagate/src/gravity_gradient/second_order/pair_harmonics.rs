@@ -28,7 +28,7 @@ const MOST_OF_AVERAGE: usize = 24;
 pub(crate) struct Near {
     /// Ω + jn.
     pub(crate) frequency: f64,
-    /// The same with the shift by the average torque.
+    /// Ω + jn with the shift by the average torque.
     pub(crate) divisor: f64,
     /// The contraction of U_j e^(ijl).
     pub(crate) torque: Contraction,
@@ -196,7 +196,7 @@ impl OrbitHarmonics {
         std::array::from_fn(|i| harmonic.iter().zip(functions).map(|(part, function)| part * function[i]).sum())
     }
 
-    /// The reciprocal of a divisor, with its factor where the sums over time derivatives lack the harmonic.
+    /// The reciprocal of a divisor, with the factor 1 − e^(−x²T²/4) where the sums over time derivatives do not contain the harmonic.
     fn inverse(&self, divisor: f64, omega: f64) -> f64 {
         let summed = omega.abs() > self.slowest && divisor.abs() > SUMMED_ABOVE * omega.abs();
         if summed { 1.0 / divisor } else { inverse(divisor, self.duration) }

@@ -7,7 +7,7 @@
 //! χ_ab = S_ab/(iΩ_ab) − Ṡ_ab/(iΩ_ab)²,   S_ab = ½ [D_a, W_b]
 //! ```
 //!
-//! and the same with h for m gives δ₂L. ⟨D⟩ is one more a, with S_ab = [⟨D⟩, W_b] and without the first part. Quotients of a power of √σ and √σ are
+//! and δ₂L has h in place of m. ⟨D⟩ is one more a, with S_ab = [⟨D⟩, W_b] and without the first part. Quotients of a power of √σ and √σ are
 //! formed before σ is: the sum is regular at σ = 0.
 //!
 //! A harmonic of the orbit near resonance is a term of its own, of frequency Ω + jn and of constant amplitude; a pair of two such terms has the divisor of both
@@ -152,7 +152,7 @@ pub(crate) struct PairSum {
 }
 
 impl PairSum {
-    /// Adds this, `factor` times, to that with the same total, or with the opposite one.
+    /// Adds this sum, `factor` times, to the sum in the list that has its total or the opposite one.
     pub(crate) fn join(self, factor: f64, all: &mut Vec<Self>) {
         let Total { numbers: [h, m], frequency } = self.total;
         let opposite = m < 0.0 || m == 0.0 && h < 0.0;
@@ -196,7 +196,7 @@ impl PairSum {
         self.total.frequency.abs() <= stand.slowest
     }
 
-    /// The change by the harmonic of S nearest to resonance, which the sum over time derivatives lacks; 0 for slow pairs, which have no such sum.
+    /// The change by the harmonic of S nearest to resonance, which the sum over time derivatives does not contain; 0 for slow pairs, which have no such sum.
     pub(crate) fn at_resonance(&self, stand: &Stand<'_>, around: &Around<'_>) -> f64 {
         if self.is_slow(stand) {
             return 0.0;

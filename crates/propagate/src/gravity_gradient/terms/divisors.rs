@@ -112,7 +112,7 @@ impl Divisors {
         self.nearest(harmonic, &[0, 2])
     }
 
-    /// The same for the parts with e^(iaf) that turn with the harmonic, for these |a|.
+    /// The smallest divisor of the harmonic's parts with e^(iaf), for these |a|, that turn with the harmonic.
     pub(crate) fn nearest(&self, harmonic: i32, turns: &[i32]) -> f64 {
         let parts = turns.iter().map(|turns| self.at(harmonic, turns * harmonic.signum()));
         parts.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or_else(|| self.unshifted(harmonic))

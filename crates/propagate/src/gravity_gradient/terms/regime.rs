@@ -175,8 +175,8 @@ impl<'a> Regimes<'a> {
         }
     }
 
-    /// The turn that the correction of the harmonic nearest to resonance leaves. Its relative error is what the divisor lacks of the shift of Ω, by the average
-    /// torque within an orbit and by second order, the correction itself, and the part that does not return within the span.
+    /// The turn that remains after the correction of the harmonic nearest to resonance. The relative error of the correction has four parts: the shift of Ω by
+    /// the average torque and by second order, the correction itself, its turn of y′, and the part of the harmonic that does not return within the span.
     fn corrected(&self, term: &SizedTerm, amplitude: f64, distance: f64) -> f64 {
         if amplitude == 0.0 {
             return 0.0;

@@ -142,7 +142,7 @@ impl Term {
         self.strength(root) / self.frequency[0].abs()
     }
 
-    /// The same times ν.
+    /// Relative rate of the change of the mean variables by the term, over M.
     pub(crate) fn strength(&self, root: f64) -> f64 {
         let degree = self.harmonic.abs();
         let [value, slope, _] = self.weighted().map(f64::abs);
