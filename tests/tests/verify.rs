@@ -50,7 +50,7 @@ fn bounds_of_theory_hold_for_every_kind_of_scene() {
     let precessing = orbit(2e-3, 0.2).secular_rates(1e-5, -2e-5).expect("rates");
     let tensor = [[0.8, 0.1, 0.05], [0.1, 0.7, -0.1], [0.05, -0.1, 1.0]];
     for (name, scene) in [
-        ("after the epoch", disturbed().span(3.0, 3e3)),
+        ("after the epoch", disturbed().orbit(orbit(3e-3, 0.2)).span(3.0, 3e3)),
         ("before the epoch", disturbed().span(-3e3, -1e3)),
         ("around the epoch", disturbed().span(-1e3, 2e3)),
         ("after a later start", disturbed().span(2e3, 3e3)),

@@ -8,7 +8,7 @@
 //!
 //! With r_± = 1/(Ω ± jn), the coefficients of E and E₁ are Ω(r₊ + r₋) and Ω²(r₊² + r₋²), and those of O and O₁ have differences instead of the sums. Near
 //! resonance the average torque shifts the divisors ([`crate::gravity_gradient::terms::divisors`]). For an even g, E is a series in cos jl and O one in sin jl. So E
-//! and O take the places of the even and of the odd time derivatives. The harmonic nearest to resonance may be left out (`selection`).
+//! and O take the places of the even and of the odd time derivatives. The harmonic nearest to resonance may be left out ([`crate::gravity_gradient::terms::regime`]).
 
 use std::f64::consts::TAU;
 
@@ -16,8 +16,10 @@ use pulp::NullaryFnOnce;
 
 use super::deviator::{Contracted, Products, axial_contractions, contractions};
 use super::sums::{GeneratorSlopes, SUMS};
+use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::terms::divisors::Divisors;
+use crate::gravity_gradient::terms::term::SizedTerm;
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
@@ -36,6 +38,14 @@ pub(crate) struct ExactTerm {
     factors: [[f64; SUMS]; 2],
     /// The coefficients of (a/r)³ times 1, cos 2f and sin 2f, by j, function and part.
     coefficients: Vec<[[f64; PARTS]; 3]>,
+}
+
+impl SizedTerm {
+    /// This term with divisors that are exact in the orbit's harmonics. What is smaller than `nothing` is left out.
+    pub(crate) fn exact(&self, inertia: &Inertia, orbit: (&OrbitSeries, Divisors), nothing: f64) -> ExactTerm {
+        let negligible = 0.1 * nothing / self.size();
+        ExactTerm::new((self.term.harmonic, self.term.multiple), self.factors(inertia), orbit, negligible)
+    }
 }
 
 impl ExactTerm {

@@ -1,10 +1,7 @@
 //! Sums over the terms of one m, by time derivative, and what each term adds to them.
 
 use super::deviator::{Contracted, Deviator, axial_contractions, contractions};
-use super::fourier::ExactTerm;
 use crate::gravity_gradient::body::inertia::Inertia;
-use crate::gravity_gradient::orbit::hansen::OrbitSeries;
-use crate::gravity_gradient::terms::divisors::Divisors;
 use crate::gravity_gradient::terms::term::{SizedTerm, Term};
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
@@ -180,7 +177,7 @@ impl<S: InstructionSet> GeneratorSlopes<S> {
 
 impl SizedTerm {
     /// The factors of G and of −Ω ∂G/∂Ω in W, M ∂W/∂M, ∂W/∂p̄ + ∂W/∂p and ∂W/∂p̄ − ∂W/∂p.
-    fn factors(&self, inertia: &Inertia) -> [[f64; 4]; 2] {
+    pub(crate) fn factors(&self, inertia: &Inertia) -> [[f64; 4]; 2] {
         let Self {
             term: Term { harmonic, function: [value, slope, _], frequency: [_, by_sigma, _], .. },
             frequency,
@@ -197,12 +194,6 @@ impl SizedTerm {
         let whole = inverse * root.powi(degree) * value;
         let sum = inverse * (sum + 2.0 * further * slope);
         [[whole, 0.0, sum, inverse * difference], [0.0, whole, 2.0 * by_frequency, 0.0]]
-    }
-
-    /// This term with divisors that are exact in the orbit's harmonics. What is smaller than `nothing` is left out.
-    pub(crate) fn exact(&self, inertia: &Inertia, orbit: (&OrbitSeries, Divisors), nothing: f64) -> ExactTerm {
-        let negligible = 0.1 * nothing / self.size();
-        ExactTerm::new((self.term.harmonic, self.term.multiple), self.factors(inertia), orbit, negligible)
     }
 
     /// Adds this term to the other terms of its |h|, with `orders` derivatives of g.

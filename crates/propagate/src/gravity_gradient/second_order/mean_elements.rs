@@ -131,7 +131,7 @@ pub(crate) fn epoch_means(
     let higher = EpochMean {
         mean: at((state.momentum * state.p.norm_sqr() - first.action - second.action) / momentum, momentum),
         momentum: by_momentum,
-        left: first.left.map(|left| left / momentum),
+        left: [0, 1].map(|i| (first.left[i] + second.left[i]) / momentum),
     };
     ([lower, higher], steady)
 }

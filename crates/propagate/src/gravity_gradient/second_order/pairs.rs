@@ -25,6 +25,8 @@ use crate::numerics::C64;
 pub(crate) struct Actions {
     pub(crate) momentum: f64,
     pub(crate) action: f64,
+    /// Their errors by the pairs that are summed around the orbit.
+    pub(crate) left: [f64; 2],
 }
 
 /// The harmonics of the orbit in the sum.
@@ -130,7 +132,8 @@ impl Actions {
         let served: Vec<_> = together.iter().filter(|all| all.needs(stand, around)).collect();
         if !served.is_empty() {
             let totals: Vec<_> = served.iter().map(|all| all.total).collect();
-            let changes = pairs_around::actions(stand, listed, &totals, (around, exact));
+            let [changes, left] = pairs_around::actions(stand, listed, &totals, (around, exact));
+            self.left = left;
             let by_sums = served.iter().map(|all| all.of_actions(all.by_sum(stand)));
             let [momentum, action] = by_sums.fold(changes, |sum, part| [sum[0] - part[0], sum[1] - part[1]]);
             self.momentum += momentum;

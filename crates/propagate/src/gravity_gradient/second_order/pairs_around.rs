@@ -17,6 +17,9 @@ use crate::numerics::C64;
 /// Most points around an orbit; more are needed from an eccentricity of 0.77 on, and for a harmonic above 60.
 const MOST_POINTS: f64 = 128.0;
 
+/// Relative error of a sum around the orbit: S changes within the span.
+const SOURCE_CHANGE: f64 = 0.02;
+
 /// The disturbing body at one place of its orbit.
 pub(crate) struct OrbitPoint {
     /// l less l at the epoch.
@@ -95,32 +98,36 @@ struct TermPair {
     opposite: bool,
 }
 
-/// The changes of M and L by the pairs of these terms that have one of these totals, A term comes with its relative size.
+/// The changes of M and L by the pairs of these terms that have one of these totals, and their errors. A term comes with its relative size.
 pub(crate) fn actions(
     stand: &Stand<'_>,
     listed: &[(Term, f64)],
     totals: &[Total],
     (around, exact): (&Around<'_>, &[(Term, Split)]),
-) -> [f64; 2] {
+) -> [[f64; 2]; 2] {
     let highest = totals.iter().filter_map(|total| around.highest(total)).fold(0.0, f64::max);
     let points = (around.points)(&even(around.eccentricity, points_for(highest)));
     let sources = sources(stand, (listed, totals), (around, exact), &points);
     let highest = highest as i32;
     let turn = |j: i32| points.iter().map(move |point| C64::from_polar(1.0, f64::from(j) * point.anomaly));
     let steps: Vec<C64> = turn(-1).collect();
-    let mut actions = [0.0; 2];
+    let mut actions = [[0.0; 2]; 2];
     for (Total { numbers: [h, m], frequency }, source) in totals.iter().zip(&sources) {
-        let mut sum = C64::default();
+        let (mut sum, mut size) = (C64::default(), 0.0);
         let waves = turn(highest).zip(&points).zip(source).map(|((turn, point), value)| value * turn * point.weight);
         let mut waves: Vec<C64> = waves.collect();
         for j in -highest..=highest {
             let harmonic: C64 = waves.iter().sum();
-            sum += harmonic * inverse(frequency + f64::from(j) * around.mean_motion, stand.duration);
+            let part = harmonic * inverse(frequency + f64::from(j) * around.mean_motion, stand.duration);
+            sum += part;
+            size += part.norm_sqr().sqrt();
             waves.iter_mut().zip(&steps).for_each(|(wave, step)| *wave *= step);
         }
         // With X = Σ_j S_j/(Ω + jn), M changes by −m Re X and L by −h Re X.
-        actions[0] -= m * sum.re;
-        actions[1] -= h * sum.re;
+        for (i, number) in [*m, *h].into_iter().enumerate() {
+            actions[0][i] -= number * sum.re;
+            actions[1][i] += SOURCE_CHANGE * number.abs() * size;
+        }
     }
     actions
 }
