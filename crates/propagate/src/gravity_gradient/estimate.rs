@@ -7,7 +7,7 @@
 //!    errors of the mean M and L at the epoch;
 //! 3. what is not corrected of terms in resonance ([`crate::gravity_gradient::terms::regime`]).
 //!
-//! The first two have one safety factor each below; the third is an upper estimate. Dropped terms, truncated sums, terms that the level omits, the average over the orbit, and rounding follow.
+//! Each has one safety factor below. Dropped terms, truncated sums, terms that the level omits, the average over the orbit, and rounding follow.
 //! `gradient safety` of the test crate measures the factors against integrations.
 
 use std::f64::consts::TAU;
@@ -27,6 +27,8 @@ use crate::input::options::{Averaging, Level};
 const PERIODIC: f64 = 13.0;
 /// Safety factor of the drift of the next order.
 const DRIFT: f64 = 8.0;
+/// Safety factor of the terms in resonance, whose upper estimates are added up although they act in different senses.
+const RESONANT: f64 = 0.3;
 /// Safety factor of the average over the orbit.
 const ORBIT: f64 = 1.5;
 /// Number of orbits on each side of the epoch for which quarters are kept.
@@ -75,7 +77,7 @@ impl Estimate {
         Self {
             periodic: PERIODIC * change * change,
             drift: DRIFT * (drift + response.of_actions(left, duration)),
-            resonant: sum(|corrections| corrections.resonant),
+            resonant: RESONANT * sum(|corrections| corrections.resonant),
             dropped: sum(|corrections| corrections.dropped),
             omitted: omitted.sum(),
             // The iteration to the mean M and L ends at its own threshold.

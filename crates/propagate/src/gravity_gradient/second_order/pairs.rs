@@ -25,7 +25,7 @@ use crate::numerics::C64;
 pub(crate) struct Actions {
     pub(crate) momentum: f64,
     pub(crate) action: f64,
-    /// Their errors by the pairs that are summed around the orbit.
+    /// Their errors: of the sums around the orbit, and of the sums over time derivatives of the other pairs.
     pub(crate) left: [f64; 2],
 }
 
@@ -79,8 +79,10 @@ pub(crate) fn second_actions(stand: &Stand<'_>, terms: &[Term], exact: &OrbitPar
     }
     if let Some(around) = &exact.around {
         let listed: Vec<_> = listed.into_iter().zip(half.iter().map(|row| row.size)).collect();
-        actions.around(stand, &listed, &together, (around, &exact.terms));
+        together = actions.around(stand, &listed, together, (around, &exact.terms));
+        together.iter().for_each(|all| actions.add_error(all.of_actions(all.at_resonance(stand, around))));
     }
+    together.iter().for_each(|all| actions.add_error(all.sum_error(stand)));
     actions
 }
 
@@ -121,24 +123,30 @@ impl Actions {
         self.action += factor * (both * a.harmonic + chi * h).re;
     }
 
-    /// Takes the pairs that need it by the harmonics of the orbit instead.
+    /// Takes the pairs that need it by the harmonics of the orbit instead, and returns the others.
     fn around(
         &mut self,
         stand: &Stand<'_>,
         listed: &[(Term, f64)],
-        together: &[PairSum],
+        together: Vec<PairSum>,
         (around, exact): (&Around<'_>, &[(Term, Split)]),
-    ) {
-        let served: Vec<_> = together.iter().filter(|all| all.needs(stand, around)).collect();
+    ) -> Vec<PairSum> {
+        let (served, others): (Vec<_>, Vec<_>) = together.into_iter().partition(|all| all.needs(stand, around));
         if !served.is_empty() {
             let totals: Vec<_> = served.iter().map(|all| all.total).collect();
             let [changes, left] = pairs_around::actions(stand, listed, &totals, (around, exact));
-            self.left = left;
+            self.add_error(left);
             let by_sums = served.iter().map(|all| all.of_actions(all.by_sum(stand)));
             let [momentum, action] = by_sums.fold(changes, |sum, part| [sum[0] - part[0], sum[1] - part[1]]);
             self.momentum += momentum;
             self.action += action;
         }
+        others
+    }
+
+    /// Adds to the errors. The phases of the pairs are independent: the squares add up.
+    fn add_error(&mut self, left: [f64; 2]) {
+        self.left = [0, 1].map(|i| self.left[i].hypot(left[i]));
     }
 }
 
