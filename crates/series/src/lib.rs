@@ -32,6 +32,7 @@ mod product;
 pub mod real_field;
 pub mod rigid_body;
 mod ring;
+mod short_axis_code;
 mod terms;
 pub mod threads;
 mod triangle;
@@ -55,8 +56,9 @@ pub mod lie {
 pub mod print {
     //! Output of normal forms: names of the variables, LaTeX, source code.
     pub use crate::display::Named;
-    pub use crate::emit::{Language, MAX_CODE_ORDER};
+    pub use crate::emit::{C, Constant, JavaScript, Language, Numbers, Printer, Python, Rust};
     pub use crate::latex::Part;
+    pub use crate::short_axis_code::MAX_CODE_ORDER;
 }
 
 pub mod progress {

@@ -1,5 +1,7 @@
 //! What an error about the strength of a torque measures.
 
+use super::words::four_digits;
+
 /// What shows that a torque is too strong for an expansion in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -15,4 +17,28 @@ pub enum TorqueMeasure {
     Precession,
     /// The error bound of a span of less than one orbit \[rad\]. Its limit is the effect of the torque over the span.
     ErrorBound,
+}
+
+impl TorqueMeasure {
+    /// What was measured, with its value and its limit.
+    pub(super) fn sentence(self, size: f64, bound: f64) -> String {
+        let [size, bound] = [size, bound].map(four_digits);
+        match self {
+            Self::Strength => format!(
+                "its strength 3n²C(C−A)/2M², where the disturbing body is nearest, is {size}, and must be at most {bound}"
+            ),
+            Self::Corrections => {
+                format!("the short-period corrections add up to {size} rad, and must add up to at most {bound} rad")
+            }
+            Self::Contraction => format!(
+                "an iteration for the mean variables leaves {size} of the last change, and must leave at most {bound}"
+            ),
+            Self::Precession => format!(
+                "the angular momentum precesses by {size} rad in one radian of the orbit, and must precess by at most {bound} rad"
+            ),
+            Self::ErrorBound => {
+                format!("the error bound over the span, {size} rad, exceeds the effect of the torque, {bound} rad")
+            }
+        }
+    }
 }

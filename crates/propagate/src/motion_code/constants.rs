@@ -1,5 +1,6 @@
 //! The constants of one motion, as the kernels take them.
 
+use andoyer_series::print::{Constant, Numbers};
 use nalgebra::{Quaternion, Vector3};
 
 use crate::error::Error;
@@ -62,6 +63,21 @@ impl Constants {
         Ok(constants)
     }
 
+    /// The constants as they stand in a file.
+    pub(super) fn listed(&self) -> [Constant; 7] {
+        let phase = "l' and y'/2: turns per unit of time as three doubles, the first two of 27 bits at most; turns at the epoch as two.";
+        let named = |name, comment, value| Constant { name, comment, value };
+        [
+            named("EPOCH", "", Numbers::One(self.epoch)),
+            named("BOUND", "Largest distance from the epoch.", Numbers::One(self.bound)),
+            named("ANOMALY", phase, Numbers::List(self.anomaly.to_vec())),
+            named("HALF_LONGITUDE", "", Numbers::List(self.half_longitude.to_vec())),
+            named("TERMS", "Coefficients of Re a, Im a, Re b and Im b.", rows(&self.terms)),
+            named("ATTITUDE", "Rows x, y, z, w; columns Re b, Im b, Im a, Re a.", rows(&self.attitude)),
+            named("RATES", "Angular velocity of each component of the unit angular momentum.", rows(&self.rates)),
+        ]
+    }
+
     /// Rotation about a fixed axis: a = 1 and b = 0 throughout, and the angular momentum need not be known.
     fn of_steady(steady: &Steady, epoch: f64, bound: f64) -> Self {
         let [start, quarter] = &steady.attitudes;
@@ -97,6 +113,10 @@ impl Constants {
             rates,
         }
     }
+}
+
+fn rows<const N: usize>(rows: &[[f64; N]]) -> Numbers {
+    Numbers::Rows(rows.iter().map(|row| row.to_vec()).collect())
 }
 
 fn parts(phase: &Phase) -> PhaseParts {

@@ -69,7 +69,7 @@ fn distance<const N: usize>(one: &[f64; N], other: &[f64; N]) -> f64 {
 /// The kernel with one of the two sums.
 macro_rules! compiled {
     ($name:ident, $sums:literal) => {
-        #[allow(clippy::all, clippy::pedantic)] // as it is emitted
+#[allow(clippy::all, clippy::pedantic)] // as it is emitted
         #[rustfmt::skip]
         mod $name {
             include!("kernel/kernel.rs");
@@ -77,12 +77,11 @@ macro_rules! compiled {
 
             /// Attitude and rates by these constants.
             pub(super) fn at(constants: &super::Constants, time: f64) -> Option<([f64; 4], [f64; 3])> {
-                let phase = |[f, g, h, s, t]: super::super::constants::PhaseParts| Phase { frequency: [f, g, h], start: [s, t] };
                 let motion = Motion {
                     epoch: constants.epoch,
                     bound: constants.bound,
-                    anomaly: phase(constants.anomaly),
-                    half_longitude: phase(constants.half_longitude),
+                    anomaly: constants.anomaly,
+                    half_longitude: constants.half_longitude,
                     terms: &constants.terms,
                     attitude: constants.attitude,
                     rates: constants.rates,

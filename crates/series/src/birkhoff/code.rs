@@ -9,21 +9,11 @@ use super::BirkhoffNormalForm;
 use super::matrix::{Matrix, symplectic_inverse};
 use super::mode::Mode;
 use crate::emit::Language;
-use crate::emit::program::{Expression, Program, Statement, name};
-use crate::emit::text::expression;
+use crate::emit::program::{Expression, Program, name};
+use crate::emit::routine::{Argument, Results, Routine};
 use crate::real_field::RealField;
 use crate::{Error, Monomial, Polynomial};
-use std::collections::{BTreeMap, BTreeSet};
-
-/// A function from arrays to an array.
-struct Function {
-    name: &'static str,
-    meaning: String,
-    /// Names and lengths of the argument arrays.
-    arguments: Vec<(&'static str, usize)>,
-    result: (&'static str, usize),
-    program: Program,
-}
+use std::collections::BTreeMap;
 
 impl<R: RealField> BirkhoffNormalForm<R> {
     /// The source file of functions in `language` that evaluate this normal form.
@@ -44,15 +34,12 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// # Errors
     /// - degrees of a transformation that outgrow the packed exponents: [`Error::ExponentOverflow`].
     pub fn to_code(&self, language: Language) -> Result<String, Error> {
-        let functions = self.functions()?;
-        let mut text = header(&self.head(&functions), language);
-        for function in &functions {
-            text += &print(function, language);
-        }
-        Ok(text)
+        let (printer, routines) = (language.printer(), self.routines()?);
+        let texts: String = routines.iter().map(|routine| printer.routine(routine)).collect();
+        Ok(printer.head(&self.head(&routines)) + &texts)
     }
 
-    fn functions(&self) -> Result<Vec<Function>, Error> {
+    fn routines(&self) -> Result<Vec<Routine>, Error> {
         let n = self.space().degrees_of_freedom();
         let forward: Matrix<f64> =
             self.linear_change().iter().map(|row| row.iter().map(R::to_float).collect()).collect();
@@ -63,55 +50,50 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             };
             (0..2 * n).map(image).collect::<Result<Vec<_>, Error>>()
         };
-        let parameters = self.space().parameters();
-        let arguments = |first: (&'static str, usize)| {
-            let given = (parameters > 0).then_some(("parameters", parameters));
-            std::iter::once(first).chain(given).collect::<Vec<_>>()
+        let parameters = match self.space().parameters() {
+            0 => None,
+            count => Some(("parameters", count)),
         };
-        let mut functions = vec![
-            Function {
-                name: "from_normal",
-                meaning: "The state of normal variables.".to_owned(),
-                arguments: arguments(("normal", 2 * n)),
-                result: ("state", 2 * n),
-                program: from_normal(&images(true)?, &forward),
-            },
-            Function {
-                name: "to_normal",
-                meaning: "The normal variables of a state.".to_owned(),
-                arguments: arguments(("state", 2 * n)),
-                result: ("normal", 2 * n),
-                program: to_normal(&images(false)?, &symplectic_inverse(&forward)),
-            },
-            Function {
-                name: "actions",
-                meaning: "The actions of normal variables.".to_owned(),
-                arguments: vec![("normal", 2 * n)],
-                result: ("actions", n),
-                program: self.actions_program()?,
-            },
+        let mut routines = vec![
+            routine(
+                ["from_normal", "The state of normal variables."],
+                ("normal", 2 * n),
+                parameters,
+                ("state", 2 * n),
+                from_normal(&images(true)?, &forward),
+            ),
+            routine(
+                ["to_normal", "The normal variables of a state."],
+                ("state", 2 * n),
+                parameters,
+                ("normal", 2 * n),
+                to_normal(&images(false)?, &symplectic_inverse(&forward)),
+            ),
+            routine(
+                ["actions", "The actions of normal variables."],
+                ("normal", 2 * n),
+                None,
+                ("actions", n),
+                self.actions_program()?,
+            ),
         ];
-        let keep = |function: &mut Function| {
-            let results: Vec<String> = (0..function.result.1).map(|i| format!("result_{i}")).collect();
-            function.program.keep_what_gives(&results.iter().map(String::as_str).collect::<Vec<_>>());
-        };
         match self.in_actions() {
             Ok(actions) => {
                 let actions = actions.map(R::to_float);
                 let slopes = (0..n).map(|mode| actions.derivative(mode)).collect::<Result<Vec<_>, _>>()?;
-                functions.push(Function {
-                    name: "frequencies",
-                    meaning: "The rates dK/dI at actions.".to_owned(),
-                    arguments: arguments(("actions", n)),
-                    result: ("rates", n),
-                    program: polynomials(&slopes, n, "rate"),
-                });
+                let meaning = ["frequencies", "The rates dK/dI at actions."];
+                routines.push(routine(
+                    meaning,
+                    ("actions", n),
+                    parameters,
+                    ("rates", n),
+                    polynomials(&slopes, n, RESULT),
+                ));
             }
             Err(Error::ResonantTerm { .. }) => {}
             Err(other) => return Err(other),
         }
-        functions.iter_mut().for_each(keep);
-        Ok(functions)
+        Ok(routines)
     }
 
     /// A real variable of one side in those of the other side, without the linear change.
@@ -147,14 +129,14 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             }))
         };
         let list = self.modes().iter().enumerate().map(action).collect::<Result<Vec<_>, Error>>()?;
-        Ok(polynomials(&list, 2 * self.modes().len(), "action"))
+        Ok(polynomials(&list, 2 * self.modes().len(), RESULT))
     }
 
-    fn head(&self, functions: &[Function]) -> Vec<String> {
+    fn head(&self, routines: &[Routine]) -> Vec<String> {
         let space = self.space();
         let names = space.names();
         let (pairs, parameters) = names.split_at(2 * space.degrees_of_freedom());
-        let statements: usize = functions.iter().map(|function| function.program.statements.len()).sum();
+        let assignments: usize = routines.iter().map(|routine| routine.program.statements.len()).sum();
         let mut lines = vec![
             format!("Birkhoff normal form of order {}: transformation, actions and frequencies.", self.order()),
             String::new(),
@@ -183,41 +165,43 @@ impl<R: RealField> BirkhoffNormalForm<R> {
                 }
             });
         }
-        if functions.len() < 4 {
+        if routines.len() < 4 {
             lines.push("K has resonant terms: there is no function of the frequencies.".to_owned());
         }
-        lines.push(format!("{statements} assignments. Arguments are not checked."));
+        lines.push(format!("{assignments} assignments. Arguments are not checked."));
         lines.push("No rights are claimed in this file: do with it what you like.".to_owned());
         lines
     }
 }
 
-fn from_normal(images: &[Polynomial<f64>], forward: &Matrix<f64>) -> Program {
-    let mut program = polynomials(images, images.len(), "image");
-    for (i, row) in forward.iter().enumerate() {
-        program.assign(&format!("result_{i}"), sum(row, "result_image_"));
+/// Prefix of the results of a program.
+const RESULT: &str = "result_";
+
+/// A function of an array, and of the parameters if it has them. Its program finds the arguments in `v_0`, `v_1`, … and the parameters in `c_0`, `c_1`, ….
+fn routine(
+    [name, meaning]: [&'static str; 2],
+    argument: (&'static str, usize),
+    parameters: Option<(&'static str, usize)>,
+    (result, length): (&'static str, usize),
+    body: Program,
+) -> Routine {
+    let (mut arguments, mut program) = (Vec::new(), Program::default());
+    for ((array, length), stem) in std::iter::once(argument).chain(parameters).zip(["v", "c"]) {
+        arguments.push(Argument::Array(array, length));
+        for i in 0..length {
+            program.assign(&format!("{stem}_{i}"), Expression::Name(format!("{array}[{i}]")));
+        }
     }
-    rename(program, "image")
+    program.statements.extend(body.statements);
+    let results = Results::Array(result, length);
+    program.keep_what_gives(&results.names().iter().map(String::as_str).collect::<Vec<_>>());
+    Routine { name, meaning, arguments, results, program }
 }
 
-/// Renames the results of `polynomials` that the linear change uses.
-fn rename(mut program: Program, stem: &str) -> Program {
-    let last: BTreeMap<String, usize> = program
-        .statements
-        .iter()
-        .enumerate()
-        .filter_map(|(at, statement)| match statement {
-            Statement::Assignment(target, _) => Some((target.clone(), at)),
-            Statement::Comment(_) => None,
-        })
-        .collect();
-    for (at, statement) in program.statements.iter_mut().enumerate() {
-        if let Statement::Assignment(target, _) = statement
-            && let Some(number) = target.strip_prefix("result_")
-            && last.get(target.as_str()).is_some_and(|&last| at < last)
-        {
-            *target = format!("result_{stem}_{number}");
-        }
+fn from_normal(images: &[Polynomial<f64>], forward: &Matrix<f64>) -> Program {
+    let mut program = polynomials(images, images.len(), "result_image_");
+    for (i, row) in forward.iter().enumerate() {
+        program.assign(&format!("{RESULT}{i}"), sum(row, "result_image_"));
     }
     program
 }
@@ -230,7 +214,7 @@ fn to_normal(images: &[Polynomial<f64>], backward: &Matrix<f64>) -> Program {
     for (i, _) in backward.iter().enumerate() {
         program.assign(&format!("v_{i}"), name(&format!("z_{i}")));
     }
-    program.statements.extend(polynomials(images, images.len(), "image").statements);
+    program.statements.extend(polynomials(images, images.len(), RESULT).statements);
     program
 }
 
@@ -244,14 +228,13 @@ fn sum(row: &[f64], stem: &str) -> Expression {
     terms.fold(first, |sum, term| sum + term)
 }
 
-/// Assigns `result_0`, `result_1`, … from polynomials in `v_0`, `v_1`, …; the parameters are in the slots from `first` on.
-fn polynomials(list: &[Polynomial<f64>], first: usize, stem: &str) -> Program {
+/// Assigns the names `target` with 0, 1, … from polynomials in `v_0`, `v_1`, …; the parameters are in the slots from `first` on.
+fn polynomials(list: &[Polynomial<f64>], first: usize, target: &str) -> Program {
     let mut program = Program::default();
     for (number, polynomial) in list.iter().enumerate() {
-        program.comment(&format!("{stem} {number}"));
         let terms: Vec<(Monomial, f64)> = polynomial.terms().map(|(monomial, &c)| (monomial, c)).collect();
         let value = horner(&mut program, &terms, 0, first);
-        program.assign(&format!("result_{number}"), value);
+        program.assign(&format!("{target}{number}"), value);
     }
     program
 }
@@ -285,89 +268,4 @@ fn horner(program: &mut Program, terms: &[(Monomial, f64)], slot: usize, first: 
 
 fn variable(slot: usize, first: usize) -> String {
     if slot < first { format!("v_{slot}") } else { format!("c_{}", slot - first) }
-}
-
-fn header(lines: &[String], language: Language) -> String {
-    let body =
-        |mark: &str| lines.iter().map(|line| format!("{mark}{line}").trim_end().to_owned() + "\n").collect::<String>();
-    match language {
-        Language::C => format!("/*\n{} */\n", body(" * ")),
-        Language::Rust => body("// "),
-        Language::Python => format!("\"\"\"{}\"\"\"\n", body("").trim_end().to_owned() + "\n"),
-    }
-}
-
-/// The text of a function in `language`.
-fn print(function: &Function, language: Language) -> String {
-    let (results, count) = function.result;
-    let mut text = opening(function, language);
-    let mut assigned = BTreeSet::new();
-    let line = |target: &str, value: &str, new: bool| match language {
-        Language::C => format!("    {}{target} = {value};\n", if new { "double " } else { "" }),
-        Language::Rust => format!("    let {target} = {value};\n"),
-        Language::Python => format!("    {target} = {value}\n"),
-    };
-    let used = used(&function.program);
-    for (position, (argument, length)) in function.arguments.iter().enumerate() {
-        let stem = if position == 0 { "v" } else { "c" };
-        for i in (0..*length).filter(|i| used.contains(&format!("{stem}_{i}"))) {
-            let target = format!("{stem}_{i}");
-            text += &line(&target, &format!("{argument}[{i}]"), true);
-            assigned.insert(target);
-        }
-    }
-    for statement in &function.program.statements {
-        if let Statement::Assignment(target, value) = statement {
-            let value = expression(value, |_, argument| argument.to_owned());
-            text += &line(target, &value, assigned.insert(target.clone()));
-        }
-    }
-    let list = (0..count).map(|i| format!("result_{i}")).collect::<Vec<_>>().join(", ");
-    match language {
-        Language::C => {
-            for i in 0..count {
-                text += &format!("    {results}[{i}] = result_{i};\n");
-            }
-            text + "}\n"
-        }
-        Language::Rust => text + &format!("    [{list}]\n}}\n"),
-        Language::Python => text + &format!("    return [{list}]\n"),
-    }
-}
-
-fn opening(function: &Function, language: Language) -> String {
-    let (name, (results, count)) = (function.name, function.result);
-    let join = |argument: &dyn Fn(&(&'static str, usize)) -> String| {
-        function.arguments.iter().map(argument).collect::<Vec<_>>().join(", ")
-    };
-    match language {
-        Language::C => {
-            let arguments = join(&|(name, length)| format!("const double {name}[{length}]"));
-            let signature = format!("void {name}({arguments}, double {results}[{count}])");
-            format!("\n/* {} */\n{signature};\n{signature}\n{{\n", function.meaning)
-        }
-        Language::Rust => {
-            let arguments = join(&|(name, length)| format!("{name}: &[f64; {length}]"));
-            format!("\n/// {}\n#[must_use]\npub fn {name}({arguments}) -> [f64; {count}] {{\n", function.meaning)
-        }
-        Language::Python => {
-            let arguments = join(&|(name, _)| (*name).to_owned());
-            format!("\n\ndef {name}({arguments}):\n    \"\"\"{}\"\"\"\n", function.meaning)
-        }
-    }
-}
-
-/// The names that occur in values of the program.
-fn used(program: &Program) -> BTreeSet<String> {
-    let mut names = BTreeSet::new();
-    for statement in &program.statements {
-        if let Statement::Assignment(_, value) = statement {
-            value.walk(&mut |part| {
-                if let Expression::Name(name) = part {
-                    names.insert(name.clone());
-                }
-            });
-        }
-    }
-    names
 }

@@ -1,45 +1,70 @@
-//! Prints the function in C99 with `math.h`.
+//! Prints C99.
 
-use super::Source;
-use super::program::{Function, Statement};
-use super::text::expression;
-use std::collections::BTreeSet;
+use super::constant::Numbers;
+use super::routine::{Argument, Results, Routine};
+use super::{Printer, RoutinePrinter, marked};
 
-pub(super) fn print(source: &Source) -> String {
-    let mut text = String::from("/*\n");
-    for line in &source.header {
-        text += format!(" * {line}").trim_end();
-        text.push('\n');
+/// C99 with `math.h`.
+#[derive(Clone, Copy, Debug)]
+pub struct C;
+
+impl Printer for C {
+    fn head(&self, lines: &[String]) -> String {
+        format!("/*\n{} */\n", marked(lines, " * "))
     }
-    text += " */\n\n#include <math.h>\n\nstruct short_axis_rotation {\n";
-    for name in source.results {
-        text += &format!("    double {name};\n");
+
+    fn comment(&self, text: &str) -> String {
+        format!("/* {text} */")
     }
-    let arguments: Vec<String> = source.arguments.iter().map(|name| format!("double {name}")).collect();
-    text += "};\n\nstruct short_axis_rotation short_axis_rotation(";
-    text += &format!("{});\n\nstruct short_axis_rotation short_axis_rotation(", arguments.join(", "));
-    text += &format!("{})\n{{\n", arguments.join(", "));
-    let mut known = BTreeSet::new();
-    for statement in &source.program.statements {
-        text += &match statement {
-            Statement::Comment(comment) => format!("    /* {comment} */\n"),
-            Statement::Assignment(name, value) => {
-                let declaration = if known.insert(name) { "double " } else { "" };
-                format!("    {declaration}{name} = {};\n", expression(value, call))
-            }
-        };
+
+    fn declaration(&self, name: &str, value: &Numbers) -> String {
+        let lengths: String = value.lengths().iter().map(|length| format!("[{length}]")).collect();
+        format!("static const double {name}{lengths} = {};", value.text(['{', '}'], ""))
     }
-    text += "    struct short_axis_rotation result;\n";
-    for name in source.results {
-        text += &format!("    result.{name} = {name};\n");
-    }
-    text + "    return result;\n}\n"
 }
 
-fn call(function: Function, argument: &str) -> String {
-    match function {
-        Function::Sine => format!("sin({argument})"),
-        Function::Cosine => format!("cos({argument})"),
-        Function::SquareRoot => format!("sqrt({argument})"),
+impl RoutinePrinter for C {
+    fn mathematics(&self) -> &'static str {
+        "\n#include <math.h>\n"
+    }
+
+    fn call(&self, function: &str, argument: &str) -> String {
+        format!("{function}({argument})")
+    }
+
+    fn assignment(&self, target: &str, value: &str, first: bool) -> String {
+        format!("{}{target} = {value};", if first { "double " } else { "" })
+    }
+
+    fn opening(&self, routine: &Routine) -> String {
+        let name = routine.name;
+        let arguments = routine.arguments(|argument| match argument {
+            Argument::Number(name) => format!("double {name}"),
+            Argument::Array(name, length) => format!("const double {name}[{length}]"),
+        });
+        let (record, signature) = match &routine.results {
+            Results::Record(fields) => {
+                let fields: String = fields.iter().map(|(field, _)| format!("    double {field};\n")).collect();
+                (format!("\nstruct {name} {{\n{fields}}};\n"), format!("struct {name} {name}({arguments})"))
+            }
+            Results::Array(results, length) => {
+                (String::new(), format!("void {name}({arguments}, double {results}[{length}])"))
+            }
+        };
+        format!("{record}\n/* {} */\n{signature};\n{signature}\n{{\n", routine.meaning)
+    }
+
+    fn closing(&self, routine: &Routine) -> String {
+        let names = routine.results.names();
+        match &routine.results {
+            Results::Record(_) => {
+                let fields: String = names.iter().map(|name| format!("    result.{name} = {name};\n")).collect();
+                format!("    struct {} result;\n{fields}    return result;\n}}\n", routine.name)
+            }
+            Results::Array(results, _) => {
+                let entry = |(i, name): (usize, &String)| format!("    {results}[{i}] = {name};\n");
+                names.iter().enumerate().map(entry).collect::<String>() + "}\n"
+            }
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! A computation as a list of assignments. The three printers print it, and its cost is counted.
+//! A computation as a list of assignments. The printers print it, and its cost is counted.
 //!
 //! There are no loops, branches or tables: a value is a number, a name, an operation on two values or a call. A name may receive a new value (in Horner's rule
 //! it does). Assignments that no result needs are removed, so that no compiler warns about them.
@@ -15,6 +15,17 @@ pub(crate) enum Function {
     Sine,
     Cosine,
     SquareRoot,
+}
+
+impl Function {
+    /// Its name, the same in every language.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Sine => "sin",
+            Self::Cosine => "cos",
+            Self::SquareRoot => "sqrt",
+        }
+    }
 }
 
 /// An operation on two values.

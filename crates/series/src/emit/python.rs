@@ -1,35 +1,60 @@
-//! Prints the function in Python with its module `math` only.
+//! Prints Python.
 
-use super::Source;
-use super::program::{Function, Statement};
-use super::text::expression;
+use super::constant::Numbers;
+use super::routine::{Argument, Results, Routine};
+use super::{Printer, RoutinePrinter, marked};
 
-pub(super) fn print(source: &Source) -> String {
-    let (first, rest) = source.header.split_first().map_or(("", &[][..]), |(first, rest)| (first.as_str(), rest));
-    let mut text = format!("\"\"\"{first}\n");
-    for line in rest {
-        text += line;
-        text.push('\n');
+/// Python 3.9 or later with its module `math` only.
+#[derive(Clone, Copy, Debug)]
+pub struct Python;
+
+impl Printer for Python {
+    fn head(&self, lines: &[String]) -> String {
+        format!("\"\"\"{}\"\"\"\n", marked(lines, ""))
     }
-    let arguments: Vec<String> = source.arguments.iter().map(|name| format!("{name}: float")).collect();
-    text += &format!(
-        "\"\"\"\n\nimport math\n\n\ndef short_axis_rotation({}) -> tuple[float, float, float, float, float]:\n",
-        arguments.join(", ")
-    );
-    text += &format!("    \"\"\"Return ({}).\"\"\"\n", source.results.join(", "));
-    for statement in &source.program.statements {
-        text += &match statement {
-            Statement::Comment(comment) => format!("    # {comment}\n"),
-            Statement::Assignment(name, value) => format!("    {name} = {}\n", expression(value, call)),
-        };
+
+    fn comment(&self, text: &str) -> String {
+        format!("# {text}")
     }
-    text + &format!("    return {}\n", source.results.join(", "))
+
+    fn declaration(&self, name: &str, value: &Numbers) -> String {
+        format!("{name} = {}", value.text(['(', ')'], ","))
+    }
 }
 
-fn call(function: Function, argument: &str) -> String {
-    match function {
-        Function::Sine => format!("math.sin({argument})"),
-        Function::Cosine => format!("math.cos({argument})"),
-        Function::SquareRoot => format!("math.sqrt({argument})"),
+impl RoutinePrinter for Python {
+    fn mathematics(&self) -> &'static str {
+        "\nimport math\n"
+    }
+
+    fn call(&self, function: &str, argument: &str) -> String {
+        format!("math.{function}({argument})")
+    }
+
+    fn assignment(&self, target: &str, value: &str, _: bool) -> String {
+        format!("{target} = {value}")
+    }
+
+    fn opening(&self, routine: &Routine) -> String {
+        let arguments = routine.arguments(|argument| match argument {
+            Argument::Number(name) => format!("{name}: float"),
+            Argument::Array(name, _) => (*name).to_owned(),
+        });
+        let (result, meaning) = match &routine.results {
+            Results::Record(fields) => (
+                format!(" -> tuple[{}]", vec!["float"; fields.len()].join(", ")),
+                format!("Return ({}).", routine.results.names().join(", ")),
+            ),
+            Results::Array(..) => (String::new(), routine.meaning.to_owned()),
+        };
+        format!("\n\ndef {}({arguments}){result}:\n    \"\"\"{meaning}\"\"\"\n", routine.name)
+    }
+
+    fn closing(&self, routine: &Routine) -> String {
+        let names = routine.results.names().join(", ");
+        match &routine.results {
+            Results::Record(_) => format!("    return {names}\n"),
+            Results::Array(..) => format!("    return [{names}]\n"),
+        }
     }
 }

@@ -1,39 +1,74 @@
-//! Prints the function in Rust with its standard library only.
+//! Prints Rust.
 
-use super::Source;
-use super::program::{Function, Statement};
-use super::text::expression;
+use super::constant::Numbers;
+use super::routine::{Argument, Results, Routine};
+use super::{Printer, RoutinePrinter, marked};
 
-pub(super) fn print(source: &Source) -> String {
-    let mut text = String::new();
-    // There is no inner doc comment, so that the file can be a module or be included in one.
-    for line in &source.header {
-        text += format!("// {line}").trim_end();
-        text.push('\n');
+/// Rust with its standard library only.
+#[derive(Clone, Copy, Debug)]
+pub struct Rust;
+
+impl Printer for Rust {
+    /// There is no inner doc comment, so that the file can be a module or be included in one.
+    fn head(&self, lines: &[String]) -> String {
+        marked(lines, "// ")
     }
-    text += "\n/// What [`short_axis_rotation`] returns.\n#[derive(Clone, Copy, Debug, PartialEq)]\npub struct ShortAxisRotation {\n";
-    for (name, meaning) in source.results.iter().zip(source.meanings) {
-        text += &format!("    /// {meaning}\n    pub {name}: f64,\n");
+
+    fn comment(&self, text: &str) -> String {
+        format!("// {text}")
     }
-    let arguments: Vec<String> = source.arguments.iter().map(|name| format!("{name}: f64")).collect();
-    text +=
-        "}\n\n/// The direct transformation and the frequencies; the head of this file says the rest.\n#[must_use]\n";
-    text += &format!("pub fn short_axis_rotation({}) -> ShortAxisRotation {{\n", arguments.join(", "));
-    for statement in &source.program.statements {
-        text += &match statement {
-            Statement::Comment(comment) => format!("    // {comment}\n"),
-            Statement::Assignment(name, value) => format!("    let {name} = {};\n", expression(value, call)),
-        };
+
+    fn declaration(&self, name: &str, value: &Numbers) -> String {
+        let array = |entry: String, length: &usize| format!("[{entry}; {length}]");
+        let own = value.lengths().iter().rev().fold("f64".to_owned(), array);
+        format!("const {name}: {own} = {};", value.text(['[', ']'], ""))
     }
-    text += &format!("    ShortAxisRotation {{\n        {},\n    }}\n}}\n", source.results.join(",\n        "));
-    text
 }
 
-fn call(function: Function, argument: &str) -> String {
-    let receiver = if argument.contains(' ') { format!("({argument})") } else { argument.to_owned() };
-    match function {
-        Function::Sine => format!("{receiver}.sin()"),
-        Function::Cosine => format!("{receiver}.cos()"),
-        Function::SquareRoot => format!("{receiver}.sqrt()"),
+impl RoutinePrinter for Rust {
+    fn mathematics(&self) -> &'static str {
+        ""
     }
+
+    fn call(&self, function: &str, argument: &str) -> String {
+        if argument.contains(' ') { format!("({argument}).{function}()") } else { format!("{argument}.{function}()") }
+    }
+
+    fn assignment(&self, target: &str, value: &str, _: bool) -> String {
+        format!("let {target} = {value};")
+    }
+
+    fn opening(&self, routine: &Routine) -> String {
+        let name = routine.name;
+        let arguments = routine.arguments(|argument| match argument {
+            Argument::Number(name) => format!("{name}: f64"),
+            Argument::Array(name, length) => format!("{name}: &[f64; {length}]"),
+        });
+        let (record, result) = match &routine.results {
+            Results::Record(fields) => {
+                let field = |(field, meaning): &(&str, &str)| format!("    /// {meaning}\n    pub {field}: f64,\n");
+                let (own, fields) = (type_name(name), fields.iter().map(field).collect::<String>());
+                let derived = "#[derive(Clone, Copy, Debug, PartialEq)]";
+                (format!("\n/// What [`{name}`] returns.\n{derived}\npub struct {own} {{\n{fields}}}\n"), own)
+            }
+            Results::Array(_, length) => (String::new(), format!("[f64; {length}]")),
+        };
+        format!("{record}\n/// {}\n#[must_use]\npub fn {name}({arguments}) -> {result} {{\n", routine.meaning)
+    }
+
+    fn closing(&self, routine: &Routine) -> String {
+        let names = routine.results.names();
+        match &routine.results {
+            Results::Record(_) => {
+                format!("    {} {{\n        {},\n    }}\n}}\n", type_name(routine.name), names.join(",\n        "))
+            }
+            Results::Array(..) => format!("    [{}]\n}}\n", names.join(", ")),
+        }
+    }
+}
+
+/// The name of a function as that of a type: `two_words` becomes `TwoWords`.
+fn type_name(name: &str) -> String {
+    let capital = |word: &str| word[..1].to_uppercase() + &word[1..];
+    name.split('_').map(capital).collect()
 }

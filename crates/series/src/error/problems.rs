@@ -1,5 +1,6 @@
 //! What is wrong with a text or with a term.
 
+use super::{Facts, Kind, facts};
 use thiserror::Error;
 
 /// The reason why a text is not a polynomial.
@@ -52,6 +53,26 @@ pub enum ParseProblem {
     /// The expansion of the polynomial would take too much work.
     #[error("expanding the text takes too much work")]
     TooLarge,
+}
+
+impl ParseProblem {
+    /// What a caller can do about a text with this problem.
+    pub(super) fn kind(&self) -> Kind {
+        if matches!(self, Self::ExponentTooLarge { .. } | Self::TooLarge) { Kind::Representation } else { Kind::Input }
+    }
+
+    /// The facts of this problem. The value is the offset of the byte if there is no better one.
+    pub(super) fn facts<'a>(&self, position: usize) -> Facts<'a> {
+        match self {
+            Self::UnexpectedCharacter(found) => facts(None, found.to_string(), "a polynomial"),
+            Self::UnknownName(name) => facts(None, name, "a variable or parameter"),
+            Self::Function(name) => facts(None, name, "a polynomial"),
+            Self::SquareRoot => facts(None, "sqrt", "a polynomial"),
+            Self::UnusableName(name) => facts(None, name, "an identifier, once"),
+            Self::ExponentTooLarge { bound } | Self::TooDeep { bound } => facts(None, position, *bound),
+            _ => facts(None, position, "a polynomial"),
+        }
+    }
 }
 
 /// The reason why a term from a file is wrong.

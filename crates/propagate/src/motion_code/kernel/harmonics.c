@@ -5,14 +5,14 @@ static void pair(double sine, double cosine, double sums[4])
     const double double_sine = 2.0 * sine * cosine, double_cosine = 1.0 - 2.0 * sine * sine;
     double c = 1.0, s = 0.0, ar = 0.0, ai = 0.0, b_cosine = 0.0, b_sine = 0.0, odd_cosine = 0.0, odd_sine = 0.0;
     int k;
-    for (k = 0; k < (int)(sizeof terms / sizeof terms[0]); k++) {
+    for (k = 0; k < (int)(sizeof TERMS / sizeof TERMS[0]); k++) {
         const double next = c * double_cosine - s * double_sine;
-        ar += terms[k][0] * c;
-        ai += terms[k][1] * s;
-        b_cosine += terms[k][2] * c;
-        odd_sine += terms[k][2] * s;
-        odd_cosine += terms[k][3] * c;
-        b_sine += terms[k][3] * s;
+        ar += TERMS[k][0] * c;
+        ai += TERMS[k][1] * s;
+        b_cosine += TERMS[k][2] * c;
+        odd_sine += TERMS[k][2] * s;
+        odd_cosine += TERMS[k][3] * c;
+        b_sine += TERMS[k][3] * s;
         s = s * double_cosine + c * double_sine;
         c = next;
     }

@@ -1,10 +1,4 @@
 
-/* An angle that grows with time, in turns. */
-struct phase {
-    double frequency[3]; /* turns per unit of time: the sum of three doubles, the first two of 27 bits at most */
-    double start[2];     /* turns at the epoch: the sum of two doubles, the first a multiple of 2^-53 from 1/2 to 3/2 */
-};
-
 /* Adding and subtracting 1.5 * 2^52 rounds to the nearest integer. */
 static double nearest(double x)
 {
@@ -12,9 +6,9 @@ static double nearest(double x)
 }
 
 /* Sine and cosine of a phase. Only the reduction in turns is to 32 digits; it is exact where numbers cancel. */
-static void circle(const struct phase *phase, double high, double low, double *sine, double *cosine)
+static void circle(const double phase[5], double high, double low, double *sine, double *cosine)
 {
-    const double first = phase->frequency[0], second = phase->frequency[1], third = phase->frequency[2];
+    const double first = phase[0], second = phase[1], third = phase[2];
     const double product = (first + second) * high;
 #ifdef FP_FAST_FMA
     const double error = fma(first + second, high, -product);
@@ -25,10 +19,10 @@ static void circle(const struct phase *phase, double high, double low, double *s
     const double lower = high - upper;
     const double error = ((first * upper - product) + first * lower + second * upper) + second * lower;
 #endif
-    const double rest = (first + second) * low + (third * high + (error + phase->start[1]));
+    const double rest = (first + second) * low + (third * high + (error + phase[4]));
     const double fraction = product - nearest(product);
-    const double quarters = nearest(4.0 * (phase->start[0] + (fraction + rest)));
-    const double x = ((phase->start[0] - 0.25 * quarters) + fraction) + rest;
+    const double quarters = nearest(4.0 * (phase[3] + (fraction + rest)));
+    const double x = ((phase[3] - 0.25 * quarters) + fraction) + rest;
     /* Minimax polynomials for |x| <= 1/8. */
     const double s = x * x;
     double p = ((((3.7794529249619515 * s - 15.093736267536418) * s + 42.05868379747909) * s

@@ -1,19 +1,12 @@
-/// An angle that grows with time, in turns.
-struct Phase {
-    /// Turns per unit of time: the sum of three doubles, the first two of 27 bits at most.
-    frequency: [f64; 3],
-    /// Turns at the epoch: the sum of two doubles, the first of which is a multiple of 2^-53 from 1/2 to 3/2.
-    start: [f64; 2],
-}
 
 /// The constants of one motion.
 struct Motion<'a> {
     epoch: f64,
     /// Largest distance from the epoch.
     bound: f64,
-    /// l' and y'/2.
-    anomaly: Phase,
-    half_longitude: Phase,
+    /// l' and y'/2: turns per unit of time as three doubles, the first two of 27 bits at most; turns at the epoch as two.
+    anomaly: [f64; 5],
+    half_longitude: [f64; 5],
     /// Coefficients of Re a, Im a, Re b and Im b.
     terms: &'a [[f64; 4]],
     /// Rows x, y, z, w; columns Re b, Im b, Im a, Re a.
@@ -65,18 +58,18 @@ fn nearest(x: f64) -> f64 {
 }
 
 /// Sine and cosine of a phase. Only the reduction in turns is to 32 digits; it is exact where numbers cancel.
-fn circle(phase: &Phase, elapsed: [f64; 2]) -> (f64, f64) {
+fn circle(phase: &[f64; 5], elapsed: [f64; 2]) -> (f64, f64) {
     // The time in two halves (Veltkamp), and the rounding error of the product (Dekker).
     let scaled = 134217729.0 * elapsed[0];
     let upper = scaled - (scaled - elapsed[0]);
     let lower = elapsed[0] - upper;
-    let [first, second, third] = phase.frequency;
+    let [first, second, third, start, start_low] = *phase;
     let product = (first + second) * elapsed[0];
     let error = ((first * upper - product) + first * lower + second * upper) + second * lower;
-    let rest = (first + second) * elapsed[1] + (third * elapsed[0] + (error + phase.start[1]));
+    let rest = (first + second) * elapsed[1] + (third * elapsed[0] + (error + start_low));
     let fraction = product - nearest(product);
-    let quarters = nearest(4.0 * (phase.start[0] + (fraction + rest)));
-    let x = ((phase.start[0] - 0.25 * quarters) + fraction) + rest;
+    let quarters = nearest(4.0 * (start + (fraction + rest)));
+    let x = ((start - 0.25 * quarters) + fraction) + rest;
     // Minimax polynomials for |x| <= 1/8.
     let s = x * x;
     let sine = ((((3.7794529249619515 * s - 15.093736267536418) * s + 42.05868379747909) * s

@@ -1,19 +1,19 @@
-//! The printing of expressions, which the three languages share: operators, numbers and the order of evaluation.
+//! The printing of expressions, which all languages share: operators, numbers and the order of evaluation.
 //!
-//! Numbers are printed with the fewest digits that are read back to the same bits. Sums and products associate to the left in all three languages. Brackets are
+//! Numbers are printed with the fewest digits that are read back to the same bits. Sums and products associate to the left in all languages. Brackets are
 //! printed only where the expression would be read differently without them. Every language therefore does the same operations in the same order.
 
-use super::program::{Expression, Function, Operator};
+use super::program::{Expression, Operator};
 
 /// The function that writes a call in one language.
-pub(crate) type Call = fn(Function, &str) -> String;
+pub(super) type Call<'a> = &'a dyn Fn(&str, &str) -> String;
 
 /// A value as text.
-pub(crate) fn expression(value: &Expression, call: Call) -> String {
+pub(super) fn expression(value: &Expression, call: Call<'_>) -> String {
     match value {
         Expression::Number(number) => format!("{number:?}"),
         Expression::Name(name) => name.clone(),
-        Expression::Call(function, argument) => call(*function, &expression(argument, call)),
+        Expression::Call(function, argument) => call(function.name(), &expression(argument, call)),
         Expression::Operation(Operator::Sum, left, right) if is_negative(right) => {
             format!("{} - {}", expression(left, call), expression(right, call).trim_start_matches('-'))
         }
@@ -26,7 +26,7 @@ pub(crate) fn expression(value: &Expression, call: Call) -> String {
     }
 }
 
-fn bracketed(value: &Expression, call: Call, brackets: bool) -> String {
+fn bracketed(value: &Expression, call: Call<'_>, brackets: bool) -> String {
     let text = expression(value, call);
     if brackets { format!("({text})") } else { text }
 }

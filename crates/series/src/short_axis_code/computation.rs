@@ -10,7 +10,7 @@
 //! Here a_m = upper_m + ϱ lower_m for X and a_m = upper_m − ϱ lower_m for x. All terms of a rate have the same sign, except the first term of dℓ′/dt.
 
 use super::coefficients::{Coefficients, Series};
-use super::program::{Expression, Function, Program, call, name};
+use crate::emit::program::{Expression, Function, Program, call, name};
 use andoyer_double::DoubleDouble;
 use std::ops::{Add, Sub};
 

@@ -1,0 +1,2 @@
+
+if (typeof module !== "undefined") module.exports = { rotation };

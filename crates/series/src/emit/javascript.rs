@@ -1,0 +1,22 @@
+//! Prints JavaScript.
+
+use super::constant::Numbers;
+use super::{Printer, marked};
+
+/// JavaScript of 2015 or later.
+#[derive(Clone, Copy, Debug)]
+pub struct JavaScript;
+
+impl Printer for JavaScript {
+    fn head(&self, lines: &[String]) -> String {
+        marked(lines, "// ")
+    }
+
+    fn comment(&self, text: &str) -> String {
+        format!("// {text}")
+    }
+
+    fn declaration(&self, name: &str, value: &Numbers) -> String {
+        format!("const {name} = {};", value.text(['[', ']'], ""))
+    }
+}
