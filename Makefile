@@ -21,11 +21,12 @@ test: lint supply $(VENV)/installed $(VENV)/tested docs-test  ## everything that
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
 	$(MAKE) --no-print-directory stress-short gate
 
-lint: $(VENV)/ready  ## formatting, clippy, ruff, documentation, and the imports between the files of each crate
+lint: $(VENV)/ready  ## formatting, clippy, ruff, documentation, the imports between the files of each crate, and type names
 	$(BIN)/ruff check --config tests/ruff.toml --quiet .
 	$(BIN)/ruff format --config tests/ruff.toml --check --quiet .
 	$(PYTHON) tests/layers.py
 	$(PYTHON) tests/layers.py --planted
+	$(PYTHON) tests/names.py
 	$(PYTHON) tests/release.py
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --quiet -- -D warnings

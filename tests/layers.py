@@ -3,27 +3,54 @@
     python tests/layers.py               exit status 1 for a circle or an import from a later layer
     python tests/layers.py --planted     the same check on invented crates that have one of each
 
-The script reads `use` declarations and paths that begin with `crate`, `self` or `super`, and follows names that lib.rs re-exports to their files. It ignores comments and tests.
-An import between a module and a file in its own folder does not count as a circle.
+An edge goes from the file that uses a name to the file that declares the name and, if the path names another file that re-exports it, to that file too. These are uses:
+
+- a private `use`, and each path in the code that begins with `crate`, `self`, `super`, a module of the file (`mod child;`) or an imported module;
+- a `pub use` of a name from outside the module's own folder.
+
+`mod child;` and `pub use child::Name` declare and are no edges. But if the code of the same file then uses `Name`, that is an edge to the file that declares it.
+The check follows any number of re-exports in any file. Edges between a parent and its children count as any other: a child that uses a function of its parent, whose code calls the
+child, is a circle. What lib.rs declares and uses is in the file `lib`.
+The check does not see methods that are called on a value, and it leaves out comments and tests (files `tests`, and code below `#[cfg(test)]`).
 """
 
 import re
 import sys
 import tempfile
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 LAYERED = ("propagate",)
 
 Imports = dict[str, set[str]]
+USE = re.compile(r"\b(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);")
+KEYWORDS = ("crate", "self", "super")
 
 
-def expanded(path: str) -> Iterator[str]:
-    """The paths of a `use` tree, one by one."""
+@dataclass
+class Module:
+    """A module: its file, its code without `use` and inner modules, and the names that it imports."""
+
+    file: str
+    code: str = ""
+    private: list[tuple[str, list[str]]] = field(default_factory=list)
+    public: list[tuple[str, list[str]]] = field(default_factory=list)
+
+    def named(self) -> dict[str, list[str]]:
+        """The path of each imported name."""
+        return dict(self.private + self.public)
+
+
+def expanded(path: str) -> Iterator[tuple[str, list[str]]]:
+    """The names of a `use` tree, each with its path."""
     head, brace, rest = path.partition("{")
     if not brace:
-        yield re.sub(r"\s+as\s+\w+", "", path).strip()
+        whole, _, name = re.sub(r"\s+", " ", path.strip()).partition(" as ")
+        parts = [part.strip() for part in whole.split("::") if part.strip()]
+        parts = parts[:-1] if parts[-1] == "self" and len(parts) > 1 else parts
+        yield name or parts[-1], parts
         return
     depth, part = 0, ""
     for letter in rest.rstrip().removesuffix("}") + ",":
@@ -36,64 +63,113 @@ def expanded(path: str) -> Iterator[str]:
             part += letter
 
 
-def code(file: Path) -> str:
-    """The text of a file without comments and without its test module."""
-    text = re.sub(r"//[^\n]*", "", file.read_text(encoding="utf-8"))
-    return re.split(r"#\[cfg\(test\)\]\s*mod \w+ \{", text)[0]
+def text(file: Path) -> str:
+    """The text of a file without comments and without its tests."""
+    code = re.sub(r"//[^\n]*", "", file.read_text(encoding="utf-8"))
+    code = re.split(r"#\[cfg\(test\)\]\s*mod \w+ \{", code)[0]
+    return re.sub(r"#\[cfg\(test\)\]\s*(?:pub(?:\([^)]*\))? )?(?:use|mod) [^;]+;", "", code)
 
 
-def module(source: Path, file: Path) -> str:
-    """`a::b` for a/b.rs and a/b/mod.rs; empty for lib.rs."""
-    parts = file.relative_to(source).with_suffix("").parts
-    return "::".join(parts[:-1] if parts[-1] in ("mod", "lib") else parts)
+def parsed(modules: dict[str, Module], name: str, file: str, code: str) -> None:
+    """Adds a module and the modules that stand in its text."""
+    while inner := re.search(r"^\s*(?:pub(?:\([^)]*\))? )?mod (\w+) \{", code, re.MULTILINE):
+        end, depth = inner.end(), 1
+        while depth:
+            depth += (code[end] == "{") - (code[end] == "}")
+            end += 1
+        parsed(modules, "::".join(filter(None, (name, inner[1]))), file, code[inner.end() : end - 1])
+        code = code[: inner.start()] + code[end:]
+    module = modules[name] = Module(file, USE.sub("", code))
+    for public, tree in USE.findall(code):
+        (module.public if public else module.private).extend(expanded(tree))
 
 
-def paths(text: str, here: str) -> Iterator[list[str]]:
-    """The imports of a file, as paths from the root of its crate."""
-    found = [path for tree in re.findall(r"\buse\s+((?:crate|self|super)\b[^;]+);", text) for path in expanded(tree)]
-    text = re.sub(r"\buse\s[^;]+;", "", text)
-    found += re.findall(r"\b(?:crate|self|super)(?:::\w+)+", text)
-    for path in found:
-        parts = [part.strip() for part in path.split("::")]
-        base = here.split("::") if here and parts[0] != "crate" else []
-        while parts and parts[0] in ("crate", "self", "super"):
-            base = base[:-1] if parts[0] == "super" else base
+class Crate:
+    """The modules of a crate, and where their names are declared."""
+
+    def __init__(self, source: Path) -> None:
+        self.modules: dict[str, Module] = {}
+        for file in sorted(source.rglob("*.rs")):
+            parts = file.relative_to(source).with_suffix("").parts
+            if "tests" in parts or "main" in parts:
+                continue
+            name = "::".join(parts[:-1] if parts[-1] in ("mod", "lib") else parts)
+            parsed(self.modules, name, name or "lib", text(file))
+
+    def absolute(self, here: str, parts: list[str]) -> list[str] | None:
+        """A path from the root of the crate; None for another crate's."""
+        base = here.split("::") if here else []
+        if parts[0] not in KEYWORDS:
+            if "::".join([*base, parts[0]]) in self.modules:
+                return base + parts
+            alias = self.modules[here].named().get(parts[0], parts)
+            return None if alias[0] == parts[0] else self.absolute(here, alias + parts[1:])
+        while parts and parts[0] in KEYWORDS:
+            base = [] if parts[0] == "crate" else base[:-1] if parts[0] == "super" else base
             parts = parts[1:]
-        yield base + parts
+        return base + parts
 
+    def declared(self, module: str) -> set[str]:
+        """The names that a module declares, without those that it re-exports."""
+        return set(re.findall(r"\b(?:fn|struct|enum|trait|type|const(?! fn)|static(?: mut)?|macro_rules!) (\w+)", self.modules[module].code))
 
-def imports(source: Path) -> Imports:
-    """The modules that each module imports."""
-    files = {module(source, file): file for file in sorted(source.rglob("*.rs")) if file.stem not in ("tests", "main")}
-    root = code(files[""]) if "" in files else ""
-    exported = {}
-    for tree in re.findall(r"\bpub use\s+([^;]+);", root):
-        for path in expanded(tree):
-            exported[path.split("::")[-1]] = path.removeprefix("crate::").split("::")
+    def home(self, path: list[str], seen: tuple[str, ...] = ()) -> str | None:
+        """The module that declares what a path names; None for another crate's name."""
+        here = ""
+        for place, part in enumerate(path):
+            inner = f"{here}::{part}".removeprefix("::")
+            if inner in self.modules:
+                here = inner
+                continue
+            for name, target in self.modules[here].private + self.modules[here].public:
+                whole = self.absolute(here, target[:-1] if name == "*" else target)
+                if name == part and whole is None:
+                    return None
+                if whole is None or inner in seen or name not in (part, "*") or name == part == "*":
+                    continue
+                if name == part or ((home := self.home(whole, (*seen, inner))) is not None and part in self.declared(home)):
+                    return self.home(whole + path[place + (name != "*") :], (*seen, inner))
+            break
+        return here
 
-    def home(parts: list[str]) -> str:
-        if len(parts) == 1 and parts[0] not in files:
-            parts = exported.get(parts[0], parts)
-        while parts and "::".join(parts) not in files:
-            parts = parts[:-1]
-        return "::".join(parts)
+    def through(self, path: list[str]) -> str:
+        """The module that a path names before its first other name."""
+        ends = (end for end in range(len(path), -1, -1) if "::".join(path[:end]) in self.modules)
+        return "::".join(path[: next(ends)])
 
-    return {name: {home(path) for path in paths(code(file), name)} - {"", name} for name, file in files.items() if name}
+    def uses(self, here: str) -> Iterator[list[str]]:
+        """The paths that the code of a module uses."""
+        module = self.modules[here]
+        folder = [] if module.file == "lib" else module.file.split("::")
+        yield from (path for _, path in module.private)
+        for name, path in module.public:
+            whole = self.absolute(here, path)
+            own = whole is not None and whole[: len(folder)] == folder
+            names = self.declared(self.home(whole) or "") if own and name == "*" else {name}
+            if not own or names & set(re.findall(r"\w+", module.code)):
+                yield path
+        yield from (path.split("::") for path in re.findall(r"(?<![\w:$])\w+(?:::\w+)+", module.code))
+
+    def imports(self) -> Imports:
+        """The files that each file imports."""
+        edges: Imports = {module.file: set() for module in self.modules.values()}
+        for here, module in self.modules.items():
+            for path in self.uses(here):
+                whole = self.absolute(here, path)
+                home = None if whole is None else self.home(whole)
+                if home is not None:
+                    edges[module.file] |= {self.modules[name].file for name in (home, self.through(whole))} - {module.file}
+        return edges
 
 
 def circles(edges: Imports) -> Iterator[list[str]]:
-    """Sets of modules that import each other, by Tarjan's algorithm; an import between a module and its own folder is left out."""
-
-    def nested(one: str, other: str) -> bool:
-        return one.startswith(other + "::") or other.startswith(one + "::")
-
-    edges = {name: sorted(other for other in others if not nested(name, other)) for name, others in edges.items()}
+    """Sets of files that import each other, by Tarjan's algorithm."""
     index, lowest, stack = {}, {}, []
 
     def visit(name: str) -> Iterator[list[str]]:
         index[name] = lowest[name] = len(index)
         stack.append(name)
-        for other in edges.get(name, ()):
+        for other in sorted(edges.get(name, ())):
             if other not in index:
                 yield from visit(other)
             if other in stack:
@@ -111,29 +187,78 @@ def circles(edges: Imports) -> Iterator[list[str]]:
 
 
 def upwards(source: Path, edges: Imports) -> Iterator[str]:
-    """Imports of a module from a later layer."""
-    layers = re.findall(r"^(?:pub(?:\(crate\))? )?mod (\w+);", code(source / "lib.rs"), re.MULTILINE)
+    """Imports of a file from a later layer."""
+    layers = re.findall(r"^(?:pub(?:\(crate\))? )?mod (\w+);", text(source / "lib.rs"), re.MULTILINE)
     place = {layer: number for number, layer in enumerate(layers)}
     for name, others in edges.items():
-        for other in sorted(others):
+        for other in sorted(others - {"lib"}):
             above, below = name.split("::")[0], other.split("::")[0]
-            if place[below] > place[above]:
+            if name != "lib" and place[below] > place[above]:
                 yield f"{name} imports {other}, which is in a later layer"
 
 
 def problems(source: Path, layered: bool) -> list[str]:
     """The problems in the imports of a crate."""
-    edges = imports(source)
-    found = [f"{len(circle)} modules in a circle: {', '.join(circle)}" for circle in circles(edges)]
+    edges = Crate(source).imports()
+    found = []
+    for circle in circles(edges):
+        arrows = ", ".join(f"{name} -> {' '.join(sorted(edges[name] & set(circle)))}" for name in circle)
+        found.append(f"{len(circle)} files in a circle: {arrows}")
     return found + (list(upwards(source, edges)) if layered else [])
 
 
 PLANTED = {
-    "a circle": ({"lib.rs": "mod a;\nmod b;\n", "a.rs": "use crate::b::B;\n", "b.rs": "use super::a::A;\n"}, False, ["circle: a, b"]),
-    "a circle by a re-exported name": (
+    "a circle": (
+        {"lib.rs": "mod a;\nmod b;\n", "a.rs": "use crate::b::B;\n", "b.rs": "use super::a::A;\n"},
+        False,
+        ["circle: a -> b, b -> a"],
+    ),
+    "a circle by a name that lib.rs re-exports": (
         {"lib.rs": "mod a;\nmod b;\npub use b::B;\n", "a.rs": "use crate::{\n    B,\n};\n", "b/mod.rs": "fn f() -> crate::a::A {}\n"},
         False,
-        ["circle: a, b"],
+        ["circle: a -> b, b -> a"],
+    ),
+    "a circle by two re-exports and a renamed one": (
+        {
+            "lib.rs": "mod a;\nmod b;\n",
+            "a.rs": "use crate::b;\nfn f() -> b::Name {}\n",
+            "b/mod.rs": "mod c;\npub use c::D as Name;\n",
+            "b/c/mod.rs": "mod d;\npub use d::*;\n",
+            "b/c/d.rs": "pub struct D(crate::a::A);\n",
+        },
+        False,
+        ["circle: a -> b::c::d, b::c::d -> a"],
+    ),
+    "a circle of a parent and its child": (
+        {"lib.rs": "mod a;\n", "a.rs": "mod b;\npub struct A;\nfn f() { b::g() }\n", "a/b.rs": "use super::A;\nfn g() {}\n"},
+        False,
+        ["circle: a -> a::b, a::b -> a"],
+    ),
+    "a circle of a parent and its child, whose name it re-exports and uses": (
+        {"lib.rs": "mod a;\n", "a.rs": "mod b;\npub use b::B;\nfn f() -> B {}\n", "a/b.rs": "pub struct B;\nuse super::f;\n"},
+        False,
+        ["circle: a -> a::b, a::b -> a"],
+    ),
+    "a circle of lib.rs and a module": (
+        {"lib.rs": "mod a;\npub struct A;\nfn f() { a::g() }\n", "a.rs": "use crate::A;\n"},
+        False,
+        ["circle: a -> lib, lib -> a"],
+    ),
+    "a circle of an earlier gravity gradient": (
+        {
+            "lib.rs": "mod gravity_gradient;\n",
+            "gravity_gradient/mod.rs": "mod envelope;\nmod generator;\nmod orbit_series;\n",
+            "gravity_gradient/envelope.rs": "use crate::gravity_gradient::generator::{ORDERS, Orbital};\npub struct Reach;\n",
+            "gravity_gradient/generator.rs": "mod exact;\nmod orbital;\nuse exact::ExactTerms;\npub(crate) use orbital::{ORDERS, Orbital};\nfn f(_: ExactTerms) {}\n",
+            "gravity_gradient/generator/exact.rs": "use crate::gravity_gradient::orbit_series::OrbitSeries;\npub(super) struct ExactTerms;\n",
+            "gravity_gradient/generator/orbital.rs": "pub const ORDERS: usize = 4;\npub struct Orbital;\n",
+            "gravity_gradient/orbit_series.rs": "use super::envelope::Reach;\npub struct OrbitSeries;\n",
+        },
+        True,
+        [
+            "4 files in a circle: gravity_gradient::envelope -> gravity_gradient::generator, gravity_gradient::generator -> gravity_gradient::generator::exact, "
+            "gravity_gradient::generator::exact -> gravity_gradient::orbit_series, gravity_gradient::orbit_series -> gravity_gradient::envelope"
+        ],
     ),
     "an import upwards": (
         {"lib.rs": "mod a;\n\nmod b;\n", "a.rs": "use crate::b::{c::C, B};\n", "b/mod.rs": "", "b/c.rs": ""},
@@ -141,7 +266,13 @@ PLANTED = {
         ["a imports b", "a imports b::c"],
     ),
     "none": (
-        {"lib.rs": "mod a;\nmod b;\n", "a.rs": "// use crate::b::B;\n", "b.rs": "use crate::a::A;\n#[cfg(test)]\nmod tests {\n    use crate::b::B;\n}\n"},
+        {
+            "lib.rs": "mod a;\nmod b;\nmod d;\npub use a::A;\n",
+            "a.rs": "// use crate::b::B;\npub struct A;\n",
+            "b.rs": "use crate::a::A;\nmod inner {\n    use super::B;\n}\n#[cfg(test)]\nmod tests {\n    use crate::d::D;\n}\n",
+            "d/mod.rs": "mod e;\npub use e::E;\npub struct D;\n",
+            "d/e.rs": "use super::D;\npub struct E;\n",
+        },
         True,
         [],
     ),
@@ -153,10 +284,10 @@ def planted() -> list[str]:
     wrong = []
     for name, (files, layered, expected) in PLANTED.items():
         with tempfile.TemporaryDirectory() as folder:
-            for path, text in files.items():
+            for path, content in files.items():
                 file = Path(folder) / path
-                file.parent.mkdir(exist_ok=True)
-                file.write_text(text, encoding="utf-8")
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_text(content, encoding="utf-8")
             found = problems(Path(folder), layered)
         if len(found) != len(expected) or not all(part in problem for part, problem in zip(expected, found)):
             wrong.append(f"{name}: found {found}, expected {expected}")
