@@ -11,7 +11,7 @@ type Array = Py<PyArrayDyn<f64>>;
 
 /// Derivatives of attitude and angular velocity at given times, from `Motion.partials` and `Ensemble.partials`.
 ///
-/// The last axis has nine parameters: initial attitude (3), initial angular velocity (3), moments as given (3). For a motion of a body from a tensor it has
+/// The last axis has nine parameters: initial attitude (3), initial angular velocity (3), moments as given (3). For bodies from inertia tensors it has
 /// twelve: the elements I11, I22, I33, I12, I13, I23 replace the moments. The object owns its arrays. Those of an ensemble have a leading axis of members, and `len` is the number of members; `len` of a motion's partials is the number of times. For a scalar time there is
 /// no axis of times, and a motion's partials have no `len`.
 ///
@@ -30,10 +30,10 @@ pub(crate) struct Partials {
     /// The times, float64, shape (n,); of an ensemble whose members have their own times (m, n).
     #[pyo3(get)]
     times: Array,
-    /// Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9) or (n, 3, 12), of an ensemble (m, n, 3, 9).
+    /// Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9) or (n, 3, 12), of an ensemble (m, n, 3, 9) or (m, n, 3, 12).
     #[pyo3(get)]
     attitude: Array,
-    /// Derivatives of the angular velocity in body components, shape (n, 3, 9) or (n, 3, 12), of an ensemble (m, n, 3, 9).
+    /// Derivatives of the angular velocity in body components, shape (n, 3, 9) or (n, 3, 12), of an ensemble (m, n, 3, 9) or (m, n, 3, 12).
     #[pyo3(get)]
     angular_velocity: Array,
 }

@@ -262,3 +262,10 @@ def test_derivatives_are_those_of_nearby_motions():
     change = (motion.rotation(5.0).inv() * moved.rotation(5.0)).as_rotvec() / step
     assert motion.plan.partials == "differences"
     assert np.abs(found.attitude[:, 5] - change).max() < 1e-4 * np.abs(change).max()
+
+
+@pytest.mark.parametrize("length", [0.0, 1e6, 1e20, 1e300])
+def test_body_at_rest_stays_where_it_is_over_any_span(length):
+    # Powers of a step of 1e20 overflowed, and 0 times infinity was taken for states that separate.
+    motion = Scene(Body([0.5, 0.8, 1.0]), ATTITUDE, [0, 0, 0], span=(-length, 2 * length), method="integrated").solve()
+    assert angle(motion.attitude([-length, 0.0, 2 * length]), ATTITUDE).max() < motion.plan.error_bound < 1e-13

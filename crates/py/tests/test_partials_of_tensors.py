@@ -78,12 +78,23 @@ def test_the_plan_says_which_form_serves():
     assert form(TRUTH.body, [0.3, 0.2, 1.0]) == "closed"
 
 
-def test_members_of_an_ensemble_keep_nine_parameters():
+def test_members_of_an_ensemble_have_the_parameters_and_bits_of_their_motions():
     ensemble = Ensemble([[1, 1.5, 2], [1, 1 + 1e-12, 1 + 3e-12]], [0, 0, 0, 1], [0.1, 0.2, 1.0])
     partials = ensemble.partials([10.0, 20.0])
     for member, moments in enumerate(ensemble.moments):
         alone = Scene(Body(moments), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve().partials([10.0, 20.0])
         assert partials.attitude.shape == (2, 2, 3, 9) and (partials.attitude[member] == alone.attitude).all()
+    # The last member has no motion: the largest moment exceeds the sum of the others.
+    tensors = [TENSOR, np.diag([1, 1.5, 2]), np.diag([1, 1, 3])]
+    for orbit in (None, Orbit(1e-3, 0.1)):
+        ensemble = Ensemble(tensors, [0, 0, 0, 1], [0.02, 0.03, 1.0], orbits=[orbit] * 3, span=(0, 50), errors="nan")
+        partials = ensemble.partials([10.0, 20.0])
+        assert partials.attitude.shape == partials.angular_velocity.shape == (3, 2, 3, 12)
+        for member, tensor in enumerate(tensors[:2]):
+            scene = Scene(Body.from_inertia(tensor), [0, 0, 0, 1], [0.02, 0.03, 1.0], orbit=orbit, span=(0, 50))
+            alone = scene.solve().partials([10.0, 20.0])
+            assert (partials.attitude[member] == alone.attitude).all() and (partials.angular_velocity[member] == alone.angular_velocity).all()
+        assert np.isnan(partials.attitude[2]).all() and ensemble.partials(10.0).attitude.shape == (3, 3, 12)
 
 
 def test_differences_under_a_torque_have_twelve_parameters_too():

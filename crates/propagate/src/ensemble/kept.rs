@@ -70,6 +70,7 @@ impl fmt::Debug for Kept {
 mod tests {
     use super::*;
     use crate::Ensemble;
+    use crate::input::options::{Averaging, Method};
     use crate::input::orbit::Orbit;
 
     /// Two members under a torque and one without.
@@ -138,7 +139,8 @@ mod tests {
 
     #[test]
     fn a_motion_that_grows_is_counted_anew() {
-        let scene = ensemble().scene(0).expect("a scene").averaging(crate::options::Averaging::Spin).span(0.0, 1e6);
+        let scene =
+            ensemble().scene(0).expect("a scene").averaging(Averaging::Spin).method(Method::Closed).span(0.0, 1e6);
         let motion = scene.solve().expect("a motion");
         let before = motion.memory();
         motion.at(1e6).expect("a time"); // 318 orbits: 1,273 quarters

@@ -12,7 +12,7 @@ use crate::motion::batch::Batch;
 use crate::motion::plan::Plan;
 use crate::motion::solved::{Motion, Periods, length};
 use crate::outcome::Outcome;
-use crate::partials::{Derivatives, PARAMETERS};
+use crate::partials::{Derivatives, INERTIA_PARAMETERS};
 use crate::simd::halt::GOING;
 
 use super::members::Ensemble;
@@ -180,16 +180,39 @@ impl<'a> Run<'a> {
         attitudes: &mut [Derivatives],
         rates: &mut [Derivatives],
     ) -> Result<Outcome, Error> {
+        self.matrices_into((times, attitudes, rates), |batch, times, one, other| batch.partials_into(times, one, other))
+    }
+
+    /// Derivatives with respect to the elements of the inertia tensors as of [`Motion::inertia_partials`], ordered as by [`Ensemble::attitudes_into`].
+    ///
+    /// # Errors
+    /// As [`Run::partials_into`].
+    pub fn inertia_partials_into(
+        &self,
+        times: &[f64],
+        attitudes: &mut [Derivatives<INERTIA_PARAMETERS>],
+        rates: &mut [Derivatives<INERTIA_PARAMETERS>],
+    ) -> Result<Outcome, Error> {
+        self.matrices_into((times, attitudes, rates), |batch, times, one, other| {
+            batch.inertia_partials_into(times, one, other)
+        })
+    }
+
+    /// Two matrices of N columns for each time of each member.
+    fn matrices_into<const N: usize>(
+        &self,
+        (times, attitudes, rates): (&[f64], &mut [Derivatives<N>], &mut [Derivatives<N>]),
+        fill: impl Fn(&Batch<'_>, &[f64], &mut [Derivatives<N>], &mut [Derivatives<N>]) -> Result<(), Error> + Sync,
+    ) -> Result<Outcome, Error> {
         length("rates", rates.len(), attitudes.len())?;
         let each = self.ensemble.times_of_each("attitudes", times, attitudes.len())?;
         let rows = attitudes.chunks_mut(each.max(1)).zip(rates.chunks_mut(each.max(1)));
-        let evaluate = |motion: &Motion, index: usize, rows: &mut (&mut [Derivatives], &mut [Derivatives])| {
-            self.batch(motion).partials_into(of_member(times, index, each), rows.0, rows.1)
+        let evaluate = |motion: &Motion, index: usize, rows: &mut (&mut [Derivatives<N>], &mut [Derivatives<N>])| {
+            fill(&self.batch(motion), of_member(times, index, each), rows.0, rows.1)
         };
-        let blank = [[f64::NAN; PARAMETERS]; 3];
         self.each_member(rows, evaluate, |rows| {
-            rows.0.fill(blank);
-            rows.1.fill(blank);
+            rows.0.fill([[f64::NAN; N]; 3]);
+            rows.1.fill([[f64::NAN; N]; 3]);
         })
     }
 

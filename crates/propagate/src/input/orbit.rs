@@ -319,9 +319,10 @@ impl Orbit {
     fn angle(&self, epoch: f64, start: f64, rate: f64) -> Phase {
         let since = DoubleDouble::sum(epoch, -self.time_of_pericentre);
         let angle = since * DoubleDouble::from(rate) + DoubleDouble::from(start);
-        let turns = angle / (DoubleDouble::PI * DoubleDouble::from(2.0));
-        let rest = turns - DoubleDouble::from(turns.high.round());
-        Phase::new(rate.into(), TAU * rest.to_f64())
+        let turn = DoubleDouble::PI * DoubleDouble::from(2.0);
+        let turns = angle / turn;
+        // In double-double: the passage of a pericentre may be shorter than the rounding error of a time in doubles.
+        Phase::new(rate.into(), (turns - DoubleDouble::from(turns.high.round())) * turn)
     }
 
     /// The largest rate of an angle of the orbit [rad per unit of time].

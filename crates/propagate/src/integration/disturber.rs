@@ -141,7 +141,7 @@ impl Orbiting {
             let [x, y, ..] = place[k];
             out[k] = [x, y, heights[k], 0.0];
         }
-        mean.hypot(self.singularity) / self.mean_motion
+        (mean * mean + self.singularity * self.singularity).sqrt() / self.mean_motion
     }
 
     /// The integral of dt/R from the epoch to a time; 0 for a circle, whose R is infinite.

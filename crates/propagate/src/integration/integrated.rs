@@ -164,8 +164,10 @@ impl Problem {
             lasting = lasting.max(least);
             square += least * least;
         }
-        // A coefficient of order k is a rate to the power k: the unit is the mean of a pericentre and the rest, so that neither leaves the range of a double.
-        let exponent = if fastest > 0.0 { (exponent(fastest) + exponent(lasting)) / 2 } else { 0 };
+        // A coefficient of order k is a rate to the power k: the unit is the mean of a pericentre and the rest, so that neither leaves the range of a double. At
+        // rest it is the longer side, for the powers of a step.
+        let longest = (epoch - start).max(stop - epoch);
+        let exponent = if fastest > 0.0 { (exponent(fastest) + exponent(lasting)) / 2 } else { -exponent(longest) };
         let scale = scaled(square.sqrt(), -exponent).max(f64::MIN_POSITIVE);
         let rates = scene.state().angular_velocity.map(|rate| scaled(rate, -exponent));
         let end = |time: f64| {

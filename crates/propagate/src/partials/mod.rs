@@ -128,12 +128,7 @@ impl Motion {
         rates: &mut [Derivatives<INERTIA_PARAMETERS>],
     ) -> Result<(), Error> {
         self.valid(times, epoch)?;
-        tensor::about_principal_axes(self, epoch, times, (&mut *attitudes, &mut *rates))?;
-        if let Some(given) = &self.given {
-            let turn = tensor::Turn::new(given.turn.to_rotation_matrix().matrix());
-            attitudes.iter_mut().chain(rates).for_each(|derivatives| turn.apply(derivatives));
-        }
-        Ok(())
+        tensor::fill(self, epoch, times, (attitudes, rates))
     }
 
     /// Times counted from `epoch` in the scale of the scene.

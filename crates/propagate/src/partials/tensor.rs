@@ -5,6 +5,7 @@
 //! [`super::expansion`] serves; in steady rotation the varied equations are solved directly.
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use pulp::Arch;
 
 use super::constants::Setting;
 use super::displacement::{Displacement, ELEMENTS, Response, Writer};
@@ -14,14 +15,31 @@ use super::{Derivatives, INERTIA_PARAMETERS, PARAMETERS, differences, expansion,
 use crate::error::Error;
 use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
-use crate::solve::untruncated;
+use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
 
 type Output<'a> = (&'a mut [Derivatives<INERTIA_PARAMETERS>], &'a mut [Derivatives<INERTIA_PARAMETERS>]);
 
-/// Derivatives about the principal axes, with respect to the elements of the tensor about them.
-pub(super) fn about_principal_axes(
+/// Fills the derivatives about the user's axes.
+pub(super) fn fill(motion: &Motion, epoch: f64, times: &[f64], (attitudes, rates): Output<'_>) -> Result<(), Error> {
+    let given = motion.given.as_ref().map(|given| given.turn.to_rotation_matrix().into_inner());
+    let axes = given.unwrap_or_else(Matrix3::identity);
+    let wobbles = matches!(motion.trajectory, Trajectory::Wobble(_) | Trajectory::Passage(_));
+    let polhode = || Polhode::new(motion.scene.body(), motion.scene.state());
+    if wobbles && polhode().is_some_and(|polhode| !polhode.has_small_divisor(true)) {
+        return by_turned_axes(motion, epoch, times, &axes, (attitudes, rates));
+    }
+    about_principal_axes(motion, epoch, times, (&mut *attitudes, &mut *rates))?;
+    if given.is_some() {
+        let map = Map { axes: rows(&axes), weights: changes(&axes) };
+        attitudes.iter_mut().chain(rates).for_each(|derivatives| *derivatives = map.apply(derivatives));
+    }
+    Ok(())
+}
+
+/// Derivatives about the principal axes, with respect to the elements of the tensor about them, where the closed form of the wobble does not serve.
+fn about_principal_axes(
     motion: &Motion,
     epoch: f64,
     times: &[f64],
@@ -40,52 +58,93 @@ pub(super) fn about_principal_axes(
     }
     let setting = &Setting::new(&polhode, motion.scene.body().moments());
     let target = Target { times, epoch, initial: motion.scene.state().attitude, setting };
-    if let Trajectory::Steady(_) = motion.trajectory {
-        let varied = Varied::new(&polhode, setting, mode);
-        varied.valid(motion, epoch, times)?;
-        return steadily(motion, &polhode, target, &varied, (attitudes, rates));
+    match motion.trajectory {
+        Trajectory::Steady(_) => {
+            let varied = Varied::new(&polhode, setting, mode);
+            varied.valid(motion, epoch, times)?;
+            steadily(motion, &polhode, target, &varied, (attitudes, rates))
+        }
+        _ => expansion::fill(motion, &polhode, target, (attitudes, rates)),
     }
-    if polhode.has_small_divisor(true) {
-        return expansion::fill(motion, &polhode, target, (attitudes, rates));
-    }
-    let exact = untruncated(&motion.scene, &polhode, mode)?;
-    by_turned_axes(&exact, epoch, times, (attitudes, rates))
 }
 
-/// The columns of the products of inertia from those of the state, for three different moments.
-fn by_turned_axes(motion: &Motion, epoch: f64, times: &[f64], (attitudes, rates): Output<'_>) -> Result<(), Error> {
-    let zero = [[0.0; PARAMETERS]; 3];
-    let (mut turned, mut faster) = (vec![zero; times.len()], vec![zero; times.len()]);
-    motion.partials_about_principal_axes(epoch, times, &mut turned, &mut faster)?;
-    let (_, now) = motion.samples_about_principal_axes(epoch, times)?;
-    let (moments, start) = (motion.scene.body().moments(), motion.scene.state().angular_velocity);
-    // ψ for a unit of each product of inertia, and ω × ψ at the epoch.
-    let turns: [[Vector3<f64>; 2]; 3] = std::array::from_fn(|product| {
-        let (row, column) = ELEMENTS[3 + product];
+/// The derivatives about the user's axes from those with respect to the state and the principal moments, for three different moments.
+fn by_turned_axes(
+    motion: &Motion,
+    epoch: f64,
+    times: &[f64],
+    axes: &Matrix3<f64>,
+    (attitudes, rates): Output<'_>,
+) -> Result<(), Error> {
+    motion.partials_about_principal_axes(epoch, times, narrow(attitudes), narrow(rates))?;
+    let (moments, start) = (Vector3::from(motion.scene.body().moments()), motion.scene.state().angular_velocity);
+    let changes = changes(axes);
+    let mut weights: [[f64; INERTIA_PARAMETERS]; PARAMETERS] = std::array::from_fn(|row| changes[row]);
+    let mut turns = [[0.0; INERTIA_PARAMETERS]; 3];
+    for (product, (row, column)) in ELEMENTS.into_iter().enumerate().skip(3) {
         let (i, j) = if (row + 1) % 3 == column { (row, column) } else { (column, row) };
         let turn = Vector3::ith(3 - i - j, 1.0 / (moments[i] - moments[j]));
-        [turn, start.cross(&turn)]
-    });
-    for index in 0..times.len() {
-        let ([by_attitude, by_rates], spun) = (blocks(&turned[index]), blocks(&faster[index])[1]);
-        let now = Vector3::from(now[index]);
-        let columns = turns
-            .map(|[turn, pushed]| (by_attitude * turn + by_rates * pushed - turn, spun * pushed + turn.cross(&now)));
-        for row in 0..3 {
-            attitudes[index][row][..PARAMETERS].copy_from_slice(&turned[index][row]);
-            rates[index][row][..PARAMETERS].copy_from_slice(&faster[index][row]);
-            for (column, (of_attitude, of_rates)) in columns.iter().enumerate() {
-                attitudes[index][row][PARAMETERS + column] = of_attitude[row];
-                rates[index][row][PARAMETERS + column] = of_rates[row];
+        let (pushed, turned) = (start.cross(&turn), axes * turn);
+        for (parameter, change) in changes[6 + product].iter().enumerate() {
+            for axis in 0..3 {
+                weights[axis][parameter] += turn[axis] * change;
+                weights[3 + axis][parameter] += pushed[axis] * change;
+                turns[axis][parameter] += turned[axis] * change;
             }
         }
     }
+    let map = Map { axes: rows(axes), weights };
+    let by_moments = rows(&(axes * Matrix3::from_diagonal(&moments.map(|moment| 1.0 / moment))));
+    let momentum = moments.component_mul(&start).into();
+    dispatch(Arch::new(), Widen { map, turns, by_moments, momentum, attitudes, rates });
     Ok(())
 }
 
-/// The columns of the attitude and those of the rates.
-fn blocks(rows: &Derivatives) -> [Matrix3<f64>; 2] {
-    [0, 3].map(|first| Matrix3::from_fn(|row, column| rows[row][first + column]))
+/// Replaces the narrow matrices of two outputs by those about the user's axes, compiled for each instruction set.
+struct Widen<'a> {
+    map: Map<PARAMETERS>,
+    /// ψ in the user's components for a unit of each parameter.
+    turns: [[f64; INERTIA_PARAMETERS]; 3],
+    /// The principal axes as columns, each divided by its moment.
+    by_moments: [[f64; 3]; 3],
+    /// The angular momentum at the epoch about the principal axes.
+    momentum: [f64; 3],
+    attitudes: &'a mut [Derivatives<INERTIA_PARAMETERS>],
+    rates: &'a mut [Derivatives<INERTIA_PARAMETERS>],
+}
+
+impl Task for Widen<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: InstructionSet>(self, _: S) {
+        let Self { map, turns, by_moments, momentum, attitudes, rates } = self;
+        // From the last time to the first: a wider matrix takes the place of narrow ones that were read before.
+        for index in (0..attitudes.len()).rev() {
+            let (turned, faster) = (narrow(attitudes)[index], narrow(rates)[index]);
+            // The first columns of the attitude are RᵀR0, which carries the angular momentum.
+            let [[a, b, c, ..], [d, e, f, ..], [g, h, i, ..]] = turned;
+            let now = product(&by_moments, product(&[[a, b, c], [d, e, f], [g, h, i]], momentum));
+            let (mut attitude, mut rate) = (map.apply(&turned), map.apply(&faster));
+            for row in 0..3 {
+                let (next, last) = ((row + 1) % 3, (row + 2) % 3);
+                for parameter in 0..INERTIA_PARAMETERS {
+                    attitude[row][parameter] -= turns[row][parameter];
+                    rate[row][parameter] += turns[next][parameter] * now[last] - turns[last][parameter] * now[next];
+                }
+            }
+            (attitudes[index], rates[index]) = (attitude, rate);
+        }
+    }
+}
+
+/// The first part of an output, as matrices of nine columns. A buffer of its own would take as long as the derivatives, for the page faults of its memory.
+#[inline(always)]
+fn narrow(output: &mut [Derivatives<INERTIA_PARAMETERS>]) -> &mut [Derivatives] {
+    let count = output.len();
+    let (rows, _) = output.as_flattened_mut().as_flattened_mut().as_chunks_mut::<PARAMETERS>();
+    let (matrices, _) = rows.as_chunks_mut::<3>();
+    &mut matrices[..count]
 }
 
 /// Derivatives of a steady rotation.
@@ -113,52 +172,60 @@ fn steadily(
     Ok(())
 }
 
-/// The transformation from the principal axes to the user's.
-pub(super) struct Turn {
+/// The map from derivatives with N parameters about the principal axes to those about the user's axes.
+struct Map<const N: usize> {
     /// The principal axes, as columns.
     axes: [[f64; 3]; 3],
-    /// Changes of the parameters about the principal axes, as rows, for a unit of each of the user's parameters.
-    parameters: [[f64; INERTIA_PARAMETERS]; INERTIA_PARAMETERS],
+    /// Changes of the N parameters, as rows, for a unit of each of the user's parameters.
+    weights: [[f64; INERTIA_PARAMETERS]; N],
 }
 
-impl Turn {
-    /// The transformation for principal axes A as columns. A unit of the user's element k l changes the element i j by A_ki A_lj, summed over both orders of k
-    /// and l.
-    pub(super) fn new(axes: &Matrix3<f64>) -> Self {
-        let mut parameters = [[0.0; INERTIA_PARAMETERS]; INERTIA_PARAMETERS];
-        for i in 0..3 {
-            for k in 0..3 {
-                (parameters[i][k], parameters[3 + i][3 + k]) = (axes[(k, i)], axes[(k, i)]);
+impl<const N: usize> Map<N> {
+    /// Loops over indices: compilers do not always inline iterators into code for an instruction set.
+    #[inline(always)]
+    fn apply(&self, derivatives: &Derivatives<N>) -> Derivatives<INERTIA_PARAMETERS> {
+        let mut mapped = [[0.0; INERTIA_PARAMETERS]; 3];
+        for column in 0..N {
+            let [x, y, z] = derivatives;
+            let value = product(&self.axes, [x[column], y[column], z[column]]);
+            for row in 0..3 {
+                for parameter in 0..INERTIA_PARAMETERS {
+                    mapped[row][parameter] += value[row] * self.weights[column][parameter];
+                }
             }
         }
-        for (element, (i, j)) in ELEMENTS.into_iter().enumerate() {
-            for (user, (k, l)) in ELEMENTS.into_iter().enumerate() {
-                let one = axes[(k, i)] * axes[(l, j)];
-                parameters[6 + element][6 + user] = if k == l { one } else { one + axes[(l, i)] * axes[(k, j)] };
-            }
-        }
-        Self { axes: std::array::from_fn(|row| std::array::from_fn(|column| axes[(row, column)])), parameters }
+        mapped
     }
+}
 
-    /// Transforms the vector, the parameters that are vectors, and the elements of the tensor. The sums are over whole rows, which vectors of any width hold.
-    pub(super) fn apply(&self, derivatives: &mut Derivatives<INERTIA_PARAMETERS>) {
-        let mut turned = [[0.0; INERTIA_PARAMETERS]; 3];
-        for (row, axes) in turned.iter_mut().zip(&self.axes) {
-            for (given, axis) in derivatives.iter().zip(axes) {
-                for (sum, value) in row.iter_mut().zip(given) {
-                    *sum += axis * value;
-                }
-            }
-        }
-        for (row, values) in turned.iter().zip(derivatives) {
-            let mut sums = [0.0; INERTIA_PARAMETERS];
-            for (index, value) in row.iter().enumerate() {
-                let block = [0..3, 3..6, 6..INERTIA_PARAMETERS][(index / 3).min(2)].clone();
-                for (sum, weight) in sums[block.clone()].iter_mut().zip(&self.parameters[index][block]) {
-                    *sum += value * weight;
-                }
-            }
-            *values = sums;
+/// Changes of the parameters about the principal axes, as rows, for a unit of each of the user's parameters. A unit of the user's element k l changes the element
+/// i j by A_ki A_lj, summed over both orders of k and l, with the principal axes as columns of A.
+fn changes(axes: &Matrix3<f64>) -> [[f64; INERTIA_PARAMETERS]; INERTIA_PARAMETERS] {
+    let mut changes = [[0.0; INERTIA_PARAMETERS]; INERTIA_PARAMETERS];
+    for i in 0..3 {
+        for k in 0..3 {
+            (changes[i][k], changes[3 + i][3 + k]) = (axes[(k, i)], axes[(k, i)]);
         }
     }
+    for (element, (i, j)) in ELEMENTS.into_iter().enumerate() {
+        for (user, (k, l)) in ELEMENTS.into_iter().enumerate() {
+            let one = axes[(k, i)] * axes[(l, j)];
+            changes[6 + element][6 + user] = if k == l { one } else { one + axes[(l, i)] * axes[(k, j)] };
+        }
+    }
+    changes
+}
+
+fn rows(matrix: &Matrix3<f64>) -> [[f64; 3]; 3] {
+    matrix.transpose().into()
+}
+
+#[inline(always)]
+fn product(matrix: &[[f64; 3]; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
+    let [one, two, three] = matrix;
+    [
+        one[0] * x + one[1] * y + one[2] * z,
+        two[0] * x + two[1] * y + two[2] * z,
+        three[0] * x + three[1] * y + three[2] * z,
+    ]
 }

@@ -439,10 +439,10 @@ class Partials:
         """The times, float64, shape (n,); of an ensemble whose members have their own times (m, n)."""
     @property
     def attitude(self) -> _Array:
-        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9) or (n, 3, 12), of an ensemble (m, n, 3, 9)."""
+        """Derivatives of the attitude as a rotation vector about body axes, shape (n, 3, 9) or (n, 3, 12), of an ensemble (m, n, 3, 9) or (m, n, 3, 12)."""
     @property
     def angular_velocity(self) -> _Array:
-        """Derivatives of the angular velocity in body components, shape (n, 3, 9) or (n, 3, 12), of an ensemble (m, n, 3, 9)."""
+        """Derivatives of the angular velocity in body components, shape (n, 3, 9) or (n, 3, 12), of an ensemble (m, n, 3, 9) or (m, n, 3, 12)."""
     def __len__(self) -> int: ...
 
 @final

@@ -4,13 +4,15 @@ use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::Error as Propagation;
 use andoyer_propagate::ensemble::{Outcome, Run};
+use andoyer_propagate::partials::Derivatives;
 use pyo3::prelude::*;
 
 use super::{Array, Ensemble, LONG};
-use crate::array::Times;
+use crate::array::{Times, matrices, write};
 use crate::computing::interruptible;
 use crate::error;
 use crate::foreign::Calendar;
+use crate::partials::Partials;
 
 impl Ensemble {
     pub(super) fn times<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Times<'py>> {
@@ -36,6 +38,26 @@ impl Ensemble {
             times.evaluate(out, |values, rows, stop| evaluate(self.run(since_epoch, stop), values, rows, stop))?;
         error::warn_of_tolerance(rows.py(), outcome.missed_tolerance())?;
         Ok(rows)
+    }
+
+    /// Derivatives with respect to N parameters.
+    pub(super) fn derivatives<const N: usize>(
+        &self,
+        times: &Bound<'_, PyAny>,
+        fill: impl FnOnce(Run<'_>, &[f64], &mut [Derivatives<N>], &mut [Derivatives<N>]) -> Result<Outcome, Propagation>
+        + Send,
+    ) -> PyResult<Partials> {
+        let (py, times) = (times.py(), self.times(times)?);
+        let since_epoch = times.since_epoch();
+        let [copy, attitude, rates] = times.matrices(N)?;
+        let outcome = {
+            let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
+            let (values, attitude, rates) = (times.values()?, matrices(&mut attitude)?, matrices(&mut rates)?);
+            let evaluate = |stop: &AtomicBool| fill(self.run(since_epoch, stop), values, attitude, rates);
+            interruptible(py, times.long_partials(), error::propagation, evaluate)?
+        };
+        error::warn_of_tolerance(py, outcome.missed_tolerance())?;
+        Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
     }
 
     /// What is found for every member when all are solved.

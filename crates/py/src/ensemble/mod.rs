@@ -5,14 +5,13 @@ use std::sync::atomic::AtomicBool;
 use andoyer_propagate::ensemble::{MAX_THREADS, OnError};
 use andoyer_propagate::error::Kind;
 use andoyer_propagate::options::Convention;
-use andoyer_propagate::partials::PARAMETERS;
 use andoyer_propagate::periods::Periods;
 use andoyer_series::threads::alone;
 use numpy::{IntoPyArray, PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::array::{MemberRows, chunks, constant, constant_rows, matrices, span as span_of, write};
+use crate::array::{MemberRows, chunks, constant, constant_rows, span as span_of, write};
 use crate::computing::interruptible;
 use crate::error;
 use crate::foreign::{self, Calendar};
@@ -234,7 +233,8 @@ impl Ensemble {
     /// Returns
     /// -------
     /// Partials
-    ///     With a leading axis of members: arrays of shape (m, n, 3, 9), for a scalar time (m, 3, 9); with ``errors="nan"`` they are NaN for a member without derivatives.
+    ///     With a leading axis of members: arrays of shape (m, n, 3, 9), for a scalar time (m, 3, 9); of inertia tensors (m, n, 3, 12) and (m, 3, 12). With
+    ///     ``errors="nan"`` they are NaN for a member without derivatives.
     ///
     /// Raises
     /// ------
@@ -248,18 +248,12 @@ impl Ensemble {
     /// >>> ensemble = Ensemble([[1, 1.5, 2], [1, 2, 2.5]], [0, 0, 0, 1], [0, 0, 2.0])
     /// >>> ensemble.partials(10.0).attitude[:, 2, 5]
     /// array([10., 10.])
-    fn partials(&self, py: Python<'_>, times: &Bound<'_, PyAny>) -> PyResult<Partials> {
-        let times = self.times(times)?;
-        let since_epoch = times.since_epoch();
-        let [copy, attitude, rates] = times.matrices(PARAMETERS)?;
-        let outcome = {
-            let (mut attitude, mut rates) = (write(&attitude)?, write(&rates)?);
-            let (values, attitude, rates) = (times.values()?, matrices(&mut attitude)?, matrices(&mut rates)?);
-            let evaluate = |stop: &AtomicBool| self.run(since_epoch, stop).partials_into(values, attitude, rates);
-            interruptible(py, times.long_partials(), error::propagation, evaluate)?
-        };
-        error::warn_of_tolerance(py, outcome.missed_tolerance())?;
-        Ok(Partials::new(copy.unbind(), attitude.unbind(), rates.unbind()))
+    fn partials(&self, times: &Bound<'_, PyAny>) -> PyResult<Partials> {
+        if self.0.asked_tensors().is_empty() {
+            self.derivatives(times, |run, times, attitudes, rates| run.partials_into(times, attitudes, rates))
+        } else {
+            self.derivatives(times, |run, times, attitudes, rates| run.inertia_partials_into(times, attitudes, rates))
+        }
     }
 
     /// Mean periods (P_φ, P_ψ) of all members in three conventions, as defined in `Motion.periods`.
