@@ -17,4 +17,4 @@ pub use kept::KEPT_MEMORY;
 pub use members::Ensemble;
 pub use on_error::OnError;
 pub use pool::MAX_THREADS;
-pub use run::Run;
+pub use run::MembersRun;

@@ -21,8 +21,8 @@ use super::pool::on_threads;
 
 impl Ensemble {
     /// How its members are evaluated.
-    pub fn run(&self) -> Run<'_> {
-        Run { ensemble: self, since_epoch: false, stop: &GOING }
+    pub fn run(&self) -> MembersRun<'_> {
+        MembersRun { ensemble: self, since_epoch: false, stop: &GOING }
     }
 
     /// The plan of every member.
@@ -60,13 +60,13 @@ impl Ensemble {
 
 /// How the members of an ensemble are evaluated.
 #[derive(Clone, Copy, Debug)]
-pub struct Run<'a> {
+pub struct MembersRun<'a> {
     ensemble: &'a Ensemble,
     since_epoch: bool,
     stop: &'a AtomicBool,
 }
 
-impl<'a> Run<'a> {
+impl<'a> MembersRun<'a> {
     /// Times are counted from the epoch of each member, as by [`crate::batch::Batch::since_epoch`].
     #[must_use]
     pub fn since_epoch(self) -> Self {
@@ -109,7 +109,7 @@ impl<'a> Run<'a> {
     /// Angular momenta in inertial components, ordered as by [`Ensemble::attitudes_into`].
     ///
     /// # Errors
-    /// As [`Run::attitudes_into`].
+    /// As [`MembersRun::attitudes_into`].
     pub fn angular_momenta_into(&self, times: &[f64], out: &mut [[f64; 3]]) -> Result<Outcome, Error> {
         self.rows_into(times, out, |batch, times, rows| batch.angular_momenta_into(times, rows))
     }
@@ -117,7 +117,7 @@ impl<'a> Run<'a> {
     /// Andoyer variables [λ, μ, ν, Λ, M, N] as of [`Motion::andoyer_into`], ordered as by [`Ensemble::attitudes_into`].
     ///
     /// # Errors
-    /// As [`Run::attitudes_into`].
+    /// As [`MembersRun::attitudes_into`].
     pub fn andoyer_into(&self, times: &[f64], out: &mut [[f64; 6]]) -> Result<Outcome, Error> {
         self.rows_into(times, out, |batch, times, rows| batch.andoyer_into(times, rows))
     }
@@ -173,7 +173,7 @@ impl<'a> Run<'a> {
     /// ```
     ///
     /// # Errors
-    /// As [`Run::attitudes_into`]; [`Error::SeparatrixPartials`] of a member on the separatrix.
+    /// As [`MembersRun::attitudes_into`]; [`Error::SeparatrixPartials`] of a member on the separatrix.
     pub fn partials_into(
         &self,
         times: &[f64],
@@ -186,7 +186,7 @@ impl<'a> Run<'a> {
     /// Derivatives with respect to the elements of the inertia tensors as of [`Motion::inertia_partials`], ordered as by [`Ensemble::attitudes_into`].
     ///
     /// # Errors
-    /// As [`Run::partials_into`].
+    /// As [`MembersRun::partials_into`].
     pub fn inertia_partials_into(
         &self,
         times: &[f64],
@@ -220,7 +220,7 @@ impl<'a> Run<'a> {
     ///
     /// # Errors
     /// - [`Error::Length`] for an `out` shorter or longer than the members.
-    /// - Else as [`Run::attitudes_into`].
+    /// - Else as [`MembersRun::attitudes_into`].
     pub fn periods_into(&self, out: &mut [[Periods; 3]]) -> Result<Outcome, Error> {
         let none = Periods { precession: f64::NAN, rotation: f64::NAN };
         self.values_into(out, [none; 3], |motion| Convention::ALL.map(|convention| motion.periods_of(convention)))
@@ -229,7 +229,7 @@ impl<'a> Run<'a> {
     /// E/E0 of each member, as [`Motion::energy_ratio`].
     ///
     /// # Errors
-    /// As [`Run::periods_into`].
+    /// As [`MembersRun::periods_into`].
     pub fn energy_ratios_into(&self, out: &mut [f64]) -> Result<Outcome, Error> {
         self.values_into(out, f64::NAN, Motion::energy_ratio)
     }

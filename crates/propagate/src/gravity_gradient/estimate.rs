@@ -20,13 +20,13 @@ use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::mean_motion::CONVERGED;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 use crate::gravity_gradient::request::Request;
-use crate::gravity_gradient::terms::term::Response;
+use crate::gravity_gradient::terms::term::Sensitivity;
 use crate::input::options::{Averaging, Level};
 
 /// Safety factor of the periodic change of the next order.
-const PERIODIC: f64 = 13.0;
+const PERIODIC: f64 = 6.0;
 /// Safety factor of the drift of the next order.
-const DRIFT: f64 = 8.0;
+const DRIFT: f64 = 4.0;
 /// Safety factor of the terms in resonance, whose upper estimates are added up although they act in different senses.
 const RESONANT: f64 = 0.3;
 /// Safety factor of the average over the orbit.
@@ -60,7 +60,7 @@ impl Estimate {
         demands: &[Demand<'_>],
         (level, left): (Level, [f64; 2]),
     ) -> Self {
-        let response = Response::new(inertia);
+        let response = Sensitivity::new(inertia);
         let duration = demands[0].duration;
         let change = 0.25 * corrections.iter().map(|corrections| corrections.rms).sum::<f64>();
         let acting = |power: fn(&Demand<'_>) -> f64| demands.iter().map(power).fold(0.0, f64::max);
@@ -116,7 +116,7 @@ impl Estimate {
 }
 
 /// The error by the terms that the level omits: short-period terms, and the tilt in the averages.
-fn omitted(corrections: &Corrections, response: &Response, demand: &Demand<'_>) -> f64 {
+fn omitted(corrections: &Corrections, response: &Sensitivity, demand: &Demand<'_>) -> f64 {
     let [axial, slope] = corrections.axial_omitted;
     let e = demand.orbit.eccentricity();
     let scale = demand.mean_motion * ((1.0 - e) * (1.0 + e)).powf(-1.5);

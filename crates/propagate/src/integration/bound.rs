@@ -67,7 +67,7 @@ pub(super) type Profile = Vec<(f64, f64)>;
 
 /// The steps of a motion in one direction, and what measures their error.
 #[derive(Clone, Copy)]
-pub(super) struct Measured<'a> {
+pub(super) struct MeasuredSteps<'a> {
     pub(super) equations: &'a Equations<4>,
     pub(super) precision: Precision,
     pub(super) steps: &'a [Step],
@@ -81,7 +81,7 @@ pub(super) struct Measured<'a> {
     pub(super) stop: &'a AtomicBool,
 }
 
-impl Measured<'_> {
+impl MeasuredSteps<'_> {
     /// Of attitude \[rad\] and rates.
     fn displacement(&self) -> [f64; 2] {
         let [angle, rate] = self.errors;
@@ -121,7 +121,7 @@ impl Measured<'_> {
     }
 }
 
-impl Task for Measured<'_> {
+impl Task for MeasuredSteps<'_> {
     /// None where an enlarged displacement has no scale.
     type Output = Result<Option<Profile>, Error>;
 

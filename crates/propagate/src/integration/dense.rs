@@ -5,7 +5,7 @@
 
 use pulp::Arch;
 
-use super::expansion::{Expansion, Workspace};
+use super::expansion::{StepExpansion, Workspace};
 use super::integrated::Integrated;
 use super::integrator::{Side, Step};
 use crate::numerics::scaling::scaled;
@@ -44,7 +44,7 @@ impl<'a> Cursor<'a> {
                 Some(kept) => self.workspace.restore(kept),
                 None => {
                     let (workspace, start) = (&mut *self.workspace, start.start(side == 0));
-                    dispatch_few(Arch::new(), Expansion { workspace, equations, start, order: *order });
+                    dispatch_few(Arch::new(), StepExpansion { workspace, equations, start, order: *order });
                 }
             }
             self.expanded = Some((side, place));

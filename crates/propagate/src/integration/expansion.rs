@@ -10,7 +10,7 @@
 //! of norm 1 + ε is R (1 + 2ε), so that rounding of the norm is a relative rounding error of the torque.
 
 use super::disturber::Disturber;
-use super::series::{Coefficients, ROWS, Row, Rows, Series, ZERO, add_product, add_scaled, largest};
+use super::series::{Coefficients, ROWS, Row, Series, StateLanes, ZERO, add_product, add_scaled, largest};
 use crate::input::scene::Scene;
 use crate::simd::instruction_set::{InstructionSet, Task};
 
@@ -18,10 +18,10 @@ use crate::simd::instruction_set::{InstructionSet, Task};
 #[derive(Clone, Debug)]
 pub(super) struct Equations<const W: usize> {
     /// (I3 − I2)/I1 and so on.
-    pub(super) factors: Rows<W>,
+    pub(super) factors: StateLanes<W>,
     pub(super) bodies: Vec<Disturber>,
     /// What multiplies the torque of each body: 1, or nearly so for a state with displaced constants.
-    pub(super) strengths: Vec<Rows<W>>,
+    pub(super) strengths: Vec<StateLanes<W>>,
     /// √(3 Σμ) at the mean distance: the least rate that errors of rates are relative to.
     pub(super) scale: f64,
 }
@@ -71,8 +71,8 @@ pub(super) struct Start<const W: usize> {
     /// Time from the epoch, in double-double.
     pub(super) time: (f64, f64),
     pub(super) backward: bool,
-    pub(super) attitude: Rows<W>,
-    pub(super) rates: Rows<W>,
+    pub(super) attitude: StateLanes<W>,
+    pub(super) rates: StateLanes<W>,
 }
 
 /// One coefficient of everything that is multiplied, in the lanes of the products. A product of two series is the sum of the first factors of one coefficient
@@ -80,30 +80,30 @@ pub(super) struct Start<const W: usize> {
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 struct Factors<const W: usize> {
-    attitude: Rows<W>,
+    attitude: StateLanes<W>,
     /// q times the unit quaternions of the axes, and the rates of the axes.
-    columns: [Rows<W>; 3],
-    rates: [Rows<W>; 3],
+    columns: [StateLanes<W>; 3],
+    rates: [StateLanes<W>; 3],
     /// The next and the next but one of ω1, ω2, ω3.
-    neighbours: [Rows<W>; 2],
+    neighbours: [StateLanes<W>; 2],
     /// The factors of xy, xz, yz, and w.
-    mixed: [Rows<W>; 2],
-    scalar: Rows<W>,
+    mixed: [StateLanes<W>; 2],
+    scalar: StateLanes<W>,
     /// The rows of R.
-    matrix: [Rows<W>; 3],
+    matrix: [StateLanes<W>; 3],
 }
 
 /// Sums of products of factors.
-struct Sums<const W: usize> {
-    turning: [Rows<W>; 3],
-    gyration: Rows<W>,
+struct ProductSums<const W: usize> {
+    turning: [StateLanes<W>; 3],
+    gyration: StateLanes<W>,
     /// xx, yy, zz, ww; xy, xz, yz; xw, yw, zw.
-    squares: Rows<W>,
-    mixed: Rows<W>,
-    axial: Rows<W>,
+    squares: StateLanes<W>,
+    mixed: StateLanes<W>,
+    axial: StateLanes<W>,
 }
 
-impl<const W: usize> Sums<W> {
+impl<const W: usize> ProductSums<W> {
     const ZERO: Self =
         Self { turning: [[0.0; W]; 3], gyration: [0.0; W], squares: [0.0; W], mixed: [0.0; W], axial: [0.0; W] };
 
@@ -120,7 +120,7 @@ impl<const W: usize> Sums<W> {
 
     /// The rows of the matrix.
     #[inline(always)]
-    fn matrix(&self) -> [Rows<W>; 3] {
+    fn matrix(&self) -> [StateLanes<W>; 3] {
         let mut matrix = [[0.0; W]; 3];
         for state in 0..W / 4 {
             let at = 4 * state;
@@ -137,12 +137,12 @@ impl<const W: usize> Sums<W> {
 
 /// The lanes of one state.
 #[inline(always)]
-pub(super) fn four<const W: usize>(row: &Rows<W>, at: usize) -> Row {
+pub(super) fn four<const W: usize>(row: &StateLanes<W>, at: usize) -> Row {
     [row[at], row[at + 1], row[at + 2], row[at + 3]]
 }
 
 #[inline(always)]
-fn put<const W: usize>(row: &mut Rows<W>, at: usize, [x, y, z, w]: Row) {
+fn put<const W: usize>(row: &mut StateLanes<W>, at: usize, [x, y, z, w]: Row) {
     (row[at], row[at + 1], row[at + 2], row[at + 3]) = (x, y, z, w);
 }
 
@@ -159,7 +159,7 @@ impl<const W: usize> Factors<W> {
 
     /// What follows from one coefficient of attitude and rates alone.
     #[inline(always)]
-    fn set(&mut self, attitude: &Rows<W>, rates: &Rows<W>) {
+    fn set(&mut self, attitude: &StateLanes<W>, rates: &StateLanes<W>) {
         self.attitude = *attitude;
         for state in 0..W / 4 {
             let at = 4 * state;
@@ -183,16 +183,16 @@ impl<const W: usize> Factors<W> {
 /// The series of a step of one state, W = 4, or more.
 #[repr(align(64))]
 pub(super) struct Workspace<const W: usize> {
-    pub(super) attitude: [Rows<W>; ROWS],
-    pub(super) rates: [Rows<W>; ROWS],
+    pub(super) attitude: [StateLanes<W>; ROWS],
+    pub(super) rates: [StateLanes<W>; ROWS],
     /// First coefficients of the parts of Euler's equations: Σ s2 s3 and ω2 ω3.
-    pub(super) parts: [Rows<W>; 2],
+    pub(super) parts: [StateLanes<W>; 2],
     factors: [Factors<W>; ROWS],
     places: Vec<Series>,
     /// The least radius of convergence of the series of a body, infinite without a body.
     pub(super) radius: f64,
     /// The next and the next but one of s1, s2, s3 of each body.
-    directions: Vec<[[Rows<W>; 2]; ROWS]>,
+    directions: Vec<[[StateLanes<W>; 2]; ROWS]>,
 }
 
 impl<const W: usize> Workspace<W> {
@@ -225,7 +225,7 @@ impl<const W: usize> Workspace<W> {
         self.rates[0] = start.rates;
         for k in 0..order {
             self.factors[k].set(&self.attitude[k], &self.rates[k]);
-            let mut sums = Sums::ZERO;
+            let mut sums = ProductSums::ZERO;
             // The newest coefficient comes last, so that the sums need not wait for it.
             for j in 1..k {
                 sums.add(simd, &self.factors[j], &self.factors[k - j]);
@@ -252,9 +252,9 @@ impl<const W: usize> Workspace<W> {
     fn torque<S: InstructionSet>(
         &mut self,
         simd: S,
-        (k, matrix): (usize, [Rows<W>; 3]),
-        strengths: &[Rows<W>],
-    ) -> Rows<W> {
+        (k, matrix): (usize, [StateLanes<W>; 3]),
+        strengths: &[StateLanes<W>],
+    ) -> StateLanes<W> {
         let mut torque = [0.0; W];
         for (body, strength) in strengths.iter().enumerate() {
             let (place, directions) = (&self.places[body], &mut self.directions[body]);
@@ -325,14 +325,14 @@ impl Workspace<4> {
 }
 
 /// The series of one step, for the best instruction set available.
-pub(super) struct Expansion<'a> {
+pub(super) struct StepExpansion<'a> {
     pub(super) workspace: &'a mut Workspace<4>,
     pub(super) equations: &'a Equations<4>,
     pub(super) start: Start<4>,
     pub(super) order: usize,
 }
 
-impl Task for Expansion<'_> {
+impl Task for StepExpansion<'_> {
     type Output = ();
 
     #[inline(always)]

@@ -6,10 +6,10 @@ use std::sync::atomic::AtomicBool;
 use andoyer_double::two_sum;
 use pulp::Arch;
 
-use super::bound::{FLOOR, INPUT, Interpolated, Measured, Profile, SAFETY, with_interpolation};
+use super::bound::{FLOOR, INPUT, Interpolated, MeasuredSteps, Profile, SAFETY, with_interpolation};
 use super::disturber::Disturber;
 use super::expansion::Equations;
-use super::integrator::{Kept, Precision, ROUNDING, Runner, Side, Step};
+use super::integrator::{KeptSteps, Precision, ROUNDING, Runner, Side, Step};
 use super::series::{Coefficients, Row, largest};
 use crate::error::Error;
 use crate::input::disturbing_body::DisturbingBody;
@@ -223,7 +223,7 @@ impl Problem {
         for (side, target) in self.ends.into_iter().enumerate() {
             let backward = side == 0;
             let runner = Runner::new(self.attitude, self.rates, backward);
-            let (kept, runner) = dispatch_few(arch, Kept { equations, precision, runner, target, stop })?;
+            let (kept, runner) = dispatch_few(arch, KeptSteps { equations, precision, runner, target, stop })?;
             if kept.steps.len() > 1 {
                 let largest = |profile: &Profile| profile.last().map_or(FLOOR, |(_, error)| *error);
                 let mut profile = self.measured(&kept.steps, (precision, &runner), backward, stop)?;
@@ -277,7 +277,7 @@ impl Problem {
     ) -> Result<Profile, Error> {
         let phase = self.phase();
         let coarse = Precision::of((ENLARGED_ERROR / (10.0 + phase * phase)).clamp(FINEST, COARSEST));
-        let enlarged = Measured {
+        let enlarged = MeasuredSteps {
             equations: &self.equations,
             precision: coarse,
             steps,
@@ -287,7 +287,7 @@ impl Problem {
             enlarged: true,
             stop,
         };
-        let exact = Measured { precision, enlarged: false, ..enlarged };
+        let exact = MeasuredSteps { precision, enlarged: false, ..enlarged };
         let profile = if coarse.order < precision.order { dispatch(Arch::new(), enlarged)? } else { None };
         Ok(match profile {
             Some(profile) => profile,

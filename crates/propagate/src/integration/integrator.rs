@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use andoyer_double::two_sum;
 
 use super::expansion::{Equations, Start, Workspace, four};
-use super::series::{Coefficients, MAX, Row, Rows, largest};
+use super::series::{Coefficients, MAX, Row, StateLanes, largest};
 use crate::error::Error;
 use crate::simd::halt::going;
 use crate::simd::instruction_set::{InstructionSet, Task};
@@ -82,10 +82,10 @@ impl Precision {
 pub(super) struct Runner<const W: usize> {
     pub(super) time: (f64, f64),
     backward: bool,
-    attitude: Rows<W>,
-    attitude_rest: Rows<W>,
-    rates: Rows<W>,
-    rates_rest: Rows<W>,
+    attitude: StateLanes<W>,
+    attitude_rest: StateLanes<W>,
+    rates: StateLanes<W>,
+    rates_rest: StateLanes<W>,
     /// Sums of squares of the rounding errors, and sums of the errors that do not change their sign by chance, of attitude \[rad\] and rates.
     rounded: [f64; 2],
     systematic: [f64; 2],
@@ -94,7 +94,7 @@ pub(super) struct Runner<const W: usize> {
 }
 
 impl<const W: usize> Runner<W> {
-    pub(super) fn new(attitude: Rows<W>, rates: Rows<W>, backward: bool) -> Self {
+    pub(super) fn new(attitude: StateLanes<W>, rates: StateLanes<W>, backward: bool) -> Self {
         let none = [0.0; W];
         Self {
             time: (0.0, 0.0),
@@ -240,7 +240,7 @@ fn compensated(value: &mut f64, rest: &mut f64, change: f64) {
 }
 
 /// The integration to a time, every step of it kept.
-pub(super) struct Kept<'a> {
+pub(super) struct KeptSteps<'a> {
     pub(super) equations: &'a Equations<4>,
     pub(super) precision: Precision,
     pub(super) runner: Runner<4>,
@@ -248,7 +248,7 @@ pub(super) struct Kept<'a> {
     pub(super) stop: &'a AtomicBool,
 }
 
-impl Task for Kept<'_> {
+impl Task for KeptSteps<'_> {
     type Output = Result<(Side, Runner<4>), Error>;
 
     #[inline(always)]

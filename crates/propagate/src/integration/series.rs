@@ -8,9 +8,9 @@ pub(super) const MAX: usize = 24;
 pub(super) const ROWS: usize = MAX + 1;
 
 /// Four lanes of each state: a quaternion, or a vector and 0. Several states go on with the same steps.
-pub(super) type Rows<const W: usize> = [f64; W];
+pub(super) type StateLanes<const W: usize> = [f64; W];
 /// The lanes of one state.
-pub(super) type Row = Rows<4>;
+pub(super) type Row = StateLanes<4>;
 /// The coefficients of four functions.
 pub(super) type Series = [Row; ROWS];
 /// The coefficients of one function.
@@ -24,7 +24,7 @@ pub(super) const ZERO: Series = [[0.0; 4]; ROWS];
 
 /// sum += factor · row.
 #[inline(always)]
-pub(super) fn add_scaled<S: Simd, const W: usize>(simd: S, sum: &mut Rows<W>, factor: f64, row: &Rows<W>) {
+pub(super) fn add_scaled<S: Simd, const W: usize>(simd: S, sum: &mut StateLanes<W>, factor: f64, row: &StateLanes<W>) {
     let ((sums, _), (rows, _)) = (S::as_mut_simd_f64s(sum), S::as_simd_f64s(row));
     let factor = simd.splat_f64s(factor);
     // Loops over indices here and in the callers: compilers do not always inline iterators into functions as long as these.
@@ -35,7 +35,12 @@ pub(super) fn add_scaled<S: Simd, const W: usize>(simd: S, sum: &mut Rows<W>, fa
 
 /// sum += one · other, lane by lane. The rows are whole vectors: compilers would take them apart where their lanes are used apart later.
 #[inline(always)]
-pub(super) fn add_product<S: Simd, const W: usize>(simd: S, sum: &mut Rows<W>, one: &Rows<W>, other: &Rows<W>) {
+pub(super) fn add_product<S: Simd, const W: usize>(
+    simd: S,
+    sum: &mut StateLanes<W>,
+    one: &StateLanes<W>,
+    other: &StateLanes<W>,
+) {
     let ((sums, _), (ones, _), (others, _)) = (S::as_mut_simd_f64s(sum), S::as_simd_f64s(one), S::as_simd_f64s(other));
     for i in 0..W / S::F64_LANES {
         sums[i] = simd.mul_add_f64s(ones[i], others[i], sums[i]);

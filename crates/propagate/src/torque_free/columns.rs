@@ -8,7 +8,7 @@ use crate::simd::lanes::{Lanes, WIDEST};
 
 /// A body and its rotation, on the sorted axes and in scaled units.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Given {
+pub(super) struct SortedState {
     pub(super) moments: [f64; 3],
     /// The parts of G, products of a moment and a rate; or g, with M = 1.
     pub(super) rotation: Rotation,
@@ -37,14 +37,14 @@ pub(super) struct Columns<S: InstructionSet> {
 }
 
 /// −1 for the long-axis mode, otherwise 1.
-fn sign(body: &Given) -> f64 {
+fn sign(body: &SortedState) -> f64 {
     if body.long_axis { -1.0 } else { 1.0 }
 }
 
 impl<S: InstructionSet> Columns<S> {
     /// One body in all lanes.
     #[inline(always)]
-    pub(super) fn all(simd: S, body: &Given) -> Self {
+    pub(super) fn all(simd: S, body: &SortedState) -> Self {
         let (rates, squares, momentum, by_squares) = match body.rotation {
             Rotation::Rates(rates) => (rates, [DoubleDouble::ONE; 3], DoubleDouble::ONE, 0.0),
             Rotation::Squares(squares, momentum) => ([1.0; 3], squares, momentum, 1.0),
@@ -65,7 +65,7 @@ impl<S: InstructionSet> Columns<S> {
 
     /// A body in each lane. A lane without a body has the first one.
     #[inline(always)]
-    pub(super) fn load(simd: S, given: &[Given]) -> Self {
+    pub(super) fn load(simd: S, given: &[SortedState]) -> Self {
         let (mut moments, mut rates) = ([[1.0; WIDEST]; 3], [[1.0; WIDEST]; 3]);
         let mut squares = [[[1.0; WIDEST]; 2]; 4];
         let (mut by_squares, mut signs) = ([0.0; WIDEST], [1.0; WIDEST]);

@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 use andoyer_double::DoubleDouble;
 use pulp::Arch;
 
-use super::columns::{Columns, Given};
+use super::columns::{Columns, SortedState};
 use crate::numerics::theta::Theta;
 use crate::simd::double_double_lanes::DoubleDoubleLanes;
 use crate::simd::elliptic::{carlson_rf, means, precise_mean};
@@ -58,18 +58,18 @@ pub(crate) struct Invariants {
 
 impl Invariants {
     /// The constants of one body.
-    pub(super) fn of(given: &Given) -> Self {
+    pub(super) fn of(given: &SortedState) -> Self {
         dispatch_one(Arch::new(), One { given })
     }
 
     /// The constants of several bodies, each to the bits of [`Invariants::of`].
-    pub(super) fn several(given: &[Given]) -> Vec<Self> {
+    pub(super) fn several(given: &[SortedState]) -> Vec<Self> {
         dispatch(Arch::new(), Several { given })
     }
 }
 
 struct One<'a> {
-    given: &'a Given,
+    given: &'a SortedState,
 }
 
 impl Task for One<'_> {
@@ -82,7 +82,7 @@ impl Task for One<'_> {
 }
 
 struct Several<'a> {
-    given: &'a [Given],
+    given: &'a [SortedState],
 }
 
 impl Task for Several<'_> {

@@ -17,7 +17,7 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use andoyer_double::DoubleDouble;
 
-use super::columns::{Given, Rotation};
+use super::columns::{Rotation, SortedState};
 use super::invariants::Invariants;
 use crate::input::body::Body;
 use crate::input::state::State;
@@ -147,8 +147,8 @@ impl Placed {
         Some(Self { frame: order.frame(), long_axis, moments, rates, scales })
     }
 
-    fn given(&self) -> Given {
-        Given { moments: self.moments, rotation: Rotation::Rates(self.rates), long_axis: self.long_axis }
+    fn given(&self) -> SortedState {
+        SortedState { moments: self.moments, rotation: Rotation::Rates(self.rates), long_axis: self.long_axis }
     }
 
     fn with(self, invariants: Invariants) -> Polhode {
@@ -201,7 +201,7 @@ impl Polhode {
     /// The polhodes of several valid states, each to the bits of [`Polhode::new`].
     pub(crate) fn several(states: &[(&Body, &State)]) -> Vec<Option<Self>> {
         let placed: Vec<Option<Placed>> = states.iter().map(|(body, state)| Placed::new(body, state)).collect();
-        let given: Vec<Given> = placed.iter().flatten().map(Placed::given).collect();
+        let given: Vec<SortedState> = placed.iter().flatten().map(Placed::given).collect();
         let mut invariants = Invariants::several(&given).into_iter();
         let mut with = |placed: Placed| invariants.next().map(|invariants| placed.with(invariants));
         placed.into_iter().map(|place| place.and_then(&mut with)).collect()
@@ -216,7 +216,7 @@ impl Polhode {
     pub(crate) fn with_squares(&self, squares: [DoubleDouble; 2], momentum: f64) -> Self {
         let squares = [DoubleDouble::ZERO, squares[0], squares[1]];
         let rotation = Rotation::Squares(squares, momentum.into());
-        let given = Given { moments: self.moments, rotation, long_axis: self.long_axis };
+        let given = SortedState { moments: self.moments, rotation, long_axis: self.long_axis };
         Self { invariants: Invariants::of(&given), ..self.clone() }
     }
 
@@ -310,7 +310,7 @@ mod tests {
             let z = x * (a * (b - a) / (1.0 - b)).sqrt();
             let part = if k % 2 == 0 { 1.0 } else { -1.0 } * 10.0_f64.powi(-(k % 33));
             let (moments, rates) = ([a, b, 1.0], [x, next() - 0.5, z * (1.0 + part)]);
-            let given = Given { moments, rotation: Rotation::Rates(rates), long_axis: false };
+            let given = SortedState { moments, rotation: Rotation::Rates(rates), long_axis: false };
             let negative = Invariants::of(&given).cosine_squares[0].high < 0.0;
             assert_eq!(beyond(moments, rates), negative, "{moments:?} {rates:?}");
             long += usize::from(negative);

@@ -61,11 +61,11 @@ pub(super) struct Means {
 pub(super) fn trapezoidal(asked: &[Means], found: &mut [[DoubleDouble; 2]]) {
     static TABLES: [OnceLock<Nodes>; KEPT] = [const { OnceLock::new() }; KEPT];
     let table = |count: usize| TABLES[count / WIDEST - 1].get_or_init(|| Nodes::new(count));
-    dispatch(Arch::new(), Sums { asked, table, found });
+    dispatch(Arch::new(), NodeSums { asked, table, found });
 }
 
 /// Sums over the nodes.
-struct Sums<'a, T> {
+struct NodeSums<'a, T> {
     asked: &'a [Means],
     table: T,
     found: &'a mut [[DoubleDouble; 2]],
@@ -74,7 +74,7 @@ struct Sums<'a, T> {
 /// Partial sums of two means: high and low parts of each, by the lane of the widest vectors.
 type Partial = [[[f64; WIDEST]; 2]; 2];
 
-impl<T: Fn(usize) -> &'static Nodes> Task for Sums<'_, T> {
+impl<T: Fn(usize) -> &'static Nodes> Task for NodeSums<'_, T> {
     type Output = ();
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Solutions of averaged equations on arcs of time, which are solved when a time first needs them, and are kept.
 
-use super::polynomial::{COLUMNS, Column, Polynomial};
+use super::polynomial::{COLUMNS, Column, PiecePolynomial};
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::{Lanes, WIDEST};
@@ -19,7 +19,7 @@ pub(crate) trait Averaged {
 pub(crate) struct SolvedArc {
     pub(crate) from: f64,
     pub(crate) length: f64,
-    pub(crate) solution: Polynomial,
+    pub(crate) solution: PiecePolynomial,
 }
 
 impl SolvedArc {

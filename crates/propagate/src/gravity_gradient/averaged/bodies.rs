@@ -13,7 +13,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use pulp::Arch;
 
 use super::arcs::{Arcs, Averaged, SolvedArc};
-use super::polynomial::{Column, NODES, POINTS, PointByPoint, Polynomial};
+use super::polynomial::{Column, NODES, POINTS, PiecePolynomial, PointByPoint};
 use crate::gravity_gradient::orbit::elliptic_motion::Course;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
@@ -76,7 +76,7 @@ impl Averaged for BodiesEquations {
         let times = NODES.map(|x| sign * (from + half * (1.0 + x)));
         let torques = dispatch(Arch::new(), Torques { pulls: &self.pulls, times });
         let slope = |i: usize, frame: &Quaternion<f64>| self.slope(torques.iter().map(|body| &body[i]), frame);
-        SolvedArc { from, length, solution: Polynomial::solved(sign * half, (-1.0, start), &PointByPoint(slope)) }
+        SolvedArc { from, length, solution: PiecePolynomial::solved(sign * half, (-1.0, start), &PointByPoint(slope)) }
     }
 }
 

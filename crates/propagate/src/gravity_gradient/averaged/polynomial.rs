@@ -117,7 +117,7 @@ impl<F: Fn(usize, &Quaternion<f64>) -> Column> AveragedEquations for PointByPoin
 
 /// The coefficients of a polynomial in the place in one interval, from −1 to 1.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Polynomial {
+pub(crate) struct PiecePolynomial {
     coefficients: [Column; POINTS],
     terms: usize,
 }
@@ -238,7 +238,7 @@ fn combined<S: InstructionSet>(
     sums
 }
 
-impl Polynomial {
+impl PiecePolynomial {
     /// The solution that passes through a column at a place of the interval, from −1 to 1. `half` is half the length of the interval.
     pub(crate) fn solved(half: f64, (place, start): (f64, &Column), equations: &impl AveragedEquations) -> Self {
         let columns = dispatch(pulp::Arch::new(), Solve { half, place, start, equations });

@@ -9,7 +9,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::arcs::{Arcs, Averaged, SolvedArc};
 use super::averaged_orbit::AveragedOrbit;
-use super::polynomial::{Column, PointByPoint, Polynomial};
+use super::polynomial::{Column, PiecePolynomial, PointByPoint};
 use crate::gravity_gradient::second_order::k2_orbit_mean::{OrbitAverage, OrbitPeriodic};
 use crate::numerics::phase::Phase;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
@@ -119,7 +119,7 @@ impl Averaged for PrecessionEquations {
             let [anomaly, longitude] = slopes.phases.map(|rate| rate * self.unit);
             [change.i, change.j, change.k, change.w, anomaly, longitude]
         };
-        let solution = Polynomial::solved(sign * 0.5 * self.length, (-1.0, start), &PointByPoint(slope));
+        let solution = PiecePolynomial::solved(sign * 0.5 * self.length, (-1.0, start), &PointByPoint(slope));
         SolvedArc { from, length: self.length, solution }
     }
 }

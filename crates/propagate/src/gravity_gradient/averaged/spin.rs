@@ -7,7 +7,7 @@ use nalgebra::UnitQuaternion;
 
 use super::arcs::{Chain, MOST};
 use super::averaged_orbit::AveragedOrbit;
-use super::polynomial::{AtPoints, AveragedEquations, COLUMNS, Column, NODES, Polynomial};
+use super::polynomial::{AtPoints, AveragedEquations, COLUMNS, Column, NODES, PiecePolynomial};
 use crate::gravity_gradient::orbit::elliptic_motion::When;
 use crate::gravity_gradient::second_order::k2::{DisturberLanes, dot};
 use crate::simd::complex_quaternion::QuaternionLanes;
@@ -97,9 +97,9 @@ pub(crate) struct Spin {
     count: i64,
     /// The piece that contains the epoch, counted from the pericentre before the epoch.
     first: i64,
-    epoch: Polynomial,
+    epoch: PiecePolynomial,
     /// The solved pieces after the epoch's piece, and before it.
-    kept: Arc<[Chain<Polynomial>; 2]>,
+    kept: Arc<[Chain<PiecePolynomial>; 2]>,
 }
 
 impl Spin {
@@ -152,7 +152,7 @@ impl Spin {
     }
 
     #[cold]
-    fn solved(&self, side: usize, index: usize) -> &Polynomial {
+    fn solved(&self, side: usize, index: usize) -> &PiecePolynomial {
         let (step, end) = if side == 0 { (1, 1.0) } else { (-1, -1.0) };
         self.kept[side].get_or_compute(index, |index, last| {
             let start = last.unwrap_or(&self.epoch).at(end);
@@ -173,8 +173,8 @@ fn piece<S: InstructionSet>(count: i64, when: &When<S>) -> (Lanes<S>, Lanes<S>) 
 }
 
 /// The solution in a piece that passes through `start` at a place of the piece.
-fn in_piece(ellipse: &AveragedOrbit, (count, number): (i64, i64), place: f64, start: &Column) -> Polynomial {
+fn in_piece(ellipse: &AveragedOrbit, (count, number): (i64, i64), place: f64, start: &Column) -> PiecePolynomial {
     let circles = &CIRCLES[usize::from(count != FEWEST_PIECES)];
     let [sine, cosine] = &circles[number.rem_euclid(count) as usize]; // 0 ≤ number < count
-    Polynomial::solved(PI / count as f64, (place, start), &Piece { ellipse, sine, cosine })
+    PiecePolynomial::solved(PI / count as f64, (place, start), &Piece { ellipse, sine, cosine })
 }

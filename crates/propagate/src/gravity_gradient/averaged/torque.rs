@@ -12,7 +12,7 @@ use crate::gravity_gradient::orbit::elliptic_orbit::{Demand, EllipticOrbit};
 use crate::gravity_gradient::request::Request;
 use crate::gravity_gradient::second_order::k2_remainder::SteadyRates;
 use crate::gravity_gradient::second_order::mean_elements;
-use crate::gravity_gradient::terms::term::Response;
+use crate::gravity_gradient::terms::term::Sensitivity;
 use crate::input::options::Level;
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::InstructionSet;
@@ -70,7 +70,7 @@ impl Averages {
     /// The error by the average over the orbit \[rad\]: of second order in the precession κ_o in one radian of the orbit, in second order of third.
     pub(crate) fn over_orbit_error(
         &self,
-        response: &Response,
+        response: &Sensitivity,
         inertia: &Inertia,
         demand: &Demand<'_>,
         level: Level,

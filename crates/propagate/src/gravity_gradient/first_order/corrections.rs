@@ -28,7 +28,7 @@ use crate::gravity_gradient::orbit::derivatives::ORDERS;
 use crate::gravity_gradient::orbit::elliptic_motion::fixed;
 use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 use crate::gravity_gradient::terms::regime::{Regime, Regimes, Terms};
-use crate::gravity_gradient::terms::term::Response;
+use crate::gravity_gradient::terms::term::Sensitivity;
 use crate::gravity_gradient::terms::term::SizedTerm;
 use crate::input::options::Level;
 use crate::numerics::C64;
@@ -205,6 +205,6 @@ fn axial_omitted(inertia: &Inertia, demand: &Demand<'_>) -> [f64; 2] {
 }
 
 /// Lower estimate of the second-order change of the attitude over a time \[rad\].
-fn second_order(size: f64, response: &Response, duration: f64) -> f64 {
+fn second_order(size: f64, response: &Sensitivity, duration: f64) -> f64 {
     size * size * (1.0 + 0.1 * response.by_momentum * duration)
 }

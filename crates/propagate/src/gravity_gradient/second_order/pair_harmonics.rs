@@ -215,6 +215,12 @@ pub(crate) fn inverse(divisor: f64, duration: f64) -> f64 {
     }
 }
 
+/// The time over which a harmonic acts without returning.
+pub(crate) fn unreturned(divisor: f64, duration: f64) -> f64 {
+    let turn = 0.5 * divisor * duration;
+    duration * (-turn * turn).exp()
+}
+
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;

@@ -14,7 +14,7 @@
 //! frequencies together. Pairs for which two terms of χ are not enough are summed around the orbit ([`crate::gravity_gradient::second_order::pairs_around`]).
 
 use super::CUTOFF;
-use super::pair_harmonics::{Near, Split, inverse};
+use super::pair_harmonics::{Near, Split, inverse, unreturned};
 use super::pair_terms::{PairTerm, Stand};
 use super::pairs_around;
 use super::pairs_around::{Around, Total};
@@ -106,6 +106,8 @@ impl Actions {
             let source = stand.source(a, b);
             if a.single && b.single {
                 chi = source * inverse(omega, stand.duration) * -0.5;
+                let left = 0.5 * factor * source.norm() * unreturned(omega, stand.duration);
+                self.add_error([left * m, left * h]);
             } else {
                 let change = stand.bracket(a, &torque[1], b, &wave[0]) + stand.bracket(a, &torque[0], b, &wave[1]);
                 let total = Total { numbers: [h, m], frequency: omega };

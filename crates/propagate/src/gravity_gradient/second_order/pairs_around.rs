@@ -6,7 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::CUTOFF;
-use super::pair_harmonics::{Near, Parts, Split, inverse};
+use super::pair_harmonics::{Near, Parts, Split, inverse, unreturned};
 use super::pair_terms::{PairTerm, Stand};
 use crate::gravity_gradient::body::contraction::{SymmetricTensor, contraction};
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
@@ -113,20 +113,21 @@ pub(crate) fn actions(
     let steps: Vec<C64> = turn(-1).collect();
     let mut actions = [[0.0; 2]; 2];
     for (Total { numbers: [h, m], frequency }, source) in totals.iter().zip(&sources) {
-        let (mut sum, mut size) = (C64::default(), 0.0);
+        let (mut sum, mut left) = (C64::default(), 0.0);
         let waves = turn(highest).zip(&points).zip(source).map(|((turn, point), value)| value * turn * point.weight);
         let mut waves: Vec<C64> = waves.collect();
         for j in -highest..=highest {
             let harmonic: C64 = waves.iter().sum();
-            let part = harmonic * inverse(frequency + f64::from(j) * around.mean_motion, stand.duration);
+            let divisor = frequency + f64::from(j) * around.mean_motion;
+            let part = harmonic * inverse(divisor, stand.duration);
             sum += part;
-            size += part.norm_sqr().sqrt();
+            left += SOURCE_CHANGE * part.norm() + harmonic.norm() * unreturned(divisor, stand.duration);
             waves.iter_mut().zip(&steps).for_each(|(wave, step)| *wave *= step);
         }
         // With X = Σ_j S_j/(Ω + jn), M changes by −m Re X and L by −h Re X.
         for (i, number) in [*m, *h].into_iter().enumerate() {
             actions[0][i] -= number * sum.re;
-            actions[1][i] += SOURCE_CHANGE * number.abs() * size;
+            actions[1][i] += number.abs() * left;
         }
     }
     actions

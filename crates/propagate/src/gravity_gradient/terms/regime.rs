@@ -11,7 +11,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::divisors::{AverageShift, Divisors, multiple_of, returns};
-use super::term::{Response, SLOW_RATIO, SizedTerm, Term};
+use super::term::{SLOW_RATIO, Sensitivity, SizedTerm, Term};
 use crate::error::Error;
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
@@ -58,7 +58,7 @@ pub(crate) struct Terms {
     pub(crate) all: Vec<SizedTerm>,
     /// Those that the level omits.
     pub(crate) omitted: Vec<SizedTerm>,
-    pub(crate) response: Response,
+    pub(crate) response: Sensitivity,
     /// Largest change of the frequencies of the torque by the rates of node and pericentre.
     turning: f64,
     /// The largest rate of twice the true anomaly, at the pericentre, and of the axes.
@@ -72,7 +72,7 @@ impl Terms {
         let Demand { level, rates, envelope, .. } = *demand;
         let turning = 2.0 * (rates[0].abs() + rates[1].abs());
         let fastest = envelope.fastest + turning;
-        let response = Response::new(inertia);
+        let response = Sensitivity::new(inertia);
         let scale = 4.0 * demand.strength() * envelope.span[0] / inertia.momentum;
         let sized = |function: fn(Level, &Inertia, i32, i32) -> (f64, f64)| -> Vec<_> {
             let of_level = |term: Term| (term, function(level, inertia, term.multiple, term.harmonic));

@@ -5,7 +5,7 @@ use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
 
 /// The factors of one mean motion.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Response {
+pub(crate) struct Sensitivity {
     /// Largest turn of the attitude for a unit change of p \[rad\]: √2 for an axisymmetric body at J = 0, and √(2ω) near B = C.
     pub(crate) gain: f64,
     /// Turn of the attitude for a unit change of ℓ′.
@@ -17,7 +17,7 @@ pub(crate) struct Response {
     pub(crate) sigma: f64,
 }
 
-impl Response {
+impl Sensitivity {
     /// The factors from the series of a and b.
     pub(crate) fn new(inertia: &Inertia) -> Self {
         let sigma = inertia.sigma;
@@ -170,7 +170,7 @@ impl SizedTerm {
         term: Term,
         function: (f64, f64),
         inertia: &Inertia,
-        (response, scale): (&Response, f64),
+        (response, scale): (&Sensitivity, f64),
     ) -> Option<Self> {
         let term = Term { function: [function.0, function.1, term.function[2]], ..term };
         let [value, slope, _] = term.function.map(f64::abs);

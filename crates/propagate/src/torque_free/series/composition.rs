@@ -1,6 +1,6 @@
 //! The Fourier coefficients of the quaternion of theory §8, from those of w and y − y′.
 
-use super::tables::Expansion;
+use super::tables::FourierExpansion;
 use crate::torque_free::harmonics::CayleyKleinSeries;
 
 /// Grid points in a period for each order. The products of theory §8 have more than the 2N+1 harmonics of ζ. Aliasing from beyond eight times the order is
@@ -11,14 +11,14 @@ const GRID_PER_ORDER: usize = 8;
 ///
 /// Both axes are stored. If they were computed as sum and difference of the parts of w and w̄ in ζ, the short axis would lose half its digits at β → 1.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ellipse {
+pub(crate) struct WobbleEllipse {
     /// The axis of X, √(2ω).
     pub(crate) long: f64,
     /// The axis of x, √(2/ω).
     pub(crate) short: f64,
 }
 
-impl Ellipse {
+impl WobbleEllipse {
     /// The ellipse from ω² = (C/A − 1)/(C/B − 1) ≥ 1 (theory §1).
     pub(crate) fn new(omega_square: f64) -> Self {
         let omega = omega_square.sqrt();
@@ -33,7 +33,7 @@ impl Ellipse {
 
 /// w/√M and y − y′ at an angle ℓ′; `trigonometry(h)` returns (sin hℓ′, cos hℓ′).
 pub(crate) fn oscillator_and_longitude(
-    expansion: &Expansion,
+    expansion: &FourierExpansion,
     trigonometry: impl Fn(usize) -> (f64, f64),
 ) -> ([f64; 2], f64) {
     let order = expansion.longitude.len();
@@ -50,7 +50,7 @@ pub(crate) fn oscillator_and_longitude(
 }
 
 /// Samples the composition of theory §8 over a quarter period and computes its harmonics.
-pub(crate) fn harmonics(expansion: &Expansion, ellipse: Ellipse) -> CayleyKleinSeries {
+pub(crate) fn harmonics(expansion: &FourierExpansion, ellipse: WobbleEllipse) -> CayleyKleinSeries {
     let order = expansion.longitude.len();
     let period = (GRID_PER_ORDER * (order + 1)).next_power_of_two();
     let quarter = period / 4;
@@ -77,8 +77,8 @@ pub(crate) fn harmonics(expansion: &Expansion, ellipse: Ellipse) -> CayleyKleinS
 
 /// a e^(−iy′/2) and b e^(−iy′/2) by theory §8.
 fn composed(
-    expansion: &Expansion,
-    ellipse: Ellipse,
+    expansion: &FourierExpansion,
+    ellipse: WobbleEllipse,
     trigonometry: impl Fn(usize) -> (f64, f64),
 ) -> ([f64; 2], [f64; 2]) {
     let (w, longitude) = oscillator_and_longitude(expansion, trigonometry);

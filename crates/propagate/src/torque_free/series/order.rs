@@ -1,7 +1,7 @@
 //! The order of the series: the lowest one whose truncation error meets its share of the tolerance. A first estimate needs no expansion (theory §5).
 
-use super::composition::{Ellipse, oscillator_and_longitude};
-use super::tables::{Expansion, SeriesTables};
+use super::composition::{WobbleEllipse, oscillator_and_longitude};
+use super::tables::{FourierExpansion, SeriesTables};
 use crate::error::Error;
 use crate::input::options::MAX_ORDER;
 use crate::input::scene::Scene;
@@ -26,9 +26,9 @@ pub(crate) fn first_order(ratio: f64, tolerance: f64) -> Option<usize> {
 /// The series of one order, with its truncation error.
 pub(crate) struct Expanded {
     pub(crate) order: usize,
-    pub(crate) expansion: Expansion,
+    pub(crate) expansion: FourierExpansion,
     pub(crate) secular: Secular,
-    pub(crate) ellipse: Ellipse,
+    pub(crate) ellipse: WobbleEllipse,
     /// Truncation error \[rad\].
     pub(crate) truncation: f64,
 }
@@ -56,7 +56,7 @@ pub(crate) fn expanded(
         let secular = if fixed { Secular::truncated(polhode, tables.polynomials(order)?) } else { *exact };
         let expansion = tables.expand(order, secular.kappa_sigma, polhode.invariants.kappa);
         let [first, second] = polhode.invariants.excesses;
-        let ellipse = Ellipse::new((first / second).to_f64());
+        let ellipse = WobbleEllipse::new((first / second).to_f64());
         let truncation = truncation(&expansion, ellipse, ratio, mode);
         if (fixed && ratio < 1.0) || truncation <= TRUNCATION_SHARE * target {
             return Ok(Expanded { order, expansion, secular, ellipse, truncation });
@@ -79,7 +79,7 @@ pub(crate) fn expanded(
 ///
 /// Hence the factor 4 (with 2, some errors at orders 1 and 2 exceed the bound by up to a fifth). Terms grow at most linearly before they fall, like those of S
 /// for β → 0: Σ_{n>N} n rⁿ = N rᴺ [r/(1−r) + r/(N(1−r)²)].
-fn truncation(expansion: &Expansion, ellipse: Ellipse, ratio: f64, mode: Mode) -> f64 {
+fn truncation(expansion: &FourierExpansion, ellipse: WobbleEllipse, ratio: f64, mode: Mode) -> f64 {
     match mode {
         Mode::Axisymmetric => 0.0,
         _ => {
@@ -94,7 +94,7 @@ fn truncation(expansion: &Expansion, ellipse: Ellipse, ratio: f64, mode: Mode) -
 ///
 /// ℓ = 0, π/2, … are fixed points by symmetry, so the root is in the quadrant of the target. Regula falsi finds a root of the cross product and stays within
 /// its bracket. If one end stays twice, its value is halved (the Illinois rule), so that both ends move.
-pub(crate) fn initial_anomaly(expansion: &Expansion, target: [f64; 2]) -> f64 {
+pub(crate) fn initial_anomaly(expansion: &FourierExpansion, target: [f64; 2]) -> f64 {
     let folded = [target[0].abs(), target[1].abs()];
     let cross = |angle: f64| {
         let (w, _) = oscillator_and_longitude(expansion, |h| (h as f64 * angle).sin_cos());

@@ -29,7 +29,7 @@ pub(crate) struct Tables {
 
 /// Fourier coefficients in ℓ′ for one motion.
 #[derive(Clone, Debug)]
-pub(crate) struct Expansion {
+pub(crate) struct FourierExpansion {
     /// Coefficients of e^(ihℓ′) in w/√M, for h = −(2N+1), −(2N−1), … 2N+1.
     pub(crate) oscillator: Vec<f64>,
     /// Coefficients of sin 2kℓ′ in y − y′, for k = 1 … N, at index k − 1.
@@ -70,7 +70,7 @@ impl Tables {
     }
 
     /// The Fourier coefficients of orders 0 to `order` at s = κσ; `order` must not exceed the order of the tables.
-    pub(crate) fn expand(&self, order: usize, kappa_sigma: f64, kappa: f64) -> Expansion {
+    pub(crate) fn expand(&self, order: usize, kappa_sigma: f64, kappa: f64) -> FourierExpansion {
         let root = (kappa_sigma / kappa).sqrt();
         let mut oscillator = vec![0.0; 2 * order + 2];
         let mut longitude = vec![0.0; order];
@@ -95,7 +95,7 @@ impl Tables {
                 last_order += if n == order { c.abs() } else { 0.0 };
             }
         }
-        Expansion { oscillator, longitude, last_order }
+        FourierExpansion { oscillator, longitude, last_order }
     }
 }
 
