@@ -1,8 +1,8 @@
 //! Source text in C, Rust, Python and JavaScript: one printer a language.
 //!
-//! A [`Printer`] writes the head of a file and its constants. Inside the crate, the printers of C, Rust and Python also write functions whose body is a list of
-//! assignments (`RoutinePrinter`, `routine`, `program`). The text is the same in every run and contains no date. Numbers are written with the fewest digits that are read back to the
-//! same bits.
+//! A [`Printer`] writes the head of a file and its constants. Inside the crate, the printers of C, Rust and Python also write functions whose body is a list
+//! of assignments (`RoutinePrinter`, `routine`, `program`). The text is the same in every run and contains no date. Numbers are written with the fewest digits
+//! that are read back to the same bits.
 //!
 //! ```
 //! use andoyer_series::print::{C, Constant, Numbers, Printer, Python};

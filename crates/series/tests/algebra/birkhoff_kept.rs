@@ -332,3 +332,11 @@ fn code_has_a_function_for_each_task_in_each_language() -> Result<(), Error> {
     assert!(floats()?[0].to_code(Language::C)?.contains("void frequencies(const double actions[3], double rates[3])"));
     Ok(())
 }
+
+#[test]
+fn the_head_of_the_code_counts_its_assignments() -> Result<(), Error> {
+    let text = elastic(2)?.to_code(Language::Python)?;
+    let assignments = text.lines().filter(|line| line.starts_with("    ") && line.contains(" = ")).count();
+    assert!(text.contains(&format!("\n{assignments} assignments.")), "{assignments}: {text}");
+    Ok(())
+}
