@@ -7,7 +7,7 @@
 //!    errors of the mean M and L at the epoch;
 //! 3. what is not corrected of terms in resonance ([`crate::gravity_gradient::terms::regime`]).
 //!
-//! Each has one safety factor below. Dropped terms, truncated sums, terms that the level omits, the average over the orbit, and rounding follow.
+//! Each part has one safety factor below. Dropped terms, truncated sums, terms that the level omits, the average over the orbit, and rounding follow.
 //! `gradient safety` of the test crate measures the factors against integrations.
 
 use std::f64::consts::TAU;
@@ -24,11 +24,11 @@ use crate::gravity_gradient::terms::term::Sensitivity;
 use crate::input::options::{Averaging, Level};
 
 /// Safety factor of the periodic change of the next order.
-const PERIODIC: f64 = 6.0;
+const PERIODIC: f64 = 5.0;
 /// Safety factor of the drift of the next order.
-const DRIFT: f64 = 4.0;
-/// Safety factor of the terms in resonance, whose upper estimates are added up although they act in different senses.
-const RESONANT: f64 = 0.3;
+const DRIFT: f64 = 3.2;
+/// Safety factor of the terms in resonance.
+const RESONANT: f64 = 1.5;
 /// Safety factor of the average over the orbit.
 const ORBIT: f64 = 1.5;
 /// Number of orbits on each side of the epoch for which quarters are kept.

@@ -194,7 +194,7 @@ impl<'a> Regimes<'a> {
         (-0.25 * (distance * self.demand.duration).powi(2)).exp()
     }
 
-    /// The turn by all terms together, from the turn by each.
+    /// The turn by all terms together, from the turn by each: their phases are independent, so the squares add up.
     ///
     /// # Errors
     /// [`Error::Resonance`] if the turn is more than [`REFUSAL_FACTOR`] times `allowed`, or that of one term more than [`LARGEST_EFFECT`] although the orbit has
@@ -204,16 +204,17 @@ impl<'a> Regimes<'a> {
         effects: impl Iterator<Item = (&'t SizedTerm, f64)>,
         allowed: f64,
     ) -> Result<f64, Error> {
-        let (mut sum, mut largest) = (0.0, None::<(&SizedTerm, f64)>);
+        let (mut sum, mut squares, mut largest) = (0.0, 0.0, None::<(&SizedTerm, f64)>);
         for (term, effect) in effects {
             sum += effect;
+            squares += effect * effect;
             // Of two terms with the same effect, the one nearer to the commensurability is named.
             let nearer = |other: &SizedTerm| self.slow_distance(term) < self.slow_distance(other);
             if largest.is_none_or(|(other, most)| effect > most || (effect == most && nearer(other))) {
                 largest = Some((term, effect));
             }
         }
-        let Some((term, most)) = largest else { return Ok(sum) };
+        let Some((term, most)) = largest else { return Ok(0.0) };
         let refused = |effect: f64, limit: f64| Error::Resonance {
             harmonic: term.term.harmonic,
             multiple: term.term.multiple,
@@ -225,7 +226,7 @@ impl<'a> Regimes<'a> {
         if self.demand.series.is_some() && most > LARGEST_EFFECT {
             return Err(refused(most, LARGEST_EFFECT));
         }
-        if sum > REFUSAL_FACTOR * allowed { Err(refused(sum, REFUSAL_FACTOR * allowed)) } else { Ok(sum) }
+        if sum > REFUSAL_FACTOR * allowed { Err(refused(sum, REFUSAL_FACTOR * allowed)) } else { Ok(squares.sqrt()) }
     }
 
     /// The divisors of a term in the orbit's harmonics.
