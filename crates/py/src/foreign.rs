@@ -1,6 +1,6 @@
 //! Values of other packages: quantities and times of astropy, rotations of SciPy.
 //!
-//! This module imports none of these packages. It passes a value that looks like one of theirs to `andoyer._foreign`. Lists, tuples, floats and plain arrays,
+//! This module imports none of these packages. It passes a value that looks like one of theirs to `andoyer.interop._foreign`. Lists, tuples, floats and plain arrays,
 //! the usual arguments, are recognized by their type.
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,7 +27,7 @@ pub(crate) fn plain<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<
     if !usual && !looks_foreign(value)? {
         return Ok(value.clone());
     }
-    py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "plain"))?.call1((argument, value))
+    py.import(intern!(py, "andoyer.interop._foreign"))?.getattr(intern!(py, "plain"))?.call1((argument, value))
 }
 
 fn looks_foreign(value: &Bound<'_, PyAny>) -> PyResult<bool> {
@@ -75,7 +75,7 @@ fn first_of<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>
     Ok((!number && !first.is(value)).then_some(first))
 }
 
-/// A Time of astropy: its Julian date in two doubles, the index of its scale in `andoyer._foreign.SCALES`, and its location \[m\], which TDB depends on.
+/// A Time of astropy: its Julian date in two doubles, the index of its scale in `andoyer.interop._foreign.SCALES`, and its location \[m\], which TDB depends on.
 pub(crate) type Calendar = ([f64; 2], u8, Option<[f64; 3]>);
 
 /// Times relative to epochs: in seconds, as given, and with the given shape.
@@ -95,7 +95,7 @@ pub(crate) fn since<'py>(
         return Ok(None);
     }
     let py = value.py();
-    let since = py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "since"))?;
+    let since = py.import(intern!(py, "andoyer.interop._foreign"))?.getattr(intern!(py, "since"))?;
     Ok(Some(since.call1((argument, value, epochs.to_vec()))?.extract()?))
 }
 
@@ -110,7 +110,7 @@ pub(crate) fn instants<'py>(
         return Ok(None);
     }
     let py = value.py();
-    let instants = py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "instants"))?;
+    let instants = py.import(intern!(py, "andoyer.interop._foreign"))?.getattr(intern!(py, "instants"))?;
     instants.call1((argument, value, vec![epoch])).map(Some)
 }
 
@@ -120,7 +120,7 @@ pub(crate) fn epochs<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult
         return Ok((value.clone(), Vec::new()));
     }
     let py = value.py();
-    let epochs = py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "epochs"))?;
+    let epochs = py.import(intern!(py, "andoyer.interop._foreign"))?.getattr(intern!(py, "epochs"))?;
     epochs.call1((argument, value))?.extract()
 }
 
@@ -132,13 +132,13 @@ pub(crate) fn later<'py>(
     seconds: f64,
 ) -> PyResult<(Bound<'py, PyAny>, Vec<Calendar>)> {
     let start = since_epoch.then_some(epoch);
-    let later = py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "later"))?;
+    let later = py.import(intern!(py, "andoyer.interop._foreign"))?.getattr(intern!(py, "later"))?;
     epochs("epoch", &later.call1((start, seconds))?)
 }
 
 /// Epochs as Times of astropy.
 pub(crate) fn calendar<'py>(py: Python<'py>, epochs: &[Calendar]) -> PyResult<Bound<'py, PyAny>> {
-    py.import(intern!(py, "andoyer._foreign"))?.getattr(intern!(py, "calendar"))?.call1((epochs.to_vec(),))
+    py.import(intern!(py, "andoyer.interop._foreign"))?.getattr(intern!(py, "calendar"))?.call1((epochs.to_vec(),))
 }
 
 /// The message for a date of Python or NumPy, which has no time scale; None for any other value.

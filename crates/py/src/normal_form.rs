@@ -252,7 +252,7 @@ impl NormalForm {
     #[pyo3(signature = (what="hamiltonian"))]
     fn to_sympy<'py>(slf: &Bound<'py, Self>, what: &str) -> PyResult<Bound<'py, PyAny>> {
         let _: Part = what.parse().map_err(error::algebra_as("what"))?;
-        slf.py().import("andoyer._symbolic")?.call_method1("expressions", (slf, what))
+        slf.py().import("andoyer.interop._symbolic")?.call_method1("expressions", (slf, what))
     }
 
     /// Writes a source file with a function that evaluates the direct transformation and the frequencies to this order.

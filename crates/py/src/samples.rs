@@ -134,7 +134,7 @@ impl Samples {
     /// ImportError
     ///     pandas is not installed; ``pip install pandas`` installs it.
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("andoyer._frames")?.call_method1("pandas", (slf,))
+        slf.py().import("andoyer.interop._frames")?.call_method1("pandas", (slf,))
     }
 
     /// Converts the samples to an xarray data set: attitude and angular_velocity by (member,) time, and quaternion or axis. This method imports xarray.
@@ -150,7 +150,7 @@ impl Samples {
     /// ImportError
     ///     xarray is not installed; ``pip install xarray`` installs it.
     fn to_xarray<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("andoyer._frames")?.call_method1("xarray", (slf,))
+        slf.py().import("andoyer.interop._frames")?.call_method1("xarray", (slf,))
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Parts)> {

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import andoyer
-from andoyer import _terminal, output
-from andoyer.cli import EXAMPLES, main, parser
+from andoyer import output
+from andoyer.cli import EXAMPLES, _terminal, main, parser
 
 COLUMNS = "t,qx,qy,qz,qw,wx,wy,wz"
 

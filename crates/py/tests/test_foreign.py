@@ -150,7 +150,7 @@ import sys, numpy, andoyer
 body = andoyer.Body(numpy.array([1.0, 1.5, 2.0]))
 motion = andoyer.Scene(body, [0, 0, 0, 1], (0.1, 0.2, 1.0), epoch=1, orbit=None).solve()
 motion.at(range(3)); motion.at(numpy.float32(1)); motion.attitude([1, 2])
-sys.exit(bool({'scipy', 'astropy', 'pandas', 'xarray', 'andoyer._foreign'} & set(sys.modules)))
+sys.exit(bool({'scipy', 'astropy', 'pandas', 'xarray', 'andoyer.interop._foreign'} & set(sys.modules)))
 """
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 

@@ -2,7 +2,6 @@
 
 import ast
 import inspect
-import pydoc
 import subprocess
 import sys
 from pathlib import Path
@@ -40,30 +39,9 @@ def test_names_users_rely_on_are_there(owner):
 
 
 def test_all_lists_everything_public_and_nothing_else():
-    modules = {"cli", "fit", "jax", "mean", "output", "plot", "selftest"}
-    assert public(andoyer.__all__) == public(vars(andoyer)) - modules - aliases()
+    modules = {"cli", "fit", "interop", "jax", "mean", "output", "plot", "selftest"}
+    assert public(andoyer.__all__) == public(vars(andoyer)) - modules
     assert andoyer.__all__ == sorted(andoyer.__all__)
-
-
-def aliases():
-    """Old names of errors, which are no classes of their own."""
-    return {name for name, value in vars(andoyer).items() if name.endswith("Error") and value.__name__ != name}
-
-
-def test_old_names_of_errors_are_aliases_that_help_does_not_print():
-    assert len(aliases()) == 27 and not aliases() & set(andoyer.__all__)
-    assert andoyer.MomentsError is andoyer.InputError and andoyer.TorqueError is andoyer.TheoryError
-    assert andoyer.SceneFileError is andoyer.FileError and andoyer.UnitsError is andoyer.RepresentationError
-    # Old classes that held errors of several new ones.
-    assert {name for name in aliases() if getattr(andoyer, name) is andoyer.Error} == {
-        "AveragingError",
-        "HamiltonianError",
-        "OrderError",
-        "ResonanceError",
-        "SeriesError",
-        "TimesError",
-    }
-    assert not [name for name in aliases() if name in pydoc.render_doc(andoyer, renderer=pydoc.plaintext)]
 
 
 def test_every_exception_is_an_error_and_a_value_error():

@@ -48,35 +48,6 @@ from andoyer._core import (
 )
 from andoyer.mean import Frequencies, Periods, PeriodsOfMembers
 
-# Old names of the errors, which the next release removes. Where an old class had errors of several new classes, its name now means the base class.
-AngularVelocityError = InputError
-AttitudeError = InputError
-AveragingError = Error
-EpochError = InputError
-FormatError = FileError
-HamiltonianError = Error
-IntervalError = InputError
-LevelError = InputError
-MethodError = InputError
-MomentsError = InputError
-OrbitError = InputError
-OrderError = Error
-PeriodsError = InputError
-ResonanceError = Error
-SceneFileError = FileError
-SeparatrixError = TheoryError
-SeriesError = Error
-ShapeError = InputError
-SpanError = InputError
-SpinResonanceError = TheoryError
-ThreadsError = InputError
-TimesError = Error
-ToleranceError = InputError
-TorqueError = TheoryError
-UnitsError = RepresentationError
-UnknownBodyError = InputError
-UnknownNameError = InputError
-
 __all__ = [
     "BirkhoffNormalForm",
     "Body",

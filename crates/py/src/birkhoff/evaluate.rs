@@ -222,7 +222,7 @@ impl BirkhoffNormalForm {
         let map = form.map(py, parameters)?;
         let (given, shape) = (fixed_length("state", state, n)?, Times::new(times, None, false)?);
         if !map.is_integrable() {
-            return py.import("andoyer._flow")?.call_method1("trajectory", (slf, given, times, parameters));
+            return py.import("andoyer.interop._flow")?.call_method1("trajectory", (slf, given, times, parameters));
         }
         let result = shape.rows(n)?;
         let states = row_by_row(py, shape.values()?, 1, |times| map.trajectory(&given, times))?;

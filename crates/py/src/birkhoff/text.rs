@@ -43,7 +43,7 @@ impl BirkhoffNormalForm {
     #[pyo3(signature = (what="hamiltonian"))]
     fn to_sympy<'py>(slf: &Bound<'py, Self>, what: &str) -> PyResult<Bound<'py, PyAny>> {
         let _: Part = what.parse().map_err(error::algebra_as("what"))?;
-        slf.py().import("andoyer._symbolic")?.call_method1("birkhoff", (slf, what, &slf.get().symbols))
+        slf.py().import("andoyer.interop._symbolic")?.call_method1("birkhoff", (slf, what, &slf.get().symbols))
     }
 
     /// Writes this normal form as JSON text with a format version: exact numbers as "p/q" strings, floats with all their digits.

@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from andoyer._core import Error, InputError, Motion, Scene
 from andoyer._extra import extra
-from andoyer._foreign import as_one, epoch_of
 from andoyer._quaternions import Array, conjugate, product
 from andoyer._refusal import refusal
 from andoyer.fit._degeneracy import undetermined
@@ -20,6 +19,7 @@ from andoyer.fit._message import composed
 from andoyer.fit._result import Fit, judged
 from andoyer.fit._rotations import inverse_left_jacobian, logarithm
 from andoyer.fit._steps import Steps
+from andoyer.interop._foreign import as_one, epoch_of
 
 Places: TypeAlias = NDArray[np.intp]
 

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from andoyer._core import Scene
-from andoyer._foreign import as_one, epoch_of, parts, plain, since
 from andoyer._quaternions import Array
 from andoyer._refusal import refusal
+from andoyer.interop._foreign import as_one, epoch_of, parts, plain, since
 
 LARGEST = 1e40
 """Bound of semi-axes, brightnesses and standard deviations: χ² and its derivatives have products of up to six of them."""

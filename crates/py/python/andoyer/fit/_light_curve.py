@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 
 from andoyer._core import Body, Ensemble, Scene
 from andoyer._extra import extra
-from andoyer._foreign import epoch_of
 from andoyer._quaternions import Array, angle_between, product
 from andoyer._refusal import refusal
 from andoyer.fit._curve import Curve, Places, States
@@ -23,6 +22,7 @@ from andoyer.fit._rotations import right_jacobian
 from andoyer.fit._scattering import axes_of, directions, law
 from andoyer.fit._search import Population, best, improve, moved, random_states, reflections, search
 from andoyer.fit._steps import LABELS, Steps, moments_of_ellipsoid
+from andoyer.interop._foreign import epoch_of
 
 POLISHED = 32
 """States that are improved to the end, of either mode half."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from andoyer._extra import extra
 from andoyer._quaternions import Array
-from andoyer._style import BLUE, GREEN, STYLE, VERMILION
+from andoyer.plot._style import BLUE, GREEN, STYLE, VERMILION
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

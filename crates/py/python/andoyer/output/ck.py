@@ -25,13 +25,13 @@ import numpy as np
 
 from andoyer._core import Motion, __version__
 from andoyer._extra import extra
-from andoyer._foreign import epoch_of, scene_times
 from andoyer._quaternions import Array, rotate
-from andoyer._record import ShortRecord
 from andoyer._refusal import refusal
+from andoyer.interop._foreign import epoch_of, scene_times
 from andoyer.output.calendar import J2000, TIME_SYSTEMS, seconds_of_tdb
 from andoyer.output.files import whole_file
 from andoyer.output.nodes import SMALLEST_ERROR, estimate, nodes, windows
+from andoyer.output.record import ShortRecord
 from andoyer.output.table import Progress, silent
 
 STEADY = ("principal-axis", "spherical", "at-rest")

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from andoyer._core import Samples
-from andoyer._foreign import plain
 from andoyer._refusal import refusal
+from andoyer.interop._foreign import plain
 
 Array: TypeAlias = NDArray[np.float64]
 

@@ -10,24 +10,24 @@ import shutil
 import sys
 import textwrap
 import warnings
-from fractions import Fraction
 from pathlib import Path
-from typing import Any, Literal, NoReturn, get_args
+from typing import Any, Literal, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
 import andoyer
-from andoyer import _reading as reading
-from andoyer import _writing as writing
 from andoyer import output
-from andoyer._arguments import MOST_SAMPLES, InputError, count, number, step, time, whole
 from andoyer._extra import extra
-from andoyer._page import page
-from andoyer._terminal import Progress, discard_stdout, flush_or_discard_stdout, named, replace_closed_streams
-from andoyer._writing import ENDINGS
+from andoyer.cli import _reading as reading
+from andoyer.cli import _writing as writing
+from andoyer.cli._arguments import MOST_SAMPLES, InputError, count, number, step, time, whole
+from andoyer.cli._series import LANGUAGES, PARTS, series
+from andoyer.cli._terminal import Progress, discard_stdout, flush_or_discard_stdout, named, replace_closed_streams
+from andoyer.cli._writing import ENDINGS
 from andoyer.output import COLUMNS, CONVENTION
 from andoyer.output.files import whole_file
+from andoyer.plot._page import page
 
 ROTATIONS = 10
 """Rotations from the epoch that are propagated if neither the scene nor the command line has a span."""
@@ -40,7 +40,6 @@ MISSED = 3
 
 PICTURES = [".png", ".svg", ".pdf", ".html"]
 COMMANDS = ["propagate", "plot", "code", "plan", "bodies", "series"]
-LANGUAGES = ["c", "rust", "python"]
 Code = Literal["c", "rust", "python", "javascript"]
 CODES: dict[str, Code] = {".c": "c", ".rs": "rust", ".py": "python", ".js": "javascript"}
 """Languages of the code of a motion, each by the ending of its files."""
@@ -66,8 +65,6 @@ andoyer series --order 10
 andoyer series --order 20 --to json > normal-form.json
 andoyer series --order 10 --to c --beta 0.3 > rotation.c""",
 }
-Part = Literal["hamiltonian", "generator", "direct", "inverse"]
-PARTS: tuple[Part, ...] = get_args(Part)
 
 
 class Parser(argparse.ArgumentParser):
@@ -381,44 +378,3 @@ def bodies(_arguments: argparse.Namespace) -> int:
         a, b, c = np.sort(body.moments)
         print(f"{name:10} {a / c:10.8f} {b / c:10.8f} {body.beta:10.8f}  {andoyer.Body.source(name)}")
     return 0
-
-
-def series(arguments: argparse.Namespace) -> int:
-    """Print the normal form: its triaxiality polynomials, or all of it in another form."""
-    for option, value, served in [("--part", arguments.part, ["latex"]), ("--beta", arguments.beta, LANGUAGES)]:
-        if value is not None and arguments.to not in served:
-            raise InputError(f"argument {option}: goes with --to {' or '.join(served)} alone, not with --to {arguments.to}")
-    progress = Progress("normal form, order")
-    try:
-        normal_form = andoyer.NormalForm(arguments.order, progress=progress if progress.visible else None)
-    finally:
-        progress.close()
-    sys.stdout.write(written(normal_form, arguments))
-    return 0
-
-
-def written(normal_form: andoyer.NormalForm, arguments: argparse.Namespace) -> str:
-    """The normal form as text in the requested format."""
-    if arguments.to == "json":
-        return normal_form.to_json() + "\n"
-    if arguments.to == "latex":
-        part: Part = arguments.part or PARTS[0]
-        return normal_form.to_latex(part)
-    if arguments.to in LANGUAGES:
-        return normal_form.to_code(arguments.to, arguments.beta)
-    lines = [f"P_{n} = {polynomial(normal_form.triaxiality_polynomial(n))}\n" for n in range(normal_form.order + 1)]
-    return "".join(lines)
-
-
-def polynomial(coefficients: dict[int, Fraction]) -> str:
-    """A polynomial in beta as text that Python and SymPy read."""
-    text = ""
-    for power, coefficient in coefficients.items():
-        sign = "-" if coefficient < 0 else "+"
-        joint = f" {sign} " if text else sign.strip("+")
-        text += joint + str(abs(coefficient)) + (f"*beta**{power}" if power else "")
-    return text or "0"
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -13,19 +13,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from andoyer._compared import clock as _clock
-from andoyer._compared import components, difference, sampled_rates
 from andoyer._core import Motion, Orbit, Samples
-from andoyer._diagrams import axes_or_new as _axes
-from andoyer._diagrams import domain, error_by_order, work_precision
-from andoyer._drawing import near_pole, on_ellipsoid, plane
-from andoyer._drawing import surface as draw_surface
 from andoyer._extra import extra
-from andoyer._film import film
-from andoyer._page import page
 from andoyer._refusal import refusal
-from andoyer._span import within_span
-from andoyer._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION, Array
+from andoyer.plot._compared import clock as _clock
+from andoyer.plot._compared import components, difference, sampled_rates
+from andoyer.plot._diagrams import axes_or_new as _axes
+from andoyer.plot._diagrams import domain, error_by_order, work_precision
+from andoyer.plot._drawing import near_pole, on_ellipsoid, plane
+from andoyer.plot._drawing import surface as draw_surface
+from andoyer.plot._film import film
+from andoyer.plot._page import page
+from andoyer.plot._span import within_span
+from andoyer.plot._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION, Array
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation

@@ -7,7 +7,7 @@ import numpy as np
 from andoyer._core import Motion
 from andoyer._extra import extra
 from andoyer._quaternions import rotate
-from andoyer._style import BLACK, BLUE, GREEN, VERMILION, Array
+from andoyer.plot._style import BLACK, BLUE, GREEN, VERMILION, Array
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation

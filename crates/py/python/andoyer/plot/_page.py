@@ -20,9 +20,9 @@ from numpy.typing import ArrayLike
 from andoyer._core import Motion, RepresentationError
 from andoyer._quaternions import angle_between
 from andoyer._refusal import refusal
-from andoyer._span import within_span
 from andoyer.output.attitude_types import derivative
 from andoyer.output.files import whole_file
+from andoyer.plot._span import within_span
 
 PERIODS = 3
 """Periods of the polhode that are shown if no interval is given."""
@@ -213,7 +213,7 @@ def _mesh(vertices: ArrayLike, faces: ArrayLike) -> dict[str, Any]:
 
 
 def _part(name: str) -> str:
-    return resources.files("andoyer").joinpath(name).read_text(encoding="utf-8")
+    return resources.files("andoyer.plot").joinpath(name).read_text(encoding="utf-8")
 
 
 def _script(value: Any) -> str:

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import andoyer
 from andoyer import output
-from andoyer._arguments import InputError, date
-from andoyer._writing import zoned
+from andoyer.cli._arguments import InputError, date
+from andoyer.cli._writing import zoned
 from andoyer.output.table import ENDINGS
 
 ATTITUDE_FILES = [".aem", ".xml", *ENDINGS]

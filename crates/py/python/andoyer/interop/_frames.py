@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from andoyer._extra import extra
-from andoyer._foreign import numbers
+from andoyer.interop._foreign import numbers
 
 if TYPE_CHECKING:
     from andoyer import Samples

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from andoyer._style import ARCSECOND, BLACK, BLUE, GREY, VERMILION, Array
+from andoyer.plot._style import ARCSECOND, BLACK, BLUE, GREY, VERMILION, Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

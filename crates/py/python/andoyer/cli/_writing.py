@@ -11,8 +11,8 @@ from typing import Any
 
 import andoyer
 from andoyer import output
-from andoyer._arguments import InputError, date, interpolation, step, whole, word, words
-from andoyer._terminal import Progress
+from andoyer.cli._arguments import InputError, date, interpolation, step, whole, word, words
+from andoyer.cli._terminal import Progress
 from andoyer.output import Heading, Kernel
 from andoyer.output.attitude_types import FROM_SAMPLES
 from andoyer.output.calendar import TIME_SYSTEMS
