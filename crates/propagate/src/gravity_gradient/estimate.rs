@@ -26,7 +26,7 @@ use crate::input::options::{Averaging, Level};
 /// Safety factor of the periodic change of the next order.
 const PERIODIC: f64 = 5.0;
 /// Safety factor of the drift of the next order.
-const DRIFT: f64 = 3.2;
+const DRIFT: f64 = 3.6;
 /// Safety factor of the terms in resonance.
 const RESONANT: f64 = 1.5;
 /// Safety factor of the average over the orbit.

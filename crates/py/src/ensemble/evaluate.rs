@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::Error as Propagation;
-use andoyer_propagate::ensemble::{Outcome, Run};
+use andoyer_propagate::ensemble::{Outcome, MembersRun};
 use andoyer_propagate::partials::Derivatives;
 use pyo3::prelude::*;
 
@@ -20,7 +20,7 @@ impl Ensemble {
     }
 
     /// How the members are evaluated at these times.
-    pub(super) fn run<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> Run<'a> {
+    pub(super) fn run<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> MembersRun<'a> {
         let run = self.0.run().until(stop);
         if since_epoch { run.since_epoch() } else { run }
     }
@@ -30,7 +30,7 @@ impl Ensemble {
         &self,
         times: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-        evaluate: impl FnOnce(Run<'_>, &[f64], &mut [[f64; N]], &AtomicBool) -> Result<Outcome, Propagation> + Send,
+        evaluate: impl FnOnce(MembersRun<'_>, &[f64], &mut [[f64; N]], &AtomicBool) -> Result<Outcome, Propagation> + Send,
     ) -> PyResult<Array<'py>> {
         let times = self.times(times)?;
         let since_epoch = times.since_epoch();
@@ -44,7 +44,7 @@ impl Ensemble {
     pub(super) fn derivatives<const N: usize>(
         &self,
         times: &Bound<'_, PyAny>,
-        fill: impl FnOnce(Run<'_>, &[f64], &mut [Derivatives<N>], &mut [Derivatives<N>]) -> Result<Outcome, Propagation>
+        fill: impl FnOnce(MembersRun<'_>, &[f64], &mut [Derivatives<N>], &mut [Derivatives<N>]) -> Result<Outcome, Propagation>
         + Send,
     ) -> PyResult<Partials> {
         let (py, times) = (times.py(), self.times(times)?);
@@ -64,7 +64,7 @@ impl Ensemble {
     pub(super) fn values<T: Send>(
         &self,
         py: Python<'_>,
-        find: impl FnOnce(Run<'_>) -> Result<T, Propagation> + Send,
+        find: impl FnOnce(MembersRun<'_>) -> Result<T, Propagation> + Send,
     ) -> PyResult<T> {
         let long = self.0.len() >= if self.0.asked_orbits().is_empty() { LONG } else { 32 };
         interruptible(py, long, error::propagation, |stop| find(self.0.run().until(stop)))
