@@ -181,8 +181,11 @@ struct Map<const N: usize> {
 }
 
 impl<const N: usize> Map<N> {
-    /// Loops over indices: compilers do not always inline iterators into code for an instruction set.
     #[inline(always)]
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "compilers do not always inline iterators into code for an instruction set"
+    )]
     fn apply(&self, derivatives: &Derivatives<N>) -> Derivatives<INERTIA_PARAMETERS> {
         let mut mapped = [[0.0; INERTIA_PARAMETERS]; 3];
         for column in 0..N {

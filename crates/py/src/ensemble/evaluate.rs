@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::Error as Propagation;
-use andoyer_propagate::ensemble::{Outcome, MembersRun};
+use andoyer_propagate::ensemble::{MembersRun, Outcome};
 use andoyer_propagate::partials::Derivatives;
 use pyo3::prelude::*;
 
@@ -44,7 +44,12 @@ impl Ensemble {
     pub(super) fn derivatives<const N: usize>(
         &self,
         times: &Bound<'_, PyAny>,
-        fill: impl FnOnce(MembersRun<'_>, &[f64], &mut [Derivatives<N>], &mut [Derivatives<N>]) -> Result<Outcome, Propagation>
+        fill: impl FnOnce(
+            MembersRun<'_>,
+            &[f64],
+            &mut [Derivatives<N>],
+            &mut [Derivatives<N>],
+        ) -> Result<Outcome, Propagation>
         + Send,
     ) -> PyResult<Partials> {
         let (py, times) = (times.py(), self.times(times)?);
