@@ -281,7 +281,7 @@ def test_domain_shrinks_with_the_order_and_the_actions_drift_as_it_says():
             drift[amplitude, order] = np.ptp(lower.actions(orbit), axis=0).max()
     assert drift[0.05, 1] > 100 * drift[0.05, 3] > 1e4 * drift[0.05, 8] > 1e6 * drift[0.05, 12], drift
     assert domain.best_order(0.4) < 4 and 5 * drift[0.4, 3] < drift[0.4, 12], drift
-    with pytest.raises(andoyer.IntervalError, match="amplitude"):
+    with pytest.raises(andoyer.InputError, match="amplitude"):
         domain.best_order(-1.0)
 
 

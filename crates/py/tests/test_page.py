@@ -13,7 +13,7 @@ from conftest import REPOSITORY
 import andoyer
 from andoyer._quaternions import angle_between, rotate
 from andoyer.cli import main
-from andoyer.plot._page import MOST_NODES, NODES, evaluator, page
+from andoyer.output.page import MOST_NODES, NODES, evaluator, page
 
 BODY = andoyer.Body([1.0, 1.5, 2.0])
 DISTURBED = {"orbit": andoyer.Orbit(1e-3, 0.1, inclination=0.5), "tolerance": 1e-3, "span": (0.0, 1000.0)}
@@ -62,7 +62,7 @@ def test_motion_without_code_is_a_table_within_its_error(rates, options, tmp_pat
 def test_error_of_a_table_is_of_fourth_order_in_its_step(monkeypatch):
     motion = solved([0.3, 0.4, 1.0], **DISTURBED)
     _, fine = evaluator(motion, 0.0, 60.0)
-    monkeypatch.setattr(andoyer.plot._page, "NODES", NODES // 2)
+    monkeypatch.setattr(andoyer.output.page, "NODES", NODES // 2)
     _, coarse = evaluator(motion, 0.0, 60.0)
     assert coarse / fine == pytest.approx(16, rel=0.05)
 

@@ -27,7 +27,7 @@ from andoyer.cli._terminal import Progress, discard_stdout, flush_or_discard_std
 from andoyer.cli._writing import ENDINGS
 from andoyer.output import COLUMNS, CONVENTION
 from andoyer.output.files import whole_file
-from andoyer.plot._page import page
+from andoyer.output.page import page
 
 ROTATIONS = 10
 """Rotations from the epoch that are propagated if neither the scene nor the command line has a span."""

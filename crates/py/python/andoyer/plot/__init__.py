@@ -16,6 +16,8 @@ from numpy.typing import ArrayLike
 from andoyer._core import Motion, Orbit, Samples
 from andoyer._extra import extra
 from andoyer._refusal import refusal
+from andoyer.output.page import page
+from andoyer.output.span import within_span
 from andoyer.plot._compared import clock as _clock
 from andoyer.plot._compared import components, difference, sampled_rates
 from andoyer.plot._diagrams import axes_or_new as _axes
@@ -23,8 +25,6 @@ from andoyer.plot._diagrams import domain, error_by_order, work_precision
 from andoyer.plot._drawing import near_pole, on_ellipsoid, plane
 from andoyer.plot._drawing import surface as draw_surface
 from andoyer.plot._film import film
-from andoyer.plot._page import page
-from andoyer.plot._span import within_span
 from andoyer.plot._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION, Array
 
 if TYPE_CHECKING:

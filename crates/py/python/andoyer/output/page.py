@@ -22,7 +22,7 @@ from andoyer._quaternions import angle_between
 from andoyer._refusal import refusal
 from andoyer.output.attitude_types import derivative
 from andoyer.output.files import whole_file
-from andoyer.plot._span import within_span
+from andoyer.output.span import within_span
 
 PERIODS = 3
 """Periods of the polhode that are shown if no interval is given."""
@@ -213,7 +213,7 @@ def _mesh(vertices: ArrayLike, faces: ArrayLike) -> dict[str, Any]:
 
 
 def _part(name: str) -> str:
-    return resources.files("andoyer.plot").joinpath(name).read_text(encoding="utf-8")
+    return resources.files("andoyer.output").joinpath(name).read_text(encoding="utf-8")
 
 
 def _script(value: Any) -> str:
