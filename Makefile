@@ -6,7 +6,7 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
+.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
@@ -127,6 +127,9 @@ rivals-gradient: $(RIVALS)/propagation $(RIVALS)/installed  ## the gravity gradi
 
 rivals-integration: $(RIVALS)/propagation $(RIVALS)/installed  ## the integrated method against heyoka, in nine regimes
 	$(RIVALS)/bin/python benches/rivals/integration.py --output out
+
+rivals-libration: $(RIVALS)/propagation $(RIVALS)/installed  ## librations against the integration and heyoka: docs/data/libration-rivals.csv; a quarter of an hour
+	$(RIVALS)/bin/python benches/rivals/libration.py --output docs/data/libration-rivals.csv
 
 rivals-partials: $(RIVALS)/propagation $(RIVALS)/installed  ## derivatives against heyoka's variational equations
 	$(RIVALS)/bin/python benches/rivals/partials.py

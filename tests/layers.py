@@ -1,4 +1,4 @@
-"""Check the imports between the files of each crate. No crate may have an import circle but those of KNOWN. A module of crates/propagate may import only from earlier layers; lib.rs lists its modules in the order of the layers.
+"""Check the imports between the files of each crate. No crate may have an import circle. A module of crates/propagate may import only from earlier layers; lib.rs lists its modules in the order of the layers.
 
     python tests/layers.py               exit status 1 for a circle or an import from a later layer
     python tests/layers.py --planted     the same check on invented crates that have one of each
@@ -23,8 +23,6 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 LAYERED = ("propagate",)
-KNOWN = {"propagate": ("error", "motion_code", "partials"), "py": ("array", "ensemble"), "series": ("birkhoff", "emit", "error", "product")}
-"""Circles of a parent and its children, by the parent, that are not yet untied. The list may only become shorter."""
 
 Imports = dict[str, set[str]]
 USE = re.compile(r"\b(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);")
@@ -202,14 +200,10 @@ def upwards(source: Path, edges: Imports) -> Iterator[str]:
 def problems(source: Path, layered: bool) -> list[str]:
     """The problems in the imports of a crate."""
     edges = Crate(source).imports()
-    found, known = [], set(KNOWN.get(source.parent.name, ()))
+    found = []
     for circle in circles(edges):
-        if circle[0] in known and all(name.startswith(f"{circle[0]}::") for name in circle[1:]):
-            known.remove(circle[0])
-            continue
         arrows = ", ".join(f"{name} -> {' '.join(sorted(edges[name] & set(circle)))}" for name in circle)
         found.append(f"{len(circle)} files in a circle: {arrows}")
-    found += [f"no circle about {name}; remove it from KNOWN" for name in sorted(known)]
     return found + (list(upwards(source, edges)) if layered else [])
 
 

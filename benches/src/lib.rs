@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use andoyer_propagate::nalgebra::{UnitQuaternion, Vector3};
 use andoyer_propagate::{Body, Method, Orbit, Scene, State};
 use criterion::Criterion;
 
@@ -31,6 +32,22 @@ pub fn disturbed(eccentricity: f64) -> Scene {
     let state = State::new(0.0, [half_sine, 0.0, 0.0, half_cosine], [0.006, 0.02, 1.0]).expect("a state");
     let orbit = Orbit::new(2e-3, eccentricity).expect("an ellipse");
     Scene::new(body, state).orbit(orbit).span(0.0, 1000.0 * std::f64::consts::TAU).method(Method::Closed)
+}
+
+/// A body that keeps its face over 1,000 orbits, with amplitudes of `degrees` in longitude and 0.6 and 0.5 of that of its pole: a triaxial body (moments 0.55, 0.8, 1) on a
+/// circle, the Moon's moments on an ellipse.
+///
+/// # Panics
+/// For an eccentricity below 0, or of 1 and more.
+pub fn locked(eccentricity: f64, degrees: f64) -> Scene {
+    let moments = if eccentricity > 0.0 { [0.99948, 0.999772, 1.0] } else { [0.55, 0.8, 1.0] };
+    let [psi, theta, phi] = [1.0, 0.6, 0.5].map(|share| share * degrees.to_radians());
+    let attitude = UnitQuaternion::from_euler_angles(phi, theta, psi);
+    let rates = attitude.inverse() * Vector3::z();
+    let state = State::new(0.0, attitude.coords.into(), rates.into()).expect("a state");
+    let orbit = Orbit::new(1.0, eccentricity).expect("an ellipse");
+    let scene = Scene::new(Body::new(moments).expect("a body"), state).orbit(orbit);
+    scene.span(0.0, 1000.0 * std::f64::consts::TAU).tolerance(1e-9).method(Method::Libration)
 }
 
 /// Bodies of many shapes: 1/16 ≤ β ≤ 15/16, C/A up to 3.

@@ -10,6 +10,8 @@ mod gradient_rates;
 mod gradient_symmetry;
 mod gravity_gradient;
 mod invariants;
+mod libration;
+mod libration_orders;
 mod limits;
 mod motion_code;
 mod numeric;

@@ -69,7 +69,7 @@ fn what_is_wrong_with_an_orbit_is_named_with_its_bound() {
     let cases = [
         ("mean_motion = 2e-4", "mean_motion = 0", "orbit.mean_motion", "positive"),
         ("mean_motion = 2e-4\n", "", "orbit.mean_motion", "is missing"),
-        ("eccentricity = 0.1", "eccentricity = 1", "orbit.eccentricity", "less than 1"),
+        ("eccentricity = 0.1", "eccentricity = 1", "orbit.eccentricity", "other than 1"),
         ("time_of_pericentre = -3", "time_of_pericentre = nan", "orbit.time_of_pericentre", "finite"),
         ("inclination = 0.4", "inclination = \"tilted\"", "orbit.inclination", "must be a number"),
         ("node = 0.5", "node = inf", "orbit.node", "finite"),

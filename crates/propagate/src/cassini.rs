@@ -58,7 +58,7 @@ pub struct CassiniState {
 /// less than the largest rate of a libration, √(3 (G m/a³) (B − A)/C |G_p|), at the obliquity 0. At the obliquity θ the resonance is narrower by (1 + cos θ)/2.
 ///
 /// # Errors
-/// - [`Error::Orbit`] for a node rate of 0.
+/// - [`Error::Orbit`] for a node rate of 0, and for a hyperbola.
 /// - [`Error::Positive`] for a spin rate of 0, −1, NaN or infinite.
 ///
 /// ```
@@ -78,6 +78,10 @@ pub fn cassini_states(body: &Body, orbit: &Orbit, spin_rate: f64) -> Result<Vec<
     let [node_rate, _] = orbit.rates();
     if node_rate == 0.0 {
         return Err(Error::Orbit { argument: "node_rate", value: node_rate, bound: "other than 0" });
+    }
+    if orbit.is_hyperbola() {
+        let bound = "less than 1: a hyperbola has no mean torque";
+        return Err(Error::Orbit { argument: "eccentricity", value: orbit.eccentricity(), bound });
     }
     let top = Top::new(body, orbit, spin_rate);
     let extremes = roots(&evenly(), |theta| top.curvatures(theta)[0]);

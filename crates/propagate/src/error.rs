@@ -12,13 +12,12 @@ use andoyer_series::error::{Facts, Short, facts};
 pub use andoyer_series::error::{Kind, Value};
 pub(crate) use duration::duration_in_words;
 pub use torque_measure::TorqueMeasure;
+#[cfg(test)]
+pub(crate) use words::STEP_BYTES;
 use words::{
     advice, and_others, because, did_you_mean, distance, elsewhere, finite, four_digits, instead_of, rounded_up,
     setting, slow, too_many, turn, unaveraged,
 };
-
-/// Memory of one integration step, in bytes.
-pub(crate) const STEP_BYTES: f64 = 72.0;
 
 const POSITIVE: &str = "positive and finite";
 
@@ -91,8 +90,12 @@ andoyer_series::error_table! {
         Order { value: usize = "The order as given.", bound: usize = "The highest order." } => Representation, facts("order", *value, *bound);
 
         /// An unknown method.
-        #[error("method = {value:?}: it must be \"auto\", \"series\", \"closed\" or \"integrated\"")]
-        Method { value: String = "The method as given." } => Input, facts("method", value, "auto, series, closed, integrated");
+        #[error("method = {value:?}: it must be \"auto\", \"series\", \"closed\", \"integrated\" or \"libration\"")]
+        Method { value: String = "The method as given." } => Input, facts("method", value, "auto, series, closed, integrated, libration");
+
+        /// A scene whose rotation no series about a spin–orbit resonance serves.
+        #[error("method = \"libration\": {reason}")]
+        NoLibration { reason: String = "The reason." } => Theory, facts("method", "libration", "a body locked to an elliptic orbit");
 
         /// A time that is not finite, or too far from the epoch to be evaluated.
         #[error("times[{index}] = {value}: {}a time must be finite and within {} of the epoch{reason}", setting(*.epoch, *.span), distance(*.bound), value = Short(*.value))]

@@ -24,6 +24,8 @@ mod cassini;
 
 mod integration;
 
+mod libration;
+
 mod motion;
 
 mod solve;
@@ -73,6 +75,12 @@ pub mod disturbers {
     pub use crate::input::disturbing_body::DisturbingBody;
     pub use crate::input::orbit::{Oblateness, Orbit};
     pub use crate::input::tabulated::TabulatedOrbit;
+}
+
+pub mod libration_terms {
+    //! What is read of a body locked to an orbit.
+    pub use crate::libration::solution::Libration;
+    pub use crate::libration::terms::{LibrationAngle, LibrationTerm};
 }
 
 pub mod batch {

@@ -12,6 +12,7 @@ mod averaged;
 mod choose;
 mod free;
 mod integrated;
+mod libration;
 mod several;
 
 pub(crate) use free::untruncated;
@@ -33,7 +34,7 @@ impl Scene {
         self.solve_until(&SeriesTables::default(), &GOING)
     }
 
-    /// The same motion, to the same bits, with tables of the series that serve the scenes of the same body after it: a second solution by the series costs a
+    /// The motion of [`Scene::solve`], to the same bits, with tables of the series that later scenes of the same body use: a second solution by the series costs a
     /// fraction of the first.
     ///
     /// # Errors

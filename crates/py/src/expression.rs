@@ -5,7 +5,7 @@
 
 use andoyer_series::error::ParseProblem;
 use andoyer_series::real_field::RealField;
-use andoyer_series::{Coefficient, Monomial, PhaseSpace, Polynomial};
+use andoyer_series::{Coefficient, Error as Algebra, Monomial, PhaseSpace, Polynomial};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use pyo3::exceptions::PyTypeError;
@@ -42,9 +42,9 @@ impl Expression {
         Expression { polynomial: Polynomial::zero(), float: false }
     }
 
-    fn add(&mut self, argument: &str, exponents: &[u32], value: &Bound<'_, PyAny>) -> PyResult<()> {
+    fn add(&mut self, argument: &str, monomial: Result<Monomial, Algebra>, value: &Bound<'_, PyAny>) -> PyResult<()> {
         let (coefficient, float) = number(argument, value)?;
-        let monomial = Monomial::new(exponents).map_err(|problem| error::algebra_of(argument, problem))?;
+        let monomial = monomial.map_err(|problem| error::algebra_of(argument, problem))?;
         self.polynomial.add_term(monomial, &coefficient);
         self.float |= float;
         Ok(())
@@ -52,15 +52,22 @@ impl Expression {
 
     fn from_terms(argument: &str, terms: &Bound<'_, PyDict>, space: &PhaseSpace) -> PyResult<Self> {
         let mut expression = Self::zero();
-        let names = space.names();
+        let names = [space.names(), space.driven()].concat();
+        let powers = space.names().len();
         for (key, value) in terms {
-            let exponents: Option<Vec<u32>> = key.cast::<PyTuple>().ok().and_then(|key| key.extract().ok());
-            let Some(exponents) = exponents.filter(|exponents| exponents.len() == names.len()) else {
+            let exponents: Option<Vec<i64>> = key.cast::<PyTuple>().ok().and_then(|key| key.extract().ok());
+            let fits = |exponents: &Vec<i64>| {
+                exponents.len() == names.len()
+                    && exponents[..powers].iter().all(|&power| (0..=u32::MAX.into()).contains(&power))
+            };
+            let Some(exponents) = exponents.filter(fits) else {
                 let (key, names) = (key.repr()?, names.join(", "));
                 let message = format!("{argument} has the key {key}: it must be a tuple of exponents of {names}");
                 return Err(error::input(argument, key.to_string(), format!("exponents of {names}"), message));
             };
-            expression.add(argument, &exponents, &value)?;
+            let (exponents, harmonics) = exponents.split_at(powers);
+            let exponents: Vec<u32> = exponents.iter().map(|&power| power as u32).collect();
+            expression.add(argument, space.monomial(&exponents, harmonics), &value)?;
         }
         Ok(expression)
     }
@@ -71,6 +78,9 @@ impl Expression {
         for symbol in value.getattr("free_symbols")?.try_iter()? {
             let symbol = symbol?;
             let name = symbol.str()?.to_string();
+            if space.driven().contains(&name.as_str()) {
+                continue;
+            }
             let Some(slot) = names.iter().position(|known| *known == name) else {
                 let known = names.join(", ");
                 let message = format!("{argument} contains {name:?}, which is not one of {known}");
@@ -79,8 +89,10 @@ impl Expression {
             present.push((slot, symbol));
         }
         present.sort_by_key(|(slot, _)| *slot);
-        let symbols = PyTuple::new(value.py(), present.iter().map(|(_, symbol)| symbol))?;
-        let polynomial = if present.is_empty() { None } else { Some(value.call_method1("as_poly", symbols)?) };
+        let harmonics = if space.driven().is_empty() { Vec::new() } else { harmonics(value, &space.driven())? };
+        let symbols = present.iter().map(|(_, symbol)| symbol).chain(&harmonics);
+        let symbols = PyTuple::new(value.py(), symbols.collect::<Vec<_>>())?;
+        let polynomial = if symbols.is_empty() { None } else { Some(value.call_method1("as_poly", symbols)?) };
         let Some(polynomial) = polynomial.filter(|polynomial| !polynomial.is_none()) else {
             let shown = value.str()?.to_string();
             let remedy = remedy(value, &names[..2 * space.degrees_of_freedom()])?;
@@ -91,13 +103,53 @@ impl Expression {
         for term in polynomial.call_method0("terms")?.try_iter()? {
             let (powers, coefficient): (Vec<u32>, Bound<'_, PyAny>) = term?.extract()?;
             let mut exponents = vec![0; names.len()];
-            for ((slot, _), power) in present.iter().zip(powers) {
+            for ((slot, _), &power) in present.iter().zip(&powers) {
                 exponents[*slot] = power;
             }
-            expression.add(argument, &exponents, &coefficient)?;
+            let monomial = space.monomial(&exponents, &vec![0; space.driven().len()]);
+            let powers: Vec<_> = harmonics.iter().zip(powers.iter().skip(present.len())).collect();
+            if powers.iter().all(|(_, power)| **power == 0) {
+                expression.add(argument, monomial, &coefficient)?;
+                continue;
+            }
+            let factors = powers.iter().map(|(harmonic, power)| Ok(format!("({})^{power}", harmonic.str()?)));
+            let factors = factors.collect::<PyResult<Vec<_>>>()?.join("*");
+            let factors: Polynomial<BigRational> =
+                space.parse(&factors).map_err(|problem| error::algebra_of(argument, problem))?;
+            let mut term = Self::zero();
+            term.add(argument, monomial, &coefficient)?;
+            // A term without harmonics times harmonics without variables: exponents add.
+            let product = term.polynomial.multiply(&factors).map_err(|problem| error::algebra_of(argument, problem))?;
+            expression.polynomial += &product;
+            expression.float |= term.float;
         }
         Ok(expression)
     }
+}
+
+/// The cosines and sines in an expression whose angles contain driven phases only.
+fn harmonics<'py>(expression: &Bound<'py, PyAny>, phases: &[&str]) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let (mut waiting, mut found) = (vec![expression.clone()], Vec::<Bound<'py, PyAny>>::new());
+    while let Some(part) = waiting.pop() {
+        let function = part.getattr("is_Function")?.extract()? && {
+            let name = part.getattr("func")?.str()?.to_string();
+            let symbols = part.getattr("free_symbols")?.try_iter()?.map(|symbol| Ok(symbol?.str()?.to_string()));
+            let symbols = symbols.collect::<PyResult<Vec<_>>>()?;
+            matches!(&*name, "cos" | "sin") && symbols.iter().all(|symbol| phases.contains(&symbol.as_str()))
+        };
+        if !function {
+            waiting.extend(part.getattr("args")?.try_iter()?.collect::<PyResult<Vec<_>>>()?);
+            continue;
+        }
+        let mut known = false;
+        for other in &found {
+            known |= other.eq(&part)?;
+        }
+        if !known {
+            found.push(part);
+        }
+    }
+    Ok(found)
 }
 
 /// What to do about the first function, or power with another exponent than 0, 1, 2, …, in an expression that is no polynomial, as the end of a sentence.
@@ -161,15 +213,34 @@ pub(crate) fn number(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<(BigR
     Ok((exact.ok_or_else(not_finite)?, true))
 }
 
+/// The key of a monomial: the exponents of variables and parameters, then the integers j of the driven phases.
+fn key<'py>(py: Python<'py>, monomial: Monomial, space: &PhaseSpace) -> PyResult<Bound<'py, PyTuple>> {
+    let powers = monomial.exponents().into_iter().take(space.names().len()).map(i64::from);
+    PyTuple::new(py, powers.chain(space.harmonics(monomial)).collect::<Vec<_>>())
+}
+
+/// {exponents: coefficient} of a polynomial in the actions and parameters, in canonical order.
+pub(crate) fn actions<'py, R: RealField + IntoPyObject<'py>>(
+    py: Python<'py>,
+    polynomial: &Polynomial<R>,
+    space: &PhaseSpace,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (result, slots) = (PyDict::new(py), space.degrees_of_freedom() + space.parameters());
+    for (monomial, c) in polynomial.terms() {
+        result.set_item(PyTuple::new(py, &monomial.exponents()[..slots])?, c.clone())?;
+    }
+    Ok(result)
+}
+
 /// {exponents: coefficient}, in canonical order.
 pub(crate) fn real<'py, R: RealField + IntoPyObject<'py>>(
     py: Python<'py>,
     polynomial: &Polynomial<R>,
-    slots: usize,
+    space: &PhaseSpace,
 ) -> PyResult<Bound<'py, PyDict>> {
     let result = PyDict::new(py);
     for (monomial, c) in polynomial.terms() {
-        result.set_item(PyTuple::new(py, &monomial.exponents()[..slots])?, c.clone())?;
+        result.set_item(key(py, monomial, space)?, c.clone())?;
     }
     Ok(result)
 }
@@ -178,11 +249,11 @@ pub(crate) fn real<'py, R: RealField + IntoPyObject<'py>>(
 pub(crate) fn complex<'py, R: RealField + IntoPyObject<'py>>(
     py: Python<'py>,
     polynomial: &Polynomial<R::Complex>,
-    slots: usize,
+    space: &PhaseSpace,
 ) -> PyResult<Bound<'py, PyDict>> {
     let result = PyDict::new(py);
     for (monomial, c) in polynomial.terms() {
-        result.set_item(PyTuple::new(py, &monomial.exponents()[..slots])?, R::parts(c))?;
+        result.set_item(key(py, monomial, space)?, R::parts(c))?;
     }
     Ok(result)
 }

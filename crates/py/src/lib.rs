@@ -20,6 +20,7 @@ mod error;
 mod expression;
 mod foreign;
 mod form;
+mod libration;
 mod mean;
 mod members;
 mod motion;
@@ -55,6 +56,8 @@ mod _core {
     use super::error::{
         Error, FileError, InputError, InternalError, RepresentationError, TheoryError, ToleranceWarning,
     };
+    #[pymodule_export]
+    use super::libration::{Libration, LibrationTerm};
     #[pymodule_export]
     use super::motion::Motion;
     #[pymodule_export]

@@ -3,11 +3,11 @@
 use andoyer_series::birkhoff::Resonances;
 use andoyer_series::progress::Progress;
 use andoyer_series::real_field::RealField;
-use andoyer_series::{Error as Algebra, MAX_EXPONENT, PhaseSpace, normalize_with};
+use andoyer_series::{Error as Algebra, MAX_EXPONENT, PhaseSpace, normalize_driven};
 use num_rational::BigRational;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::{PyDict, PyString, PyTuple};
 
 use crate::birkhoff::BirkhoffNormalForm;
 use crate::error;
@@ -35,13 +35,18 @@ use crate::progress;
 /// parameters : sequence of str, or dict of {str: number}, optional
 ///     Symbols in the coefficients, as names or SymPy symbols. Variables and parameters together are at most eight. A parameter in the quadratic part is a
 ///     detuning, like d in ``(1 + d)*y^2/2``. In a dict the number of a parameter is put in its place, and the form does not contain this parameter; a parameter with None stays a symbol.
+/// driven : dict of {str: number or (number, float)}, optional
+///     Driven phases M = M₀ + n t: the frequency n, or (n, M₀), by name or SymPy symbol. M₀ is 0 by default. The Hamiltonian contains them as ``cos(j*M)`` and ``sin(j*M)`` with
+///     integers j; in a dict of coefficients the exponents are followed by j for each phase, which means cos jM for j ≥ 0 and sin ``|j|M`` for j < 0. A term with a
+///     phase counts one order more. Terms of order 0, which are linear, are a force: the variables are measured from its motion. A phase takes one of the eight places.
 /// degrees : dict of {str: int}, optional
 ///     The degree of each parameter in the ordering of the terms; by default 2 for a detuning and 0 for any other parameter.
 /// frequency : (str, str), optional
 ///     A parameter w that all frequencies are proportional to, and a name s for 1/√w. The form is that of H/w in the variables q√w, p/√w, under the names of the old ones, with s
 ///     in the place of w: K of H is w times it, and its time is wt. Terms without variables are dropped.
 /// resonances : sequence of sequences of int, optional
-///     Vectors k with k·ω = 0. Terms proportional to e^{i k·φ} are kept, for k and all integer combinations. Example: ``[(1, -1)]`` for equal frequencies.
+///     Vectors k with k·ω = 0. Terms proportional to e^{i k·φ} are kept, for k and all integer combinations. Example: ``[(1, -1)]`` for equal frequencies. With driven
+///     phases the integers j follow those of k, and k·ω + j·n = 0.
 /// keep : {"hyperbolic"}, optional
 ///     "hyperbolic" removes only the terms that couple the centres to the saddles. The normal form can then be restricted to the centre manifold; see `centre_manifold`.
 /// smallest_divisor : float, optional
@@ -60,7 +65,7 @@ use crate::progress;
 ///     A text that is not a polynomial; a linear term; more than four pairs; an unknown variable; a vector that is not a resonance; an unknown `keep`; a negative order; a
 ///     smallest divisor outside 0 to 1; numbers that overflow.
 /// TheoryError
-///     A quadratic part with a Jordan block or a zero frequency. A resonant term or a small divisor that was not requested; the message has its monomial.
+///     A quadratic part with a Jordan block or a zero frequency. A force with the frequency of a mode. A resonant term or a small divisor that was not requested; the message has its monomial.
 /// RepresentationError
 ///     An order whose exponents or factorials do not fit (``32764``; ``171`` in floats); irrational frequencies with ``exact=True``.
 ///
@@ -73,6 +78,8 @@ use crate::progress;
 /// I_q + 3/8*I_q^2*s^6
 /// >>> print(normalize("(p^2 + q^2)/2 + c*q^4/4", 2, [("q", "p")], parameters={"c": 2}))
 /// I_q + 3/4*I_q^2
+/// >>> print(normalize("(p^2 + 4/9*x^2)/2 - q*x^2*cos(2*M)", 2, [("x", "p")], parameters=["q"], driven={"M": 1}))
+/// 2/3*I_x + 27/40*I_x*q^2
 /// >>> henon_heiles = "(x^2 + X^2 + y^2 + Y^2)/2 + x^2*y - y^3/3"
 /// >>> normalize(henon_heiles, 2, [("x", "X"), ("y", "Y")], resonances=[(1, -1)]).in_real()[4, 0, 0, 0]
 /// Fraction(-5, 48)
@@ -80,7 +87,7 @@ use crate::progress;
 /// >>> saddle.frequencies
 /// (2j, Fraction(1, 1))
 #[pyfunction]
-#[pyo3(signature = (hamiltonian, order, variables, *, parameters=None, degrees=None, frequency=None, resonances=None, keep=None, smallest_divisor=1e-6, exact=None, progress=None))]
+#[pyo3(signature = (hamiltonian, order, variables, *, parameters=None, driven=None, degrees=None, frequency=None, resonances=None, keep=None, smallest_divisor=1e-6, exact=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
 pub(crate) fn normalize(
     py: Python<'_>,
@@ -88,6 +95,7 @@ pub(crate) fn normalize(
     order: &Bound<'_, PyAny>,
     variables: &Bound<'_, PyAny>,
     parameters: Option<&Bound<'_, PyAny>>,
+    driven: Option<&Bound<'_, PyDict>>,
     degrees: Option<&Bound<'_, PyDict>>,
     frequency: Option<(String, String)>,
     resonances: Option<&Bound<'_, PyAny>>,
@@ -97,6 +105,10 @@ pub(crate) fn normalize(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<BirkhoffNormalForm> {
     let space = space(variables, parameters, degrees)?;
+    let (phases, driven_float) = phases(driven)?;
+    let names: Vec<&str> = phases.iter().map(|(name, ..)| name.as_str()).collect();
+    let space = space.with_driven(&names).map_err(|problem| error::algebra_of("driven", problem))?;
+    let driven: Vec<_> = phases.iter().map(|(_, frequency, phase)| (frequency.clone(), *phase)).collect();
     let symbols = symbols(py, hamiltonian, variables, parameters)?;
     let order = self::order("order", order, 0, <BigRational as RealField>::MAX_ORDER)?;
     let Expression { polynomial, float } = Expression::new("hamiltonian", hamiltonian, &space)?;
@@ -104,7 +116,7 @@ pub(crate) fn normalize(
     let values: Vec<_> = values.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
     let given = space.with_values(&polynomial, &values);
     let (polynomial, space) = given.map_err(|problem| error::algebra_of("parameters", problem))?;
-    let float = float || given_float;
+    let float = float || given_float || driven_float;
     let (polynomial, space) = match frequency {
         None => (polynomial, space),
         Some((letter, root)) => {
@@ -125,12 +137,13 @@ pub(crate) fn normalize(
     };
     let compute = |tell: &mut Progress<'_>| {
         let in_floats = |tell: &mut Progress<'_>| {
-            normalize_with(&rounded(&polynomial), order, &space, &resonances, tell).map(Form::Float)
+            let driven: Vec<_> = driven.iter().map(|(frequency, phase)| (frequency.to_float(), *phase)).collect();
+            normalize_driven(&rounded(&polynomial), order, &space, &driven, &resonances, tell).map(Form::Float)
         };
         if exact == Some(false) || (exact.is_none() && float) {
             return in_floats(tell);
         }
-        match normalize_with(&polynomial, order, &space, &resonances, tell) {
+        match normalize_driven(&polynomial, order, &space, &driven, &resonances, tell) {
             Err(Algebra::FrequencyIrrational { .. } | Algebra::SpectrumIrrational { .. }) if exact.is_none() => {
                 in_floats(tell)
             }
@@ -205,6 +218,32 @@ fn values(parameters: Option<&Bound<'_, PyAny>>) -> PyResult<(Vec<(String, BigRa
         any_float |= float;
     }
     Ok((values, any_float))
+}
+
+/// Name, frequency and phase at time 0 of each driven phase.
+type Phases = Vec<(String, BigRational, f64)>;
+
+/// The driven phases, and whether a frequency is a float.
+fn phases(driven: Option<&Bound<'_, PyDict>>) -> PyResult<(Phases, bool)> {
+    let (mut phases, mut any_float) = (Vec::new(), false);
+    for (name, value) in driven.into_iter().flatten() {
+        let name = name.str()?.to_string();
+        let argument = format!("driven[{name:?}]");
+        let pair = value.cast::<PyTuple>().ok();
+        if let Some(pair) = pair.filter(|pair| pair.len() != 2) {
+            let message =
+                format!("{argument} has {} entries: it must be a frequency or (frequency, phase)", pair.len());
+            return Err(error::input("driven", pair.len(), 2_usize, message));
+        }
+        let (frequency, start) = match pair {
+            Some(pair) => (pair.get_item(0)?, crate::array::number(&argument, &pair.get_item(1)?)?),
+            None => (value.clone(), 0.0),
+        };
+        let (frequency, float) = number(&argument, &frequency)?;
+        phases.push((name, frequency, start));
+        any_float |= float;
+    }
+    Ok((phases, any_float))
 }
 
 /// The resonances as vectors of integers.

@@ -22,9 +22,9 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 /// Parameters
 /// ----------
 /// mean_motion : float
-///     Mean motion n = √(GM/a³), in rad per unit of time, with the sum M of both masses. With quantities of astropy: ``np.sqrt(GM / a**3) * u.rad``.
+///     Mean motion n = √(GM/abs(a)³), in rad per unit of time, with the sum M of both masses. With quantities of astropy: ``np.sqrt(GM / a**3) * u.rad``.
 /// eccentricity : float, optional
-///     Eccentricity e, 0 ≤ e < 1.
+///     Eccentricity e: 0 ≤ e < 1 for an ellipse, e > 1 for a hyperbola, under which scenes are integrated. On a hyperbola M = n (t − time_of_pericentre).
 /// time_of_pericentre : float, optional
 ///     A time of passage through the pericentre, a number or a `Time`; by default 0, which is J2000 if the epoch is a `Time`.
 /// inclination, node, argument_of_pericentre : float, optional
@@ -35,9 +35,9 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 ///     Secular rates of the node (about inertial axis 3) and of the argument of the pericentre, in rad per unit of time. `node` and `argument_of_pericentre` are then
 ///     the values at `time_of_pericentre`, and `mean_motion` is the rate of the mean anomaly.
 /// attraction : float, optional
-///     G × disturbing mass / a³, in 1/time², instead of mean_motion² × mass_fraction. `mass_fraction` is then 1, its default.
+///     G × disturbing mass / abs(a)³, in 1/time², instead of mean_motion² × mass_fraction. `mass_fraction` is then 1, its default.
 /// semi_major_axis : float, optional
-///     Semi-major axis a, in any unit of length. `position` needs it; the torque of the gravity gradient does not depend on it.
+///     Semi-major axis abs(a), positive, in any unit of length. `position` needs it; the torque of the gravity gradient does not depend on it.
 ///
 /// Warns
 /// -----
@@ -47,7 +47,7 @@ const KEYWORDS: [&str; 5] = ["time_of_pericentre", "inclination", "node", "argum
 /// Raises
 /// ------
 /// InputError
-///     A mean motion, an attraction or a semi-major axis that is not positive; an eccentricity outside 0 ≤ e < 1; a mass fraction that is not positive or is above 1; a mass fraction beside an attraction; a value
+///     A mean motion, an attraction or a semi-major axis that is not positive; an eccentricity that is negative, 1 or above 1e50; a mass fraction that is not positive or is above 1; a mass fraction beside an attraction; a value
 ///     that is not finite.
 /// TypeError
 ///     A text.
@@ -174,9 +174,9 @@ impl Orbit {
         Ok(Self(orbit))
     }
 
-    /// The Keplerian orbit through a position with a velocity at a time.
+    /// The Keplerian orbit through a position with a velocity at a time: an ellipse or a hyperbola.
     ///
-    /// The semi-major axis follows from 1/a = 2/r − v²/GM, and the mean motion is √(GM/a³). Node and argument of the pericentre are in [0, 2π), and the time of
+    /// The semi-major axis follows from 1/a = 2/r − v²/GM, and the mean motion is √(GM/abs(a)³). Node and argument of the pericentre are in [0, 2π), and the time of
     /// pericentre is the one nearest to `time`. If the inclination is 0 or π, the node is on the inertial x axis. If the eccentricity is 0, the pericentre is
     /// the given position.
     ///
@@ -201,7 +201,7 @@ impl Orbit {
     /// Raises
     /// ------
     /// InputError
-    ///     A position of 0; a gm that is not positive; an eccentricity of 1 or more (parabola, hyperbola, straight fall); a value that is not finite.
+    ///     A position of 0; a gm that is not positive; an eccentricity of 1 (parabola, straight fall); a value that is not finite.
     ///
     /// Examples
     /// --------
@@ -267,7 +267,7 @@ impl Orbit {
         self.0.elements()[0]
     }
 
-    /// Eccentricity, 0 or more and less than 1.
+    /// Eccentricity: less than 1 for an ellipse, above 1 for a hyperbola.
     #[getter]
     fn eccentricity(&self) -> f64 {
         self.0.elements()[1]

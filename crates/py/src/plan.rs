@@ -2,6 +2,8 @@
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::PyType;
 
 use crate::error::InternalError;
 
@@ -27,7 +29,7 @@ impl Plan {
         self.0.mode().to_string()
     }
 
-    /// The method of evaluation: "series", "closed" for theta functions and elementary formulas, or "integrated".
+    /// The method of evaluation: "series", "closed" for theta functions and elementary formulas, "integrated" or "libration".
     #[getter]
     fn method(&self) -> String {
         self.0.method().to_string()
@@ -39,13 +41,21 @@ impl Plan {
         self.0.order()
     }
 
+    /// The resonance of a libration, in rotations an orbit: a Fraction; None for the other methods.
+    #[getter]
+    fn resonance<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        static FRACTION: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+        let Some([rotations, orbits]) = self.0.resonance() else { return Ok(None) };
+        FRACTION.import(py, "fractions", "Fraction")?.call1((rotations, orbits)).map(Some)
+    }
+
     /// Number of steps of the integration; 0 for the other methods.
     #[getter]
     fn steps(&self) -> usize {
         self.0.steps()
     }
 
-    /// The highest multiple of the anomaly ℓ′ in the evaluation; 0 if the method has no harmonics.
+    /// The number of harmonics of a libration; otherwise the highest multiple of the anomaly ℓ′ in the evaluation, or 0 if the method has no harmonics.
     #[getter]
     fn harmonics(&self) -> usize {
         self.0.harmonics()

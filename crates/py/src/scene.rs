@@ -292,7 +292,7 @@ impl Scene {
         self.scene.asked_tolerance()
     }
 
-    /// The method: "auto", "series", "closed" or "integrated".
+    /// The method: "auto", "series", "closed", "integrated" or "libration".
     #[getter]
     fn method(&self) -> String {
         self.scene.asked_method().to_string()

@@ -30,12 +30,14 @@ use crate::foreign::Calendar;
 /// tolerance : float, optional
 ///     Requested attitude error over the span, in rad. A tolerance below about 1e-14 requests the best accuracy of double precision,
 ///     which `Plan.error_bound` states.
-/// method : {"auto", "series", "closed", "integrated"}, optional
-///     Perturbation series, closed form (with an orbit: averaged theory), or numerical integration of the full equations over the span. "auto" uses the closed
+/// method : {"auto", "series", "closed", "integrated", "libration"}, optional
+///     Perturbation series, closed form (with an orbit: averaged theory), numerical integration of the full equations over the span, or the normal form about
+///     a spin–orbit resonance of a body locked to one fixed orbit ("libration"; "auto" uses it over thousands of orbits, if it meets the tolerance). "auto" uses the closed
 ///     form, or the series if an order is fixed. With an orbit and a span it uses the integration if the theory does not hold, or if the theory misses the tolerance and the
 ///     integration meets it. It also integrates with several orbits, a table or an orbit with secular rates. `Plan.skipped` states the reason.
 /// order : int, optional
-///     Fixed order of the series and of the secular part (theory §7), 0 to 60. By default ``method="series"`` uses the order that the tolerance needs (theory §5).
+///     Fixed order of the series and of the secular part (theory §7), 0 to 60, or of the normal form of a libration, 2 to 16. By default ``method="series"`` and
+///     ``method="libration"`` use the order that the tolerance needs (theory §5).
 ///     A fixed order stays fixed, whatever the tolerance. If it is too low, `Plan.error_bound` exceeds the tolerance, and ``str(plan)``
 ///     says that the tolerance "is not met over the span".
 /// span : (float, float), optional

@@ -139,17 +139,16 @@ BAD_STATES = [
     (([1, 0, 0], [0, math.inf, 0], 1, 0), "velocity = .*finite"),
     (([1, 0, 0], [0, 1, 0], -1, 0), "orbit.gm = -1: it must be positive and finite"),
     (([1, 0, 0], [0, 1, 0], 1, math.inf), "orbit.time = inf: it must be finite"),
-    (([1, 0, 0], [0, 0, 0], 1, 0), "orbit.eccentricity = 1: it must be less than 1"),
-    (([1, 0, 0], [0.5, 0, 0], 1, 0), "orbit.eccentricity = 1: it must be less than 1"),
-    (([1, 0, 0], [0, math.sqrt(2), 0], 1, 0), "orbit.eccentricity = 1.*: it must be less than 1"),
-    (([1, 0, 0], [0, 2, 0], 1, 0), "orbit.eccentricity = 3: it must be less than 1"),
-    (([1, 0, 0], [1e200, 1, 0], 1e-200, 0), "orbit.eccentricity = .*: it must be less than 1"),
-    (([1e200, 0, 0], [0, 1e-250, 0], 1, 0), "orbit.eccentricity = .*: it must be less than 1"),
+    (([1, 0, 0], [0, 0, 0], 1, 0), "orbit.eccentricity = 1: it must be other than 1"),
+    (([1, 0, 0], [0.5, 0, 0], 1, 0), "orbit.eccentricity = 1: it must be other than 1"),
+    (([1, 0, 0], [0, math.sqrt(2), 0], 1, 0), "orbit.eccentricity = 1.*: it must be other than 1"),
+    (([1, 0, 0], [1e200, 1, 0], 1e-200, 0), "orbit.eccentricity = .*: it must be other than 1"),
+    (([1e200, 0, 0], [0, 1e-250, 0], 1, 0), "orbit.eccentricity = .*: it must be other than 1"),
 ]
 
 
 @pytest.mark.parametrize("arguments, message", BAD_STATES)
-def test_state_that_no_ellipse_has_is_refused_by_name(arguments, message):
+def test_state_that_no_conic_has_is_refused_by_name(arguments, message):
     with pytest.raises(andoyer.InputError, match=message):
         Orbit.from_state(*arguments)
 

@@ -54,6 +54,7 @@ DRAWN = {
     "nu": lambda motion: plot.angles(motion, residual=False),
     "rates": plot.rates,
 }
+LIBRATIONS = {"longitude": plot.librations, "pole": plot.pole_librations, "spectrum": plot.libration_spectrum}
 DIAGRAMS = {"error by order": plot.error_by_order, "work and precision": plot.work_precision}
 
 
@@ -266,3 +267,78 @@ def test_pictures_of_a_tensor_are_about_its_principal_axes():
     start = plot.phase_portrait(motion).lines[1].get_xydata()[0]
     variables = motion.andoyer(motion.scene.epoch)
     assert start == pytest.approx([np.degrees(variables[2]), variables[5] / variables[4]], abs=1e-9)
+
+
+@pytest.fixture(scope="module")
+def libration():
+    attitude = Rotation.from_euler("ZYX", [0.01, 0.004, 0.003]).as_quat()
+    return solved_about(attitude, andoyer.Body([0.99, 0.996, 1.0]), 0.02)
+
+
+def solved_about(attitude, body, eccentricity):
+    orbit = andoyer.Orbit(2e-3, eccentricity, time_of_pericentre=50.0)
+    return andoyer.Scene(body, attitude, [0, 0, 2e-3], epoch=50.0, orbit=orbit, span=(50, 3e5), tolerance=1e-6, method="libration", name="a moon").solve()
+
+
+@pytest.mark.parametrize("picture", LIBRATIONS)
+def test_picture_of_a_libration_is_drawn_with_labels_and_nothing_cut_off(libration, picture, recwarn):
+    figure, axes = plt.subplots(layout="constrained")
+    assert LIBRATIONS[picture](libration, axes=axes) is axes
+    assert all("[" in label for label in (axes.get_xlabel(), axes.get_ylabel())) and axes.get_title("left")
+    assert outside(figure) < 0.01
+    assert LIBRATIONS[picture](libration).figure is not figure
+    assert not [str(warning.message) for warning in recwarn]
+
+
+def test_angles_of_a_libration_are_those_of_the_attitude(libration):
+    times = np.linspace(50, 2e5, 40)
+    orbit, epoch = libration.scene.orbit, libration.scene.epoch
+    turned = Rotation.from_rotvec(np.outer(orbit.mean_motion * (times - epoch), [0, 0, 1])).inv() * libration.rotation(times)
+    psi, theta, phi = turned.as_euler("ZYX").T
+    pole = plot.pole_librations(libration, times).lines
+    drawn = [plot.librations(libration, times).lines[0], *pole]
+    assert [line.get_label() for line in drawn] == ["ψ", "θ", "φ"]
+    assert drawn[0].get_xdata() == pytest.approx((times - epoch) * orbit.mean_motion / (2 * np.pi))
+    for line, angle in zip(drawn, (psi, theta, phi), strict=True):
+        assert np.radians(line.get_ydata()) == pytest.approx(angle, abs=1e-6)
+
+
+def test_spectrum_has_each_term_at_its_period_and_marks_the_forced_ones(libration):
+    axes = plot.libration_spectrum(libration)
+    orbit = 2 * np.pi / libration.scene.orbit.mean_motion
+    drawn = {line.get_label(): line for line in axes.lines if "," in line.get_label()}
+    assert set(drawn) == {"ψ, free", "ψ, forced", "θ, free", "φ, free"}
+    forced = libration.libration.forced()
+    assert drawn["ψ, forced"].get_markerfacecolor() == "none" and drawn["ψ, free"].get_markerfacecolor() != "none"
+    largest = drawn["ψ, forced"].get_xydata()[0]
+    assert largest == pytest.approx([forced[0].period / orbit, np.degrees(forced[0].amplitude)])
+    assert largest[0] == pytest.approx(1)
+    free = drawn["ψ, free"].get_xydata()[0]
+    assert free == pytest.approx([libration.libration.periods[0] / orbit, np.degrees(libration.libration.amplitudes[0])])
+
+
+def test_pictures_of_a_body_that_does_not_librate_are_drawn():
+    still = solved_about([0, 0, 0, 1], andoyer.Body([0.99, 0.996, 1.0]), 0.0)
+    figure = plot.libration_summary(still)
+    figure.canvas.draw()
+    assert len(figure.axes) == 3 and figure.get_suptitle() == "a moon"
+    assert not np.any(figure.axes[0].lines[0].get_ydata())
+
+
+def test_picture_of_a_libration_refuses_other_motions_and_times():
+    for picture in (*LIBRATIONS.values(), plot.libration_summary):
+        with pytest.raises(andoyer.InputError, match="method=.libration.") as caught:
+            picture(MOTIONS["short-axis"])
+        assert (caught.value.argument, caught.value.bound) == ("motion", "libration")
+
+
+def test_times_of_a_libration_must_be_finite(libration):
+    with pytest.raises(andoyer.InputError, match="finite") as caught:
+        plot.librations(libration, [0.0, np.nan])
+    assert caught.value.argument == "times"
+
+
+def test_command_draws_a_libration(libration, tmp_path):
+    (tmp_path / "moon.toml").write_text(libration.scene.to_toml(), encoding="utf-8")
+    assert main(["plot", str(tmp_path / "moon.toml"), "-o", str(tmp_path / "moon.svg")]) == 0
+    assert "Libration in longitude" in (tmp_path / "moon.svg").read_text(encoding="utf-8")

@@ -4,13 +4,60 @@
 //! [`Polynomial::parse`] with the same names reads the text back. Exact coefficients are read back unchanged. Floats are printed with their shortest decimal,
 //! and are read back with a rounding error at most.
 
-use crate::{Coefficient, Polynomial, SLOTS};
+use crate::{Coefficient, Polynomial, SLOTS, harmonics};
 use std::fmt::{self, Display, Formatter};
 
 /// A polynomial together with the names of its variables, ready to print.
 pub struct Named<'a, C> {
     polynomial: &'a Polynomial<C>,
     names: &'a [&'a str],
+    /// The number of driven phases, which are the last names, and what their slots mean.
+    driven: (usize, Harmonics),
+}
+
+/// What j in the slot of a driven phase means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Harmonics {
+    /// cos jM for j ≥ 0, sin |j|M for j < 0.
+    Real,
+    /// e^{ijM}.
+    Complex,
+}
+
+impl Harmonics {
+    /// A harmonic of the phase `name` as text; `j` is not 0.
+    fn text(self, name: &str, j: i64) -> String {
+        let (function, j) = match self {
+            Harmonics::Real => (if j < 0 { "sin" } else { "cos" }, j.abs()),
+            Harmonics::Complex => ("exp", j),
+        };
+        let multiple = match j {
+            1 => String::new(),
+            -1 => "-".to_owned(),
+            _ => format!("{j}*"),
+        };
+        let unit = if self == Harmonics::Complex { "i*" } else { "" };
+        format!("{function}({multiple}{unit}{name})")
+    }
+
+    /// A harmonic of the phase with this symbol as LaTeX; `j` is not 0.
+    pub(crate) fn latex(self, symbol: &str, j: i64) -> String {
+        let multiple = if j.abs() == 1 { String::new() } else { j.abs().to_string() };
+        match self {
+            Harmonics::Real => format!("\\{}({multiple}{symbol})", if j < 0 { "sin" } else { "cos" }),
+            Harmonics::Complex => {
+                let sign = if j < 0 { "-" } else { "" };
+                format!("\\mathrm{{e}}^{{{sign}{multiple}\\mathrm{{i}}{symbol}}}")
+            }
+        }
+    }
+}
+
+impl<C> Named<'_, C> {
+    /// The same where the last `driven` names are driven phases.
+    pub(crate) fn with_driven(self, driven: usize, harmonics: Harmonics) -> Self {
+        Named { driven: (driven, harmonics), ..self }
+    }
 }
 
 impl<C: Coefficient> Polynomial<C> {
@@ -25,7 +72,7 @@ impl<C: Coefficient> Polynomial<C> {
     /// ```
     #[must_use]
     pub fn display<'a>(&'a self, names: &'a [&'a str]) -> Named<'a, C> {
-        Named { polynomial: self, names }
+        Named { polynomial: self, names, driven: (0, Harmonics::Real) }
     }
 }
 
@@ -48,7 +95,14 @@ impl<C: Coefficient> Display for Named<'_, C> {
                 separator = "*";
             }
             for slot in (0..SLOTS).filter(|&slot| monomial.exponent(slot) > 0) {
+                let (phases, harmonics) = self.driven;
                 match self.names.get(slot) {
+                    Some(name) if slot + phases >= self.names.len() => {
+                        let j = harmonics::signed(monomial.exponent(slot));
+                        write!(formatter, "{separator}{}", harmonics.text(name, j))?;
+                        separator = "*";
+                        continue;
+                    }
                     Some(name) => write!(formatter, "{separator}{name}")?,
                     None => write!(formatter, "{separator}x{slot}")?,
                 }

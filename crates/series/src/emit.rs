@@ -15,6 +15,7 @@ mod c;
 mod constant;
 mod expression;
 mod javascript;
+mod printer;
 pub(crate) mod program;
 mod python;
 pub(crate) mod routine;
@@ -24,11 +25,10 @@ use crate::Error;
 pub use c::C;
 pub use constant::{Constant, Numbers};
 pub use javascript::JavaScript;
-use program::Statement;
+pub use printer::Printer;
+use printer::RoutinePrinter;
 pub use python::Python;
-use routine::Routine;
 pub use rust::Rust;
-use std::collections::BTreeSet;
 use std::str::FromStr;
 
 /// A language of the functions that [`NormalForm::to_code`](crate::NormalForm::to_code) and
@@ -69,62 +69,4 @@ impl FromStr for Language {
             }),
         }
     }
-}
-
-/// How a language writes the head and the constants of a file.
-pub trait Printer {
-    /// The comment at the head of a file.
-    fn head(&self, lines: &[String]) -> String;
-
-    /// A comment of one line, without the line end.
-    fn comment(&self, text: &str) -> String;
-
-    /// The declaration of a constant, without its comment.
-    fn declaration(&self, name: &str, value: &Numbers) -> String;
-
-    /// A constant with its comment.
-    fn constant(&self, constant: &Constant) -> String {
-        let comment = if constant.comment.is_empty() { String::new() } else { self.comment(constant.comment) + "\n" };
-        format!("{comment}{}\n", self.declaration(constant.name, &constant.value))
-    }
-}
-
-/// How a language writes a function.
-pub(crate) trait RoutinePrinter: Printer {
-    /// The text after the head that makes sine, cosine and square root available.
-    fn mathematics(&self) -> &'static str;
-
-    /// A call of `sin`, `cos` or `sqrt`.
-    fn call(&self, function: &str, argument: &str) -> String;
-
-    /// An assignment; `first` if the name had no value before.
-    fn assignment(&self, target: &str, value: &str, first: bool) -> String;
-
-    /// All that stands before the first statement: the type of the results, documentation and signature.
-    fn opening(&self, routine: &Routine) -> String;
-
-    /// All that stands after the last statement.
-    fn closing(&self, routine: &Routine) -> String;
-
-    /// A function as text, with an empty line before it.
-    fn routine(&self, routine: &Routine) -> String {
-        let mut text = self.opening(routine);
-        let mut known = BTreeSet::new();
-        for statement in &routine.program.statements {
-            let line = match statement {
-                Statement::Comment(comment) => self.comment(comment),
-                Statement::Assignment(target, value) => {
-                    let value = expression::expression(value, &|function, argument| self.call(function, argument));
-                    self.assignment(target, &value, known.insert(target))
-                }
-            };
-            text += &format!("    {line}\n");
-        }
-        text + &self.closing(routine)
-    }
-}
-
-/// The lines of a head with `mark` before each.
-fn marked(lines: &[String], mark: &str) -> String {
-    lines.iter().map(|line| format!("{mark}{line}").trim_end().to_owned() + "\n").collect()
 }

@@ -57,10 +57,10 @@ crate::error_table! {
         => Input, facts("hamiltonian", *terms, "the sum of eigenvalue * q * p");
 
         /// A phase space with more variables than the slots of a monomial, or without a pair.
-        #[error("{degrees_of_freedom} degrees of freedom and {parameters} parameters: a phase space has at least one pair and at most {slots} variables")]
+        #[error("{degrees_of_freedom} degrees of freedom and {parameters} parameters and driven phases: a phase space has at least one pair and at most {slots} variables")]
         PhaseSpaceSize {
             degrees_of_freedom: usize = "Pairs (q, p) given.",
-            parameters: usize = "Parameters given.",
+            parameters: usize = "Parameters and driven phases given.",
             slots: usize = "Number of variable slots.",
         } => Input, facts("variables", 2 * degrees_of_freedom + parameters, *slots);
 
@@ -123,10 +123,22 @@ crate::error_table! {
         SmallDivisor {
             order: usize = "Order of the term: its degree minus 2.",
             term: String = "The term in the complex variables u, U of the pairs.",
-            k: Vec<i64> = "k: the exponents of U minus the exponents of u.",
+            k: Vec<i64> = "k: the exponents of U minus the exponents of u, then j of the driven phases.",
             divisor: f64 = "|k·ω|.",
             bound: f64 = "The bound: the relative smallest divisor times the largest frequency.",
         } => Theory, facts("resonances", *divisor, *bound);
+
+        /// A force in resonance with a mode: its motion grows without bound.
+        #[error("the force {term} is in resonance with a mode: its divisor {divisor:?} is below the bound {bound:?}, and no bounded forced motion exists; give its amplitude as a parameter of degree 1 or more to keep the term as a resonance, or lower the bound")]
+        ResonantForce {
+            term: String = "The linear term in the complex variables u, U of the pairs.",
+            divisor: f64 = "|j n ∓ ω|.",
+            bound: f64 = "The bound: the relative smallest divisor times the largest frequency.",
+        } => Theory, facts("driven", *divisor, *bound);
+
+        /// A request that no form with driven phases answers.
+        #[error("a Hamiltonian with driven phases {problem}")]
+        DrivenUnsupported { problem: &'static str = "What is not possible, as the end of a sentence." } => Input, facts("driven", *problem, "no driven phases");
 
         /// A requested resonance that the frequencies do not satisfy.
         #[error("k = {vector:?} is not a resonance: k·ω = {divisor:?} is not below the bound {bound:?}")]
@@ -137,7 +149,7 @@ crate::error_table! {
         } => Input, facts("resonances", vector.as_slice(), *bound);
 
         /// A vector that cannot be a resonance.
-        #[error("k = {vector:?} is not a resonance vector: it has one integer of at most {bound} for each degree of freedom, and not all are 0")]
+        #[error("k = {vector:?} is not a resonance vector: it has one integer of at most {bound} for each degree of freedom and each driven phase, and not all are 0")]
         ResonanceMalformed { vector: Vec<i64> = "The vector given.", bound: u32 = "Largest absolute value of an entry." }
         => Input, facts("resonances", vector.as_slice(), *bound);
 
@@ -264,7 +276,7 @@ impl Error {
 fn argument_of(what: &str) -> Option<&str> {
     match what {
         "Hamiltonian" | "quadratic part" => Some("hamiltonian"),
-        "state" | "actions" | "parameters" | "times" => Some(what),
+        "state" | "actions" | "parameters" | "times" | "time" | "driven" | "exponents" | "harmonics" => Some(what),
         _ => None,
     }
 }

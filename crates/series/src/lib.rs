@@ -16,10 +16,12 @@ mod bracket;
 mod calculus;
 mod coefficient;
 mod display;
+mod driven;
 mod emit;
 mod energy;
 pub mod error;
 pub mod forms;
+mod harmonics;
 mod homological;
 mod json;
 mod latex;
@@ -38,7 +40,7 @@ pub mod threads;
 mod triangle;
 mod words;
 
-pub use birkhoff::{BirkhoffMap, BirkhoffNormalForm, PhaseSpace, normalize, normalize_with};
+pub use birkhoff::{BirkhoffMap, BirkhoffNormalForm, PhaseSpace, normalize, normalize_driven, normalize_with};
 pub use coefficient::Coefficient;
 pub use error::Error;
 pub use monomial::{MAX_EXPONENT, Monomial, SLOTS};
@@ -49,6 +51,7 @@ pub use polynomial::{Polynomial, Truncation};
 pub mod lie {
     //! Lie transforms: the bracket, the homological equation, Deprit's triangle.
     pub use crate::bracket::Poisson;
+    pub use crate::driven::{Driven, driven_triangle};
     pub use crate::homological::Homological;
     pub use crate::triangle::{LieTransform, Normalization, deprit_triangle};
 }

@@ -5,18 +5,20 @@
 //! product = signed { ("*" | "/") signed }
 //! signed  = { "+" | "-" } power
 //! power   = atom [ ( "^" | "**" ) integer ]
-//! atom    = number | name | "i" | "(" sum ")"
+//! atom    = number | name | "i" | "(" sum ")" | ( "cos" | "sin" ) "(" angle ")"
+//! angle   = [ "+" | "-" ] multiple { ( "+" | "-" ) multiple }
+//! multiple = phase | integer "*" phase | phase "*" integer
 //! number  = digits [ "." [ digits ] ] [ "e" [ "+" | "-" ] digits ]
 //! ```
 //!
-//! Decimals are exact if the coefficients are: `0.1` is 1/10. A divisor must be a constant. `i` is the imaginary unit if the coefficients have one and no
+//! A cosine or a sine is read if the variables include driven phases, which occur nowhere else. Decimals are exact if the coefficients are: `0.1` is 1/10. A divisor must be a constant. `i` is the imaginary unit if the coefficients have one and no
 //! variable has this name.
 //!
 //! Hostile text cannot block the parser or overflow the stack. Nesting, exponents and coefficients are bounded, and every operation on coefficients is charged
 //! by their sizes before it is done. Products are therefore computed term by term with reduced fractions, because a common denominator could become huge.
 
 use crate::error::ParseProblem;
-use crate::{Coefficient, Error, Monomial, Polynomial, SLOTS};
+use crate::{Coefficient, Error, Monomial, Polynomial, SLOTS, harmonics};
 
 const DEEPEST: u32 = 100;
 const LARGEST_EXPONENT: u32 = 1000;
@@ -30,6 +32,8 @@ struct Parser<'a> {
     text: &'a str,
     position: usize,
     names: &'a [&'a str],
+    /// The slots of the driven phases, which are the last names.
+    phases: std::ops::Range<usize>,
     depth: u32,
     budget: u64,
 }
@@ -53,8 +57,14 @@ impl<C: Coefficient> Polynomial<C> {
     /// - `"x^1001"`, `"1e9999999"`, 101 nested brackets, `"(a+b+c+d+e+f+g+h)^1000"`: too large, too deep, too much work;
     /// - `names` with nine entries, with a name twice, or with a name that is not an identifier.
     pub fn parse(text: &str, names: &[&str]) -> Result<Self, Error> {
+        Self::parse_driven(text, names, 0)
+    }
+
+    /// The same as [`parse`](Self::parse) if the last `driven` names are driven phases, whose cosines and sines the text may contain.
+    pub(crate) fn parse_driven(text: &str, names: &[&str], driven: usize) -> Result<Self, Error> {
         check_names(names)?;
-        let mut parser = Parser { text, position: 0, names, depth: 0, budget: BUDGET };
+        let phases = names.len() - driven..names.len();
+        let mut parser = Parser { text, position: 0, names, phases, depth: 0, budget: BUDGET };
         let value: Self = parser.sum()?;
         match parser.peek() {
             None if value.terms().all(|(_, c)| c.is_finite()) => Ok(value),
@@ -230,8 +240,15 @@ impl Parser<'_> {
                 let name = self.take_while(is_name_part).to_owned();
                 let called = self.peek() == Some('(');
                 let polynomial = match (names.iter().position(|known| *known == name), C::imaginary_unit()) {
+                    (Some(slot), _) if self.phases.contains(&slot) => {
+                        return Err(Error::Parse { position, problem: ParseProblem::PhaseAlone(name) });
+                    }
                     (Some(slot), _) => Polynomial::variable(slot)?,
                     (None, Some(unit)) if name == "i" => Polynomial::constant(unit),
+                    _ if called && matches!(&*name, "cos" | "sin") && !self.phases.is_empty() => {
+                        self.take('(');
+                        self.harmonic(name == "sin")?
+                    }
                     _ if called && name == "sqrt" => {
                         return Err(Error::Parse { position, problem: ParseProblem::SquareRoot });
                     }
@@ -241,6 +258,62 @@ impl Parser<'_> {
                 Ok(polynomial)
             }
             Some(other) => Err(self.fail(ParseProblem::UnexpectedCharacter(other))),
+        }
+    }
+
+    /// The cosine or sine of the angle after an opening bracket, by the theorems of addition.
+    fn harmonic<C: Coefficient>(&mut self, sine: bool) -> Result<Polynomial<C>, Error> {
+        let mut multiples = vec![0_i64; self.phases.len()];
+        loop {
+            let sign = self.peek().filter(|letter| matches!(letter, '+' | '-'));
+            sign.into_iter().for_each(|sign| self.take(sign));
+            let (phase, multiple) = self.multiple()?;
+            multiples[phase] += if sign == Some('-') { -multiple } else { multiple };
+            match self.peek() {
+                Some('+' | '-') => {}
+                Some(')') => break self.take(')'),
+                Some(_) => return Err(self.fail(ParseProblem::Angle)),
+                None => return Err(self.fail(ParseProblem::UnexpectedEnd)),
+            }
+        }
+        let (mut cosine, mut sinus) = (Polynomial::constant(C::one()), Polynomial::zero());
+        for (slot, j) in self.phases.clone().zip(multiples) {
+            let c = Polynomial::from_terms([(harmonics::with(Monomial::ONE, slot, j.abs())?, C::one())]);
+            let s = Polynomial::from_terms([(harmonics::with(Monomial::ONE, slot, -j.abs())?, C::integer(j.signum()))]);
+            let mut next = self.multiply(&cosine, &c)?;
+            next -= &self.multiply(&sinus, &s)?;
+            sinus = self.multiply(&sinus, &c)?;
+            sinus += &self.multiply(&cosine, &s)?;
+            cosine = next;
+        }
+        Ok(if sine { sinus } else { cosine })
+    }
+
+    /// A multiple of a phase: the number of the phase and the factor.
+    fn multiple(&mut self) -> Result<(usize, i64), Error> {
+        let (mut phase, mut factor) = (None, None);
+        loop {
+            let letter = self.peek();
+            let position = self.position;
+            let fail = || Error::Parse { position, problem: ParseProblem::Angle };
+            match letter {
+                Some('0'..='9') if factor.is_none() => {
+                    let digits = self.take_while(|letter| letter.is_ascii_digit());
+                    factor = Some(digits.parse::<u16>().map_err(|_| fail())?);
+                }
+                Some(letter) if is_name_start(letter) && phase.is_none() => {
+                    let name = self.take_while(is_name_part).to_owned();
+                    let known = self.names[self.phases.clone()].iter().position(|known| *known == name);
+                    phase = Some(known.ok_or_else(fail)?);
+                }
+                None => return Err(self.fail(ParseProblem::UnexpectedEnd)),
+                _ => return Err(fail()),
+            }
+            if self.peek() != Some('*') {
+                let factor = i64::from(factor.unwrap_or(1));
+                return phase.map(|phase| (phase, factor)).ok_or_else(fail);
+            }
+            self.take('*');
         }
     }
 
@@ -309,9 +382,9 @@ impl Parser<'_> {
         for (m, a) in left.terms() {
             for (n, b) in right.terms() {
                 self.charge(a.bits() + b.bits())?;
-                let mut product = a.clone();
-                product *= b;
-                self.add(&mut sum, m.checked_mul(n)?, &product)?;
+                for (monomial, product) in harmonics::multiplied((m, a), (n, b), self.phases.clone())? {
+                    self.add(&mut sum, monomial, &product)?;
+                }
             }
         }
         Ok(sum)

@@ -4,7 +4,8 @@
 //! attitude that each level leaves, against J, n/spin, e and B − A, one of them varied at a time. `climb STARTS STEPS SEED [FAMILY]`: the largest error over its bound
 //! that hill climbing finds, by family, mode and averaging. `bounds N SEED`: the error of N random scenes and the bound that the plan states, for both
 //! averagings and for second order, and what the integration loses of the free motion over the span. `table N SEED`: by n/spin and e, how many of N random
-//! scenes are served, the share of the torque's effect that is left, and the bound over the error.
+//! scenes are served, the share of the torque's effect that is left, and the bound over the error. `safety N SEED`: errors and estimates of N random scenes of all
+//! families and of the table, by each theory.
 
 use std::f64::consts::TAU;
 use std::io::{self, Write};
@@ -371,7 +372,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ["table", count, seed] => table(&mut out, count.parse()?, seed.parse()?),
         ["bounds", count, seed] => bounds(&mut out, count.parse()?, seed.parse()?),
         _ => Err(
-            "usage: gradient cases | gradient levels | gradient bounds COUNT SEED | gradient table COUNT SEED | gradient climb STARTS STEPS SEED [FAMILY]"
+            "usage: gradient cases | gradient levels | gradient safety COUNT SEED | gradient bounds COUNT SEED | gradient table COUNT SEED | gradient climb STARTS STEPS SEED [FAMILY]"
                 .into(),
         ),
     }

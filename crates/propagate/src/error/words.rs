@@ -2,8 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::STEP_BYTES;
 use andoyer_series::error::Short;
+
+/// Memory of one integration step, in bytes.
+pub(crate) const STEP_BYTES: f64 = 72.0;
 
 /// The modes and conventions in which a pair of periods is possible, as the end of a sentence.
 pub(super) fn elsewhere(possible: &[[String; 2]], swapped: &[[String; 2]]) -> String {

@@ -8,11 +8,10 @@
 use std::f64::consts::TAU;
 
 use andoyer_double::DoubleDouble;
-use num_complex::Complex;
 
 use crate::error::Error;
+use crate::gravity_gradient::averaged::averages::Slow;
 use crate::gravity_gradient::averaged::spin::MOST_QUARTERS;
-use crate::gravity_gradient::averaged::torque::Slow;
 use crate::gravity_gradient::body::cayley_klein::WobbleSeries;
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::draft::{Draft, Outset};
@@ -22,6 +21,7 @@ use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
 use crate::gravity_gradient::orbit::elliptic_motion::Course;
 use crate::input::options::{Averaging, Level};
+use crate::numerics::C64;
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
 use crate::torque_free::polhode::Frame;
@@ -49,15 +49,6 @@ pub(crate) struct DisturbedBy {
     pub(crate) corrections: Corrections,
 }
 
-/// Constants of second order for which the motion passes through the given state.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Offset {
-    /// Added to p, times e^(−iℓ′).
-    pub(crate) p: Complex<f64>,
-    /// Added to M.
-    pub(crate) momentum: f64,
-}
-
 /// A motion under the gravity gradient.
 #[derive(Clone, Debug)]
 pub(crate) struct Gradient {
@@ -66,11 +57,12 @@ pub(crate) struct Gradient {
     /// At least one.
     pub(crate) bodies: Vec<DisturbedBy>,
     pub(crate) slow: Slow,
-    /// Constants that correct the error of first order at the epoch.
-    pub(crate) offset: Offset,
+    /// The constant part of p e^(−iℓ′): √σ, and what corrects the error of first order at the epoch.
+    pub(crate) circle: C64,
+    /// The constant part of M: the mean M, and what corrects the error of first order at the epoch.
+    pub(crate) momentum: f64,
     pub(crate) anomaly: Phase,
     pub(crate) half_longitude: Phase,
-    pub(crate) root: f64,
     /// These times the phase integral Ψ, or in second order times the drifts, are added to ℓ′ and y′.
     pub(crate) drifts: [f64; 2],
     /// The rates that they add to ℓ′ and y′ in the orbit average, in the user's unit.
@@ -106,7 +98,8 @@ impl Gradient {
         let mut gradient = Self {
             anomaly: Phase::new(anomaly_rate, mean.p.arg()),
             half_longitude: Phase::new(longitude_rate * 0.5.into(), 0.5 * mean.longitude),
-            root: mean.p.norm(),
+            circle: mean.p.norm().into(),
+            momentum: inertia.momentum,
             drifts: if level == Level::SecondOrder { [1.0; 2] } else { factors },
             secular: averages.secular(&inertia, &mean).map(|rate| rate * unit),
             pair: inertia.pair.each_ref().map(|series| WobbleSeries::new(series, inertia.sigma.sqrt())),
@@ -117,7 +110,6 @@ impl Gradient {
                 .zip(corrections)
                 .map(|(orbit, corrections)| DisturbedBy { course: orbit.course.clone(), corrections })
                 .collect(),
-            offset: Offset::default(),
             frame: polhode.frame.clone(),
             moments: polhode.moments,
             level,
@@ -154,7 +146,8 @@ impl Gradient {
         match &self.slow {
             Slow::Spin(_) => MOST_ORBITS as f64 / self.bodies[0].course.mean_anomaly.frequency(),
             Slow::Orbit(precession) => precession.bound(MOST_QUARTERS),
-            Slow::Bodies(_) => longest(self.bodies.iter().map(|body| &body.course)),
+            // In a unit of time there are no more arcs than in all orbits together.
+            Slow::Bodies(_) => MOST_QUARTERS as f64 / self.bodies.iter().map(|body| body.course.arcs()).sum::<f64>(),
         }
     }
 
@@ -187,10 +180,4 @@ impl Gradient {
         }
         skipped
     }
-}
-
-/// The largest time from the epoch over which the averaged equations are solved, in the user's unit.
-fn longest<'a>(courses: impl Iterator<Item = &'a Course>) -> f64 {
-    // In a unit of time there are no more arcs than in all orbits together.
-    MOST_QUARTERS as f64 / courses.map(Course::arcs).sum::<f64>()
 }

@@ -4,20 +4,21 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::{Error, TorqueMeasure};
 use crate::gravity_gradient::averaged::averaged_orbit::AveragedOrbit;
-use crate::gravity_gradient::averaged::torque::Averages;
-use crate::gravity_gradient::estimate::Estimate;
+use crate::gravity_gradient::averaged::averages::Averages;
+use crate::gravity_gradient::estimate::{by_orbit, errors};
 use crate::gravity_gradient::first_order::mean_motion::{MeanMotion, first_order, weak_enough};
 use crate::gravity_gradient::first_order::mean_variables::Mean;
-use crate::gravity_gradient::orbit::elliptic_orbit::{Demand, EllipticOrbit};
+use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::request::Request;
 use crate::gravity_gradient::second_order::k2_remainder::SteadyRates;
 use crate::gravity_gradient::second_order::mean_elements::SecondOrderData;
 use crate::input::options::Level;
+use crate::input::orbit::Orbit;
 use crate::numerics::C64;
 use crate::torque_free::polhode::Polhode;
 
-/// Largest precession of the angular momentum in one radian of the true anomaly, or of the fastest orbit if that is shorter \[rad\]. At this limit polynomials
-/// of degree 15 follow the frame to 1e-10 rad.
+/// Largest precession of the angular momentum while the true anomaly advances by 1 rad \[rad\]; if another body has a larger mean motion, while its mean anomaly
+/// advances by 1 rad. At this limit polynomials of degree 15 follow the frame to 1e-10 rad.
 const FASTEST_PRECESSION: f64 = 0.3;
 
 /// What the levels of a motion share.
@@ -25,8 +26,8 @@ pub(crate) struct Outset<'a> {
     pub(crate) polhode: &'a Polhode,
     pub(crate) attitude: UnitQuaternion<f64>,
     pub(crate) request: Request<'a>,
-    pub(crate) orbits: &'a [EllipticOrbit<'a>],
-    demands: Vec<Demand<'a>>,
+    /// The orbits of all disturbing bodies.
+    pub(crate) orbits: Vec<EllipticOrbit<'a>>,
     first: MeanMotion,
     refinements: Option<SecondOrderData>,
 }
@@ -51,25 +52,23 @@ impl<'a> Outset<'a> {
     pub(crate) fn new(
         polhode: &'a Polhode,
         attitude: UnitQuaternion<f64>,
-        osculating: (f64, [f64; 2]),
-        (request, orbits): (&Request<'a>, &'a [EllipticOrbit<'a>]),
+        (sigma, [anomaly, longitude]): (f64, [f64; 2]),
+        request: &Request<'a>,
     ) -> Result<Self, Error> {
         let level = request.level;
         if level == Level::SecondOrder && !request.is_fixed() {
             return Err(Error::OneFixedOrbit { argument: "level", value: level.to_string() });
         }
-        let pole = polhode.invariable_frame(attitude) * Vector3::z();
-        let demand = |orbit: &'a EllipticOrbit<'a>| orbit.demand(request, polhode.scales.1, pole);
-        let demands = orbits.iter().map(demand).collect::<Result<Vec<_>, _>>()?;
-        weak_enough(polhode, osculating.0, &demands)?;
-        let (sigma, [anomaly, longitude]) = osculating;
+        let frame = polhode.invariable_frame(attitude);
+        let orbit = |orbit: &'a Orbit| EllipticOrbit::new(orbit, request, polhode.scales.1, frame * Vector3::z());
+        let orbits = request.orbits.iter().map(orbit).collect::<Result<Vec<_>, _>>()?;
+        weak_enough(polhode, sigma, &orbits)?;
         let p = C64::from_polar(sigma.sqrt(), anomaly);
-        let momentum = polhode.invariants.momentum.to_f64();
-        let state = Mean { p, longitude, momentum, frame: polhode.invariable_frame(attitude) };
-        let first = first_order(polhode, &state, orbits, &demands)?;
+        let state = Mean { p, longitude, momentum: polhode.invariants.momentum.to_f64(), frame };
+        let first = first_order(polhode, &state, &orbits)?;
         let refinements =
-            request.is_refined().then(|| SecondOrderData::new(&first, &state, &orbits[0].start, &demands[0]));
-        Ok(Self { polhode, attitude, request: *request, orbits, demands, first, refinements })
+            request.is_refined().then(|| SecondOrderData::new(&first, &state, &orbits[0].start, &orbits[0]));
+        Ok(Self { polhode, attitude, request: *request, orbits, first, refinements })
     }
 
     /// The motion at a level.
@@ -77,29 +76,30 @@ impl<'a> Outset<'a> {
     /// # Errors
     /// As [`Outset::new`], those of the average over the orbit, and [`Error::TorqueTooStrong`] if the angular momentum precesses faster than the disturbing bodies move.
     pub(crate) fn draft(&self, level: Level) -> Result<Draft, Error> {
-        let Self { polhode, demands, first, .. } = self;
+        let Self { polhode, orbits, first, .. } = self;
         let (motion, steady, left) = match &self.refinements {
-            Some(refinements) => refinements.motion(polhode, first, &demands[0], level)?,
+            Some(refinements) => refinements.motion(polhode, first, &orbits[0], level)?,
             None => (first.clone(), SteadyRates::default(), [0.0; 2]),
         };
-        let averages = Averages::new(polhode, (&motion, steady), demands, level);
-        slow_enough(&averages, demands)?;
+        let averages = Averages::new(polhode, (&motion, steady), orbits, level);
+        slow_enough(&averages, orbits)?;
         let request = Request { level, ..self.request };
-        let estimate = Estimate::new(&motion.inertia, &motion.corrections, &averages, demands, (level, left));
-        let by_orbit = estimate.by_orbit(&request)?;
-        Ok(Draft { level, motion, averages, by_orbit, error: estimate.error(by_orbit) })
+        let [error, further] = errors(&motion, &averages, orbits, (level, left));
+        let by_orbit = by_orbit(&request, &orbits[0], further)?;
+        let error = if by_orbit { error + further } else { error };
+        Ok(Draft { level, motion, averages, by_orbit, error })
     }
 }
 
 /// Checks that the averaged equations can be solved: their solution on a quarter of the orbit is a polynomial, which cannot follow a faster precession.
-fn slow_enough(averages: &Averages, demands: &[Demand<'_>]) -> Result<(), Error> {
-    let fastest = demands.iter().fold(0.0_f64, |most, demand| most.max(demand.mean_motion));
-    let turn = |(ellipse, demand): (&AveragedOrbit, &Demand<'_>)| {
+fn slow_enough(averages: &Averages, orbits: &[EllipticOrbit<'_>]) -> Result<(), Error> {
+    let fastest = orbits.iter().fold(0.0_f64, |most, orbit| most.max(orbit.mean_motion));
+    let turn = |(ellipse, orbit): (&AveragedOrbit, &EllipticOrbit<'_>)| {
         // The largest rate of the true anomaly within the span is half of that of twice the anomaly.
-        let share = (0.5 * demand.envelope.fastest / fastest).min(1.0);
-        ellipse.strength().abs() * (1.0 + ellipse.eccentricity) * share
+        let share = (0.5 * orbit.envelope.fastest / fastest).min(1.0);
+        ellipse.strength.abs() * (1.0 + ellipse.eccentricity) * share
     };
-    let size = averages.ellipses.iter().zip(demands).map(turn).sum::<f64>();
+    let size = averages.ellipses.iter().zip(orbits).map(turn).sum::<f64>();
     if size <= FASTEST_PRECESSION {
         return Ok(());
     }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use pulp::NullaryFnOnce;
 
-use crate::gravity_gradient::disturbed::{DisturbedBy, Gradient, Offset};
+use crate::gravity_gradient::disturbed::{DisturbedBy, Gradient};
 use crate::gravity_gradient::first_order::generator::{Correction, MeanLanes};
 use crate::gravity_gradient::orbit::elliptic_motion::Elapsed;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
@@ -42,14 +42,13 @@ impl Gradient {
         for body in &self.bodies[1..] {
             change = change.plus(elapsed.0.simd().vectorize(OtherBody { body, mean: &mean, elapsed }));
         }
-        let Offset { p, momentum } = self.offset;
-        let relative = ComplexLanes { re: change.p.re + all(self.root + p.re), im: change.p.im + all(p.im) };
+        let relative = ComplexLanes { re: change.p.re + all(self.circle.re), im: change.p.im + all(self.circle.im) };
         let [x, y] = change.rotation;
         let zero = all(0.0);
         Osculating {
             p: turn * relative,
             half: half * small_turn(all(0.5) * change.longitude),
-            momentum: change.momentum + all(self.inertia.momentum + momentum),
+            momentum: change.momentum + all(self.momentum),
             frame: frame * QuaternionLanes([all(0.5) * x, all(0.5) * y, zero, all(1.0)]),
         }
     }

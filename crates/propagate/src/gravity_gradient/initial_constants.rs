@@ -7,7 +7,7 @@
 use nalgebra::{Matrix2, Quaternion, UnitQuaternion, Vector2, Vector3};
 use num_complex::Complex;
 
-use crate::gravity_gradient::averaged::torque::Slow;
+use crate::gravity_gradient::averaged::averages::Slow;
 use crate::gravity_gradient::disturbed::Gradient;
 use crate::gravity_gradient::evaluate::Osculating;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
@@ -16,10 +16,6 @@ use crate::torque_free::polhode::Polhode;
 
 /// Largest number of steps to the constants. Each step reduces the error by the size of the torque, or by the step of the differences.
 const MOST_STEPS: usize = 16;
-/// Changes below this are rounding errors.
-const CONVERGED: f64 = 1.5e-16;
-/// Step of the differences, relative to √σ_sep.
-const STEP: f64 = 1e-4;
 
 impl Gradient {
     /// Finds the constants for which the motion has this attitude and the polhode's angular momentum at the epoch. `slow` solves the averaged motion from a
@@ -34,21 +30,21 @@ impl Gradient {
         let none = Lanes::splat(pulp::Scalar, 0.0);
         let momentum = polhode.invariants.momentum.to_f64();
         let direction = Vector3::from(polhode.invariants.direction);
-        let step = STEP * polhode.separatrix_action().sqrt();
+        let scale = polhode.separatrix_action().sqrt();
         for _ in 0..MOST_STEPS {
             let state = self.state((none, none));
-            let missing = self.missing(&state, &direction, step);
+            let missing = self.missing(&state, &direction, f64::EPSILON.cbrt() * scale);
             let lacking = momentum - value(state.momentum);
             let turned = state.frame * self.relative(&state) * QuaternionLanes::all(none, &self.frame.quaternion);
             let [x, y, z, w] = turned.0.map(value);
             let back = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)).inverse();
             let rotation = attitude * back;
-            self.offset.p += missing;
-            self.offset.momentum += lacking;
+            self.circle += missing;
+            self.momentum += lacking;
             frame = UnitQuaternion::new_normalize((rotation * frame).into_inner());
             self.slow = slow(frame);
-            let moved = missing.norm() / step * STEP + lacking.abs() / momentum + rotation.vector().norm();
-            if moved <= CONVERGED {
+            let moved = missing.norm() / scale + lacking.abs() / momentum + rotation.vector().norm();
+            if moved <= f64::EPSILON {
                 break;
             }
         }

@@ -7,7 +7,6 @@ use nalgebra::UnitQuaternion;
 use crate::error::Error;
 use crate::gravity_gradient::disturbed::Gradient;
 use crate::gravity_gradient::draft::Outset;
-use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::request::Request;
 use crate::input::options::Level;
 use crate::torque_free::polhode::Polhode;
@@ -15,17 +14,15 @@ use crate::torque_free::polhode::Polhode;
 /// The motion under a gravity gradient at the level that is asked for, and why it is not of second order if that was left open.
 ///
 /// # Errors
-/// Those of [`Outset::new`], of the draft at the level that is asked for, or in first order if it was left open, and of [`Gradient::new`]. An error of second
-/// order becomes the reason if the level was left open.
+/// Errors of [`Outset::new`], [`Outset::draft`] and [`Gradient::new`]. With [`Level::Auto`] only those of the first-order draft; an error of second order is
+/// returned as the reason.
 pub(crate) fn chosen(
     polhode: &Polhode,
     attitude: UnitQuaternion<f64>,
     osculating: (f64, [f64; 2]),
     request: &Request<'_>,
 ) -> Result<(Gradient, Option<String>), Error> {
-    let orbits = request.orbits.iter().map(|orbit| EllipticOrbit::new(orbit, request, polhode.scales.1));
-    let orbits: Vec<_> = orbits.collect();
-    let outset = Outset::new(polhode, attitude, osculating, (request, &orbits))?;
+    let outset = Outset::new(polhode, attitude, osculating, request)?;
     if request.level != Level::Auto {
         return Ok((Gradient::new(&outset, outset.draft(request.level)?)?, None));
     }

@@ -67,24 +67,24 @@ pub(crate) fn osculating(polhode: &Polhode) -> Result<(f64, (f64, [f64; 2])), Er
     Ok((ratio, (sigma, [closed.anomaly, -2.0 * closed.series.pair(closed.anomaly)[0].arg()])))
 }
 
-/// The part of a dropped term, if the mean M and L lack the dropped terms and if they have them. The second is so small that in scenes of weak torques the error
-/// stays near rounding; ten times as much makes a sample 3 % faster.
+/// Fraction of the tolerance for one dropped term: if the mean M and L are computed without the dropped terms, and if they are computed with all terms. The second
+/// is so small that in scenes of weak torques the error stays near rounding; ten times as much makes a sample 3 % faster. The first is also the fraction for the
+/// truncation error of a sum over time derivatives.
 const DROPPED: [f64; 2] = [0.01, 2e-5];
 /// A term below this share of the second-order change is dropped too, in the same two cases. A few tens of terms may be dropped. With a third of the second share
 /// a sample at n/spin = 0.02 takes 7 % longer.
 const DROPPED_OF_SECOND_ORDER: [f64; 2] = [1e-5, 3e-4];
-/// The part of the truncation error of a sum over time derivatives; above it exact divisors replace the sum.
-const TRUNCATED: f64 = 0.01;
-/// The part of a pair that is not summed around the orbit.
+/// Fraction of the tolerance for one pair of terms that is not summed around the orbit.
 const PAIRS: f64 = 0.02;
 
 /// The parts of the tolerance \[rad\].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ledger {
     pub(crate) dropped: f64,
+    /// Truncation error of a sum over time derivatives. Above it exact divisors replace the sum.
     pub(crate) truncated: f64,
     pub(crate) pairs: f64,
-    /// All of it: resonances that turn the attitude by much more are refused.
+    /// The whole tolerance. Resonances that turn the attitude by much more are refused.
     pub(crate) refused: f64,
     /// Terms below this share of the second-order change are dropped.
     pub(crate) of_second_order: f64,
@@ -96,13 +96,8 @@ impl Ledger {
     /// The parts of a tolerance.
     pub(crate) fn new(tolerance: f64, refined: bool) -> Self {
         let case = usize::from(refined);
-        Self {
-            dropped: DROPPED[case] * tolerance,
-            truncated: TRUNCATED * tolerance,
-            pairs: PAIRS * tolerance,
-            refused: tolerance,
-            of_second_order: DROPPED_OF_SECOND_ORDER[case],
-            refined,
-        }
+        let [dropped, truncated, pairs] = [DROPPED[case], DROPPED[0], PAIRS].map(|part| part * tolerance);
+        let of_second_order = DROPPED_OF_SECOND_ORDER[case];
+        Self { dropped, truncated, pairs, refused: tolerance, of_second_order, refined }
     }
 }

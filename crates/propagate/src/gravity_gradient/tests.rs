@@ -6,10 +6,9 @@ use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::mean_variables::{Mean, PeriodicChange};
 use crate::gravity_gradient::level::chosen;
-use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
+use crate::gravity_gradient::orbit::elliptic_orbit::{EllipticOrbit, whole};
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
-use crate::gravity_gradient::orbit::span::{Reach, whole};
-use crate::gravity_gradient::request::Ledger;
+use crate::gravity_gradient::orbit::span::Reach;
 use crate::gravity_gradient::request::Request;
 use crate::input::options::{Averaging, Level};
 use crate::input::orbit::Orbit;
@@ -149,19 +148,9 @@ impl Stand {
     /// The corrections, with exact divisors if there is a series.
     fn change(&self, mean: &Mean, series: Option<&OrbitSeries>) -> PeriodicChange {
         let inertia = Inertia::new(&self.polhode, mean.p.norm_sqr(), mean.momentum);
-        let demand = Demand {
-            orbit: &self.orbit,
-            mean_motion: MEAN_MOTION,
-            rates: [0.0; 2],
-            axes: self.orbit.axes(),
-            level: Level::Full,
-            duration: 1e5,
-            ledger: Ledger { of_second_order: 0.0, ..Ledger::new(1e-30, true) },
-            series,
-            envelope: &whole(self.orbit.eccentricity(), MEAN_MOTION),
-            pole: self.mean.frame * Vector3::z(),
-        };
-        Corrections::new(&inertia, &demand).expect("no resonance").at(mean, &self.place)
+        let whole = whole(&self.orbit, self.mean.frame * Vector3::z());
+        let elliptic = EllipticOrbit { duration: 1e5, series: series.cloned(), ..whole };
+        Corrections::new(&inertia, &elliptic).expect("no resonance").at(mean, &self.place)
     }
 
     /// Central difference of δp, δM, δy′ and δk along axes 1 and 2 when the mean state changes by ±h.

@@ -22,6 +22,8 @@ pub enum Method {
     Closed,
     /// Numerical integration of the full equations over the span.
     Integrated,
+    /// The normal form about a spin–orbit resonance.
+    Libration,
 }
 
 impl FromStr for Method {
@@ -33,6 +35,7 @@ impl FromStr for Method {
             "series" => Ok(Self::Series),
             "closed" => Ok(Self::Closed),
             "integrated" => Ok(Self::Integrated),
+            "libration" => Ok(Self::Libration),
             _ => Err(Error::Method { value: text.to_owned() }),
         }
     }
@@ -45,6 +48,7 @@ impl fmt::Display for Method {
             Self::Series => "series",
             Self::Closed => "closed",
             Self::Integrated => "integrated",
+            Self::Libration => "libration",
         })
     }
 }

@@ -1,7 +1,7 @@
-//! The relative orbit of a disturbing body: a Keplerian ellipse in any plane, fixed or with secular rates of node and pericentre.
+//! The relative orbit of a disturbing body: a Keplerian ellipse or hyperbola in any plane, fixed or with secular rates of node and pericentre.
 //!
 //! The elements refer to the inertial frame of the scene. Node and argument of the pericentre are those at the time of pericentre. Kepler's equation is solved
-//! in lanes ([`crate::simd::kepler`]).
+//! in lanes ([`crate::simd::kepler`]), that of a hyperbola one by one ([`crate::numerics::hyperbola`]).
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,6 +9,7 @@ use andoyer_double::DoubleDouble;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::error::Error;
+use crate::numerics::hyperbola::hyperbolic_anomaly;
 use crate::numerics::phase::Phase;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
@@ -20,6 +21,12 @@ pub(super) const MOST_TURNS: f64 = TAU * 1e15;
 const LONGEST: f64 = 1e300;
 
 const POSITIVE: &str = "positive and finite";
+
+/// Largest eccentricity. Powers of the distance do not overflow.
+const MOST_ECCENTRIC: f64 = 1e50;
+/// Its bound in words, and that of the mean elements of an ellipse.
+const CONIC: &str = "0 or more, other than 1 and at most 1e50";
+const ELLIPSE: &str = "0 or more and less than 1";
 
 /// The bounds of mass_fraction and of attraction if both are given: the attraction of the disturbing body contains its share of the mass.
 const NOT_BOTH: [&str; 2] =
@@ -36,7 +43,7 @@ pub struct Oblateness {
     pub radius: f64,
 }
 
-/// A Keplerian orbit of the disturbing body about the rotating one.
+/// A Keplerian orbit of the disturbing body about the rotating one: an ellipse, or a hyperbola, under which scenes are integrated.
 ///
 /// ```
 /// use andoyer_propagate::Orbit;
@@ -63,13 +70,14 @@ pub struct Orbit {
 impl Orbit {
     /// An orbit from its mean motion n [rad per unit of time] and eccentricity e, in the inertial x, y plane, with its pericentre on the x axis at time 0.
     ///
-    /// n²a³ is G times the sum of the two masses. The disturbing body has the whole mass unless [`Orbit::mass_fraction`] gives its share.
+    /// n²|a|³ is G times the sum of the two masses, and the mean anomaly grows with n. An eccentricity above 1 is that of a hyperbola. The disturbing body has the whole mass unless [`Orbit::mass_fraction`] gives its share.
     ///
     /// # Errors
-    /// - [`Error::Orbit`] for a mean motion of 0, −1 or NaN, and for an eccentricity of −0.1, 1 or NaN.
+    /// - [`Error::Orbit`] for a mean motion of 0, −1 or NaN, and for an eccentricity of −0.1, 1, 1e51 or NaN.
     pub fn new(mean_motion: f64, eccentricity: f64) -> Result<Self, Error> {
         check("mean_motion", mean_motion, mean_motion > 0.0 && mean_motion.is_finite(), POSITIVE)?;
-        check("eccentricity", eccentricity, (0.0..1.0).contains(&eccentricity), "0 or more and less than 1")?;
+        let conic = (0.0..=MOST_ECCENTRIC).contains(&eccentricity) && eccentricity != 1.0;
+        check("eccentricity", eccentricity, conic, CONIC)?;
         Ok(Self {
             mean_motion,
             eccentricity,
@@ -118,7 +126,7 @@ impl Orbit {
         positive("radius", radius)?;
         finite("j2", j2)?;
         finite("inclination", inclination)?;
-        check("eccentricity", eccentricity, (0.0..1.0).contains(&eccentricity), "0 or more and less than 1")?;
+        check("eccentricity", eccentricity, (0.0..1.0).contains(&eccentricity), ELLIPSE)?;
         let attraction = gm / semi_major_axis / semi_major_axis / semi_major_axis;
         positive("attraction", attraction)?;
         let mean_motion = attraction.sqrt();
@@ -268,6 +276,11 @@ impl Orbit {
         self.mean_motion
     }
 
+    /// Whether the orbit is a hyperbola.
+    pub(crate) fn is_hyperbola(&self) -> bool {
+        self.eccentricity > 1.0
+    }
+
     /// The attraction over n². It is the mass fraction unless an attraction is given.
     pub(crate) fn disturbing_fraction(&self) -> f64 {
         match self.attraction {
@@ -300,6 +313,18 @@ impl Orbit {
     /// The mean anomaly as a phase that starts at an epoch.
     pub(crate) fn mean_anomaly(&self, epoch: f64) -> Phase {
         self.angle(epoch, 0.0, self.mean_motion)
+    }
+
+    /// The mean anomaly of a hyperbola at a time after an epoch, which never turns \[rad\].
+    pub(crate) fn hyperbolic_mean_anomaly(&self, epoch: f64, (high, low): (f64, f64)) -> f64 {
+        let since = DoubleDouble::sum(epoch, -self.time_of_pericentre) + DoubleDouble::sum(high, low);
+        (since * DoubleDouble::from(self.mean_motion)).to_f64()
+    }
+
+    /// The distance on a hyperbola at a time, over |a|.
+    pub(crate) fn hyperbolic_distance(&self, time: f64) -> f64 {
+        let anomaly = hyperbolic_anomaly(self.hyperbolic_mean_anomaly(time, (0.0, 0.0)), self.eccentricity);
+        self.eccentricity * anomaly.cosh() - 1.0
     }
 
     /// The node and the argument of the pericentre as phases that start at an epoch.
@@ -336,13 +361,19 @@ impl Orbit {
         check("time_of_pericentre", self.time_of_pericentre, bounded, "within 1e15 periods of the epoch of the state")
     }
 
-    /// The true anomaly at a time, in (−π, π] \[rad\].
+    /// The true anomaly at a time, in (−π, π] \[rad\]; a hyperbola has those below arccos(−1/e).
     ///
     /// # Errors
     /// - [`Error::Orbit`] for a time that is NaN, infinite, or more than 1e15 periods from the time of pericentre.
     pub fn true_anomaly(&self, time: f64) -> Result<f64, Error> {
         let bounded = (time - self.time_of_pericentre).abs() * self.mean_motion <= MOST_TURNS;
         check("time", time, bounded, "finite and within 1e15 periods of the pericentre")?;
+        if self.is_hyperbola() {
+            let anomaly = hyperbolic_anomaly(self.hyperbolic_mean_anomaly(time, (0.0, 0.0)), self.eccentricity);
+            return Ok(
+                2.0 * (((self.eccentricity + 1.0) / (self.eccentricity - 1.0)).sqrt() * (0.5 * anomaly).tanh()).atan()
+            );
+        }
         let anomaly = self.mean_anomaly(self.time_of_pericentre).angle((time - self.time_of_pericentre, 0.0));
         // The angle of half a turn may have either sign.
         let anomaly = if anomaly == -PI { PI } else { anomaly };

@@ -3,6 +3,7 @@
 //! Let h = r × v and p = h²/GM. The inclination and the node follow from h, and the argument of latitude u from r in the plane of the orbit. With 1/a = 2/r −
 //! v²/GM, Kepler's equation has e cos E = 1 − r/a and e sin E = r·v/√(GM a), so e, E and M = E − e sin E follow without a division by e. The true anomaly f
 //! comes from the same E and e, so that u = argument of the pericentre + f holds for a circle too, whose pericentre is arbitrary.
+//! For a hyperbola e² − 1 = p/|a| and e sinh H = r·v/√(GM |a|).
 //!
 //! Vectors are scaled by their largest components, so no square overflows. Within 3.3 periods the error of a position is at most 1.4e-14 of a(1 + e) for e ≤ 0.95
 //! (`crates/py/tests/test_orbit_state.py`). For e near 1 it grows by a/r, since 2/r and v²/GM cancel. A large time loses digits of the time of pericentre.
@@ -13,11 +14,11 @@ use nalgebra::Vector3;
 
 use super::orbit::{MOST_TURNS, Orbit, check};
 use crate::error::Error;
+use crate::numerics::hyperbola::{hyperbolic_anomaly, mean_anomaly};
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
-const ELLIPSE: &str =
-    "less than 1 for this position, velocity and gm: parabolas, hyperbolas and straight falls have no orbit here";
+const CONIC: &str = "other than 1 for this position, velocity and gm: parabolas and straight falls have no orbit here";
 
 impl Orbit {
     /// The Keplerian orbit through a position with a velocity, in inertial components, at a time: of the disturbing body relative to the rotating one, or of a
@@ -39,7 +40,7 @@ impl Orbit {
     ///
     /// # Errors
     /// - [`Error::Direction`] for a position of 0, and for a component that is not finite.
-    /// - [`Error::Orbit`] for a gm of 0, −1 or NaN; for a time that is not finite; for an eccentricity of 1 or more; for a mean motion or a semi-major axis that
+    /// - [`Error::Orbit`] for a gm of 0, −1 or NaN; for a time that is not finite; for an eccentricity of 1 to rounding; for a mean motion or a semi-major axis that
     ///   overflows or underflows.
     pub fn from_state(position: [f64; 3], velocity: [f64; 3], gm: f64, time: f64) -> Result<Self, Error> {
         for (argument, vector, zero) in [("position", position, false), ("velocity", velocity, true)] {
@@ -60,22 +61,37 @@ impl Orbit {
         // e cos f and e sin f, for every conic.
         let (cosine, sine) = (momentum * momentum / gm / radius - 1.0, momentum * radial / radius / gm);
         let eccentricity = cosine.hypot(sine);
+        let rate = |inverse: f64| (gm * inverse).sqrt() * inverse * (speed / length);
+        let time_past = |mean_anomaly: f64, mean_motion: f64| time - mean_anomaly / mean_motion;
+        // 2/r and v²/GM have rounding errors of this size: a parabola is none of the hyperbolas within them.
+        if inverse < -4.0 * f64::EPSILON * 2.0 / radius && momentum > 0.0 {
+            let inverse = -inverse;
+            let square = momentum * momentum / gm * inverse;
+            let eccentricity = 1.0 + square / (1.0 + (1.0 + square).sqrt());
+            let orbit = Self::new(rate(inverse), eccentricity)?;
+            let anomaly = (radial * (inverse / gm).sqrt() / eccentricity).asinh();
+            let true_anomaly =
+                2.0 * (((eccentricity + 1.0) / (eccentricity - 1.0)).sqrt() * (0.5 * anomaly).tanh()).atan();
+            return orbit
+                .plane(inclination, node, (latitude - true_anomaly).rem_euclid(TAU))?
+                .time_of_pericentre(time_past(mean_anomaly(anomaly, eccentricity), orbit.mean_motion()))?
+                .semi_major_axis(length / inverse);
+        }
         // False for NaN, which comes from a velocity of 0.
         if !(eccentricity < 1.0 && inverse > 0.0) {
-            return Err(Error::Orbit { argument: "eccentricity", value: eccentricity.max(1.0), bound: ELLIPSE });
+            return Err(Error::Orbit { argument: "eccentricity", value: 1.0, bound: CONIC });
         }
         let axis = 1.0 / inverse;
         let (along, across) = (1.0 - radius * inverse, radial * (inverse / gm).sqrt());
         let (eccentricity, anomaly) = (along.hypot(across), across.atan2(along));
-        let mean_motion = (gm * inverse).sqrt() * inverse * (speed / length);
+        let mean_motion = rate(inverse);
         let orbit = Self::new(mean_motion, eccentricity)?;
         let (half_sine, half_cosine) = (0.5 * anomaly).sin_cos();
         let true_anomaly =
             2.0 * ((1.0 + eccentricity).sqrt() * half_sine).atan2((1.0 - eccentricity).sqrt() * half_cosine);
-        let mean_anomaly = anomaly - across;
         orbit
             .plane(inclination, node, (latitude - true_anomaly).rem_euclid(TAU))?
-            .time_of_pericentre(time - mean_anomaly / mean_motion)?
+            .time_of_pericentre(time_past(anomaly - across, mean_motion))?
             .semi_major_axis(axis * length)
     }
 
@@ -99,12 +115,18 @@ impl Orbit {
         let axis = self.asked_semi_major_axis().ok_or(Error::NoSemiMajorAxis)?;
         let reached = (time - self.elements()[2]).abs() * self.fastest() <= MOST_TURNS;
         check("time", time, reached, "finite and within 1e15 periods of the pericentre")?;
-        let anomaly = self.mean_anomaly(time).angle((0.0, 0.0));
         let e = self.eccentricity();
+        let [to_pericentre, ahead, _] = self.axes_at(time);
+        if self.is_hyperbola() {
+            let anomaly = hyperbolic_anomaly(self.hyperbolic_mean_anomaly(time, (0.0, 0.0)), e);
+            let half = (0.5 * anomaly).sinh();
+            let (along, across) = ((e - 1.0) - 2.0 * half * half, ((e - 1.0) * (e + 1.0)).sqrt() * anomaly.sinh());
+            return Ok(((to_pericentre * along + ahead * across) * axis).into());
+        }
+        let anomaly = self.mean_anomaly(time).angle((0.0, 0.0));
         let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), e);
         let [sine, cosine] = [place.sine, place.cosine].map(|lanes| lanes.values()[0]);
         let radius = axis * ((1.0 - e) * (1.0 + e) / (1.0 + e * cosine));
-        let [to_pericentre, ahead, _] = self.axes_at(time);
         Ok(((to_pericentre * cosine + ahead * sine) * radius).into())
     }
 }

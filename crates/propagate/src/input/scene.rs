@@ -67,7 +67,7 @@ impl Scene {
         self
     }
 
-    /// Fixes the order of the series, including its secular part (theory §7). The default is the order that the tolerance needs.
+    /// Fixes the order of the series, including its secular part (theory §7), or that of the normal form of a libration, from 2 to 16. The default is the order that the tolerance needs.
     #[must_use]
     pub fn order(mut self, order: usize) -> Self {
         self.order = Some(order);

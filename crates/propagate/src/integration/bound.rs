@@ -1,4 +1,4 @@
-//! The error bound of an integration: what becomes of displaced states.
+//! The error bound of an integration, from the separation of displaced states.
 //!
 //! The state at the epoch is displaced in four directions by the size of all errors of the steps together: the root of the sum of squares of the rounding
 //! errors, plus the sum of the truncation errors. Every step adds a displacement of the size of its own errors, because a later displacement may grow more. The
@@ -10,7 +10,7 @@
 //!
 //! First the displacements are enlarged to about 1e-3 rad at the end, where steps of low order are enough, and the distance is scaled back. Where the displaced
 //! states go far away, they are brought nearer to the motion, in the same direction, and the scale changes, as for Lyapunov exponents. The four are integrated
-//! at once, in lanes. If no scale is left, the displacements themselves are integrated, with shorter steps.
+//! at once, in lanes. If an enlarged displacement grows beyond 0.1 rad, the displacements themselves are integrated, with shorter steps.
 //!
 //! The interpolation error of tables is measured with two more integrations, by the neighbouring polynomials ([`Interpolated`]).
 
@@ -32,7 +32,7 @@ const COMPARISONS: usize = 256;
 const DRIFT: f64 = 1e-15;
 /// Length of the steps of the displaced state, relative to those of the motion.
 const SHORTER: f64 = 0.9;
-/// The same where the displacement is enlarged: one step of the displaced states for one of the motion, whose order is higher.
+/// Length of the steps of an enlarged displacement, relative to those of the motion: one step for one step of the motion, whose order is higher.
 const LONGER: f64 = 1.15;
 /// A distance beyond which nothing is known \[rad\].
 const LOST: f64 = 0.5;
@@ -56,7 +56,7 @@ const LANES: usize = 4 * PATTERNS;
 
 /// Distance at the end of linear growth, of an enlarged displacement \[rad\].
 const ENLARGED: f64 = 1e-3;
-/// A distance of an enlarged displacement beyond which it has no scale \[rad\].
+/// An enlarged displacement larger than this does not grow linearly, and is not used \[rad\].
 const UNSCALED: f64 = 0.1;
 /// A distance beyond which it is made smaller \[rad\], and by how much.
 const FAR: f64 = 0.01;
@@ -65,7 +65,7 @@ const SMALLER: f64 = 0.1;
 /// The error bound at some times from the epoch, which does not decrease.
 pub(super) type Profile = Vec<(f64, f64)>;
 
-/// The steps of a motion in one direction, and what measures their error.
+/// The steps of a motion in one direction, and the settings by which their error is measured.
 #[derive(Clone, Copy)]
 pub(super) struct MeasuredSteps<'a> {
     pub(super) equations: &'a Equations<4>,
@@ -89,7 +89,7 @@ impl MeasuredSteps<'_> {
         [angle + INPUT, rate + INPUT * first.abs().max(second.abs()).max(third.abs())]
     }
 
-    /// What the norm of the quaternion, and without a torque the integrals of the free motion, say of the error.
+    /// The error of the attitude by the norm of the quaternion and, without a torque, by the integrals of the free motion \[rad\].
     fn drift(&self, step: &Step) -> f64 {
         let by_norm = 2.0 * (norm(&step.attitude) - 1.0).abs();
         if !self.equations.bodies.is_empty() {
@@ -122,7 +122,7 @@ impl MeasuredSteps<'_> {
 }
 
 impl Task for MeasuredSteps<'_> {
-    /// None where an enlarged displacement has no scale.
+    /// `None` if an enlarged displacement grows beyond [`UNSCALED`].
     type Output = Result<Option<Profile>, Error>;
 
     #[inline(always)]
@@ -209,7 +209,7 @@ impl Task for Interpolated<'_> {
     }
 }
 
-/// Adds what two other interpolations say to an error bound. Beyond [`LOST`] nothing is known.
+/// Adds the largest departure of two other interpolations to an error bound. Beyond [`LOST`] the bound is half a turn.
 pub(super) fn with_interpolation(bound: &mut Profile, departures: &[Profile; 2]) {
     let [one, other] = departures;
     for ((entry, one), other) in bound.iter_mut().zip(one).zip(other) {

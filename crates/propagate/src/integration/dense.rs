@@ -1,7 +1,7 @@
 //! Evaluation at any time by the series of the step that contains it.
 //!
-//! Of an integration whose coefficients are not kept a step is expanded again when a time falls into it, which takes as long as the step took and gives the
-//! same bits; times in order share the expansion.
+//! If the coefficients of an integration are not kept, a step is expanded again when a time falls into it. The expansion takes the time of the step and gives
+//! the same bits. Times in order share an expansion.
 
 use pulp::Arch;
 
@@ -11,7 +11,7 @@ use super::integrator::{Side, Step};
 use crate::numerics::scaling::scaled;
 use crate::simd::instruction_set::dispatch_few;
 
-/// Where the last time was.
+/// The step of the last evaluated time.
 pub(crate) struct Cursor<'a> {
     motion: &'a Integrated,
     workspace: Box<Workspace<4>>,

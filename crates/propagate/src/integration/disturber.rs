@@ -1,7 +1,8 @@
 //! The series of a disturbing body about a time: r̃ = √(3μ) ρ^(−5/2) r, whose products with itself are the torque.
 //!
 //! On an orbit, with E′ = n/ρ and ρ = 1 − e cos E, r is (cos E − e, √(1−e²) sin E) in units of a, turned by the argument of the pericentre, the inclination and
-//! the node; a secular rate multiplies by the series of a rotation. μ is the attraction G m/a³.
+//! the node; a secular rate multiplies by the series of a rotation. μ is the attraction G m/a³. On a hyperbola H′ = n/ρ, ρ = e cosh H − 1 and r is
+//! (e − cosh H, √(e²−1) sinh H) in units of |a|.
 
 use std::f64::consts::PI;
 
@@ -9,6 +10,7 @@ use super::interpolation::Table;
 use super::series::{ROWS, Row, Scalars, Series, ZERO, add_scaled};
 use crate::input::disturbing_body::DisturbingBody;
 use crate::input::orbit::Orbit;
+use crate::numerics::hyperbola::hyperbolic_anomaly;
 use crate::numerics::phase::Phase;
 use crate::numerics::scaling::scaled;
 use crate::simd::instruction_set::InstructionSet;
@@ -28,11 +30,13 @@ pub(super) enum Disturber {
 #[derive(Clone, Debug)]
 pub(super) struct Orbiting {
     mean_anomaly: Phase,
+    /// The orbit and the epoch of a hyperbola, whose mean anomaly does not turn.
+    hyperbola: Option<(Orbit, f64)>,
     node: Phase,
     argument: Phase,
     /// Sine and cosine of node and argument at the epoch.
     still: [(f64, f64); 2],
-    /// Of node and argument; in the unit of the integration, as the mean motion.
+    /// Rates of node and argument in the unit of the integration.
     rates: [f64; 2],
     mean_motion: f64,
     eccentricity: f64,
@@ -78,8 +82,8 @@ impl Disturber {
         }
     }
 
-    /// What the number of steps that the body needs until a time is proportional to: the integral of dt/R from the epoch, where R is the radius of convergence,
-    /// or the number of intervals of a table.
+    /// A measure of the steps from the epoch to a time: the integral of dt/R, where R is the radius of convergence, or the number of intervals of a table. The
+    /// number of steps is proportional to it.
     pub(super) fn passed(&self, time: (f64, f64)) -> f64 {
         match self {
             Self::Orbiting(orbit) => orbit.passed(time),
@@ -100,9 +104,10 @@ impl Orbiting {
     fn new(orbit: &Orbit, epoch: f64, exponent: i32) -> Self {
         let [node, argument] = orbit.node_and_argument(epoch);
         let eccentricity = orbit.eccentricity();
-        let root = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
+        let root = ((1.0 - eccentricity) * (1.0 + eccentricity)).abs().sqrt();
         Self {
             mean_anomaly: orbit.mean_anomaly(epoch),
+            hyperbola: orbit.is_hyperbola().then_some((*orbit, epoch)),
             still: [node, argument].map(|phase| phase.angle((0.0, 0.0)).sin_cos()),
             node,
             argument,
@@ -110,8 +115,13 @@ impl Orbiting {
             mean_motion: scaled(orbit.mean_motion(), -exponent),
             eccentricity,
             root,
-            // The distance is 0 where cos E = 1/e: at E = iy with tanh y = √(1−e²), and M = i (y − √(1−e²)), whose series begins with a third of the cube.
-            singularity: if root < SMALL_ROOT { root * root * root / 3.0 } else { root.atanh() - root },
+            // The distance is 0 where cos E = 1/e: at E = iy with tanh y = √(1−e²), and M = i (y − √(1−e²)), whose series begins with a third of the cube. On a
+            // hyperbola it is 0 where cosh H = 1/e: at H = iy with tan y = √(e²−1), and M = i (√(e²−1) − y).
+            singularity: match orbit.is_hyperbola() {
+                _ if root < SMALL_ROOT => root * root * root / 3.0,
+                true => root - root.atan(),
+                false => root.atanh() - root,
+            },
             tilt: orbit.tilt(),
             strength: scaled((3.0 * orbit.strength()).sqrt(), -exponent),
             exponent,
@@ -121,8 +131,8 @@ impl Orbiting {
     #[inline(always)]
     fn series<S: InstructionSet>(&self, simd: S, (high, low): (f64, f64), order: usize, out: &mut Series) -> f64 {
         let elapsed = (scaled(high, -self.exponent), scaled(low, -self.exponent));
-        let mean = self.mean_anomaly.angle(elapsed);
-        let (ellipse, factor) = self.ellipse(simd, mean, order);
+        let mean = self.mean(elapsed).1;
+        let (ellipse, factor) = self.conic(simd, mean, order);
         let mut place = ZERO;
         for k in 0..order {
             for j in 0..=k {
@@ -144,10 +154,19 @@ impl Orbiting {
         (mean * mean + self.singularity * self.singularity).sqrt() / self.mean_motion
     }
 
+    /// Whole turns of the mean anomaly since the epoch, and the angle beyond them.
+    #[inline(always)]
+    fn mean(&self, elapsed: (f64, f64)) -> (f64, f64) {
+        match &self.hyperbola {
+            None => self.mean_anomaly.turns_and_angle_at(elapsed),
+            Some((orbit, epoch)) => (0.0, orbit.hyperbolic_mean_anomaly(*epoch, elapsed)),
+        }
+    }
+
     /// The integral of dt/R from the epoch to a time; 0 for a circle, whose R is infinite.
     fn passed(&self, (high, low): (f64, f64)) -> f64 {
         let of = |elapsed: (f64, f64)| {
-            let (turns, mean) = self.mean_anomaly.turns_and_angle_at(elapsed);
+            let (turns, mean) = self.mean(elapsed);
             2.0 * turns * (PI / self.singularity).asinh() + (mean / self.singularity).asinh()
         };
         (of((scaled(high, -self.exponent), scaled(low, -self.exponent))) - of((0.0, 0.0))).abs()
@@ -155,13 +174,12 @@ impl Orbiting {
 
     /// Position in the orbit's axes, and √(3μ) ρ^(−5/2), from the mean anomaly.
     #[inline(always)]
-    fn ellipse<S: InstructionSet>(&self, simd: S, mean: f64, order: usize) -> (Series, Scalars) {
+    fn conic<S: InstructionSet>(&self, simd: S, mean: f64, order: usize) -> (Series, Scalars) {
         let e = self.eccentricity;
-        let anomaly = if e == 0.0 { mean } else { eccentric_anomaly(mean, e) };
-        let (half_sine, half_cosine) = (0.5 * anomaly).sin_cos();
-        let versed = 2.0 * half_sine * half_sine;
-        let cosine = 1.0 - versed;
-        let (x, sine, radius) = ((1.0 - e) - versed, 2.0 * half_sine * half_cosine, (1.0 - e) + e * versed);
+        let AtEpoch { x, sine, cosine, radius, sign } = match self.hyperbola {
+            None => AtEpoch::on_ellipse(mean, e),
+            Some(_) => AtEpoch::on_hyperbola(mean, e),
+        };
         let inverse = 1.0 / radius;
         let (mut rate, mut factor): (Scalars, Scalars) = ([0.0; ROWS], [0.0; ROWS]);
         rate[0] = self.mean_motion * inverse;
@@ -179,9 +197,9 @@ impl Orbiting {
                 factor[k] = -inverse * (1.5 * by_factor[3] / k as f64 + by_factor[2]);
             }
             let share = 1.0 / (k + 1) as f64;
-            // The cosine is x + e.
+            // The cosine is x + e, and the hyperbolic one e − x.
             let next = -share * sine.mul_add(rate[k], by_rate[1]);
-            let next_sine = share * cosine.mul_add(rate[k], by_rate[0]);
+            let next_sine = share * cosine.mul_add(rate[k], sign * by_rate[0]);
             rows[k + 1] = [next, next_sine, -e * next, -e * next * (k + 1) as f64];
             ellipse[k + 1] = [next, self.root * next_sine, 0.0, 0.0];
         }
@@ -220,6 +238,37 @@ impl Orbiting {
             let share = rate / (j + 1) as f64;
             (cosine, sine) = (-share * sine, share * cosine);
         }
+    }
+}
+
+/// The place on a conic at the start of a step.
+struct AtEpoch {
+    /// The position along the direction to the pericentre.
+    x: f64,
+    /// Of the eccentric anomaly; hyperbolic ones on a hyperbola.
+    sine: f64,
+    cosine: f64,
+    radius: f64,
+    /// −1 on a hyperbola.
+    sign: f64,
+}
+
+impl AtEpoch {
+    #[inline(always)]
+    fn on_ellipse(mean: f64, e: f64) -> Self {
+        let anomaly = if e == 0.0 { mean } else { eccentric_anomaly(mean, e) };
+        let (half_sine, half_cosine) = (0.5 * anomaly).sin_cos();
+        let versed = 2.0 * half_sine * half_sine;
+        let sine = 2.0 * half_sine * half_cosine;
+        Self { x: (1.0 - e) - versed, sine, cosine: 1.0 - versed, radius: (1.0 - e) + e * versed, sign: 1.0 }
+    }
+
+    fn on_hyperbola(mean: f64, e: f64) -> Self {
+        let anomaly = hyperbolic_anomaly(mean, e);
+        let half = (0.5 * anomaly).sinh();
+        let versed = 2.0 * half * half;
+        let radius = (e - 1.0) + e * versed;
+        Self { x: (e - 1.0) - versed, sine: anomaly.sinh(), cosine: 1.0 + versed, radius, sign: -1.0 }
     }
 }
 

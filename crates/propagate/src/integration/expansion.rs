@@ -20,9 +20,9 @@ pub(super) struct Equations<const W: usize> {
     /// (I3 − I2)/I1 and so on.
     pub(super) factors: StateLanes<W>,
     pub(super) bodies: Vec<Disturber>,
-    /// What multiplies the torque of each body: 1, or nearly so for a state with displaced constants.
+    /// Factor of the torque of each body: 1, and next to 1 for a state with displaced constants.
     pub(super) strengths: Vec<StateLanes<W>>,
-    /// √(3 Σμ) at the mean distance: the least rate that errors of rates are relative to.
+    /// √(3 Σμ) at the mean distance. Errors of rates are relative to this rate at least.
     pub(super) scale: f64,
 }
 
@@ -36,8 +36,8 @@ impl Equations<4> {
         Self { factors: [(c - b) / a, (a - c) / b, (b - a) / c, 0.0], bodies, strengths, scale }
     }
 
-    /// The same for several states with the relative errors of the constants, each with signs of its own: those of the ratios of the moments, and those of each
-    /// torque.
+    /// The equations of several states with displaced constants. `errors` has the relative errors of the ratios of the moments and of each torque; each state
+    /// has signs of its own.
     pub(super) fn displaced<const W: usize>(&self, [ratios, torques]: [f64; 2], signs: &[Row]) -> Equations<W> {
         let factors = std::array::from_fn(|i| self.factors[i % 4] * (1.0 + ratios * signs[i / 4][i % 4]));
         let strengths = (0..self.bodies.len())
@@ -59,7 +59,7 @@ impl Equations<4> {
         if scale > 0.0 { changes / scale } else { 0.0 }
     }
 
-    /// The same with tables interpolated by the earlier or the later of the neighbouring polynomials.
+    /// These equations with tables interpolated by the earlier or the later of the neighbouring polynomials.
     pub(super) fn neighbouring(&self, earlier: bool) -> Self {
         Self { bodies: self.bodies.iter().map(|body| body.neighbouring(earlier)).collect(), ..self.clone() }
     }
@@ -75,7 +75,7 @@ pub(super) struct Start<const W: usize> {
     pub(super) rates: StateLanes<W>,
 }
 
-/// One coefficient of everything that is multiplied, in the lanes of the products. A product of two series is the sum of the first factors of one coefficient
+/// One coefficient of each series that is multiplied, in the lanes of the products. A product of two series is the sum of the first factors of one coefficient
 /// times the second factors of another.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
@@ -157,7 +157,7 @@ impl<const W: usize> Factors<W> {
         matrix: [[0.0; W]; 3],
     };
 
-    /// What follows from one coefficient of attitude and rates alone.
+    /// The products that depend on one coefficient of attitude and rates.
     #[inline(always)]
     fn set(&mut self, attitude: &StateLanes<W>, rates: &StateLanes<W>) {
         self.attitude = *attitude;

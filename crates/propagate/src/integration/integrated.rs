@@ -27,13 +27,13 @@ const COARSEST: f64 = 1e-6;
 const ENLARGED_ERROR: f64 = 3e-5;
 /// Truncation error of the first integration, over tolerance/(10 + phase²). A third of it costs 8 % more time, but fewer motions are integrated a second time.
 const CAREFUL: f64 = 0.06;
-/// The truncation error of the second integration is that of the first times tolerance/(error bound of the first), times this.
+/// ε₂ = FINER · ε₁ · tolerance / bound₁, with the truncation errors ε of both integrations and the error bound of the first.
 const FINER: f64 = 0.05;
 
 /// Length of a step \[rad\], from below.
 const STEP: f64 = 0.65;
 
-/// What a plan says of an integration.
+/// The entries of a plan about an integration.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct IntegrationPlan {
     pub(crate) steps: usize,
@@ -91,7 +91,7 @@ impl Integrated {
         Err(Error::Unpredictable { tolerance, span, start, stop })
     }
 
-    /// What the plan says of it.
+    /// The entries of the plan.
     pub(crate) fn plan(&self) -> IntegrationPlan {
         let steps = self.sides.iter().map(|side| side.steps.len() - 1).sum();
         IntegrationPlan { steps, bodies: self.equations.bodies.len(), uninterpolated: self.uninterpolated }
@@ -150,7 +150,7 @@ impl Problem {
                     orbit.within_reach(epoch)?;
                     lasting = lasting.max(orbit.mean_motion());
                     secular = orbit.rates().iter().fold(secular, |most, rate| most.max(rate.abs()));
-                    rates_of_orbit(orbit)
+                    rates_of_orbit(orbit, [start, stop])
                 }
                 DisturbingBody::Tabulated(table) => {
                     let (first, last) = table.ends();
@@ -324,14 +324,19 @@ fn too_coarse(scene: &Scene, [start, stop]: [f64; 2]) -> Option<Error> {
     })
 }
 
-/// The fastest rate that an orbit brings in, and the torque's √(3μ/ρ³) at the apocentre.
-fn rates_of_orbit(orbit: &Orbit) -> (f64, f64) {
+/// The fastest rate that an orbit brings in, and the torque's √(3μ/ρ³) at the apocentre, or where a hyperbola is farthest within the span.
+fn rates_of_orbit(orbit: &Orbit, ends: [f64; 2]) -> (f64, f64) {
     let e = orbit.eccentricity();
     let strength = (3.0 * orbit.strength()).sqrt();
-    let near = (1.0 - e).powf(-1.5);
+    let near = (1.0 - e).abs().powf(-1.5);
+    let farthest = if orbit.is_hyperbola() {
+        ends.map(|end| orbit.hyperbolic_distance(end)).into_iter().fold(e - 1.0, f64::max)
+    } else {
+        1.0 + e
+    };
     let [node, pericentre] = orbit.rates();
     let fastest = (strength * near).max(2.0 * orbit.mean_motion() * near).max(node.abs()).max(pericentre.abs());
-    (fastest, strength * (1.0 + e).powf(-1.5))
+    (fastest, strength * farthest.powf(-1.5))
 }
 
 /// √(3 gm/r³) at the nearest and the farthest position.

@@ -14,12 +14,13 @@ use crate::simd::instruction_set::{InstructionSet, Task};
 
 /// The most steps that are kept in one direction: 600 MB.
 pub(crate) const MOST_STEPS: usize = 1 << 23;
-/// Steps between two looks at the flag: about 0.3 ms.
+/// Steps between two checks of the stop flag: about 0.3 ms.
 const AT_ONCE: usize = 64;
-/// An integration is refused where the steps so far foretell more than are kept: this many times more, until there are so many steps that they are typical.
+/// An integration is refused if its number of steps, extrapolated from the steps so far, exceeds the largest one by this factor. After `TYPICAL` steps the factor
+/// is 1.
 const HOPELESS: f64 = 4.0;
 const TYPICAL: usize = MOST_STEPS / 64;
-/// The terms after the last, relative to it: steps are e^−2 of the radius of convergence, so that their sum is 0.16 of it.
+/// Sum of the terms after the last one, relative to the last one: steps are e^−2 of the radius of convergence, so the sum is 0.16.
 const OMITTED: f64 = 0.2;
 /// A step is at most this part of the radius of convergence of each torque. The coefficients of the motion show a torque only where it exceeds the rounding
 /// errors: the steps towards a pericentre would pass over it where it does not. Where they show it, they give shorter steps.
@@ -43,7 +44,7 @@ impl Step {
     }
 }
 
-/// The most rows of coefficients that are kept in one direction: 59 MB. Of longer integrations none are, and a step is expanded again when a time falls into
+/// The most rows of coefficients that are kept in one direction: 59 MB. Longer integrations keep no row, and a step is expanded again when a time falls into
 /// it.
 const MOST_COEFFICIENTS: usize = 1 << 20;
 
@@ -77,7 +78,7 @@ impl Precision {
     }
 }
 
-/// One state on its way, W = 4, or more that take the same steps.
+/// The state of an integration, W = 4, or several states with the same steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Runner<const W: usize> {
     pub(super) time: (f64, f64),
@@ -109,7 +110,7 @@ impl<const W: usize> Runner<W> {
         }
     }
 
-    /// Brings all states nearer to one, to this part of their distance.
+    /// Moves all states towards one state: their distances from it are multiplied by a factor.
     pub(super) fn bring_nearer(&mut self, to: &Start<4>, part: f64) {
         for lane in 0..W {
             let (attitude, rate) = (to.attitude[lane % 4], to.rates[lane % 4]);
@@ -140,8 +141,7 @@ impl<const W: usize> Runner<W> {
         })
     }
 
-    /// Goes on by one step, to the target at most. Returns the length of the step without a target, or NaN where the state has become
-    /// none.
+    /// Makes one step, to the target at most. Returns the length that the step has without a target, or NaN if the state is not finite.
     #[inline(always)]
     pub(super) fn advance<S: InstructionSet>(
         &mut self,
@@ -239,7 +239,7 @@ fn compensated(value: &mut f64, rest: &mut f64, change: f64) {
     *value = sum;
 }
 
-/// The integration to a time, every step of it kept.
+/// An integration to a time that keeps every step.
 pub(super) struct KeptSteps<'a> {
     pub(super) equations: &'a Equations<4>,
     pub(super) precision: Precision,

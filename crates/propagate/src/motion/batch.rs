@@ -121,7 +121,7 @@ impl<'a> Batch<'a> {
             going(self.stop).map_err(|halt| self.halted(halt, times))?;
             match &motion.trajectory {
                 Trajectory::Gradient(gradient) => gradient.angular_momenta(part, epoch, out),
-                Trajectory::Integrated(_) => self.momenta_of_samples(part, out)?,
+                Trajectory::Integrated(_) | Trajectory::Libration(_) => self.momenta_of_samples(part, out)?,
                 _ => out.fill(motion.angular_momentum.into()),
             }
         }

@@ -11,6 +11,7 @@ use crate::gravity_gradient::disturbed::GradientPlan;
 use crate::input::options::{Averaging, Level, Method};
 use crate::input::scene::Scene;
 use crate::integration::integrated::IntegrationPlan;
+use crate::libration::lock::in_words;
 use crate::torque_free::error_budget::DEFAULT_ROTATIONS;
 use crate::torque_free::mode::Mode;
 
@@ -39,6 +40,8 @@ pub struct Plan {
     pub(crate) separatrix_ratio: f64,
     pub(crate) gradient: Option<GradientPlan>,
     pub(crate) integration: Option<IntegrationPlan>,
+    /// 2r of a libration about r rotations an orbit.
+    pub(crate) resonance: Option<i32>,
     /// Whether derivatives are computed by power series, because their closed form cancels.
     pub(crate) expanded: bool,
     /// The cost of a verification over the span, if the scene has one.
@@ -61,6 +64,7 @@ impl Plan {
             separatrix_ratio,
             gradient: None,
             integration: None,
+            resonance: None,
             expanded: false,
             verification: VerificationCost::over_span(scene, mode == Mode::Spherical),
             skipped: Vec::new(),
@@ -88,7 +92,12 @@ impl Plan {
         self.integration.map_or(0, |integration| integration.steps)
     }
 
-    /// The highest multiple of ℓ′ that is evaluated; 0 if there is none.
+    /// The resonance of a libration: two integers whose quotient is the number of rotations an orbit, in lowest terms.
+    pub fn resonance(&self) -> Option<[i32; 2]> {
+        self.resonance.map(|twice| if twice % 2 == 0 { [twice / 2, 1] } else { [twice, 2] })
+    }
+
+    /// The number of harmonics of a libration, or the highest multiple of ℓ′ that is evaluated; 0 if there is none.
     pub fn harmonics(&self) -> usize {
         self.harmonics
     }
@@ -207,7 +216,7 @@ impl Plan {
     /// It is `None` on the separatrix, where the frequencies have no derivatives.
     pub fn partials(&self) -> Option<&'static str> {
         match (self.mode, self.method, self.gradient) {
-            (_, Method::Integrated, _) | (_, _, Some(_)) => Some("differences"),
+            (_, Method::Integrated | Method::Libration, _) | (_, _, Some(_)) => Some("differences"),
             (Mode::Separatrix, _, None) => None,
             _ if self.expanded => Some("series"),
             _ => Some("closed"),
@@ -231,7 +240,7 @@ impl fmt::Display for Plan {
             ratio => writeln!(f, "separatrix    {ratio:.3e} (sigma/sigma_sep)")?,
         }
         match self.method {
-            Method::Series | Method::Integrated => writeln!(f, "order         {}", self.order)?,
+            Method::Series | Method::Integrated | Method::Libration => writeln!(f, "order         {}", self.order)?,
             _ => writeln!(f, "order         -")?,
         }
         match self.harmonics {
@@ -241,6 +250,9 @@ impl fmt::Display for Plan {
         if let Some(IntegrationPlan { steps, bodies, .. }) = self.integration {
             let plural = if bodies == 1 { "body" } else { "bodies" };
             writeln!(f, "steps         {steps} over the span, under {bodies} disturbing {plural}")?;
+        }
+        if let Some(twice) = self.resonance {
+            writeln!(f, "resonance     {} rotations an orbit", in_words(twice))?;
         }
         if let Some(GradientPlan { averaging, level, terms, size, neglected }) = self.gradient {
             writeln!(
@@ -281,7 +293,7 @@ pub(crate) enum Over {
 }
 
 impl Over {
-    /// What to do where nothing is known of the attitude.
+    /// The advice for a motion whose attitude is unknown at the end of the span.
     fn advice(self) -> &'static str {
         if self == Self::Span { "give a shorter span" } else { "give a span" }
     }

@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::input::options::Convention;
 use crate::input::scene::Scene;
 use crate::input::state::State;
+use crate::libration::solution::Libration;
 
 /// Largest number of rotations from the epoch, within which phases are accurate to 1e-14 rad. Not far beyond, a double no longer distinguishes one turn from
 /// the next.
@@ -22,7 +23,7 @@ const LONGEST: f64 = 1e300;
 const SOLVED: &str =
     ": averaging = spin solves the averaged equations no farther; averaging over the orbit reaches farther";
 
-/// The same for motions that are solved on arcs of time.
+/// The reason why the times of a motion solved on arcs of time are bounded.
 const SOLVED_ON_ARCS: &str = ": the averaged equations are solved no farther";
 
 /// The reasons why the times of an integrated motion are bounded.
@@ -112,6 +113,14 @@ impl Motion {
     /// Its memory in bytes, to some kilobytes; that of a motion under a torque grows while times are evaluated.
     pub(crate) fn memory(&self) -> usize {
         size_of::<Self>() + self.trajectory.memory()
+    }
+
+    /// The proper modes and the terms of a libration; `None` for other methods.
+    pub fn libration(&self) -> Option<&Libration> {
+        match &self.trajectory {
+            Trajectory::Libration(evaluator) => Some(&evaluator.libration),
+            _ => None,
+        }
     }
 
     /// The mean frequencies [rad per unit of time]; 0 if the motion has none.

@@ -18,6 +18,7 @@ use pulp::Arch;
 use crate::gravity_gradient::disturbed::Gradient;
 use crate::integration::dense::Cursor;
 use crate::integration::integrated::Integrated;
+use crate::libration::evaluate::LibrationEvaluator;
 use crate::numerics::phase::Phase;
 use crate::simd::circles::{Evaluate, Source};
 use crate::simd::grid::{GROUP, Grid};
@@ -51,6 +52,8 @@ pub(crate) enum Trajectory {
     Gradient(Box<Gradient>),
     /// A numerical integration.
     Integrated(Box<Integrated>),
+    /// A libration about a spin–orbit resonance.
+    Libration(Box<LibrationEvaluator>),
 }
 
 impl Trajectory {
@@ -59,7 +62,7 @@ impl Trajectory {
         match self {
             Self::Steady(steady) => Some(steady.phases()),
             Self::Wobble(tables) => Some(tables.phases()),
-            Self::Passage(_) | Self::Gradient(_) | Self::Integrated(_) => None,
+            Self::Passage(_) | Self::Gradient(_) | Self::Integrated(_) | Self::Libration(_) => None,
         }
     }
 }
@@ -73,6 +76,7 @@ impl Trajectory {
             Self::Passage(passage) => size_of_val(&**passage),
             Self::Gradient(gradient) => gradient.memory(),
             Self::Integrated(motion) => motion.memory(),
+            Self::Libration(libration) => libration.memory(),
         }
     }
 }
@@ -139,6 +143,10 @@ impl Task for Dispatch<'_> {
                 let epoch = Lanes::splat(simd, run.epoch);
                 run.by_source(simd, Disturbed { gradient, epoch })
             }
+            Trajectory::Libration(libration) => {
+                let epoch = Lanes::splat(simd, run.epoch);
+                run.by_source(simd, Librating { libration, epoch })
+            }
         }
     }
 }
@@ -158,5 +166,23 @@ impl<S: InstructionSet> Source<S> for Disturbed<'_, S> {
         times: Lanes<S>,
     ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
         self.gradient.evaluate::<S, ATTITUDE, RATES>(elapsed(times, self.epoch))
+    }
+}
+
+/// The evaluation of a libration.
+#[derive(Clone, Copy)]
+struct Librating<'a, S: InstructionSet> {
+    libration: &'a LibrationEvaluator,
+    epoch: Lanes<S>,
+}
+
+impl<S: InstructionSet> Source<S> for Librating<'_, S> {
+    #[inline(always)]
+    fn at<const ATTITUDE: bool, const RATES: bool>(
+        &self,
+        _place: usize,
+        times: Lanes<S>,
+    ) -> ([Lanes<S>; 4], [Lanes<S>; 3]) {
+        self.libration.evaluate::<S, ATTITUDE, RATES>(elapsed(times, self.epoch))
     }
 }

@@ -76,7 +76,7 @@ macro_rules! compiled {
             include!($sums);
 
             /// Attitude and rates by these constants.
-            pub(super) fn at(constants: &super::Constants, time: f64) -> Option<([f64; 4], [f64; 3])> {
+            pub(super) fn at(constants: &crate::motion_code::constants::Constants, time: f64) -> Option<([f64; 4], [f64; 3])> {
                 let motion = Motion {
                     epoch: constants.epoch,
                     bound: constants.bound,

@@ -2,8 +2,8 @@
 
 use andoyer_series::print::{C, JavaScript, Printer, Python, Rust};
 
-use super::CodeLanguage;
 use super::constants::Constants;
+use super::language::CodeLanguage;
 
 /// The parts of a file that are the same for all motions.
 struct Kernel {

@@ -106,7 +106,7 @@ impl Change {
 
 /// The constants of one parameter (theory §12), for a unit of the parameter in the user's unit and for scaled times.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Constants {
+pub(super) struct ParameterConstants {
     /// Half the logarithmic derivative of each amplitude, by the user's axis.
     pub(super) growth: [f64; 3],
     /// β/2.
@@ -121,7 +121,7 @@ pub(super) struct Constants {
     pub(super) swing: f64,
 }
 
-impl Constants {
+impl ParameterConstants {
     pub(super) fn all(setting: &Setting, theta: &Theta, integral: &Integral) -> [Self; CHANGES] {
         setting.changes.map(|change| Self::new(setting, theta, integral, &change))
     }

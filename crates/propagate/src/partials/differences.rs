@@ -13,7 +13,7 @@ use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::motion::solved::Motion;
 
-use super::Derivatives;
+use super::derivatives::Derivatives;
 
 /// Angle by which a step turns the body at the most distant time \[rad\].
 const STEP: f64 = 1e-2;

@@ -6,7 +6,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::constants::Setting;
-use super::{Derivatives, PARAMETERS};
+use super::derivatives::{Derivatives, PARAMETERS};
 use crate::numerics::scaling::scaled;
 use crate::torque_free::polhode::Polhode;
 

@@ -28,11 +28,11 @@ use crate::solve::untruncated;
 use crate::torque_free::closed_form::ClosedForm;
 use crate::torque_free::polhode::Polhode;
 
-use super::Derivatives;
-use super::constants::{Constants, Setting};
+use super::constants::{ParameterConstants, Setting};
+use super::derivatives::Derivatives;
 use super::integral::Integral;
 use super::matrices::{Block, Part};
-use super::sources::{Amplitudes, Passing, Source, Wobbling};
+use super::sources::{Amplitudes, PartialsSource, Passing, Wobbling};
 
 /// Smallest number of samples for each thread. With fewer samples another thread costs more than it saves.
 const SAMPLES_PER_THREAD: usize = 1024;
@@ -50,11 +50,16 @@ pub(super) struct Target<'a> {
 impl Target<'_> {
     /// Fills the outputs with the best instruction set available, on as many threads as are faster. Parts begin where lanes begin, so that no bit depends on
     /// the number of threads.
-    pub(super) fn fill<T: Source + Sync>(self, source: &T, attitudes: &mut [Derivatives], rates: &mut [Derivatives]) {
+    pub(super) fn fill<T: PartialsSource + Sync>(
+        self,
+        source: &T,
+        attitudes: &mut [Derivatives],
+        rates: &mut [Derivatives],
+    ) {
         let length = self.times.len();
         shared(length / SAMPLES_PER_THREAD, |threads| {
             if threads == 1 {
-                dispatch(Arch::new(), Run { target: self, source, attitudes, rates });
+                dispatch(Arch::new(), TargetRun { target: self, source, attitudes, rates });
                 return;
             }
             let part = length.div_ceil(threads).next_multiple_of(WIDEST);
@@ -62,7 +67,7 @@ impl Target<'_> {
                 let outputs = attitudes.chunks_mut(part).zip(rates.chunks_mut(part));
                 for (times, (attitudes, rates)) in self.times.chunks(part).zip(outputs) {
                     let target = Target { times, ..self };
-                    scope.spawn(move |_| dispatch(Arch::new(), Run { target, source, attitudes, rates }));
+                    scope.spawn(move |_| dispatch(Arch::new(), TargetRun { target, source, attitudes, rates }));
                 }
             });
         });
@@ -82,7 +87,7 @@ impl Target<'_> {
         let (attitudes, rates) = outputs;
         let theta = polhode.invariants.theta;
         let integral = Integral::new(&theta);
-        let constants = Constants::all(self.setting, &theta, &integral);
+        let constants = ParameterConstants::all(self.setting, &theta, &integral);
         let anomaly_rate = scaled(motion.frequencies.anomaly, -polhode.scales.1);
         let amplitudes = |start| Amplitudes::new(self.setting, constants, anomaly_rate, theta.quarter, start);
         match &motion.trajectory {
@@ -98,21 +103,21 @@ impl Target<'_> {
                 let amplitudes = &amplitudes(start);
                 self.fill(&Passing { passage, integral: &integral, amplitudes }, attitudes, rates);
             }
-            Trajectory::Steady(_) | Trajectory::Gradient(_) | Trajectory::Integrated(_) => {}
+            Trajectory::Steady(_) | Trajectory::Gradient(_) | Trajectory::Integrated(_) | Trajectory::Libration(_) => {}
         }
         Ok(())
     }
 }
 
 /// The loop over times, compiled for each instruction set.
-struct Run<'a, T> {
+struct TargetRun<'a, T> {
     target: Target<'a>,
     source: &'a T,
     attitudes: &'a mut [Derivatives],
     rates: &'a mut [Derivatives],
 }
 
-impl<T: Source> Task for Run<'_, T> {
+impl<T: PartialsSource> Task for TargetRun<'_, T> {
     type Output = ();
 
     #[inline(always)]

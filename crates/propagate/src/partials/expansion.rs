@@ -21,7 +21,7 @@ use std::f64::consts::PI;
 use andoyer_double::{DoubleDouble, two_sum};
 use nalgebra::{Quaternion, UnitQuaternion};
 
-use super::Derivatives;
+use super::derivatives::Derivatives;
 use super::displacement::{DISPLACEMENTS, Displacement, ELEMENTS, Response, Writer, products};
 use super::evaluate::Target;
 use crate::error::Error;
@@ -82,15 +82,15 @@ struct Expansion<'a> {
     turns: DoubleDouble,
     /// d over the rate of x.
     slopes: [f64; 3],
-    invariants: Invariants,
+    invariants: DisplacedInvariants,
     /// After the epoch, and before it.
-    sides: [Side; 2],
+    sides: [ExpandedSide; 2],
 }
 
 /// The expansions on one side of the epoch.
-struct Side {
+struct ExpandedSide {
     sign: f64,
-    steps: Vec<Step>,
+    steps: Vec<LocalExpansion>,
     /// The point at which the next step begins.
     next: Point,
     /// What half a turn changes, once a time needs it.
@@ -108,7 +108,7 @@ struct HalfTurn {
 }
 
 /// The expansion about one point.
-struct Step {
+struct LocalExpansion {
     direction: [Polynomial; 3],
     changes: [[Polynomial; 3]; DISPLACEMENTS],
     integrals: [Polynomial; 6],
@@ -128,8 +128,8 @@ impl<'a> Expansion<'a> {
             changes: displacements.map(|displacement| displacement.step),
             integrals: [0.0; 6],
         };
-        let sides = [1.0, -1.0].map(|sign| Side { sign, steps: Vec::new(), next: start, half_turn: None });
-        let invariants = Invariants::new(writer, slopes, rate);
+        let sides = [1.0, -1.0].map(|sign| ExpandedSide { sign, steps: Vec::new(), next: start, half_turn: None });
+        let invariants = DisplacedInvariants::new(writer, slopes, rate);
         Self { writer, count, rate, half_turn, turns, slopes, invariants, sides }
     }
 
@@ -139,7 +139,7 @@ impl<'a> Expansion<'a> {
         let side = &mut sides[usize::from(x < 0.0)];
         let index = (x.abs() / STEP) as usize;
         while side.steps.len() <= index {
-            let step = Step::new(&side.next, *slopes, *rate, &writer.displacements[..*count]);
+            let step = LocalExpansion::new(&side.next, *slopes, *rate, &writer.displacements[..*count]);
             side.next = step.at(side.sign * STEP);
             invariants.restore(&mut side.next, &writer.displacements[..*count]);
             side.steps.push(step);
@@ -228,7 +228,7 @@ fn tilted([p, q]: [f64; 2], g: [f64; 3]) -> [f64; 3] {
     [2.0 * q * g[2], -2.0 * p * g[2], 2.0 * (q * g[0] - p * g[1])]
 }
 
-impl Step {
+impl LocalExpansion {
     /// The expansion about a point.
     fn new(point: &Point, slopes: [f64; 3], rate: f64, displacements: &[Displacement]) -> Self {
         let direction = direction(point.direction, slopes);
@@ -256,7 +256,7 @@ impl Step {
 }
 
 /// The invariants of a motion and of its displacements.
-struct Invariants {
+struct DisplacedInvariants {
     /// d1 and d3 over the rate of x.
     slopes: [f64; 2],
     rate: f64,
@@ -266,7 +266,7 @@ struct Invariants {
     changes: [[f64; 2]; DISPLACEMENTS],
 }
 
-impl Invariants {
+impl DisplacedInvariants {
     fn new(writer: &Writer<'_>, [first, _, third]: [f64; 3], rate: f64) -> Self {
         let g = writer.setting.direction;
         let energy = first * writer.polhode.invariants.cosine_squares[0].to_f64();

@@ -5,8 +5,8 @@
 //! matrices had to be transposed through the memory: calls with 2,000 times took 61 ns a sample instead of 40.
 
 use super::constants::{Change, Setting};
-use super::sources::{COLUMNS, Constant, NUMBERS, Place, Source, UNCHANGING, at_once, direction};
-use super::{Derivatives, PARAMETERS};
+use super::derivatives::{Derivatives, PARAMETERS};
+use super::sources::{COLUMNS, Constant, NUMBERS, PartialsPlace, PartialsSource, UNCHANGING, at_once, direction};
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::{Lanes, WIDEST};
@@ -31,7 +31,7 @@ const fn parts_of<S: InstructionSet>() -> usize {
 }
 
 /// The constants of some columns, one a lane.
-pub(super) struct Part<S: InstructionSet, T: Source> {
+pub(super) struct Part<S: InstructionSet, T: PartialsSource> {
     source: T::Columns<S>,
     /// For each axis, δg at the epoch along it.
     lever: [Constant<S>; 3],
@@ -41,15 +41,15 @@ pub(super) struct Part<S: InstructionSet, T: Source> {
     rates: [Constant<S>; 3],
 }
 
-impl<S: InstructionSet, T: Source> Clone for Part<S, T> {
+impl<S: InstructionSet, T: PartialsSource> Clone for Part<S, T> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S: InstructionSet, T: Source> Copy for Part<S, T> {}
+impl<S: InstructionSet, T: PartialsSource> Copy for Part<S, T> {}
 
-impl<S: InstructionSet, T: Source> Part<S, T> {
+impl<S: InstructionSet, T: PartialsSource> Part<S, T> {
     /// All parts; only as many as the instruction set needs are different.
     #[inline(always)]
     pub(super) fn all(simd: S, source: &T, setting: &Setting) -> [Self; MOST_PARTS] {
@@ -148,9 +148,9 @@ impl Block {
         &mut self,
         setting: &Setting,
         initial: QuaternionLanes<S>,
-        place: &Place<S>,
+        place: &PartialsPlace<S>,
     ) {
-        let Place { attitude: [x, y, z, w], rates, numbers } = place;
+        let PartialsPlace { attitude: [x, y, z, w], rates, numbers } = place;
         let carried = (QuaternionLanes([-*x, -*y, -*z, *w]) * initial).rows();
         let direction = direction(setting, *rates);
         for row in 0..3 {
@@ -186,7 +186,7 @@ impl Block {
 
     /// Computes the matrices of the first `count` times.
     #[inline(always)]
-    pub(super) fn fill<S: InstructionSet, T: Source>(
+    pub(super) fn fill<S: InstructionSet, T: PartialsSource>(
         &mut self,
         simd: S,
         parts: &[Part<S, T>; MOST_PARTS],

@@ -11,6 +11,7 @@
 //! Imports errors, numerics, simd, input, torque_free, motion and solve.
 
 mod constants;
+mod derivatives;
 mod differences;
 mod displacement;
 mod evaluate;
@@ -31,31 +32,10 @@ use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
 
 use constants::Setting;
+pub use derivatives::{Derivatives, INERTIA_PARAMETERS, PARAMETERS, Partials};
 use evaluate::Target;
 use sources::Steadily;
 use steady::Varied;
-
-/// Number of parameters of the derivatives.
-pub const PARAMETERS: usize = 9;
-
-/// Number of parameters of the derivatives with respect to the elements of an inertia tensor.
-pub const INERTIA_PARAMETERS: usize = 12;
-
-/// Derivatives of one vector. The rows are its components, the columns the parameters.
-pub type Derivatives<const N: usize = PARAMETERS> = [[f64; N]; 3];
-
-/// Derivatives of attitude and rates at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Partials<const N: usize = PARAMETERS> {
-    /// The time.
-    pub time: f64,
-    /// Derivatives of the attitude, as a rotation vector about body axes. Three columns are for the initial attitude \[1\], three for the initial angular
-    /// velocity \[unit of time\], three for the moments [1/unit of moment]. For a body with an inertia tensor the last three are for the principal moments,
-    /// with fixed principal axes. Of [`Motion::inertia_partials`] the last six are for the elements I11, I22, I33, I12, I13, I23 of the tensor.
-    pub attitude: Derivatives<N>,
-    /// Derivatives of the angular velocity in body components, in the same order [rate, 1, rate/unit of moment].
-    pub angular_velocity: Derivatives<N>,
-}
 
 /// Attitudes [x, y, z, w] and angular velocities at several times.
 type AttitudesAndRates = (Vec<[f64; 4]>, Vec<[f64; 3]>);
@@ -170,7 +150,7 @@ impl Motion {
         attitudes: &mut [Derivatives],
         rates: &mut [Derivatives],
     ) -> Result<(), Error> {
-        if matches!(self.trajectory, Trajectory::Integrated(_) | Trajectory::Gradient(_)) {
+        if matches!(self.trajectory, Trajectory::Integrated(_) | Trajectory::Gradient(_) | Trajectory::Libration(_)) {
             return differences::fill(self, &self.in_scene(epoch, times), attitudes, rates);
         }
         let Some(polhode) = Polhode::new(self.scene.body(), self.scene.state()) else {

@@ -11,8 +11,8 @@ use crate::torque_free::separatrix::Passage;
 use crate::torque_free::steady::Steady;
 use crate::torque_free::wobble::WobbleEvaluator;
 
-use super::PARAMETERS;
-use super::constants::{CHANGES, Constants, Setting};
+use super::constants::{CHANGES, ParameterConstants, Setting};
+use super::derivatives::PARAMETERS;
 use super::integral::Integral;
 use super::steady::{Growth, Varied};
 
@@ -25,20 +25,20 @@ pub(super) const COLUMNS: usize = PARAMETERS - 1;
 pub(super) const UNCHANGING: usize = COLUMNS - CHANGES;
 
 /// Attitude, rates, and the numbers from which the derivatives of g are computed, with a time in each lane.
-pub(super) struct Place<S: InstructionSet> {
+pub(super) struct PartialsPlace<S: InstructionSet> {
     pub(super) attitude: [Lanes<S>; 4],
     pub(super) rates: [Lanes<S>; 3],
     pub(super) numbers: [Lanes<S>; NUMBERS],
 }
 
 /// A type of motion: gives attitude, rates and their derivatives from the time since the epoch.
-pub(super) trait Source {
-    /// Constants with a parameter in each lane.
+pub(super) trait PartialsSource {
+    /// ParameterConstants with a parameter in each lane.
     type Columns<S: InstructionSet>: Copy;
     /// Whether several times are computed at once.
     const VECTORS: bool = true;
 
-    fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S>;
+    fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> PartialsPlace<S>;
 
     /// The constants from the column `first` on.
     fn columns<S: InstructionSet>(&self, simd: S, first: usize) -> Self::Columns<S>;
@@ -104,7 +104,7 @@ fn ready<S: InstructionSet>(phases: [&Phase; 2], elapsed: (Lanes<S>, Lanes<S>)) 
 /// The amplitudes of a wobble and of a passage.
 #[derive(Clone, Debug)]
 pub(super) struct Amplitudes {
-    constants: [Constants; CHANGES],
+    constants: [ParameterConstants; CHANGES],
     /// For r_1 and r_2: the user's axis, and 1/d_i, scaled.
     invariants: [(usize, f64); 2],
     /// The index i of the r_i of each of the user's axes.
@@ -119,7 +119,7 @@ impl Amplitudes {
     /// The amplitudes; `anomaly_rate` is the rate of ℓ′, scaled, and `quarter` is K.
     pub(super) fn new(
         setting: &Setting,
-        constants: [Constants; CHANGES],
+        constants: [ParameterConstants; CHANGES],
         anomaly_rate: f64,
         quarter: f64,
         start: f64,
@@ -147,7 +147,7 @@ impl Amplitudes {
         (attitude, rates): ([Lanes<S>; 4], [Lanes<S>; 3]),
         time: Lanes<S>,
         zeta: Lanes<S>,
-    ) -> Place<S> {
+    ) -> PartialsPlace<S> {
         let one = time.all(1.0);
         let direction = direction(setting, rates);
         let [x, y, z] = direction;
@@ -167,7 +167,7 @@ impl Amplitudes {
             time * one.all(setting.unit),
             swing,
         ];
-        Place { attitude, rates, numbers }
+        PartialsPlace { attitude, rates, numbers }
     }
 
     #[inline(always)]
@@ -230,11 +230,11 @@ pub(super) struct Wobbling<'a> {
     pub(super) amplitudes: &'a Amplitudes,
 }
 
-impl Source for Wobbling<'_> {
+impl PartialsSource for Wobbling<'_> {
     type Columns<S: InstructionSet> = Amplitude<S>;
 
     #[inline(always)]
-    fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S> {
+    fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> PartialsPlace<S> {
         let circles = ready(self.tables.phases(), elapsed);
         let sample = self.tables.evaluate::<S, true, true>(simd, circles);
         let (sine, cosine) = circles.anomaly();
@@ -272,12 +272,12 @@ pub(super) struct Passing<'a> {
     pub(super) amplitudes: &'a Amplitudes,
 }
 
-impl Source for Passing<'_> {
+impl PartialsSource for Passing<'_> {
     const VECTORS: bool = false;
     type Columns<S: InstructionSet> = Amplitude<S>;
 
     #[inline(always)]
-    fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S> {
+    fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> PartialsPlace<S> {
         let now = (elapsed.0.values()[0], elapsed.1.values()[0]);
         let (attitude, rates) = self.passage.evaluate(now);
         let zeta = self.integral.zeta_of_passages(self.passage.passage.angle(now));
@@ -308,18 +308,18 @@ pub(super) struct Steadily<'a> {
 
 /// The vectors of a steady rotation with a parameter in each lane.
 #[derive(Clone, Copy)]
-pub(super) struct Vectors<S: InstructionSet> {
+pub(super) struct VectorLanes<S: InstructionSet> {
     /// Factors of 1, S, C and t in δg.
     change: [[Constant<S>; 3]; 4],
     turn: Constant<S>,
 }
 
-impl Source for Steadily<'_> {
-    type Columns<S: InstructionSet> = Vectors<S>;
+impl PartialsSource for Steadily<'_> {
+    type Columns<S: InstructionSet> = VectorLanes<S>;
 
     /// The numbers are S, C and the time, scaled.
     #[inline(always)]
-    fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> Place<S> {
+    fn place<S: InstructionSet>(&self, simd: S, setting: &Setting, elapsed: (Lanes<S>, Lanes<S>)) -> PartialsPlace<S> {
         let (attitude, rates) = self.steady.evaluate::<S, true, true>(simd, ready(self.steady.phases(), elapsed));
         let time = elapsed.0 * elapsed.0.all(setting.unit);
         let [first, second] = match &self.varied.growth {
@@ -337,11 +337,11 @@ impl Source for Steadily<'_> {
             Growth::Polynomial => [time, time * time * time.all(0.5)],
         };
         let zero = time.all(0.0);
-        Place { attitude, rates, numbers: [first, second, time, zero, zero, zero, zero, zero] }
+        PartialsPlace { attitude, rates, numbers: [first, second, time, zero, zero, zero, zero, zero] }
     }
 
     #[inline(always)]
-    fn columns<S: InstructionSet>(&self, simd: S, first: usize) -> Vectors<S> {
+    fn columns<S: InstructionSet>(&self, simd: S, first: usize) -> VectorLanes<S> {
         let all = &self.varied.vectors;
         let mut change = [[Constant::new(simd, first, |_| 0.0); 3]; 4];
         for (factor, vector) in change.iter_mut().enumerate() {
@@ -349,12 +349,12 @@ impl Source for Steadily<'_> {
                 *lanes = Constant::new(simd, first, |parameter| all[parameter].change[factor][axis]);
             }
         }
-        Vectors { change, turn: Constant::new(simd, first, |parameter| all[parameter].turn) }
+        VectorLanes { change, turn: Constant::new(simd, first, |parameter| all[parameter].turn) }
     }
 
     #[inline(always)]
     fn change<S: InstructionSet>(
-        columns: &Vectors<S>,
+        columns: &VectorLanes<S>,
         _direction: [Lanes<S>; 3],
         [first, second, time, ..]: [Lanes<S>; NUMBERS],
     ) -> ([Lanes<S>; 3], Lanes<S>) {

@@ -21,8 +21,8 @@ use crate::numerics::scaling::user_rate;
 use crate::torque_free::mode::Mode;
 use crate::torque_free::polhode::Polhode;
 
-use super::Derivatives;
 use super::constants::{CHANGES, Setting};
+use super::derivatives::Derivatives;
 use super::displacement::Displacement;
 
 /// Largest λt. Beyond it e^(λt) times its factor may overflow.
@@ -41,7 +41,7 @@ pub(super) enum Growth {
 
 /// The vectors of one parameter, in user components.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Vectors {
+pub(super) struct ParameterVectors {
     /// Factors of 1, S, C and t in δg.
     pub(super) change: [[f64; 3]; 4],
     /// Growth of g·δθ.
@@ -52,7 +52,7 @@ pub(super) struct Vectors {
 #[derive(Clone, Debug)]
 pub(super) struct Varied {
     pub(super) growth: Growth,
-    pub(super) vectors: [Vectors; CHANGES],
+    pub(super) vectors: [ParameterVectors; CHANGES],
     /// Largest time from the epoch, in the user's unit.
     bound: f64,
 }
@@ -76,7 +76,7 @@ impl Varied {
                 user
             };
             let turn: f64 = (0..3).map(|i| g[i] * (setting.rates[i] * step[i] + rate[i] * g[i])).sum();
-            Vectors { change: [user(step), user(first), user(curved), user(force)], turn: change.unit * turn }
+            ParameterVectors { change: [user(step), user(first), user(curved), user(force)], turn: change.unit * turn }
         });
         let growth = growth(polhode, setting, mode);
         let bound = match growth {

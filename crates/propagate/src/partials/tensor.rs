@@ -8,10 +8,11 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use pulp::Arch;
 
 use super::constants::Setting;
+use super::derivatives::{Derivatives, INERTIA_PARAMETERS, PARAMETERS};
 use super::displacement::{Displacement, ELEMENTS, Response, Writer};
 use super::evaluate::Target;
 use super::steady::Varied;
-use super::{Derivatives, INERTIA_PARAMETERS, PARAMETERS, differences, expansion, steady};
+use super::{differences, expansion, steady};
 use crate::error::Error;
 use crate::motion::solved::Motion;
 use crate::motion::trajectory::Trajectory;
@@ -45,7 +46,7 @@ fn about_principal_axes(
     times: &[f64],
     (attitudes, rates): Output<'_>,
 ) -> Result<(), Error> {
-    if matches!(motion.trajectory, Trajectory::Integrated(_) | Trajectory::Gradient(_)) {
+    if matches!(motion.trajectory, Trajectory::Integrated(_) | Trajectory::Gradient(_) | Trajectory::Libration(_)) {
         return differences::fill(motion, &motion.in_scene(epoch, times), attitudes, rates);
     }
     let Some(polhode) = Polhode::new(motion.scene.body(), motion.scene.state()) else {

@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use super::free::{self, Preparation};
-use super::{averaged, integrated};
+use super::{averaged, integrated, libration};
 use crate::error::{Error, Kind};
 use crate::input::disturbing_body::DisturbingBody;
 use crate::input::options::{Averaging, Level, Method};
@@ -16,12 +16,17 @@ use crate::motion::solved::Motion;
 use crate::torque_free::polhode::Polhode;
 use crate::torque_free::series::tables::SeriesTables;
 
+/// The steps of an integration that cost as many operations as a normal form about a resonance: a step of order 20 takes some 1e4, a form of order 6 to 10 some
+/// 1e9.
+const STEPS_OF_A_FORM: f64 = 1e5;
+
 impl Scene {
-    /// Whether the scene is integrated without an attempt by theory: on request, or under a body with a table of positions.
+    /// Whether the scene is integrated without an attempt by theory: on request, under a body with a table of positions, or under one on a hyperbola.
     #[must_use]
     pub fn needs_integration(&self) -> bool {
         match self.asked_method() {
             Method::Integrated => true,
+            Method::Libration => false,
             Method::Auto => beyond_theory(self).is_some(),
             Method::Series | Method::Closed => false,
         }
@@ -34,13 +39,22 @@ impl Scene {
 /// As [`Scene::solve_until`].
 pub(super) fn motion(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
     match (scene.asked_method(), beyond_theory(&scene)) {
+        (Method::Libration, _) => libration::motion(scene, tables, stop),
         (Method::Integrated, _) => integrated::motion(scene, tables, String::new(), stop),
         (Method::Auto, Some(reason)) => integrated::motion(scene, tables, format!("theory: {reason}"), stop),
         (method, Some(reason)) => Err(Error::OnlyIntegrated { method: method.to_string(), reason }),
         (_, None) if may_be_integrated(&scene) => cheapest(scene, tables, stop),
-        (_, None) => {
+        (method, None) => {
+            let solved = by_theory(scene.clone(), tables);
+            let failed = solved.as_ref().map_or(true, |motion| !motion.plan.meets_tolerance());
+            if method == Method::Auto
+                && failed
+                && let Ok(motion) = libration::serving(&scene, tables, stop)?
+            {
+                return Ok(motion);
+            }
             let bodies = without_span(&scene);
-            by_theory(scene, tables).map_err(|error| match bodies {
+            solved.map_err(|error| match bodies {
                 Some(bodies) if error.kind() == Kind::Theory => {
                     Error::NoSpan { reason: format!("theory for {bodies}: {}", in_ascii(&error.to_string())) }
                 }
@@ -72,11 +86,14 @@ fn beyond_theory(scene: &Scene) -> Option<String> {
         bodies if bodies.iter().any(|body| matches!(body, DisturbingBody::Tabulated(_))) => {
             Some("a table of positions is integrated".to_owned())
         }
+        bodies if bodies.iter().any(|body| matches!(body, DisturbingBody::Orbit(orbit) if orbit.is_hyperbola())) => {
+            Some("a hyperbola is integrated".to_owned())
+        }
         _ => None,
     }
 }
 
-/// What a scene would need the integration for if theory does not serve it, but gives no span: several bodies, or an orbit that precesses.
+/// The reason why a scene without a span would need an integration if theory does not serve it: several bodies, or an orbit that precesses.
 fn without_span(scene: &Scene) -> Option<String> {
     if scene.asked_method() != Method::Auto || scene.asked_span().is_some() {
         return None;
@@ -102,19 +119,43 @@ fn may_be_integrated(scene: &Scene) -> bool {
 /// The theory where it meets the tolerance, else the integration where that does, else the theory: it costs less, and the plan says how near the integration
 /// would come. For several bodies and for orbits that precess the smaller error bound decides instead.
 fn cheapest(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
-    let mut by_theory = match by_theory(scene.clone(), tables) {
-        Ok(motion) if motion.plan.meets_tolerance() => return Ok(motion),
+    let by_theory = by_theory(scene.clone(), tables);
+    match &by_theory {
+        Ok(motion) if motion.plan.meets_tolerance() => return by_theory,
+        Err(error) if error.kind() != Kind::Theory => return by_theory,
+        _ => {}
+    }
+    let prospect = prospect(&scene);
+    let mut locked = None;
+    if prospect.is_none_or(|(_, steps)| steps > STEPS_OF_A_FORM) {
+        match libration::serving(&scene, tables, stop)? {
+            Ok(motion) => return Ok(motion),
+            Err(reason) => locked = reason.map(|reason| format!("libration: {reason}")),
+        }
+    }
+    let mut motion = not_locked(scene, by_theory, prospect, (tables, stop))?;
+    motion.plan.skipped.extend(locked);
+    Ok(motion)
+}
+
+/// The integration or the theory, which does not meet the tolerance.
+fn not_locked(
+    scene: Scene,
+    by_theory: Result<Motion, Error>,
+    prospect: Option<(f64, f64)>,
+    (tables, stop): (&SeriesTables, &AtomicBool),
+) -> Result<Motion, Error> {
+    let mut by_theory = match by_theory {
         Ok(motion) => motion,
-        Err(error) if error.kind() == Kind::Theory => {
+        Err(error) => {
             return integrated::motion(scene, tables, format!("theory: {}", in_ascii(&error.to_string())), stop);
         }
-        Err(error) => return Err(error),
     };
     // For several bodies and for orbits that precess the integration also counts where it only comes nearer to the tolerance.
     let fixed = scene.asked_orbit().is_some_and(Orbit::is_fixed);
     let tolerance = scene.asked_tolerance().max(ROUNDED_TOLERANCE);
     let enough = if fixed { tolerance } else { tolerance.max(by_theory.plan.error_bound) };
-    let unused = match prospect(&scene) {
+    let unused = match prospect {
         Some((_, steps)) if steps > MOST_STEPS as f64 => {
             format!("it would take about {steps:.1e} steps, and at most {MOST_STEPS} are kept")
         }

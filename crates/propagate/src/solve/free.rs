@@ -18,7 +18,7 @@ use crate::torque_free::solution::{CayleyKlein, Solution, by_theta_functions, on
 use crate::torque_free::steady::SteadyRotation;
 use crate::torque_free::wobble::{Wobble, WobbleEvaluator};
 
-/// What is ready before a scene is solved, and what its plan is to say.
+/// Tables and frequencies that are known before a scene is solved, and whether its plan has remarks.
 #[derive(Clone, Copy)]
 pub(crate) struct Preparation<'a> {
     pub(crate) tables: &'a SeriesTables,
@@ -52,7 +52,7 @@ pub(crate) fn motion(scene: Scene, polhode: Option<&Polhode>, preparation: Prepa
 }
 
 impl<'a> Preparation<'a> {
-    /// Nothing is ready but the tables, and the plan says what was skipped.
+    /// Tables alone are known, and the plan has remarks.
     pub(crate) fn new(tables: &'a SeriesTables) -> Self {
         Self { tables, secular: None, remarks: true }
     }
@@ -129,7 +129,7 @@ fn wobbling(scene: Scene, preparation: Preparation<'_>, polhode: &Polhode, mode:
     let ratio = (exact.kappa_sigma / polhode.invariants.kappa / polhode.separatrix_action()).min(1.0);
     let by_series = match scene.asked_method() {
         Method::Series => true,
-        Method::Closed | Method::Integrated => false,
+        Method::Closed | Method::Integrated | Method::Libration => false,
         // A fixed order is one of the series.
         Method::Auto => scene.asked_order().is_some() && mode != Mode::Axisymmetric,
     };
@@ -145,7 +145,7 @@ fn wobbling(scene: Scene, preparation: Preparation<'_>, polhode: &Polhode, mode:
     Ok(assembled(scene, polhode, plan, solution))
 }
 
-/// The motion of a wobbling body by the closed form, with every harmonic that rounding leaves: what derivatives are taken of.
+/// The motion of a wobbling body by the closed form, with every harmonic above rounding. Derivatives are those of this motion.
 pub(crate) fn untruncated(scene: &Scene, polhode: &Polhode, mode: Mode) -> Result<Motion, Error> {
     let preparation = Preparation { tables: &SeriesTables::default(), secular: None, remarks: false };
     wobbling(scene.clone().method(Method::Closed).tolerance(0.0), preparation, polhode, mode)
@@ -183,7 +183,7 @@ fn assembled(scene: Scene, polhode: &Polhode, mut plan: Plan, solution: Solution
     }
 }
 
-/// Adds what the scene of a motion asked for and did not need to what was skipped.
+/// Adds to the plan's list of skipped parts the options of the scene that the motion did not need.
 fn remark_unused(motion: &mut Motion) {
     let Motion { scene, plan, .. } = motion;
     plan.skipped.extend(match (plan.method, plan.mode) {
@@ -206,7 +206,7 @@ fn remark_unused(motion: &mut Motion) {
     }
 }
 
-/// What a plan says of an order that was asked for where there is no series.
+/// The plan's remark about a requested order if the motion has no series.
 pub(crate) fn unused_order(scene: &Scene) -> Option<String> {
     scene.asked_order().map(|order| format!("order {order}, which was asked for: this motion has no series"))
 }

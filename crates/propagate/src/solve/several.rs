@@ -13,7 +13,7 @@ use crate::torque_free::polhode::Polhode;
 use crate::torque_free::series::tables::SeriesTables;
 
 /// Calls `each` with the motions of at most as many valid scenes as the widest vectors have lanes, each to the bits of [`Scene::solve`]. The plans of free
-/// motions do not say what was skipped. A motion has some hundreds of bytes: it is used where it was made, because a copy of it takes 10 ns.
+/// motions have no remarks. A motion has some hundreds of bytes: it is used where it was made, because a copy of it takes 10 ns.
 pub(crate) fn several(scenes: Vec<Result<Scene, Error>>, mut each: impl FnMut(&Result<Motion, Error>)) {
     let tables = SeriesTables::default();
     let states: Vec<(&Body, &State)> =

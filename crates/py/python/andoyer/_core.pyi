@@ -131,7 +131,7 @@ class Orbit:
     ) -> Orbit: ...
     @staticmethod
     def from_state(position: ArrayLike, velocity: ArrayLike, gm: float, time: float | Any, *, mass_fraction: float = 1.0) -> Orbit:
-        """The Keplerian orbit through a position with a velocity at a time."""
+        """The Keplerian orbit through a position with a velocity at a time: an ellipse or a hyperbola."""
     def position(self, times: ArrayLike | Any) -> _Array:
         """The positions at some times, in inertial components and in the unit of the semi-major axis."""
     @staticmethod
@@ -153,7 +153,7 @@ class Orbit:
         """Mean motion n, in rad per unit of time."""
     @property
     def eccentricity(self) -> float:
-        """Eccentricity, 0 or more and less than 1."""
+        """Eccentricity: less than 1 for an ellipse, above 1 for a hyperbola."""
     @property
     def time_of_pericentre(self) -> float:
         """A time of passage through the pericentre."""
@@ -222,7 +222,7 @@ class Scene:
         epoch: float | Any = 0.0,
         orbit: Orbit | TabulatedOrbit | Sequence[Orbit | TabulatedOrbit] | None = None,
         tolerance: float = 1e-12,
-        method: Literal["auto", "series", "closed", "integrated"] = "auto",
+        method: Literal["auto", "series", "closed", "integrated", "libration"] = "auto",
         order: int | None = None,
         span: ArrayLike | None = None,
         averaging: Literal["auto", "orbit", "spin"] = "auto",
@@ -272,8 +272,8 @@ class Scene:
     def tolerance(self) -> float:
         """The requested attitude error, in rad."""
     @property
-    def method(self) -> Literal["auto", "series", "closed", "integrated"]:
-        """The method: "auto", "series", "closed" or "integrated"."""
+    def method(self) -> Literal["auto", "series", "closed", "integrated", "libration"]:
+        """The method: "auto", "series", "closed", "integrated" or "libration"."""
     @property
     def order(self) -> int | None:
         """The fixed order of the series, or None."""
@@ -331,6 +331,9 @@ class Motion:
     def plan(self) -> Plan:
         """The plan: method, order, error bound and other facts about this motion."""
     @property
+    def libration(self) -> Libration | None:
+        """The proper modes and the terms of a body locked to its orbit: a `Libration`, or None if the method is not "libration"."""
+    @property
     def scene(self) -> Scene:
         """The scene that was solved."""
     @property
@@ -356,8 +359,8 @@ class Plan:
     def mode(self) -> Literal["short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis", "at-rest"]:
         """The kind of motion: "short-axis", "long-axis", "separatrix", "axisymmetric", "spherical", "principal-axis" or "at-rest"."""
     @property
-    def method(self) -> Literal["series", "closed", "integrated"]:
-        """The method of evaluation: "series", "closed" for theta functions and elementary formulas, or "integrated"."""
+    def method(self) -> Literal["series", "closed", "integrated", "libration"]:
+        """The method of evaluation: "series", "closed" for theta functions and elementary formulas, "integrated" or "libration"."""
     @property
     def order(self) -> int:
         """Order N of the series, or of the steps of an integration. It is 0 if there is no series, or if the harmonic oscillator alone meets the tolerance."""
@@ -365,8 +368,11 @@ class Plan:
     def steps(self) -> int:
         """Number of steps of the integration; 0 for the other methods."""
     @property
+    def resonance(self) -> Fraction | None:
+        """The resonance of a libration, in rotations an orbit: a Fraction; None for the other methods."""
+    @property
     def harmonics(self) -> int:
-        """The highest multiple of the anomaly ℓ′ in the evaluation; 0 if the method has no harmonics."""
+        """The number of harmonics of a libration; otherwise the highest multiple of the anomaly ℓ′ in the evaluation, or 0 if the method has no harmonics."""
     @property
     def error_bound(self) -> float:
         """Estimated bound of the attitude error over the span, in rad; it is not proved. It includes truncation, dropped harmonics and rounding."""
@@ -404,6 +410,47 @@ class Plan:
     __hash__: None  # type: ignore[assignment]
     def __copy__(self) -> Plan: ...
     def __deepcopy__(self, _memo: Any) -> Plan: ...
+
+@final
+class Libration:
+    """The libration of a body whose rotation is locked to its orbit, from `Motion.libration`."""
+
+    @property
+    def frequencies(self) -> _Array:
+        """Rates of the proper modes, longitude first and then the two of the pole, in rad per unit of time, shape (3,)."""
+    @property
+    def periods(self) -> _Array:
+        """Proper periods in the unit of time, shape (3,). They are those in the frame that turns with the resonance."""
+    @property
+    def amplitudes(self) -> _Array:
+        """The largest angle of each proper mode, in rad, shape (3,)."""
+    @property
+    def phases(self) -> _Array:
+        """The phase of this angle at the epoch, in rad, shape (3,); 0 for a mode without amplitude."""
+    def terms(self) -> list[LibrationTerm]:
+        """All terms, the largest first."""
+    def forced(self) -> list[LibrationTerm]:
+        """The terms without proper modes, which the orbit forces, the largest first: the table that papers print."""
+
+@final
+class LibrationTerm:
+    """A term of a libration: amplitude · sin(phase + 2π (t − epoch)/period)."""
+
+    @property
+    def multiples(self) -> tuple[int, ...]:
+        """Multiples of the three proper angles and of the mean anomaly, four integers."""
+    @property
+    def period(self) -> float:
+        """The period in the unit of time; infinite for a constant."""
+    @property
+    def amplitude(self) -> float:
+        """The amplitude, in rad."""
+    @property
+    def phase(self) -> float:
+        """The phase at the epoch, in rad, from −π to π."""
+    @property
+    def angle(self) -> Literal["longitude", "pole-1", "pole-2"]:
+        """The angle that has this term: "longitude" (ψ), "pole-1" (θ) or "pole-2" (φ)."""
 
 @final
 class Samples:
@@ -632,6 +679,9 @@ class BirkhoffNormalForm:
     def parameters(self) -> tuple[str, ...]:
         """The parameters."""
     @property
+    def driven(self) -> dict[str, tuple[_Number, float]]:
+        """The driven phases: {name: (frequency, phase at time 0)}."""
+    @property
     def frequencies(self) -> tuple[_Number | complex, ...]:
         """The frequencies ω at the origin. A centre has a real frequency, negative if its energy is negative; a saddle has iλ; a quartet has iσ − ν and iσ + ν."""
     @property
@@ -645,7 +695,7 @@ class BirkhoffNormalForm:
         """The symplectic matrix M of the linear change z = M z′ that diagonalizes the quadratic part, by rows. It is the unit matrix if the quadratic part is already diagonal."""
     @property
     def resonances(self) -> tuple[tuple[int, ...], ...]:
-        """The resonances that were kept: vectors k with k·ω = 0. Their terms depend on the resonant angles k·φ."""
+        """The resonances that were kept: vectors k with k·ω = 0, and with driven phases (k, j) with k·ω + j·n = 0. Their terms depend on the resonant angles k·φ + j·M."""
     def in_actions(self) -> _Polynomial:
         """K as a function of the actions: coefficients by exponents of I₁, I₂, …, parameters. It includes the constant term of H."""
     def in_angles(self) -> dict[tuple[int, ...], dict[tuple[int, ...], tuple[float, float]]]:
@@ -662,23 +712,23 @@ class BirkhoffNormalForm:
         """Expresses a function of the old variables in the new variables. It is complete to degree d + N, where d is its lowest positive degree."""
     def inverse(self, function: _Expression) -> _Polynomial:
         """Expresses a function of the new variables in the old variables. It is complete to degree d + N, where d is its lowest positive degree."""
-    def to_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+    def to_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None, time: ArrayLike | None = None) -> _Array:
         """Transforms states to the new variables."""
-    def from_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+    def from_normal(self, states: ArrayLike, parameters: dict[str, float] | None = None, time: ArrayLike | None = None) -> _Array:
         """Transforms new variables to states. The errors are those of `to_normal`."""
-    def actions(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+    def actions(self, states: ArrayLike, parameters: dict[str, float] | None = None, time: ArrayLike | None = None) -> _Array:
         """The actions of states. Along a motion they are almost constant, unless a resonance exchanges them."""
-    def from_centre_manifold(self, states: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+    def from_centre_manifold(self, states: ArrayLike, parameters: dict[str, float] | None = None, time: ArrayLike | None = None) -> _Array:
         """Transforms points of the centre manifold, given by the new variables of the centres, to states."""
-    def energy(self, normal: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+    def energy(self, normal: ArrayLike, parameters: dict[str, float] | None = None, time: ArrayLike | None = None) -> _Array:
         """The energy: the value of K at new variables."""
-    def rates(self, normal: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+    def rates(self, normal: ArrayLike, parameters: dict[str, float] | None = None, time: ArrayLike | None = None) -> _Array:
         """The rates of new variables, by Hamilton's equations of K."""
     def domain(self, parameters: dict[str, float] | None = None) -> Domain:
         """Estimates the range of validity of the form: the sizes of its orders, and the best order at an amplitude."""
     def frequency_map(self, actions: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
         """The frequencies Ω = ∂K/∂I at actions. For a saddle Ω is the rate; for a quartet it is rate and frequency."""
-    def trajectory(self, state: ArrayLike, times: ArrayLike, parameters: dict[str, float] | None = None) -> _Array:
+    def trajectory(self, state: ArrayLike, times: ArrayLike, parameters: dict[str, float] | None = None, time: float = 0.0) -> _Array:
         """Propagates a state by the normal form to times after the state."""
     def to_json(self) -> str:
         """Writes this normal form as JSON text with a format version: exact numbers as "p/q" strings, floats with all their digits."""
@@ -717,6 +767,7 @@ def normalize(
     variables: Sequence[tuple[Any, Any]],
     *,
     parameters: Sequence[Any] | dict[Any, Any] | None = None,
+    driven: dict[Any, Any] | None = None,
     degrees: dict[str, int] | None = None,
     frequency: tuple[str, str] | None = None,
     resonances: Sequence[Sequence[int]] | None = None,

@@ -18,6 +18,7 @@ use crate::foreign::{self, Calendar};
 mod output;
 mod times;
 
+use output::in_use;
 pub(crate) use output::{chunks, matrices, write};
 pub(crate) use times::Times;
 
@@ -87,11 +88,6 @@ fn wrong_shape(argument: &str, array: &Bound<'_, PyArrayDyn<f64>>, bound: &str) 
         ),
         None => error::shape(argument, array.shape(), bound),
     }
-}
-
-fn in_use(argument: &str) -> PyErr {
-    let message = format!("{argument} shares memory with an array that is in use");
-    error::input(argument, "an array in use", "an array that is not in use", message)
 }
 
 fn read<'py>(argument: &str, array: &Bound<'py, PyArrayDyn<f64>>) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
@@ -280,8 +276,29 @@ impl<'py> Rows<'py> {
         columns: usize,
         evaluate: impl Fn(&[f64]) -> Result<Vec<f64>, andoyer_series::Error> + Sync,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.map_at(columns, None, |row, _| evaluate(row))
+    }
+
+    /// As [`Rows::map`], with a time for each row: one number for all, as many numbers as rows, or 0.
+    pub(crate) fn map_at(
+        &self,
+        columns: usize,
+        time: Option<&Bound<'_, PyAny>>,
+        evaluate: impl Fn(&[f64], f64) -> Result<Vec<f64>, andoyer_series::Error> + Sync,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let (py, values, width) = (self.array.py(), self.array.as_slice()?, self.columns);
-        let rows = row_by_row(py, values, width, |values| values.chunks(width).map(&evaluate).collect())?;
+        let times = time.map_or(Ok(vec![0.0]), |time| numbers_of("time", time))?;
+        let count = values.len() / width;
+        if times.len() != 1 && times.len() != count {
+            return Err(error::shape("time", &[times.len()], &format!("() or ({count},)")));
+        }
+        let timed: Vec<f64> = values
+            .chunks(width)
+            .zip(times.iter().cycle())
+            .flat_map(|(row, &time)| row.iter().copied().chain([time]))
+            .collect();
+        let one = |row: &[f64]| evaluate(&row[..width], row[width]);
+        let rows = row_by_row(py, &timed, width + 1, |rows| rows.chunks(width + 1).map(one).collect())?;
         let mut shape = self.array.shape().to_vec();
         shape[self.array.ndim() - 1] = columns; // one axis at least
         rows.concat().into_pyarray(py).reshape(shape)

@@ -7,8 +7,13 @@ use numpy::{
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-use super::in_use;
 use crate::error;
+
+/// The error of an array that cannot be borrowed.
+pub(super) fn in_use(argument: &str) -> PyErr {
+    let message = format!("{argument} shares memory with an array that is in use");
+    error::input(argument, "an array in use", "an array that is not in use", message)
+}
 
 /// `out`, checked to be an array for results of this shape.
 pub(super) fn output<'py>(out: &Bound<'py, PyAny>, shape: &[usize]) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {

@@ -17,19 +17,22 @@ impl BirkhoffNormalForm {
     /// ----------
     /// states : array_like, shape (2n,) or (m, 2n)
     /// parameters : dict of {str: float}, optional
+    /// time : float or array_like, shape (m,), optional
+    ///     The time of the states, on which driven phases depend; 0 by default.
     ///
     /// Raises
     /// ------
     /// InputError
     ///     An array of another length; a NaN, or a result that overflows.
-    #[pyo3(signature = (states, parameters=None))]
+    #[pyo3(signature = (states, parameters=None, time=None))]
     fn to_normal<'py>(
         &self,
         states: &Bound<'py, PyAny>,
         parameters: Option<&Bound<'py, PyDict>>,
+        time: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let (n, map) = (2 * self.space().degrees_of_freedom(), self.map(states.py(), parameters)?);
-        Rows::new("states", states, n)?.map(n, |state| map.to_normal(state))
+        Rows::new("states", states, n)?.map_at(n, time, |state, time| map.to_normal_at(state, time))
     }
 
     /// Transforms new variables to states. The errors are those of `to_normal`.
@@ -38,15 +41,18 @@ impl BirkhoffNormalForm {
     /// ----------
     /// states : array_like, shape (2n,) or (m, 2n)
     /// parameters : dict of {str: float}, optional
-    #[pyo3(signature = (states, parameters=None))]
+    /// time : float or array_like, shape (m,), optional
+    ///     The time of the states, on which driven phases depend; 0 by default.
+    #[pyo3(signature = (states, parameters=None, time=None))]
     #[expect(clippy::wrong_self_convention, reason = "the pair of to_normal")]
     fn from_normal<'py>(
         &self,
         states: &Bound<'py, PyAny>,
         parameters: Option<&Bound<'py, PyDict>>,
+        time: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let (n, map) = (2 * self.space().degrees_of_freedom(), self.map(states.py(), parameters)?);
-        Rows::new("states", states, n)?.map(n, |state| map.from_normal(state))
+        Rows::new("states", states, n)?.map_at(n, time, |state, time| map.from_normal_at(state, time))
     }
 
     /// Transforms points of the centre manifold, given by the new variables of the centres, to states.
@@ -56,6 +62,8 @@ impl BirkhoffNormalForm {
     /// states : array_like, shape (2c,) or (m, 2c)
     ///     q, p of the c centres, in their order.
     /// parameters : dict of {str: float}, optional
+    /// time : float or array_like, shape (m,), optional
+    ///     The time of the states, on which driven phases depend; 0 by default.
     ///
     /// Returns
     /// -------
@@ -65,7 +73,7 @@ impl BirkhoffNormalForm {
     /// ------
     /// InputError
     ///     An array of another length; a NaN, or a result that overflows; a form without a centre.
-    #[pyo3(signature = (states, parameters=None))]
+    #[pyo3(signature = (states, parameters=None, time=None))]
     #[expect(
         clippy::wrong_self_convention,
         reason = "the states of a manifold, as from_normal those of normal variables"
@@ -74,6 +82,7 @@ impl BirkhoffNormalForm {
         &self,
         states: &Bound<'py, PyAny>,
         parameters: Option<&Bound<'py, PyDict>>,
+        time: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let map = self.map(states.py(), parameters)?;
         let centres = either!(&self.form, form => form.modes().iter().filter(|mode| mode.is_elliptic()).count());
@@ -82,7 +91,7 @@ impl BirkhoffNormalForm {
             return Err(error::input("states", 0_usize, "a form with a centre", message));
         }
         let n = 2 * self.space().degrees_of_freedom();
-        Rows::new("states", states, 2 * centres)?.map(n, |centre| map.from_centre(centre))
+        Rows::new("states", states, 2 * centres)?.map_at(n, time, |centre, time| map.from_centre_at(centre, time))
     }
 
     /// The energy: the value of K at new variables.
@@ -91,6 +100,8 @@ impl BirkhoffNormalForm {
     /// ----------
     /// normal : array_like, shape (2n,) or (m, 2n)
     /// parameters : dict of {str: float}, optional
+    /// time : float or array_like, shape (m,), optional
+    ///     The time of the states, on which driven phases depend; 0 by default.
     ///
     /// Returns
     /// -------
@@ -100,10 +111,15 @@ impl BirkhoffNormalForm {
     /// ------
     /// InputError
     ///     An array of another length; a NaN.
-    #[pyo3(signature = (normal, parameters=None))]
-    fn energy<'py>(&self, normal: &Bound<'py, PyAny>, parameters: Option<&Bound<'py, PyDict>>) -> PyResult<Array<'py>> {
+    #[pyo3(signature = (normal, parameters=None, time=None))]
+    fn energy<'py>(
+        &self,
+        normal: &Bound<'py, PyAny>,
+        parameters: Option<&Bound<'py, PyDict>>,
+        time: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array<'py>> {
         let (n, map) = (2 * self.space().degrees_of_freedom(), self.map(normal.py(), parameters)?);
-        Rows::new("normal", normal, n)?.map(1, |normal| map.energy(normal).map(|energy| vec![energy]))
+        Rows::new("normal", normal, n)?.map_at(1, time, |normal, time| Ok(vec![map.energy_at(normal, time)?]))
     }
 
     /// The rates of new variables, by Hamilton's equations of K.
@@ -112,15 +128,22 @@ impl BirkhoffNormalForm {
     /// ----------
     /// normal : array_like, shape (2n,) or (m, 2n)
     /// parameters : dict of {str: float}, optional
+    /// time : float or array_like, shape (m,), optional
+    ///     The time of the states, on which driven phases depend; 0 by default.
     ///
     /// Raises
     /// ------
     /// InputError
     ///     An array of another length; a NaN.
-    #[pyo3(signature = (normal, parameters=None))]
-    fn rates<'py>(&self, normal: &Bound<'py, PyAny>, parameters: Option<&Bound<'py, PyDict>>) -> PyResult<Array<'py>> {
+    #[pyo3(signature = (normal, parameters=None, time=None))]
+    fn rates<'py>(
+        &self,
+        normal: &Bound<'py, PyAny>,
+        parameters: Option<&Bound<'py, PyDict>>,
+        time: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Array<'py>> {
         let (n, map) = (2 * self.space().degrees_of_freedom(), self.map(normal.py(), parameters)?);
-        Rows::new("normal", normal, n)?.map(n, |normal| map.rates(normal))
+        Rows::new("normal", normal, n)?.map_at(n, time, |normal, time| map.rates_at(normal, time))
     }
 
     /// Estimates the range of validity of the form: the sizes of its orders, and the best order at an amplitude.
@@ -147,6 +170,8 @@ impl BirkhoffNormalForm {
     /// ----------
     /// states : array_like, shape (2n,) or (m, 2n)
     /// parameters : dict of {str: float}, optional
+    /// time : float or array_like, shape (m,), optional
+    ///     The time of the states, on which driven phases depend; 0 by default.
     ///
     /// Returns
     /// -------
@@ -156,14 +181,15 @@ impl BirkhoffNormalForm {
     /// ------
     /// InputError
     ///     An array of another length; a NaN, or a result that overflows.
-    #[pyo3(signature = (states, parameters=None))]
+    #[pyo3(signature = (states, parameters=None, time=None))]
     fn actions<'py>(
         &self,
         states: &Bound<'py, PyAny>,
         parameters: Option<&Bound<'py, PyDict>>,
+        time: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Array<'py>> {
         let (n, map) = (self.space().degrees_of_freedom(), self.map(states.py(), parameters)?);
-        Rows::new("states", states, 2 * n)?.map(n, |state| map.actions(state))
+        Rows::new("states", states, 2 * n)?.map_at(n, time, |state, time| map.actions_at(state, time))
     }
 
     /// The frequencies Ω = ∂K/∂I at actions. For a saddle Ω is the rate; for a quartet it is rate and frequency.
@@ -199,6 +225,8 @@ impl BirkhoffNormalForm {
     /// state : array_like, shape (2n,)
     /// times : float or array_like, shape (m,)
     /// parameters : dict of {str: float}, optional
+    /// time : float, optional
+    ///     The time of `state`, on which driven phases depend.
     ///
     /// Returns
     /// -------
@@ -210,22 +238,25 @@ impl BirkhoffNormalForm {
     ///     An array of another length; a NaN, or a result that overflows.
     /// ImportError
     ///     K has resonant terms, and SciPy is not installed.
-    #[pyo3(signature = (state, times, parameters=None))]
+    #[pyo3(signature = (state, times, parameters=None, time=0.0))]
     fn trajectory<'py>(
         slf: &Bound<'py, Self>,
         state: &Bound<'py, PyAny>,
         times: &Bound<'py, PyAny>,
         parameters: Option<&Bound<'py, PyDict>>,
+        time: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, form) = (state.py(), slf.get());
         let n = 2 * form.space().degrees_of_freedom();
         let map = form.map(py, parameters)?;
         let (given, shape) = (fixed_length("state", state, n)?, Times::new(times, None, false)?);
         if !map.is_integrable() {
-            return py.import("andoyer.interop._flow")?.call_method1("trajectory", (slf, given, times, parameters));
+            return py
+                .import("andoyer.interop._flow")?
+                .call_method1("trajectory", (slf, given, times, parameters, time));
         }
         let result = shape.rows(n)?;
-        let states = row_by_row(py, shape.values()?, 1, |times| map.trajectory(&given, times))?;
+        let states = row_by_row(py, shape.values()?, 1, |times| map.trajectory_from(&given, time, times))?;
         write(&result)?.as_slice_mut()?.copy_from_slice(&states.concat());
         Ok(result.into_any())
     }

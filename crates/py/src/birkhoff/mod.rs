@@ -19,7 +19,7 @@ use pyo3::types::{PyComplex, PyDict, PyTuple};
 use crate::array::number;
 use crate::computing::detached;
 use crate::error;
-use crate::expression::{Expression, complex, real};
+use crate::expression::{Expression, actions, complex, real};
 use crate::form::{Form, either, rounded, transformed};
 use crate::order::order;
 use crate::progress;
@@ -31,12 +31,13 @@ type Reduced<'py> = (Bound<'py, PyAny>, (String, Py<PyDict>));
 /// The Birkhoff normal form of a Hamiltonian, from `normalize`: the new Hamiltonian K and the transformation in both directions.
 ///
 /// Polynomials are dictionaries of coefficients by tuple of exponents, in the order q₁, p₁, q₂, p₂, …, parameters: `Fraction` if
-/// `exact`, else float. The new variables (q, p) of a centre have the action I = (q²/r + r p²)/2 and the complex variables U = r p + i q =
+/// `exact`, else float. The exponents are followed by an integer j for each driven phase M: cos jM for j ≥ 0, sin ``|j|M`` for j < 0, and e^{ijM} in
+/// `in_complex`. The new variables (q, p) of a centre have the action I = (q²/r + r p²)/2 and the complex variables U = r p + i q =
 /// √(2rI) e^{iφ} and u = (q + i r p)/(2r), {u; U} = 1, uU = iI. Those of a saddle are real, u = q, U = p, I = q p; q is the unstable direction. The two modes
 /// (q, p), (Q, P) of a quartet have I = q p + Q P and q P − Q p, u = (q − iQ)/2 and U = p + iP.
 ///
-/// States are arrays (2n,) or (m, 2n) of q₁, p₁, q₂, p₂, … Methods on states take the parameters as a dict of numbers by name. The
-/// series are truncated: for a state of amplitude ε the error is of order ε^(N+2).
+/// States are arrays (2n,) or (m, 2n) of q₁, p₁, q₂, p₂, … Methods on states take the parameters as a dict of numbers by name, and with driven phases the time of
+/// the states, one number or m numbers, 0 by default. The series are truncated: for a state of amplitude ε the error is of order ε^(N+2).
 ///
 /// Examples
 /// --------
@@ -97,6 +98,16 @@ impl BirkhoffNormalForm {
         PyTuple::new(py, &space.names()[2 * space.degrees_of_freedom()..])
     }
 
+    /// The driven phases: {name: (frequency, phase at time 0)}.
+    #[getter]
+    fn driven<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let result = PyDict::new(py);
+        either!(&self.form, form => for (name, driven) in form.space().driven().into_iter().zip(form.driven().to_vec()) {
+            result.set_item(name, driven)?;
+        });
+        Ok(result)
+    }
+
     /// The frequencies ω at the origin. A centre has a real frequency, negative if its energy is negative; a saddle has iλ; a quartet has iσ − ν and iσ + ν.
     #[getter]
     fn frequencies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
@@ -127,7 +138,7 @@ impl BirkhoffNormalForm {
         })
     }
 
-    /// The resonances that were kept: vectors k with k·ω = 0. Their terms depend on the resonant angles k·φ.
+    /// The resonances that were kept: vectors k with k·ω = 0, and with driven phases (k, j) with k·ω + j·n = 0. Their terms depend on the resonant angles k·φ + j·M.
     #[getter]
     fn resonances<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let vectors = either!(&self.form, form => form.resonances().vectors().to_vec());
@@ -141,8 +152,7 @@ impl BirkhoffNormalForm {
     /// TheoryError
     ///     K has resonant terms and is not a function of the actions alone.
     fn in_actions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let slots = self.space().degrees_of_freedom() + self.space().parameters();
-        either!(&self.form, form => real(py, &detached(py, error::algebra, || form.in_actions())?, slots))
+        either!(&self.form, form => actions(py, &detached(py, error::algebra, || form.in_actions())?, self.space()))
     }
 
     /// K in the actions and the resonant angles: the terms of each angle k·φ, by k.
@@ -181,22 +191,22 @@ impl BirkhoffNormalForm {
     fn in_complex<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         match &self.form {
             Form::Exact(form) => {
-                complex::<BigRational>(py, &detached(py, error::algebra, || Ok(form.in_complex()))?, self.slots())
+                complex::<BigRational>(py, &detached(py, error::algebra, || Ok(form.in_complex()))?, self.space())
             }
             Form::Float(form) => {
-                complex::<f64>(py, &detached(py, error::algebra, || Ok(form.in_complex()))?, self.slots())
+                complex::<f64>(py, &detached(py, error::algebra, || Ok(form.in_complex()))?, self.space())
             }
         }
     }
 
     /// K in the new real variables.
     fn in_real<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        either!(&self.form, form => real(py, &detached(py, error::algebra, || form.in_real())?, self.slots()))
+        either!(&self.form, form => real(py, &detached(py, error::algebra, || form.in_real())?, self.space()))
     }
 
     /// The Hamiltonian on the centre manifold: K in the new real variables of the centres, with q = p = 0 for the saddles.
     fn centre_manifold<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        either!(&self.form, form => real(py, &detached(py, error::algebra, || form.centre_manifold())?, self.slots()))
+        either!(&self.form, form => real(py, &detached(py, error::algebra, || form.centre_manifold())?, self.space()))
     }
 
     /// The generating function S_m in the real variables, of degree m + 2.
@@ -212,7 +222,7 @@ impl BirkhoffNormalForm {
     ///     ``0``, or above the order.
     fn generator<'py>(&self, py: Python<'py>, m: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
         let m = order("m", m, 1, self.order())?;
-        either!(&self.form, form => real(py, &detached(py, error::algebra, || form.generator(m))?, self.slots()))
+        either!(&self.form, form => real(py, &detached(py, error::algebra, || form.generator(m))?, self.space()))
     }
 
     /// Expresses a function of the old variables in the new variables. It is complete to degree d + N, where d is its lowest positive degree.
@@ -245,10 +255,6 @@ impl BirkhoffNormalForm {
         either!(&self.form, form => form.space())
     }
 
-    fn slots(&self) -> usize {
-        self.space().names().len()
-    }
-
     fn transformed<'py>(
         &self,
         py: Python<'py>,
@@ -257,8 +263,8 @@ impl BirkhoffNormalForm {
     ) -> PyResult<Bound<'py, PyDict>> {
         let Expression { polynomial, .. } = Expression::new("function", function, self.space())?;
         match &self.form {
-            Form::Exact(form) => real(py, &transformed(py, form, &polynomial, direct)?, self.slots()),
-            Form::Float(form) => real(py, &transformed(py, form, &rounded(&polynomial), direct)?, self.slots()),
+            Form::Exact(form) => real(py, &transformed(py, form, &polynomial, direct)?, self.space()),
+            Form::Float(form) => real(py, &transformed(py, form, &rounded(&polynomial), direct)?, self.space()),
         }
     }
 

@@ -105,7 +105,8 @@ impl BirkhoffNormalForm {
     /// Writes a source file with functions that evaluate this normal form. The file needs only the standard library of its language.
     ///
     /// ``from_normal(normal)`` and ``to_normal(state)`` transform arrays q₁, p₁, q₂, …; ``actions(normal)`` returns the actions, and ``frequencies(actions)``
-    /// the rates ∂K/∂I. ``frequencies`` is absent if K has resonant terms. Parameters are an array after the first argument.
+    /// the rates ∂K/∂I. ``frequencies`` is absent if K has resonant terms. Parameters are an array after the first argument. With driven phases the time is the
+    /// last argument of ``from_normal`` and ``to_normal``.
     ///
     /// Parameters
     /// ----------
@@ -140,7 +141,8 @@ impl BirkhoffNormalForm {
         let radii = either!(&self.form, form => form.domain(&[])).map(|domain| domain.radii()).unwrap_or_default();
         let radius = radii.into_iter().rev().find(|radius| radius.is_finite());
         let radius = radius.map(|radius| format!(", radius {radius:.3}")).unwrap_or_default();
-        format!("<BirkhoffNormalForm of order {} in {}, {numbers}{radius}>", self.order(), space.names().join(", "))
+        let names = [space.names(), space.driven()].concat().join(", ");
+        format!("<BirkhoffNormalForm of order {} in {names}, {numbers}{radius}>", self.order())
     }
 
     /// K as text, in the actions: ``I_q`` of a centre, ``(q*p)`` of a saddle, ``(q*p + Q*P)`` and ``(q*P - Q*p)`` of a quartet.

@@ -1,9 +1,11 @@
 //! Arguments of `andoyer.Ensemble`.
 
+use andoyer_propagate::ensemble::Outcome;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 use crate::array::{number, numbers_of};
+use crate::error;
 use crate::foreign::{self, Calendar};
 use crate::orbit::Orbit;
 
@@ -51,4 +53,10 @@ pub(super) fn orbits_of(value: &Bound<'_, PyAny>) -> PyResult<Vec<Option<andoyer
 
 pub(super) fn tolerance(value: &Bound<'_, PyAny>) -> PyResult<f64> {
     number("tolerance", value)
+}
+
+/// The errors of refused members, as Python exceptions.
+pub(super) fn refused(py: Python<'_>, outcome: Outcome) -> Vec<(usize, Py<PyAny>)> {
+    let value = |problem| error::propagation(problem).into_value(py).into_any();
+    outcome.into_errors().into_iter().map(|(index, problem)| (index, value(problem))).collect()
 }

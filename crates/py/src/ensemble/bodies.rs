@@ -4,11 +4,9 @@ use std::sync::atomic::AtomicBool;
 
 use andoyer_propagate::Error as Propagation;
 use andoyer_propagate::ensemble::OnError;
-use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::{Array, Ensemble};
-use crate::array::{MemberRows, constant_rows, tensors};
+use crate::array::{MemberRows, tensors};
 use crate::error;
 
 /// The shapes of the argument.
@@ -68,30 +66,5 @@ impl Bodies {
                 andoyer_propagate::Ensemble::from_inertia_or(tensors, attitudes, rates, on_error, stop)
             }
         }
-    }
-}
-
-#[pymethods]
-impl Ensemble {
-    /// The moments about body axes 1, 2, 3: a read-only array, shape (m, 3). If tensors were given, they are the principal moments, as `Body.moments`.
-    #[getter]
-    pub(super) fn moments<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-        constant_rows(py, self.0.moments())
-    }
-
-    /// The inertia tensors as given, diagonal if moments were given: a read-only array, shape (m, 3, 3).
-    ///
-    /// Examples
-    /// --------
-    /// >>> tensors = [[[1.5, 0.5, 0], [0.5, 1.5, 0], [0, 0, 2]]] * 2
-    /// >>> ensemble = Ensemble(tensors, [0, 0, 0, 1], [[0, 0, 1], [0.1, 0.2, 1]])
-    /// >>> ensemble.inertia[1, 0], ensemble.moments[1].round(12)
-    /// (array([1.5, 0.5, 0. ]), array([1., 2., 2.]))
-    #[getter]
-    pub(super) fn inertia<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
-        let tensors: Vec<f64> = (0..self.0.len()).flat_map(|k| self.0.inertia(k)).flatten().collect();
-        let array = tensors.into_pyarray(py).reshape(vec![self.0.len(), 3, 3])?;
-        array.readwrite().make_nonwriteable();
-        Ok(array)
     }
 }

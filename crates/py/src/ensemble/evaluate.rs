@@ -85,9 +85,3 @@ impl Ensemble {
         self.1.get(if self.1.len() == 1 { 0 } else { index }).copied()
     }
 }
-
-/// The errors of refused members, as Python exceptions.
-pub(super) fn refused(py: Python<'_>, outcome: Outcome) -> Vec<(usize, Py<PyAny>)> {
-    let value = |problem| error::propagation(problem).into_value(py).into_any();
-    outcome.into_errors().into_iter().map(|(index, problem)| (index, value(problem))).collect()
-}

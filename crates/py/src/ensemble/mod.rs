@@ -7,7 +7,7 @@ use andoyer_propagate::error::Kind;
 use andoyer_propagate::options::Convention;
 use andoyer_propagate::periods::Periods;
 use andoyer_series::threads::alone;
-use numpy::{IntoPyArray, PyArray1, PyArrayDyn};
+use numpy::{IntoPyArray, PyArray1, PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -26,9 +26,8 @@ mod arguments;
 mod bodies;
 mod copies;
 mod evaluate;
-use arguments::{asked, epochs_of, orbits_of, tolerance};
+use arguments::{asked, epochs_of, orbits_of, refused, tolerance};
 use bodies::Bodies;
-use evaluate::refused;
 
 type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 /// Number of members above which the construction of an ensemble, which checks each member, counts as a long call.
@@ -80,6 +79,28 @@ impl Ensemble {
             ensemble.validate().map(|()| ensemble)
         };
         interruptible(py, members >= LONG, error::propagation, new).map(|ensemble| Self(ensemble, calendar))
+    }
+
+    /// The moments about body axes 1, 2, 3: a read-only array, shape (m, 3). If tensors were given, they are the principal moments, as `Body.moments`.
+    #[getter]
+    fn moments<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        constant_rows(py, self.0.moments())
+    }
+
+    /// The inertia tensors as given, diagonal if moments were given: a read-only array, shape (m, 3, 3).
+    ///
+    /// Examples
+    /// --------
+    /// >>> tensors = [[[1.5, 0.5, 0], [0.5, 1.5, 0], [0, 0, 2]]] * 2
+    /// >>> ensemble = Ensemble(tensors, [0, 0, 0, 1], [[0, 0, 1], [0.1, 0.2, 1]])
+    /// >>> ensemble.inertia[1, 0], ensemble.moments[1].round(12)
+    /// (array([1.5, 0.5, 0. ]), array([1., 2., 2.]))
+    #[getter]
+    fn inertia<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        let tensors: Vec<f64> = (0..self.0.len()).flat_map(|k| self.0.inertia(k)).flatten().collect();
+        let array = tensors.into_pyarray(py).reshape(vec![self.0.len(), 3, 3])?;
+        array.readwrite().make_nonwriteable();
+        Ok(array)
     }
 
     /// Evaluates attitudes and angular velocities of all members in one pass.

@@ -3,8 +3,8 @@
 //! A centre has U = √(2rI) e^{iφ} and u = i √(I/(2r)) e^{−iφ}, so uU = iI. A term with u^j U^l of each mode and k = l − j is uU to the power min(j, l), times
 //! (2r)^{k/2} I^{|k|/2} e^{ikφ}, times i^{|k|} if k < 0. The terms of k and of −k are complex conjugates. Together they are a cosine and a sine of k·φ.
 
+use super::BirkhoffNormalForm;
 use super::mode::{Mode, substitute};
-use super::{BirkhoffNormalForm, PhaseSpace, turns};
 use crate::real_field::RealField;
 use crate::{Error, Monomial, Polynomial};
 use std::collections::BTreeMap;
@@ -16,7 +16,7 @@ const LARGEST_ROOT: i64 = 1000;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct AnglePart<R: RealField> {
-    /// k. Its first entry other than 0 is positive.
+    /// k, then the integers j of the driven phases: the angle is k·φ + j·M. The first entry other than 0 is positive.
     pub multiples: Vec<i64>,
     /// A positive number whose square root is a factor of all terms; 1 if the root belongs to the numbers R.
     pub radicand: R,
@@ -74,7 +74,12 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     pub fn angle_terms(&self) -> Result<Vec<AngleTerms>, Error> {
         let (mean, parts) = self.in_angles()?;
         let modes = self.modes().len();
-        let none = AnglePart { multiples: vec![0; modes], radicand: R::one(), cosine: mean, sine: Polynomial::zero() };
+        let none = AnglePart {
+            multiples: vec![0; modes + self.space.driven().len()],
+            radicand: R::one(),
+            cosine: mean,
+            sine: Polynomial::zero(),
+        };
         let terms = |part: &AnglePart<R>| {
             let root = part.radicand.to_float().sqrt();
             let mut sum = part.cosine.map(|c| R::complex(c.clone(), R::zero()));
@@ -108,11 +113,11 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         let modes = self.modes().len();
         let mut products = BTreeMap::<Vec<i64>, Polynomial<R::Complex>>::new();
         for (monomial, c) in polynomial.terms() {
-            let k = turns(monomial, modes);
+            let k = self.space.turns(monomial);
             let turning = k.iter().find(|&&k| k != 0);
             if turning.is_some() && !allowed(&k) {
                 let term = Polynomial::from_terms([(monomial, 1.0)]);
-                return Err(Error::ResonantTerm { term: PhaseSpace::text(&term, &self.space.complex_names()) });
+                return Err(Error::ResonantTerm { term: self.space.complex_text(&term) });
             }
             // The terms of −k are the complex conjugates.
             if turning.is_some_and(|&first| first < 0) {
@@ -158,7 +163,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             size = size.divide(&small).ok_or(Error::DivisionByZero)?;
             radicand = small;
         }
-        let quarters = k.iter().filter(|&&k| k < 0).map(|k| k.unsigned_abs()).sum::<u64>();
+        let quarters = k.iter().take(self.modes().len()).filter(|&&k| k < 0).map(|k| k.unsigned_abs()).sum::<u64>();
         let factor = match quarters % 4 {
             0 => R::complex(size, R::zero()),
             1 => R::complex(R::zero(), size),

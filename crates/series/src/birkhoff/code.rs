@@ -9,17 +9,19 @@ use super::BirkhoffNormalForm;
 use super::matrix::{Matrix, symplectic_inverse};
 use super::mode::Mode;
 use crate::emit::Language;
-use crate::emit::program::{Expression, Program, name};
+use crate::emit::program::{Expression, Function, Program, call, name};
 use crate::emit::routine::{Argument, Results, Routine};
 use crate::real_field::RealField;
-use crate::{Error, Monomial, Polynomial};
-use std::collections::BTreeMap;
+use crate::triangle::quiet;
+use crate::{Error, Monomial, Polynomial, SLOTS, harmonics};
+use std::collections::{BTreeMap, BTreeSet};
 
 impl<R: RealField> BirkhoffNormalForm<R> {
     /// The source file of functions in `language` that evaluate this normal form.
     ///
     /// `from_normal(normal)` gives the state q₁, p₁, q₂, … of normal variables, and `to_normal(state)` is its inverse. `actions(normal)` and
-    /// `frequencies(actions)` describe the motion. `frequencies` is missing if K has resonant terms. Parameters are an array after the first argument.
+    /// `frequencies(actions)` describe the motion. `frequencies` is missing if K has resonant terms. Parameters are an array after the first argument. With driven
+    /// phases the time is the last argument of `from_normal` and `to_normal`.
     ///
     /// ```
     /// use andoyer_series::{PhaseSpace, normalize};
@@ -36,7 +38,8 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     pub fn to_code(&self, language: Language) -> Result<String, Error> {
         let (printer, routines) = (language.printer(), self.routines()?);
         let texts: String = routines.iter().map(|routine| printer.routine(routine)).collect();
-        Ok(printer.head(&self.head(&routines)) + &texts)
+        let mathematics = if self.driven().is_empty() { "" } else { printer.mathematics() };
+        Ok(printer.head(&self.head(&routines)) + mathematics + &texts)
     }
 
     fn routines(&self) -> Result<Vec<Routine>, Error> {
@@ -45,34 +48,32 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             self.linear_change().iter().map(|row| row.iter().map(R::to_float).collect()).collect();
         let images = |direct: bool| {
             let image = |slot| {
-                let image = if direct { self.normal_image(slot, true) } else { self.normal_image(slot, false) };
-                Ok(image?.map(R::to_float))
+                let image = self.transported(&Polynomial::variable(slot)?, direct, &mut quiet)?;
+                Ok(image.map(R::to_float))
             };
             (0..2 * n).map(image).collect::<Result<Vec<_>, Error>>()
         };
-        let parameters = match self.space().parameters() {
-            0 => None,
-            count => Some(("parameters", count)),
-        };
+        let parameters = Others { parameters: self.space().parameters(), time: false };
+        let all = Others { time: !self.driven().is_empty(), ..parameters };
         let mut routines = vec![
             routine(
                 ["from_normal", "The state of normal variables."],
                 ("normal", 2 * n),
-                parameters,
+                all,
                 ("state", 2 * n),
-                from_normal(&images(true)?, &forward),
+                self.state_program(&images(true)?, &forward),
             ),
             routine(
                 ["to_normal", "The normal variables of a state."],
                 ("state", 2 * n),
-                parameters,
+                all,
                 ("normal", 2 * n),
-                to_normal(&images(false)?, &symplectic_inverse(&forward)),
+                self.normal_program(&images(false)?, &symplectic_inverse(&forward)),
             ),
             routine(
                 ["actions", "The actions of normal variables."],
                 ("normal", 2 * n),
-                None,
+                Others { parameters: 0, time: false },
                 ("actions", n),
                 self.actions_program()?,
             ),
@@ -87,22 +88,13 @@ impl<R: RealField> BirkhoffNormalForm<R> {
                     ("actions", n),
                     parameters,
                     ("rates", n),
-                    polynomials(&slopes, n, RESULT),
+                    polynomials(&slopes, Slots { parameters: n, driven: SLOTS }, RESULT),
                 ));
             }
             Err(Error::ResonantTerm { .. }) => {}
             Err(other) => return Err(other),
         }
         Ok(routines)
-    }
-
-    /// A real variable of one side in those of the other side, without the linear change.
-    fn normal_image(&self, slot: usize, direct: bool) -> Result<Polynomial<R>, Error> {
-        let variable = Polynomial::variable(slot)?;
-        self.transported(
-            &variable,
-            |transform, part| if direct { transform.direct(part) } else { transform.inverse(part) },
-        )
     }
 
     fn actions_program(&self) -> Result<Program, Error> {
@@ -129,7 +121,50 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             }))
         };
         let list = self.modes().iter().enumerate().map(action).collect::<Result<Vec<_>, Error>>()?;
-        Ok(polynomials(&list, 2 * self.modes().len(), RESULT))
+        Ok(polynomials(&list, self.slots(), RESULT))
+    }
+
+    fn slots(&self) -> Slots {
+        Slots { parameters: 2 * self.modes().len(), driven: self.space().driven_slots().start }
+    }
+
+    /// The harmonics of the driven phases in `images` at the time: `h_7_2` is that of the exponent 2 in slot 7.
+    fn harmonics(&self, images: &[Polynomial<f64>]) -> Program {
+        let mut program = Program::default();
+        for (slot, (frequency, start)) in self.space().driven_slots().zip(self.driven()) {
+            let turned = Expression::from(frequency.to_float()) * name("time");
+            let phase = if *start == 0.0 { turned } else { Expression::from(*start) + turned };
+            program.assign(&format!("m_{slot}"), phase);
+            let exponents = images.iter().flat_map(Polynomial::terms).map(|(monomial, _)| monomial.exponent(slot));
+            for exponent in exponents.filter(|&exponent| exponent > 0).collect::<BTreeSet<_>>() {
+                let (j, phase) = (harmonics::signed(exponent), name(&format!("m_{slot}")));
+                let angle = if j.abs() == 1 { phase } else { Expression::from(j.abs() as f64) * phase };
+                let value = call(if j < 0 { Function::Sine } else { Function::Cosine }, angle);
+                program.assign(&format!("h_{slot}_{exponent}"), value);
+            }
+        }
+        program
+    }
+
+    fn state_program(&self, images: &[Polynomial<f64>], forward: &Matrix<f64>) -> Program {
+        let mut program = self.harmonics(images);
+        program.statements.extend(polynomials(images, self.slots(), "result_image_").statements);
+        for (i, row) in forward.iter().enumerate() {
+            program.assign(&format!("{RESULT}{i}"), sum(row, "result_image_"));
+        }
+        program
+    }
+
+    fn normal_program(&self, images: &[Polynomial<f64>], backward: &Matrix<f64>) -> Program {
+        let mut program = self.harmonics(images);
+        for (i, row) in backward.iter().enumerate() {
+            program.assign(&format!("z_{i}"), sum(row, "v_"));
+        }
+        for (i, _) in backward.iter().enumerate() {
+            program.assign(&format!("v_{i}"), name(&format!("z_{i}")));
+        }
+        program.statements.extend(polynomials(images, self.slots(), RESULT).statements);
+        program
     }
 
     fn head(&self, routines: &[Routine]) -> Vec<String> {
@@ -146,6 +181,9 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         ];
         if !parameters.is_empty() {
             lines.push(format!("Parameters: {}.", parameters.join(", ")));
+        }
+        for (name, (frequency, start)) in space.driven().into_iter().zip(self.driven()) {
+            lines.push(format!("Driven phase: {name} = {start:?} + {:?} time.", frequency.to_float()));
         }
         for (mode, kind) in self.modes().iter().enumerate() {
             let (q, p) = (pairs[2 * mode], pairs[2 * mode + 1]);
@@ -177,45 +215,43 @@ impl<R: RealField> BirkhoffNormalForm<R> {
 /// Prefix of the results of a program.
 const RESULT: &str = "result_";
 
-/// A function of an array, and of the parameters if it has them. Its program finds the arguments in `v_0`, `v_1`, … and the parameters in `c_0`, `c_1`, ….
+/// The arguments of a function after its array.
+#[derive(Clone, Copy)]
+struct Others {
+    parameters: usize,
+    time: bool,
+}
+
+/// The first slots of the parameters and of the driven phases in a polynomial.
+#[derive(Clone, Copy)]
+struct Slots {
+    parameters: usize,
+    driven: usize,
+}
+
+/// A function of an array and of other arguments. Its program finds the entries in `v_0`, `v_1`, …, the parameters in `c_0`, `c_1`, … and the time in `time`.
 fn routine(
     [name, meaning]: [&'static str; 2],
     argument: (&'static str, usize),
-    parameters: Option<(&'static str, usize)>,
+    others: Others,
     (result, length): (&'static str, usize),
     body: Program,
 ) -> Routine {
     let (mut arguments, mut program) = (Vec::new(), Program::default());
-    for ((array, length), stem) in std::iter::once(argument).chain(parameters).zip(["v", "c"]) {
+    let arrays = [argument, ("parameters", others.parameters)];
+    for ((array, length), stem) in arrays.into_iter().zip(["v", "c"]).filter(|((_, length), _)| *length > 0) {
         arguments.push(Argument::Array(array, length));
         for i in 0..length {
             program.assign(&format!("{stem}_{i}"), Expression::Name(format!("{array}[{i}]")));
         }
     }
+    if others.time {
+        arguments.push(Argument::Number("time"));
+    }
     program.statements.extend(body.statements);
     let results = Results::Array(result, length);
     program.keep_what_gives(&results.names().iter().map(String::as_str).collect::<Vec<_>>());
     Routine { name, meaning, arguments, results, program }
-}
-
-fn from_normal(images: &[Polynomial<f64>], forward: &Matrix<f64>) -> Program {
-    let mut program = polynomials(images, images.len(), "result_image_");
-    for (i, row) in forward.iter().enumerate() {
-        program.assign(&format!("{RESULT}{i}"), sum(row, "result_image_"));
-    }
-    program
-}
-
-fn to_normal(images: &[Polynomial<f64>], backward: &Matrix<f64>) -> Program {
-    let mut program = Program::default();
-    for (i, row) in backward.iter().enumerate() {
-        program.assign(&format!("z_{i}"), sum(row, "v_"));
-    }
-    for (i, _) in backward.iter().enumerate() {
-        program.assign(&format!("v_{i}"), name(&format!("z_{i}")));
-    }
-    program.statements.extend(polynomials(images, images.len(), RESULT).statements);
-    program
 }
 
 /// Σ cⱼ name_j.
@@ -228,32 +264,42 @@ fn sum(row: &[f64], stem: &str) -> Expression {
     terms.fold(first, |sum, term| sum + term)
 }
 
-/// Assigns the names `target` with 0, 1, … from polynomials in `v_0`, `v_1`, …; the parameters are in the slots from `first` on.
-fn polynomials(list: &[Polynomial<f64>], first: usize, target: &str) -> Program {
+/// Assigns the names `target` with 0, 1, … from polynomials in `v_0`, `v_1`, …, the parameters and the harmonics of the driven phases.
+fn polynomials(list: &[Polynomial<f64>], slots: Slots, target: &str) -> Program {
     let mut program = Program::default();
     for (number, polynomial) in list.iter().enumerate() {
         let terms: Vec<(Monomial, f64)> = polynomial.terms().map(|(monomial, &c)| (monomial, c)).collect();
-        let value = horner(&mut program, &terms, 0, first);
+        let value = horner(&mut program, &terms, 0, slots);
         program.assign(&format!("{target}{number}"), value);
     }
     program
 }
 
 /// The value of a polynomial in the variables from `slot` on. If it takes more than one assignment, its name is `a_slot`.
-fn horner(program: &mut Program, terms: &[(Monomial, f64)], slot: usize, first: usize) -> Expression {
-    let Some(slot) = (slot..crate::SLOTS).find(|&slot| terms.iter().any(|(monomial, _)| monomial.exponent(slot) > 0))
-    else {
+fn horner(program: &mut Program, terms: &[(Monomial, f64)], slot: usize, slots: Slots) -> Expression {
+    let Some(slot) = (slot..SLOTS).find(|&slot| terms.iter().any(|(monomial, _)| monomial.exponent(slot) > 0)) else {
         return terms.iter().map(|(_, c)| c).sum::<f64>().into();
     };
     let mut by_power: BTreeMap<u32, Vec<(Monomial, f64)>> = BTreeMap::new();
     for &(monomial, c) in terms {
         by_power.entry(monomial.exponent(slot)).or_default().push((monomial, c));
     }
-    let (own, variable) = (format!("a_{slot}"), name(&variable(slot, first)));
+    let own = format!("a_{slot}");
+    if slot >= slots.driven {
+        for (position, (power, part)) in by_power.into_iter().enumerate() {
+            let mut value = horner(program, &part, slot + 1, slots);
+            if power > 0 {
+                value = value * name(&format!("h_{slot}_{power}"));
+            }
+            program.assign(&own, if position == 0 { value } else { name(&own) + value });
+        }
+        return name(&own);
+    }
+    let variable = name(&variable(slot, slots.parameters));
     let highest = by_power.keys().next_back().copied().unwrap_or(0);
     let mut started = false;
     for power in (0..=highest).rev() {
-        let part = by_power.remove(&power).map(|part| horner(program, &part, slot + 1, first));
+        let part = by_power.remove(&power).map(|part| horner(program, &part, slot + 1, slots));
         let value = match (started, part) {
             (true, Some(part)) => name(&own) * variable.clone() + part,
             (true, None) => name(&own) * variable.clone(),

@@ -7,16 +7,20 @@
 //! Such series behave like a^m/ρ_m^m with ρ_m = (‖T_{m−2}‖/‖T_m‖)^{1/2}. ρ_m falls with the order, so the series diverge. At a given amplitude the sizes first
 //! fall and then rise, and the best order is where they are smallest. This is an estimate, not a bound. The formal integrals along an integrated orbit test it:
 //! [`BirkhoffMap::actions`](crate::BirkhoffMap::actions).
+//!
+//! With driven phases |e^{ijM}| = 1, and T_m has parts of degree d ≤ m + 2. Their contributions are d ‖…‖ a^(d−1): orders are not powers of a, and there are no ρ_m.
 
 use super::BirkhoffNormalForm;
 use super::mode::{Mode, modulus};
 use crate::real_field::RealField;
-use crate::{Error, Polynomial};
+use crate::{Error, Monomial, Polynomial};
 
 /// The sizes of the orders of a normal form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Domain {
     norms: Vec<f64>,
+    /// With driven phases, the parts of each norm by degree in the variables; otherwise empty.
+    by_degree: Vec<Vec<f64>>,
 }
 
 impl<R: RealField> BirkhoffNormalForm<R> {
@@ -38,16 +42,24 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         super::map::check("parameters", parameters, self.space().parameters())?;
         let mut sizes: Vec<f64> = self.modes().iter().flat_map(size).collect();
         sizes.extend(parameters.iter().map(|value| value.abs()));
-        let norm = |generator: &Polynomial<R::Complex>| {
-            let bound = |(monomial, c): (crate::Monomial, &R::Complex)| {
-                let powers = sizes.iter().enumerate().map(|(slot, size)| size.powi(monomial.exponent(slot) as i32));
-                modulus::<R>(c) * powers.product::<f64>()
-            };
-            // `sum` of no terms is −0.
-            generator.terms().map(bound).fold(0.0, |sum, size| sum + size)
+        let bound = |(monomial, c): (Monomial, &R::Complex)| {
+            let powers = sizes.iter().enumerate().map(|(slot, size)| size.powi(monomial.exponent(slot) as i32));
+            modulus::<R>(c) * powers.product::<f64>()
         };
-        let generators = (1..=self.order()).filter_map(|m| self.transform().scaled_generator(m));
-        Ok(Domain { norms: generators.map(norm).collect() })
+        // `sum` of no terms is −0.
+        let norm = |generator: &Polynomial<R::Complex>| generator.terms().map(bound).fold(0.0, |sum, size| sum + size);
+        let generators = || (1..=self.order()).filter_map(|m| self.transform().scaled_generator(m));
+        let pairs = self.space().phase_slots();
+        let degrees = |generator: &Polynomial<R::Complex>| {
+            let mut sums = vec![0.0; self.order() + 3];
+            for (monomial, c) in generator.terms() {
+                sums[monomial.degree_in(&pairs) as usize] += bound((monomial, c));
+            }
+            sums
+        };
+        let driven = !self.driven().is_empty();
+        let by_degree = if driven { generators().map(degrees).collect() } else { Vec::new() };
+        Ok(Domain { norms: generators().map(norm).collect(), by_degree })
     }
 }
 
@@ -66,16 +78,21 @@ impl Domain {
         &self.norms
     }
 
-    /// ρ_m = (‖T_{m−2}‖/‖T_m‖)^{1/2} for m = 3, …, N: the amplitude at which order m is as large as order m − 2. It is infinite if T_m is 0.
+    /// ρ_m = (‖T_{m−2}‖/‖T_m‖)^{1/2} for m = 3, …, N: the amplitude at which order m is as large as order m − 2. It is infinite if T_m is 0. The list is empty for a
+    /// form with driven phases, whose orders are not powers of the amplitude.
     #[must_use]
     pub fn radii(&self) -> Vec<f64> {
+        if !self.by_degree.is_empty() {
+            return Vec::new();
+        }
         self.norms
             .windows(3)
             .map(|norms| if norms[2] > 0.0 { (norms[0] / norms[2]).sqrt() } else { f64::INFINITY })
             .collect()
     }
 
-    /// The sizes (m + 2) ‖T_m‖ a^(m+1), m = 1, …, N, of the orders of the transformation if all amplitudes √(2|I|) are a.
+    /// The sizes (m + 2) ‖T_m‖ a^(m+1), m = 1, …, N, of the orders of the transformation if all amplitudes √(2|I|) are a. With driven phases, the sums of
+    /// d ‖…‖ a^(d−1) over the parts of degree d.
     ///
     /// # Errors
     /// - −1, NaN, an infinity: [`Error::OutsideInterval`].
@@ -83,6 +100,13 @@ impl Domain {
         if !(0.0..=f64::MAX).contains(&amplitude) {
             let (argument, value) = ("amplitude", amplitude);
             return Err(Error::OutsideInterval { argument, value, lower: 0.0, upper: f64::MAX });
+        }
+        if !self.by_degree.is_empty() {
+            let size = |degrees: &Vec<f64>| {
+                let part = |(d, norm): (i32, &f64)| f64::from(d) * norm * amplitude.powi((d - 1).max(0));
+                (0..).zip(degrees).map(part).sum()
+            };
+            return Ok(self.by_degree.iter().map(size).collect());
         }
         let size = |(m, norm): (i32, &f64)| f64::from(m + 2) * norm * amplitude.powi(m + 1);
         Ok((1..).zip(&self.norms).map(size).collect())
@@ -107,7 +131,7 @@ impl std::fmt::Display for Domain {
         let radii = self.radii();
         for (at, norm) in self.norms.iter().enumerate() {
             write!(formatter, "{:>5} {norm:>11.3e}", at + 1)?;
-            match at.checked_sub(2).map(|at| radii[at]) {
+            match at.checked_sub(2).and_then(|at| radii.get(at)) {
                 Some(radius) if radius.is_finite() => writeln!(formatter, " {radius:>11.4}")?,
                 _ => writeln!(formatter)?,
             }

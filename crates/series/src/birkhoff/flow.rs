@@ -1,25 +1,57 @@
 //! The numerical motion of a normal form: its actions, frequencies, rates and energy in the real normal variables.
 
-use super::BirkhoffNormalForm;
 use super::mode::Mode;
+use super::{BirkhoffNormalForm, PhaseSpace};
 use crate::real_field::RealField;
 use crate::{Error, Polynomial};
 use num_complex::Complex;
+use std::collections::BTreeMap;
 
 /// K and its derivatives, with numbers for the parameters.
 #[derive(Debug, Clone)]
 pub(crate) struct Flow {
-    energy: Polynomial<f64>,
-    gradient: Vec<Polynomial<f64>>,
+    energy: Sum,
+    gradient: Vec<Sum>,
     /// ∂K/∂Iᵢ in the actions, or a resonant term if K is not a function of the actions.
     frequencies: Result<Vec<Polynomial<f64>>, String>,
 }
 
+/// A real polynomial by harmonics of the driven phases.
+#[derive(Debug, Clone)]
+struct Sum {
+    parts: Vec<(Vec<i64>, Polynomial<f64>)>,
+}
+
+impl Sum {
+    fn new(polynomial: &Polynomial<f64>, space: &PhaseSpace) -> Self {
+        let mut parts: BTreeMap<Vec<i64>, Polynomial<f64>> = BTreeMap::new();
+        for (monomial, c) in polynomial.terms() {
+            let part = parts.entry(space.harmonics(monomial)).or_default();
+            part.add_term(monomial.without(space.driven_slots()), c);
+        }
+        Sum { parts: parts.into_iter().collect() }
+    }
+
+    fn evaluate(&self, normal: &[f64], phases: &[f64]) -> Result<f64, Error> {
+        let mut sum = 0.0;
+        for (harmonics, polynomial) in &self.parts {
+            let factors = harmonics.iter().zip(phases).map(|(&j, phase)| {
+                let angle = j.abs() as f64 * phase;
+                if j < 0 { angle.sin() } else { angle.cos() }
+            });
+            sum += factors.product::<f64>() * polynomial.evaluate(normal)?;
+        }
+        Ok(sum)
+    }
+}
+
 impl Flow {
     pub(crate) fn new<R: RealField>(normal_form: &BirkhoffNormalForm<R>, parameters: &[f64]) -> Result<Self, Error> {
-        let modes = normal_form.modes().len();
+        let (modes, space) = (normal_form.modes().len(), normal_form.space());
         let energy = at(normal_form.in_real()?.map(R::to_float), 2 * modes, parameters)?;
-        let gradient = (0..2 * modes).map(|slot| energy.derivative(slot)).collect::<Result<_, _>>()?;
+        let gradient = (0..2 * modes).map(|slot| Ok(Sum::new(&energy.derivative(slot)?, space)));
+        let gradient = gradient.collect::<Result<_, Error>>()?;
+        let energy = Sum::new(&energy, space);
         let frequencies = match normal_form.in_actions() {
             Ok(actions) => {
                 let actions = at(actions.map(R::to_float), modes, parameters)?;
@@ -40,12 +72,13 @@ impl Flow {
         self.frequencies.is_ok()
     }
 
-    pub(crate) fn energy(&self, normal: &[f64]) -> Result<f64, Error> {
-        self.energy.evaluate(normal)
+    pub(crate) fn energy(&self, normal: &[f64], phases: &[f64]) -> Result<f64, Error> {
+        self.energy.evaluate(normal, phases)
     }
 
-    pub(crate) fn rates(&self, normal: &[f64]) -> Result<Vec<f64>, Error> {
-        let gradient = self.gradient.iter().map(|slope| slope.evaluate(normal)).collect::<Result<Vec<_>, _>>()?;
+    pub(crate) fn rates(&self, normal: &[f64], phases: &[f64]) -> Result<Vec<f64>, Error> {
+        let gradient =
+            self.gradient.iter().map(|slope| slope.evaluate(normal, phases)).collect::<Result<Vec<_>, _>>()?;
         Ok(super::matrix::turned(&gradient))
     }
 }

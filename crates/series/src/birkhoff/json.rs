@@ -3,6 +3,7 @@
 //! ```text
 //! { "format": "andoyer-birkhoff-exact" or "andoyer-birkhoff-float", "version": 1, "order": N,
 //!   "variables": [["q", "p"], …], "parameters": [["d", degree], …],
+//!   "driven": [["M", n, M₀], …],                               only with driven phases
 //!   "resonances": [[k₁, …], …], "smallest_divisor": 1e-6, "centre": false,
 //!   "modes": [["elliptic", ω, r] or ["hyperbolic", λ] or ["complex", σ, ν, partner], …],
 //!   "linear_change": [[…], …],                                 M by rows
@@ -12,14 +13,19 @@
 //!   "generators":  [ [[[exponents], re, im], …], … ] }         S_m/(m−1)!, m = 1 … N
 //! ```
 //!
+//! With driven phases the exponents are followed by their integers j of either sign: cos jM for j ≥ 0 and sin |j|M for j < 0 in the real polynomials, e^{ijM} in the
+//! complex ones.
+//!
 //! Reading verifies format, version, names, counts and degrees, that numbers are finite, that M is symplectic, that K has only terms that are kept, and that S
 //! has none of these terms. Then it computes the normal form of the original Hamiltonian again and compares every coefficient.
 
 use super::diagonal::Diagonal;
 use super::matrix::{Matrix, form_entry, pairing, transposed};
 use super::mode::Mode;
+use super::phases::Phases;
+use super::resonances::Spectrum;
 use super::verify::verified;
-use super::{BirkhoffNormalForm, PhaseSpace, Resonances, turns};
+use super::{BirkhoffNormalForm, PhaseSpace, Resonances, check_driven, prepared};
 use crate::error::TermProblem;
 use crate::real_field::RealField;
 use crate::triangle::{LieTransform, Normalization, Progress, quiet};
@@ -35,7 +41,7 @@ struct Header {
     version: u64,
 }
 
-type Term = (Vec<u32>, Value, Value);
+type Term = (Vec<i64>, Value, Value);
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -45,13 +51,15 @@ struct Document {
     order: usize,
     variables: Vec<(String, String)>,
     parameters: Vec<(String, u32)>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    driven: Vec<(String, Value, f64)>,
     resonances: Vec<Vec<i64>>,
     smallest_divisor: f64,
     centre: bool,
     modes: Vec<Vec<Value>>,
     linear_change: Vec<Vec<Value>>,
-    offset: Vec<(Vec<u32>, Value)>,
-    original: Vec<(Vec<u32>, Value)>,
+    offset: Vec<(Vec<i64>, Value)>,
+    original: Vec<(Vec<i64>, Value)>,
     hamiltonian: Vec<Vec<Term>>,
     generators: Vec<Vec<Term>>,
 }
@@ -68,17 +76,21 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     pub fn to_json(&self) -> Result<String, Error> {
         let space = self.space();
         let names = space.names();
-        let slots = names.len();
         let (pairs, parameters) = names.split_at(2 * space.degrees_of_freedom());
-        let terms = |f: &Polynomial<R::Complex>| {
+        let exponents = |monomial: Monomial| {
+            let powers = monomial.exponents().into_iter().take(names.len()).map(i64::from);
+            powers.chain(space.harmonics(monomial)).collect::<Vec<_>>()
+        };
+        let terms = |(order, f): (usize, &Polynomial<R::Complex>)| {
             let term = |(monomial, c): (Monomial, &R::Complex)| {
                 let (re, im) = R::parts(c);
-                (monomial.exponents()[..slots].to_vec(), value(&re), value(&im))
+                (exponents(monomial), value(&re), value(&im))
             };
-            f.terms().map(term).collect::<Vec<_>>()
+            self.phases.lowered(f, space, order).terms().map(term).collect::<Vec<_>>()
         };
-        let reals = |f: &Polynomial<R>| f.terms().map(|(m, c)| (m.exponents()[..slots].to_vec(), value(c))).collect();
-        let generators = (1..=self.order()).filter_map(|m| self.transform().scaled_generator(m));
+        let reals = |f: &Polynomial<R>| f.terms().map(|(m, c)| (exponents(m), value(c))).collect();
+        let generators = (1..=self.order()).filter_map(|m| Some((m, self.transform().scaled_generator(m)?)));
+        let driven = space.driven().into_iter().zip(self.driven());
         let degrees = space.parameter_degrees().iter().map(|degree| degree.unwrap_or(0));
         let document = Document {
             format: format::<R>().to_owned(),
@@ -86,6 +98,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             order: self.order(),
             variables: pairs.chunks(2).map(|pair| (pair[0].to_owned(), pair[1].to_owned())).collect(),
             parameters: parameters.iter().map(|&name| name.to_owned()).zip(degrees).collect(),
+            driven: driven.map(|(name, (n, phase))| (name.to_owned(), value(n), *phase)).collect(),
             resonances: self.resonances.vectors().to_vec(),
             smallest_divisor: self.resonances.smallest_divisor(),
             centre: self.resonances.keeps_centre(),
@@ -93,7 +106,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             linear_change: self.linear_change().iter().map(|row| row.iter().map(value).collect()).collect(),
             offset: reals(&self.offset),
             original: reals(&self.hamiltonian),
-            hamiltonian: self.normalization.hamiltonian.iter().map(terms).collect(),
+            hamiltonian: self.normalization.hamiltonian.iter().enumerate().map(terms).collect(),
             generators: generators.map(terms).collect(),
         };
         serde_json::to_string(&document).map_err(Error::json)
@@ -159,15 +172,26 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             resonances = resonances.with_centre();
         }
         let diagonal = diagonal::<R>(&document, space.degrees_of_freedom())?;
-        resonances.check(&diagonal.modes)?;
-        let offset = reals("constant term", &document.offset, &space, |phase, _| phase == 0)?;
+        let driven = document.driven.iter().map(|(_, n, phase)| Ok((number(n)?, *phase)));
+        let driven: Vec<(R, f64)> = driven.collect::<Result<_, Error>>()?;
+        check_driven(&driven, &space)?;
+        let spectrum = Spectrum::new(&diagonal.modes, &driven, document.smallest_divisor);
+        resonances.check(&spectrum)?;
+        let constant = |m: Monomial| m.degree_in(&space.phase_slots()) == 0 && !space.is_driven(m);
+        let offset = reals("constant term", &document.offset, &space, constant)?;
         let most = document.order as u32 + 2;
-        let within = |phase, degree| phase > 0 && degree <= most;
+        let within = |m: Monomial| m.degree_in(&space.phase_slots()) > 0 && space.weight(m) <= most;
         let hamiltonian = reals("original hamiltonian", &document.original, &space, within)?;
+        let phases = if driven.is_empty() {
+            Phases::of(&driven, &space, &spectrum, Vec::new())?.0
+        } else {
+            prepared(&hamiltonian, document.order, &space, &diagonal, &spectrum, &driven)?.0
+        };
         let mut form = BirkhoffNormalForm {
             space,
             diagonal,
             resonances,
+            phases,
             offset,
             hamiltonian,
             normalization: Normalization {
@@ -199,11 +223,13 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         let mut polynomial = Polynomial::zero();
         for (exponents, re, im) in terms {
             let fail = |problem| inconsistent(what, n, exponents, problem);
-            let monomial = Monomial::new(exponents)?;
-            if exponents.len() != self.space.names().len() || self.space.degree(monomial) as usize != n + 2 {
+            let monomial = monomial(&self.space, exponents)?.ok_or_else(|| fail(TermProblem::Degree))?;
+            let (degree, driven) = (self.space.degree(monomial) as usize, !self.phases.given.is_empty());
+            // A shift lowers the degree.
+            if degree > n + 2 || (degree < n + 2 && !driven) {
                 return Err(fail(TermProblem::Degree));
             }
-            if self.resonances.keeps_of(&turns(monomial, self.modes().len()), self.modes()) != kept {
+            if self.resonances.keeps_of(&self.space.turns(monomial), self.modes()) != kept {
                 return Err(fail(TermProblem::Kernel));
             }
             if polynomial.coefficient(&monomial).is_some() {
@@ -211,12 +237,21 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             }
             polynomial.add_term(monomial, &R::complex(number(re)?, number(im)?));
         }
-        Ok(polynomial)
+        self.phases.lifted(&polynomial, &self.space, n as u32)
     }
 }
 
-fn inconsistent(what: &'static str, order: usize, exponents: &[u32], problem: TermProblem) -> Error {
-    Error::TermInconsistent { what, order, exponents: exponents.to_vec(), problem }
+/// Exponents and harmonics as a monomial; `None` for another number of them or a negative exponent.
+fn monomial(space: &PhaseSpace, exponents: &[i64]) -> Result<Option<Monomial>, Error> {
+    let Some((powers, harmonics)) = exponents.split_at_checked(space.names().len()) else { return Ok(None) };
+    let powers: Option<Vec<u32>> = powers.iter().map(|&power| u32::try_from(power).ok()).collect();
+    let powers = powers.filter(|_| harmonics.len() == space.driven().len());
+    powers.map(|powers| space.monomial(&powers, harmonics)).transpose()
+}
+
+fn inconsistent(what: &'static str, order: usize, exponents: &[i64], problem: TermProblem) -> Error {
+    let exponents = exponents.iter().map(|&exponent| exponent.try_into().unwrap_or(0)).collect();
+    Error::TermInconsistent { what, order, exponents, problem }
 }
 
 fn count(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
@@ -227,21 +262,17 @@ fn value<R: RealField>(c: &R) -> Value {
     if R::EPSILON == 0.0 { super::quadratic::literal(c).into() } else { c.to_float().into() }
 }
 
-/// A polynomial in real variables. Each term must have a valid degree in the variables, and a valid degree including the parameters.
+/// A polynomial in real variables, whose terms all have to fit.
 fn reals<R: RealField>(
     what: &'static str,
-    terms: &[(Vec<u32>, Value)],
+    terms: &[(Vec<i64>, Value)],
     space: &PhaseSpace,
-    fits: impl Fn(u32, u32) -> bool,
+    fits: impl Fn(Monomial) -> bool,
 ) -> Result<Polynomial<R>, Error> {
     let mut polynomial = Polynomial::zero();
     for (exponents, c) in terms {
         let fail = |problem| inconsistent(what, 0, exponents, problem);
-        let monomial = Monomial::new(exponents)?;
-        let phase = monomial.degree_in(&space.phase_slots());
-        if exponents.len() != space.names().len() || !fits(phase, space.degree(monomial)) {
-            return Err(fail(TermProblem::Degree));
-        }
+        let monomial = monomial(space, exponents)?.filter(|&m| fits(m)).ok_or_else(|| fail(TermProblem::Degree))?;
         if polynomial.coefficient(&monomial).is_some() {
             return Err(fail(TermProblem::Repeated));
         }
@@ -275,7 +306,8 @@ fn mode_values<R: RealField>(mode: &Mode<R>) -> Vec<Value> {
 fn space(document: &Document) -> Result<PhaseSpace, Error> {
     let pairs: Vec<(&str, &str)> = document.variables.iter().map(|(q, p)| (q.as_str(), p.as_str())).collect();
     let names: Vec<&str> = document.parameters.iter().map(|(name, _)| name.as_str()).collect();
-    let space = PhaseSpace::new(&pairs)?.with_parameters(&names)?;
+    let driven: Vec<&str> = document.driven.iter().map(|(name, ..)| name.as_str()).collect();
+    let space = PhaseSpace::new(&pairs)?.with_parameters(&names)?.with_driven(&driven)?;
     document.parameters.iter().try_fold(space, |space, (name, degree)| space.with_degree(name, *degree))
 }
 

@@ -2,12 +2,13 @@
 //!
 //! A state is q₁, p₁, q₂, p₂, … in the old or the new variables. For a centre only the image of U is needed: at real points q = Im U and p = Re U / r. For a
 //! saddle or a quartet the images of u and U are needed. Exact generators are rounded to floats once, and the series are composed from the rounded generators.
-//! Cost: the two transformations once, then one pass over their terms for each state. The error of a state of amplitude ε is of the order ε^(N+2).
+//! With driven phases both transformations depend on the time; the methods without a time are those at time 0. The forced motion is added or subtracted
+//! as a number. Cost: the two transformations once, then one pass over their terms for each state. The error of a state of amplitude ε is of the order ε^(N+2).
 
 use super::flow::{self, Flow};
 use super::matrix::{Matrix, dot, symplectic_inverse};
 use super::mode::Mode;
-use super::{BirkhoffNormalForm, turns};
+use super::{BirkhoffNormalForm, PhaseSpace};
 use crate::real_field::RealField;
 use crate::triangle::{Progress, quiet};
 use crate::{Error, Monomial, Polynomial, SLOTS};
@@ -35,13 +36,23 @@ pub struct BirkhoffMap {
     linear: [Matrix<f64>; 2],
     direct: Vec<Series>,
     inverse: Vec<Series>,
+    /// The frequency and the phase at time 0 of each driven phase.
+    driven: Vec<(f64, f64)>,
+    /// The forced motion of all complex variables; empty without a force.
+    shift: Vec<Series>,
     flow: Flow,
 }
+
+/// Most steps of an iteration to normal coordinates, and the smallest factor by which a step that counts comes nearer.
+const STEPS: usize = 80;
+const SLOWEST: f64 = 0.9;
 
 /// A polynomial in the complex variables with numbers for the parameters. Its terms are in canonical order.
 #[derive(Debug, Clone)]
 struct Series {
     terms: Vec<(Monomial, Complex<f64>)>,
+    /// The slots from this one on hold harmonics.
+    driven: usize,
 }
 
 impl BirkhoffMap {
@@ -62,31 +73,72 @@ impl BirkhoffMap {
         parameters: &[f64],
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
-        let slots = 2 * normal_form.space().degrees_of_freedom();
-        check("parameters", parameters, normal_form.space().parameters())?;
-        let transform = normal_form.transform().map(|c| {
+        Self::made(normal_form, parameters, true, progress)
+    }
+
+    /// The series without those of the inverse transformation, in half the time: normal coordinates are found by iteration on the direct one, to which they
+    /// are then exact. A state beyond the range of the iteration has those of its best step.
+    ///
+    /// ```
+    /// use andoyer_series::progress::quiet;
+    /// use andoyer_series::{BirkhoffMap, PhaseSpace, normalize};
+    /// let space = PhaseSpace::new(&[("q", "p")])?;
+    /// let pendulum = space.parse::<f64>("p^2/2 + q^2/2 - q^4/24")?;
+    /// let map = BirkhoffMap::direct_with_progress(&normalize(&pendulum, 2, &space)?, &[], &mut quiet)?;
+    /// let back = map.from_normal(&map.to_normal(&[0.5, 0.1])?)?;
+    /// assert!((back[0] - 0.5).abs() < 1e-15 && (back[1] - 0.1).abs() < 1e-15);
+    /// # Ok::<(), andoyer_series::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - The errors of [`with_progress`](Self::with_progress).
+    pub fn direct_with_progress<R: RealField>(
+        normal_form: &BirkhoffNormalForm<R>,
+        parameters: &[f64],
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Error> {
+        Self::made(normal_form, parameters, false, progress)
+    }
+
+    fn made<R: RealField>(
+        normal_form: &BirkhoffNormalForm<R>,
+        parameters: &[f64],
+        both: bool,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Error> {
+        let (space, phases) = (normal_form.space(), &normal_form.phases);
+        check("parameters", parameters, space.parameters())?;
+        let float = |c: &R::Complex| {
             let (re, im) = R::parts(c);
             Complex::new(re.to_float(), im.to_float())
-        });
-        let series = |terms: Vec<Polynomial<Complex<f64>>>| {
-            let mut sum = Polynomial::zero();
-            for term in &terms {
-                sum += term;
-            }
-            Series::new(&sum, slots, parameters)
         };
+        let transform = normal_form.transform().map(float);
+        let sum = |terms: Vec<Polynomial<Complex<f64>>>| {
+            let mut sum = Polynomial::zero();
+            for (order, term) in terms.iter().enumerate() {
+                sum += &phases.lowered(term, space, order);
+            }
+            sum
+        };
+        let shift: Vec<Polynomial<Complex<f64>>> = phases.shift.iter().map(|shift| shift.map(float)).collect();
         let modes: Vec<Mode<f64>> = normal_form.modes().iter().map(|mode| mode.map(R::to_float)).collect();
         let (mut direct, mut inverse) = (Vec::new(), Vec::new());
         for slot in modes.iter().enumerate().flat_map(|(mode, kind)| needed(mode, kind)) {
             let variable = Polynomial::variable(slot)?;
-            direct.push(series(transform.direct_with(&variable, progress)?)?);
-            inverse.push(series(transform.inverse_with(&variable, progress)?)?);
+            let mut old = sum(transform.direct_with(&variable, progress)?);
+            shift.get(slot).into_iter().for_each(|shift| old += shift);
+            direct.push(Series::new(&old, space, parameters)?);
+            if both {
+                inverse.push(Series::new(&sum(transform.inverse_with(&variable, progress)?), space, parameters)?);
+            }
         }
+        let shift = shift.iter().map(|shift| Series::new(shift, space, parameters)).collect::<Result<_, _>>()?;
+        let driven = normal_form.driven().iter().map(|(frequency, phase)| (frequency.to_float(), *phase)).collect();
         let matrix: Matrix<f64> =
             normal_form.linear_change().iter().map(|row| row.iter().map(R::to_float).collect()).collect();
         let back = symplectic_inverse(&matrix);
         let flow = Flow::new(normal_form, parameters)?;
-        Ok(BirkhoffMap { modes, linear: [matrix, back], direct, inverse, flow })
+        Ok(BirkhoffMap { modes, linear: [matrix, back], direct, inverse, driven, shift, flow })
     }
 
     /// The normal coordinates of a state q₁, p₁, q₂, p₂, …
@@ -94,8 +146,70 @@ impl BirkhoffMap {
     /// # Errors
     /// - a state of another length: [`Error::CountMismatch`]; a NaN, or a result that overflows: [`Error::NotFinite`].
     pub fn to_normal(&self, state: &[f64]) -> Result<Vec<f64>, Error> {
+        self.to_normal_at(state, 0.0)
+    }
+
+    /// The normal coordinates of a state at a time, on which driven phases depend.
+    ///
+    /// # Errors
+    /// - the errors of [`to_normal`](Self::to_normal); a time that is a NaN or infinite: [`Error::NotFinite`].
+    pub fn to_normal_at(&self, state: &[f64], time: f64) -> Result<Vec<f64>, Error> {
+        self.to_normal_at_phases(state, &self.phases(time)?)
+    }
+
+    /// The normal coordinates of a state at values of the driven phases \[rad\].
+    ///
+    /// # Errors
+    /// - the errors of [`to_normal`](Self::to_normal); another number of phases: [`Error::CountMismatch`]; a NaN among them: [`Error::NotFinite`].
+    pub fn to_normal_at_phases(&self, state: &[f64], phases: &[f64]) -> Result<Vec<f64>, Error> {
         check("state", state, 2 * self.modes.len())?;
-        self.transformed(&self.inverse, &self.linear(1, state))
+        check("phases", phases, self.driven.len())?;
+        if self.inverse.is_empty() {
+            return self.iterated(state, phases);
+        }
+        self.transformed(&self.inverse, self.powers(&self.unforced(state, phases), phases))
+    }
+
+    /// The complex variables of a state, measured from the forced motion.
+    fn unforced(&self, state: &[f64], phases: &[f64]) -> Vec<Complex<f64>> {
+        let mut point = flow::complex_point(&self.modes, &self.linear(1, state));
+        let mut powers = self.powers(&point, phases);
+        for (value, shift) in point.iter_mut().zip(&self.shift) {
+            *value -= shift.evaluate(&mut powers);
+        }
+        point
+    }
+
+    /// The normal coordinates whose image is a state: x ← x + L(state) − L(image of x), with the linear part L of the inverse.
+    fn iterated(&self, state: &[f64], phases: &[f64]) -> Result<Vec<f64>, Error> {
+        let linear = |state: &[f64]| flow::real_point(&self.modes, &self.unforced(state, phases));
+        let wanted = linear(state);
+        let (mut normal, mut best, mut least) = (wanted.clone(), wanted.clone(), f64::INFINITY);
+        for _ in 0..STEPS {
+            let image = self.from_normal_at_phases(&normal, phases)?;
+            let miss = image.iter().zip(state).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+            // Rounding ends the iteration, or the range.
+            if miss >= least * SLOWEST {
+                if miss < least {
+                    best.clone_from(&normal);
+                }
+                break;
+            }
+            (least, best) = (miss, normal.clone());
+            normal
+                .iter_mut()
+                .zip(wanted.iter().zip(linear(&image)))
+                .for_each(|(x, (wanted, seen))| *x += wanted - seen);
+        }
+        Ok(best)
+    }
+
+    /// Its memory, in bytes.
+    #[must_use]
+    pub fn memory(&self) -> usize {
+        let series = self.direct.iter().chain(&self.inverse).chain(&self.shift);
+        size_of::<Self>()
+            + series.map(|series| series.terms.capacity() * size_of::<(Monomial, Complex<f64>)>()).sum::<usize>()
     }
 
     /// The state q₁, p₁, q₂, p₂, … at normal coordinates.
@@ -103,8 +217,26 @@ impl BirkhoffMap {
     /// # Errors
     /// - The errors of [`to_normal`](Self::to_normal).
     pub fn from_normal(&self, normal: &[f64]) -> Result<Vec<f64>, Error> {
+        self.from_normal_at(normal, 0.0)
+    }
+
+    /// The state q₁, p₁, q₂, p₂, … at normal coordinates and a time.
+    ///
+    /// # Errors
+    /// - The errors of [`to_normal_at`](Self::to_normal_at).
+    pub fn from_normal_at(&self, normal: &[f64], time: f64) -> Result<Vec<f64>, Error> {
+        self.from_normal_at_phases(normal, &self.phases(time)?)
+    }
+
+    /// The state q₁, p₁, q₂, p₂, … at normal coordinates and values of the driven phases \[rad\].
+    ///
+    /// # Errors
+    /// - The errors of [`to_normal_at_phases`](Self::to_normal_at_phases).
+    pub fn from_normal_at_phases(&self, normal: &[f64], phases: &[f64]) -> Result<Vec<f64>, Error> {
         check("state", normal, 2 * self.modes.len())?;
-        finite("transformed state", self.linear(0, &self.transformed(&self.direct, normal)?))
+        check("phases", phases, self.driven.len())?;
+        let powers = self.powers(&flow::complex_point(&self.modes, normal), phases);
+        finite("transformed state", self.linear(0, &self.transformed(&self.direct, powers)?))
     }
 
     /// The state at a point of the centre manifold. `centre` holds q and p of the centres only.
@@ -112,13 +244,21 @@ impl BirkhoffMap {
     /// # Errors
     /// - The errors of [`to_normal`](Self::to_normal).
     pub fn from_centre(&self, centre: &[f64]) -> Result<Vec<f64>, Error> {
+        self.from_centre_at(centre, 0.0)
+    }
+
+    /// The state at a point of the centre manifold and a time.
+    ///
+    /// # Errors
+    /// - The errors of [`to_normal_at`](Self::to_normal_at).
+    pub fn from_centre_at(&self, centre: &[f64], time: f64) -> Result<Vec<f64>, Error> {
         let centres = self.modes.iter().filter(|mode| mode.is_elliptic()).count();
         check("state", centre, 2 * centres)?;
         let mut pairs = centre.chunks(2);
         let pair =
             |mode: &Mode<f64>| if mode.is_elliptic() { pairs.next().unwrap_or(&[0.0, 0.0]) } else { &[0.0, 0.0] };
         let normal: Vec<f64> = self.modes.iter().flat_map(pair).copied().collect();
-        self.from_normal(&normal)
+        self.from_normal_at(&normal, time)
     }
 
     /// Whether K is a function of the actions alone.
@@ -132,7 +272,15 @@ impl BirkhoffMap {
     /// # Errors
     /// - The errors of [`to_normal`](Self::to_normal).
     pub fn actions(&self, state: &[f64]) -> Result<Vec<f64>, Error> {
-        Ok(flow::actions(&self.modes, &self.to_normal(state)?))
+        self.actions_at(state, 0.0)
+    }
+
+    /// The actions of a state at a time.
+    ///
+    /// # Errors
+    /// - The errors of [`to_normal_at`](Self::to_normal_at).
+    pub fn actions_at(&self, state: &[f64], time: f64) -> Result<Vec<f64>, Error> {
+        Ok(flow::actions(&self.modes, &self.to_normal_at(state, time)?))
     }
 
     /// The frequencies Ωᵢ = ∂K/∂Iᵢ at given actions. For a saddle this is the rate, for a quartet the rate and the frequency.
@@ -155,8 +303,16 @@ impl BirkhoffMap {
     /// # Errors
     /// - The errors of [`to_normal`](Self::to_normal).
     pub fn energy(&self, normal: &[f64]) -> Result<f64, Error> {
+        self.energy_at(normal, 0.0)
+    }
+
+    /// The value of the normal form at normal coordinates and a time. It depends on the time if terms with driven phases are kept.
+    ///
+    /// # Errors
+    /// - The errors of [`to_normal_at`](Self::to_normal_at).
+    pub fn energy_at(&self, normal: &[f64], time: f64) -> Result<f64, Error> {
         check("state", normal, 2 * self.modes.len())?;
-        self.flow.energy(normal)
+        self.flow.energy(normal, &self.phases(time)?)
     }
 
     /// The rates of normal coordinates, from Hamilton's equations of the normal form.
@@ -164,8 +320,16 @@ impl BirkhoffMap {
     /// # Errors
     /// - The errors of [`to_normal`](Self::to_normal).
     pub fn rates(&self, normal: &[f64]) -> Result<Vec<f64>, Error> {
+        self.rates_at(normal, 0.0)
+    }
+
+    /// The rates of normal coordinates at a time, on which they depend if terms with driven phases are kept.
+    ///
+    /// # Errors
+    /// - The errors of [`to_normal_at`](Self::to_normal_at).
+    pub fn rates_at(&self, normal: &[f64], time: f64) -> Result<Vec<f64>, Error> {
         check("state", normal, 2 * self.modes.len())?;
-        finite("rates", self.flow.rates(normal)?)
+        finite("rates", self.flow.rates(normal, &self.phases(time)?)?)
     }
 
     /// The states at `times` after that of `state`, from the motion of the normal form, in which the actions are constant.
@@ -173,11 +337,63 @@ impl BirkhoffMap {
     /// # Errors
     /// - The errors of [`to_normal`](Self::to_normal) and [`frequencies`](Self::frequencies); a NaN among the times: [`Error::NotFinite`].
     pub fn trajectory(&self, state: &[f64], times: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
+        self.trajectory_from(state, 0.0, times)
+    }
+
+    /// The states at `times` after that of `state`, which is the state at the time `start`.
+    ///
+    /// # Errors
+    /// - The errors of [`trajectory`](Self::trajectory); a `start` that is a NaN or infinite: [`Error::NotFinite`].
+    pub fn trajectory_from(&self, state: &[f64], start: f64, times: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
         check("times", times, times.len())?;
-        let normal = self.to_normal(state)?;
+        let normal = self.to_normal_at(state, start)?;
         let frequencies = self.frequencies(&flow::actions(&self.modes, &normal))?;
-        let at = |&time: &f64| self.from_normal(&flow::advanced(&self.modes, &normal, &frequencies, time));
+        let at =
+            |&time: &f64| self.from_normal_at(&flow::advanced(&self.modes, &normal, &frequencies, time), start + time);
         times.iter().map(at).collect()
+    }
+
+    /// The modes.
+    pub(super) fn modes(&self) -> &[Mode<f64>] {
+        &self.modes
+    }
+
+    /// The symplectic matrix M of the linear change z = M z′ to the modes, and its inverse, as rows.
+    #[must_use]
+    pub fn linear_changes(&self) -> [&[Vec<f64>]; 2] {
+        [&self.linear[0], &self.linear[1]]
+    }
+
+    /// The linear change M.
+    pub(super) fn linear_change(&self) -> &Matrix<f64> {
+        &self.linear[0]
+    }
+
+    /// Number of driven phases.
+    pub(super) fn driven_phases(&self) -> usize {
+        self.driven.len()
+    }
+
+    /// The terms of the image of U of a centre, where all modes are centres, and the first slot that holds harmonics.
+    pub(super) fn direct_terms(&self, mode: usize) -> (&[(Monomial, Complex<f64>)], usize) {
+        self.direct.get(mode).map_or((&[], SLOTS), |series| (&series.terms, series.driven))
+    }
+
+    /// The driven phases at a time.
+    fn phases(&self, time: f64) -> Result<Vec<f64>, Error> {
+        let phases = self.driven.iter().map(|(frequency, phase)| phase + frequency * time).collect();
+        if !time.is_finite() { finite("time", vec![time]) } else { finite("time", phases) }
+    }
+
+    /// Tables of powers of complex variables, and of e^{iM} as harmonics are stored: 1, e^{−iM}, e^{iM}, …
+    fn powers(&self, point: &[Complex<f64>], phases: &[f64]) -> Vec<Vec<Complex<f64>>> {
+        let one = Complex::new(1.0, 0.0);
+        let mut powers: Vec<_> = point.iter().map(|&value| vec![one, value]).collect();
+        if let Some(series) = self.direct.first().filter(|_| !phases.is_empty()) {
+            powers.resize(series.driven, vec![one]); // the parameters, which have numbers
+            powers.extend(phases.iter().map(|&phase| vec![one, Complex::cis(-phase), Complex::cis(phase)]));
+        }
+        powers
     }
 
     /// M z or M⁻¹ z.
@@ -186,12 +402,9 @@ impl BirkhoffMap {
     }
 
     /// The images of real normal variables under one of the two transformations.
-    fn transformed(&self, images: &[Series], state: &[f64]) -> Result<Vec<f64>, Error> {
-        let point = flow::complex_point(&self.modes, state);
-        let mut powers: Vec<Vec<Complex<f64>>> =
-            point.into_iter().map(|value| vec![Complex::new(1.0, 0.0), value]).collect();
+    fn transformed(&self, images: &[Series], mut powers: Vec<Vec<Complex<f64>>>) -> Result<Vec<f64>, Error> {
         let slots = self.modes.iter().enumerate().flat_map(|(mode, kind)| needed(mode, kind));
-        let mut values = vec![Complex::default(); state.len()];
+        let mut values = vec![Complex::default(); 2 * self.modes.len()];
         for (slot, series) in slots.zip(images) {
             values[slot] = series.evaluate(&mut powers);
         }
@@ -209,18 +422,17 @@ fn needed(mode: usize, kind: &Mode<f64>) -> Vec<usize> {
 }
 
 impl Series {
-    fn new(polynomial: &Polynomial<Complex<f64>>, first: usize, parameters: &[f64]) -> Result<Self, Error> {
+    fn new(polynomial: &Polynomial<Complex<f64>>, space: &PhaseSpace, parameters: &[f64]) -> Result<Self, Error> {
         let mut polynomial = polynomial.clone();
-        for (slot, &value) in (first..).zip(parameters) {
+        for (slot, &value) in (2 * space.degrees_of_freedom()..).zip(parameters) {
             polynomial = polynomial.evaluate_partial(slot, &Complex::new(value, 0.0))?;
         }
         let terms: Vec<_> = polynomial.terms().map(|(monomial, &c)| (monomial, c)).collect();
         match terms.iter().find(|(_, c)| !(c.re.is_finite() && c.im.is_finite())) {
-            None => Ok(Series { terms }),
-            Some((monomial, c)) => Err(Error::NotFinite {
-                what: "transformation",
-                term: format!("{c} at {:?}", turns(*monomial, first / 2)),
-            }),
+            None => Ok(Series { terms, driven: space.driven_slots().start }),
+            Some((monomial, c)) => {
+                Err(Error::NotFinite { what: "transformation", term: format!("{c} at {:?}", space.turns(*monomial)) })
+            }
         }
     }
 
@@ -235,7 +447,10 @@ impl Series {
                     continue;
                 }
                 while table.len() <= exponent {
-                    table.push(table[table.len() - 1] * table[1]);
+                    let length = table.len();
+                    let harmonic = slot >= self.driven;
+                    let (last, factor) = if harmonic { (length - 2, 2 - length % 2) } else { (length - 1, 1) };
+                    table.push(table[last] * table[factor]);
                 }
                 product *= table[exponent];
             }

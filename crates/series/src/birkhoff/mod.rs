@@ -4,7 +4,8 @@
 //! and quartets (`quadratic`, `williamson`, `mode`). Terms are graded by degree, where parameters count with given degrees: the terms of degree 2 + n are of
 //! order n. Deprit's triangle (theory §4), in the complex variables (u, U) of the modes, removes every term of degree 2 + N or less except those that
 //! [`Resonances`] keeps. The result is the Gustavson form if there are resonances, and the reduction to the centre manifold if all terms of the centres are
-//! kept. Generators have no kernel part, which makes the normal form unique.
+//! kept. Generators have no kernel part, which makes the normal form unique. Driven phases (`phases`) are angles that move by themselves; a term with one counts one
+//! order more.
 //!
 //! The computation is exact over the rationals if the eigenvalues are rational; otherwise it is in `f64`. The series diverge in general, so at fixed amplitude
 //! there is a best order (`domain`). Cost: N³/6 brackets of growing polynomials. Sources: G. D. Birkhoff, *Dynamical Systems* (1927), ch. III; J. Williamson,
@@ -16,22 +17,26 @@ mod code;
 mod diagonal;
 mod domain;
 mod flow;
+mod fourier;
 mod json;
 mod map;
 mod matrix;
 mod mode;
 mod phase_space;
+mod phases;
 mod quadratic;
 mod resonances;
 mod scaled;
 mod spectrum;
 mod text;
 mod transformation;
+mod variables;
 mod verify;
 mod williamson;
 
 pub use actions::{AnglePart, AngleTerms};
 pub use domain::Domain;
+pub use fourier::Harmonic;
 pub use map::BirkhoffMap;
 pub use mode::Mode;
 pub use phase_space::PhaseSpace;
@@ -43,8 +48,9 @@ use crate::triangle::{Removal, normalize_by};
 use crate::{Coefficient, Error, Monomial, Polynomial};
 use diagonal::Diagonal;
 use mode::modulus;
-use resonances::{divisor, is_small};
-use transformation::{changed, to_complex, to_real};
+use phases::{Phases, Prepared};
+use resonances::{Spectrum, is_small};
+use variables::{changed, to_complex, to_real};
 
 /// The normal form of a Hamiltonian about an equilibrium, and the transformation to it.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,6 +58,7 @@ pub struct BirkhoffNormalForm<R: RealField> {
     space: PhaseSpace,
     diagonal: Diagonal<R>,
     resonances: Resonances,
+    phases: Phases<R>,
     offset: Polynomial<R>,
     /// The normalized Hamiltonian, without the constant term and without the terms above its order.
     hamiltonian: Polynomial<R>,
@@ -117,78 +124,142 @@ pub fn normalize_with<R: RealField>(
     resonances: &Resonances,
     progress: &mut Progress<'_>,
 ) -> Result<BirkhoffNormalForm<R>, Error> {
+    normalize_driven(hamiltonian, order, space, &[], resonances, progress)
+}
+
+/// Computes the normal form of a Hamiltonian with driven phases; otherwise the same as [`normalize_with`].
+///
+/// `driven` has the frequency n and the phase M₀ at time 0 of each phase M = M₀ + n t of [`PhaseSpace::with_driven`], in the order of their names. A term with
+/// e^{i(k·φ + j·M)} is removed by dividing by k·ω + j·n. `resonances` have the integers j after those of k. The order of a term is its degree minus 2, plus 1 if it
+/// contains a phase. Terms of order 0 are linear forces: the variables are measured from their forced motion. Terms without variables do not change the
+/// motion: those with a phase, and those that arise, are dropped.
+///
+/// ```
+/// use andoyer_series::{PhaseSpace, normalize_driven};
+/// use andoyer_series::birkhoff::Resonances;
+/// use andoyer_series::progress::quiet;
+/// use num_rational::BigRational;
+/// // Mathieu's equation x″ + (4/9 − 2 q cos 2t) x = 0: the characteristic exponent is 2/3 + 27/40 q² + …
+/// let space = PhaseSpace::new(&[("x", "p")])?.with_parameters(&["q"])?.with_driven(&["M"])?;
+/// let h = space.parse::<BigRational>("(p^2 + 4/9*x^2)/2 - q*x^2*cos(2*M)")?;
+/// let one = (BigRational::from_integer(1.into()), 0.0);
+/// let form = normalize_driven(&h, 2, &space, &[one], &Resonances::default(), &mut quiet)?;
+/// assert_eq!(form.to_string(), "2/3*I_x + 27/40*I_x*q^2");
+/// # Ok::<(), andoyer_series::Error>(())
+/// ```
+///
+/// # Errors
+/// - the errors of [`normalize_with`]; another number of frequencies than of phases: [`Error::CountMismatch`];
+/// - a NaN: [`Error::NotFinite`]; a frequency 0: [`Error::DrivenUnsupported`];
+/// - a force with the frequency of a mode: [`Error::ResonantForce`]; exponents 2 |j| above 32767/N: [`Error::ExponentOverflow`].
+pub fn normalize_driven<R: RealField>(
+    hamiltonian: &Polynomial<R>,
+    order: usize,
+    space: &PhaseSpace,
+    driven: &[(R, f64)],
+    resonances: &Resonances,
+    progress: &mut Progress<'_>,
+) -> Result<BirkhoffNormalForm<R>, Error> {
     if order > R::MAX_ORDER {
         return Err(Error::OrderTooLarge { order, bound: R::MAX_ORDER });
     }
     let space = space.settled(hamiltonian);
+    check_driven(driven, &space)?;
     let diagonal = Diagonal::of(hamiltonian, &space)?;
-    resonances.check(&diagonal.modes)?;
-    let series = graded(hamiltonian, order, &space, &diagonal)?;
-    let removal = |n, known: &Polynomial<_>| remove(n, known, &diagonal.modes, resonances, &space);
+    let spectrum = Spectrum::new(&diagonal.modes, driven, resonances.smallest_divisor());
+    resonances.check(&spectrum)?;
+    let (phases, series) = prepared(hamiltonian, order, &space, &diagonal, &spectrum, driven)?;
+    let removal = |n, known: &Polynomial<_>| {
+        remove(n, known, &spectrum, |k| resonances.keeps_of(k, &diagonal.modes), &phases, &space)
+    };
     let normalization = normalize_by(&series, &space.poisson()?, order, &removal, progress)?;
-    let offset = hamiltonian.filter(|monomial, _| monomial.degree_in(&space.phase_slots()) == 0);
+    let offset = hamiltonian.filter(|m, _| m.degree_in(&space.phase_slots()) == 0 && !space.is_driven(m));
     let within = |monomial: Monomial| {
-        monomial.degree_in(&space.phase_slots()) > 0 && space.degree(monomial) as usize <= order + 2
+        monomial.degree_in(&space.phase_slots()) > 0 && space.weight(monomial) as usize <= order + 2
     };
     let hamiltonian = hamiltonian.filter(|monomial, _| within(monomial));
     let resonances = resonances.clone();
-    let normal_form = BirkhoffNormalForm { space, diagonal, resonances, offset, hamiltonian, normalization };
+    let normal_form = BirkhoffNormalForm { space, diagonal, resonances, phases, offset, hamiltonian, normalization };
     normal_form.check_finite()?;
     Ok(normal_form)
 }
 
-/// The parts of degree 2, 3, …, `order` + 2 in the complex variables. The part of degree 2 is exactly −i Σ ω u U, without rounding.
-fn graded<R: RealField>(
+/// Refuses frequencies that do not belong to the phases of `space`.
+fn check_driven<R: RealField>(driven: &[(R, f64)], space: &PhaseSpace) -> Result<(), Error> {
+    let names = space.driven();
+    if driven.len() != names.len() {
+        return Err(Error::CountMismatch { what: "driven", found: driven.len(), expected: names.len() });
+    }
+    for ((frequency, phase), name) in driven.iter().zip(names) {
+        if !frequency.is_finite() || !phase.is_finite() {
+            return Err(Error::NotFinite {
+                what: "driven",
+                term: format!("{name}: {:?}, {phase:?}", frequency.to_float()),
+            });
+        }
+        if frequency.is_zero() {
+            return Err(Error::DrivenUnsupported { problem: "needs frequencies other than 0" });
+        }
+    }
+    Ok(())
+}
+
+/// The driven phases, and the parts of order 0, 1, …, `order` in the complex variables. The part of order 0 is exactly −i Σ ω u U, without rounding.
+fn prepared<R: RealField>(
     hamiltonian: &Polynomial<R>,
     order: usize,
     space: &PhaseSpace,
     diagonal: &Diagonal<R>,
-) -> Result<Vec<Polynomial<R::Complex>>, Error> {
+    spectrum: &Spectrum<'_, R>,
+    driven: &[(R, f64)],
+) -> Result<Prepared<R>, Error> {
     let phase = space.phase_slots();
     let mut parts = vec![Polynomial::zero(); order + 1];
     for (monomial, c) in hamiltonian.terms().filter(|(monomial, _)| monomial.degree_in(&phase) > 0) {
-        if let Some(n) = (space.degree(monomial) as usize).checked_sub(2).filter(|&n| n > 0 && n <= order) {
+        let known = |&n: &usize| n <= order && (n > 0 || space.is_driven(monomial));
+        if let Some(n) = (space.weight(monomial) as usize).checked_sub(2).filter(known) {
             parts[n].add_term(monomial, c);
         }
     }
     let change = diagonal.forms()?;
     let mut series = Vec::new();
     for part in &parts {
-        series.push(to_complex(&changed(part, change.as_deref())?, &diagonal.modes)?);
+        series.push(to_complex(&changed(part, change.as_deref())?, &diagonal.modes, space)?);
     }
+    let (phases, mut series) = Phases::of(driven, space, spectrum, series)?;
     for (mode, kind) in diagonal.modes.iter().enumerate() {
         let action = Monomial::ONE.with(2 * mode, 1)?.with(2 * mode + 1, 1)?;
         let (re, im) = R::parts(&kind.frequency());
         series[0].add_term(action, &R::complex(im, -re));
     }
-    Ok(series)
+    Ok((phases, series))
 }
 
-/// k: the exponents of U minus the exponents of u.
-fn turns(monomial: Monomial, modes: usize) -> Vec<i64> {
-    let exponent = |slot| i64::from(monomial.exponent(slot));
-    (0..modes).map(|mode| exponent(2 * mode + 1) - exponent(2 * mode)).collect()
-}
-
-/// The image part of `known`, and the S with {h₀; S} = −image. For a single term, {h₀; S} = −i (k·ω) S.
+/// The image part of `known`, and the S with {h₀; S} = −image. For a single term, {h₀; S} = −i (k·ω) S. With driven phases a term without
+/// variables is dropped; it needs no S.
 fn remove<R: RealField>(
     order: usize,
     known: &Polynomial<R::Complex>,
-    modes: &[Mode<R>],
-    resonances: &Resonances,
+    spectrum: &Spectrum<'_, R>,
+    keeps: impl Fn(&[i64]) -> bool,
+    phases: &Phases<R>,
     space: &PhaseSpace,
 ) -> Result<Removal<R::Complex>, Error> {
-    let bound = resonances.bound(modes);
+    let (bound, pairs) = (spectrum.bound, space.phase_slots());
     let mut removal = Removal { image: Polynomial::zero(), solution: Polynomial::zero() };
     for (monomial, c) in known.terms() {
-        let k = turns(monomial, modes.len());
-        if resonances.keeps_of(&k, modes) {
+        if !phases.given.is_empty() && monomial.degree_in(&pairs) == 0 {
+            removal.image.add_term(monomial, c);
             continue;
         }
-        let divisor = divisor(&k, modes);
+        let lowered = phases.lowered_monomial(monomial, space, order);
+        let k = space.turns(lowered);
+        if keeps(&k) {
+            continue;
+        }
+        let divisor = spectrum.divisor(&k);
         if is_small::<R>(&divisor, bound) {
-            let term = Polynomial::from_terms([(monomial, 1.0)]);
-            let term = PhaseSpace::text(&term, &space.complex_names());
+            let term = space.complex_text(&Polynomial::from_terms([(lowered, 1.0)]));
             return Err(Error::SmallDivisor { order, term, k, divisor: modulus::<R>(&divisor), bound });
         }
         let (re, im) = R::parts(&divisor);
@@ -248,18 +319,31 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         &self.hamiltonian
     }
 
+    /// The frequency n and the phase M₀ at time 0 of each driven phase.
+    #[must_use]
+    pub fn driven(&self) -> &[(R, f64)] {
+        &self.phases.given
+    }
+
     /// The transformation in the complex variables. Order n of its series is degree n + 2.
+    ///
+    /// With driven phases it is that of the variables measured from the forced motion, and its exponents of a phase are those of
+    /// [`Driven`](crate::lie::Driven).
     #[must_use]
     pub fn transform(&self) -> &LieTransform<R::Complex> {
         &self.normalization.transform
     }
 
-    /// The normal form in the complex variables (u₁, U₁, u₂, U₂, …), including the offset.
+    /// The normal form in the complex variables (u₁, U₁, u₂, U₂, …), including the offset. A driven phase is e^{ijM}; see [`PhaseSpace::harmonics`].
     #[must_use]
     pub fn in_complex(&self) -> Polynomial<R::Complex> {
         let mut sum = self.offset.map(|c| R::complex(c.clone(), R::zero()));
-        for part in &self.normalization.hamiltonian {
-            sum += part;
+        for (order, part) in self.normalization.hamiltonian.iter().enumerate() {
+            if self.phases.given.is_empty() {
+                sum += part;
+            } else {
+                sum += &self.phases.lowered(part, &self.space, order);
+            }
         }
         sum
     }
@@ -269,7 +353,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// # Errors
     /// - None for an existing normal form: degrees do not change.
     pub fn in_real(&self) -> Result<Polynomial<R>, Error> {
-        to_real(&self.in_complex(), self.modes())
+        to_real(&self.in_complex(), self.modes(), &self.space)
     }
 
     /// The Hamiltonian on the centre manifold, in the new real variables of the centres. On this manifold the saddles and quartets have q = p = 0.
@@ -280,7 +364,8 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// - None for an existing normal form.
     pub fn centre_manifold(&self) -> Result<Polynomial<R>, Error> {
         let outside: Vec<usize> = self.saddle_slots();
-        to_real(&self.in_complex().filter(|monomial, _| monomial.degree_in(&outside) == 0), self.modes())
+        let inside = self.in_complex().filter(|monomial, _| monomial.degree_in(&outside) == 0);
+        to_real(&inside, self.modes(), &self.space)
     }
 
     /// The slots of saddles and quartets.
@@ -289,14 +374,15 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         modes.flat_map(|(mode, _)| [2 * mode, 2 * mode + 1]).collect()
     }
 
-    /// The generating function S_m in real variables. It has degree m + 2; orders are numbered 1 to N as in theory §4.
+    /// The generating function S_m in real variables. It has degree m + 2, or less with driven phases; orders are numbered 1 to N as in theory §4.
     ///
     /// # Errors
     /// - 0, N + 1: [`Error::OrderOutOfRange`].
     pub fn generator(&self, m: usize) -> Result<Polynomial<R>, Error> {
         let range =
             || Error::OrderOutOfRange { what: "generating function", order: m, minimum: 1, maximum: self.order() };
-        to_real(&self.transform().generator(m).ok_or_else(range)?, self.modes())
+        let generator = self.phases.lowered(&self.transform().generator(m).ok_or_else(range)?, &self.space, m);
+        to_real(&generator, self.modes(), &self.space)
     }
 
     /// Refuses floats that overflowed during the computation.
@@ -304,8 +390,8 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         let generators = (1..=self.order()).filter_map(|m| self.transform().scaled_generator(m));
         for polynomial in self.normalization.hamiltonian.iter().chain(generators) {
             if let Some((monomial, c)) = polynomial.terms().find(|(_, c)| !c.is_finite()) {
-                let term =
-                    PhaseSpace::text(&Polynomial::from_terms([(monomial, c.clone())]), &self.space.complex_names());
+                let monomial = monomial.without(self.space.driven_slots());
+                let term = self.space.complex_text(&Polynomial::from_terms([(monomial, c.clone())]));
                 return Err(Error::NotFinite { what: "normal form", term });
             }
         }

@@ -64,10 +64,12 @@ impl<R: RealField> Diagonal<R> {
 /// Replaces the error of a zero frequency if a term with a parameter in the block could make the frequency nonzero.
 fn explained<R: RealField>(error: Error, hamiltonian: &Polynomial<R>, space: &PhaseSpace, slots: &[usize]) -> Error {
     let phase = space.phase_slots();
-    let in_block = |m: Monomial| m.degree_in(slots) == 2 && m.degree_in(&phase) == 2 && m.total_degree() > 2;
+    let in_block = |m: Monomial| {
+        m.degree_in(slots) == 2 && m.degree_in(&phase) == 2 && m.total_degree() > 2 && !space.is_driven(m)
+    };
     match (error, hamiltonian.terms().find(|&(monomial, _)| in_block(monomial))) {
         (Error::ZeroFrequency { pairs, .. }, Some((monomial, c))) => {
-            let term = PhaseSpace::text(&Polynomial::from_terms([(monomial, c.clone())]), &owned(space));
+            let term = space.text(&Polynomial::from_terms([(monomial, c.clone())]), &space.owned_names());
             Error::FrequencyParameter { pairs, term }
         }
         (error, _) => error,
@@ -88,13 +90,17 @@ fn forms<R: RealField>(matrix: &Matrix<R>) -> Result<Option<Vec<Polynomial<R>>>,
 /// Refuses a Hamiltonian whose quadratic part does not have numbers as coefficients: NaN, variables of another space, linear terms, parameters of degree 0.
 fn check<R: RealField>(hamiltonian: &Polynomial<R>, space: &PhaseSpace) -> Result<(), Error> {
     for (monomial, c) in hamiltonian.terms() {
-        let unknown = (space.names().len()..crate::SLOTS).find(|&slot| monomial.exponent(slot) > 0);
+        let unknown = (space.driven_slots().end..crate::SLOTS).find(|&slot| monomial.exponent(slot) > 0);
         if let Some(slot) = unknown {
-            return Err(Error::ValueMissing { slot, given: space.names().len() });
+            return Err(Error::ValueMissing { slot, given: space.driven_slots().end });
         }
-        let term = || PhaseSpace::text(&Polynomial::from_terms([(monomial, 1.0)]), &owned(space));
+        let term = || space.text(&Polynomial::from_terms([(monomial, 1.0)]), &space.owned_names());
         if !c.is_finite() {
             return Err(Error::NotFinite { what: "Hamiltonian", term: format!("{} {}", literal(c), term()) });
+        }
+        // A driven term belongs to order 1 at least, or is a force.
+        if space.is_driven(monomial) {
+            continue;
         }
         let (degree, phase) = (space.degree(monomial), monomial.degree_in(&space.phase_slots()));
         match (phase, degree) {
@@ -105,10 +111,6 @@ fn check<R: RealField>(hamiltonian: &Polynomial<R>, space: &PhaseSpace) -> Resul
         }
     }
     Ok(())
-}
-
-fn owned(space: &PhaseSpace) -> Vec<String> {
-    space.names().iter().map(|&name| name.to_owned()).collect()
 }
 
 /// The matrix A of the quadratic terms without parameters.

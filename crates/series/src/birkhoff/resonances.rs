@@ -1,6 +1,7 @@
 //! The resonances of a normal form: the terms that it keeps, and the smallest divisor that may remove a term.
 //!
-//! A monomial of the complex variables depends on the angles as e^{i k·φ}, with k_i = exponent of U_i − exponent of u_i. Its removal divides by k·ω. It is kept
+//! A monomial of the complex variables depends on the angles as e^{i k·φ}, with k_i = exponent of U_i − exponent of u_i. Its removal divides by k·ω. With driven
+//! phases M it depends on them as e^{i(k·φ + j·M)}; the integers j follow those of k, and the frequencies of the phases those of the modes. It is kept
 //! if k = 0, or if k is an integer combination of the given resonance vectors. Any other term with |k·ω| < `smallest divisor` · max |ω| is an error that names
 //! the term.
 //!
@@ -41,7 +42,7 @@ impl Default for Resonances {
 }
 
 impl Resonances {
-    /// The integer combinations of `vectors`, each with one entry for each degree of freedom.
+    /// The integer combinations of `vectors`, each with one entry for each degree of freedom, then one for each driven phase.
     ///
     /// # Errors
     /// - (0, 0), (1, −1) together with (1, −1, 0), (40000, 1): [`Error::ResonanceMalformed`].
@@ -131,20 +132,13 @@ impl Resonances {
         self.keeps(k) || (self.centre && centre())
     }
 
-    /// The bound on |k·ω| for these modes.
-    pub(crate) fn bound<R: RealField>(&self, modes: &[Mode<R>]) -> f64 {
-        let largest = modes.iter().map(|mode| modulus::<R>(&mode.frequency())).fold(0.0, f64::max);
-        self.smallest_divisor * largest
-    }
-
-    /// Refuses vectors of the wrong length, and vectors that are not a resonance of these modes.
-    pub(crate) fn check<R: RealField>(&self, modes: &[Mode<R>]) -> Result<(), Error> {
-        let bound = self.bound(modes);
+    /// Refuses vectors of the wrong length, and vectors that are not a resonance of these frequencies.
+    pub(crate) fn check<R: RealField>(&self, spectrum: &Spectrum<'_, R>) -> Result<(), Error> {
         for vector in &self.vectors {
-            if vector.len() != modes.len() {
+            if vector.len() != spectrum.modes.len() + spectrum.driven.len() {
                 return Err(Error::ResonanceMalformed { vector: vector.clone(), bound: MAX_EXPONENT });
             }
-            let divisor = divisor(vector, modes);
+            let (divisor, bound) = (spectrum.divisor(vector), spectrum.bound);
             if !is_small::<R>(&divisor, bound) {
                 let (re, im) = R::parts(&divisor);
                 let divisor = if im.is_zero() { re.to_float() } else { modulus::<R>(&divisor) };
@@ -155,13 +149,31 @@ impl Resonances {
     }
 }
 
-/// k·ω.
-pub(crate) fn divisor<R: RealField>(k: &[i64], modes: &[Mode<R>]) -> R::Complex {
-    let mut sum = R::Complex::zero();
-    for (&k, mode) in k.iter().zip(modes) {
-        sum += &mode.frequency().times(k);
+/// The frequencies of the modes and of the driven phases, with their phases at time 0, and the bound on |k·ω|.
+pub(crate) struct Spectrum<'a, R: RealField> {
+    modes: &'a [Mode<R>],
+    driven: &'a [(R, f64)],
+    pub(crate) bound: f64,
+}
+
+impl<'a, R: RealField> Spectrum<'a, R> {
+    pub(crate) fn new(modes: &'a [Mode<R>], driven: &'a [(R, f64)], smallest_divisor: f64) -> Self {
+        let modes_only = modes.iter().map(|mode| modulus::<R>(&mode.frequency()));
+        let all = modes_only.chain(driven.iter().map(|(frequency, _)| frequency.to_float().abs()));
+        Spectrum { modes, driven, bound: smallest_divisor * all.fold(0.0, f64::max) }
     }
-    sum
+
+    /// k·ω, with the driven phases last.
+    pub(crate) fn divisor(&self, k: &[i64]) -> R::Complex {
+        let mut sum = R::Complex::zero();
+        for (&k, mode) in k.iter().zip(self.modes) {
+            sum += &mode.frequency().times(k);
+        }
+        for (&j, (frequency, _)) in k.iter().skip(self.modes.len()).zip(self.driven) {
+            sum += &R::complex(frequency.times(j), R::zero());
+        }
+        sum
+    }
 }
 
 /// Whether a divisor is 0 or below the bound.

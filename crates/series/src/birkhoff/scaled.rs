@@ -27,7 +27,7 @@ impl PhaseSpace {
         let mut replaced = Polynomial::zero();
         for (monomial, c) in hamiltonian.terms() {
             let (mut c, mut exponents) = (c.clone(), Vec::new());
-            for slot in 0..self.names().len() {
+            for slot in 0..self.driven_slots().end {
                 match value(slot) {
                     Some(value) => (0..monomial.exponent(slot)).for_each(|_| c *= value),
                     None => exponents.push(monomial.exponent(slot)),
@@ -56,6 +56,7 @@ impl PhaseSpace {
     ///
     /// # Errors
     /// - `letter` is not a parameter: [`Error::ParameterUnknown`]; `root` is taken or is not an identifier: [`Error::Parse`];
+    /// - a space with driven phases: [`Error::DrivenUnsupported`];
     /// - p²/2 + q²/2 + w² y²/2 …, whose other frequencies are not proportional to w, and w² p⁴, which has s^(−6): [`Error::FrequencyLetter`].
     pub fn scaled<C: Coefficient>(
         &self,
@@ -63,6 +64,10 @@ impl PhaseSpace {
         letter: &str,
         root: &str,
     ) -> Result<(Polynomial<C>, Self), Error> {
+        if !self.driven().is_empty() {
+            let problem = "has frequencies that are not proportional to a parameter: no parameter can be scaled away";
+            return Err(Error::DrivenUnsupported { problem });
+        }
         let space = self.with_renamed(letter, root)?.with_degree(root, 0)?;
         let (names, pairs) = (space.names(), 2 * self.degrees_of_freedom());
         let slot = names.iter().position(|name| *name == root).unwrap_or(pairs);
@@ -75,7 +80,7 @@ impl PhaseSpace {
             let valid = u32::try_from(power).ok().filter(|power| !quadratic || *power == 0);
             exponents[slot] = valid.ok_or_else(|| Error::FrequencyLetter {
                 letter: letter.to_owned(),
-                term: Self::text(&Polynomial::from_terms([(monomial, c.clone())]), &self.owned_names()),
+                term: self.text(&Polynomial::from_terms([(monomial, c.clone())]), &self.owned_names()),
                 power,
             })?;
             scaled.add_term(Monomial::new(&exponents)?, c);

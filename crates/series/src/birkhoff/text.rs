@@ -4,9 +4,10 @@
 //! and smaller coefficients are omitted. Exact numbers are printed unchanged.
 
 use super::{AnglePart, BirkhoffNormalForm, PhaseSpace};
+use crate::display::Harmonics;
 use crate::latex::Part;
 use crate::real_field::RealField;
-use crate::{Error, Polynomial, SLOTS};
+use crate::{Error, Monomial, Polynomial, SLOTS, harmonics};
 use std::collections::BTreeMap;
 
 /// Number of digits of the largest coefficient of a degree.
@@ -20,22 +21,23 @@ const TERMS: usize = 6;
 /// angle `phi_q` of a centre. If the terms of saddles or all terms of the centres are kept, the second line is in the real variables.
 impl<R: RealField> std::fmt::Display for BirkhoffNormalForm<R> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let complex = significant::<R>(&self.in_complex());
+        let space = self.space();
+        let complex = significant::<R>(&self.in_complex(), space);
         let real = |polynomial: &Polynomial<R>, names: &[String]| {
-            let polynomial = significant::<R>(&polynomial.map(|c| R::complex(c.clone(), R::zero())));
-            PhaseSpace::text::<R::Complex>(&polynomial, names)
+            let polynomial = significant::<R>(&polynomial.map(|c| R::complex(c.clone(), R::zero())), space);
+            space.text::<R::Complex>(&polynomial, names)
         };
         if let Ok(actions) = self.in_actions() {
             return formatter.write_str(&real(&actions, &self.action_texts()));
         }
-        formatter.write_str(&PhaseSpace::text(&complex, &self.space().complex_names()))?;
+        formatter.write_str(&space.complex_text(&complex))?;
         match self.angles_of(&complex).ok().filter(|_| !self.resonances().keeps_centre()) {
             Some((mean, parts)) => {
                 write!(formatter, "\n= {}", real(&mean, &self.action_texts()))?;
                 parts.iter().try_for_each(|part| self.write_part(formatter, part))
             }
             None => {
-                let names: Vec<String> = self.space().names().iter().map(|&name| name.to_owned()).collect();
+                let names = space.owned_names();
                 self.in_real().map_or(Ok(()), |polynomial| write!(formatter, "\n= {}", real(&polynomial, &names)))
             }
         }
@@ -61,8 +63,8 @@ impl<R: RealField> BirkhoffNormalForm<R> {
             }
             for (slot, name) in names.iter().enumerate() {
                 // The power of the square root of an action or, for a parameter, twice its power.
-                let halves =
-                    2 * u64::from(monomial.exponent(slot)) + part.multiples.get(slot).map_or(0, |k| k.unsigned_abs());
+                let k = part.multiples.iter().take(self.modes().len()).nth(slot);
+                let halves = 2 * u64::from(monomial.exponent(slot)) + k.map_or(0, |k| k.unsigned_abs());
                 match (halves, halves % 2) {
                     (0, _) => {}
                     (2, _) => write!(formatter, "{name}*")?,
@@ -75,35 +77,38 @@ impl<R: RealField> BirkhoffNormalForm<R> {
         Ok(())
     }
 
-    /// k·φ as text: `2*phi_x - phi_y`.
+    /// k·φ + j·M as text: `2*phi_x - phi_y + M`.
     fn angle_text(&self, multiples: &[i64]) -> String {
-        let (names, mut text) = (self.space().names(), String::new());
-        for (mode, &k) in multiples.iter().enumerate().filter(|(_, k)| **k != 0) {
+        let (space, mut text) = (self.space(), String::new());
+        let angles = space.names().into_iter().step_by(2).take(self.modes().len()).map(|name| format!("phi_{name}"));
+        let angles: Vec<String> = angles.chain(space.driven().into_iter().map(str::to_owned)).collect();
+        for (angle, &k) in multiples.iter().enumerate().filter(|(_, k)| **k != 0) {
             text += match (text.is_empty(), k < 0) {
                 (true, _) => "",
                 (false, true) => " - ",
                 (false, false) => " + ",
             };
             let multiple = if k.abs() == 1 { String::new() } else { format!("{}*", k.abs()) };
-            text += &format!("{multiple}phi_{}", names[2 * mode]);
+            text += &format!("{multiple}{}", angles[angle]);
         }
         text
     }
 }
 
 /// Rounds the coefficients of each degree.
-pub(super) fn significant<R: RealField>(polynomial: &Polynomial<R::Complex>) -> Polynomial<R::Complex> {
+fn significant<R: RealField>(polynomial: &Polynomial<R::Complex>, space: &PhaseSpace) -> Polynomial<R::Complex> {
     if R::EPSILON == 0.0 {
         return polynomial.clone();
     }
+    let degree = |monomial: Monomial| monomial.without(space.driven_slots()).total_degree();
     let mut largest = BTreeMap::<u32, f64>::new();
     for (monomial, c) in polynomial.terms() {
-        let size = largest.entry(monomial.total_degree()).or_default();
+        let size = largest.entry(degree(monomial)).or_default();
         *size = size.max(super::mode::modulus::<R>(c));
     }
     let terms = polynomial.terms().map(|(monomial, c)| {
         let (re, im) = R::parts(c);
-        let size = largest.get(&monomial.total_degree()).copied().unwrap_or_default();
+        let size = largest.get(&degree(monomial)).copied().unwrap_or_default();
         let rounded = |part: R| R::candidates(rounded(part.to_float(), size)).pop().unwrap_or_else(R::zero);
         (monomial, R::complex(rounded(re), rounded(im)))
     });
@@ -146,20 +151,29 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// - degrees of a transformation that outgrow the packed exponents: [`Error::ExponentOverflow`].
     pub fn to_latex(&self, what: Part) -> Result<String, Error> {
         let space = self.space();
-        let names: Vec<String> = space.names().iter().map(|&name| name.to_owned()).collect();
+        let names = space.owned_names();
+        let align = |text: &mut String, name: &str, f: &Polynomial<R::Complex>, names: &[String], primed| {
+            let harmonics = if names == space.complex_names() { Harmonics::Complex } else { Harmonics::Real };
+            align::<R>(
+                text,
+                name,
+                &significant::<R>(f, space),
+                &Names { names, driven: &space.driven(), harmonics, primed },
+            );
+        };
         let complex = |f: &Polynomial<R>| f.map(|c| R::complex(c.clone(), R::zero()));
         let mut text = "\\begingroup\\allowdisplaybreaks\n".to_owned();
         match what {
             Part::Hamiltonian => match self.in_actions() {
-                Ok(actions) => align::<R>(&mut text, "K", &complex(&actions), &self.action_texts(), false),
+                Ok(actions) => align(&mut text, "K", &complex(&actions), &self.action_texts(), false),
                 Err(Error::ResonantTerm { .. }) => {
-                    align::<R>(&mut text, "K", &self.in_complex(), &space.complex_names(), false);
+                    align(&mut text, "K", &self.in_complex(), &space.complex_names(), false);
                 }
                 Err(other) => return Err(other),
             },
             Part::Generator => {
                 for m in 1..=self.order() {
-                    align::<R>(&mut text, &format!("S_{{{m}}}"), &complex(&self.generator(m)?), &names, true);
+                    align(&mut text, &format!("S_{{{m}}}"), &complex(&self.generator(m)?), &names, true);
                 }
             }
             Part::Direct | Part::Inverse => {
@@ -168,7 +182,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
                     let variable = Polynomial::variable(slot)?;
                     let image = if direct { self.direct(&variable) } else { self.inverse(&variable) }?;
                     let left = if direct { symbol(name, "") } else { symbol(name, "'") };
-                    align::<R>(&mut text, &left, &complex(&image), &names, direct);
+                    align(&mut text, &left, &complex(&image), &names, direct);
                 }
             }
         }
@@ -176,16 +190,38 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     }
 }
 
-/// Writes one series, `name &= …`, in its own `align*`; `primed` means that its variables are the new ones.
-fn align<R: RealField>(
-    text: &mut String,
-    name: &str,
-    polynomial: &Polynomial<R::Complex>,
-    names: &[String],
+/// The names of the variables of a series, the driven phases in the last slots, and whether the variables are the new ones.
+struct Names<'a> {
+    names: &'a [String],
+    driven: &'a [&'a str],
+    harmonics: Harmonics,
     primed: bool,
-) {
+}
+
+impl Names<'_> {
+    /// The variables of a monomial.
+    fn factors(&self, monomial: Monomial) -> String {
+        let mut factors = String::new();
+        for slot in (0..SLOTS).filter(|&slot| monomial.exponent(slot) > 0) {
+            let Some(name) = self.names.get(slot) else {
+                let name = self.driven.get(slot - self.names.len()).copied().unwrap_or_default();
+                factors += &self.harmonics.latex(&symbol(name, ""), harmonics::signed(monomial.exponent(slot)));
+                continue;
+            };
+            let base = factor(name, if self.primed { "'" } else { "" });
+            factors += &match monomial.exponent(slot) {
+                1 => base,
+                exponent if self.primed => format!("{{{base}}}^{{{exponent}}}"),
+                exponent => format!("{base}^{{{exponent}}}"),
+            };
+        }
+        factors
+    }
+}
+
+/// Writes one series, `name &= …`, in its own `align*`.
+fn align<R: RealField>(text: &mut String, name: &str, polynomial: &Polynomial<R::Complex>, names: &Names) {
     *text += &format!("\\begin{{align*}}\n{name} &=");
-    let polynomial = significant::<R>(polynomial);
     for (position, (monomial, c)) in polynomial.terms().enumerate() {
         if position > 0 && position % TERMS == 0 {
             text.push_str(" \\\\\n&\\quad {}");
@@ -197,15 +233,7 @@ fn align<R: RealField>(
             (_, false) => " + ",
             (_, true) => " - ",
         });
-        let mut factors = String::new();
-        for slot in (0..SLOTS.min(names.len())).filter(|&slot| monomial.exponent(slot) > 0) {
-            let base = factor(&names[slot], if primed { "'" } else { "" });
-            factors += &match monomial.exponent(slot) {
-                1 => base,
-                exponent if primed => format!("{{{base}}}^{{{exponent}}}"),
-                exponent => format!("{base}^{{{exponent}}}"),
-            };
-        }
+        let factors = names.factors(monomial);
         text.push_str(if magnitude == "1" && !factors.is_empty() { "" } else { &magnitude });
         text.push_str(&factors);
     }

@@ -1,28 +1,10 @@
 //! Functions of the old variables expressed in the new ones and the reverse, as polynomials.
 
 use super::BirkhoffNormalForm;
-use super::mode::{Mode, complex_in_real, real_in_complex, substitute};
+use super::variables::{changed, to_complex, to_real};
 use crate::real_field::RealField;
-use crate::triangle::{LieTransform, Progress, quiet};
+use crate::triangle::{Progress, quiet};
 use crate::{Error, Polynomial};
-
-/// A real function, expressed in the complex variables.
-pub(super) fn to_complex<R: RealField>(f: &Polynomial<R>, modes: &[Mode<R>]) -> Result<Polynomial<R::Complex>, Error> {
-    substitute(&f.map(|c| R::complex(c.clone(), R::zero())), &real_in_complex(modes)?)
-}
-
-/// A function of the complex variables that is real on real points, expressed in the real variables.
-pub(super) fn to_real<R: RealField>(f: &Polynomial<R::Complex>, modes: &[Mode<R>]) -> Result<Polynomial<R>, Error> {
-    Ok(substitute(f, &complex_in_real(modes)?)?.map(|c| R::parts(c).0))
-}
-
-/// A function with linear forms substituted for its variables, if forms are given.
-pub(super) fn changed<R: RealField>(
-    f: &Polynomial<R>,
-    forms: Option<&[Polynomial<R>]>,
-) -> Result<Polynomial<R>, Error> {
-    forms.map_or_else(|| Ok(f.clone()), |forms| substitute(f, forms))
-}
 
 impl<R: RealField> BirkhoffNormalForm<R> {
     /// Expresses a function f of the old variables in the new ones, complete to degree d + N, where d is the lowest positive degree of f.
@@ -51,7 +33,7 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// - The errors of [`direct`](Self::direct); a callback that returns `Break`: [`Error::Interrupted`].
     pub fn direct_with(&self, f: &Polynomial<R>, progress: &mut Progress<'_>) -> Result<Polynomial<R>, Error> {
         let old = self.diagonal.forms()?;
-        self.transported(&changed(f, old.as_deref())?, |transform, part| transform.direct_with(part, progress))
+        self.transported(&changed(f, old.as_deref())?, true, progress)
     }
 
     /// Expresses a function f of the new variables in the old ones, complete to degree d + N, where d is the lowest positive degree of f.
@@ -68,34 +50,45 @@ impl<R: RealField> BirkhoffNormalForm<R> {
     /// # Errors
     /// - The errors of [`direct_with`](Self::direct_with).
     pub fn inverse_with(&self, f: &Polynomial<R>, progress: &mut Progress<'_>) -> Result<Polynomial<R>, Error> {
-        let old = self.transported(f, |transform, part| transform.inverse_with(part, progress))?;
+        let old = self.transported(f, false, progress)?;
         changed(&old, self.diagonal.inverse_forms()?.as_deref())
     }
 
-    /// The sum of the series of the homogeneous parts of f. Each series is truncated at the degree to which all of them are known.
+    /// The sum of the series of the homogeneous parts of f. Each series is truncated at the degree to which all of them are known. With driven phases the old
+    /// variables are measured from the forced motion.
     pub(super) fn transported(
         &self,
         f: &Polynomial<R>,
-        mut apply: impl FnMut(
-            &LieTransform<R::Complex>,
-            &Polynomial<R::Complex>,
-        ) -> Result<Vec<Polynomial<R::Complex>>, Error>,
+        direct: bool,
+        progress: &mut Progress<'_>,
     ) -> Result<Polynomial<R>, Error> {
-        let phase = self.space.phase_slots();
+        let (space, phases) = (&self.space, &self.phases);
+        let phase = space.phase_slots();
         let mut sum = f.filter(|monomial, _| monomial.degree_in(&phase) == 0);
         let f = f.filter(|monomial, _| monomial.degree_in(&phase) > 0);
-        let degrees = || f.terms().map(|(monomial, _)| self.space.degree(monomial));
+        let degrees = || f.terms().map(|(monomial, _)| space.degree(monomial));
         let Some(lowest) = degrees().min() else { return Ok(sum) };
         // Degrees are below 8 · 2¹⁵, orders below 2¹⁵.
         let highest = lowest + self.order() as u32;
         for degree in lowest..=degrees().max().unwrap_or(lowest).min(highest) {
-            let part = f.filter(|monomial, _| self.space.degree(monomial) == degree);
+            let part = f.filter(|monomial, _| space.degree(monomial) == degree);
             let transform = self.transform().truncated((highest - degree) as usize);
-            let mut image = Polynomial::zero();
-            for term in apply(&transform, &to_complex(&part, self.modes())?)? {
-                image += &term;
+            let mut part = to_complex(&part, self.modes(), space)?;
+            if direct {
+                part = phases.shifted(&part, space, 1)?;
             }
-            sum += &to_real(&image, self.modes())?;
+            let first = phases.order_of(&part, space, transform.order())?;
+            let part = phases.lifted(&part, space, first)?;
+            let terms =
+                if direct { transform.direct_with(&part, progress) } else { transform.inverse_with(&part, progress) };
+            let mut image = Polynomial::zero();
+            for (order, term) in (first as usize..).zip(terms?) {
+                image += &phases.lowered(&term, space, order);
+            }
+            if !direct {
+                image = phases.shifted(&image, space, -1)?;
+            }
+            sum += &to_real(&image, self.modes(), space)?;
         }
         Ok(sum)
     }

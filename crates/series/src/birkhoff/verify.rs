@@ -3,7 +3,7 @@
 //! K and S alone cannot be verified: any K with only kept terms and any S without kept terms are the normal form of some Hamiltonian.
 
 use super::quadratic::literal;
-use super::{BirkhoffNormalForm, normalize_with};
+use super::{BirkhoffNormalForm, normalize_driven};
 use crate::real_field::RealField;
 use crate::triangle::Progress;
 use crate::{Error, Monomial, Polynomial};
@@ -14,10 +14,11 @@ const FLOAT_TOLERANCE: f64 = 1e-8;
 /// Compares a normal form with the computed one.
 ///
 /// # Errors
-/// - the first coefficient that differs: [`Error::CoefficientWrong`]; the errors of [`normalize_with`].
+/// - the first coefficient that differs: [`Error::CoefficientWrong`]; the errors of [`normalize_driven`].
 pub(super) fn verified<R: RealField>(form: &BirkhoffNormalForm<R>, progress: &mut Progress<'_>) -> Result<(), Error> {
     let original = &form.hamiltonian + &form.offset;
-    let computed = normalize_with(&original, form.order(), &form.space, &form.resonances, progress)?;
+    let driven = &form.phases.given;
+    let computed = normalize_driven(&original, form.order(), &form.space, driven, &form.resonances, progress)?;
     for (row, (found, expected)) in form.linear_change().iter().zip(computed.linear_change()).enumerate() {
         let line = |row: &[R]| {
             Polynomial::from_terms(

@@ -1,8 +1,8 @@
 //! Prints C99.
 
 use super::constant::Numbers;
+use super::printer::{Printer, RoutinePrinter, marked};
 use super::routine::{Argument, Results, Routine};
-use super::{Printer, RoutinePrinter, marked};
 
 /// C99 with `math.h`.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +34,10 @@ impl RoutinePrinter for C {
 
     fn assignment(&self, target: &str, value: &str, first: bool) -> String {
         format!("{}{target} = {value};", if first { "double " } else { "" })
+    }
+
+    fn unneeded(&self, argument: &str) -> Option<String> {
+        Some(format!("(void){argument};"))
     }
 
     fn opening(&self, routine: &Routine) -> String {

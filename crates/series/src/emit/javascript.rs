@@ -1,7 +1,7 @@
 //! Prints JavaScript.
 
 use super::constant::Numbers;
-use super::{Printer, marked};
+use super::printer::{Printer, marked};
 
 /// JavaScript of 2015 or later.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! Prints Python.
 
 use super::constant::Numbers;
+use super::printer::{Printer, RoutinePrinter, marked};
 use super::routine::{Argument, Results, Routine};
-use super::{Printer, RoutinePrinter, marked};
 
 /// Python 3.9 or later with its module `math` only.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +33,10 @@ impl RoutinePrinter for Python {
 
     fn assignment(&self, target: &str, value: &str, _: bool) -> String {
         format!("{target} = {value}")
+    }
+
+    fn unneeded(&self, _: &str) -> Option<String> {
+        None
     }
 
     fn opening(&self, routine: &Routine) -> String {

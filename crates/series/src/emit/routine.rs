@@ -1,6 +1,8 @@
 //! A function to be printed: its arguments, its results and its program.
 
-use super::program::Program;
+use std::collections::BTreeSet;
+
+use super::program::{Expression, Program, Statement};
 
 /// A function to be printed.
 pub(crate) struct Routine {
@@ -27,7 +29,31 @@ pub(crate) enum Results {
     Array(&'static str, usize),
 }
 
+impl Argument {
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Number(name) | Self::Array(name, _) => name,
+        }
+    }
+}
+
 impl Routine {
+    /// The arguments that neither a statement nor a result needs.
+    pub(super) fn unneeded(&self) -> Vec<&'static str> {
+        let mut needed: BTreeSet<String> = self.results.names().into_iter().collect();
+        for statement in &self.program.statements {
+            if let Statement::Assignment(_, value) = statement {
+                value.walk(&mut |part| {
+                    if let Expression::Name(name) = part {
+                        // An entry of an array needs the array.
+                        needed.insert(name.split('[').next().unwrap_or(name).to_owned());
+                    }
+                });
+            }
+        }
+        self.arguments.iter().map(Argument::name).filter(|name| !needed.contains(*name)).collect()
+    }
+
     /// The arguments as a list, each as `argument` writes it.
     pub(super) fn arguments(&self, argument: impl Fn(&Argument) -> String) -> String {
         self.arguments.iter().map(argument).collect::<Vec<_>>().join(", ")

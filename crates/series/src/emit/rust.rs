@@ -1,8 +1,8 @@
 //! Prints Rust.
 
 use super::constant::Numbers;
+use super::printer::{Printer, RoutinePrinter, marked};
 use super::routine::{Argument, Results, Routine};
-use super::{Printer, RoutinePrinter, marked};
 
 /// Rust with its standard library only.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +36,10 @@ impl RoutinePrinter for Rust {
 
     fn assignment(&self, target: &str, value: &str, _: bool) -> String {
         format!("let {target} = {value};")
+    }
+
+    fn unneeded(&self, argument: &str) -> Option<String> {
+        Some(format!("let _ = {argument};"))
     }
 
     fn opening(&self, routine: &Routine) -> String {

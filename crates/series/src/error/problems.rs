@@ -1,6 +1,6 @@
 //! What is wrong with a text or with a term.
 
-use super::{Facts, Kind, facts};
+use super::facts::{Facts, Kind, facts};
 use thiserror::Error;
 
 /// The reason why a text is not a polynomial.
@@ -21,6 +21,12 @@ pub enum ParseProblem {
         "{0:?} is a function, and only polynomials are read: expand it as a Taylor polynomial, for a normal form of order N to degree N + 2"
     )]
     Function(String),
+    /// A driven phase outside of a cosine or a sine.
+    #[error("{0:?} is a driven phase: it stands in cos(j*{0}) and sin(j*{0}) only")]
+    PhaseAlone(String),
+    /// A cosine or sine whose angle is not a sum of multiples of driven phases.
+    #[error("the angle of a cosine or sine is a sum of integer multiples (below 65536) of driven phases")]
+    Angle,
     /// A square root.
     #[error(
         "\"sqrt\" is a square root, and only polynomials are read: write a number in decimals, or, if all frequencies are rational multiples of the root, write a parameter w for the root and scale w away (PhaseSpace::scaled; in Python the argument frequency)"
@@ -67,6 +73,8 @@ impl ParseProblem {
             Self::UnexpectedCharacter(found) => facts(None, found.to_string(), "a polynomial"),
             Self::UnknownName(name) => facts(None, name, "a variable or parameter"),
             Self::Function(name) => facts(None, name, "a polynomial"),
+            Self::PhaseAlone(name) => facts(None, name, "a cosine or sine of the phase"),
+            Self::Angle => facts(None, position, "integer multiples of driven phases"),
             Self::SquareRoot => facts(None, "sqrt", "a polynomial"),
             Self::UnusableName(name) => facts(None, name, "an identifier, once"),
             Self::ExponentTooLarge { bound } | Self::TooDeep { bound } => facts(None, position, *bound),

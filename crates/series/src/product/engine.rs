@@ -10,9 +10,9 @@ use std::sync::{Mutex, PoisonError};
 
 use super::arithmetic::Arithmetic;
 use super::code::{Key, Layout};
+use super::pause::{PRODUCTS_PER_PAUSE, Pause};
 use super::piece::{Collection, Piece};
 use super::store::{Array, Store, Table};
-use super::{PRODUCTS_PER_PAUSE, Pause};
 use crate::Error;
 use crate::threads::shared;
 use rayon::prelude::*;

@@ -9,7 +9,9 @@ mod arithmetic;
 mod code;
 mod engine;
 mod operands;
+mod pause;
 mod piece;
+mod rule;
 mod store;
 
 use crate::monomial::Monomial;
@@ -20,18 +22,16 @@ use arithmetic::{Arithmetic, GaussianIntegers, Integers, Lifted};
 use code::{Key, Layout};
 use engine::{CELLS_PER_PRODUCT, Part, Sum};
 use operands::Sides;
+pub(crate) use pause::Pause;
 use piece::Piece;
+pub(crate) use rule::Rule;
+use rule::{Product, Weight};
 
 /// The factors of both sides, polynomial by polynomial.
 type OperandFactors<A> = (Vec<Vec<<A as Arithmetic>::Factor>>, Vec<Vec<<A as Arithmetic>::Factor>>);
 
-/// Number of products between two calls of `pause`. With large rationals they take some tens of milliseconds.
-const PRODUCTS_PER_PAUSE: usize = 1 << 14;
 /// Sums below this bound fit in 128 bits.
 const LARGEST_SUM: f64 = (1_u128 << 126) as f64;
-
-/// A callback of long sums; its error ends the sum.
-pub(crate) type Pause<'a> = dyn FnMut() -> Result<(), Error> + 'a;
 
 /// A weighted sum of products of left polynomials with right polynomials.
 pub(crate) struct Accumulator<'a, C> {
@@ -39,40 +39,6 @@ pub(crate) struct Accumulator<'a, C> {
     right: Vec<&'a Polynomial<C>>,
     products: Vec<Product>,
     truncation: Option<&'a Truncation>,
-}
-
-/// One product of the sum: the positions of its factors, and its weight.
-#[derive(Debug, Clone, Copy)]
-struct Product {
-    left: usize,
-    right: usize,
-    weight: Weight,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Weight {
-    Constant(i64),
-    Rule(Rule),
-}
-
-/// The effect of one pair of variables on a pair of terms in a bracket: an integer weight and a shift of the exponents.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) struct Rule {
-    pub(crate) first: usize,
-    pub(crate) second: usize,
-    pub(crate) sign: i64,
-    pub(crate) raised: u128,
-    pub(crate) lowered: u128,
-}
-
-impl Rule {
-    /// The weight ± (j₁ k₂ − k₁ j₂), where j, k are the exponents of the first and the second variable of the pair.
-    fn weigh(&self, left: Monomial, right: Monomial) -> i64 {
-        let exponent = |m: Monomial, slot| i64::from(m.exponent(slot));
-        let (j1, k1) = (exponent(left, self.first), exponent(left, self.second));
-        let (j2, k2) = (exponent(right, self.first), exponent(right, self.second));
-        self.sign * (j1 * k2 - k1 * j2)
-    }
 }
 
 impl<'a, C: Coefficient> Accumulator<'a, C> {

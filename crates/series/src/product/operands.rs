@@ -2,7 +2,7 @@
 
 use super::code::{Key, Layout};
 use super::engine::{Operand, Part, Weights};
-use super::{Product, Weight};
+use super::rule::{Product, Weight};
 use crate::{Coefficient, Monomial, Polynomial};
 
 /// One factor: its operand, and its monomials in the same order.

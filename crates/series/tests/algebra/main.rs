@@ -7,6 +7,7 @@ mod birkhoff_motion;
 mod birkhoff_refusals;
 mod bracket;
 mod calculus;
+mod driven;
 mod energy;
 mod equilibria;
 mod hamiltonians;

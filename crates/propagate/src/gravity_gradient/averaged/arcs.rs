@@ -4,9 +4,9 @@ use super::polynomial::{COLUMNS, Column, PiecePolynomial};
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::{Lanes, WIDEST};
+use nalgebra::UnitQuaternion;
 use pulp::NullaryFnOnce;
-use std::sync::OnceLock;
-use std::sync::{Arc, RwLock};
+use std::sync::{Arc, OnceLock};
 
 /// Averaged equations that are solved arc by arc.
 pub(crate) trait Averaged {
@@ -30,54 +30,44 @@ impl SolvedArc {
 
 /// The arcs of one solution. Times are those from the epoch.
 #[derive(Clone, Debug)]
-pub(crate) struct Arcs {
+pub(crate) struct Arcs<E> {
+    pub(crate) equations: E,
     start: Column,
     /// The solved arcs after the epoch, and before it.
-    kept: Arc<[RwLock<Vec<SolvedArc>>; 2]>,
+    kept: Arc<[Chain<SolvedArc>; 2]>,
 }
 
-impl Arcs {
-    pub(crate) fn new(start: Column) -> Self {
-        Self { start, kept: Arc::default() }
+impl<E: Averaged> Arcs<E> {
+    /// From the frame at the epoch, where the two numbers are 0.
+    pub(crate) fn new(equations: E, frame: &UnitQuaternion<f64>) -> Self {
+        Self { equations, start: [frame.i, frame.j, frame.k, frame.w, 0.0, 0.0], kept: Arc::default() }
     }
 
     /// The memory of the solved arcs, in bytes.
     pub(crate) fn memory(&self) -> usize {
-        let side =
-            |arcs: &RwLock<Vec<SolvedArc>>| arcs.read().unwrap_or_else(|poisoned| poisoned.into_inner()).capacity();
-        self.kept.iter().map(side).sum::<usize>() * size_of::<SolvedArc>()
+        self.kept.iter().map(Chain::memory).sum()
     }
 
     /// The frame and the other columns at times after the epoch. The function is compiled separately: one fixed orbit does without it.
     #[inline(always)]
-    pub(crate) fn at<S: InstructionSet>(
-        &self,
-        averaged: &impl Averaged,
-        times: Lanes<S>,
-    ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
-        times.simd().vectorize(ArcsAt { arcs: self, averaged, times })
+    pub(crate) fn at<S: InstructionSet>(&self, times: Lanes<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
+        times.simd().vectorize(ArcsAt { arcs: self, times })
     }
 
-    /// Consecutive times in the same arc are evaluated together.
+    /// The frame and the other columns. Consecutive times in the same arc are evaluated together.
     #[inline(always)]
-    fn evaluated<S: InstructionSet>(
-        &self,
-        averaged: &impl Averaged,
-        times: Lanes<S>,
-    ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
+    fn evaluated<S: InstructionSet>(&self, times: Lanes<S>) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         let all = times.values();
         let mut rows = [[0.0; WIDEST]; COLUMNS];
         let mut lane = 0;
         while lane < all.len() {
             let side = usize::from(all[lane] < 0.0);
-            let stretch = self.stretch(averaged, side, all[lane].abs());
-            let inside = |time: &f64| {
-                usize::from(*time < 0.0) == side && time.abs() >= stretch.from && time.abs() <= stretch.end()
-            };
+            let arc = self.arc(side, all[lane].abs());
+            let inside =
+                |time: &f64| usize::from(*time < 0.0) == side && time.abs() >= arc.from && time.abs() <= arc.end();
             let next = lane + 1 + all[lane + 1..].iter().take_while(|time| inside(time)).count();
-            let place =
-                (times.magnitude() - times.all(stretch.from)) * times.all(2.0 / stretch.length) - times.all(1.0);
-            let columns = stretch.solution.sums(place);
+            let place = (times.magnitude() - times.all(arc.from)) * times.all(2.0 / arc.length) - times.all(1.0);
+            let columns = arc.solution.sums(place);
             if next - lane == all.len() {
                 let [x, y, z, w, anomaly, longitude] = columns;
                 return (QuaternionLanes([x, y, z, w]), [anomaly, longitude]);
@@ -96,38 +86,36 @@ impl Arcs {
     }
 
     /// The arc that contains a time at this distance from the epoch. If it is not known yet, it is solved together with all arcs between.
-    fn stretch(&self, averaged: &impl Averaged, side: usize, distance: f64) -> SolvedArc {
-        let found = |arcs: &[SolvedArc]| arcs.get(arcs.partition_point(|arc| arc.end() < distance)).copied();
-        // If a thread panicked while it held the lock, the arcs are still complete.
-        let known = found(&self.kept[side].read().unwrap_or_else(|poisoned| poisoned.into_inner()));
-        if let Some(arc) = known {
-            return arc;
-        }
-        let mut arcs = self.kept[side].write().unwrap_or_else(|poisoned| poisoned.into_inner());
+    fn arc(&self, side: usize, distance: f64) -> &SolvedArc {
         let sign = if side == 0 { 1.0 } else { -1.0 };
-        loop {
-            if let Some(arc) = found(&arcs) {
-                return arc;
-            }
-            let (from, start) = arcs.last().map_or((0.0, self.start), |arc| (arc.end(), arc.solution.at(1.0)));
-            arcs.push(averaged.arc(sign, from, &start));
+        let next = |_, last: Option<&SolvedArc>| {
+            let (from, start) = last.map_or((0.0, self.start), |arc| (arc.end(), arc.solution.at(1.0)));
+            self.equations.arc(sign, from, &start)
+        };
+        let found = || {
+            let number = self.kept[side].partition_point(|arc| arc.end() < distance);
+            self.kept[side].get(number).unwrap_or_else(|| self.kept[side].get_or_compute(number, next))
+        };
+        let mut arc = found();
+        while arc.end() < distance {
+            arc = found();
         }
+        arc
     }
 }
 
 /// [`Arcs::evaluated`] as a task that is compiled separately.
-struct ArcsAt<'a, S: InstructionSet, A> {
-    arcs: &'a Arcs,
-    averaged: &'a A,
+struct ArcsAt<'a, S: InstructionSet, E> {
+    arcs: &'a Arcs<E>,
     times: Lanes<S>,
 }
 
-impl<S: InstructionSet, A: Averaged> NullaryFnOnce for ArcsAt<'_, S, A> {
+impl<S: InstructionSet, E: Averaged> NullaryFnOnce for ArcsAt<'_, S, E> {
     type Output = (QuaternionLanes<S>, [Lanes<S>; 2]);
 
     #[inline(always)]
     fn call(self) -> Self::Output {
-        self.arcs.evaluated(self.averaged, self.times)
+        self.arcs.evaluated(self.times)
     }
 }
 
@@ -136,7 +124,7 @@ const BLOCKS: usize = 20;
 /// Number of values that a chain can hold.
 pub(crate) const MOST: usize = (1 << BLOCKS) - 1;
 
-/// A value that is computed once. A block has many that are never needed, so that the values are not in the block.
+/// A value that is computed once. The block holds a pointer to it, because many values of a block are never needed.
 type Cell<T> = OnceLock<Box<T>>;
 
 /// The values from the number 0 on.
@@ -164,6 +152,19 @@ impl<T> Chain<T> {
     pub(crate) fn get(&self, number: usize) -> Option<&T> {
         let (block, place) = position(number);
         Some(self.blocks.get(block)?.get()?.get(place)?.get()?)
+    }
+
+    /// The number of the first value that is unknown or for which `before` is false. `before` is true for all values up to some number.
+    fn partition_point(&self, before: impl Fn(&T) -> bool) -> usize {
+        let is_before = |number: usize| self.get(number).is_some_and(&before);
+        // The block by its first value, then the place in it.
+        let block = (0..BLOCKS).take_while(|block| is_before((1 << block) - 1)).count();
+        let [mut low, mut high] = [block.saturating_sub(1), block].map(|block| (1_usize << block) - 1);
+        while low < high {
+            let middle = low.midpoint(high);
+            (low, high) = if is_before(middle) { (middle + 1, high) } else { (low, middle) };
+        }
+        low
     }
 
     /// The value, computed by `next` together with all unknown ones before it. `next` has a number and the value before it, if there is one. The number is below

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
+use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::second_order::k2::Hamiltonian;
 
 /// The orbit and the strength of its torque, in the units of the averaged motion.
@@ -22,39 +22,14 @@ pub(crate) struct AveragedOrbit {
 }
 
 impl AveragedOrbit {
-    /// The averaged orbit; `delta` is Δ/M.
-    pub(crate) fn new(demand: &Demand<'_>, delta: f64) -> Self {
-        let Demand { orbit, mean_motion, axes, .. } = *demand;
+    /// The averaged orbit; `delta` is Δ/M. With `second` the averaged equations are those of second order.
+    pub(crate) fn new(elliptic: &EllipticOrbit<'_>, delta: f64, second: Option<Hamiltonian>) -> Self {
+        let &EllipticOrbit { orbit, mean_motion, axes, .. } = elliptic;
         let (eccentricity, fraction) = (orbit.eccentricity(), orbit.disturbing_fraction());
         let eta = (1.0 - eccentricity * eccentricity).sqrt();
         let eta_cubed = eta * eta * eta;
         let strength = 3.0 * mean_motion * (delta * fraction) / eta_cubed;
-        Self { eccentricity, eta_cubed, mean_motion, fraction, axes, strength, second: None }
-    }
-
-    /// With the averaged equations of second order.
-    pub(crate) fn with_second(self, hamiltonian: Hamiltonian) -> Self {
-        Self { second: Some(Box::new(hamiltonian)), ..self }
-    }
-
-    /// κ_o.
-    pub(crate) fn strength(&self) -> f64 {
-        self.strength
-    }
-
-    /// G m/a³ over n².
-    pub(crate) fn fraction(&self) -> f64 {
-        self.fraction
-    }
-
-    /// G m/a³, in the units of the motion.
-    pub(crate) fn attraction(&self) -> f64 {
-        self.mean_motion * self.mean_motion * self.fraction
-    }
-
-    /// η³.
-    pub(crate) fn eta_cubed(&self) -> f64 {
-        self.eta_cubed
+        Self { eccentricity, eta_cubed, mean_motion, fraction, axes, strength, second: second.map(Box::new) }
     }
 
     /// dΨ/dt averaged over the orbit, for an angular momentum along an axis.

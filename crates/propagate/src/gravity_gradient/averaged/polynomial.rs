@@ -3,8 +3,6 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use nalgebra::Quaternion;
-
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::{InstructionSet, Task, dispatch};
 use crate::simd::lanes::{Lanes, WIDEST};
@@ -24,34 +22,35 @@ pub(crate) const COLUMNS: usize = 6;
 /// Those of the frame.
 const FRAME: usize = 4;
 
-/// The Chebyshev points, from −1 to 1.
-pub(crate) static NODES: LazyLock<[f64; POINTS]> =
-    LazyLock::new(|| std::array::from_fn(|i| (PI * (i as f64 + 0.5) / POINTS as f64).cos()));
-/// The coefficients of a primitive for a function that is 1 at one of the points and 0 at the others, by the point.
-static PRIMITIVES: LazyLock<[[f64; POINTS]; POINTS]> = LazyLock::new(|| std::array::from_fn(primitive));
-/// The values of these primitives at the points, by the point of the value.
-static VALUES: LazyLock<[[f64; POINTS]; POINTS]> =
-    LazyLock::new(|| std::array::from_fn(|i| PRIMITIVES.each_ref().map(|primitive| sum(primitive, NODES[i]))));
-/// The values of the primitives at the ends of the interval, −1 and 1.
-static ENDS: LazyLock<[[f64; POINTS]; 2]> =
-    LazyLock::new(|| [-1.0, 1.0].map(|end| PRIMITIVES.each_ref().map(|primitive| sum(primitive, end))));
+/// A number for each point.
+pub(crate) type AtPoints = [f64; POINTS];
 
-/// The Chebyshev coefficients of the primitive for one point, without the constant.
-fn primitive(point: usize) -> [f64; POINTS] {
-    let count = POINTS as f64;
-    let series: [f64; POINTS + 1] = std::array::from_fn(|k| {
-        let scale = match k {
-            0 => 1.0 / count,
-            POINTS => 0.0,
-            _ => 2.0 / count,
-        };
-        scale * (PI * k as f64 * (point as f64 + 0.5) / count).cos()
-    });
-    std::array::from_fn(|k| match k {
-        0 => 0.0,
-        1 => series[0] - 0.5 * series[2],
-        _ => (series[k - 1] - series[k + 1]) / (2.0 * k as f64),
-    })
+/// The Chebyshev points, from −1 to 1.
+pub(crate) static NODES: LazyLock<AtPoints> =
+    LazyLock::new(|| std::array::from_fn(|i| (PI * (i as f64 + 0.5) / POINTS as f64).cos()));
+/// The Chebyshev coefficients of the primitive of the polynomial that is 1 at one point and 0 at the others, without the constant, by the point.
+static PRIMITIVES: LazyLock<[AtPoints; POINTS]> = LazyLock::new(|| std::array::from_fn(primitive));
+/// The values of these primitives at the points, by the point of the primitive.
+static VALUES: LazyLock<[AtPoints; POINTS]> = LazyLock::new(|| {
+    let at_nodes = NODES.map(primitives_at);
+    std::array::from_fn(|point| at_nodes.map(|values| values[point]))
+});
+
+fn primitive(point: usize) -> AtPoints {
+    let part = |k: usize| {
+        let wave = (PI * k as f64 * (point as f64 + 0.5) / POINTS as f64).cos();
+        if k < POINTS { 2.0 / POINTS as f64 * wave } else { 0.0 }
+    };
+    std::array::from_fn(|k| if k == 0 { 0.0 } else { (part(k - 1) - part(k + 1)) / (2.0 * k as f64) })
+}
+
+/// The values of the primitives at a place of the interval, by point.
+fn primitives_at(place: f64) -> AtPoints {
+    let mut chebyshev = [1.0, place].repeat(POINTS / 2);
+    for k in 2..POINTS {
+        chebyshev[k] = 2.0 * place * chebyshev[k - 1] - chebyshev[k - 2];
+    }
+    PRIMITIVES.each_ref().map(|primitive| primitive.iter().zip(&chebyshev).map(|(c, t)| c * t).sum())
 }
 
 /// The coefficients of the Chebyshev polynomials in powers of x.
@@ -67,52 +66,23 @@ static CHEBYSHEV: LazyLock<[AtPoints; POINTS]> = LazyLock::new(|| {
     polynomials
 });
 
-/// A Chebyshev series by Clenshaw's rule.
-fn sum(coefficients: &[f64; POINTS], x: f64) -> f64 {
-    let (mut next, mut after) = (0.0, 0.0);
-    for coefficient in coefficients[1..].iter().rev() {
-        (next, after) = (2.0 * x * next + coefficient - after, next);
-    }
-    x * next + coefficients[0] - after
+/// The unit angular momentum of a frame: its axis 3.
+#[inline(always)]
+pub(crate) fn pole<S: InstructionSet>(frame: QuaternionLanes<S>) -> [Lanes<S>; 3] {
+    let rows = frame.rows();
+    [rows[0][2], rows[1][2], rows[2][2]]
 }
 
-/// A number for each point.
-pub(crate) type AtPoints = [f64; POINTS];
-
-/// [`PRIMITIVES`] and the transposed [`VALUES`] in rows, by the point of the function.
-static ROWS: LazyLock<[[AtPoints; POINTS]; 2]> = LazyLock::new(|| {
-    let values = |k: usize| VALUES.each_ref().map(|at| at[k]);
-    [*PRIMITIVES, std::array::from_fn(values)]
-});
-
-/// Averaged equations on an interval.
-pub(crate) trait AveragedEquations {
-    /// The derivatives at the points from `first` on, for the frames there.
-    fn at<S: InstructionSet>(&self, first: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS];
-}
-
-/// Equations that are computed point by point, from the number of the point and the frame there.
-pub(crate) struct PointByPoint<F>(pub(crate) F);
-
-impl<F: Fn(usize, &Quaternion<f64>) -> Column> AveragedEquations for PointByPoint<F> {
-    #[inline(always)]
-    fn at<S: InstructionSet>(&self, first: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS] {
-        let like = frame.0[0];
-        let mut columns = [[0.0; WIDEST]; COLUMNS];
-        for lane in 0..Lanes::<S>::WIDTH {
-            let [x, y, z, w] = &frame.0;
-            let [x, y, z, w] = [x.values()[lane], y.values()[lane], z.values()[lane], w.values()[lane]];
-            let slopes = self.0(first + lane, &Quaternion::new(w, x, y, z));
-            for (column, slope) in columns.iter_mut().zip(slopes) {
-                column[lane] = slope;
-            }
-        }
-        let mut slopes = [like; COLUMNS];
-        for (slope, column) in slopes.iter_mut().zip(&columns) {
-            *slope = like.like(column);
-        }
-        slopes
-    }
+/// The derivatives of a column, from the angular velocity of the frame in inertial components and the derivatives of the two numbers.
+#[inline(always)]
+pub(crate) fn column_slopes<S: InstructionSet>(
+    frame: QuaternionLanes<S>,
+    [x, y, z]: [Lanes<S>; 3],
+    [anomaly, longitude]: [Lanes<S>; 2],
+) -> [Lanes<S>; COLUMNS] {
+    let half = x.all(0.5);
+    let [i, j, k, w] = (QuaternionLanes([x * half, y * half, z * half, x.all(0.0)]) * frame).0;
+    [i, j, k, w, anomaly, longitude]
 }
 
 /// The coefficients of a polynomial in the place in one interval, from −1 to 1.
@@ -137,7 +107,7 @@ impl<E: AveragedEquations> Task for Solve<'_, E> {
     #[inline(always)]
     fn run<S: InstructionSet>(self, simd: S) -> [AtPoints; COLUMNS] {
         let Self { half, place, start, equations } = self;
-        let [nodes, at_nodes] = &*ROWS;
+        let (primitives, at_nodes) = (&*PRIMITIVES, &*VALUES);
         let at_place = primitives_at(place);
         let width = Lanes::<S>::WIDTH;
         let none = Lanes::splat(simd, 0.0);
@@ -183,40 +153,18 @@ impl<E: AveragedEquations> Task for Solve<'_, E> {
             }
             before = change;
         }
-        coefficients(simd, nodes, &slopes, &constant)
-    }
-}
-
-/// The primitives of the points' functions at a place of the interval.
-fn primitives_at(place: f64) -> AtPoints {
-    if place == -1.0 {
-        ENDS[0]
-    } else if place == 1.0 {
-        ENDS[1]
-    } else {
-        PRIMITIVES.each_ref().map(|primitive| sum(primitive, place))
-    }
-}
-
-/// The Chebyshev coefficients of a constant plus the primitive of the slopes, by column.
-#[inline(always)]
-fn coefficients<S: InstructionSet>(
-    simd: S,
-    nodes: &[AtPoints; POINTS],
-    slopes: &[AtPoints; COLUMNS],
-    constant: &Column,
-) -> [AtPoints; COLUMNS] {
-    let mut coefficients = [[0.0; POINTS]; COLUMNS];
-    for first in (0..POINTS).step_by(Lanes::<S>::WIDTH) {
-        let found = combined(simd, nodes, slopes, &[0.0; COLUMNS], first);
-        for (column, found) in coefficients.iter_mut().zip(found) {
-            found.store(&mut column[first..]);
+        let mut series = [[0.0; POINTS]; COLUMNS];
+        for first in (0..POINTS).step_by(width) {
+            let found = combined(simd, primitives, &slopes, &[0.0; COLUMNS], first);
+            for (column, found) in series.iter_mut().zip(found) {
+                found.store(&mut column[first..]);
+            }
         }
+        for (column, constant) in series.iter_mut().zip(constant) {
+            column[0] += constant;
+        }
+        series
     }
-    for (column, constant) in coefficients.iter_mut().zip(constant) {
-        column[0] += constant;
-    }
-    coefficients
 }
 
 /// A constant plus Σ slope × row over the points, in each column, at the places from `first` on.
@@ -238,11 +186,29 @@ fn combined<S: InstructionSet>(
     sums
 }
 
+/// Averaged equations on an interval.
+pub(crate) trait AveragedEquations {
+    /// The derivatives at the points from `first` on, for the frames there.
+    fn at<S: InstructionSet>(&self, first: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS];
+}
+
 impl PiecePolynomial {
     /// The solution that passes through a column at a place of the interval, from −1 to 1. `half` is half the length of the interval.
     pub(crate) fn solved(half: f64, (place, start): (f64, &Column), equations: &impl AveragedEquations) -> Self {
-        let columns = dispatch(pulp::Arch::new(), Solve { half, place, start, equations });
-        Self::new(std::array::from_fn(|k| columns.each_ref().map(|column| column[k])))
+        let series = dispatch(pulp::Arch::new(), Solve { half, place, start, equations });
+        // The last terms are dropped if they are negligible. The magnitudes of the coefficients of the powers of x sum to at most six times the change in the
+        // interval (for e = 0.95), so that no digit is lost.
+        let counts = |k: &usize| series.iter().any(|column| column[*k].abs() > NEGLIGIBLE);
+        let terms = (0..POINTS).rev().find(counts).map_or(1, |last| last + 1);
+        let mut coefficients = [[0.0; COLUMNS]; POINTS];
+        for (k, chebyshev) in CHEBYSHEV.iter().enumerate().take(terms) {
+            for power in (k % 2..=k).step_by(2) {
+                for (sum, column) in coefficients[power].iter_mut().zip(&series) {
+                    *sum += chebyshev[power] * column[k];
+                }
+            }
+        }
+        Self { coefficients, terms }
     }
 
     /// The values at a place of the interval, by Horner's rule.
@@ -259,21 +225,5 @@ impl PiecePolynomial {
 
     pub(crate) fn at(&self, x: f64) -> Column {
         self.sums(Lanes::splat(pulp::Scalar, x)).map(|lanes| lanes.values()[0])
-    }
-
-    /// From the coefficients of a Chebyshev series. Its last terms are dropped if they are negligible, and it becomes a polynomial in x. The magnitudes of the
-    /// new coefficients sum to at most six times the change in the interval (for e = 0.95), so that no digit is lost.
-    fn new(series: [Column; POINTS]) -> Self {
-        let something = |column: &Column| column.iter().any(|c| c.abs() > NEGLIGIBLE);
-        let terms = series.iter().rposition(something).map_or(1, |last| last + 1);
-        let mut coefficients = [[0.0; COLUMNS]; POINTS];
-        for (k, (column, chebyshev)) in series[..terms].iter().zip(CHEBYSHEV.iter()).enumerate() {
-            for power in (k % 2..=k).step_by(2) {
-                for (sum, c) in coefficients[power].iter_mut().zip(column) {
-                    *sum += chebyshev[power] * c;
-                }
-            }
-        }
-        Self { coefficients, terms }
     }
 }

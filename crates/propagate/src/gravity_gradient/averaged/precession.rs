@@ -1,25 +1,23 @@
 //! The average over the rotation and the true anomaly f of the orbit. The time of the averaged motion is f/n.
 //!
-//! To first order in κ_o the angular momentum precesses steadily about the orbit's normal. To second order (theory §9) it also nods if the orbit is eccentric:
-//! the averaged equations are then solved on arcs of the precession. The periodic part of one orbit is of the same order: in second order it is the motion by
-//! W₁ + W₂ as a Hamiltonian over a unit of time, by the midpoint rule.
+//! To first order in κ_o the angular momentum precesses steadily about the orbit's normal. To second order it also nods if the orbit is eccentric (equations (10)
+//! to (13) of docs/theory-second-order.md): the averaged equations are then solved on arcs of the precession. The periodic part has the
+//! order of the averaged equations. In second order it is the flow of the Hamiltonian W₁ + W₂ over a unit of time, by one step of the midpoint rule.
 
 use andoyer_double::DoubleDouble;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::arcs::{Arcs, Averaged, SolvedArc};
 use super::averaged_orbit::AveragedOrbit;
-use super::polynomial::{Column, PiecePolynomial, PointByPoint};
-use crate::gravity_gradient::second_order::k2_orbit_mean::{OrbitAverage, OrbitPeriodic};
+use super::polynomial::{AveragedEquations, COLUMNS, Column, PiecePolynomial, column_slopes, pole};
+use crate::gravity_gradient::second_order::k2_orbit_mean::OverOrbit;
 use crate::numerics::phase::Phase;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 
-/// Largest turn of the angular momentum in one arc \[rad\].
-const TURN: f64 = 1.0;
-/// An angular momentum that turns by less than this in one radian of the orbit has arcs as long as one that turns so much.
+/// Smallest precession in one radian of the mean anomaly from which the length of an arc is computed \[rad\]: it keeps the length finite where ⟨D⟩ vanishes.
 const SLOWEST: f64 = 1e-12;
 
 /// Number of steps to the mean frame at the epoch. Each one multiplies its error by κ_o.
@@ -28,45 +26,15 @@ const EPOCH_STEPS: usize = 4;
 /// Precession with the periodic part of one orbit.
 #[derive(Clone, Debug)]
 pub(crate) struct Precession {
-    periodic: Periodic,
+    ellipse: AveragedOrbit,
+    /// Factors of the periodic part of Ψ: 1, or in second order the drifts of ℓ′ and y′ for a unit of Ψ.
+    factors: [f64; 2],
     mean: MeanFrame,
     /// The periodic parts of Ψ twice, or of the drifts of ℓ′ and y′, at the epoch.
     phases: [f64; 2],
     /// f − l at the epoch, and 1/n.
     centre: f64,
     per_radian: f64,
-}
-
-/// The periodic part of one orbit.
-#[derive(Clone, Debug)]
-struct Periodic {
-    ellipse: AveragedOrbit,
-    /// Factors of the periodic part of Ψ: 1, or in second order the drifts of ℓ′ and y′ for a unit of Ψ.
-    factors: [f64; 2],
-    second: Option<Box<OrbitPeriodic>>,
-}
-
-impl Periodic {
-    /// A rotation of the mean frame in inertial components, and Ψ twice or the drifts of ℓ′ and y′.
-    #[inline(always)]
-    fn at<S: InstructionSet>(&self, mean: QuaternionLanes<S>, place: &Place<S>) -> ([Lanes<S>; 3], [Lanes<S>; 2]) {
-        let (mut rotation, mut phase) = self.ellipse.periodic(mean, place);
-        let all = |value: f64| phase.all(value);
-        let (mut further, mut phases) = ([all(0.0); 3], [all(0.0); 2]);
-        if let Some(second) = &self.second {
-            let half = turned(mean, rotation.map(|component| component * all(0.5)));
-            (rotation, phase) = self.ellipse.periodic(half, place);
-            let rows = half.rows();
-            (further, phases) = second.at(&[rows[0][2], rows[1][2], rows[2][2]], place);
-        }
-        for (component, further) in rotation.iter_mut().zip(further) {
-            *component = *component + further;
-        }
-        for (sum, factor) in phases.iter_mut().zip(self.factors) {
-            *sum = phase.mul_add(phase.all(factor), *sum);
-        }
-        (rotation, phases)
-    }
 }
 
 /// A frame after a small rotation in inertial components.
@@ -80,7 +48,7 @@ fn turned<S: InstructionSet>(frame: QuaternionLanes<S>, [x, y, z]: [Lanes<S>; 3]
 #[derive(Clone, Debug)]
 enum MeanFrame {
     /// Steady precession.
-    SteadyRates {
+    Steady {
         /// The frame at the epoch.
         frame: UnitQuaternion<f64>,
         /// Half the angle about the orbit's normal. `half_back` is half the angle about the angular momentum that keeps the frame from turning about it.
@@ -90,20 +58,13 @@ enum MeanFrame {
         secular: f64,
     },
     /// The solution of the averaged equations of second order.
-    Nodding(Box<Nodding>),
-}
-
-/// The averaged equations of second order, and their solution.
-#[derive(Clone, Debug)]
-struct Nodding {
-    equations: PrecessionEquations,
-    arcs: Arcs,
+    Nodding(Box<Arcs<PrecessionEquations>>),
 }
 
 /// The averaged equations of second order.
 #[derive(Clone, Debug)]
 struct PrecessionEquations {
-    average: OrbitAverage,
+    average: OverOrbit,
     /// The user's unit of time in units of the motion.
     unit: f64,
     /// Length of an arc, in the user's unit.
@@ -112,15 +73,16 @@ struct PrecessionEquations {
 
 impl Averaged for PrecessionEquations {
     fn arc(&self, sign: f64, from: f64, start: &Column) -> SolvedArc {
-        let slope = |_: usize, frame: &Quaternion<f64>| {
-            let axis = (frame * Quaternion::new(0.0, 0.0, 0.0, 1.0) * frame.conjugate()).imag();
-            let slopes = self.average.slopes(&axis);
-            let change = Quaternion::from_parts(0.0, slopes.turning * (0.5 * self.unit)) * frame;
-            let [anomaly, longitude] = slopes.phases.map(|rate| rate * self.unit);
-            [change.i, change.j, change.k, change.w, anomaly, longitude]
-        };
-        let solution = PiecePolynomial::solved(sign * 0.5 * self.length, (-1.0, start), &PointByPoint(slope));
-        SolvedArc { from, length: self.length, solution }
+        let half = sign * 0.5 * self.length * self.unit;
+        SolvedArc { from, length: self.length, solution: PiecePolynomial::solved(half, (-1.0, start), &self.average) }
+    }
+}
+
+impl AveragedEquations for OverOrbit {
+    #[inline(always)]
+    fn at<S: InstructionSet>(&self, _: usize, frame: QuaternionLanes<S>) -> [Lanes<S>; COLUMNS] {
+        let (turning, phases) = self.mean(&pole(frame));
+        column_slopes(frame, turning, phases)
     }
 }
 
@@ -133,32 +95,31 @@ impl Precession {
         place: &Place<pulp::Scalar>,
         (unit, factors): (f64, [f64; 2]),
     ) -> Self {
-        let (average, second) = ellipse.over_orbit().unzip();
-        let factors = if average.is_some() { factors } else { [1.0; 2] };
-        let periodic = Periodic { ellipse, factors, second: second.map(Box::new) };
+        let second = ellipse.over_orbit();
+        let factors = if second.is_some() { factors } else { [1.0; 2] };
         let one = Lanes::splat(pulp::Scalar, 1.0);
         // The mean axis to first order, then again with the periodic part evaluated at the mean axis.
         let (mut start, mut phases) = (frame, [one; 2]);
         for _ in 0..EPOCH_STEPS {
-            let (rotation, next) = periodic.at(QuaternionLanes::all(one, &start), place);
+            let (rotation, next) =
+                ellipse.periodic((second.as_ref(), factors), QuaternionLanes::all(one, &start), place);
             let [x, y, z] = rotation.map(|lanes| 0.5 * lanes.values()[0]);
             start = UnitQuaternion::new_normalize(Quaternion::new(1.0, x, y, z)).inverse() * frame;
             phases = next;
         }
-        let ellipse = &periodic.ellipse;
-        let mean = match average {
-            Some(average) => MeanFrame::nodding(average, ellipse, start, unit),
-            None => MeanFrame::steady(ellipse, start, unit),
+        let mean = match second {
+            Some(second) => MeanFrame::nodding(second, &ellipse, start, unit),
+            None => MeanFrame::steady(&ellipse, start, unit),
         };
         let (centre, per_radian) = (place.centre.values()[0], 1.0 / (ellipse.mean_motion * unit));
-        Self { periodic, mean, phases: phases.map(|lanes| lanes.values()[0]), centre, per_radian }
+        Self { ellipse, factors, mean, phases: phases.map(|lanes| lanes.values()[0]), centre, per_radian }
     }
 
     /// The memory of what is solved so far, in bytes.
     pub(crate) fn memory(&self) -> usize {
         match &self.mean {
-            MeanFrame::SteadyRates { .. } => 0,
-            MeanFrame::Nodding(nodding) => nodding.arcs.memory(),
+            MeanFrame::Steady { .. } => 0,
+            MeanFrame::Nodding(arcs) => arcs.memory(),
         }
     }
 
@@ -171,8 +132,12 @@ impl Precession {
     ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         let all = |value: f64| elapsed.0.all(value);
         let by_anomaly = (place.centre - all(self.centre)).mul_add(all(self.per_radian), elapsed.0);
-        let (mean, mut drifts) = self.mean.at(&self.periodic.ellipse, (by_anomaly, elapsed.1));
-        let (rotation, phases) = self.periodic.at(mean, place);
+        let (mean, mut drifts) = self.mean.at(&self.ellipse, (by_anomaly, elapsed.1));
+        let second = match &self.mean {
+            MeanFrame::Steady { .. } => None,
+            MeanFrame::Nodding(arcs) => Some(&arcs.equations.average),
+        };
+        let (rotation, phases) = self.ellipse.periodic((second, self.factors), mean, place);
         for ((drift, phase), at_epoch) in drifts.iter_mut().zip(phases).zip(self.phases) {
             *drift = *drift + (phase - all(at_epoch));
         }
@@ -182,8 +147,8 @@ impl Precession {
     /// The longest time from the epoch for which there are at most so many arcs, in the user's unit.
     pub(crate) fn bound(&self, most_arcs: usize) -> f64 {
         match &self.mean {
-            MeanFrame::SteadyRates { .. } => f64::INFINITY,
-            MeanFrame::Nodding(nodding) => most_arcs as f64 * nodding.equations.length,
+            MeanFrame::Steady { .. } => f64::INFINITY,
+            MeanFrame::Nodding(arcs) => most_arcs as f64 * arcs.equations.length,
         }
     }
 }
@@ -195,13 +160,13 @@ impl MeanFrame {
         // dλ/dt = −(3/2) φn² Δ cos I/(M η³) = −½ n κ_o cos I.
         let precessing = -0.5 * ellipse.strength * cosine * ellipse.mean_motion * unit;
         let [half, half_back] = [0.5, -0.5 * cosine].map(|part| Phase::new(DoubleDouble::from(part * precessing), 0.0));
-        Self::SteadyRates { frame, half, half_back, secular: ellipse.secular(&axis) * unit }
+        Self::Steady { frame, half, half_back, secular: ellipse.secular(&axis) * unit }
     }
 
-    fn nodding(average: OrbitAverage, ellipse: &AveragedOrbit, frame: UnitQuaternion<f64>, unit: f64) -> Self {
-        let length = TURN / (average.fastest().max(SLOWEST * ellipse.mean_motion) * unit);
-        let arcs = Arcs::new([frame.i, frame.j, frame.k, frame.w, 0.0, 0.0]);
-        Self::Nodding(Box::new(Nodding { equations: PrecessionEquations { average, unit, length }, arcs }))
+    fn nodding(average: OverOrbit, ellipse: &AveragedOrbit, frame: UnitQuaternion<f64>, unit: f64) -> Self {
+        // The angular momentum turns by at most 1 rad in an arc.
+        let length = 1.0 / (average.fastest().max(SLOWEST * ellipse.mean_motion) * unit);
+        Self::Nodding(Box::new(Arcs::new(PrecessionEquations { average, unit, length }, &frame)))
     }
 
     #[inline(always)]
@@ -211,29 +176,52 @@ impl MeanFrame {
         elapsed: (Lanes<S>, Lanes<S>),
     ) -> (QuaternionLanes<S>, [Lanes<S>; 2]) {
         match self {
-            Self::SteadyRates { frame, half, half_back, secular } => {
+            Self::Steady { frame, half, half_back, secular } => {
                 let turn = QuaternionLanes::about(&ellipse.axes[2], half.sin_cos(elapsed));
                 let back = QuaternionLanes::about(&Vector3::z(), half_back.sin_cos(elapsed));
                 let phase = elapsed.0 * elapsed.0.all(*secular);
                 (turn * QuaternionLanes::all(elapsed.0, frame) * back, [phase; 2])
             }
-            Self::Nodding(nodding) => nodding.arcs.at(&nodding.equations, elapsed.0),
+            Self::Nodding(arcs) => arcs.at(elapsed.0),
         }
     }
 }
 
 impl AveragedOrbit {
-    /// ⟨D⟩ + K2 averaged over the orbit, and the generating function of its periodic part, if the averaged equations are those of second order.
-    pub(crate) fn over_orbit(&self) -> Option<(OrbitAverage, OrbitPeriodic)> {
-        let Self { eccentricity, mean_motion, axes, .. } = *self;
+    /// ⟨D⟩ + K2 averaged over the orbit with its periodic part, if the averaged equations are those of second order.
+    pub(crate) fn over_orbit(&self) -> Option<OverOrbit> {
         let hamiltonian = self.second.as_deref()?;
-        let average = OrbitAverage::new(hamiltonian, eccentricity, mean_motion, axes);
-        Some((average, OrbitPeriodic::new(hamiltonian, eccentricity, mean_motion, axes)))
+        Some(OverOrbit::new(hamiltonian, self.eccentricity, self.mean_motion, self.axes))
     }
 
-    /// The periodic part of one orbit by W₁: a rotation in inertial components, and Ψ, by the integrals of theory §9.
+    /// The periodic part of one orbit: a rotation of the mean frame in inertial components, and Ψ twice, or in second order the drifts of ℓ′ and y′.
     #[inline(always)]
-    fn periodic<S: InstructionSet>(&self, frame: QuaternionLanes<S>, place: &Place<S>) -> ([Lanes<S>; 3], Lanes<S>) {
+    fn periodic<S: InstructionSet>(
+        &self,
+        (second, factors): (Option<&OverOrbit>, [f64; 2]),
+        mean: QuaternionLanes<S>,
+        place: &Place<S>,
+    ) -> ([Lanes<S>; 3], [Lanes<S>; 2]) {
+        let (mut rotation, mut phase) = self.first_order(mean, place);
+        let all = |value: f64| phase.all(value);
+        let (mut further, mut phases) = ([all(0.0); 3], [all(0.0); 2]);
+        if let Some(second) = second {
+            let half = turned(mean, rotation.map(|component| component * all(0.5)));
+            (rotation, phase) = self.first_order(half, place);
+            (further, phases) = second.periodic(&pole(half), place);
+        }
+        for (component, further) in rotation.iter_mut().zip(further) {
+            *component = *component + further;
+        }
+        for (sum, factor) in phases.iter_mut().zip(factors) {
+            *sum = phase.mul_add(phase.all(factor), *sum);
+        }
+        (rotation, phases)
+    }
+
+    /// The periodic part of one orbit by W₁: a rotation in inertial components, and Ψ (theory (13)).
+    #[inline(always)]
+    fn first_order<S: InstructionSet>(&self, frame: QuaternionLanes<S>, place: &Place<S>) -> ([Lanes<S>; 3], Lanes<S>) {
         let Self { eccentricity, eta_cubed, mean_motion, axes, strength, .. } = self;
         let Place { sine, cosine, .. } = *place;
         let all = |value: f64| sine.all(value);
@@ -244,8 +232,7 @@ impl AveragedOrbit {
         let by_cosine = triple.im.mul_add(third, sine.mul_add(first, half * double.im));
         let by_sine = -triple.re.mul_add(third, cosine.mul_add(first, half * double.re));
         // The tensor ½ [(PP + QQ) constant + (PP − QQ) by_cosine + (PQ + QP) by_sine] times the axis.
-        let rows = frame.rows();
-        let axis = [rows[0][2], rows[1][2], rows[2][2]];
+        let axis = pole(frame);
         let along = |direction: &Vector3<f64>| {
             let part = axis[0].mul_add(all(direction.x), axis[1] * all(direction.y));
             axis[2].mul_add(all(direction.z), part)
@@ -255,11 +242,11 @@ impl AveragedOrbit {
         let to_q = half * q.mul_add(constant - by_cosine, p * by_sine);
         let sum = p.mul_add(to_p, q * to_q);
         let scale = all(*strength);
-        let mut turned = [sum; 3];
-        for (c, component) in turned.iter_mut().enumerate() {
+        let mut turning = axis;
+        for (c, component) in turning.iter_mut().enumerate() {
             let inside = to_p.mul_add(all(axes[0][c]), to_q * all(axes[1][c]));
-            *component = scale * axis[c].negate_mul_add(sum, inside);
+            *component = scale * component.negate_mul_add(sum, inside);
         }
-        (turned, all(mean_motion / eta_cubed) * sum.negate_mul_add(all(3.0), constant))
+        (turning, all(mean_motion / eta_cubed) * sum.negate_mul_add(all(3.0), constant))
     }
 }

@@ -7,9 +7,9 @@ use nalgebra::UnitQuaternion;
 
 use super::arcs::{Chain, MOST};
 use super::averaged_orbit::AveragedOrbit;
-use super::polynomial::{AtPoints, AveragedEquations, COLUMNS, Column, NODES, PiecePolynomial};
+use super::polynomial::{AtPoints, AveragedEquations, COLUMNS, Column, NODES, PiecePolynomial, column_slopes, pole};
 use crate::gravity_gradient::orbit::elliptic_motion::When;
-use crate::gravity_gradient::second_order::k2::{DisturberLanes, dot};
+use crate::gravity_gradient::second_order::k2::{DisturberLanes, across, dot};
 use crate::simd::complex_quaternion::QuaternionLanes;
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
@@ -54,8 +54,7 @@ impl AveragedEquations for Piece<'_> {
             *component = cosine.mul_add(all(axes[0][c]), sine * all(axes[1][c]));
         }
         let weight = cosine.mul_add(all(*eccentricity), all(1.0));
-        let rows = frame.rows();
-        let axis = [rows[0][2], rows[1][2], rows[2][2]];
+        let axis = pole(frame);
         let along = dot(&axis, &direction);
         let (turning, phases) = match &self.ellipse.second {
             Some(hamiltonian) => {
@@ -66,26 +65,16 @@ impl AveragedEquations for Piece<'_> {
                     cube: square * weight * all(1.0 / (eta_cubed * eta_cubed)),
                     rate: square * all(mean_motion / eta_cubed),
                 };
-                let (turning, phases) = hamiltonian.slopes_at(&axis, &disturber);
+                let ([x, y, z], phases) = hamiltonian.slopes_at(&axis, &disturber);
                 let inverse = disturber.rate.reciprocal();
-                let [x, y, z] = turning;
                 ([x * inverse, y * inverse, z * inverse], [phases[0] * inverse, phases[1] * inverse])
             }
             None => {
-                // k × dk turns k, without a component about k.
-                let scale = weight * along * all(*strength);
-                let mut turning = direction;
-                for (component, axis) in turning.iter_mut().zip(axis) {
-                    *component = axis.negate_mul_add(along, *component) * scale;
-                }
                 let phase = weight * all(mean_motion / eta_cubed) * (along * along).negate_mul_add(all(3.0), all(1.0));
-                (turning, [phase, phase])
+                (across(direction, &axis, weight * along * all(*strength)), [phase, phase])
             }
         };
-        let half = all(0.5);
-        let [x, y, z] = turning;
-        let [i, j, k, w] = (QuaternionLanes([x * half, y * half, z * half, like.all(0.0)]) * frame).0;
-        [i, j, k, w, phases[0], phases[1]]
+        column_slopes(frame, turning, phases)
     }
 }
 

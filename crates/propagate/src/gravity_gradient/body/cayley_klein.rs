@@ -14,13 +14,10 @@ pub(crate) struct WobbleSeries([Vec<[f64; 2]>; 2]);
 
 impl WobbleSeries {
     pub(crate) fn new(series: &Harmonics, root: f64) -> Self {
-        let odd = series.values[HIGHEST] == 0.0;
+        let odd = series.at(0).0 == 0.0;
         let side = |first: usize, sign: i32| {
-            let mut terms: Vec<(i32, [f64; 2])> = (first..=HIGHEST)
-                .step_by(2)
-                .map(|h| sign * h as i32)
-                .map(|h| (h.abs(), <[f64; 2]>::from(series.at(h))))
-                .collect();
+            let terms = (first..=HIGHEST).step_by(2).map(|h| (h as i32, <[f64; 2]>::from(series.at(sign * h as i32))));
+            let mut terms: Vec<_> = terms.collect();
             while let Some((degree, [value, slope])) = terms.last()
                 && root.powi(*degree) * (value.abs() + slope.abs() * root * root) < NEGLIGIBLE
             {

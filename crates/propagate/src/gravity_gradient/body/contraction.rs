@@ -1,4 +1,4 @@
-//! Contractions of (a/r)³ r̂r̂ that the terms of each m have, and its parts on an ellipse.
+//! The contraction c_m of the tensor U = (a/r)³ r̂r̂ᵀ for m = 0, 1, 2, and U on an ellipse as a combination of 1, cos 2f and sin 2f.
 
 use crate::numerics::C64;
 use nalgebra::Vector3;
@@ -8,7 +8,7 @@ pub(crate) type SymmetricTensor = [f64; 6];
 /// The contraction of a tensor for one m, and its derivatives when the frame turns about its axes 1 and 2.
 pub(crate) type Contraction = [C64; 3];
 
-/// c_m of a tensor and its derivatives by rotations about axes 1 and 2: U33 − tr U/3, U13 − iU23, U11 − U22 − 2iU12.
+/// c_m, X₁c_m and X₂c_m of a tensor, with c₀ = U33 − tr U/3, c₁ = U13 − iU23, c₂ = U11 − U22 − 2iU12 and X_i the derivative when the frame turns about its axis i.
 pub(crate) fn contraction(&[xx, yy, zz, xy, xz, yz]: &SymmetricTensor, multiple: i32) -> Contraction {
     let c = C64::new;
     match multiple {
@@ -31,12 +31,12 @@ pub(crate) fn factors([first, second]: [Vector3<f64>; 2]) -> [SymmetricTensor; 3
     [half(1.0), half(-1.0), product(&first, &second)]
 }
 
-/// The coefficients of 1, cos 2f and sin 2f in e^(ijl), from those of an [`OrbitSeries`](crate::gravity_gradient::orbit::hansen::OrbitSeries) for |j|.
+/// Coefficients of e^(ijl) in (a/r)³ times 1, cos 2f and sin 2f for either sign of j, from those of an [`OrbitSeries`](crate::gravity_gradient::orbit::hansen::OrbitSeries) for |j|.
 pub(crate) fn coefficients(&[one, cosine, sine]: &[f64; 3], j: f64) -> [C64; 3] {
     [one.into(), cosine.into(), C64::new(0.0, -sine * j.signum())]
 }
 
-/// A tensor, and its derivatives when the frame turns about its axis 1 or 2, in one place.
+/// U, X₁U and X₂U of a tensor.
 pub(crate) fn with_turns(tensor: &SymmetricTensor) -> [SymmetricTensor; 3] {
     let [xx, yy, zz, xy, xz, yz] = *tensor;
     [*tensor, [0.0, 2.0 * yz, -2.0 * yz, xz, -xy, zz - yy], [-2.0 * xz, 0.0, 2.0 * xz, -yz, xx - zz, xy]]

@@ -15,12 +15,11 @@ use crate::torque_free::polhode::Polhode;
 use andoyer_double::DoubleDouble;
 use std::f64::consts::{PI, TAU};
 use std::sync::LazyLock;
+
 /// Number of samples in a period of ℓ′.
 const SAMPLES: [usize; 2] = [64, 128];
 /// Highest harmonic. At σ/σ_sep = 0.9 the higher harmonics are 1e-14 of the tensor.
 pub(crate) const HIGHEST: usize = 32;
-/// Below this nome, half as many harmonics and samples have the same accuracy: harmonic h falls like h q^(h/2), and its derivative like h² q^(h/2).
-const SMALL_NOME: f64 = 0.012;
 /// Number of harmonics from −[`HIGHEST`] to [`HIGHEST`].
 const COUNT: usize = 2 * HIGHEST + 1;
 /// Whether T33, t1, t2 have the odd harmonics.
@@ -31,33 +30,27 @@ const TANGENT_SQUARE: f64 = 1e-6;
 const STEP: f64 = 2e-3;
 /// Largest step, over sin²J: two of them leave it positive.
 const LARGEST_STEP: f64 = 0.4;
-/// Smallest difference of sin²J, relative to it, from which a slope is taken.
-const SMALLEST_SECANT: f64 = 1e-7;
 /// Largest change of σ, over the distance to the separatrix, that a Taylor polynomial of second order bridges: the third order is 1e-17.
 const TAYLOR_REACH: f64 = 2e-6;
+/// Where σ and the two rates stand behind the harmonics of a member.
+const RATES: [usize; 3] = [5 * COUNT, 5 * COUNT + 1, 5 * COUNT + 2];
 
 /// The series Σ_h f_h(σ) P_h, with P_h = p^h for h ≥ 0 and P_h = p̄^(−h) for h < 0.
+///
+/// Its entries are f_h, df_h/dσ and d²f_h/dσ², at index h + [`HIGHEST`].
 #[derive(Clone, Debug)]
-pub(crate) struct Harmonics {
-    /// f_h at index h + [`HIGHEST`].
-    pub(crate) values: Vec<f64>,
-    /// df_h/dσ.
-    pub(crate) slopes: Vec<f64>,
-    /// d²f_h/dσ².
-    pub(crate) curvatures: Vec<f64>,
-}
+pub(crate) struct Harmonics(Vec<[f64; 3]>);
 
 impl Harmonics {
     /// f_h and its slope.
     pub(crate) fn at(&self, harmonic: i32) -> (f64, f64) {
-        let index = (harmonic + HIGHEST as i32) as usize; // −HIGHEST ≤ h ≤ HIGHEST
-        (self.values[index], self.slopes[index])
+        let [value, slope, _] = self.jet(harmonic);
+        (value, slope)
     }
 
     /// f_h, df_h/dσ and d²f_h/dσ².
     pub(crate) fn jet(&self, harmonic: i32) -> [f64; 3] {
-        let index = (harmonic + HIGHEST as i32) as usize; // −HIGHEST ≤ h ≤ HIGHEST
-        [self.values[index], self.slopes[index], self.curvatures[index]]
+        self.0[(harmonic + HIGHEST as i32) as usize] // −HIGHEST ≤ h ≤ HIGHEST
     }
 }
 
@@ -86,61 +79,39 @@ pub(crate) struct Inertia {
     pub(crate) untilted: [f64; 2],
 }
 
-/// σ, rates and harmonics of one free motion.
-struct Member {
-    sigma: f64,
-    rates: [DoubleDouble; 2],
-    harmonics: Vec<f64>,
-}
-
 impl Inertia {
     /// The tables at σ and M, for the body, the units and the mode of a polhode.
     pub(crate) fn new(polhode: &Polhode, sigma: f64, momentum: f64) -> Self {
         let square = square_of(polhode, sigma, None);
+        let exact = rates(&polhode.tilted(square, momentum)).1;
         let base = square.max(TANGENT_SQUARE);
         // Functions vary over the distance to the separatrix, where sin²J is 1. At small J a step that is a fixed share of sin²J would leave rounding over it.
         let step = (STEP * (1.0 - base)).min(LARGEST_STEP * base);
-        let members = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| member(polhode, base + k * step, momentum));
-        let slope = |part: &dyn Fn(&Member) -> f64| {
-            let [a, b, _, c, d] = members.each_ref().map(part);
-            (8.0 * (c - b) - (d - a)) / (12.0 * step)
+        let members = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| member(polhode, base + k * step, momentum, &exact));
+        // A function and its derivatives with respect to sin²J.
+        let tangent = |index: usize| {
+            let [a, b, middle, c, d] = members.each_ref().map(|member| member[index]);
+            let second = 16.0 * (b - middle + c - middle) - (a - middle + d - middle);
+            [middle, (8.0 * (c - b) - (d - a)) / (12.0 * step), second / (12.0 * step * step)]
         };
-        let curvature = |part: &dyn Fn(&Member) -> f64| {
-            let [a, b, middle, c, d] = members.each_ref().map(part);
-            (16.0 * (b - middle + c - middle) - (a - middle + d - middle)) / (12.0 * step * step)
+        let [sigma_there, slope, curvature] = tangent(RATES[0]);
+        // The function at σ and its derivatives with respect to σ.
+        let jet = |index: usize| {
+            let [value, first, second] = tangent(index);
+            let by_sigma = first / slope;
+            [value + by_sigma * (sigma - sigma_there), by_sigma, (second - by_sigma * curvature) / (slope * slope)]
         };
-        let sigma_slope = slope(&|m| m.sigma);
-        let sigma_curvature = curvature(&|m| m.sigma);
-        // d²f/dσ² from the derivatives with respect to sin²J.
-        let by_sigma = |tangent: f64, second: f64| (second - tangent * sigma_curvature) / (sigma_slope * sigma_slope);
-        let mut values = members[2].harmonics.clone();
-        let (mut slopes, mut curvatures) = (vec![0.0; values.len()], vec![0.0; values.len()]);
-        for (index, (value, tangent)) in values.iter_mut().zip(&mut slopes).enumerate() {
-            *tangent = slope(&|m| m.harmonics[index]) / sigma_slope;
-            curvatures[index] = by_sigma(*tangent, curvature(&|m| m.harmonics[index]));
-            *value += *tangent * (sigma - members[2].sigma);
-        }
-        let rate_slopes = [0, 1].map(|i| slope(&|m| (m.rates[i] - members[2].rates[i]).to_f64()) / sigma_slope);
-        let rate_curvatures =
-            [0, 1].map(|i| by_sigma(rate_slopes[i], curvature(&|m| (m.rates[i] - members[2].rates[i]).to_f64())));
-        let exact = rates(&polhode.tilted(square, momentum));
-        let part = |index: usize| {
-            let range = index * COUNT..(index + 1) * COUNT;
-            Harmonics {
-                values: values[range.clone()].to_vec(),
-                slopes: slopes[range.clone()].to_vec(),
-                curvatures: curvatures[range].to_vec(),
-            }
-        };
+        let part = |part: usize| Harmonics((part * COUNT..(part + 1) * COUNT).map(jet).collect());
+        let [anomaly, longitude] = [jet(RATES[1]), jet(RATES[2])];
         Self {
             momentum,
             sigma,
             trace: polhode.moments.iter().sum(),
             separatrix: polhode.separatrix_action(),
-            square: [square, sigma_slope],
-            rates: exact.1,
-            rate_slopes,
-            rate_curvatures,
+            square: [square, slope],
+            rates: exact,
+            rate_slopes: [anomaly[1], longitude[1]],
+            rate_curvatures: [anomaly[2], longitude[2]],
             tensor: [part(0), part(1), part(2)],
             pair: [part(3), part(4)],
             untilted: [polhode.moments[2], 0.25 * (polhode.moments[0] - polhode.moments[1])],
@@ -156,17 +127,14 @@ impl Inertia {
         // The tables of the tensor and of a and b do not depend on M, and the rates are proportional to it.
         let scale = momentum / self.momentum;
         let shifted = |series: &Harmonics| {
-            let mut shifted = series.clone();
-            for ((value, slope), curvature) in
-                shifted.values.iter_mut().zip(&mut shifted.slopes).zip(&series.curvatures)
-            {
-                *value += by * (*slope + 0.5 * by * curvature);
-                *slope += by * curvature;
-            }
-            shifted
+            let shifted = |&[value, slope, curvature]: &[f64; 3]| {
+                let moved = slope + by * curvature;
+                [value + by * (slope + 0.5 * by * curvature), moved, curvature]
+            };
+            Harmonics(series.0.iter().map(shifted).collect())
         };
         let [square, slope] = self.square;
-        let square = square_of(polhode, sigma, Some((square + by / slope, slope)));
+        let square = square_of(polhode, sigma, Some([square + by / slope, slope]));
         Self {
             momentum,
             sigma,
@@ -180,15 +148,9 @@ impl Inertia {
         }
     }
 
-    /// C of the average torque's ⟨D⟩ = C (a/r)³ ((k·r̂)² − ⅓), over q = 3φn²/2, and its slope.
-    pub(crate) fn average_torque(&self) -> [f64; 2] {
-        let (axial, slope) = self.mean_axial();
-        [1.5 * (axial - self.trace / 3.0), 1.5 * slope]
-    }
-
-    /// T33 averaged over ℓ′, and its slope.
-    pub(crate) fn mean_axial(&self) -> (f64, f64) {
-        self.tensor[0].at(0)
+    /// √σ for the size of a term. It is at least √ε, because the torque forces a larger wobble.
+    pub(crate) fn root(&self) -> f64 {
+        self.sigma.max(f64::EPSILON).sqrt()
     }
 }
 
@@ -199,34 +161,29 @@ fn rates(polhode: &Polhode) -> (f64, [DoubleDouble; 2]) {
 }
 
 /// sin²J at ℓ = 0 for a given σ, by the secant method. σ is nearly linear and convex in sin²J. A near value may be known, with the slope of σ there.
-fn square_of(polhode: &Polhode, sigma: f64, near: Option<(f64, f64)>) -> f64 {
+fn square_of(polhode: &Polhode, sigma: f64, near: Option<[f64; 2]>) -> f64 {
     let value = |square: f64| rates(&polhode.tilted(square, 1.0)).0;
     if sigma == 0.0 {
         return 0.0;
     }
-    // The slope at a near value is good to 1e-5, and what a step of 1e-10 leaves is rounding.
-    let (mut square, mut slope, accurate) = match near {
-        Some((square, slope)) if square > 0.0 => (square, slope, 1e-10),
-        _ => {
-            let linear = value(TANGENT_SQUARE) / TANGENT_SQUARE;
-            ((sigma / linear).min(0.9), linear, 4.0 * f64::EPSILON)
-        }
-    };
-    let mut before = None::<(f64, f64)>;
+    let [mut square, mut slope] = near.filter(|[square, _]| *square > 0.0).unwrap_or_else(|| {
+        let linear = value(TANGENT_SQUARE) / TANGENT_SQUARE;
+        [(sigma / linear).min(0.9), linear]
+    });
+    // After a step of ε^(2/3) the next step is rounding, because the slope is good to 1e-5.
+    let accurate = f64::EPSILON.powf(2.0 / 3.0);
+    let mut before = None::<[f64; 2]>;
     for _ in 0..40 {
         let found = value(square);
-        if let Some((other, then)) = before
-            && (square - other).abs() > SMALLEST_SECANT * square
-        {
+        if let Some([other, then]) = before {
             slope = (found - then) / (square - other);
         }
-        before = Some((square, found));
+        before = Some([square, found]);
         let next = (square + (sigma - found) / slope).clamp(0.25 * square, 0.5 * (1.0 + square));
-        let done = (next - square).abs() <= accurate * square;
-        square = next;
-        if done {
-            break;
+        if (next - square).abs() <= accurate * square {
+            return next;
         }
+        square = next;
     }
     square
 }
@@ -235,13 +192,16 @@ fn square_of(polhode: &Polhode, sigma: f64, near: Option<(f64, f64)>) -> f64 {
 static CIRCLE: LazyLock<Vec<(f64, f64)>> =
     LazyLock::new(|| (0..SAMPLES[1]).map(|k| (TAU * k as f64 / SAMPLES[1] as f64).sin_cos()).collect());
 
-fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
+/// Harmonics and σ of one free motion, and the differences of its two rates from those of a near motion.
+fn member(polhode: &Polhode, square: f64, momentum: f64, near: &[DoubleDouble; 2]) -> Vec<f64> {
     let tilted = polhode.tilted(square, momentum);
     let (sigma, rates) = rates(&tilted);
     let theta = tilted.invariants.theta;
     let closed = ClosedForm::new(&tilted, &theta);
     let [few, many] = SAMPLES;
-    let samples = if (-PI * theta.conjugate / theta.quarter).exp() < SMALL_NOME { few } else { many };
+    // Harmonic h falls like q^(h/2) with the nome q. Half of the harmonics and samples are enough where the others are rounding.
+    let nome = (-PI * theta.conjugate / theta.quarter).exp();
+    let samples = if nome.powi(HIGHEST as i32 / 4) < f64::EPSILON { few } else { many };
     let stride = many / samples;
     let mut sums = vec![0.0; 5 * COUNT];
     for k in 0..=samples / 4 {
@@ -278,7 +238,9 @@ fn member(polhode: &Polhode, square: f64, momentum: f64) -> Member {
             *sum = if sum.abs() < noise { 0.0 } else { *sum / powers[index.abs_diff(HIGHEST)] };
         }
     }
-    Member { sigma, rates, harmonics: sums }
+    sums.push(sigma);
+    sums.extend([0, 1].map(|i| (rates[i] - near[i]).to_f64()));
+    sums
 }
 
 /// T33, i t1, t2 at ℓ′ and y′ = 0.
@@ -298,12 +260,15 @@ fn sample(closed: &ClosedForm, angle: f64, moments: [f64; 3]) -> [C64; 3] {
 }
 
 impl Level {
-    /// f_h for a multiple of y′, and its slope, at this level; for the first multiple those of i t1.
+    /// f and df/dσ of the term (h, m) at this level; for m = 1 those of i t1.
     pub(crate) fn tensor(self, inertia: &Inertia, multiple: i32, harmonic: i32) -> (f64, f64) {
         match self {
             Self::Auto | Self::Full | Self::SecondOrder => inertia.tensor[multiple as usize].at(harmonic), // 0 ≤ m ≤ 2
-            Self::Paper | Self::Moving if (multiple, harmonic) == (2, 0) => (inertia.untilted[1], 0.0),
-            Self::Paper | Self::Moving => (0.0, 0.0),
+            Self::Paper | Self::Moving => match (multiple, harmonic) {
+                (0, 0) => (inertia.untilted[0], 0.0),
+                (2, 0) => (inertia.untilted[1], 0.0),
+                _ => (0.0, 0.0),
+            },
         }
     }
 
@@ -312,14 +277,6 @@ impl Level {
         let (value, slope) = Self::Full.tensor(inertia, multiple, harmonic);
         let (kept, kept_slope) = self.tensor(inertia, multiple, harmonic);
         (value - kept, slope - kept_slope)
-    }
-
-    /// T33 averaged over ℓ′, and its slope, at this level.
-    pub(crate) fn axial(self, inertia: &Inertia) -> (f64, f64) {
-        match self {
-            Self::Auto | Self::Full | Self::SecondOrder => inertia.mean_axial(),
-            Self::Paper | Self::Moving => (inertia.untilted[0], 0.0),
-        }
     }
 }
 

@@ -21,16 +21,15 @@ use super::fourier::ExactTerm;
 use super::generator;
 use super::generator::{Generator, TorqueScale};
 use super::mean_variables::{Mean, PeriodicChange};
-use super::sums::Harmonic;
+use super::sums::TermSums;
 use crate::error::{Error, TorqueMeasure};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
 use crate::gravity_gradient::orbit::elliptic_motion::fixed;
-use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
+use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::terms::regime::{Regime, Regimes, Terms};
 use crate::gravity_gradient::terms::term::Sensitivity;
 use crate::gravity_gradient::terms::term::SizedTerm;
-use crate::input::options::Level;
 use crate::numerics::C64;
 use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::kepler::Place;
@@ -38,18 +37,18 @@ use crate::simd::lanes::Lanes;
 
 /// Largest sum of the corrections for which first order is accepted.
 const LARGEST_SIZE: f64 = 0.05;
-/// Largest part of a dropped term that a dropped coefficient of a time derivative may have.
+/// A Fourier coefficient of a time derivative is dropped if its effect on the attitude is below this fraction of that of the largest dropped term.
 const SMALLEST_COEFFICIENT: f64 = 0.004;
 
 /// The generating function of one mean motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Corrections {
     pub(crate) generator: Generator,
-    /// What is not corrected of terms in resonance, over the span \[rad\].
+    /// Error of the attitude over the span by terms in resonance \[rad\].
     pub(crate) resonant: f64,
     /// The root of the sum of the squared sizes of all terms that are not slow, and of the slow ones that are corrected \[rad\].
     pub(crate) rms: f64,
-    /// Dropped terms, and truncated sums for G on both ends \[rad\].
+    /// Error of the attitude by dropped terms, and by truncated sums at the epoch and at the time of evaluation \[rad\].
     pub(crate) dropped: f64,
     /// Sum of the terms that the level omits, over the span \[rad\].
     pub(crate) omitted: f64,
@@ -69,30 +68,35 @@ impl Corrections {
     /// # Errors
     /// - [`Error::Resonance`] if a resonant term has an effect that cannot be corrected.
     /// - [`Error::TorqueTooStrong`] if the corrections are not small.
-    pub(crate) fn new(inertia: &Inertia, demand: &Demand<'_>) -> Result<Self, Error> {
-        let terms = Terms::new(inertia, demand);
-        Self::of(&terms, inertia, demand, terms.size)
+    pub(crate) fn new(inertia: &Inertia, elliptic: &EllipticOrbit<'_>) -> Result<Self, Error> {
+        let terms = Terms::new(inertia, elliptic);
+        Self::of(&terms, inertia, elliptic, terms.size)
     }
 
     /// The corrections of a mean motion for one of several bodies. The sizes of the terms of all bodies that are not slow sum to `whole`.
     ///
     /// # Errors
     /// As [`Corrections::new`].
-    pub(crate) fn of(terms: &Terms, inertia: &Inertia, demand: &Demand<'_>, whole: f64) -> Result<Self, Error> {
+    pub(crate) fn of(
+        terms: &Terms,
+        inertia: &Inertia,
+        elliptic: &EllipticOrbit<'_>,
+        whole: f64,
+    ) -> Result<Self, Error> {
         if whole > LARGEST_SIZE {
             let measure = TorqueMeasure::Corrections;
             return Err(Error::TorqueTooStrong { measure, size: whole, bound: LARGEST_SIZE });
         }
-        let regimes = Regimes::new(terms, inertia, demand, whole);
+        let regimes = Regimes::new(terms, inertia, elliptic, whole);
         let chosen: Vec<_> = terms.all.iter().map(|term| (term, regimes.of(term))).collect();
         let effects = chosen.iter().map(|(term, regime)| (*term, regimes.uncorrected(term, regime)));
-        let allowed = demand.ledger.refused.max(second_order(whole, &terms.response, demand.duration));
+        let allowed = elliptic.ledger.refused.max(second_order(whole, &terms.response, elliptic.duration));
         let resonant = regimes.total(effects, allowed)?;
         let mut collected = Collected::default();
         for (term, regime) in &chosen {
-            collected.add(term, regime, inertia, (&regimes, demand));
+            collected.add(term, regime, inertia, (&regimes, elliptic));
         }
-        let generator = collected.generator(inertia, (&regimes, demand));
+        let generator = collected.generator(inertia, (&regimes, elliptic));
         let Collected { squares, dropped, neglected, count, .. } = collected;
         Ok(Self {
             generator,
@@ -100,7 +104,7 @@ impl Corrections {
             rms: squares.sqrt(),
             dropped,
             omitted: terms.omitted.iter().map(|term| regimes.whole(term)).sum(),
-            axial_omitted: axial_omitted(inertia, demand),
+            axial_omitted: axial_omitted(inertia, elliptic),
             size: terms.size,
             count,
             neglected,
@@ -131,7 +135,7 @@ impl Corrections {
 #[derive(Default)]
 struct Collected {
     /// The terms that are sums over time derivatives, by m and |h|.
-    harmonics: [Vec<Harmonic>; 3],
+    sums: [TermSums; 3],
     /// The terms with exact divisors.
     exact: Vec<ExactTerm>,
     /// The size of a time derivative of 1 in the kept sums together.
@@ -152,13 +156,13 @@ impl Collected {
         term: &SizedTerm,
         regime: &Regime,
         inertia: &Inertia,
-        (regimes, demand): (&Regimes<'_>, &Demand<'_>),
+        (regimes, elliptic): (&Regimes<'_>, &EllipticOrbit<'_>),
     ) {
-        let growth = regimes.growth(term);
-        match (*regime, demand.series) {
+        let growth = regimes.growth(term.term.multiple);
+        match (*regime, &elliptic.series) {
             (Regime::Exact { resonant, size }, Some(series)) => {
                 let divisors = regimes.divisors(term).without(resonant);
-                self.exact.push(term.exact(inertia, (series, divisors), regimes.nothing));
+                self.exact.push(ExactTerm::new(term, inertia, (series, divisors), regimes.nothing));
                 self.squares += size * size;
                 self.dropped += growth * regimes.nothing;
                 self.count += 1;
@@ -170,9 +174,9 @@ impl Collected {
                 self.orders = self.orders.max(orders);
                 for (j, amplitude) in self.amplitudes.iter_mut().enumerate().take(orders) {
                     let of_derivative = term.size() / term.frequency.abs().powi(j as i32); // j < ORDERS
-                    *amplitude += (j + 1) as f64 * of_derivative / demand.envelope.span[0];
+                    *amplitude += (j + 1) as f64 * of_derivative / elliptic.envelope.span[0];
                 }
-                term.join(&mut self.harmonics[term.term.multiple as usize], inertia, orders); // 0 ≤ m ≤ 2
+                self.sums[term.term.multiple as usize].add(term, inertia, orders); // 0 ≤ m ≤ 2
                 self.count += 1;
             }
             (Regime::Negligible, _) => {
@@ -185,23 +189,24 @@ impl Collected {
     }
 
     /// The generating function, without coefficients of the time derivatives that are negligible.
-    fn generator(&mut self, inertia: &Inertia, (regimes, demand): (&Regimes<'_>, &Demand<'_>)) -> Generator {
+    fn generator(&mut self, inertia: &Inertia, (regimes, elliptic): (&Regimes<'_>, &EllipticOrbit<'_>)) -> Generator {
         let bounds = self.amplitudes.map(|amplitude| SMALLEST_COEFFICIENT * regimes.nothing / amplitude);
-        let (orbital, cut) = demand.envelope.orbital.cut(&bounds[..self.orders]);
+        let (orbital, cut) = elliptic.envelope.orbital.cut(&bounds[..self.orders]);
         let cut: f64 = cut.iter().zip(&self.amplitudes).map(|(cut, amplitude)| cut * amplitude).sum();
-        self.dropped += 2.0 * regimes.growth_of(1) * cut;
-        let [first, second, _] = demand.axes;
+        self.dropped += 2.0 * regimes.growth(1) * cut;
+        let [first, second, _] = elliptic.axes;
         let factors =
-            TorqueScale { strength: demand.strength(), root: inertia.sigma.sqrt(), momentum: inertia.momentum };
-        Generator::new(&self.harmonics, std::mem::take(&mut self.exact), (orbital, [first, second]), factors)
+            TorqueScale { strength: elliptic.strength(), root: inertia.sigma.sqrt(), momentum: inertia.momentum };
+        let (sums, exact) = (std::mem::take(&mut self.sums), std::mem::take(&mut self.exact));
+        Generator::new(sums, exact, (orbital, [first, second]), factors)
     }
 }
 
 /// The parts of ⟨T33⟩ and of its slope that the level omits, times the mass fraction over M.
-fn axial_omitted(inertia: &Inertia, demand: &Demand<'_>) -> [f64; 2] {
-    let per_momentum = demand.orbit.disturbing_fraction() / inertia.momentum;
-    let (level, full) = (demand.level.axial(inertia), Level::Full.axial(inertia));
-    [full.0 - level.0, full.1 - level.1].map(|part| part.abs() * per_momentum)
+fn axial_omitted(inertia: &Inertia, elliptic: &EllipticOrbit<'_>) -> [f64; 2] {
+    let per_momentum = elliptic.orbit.disturbing_fraction() / inertia.momentum;
+    let (axial, slope) = elliptic.level.omitted(inertia, 0, 0);
+    [axial, slope].map(|part| part.abs() * per_momentum)
 }
 
 /// Lower estimate of the second-order change of the attitude over a time \[rad\].

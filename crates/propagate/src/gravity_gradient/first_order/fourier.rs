@@ -1,4 +1,4 @@
-//! Terms whose divisors are exact in the orbit's harmonics.
+//! Terms whose divisors are exact in the orbit's harmonics: equation (9) of docs/theory-second-order.md.
 //!
 //! If the orbit is not much slower than a term, the sum over time derivatives for G ends before it is accurate. With g = Σ g_j e^(ijl) in the mean anomaly l,
 //!
@@ -8,7 +8,7 @@
 //!
 //! With r_± = 1/(Ω ± jn), the coefficients of E and E₁ are Ω(r₊ + r₋) and Ω²(r₊² + r₋²), and those of O and O₁ have differences instead of the sums. Near
 //! resonance the average torque shifts the divisors ([`crate::gravity_gradient::terms::divisors`]). For an even g, E is a series in cos jl and O one in sin jl. So E
-//! and O take the places of the even and of the odd time derivatives. The harmonic nearest to resonance may be left out ([`crate::gravity_gradient::terms::regime`]).
+//! replaces the sum of the even time derivatives, and O that of the odd ones. The harmonic nearest to resonance may be left out ([`crate::gravity_gradient::terms::regime`]).
 
 use std::f64::consts::TAU;
 
@@ -40,34 +40,26 @@ pub(crate) struct ExactTerm {
     coefficients: Vec<[[f64; PARTS]; 3]>,
 }
 
-impl SizedTerm {
-    /// This term with divisors that are exact in the orbit's harmonics. What is smaller than `nothing` is left out.
-    pub(crate) fn exact(&self, inertia: &Inertia, orbit: (&OrbitSeries, Divisors), nothing: f64) -> ExactTerm {
-        let negligible = 0.1 * nothing / self.size();
-        ExactTerm::new((self.term.harmonic, self.term.multiple), self.factors(inertia), orbit, negligible)
-    }
-}
-
 impl ExactTerm {
     /// Its memory, in bytes.
     pub(crate) fn memory(&self) -> usize {
         size_of::<Self>() + size_of_val(&self.coefficients[..])
     }
 
-    /// The term with these h and m, its factors of G and of −Ω ∂G/∂Ω in the derivatives of W, and its divisors in the series. Coefficients below `negligible`
-    /// are dropped.
+    /// A term with these divisors in the series. Coefficients whose part of the term is smaller than a tenth of `nothing` are dropped.
     pub(crate) fn new(
-        numbers: (i32, i32),
-        factors: [[f64; SUMS]; 2],
+        term: &SizedTerm,
+        inertia: &Inertia,
         (series, divisors): (&OrbitSeries, Divisors),
-        negligible: f64,
+        nothing: f64,
     ) -> Self {
+        let negligible = 0.1 * nothing / term.size();
         let mut coefficients: Vec<_> = (0..)
             .zip(&series.coefficients)
             .map(|(j, [one, cosine, sine])| {
                 // For j = 0 both harmonics are one.
                 let share = if j == 0 { 0.5 } else { 1.0 };
-                // The factors of e^(ijl) and e^(−ijl) in 1, and, up to factors i, in cos 2f and sin 2f: those of e^(2if) and e^(−2if) together.
+                // Coefficients of e^(ijl) and e^(−ijl) in the series of 1, cos 2f and sin 2f, without factors i.
                 let at = |power: i32| {
                     let ratio =
                         |j: i32, turns: i32| share * (divisors.frequency * divisors.reciprocal(j, turns)).powi(power);
@@ -98,7 +90,8 @@ impl ExactTerm {
             .collect();
         let something = |terms: &[[f64; PARTS]; 3]| terms.iter().flatten().any(|c| c.abs() > negligible);
         coefficients.truncate(coefficients.iter().rposition(something).map_or(0, |last| last + 1));
-        Self { numbers, divisors, factors, coefficients }
+        let numbers = (term.term.harmonic, term.term.multiple);
+        Self { numbers, divisors, factors: term.factors(inertia), coefficients }
     }
 
     /// |h|.

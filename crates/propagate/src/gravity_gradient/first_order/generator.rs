@@ -3,14 +3,14 @@
 //! With ε = 1/Ω, the sum for G is Σ (iε)^j d^j/dt^j g, up to the factor −iε. The time derivatives of (a/r)³, (a/r)³ cos 2f and (a/r)³ sin 2f are powers of
 //! 1 + e cos f times Fourier polynomials in f, which all terms share. After contraction with r̂r̂ for one m, each term needs only real multiples of them, since
 //! T33, i t1 e^(−iy′) and t2 e^(−2iy′) have real coefficients (time reversal). |p| = √σ is a constant of the mean motion and is included in the coefficients.
-//! The derivatives with respect to p and p̄ are ∂/∂p e^(iℓ′) and ∂/∂p̄ e^(−iℓ′), which are regular at p = 0. W is real, so that of each sum only the real or
-//! the imaginary part counts: r̂ is taken relative to axes 1 and 2 of the frame turned by y′ about k, where no phase is left.
+//! The derivatives with respect to p and p̄ are ∂/∂p e^(iℓ′) and ∂/∂p̄ e^(−iℓ′), which are regular at p = 0. W is real. In axes 1 and
+//! 2 of the frame turned by y′ about k the factor e^(imy′) is 1, so only the real or the imaginary part of each sum is computed.
 
 use nalgebra::Vector3;
 
 use super::deviator::{Deviator, Products, deviator_of, products, turned};
 use super::fourier::{ExactTerm, ExactTerms};
-use super::sums::{GeneratorSlopes, Harmonic, TermSums};
+use super::sums::{GeneratorSlopes, TermSums};
 use crate::gravity_gradient::body::inertia::HIGHEST;
 use crate::gravity_gradient::orbit::derivatives::{AnomalyPowers, ORDERS, Orbital};
 use crate::gravity_gradient::orbit::elliptic_motion::{Axes, fixed};
@@ -81,12 +81,11 @@ impl<S: InstructionSet> Correction<S> {
 impl Generator {
     /// From the terms by m, those with exact divisors, the Fourier polynomials, and the axes of the orbit at the epoch.
     pub(crate) fn new(
-        harmonics: &[Vec<Harmonic>; 3],
+        sums: [TermSums; 3],
         exact: Vec<ExactTerm>,
         (orbital, axes): (Orbital, [Vector3<f64>; 2]),
         factors: TorqueScale,
     ) -> Self {
-        let sums = harmonics.each_ref().map(|harmonics| TermSums::new(harmonics));
         let highest = sums.iter().map(TermSums::highest).chain(exact.iter().map(ExactTerm::degree)).max().unwrap_or(0);
         Self { sums, exact, orbital, highest, axes, factors }
     }

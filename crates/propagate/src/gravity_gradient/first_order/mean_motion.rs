@@ -4,7 +4,7 @@ use super::corrections::Corrections;
 use super::mean_variables::{Mean, PeriodicChange};
 use crate::error::{Error, TorqueMeasure};
 use crate::gravity_gradient::body::inertia::Inertia;
-use crate::gravity_gradient::orbit::elliptic_orbit::{Demand, EllipticOrbit};
+use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::terms::regime::Terms;
 use crate::input::orbit::Orbit;
 use crate::torque_free::polhode::Polhode;
@@ -29,25 +29,20 @@ pub(crate) struct MeanMotion {
 }
 
 /// The corrections for each body at a mean motion.
-fn corrections_of(inertia: &Inertia, demands: &[Demand<'_>]) -> Result<Vec<Corrections>, Error> {
-    let all: Vec<_> = demands.iter().map(|demand| Terms::new(inertia, demand)).collect();
+fn corrections_of(inertia: &Inertia, orbits: &[EllipticOrbit<'_>]) -> Result<Vec<Corrections>, Error> {
+    let all: Vec<_> = orbits.iter().map(|elliptic| Terms::new(inertia, elliptic)).collect();
     let whole = all.iter().map(|terms| terms.size).sum();
-    all.iter().zip(demands).map(|(terms, demand)| Corrections::of(terms, inertia, demand, whole)).collect()
+    all.iter().zip(orbits).map(|(terms, elliptic)| Corrections::of(terms, inertia, elliptic, whole)).collect()
 }
 
 /// The mean variables whose corrections give a state, by fixed-point iteration.
-pub(crate) fn first_order(
-    polhode: &Polhode,
-    state: &Mean,
-    orbits: &[EllipticOrbit<'_>],
-    demands: &[Demand<'_>],
-) -> Result<MeanMotion, Error> {
+pub(crate) fn first_order(polhode: &Polhode, state: &Mean, orbits: &[EllipticOrbit<'_>]) -> Result<MeanMotion, Error> {
     let (mut mean, mut change) = (*state, PeriodicChange::default());
     let (mut step, mut first) = (0, 0.0_f64);
     let mut inertia = Inertia::new(polhode, mean.p.norm_sqr(), mean.momentum);
     // Each iteration multiplies the error by the size of the corrections, which is at most a twentieth (`LARGEST_SIZE`) for the terms that are not slow.
     loop {
-        let corrections = corrections_of(&inertia, demands)?;
+        let corrections = corrections_of(&inertia, orbits)?;
         let changes =
             corrections.iter().zip(orbits).map(|(corrections, orbit)| corrections.at(&mean, &orbit.start.place));
         let next_change = changes.reduce(|sum, change| sum.plus(&change)).unwrap_or_default();
@@ -87,17 +82,17 @@ pub(crate) fn strongest_torque(polhode: &Polhode, orbit: &Orbit, rate: f64) -> f
 }
 
 /// Checks that the torques are weak enough for first order.
-pub(crate) fn weak_enough(polhode: &Polhode, sigma: f64, demands: &[Demand<'_>]) -> Result<(), Error> {
+pub(crate) fn weak_enough(polhode: &Polhode, sigma: f64, orbits: &[EllipticOrbit<'_>]) -> Result<(), Error> {
     let momentum = polhode.invariants.momentum.to_f64();
-    let size = |demand: &Demand<'_>| {
-        let share = demand.envelope.span[0] / demand.envelope.most[0];
-        share * strongest_torque(polhode, demand.orbit, demand.mean_motion / momentum)
+    let size = |elliptic: &EllipticOrbit<'_>| {
+        let share = elliptic.envelope.span[0] / elliptic.envelope.most[0];
+        share * strongest_torque(polhode, elliptic.orbit, elliptic.mean_motion / momentum)
     };
-    let size = demands.iter().map(size).sum::<f64>();
+    let size = orbits.iter().map(size).sum::<f64>();
     if size <= STRONGEST {
         return Ok(());
     }
     // If there is a resonance, report that instead, because it explains more.
-    corrections_of(&Inertia::new(polhode, sigma, momentum), demands)?;
+    corrections_of(&Inertia::new(polhode, sigma, momentum), orbits)?;
     Err(Error::TorqueTooStrong { measure: TorqueMeasure::Strength, size, bound: STRONGEST })
 }

@@ -10,69 +10,48 @@ use crate::simd::lanes::Lanes;
 /// Number of sums over the terms: W, M ∂W/∂M, ∂W/∂p̄ + ∂W/∂p and ∂W/∂p̄ − ∂W/∂p.
 pub(crate) const SUMS: usize = 4;
 
-/// All terms of one |h|: the factors of cos hℓ′ and of i sin hℓ′, by j and sum.
-#[derive(Clone, Debug)]
-pub(crate) struct Harmonic {
-    pub(crate) degree: usize,
-    pub(crate) factors: Vec<[[f64; 2]; SUMS]>,
+/// |h|, and the factors of cos hℓ′ and of i sin hℓ′ by sum, of all terms with this |h|.
+type HarmonicFactors = (usize, [[f64; 2]; SUMS]);
+
+/// The terms of one m, by time derivative.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct TermSums {
+    orders: Vec<Vec<HarmonicFactors>>,
 }
 
-impl Harmonic {
-    /// Adds a term e^(ihℓ′) with these factors of the sums.
-    pub(crate) fn add(&mut self, negative: bool, factors: &[[f64; SUMS]]) {
-        if self.factors.len() < factors.len() {
-            self.factors.resize(factors.len(), [[0.0; 2]; SUMS]);
-        }
-        let sign = if negative { -1.0 } else { 1.0 };
-        for (slots, factors) in self.factors.iter_mut().zip(factors) {
-            for ([even, odd], factor) in slots.iter_mut().zip(factors) {
+impl TermSums {
+    /// Adds a term with `orders` derivatives of g.
+    pub(crate) fn add(&mut self, term: &SizedTerm, inertia: &Inertia, orders: usize) {
+        let [still, moving] = term.factors(inertia);
+        let harmonic = term.term.harmonic;
+        let degree = harmonic.unsigned_abs() as usize;
+        let sign = if harmonic < 0 { -1.0 } else { 1.0 };
+        self.orders.resize_with(self.orders.len().max(orders), Vec::new);
+        for (j, terms) in self.orders.iter_mut().enumerate().take(orders) {
+            let place = terms.iter().position(|(other, _)| *other == degree).unwrap_or_else(|| {
+                terms.push((degree, [[0.0; 2]; SUMS]));
+                terms.len() - 1
+            });
+            // weight = (iε)^j, without the factor i for odd j; slope = (j + 1) · weight.
+            let weight = if j / 2 % 2 == 0 { 1.0 } else { -1.0 } * term.frequency.powi(-(j as i32)); // j < ORDERS
+            let slope = (j as f64 + 1.0) * weight;
+            for (i, [even, odd]) in terms[place].1.iter_mut().enumerate() {
+                let factor = still[i] * weight + moving[i] * slope;
                 *even += factor;
                 *odd += sign * factor;
             }
         }
     }
-}
-
-/// |h| of a term, and its factors of cos hℓ′ and of i sin hℓ′ by sum.
-type HarmonicFactors = (usize, [[f64; 2]; SUMS]);
-
-/// The terms of one m, derivative after derivative.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct TermSums {
-    terms: Vec<HarmonicFactors>,
-    /// Where the terms of each derivative end.
-    ends: Vec<usize>,
-}
-
-impl TermSums {
-    pub(crate) fn new(harmonics: &[Harmonic]) -> Self {
-        let mut sums = Self::default();
-        let orders = harmonics.iter().map(|harmonic| harmonic.factors.len()).max().unwrap_or(0);
-        for j in 0..orders {
-            let terms = harmonics.iter().filter_map(|harmonic| Some((harmonic.degree, *harmonic.factors.get(j)?)));
-            sums.terms.extend(terms);
-            sums.ends.push(sums.terms.len());
-        }
-        sums
-    }
 
     /// The largest |h|.
     pub(crate) fn highest(&self) -> usize {
-        self.terms.iter().map(|(degree, _)| *degree).max().unwrap_or(0)
-    }
-
-    /// The terms with the derivative j, if there are any: a term with a derivative has those below it.
-    #[inline(always)]
-    fn of(&self, j: usize) -> Option<&[HarmonicFactors]> {
-        let end = *self.ends.get(j)?;
-        let start = if j == 0 { 0 } else { self.ends[j - 1] };
-        Some(&self.terms[start..end])
+        self.orders.first().into_iter().flatten().map(|(degree, _)| *degree).max().unwrap_or(0)
     }
 
     /// The sums for the derivative j, from the powers of e^(iℓ′); none if there is no such term.
     #[inline(always)]
     pub(crate) fn at<S: InstructionSet>(&self, j: usize, turns: &[ComplexLanes<S>]) -> Option<[ComplexLanes<S>; SUMS]> {
-        let terms = self.of(j)?;
+        let terms = self.orders.get(j)?;
         let none = turns[0].im;
         let mut sums = [ComplexLanes { re: none, im: none }; SUMS];
         for (degree, factors) in terms {
@@ -85,10 +64,10 @@ impl TermSums {
         Some(sums)
     }
 
-    /// The parts of the sums that count for m = 0, whose contractions are imaginary for even j and real for odd j.
+    /// Sums for m = 0. The contraction is real; the factor −i of 1/(iΩ) makes a term imaginary for even j and real for odd j.
     #[inline(always)]
     pub(crate) fn axial<S: InstructionSet>(&self, j: usize, turns: &[ComplexLanes<S>]) -> Option<[Lanes<S>; SUMS]> {
-        let terms = self.of(j)?;
+        let terms = self.orders.get(j)?;
         let none = turns[0].im;
         let mut sums = [none; SUMS];
         let (main, other) = (1 - j % 2, j % 2);
@@ -194,25 +173,5 @@ impl SizedTerm {
         let whole = inverse * root.powi(degree) * value;
         let sum = inverse * (sum + 2.0 * further * slope);
         [[whole, 0.0, sum, inverse * difference], [0.0, whole, 2.0 * by_frequency, 0.0]]
-    }
-
-    /// Adds this term to the other terms of its |h|, with `orders` derivatives of g.
-    pub(crate) fn join(&self, harmonics: &mut Vec<Harmonic>, inertia: &Inertia, orders: usize) {
-        let Self { term: Term { harmonic, .. }, frequency, .. } = *self;
-        let [still, moving] = self.factors(inertia);
-        let factors: Vec<_> = (0..orders)
-            .map(|j| {
-                // (iε)^j without the factor i for odd j, and the same times j + 1.
-                let weight = if j / 2 % 2 == 0 { 1.0 } else { -1.0 } * frequency.powi(-(j as i32)); // j < ORDERS
-                let slope = (j as f64 + 1.0) * weight;
-                std::array::from_fn(|i| still[i] * weight + moving[i] * slope)
-            })
-            .collect();
-        let degree = harmonic.unsigned_abs() as usize;
-        let place = harmonics.iter().position(|other| other.degree == degree).unwrap_or_else(|| {
-            harmonics.push(Harmonic { degree, factors: Vec::new() });
-            harmonics.len() - 1
-        });
-        harmonics[place].add(harmonic < 0, &factors);
     }
 }

@@ -20,6 +20,11 @@ const ARC_SHARE: f64 = 0.4;
 /// Largest angle of the orbit in an arc \[rad\].
 const LONGEST_ARC: f64 = 1.5;
 
+/// η = √(1 − e²), without cancellation near e = 1.
+pub(crate) fn eta(eccentricity: f64) -> f64 {
+    ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt()
+}
+
 /// Time since the epoch, with its rounding error.
 pub(crate) type Elapsed<S> = (Lanes<S>, Lanes<S>);
 
@@ -93,8 +98,7 @@ impl Course {
 
     /// The longest time over which a polynomial represents the torque, without the precession of the orbit.
     fn to_singularity(&self, mean_anomaly: f64) -> f64 {
-        let eccentricity = self.ellipse.eccentricity;
-        let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
+        let eta = eta(self.ellipse.eccentricity);
         // Two terms of the series, where the difference cancels. For a circle the singularity is infinitely far.
         let singular = if eta < 0.01 { eta.powi(3) * (1.0 / 3.0 + eta * eta / 5.0) } else { eta.atanh() - eta };
         ARC_SHARE * mean_anomaly.hypot(singular) / (TAU * self.mean_anomaly.frequency())

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::elliptic_motion::eta;
 use super::span::Reach;
 use crate::numerics::C64;
 
@@ -51,8 +52,7 @@ pub(crate) const LARGEST_NUMBER: usize = 4096;
 /// [`LARGEST_NUMBER`].
 pub(crate) fn hansen(eccentricity: f64, number: usize) -> [f64; 3] {
     // Harmonics of (a/r)² in the eccentric anomaly fall like ((1 − η)/e)^k, about e^(−ηk).
-    let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
-    let more = (32.0 / eta).min(1e6) as usize;
+    let more = (32.0 / eta(eccentricity)).min(1e6) as usize;
     let [constant, even, odd] = coefficients(eccentricity, number, more)[number];
     [constant, even + odd, even - odd]
 }
@@ -62,7 +62,7 @@ pub(crate) fn decay(eccentricity: f64) -> f64 {
     if eccentricity == 0.0 {
         return f64::INFINITY;
     }
-    (1.0 / eccentricity).acosh() - ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt()
+    (1.0 / eccentricity).acosh() - eta(eccentricity)
 }
 
 /// An upper estimate of the Fourier coefficient of e^(ijl) in a product of so many factors (a/r)³ e^(±2if) or (a/r)³, over its value at the pericentre.
@@ -89,7 +89,7 @@ pub(crate) fn at_most(eccentricity: f64, number: f64, factors: i32) -> f64 {
 fn coefficients(eccentricity: f64, count: usize, more_points: usize) -> Vec<[f64; 3]> {
     // An even sum over more points than the integrand has harmonics in the eccentric anomaly is exact.
     let points = 32 + (1.25 * count as f64) as usize + more_points;
-    let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
+    let eta = eta(eccentricity);
     let mut sums = vec![[0.0; 3]; count + 1];
     for k in 0..points {
         // Half the orbit: the other half is its mirror image.
@@ -105,6 +105,12 @@ fn coefficients(eccentricity: f64, count: usize, more_points: usize) -> Vec<[f64
             *sum = [sum[0] + weight * wave.re, sum[1] + even * wave.re, sum[2] + odd * wave.im];
             wave *= turn;
         }
+    }
+    // The power j of `turn` has j rounding errors. A smaller coefficient is rounding alone, which a small divisor would enlarge.
+    let largest = sums.iter().flatten().fold(0.0_f64, |most, c| most.max(c.abs()));
+    for (j, sum) in sums.iter_mut().enumerate() {
+        let rounding = (4 + j) as f64 * f64::EPSILON * largest;
+        sum.iter_mut().filter(|c| c.abs() < rounding).for_each(|c| *c = 0.0);
     }
     sums
 }
@@ -161,7 +167,7 @@ mod tests {
     #[test]
     fn the_estimate_of_a_harmonic_is_not_below_it() {
         for eccentricity in [0.02_f64, 0.05, 0.1, 0.3, 0.6, 0.8, 0.9] {
-            let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
+            let eta = eta(eccentricity);
             for (factors, number) in (1..=2).flat_map(|factors| (1..40).map(move |number| (factors, number))) {
                 // (a/r)³ e^(2if), or its square, by a sum that is even in the eccentric anomaly.
                 let count = 4000;

@@ -3,12 +3,14 @@
 use std::f64::consts::TAU;
 
 use super::derivatives::{ORDERS, Orbital};
+use super::elliptic_motion::eta;
 use crate::simd::kepler::eccentric_anomaly;
 
 /// Points of a span at which the sizes are taken.
 const POINTS: usize = 48;
 
-/// The time derivatives, with the size of each at the epoch, the largest within the span, and the largest at any time.
+/// The time derivatives, with the size of each at the epoch, the largest within the span, and the largest at any time. The sizes are without the rates of node
+/// and pericentre.
 #[derive(Clone, Debug)]
 pub(crate) struct Envelope {
     /// The time derivatives.
@@ -17,19 +19,14 @@ pub(crate) struct Envelope {
     pub(crate) fastest: f64,
     /// Whether the pericentre is within the span.
     pub(crate) passes: bool,
-    pub(crate) share: Share,
+    /// The share of a drift of second order, at most 1. It is the mean of u² over the span plus u² at the epoch, where the mean variables are found, both divided
+    /// by the largest value within the span; u = (a/r)³.
+    pub(crate) square: f64,
+    /// The share of a drift of third order, with u³ for u².
+    pub(crate) cube: f64,
     pub(crate) epoch: [f64; ORDERS + 1],
     pub(crate) span: [f64; ORDERS + 1],
     pub(crate) most: [f64; ORDERS + 1],
-}
-
-/// Means of powers of u = (a/r)³ over the span, over the power where the disturbing body is nearest within the span.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Share {
-    /// The mean of u²: a drift of second order.
-    pub(crate) square: f64,
-    /// The mean of u³, plus u³ at the epoch for the errors of the mean variables found there: a drift of third order.
-    pub(crate) cube: f64,
 }
 
 /// The part of the orbit that the disturbing body passes during the span.
@@ -54,56 +51,44 @@ impl Reach {
         self.sides.iter().sum::<f64>() >= TAU
     }
 
-    /// Whether the span has a mean anomaly.
-    pub(crate) fn contains(&self, anomaly: f64) -> bool {
+    /// Whether the pericentre is within the span.
+    pub(crate) fn passes(&self) -> bool {
         let [before, after] = self.sides;
-        let apart = wrapped(anomaly - self.anomaly);
+        let apart = wrapped(-self.anomaly);
         [apart - TAU, apart, apart + TAU].iter().any(|apart| (-before..=after).contains(apart))
     }
 
-    /// Evenly spaced true anomalies within the span on both sides of the epoch.
-    pub(crate) fn places(&self) -> Vec<f64> {
-        if self.is_whole() {
-            return (0..POINTS).map(|k| TAU * k as f64 / POINTS as f64).collect();
-        }
+    /// Evenly spaced true anomalies from the first to the last of the span; from 0 to 2π for a whole orbit.
+    fn places(&self) -> [f64; POINTS + 1] {
         let [before, after] = self.sides;
-        let [first, last] = [-before, after].map(|by| self.true_anomaly(self.anomaly + by));
-        let middle = self.true_anomaly(self.anomaly);
-        let first = if first > middle { first - TAU } else { first };
-        let last = if last < middle { last + TAU } else { last };
-        (0..=POINTS).map(|k| first + (last - first) * k as f64 / POINTS as f64).collect()
+        let [first, middle, last] = [-before, 0.0, after].map(|by| self.true_anomaly(self.anomaly + by));
+        let [first, last] = if self.is_whole() {
+            [0.0, TAU]
+        } else {
+            [if first > middle { first - TAU } else { first }, if last < middle { last + TAU } else { last }]
+        };
+        std::array::from_fn(|k| first + (last - first) * k as f64 / POINTS as f64)
     }
 
-    /// The shares of the drifts.
-    fn share(&self) -> Share {
-        // (a/r) over η^(−2), at a true anomaly.
+    /// The mean over the span of a power of a/r plus that power at the epoch, both divided by the power of the largest a/r within the span; at most 1.
+    fn share(&self, power: i32) -> f64 {
+        // (a/r) η².
         let near = |f: f64| 1.0 + self.eccentricity * f.cos();
         let places = self.places();
-        let whole = self.is_whole();
-        let nearest = if self.passes() { near(0.0) } else { places.iter().map(|&f| near(f)).fold(0.0, f64::max) };
-        let mean = |power: i32| {
-            let sum: f64 = if whole {
-                places.iter().map(|&f| (near(f) / nearest).powi(power) / near(f).powi(2)).sum::<f64>() * TAU
-            } else {
-                let ends = [places[0], places[POINTS]];
-                let steps = places.windows(2).map(|pair| near(0.5 * (pair[0] + pair[1])));
-                steps.map(|n| (n / nearest).powi(power) / n.powi(2)).sum::<f64>() * (ends[1] - ends[0])
-            };
-            // dl = η³/(1 + e cos f)² df.
-            let eta_square = (1.0 - self.eccentricity) * (1.0 + self.eccentricity);
-            let passages = if whole { 1.0 + (self.longest() / TAU).floor() } else { 1.0 };
-            (sum / POINTS as f64 * eta_square.powf(1.5) * passages / self.longest().max(f64::MIN_POSITIVE)).min(1.0)
+        let nearest =
+            if self.passes() { 1.0 + self.eccentricity } else { places.iter().map(|&f| near(f)).fold(0.0, f64::max) };
+        // dl = η³/(1 + e cos f)² df.
+        let part = |pair: &[f64]| {
+            let near = near(0.5 * (pair[0] + pair[1]));
+            (near / nearest).powi(power) / (near * near) * (pair[1] - pair[0])
         };
+        let passages = if self.is_whole() { 1.0 + (self.longest() / TAU).floor() } else { 1.0 };
+        let sum = places.windows(2).map(part).sum::<f64>() * eta(self.eccentricity).powi(3) * passages;
         let epoch = near(self.true_anomaly(self.anomaly)) / nearest;
-        Share { square: mean(6), cube: (mean(9) + epoch.powi(9)).min(1.0) }
+        (sum / self.longest().max(f64::MIN_POSITIVE) + epoch.powi(power)).min(1.0)
     }
 
-    /// Whether the span has the pericentre.
-    pub(crate) fn passes(&self) -> bool {
-        self.contains(0.0)
-    }
-
-    pub(crate) fn true_anomaly(&self, mean: f64) -> f64 {
+    fn true_anomaly(&self, mean: f64) -> f64 {
         let e = self.eccentricity;
         let half = 0.5 * eccentric_anomaly(wrapped(mean), e);
         2.0 * ((1.0 + e).sqrt() * half.sin()).atan2((1.0 - e).sqrt() * half.cos())
@@ -116,34 +101,29 @@ fn wrapped(angle: f64) -> f64 {
 }
 
 impl Envelope {
-    /// The derivatives for an orbit, its mean motion, and the rates of its node and pericentre. The sizes are those without these rates.
-    pub(crate) fn new(eccentricity: f64, mean_motion: f64, rates: [f64; 2], reach: &Reach) -> Self {
-        let orbital = Orbital::new(eccentricity, mean_motion);
-        let at = |f: f64| orbital.sizes_at(f);
+    /// The derivatives and sizes for a mean motion, and for rates of node and pericentre.
+    pub(crate) fn new(mean_motion: f64, rates: [f64; 2], reach: &Reach) -> Self {
+        let eccentricity = reach.eccentricity;
+        let orbital = Orbital::new(eccentricity, mean_motion, [0.0; 2]);
         let largest = |places: &[f64]| {
-            places.iter().map(|&f| at(f)).fold([0.0; ORDERS + 1], |most: [f64; ORDERS + 1], sizes| {
-                std::array::from_fn(|j| most[j].max(sizes[j]))
-            })
+            places
+                .iter()
+                .map(|&f| orbital.sizes_at(f))
+                .fold([0.0_f64; ORDERS + 1], |most, sizes| std::array::from_fn(|j| most[j].max(sizes[j])))
         };
         let whole = Reach { sides: [TAU; 2], ..*reach };
         // The other half is its mirror image.
         let most = largest(&whole.places()[..=POINTS / 2]);
         let span = if reach.is_whole() { most } else { largest(&reach.places()) };
-        let epoch = at(reach.true_anomaly(reach.anomaly));
-        let passes = reach.passes();
-        let eta_square = (1.0 - eccentricity) * (1.0 + eccentricity);
+        let epoch = orbital.sizes_at(reach.true_anomaly(reach.anomaly));
+        let (passes, eta) = (reach.passes(), eta(eccentricity));
         // ḟ = n η (a/r)², and a/r is the cube root of (a/r)³.
-        let nearest = if passes { (1.0 + eccentricity) / eta_square } else { span[0].cbrt() };
-        let fastest = 2.0 * mean_motion * eta_square.sqrt() * nearest * nearest;
-        let orbital = if rates == [0.0; 2] { orbital } else { Orbital::precessing(eccentricity, mean_motion, rates) };
-        Self { orbital, fastest, passes, share: reach.share(), epoch, span, most }
+        let nearest = if passes { (1.0 + eccentricity) / (eta * eta) } else { span[0].cbrt() };
+        let fastest = 2.0 * mean_motion * eta * nearest * nearest;
+        let [square, cube] = [6, 9].map(|power| reach.share(power));
+        let orbital = if rates == [0.0; 2] { orbital } else { Orbital::new(eccentricity, mean_motion, rates) };
+        Self { orbital, fastest, passes, square, cube, epoch, span, most }
     }
-}
-
-/// The sizes for a span of a whole orbit.
-#[cfg(test)]
-pub(crate) fn whole(eccentricity: f64, mean_motion: f64) -> Envelope {
-    Envelope::new(eccentricity, mean_motion, [0.0; 2], &Reach { eccentricity, anomaly: 0.0, sides: [TAU; 2] })
 }
 
 #[cfg(test)]
@@ -156,7 +136,7 @@ mod tests {
     fn a_span_that_is_far_from_the_pericentre_has_little_of_its_strength() {
         let eccentricity = 0.9;
         let at = |anomaly: f64, orbital: f64| {
-            Envelope::new(eccentricity, 1e-3, [0.0; 2], &Reach { eccentricity, anomaly, sides: [orbital; 2] })
+            Envelope::new(1e-3, [0.0; 2], &Reach { eccentricity, anomaly, sides: [orbital; 2] })
         };
         let far = at(3.0, 0.3);
         assert!(!far.passes && far.span[0] <= 1e-3 * far.most[0] && far.fastest <= 1e-2 * at(3.0, 4.0).fastest);
@@ -180,7 +160,7 @@ mod tests {
     fn drifts_of_an_eccentric_orbit_act_near_the_pericentre_alone() {
         let eccentricity: f64 = 0.6;
         let share = |anomaly: f64, orbital: f64| {
-            Envelope::new(eccentricity, 1e-3, [0.0; 2], &Reach { eccentricity, anomaly, sides: [orbital; 2] }).share
+            Envelope::new(1e-3, [0.0; 2], &Reach { eccentricity, anomaly, sides: [orbital; 2] })
         };
         // ⟨(a/r)⁹⟩ = η⁻¹⁵ (1 + 21e²/2 + 105e⁴/8 + 35e⁶/16).
         let square = eccentricity * eccentricity;
@@ -192,8 +172,7 @@ mod tests {
         assert!((found - (mean * 100.0 / 99.5 + at_apocentre)).abs() <= 1e-12, "{found:e} {mean:e}");
         // From the pericentre the mean variables are as far off as they can be. On a circle every place is alike.
         assert_eq!(share(0.0, 1e3).cube, 1.0);
-        let circle =
-            Envelope::new(0.0, 1e-3, [0.0; 2], &Reach { eccentricity: 0.0, anomaly: 1.0, sides: [0.1; 2] }).share;
+        let circle = Envelope::new(1e-3, [0.0; 2], &Reach { eccentricity: 0.0, anomaly: 1.0, sides: [0.1; 2] });
         assert!(circle.cube == 1.0 && circle.square >= 1.0 - 1e-12);
         // Half an orbit past the apocentre sees nothing of the pericentre, and is measured by its own nearest place.
         let far = share(PI, 0.5);

@@ -1,4 +1,4 @@
-//! ⟨D⟩ + K2 in closed form, to first order in n/Ω, and its derivatives.
+//! ⟨D⟩ + K2 in closed form, to first order in n/Ω, and its derivatives: equations (2) and (3) of docs/theory-second-order.md.
 //!
 //! With q = 3φn²/2, u = (a/r)³, s = k·r̂, c = k·N (N the normal of the orbit) and q_j = f² σ^|h| / ν^(j+1) for each term,
 //!
@@ -7,8 +7,8 @@
 //! K2 = −(q²u²/M²) [P0 + P1 s² + P2 s⁴] − (q²u²ḟ c/M³) [Q0 + Q1 s²]
 //! ```
 //!
-//! with h > 0 for m = 0, and P, Q sums of Â and B̂ (theory §9). Terms without j hold the disturbing body fixed. K2 has no ℓ′ and no y′: mean σ and M are
-//! constant to second order.
+//! with h > 0 for m = 0, where P and Q are sums of Â and B̂. Terms with j = 0 hold the disturbing body fixed. K2 contains neither ℓ′ nor y′, so the mean σ and M
+//! are constant to second order.
 
 use nalgebra::Vector3;
 
@@ -33,20 +33,6 @@ pub(crate) struct Hamiltonian {
     pub(crate) steady: SteadyRates,
 }
 
-/// Where the disturbing body is, as the averaged equations see it.
-#[cfg(test)]
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PlacedBody {
-    /// Unit vector to it.
-    pub(crate) direction: Vector3<f64>,
-    /// Normal of its orbit.
-    pub(crate) normal: Vector3<f64>,
-    /// (a/r)³.
-    pub(crate) cube: f64,
-    /// Rate of its true anomaly.
-    pub(crate) rate: f64,
-}
-
 /// The disturbing body at several places of one orbit.
 #[derive(Clone, Copy)]
 pub(crate) struct DisturberLanes<S: InstructionSet> {
@@ -62,20 +48,38 @@ pub(crate) fn dot<S: InstructionSet>(one: &[Lanes<S>; 3], other: &[Lanes<S>; 3])
     one[0].mul_add(other[0], one[1].mul_add(other[1], one[2] * other[2]))
 }
 
-/// Time derivatives of the mean motion.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct MeanRates {
-    /// Rotation of the invariable frame, across the angular momentum.
-    pub(crate) turning: Vector3<f64>,
-    /// What is added to dℓ′/dt and dy′/dt.
-    pub(crate) phases: [f64; 2],
+/// Vectors in all lanes.
+#[inline(always)]
+pub(crate) fn in_lanes<S: InstructionSet, const N: usize>(
+    like: Lanes<S>,
+    vectors: &[Vector3<f64>; N],
+) -> [[Lanes<S>; 3]; N] {
+    let mut lanes = [[like; 3]; N];
+    for (components, vector) in lanes.iter_mut().zip(vectors) {
+        *components = [like.all(vector.x), like.all(vector.y), like.all(vector.z)];
+    }
+    lanes
+}
+
+/// The component of a vector across a unit vector, times a factor.
+#[inline(always)]
+pub(crate) fn across<S: InstructionSet>(
+    mut vector: [Lanes<S>; 3],
+    axis: &[Lanes<S>; 3],
+    factor: Lanes<S>,
+) -> [Lanes<S>; 3] {
+    let along = dot(axis, &vector);
+    for (component, axis) in vector.iter_mut().zip(axis) {
+        *component = axis.negate_mul_add(along, *component) * factor;
+    }
+    vector
 }
 
 impl Hamiltonian {
     /// ⟨D⟩ alone; `strength` is q.
     pub(crate) fn first(inertia: &Inertia, strength: f64) -> Self {
         let Inertia { sigma, momentum, .. } = *inertia;
-        let [value, slope] = inertia.average_torque().map(|part| strength * part);
+        let [value, slope, _] = Term::average(inertia).map(|part| strength * part);
         let by_action = slope / momentum;
         let first = [value, by_action, -by_action * sigma];
         Self { first, momentum, ..Self::default() }
@@ -98,22 +102,11 @@ impl Hamiltonian {
         Self { second, ..Self::first(inertia, strength) }
     }
 
-    /// With the constant rates by the part of K2 that the closed form omits.
-    pub(crate) fn with_steady(self, steady: SteadyRates) -> Self {
-        Self { steady, ..self }
-    }
-
     /// C²/Mn, and its derivatives with respect to L and to M at fixed L; `mean_motion` is n.
     pub(crate) fn squares(&self, mean_motion: f64) -> [f64; 3] {
         let [c, by_action, by_momentum] = self.first;
         let square = c / (self.momentum * mean_motion);
         [c * square, 2.0 * by_action * square, (2.0 * by_momentum - c / self.momentum) * square]
-    }
-
-    /// K2 without ⟨D⟩.
-    #[cfg(test)]
-    pub(crate) fn without_first(self) -> Self {
-        Self { first: [0.0; 3], ..self }
     }
 
     /// The derivatives of the mean variables for angular momenta along unit vectors: the rotation across them, and what is added to dℓ′/dt and dy′/dt.
@@ -125,11 +118,8 @@ impl Hamiltonian {
     ) -> ([Lanes<S>; 3], [Lanes<S>; 2]) {
         let DisturberLanes { direction, normal, cube, rate } = disturber;
         let all = |value: f64| cube.all(value);
-        let mut level = [*cube; 3];
-        for (component, normal) in level.iter_mut().zip(normal) {
-            *component = all(*normal);
-        }
-        let (along, across) = (dot(axis, direction), dot(axis, &level));
+        let [normal] = in_lanes(*cube, &[*normal]);
+        let (along, to_normal) = (dot(axis, direction), dot(axis, &normal));
         let square = along * along;
         let still = *cube * *cube;
         let moving = still * *rate;
@@ -137,49 +127,19 @@ impl Hamiltonian {
         for ((phase, row), steady) in phases.iter_mut().zip([1, 2]).zip(self.steady.phases) {
             let [p0, p1, p2, q0, q1] = self.second[row];
             let of_still = square.mul_add(square.mul_add(all(p2), all(p1)), all(p0));
-            let of_moving = across * square.mul_add(all(q1), all(q0));
+            let of_moving = to_normal * square.mul_add(all(q1), all(q0));
             let first = *cube * all(self.first[row]) * (square - all(1.0 / 3.0));
             *phase = still.mul_add(of_still, moving.mul_add(of_moving, first)) + all(steady);
         }
         let [_, p1, p2, q0, q1] = self.second[0];
         let of_body = still.mul_add(square.mul_add(all(4.0 * p2), all(2.0 * p1)), *cube * all(2.0 * self.first[0]));
-        let to_body = along * (moving * across).mul_add(all(2.0 * q1), of_body);
-        let to_normal = moving * square.mul_add(all(q1), all(q0));
+        let by_body = along * (moving * to_normal).mul_add(all(2.0 * q1), of_body);
+        let by_normal = moving * square.mul_add(all(q1), all(q0));
         let mut force = *direction;
-        for ((component, normal), steady) in force.iter_mut().zip(level).zip(&self.steady.force) {
-            *component = component.mul_add(to_body, normal.mul_add(to_normal, all(*steady)));
+        for ((component, normal), steady) in force.iter_mut().zip(normal).zip(&self.steady.force) {
+            *component = component.mul_add(by_body, normal.mul_add(by_normal, all(*steady)));
         }
-        let beside = dot(axis, &force);
-        let mut turning = force;
-        for (component, axis) in turning.iter_mut().zip(axis) {
-            *component = axis.negate_mul_add(beside, *component) * all(1.0 / self.momentum);
-        }
-        (turning, phases)
-    }
-
-    /// The derivatives of the mean variables for an angular momentum along a unit vector.
-    #[cfg(test)]
-    pub(crate) fn slopes(&self, axis: &Vector3<f64>, disturber: &PlacedBody) -> MeanRates {
-        let one = |value: f64| Lanes::splat(pulp::Scalar, value);
-        let vector = |vector: &Vector3<f64>| [one(vector.x), one(vector.y), one(vector.z)];
-        let PlacedBody { direction, normal, cube, rate } = disturber;
-        let disturber =
-            DisturberLanes { direction: vector(direction), normal: *normal, cube: one(*cube), rate: one(*rate) };
-        let (turning, phases) = self.slopes_at(&vector(axis), &disturber);
-        MeanRates {
-            turning: turning.map(|lanes| lanes.values()[0]).into(),
-            phases: phases.map(|lanes| lanes.values()[0]),
-        }
-    }
-
-    /// ⟨D⟩ and K2.
-    #[cfg(test)]
-    pub(crate) fn values(&self, axis: &Vector3<f64>, disturber: &PlacedBody) -> [f64; 2] {
-        let square = axis.dot(&disturber.direction).powi(2);
-        let [p0, p1, p2, q0, q1] = self.second[0];
-        let moving = disturber.rate * axis.dot(&disturber.normal) * (q0 + q1 * square);
-        let second = disturber.cube.powi(2) * (p0 + square * (p1 + square * p2) + moving);
-        [self.first[0] * disturber.cube * (square - 1.0 / 3.0), second]
+        (across(force, axis, all(1.0 / self.momentum)), phases)
     }
 }
 

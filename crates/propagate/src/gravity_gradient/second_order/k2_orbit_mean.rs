@@ -1,18 +1,16 @@
-//! ⟨D⟩ + K2 averaged over the orbit as well, in closed form.
+//! ⟨D⟩ + K2 averaged over the orbit, and the generating function W₂ of its periodic part (theory (10) to (13)).
 //!
-//! Let k_P, k_Q, k_N be the components of k along the pericentre, across it and along the normal, ρ = k_P² + k_Q², δ = k_P² − k_Q², and
-//! ⟨D⟩ = C (a/r)³ ((k·r̂)² − ⅓). Then
+//! Let k_P, k_Q, k_N be the components of k along the pericentre, across it and along the normal, z = k_P − ik_Q, ρ = |z|², and f the true anomaly. Then
+//! s = k·r̂ = Re z e^(if), and each part of ⟨D⟩ + K2 is a function of f and of k:
 //!
 //! ```text
-//! K̄ = C η^(−3) (½ρ − ⅓) + (C²/Mn) k_N (I_c ρ + I_1 δ) + ⟨K2⟩
-//! I_c = −η^(−6) (¼ + e²/6)          I_1 = −¼ η^(−6) e²
+//! u s² = ½ (ρ b₀ + Re z² b₂)          u s⁴ = ⅜ρ² b₀ + ½ρ Re z² b₂ + ⅛ Re z⁴ b₄          b_m = u e^(imf)
 //! ```
 //!
-//! The middle term is the effect of second order of the part of ⟨D⟩ that is periodic in the true anomaly f, whose mean over f is 0
-//! ([`OrbitPeriodic`]). K̄ acts in the time f/n. ⟨K2⟩ has the means of (a/r)⁶ and (a/r)⁶ ḟ times powers of k·r̂. K̄ is a
-//! polynomial in ρ, δ and k_N. For e = 0 it has no δ, and k precesses steadily about the normal. For e ≠ 0 it nods with twice the angle of the node.
+//! where u is (a/r)⁶ or (a/r)⁶ ḟ. The second order of ⟨D⟩ is C²/(Mn) k_N (ρ A + Re z² B). K̄ has the means of these functions over f in the time f/n, and W₂ has
+//! their primitives. For e = 0 the means of b₂, b₄ and B are 0, and k precesses steadily about the normal. For e ≠ 0 it nods with twice the angle of the node.
 
-use super::k2::{Hamiltonian, MeanRates, dot};
+use super::k2::{Hamiltonian, across, dot, in_lanes};
 use super::k2_remainder::SteadyRates;
 use crate::simd::complex_quaternion::ComplexLanes;
 use crate::simd::instruction_set::InstructionSet;
@@ -20,278 +18,175 @@ use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 use nalgebra::Vector3;
 
-/// Factors of 1, ρ, δ, ρ², ρδ, δ², k_N, k_N ρ, k_N δ.
-type MeanFactors = [f64; 9];
-
-/// K̄ at one mean σ and M, as a function of the angular momentum's direction.
-#[derive(Clone, Debug)]
-pub(crate) struct OrbitAverage {
-    /// K̄, and its derivatives with respect to L and to M at fixed L.
-    rows: [MeanFactors; 3],
-    momentum: f64,
-    axes: [Vector3<f64>; 3],
-    steady: SteadyRates,
-}
-
-impl OrbitAverage {
-    /// From ⟨D⟩ + K2, and the eccentricity, the mean motion and the axes of the orbit.
-    pub(crate) fn new(hamiltonian: &Hamiltonian, eccentricity: f64, mean_motion: f64, axes: [Vector3<f64>; 3]) -> Self {
-        let Hamiltonian { first, second, momentum, steady } = hamiltonian;
-        let means = OrbitMeans::new(eccentricity, mean_motion);
-        let squares = hamiltonian.squares(mean_motion);
-        let rows = std::array::from_fn(|row| means.coefficients(first[row], squares[row], &second[row]));
-        Self { rows, momentum: *momentum, axes, steady: *steady }
-    }
-
-    /// The derivatives of the mean variables for an angular momentum along a unit vector.
-    pub(crate) fn slopes(&self, axis: &Vector3<f64>) -> MeanRates {
-        let [p, q, n] = self.axes.map(|direction| axis.dot(&direction));
-        let (rho, delta) = (p * p + q * q, p * p - q * q);
-        let value = |[one, r, d, rr, rd, dd, z, zr, zd]: MeanFactors| {
-            one + rho * (r + rr * rho + rd * delta) + delta * (d + dd * delta) + n * (z + zr * rho + zd * delta)
-        };
-        let [_, r, d, rr, rd, dd, z, zr, zd] = self.rows[0];
-        let by_rho = r + 2.0 * rr * rho + rd * delta + n * zr;
-        let by_delta = d + rd * rho + 2.0 * dd * delta + n * zd;
-        let force = self.axes[0] * (2.0 * p * (by_rho + by_delta))
-            + self.axes[1] * (2.0 * q * (by_rho - by_delta))
-            + self.axes[2] * (z + zr * rho + zd * delta)
-            + self.steady.force;
-        MeanRates {
-            turning: (force - axis * axis.dot(&force)) / self.momentum,
-            phases: [0, 1].map(|i| value(self.rows[i + 1]) + self.steady.phases[i]),
-        }
-    }
-
-    /// An upper bound of the rate at which the angular momentum turns.
-    pub(crate) fn fastest(&self) -> f64 {
-        let [_, r, d, rr, rd, dd, z, zr, zd] = self.rows[0].map(f64::abs);
-        (2.0 * (r + d) + 4.0 * (rr + rd + dd) + z + 3.0 * (zr + zd) + self.steady.force.norm()) / self.momentum
-    }
-}
-
-/// The means over one orbit.
-struct OrbitMeans {
-    /// ⟨(a/r)³⟩.
-    cube: f64,
-    /// I_c and I_1.
-    square: [f64; 2],
-    /// ⟨(a/r)⁶⟩ times c0, c2, c4: the even cosines of the true anomaly.
-    still: [f64; 3],
-    /// ⟨(a/r)⁶ ḟ⟩ times d0 and d2.
-    moving: [f64; 2],
-}
-
-impl OrbitMeans {
-    fn new(e: f64, mean_motion: f64) -> Self {
-        let square = e * e;
-        let eta = ((1.0 - e) * (1.0 + e)).sqrt();
-        let cube = eta.powi(-3);
-        let [still, moving] = [cube.powi(3), mean_motion * cube.powi(4)];
-        Self {
-            cube,
-            square: [-cube * cube * (0.25 + square / 6.0), -0.25 * cube * cube * square],
-            still: [
-                still * (1.0 + square * (3.0 + 0.375 * square)),
-                still * square * (1.5 + 0.25 * square),
-                still * square * square / 16.0,
-            ],
-            moving: [
-                moving * (1.0 + square * (7.5 + square * (5.625 + 0.3125 * square))),
-                moving * square * (3.75 + square * (3.75 + 0.234_375 * square)),
-            ],
-        }
-    }
-
-    /// One row of K̄, from the factors of ⟨D⟩, of C²/Mn and of K2.
-    fn coefficients(&self, first: f64, square: f64, second: &[f64; 5]) -> MeanFactors {
-        let [p0, p1, p2, q0, q1] = *second;
-        let [c0, c2, c4] = self.still;
-        let [d0, d2] = self.moving;
-        [
-            p0 * c0 - first * self.cube / 3.0,
-            0.5 * (p1 * c0 + first * self.cube),
-            0.5 * p1 * c2,
-            p2 * (0.375 * c0 - 0.125 * c4),
-            0.5 * p2 * c2,
-            0.25 * p2 * c4,
-            q0 * d0,
-            square * self.square[0] + 0.5 * q1 * d0,
-            square * self.square[1] + 0.5 * q1 * d2,
-        ]
-    }
-}
-
 /// The highest harmonic of f.
 const HIGHEST: usize = 8;
-/// Number of series.
-const SERIES: usize = 7;
+/// Number of functions of f: b₀, b₂, b₄ for (a/r)⁶, b₀, b₂ for (a/r)⁶ ḟ, A and B.
+const FUNCTIONS: usize = 7;
+/// The factors of ⟨D⟩, of P0, P1, P2, of Q0, Q1 and of A and B, with the powers of η and n.
+type RowFactors = [f64; 7];
 
-/// The factors of a real or complex series Σ_k (p_k sin kf − i q_k cos kf), k from 1 on.
-type SineSeries = [[f64; 2]; HIGHEST];
-
-/// The factors of S0, S2, S4, of T0, T2, and of A.
+/// A function of f: its mean, and the primitive of the rest, Σ_k (p_k sin kf − i q_k cos kf) with k from 1 on.
 #[derive(Clone, Copy, Debug)]
-struct PoleFactors {
-    still: [f64; 3],
-    moving: [f64; 2],
-    square: f64,
+struct AnomalySeries {
+    mean: f64,
+    primitive: [[f64; 2]; HIGHEST],
 }
 
-/// W₂ at one mean σ and M.
+/// K̄ and W₂ at one mean σ and M, as functions of the angular momentum's direction.
 #[derive(Clone, Debug)]
-pub(crate) struct OrbitPeriodic {
-    /// Of W₂, and of its derivatives with respect to L and to M at fixed L.
-    rows: [PoleFactors; 3],
-    series: [SineSeries; SERIES],
+pub(crate) struct OverOrbit {
+    /// For the values, and for the derivatives with respect to L and to M at fixed L.
+    rows: [RowFactors; 3],
+    functions: [AnomalySeries; FUNCTIONS],
     momentum: f64,
     mean_motion: f64,
     axes: [Vector3<f64>; 3],
     steady: SteadyRates,
 }
 
-impl OrbitPeriodic {
+impl OverOrbit {
     /// From ⟨D⟩ + K2, and the eccentricity, the mean motion and the axes of the orbit.
     pub(crate) fn new(hamiltonian: &Hamiltonian, eccentricity: f64, mean_motion: f64, axes: [Vector3<f64>; 3]) -> Self {
-        let Hamiltonian { second, momentum, steady, .. } = hamiltonian;
-        let eta = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
+        let Hamiltonian { first, second, momentum, steady } = *hamiltonian;
+        let cube = ((1.0 - eccentricity) * (1.0 + eccentricity)).powf(-1.5);
         let squares = hamiltonian.squares(mean_motion);
         let rows = std::array::from_fn(|row| {
-            let [p0, p1, p2, q0, q1] = second[row];
-            PoleFactors {
-                still: [p0, p1, p2].map(|factor| factor / (mean_motion * eta.powi(9))),
-                moving: [q0, q1].map(|factor| factor / eta.powi(12)),
-                square: squares[row] / (mean_motion * eta.powi(6)),
-            }
+            let [p0, p1, p2] = [0, 1, 2].map(|i| second[row][i] * cube.powi(3));
+            let [q0, q1] = [3, 4].map(|i| second[row][i] * mean_motion * cube.powi(4));
+            [first[row] * cube, p0, p1, p2, q0, q1, squares[row] * cube * cube]
         });
-        let [still, moving] = [4, 6].map(|power| DistancePowers::new(eccentricity, power));
-        let [axial, double] = of_square(eccentricity);
-        let series = [
-            still.primitive(0),
-            still.primitive(2),
-            still.primitive(4),
-            moving.primitive(0),
-            moving.primitive(2),
-            axial,
-            double,
-        ];
-        Self { rows, series, momentum: *momentum, mean_motion, axes, steady: *steady }
+        let [still, moving] = [4, 6].map(|power| powers_of_distance(eccentricity, power));
+        let [a, b] = of_square(eccentricity);
+        let harmonics = [(&still, 0), (&still, 2), (&still, 4), (&moving, 0), (&moving, 2)];
+        let [b0, b2, b4, d0, d2] = harmonics.map(|(power, m)| AnomalySeries::new(power, m));
+        Self { rows, functions: [b0, b2, b4, d0, d2, a, b], momentum, mean_motion, axes, steady }
+    }
+
+    /// The rates by K̄ for angular momenta along unit vectors: the rotation across them, and what is added to dℓ′/dt and dy′/dt.
+    #[inline(always)]
+    pub(crate) fn mean<S: InstructionSet>(&self, axis: &[Lanes<S>; 3]) -> ([Lanes<S>; 3], [Lanes<S>; 2]) {
+        let none = axis[0].all(0.0);
+        let mut functions = [ComplexLanes { re: none, im: none }; FUNCTIONS];
+        for (lanes, function) in functions.iter_mut().zip(&self.functions) {
+            lanes.re = none.all(function.mean);
+        }
+        self.slopes(axis, &functions, (none.all(1.0), none.all(1.0)))
     }
 
     /// The changes by W₂ for angular momenta along unit vectors: the rotation across them, and what is added to ℓ′ and y′.
     #[inline(always)]
-    pub(crate) fn at<S: InstructionSet>(
+    pub(crate) fn periodic<S: InstructionSet>(
         &self,
         axis: &[Lanes<S>; 3],
         place: &Place<S>,
     ) -> ([Lanes<S>; 3], [Lanes<S>; 2]) {
-        let all = |value: f64| place.sine.all(value);
-        let mut axes = [*axis; 3];
-        for (lanes, direction) in axes.iter_mut().zip(&self.axes) {
-            *lanes = [all(direction.x), all(direction.y), all(direction.z)];
-        }
-        let [p, q, n] = [dot(axis, &axes[0]), dot(axis, &axes[1]), dot(axis, &axes[2])];
-        let [b0, b2, b4, d0, d2, axial, double] = self.sums(place);
-        let (z, half) = (ComplexLanes { re: p, im: -q }, all(0.5));
-        let conjugate = z.conjugate();
-        let scaled = |c: ComplexLanes<S>, by: Lanes<S>| ComplexLanes { re: c.re * by, im: c.im * by };
-        let rho = p.mul_add(p, q * q);
-        // The gradient of Re z²B in the plane is 2zB, the P-component its real part and the Q-component its imaginary part.
-        let [zb2, zd2, za] = [z * b2, z * d2, z * double];
-        let zb4 = z * z * z * b4;
-        let real = |c: ComplexLanes<S>| z.plus_re_of_product(c, all(0.0));
-        let (by2, by4) = (real(zb2), real(zb4));
-        let s2 = half * rho.mul_add(b0.re, by2);
-        let s4 = (rho * half).mul_add((rho * all(0.75)).mul_add(b0.re, by2), by4 * all(0.125));
-        let t2 = half * rho.mul_add(d0.re, real(zd2));
-        let a = rho.mul_add(axial.re, real(za));
-        let slope2 = scaled(conjugate, b0.re) + zb2;
-        let slope4 = scaled(conjugate, (all(1.5) * rho).mul_add(b0.re, by2)) + scaled(zb2, rho) + scaled(zb4, half);
-        let slope_t = scaled(conjugate, d0.re) + zd2;
-        let slope_a = scaled(scaled(conjugate, axial.re) + za, all(2.0));
-
-        let odd =
-            |row: &PoleFactors| t2.mul_add(all(row.moving[1]), d0.re.mul_add(all(row.moving[0]), a * all(row.square)));
-        // t − f/n, in which the constant rates act.
-        let late = place.centre * all(-1.0 / self.mean_motion);
-        let mut phases = [late; 2];
-        for ((phase, row), steady) in phases.iter_mut().zip(&self.rows[1..]).zip(self.steady.phases) {
-            let [p0, p1, p2] = row.still;
-            let even = b0.re.mul_add(all(p0), s2.mul_add(all(p1), s4 * all(p2)));
-            *phase = late.mul_add(all(steady), n.mul_add(odd(row), even));
-        }
-        let row = &self.rows[0];
-        let plane = scaled(slope2, all(row.still[1]))
-            + scaled(slope4, all(row.still[2]))
-            + scaled(scaled(slope_t, all(row.moving[1])) + scaled(slope_a, all(row.square)), n);
-        let along = odd(row);
-        let mut force = *axis;
-        for (c, component) in force.iter_mut().enumerate() {
-            let constant = late * all(self.steady.force[c]);
-            let inside = plane.re.mul_add(axes[0][c], plane.im.mul_add(axes[1][c], constant));
-            *component = along.mul_add(axes[2][c], inside);
-        }
-        let beside = dot(axis, &force);
-        let mut turning = force;
-        for (component, axis) in turning.iter_mut().zip(axis) {
-            *component = axis.negate_mul_add(beside, *component) * all(1.0 / self.momentum);
-        }
-        (turning, phases)
-    }
-
-    /// The series at places of the orbit.
-    #[inline(always)]
-    fn sums<S: InstructionSet>(&self, place: &Place<S>) -> [ComplexLanes<S>; SERIES] {
         let none = place.sine.all(0.0);
-        let mut sums = [ComplexLanes { re: none, im: none }; SERIES];
+        let inverse = none.all(1.0 / self.mean_motion);
+        let mut functions = [ComplexLanes { re: none, im: none }; FUNCTIONS];
         let (turn, mut power) = (place.turn(), place.turn());
         for k in 0..HIGHEST {
-            for (sum, series) in sums.iter_mut().zip(&self.series) {
-                let [p, q] = series[k];
-                sum.re = power.im.mul_add(none.all(p), sum.re);
-                sum.im = power.re.negate_mul_add(none.all(q), sum.im);
+            let wave = ComplexLanes { re: power.re * inverse, im: power.im * inverse };
+            for (sum, function) in functions.iter_mut().zip(&self.functions) {
+                let [p, q] = function.primitive[k];
+                sum.re = wave.im.mul_add(none.all(p), sum.re);
+                sum.im = wave.re.negate_mul_add(none.all(q), sum.im);
             }
             power = power * turn;
         }
-        sums
+        // W₁ is not in W₂. The constant rates act in the time t − f/n.
+        self.slopes(axis, &functions, (none, -(place.centre * inverse)))
     }
-}
 
-/// The Fourier coefficients of (1 + e cos f)^power, by the number of the harmonic from −8 to 8.
-struct DistancePowers([f64; 2 * HIGHEST + 1]);
-
-impl DistancePowers {
-    fn new(eccentricity: f64, power: usize) -> Self {
-        let mut coefficients = [0.0; 2 * HIGHEST + 1];
-        coefficients[HIGHEST] = 1.0;
-        for _ in 0..power {
-            let before = coefficients;
-            let at = |i: usize| before.get(i).copied().unwrap_or(0.0);
-            coefficients =
-                std::array::from_fn(|i| before[i] + 0.5 * eccentricity * (at(i + 1) + at(i.wrapping_sub(1))));
+    /// The derivatives of K̄ or W₂ from the values of the functions. `first` is the factor of ⟨D⟩, 1 for K̄ and 0 for W₂; `time` multiplies the constant rates.
+    #[inline(always)]
+    fn slopes<S: InstructionSet>(
+        &self,
+        axis: &[Lanes<S>; 3],
+        &[b0, b2, b4, d0, d2, a, b]: &[ComplexLanes<S>; FUNCTIONS],
+        (first, time): (Lanes<S>, Lanes<S>),
+    ) -> ([Lanes<S>; 3], [Lanes<S>; 2]) {
+        let all = |value: f64| first.all(value);
+        let axes = in_lanes(first, &self.axes);
+        let [p, q, n] = [dot(axis, &axes[0]), dot(axis, &axes[1]), dot(axis, &axes[2])];
+        let (z, conjugate, half) = (ComplexLanes { re: p, im: -q }, ComplexLanes { re: p, im: q }, all(0.5));
+        let scaled = |c: ComplexLanes<S>, by: Lanes<S>| ComplexLanes { re: c.re * by, im: c.im * by };
+        let rho = p.mul_add(p, q * q);
+        // The gradient of Re z²b in the plane is 2zb, the P-component its real part and the Q-component its imaginary part.
+        let [zb2, zd2, zb] = [z * b2, z * d2, z * b];
+        let zb4 = z * z * z * b4;
+        let real = |c: ComplexLanes<S>| z.plus_re_of_product(c, all(0.0));
+        let (by2, by4) = (real(zb2), real(zb4));
+        let s0 = first * rho.mul_add(half, all(-1.0 / 3.0));
+        let s2 = half * rho.mul_add(b0.re, by2);
+        let s4 = (rho * half).mul_add((rho * all(0.75)).mul_add(b0.re, by2), by4 * all(0.125));
+        let t2 = half * rho.mul_add(d0.re, real(zd2));
+        let square = rho.mul_add(a.re, real(zb));
+        let along =
+            |[.., q0, q1, factor]: RowFactors| t2.mul_add(all(q1), d0.re.mul_add(all(q0), square * all(factor)));
+        let mut phases = [time; 2];
+        for ((phase, row), steady) in phases.iter_mut().zip(&self.rows[1..]).zip(self.steady.phases) {
+            let [c, p0, p1, p2, ..] = *row;
+            let even = s0.mul_add(all(c), b0.re.mul_add(all(p0), s2.mul_add(all(p1), s4 * all(p2))));
+            *phase = time.mul_add(all(steady), n.mul_add(along(*row), even));
         }
-        Self(coefficients)
+        let [c, _, p1, p2, _, q1, factor] = self.rows[0];
+        let slope4 = scaled(conjugate, (all(1.5) * rho).mul_add(b0.re, by2)) + scaled(zb2, rho) + scaled(zb4, half);
+        let slope_t = scaled(conjugate, d0.re) + zd2;
+        let slope_a = scaled(scaled(conjugate, a.re) + zb, all(2.0));
+        let plane = scaled(conjugate, first.mul_add(all(c), b0.re * all(p1)))
+            + scaled(zb2, all(p1))
+            + scaled(slope4, all(p2))
+            + scaled(scaled(slope_t, all(q1)) + scaled(slope_a, all(factor)), n);
+        let normal = along(self.rows[0]);
+        let mut force = *axis;
+        for (c, component) in force.iter_mut().enumerate() {
+            let constant = time * all(self.steady.force[c]);
+            let inside = plane.re.mul_add(axes[0][c], plane.im.mul_add(axes[1][c], constant));
+            *component = normal.mul_add(axes[2][c], inside);
+        }
+        (across(force, axis, all(1.0 / self.momentum)), phases)
     }
 
-    /// The primitive of the product with e^(imf), without its mean.
-    fn primitive(&self, m: usize) -> SineSeries {
-        let of = |harmonic: i32| {
-            let index = harmonic - m as i32 + HIGHEST as i32;
-            usize::try_from(index).ok().and_then(|index| self.0.get(index)).copied().unwrap_or(0.0)
-        };
-        std::array::from_fn(|k| {
-            let harmonic = k as i32 + 1; // k < 8
-            let (plus, minus, inverse) = (of(harmonic), of(-harmonic), 1.0 / f64::from(harmonic));
-            [(plus + minus) * inverse, (plus - minus) * inverse]
-        })
+    /// An upper bound of the rate at which the mean angular momentum turns.
+    pub(crate) fn fastest(&self) -> f64 {
+        let [c, _, p1, p2, q0, q1, factor] = self.rows[0].map(f64::abs);
+        let [b0, b2, b4, d0, d2, a, b] = self.functions.map(|function| function.mean.abs());
+        let still = c + p1 * (b0 + b2) + p2 * (1.5 * b0 + 2.0 * b2 + 0.5 * b4);
+        let moving = q0 * d0 + 1.5 * q1 * (d0 + d2) + 3.0 * factor * (a + b);
+        (still + moving + self.steady.force.norm()) / self.momentum
     }
 }
 
-/// The two series of A: the factor of ρ, and B with Re z²B.
-fn of_square(e: f64) -> [SineSeries; 2] {
+impl AnomalySeries {
+    /// A power of 1 + e cos f times e^(imf).
+    fn new(power: &[f64; 2 * HIGHEST + 1], m: usize) -> Self {
+        let of = |harmonic: usize| power.get(harmonic).copied().unwrap_or(0.0);
+        let primitive = std::array::from_fn(|k| {
+            // The factors of e^(i(k+1)f) and e^(−i(k+1)f).
+            let (plus, minus) = (of((HIGHEST + k + 1).wrapping_sub(m)), of((HIGHEST - k - 1).wrapping_sub(m)));
+            [plus + minus, plus - minus].map(|part| part / (k + 1) as f64)
+        });
+        Self { mean: of(HIGHEST - m), primitive }
+    }
+}
+
+/// The Fourier coefficients of a power of 1 + e cos f, from the harmonic −8 to 8.
+fn powers_of_distance(eccentricity: f64, power: usize) -> [f64; 2 * HIGHEST + 1] {
+    let mut coefficients = [0.0; 2 * HIGHEST + 1];
+    coefficients[HIGHEST] = 1.0;
+    for _ in 0..power {
+        let before = coefficients;
+        let at = |i: usize| before.get(i).copied().unwrap_or(0.0);
+        coefficients = std::array::from_fn(|i| before[i] + 0.5 * eccentricity * (at(i + 1) + at(i.wrapping_sub(1))));
+    }
+    coefficients
+}
+
+/// A and B, without the powers of η.
+fn of_square(e: f64) -> [AnomalySeries; 2] {
     // g e^(2if) = Σ c_k e^(ikf), b = −i Σ (c_k/k) e^(ikf), a = −½ie (e^(if) − e^(−if)).
     let c = [0.0, 0.5 * e, 1.0, 0.5 * e];
-    let (mut axial, mut double) = ([[0.0; 2]; HIGHEST], [[0.0; 2]; HIGHEST]);
+    let [mut axial, mut double] = [AnomalySeries { mean: 0.0, primitive: [[0.0; 2]; HIGHEST] }; 2];
     // ½ [(g + 1) b − g e^(2if) a] = −i Σ r_k e^(ikf).
     let mut r = [0.0; 5];
     for k in 1..=3 {
@@ -299,13 +194,16 @@ fn of_square(e: f64) -> [SineSeries; 2] {
         r[k] += part;
         r[k - 1] += 0.25 * e * (part + c[k]);
         r[k + 1] += 0.25 * e * (part - c[k]);
-        for j in (1..=3).filter(|j| *j != k) {
-            let apart = k.abs_diff(j);
-            axial[apart - 1][0] -= 0.5 * c[j] * part / apart as f64;
+        for (j, other) in c.iter().enumerate().skip(1) {
+            match k.abs_diff(j) {
+                0 => axial.mean -= 0.5 * other * part,
+                apart => axial.primitive[apart - 1][0] -= 0.5 * other * part / apart as f64,
+            }
         }
     }
+    double.mean = -r[0];
     for (k, r) in r.into_iter().enumerate().skip(1) {
-        double[k - 1] = [-r / k as f64; 2];
+        double.primitive[k - 1] = [-r / k as f64; 2];
     }
     [axial, double]
 }

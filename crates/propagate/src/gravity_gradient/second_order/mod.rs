@@ -1,8 +1,8 @@
 //! The gravity gradient to second order in the torque (theory §9): the averaged Hamiltonian K2 in closed form, and the mean σ and M at the epoch by a sum over
 //! pairs of terms.
 //!
-//! Both parts are needed together: the rates of ℓ′ and y′ turn an error of second order in the mean σ or M into a drift of the size of K2's.
-//! Short-period corrections stay those of first order.
+//! Both parts are needed together: through the rates of ℓ′ and y′, an error of second order in the mean σ or M makes a drift as large as that by K2.
+//! The short-period corrections are those of first order.
 
 pub(crate) mod k2;
 pub(crate) mod k2_orbit_mean;
@@ -15,5 +15,6 @@ mod pairs_around;
 #[cfg(test)]
 mod tests;
 
-/// Terms, pairs and harmonics whose share of the largest, or of the sum, is smaller are left out of second order.
+/// A pair of terms is dropped if its size is below this times the largest pair; the size of a pair is the product of the sizes of its terms. The first-order changes
+/// of M and L keep every term above the square of this times the largest term.
 pub(crate) const CUTOFF: f64 = 1e-6;

@@ -1,17 +1,18 @@
-//! The disturbing body's part of the torque as a Fourier series in its mean anomaly l, and the divisors that belong to it.
+//! The disturbing body's part of the torque as a Fourier series in its mean anomaly l, and the divisors that belong to it: equation (5) of
+//! docs/theory-second-order.md.
 //!
 //! With U = (a/r)³ r̂r̂ᵀ = Σ_j U_j e^(ijl), the solution of V̇ + iΩV = U is Σ_j U_j e^(ijl)/(i(Ω + jn)). The sums over time derivatives are its expansion in
-//! jn/Ω: they have low harmonics to a few powers, and high ones not at all. Here nothing is expanded. A harmonic that does not return within the time T is no
-//! part of the mean: with x = Ω + jn the divisor has the factor 1 − e^(−x²T²/4). The factor must reach 1 fast: with 1 − sin(xT)/(xT), which is that of the mean
+//! jn/Ω, so they contain low harmonics to a few powers of jn/Ω and no high ones. Here nothing is expanded. A harmonic that does not return within the time T is
+//! no part of the mean: with x = Ω + jn the divisor has the factor 1 − e^(−x²T²/4). The factor must reach 1 fast: with 1 − sin(xT)/(xT), which is that of the mean
 //! over (−T, T), the error of the attitude was four times as large in scenes without a resonance, because the corrections take the regular harmonics as a
 //! whole.
 
 use crate::gravity_gradient::body::contraction::{Contraction, coefficients, contraction, factors};
 use crate::gravity_gradient::first_order::fourier::ExactTerm;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
-use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
-use crate::gravity_gradient::terms::divisors::{Divisors, returns};
-use crate::gravity_gradient::terms::term::slowest;
+use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
+use crate::gravity_gradient::terms::divisors::Divisors;
+use crate::gravity_gradient::terms::term::slow_limit;
 use crate::numerics::C64;
 use crate::simd::kepler::Place;
 
@@ -32,7 +33,7 @@ pub(crate) struct Near {
     pub(crate) divisor: f64,
     /// The contraction of U_j e^(ijl).
     pub(crate) torque: Contraction,
-    /// That of W, with its divisors.
+    /// The contraction of W for this harmonic: `torque` divided by i times the divisor.
     generator: ContractedPart,
     /// Whether the divisors have the shift by the average torque.
     pub(crate) shifted: bool,
@@ -102,13 +103,13 @@ pub(crate) struct OrbitHarmonics {
     /// T.
     duration: f64,
     /// Terms of a lower frequency have no sum over time derivatives.
-    slowest: f64,
+    slow_limit: f64,
 }
 
 impl OrbitHarmonics {
     /// The series in the frame of a mean state, if the orbit has one.
-    pub(crate) fn new(mean: &Mean, place: &Place<pulp::Scalar>, demand: &Demand<'_>) -> Option<Self> {
-        let series = &demand.series?.coefficients;
+    pub(crate) fn new(mean: &Mean, place: &Place<pulp::Scalar>, elliptic: &EllipticOrbit<'_>) -> Option<Self> {
+        let series = &elliptic.series.as_ref()?.coefficients;
         let count = series.len() - 1;
         let at = place.angle.values()[0] - place.centre.values()[0];
         let waves = (0..=2 * count).map(|i| {
@@ -118,7 +119,7 @@ impl OrbitHarmonics {
             let [even, odd] = [cosine, C64::i() * sine];
             [one, even + odd, even - odd].map(|coefficient| turn * coefficient)
         });
-        let [first, second, _] = demand.orbit.axes().map(|axis| mean.frame.inverse() * axis);
+        let [first, second, _] = elliptic.orbit.axes().map(|axis| mean.frame.inverse() * axis);
         let tensors = factors([first, second]);
         Some(Self {
             waves: waves.collect(),
@@ -127,9 +128,9 @@ impl OrbitHarmonics {
                 let half = |sign: f64| std::array::from_fn(|i| 0.5 * (cosine[i] - C64::new(0.0, sign) * sine[i]));
                 [one, half(1.0), half(-1.0)]
             }),
-            mean_motion: demand.mean_motion,
-            duration: demand.duration,
-            slowest: slowest(demand),
+            mean_motion: elliptic.mean_motion,
+            duration: elliptic.duration,
+            slow_limit: slow_limit(elliptic),
         })
     }
 
@@ -198,7 +199,7 @@ impl OrbitHarmonics {
 
     /// The reciprocal of a divisor, with the factor 1 − e^(−x²T²/4) where the sums over time derivatives do not contain the harmonic.
     fn inverse(&self, divisor: f64, omega: f64) -> f64 {
-        let summed = omega.abs() > self.slowest && divisor.abs() > SUMMED_ABOVE * omega.abs();
+        let summed = omega.abs() > self.slow_limit && divisor.abs() > SUMMED_ABOVE * omega.abs();
         if summed { 1.0 / divisor } else { inverse(divisor, self.duration) }
     }
 }
@@ -206,13 +207,7 @@ impl OrbitHarmonics {
 /// The reciprocal of a divisor, with the factor 1 − e^(−x²T²/4).
 pub(crate) fn inverse(divisor: f64, duration: f64) -> f64 {
     let turn = 0.5 * divisor * duration;
-    if returns(divisor, duration) {
-        1.0 / divisor
-    } else if turn == 0.0 {
-        0.0
-    } else {
-        -(-turn * turn).exp_m1() / divisor
-    }
+    if turn == 0.0 { 0.0 } else { -(-turn * turn).exp_m1() / divisor }
 }
 
 /// The time over which a harmonic acts without returning.
@@ -229,51 +224,34 @@ mod tests {
 
     use super::*;
     use crate::gravity_gradient::body::contraction::SymmetricTensor;
-    use crate::gravity_gradient::orbit::hansen::OrbitSeries;
-    use crate::gravity_gradient::orbit::span::{Reach, whole};
-    use crate::gravity_gradient::request::Ledger;
-    use crate::gravity_gradient::second_order::mean_elements::tensors;
+    use crate::gravity_gradient::orbit::elliptic_orbit::whole;
+    use crate::gravity_gradient::second_order::pair_terms::tensors;
     use crate::gravity_gradient::terms::divisors::AverageShift;
-    use crate::input::options::Level;
     use crate::input::orbit::Orbit;
     use crate::simd::lanes::Lanes;
 
     const MEAN_MOTION: f64 = 0.02;
 
     /// Calls `with` with a state and an orbit of many harmonics.
-    fn on_orbit<R>(eccentricity: f64, duration: f64, with: impl FnOnce(&Mean, &Demand<'_>) -> R) -> R {
+    fn on_orbit<R>(eccentricity: f64, duration: f64, with: impl FnOnce(&Mean, &EllipticOrbit<'_>) -> R) -> R {
         let orbit =
             Orbit::new(MEAN_MOTION, eccentricity).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
-        let envelope = whole(eccentricity, MEAN_MOTION);
-        let reach = Reach { eccentricity, anomaly: 0.0, sides: [10.0 * TAU; 2] };
-        let series = OrbitSeries::new(&reach).expect("a series");
         let frame = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.1);
-        let demand = Demand {
-            orbit: &orbit,
-            mean_motion: MEAN_MOTION,
-            rates: [0.0; 2],
-            axes: orbit.axes(),
-            level: Level::Full,
-            duration,
-            ledger: Ledger { of_second_order: 0.0, ..Ledger::new(1e-30, true) },
-            series: Some(&series),
-            envelope: &envelope,
-            pole: frame * Vector3::z(),
-        };
-        with(&Mean { p: C64::new(0.1, 0.0), longitude: 0.0, momentum: 1.0, frame }, &demand)
+        let elliptic = EllipticOrbit { duration, ..whole(&orbit, frame * Vector3::z()) };
+        with(&Mean { p: C64::new(0.1, 0.0), longitude: 0.0, momentum: 1.0, frame }, &elliptic)
     }
 
     /// c_m of V for T, and by the quadrature ∫ e^(iΩs) U(s) ds over the period before, over 1 − e^(−iΩP).
     fn solutions(eccentricity: f64, omega: f64, multiple: i32, duration: f64) -> [C64; 2] {
-        on_orbit(eccentricity, duration, |mean, demand| solutions_at(mean, demand, omega, multiple))
+        on_orbit(eccentricity, duration, |mean, elliptic| solutions_at(mean, elliptic, omega, multiple))
     }
 
-    fn solutions_at(mean: &Mean, demand: &Demand<'_>, omega: f64, multiple: i32) -> [C64; 2] {
-        let eccentricity = demand.orbit.eccentricity();
+    fn solutions_at(mean: &Mean, elliptic: &EllipticOrbit<'_>, omega: f64, multiple: i32) -> [C64; 2] {
+        let eccentricity = elliptic.orbit.eccentricity();
         let frame = mean.frame;
         let place = |anomaly: f64| Place::of(Lanes::splat(pulp::Scalar, anomaly), eccentricity);
         let (points, start, period) = (4000, 0.8, TAU / MEAN_MOTION);
-        let [first, second, _] = demand.orbit.axes().map(|axis| frame.inverse() * axis);
+        let [first, second, _] = elliptic.orbit.axes().map(|axis| frame.inverse() * axis);
         let sum: C64 = (0..points)
             .map(|k| {
                 let back = k as f64 / points as f64;
@@ -288,13 +266,13 @@ mod tests {
             })
             .sum();
         // The integrand jumps by 1 − e^(−iΩP) of its value at the end: the trapezoidal rule and its first correction.
-        let now = tensors(mean, &place(start), demand);
-        let value = |j: usize| contraction(&now.0[j], multiple)[0];
+        let now = tensors(mean, elliptic)(&place(start));
+        let value = |j: usize| contraction(&now[j], multiple)[0];
         let jump = 1.0 - C64::from_polar(1.0, -omega * period);
         let step = period / points as f64;
         let slope = C64::i() * omega * value(0) + value(1);
         let quadrature = (sum * step - value(0) * jump * (0.5 * step) - slope * jump * (step * step / 12.0)) / jump;
-        let series = OrbitHarmonics::new(mean, &place(start), demand).expect("few harmonics");
+        let series = OrbitHarmonics::new(mean, &place(start), elliptic).expect("few harmonics");
         [series.solution(omega, multiple, None), quadrature]
     }
 
@@ -322,10 +300,10 @@ mod tests {
 
     #[test]
     fn a_term_split_into_harmonics_is_the_term() {
-        on_orbit(0.6, 1e6, |mean, demand| {
+        on_orbit(0.6, 1e6, |mean, elliptic| {
             let place = Place::of(Lanes::splat(pulp::Scalar, 0.8), 0.6);
-            let (tensors, _) = tensors(mean, &place, demand);
-            let series = OrbitHarmonics::new(mean, &place, demand).expect("few harmonics");
+            let tensors = tensors(mean, elliptic)(&place);
+            let series = OrbitHarmonics::new(mean, &place, elliptic).expect("few harmonics");
             // The last is slow: all its harmonics are terms.
             for (number, multiple) in [(22.6, 0), (-31.4, 1), (1.3, 2)] {
                 let omega = number * MEAN_MOTION;

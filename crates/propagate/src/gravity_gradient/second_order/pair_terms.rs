@@ -3,39 +3,45 @@
 use super::pair_harmonics::{ContractedPart, Near, Parts};
 use crate::gravity_gradient::body::contraction::{Contraction, SymmetricTensor, contraction};
 use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::first_order::generator::{Generator, TorqueScale};
 use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::orbit::derivatives::ORDERS;
-use crate::gravity_gradient::terms::term::{ROOT_FLOOR, Term};
+use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
+use crate::gravity_gradient::terms::term::Term;
 use crate::numerics::C64;
-
-/// Relative truncation error of the sum over time derivatives when a term is evaluated at the points around the orbit.
-const SUM_ACCURACY: f64 = 1e-4;
+use crate::simd::complex_quaternion::QuaternionLanes;
+use crate::simd::kepler::Place;
+use crate::simd::lanes::Lanes;
 
 /// The state at which the sum is taken.
+#[derive(Clone, Copy)]
 pub(crate) struct Stand<'a> {
     pub(crate) inertia: &'a Inertia,
     pub(crate) mean: &'a Mean,
-    /// q = 3φn²/2.
-    pub(crate) strength: f64,
+    pub(crate) elliptic: &'a EllipticOrbit<'a>,
+    /// Mean anomaly of the disturbing body at the epoch \[rad\].
+    pub(crate) anomaly: f64,
     /// The traceless part of (a/r)³ r̂r̂ in the frame, and its time derivatives.
-    pub(crate) tensors: &'a [SymmetricTensor; ORDERS],
-    /// Sizes of the time derivatives at the epoch, as many and one more.
-    pub(crate) sizes: &'a [f64; ORDERS + 1],
-    /// The largest on the orbit.
-    pub(crate) norms: &'a [f64],
-    /// Frequency below which pairs have no sum over time derivatives: the largest rate of twice the true anomaly times
-    /// [`SLOW_RATIO`](crate::gravity_gradient::terms::term::SLOW_RATIO).
-    pub(crate) slowest: f64,
-    /// The harmonics of the orbit in S are multiples of this frequency.
-    pub(crate) orbital_step: f64,
-    /// Longest time from the epoch.
-    pub(crate) duration: f64,
-    /// Largest (a/r)³ within the span, over that at the epoch.
-    pub(crate) closest: f64,
-    /// Second time derivative of (a/r)³ r̂r̂ at the epoch, over it.
-    pub(crate) bend: f64,
-    /// Pairs with a smaller error of M and L, over M, are not summed around the orbit.
-    pub(crate) enough: f64,
+    pub(crate) tensors: [SymmetricTensor; ORDERS],
+}
+
+/// The traceless part of (a/r)³ r̂r̂ in the frame of a mean state, and its time derivatives, as a function of the place of the disturbing body.
+pub(crate) fn tensors(
+    mean: &Mean,
+    elliptic: &EllipticOrbit<'_>,
+) -> impl Fn(&Place<pulp::Scalar>) -> [SymmetricTensor; ORDERS] + use<> {
+    let [first, second, _] = elliptic.orbit.axes();
+    let factors = TorqueScale { strength: 0.0, root: 0.0, momentum: mean.momentum };
+    let orbit = (elliptic.envelope.orbital.clone(), [first, second]);
+    let generator = Generator::new(Default::default(), Vec::new(), orbit, factors);
+    let frame = QuaternionLanes::all(Lanes::splat(pulp::Scalar, 0.0), &mean.frame);
+    move |place| {
+        generator.tensors(frame, place).map(|deviator| {
+            let [axial, across, xy, xz, yz] = deviator.map(|lanes| lanes.values()[0]);
+            let transverse = -axial / 3.0;
+            [transverse - 0.5 * across, transverse + 0.5 * across, -2.0 * transverse, xy, xz, yz]
+        })
+    }
 }
 
 /// One term, or ⟨D⟩.
@@ -48,9 +54,9 @@ pub(crate) struct PairTerm {
     /// Ω and its derivatives with respect to σ and M.
     pub(crate) frequency: [f64; 3],
     /// q e^(i(hℓ′+my′)), and −i for m = 1.
-    weight: C64,
+    pub(crate) weight: C64,
     /// F = σ^(|h|/2) f, √σ dF/dσ, and h F/√σ.
-    amplitude: [f64; 3],
+    pub(crate) amplitude: [f64; 3],
     pub(crate) parts: Parts,
     /// Whether it is one harmonic of the orbit, which has no other time dependence than its frequency.
     pub(crate) single: bool,
@@ -58,10 +64,16 @@ pub(crate) struct PairTerm {
     pub(crate) shifted: bool,
 }
 
-impl Stand<'_> {
-    /// [D_a, W_b].
-    pub(crate) fn source(&self, a: &PairTerm, b: &PairTerm) -> C64 {
-        self.bracket(a, &a.parts.torque[0], b, &b.parts.generator[0])
+impl<'a> Stand<'a> {
+    /// A mean state of first order with the disturbing body at its place at the epoch.
+    pub(crate) fn new(
+        inertia: &'a Inertia,
+        mean: &'a Mean,
+        place: &Place<pulp::Scalar>,
+        elliptic: &'a EllipticOrbit<'a>,
+    ) -> Self {
+        let anomaly = place.angle.values()[0] - place.centre.values()[0];
+        Self { inertia, mean, elliptic, anomaly, tensors: tensors(mean, elliptic)(place) }
     }
 
     /// The bracket of a part of one term with a part of another, with the phases.
@@ -88,44 +100,47 @@ impl PairTerm {
     pub(crate) fn new(stand: &Stand<'_>, term: &Term) -> Self {
         let contracted = stand.tensors.map(|tensor| contraction(&tensor, term.multiple));
         let omega = stand.mean.momentum * term.frequency[0];
+        let orders = orders(omega, &stand.elliptic.envelope.epoch);
         let parts = Parts {
             torque: [0, 1].map(|j| ContractedPart { value: contracted[j], slope: C64::default() }),
-            generator: generating(&contracted, omega, stand.sizes),
+            generator: [
+                generated(&contracted[..orders], omega),
+                generated(&contracted[1..ORDERS.min(orders + 1)], omega),
+            ],
         };
         Self::of(stand, term, parts)
     }
 
+    /// c_m of V by the sum over time derivatives, and the size of the first omitted part.
+    pub(crate) fn solution(&self, stand: &Stand<'_>, multiple: i32) -> (C64, f64) {
+        let (omega, sizes) = (self.frequency[0], &stand.elliptic.envelope.epoch);
+        let contracted = stand.tensors.map(|tensor| contraction(&tensor, multiple));
+        let orders = orders(omega, sizes);
+        (generated(&contracted[..orders], omega).value[0], sizes[orders] / omega.abs().powi(orders as i32 + 1)) // orders ≤ ORDERS
+    }
+
     /// The number of derivatives for a sum around the orbit.
     pub(crate) fn orders_around(&self, stand: &Stand<'_>) -> usize {
-        orders(self.frequency[0], stand.norms, SUM_ACCURACY)
+        orders(self.frequency[0], &stand.elliptic.envelope.orbital.norms)
     }
 
     /// D and W of the term with the disturbing body at another place, from the contractions of the tensor and its derivatives there. The harmonics `near` are
     /// terms of their own and are subtracted; `elapsed` is the time from the place of their amplitudes. dD/dt and dW/dt are not computed.
     pub(crate) fn elsewhere(&self, contracted: &[Contraction], near: &[Near], elapsed: f64) -> Self {
         let omega = self.frequency[0];
-        let inverse = (C64::i() * omega).inv();
-        let mut turns: Vec<C64> =
-            near.iter().map(|harmonic| C64::from_polar(1.0, (harmonic.frequency - omega) * elapsed)).collect();
-        let (mut torque, mut generator) = (ContractedPart::default(), ContractedPart::default());
-        let mut factor = inverse;
-        for (j, &values) in contracted.iter().enumerate() {
-            let mut values = values;
-            for (harmonic, turn) in near.iter().zip(&mut turns) {
+        let mut contracted = contracted.to_vec();
+        for harmonic in near {
+            let rate = harmonic.frequency - omega;
+            let mut turn = C64::from_polar(1.0, rate * elapsed);
+            for values in &mut contracted {
                 for (value, part) in values.iter_mut().zip(harmonic.torque) {
-                    *value -= part * *turn;
+                    *value -= part * turn;
                 }
-                *turn *= C64::new(0.0, harmonic.frequency - omega);
+                turn *= C64::new(0.0, rate);
             }
-            if j == 0 {
-                torque.value = values;
-            }
-            for (sum, value) in generator.value.iter_mut().zip(values) {
-                *sum += factor * value;
-            }
-            generator.slope += factor * inverse * -C64::i() * (j as f64 + 1.0) * values[0];
-            factor *= -inverse;
         }
+        let torque = ContractedPart { value: contracted[0], slope: C64::default() };
+        let generator = generated(&contracted, omega);
         let parts =
             Parts { torque: [torque, ContractedPart::default()], generator: [generator, ContractedPart::default()] };
         Self { parts, ..*self }
@@ -134,8 +149,9 @@ impl PairTerm {
     /// One harmonic of the orbit in a term.
     pub(crate) fn single(stand: &Stand<'_>, term: &Term, near: &Near) -> Self {
         let row = Self::of(stand, term, near.parts());
-        let share = near.torque.iter().map(|part| part.norm_sqr()).fold(0.0, f64::max).sqrt() / stand.norms[0];
-        let root = stand.inertia.sigma.sqrt().max(ROOT_FLOOR);
+        let share = near.torque.iter().map(|part| part.norm_sqr()).fold(0.0, f64::max).sqrt()
+            / stand.elliptic.envelope.orbital.norms[0];
+        let root = stand.inertia.root();
         let size = share * term.strength(root) * stand.mean.momentum / near.divisor.abs();
         let [_, by_sigma, by_momentum] = row.frequency;
         Self { size, frequency: [near.divisor, by_sigma, by_momentum], single: true, shifted: near.shifted, ..row }
@@ -144,14 +160,14 @@ impl PairTerm {
     /// A term with these amplitudes of D and W.
     pub(crate) fn of(stand: &Stand<'_>, term: &Term, parts: Parts) -> Self {
         let (h, m) = (f64::from(term.harmonic), f64::from(term.multiple));
-        let Stand { mean, strength, .. } = stand;
+        let mean = stand.mean;
         let [nu, slope, _] = term.frequency;
         let angle = if mean.p == C64::default() { 0.0 } else { mean.p.arg() };
-        let phase = C64::from_polar(*strength, h * angle + m * mean.longitude);
+        let phase = C64::from_polar(stand.elliptic.strength(), h * angle + m * mean.longitude);
         Self {
             harmonic: h,
             multiple: m,
-            size: term.size(stand.inertia.sigma.sqrt().max(ROOT_FLOOR)),
+            size: term.size(stand.inertia.root()),
             frequency: [mean.momentum * nu, mean.momentum * slope, nu],
             weight: if term.multiple == 1 { phase * -C64::i() } else { phase },
             amplitude: amplitude(term.harmonic, term.weighted(), stand.inertia.sigma),
@@ -177,7 +193,7 @@ impl PairTerm {
             multiple: 0.0,
             size: 1.0,
             frequency: [0.0; 3],
-            weight: (2.0 * stand.strength).into(),
+            weight: (2.0 * stand.elliptic.strength()).into(),
             amplitude: amplitude(0, function, stand.inertia.sigma),
             parts: Parts {
                 torque: [part(&stand.tensors[0]), part(&stand.tensors[1])],
@@ -221,33 +237,24 @@ fn amplitude(harmonic: i32, [value, slope, _]: [f64; 3], sigma: f64) -> [f64; 3]
     [whole, root.powi(degree + 1) * slope + 0.5 * f64::from(degree) * lowered, f64::from(harmonic) * lowered]
 }
 
-/// V and dV/dt with V̇ + iΩV = U, from the contractions of U and its time derivatives: sums that end where what they leave is least.
-fn generating(contracted: &[Contraction; ORDERS], omega: f64, sizes: &[f64]) -> [ContractedPart; 2] {
-    let orders = orders(omega, sizes, 0.0);
+/// V with V̇ + iΩV = U, from the contractions of U and its time derivatives.
+fn generated(contracted: &[Contraction], omega: f64) -> ContractedPart {
     let inverse = (C64::i() * omega).inv();
-    let mut parts = [ContractedPart::default(); 2];
+    let mut part = ContractedPart::default();
     // (−1)^j/(iΩ)^(j+1).
     let mut factor = inverse;
-    for (j, values) in contracted.iter().enumerate().take(orders) {
-        let slope = factor * inverse * -C64::i() * (j as f64 + 1.0);
-        for (sum, value) in parts[0].value.iter_mut().zip(values) {
+    for (j, values) in contracted.iter().enumerate() {
+        for (sum, value) in part.value.iter_mut().zip(values) {
             *sum += factor * value;
         }
-        parts[0].slope += slope * values[0];
-        if let Some(next) = contracted.get(j + 1) {
-            for (sum, value) in parts[1].value.iter_mut().zip(next) {
-                *sum += factor * value;
-            }
-            parts[1].slope += slope * next[0];
-        }
+        part.slope += factor * inverse * -C64::i() * (j as f64 + 1.0) * values[0];
         factor *= -inverse;
     }
-    parts
+    part
 }
 
-/// The number of derivatives with which a sum leaves this share of its first term, or with which it leaves least, from the sizes of the derivatives.
-pub(crate) fn orders(omega: f64, sizes: &[f64], enough: f64) -> usize {
-    let left = |orders: usize| sizes[orders] / omega.abs().powi(orders as i32);
-    let best = (1..=ORDERS).min_by(|&a, &b| left(a).total_cmp(&left(b))).unwrap_or(1);
-    (1..best).find(|&orders| left(orders) <= enough * sizes[0]).unwrap_or(best)
+/// The number of derivatives that minimizes the first omitted term, from the sizes of the derivatives.
+fn orders(omega: f64, sizes: &[f64]) -> usize {
+    let left = |orders: usize| sizes[orders] / omega.abs().powi(orders as i32); // orders ≤ ORDERS
+    (1..=ORDERS).min_by(|&a, &b| left(a).total_cmp(&left(b))).unwrap_or(1)
 }

@@ -1,4 +1,4 @@
-//! Pairs of terms by the harmonics of the orbit: pairs that are too slow for the sums over time derivatives, and pairs with a harmonic near resonance.
+//! Pairs of terms by the harmonics of the orbit, equation (7) of docs/theory-second-order.md: pairs that are too slow for the sums over time derivatives, and pairs with a harmonic near resonance.
 //!
 //! The source S of all pairs with one h and m depends on the place of the disturbing body. With S = Σ_j S_j e^(ijl), its integral is Σ_j S_j e^(ijl)/(i(Ω +
 //! jn)). A harmonic with a small x = Ω + jn has the factor 1 − e^(−x²T²/4) of [`crate::gravity_gradient::second_order::pair_harmonics`] there.
@@ -7,12 +7,14 @@ use std::f64::consts::{PI, TAU};
 
 use super::CUTOFF;
 use super::pair_harmonics::{Near, Parts, Split, inverse, unreturned};
-use super::pair_terms::{PairTerm, Stand};
-use crate::gravity_gradient::body::contraction::{SymmetricTensor, contraction};
-use crate::gravity_gradient::orbit::derivatives::ORDERS;
+use super::pair_terms::{PairTerm, Stand, tensors};
+use crate::gravity_gradient::body::contraction::contraction;
+use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::orbit::hansen::{at_most, decay};
-use crate::gravity_gradient::terms::term::Term;
+use crate::gravity_gradient::terms::term::{Term, slow_limit};
 use crate::numerics::C64;
+use crate::simd::kepler::Place;
+use crate::simd::lanes::Lanes;
 
 /// Most points around an orbit; more are needed from an eccentricity of 0.77 on, and for a harmonic above 60.
 const MOST_POINTS: f64 = 128.0;
@@ -20,46 +22,115 @@ const MOST_POINTS: f64 = 128.0;
 /// Relative error of a sum around the orbit: S changes within the span.
 const SOURCE_CHANGE: f64 = 0.02;
 
-/// The disturbing body at one place of its orbit.
-pub(crate) struct OrbitPoint {
-    /// l less l at the epoch.
-    pub(crate) anomaly: f64,
-    pub(crate) weight: f64,
-    pub(crate) tensors: [SymmetricTensor; ORDERS],
-}
+/// Safety factor of slow pairs. S is taken at the epoch, and elsewhere on the orbit the directions to the disturbing body may make it larger.
+const SOURCE_MARGIN: f64 = 3.0;
 
-/// The disturbing body at mean anomalies with weights.
-pub(crate) type Points<'a> = dyn Fn(&[(f64, f64)]) -> Vec<OrbitPoint> + 'a;
-
-/// An orbit, and the disturbing body on it.
+/// S of all pairs with the same h and m.
 #[derive(Clone, Copy)]
-pub(crate) struct Around<'a> {
-    pub(crate) eccentricity: f64,
-    pub(crate) mean_motion: f64,
-    pub(crate) points: &'a Points<'a>,
-}
-
-/// h and m of a pair together, and their frequency Ω.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Total {
+pub(crate) struct PairSum {
+    /// h and m.
     pub(crate) numbers: [f64; 2],
+    /// Ω.
     pub(crate) frequency: f64,
+    /// S and Ṡ.
+    pub(crate) source: C64,
+    pub(crate) change: C64,
 }
 
-impl Around<'_> {
-    /// The highest harmonic that a pair needs, if they are not too many.
-    pub(crate) fn highest(&self, total: &Total) -> Option<f64> {
-        let slow = 6.0 + 4.0 / decay(self.eccentricity);
-        let highest = slow.max((total.frequency / self.mean_motion).abs() + 4.0).ceil();
-        (points_for(highest) <= MOST_POINTS).then_some(highest)
+impl PairSum {
+    /// Adds this sum to the one in the list that has its h and m or the opposite ones.
+    pub(crate) fn join(mut self, all: &mut Vec<Self>) {
+        let [h, m] = self.numbers;
+        if m < 0.0 || m == 0.0 && h < 0.0 {
+            let Self { frequency, source, change, .. } = self;
+            self = Self { numbers: [-h, -m], frequency: -frequency, source: source.conj(), change: change.conj() };
+        }
+        match all.iter_mut().find(|other| other.numbers == self.numbers) {
+            Some(other) => {
+                other.source += self.source;
+                other.change += self.change;
+            }
+            None => all.push(self),
+        }
     }
 
-    /// An upper estimate of the harmonic nearest to resonance in a product of so many factors (a/r)³, over the product at the pericentre, and its distance from
-    /// resonance.
-    pub(crate) fn nearest(&self, frequency: f64) -> [f64; 2] {
-        let number = (frequency / self.mean_motion).abs().round();
-        [at_most(self.eccentricity, number, 2), (frequency.abs() - number * self.mean_motion).abs()]
+    /// Whether the harmonics of the orbit are needed, and are not too many. On a circle they are few, and better than the sum over time derivatives.
+    pub(crate) fn needs(&self, stand: &Stand<'_>) -> bool {
+        let EllipticOrbit { orbit, series, ledger, duration, .. } = stand.elliptic;
+        let slow = self.frequency.abs() <= stand.slow_limit();
+        let by_sum = if slow || orbit.eccentricity() == 0.0 { self.sum_error(stand) } else { 0.0 };
+        let [h, m] = self.numbers.map(f64::abs);
+        let rates: f64 = stand.inertia.rates.iter().map(|rate| rate.to_f64().abs()).sum();
+        let enough = ledger.pairs * stand.mean.momentum / (duration * rates);
+        series.is_some()
+            && h.max(m) * (self.at_resonance(stand) + by_sum) > enough
+            && highest(stand, self.frequency).is_some()
     }
+
+    /// An upper estimate of the part of χ by the harmonic of S nearest to resonance, which the sum over time derivatives does not contain; 0 for slow pairs,
+    /// which have no such sum.
+    pub(crate) fn at_resonance(&self, stand: &Stand<'_>) -> f64 {
+        if self.frequency.abs() <= stand.slow_limit() {
+            return 0.0;
+        }
+        let EllipticOrbit { orbit, mean_motion, duration, .. } = stand.elliptic;
+        let number = (self.frequency / mean_motion).abs().round();
+        let distance = (self.frequency.abs() - number * mean_motion).abs();
+        let size = self.size(stand) * stand.closest().powi(2) * at_most(orbit.eccentricity(), number, 2);
+        size * (1.0 / distance).min(*duration)
+    }
+
+    /// Size of S. S may vanish at the epoch, so its time derivative is included.
+    fn size(&self, stand: &Stand<'_>) -> f64 {
+        let swing = if stand.bend() > 0.0 { self.change.norm_sqr() / (4.0 * stand.bend()) } else { 0.0 };
+        (self.source.norm_sqr() + swing).sqrt()
+    }
+
+    /// The real part of −iχ by the sum over time derivatives; 0 for slow pairs, which have no such sum.
+    pub(crate) fn by_sum(&self, stand: &Stand<'_>) -> f64 {
+        if self.frequency.abs() <= stand.slow_limit() {
+            return 0.0;
+        }
+        let inverse = (C64::i() * self.frequency).inv();
+        ((self.source - self.change * inverse) * inverse * -C64::i()).re
+    }
+
+    /// Error of [`PairSum::by_sum`]: the terms of the sum from the third on; for slow pairs all of χ.
+    pub(crate) fn sum_error(&self, stand: &Stand<'_>) -> f64 {
+        let (omega, duration, step) = (self.frequency, stand.elliptic.duration, stand.elliptic.orbital_step());
+        // A product of two has twice the orbit's rates.
+        let fastest = 2.0 * stand.bend().sqrt();
+        let beyond = omega.abs() - fastest;
+        let distance = if beyond > 0.0 { beyond } else { (omega - step * (omega / step).round()).abs() };
+        let time = if distance * duration > 1.0 { 1.0 / distance } else { duration };
+        let slow = omega.abs() <= stand.slow_limit();
+        let share = if slow { SOURCE_MARGIN * stand.closest().powi(2) } else { (fastest / omega).powi(2).min(1.0) };
+        self.size(stand) * share * time
+    }
+}
+
+impl Stand<'_> {
+    /// Frequency at and below which pairs have no sum over time derivatives.
+    pub(crate) fn slow_limit(&self) -> f64 {
+        slow_limit(self.elliptic)
+    }
+
+    /// Largest (a/r)³ within the span, over that at the epoch.
+    fn closest(&self) -> f64 {
+        self.elliptic.envelope.span[0] / self.elliptic.envelope.epoch[0]
+    }
+
+    /// Second time derivative of (a/r)³ r̂r̂ at the epoch, over it.
+    fn bend(&self) -> f64 {
+        self.elliptic.envelope.epoch[2] / self.elliptic.envelope.epoch[0]
+    }
+}
+
+/// The highest harmonic that a pair of frequency Ω needs, if they are not too many.
+fn highest(stand: &Stand<'_>, omega: f64) -> Option<f64> {
+    let slow = 6.0 + 4.0 / decay(stand.elliptic.orbit.eccentricity());
+    let highest = slow.max((omega / stand.elliptic.mean_motion).abs() + 4.0).ceil();
+    (points_for(highest) <= MOST_POINTS).then_some(highest)
 }
 
 /// Number of points for so many harmonics.
@@ -87,108 +158,92 @@ struct TermAround<'a> {
     near: &'a [Near],
 }
 
-/// A pair of terms, by their places in the list; the first may be ⟨D⟩.
-struct TermPair {
-    /// Index of their total in `totals`.
-    place: usize,
-    terms: [Option<usize>; 2],
-    /// Whether the second has the opposite h and m.
-    conjugated: bool,
-    /// Whether the sum of both has the opposite h and m of that total.
-    opposite: bool,
-}
+/// A pair: the index of its total; the indices of its two rows, where row 0 is ⟨D⟩ and each term is followed by its conjugate; and true if the pair has −h and −m
+/// of the total.
+type TermPair = (usize, [usize; 2], bool);
 
-/// The changes of M and L by the pairs of these terms that have one of these totals, and their errors. A term comes with its relative size.
-pub(crate) fn actions(
+/// The real part of −iχ of the pairs of these terms with each of these totals, and its error. A term comes with its relative size.
+pub(crate) fn by_harmonics(
     stand: &Stand<'_>,
     listed: &[(Term, f64)],
-    totals: &[Total],
-    (around, exact): (&Around<'_>, &[(Term, Split)]),
-) -> [[f64; 2]; 2] {
-    let highest = totals.iter().filter_map(|total| around.highest(total)).fold(0.0, f64::max);
-    let points = (around.points)(&even(around.eccentricity, points_for(highest)));
-    let sources = sources(stand, (listed, totals), (around, exact), &points);
+    totals: &[PairSum],
+    exact: &[(Term, Split)],
+) -> Vec<[f64; 2]> {
+    let highest = totals.iter().filter_map(|total| highest(stand, total.frequency)).fold(0.0, f64::max);
+    let points = even(stand.elliptic.orbit.eccentricity(), points_for(highest));
+    let sources = sources(stand, (listed, totals), exact, &points);
     let highest = highest as i32;
-    let turn = |j: i32| points.iter().map(move |point| C64::from_polar(1.0, f64::from(j) * point.anomaly));
+    let turn = |j: i32| points.iter().map(move |(l, _)| C64::from_polar(1.0, f64::from(j) * (l - stand.anomaly)));
     let steps: Vec<C64> = turn(-1).collect();
-    let mut actions = [[0.0; 2]; 2];
-    for (Total { numbers: [h, m], frequency }, source) in totals.iter().zip(&sources) {
-        let (mut sum, mut left) = (C64::default(), 0.0);
-        let waves = turn(highest).zip(&points).zip(source).map(|((turn, point), value)| value * turn * point.weight);
+    let sum = |(total, source): (&PairSum, &Vec<C64>)| {
+        let (mut sum, mut left) = (0.0, 0.0);
+        let waves = turn(highest).zip(&points).zip(source).map(|((turn, (_, weight)), value)| value * turn * weight);
         let mut waves: Vec<C64> = waves.collect();
         for j in -highest..=highest {
             let harmonic: C64 = waves.iter().sum();
-            let divisor = frequency + f64::from(j) * around.mean_motion;
-            let part = harmonic * inverse(divisor, stand.duration);
-            sum += part;
-            left += SOURCE_CHANGE * part.norm() + harmonic.norm() * unreturned(divisor, stand.duration);
+            let divisor = total.frequency + f64::from(j) * stand.elliptic.mean_motion;
+            let part = harmonic * inverse(divisor, stand.elliptic.duration);
+            sum -= part.re;
+            left += SOURCE_CHANGE * part.norm() + harmonic.norm() * unreturned(divisor, stand.elliptic.duration);
             waves.iter_mut().zip(&steps).for_each(|(wave, step)| *wave *= step);
         }
-        // With X = Σ_j S_j/(Ω + jn), M changes by −m Re X and L by −h Re X.
-        for (i, number) in [*m, *h].into_iter().enumerate() {
-            actions[0][i] -= number * sum.re;
-            actions[1][i] += number.abs() * left;
-        }
-    }
-    actions
+        [sum, left]
+    };
+    totals.iter().zip(&sources).map(sum).collect()
 }
 
 /// S of the pairs with each of these totals, at each point of the orbit.
 fn sources(
     stand: &Stand<'_>,
-    (listed, totals): (&[(Term, f64)], &[Total]),
-    (around, exact): (&Around<'_>, &[(Term, Split)]),
-    points: &[OrbitPoint],
+    (listed, totals): (&[(Term, f64)], &[PairSum]),
+    exact: &[(Term, Split)],
+    points: &[(f64, f64)],
 ) -> Vec<Vec<C64>> {
     let pairs = pairs(listed, totals);
-    let needed = |k: usize| pairs.iter().any(|pair| pair.terms.contains(&Some(k)));
+    let needed = |k: usize| pairs.iter().any(|(_, rows, _)| rows.iter().any(|row| row.div_ceil(2) == k + 1));
     let near = |term: &Term| exact.iter().find(|(other, _)| term.is(other)).map_or(&[][..], |(_, split)| &split.near);
     let around_orbit = |term: &Term| {
         let row = PairTerm::of(stand, term, Parts::default());
         TermAround { row, multiple: term.multiple as usize, orders: row.orders_around(stand), near: near(term) } // 0 ≤ m ≤ 2
     };
-    let terms: Vec<_> = listed.iter().enumerate().map(|(k, (term, _))| needed(k).then(|| around_orbit(term))).collect();
+    let terms: Vec<_> = listed.iter().enumerate().map(|(k, (term, _))| (around_orbit(term), needed(k))).collect();
     let mut sources = vec![vec![C64::default(); points.len()]; totals.len()];
-    for (k, point) in points.iter().enumerate() {
-        let stand = Stand { tensors: &point.tensors, ..*stand };
-        let elapsed = point.anomaly / around.mean_motion;
-        let contracted = [0, 1, 2].map(|multiple| point.tensors.map(|tensor| contraction(&tensor, multiple)));
-        let here = |TermAround { row, multiple, orders, near }: &TermAround<'_>| {
-            row.elsewhere(&contracted[*multiple][..*orders], near, elapsed)
+    let at_place = tensors(stand.mean, stand.elliptic);
+    for (k, (anomaly, _)) in points.iter().enumerate() {
+        let place = Place::of(Lanes::splat(pulp::Scalar, *anomaly), stand.elliptic.orbit.eccentricity());
+        let stand = Stand { tensors: at_place(&place), ..*stand };
+        let elapsed = (anomaly - stand.anomaly) / stand.elliptic.mean_motion;
+        let contracted = [0, 1, 2].map(|multiple| stand.tensors.map(|tensor| contraction(&tensor, multiple)));
+        let here = |(TermAround { row, multiple, orders, near }, needed): &(TermAround<'_>, bool)| {
+            let row = if *needed { row.elsewhere(&contracted[*multiple][..*orders], near, elapsed) } else { *row };
+            [row, row.conjugate()]
         };
-        let rows: Vec<Option<[PairTerm; 2]>> =
-            terms.iter().map(|term| term.as_ref().map(here).map(|row| [row, row.conjugate()])).collect();
-        let average = [PairTerm::average(&stand); 2];
-        let both = |place: Option<usize>| place.and_then(|place| rows[place].as_ref()).unwrap_or(&average);
-        for pair in &pairs {
-            let [[a, _], b] = pair.terms.map(both);
-            let source = stand.source(a, &b[usize::from(pair.conjugated)]);
-            sources[pair.place][k] += if pair.opposite { source.conj() } else { source };
+        let rows: Vec<_> = std::iter::once(PairTerm::average(&stand)).chain(terms.iter().flat_map(here)).collect();
+        for (place, pair, opposite) in &pairs {
+            let [a, b] = pair.map(|row| &rows[row]);
+            let source = stand.bracket(a, &a.parts.torque[0], b, &b.parts.generator[0]);
+            sources[*place][k] += if *opposite { source.conj() } else { source };
         }
     }
     sources
 }
 
-/// The pairs of these terms that have one of these totals, or its opposite.
-fn pairs(listed: &[(Term, f64)], totals: &[Total]) -> Vec<TermPair> {
+/// The pairs of these terms that have one of these totals, or its opposite. The first of each is ⟨D⟩ or a term, and not the conjugate of one.
+fn pairs(listed: &[(Term, f64)], totals: &[PairSum]) -> Vec<TermPair> {
     let mut pairs = Vec::new();
-    for (i, (a, size)) in listed.iter().enumerate() {
-        for (k, (b, other)) in listed.iter().enumerate() {
-            for conjugated in [false, true] {
-                let sign = if conjugated { -1 } else { 1 };
-                let [h, m] = [a.harmonic + sign * b.harmonic, a.multiple + sign * b.multiple].map(f64::from);
+    for (k, (b, size)) in listed.iter().enumerate() {
+        for (row, sign) in [(2 * k + 1, 1), (2 * k + 2, -1)] {
+            let mut add = |first: usize, harmonic: i32, multiple: i32| {
+                let [h, m] = [harmonic + sign * b.harmonic, multiple + sign * b.multiple].map(f64::from);
                 let place = totals.iter().position(|total| total.numbers == [h, m] || total.numbers == [-h, -m]);
-                if let Some(place) = place.filter(|_| size * other >= CUTOFF) {
-                    let opposite = totals[place].numbers != [h, m];
-                    pairs.push(TermPair { place, terms: [Some(i), Some(k)], conjugated, opposite });
-                }
+                pairs.extend(place.map(|place| (place, [first, row], totals[place].numbers != [h, m])));
+            };
+            for (i, (a, _)) in listed.iter().enumerate().filter(|(_, (_, other))| size * other >= CUTOFF) {
+                add(2 * i + 1, a.harmonic, a.multiple);
             }
-        }
-    }
-    for (k, (b, _)) in listed.iter().enumerate() {
-        let numbers = [b.harmonic, b.multiple].map(f64::from);
-        if let Some(place) = totals.iter().position(|total| total.numbers == numbers) {
-            pairs.push(TermPair { place, terms: [None, Some(k)], conjugated: false, opposite: false });
+            if sign == 1 {
+                add(0, 0, 0);
+            }
         }
     }
     pairs

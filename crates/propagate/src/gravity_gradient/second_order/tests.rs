@@ -6,19 +6,15 @@ use crate::gravity_gradient::body::contraction::SymmetricTensor;
 use crate::gravity_gradient::body::inertia::{HIGHEST, Inertia};
 use crate::gravity_gradient::first_order::corrections::Corrections;
 use crate::gravity_gradient::first_order::mean_variables::{Mean, PeriodicChange};
-use crate::gravity_gradient::orbit::derivatives::ORDERS;
-use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
-use crate::gravity_gradient::orbit::span::{Envelope, whole};
-use crate::gravity_gradient::request::Ledger;
+use crate::gravity_gradient::orbit::elliptic_orbit::{EllipticOrbit, whole};
+use crate::gravity_gradient::orbit::hansen::OrbitSeries;
+use crate::gravity_gradient::orbit::span::Reach;
 use crate::gravity_gradient::request::osculating;
-use crate::gravity_gradient::second_order::k2::{Hamiltonian, PlacedBody};
-use crate::gravity_gradient::second_order::k2_orbit_mean::OrbitAverage;
-use crate::gravity_gradient::second_order::mean_elements::{points, tensors};
-use crate::gravity_gradient::second_order::pair_terms::Stand;
-use crate::gravity_gradient::second_order::pairs::{OrbitParts, averaged, second_actions};
-use crate::gravity_gradient::second_order::pairs_around::Around;
-use crate::gravity_gradient::terms::term::{fast_terms, slowest};
-use crate::input::options::Level;
+use crate::gravity_gradient::second_order::k2::{DisturberLanes, Hamiltonian, in_lanes};
+use crate::gravity_gradient::second_order::k2_orbit_mean::OverOrbit;
+use crate::gravity_gradient::second_order::pair_terms::{PairTerm, Stand, tensors};
+use crate::gravity_gradient::second_order::pairs::{OrbitParts, second_actions};
+use crate::gravity_gradient::terms::term::{Term, fast_terms, slow_limit};
 use crate::input::orbit::Orbit;
 use crate::numerics::C64;
 use crate::simd::kepler::Place;
@@ -27,6 +23,62 @@ use crate::torque_free::polhode::Polhode;
 use crate::{Body, State};
 
 mod averages;
+
+/// Where the disturbing body is, as the averaged equations see it.
+#[derive(Clone, Copy, Debug)]
+struct PlacedBody {
+    /// Unit vector to it.
+    direction: Vector3<f64>,
+    /// Normal of its orbit.
+    normal: Vector3<f64>,
+    /// (a/r)³.
+    cube: f64,
+    /// Rate of its true anomaly.
+    rate: f64,
+}
+
+/// Time derivatives of the mean motion: the rotation of the invariable frame, and what is added to dℓ′/dt and dy′/dt.
+#[derive(Debug)]
+struct MeanRates {
+    turning: Vector3<f64>,
+    phases: [f64; 2],
+}
+
+impl From<([Lanes<pulp::Scalar>; 3], [Lanes<pulp::Scalar>; 2])> for MeanRates {
+    fn from((turning, phases): ([Lanes<pulp::Scalar>; 3], [Lanes<pulp::Scalar>; 2])) -> Self {
+        let value = |lanes: Lanes<pulp::Scalar>| lanes.values()[0];
+        Self { turning: turning.map(value).into(), phases: phases.map(value) }
+    }
+}
+
+/// The rates by K̄ for an angular momentum along a unit vector.
+fn mean_rates(average: &OverOrbit, axis: &Vector3<f64>) -> MeanRates {
+    let [axis] = in_lanes(Lanes::splat(pulp::Scalar, 0.0), &[*axis]);
+    average.mean(&axis).into()
+}
+
+/// The rates by ⟨D⟩ + K2 for an angular momentum along a unit vector.
+fn rates(hamiltonian: &Hamiltonian, axis: &Vector3<f64>, disturber: &PlacedBody) -> MeanRates {
+    let one = |value: f64| Lanes::splat(pulp::Scalar, value);
+    let PlacedBody { direction, normal, cube, rate } = *disturber;
+    let [axis, direction] = in_lanes(one(0.0), &[*axis, direction]);
+    hamiltonian.slopes_at(&axis, &DisturberLanes { direction, normal, cube: one(cube), rate: one(rate) }).into()
+}
+
+/// ⟨D⟩ and K2.
+fn values(hamiltonian: &Hamiltonian, axis: &Vector3<f64>, disturber: &PlacedBody) -> [f64; 2] {
+    let square = axis.dot(&disturber.direction).powi(2);
+    let [p0, p1, p2, q0, q1] = hamiltonian.second[0];
+    let moving = disturber.rate * axis.dot(&disturber.normal) * (q0 + q1 * square);
+    let second = disturber.cube.powi(2) * (p0 + square * (p1 + square * p2) + moving);
+    [hamiltonian.first[0] * disturber.cube * (square - 1.0 / 3.0), second]
+}
+
+/// ½ ⟨{D̃, W}⟩ from the pairs whose phases cancel, with as many time derivatives as the sums have.
+fn averaged(stand: &Stand<'_>, terms: &[Term]) -> f64 {
+    let rows = terms.iter().map(|term| PairTerm::new(stand, term));
+    rows.map(|a| stand.bracket(&a, &a.parts.torque[0], &a.conjugate(), &a.conjugate().parts.generator[0]).re).sum()
+}
 
 /// Of the disturbing body: what the closed form lacks is (n/Ω)² of it.
 const MEAN_MOTION: f64 = 1e-4;
@@ -38,7 +90,6 @@ struct Scene {
     orbit: Orbit,
     mean: Mean,
     place: Place<pulp::Scalar>,
-    envelope: Envelope,
 }
 
 impl Scene {
@@ -63,22 +114,11 @@ impl Scene {
             frame: polhode.invariable_frame(state.attitude),
         };
         let place = Place::of(Lanes::splat(pulp::Scalar, 0.8), ECCENTRICITY);
-        Self { polhode, orbit, mean, place, envelope: whole(ECCENTRICITY, MEAN_MOTION) }
+        Self { polhode, orbit, mean, place }
     }
 
-    fn demand(&self) -> Demand<'_> {
-        Demand {
-            orbit: &self.orbit,
-            mean_motion: MEAN_MOTION,
-            rates: [0.0; 2],
-            axes: self.orbit.axes(),
-            level: Level::Full,
-            duration: 0.0,
-            ledger: Ledger { of_second_order: 0.0, ..Ledger::new(1e-30, true) },
-            series: None,
-            envelope: &self.envelope,
-            pole: self.mean.frame * Vector3::z(),
-        }
+    fn elliptic(&self) -> EllipticOrbit<'_> {
+        EllipticOrbit { series: None, ..whole(&self.orbit, self.mean.frame * Vector3::z()) }
     }
 
     fn disturber(&self) -> PlacedBody {
@@ -94,32 +134,13 @@ impl Scene {
         }
     }
 
-    /// The state for the sum over pairs, with terms that are faster than `slowest`.
-    fn stand<'a>(
-        &'a self,
-        inertia: &'a Inertia,
-        tensors: &'a [SymmetricTensor; ORDERS],
-        norms: &'a [f64],
-        slowest: f64,
-    ) -> Stand<'a> {
-        Stand {
-            inertia,
-            mean: &self.mean,
-            strength: Q,
-            tensors,
-            sizes: &self.envelope.epoch,
-            norms,
-            slowest,
-            orbital_step: MEAN_MOTION,
-            duration: 0.0,
-            closest: 1.0,
-            bend: 0.0,
-            enough: 0.0,
-        }
+    /// The state for the sum over pairs.
+    fn stand<'a>(&'a self, inertia: &'a Inertia, elliptic: &'a EllipticOrbit<'a>) -> Stand<'a> {
+        Stand::new(inertia, &self.mean, &self.place, elliptic)
     }
 
     fn closed(&self, inertia: &Inertia, strength: f64) -> Hamiltonian {
-        Hamiltonian::new(inertia, &fast_terms(inertia, 0.0, slowest(&self.demand())), strength)
+        Hamiltonian::new(inertia, &fast_terms(inertia, 0.0, slow_limit(&self.elliptic())), strength)
     }
 }
 
@@ -149,13 +170,13 @@ fn periodic(inertia: &Inertia, p: C64, longitude: f64, tensor: &SymmetricTensor)
 fn the_closed_form_is_the_average_of_the_bracket_over_both_angles() {
     for scene in Scene::all() {
         let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
-        let corrections = Corrections::new(&inertia, &scene.demand()).expect("no resonance");
-        let (tensor, _) = tensors(&scene.mean, &scene.place, &scene.demand());
+        let corrections = Corrections::new(&inertia, &scene.elliptic()).expect("no resonance");
+        let tensor = tensors(&scene.mean, &scene.elliptic())(&scene.place);
         // The torus is filled at one frame: the change turns the tensor.
         let turned = |rotation: [f64; 2], step: f64| -> SymmetricTensor {
             let [x, y] = rotation.map(|angle| step * angle);
             let turn = UnitQuaternion::new(Vector3::new(x, y, 0.0));
-            tensors(&Mean { frame: scene.mean.frame * turn, ..scene.mean }, &scene.place, &scene.demand()).0[0]
+            tensors(&Mean { frame: scene.mean.frame * turn, ..scene.mean }, &scene.elliptic())(&scene.place)[0]
         };
         let (mut sum, count) = (0.0, (48, 10));
         // A change of some 1e-4 makes the quotient good to its square.
@@ -176,7 +197,7 @@ fn the_closed_form_is_the_average_of_the_bracket_over_both_angles() {
         }
         let torus = Q * sum / f64::from(count.0 * count.1);
         let axis = scene.mean.frame * Vector3::z();
-        let [_, closed] = scene.closed(&inertia, Q).values(&axis, &scene.disturber());
+        let [_, closed] = values(&scene.closed(&inertia, Q), &axis, &scene.disturber());
         // Quotients leave 1e-8; the closed form lacks (n/Ω)² = 1e-7 of it, where its terms with n/Ω are 1e-3.
         assert!((torus / closed - 1.0).abs() <= 1e-6, "{torus:e} {closed:e} {:e} {tensor:?}", torus / closed - 1.0);
     }
@@ -186,11 +207,11 @@ fn the_closed_form_is_the_average_of_the_bracket_over_both_angles() {
 fn the_pairs_that_cancel_add_up_to_the_closed_form() {
     for scene in Scene::all() {
         let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
-        let (tensors, norms) = tensors(&scene.mean, &scene.place, &scene.demand());
-        let stand = scene.stand(&inertia, &tensors, norms, 0.0);
-        let pairs = averaged(&stand, &fast_terms(&inertia, 0.0, slowest(&scene.demand())));
+        let elliptic = scene.elliptic();
+        let stand = scene.stand(&inertia, &elliptic);
+        let pairs = averaged(&stand, &fast_terms(&inertia, 0.0, slow_limit(&scene.elliptic())));
         let axis = scene.mean.frame * Vector3::z();
-        let [_, closed] = scene.closed(&inertia, Q).values(&axis, &scene.disturber());
+        let [_, closed] = values(&scene.closed(&inertia, Q), &axis, &scene.disturber());
         assert!((pairs / closed - 1.0).abs() <= 1e-6, "{pairs:e} {closed:e} {:e}", pairs / closed - 1.0);
     }
 }
@@ -203,10 +224,10 @@ fn drifts_and_turning_are_the_derivatives_of_the_hamiltonian() {
         let (sigma, axis, disturber) = (p.norm_sqr(), frame * Vector3::z(), scene.disturber());
         let value = |action: f64, momentum: f64, axis: &Vector3<f64>| {
             let inertia = Inertia::new(&scene.polhode, action / momentum, momentum);
-            scene.closed(&inertia, 1.0).values(axis, &disturber).iter().sum::<f64>()
+            values(&scene.closed(&inertia, 1.0), axis, &disturber).iter().sum::<f64>()
         };
         let inertia = Inertia::new(&scene.polhode, sigma, momentum);
-        let slopes = scene.closed(&inertia, 1.0).slopes(&axis, &disturber);
+        let slopes = rates(&scene.closed(&inertia, 1.0), &axis, &disturber);
         let action = sigma * momentum;
         let (small, step) = (1e-3 * action, 1e-4 * momentum);
         let by_action =
@@ -236,20 +257,20 @@ fn the_average_over_the_orbit_is_the_mean_over_the_mean_anomaly() {
         let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
         let hamiltonian = scene.closed(&inertia, Q);
         // ⟨D⟩ alone would have the effect of its periodic part, which is no mean.
-        let second = hamiltonian.without_first();
+        let second = Hamiltonian { first: [0.0; 3], ..hamiltonian };
         let axes = scene.orbit.axes();
-        let average = OrbitAverage::new(&second, ECCENTRICITY, MEAN_MOTION, axes);
+        let average = OverOrbit::new(&second, ECCENTRICITY, MEAN_MOTION, axes);
         for axis in [scene.mean.frame * Vector3::z(), axes[2], Vector3::new(0.48, -0.6, 0.64)] {
             let (mut turning, mut phases) = (Vector3::zeros(), [0.0; 2]);
             for k in 0..STEPS {
                 let anomaly = std::f64::consts::TAU * (k as f64 / STEPS as f64 - 0.5);
                 let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), ECCENTRICITY);
                 let moved = Scene { place, ..scene.clone() };
-                let slopes = second.slopes(&axis, &moved.disturber());
+                let slopes = rates(&second, &axis, &moved.disturber());
                 turning += slopes.turning / STEPS as f64;
                 phases = std::array::from_fn(|i| phases[i] + slopes.phases[i] / STEPS as f64);
             }
-            let closed = average.slopes(&axis);
+            let closed = mean_rates(&average, &axis);
             let scale = phases.map(f64::abs);
             assert!((closed.turning - turning).norm() <= 1e-12 * average.fastest(), "{closed:?} {turning:?}");
             for i in 0..2 {
@@ -263,22 +284,21 @@ fn the_average_over_the_orbit_is_the_mean_over_the_mean_anomaly() {
 #[test]
 fn pairs_by_the_harmonics_of_the_orbit_are_those_by_time_derivatives() {
     let (mean_motion, eccentricity) = (0.02, 0.1);
+    let orbit = Orbit::new(mean_motion, eccentricity).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
     let scene = Scene {
-        orbit: Orbit::new(mean_motion, eccentricity).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit"),
+        orbit,
         place: Place::of(Lanes::splat(pulp::Scalar, 0.8), eccentricity),
-        envelope: whole(eccentricity, mean_motion),
         ..Scene::new([0.4, 0.7, 1.0], [0.1, 0.3, 1.0])
     };
-    let demand = Demand { mean_motion, ..scene.demand() };
+    let elliptic = scene.elliptic();
     let inertia = Inertia::new(&scene.polhode, scene.mean.p.norm_sqr(), scene.mean.momentum);
-    let (tensors, norms) = tensors(&scene.mean, &scene.place, &demand);
-    let terms = fast_terms(&inertia, 1e-4, slowest(&demand));
-    let stand = scene.stand(&inertia, &tensors, norms, slowest(&demand));
-    let stand = Stand { duration: 1e6, orbital_step: mean_motion, ..stand };
-    let points = |places: &[(f64, f64)]| points(&scene.mean, &scene.place, &demand, places);
-    let around = Around { eccentricity, mean_motion, points: &points };
-    let by_sums = second_actions(&stand, &terms, &OrbitParts::default());
-    let by_orbit = second_actions(&stand, &terms, &OrbitParts { around: Some(around), ..OrbitParts::default() });
+    let terms = fast_terms(&inertia, 1e-4, slow_limit(&elliptic));
+    let reach = Reach { eccentricity, anomaly: 0.0, sides: [10.0 * std::f64::consts::TAU; 2] };
+    let series = OrbitSeries::new(&reach).expect("a series");
+    let [by_sums, by_orbit] = [None, Some(series)].map(|series| {
+        let elliptic = EllipticOrbit { series, mean_motion, duration: 1e6, ..scene.elliptic() };
+        second_actions(&scene.stand(&inertia, &elliptic), &terms, &OrbitParts::default())
+    });
     // The sums end after two derivatives: the next has a few times (2n/Ω)², where Ω is 30 n and more.
     let scale = by_sums.momentum.abs() + by_sums.action.abs();
     for (one, other) in [(by_sums.momentum, by_orbit.momentum), (by_sums.action, by_orbit.action)] {

@@ -8,17 +8,15 @@
 //! Ω + jn + (h − mσ) ∂K̄/∂L − ω (m k_N + a)
 //! ```
 //!
-//! The second line is the divisor: in axes that precess with k, the frame turns about k and the disturbing body about N. On the average k_N is constant, and so
-//! is this divisor. In harmonics that are not near resonance, and for j = 0, the bracket with the average torque has the same effect.
+//! The second line is the divisor: in axes that precess with k, the frame turns about k and the disturbing body about N. The averaged torque keeps k_N constant, so
+//! the divisor is constant. Away from resonance, and for j = 0, the bracket {⟨D⟩, W} gives this shift, and it is not applied here.
 
-use nalgebra::Vector3;
-
+use super::term::Term;
 use crate::gravity_gradient::body::inertia::Inertia;
+use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 
 /// A harmonic with |Ω + jn| below this times n is a separate term in the sum over pairs.
 const SINGLE_BELOW: f64 = 2.5;
-/// If |Ω + jn| is below this times n, the divisor contains the shift by the average torque. Above it the shift is no larger than other effects of second order.
-const RESONANT: f64 = 1.0;
 /// A shift of this times n or more is not applied.
 const MOST_SHIFT: f64 = 0.3;
 
@@ -32,15 +30,14 @@ pub(crate) struct AverageShift {
 }
 
 impl AverageShift {
-    /// For an orbit of this eccentricity and normal, with q = 3φn²/2, and an angular momentum along a unit vector.
-    pub(crate) fn new(inertia: &Inertia, strength: f64, eccentricity: f64, [normal, pole]: [&Vector3<f64>; 2]) -> Self {
-        let Inertia { sigma, momentum, .. } = *inertia;
-        let scale = strength * ((1.0 - eccentricity) * (1.0 + eccentricity)).powf(-1.5) / momentum;
-        let [torque, slope] = inertia.average_torque().map(|part| scale * part);
-        let (along, across) = (pole.dot(normal), pole.cross(normal).norm_squared());
+    pub(crate) fn new(inertia: &Inertia, orbit: &EllipticOrbit<'_>) -> Self {
+        let (normal, pole) = (orbit.axes[2], orbit.pole);
+        let scale = orbit.strength() * orbit.eta.powi(-3) / inertia.momentum;
+        let [torque, slope, _] = Term::average(inertia).map(|part| scale * part);
+        let (along, across) = (pole.dot(&normal), pole.cross(&normal).norm_squared());
         let by_action = slope * (0.5 * across - 1.0 / 3.0);
         let precession = -torque * along;
-        Self { phases: [by_action, -sigma * by_action], precession: [precession, precession * along] }
+        Self { phases: [by_action, -inertia.sigma * by_action], precession: [precession, precession * along] }
     }
 }
 
@@ -89,11 +86,11 @@ impl Divisors {
         self.slow || self.unshifted(harmonic).abs() < SINGLE_BELOW * self.mean_motion
     }
 
-    /// Whether a harmonic is so near resonance that its divisor has the shift by the average torque.
+    /// Whether |Ω + jn| is below n, so that the divisor has the shift by the average torque. Above n the shift is no larger than other effects of second order.
     pub(crate) fn is_shifted(&self, harmonic: i32) -> bool {
         harmonic != 0
             && self.steady_shift < MOST_SHIFT * self.mean_motion
-            && self.unshifted(harmonic).abs() < RESONANT * self.mean_motion
+            && self.unshifted(harmonic).abs() < self.mean_motion
     }
 
     /// Ω + jn.
@@ -107,15 +104,10 @@ impl Divisors {
         self.unshifted(harmonic) + shift + f64::from(turns) * precession
     }
 
-    /// The divisor of the harmonic's part that is nearest to resonance: of those with 1 and with the e^(±2if) that turns with it.
+    /// The smaller in magnitude of the divisors for a = 0 and for the a = ±2 with the sign of j.
     pub(crate) fn smallest(&self, harmonic: i32) -> f64 {
-        self.nearest(harmonic, &[0, 2])
-    }
-
-    /// The smallest divisor of the harmonic's parts with e^(iaf), for these |a|, that turn with the harmonic.
-    pub(crate) fn nearest(&self, harmonic: i32, turns: &[i32]) -> f64 {
-        let parts = turns.iter().map(|turns| self.at(harmonic, turns * harmonic.signum()));
-        parts.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or_else(|| self.unshifted(harmonic))
+        let [one, other] = [0, 2 * harmonic.signum()].map(|turns| self.at(harmonic, turns));
+        if other.abs() < one.abs() { other } else { one }
     }
 
     /// 1 over the divisor of U_ja, or 0 for the harmonic that is left out.
@@ -124,10 +116,7 @@ impl Divisors {
     }
 }
 
-/// From this xT/2 on, a harmonic with the divisor x returns within the time T: e^(−x²T²/4) is below rounding.
-const RETURNS: f64 = 6.1;
-
-/// Whether a harmonic with this divisor returns within the span.
-pub(crate) fn returns(divisor: f64, duration: f64) -> bool {
-    0.5 * (divisor * duration).abs() > RETURNS
+/// The part of a harmonic that does not return within the span: e^(−x²T²/3) with the divisor x and the longest time T from the epoch.
+pub(crate) fn unreturned(divisor: f64, duration: f64) -> f64 {
+    (-(divisor * duration).powi(2) / 3.0).exp()
 }

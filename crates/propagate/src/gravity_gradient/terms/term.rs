@@ -1,7 +1,7 @@
 //! A term of the disturbing function: its coefficient and its frequency; the change of the motion by it, and by errors of the mean variables.
 
 use crate::gravity_gradient::body::inertia::{HIGHEST, Inertia};
-use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
+use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 
 /// The factors of one mean motion.
 #[derive(Clone, Copy, Debug)]
@@ -67,8 +67,6 @@ impl Sensitivity {
 /// Smallest |Ω| over the largest rate of twice the true anomaly for which the sum over time derivatives is used. Below this ratio the sum does not converge.
 /// Above it the truncation error of the sum is part of the error estimate.
 pub(crate) const SLOW_RATIO: f64 = 1.5;
-/// Lower limit of √σ in the size of a term. The wobble that the torque forces is larger.
-pub(crate) const ROOT_FLOOR: f64 = 1e-9;
 /// Largest size of the contraction of r̂r̂ for each m.
 const CONTRACTED: [f64; 3] = [2.0 / 3.0, 0.5, 1.0];
 
@@ -160,7 +158,7 @@ pub(crate) struct SizedTerm {
     pub(crate) rate: f64,
     /// Rate of change of M or L by the term, over M and over m or h.
     pub(crate) action: f64,
-    /// The part of the change that comes from the slope of Ω, times Ω.
+    /// Change of the attitude through ∂Ω/∂σ, times the square of the divisor [rad per unit of time squared].
     pub(crate) shift: f64,
 }
 
@@ -196,29 +194,28 @@ impl SizedTerm {
         (self.rate + self.shift / divisor) / divisor
     }
 
-    /// The relative change of M (or L) and the change of y′ through ∂Ω/∂M for a given divisor. [`SizedTerm::size`] contains neither.
-    pub(crate) fn swing_at(&self, divisor: f64) -> [f64; 2] {
-        let swing = self.action / divisor;
-        [swing, swing * self.frequency.abs() / divisor]
+    /// The change of y′ through ∂Ω/∂M for a given divisor \[rad\]. [`SizedTerm::size`] does not contain it.
+    pub(crate) fn turn_at(&self, divisor: f64) -> f64 {
+        self.action / divisor * self.frequency.abs() / divisor
     }
 }
 
-/// The largest rate of twice the true anomaly within the span, times the ratio below which sums over time derivatives do not converge.
-pub(crate) fn slowest(demand: &Demand<'_>) -> f64 {
-    SLOW_RATIO * demand.envelope.fastest
+/// Largest |Ω| of a slow term: [`SLOW_RATIO`] times the largest rate of twice the true anomaly within the span and of the axes.
+pub(crate) fn slow_limit(orbit: &EllipticOrbit<'_>) -> f64 {
+    SLOW_RATIO * (orbit.envelope.fastest + orbit.turning())
 }
 
-/// The terms that are larger than `share` of the largest and faster than `slowest`, a frequency.
-pub(crate) fn fast_terms(inertia: &Inertia, share: f64, slowest: f64) -> Vec<Term> {
-    let root = inertia.sigma.sqrt().max(ROOT_FLOOR);
-    let is_fast = |term: &Term| term.frequency[0].abs() * inertia.momentum > slowest && term.size(root) > 0.0;
+/// The terms that are larger than `share` of the largest and faster than `slow_limit`, a frequency.
+pub(crate) fn fast_terms(inertia: &Inertia, share: f64, slow_limit: f64) -> Vec<Term> {
+    let root = inertia.root();
+    let is_fast = |term: &Term| term.frequency[0].abs() * inertia.momentum > slow_limit && term.size(root) > 0.0;
     let mut terms: Vec<_> = Term::all(inertia).filter(is_fast).collect();
     let largest = terms.iter().map(|term| term.size(root)).fold(0.0, f64::max);
     terms.retain(|term| term.size(root) >= share * largest);
     terms
 }
 
-/// The terms that are not faster than `slowest`, of any size.
-pub(crate) fn slow_terms(inertia: &Inertia, slowest: f64) -> Vec<Term> {
-    Term::all(inertia).filter(|term| term.frequency[0].abs() * inertia.momentum <= slowest).collect()
+/// The terms that are not faster than `slow_limit`, of any size.
+pub(crate) fn slow_terms(inertia: &Inertia, slow_limit: f64) -> Vec<Term> {
+    Term::all(inertia).filter(|term| term.frequency[0].abs() * inertia.momentum <= slow_limit).collect()
 }

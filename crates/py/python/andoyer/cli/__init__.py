@@ -39,16 +39,21 @@ MISSED = 3
 """Exit status of a tolerance that is not met, under --strict."""
 
 PICTURES = [".png", ".svg", ".pdf", ".html"]
-COMMANDS = ["propagate", "plot", "code", "plan", "bodies", "series"]
+COMMANDS = ["propagate", "plot", "code", "plan", "librations", "bodies", "series"]
 Code = Literal["c", "rust", "python", "javascript"]
 CODES: dict[str, Code] = {".c": "c", ".rs": "rust", ".py": "python", ".js": "javascript"}
 """Languages of the code of a motion, each by the ending of its files."""
+ANGLES = {"rad": 1.0, "deg": math.pi / 180, "arcsec": math.pi / 648000}
+"""Units of the amplitudes of a libration, in rad."""
 EXAMPLES = {
     "propagate": """\
 andoyer propagate eros.toml -o eros.csv
 andoyer propagate eros.toml -o eros.npz --start 0 --stop 86400 --step 60
 andoyer propagate eros.toml -o eros.aem --date 2026-01-01T00:00:00 --frame ICRF
 andoyer propagate eros.toml -o eros.bc --stop 86400 --interpolation-error 1e-6 --frame ECLIPJ2000""",
+    "librations": """\
+andoyer librations moon.toml --terms 20
+andoyer librations moon.toml --forced --unit arcsec""",
     "plan": """\
 andoyer plan eros.toml
 andoyer plan eros.toml --verify --stop 86400""",
@@ -140,7 +145,7 @@ def parser() -> Parser:
     strictly(command)
     command.set_defaults(run=propagate)
 
-    pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole"
+    pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole; of a libration its angles and terms"
     command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML), or a file of attitudes")
     command.add_argument(
@@ -171,6 +176,16 @@ def parser() -> Parser:
     command.add_argument("--stop", type=time, metavar="T", help="last time of --verify (default: end of the scene's span)")
     strictly(command)
     command.set_defaults(run=plan)
+
+    command = commands.add_parser(
+        "librations", help="print the proper modes and the terms of a body locked to its orbit", **examples("", EXAMPLES["librations"])
+    )
+    command.add_argument("scene", metavar="SCENE", help="scene file (TOML)")
+    command.add_argument("--forced", action="store_true", help="only the terms that the orbit forces")
+    command.add_argument("--terms", type=count, default=20, metavar="N", help="number of terms (default: 20)")
+    command.add_argument("--unit", choices=list(ANGLES), default="rad", metavar="UNIT", help=f"unit of amplitudes: {', '.join(ANGLES)} (default: rad)")
+    strictly(command)
+    command.set_defaults(run=librations)
 
     command = commands.add_parser("bodies", help="print the catalogue of bodies, each with its source", **examples("", EXAMPLES["bodies"]))
     command.set_defaults(run=bodies)
@@ -232,7 +247,7 @@ def plot(arguments: argparse.Namespace) -> int:
     else:
         reading.refuse_options(arguments)
         motion = solved(arguments.scene)
-        figure = pictures.summary(motion)
+        figure = pictures.summary(motion) if motion.libration is None else pictures.libration_summary(motion)
     with writing.written_to(path), whole_file(path, arguments.force) as temporary:
         figure.savefig(temporary, dpi=130, format=path.suffix.lower()[1:])
     return 0 if motion is None else status(arguments, motion)
@@ -283,9 +298,12 @@ def read(path: str) -> andoyer.Scene:
     return scene
 
 
-def solved(path: str) -> andoyer.Motion:
-    """Solve the scene of a file. A scene without a motion is an error of the file."""
+def solved(path: str, *, librates: bool = False) -> andoyer.Motion:
+    """Solve the scene of a file, as a libration if asked. A scene without a motion is an error of the file."""
     scene = read(path)
+    if librates and scene.method != "libration":
+        state = (scene.body, scene.attitude, scene.angular_velocity)
+        scene = andoyer.Scene(*state, epoch=scene.epoch, orbit=scene.orbit, tolerance=scene.tolerance, span=scene.span, method="libration")
     with warnings.catch_warnings():
         # `status` says it in one line.
         warnings.simplefilter("ignore", andoyer.ToleranceWarning)
@@ -358,6 +376,25 @@ def plan(arguments: argparse.Namespace) -> int:
     for convention, (precession, rotation) in motion.periods.items():
         print(named("periods"), f"{convention}: P_phi {precession:.10g}, P_psi {rotation:.10g}")
     return max(status(arguments, motion), verified(arguments, motion))
+
+
+def librations(arguments: argparse.Namespace) -> int:
+    """Print the proper modes of a body locked to its orbit, and the largest terms of its three angles."""
+    motion = solved(arguments.scene, librates=True)
+    libration = motion.libration
+    assert libration is not None, "the method is libration"
+    unit, size = arguments.unit, ANGLES[arguments.unit]
+    print(named("resonance"), f"{motion.plan.resonance} rotations an orbit, order {motion.plan.order}, error bound {motion.plan.error_bound:.1e} rad")
+    print(named("periods"), "in the unit of time of the scene, in the frame that turns with the resonance")
+    modes = zip(("longitude", "pole, first", "pole, second"), libration.periods, libration.amplitudes, libration.phases, strict=True)
+    for name, period, amplitude, phase in modes:
+        print(named(name), f"period {period:.10g}, amplitude {amplitude / size:.6e} {unit}, phase {phase:.6f} rad")
+    heading = f"amplitude [{unit}]"
+    print(f"{'angle':10} {'modes and M':>14} {'period':>17} {heading:>18} {'phase [rad]':>12}")
+    for term in (libration.forced() if arguments.forced else libration.terms())[: arguments.terms]:
+        multiples = " ".join(f"{k:2d}" for k in term.multiples)
+        print(f"{term.angle:10} {multiples:>14} {term.period:17.10g} {term.amplitude / size:18.8e} {term.phase:12.6f}")
+    return status(arguments, motion)
 
 
 def verified(arguments: argparse.Namespace, motion: andoyer.Motion) -> int:

@@ -15,13 +15,13 @@ RELATIVE = 1e-12
 """Relative tolerance of the integration; absolute, the same of the largest new variable at the start."""
 
 
-def trajectory(normal_form: BirkhoffNormalForm, state: list[float], times: ArrayLike, parameters: dict[str, float] | None) -> Any:
-    """The states at times after `state`: integrates Hamilton's equations of K from the new variables of the state, and transforms back."""
+def trajectory(normal_form: BirkhoffNormalForm, state: list[float], times: ArrayLike, parameters: dict[str, float] | None, time: float) -> Any:
+    """The states at times after `state`, which is that at `time`: integrates Hamilton's equations of K from the new variables of the state, and transforms back."""
     try:
         from scipy.integrate import solve_ivp
     except ImportError as error:
         raise ImportError("the trajectory of a resonant normal form needs SciPy, which is not installed: pip install scipy", name="scipy") from error
-    start, asked = normal_form.to_normal(state, parameters), np.asarray(times, dtype=float)
+    start, asked = normal_form.to_normal(state, parameters, time), np.asarray(times, dtype=float)
     moments = np.atleast_1d(asked)
     normal = np.tile(start, (moments.size, 1))
     absolute = RELATIVE * float(np.max(np.abs(start), initial=1e-300))
@@ -30,7 +30,7 @@ def trajectory(normal_form: BirkhoffNormalForm, state: list[float], times: Array
             continue
         ends = np.unique(np.abs(moments[side]))
         sign = float(np.sign(moments[side][0]))
-        flow: Any = lambda _, z, sign=sign: sign * normal_form.rates(z, parameters)  # noqa: E731
+        flow: Any = lambda t, z, sign=sign: sign * normal_form.rates(z, parameters, time + sign * t)  # noqa: E731
         done = solve_ivp(
             flow,
             (0.0, ends[-1]),
@@ -43,5 +43,5 @@ def trajectory(normal_form: BirkhoffNormalForm, state: list[float], times: Array
         if not done.success:
             raise ArithmeticError(f"the integration of the normal form ended at t = {sign * done.t[-1] if done.t.size else 0.0}: {done.message}")
         normal[side] = done.y.T[np.searchsorted(ends, np.abs(moments[side]))]
-    states = normal_form.from_normal(normal, parameters)
+    states = normal_form.from_normal(normal, parameters, time + moments)
     return states.reshape(*asked.shape, start.size)

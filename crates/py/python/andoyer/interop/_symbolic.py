@@ -32,16 +32,16 @@ def birkhoff(normal_form: BirkhoffNormalForm, what: str, symbols: Mapping[str, A
     """A part of a Birkhoff normal form; `what` is as in `expressions`, and `symbols` are those of the caller by name."""
     sympy = _sympy()
     variables = [name for pair in normal_form.variables for name in pair]
-    names = [*variables, *normal_form.parameters]
+    names, phases = [*variables, *normal_form.parameters], list(normal_form.driven)
     if what == "hamiltonian":
         try:
             return _polynomial(sympy, normal_form.in_actions(), [f"I_{q}" for q, _ in normal_form.variables] + names[len(variables) :], symbols)
         except TheoryError:
-            return _polynomial(sympy, normal_form.in_real(), names, symbols)
+            return _polynomial(sympy, normal_form.in_real(), names, symbols, phases)
     if what == "generator":
-        return [_polynomial(sympy, normal_form.generator(m), names, symbols) for m in range(1, normal_form.order + 1)]
+        return [_polynomial(sympy, normal_form.generator(m), names, symbols, phases) for m in range(1, normal_form.order + 1)]
     series = normal_form.direct if what == "direct" else normal_form.inverse
-    return {name: _polynomial(sympy, series(name), names, symbols) for name in variables}
+    return {name: _polynomial(sympy, series(name), names, symbols, phases) for name in variables}
 
 
 def _sympy() -> Any:
@@ -52,13 +52,17 @@ def _sympy() -> Any:
     return sympy
 
 
-def _polynomial(sympy: Any, terms: Mapping[tuple[int, ...], Fraction | float], names: Sequence[str], known: Mapping[str, Any]) -> Any:
-    """Σ c x₁^e₁ x₂^e₂ …, with floats as SymPy floats of 53 bits."""
-    symbols = [known.get(name, sympy.Symbol(name)) for name in names]
+def _polynomial(
+    sympy: Any, terms: Mapping[tuple[int, ...], Fraction | float], names: Sequence[str], known: Mapping[str, Any], phases: Sequence[str] = ()
+) -> Any:
+    """Σ c x₁^e₁ x₂^e₂ … cos(j M) or sin(j M) …, with floats as SymPy floats of 53 bits."""
+    symbols, driven = ([known.get(name, sympy.Symbol(name)) for name in list_] for list_ in (names, phases))
 
     def term(exponents: tuple[int, ...], c: Fraction | float) -> Any:
         number = sympy.Float(c) if isinstance(c, float) else _rational(sympy, c)
-        return sympy.Mul(number, *(symbol**e for symbol, e in zip(symbols, exponents, strict=True)))
+        powers = [symbol**e for symbol, e in zip(symbols, exponents[: len(symbols)], strict=True)]
+        harmonics = [sympy.cos(j * phase) if j >= 0 else sympy.sin(-j * phase) for phase, j in zip(driven, exponents[len(symbols) :], strict=True)]
+        return sympy.Mul(number, *powers, *harmonics)
 
     return sympy.Add(*(term(exponents, c) for exponents, c in terms.items()))
 

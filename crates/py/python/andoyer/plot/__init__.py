@@ -1,6 +1,6 @@
-"""Pictures of a motion with matplotlib: polhode, phase portrait, angles, rates, path of the pole.
+"""Pictures of a motion with matplotlib: polhode, phase portrait, angles, rates, path of the pole, librations.
 
-Each function takes a `Motion`, and optionally times and the axes to draw into. It returns the axes; `summary` returns a figure. Angles are those of Andoyer
+Each function takes a `Motion`, and optionally times and the axes to draw into. It returns the axes; `summary` and the like return a figure. Angles are those of Andoyer
 (theory §1), in degrees. The labels assume that times are in seconds. Lines on the far side of a surface are pale, grey lines are other motions of the same body, and the dashed line is the separatrix. The colours are
 those of Okabe and Ito, which colour-blind readers can distinguish; lines also differ in style or marker. The module needs matplotlib, which ``pip install matplotlib`` installs.
 """
@@ -25,6 +25,7 @@ from andoyer.plot._diagrams import domain, error_by_order, work_precision
 from andoyer.plot._drawing import near_pole, on_ellipsoid, plane
 from andoyer.plot._drawing import surface as draw_surface
 from andoyer.plot._film import film
+from andoyer.plot._librations import libration_spectrum, libration_summary, librations, pole_librations
 from andoyer.plot._style import ARCSECOND, BLUE, GREEN, STYLE, VERMILION, Array
 
 if TYPE_CHECKING:
@@ -48,9 +49,13 @@ __all__ = [
     "difference",
     "domain",
     "error_by_order",
+    "libration_spectrum",
+    "libration_summary",
+    "librations",
     "nutation",
     "page",
     "phase_portrait",
+    "pole_librations",
     "pole_path",
     "polhode",
     "polhode_near_pole",

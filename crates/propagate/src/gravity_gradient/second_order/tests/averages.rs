@@ -2,21 +2,18 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::gravity_gradient::body::contraction::{SymmetricTensor, contraction, factors};
+use crate::gravity_gradient::body::contraction::{contraction, factors};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
-use crate::gravity_gradient::orbit::derivatives::ORDERS;
-use crate::gravity_gradient::orbit::elliptic_orbit::Demand;
+use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
-use crate::gravity_gradient::orbit::span::{Reach, whole};
+use crate::gravity_gradient::orbit::span::Reach;
 use crate::gravity_gradient::second_order::k2::Hamiltonian;
-use crate::gravity_gradient::second_order::k2_orbit_mean::OrbitAverage;
-use crate::gravity_gradient::second_order::k2_remainder::lacking;
-use crate::gravity_gradient::second_order::mean_elements::tensors;
-use crate::gravity_gradient::second_order::pairs::averaged;
-use crate::gravity_gradient::second_order::tests::{ECCENTRICITY, MEAN_MOTION, Q, Scene};
+use crate::gravity_gradient::second_order::k2_orbit_mean::OverOrbit;
+use crate::gravity_gradient::second_order::k2_remainder::Remainder;
+use crate::gravity_gradient::second_order::tests::{ECCENTRICITY, MEAN_MOTION, Scene, averaged, mean_rates};
 use crate::gravity_gradient::terms::divisors::{AverageShift, Divisors};
-use crate::gravity_gradient::terms::term::{Term, fast_terms, slowest};
+use crate::gravity_gradient::terms::term::{Term, fast_terms, slow_limit};
 use crate::input::orbit::Orbit;
 use crate::numerics::C64;
 use crate::simd::kepler::Place;
@@ -28,14 +25,15 @@ fn divisors_have_the_rates_of_the_average_torque() {
         let Mean { p, momentum, frame, .. } = scene.mean;
         let inertia = Inertia::new(&scene.polhode, p.norm_sqr(), momentum);
         // With q this small the average over the orbit has no second order.
-        let strength = 1e-6 * scene.demand().strength();
-        let hamiltonian = Hamiltonian::first(&inertia, strength);
+        let orbit = scene.orbit.attraction(1e-6 * MEAN_MOTION * MEAN_MOTION).expect("an orbit");
+        let scene = Scene { orbit, ..scene };
+        let hamiltonian = Hamiltonian::first(&inertia, scene.elliptic().strength());
         let (axes, pole) = (scene.orbit.axes(), frame * Vector3::z());
-        let slopes = OrbitAverage::new(&hamiltonian, ECCENTRICITY, MEAN_MOTION, axes).slopes(&pole);
+        let slopes = mean_rates(&OverOrbit::new(&hamiltonian, ECCENTRICITY, MEAN_MOTION, axes), &pole);
         let [first, second, _] = axes.map(|axis| frame.inverse() * axis);
         let turning = frame.inverse() * slopes.turning;
         let [one, cosine, sine] = factors([first, second]);
-        let secular = AverageShift::new(&inertia, strength, ECCENTRICITY, [&axes[2], &pole]);
+        let secular = AverageShift::new(&inertia, &scene.elliptic());
         for (harmonic, multiple) in [(2, 0), (-3, 1), (1, 1), (4, 2)] {
             let divisors = Divisors::new((harmonic, multiple), [-3.0 * MEAN_MOTION, MEAN_MOTION], false, &secular);
             for (turns, sign) in [(0, 0.0), (2, -1.0), (-2, 1.0)] {
@@ -67,30 +65,38 @@ fn what_the_closed_form_lacks_is_the_rest_of_the_average_over_the_orbit() {
     for scene in Scene::all() {
         let Mean { p, momentum, frame, .. } = scene.mean;
         let orbit = Orbit::new(FAST, ECCENTRICITY).and_then(|orbit| orbit.plane(0.4, 1.0, 2.0)).expect("an orbit");
-        let scene = Scene { orbit, envelope: whole(ECCENTRICITY, FAST), ..scene };
-        let demand = Demand { mean_motion: FAST, series: Some(&series), ..scene.demand() };
-        let scale = demand.strength();
+        let scene = Scene { orbit, ..scene };
+        let elliptic = EllipticOrbit { series: Some(series.clone()), ..scene.elliptic() };
+        let scale = elliptic.strength();
         let inertia = Inertia::new(&scene.polhode, p.norm_sqr(), momentum);
-        let (value, steady) = lacking(&inertia, &frame, &demand, &series);
+        let lacking = |inertia: &Inertia, frame: &UnitQuaternion<f64>| {
+            Remainder::new(
+                inertia,
+                frame,
+                (&elliptic, &series),
+                (&[], &fast_terms(inertia, 1e-3, slow_limit(&elliptic))),
+            )
+        };
+        let remainder = lacking(&inertia, &frame);
+        let (value, steady) = (remainder.value, remainder.rates(&inertia, &frame, &elliptic.axes[2]));
         // All of K2, with as many time derivatives as the sums have, less the closed form.
         let mut mean = 0.0;
         for k in 0..STEPS {
             let anomaly = std::f64::consts::TAU * (k as f64 / STEPS as f64 - 0.5);
             let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), ECCENTRICITY);
             let moved = Scene { place, ..scene.clone() };
-            let (tensors, norms) = tensors(&moved.mean, &moved.place, &demand);
-            let all: Vec<Term> = fast_terms(&inertia, 0.0, slowest(&demand));
-            let mut still = tensors;
-            still[2..].fill([0.0; 6]);
-            let of = |tensors: &[SymmetricTensor; ORDERS]| averaged(&moved.stand(&inertia, tensors, norms, 0.0), &all);
-            mean += (of(&tensors) - of(&still)) / (Q * Q) / STEPS as f64;
+            let all: Vec<Term> = fast_terms(&inertia, 0.0, slow_limit(&elliptic));
+            let stand = moved.stand(&inertia, &elliptic);
+            let mut still = stand;
+            still.tensors[2..].fill([0.0; 6]);
+            mean += (averaged(&stand, &all) - averaged(&still, &all)) / (scale * scale) / STEPS as f64;
         }
         let found = value / (scale * scale);
         // Terms with a share of 1e-6 of it are left out, and harmonics likewise.
         assert!((found / mean - 1.0).abs() <= 2e-3, "{found:e} {mean:e}");
         // Its derivatives against differences.
         let at = |sigma: f64, momentum: f64, frame: &UnitQuaternion<f64>| {
-            lacking(&Inertia::new(&scene.polhode, sigma, momentum), frame, &demand, &series).0
+            lacking(&Inertia::new(&scene.polhode, sigma, momentum), frame).value
         };
         let sigma = p.norm_sqr();
         let (small, step) = (1e-3 * sigma, 1e-4 * momentum);

@@ -1,5 +1,6 @@
 //! The averaged torques of a mean motion: the drifts of the phases, and the averaged motion that follows from them.
 
+use super::arcs::Arcs;
 use super::averaged_orbit::AveragedOrbit;
 use super::bodies::{Bodies, Pull};
 use super::precession::Precession;
@@ -8,8 +9,9 @@ use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::first_order::mean_motion::MeanMotion;
 use crate::gravity_gradient::first_order::mean_variables::Mean;
 use crate::gravity_gradient::orbit::elliptic_motion::{Elapsed, When};
-use crate::gravity_gradient::orbit::elliptic_orbit::{Demand, EllipticOrbit};
+use crate::gravity_gradient::orbit::elliptic_orbit::EllipticOrbit;
 use crate::gravity_gradient::request::Request;
+use crate::gravity_gradient::second_order::k2::in_lanes;
 use crate::gravity_gradient::second_order::k2_remainder::SteadyRates;
 use crate::gravity_gradient::second_order::mean_elements;
 use crate::gravity_gradient::terms::term::Sensitivity;
@@ -34,53 +36,53 @@ impl Averages {
     pub(crate) fn new(
         polhode: &Polhode,
         (motion, steady): (&MeanMotion, SteadyRates),
-        demands: &[Demand<'_>],
+        orbits: &[EllipticOrbit<'_>],
         level: Level,
     ) -> Self {
         let MeanMotion { mean, inertia, .. } = motion;
-        let (axial, axial_slope) = level.axial(inertia);
+        let (axial, axial_slope) = level.tensor(inertia, 0, 0);
         let delta = (1.5 * axial - 0.5 * polhode.moments.iter().sum::<f64>()) / mean.momentum;
-        let ellipses = demands.iter().map(|demand| {
-            let ellipse = AveragedOrbit::new(demand, delta);
-            match level {
-                Level::SecondOrder => ellipse.with_second(mean_elements::hamiltonian(inertia, demand, steady)),
-                _ => ellipse,
-            }
+        let ellipses = orbits.iter().map(|elliptic| {
+            let second = (level == Level::SecondOrder).then(|| mean_elements::hamiltonian(inertia, elliptic, steady));
+            AveragedOrbit::new(elliptic, delta, second)
         });
         Self { ellipses: ellipses.collect(), delta, slope: -0.5 * 1.5 * axial_slope / mean.momentum }
     }
 
     /// The drifts of ℓ′ and y′ for a unit of Ψ.
     pub(crate) fn per_phase(&self, inertia: &Inertia, request: &Request<'_>) -> [f64; 2] {
-        // Ψ of a single fixed orbit does not contain the mass fraction: the slope does.
-        let slope = if request.is_fixed() { self.slope * self.ellipses[0].fraction() } else { self.slope };
+        // Ψ of one fixed orbit has no factor φ, so the slope is multiplied by φ here. Ψ of several bodies contains it.
+        let slope = if request.is_fixed() { self.slope * self.ellipses[0].fraction } else { self.slope };
         [slope, -inertia.sigma * slope]
     }
 
     /// The rates of ℓ′ and y′ in the orbit average.
     pub(crate) fn secular(&self, inertia: &Inertia, mean: &Mean) -> [f64; 2] {
         let axis = mean.frame * Vector3::z();
-        if let Some((average, _)) = self.ellipses[0].over_orbit() {
-            return average.slopes(&axis).phases;
+        if let Some(average) = self.ellipses[0].over_orbit() {
+            let [pole] = in_lanes(Lanes::splat(pulp::Scalar, 0.0), &[axis]);
+            let (_, phases) = average.mean(&pole);
+            return phases.map(|rate| rate.values()[0]);
         }
-        let rate = self.ellipses.iter().map(|ellipse| ellipse.secular(&axis) * ellipse.fraction()).sum::<f64>();
+        let rate = self.ellipses.iter().map(|ellipse| ellipse.secular(&axis) * ellipse.fraction).sum::<f64>();
         [self.slope * rate, -inertia.sigma * self.slope * rate]
     }
 
-    /// The error by the average over the orbit \[rad\]: of second order in the precession κ_o in one radian of the orbit, in second order of third.
+    /// The error by the average over the orbit \[rad\]: κ_o (κ_o + 6 θ)(1 + nT), with the precession κ_o and the drift θ of the phases in one radian of the orbit. In
+    /// second order nT has one more factor κ_o.
     pub(crate) fn over_orbit_error(
         &self,
         response: &Sensitivity,
         inertia: &Inertia,
-        demand: &Demand<'_>,
+        elliptic: &EllipticOrbit<'_>,
         level: Level,
     ) -> f64 {
         let ellipse = &self.ellipses[0];
-        let precession = ellipse.strength().abs();
-        let slope = (self.slope * ellipse.fraction()).abs() * (response.visible + inertia.sigma);
-        let phase = slope * demand.mean_motion / ellipse.eta_cubed();
+        let precession = ellipse.strength.abs();
+        let slope = (self.slope * ellipse.fraction).abs() * (response.visible + inertia.sigma);
+        let phase = slope * elliptic.mean_motion / ellipse.eta_cubed;
         let growing = if level == Level::SecondOrder { precession } else { 1.0 };
-        precession * (precession + 6.0 * phase) * (1.0 + growing * demand.mean_motion * demand.duration)
+        precession * (precession + 6.0 * phase) * (1.0 + growing * elliptic.mean_motion * elliptic.duration)
     }
 
     /// The averaged motion from a frame at the epoch.
@@ -95,11 +97,12 @@ impl Averages {
         match (request.is_fixed(), by_orbit) {
             (false, _) => {
                 let bodies = orbits.iter().zip(&self.ellipses);
-                let pulls = bodies.map(|(orbit, ellipse)| Pull {
+                let pulls = bodies.map(|(orbit, AveragedOrbit { mean_motion, fraction, .. })| Pull {
                     course: orbit.course.clone(),
-                    attraction: ellipse.attraction() * unit,
+                    attraction: mean_motion * mean_motion * fraction * unit,
                 });
-                Slow::Bodies(Box::new(Bodies::new(pulls.collect(), self.delta, frame)))
+                let bodies = Bodies { pulls: pulls.collect(), delta: self.delta };
+                Slow::Bodies(Box::new(Arcs::new(bodies, &frame)))
             }
             (true, true) => {
                 let place = &orbits[0].start.place;
@@ -118,7 +121,7 @@ pub(crate) enum Slow {
     /// Averaged over the rotation and the orbit.
     Orbit(Box<Precession>),
     /// Averaged over the rotation only, for several bodies or for orbits that precess.
-    Bodies(Box<Bodies>),
+    Bodies(Box<Arcs<Bodies>>),
 }
 
 impl Slow {

@@ -1,0 +1,157 @@
+//! The motion of one state by a normal form: proper actions and angles, and a Fourier series.
+
+use andoyer_series::birkhoff::Harmonic;
+use andoyer_series::{BirkhoffMap, Error};
+use num_complex::Complex;
+
+use super::lock::Lock;
+
+/// Most powers of a phase, 0 among them.
+pub(crate) const MOST_POWERS: usize = 33;
+
+/// A motion as a Fourier series in three proper angles, the mean anomaly M and the angle α.
+#[derive(Clone, Debug)]
+pub(crate) struct FourierMotion {
+    /// Rates of the proper angles, in units of n.
+    pub(crate) frequencies: [f64; 3],
+    /// The proper angles at the epoch.
+    pub(crate) angles: [f64; 3],
+    /// M and α at the epoch, and their rates.
+    start: [f64; 2],
+    rates: [f64; 2],
+    /// Of ψ, p_ψ − C W₃, θ, p_θ, φ, p_φ; the multiples are those of the proper angles, of M and of α.
+    pub(crate) harmonics: Vec<Harmonic>,
+    /// What the state at the epoch misses.
+    pub(crate) missed: f64,
+}
+
+impl FourierMotion {
+    /// The motion of a state by a normal form about an equilibrium. The direct transformation of its normal coordinates gives the state at the epoch itself.
+    ///
+    /// # Errors
+    /// Those of the map: a state beyond the range of the series can overflow.
+    pub(crate) fn new(map: &BirkhoffMap, lock: &Lock, origin: &[f64; 6]) -> Result<Self, Error> {
+        let state: Vec<f64> = lock.state.iter().zip(origin).map(|(x, origin)| x - origin).collect();
+        let (_, phases) = lock.shape.driven(lock.start);
+        let normal = map.to_normal_at_phases(&state, &phases)?;
+        let seen = map.from_normal_at_phases(&normal, &phases)?;
+        let missed = seen.iter().zip(&state).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        let actions = map.actions_of(&normal)?;
+        let three = |values: &[f64]| [values[0], values[1], values[2]];
+        Ok(Self {
+            frequencies: three(&map.frequencies(&actions)?),
+            angles: three(&map.angles(&normal)?),
+            start: lock.start,
+            rates: [1.0, lock.shape.precession.phase_rate],
+            harmonics: harmonics(map.fourier(&actions)?, lock, origin),
+            missed,
+        })
+    }
+
+    /// Leaves out the smallest harmonics, which together are at most `least`, and those with too high multiples; returns the sum of all.
+    pub(crate) fn drop_below(&mut self, least: f64) -> f64 {
+        let size = |harmonic: &Harmonic| harmonic.amplitudes.iter().map(|c| c.norm()).sum::<f64>();
+        self.harmonics.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        let mut dropped = 0.0;
+        while let Some(last) = self.harmonics.last().map(size).filter(|last| dropped + last <= least) {
+            dropped += last;
+            self.harmonics.pop();
+        }
+        let fits = |all: &[i64]| all.iter().all(|k| k.unsigned_abs() < MOST_POWERS as u64);
+        let (kept, beyond) =
+            std::mem::take(&mut self.harmonics).into_iter().partition(|harmonic: &Harmonic| fits(&harmonic.multiples));
+        self.harmonics = kept;
+        dropped += beyond.iter().map(size).sum::<f64>();
+        self.harmonics.sort_by(|a, b| a.multiples.cmp(&b.multiples));
+        dropped
+    }
+
+    /// The largest sum of amplitudes of a variable.
+    pub(crate) fn amplitude(&self) -> f64 {
+        let of =
+            |variable: usize| self.harmonics.iter().map(|harmonic| harmonic.amplitudes[variable].norm()).sum::<f64>();
+        (0..6).map(of).fold(0.0, f64::max)
+    }
+
+    /// The largest sum of amplitudes of an angle \[rad\].
+    pub(crate) fn angle(&self) -> f64 {
+        let of = |angle: usize| self.harmonics.iter().map(|harmonic| harmonic.amplitudes[angle].norm()).sum::<f64>();
+        [0, 2, 4].map(of).into_iter().fold(0.0, f64::max)
+    }
+
+    /// The multiples with the smallest rate, in units of n, of those with at most four proper frequencies, which are those of `linear`: a proper frequency itself does not count.
+    pub(crate) fn smallest_divisor(&self, linear: &Self) -> (Vec<i64>, f64) {
+        let proper = |all: &[i64]| all[..3].iter().map(|k| k.abs()).sum::<i64>();
+        let low = self.harmonics.iter().map(|harmonic| &harmonic.multiples);
+        let low = low.filter(|all| (1..=4).contains(&proper(all)) && (proper(all) > 1 || all[3..] != [0, 0]));
+        let rates = low.map(|all| (all.clone(), linear.rate(all).abs()));
+        rates.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((Vec::new(), f64::INFINITY))
+    }
+
+    /// The rate of a harmonic, in units of n.
+    pub(crate) fn rate(&self, multiples: &[i64]) -> f64 {
+        let rates = self.frequencies.iter().chain(&self.rates);
+        multiples.iter().zip(rates).map(|(&k, rate)| k as f64 * rate).sum()
+    }
+
+    /// The phase of a harmonic a time after the epoch, in units of 1/n.
+    pub(crate) fn phase(&self, multiples: &[i64], elapsed: f64) -> f64 {
+        let starts = self.angles.iter().chain(&self.start);
+        let start: f64 = multiples.iter().zip(starts).map(|(&k, angle)| k as f64 * angle).sum();
+        start + self.rate(multiples) * elapsed
+    }
+
+    /// The rates of M and α, in units of n.
+    pub(crate) fn rates_of_orbit(&self) -> [f64; 2] {
+        self.rates
+    }
+
+    /// M and α a time after the epoch, in units of 1/n.
+    pub(crate) fn orbit_phases(&self, elapsed: f64) -> [f64; 2] {
+        [0, 1].map(|phase| self.start[phase] + self.rates[phase] * elapsed)
+    }
+
+    /// The variables a time after the epoch, in units of 1/n.
+    pub(crate) fn at(&self, elapsed: f64) -> [f64; 6] {
+        self.with_rates(elapsed).0
+    }
+
+    /// The variables and their rates.
+    pub(crate) fn with_rates(&self, elapsed: f64) -> ([f64; 6], [f64; 6]) {
+        let (mut sums, mut rates) = ([0.0; 6], [0.0; 6]);
+        for Harmonic { multiples, amplitudes } in &self.harmonics {
+            let turn = Complex::cis(self.phase(multiples, elapsed));
+            let rate = self.rate(multiples);
+            for ((sum, slope), amplitude) in sums.iter_mut().zip(&mut rates).zip(amplitudes) {
+                let term = amplitude * turn;
+                *sum += term.re;
+                *slope -= term.im * rate;
+            }
+        }
+        (sums, rates)
+    }
+
+    /// How far two motions are apart \[rad\]: the sum of the differences of the three angles.
+    pub(crate) fn distance(&self, other: &Self, elapsed: f64) -> f64 {
+        let [one, two] = [self, other].map(|course| course.at(elapsed));
+        [0, 2, 4].map(|angle| (one[angle] - two[angle]).abs()).iter().sum()
+    }
+}
+
+/// Harmonics with the multiples of M and α, about the frame S instead of the equilibrium.
+fn harmonics(mut harmonics: Vec<Harmonic>, lock: &Lock, origin: &[f64; 6]) -> Vec<Harmonic> {
+    for harmonic in &mut harmonics {
+        let (phases, angle) = lock.shape.multiples(&harmonic.multiples[3..]);
+        harmonic.multiples.truncate(3);
+        harmonic.multiples.extend(phases);
+        harmonic.amplitudes.iter_mut().for_each(|amplitude| *amplitude *= Complex::cis(-angle));
+    }
+    if origin.iter().any(|&x| x != 0.0) {
+        let amplitudes = origin.iter().map(|&x| x.into()).collect();
+        match harmonics.iter_mut().find(|harmonic| harmonic.multiples == [0; 5]) {
+            Some(constant) => constant.amplitudes.iter_mut().zip(origin).for_each(|(sum, x)| *sum += x),
+            None => harmonics.push(Harmonic { multiples: vec![0; 5], amplitudes }),
+        }
+    }
+    harmonics
+}

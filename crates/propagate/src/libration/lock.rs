@@ -1,0 +1,221 @@
+//! The resonance of a scene, and its state in the frame that turns with the resonance.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use andoyer_double::DoubleDouble;
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+
+use super::shape::{LockedShape, PlaneMotion};
+use crate::cassini::{CassiniState, cassini_states};
+use crate::input::disturbing_body::DisturbingBody;
+use crate::input::orbit::Orbit;
+use crate::input::scene::Scene;
+use crate::numerics::phase::Phase;
+
+/// Largest number of rotations in two orbits: 7/2 rotations an orbit, and one more.
+const MOST_IN_TWO: i32 = 8;
+
+/// A Hansen coefficient of the resonance below this is rounding.
+const NO_TORQUE: f64 = 1e-13;
+
+/// Largest angle of the body from the frame \[rad\], beyond which no series is tried.
+const LARGEST_ANGLE: f64 = 0.6;
+
+/// A scene in the frame of its resonance.
+#[derive(Clone, Debug)]
+pub(crate) struct Lock {
+    pub(crate) shape: LockedShape,
+    /// In the user's unit.
+    pub(crate) mean_motion: f64,
+    /// M and α at the epoch \[rad\], and as phases from there on.
+    pub(crate) start: [f64; 2],
+    pub(crate) phases: [Phase; 2],
+    /// Half the angle r M + ψ₀ of the frame, or α if the orbit precesses.
+    pub(crate) half_turn: Phase,
+    /// From the frame at this angle 0 to inertial components, or to those that turn with the node.
+    pub(crate) plane: UnitQuaternion<f64>,
+    /// Half the longitude of the node, if the orbit precesses.
+    pub(crate) half_node: Option<Phase>,
+    /// From the sorted axes to the body's principal axes.
+    pub(crate) body: UnitQuaternion<f64>,
+    /// ψ, p_ψ − C W₃, θ, p_θ, φ, p_φ at the epoch.
+    pub(crate) state: [f64; 6],
+    /// A bound of the angle by which the other bodies move the body \[rad\].
+    pub(crate) others: f64,
+}
+
+impl Lock {
+    /// The lock of a scene about principal axes, or the reason why it has none.
+    pub(crate) fn new(scene: &Scene) -> Result<Self, String> {
+        let (orbit, ratio) = strongest(scene.asked_disturbing())?;
+        let (body, moments) = sorted(scene.body().moments());
+        let [a, b, c] = moments;
+        if a == b {
+            return Err("A = B: no torque turns the body about its orbit's normal".to_owned());
+        }
+        let (state, n) = (scene.state(), orbit.mean_motion());
+        let [node_rate, pericentre_rate] = orbit.rates().map(|rate| rate / n);
+        let normal = (state.attitude.inverse() * orbit.axes_at(state.epoch)[2]).dot(&state.angular_velocity);
+        let spin = state.angular_velocity.norm().copysign(normal) / n;
+        let spin = spin - pericentre_rate - node_rate * orbit.elements()[3].cos();
+        let twice = (2.0 * spin).round();
+        if !(1.0..=f64::from(MOST_IN_TWO)).contains(&twice) {
+            return Err(format!("{spin:.3} rotations an orbit are near no resonance from 1/2 to {}", MOST_IN_TWO / 2));
+        }
+        let precession = PlaneMotion { phase_rate: 0.0, spin: 0.0, sideways: 0.0, obliquity: 0.0, argument: None };
+        let mut shape = LockedShape {
+            moments: [a / c, b / c, 1.0],
+            eccentricity: orbit.eccentricity(),
+            attraction: orbit.strength() / (n * n),
+            twice: twice as i32,
+            precession,
+        };
+        if shape.hansen(shape.twice)[1].abs() < NO_TORQUE {
+            return Err(format!("the resonance {} has no torque on this orbit", in_words(shape.twice)));
+        }
+        shape.precession = precession_of(scene, orbit, &shape, body);
+        let others = moved_by_others(scene, ratio / shape.hansen(shape.twice)[1].abs(), n)?;
+        Ok(Self { others, ..Self::about(scene, orbit, shape, body)? })
+    }
+
+    fn about(scene: &Scene, orbit: &Orbit, shape: LockedShape, body: UnitQuaternion<f64>) -> Result<Self, String> {
+        let (resonance, n, epoch) = (f64::from(shape.twice) / 2.0, orbit.mean_motion(), scene.state().epoch);
+        let anomaly = orbit.mean_anomaly(epoch);
+        let [node, argument] = orbit.node_and_argument(epoch);
+        let [start, longitude, argument] = [&anomaly, &node, &argument].map(|phase| phase.angle((0.0, 0.0)));
+        let across = if shape.is_across() { FRAC_PI_2 } else { 0.0 };
+        let [turn, alpha] = [resonance * start + across, argument + resonance * start + across];
+        let tilt = about(2, longitude) * about(0, orbit.elements()[3] + shape.precession.obliquity);
+        let seen = (tilt * about(2, alpha)).inverse() * scene.state().attitude;
+        // A half turn about an axis of the body is another equilibrium: the nearest one counts.
+        let near = |turn: &UnitQuaternion<f64>| (seen * turn).w.abs();
+        let halves = [0, 1, 2].map(|axis| body * about(axis, PI));
+        let body = halves.into_iter().fold(body, |best, next| if near(&next) > near(&best) { next } else { best });
+        let state = variables(&shape, seen * body, body.inverse() * scene.state().angular_velocity / n);
+        if let Some(angle) = [state[0], state[2], state[4]].into_iter().find(|angle| angle.abs() > LARGEST_ANGLE) {
+            let degrees = angle.abs().to_degrees();
+            return Err(format!("the body is {degrees:.0} degrees from the resonance {}", in_words(shape.twice)));
+        }
+        let [_, pericentre_rate] = orbit.rates();
+        let rate = DoubleDouble::from(n) * resonance.into() + pericentre_rate.into();
+        let half = DoubleDouble::from(0.5);
+        let fixed = orbit.is_fixed();
+        let (half_node, plane) = match fixed {
+            true => (None, tilt * about(2, argument)),
+            false => (
+                Some(Phase { frequency: node.frequency * half, ..node }.starting_at(longitude / 2.0)),
+                about(0, orbit.elements()[3] + shape.precession.obliquity),
+            ),
+        };
+        Ok(Self {
+            shape,
+            mean_motion: n,
+            start: [start, alpha],
+            phases: [anomaly, Phase::new(rate, alpha)],
+            half_turn: Phase::new(rate * half, if fixed { turn } else { alpha } / 2.0),
+            plane,
+            half_node,
+            body,
+            state,
+            others: 0.0,
+        })
+    }
+}
+
+/// The orbit with the largest mean torque, and the largest torque of the other bodies over it.
+fn strongest(bodies: &[DisturbingBody]) -> Result<(&Orbit, f64), String> {
+    let orbits: Result<Vec<&Orbit>, String> = bodies
+        .iter()
+        .map(|body| match body {
+            DisturbingBody::Orbit(orbit) if orbit.is_hyperbola() => Err("a hyperbola has no period".to_owned()),
+            DisturbingBody::Orbit(orbit) => Ok(orbit),
+            _ => Err("a table of positions has no mean anomaly".to_owned()),
+        })
+        .collect();
+    let orbits = orbits?;
+    let distance = |orbit: &Orbit| (1.0 - orbit.eccentricity(), 1.0 + orbit.eccentricity());
+    let mean = |orbit: &Orbit| orbit.strength() / (distance(orbit).0 * distance(orbit).1).powf(1.5);
+    let largest = |orbit: &Orbit| orbit.strength() / distance(orbit).0.powi(3);
+    let first = orbits.iter().copied().max_by(|a, b| mean(a).total_cmp(&mean(b)));
+    let first = first.ok_or("there is no orbit")?;
+    let others = orbits.iter().filter(|other| !std::ptr::eq(**other, first)).map(|other| largest(other));
+    Ok((first, others.sum::<f64>() / mean(first)))
+}
+
+/// A bound of the angle by which the other bodies move the body over the span: their torque over that of the lock, which also changes frequencies.
+fn moved_by_others(scene: &Scene, ratio: f64, n: f64) -> Result<f64, String> {
+    let epoch = scene.state().epoch;
+    let longest =
+        scene.asked_span().map_or(f64::INFINITY, |(start, stop)| (start - epoch).abs().max((stop - epoch).abs()));
+    let moved = if ratio == 0.0 { 0.0 } else { ratio * (1.0 + n * longest) };
+    if moved > scene.asked_tolerance() / 2.0 {
+        let bodies = scene.asked_disturbing().len();
+        return Err(format!("{bodies} bodies act: the torque of the others is up to {ratio:.1e} of that of the lock"));
+    }
+    Ok(moved)
+}
+
+/// ψ, p_ψ − C W₃, θ, p_θ, φ, p_φ from the attitude in S and the angular velocity about the sorted axes.
+fn variables(shape: &LockedShape, seen: UnitQuaternion<f64>, rates: Vector3<f64>) -> [f64; 6] {
+    let (phi, theta, psi) = seen.euler_angles();
+    let momentum = Vector3::from(shape.moments).component_mul(&rates);
+    let ((sin_theta, cos_theta), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());
+    let across_phi = sin_phi * momentum.y + cos_phi * momentum.z;
+    let p_psi = cos_theta * across_phi - sin_theta * momentum.x - shape.precession.spin;
+    [psi, p_psi, theta, cos_phi * momentum.y - sin_phi * momentum.z, phi, momentum.x]
+}
+
+/// What node and pericentre add to the equations: axis 3 of S is that of the nearest stable Cassini state.
+fn precession_of(scene: &Scene, orbit: &Orbit, shape: &LockedShape, body: UnitQuaternion<f64>) -> PlaneMotion {
+    let (n, resonance, inclination) = (orbit.mean_motion(), f64::from(shape.twice) / 2.0, orbit.elements()[3]);
+    let [node_rate, pericentre_rate] = orbit.rates();
+    let phase_rate = resonance + pericentre_rate / n;
+    let fast = n * phase_rate + node_rate * inclination.cos();
+    let [node, argument] = orbit.node_and_argument(scene.state().epoch).map(|phase| phase.angle((0.0, 0.0)));
+    // Towards the angular velocity: retrograde states are other ones.
+    let axis = body * Vector3::z();
+    let pole =
+        about(2, node).inverse() * scene.state().attitude * axis * scene.state().angular_velocity.dot(&axis).signum();
+    let near = |state: &CassiniState| (about(0, inclination + state.obliquity) * Vector3::z()).dot(&pole);
+    let states = if inclination.sin() == 0.0 {
+        Vec::new()
+    } else {
+        cassini_states(scene.body(), orbit, fast).unwrap_or_default()
+    };
+    let states = states.into_iter().filter(|state| state.stable);
+    let obliquity = states.max_by(|a, b| near(a).total_cmp(&near(b))).map_or(0.0, |state| state.obliquity);
+    let (sine, cosine) =
+        if inclination.sin() == 0.0 { (0.0, inclination.cos()) } else { (inclination + obliquity).sin_cos() };
+    let across = if shape.is_across() { FRAC_PI_2 } else { 0.0 };
+    PlaneMotion {
+        phase_rate,
+        spin: phase_rate + node_rate / n * cosine,
+        sideways: node_rate / n * sine,
+        obliquity,
+        argument: (node_rate != 0.0 && pericentre_rate == 0.0).then_some(argument + across),
+    }
+}
+
+/// The rotation by an angle about an axis.
+fn about(axis: usize, angle: f64) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_axis_angle(&[Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()][axis], angle)
+}
+
+/// A resonance as text: 3/2, or 1.
+pub(crate) fn in_words(twice: i32) -> String {
+    if twice % 2 == 0 { (twice / 2).to_string() } else { format!("{twice}/2") }
+}
+
+/// The rotation from the axes of sorted moments to the body's, and the sorted moments.
+fn sorted(moments: [f64; 3]) -> (UnitQuaternion<f64>, [f64; 3]) {
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| moments[i].total_cmp(&moments[j]));
+    let mut matrix = Matrix3::zeros();
+    for (column, &row) in order.iter().enumerate() {
+        matrix[(row, column)] = 1.0;
+    }
+    if matrix.determinant() < 0.0 {
+        matrix.set_column(2, &-matrix.column(2));
+    }
+    (UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix)), order.map(|axis| moments[axis]))
+}

@@ -1,0 +1,117 @@
+//! The equations of a locked rotation: what does not depend on the state of the body.
+
+use crate::gravity_gradient::orbit::hansen::hansen;
+
+/// The equations of a locked rotation. The unit of time is 1/n, and that of the moments is the largest one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LockedShape {
+    /// A ≤ B ≤ C = 1.
+    pub(crate) moments: [f64; 3],
+    pub(crate) eccentricity: f64,
+    /// Attraction over n².
+    pub(crate) attraction: f64,
+    /// 2r: rotations in two orbits.
+    pub(crate) twice: i32,
+    pub(crate) precession: PlaneMotion,
+}
+
+/// What the motion of node and pericentre adds. α = r M + ω + ψ₀ is the angle from the node to axis 1 of S.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PlaneMotion {
+    /// α̇ = r + ω̇.
+    pub(crate) phase_rate: f64,
+    /// The rate of S about its axis 3: α̇ + Ω̇ cos(i + δ).
+    pub(crate) spin: f64,
+    /// The rate of S about the direction across: Ω̇ sin(i + δ).
+    pub(crate) sideways: f64,
+    /// δ, from the orbit's normal to axis 3 of S, away from inertial axis 3.
+    pub(crate) obliquity: f64,
+    /// ω + ψ₀ if it is constant.
+    pub(crate) argument: Option<f64>,
+}
+
+/// The phases of a normal form.
+enum Phases {
+    None,
+    Anomaly,
+    Node,
+    Both,
+    /// M/`divided`, and ω + ψ₀ in α = r M + ω + ψ₀.
+    Common {
+        divided: i64,
+        argument: f64,
+    },
+}
+
+impl LockedShape {
+    /// Hansen's coefficients (−3, 0) and (−3, 2) with the number k.
+    pub(crate) fn hansen(&self, k: i32) -> [f64; 2] {
+        let [constant, forward, backward] = hansen(self.eccentricity, k.unsigned_abs() as usize);
+        [constant, if k < 0 { backward } else { forward }]
+    }
+
+    /// Whether the long axis is at right angles to the direction that follows the disturbing body: where Hansen's coefficient of the resonance is negative.
+    pub(crate) fn is_across(&self) -> bool {
+        self.hansen(self.twice)[1] < 0.0
+    }
+
+    /// Whether the equations depend on α.
+    pub(crate) fn is_tilted(&self) -> bool {
+        self.precession.obliquity != 0.0 || self.precession.sideways != 0.0
+    }
+
+    /// Whether the orbit's phases are commensurate, so that a force on the body has a constant part.
+    pub(crate) fn is_common(&self) -> bool {
+        matches!(self.phases(), Phases::Common { .. })
+    }
+
+    fn phases(&self) -> Phases {
+        match (self.eccentricity == 0.0, self.is_tilted(), self.precession.argument) {
+            (true, false, _) => Phases::None,
+            (false, false, _) => Phases::Anomaly,
+            (true, true, _) => Phases::Node,
+            (false, true, None) => Phases::Both,
+            (false, true, Some(argument)) => Phases::Common { divided: 1 + i64::from(self.twice % 2 != 0), argument },
+        }
+    }
+
+    /// The rates of the phases of a normal form, and their values at a mean anomaly M and an angle α.
+    pub(crate) fn driven(&self, [anomaly, node]: [f64; 2]) -> (Vec<f64>, Vec<f64>) {
+        let rate = self.precession.phase_rate;
+        match self.phases() {
+            Phases::None => (vec![], vec![]),
+            Phases::Anomaly => (vec![1.0], vec![anomaly]),
+            Phases::Node => (vec![rate], vec![node]),
+            Phases::Both => (vec![1.0, rate], vec![anomaly, node]),
+            Phases::Common { divided, .. } => (vec![1.0 / divided as f64], vec![anomaly / divided as f64]),
+        }
+    }
+
+    /// e^{i(jM + kα)} in the phases of a normal form: their multiples, and a constant angle.
+    pub(crate) fn wave(&self, j: i64, k: i64) -> (Vec<i64>, f64) {
+        match self.phases() {
+            Phases::None => (vec![], 0.0),
+            Phases::Anomaly => (vec![j], 0.0),
+            Phases::Node => (vec![k], 0.0),
+            Phases::Both => (vec![j, k], 0.0),
+            Phases::Common { divided, argument } => {
+                (vec![divided * j + k * divided * i64::from(self.twice) / 2], k as f64 * argument)
+            }
+        }
+    }
+
+    /// The j and k of multiples of the phases of a normal form, and the constant angle that e^{i(jM + kα)} has more than they.
+    pub(crate) fn multiples(&self, phases: &[i64]) -> ([i64; 2], f64) {
+        match (self.phases(), phases) {
+            (Phases::Anomaly, &[j]) => ([j, 0], 0.0),
+            (Phases::Node, &[k]) => ([0, k], 0.0),
+            (Phases::Both, &[j, k]) => ([j, k], 0.0),
+            (Phases::Common { divided: 2, argument }, &[m]) => {
+                let k = m.rem_euclid(2);
+                ([(m - k * i64::from(self.twice)) / 2, k], k as f64 * argument)
+            }
+            (Phases::Common { .. }, &[j]) => ([j, 0], 0.0),
+            _ => ([0, 0], 0.0),
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! The motion by the normal form about a spin–orbit resonance.
+
+use std::f64::consts::TAU;
+use std::sync::atomic::AtomicBool;
+
+use super::free::{self, Preparation};
+use super::integrated;
+use crate::error::Error;
+use crate::input::options::Method;
+use crate::input::scene::Scene;
+use crate::libration::evaluate::LibrationEvaluator;
+use crate::libration::lock::Lock;
+use crate::libration::solution::{self, Wanted};
+use crate::motion::plan::{Plan, bound_in_words, in_ascii};
+use crate::motion::solved::Motion;
+use crate::motion::trajectory::Trajectory;
+use crate::torque_free::error_budget::DEFAULT_ROTATIONS;
+use crate::torque_free::polhode::Polhode;
+use crate::torque_free::series::tables::SeriesTables;
+
+/// Orbits over which a form is compared with an integration: on a fixed orbit and on one that precesses, whose slow phases take hundreds of orbits and whose form costs
+/// some seconds; at most the span, but for the first number.
+const CHECKED: [f64; 2] = [30.0, 1000.0];
+/// Times at which they are compared.
+const TIMES: usize = 32;
+/// An estimate that was refuted becomes what was seen, times this and the growth over the span.
+const SAFETY: f64 = 2.0;
+/// The least tolerance of this integration \[rad\].
+const FINEST: f64 = 1e-12;
+
+/// The libration of a scene about principal axes. Mode and frequencies are those of the free motion at the epoch.
+///
+/// # Errors
+/// [`Error::NoLibration`] with the reason, and [`Error::Stopped`].
+pub(super) fn motion(scene: Scene, tables: &SeriesTables, stop: &AtomicBool) -> Result<Motion, Error> {
+    let no = |reason| Error::NoLibration { reason };
+    let lock = Lock::new(&scene).map_err(no)?;
+    let (n, epoch, precesses) = (lock.mean_motion, scene.state().epoch, lock.half_node.is_some());
+    let far = DEFAULT_ROTATIONS * TAU;
+    let reach = scene.asked_span().map_or([-far, far], |(start, stop)| [start, stop].map(|time| n * (time - epoch)));
+    // Of "auto" the order is that of a series.
+    let order = scene.asked_order().filter(|_| scene.asked_method() == Method::Libration);
+    let wanted = Wanted { tolerance: scene.asked_tolerance(), reach, order };
+    let libration = solution::solved(lock, &wanted, stop)?.map_err(no)?;
+    let unforced = Scene::new(scene.body().clone(), *scene.state());
+    let polhode = Polhode::new(unforced.body(), unforced.state());
+    let free = free::motion(unforced, polhode.as_ref(), Preparation::new(tables))?;
+    let mut plan = Plan::new(&scene, free.plan.mode, free.plan.separatrix_ratio, libration.error());
+    plan.method = Method::Libration;
+    plan.order = libration.order();
+    plan.harmonics = libration.harmonics();
+    plan.resonance = Some(libration.twice());
+    let trajectory = Trajectory::Libration(Box::new(LibrationEvaluator::new(libration)));
+    let mut motion = Motion { scene, plan, trajectory, ..free };
+    let longest = reach[0].abs().max(reach[1].abs());
+    let checked = if precesses { (longest / TAU).clamp(CHECKED[0], CHECKED[1]) } else { CHECKED[0] } * TAU;
+    let seen = departure(&motion, checked / n, tables, stop)?;
+    if seen > motion.plan.error_bound {
+        motion.plan.error_bound = (SAFETY * seen * (longest / checked).max(1.0)).min(std::f64::consts::PI);
+    }
+    Ok(motion)
+}
+
+/// How far a libration departs from an integration over a short time, beyond the bound of the integration.
+fn departure(motion: &Motion, time: f64, tables: &SeriesTables, stop: &AtomicBool) -> Result<f64, Error> {
+    let epoch = motion.scene.state().epoch;
+    let tolerance = (motion.plan.error_bound / 10.0).max(FINEST);
+    let short = motion.scene.clone().span(epoch, epoch + time).tolerance(tolerance);
+    let integration = integrated::motion(short, tables, String::new(), stop)?;
+    let (mut most, count) = (0.0_f64, TIMES);
+    for k in 1..=count {
+        let at = epoch + time * (k as f64 / count as f64);
+        most = most.max(motion.at(at)?.attitude.angle_to(&integration.at(at)?.attitude));
+    }
+    Ok(most - integration.plan.error_bound)
+}
+
+/// The libration of a scene if it meets the tolerance, or why not, where a body is near a resonance.
+///
+/// # Errors
+/// [`Error::Stopped`].
+pub(super) fn serving(
+    scene: &Scene,
+    tables: &SeriesTables,
+    stop: &AtomicBool,
+) -> Result<Result<Motion, Option<String>>, Error> {
+    if Lock::new(scene).is_err() {
+        return Ok(Err(None));
+    }
+    let why = |motion: &Motion| {
+        let bound = bound_in_words(motion.plan.error_bound);
+        motion.libration().map(|libration| format!("its error bound is {bound}; {}", libration.limit()))
+    };
+    Ok(match motion(scene.clone(), tables, stop) {
+        Err(Error::Stopped) => return Err(Error::Stopped),
+        Err(Error::NoLibration { reason }) => Err(Some(reason)),
+        Err(error) => Err(Some(in_ascii(&error.to_string()))),
+        Ok(motion) if motion.plan.meets_tolerance() => Ok(motion),
+        Ok(motion) => Err(why(&motion)),
+    })
+}
