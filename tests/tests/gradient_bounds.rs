@@ -75,6 +75,81 @@ fn difficult_scenes_are_within_their_limits() {
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 
+/// A scene of `tests/data/not_improved.json`: a harmonic of the orbit next to resonance with a term.
+#[derive(Debug, Deserialize)]
+struct NearResonance {
+    family: String,
+    moments: [f64; 3],
+    attitude: [f64; 4],
+    angular_velocity: [f64; 3],
+    epoch: f64,
+    span: [f64; 2],
+    orbits: Vec<Elements>,
+    error_first_order: f64,
+    error_second_order: f64,
+}
+
+#[derive(Debug, Deserialize)]
+struct Elements {
+    mean_motion: f64,
+    eccentricity: f64,
+    time_of_pericentre: f64,
+    inclination: f64,
+    node: f64,
+    argument_of_pericentre: f64,
+    attraction: Option<f64>,
+}
+
+impl NearResonance {
+    fn scene(&self, method: Method, level: Level) -> Result<Scene, Error> {
+        let [from, to] = self.span;
+        let state = State::new(self.epoch, self.attitude, self.angular_velocity)?;
+        let mut scene = Scene::new(Body::new(self.moments)?, state).span(from, to).method(method);
+        for orbit in &self.orbits {
+            let elements = Orbit::new(orbit.mean_motion, orbit.eccentricity)?
+                .plane(orbit.inclination, orbit.node, orbit.argument_of_pericentre)?
+                .time_of_pericentre(orbit.time_of_pericentre)?;
+            scene = scene.orbit(match orbit.attraction {
+                Some(attraction) => elements.attraction(attraction)?,
+                None => elements,
+            });
+        }
+        Ok(match method {
+            Method::Closed => scene.tolerance(1e-9).averaging(Averaging::Spin).level(level),
+            _ => scene.tolerance(1e-13),
+        })
+    }
+}
+
+/// Before, a harmonic next to resonance was corrected with its tiny divisor, and second order was as wrong as first order, 5 to 56 times above its estimate.
+#[test]
+fn second_order_improves_next_to_a_resonance_or_its_estimate_says_so() {
+    let scenes: Vec<NearResonance> =
+        serde_json::from_str(include_str!("../data/not_improved.json")).expect("the file of scenes");
+    assert_eq!(scenes.len(), 5);
+    let mut failed = Vec::new();
+    for scene in &scenes {
+        let solved = |method, level| scene.scene(method, level).and_then(|scene| scene.solve()).expect("served");
+        let (motion, truth) = (solved(Method::Closed, Level::SecondOrder), solved(Method::Integrated, Level::Auto));
+        let error = (0..=40).fold(0.0_f64, |worst, k| {
+            let time = scene.span[0] + (scene.span[1] - scene.span[0]) * f64::from(k) / 40.0;
+            let [found, true_one] = [&motion, &truth].map(|m| m.at(time).expect("in the span").attitude.coords.into());
+            worst.max(attitude_error(found, true_one))
+        });
+        let estimate = motion.plan().error_bound() + truth.plan().error_bound();
+        let report = format!("{}: error {error:e}, estimate {estimate:e}, {scene:?}", scene.family);
+        // Nearly a sphere: slow pairs are not in K2 (theory-second-order.md, section 9).
+        let limit = if scene.family == "sphere" { 3.0 } else { 1.5 };
+        // The weakest torque of the five stays as wrong as in first order, and the estimate says so.
+        let improves = !["sphere", "weak"].contains(&scene.family.as_str());
+        let before = scene.error_first_order.min(scene.error_second_order);
+        if error > limit * estimate || (improves && error > 0.02 * before) {
+            failed.push(report);
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
 #[test]
 fn corrections_worse_than_none_are_refused() {
     let scene = Disturbed::new(

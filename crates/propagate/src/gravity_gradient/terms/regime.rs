@@ -2,8 +2,9 @@
 //!
 //! A term with |Ω| above [`SLOW_RATIO`] times the largest rate of twice the true anomaly is fast. Its sum over time derivatives contains all low harmonics of the
 //! orbit. A term that is slower, or whose sum is not accurate enough, has exact divisors Ω + jn in the harmonics of the orbit, if the orbit has a series of
-//! harmonics and the change is small. A harmonic next to resonance whose correction would be large is left out of it. A slow term without a series is not
-//! corrected.
+//! harmonics and the change is small. A slow term without a series is not corrected. The harmonic nearest to resonance is corrected only if the error of its
+//! correction is below the effect of leaving it out: the correction has the divisor x = Ω + jn in its denominator twice, the effect has the span
+//! (equation (9) of docs/theory-second-order.md).
 //!
 //! A part that is not corrected turns the attitude by its rate times the time during which it acts in one sense, which is the span or 2/|Ω + jn|. It also
 //! changes σ and M, so that the phases drift. [`Regimes::uncorrected`] is an upper estimate of both. A scene with a large one is [`Error::Resonance`].
@@ -21,10 +22,8 @@ use crate::input::options::Level;
 
 /// Harmonics of the orbit, from −3 to 3, with which the frequency of a slow term is compared.
 const SLOW_HARMONICS: i32 = 3;
-/// Largest change of the attitude by a slow term, and by a harmonic near resonance, that is corrected \[rad\].
+/// Largest change of the attitude by a slow term that is corrected \[rad\].
 const LARGEST_CORRECTED: f64 = 0.01;
-/// Largest change of y′ by a harmonic near resonance, through the slope of Ω, that is corrected \[rad\]. The correction is linear in it.
-const LARGEST_TURN: f64 = 0.2;
 /// A scene is refused if one term turns the attitude by more than this without correction \[rad\].
 const LARGEST_EFFECT: f64 = 0.03;
 /// A scene is refused if the terms without correction turn the attitude by more than this multiple of the tolerance or of the error of second order.
@@ -150,31 +149,30 @@ impl<'a> Regimes<'a> {
         }
     }
 
-    /// The largest turn of the attitude within the span by the part of a term that is not corrected, and the drift by a corrected harmonic that does not return
-    /// within the span: it changes the mean M and L at the epoch \[rad\].
+    /// The largest turn of the attitude within the span by the part of a term that is not corrected \[rad\]: first the effect of what is left out, which may refuse the
+    /// scene, then the error of the correction of the harmonic nearest to resonance.
     pub(crate) fn uncorrected(&self, term: &SizedTerm, regime: &Regime) -> [f64; 2] {
         let nearest = self.nearest(term);
         match regime {
-            Regime::Exact { resonant: None, .. } => {
-                let drift = unreturned(nearest.distance, self.orbit.duration) * self.turned(term, nearest);
-                [self.corrected(term, nearest), drift]
-            }
+            Regime::Exact { resonant: None, .. } => [0.0, self.corrected(term, nearest)],
             Regime::Slow => [self.whole(term), 0.0],
             _ => [self.turned(term, nearest), 0.0],
         }
     }
 
-    /// The turn that remains after the correction of the harmonic nearest to resonance. The relative error of the correction has four parts: the shift of Ω by
-    /// the average torque and by second order, the correction itself, its turn of y′, and the part of the harmonic that does not return within the span.
-    fn corrected(&self, term: &SizedTerm, nearest: Nearest) -> f64 {
-        let (amplitude, distance) = (nearest.amplitude, nearest.distance.max(1.0 / self.orbit.duration));
-        let [size, turn] = [term.size_at(distance), term.turn_at(distance)].map(|part| amplitude * part);
-        let shift = self.divisors(term).steady_shift / self.orbit.mean_motion;
-        let further = self.whole * self.whole * term.frequency.abs() / distance;
-        size * (shift + further + size + turn + unreturned(distance, self.orbit.duration)).min(1.0)
+    /// The turn that remains after the correction of the harmonic nearest to resonance. With the divisor x, which lacks the shift s, and the span T, the phase of
+    /// the correction is wrong by s min(T, 1/x), and the correction is linear in its own size, of which the part xT acts within the span.
+    fn corrected(&self, term: &SizedTerm, Nearest { amplitude, distance, .. }: Nearest) -> f64 {
+        if amplitude == 0.0 {
+            return 0.0;
+        }
+        let (duration, distance) = (self.orbit.duration, distance.max(f64::MIN_POSITIVE));
+        let size = amplitude * (term.size_at(distance) + term.turn_at(distance));
+        let shift = self.divisors(term).steady_shift + self.whole * self.whole * term.frequency.abs();
+        size * (shift * duration.min(1.0 / distance) + size * (distance * duration).min(1.0)).min(1.0)
     }
 
-    /// The turn by all terms together, from turn and drift by each, at most π: their phases are independent, so the squares add up.
+    /// The turn by all terms together, from the effect and the error of each, at most π: their phases are independent, so the squares add up.
     ///
     /// # Errors
     /// [`Error::Resonance`] if the turn is more than [`REFUSAL_FACTOR`] times `allowed`, or that of one term more than [`LARGEST_EFFECT`] although the orbit has
@@ -226,13 +224,9 @@ impl<'a> Regimes<'a> {
         self.turned(term, low).max(self.turned(term, self.nearest(term)))
     }
 
-    /// For a term with exact divisors, the harmonic that is left out, and the size of the change by all others. The harmonic nearest to resonance is left out if
-    /// it does not return within the span and its correction is large.
-    fn exact(&self, term: &SizedTerm, Nearest { number, amplitude, distance }: Nearest) -> (Option<i32>, f64) {
-        let small = amplitude * term.size_at(distance) <= LARGEST_CORRECTED
-            && amplitude * term.turn_at(distance) <= LARGEST_TURN;
-        let corrected = small || amplitude == 0.0 || unreturned(distance, self.orbit.duration) < f64::EPSILON;
-        let resonant = (!corrected).then_some(number);
+    /// For a term with exact divisors, the harmonic that is left out, and the size of the change by all others.
+    fn exact(&self, term: &SizedTerm, nearest: Nearest) -> (Option<i32>, f64) {
+        let resonant = (self.corrected(term, nearest) > self.turned(term, nearest)).then_some(nearest.number);
         let divisors = self.divisors(term);
         let count = self.orbit.series.as_ref().map_or(0, |series| series.coefficients.len() as i32);
         let others = (1 - count..count).filter(|j| resonant != Some(*j));
