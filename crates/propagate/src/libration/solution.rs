@@ -3,7 +3,7 @@
 //! Let d be the largest distance of the motions of the orders N and N − 2 at times over the span, and d′ that of the orders N − 2 and N − 4. d is the error of the
 //! order N − 2, to the next order; the error of the order N is about d · d/d′. The estimate is a factor times this, and what was dropped, and rounding.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -105,6 +105,10 @@ pub(crate) fn solved(lock: Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<R
         match rungs.len() {
             // The smallest divisors are near the smallest frequency.
             0 => {
+                // A libration in longitude is below a quarter turn.
+                if course.angle() > FRAC_PI_2 {
+                    return Ok(Err(limit(&lock, &course, &course)));
+                }
                 let slowest = slowest(&lock, &course, wanted.reach);
                 let least = (DROPPED[0] * wanted.tolerance * slowest).log2().floor();
                 truncated.least = least.max(f64::from(FIRST_LEAST)) as i32;
@@ -120,11 +124,12 @@ pub(crate) fn solved(lock: Lock, wanted: &Wanted, stop: &AtomicBool) -> Result<R
         if wanted.order.map_or(rungs.len() < 3, |asked| order < asked) {
             continue;
         }
-        let Some(next) = candidate(&rungs, &lock, wanted) else { continue };
-        if best.as_ref().is_none_or(|best| next.error < best.error) {
-            best = Some(next);
-        }
-        if many || best.as_ref().is_some_and(|best| best.error <= wanted.tolerance) {
+        let next = candidate(&rungs, &lock, wanted);
+        // Where two orders are not nearer to each other than the two before, a further one takes some seconds and is no better.
+        let diverges = next.is_none() && matches!(&rungs[..], [.., last, next] if next.distance >= last.distance);
+        let error = best.as_ref().map_or(f64::INFINITY, |best| best.error);
+        best = next.filter(|next| next.error < error).or(best);
+        if many || diverges || best.as_ref().is_some_and(|best| best.error <= wanted.tolerance) {
             break;
         }
     }
