@@ -6,30 +6,63 @@ WHEELS := target/wheels
 RIVALS := target/rivals-venv
 COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy-dependencies
 
-.PHONY: demo test lint bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
+.PHONY: demo test test-rust test-clippy test-wheel test-text test-python test-site test-package check-python lint lint-python lint-rust bench report sweep bounds stress stress-short gate gate-write memcheck fuzz supply deny msrv wasm minimal-versions parallel rivals rivals-normal-form rivals-products rivals-propagation rivals-gradient rivals-libration rivals-partials rivals-messages gravity docs docs-test package release-check wheel clean kernels
 
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
 
-test: lint supply $(VENV)/installed $(VENV)/tested docs-test  ## everything that CI runs
-	cargo test --workspace --exclude andoyer-py --quiet
+# The compiler locks a profile's folder, so the steps of the test profile stand in one row, those of the wheel in another, and both run at the same time.
+test:  ## everything that CI runs, in two rows at the same time; at the end the times of the steps
+	rm -f target/steps.csv
+	$(MAKE) --no-print-directory -j2 --output-sync=target test-clippy test-package
+	$(PYTHON) tests/steps.py
+
+STEP = $(PYTHON) tests/steps.py
+test-rust:
+	$(STEP) rust cargo test --workspace --exclude andoyer-py --quiet
+
+test-clippy: test-rust
+	$(STEP) clippy $(MAKE) --no-print-directory lint-rust
+
+test-wheel:
+	$(STEP) wheel $(MAKE) --no-print-directory $(VENV)/installed $(VENV)/tested
+
+test-text: test-wheel
+	$(STEP) text $(MAKE) --no-print-directory lint-python supply
+
+test-python: test-text
+	$(STEP) python $(MAKE) --no-print-directory check-python
+
+# The documentation of the crates is written to the same folder by clippy's step.
+test-site: test-python test-clippy
+	$(STEP) site $(MAKE) --no-print-directory docs-test
+
+test-package: test-site
+	$(STEP) stress $(MAKE) --no-print-directory stress-short
+	$(STEP) gate $(MAKE) --no-print-directory gate
+
+check-python: $(VENV)/installed $(VENV)/tested  ## the tests of the wheel, and the examples of the pages
 	$(BIN)/python tests/reference/torque_free.py tests/data/torque_free.json
 	$(BIN)/python examples/scenes/make_scenes.py --check
 	$(BIN)/python tests/stress/bounds.py --scenes 120
 	$(BIN)/python -m pytest -q crates/py/tests
 	mkdir -p out
 	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
-	$(MAKE) --no-print-directory stress-short gate
 
-lint: $(VENV)/ready  ## formatting, clippy, ruff, documentation, the imports between the files of each crate, and type names
+lint: lint-python lint-rust  ## formatting, clippy, ruff, documentation, the imports between the files of each crate, and type names
+
+lint-python: $(VENV)/ready
 	$(BIN)/ruff check --config tests/ruff.toml --quiet .
 	$(BIN)/ruff format --config tests/ruff.toml --check --quiet .
 	$(PYTHON) tests/layers.py
 	$(PYTHON) tests/layers.py --planted
 	$(PYTHON) tests/names.py
 	$(PYTHON) tests/release.py
+
+PROGRAMS := andoyer-benches/programs,andoyer-tests/programs
+lint-rust:
 	cargo fmt --all --check
-	cargo clippy --workspace --all-targets --quiet -- -D warnings
+	cargo clippy --workspace --all-targets --features $(PROGRAMS) --quiet -- -D warnings
 	RUSTDOCFLAGS='-D warnings' cargo doc --workspace --no-deps --document-private-items --quiet
 
 bench: $(VENV)/installed  ## criterion by order, then run time against error: docs/data/bench.csv, docs/data/work-precision.csv; a quarter of an hour
@@ -39,8 +72,9 @@ bench: $(VENV)/installed  ## criterion by order, then run time against error: do
 report: $(VENV)/ready  ## the figures of docs/speed.md with their picture, and the tables of the README, from docs/data
 	$(BIN)/python benches/report.py
 
+# With the features of the wheel, so that its libraries are compiled once.
 kernels:
-	cargo build --release --locked --quiet -p andoyer-benches --bin kernels
+	cargo build --release --locked --quiet -p andoyer-py -p andoyer-benches --features andoyer-benches/programs --bin kernels
 
 gate: kernels  ## instruction counts of five kernels against benches/instructions.json, where there is valgrind
 	$(PYTHON) benches/gate.py target/release/kernels
@@ -96,7 +130,7 @@ sweep: $(VENV)/installed  ## series against closed form by order, σ/σ_sep and 
 	$(BIN)/python benches/sweep.py
 
 gravity: $(VENV)/installed  ## what each level of the gravity-gradient theory leaves, against integrations: docs/data/gravity-*.csv and their picture; some minutes
-	cargo build --release --quiet --package andoyer-tests --bin gradient
+	cargo build --release --quiet --package andoyer-tests --features programs --bin gradient
 	target/release/gradient cases > docs/data/gravity-cases.csv
 	target/release/gradient levels > docs/data/gravity-levels.csv
 	target/release/gradient bounds 150 1 > docs/data/gravity-bounds.csv
@@ -115,7 +149,7 @@ rivals-normal-form: $(RIVALS)/normal-form $(RIVALS)/installed  ## the normal for
 	$(RIVALS)/bin/python benches/rivals/normal_form.py
 
 rivals-products: $(RIVALS)/normal-form  ## products of polynomials against python-flint, Symbolica and SymEngine
-	cargo build --release --locked --quiet -p andoyer-benches --bin products
+	cargo build --release --locked --quiet -p andoyer-benches --features programs --bin products
 	$(RIVALS)/bin/python benches/rivals/products.py --engine target/release/products
 
 rivals-propagation: $(RIVALS)/propagation $(RIVALS)/installed $(RIVALS)/orekit/ready  ## propagation against heyoka, SciPy, ode_solvers and, where there is Maven, Orekit
@@ -162,10 +196,11 @@ $(RIVALS)/orekit/ready: benches/rivals/orekit/pom.xml $(RIVALS)/made
 
 docs: $(VENV)/documented $(VENV)/tested  ## the site in target/site, the Rust documentation in it; warnings are errors, and the network is not used
 	$(BIN)/python docs/_ext/rustdoc.py --check
-	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --quiet -p andoyer-double -p andoyer-series -p andoyer-propagate --target-dir target/site-rust
+	rm -rf target/doc
+	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --quiet -p andoyer-double -p andoyer-series -p andoyer-propagate
 	rm -rf target/site docs/gallery
 	$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet --builder html docs target/site
-	cp -r target/site-rust/doc target/site/rust
+	cp -r target/doc target/site/rust
 	$(BIN)/python examples/pages.py target/site/pages
 
 docs-test: docs  ## the pages as files, and in a headless Chromium of this machine (Debian: apt-get install chromium)

@@ -75,7 +75,11 @@ def main():
     parser.add_argument("--output", type=Path, default=PICTURE)
     options = parser.parse_args()
     if not options.picture:
-        subprocess.run(["cargo", "build", "--release", "--locked", "--quiet", "-p", "andoyer-benches", "--bin", "librations"], cwd=ROOT, check=True)
+        subprocess.run(
+            ["cargo", "build", "--release", "--locked", "--quiet", "-p", "andoyer-benches", "--features", "programs", "--bin", "librations"],
+            cwd=ROOT,
+            check=True,
+        )
         machine = described()
         rows = [row | machine for row in measured()]
         with options.data.open("w", encoding="utf-8", newline="") as file:

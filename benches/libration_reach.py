@@ -1,6 +1,6 @@
 """Draw the share of random locked scenes that a libration serves, by amplitude and shape.
 
-    target/release/libration reach 300 1 > docs/data/libration-reach.csv    some minutes; cargo build --release -p andoyer-tests --bin libration
+    target/release/libration reach 300 1 > docs/data/libration-reach.csv    some minutes; cargo build --release -p andoyer-tests --features programs --bin libration
     python benches/libration_reach.py                                       docs/libration-reach.png from it
 
 Each row of the file is a scene of 1,000 orbits with a tolerance of 1e-8: `difference` is (B - A)/C, `amplitude` is in degrees, `served` is 1 if the plan meets the tolerance, `reached` is 1 if some order from 2 to 12 comes to 1e-8. A cell

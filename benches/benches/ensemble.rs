@@ -1,5 +1,7 @@
 //! Many bodies at a few epochs each: set-up, attitudes and rates of all, by members × epochs and threads.
 
+mod short;
+
 use std::hint::black_box;
 
 use andoyer_propagate::Ensemble;
@@ -40,7 +42,7 @@ fn evaluate(c: &mut Criterion) {
 
 criterion_group! {
     name = benches;
-    config = andoyer_benches::short();
+    config = short::short();
     targets = evaluate
 }
 criterion_main!(benches);

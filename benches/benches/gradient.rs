@@ -1,9 +1,11 @@
 //! Under a gravity gradient: solving, and evaluating, by level and averaging, on a circle and on an ellipse. The size is orbit and level, the engine the
 //! averaging.
 
+mod short;
+
 use std::hint::black_box;
 
-use andoyer_benches::{disturbed, short};
+use andoyer_benches::disturbed;
 use andoyer_propagate::options::{Averaging, Level};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
@@ -88,7 +90,7 @@ fn variables(c: &mut Criterion) {
 
 criterion_group! {
     name = gradient;
-    config = short();
+    config = short::short();
     targets = solve, evaluate, variables
 }
 criterion_main!(gradient);

@@ -2,9 +2,11 @@
 //!
 //! A solution at an order also has the forms of the orders below, from which its error is estimated.
 
+mod short;
+
 use std::hint::black_box;
 
-use andoyer_benches::{locked, short};
+use andoyer_benches::locked;
 use andoyer_propagate::Orbit;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
@@ -78,7 +80,7 @@ fn evaluate(c: &mut Criterion) {
 
 criterion_group! {
     name = libration;
-    config = short();
+    config = short::short();
     targets = solve, evaluate
 }
 criterion_main!(libration);

@@ -1,6 +1,8 @@
 //! Normalization by order. Engines: `energy` is the exact normal form as `NormalForm::new` computes it, `triangle` the same through the
 //! generic algebra over rationals, `f64` and `double-double` the one at β = ½ with its direct transformation.
 
+mod short;
+
 use std::hint::black_box;
 
 use andoyer_double::DoubleDouble;
@@ -71,7 +73,7 @@ fn by_order(c: &mut Criterion) {
 
 criterion_group! {
     name = benches;
-    config = andoyer_benches::short();
+    config = short::short();
     targets = by_order
 }
 criterion_main!(benches);

@@ -1,5 +1,7 @@
 //! Solving by order; evaluating by harmonics, outputs and kind of times.
 
+mod short;
+
 use std::hint::black_box;
 
 use andoyer_benches::{bodies, triaxial, wobbling};
@@ -223,7 +225,7 @@ fn momentum(motion: &Motion, rates: &[f64; 3]) -> f64 {
 
 criterion_group! {
     name = benches;
-    config = andoyer_benches::short();
+    config = short::short();
     targets = solve, evaluate, evaluate_by, evaluate_one, set_up, skip
 }
 criterion_main!(benches);

@@ -1,16 +1,7 @@
 //! What the benchmarks share. Ids are `task/size/engine`; each closure asserts its answer.
 
-use std::time::Duration;
-
 use andoyer_propagate::nalgebra::{UnitQuaternion, Vector3};
 use andoyer_propagate::{Body, Method, Orbit, Scene, State};
-use criterion::Criterion;
-
-/// Short measurements: some hundred ids, a second each. Their medians repeat within a few per cent on a quiet machine.
-#[must_use]
-pub fn short() -> Criterion {
-    Criterion::default().warm_up_time(Duration::from_millis(200)).measurement_time(Duration::from_millis(600))
-}
 
 /// A triaxial body (β = ½) at σ/σ_sep = 0.34, where a tolerance of 1e-12 takes order 25.
 ///

@@ -1,9 +1,6 @@
-"""The scripts of the gallery run as they are printed; the pages of documentation say nothing in Python that is not run."""
+"""The pages of documentation say nothing in Python that is not run. The scripts of the gallery run in tests/site."""
 
-import os
 import re
-import subprocess
-import sys
 
 import pytest
 from conftest import REPOSITORY
@@ -33,14 +30,6 @@ def test_there_are_the_seventeen_of_them():
         "methods",
         "locked",
     ]
-
-
-@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
-def test_script_runs_and_says_something(script, tmp_path):
-    environment = os.environ | {"MPLBACKEND": "Agg", "PYTHONWARNINGS": "ignore:FigureCanvasAgg:UserWarning"}
-    done = subprocess.run([sys.executable, script], capture_output=True, text=True, cwd=tmp_path, env=environment)
-    assert done.returncode == 0 and done.stdout, done.stderr
-    assert "Warning" not in done.stderr.replace("UserWarning: FigureCanvasAgg", "")
 
 
 def test_the_table_of_the_readme_is_that_of_the_files(monkeypatch):

@@ -23,9 +23,17 @@ disallow_untyped_calls = false
 EXAMPLES = sorted(path for folder in ("examples", "examples/gallery") for path in (REPOSITORY / folder).glob("*.py"))
 
 
+@pytest.fixture(scope="module", autouse=True)
+def cache(tmp_path_factory):
+    """One cache for all runs: NumPy's types are read once."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("MYPY_CACHE_DIR", str(tmp_path_factory.mktemp("mypy")))
+        yield
+
+
 def run(folder, *arguments):
     (folder / "mypy.ini").write_text(SETTINGS, encoding="utf-8")
-    environment = os.environ | {"MYPYPATH": "", "MYPY_CACHE_DIR": str(folder / "cache")}
+    environment = os.environ | {"MYPYPATH": ""}
     return subprocess.run([sys.executable, "-m", *arguments], capture_output=True, text=True, cwd=folder, env=environment)
 
 
