@@ -438,7 +438,7 @@ class LibrationTerm:
 
     @property
     def multiples(self) -> tuple[int, ...]:
-        """Multiples of the three proper angles and of the mean anomaly, four integers."""
+        """Multiples of the three proper angles and of the mean anomaly M, four integers; if the orbit precesses, a fifth one of the angle r M + ω + ψ₀ from the node."""
     @property
     def period(self) -> float:
         """The period in the unit of time; infinite for a constant."""
