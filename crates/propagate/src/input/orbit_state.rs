@@ -15,8 +15,7 @@ use nalgebra::Vector3;
 use super::orbit::{MOST_TURNS, Orbit, check};
 use crate::error::Error;
 use crate::numerics::hyperbola::{hyperbolic_anomaly, mean_anomaly};
-use crate::simd::kepler::Place;
-use crate::simd::lanes::Lanes;
+use crate::simd::kepler::eccentric_anomaly;
 
 const CONIC: &str = "other than 1 for this position, velocity and gm: parabolas and straight falls have no orbit here";
 
@@ -124,10 +123,11 @@ impl Orbit {
             return Ok(((to_pericentre * along + ahead * across) * axis).into());
         }
         let anomaly = self.mean_anomaly(time).angle((0.0, 0.0));
-        let place = Place::of(Lanes::splat(pulp::Scalar, anomaly), e);
-        let [sine, cosine] = [place.sine, place.cosine].map(|lanes| lanes.values()[0]);
-        let radius = axis * ((1.0 - e) * (1.0 + e) / (1.0 + e * cosine));
-        Ok(((to_pericentre * cosine + ahead * sine) * radius).into())
+        // With the eccentric anomaly E: cos E − e and η sin E. With the true anomaly, 1 + e cos f would cancel for e → 1.
+        let eccentric = eccentric_anomaly(anomaly, e);
+        let half = (0.5 * eccentric).sin();
+        let (along, across) = ((1.0 - e) - 2.0 * half * half, ((1.0 - e) * (1.0 + e)).sqrt() * eccentric.sin());
+        Ok(((to_pericentre * along + ahead * across) * axis).into())
     }
 }
 
