@@ -20,7 +20,8 @@ pub(crate) fn plain<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<
         || value.is_exact_instance_of::<PyInt>()
         || value.is_exact_instance_of::<PyList>()
         || value.is_exact_instance_of::<PyTuple>()
-        || (value.is_instance_of::<PyUntypedArray>() && !value.hasattr(intern!(py, "unit"))?);
+        || value.is_exact_instance_of::<PyUntypedArray>()
+        || (value.is_instance_of::<PyUntypedArray>() && !has_units(value)?);
     if usual && !masked(value)? && !first_of(value)?.is_some_and(|first| looks_foreign(&first).unwrap_or(false)) {
         return Ok(value.clone());
     }
@@ -31,8 +32,13 @@ pub(crate) fn plain<'py>(argument: &str, value: &Bound<'py, PyAny>) -> PyResult<
 }
 
 fn looks_foreign(value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    Ok(has_units(value)? || is_time(value)? || is_rotation(value)?)
+}
+
+/// True for a quantity of astropy, pint, unyt or another package.
+pub(crate) fn has_units(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     let py = value.py();
-    Ok(value.hasattr(intern!(py, "unit"))? || is_time(value)? || is_rotation(value)?)
+    Ok(value.hasattr(intern!(py, "unit"))? || value.hasattr(intern!(py, "units"))?)
 }
 
 /// True if `value` is a Time or a TimeDelta of astropy; both consist of two doubles.
@@ -62,17 +68,26 @@ fn masked(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     Ok(array && value.hasattr(intern!(py, "mask"))?)
 }
 
-/// The first entry of a list or a tuple, through any number of nested lists, unless it is a plain number.
+/// The first entry of a list or a tuple that is no plain number, through any number of nested lists.
 fn first_of<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>>> {
-    let mut first = value.clone();
-    while first.is_exact_instance_of::<PyList>() || first.is_exact_instance_of::<PyTuple>() {
-        if first.len()? == 0 {
-            return Ok(None);
-        }
-        first = first.get_item(0)?;
+    if !(value.is_exact_instance_of::<PyList>() || value.is_exact_instance_of::<PyTuple>()) {
+        return Ok(None);
     }
-    let number = first.is_exact_instance_of::<PyFloat>() || first.is_exact_instance_of::<PyInt>();
-    Ok((!number && !first.is(value)).then_some(first))
+    for entry in value.try_iter()? {
+        let entry = entry?;
+        // `float64` of NumPy is a float too.
+        if entry.is_instance_of::<PyFloat>() || entry.is_exact_instance_of::<PyInt>() {
+            continue;
+        }
+        if entry.is_exact_instance_of::<PyList>() || entry.is_exact_instance_of::<PyTuple>() {
+            match first_of(&entry)? {
+                None => continue,
+                found => return Ok(found),
+            }
+        }
+        return Ok(Some(entry));
+    }
+    Ok(None)
 }
 
 /// A Time of astropy: its Julian date in two doubles, the index of its scale in `andoyer.interop._foreign.SCALES`, and its location \[m\], which TDB depends on.
@@ -88,9 +103,13 @@ pub(crate) fn since<'py>(
     epochs: &[Calendar],
 ) -> PyResult<Option<Since<'py>>> {
     if !holds_times(value)? {
-        if !epochs.is_empty() && value.hasattr(intern!(value.py(), "unit"))? {
-            let text = "is a Quantity, and the epoch a calendar time: give a Time, or a TimeDelta from the epoch";
-            return Err(error::input(argument, "a Quantity", "a Time or a TimeDelta", format!("{argument} {text}")));
+        let first = first_of(value)?.unwrap_or_else(|| value.clone());
+        if !epochs.is_empty() && !first.is_exact_instance_of::<PyUntypedArray>() && has_units(&first)? {
+            let kind = first.get_type().name()?;
+            let text = "and the epoch a calendar time: give a Time, or a TimeDelta from the epoch";
+            let advice = if kind == "Quantity" { "" } else { "; Time of astropy takes dates of other packages" };
+            let message = format!("{argument} is a {kind}, {text}{advice}");
+            return Err(error::input(argument, format!("a {kind}").as_str(), "a Time or a TimeDelta", message));
         }
         return Ok(None);
     }

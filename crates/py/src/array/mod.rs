@@ -71,7 +71,10 @@ fn objects<'py>(argument: &str, array: &Bound<'py, PyUntypedArray>) -> PyResult<
     };
     let mut values = Vec::with_capacity(array.len());
     for item in array.getattr("flat")?.try_iter()? {
-        values.push(item?.extract::<f64>().map_err(refused)?);
+        let item = item?;
+        // `float` of a quantity drops its unit.
+        let item = if foreign::has_units(&item)? { foreign::plain(argument, &item)? } else { item };
+        values.push(item.extract::<f64>().map_err(refused)?);
     }
     values.into_pyarray(array.py()).reshape(array.shape())
 }

@@ -1,4 +1,4 @@
-"""Conversion of values of astropy and SciPy to plain numbers. Quantities become SI units; times become TDB seconds since J2000 (2000-01-01T12:00:00 TDB).
+"""Conversion of values of astropy, pint, unyt and SciPy to plain numbers. Quantities become SI units; times become TDB seconds since J2000 (2000-01-01T12:00:00 TDB).
 
 Times of a motion are differences from its epoch, formed in the two doubles of astropy, because seconds since J2000 in one double are accurate only to 1e-7 s.
 A duration from a calendar epoch is added to it by astropy: in the scale of the duration, or without one in the scale of the epoch (UTC: in TAI).
@@ -8,6 +8,7 @@ A package is imported only when one of its values is given.
 
 from __future__ import annotations
 
+import re
 import sys
 from typing import Any, TypeAlias
 
@@ -94,7 +95,37 @@ def plain(argument: str, value: Any) -> Any:
             # astropy does not convert 1 Hz to rad/s, since a frequency may count turns or radians.
             advice = "; multiply by u.rad, or by u.cycle if it counts turns" if unit == "rad / s" and value.unit.is_equivalent("Hz") else ""
             raise TypeError(f"{argument} must be in {unit or 'no unit'}, or what converts to it: got {value.unit}{advice}") from None
-    return value
+    return converted(argument, value) if hasattr(value, "units") or hasattr(value, "unit") else value
+
+
+def converted(argument: str, value: Any) -> Any:
+    """The numbers in a quantity of pint or unyt.
+
+    Raises
+    ------
+    TypeError
+        A quantity with a wrong unit, and a value of any other package that carries a unit.
+    """
+    package = type(value).__module__.partition(".")[0]
+    # astropy's "kg m2" is "kg*m**2" for pint and unyt.
+    unit = re.sub(r"([a-z])(\d)", r"\1**\2", UNITS.get(argument, "")).replace(" / ", "/").replace(" ", "*")
+    units = getattr(value, "units", None)
+    try:
+        if package == "pint":
+            # pint has no dimension for an angle, and 1 Hz would become 1 rad/s.
+            if unit == "rad/s" and "radian" not in str(value.to_root_units().units):
+                raise ValueError("; multiply by radian, or by turn if it counts turns")
+            return value.to(unit.replace("cycle", "turn")).magnitude
+        if package == "unyt":
+            # unyt has no turn.
+            return value.to_value("degree") / 360 if unit == "cycle" else value.to_value(unit or "dimensionless")
+    except Exception as error:
+        advice = str(error) if isinstance(error, ValueError) and str(error).startswith(";") else ""
+        raise TypeError(f"{argument} must be in {unit or 'no unit'}, or what converts to it: got {units}{advice}") from None
+    kind = type(value).__name__
+    if package == "pandas":
+        raise TypeError(f"{argument} is a {kind} of pandas: give seconds, or astropy's Time(value) where the epoch is a Time")
+    raise TypeError(f"{argument} is a {kind} of {package} and carries a unit, which is not converted: give its numbers in {unit or 'no unit'}")
 
 
 def unit_of(argument: str, quantity: Any) -> str:
@@ -120,11 +151,13 @@ def joined(argument: str, value: Any) -> Any:
     """
     if not isinstance(value, (list, tuple)):
         return value
-    first = value[0]
-    while isinstance(first, (list, tuple)):
-        first = first[0]
+    first = special(value)
+    if first is None:
+        return value
     unit = getattr(first, "unit", None)
     kind = type(first)
+    if hasattr(first, "units") or (unit is not None and type(first).__module__.partition(".")[0] != "astropy"):
+        return each(argument, value, kind)
     try:
         if unit is not None:
             return sys.modules["astropy.units"].Quantity(value)
@@ -137,6 +170,24 @@ def joined(argument: str, value: Any) -> Any:
         return kind([part.jd1 for part in value], [part.jd2 for part in value], format="jd", scale=first.scale)
     except Exception as error:
         raise TypeError(f"{argument} must hold values of one kind, here {kind.__name__}: {str(error).splitlines()[0]}") from error
+
+
+def special(values: Any) -> Any:
+    """The first entry of a list that is no plain number, through any number of nested lists, or None."""
+    for value in values:
+        found = special(value) if isinstance(value, (list, tuple)) else value
+        if found is not None and not isinstance(found, (float, int)):
+            return found
+    return None
+
+
+def each(argument: str, values: Any, kind: type) -> Any:
+    """The quantities in a nested list as numbers, if every entry is a quantity."""
+    if isinstance(values, (list, tuple)):
+        return [each(argument, value, kind) for value in values]
+    if not (hasattr(values, "units") or hasattr(values, "unit")):
+        raise TypeError(f"{argument} must hold values of one kind, here {kind.__name__}: got {values!r} too")
+    return plain(argument, values)
 
 
 def unmasked(argument: str, value: Any) -> None:
@@ -219,7 +270,7 @@ def scene_times(argument: str, value: Any, epoch: Any) -> Any:
             raise refusal(
                 argument, "a Quantity", "a Time or a TimeDelta", "is a Quantity, and the epoch a calendar time: give a Time, or a TimeDelta from the epoch"
             )
-        return plain(argument, value) if hasattr(value, "unit") else value
+        return plain(argument, value)
     if of_calendar:
         return instants(argument, value, parts(epoch))
     return epoch + since(argument, value, [])[0]
@@ -228,7 +279,7 @@ def scene_times(argument: str, value: Any, epoch: Any) -> Any:
 def as_one(argument: str, value: Any) -> Any:
     """A list of times or quantities as one object. Any other value is returned unchanged."""
     first = value[0] if isinstance(value, (list, tuple)) and len(value) else value
-    return joined(argument, value) if hasattr(first, "unit") or hasattr(first, "jd1") else value
+    return joined(argument, value) if hasattr(first, "unit") or hasattr(first, "units") or hasattr(first, "jd1") else value
 
 
 def epoch_of(scene: Any) -> Any:

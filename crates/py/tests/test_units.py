@@ -1,0 +1,70 @@
+"""Quantities of pint and unyt become SI units as those of astropy do; a unit of any other package is an error, and no unit is dropped."""
+
+import math
+
+import numpy as np
+import pytest
+
+import andoyer
+
+pint, unyt = pytest.importorskip("pint"), pytest.importorskip("unyt")
+UNITS = pint.UnitRegistry()
+BODY = andoyer.Body([1.0, 1.5, 2.0])
+A_DAY = 2 * math.pi / 86400
+
+TURNING = {
+    "pint": [0, 0, 360] * UNITS.degree / UNITS.day,
+    "list of pint": [0.1 * A_DAY * UNITS.radian / UNITS.s, 0 * UNITS.degree / UNITS.day, 360 * UNITS.degree / UNITS.day],
+    "objects of pint": np.array([0 * UNITS.degree / UNITS.day, 0 * UNITS.degree / UNITS.day, 360 * UNITS.degree / UNITS.day], dtype=object),
+    "unyt": unyt.unyt_array([0, 0, 360], "degree/day"),
+    "list of unyt": [unyt.unyt_quantity(x, "degree/day") for x in (0, 0, 360)],
+}
+
+
+@pytest.mark.parametrize("rates", TURNING.values(), ids=TURNING)
+def test_one_turn_a_day_is_one_turn_a_day(rates):
+    scene = andoyer.Scene(BODY, [0, 0, 0, 1], rates)
+    assert scene.angular_velocity[2] == pytest.approx(A_DAY, rel=1e-14)
+
+
+@pytest.mark.parametrize("minute", [1 * UNITS.minute, unyt.unyt_quantity(1, "min"), [1 * UNITS.minute]], ids=["pint", "unyt", "list"])
+def test_a_minute_is_sixty_seconds(minute):
+    motion = andoyer.Scene(BODY, [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    assert np.array_equal(np.squeeze(motion.attitude(minute)), motion.attitude(60.0))
+
+
+def test_elements_of_an_orbit_have_units():
+    turns = andoyer.Orbit(15 * UNITS.turn / UNITS.day, 0.1, inclination=30 * UNITS.degree, semi_major_axis=7000 * UNITS.km)
+    assert turns.mean_motion == pytest.approx(15 * A_DAY, rel=1e-14)
+    assert (turns.inclination, turns.semi_major_axis) == pytest.approx((math.pi / 6, 7e6), rel=1e-14)
+    assert andoyer.Orbit(unyt.unyt_quantity(900, "degree/day")).mean_motion == pytest.approx(2.5 * A_DAY, rel=1e-14)
+
+
+class Furlongs(float):
+    """A number with a unit that no package here knows."""
+
+    units = "furlong"
+
+
+REFUSED = {
+    "length": lambda: andoyer.Scene(BODY, [0, 0, 0, 1], [0, 0, 1] * UNITS.meter),
+    "hertz of pint": lambda: andoyer.Orbit(1 * UNITS.Hz),
+    "hertz of unyt": lambda: andoyer.Orbit(unyt.unyt_quantity(1, "Hz")),
+    "some without": lambda: andoyer.Scene(BODY, [0, 0, 0, 1], [0.0, 0.0, 360 * UNITS.degree / UNITS.day]),
+    "unknown package": lambda: andoyer.Orbit(Furlongs(1.0)),
+    "unknown package, in objects": lambda: andoyer.Scene(BODY, [0, 0, 0, 1], np.array([0.0, 0.0, Furlongs(1.0)], dtype=object)),
+}
+
+
+@pytest.mark.parametrize("made", REFUSED.values(), ids=REFUSED)
+def test_unit_that_is_not_converted_is_refused(made):
+    with pytest.raises(TypeError, match="mean_motion|angular_velocity"):
+        made()
+
+
+def test_times_of_pandas_are_named_where_the_epoch_is_a_date():
+    pandas, time = pytest.importorskip("pandas"), pytest.importorskip("astropy.time")
+    motion = andoyer.Scene(BODY, [0, 0, 0, 1], [0.1, 0.2, 1.0], epoch=time.Time("2026-04-13", scale="tdb")).solve()
+    for value in (pandas.Timestamp("2026-04-14"), pandas.Timedelta(days=1), pandas.DatetimeIndex(["2026-04-14"])):
+        with pytest.raises(andoyer.InputError, match=f"times is a {type(value).__name__}, .*Time of astropy"):
+            motion.attitude(value)
