@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import andoyer
+import andoyer.output
 
 pint, unyt = pytest.importorskip("pint"), pytest.importorskip("unyt")
 UNITS = pint.UnitRegistry()
@@ -68,3 +69,25 @@ def test_times_of_pandas_are_named_where_the_epoch_is_a_date():
     for value in (pandas.Timestamp("2026-04-14"), pandas.Timedelta(days=1), pandas.DatetimeIndex(["2026-04-14"])):
         with pytest.raises(andoyer.InputError, match=f"times is a {type(value).__name__}, .*Time of astropy"):
             motion.attitude(value)
+
+
+BARE = {
+    "pint": [0.25, 0.1] * UNITS.dimensionless,
+    "unyt": unyt.unyt_array([0.25, 0.1]),
+    "turns": [0.25, 0.1] * UNITS.turn,
+    "degrees": unyt.unyt_array([90, 36], "degree"),
+}
+
+
+@pytest.mark.parametrize("phases", BARE.values(), ids=BARE)
+def test_phases_without_a_unit_are_turns(phases):
+    body = andoyer.Body.named("apophis")
+    expected = andoyer.Scene.from_periods(body, 27.38, 263.0, phases=(0.25, 0.1)).attitude
+    assert andoyer.Scene.from_periods(body, 27.38, 263.0, phases=phases).attitude == pytest.approx(expected, abs=1e-14)
+
+
+def test_durations_of_a_kernel_from_a_date_are_refused(tmp_path):
+    time = pytest.importorskip("astropy.time")
+    motion = andoyer.Scene(BODY, [0, 0, 0, 1], [0.1, 0.2, 1.0], epoch=time.Time("2026-04-13", scale="tdb")).solve()
+    with pytest.raises(andoyer.InputError, match="interval is a Quantity"):
+        andoyer.output.write_ck(tmp_path / "a.bc", motion, (0 * UNITS.s, 60 * UNITS.s))

@@ -115,9 +115,14 @@ def converted(argument: str, value: Any) -> Any:
             # pint has no dimension for an angle, and 1 Hz would become 1 rad/s.
             if unit == "rad/s" and "radian" not in str(value.to_root_units().units):
                 raise ValueError("; multiply by radian, or by turn if it counts turns")
+            if argument == "phases" and value.unitless:
+                # A number of turns, as for astropy. For pint a bare number counts radians.
+                return value.magnitude
             return value.to(unit.replace("cycle", "turn")).magnitude
         if package == "unyt":
-            # unyt has no turn.
+            # unyt has no cycle.
+            if argument == "phases" and value.units.is_dimensionless:
+                return value.to_value("dimensionless")
             return value.to_value("degree") / 360 if unit == "cycle" else value.to_value(unit or "dimensionless")
     except Exception as error:
         advice = str(error) if isinstance(error, ValueError) and str(error).startswith(";") else ""
@@ -264,12 +269,14 @@ def scene_times(argument: str, value: Any, epoch: Any) -> Any:
     InputError
         A calendar time if the epoch is a number; a Quantity if the epoch is a Time.
     """
-    value, of_calendar = as_one(argument, value), hasattr(epoch, "jd1")
+    of_calendar = hasattr(epoch, "jd1")
+    first = special(value) if isinstance(value, (list, tuple)) else value
+    if of_calendar and not hasattr(first, "jd1") and (hasattr(first, "unit") or hasattr(first, "units")):
+        raise refusal(
+            argument, "a Quantity", "a Time or a TimeDelta", "is a Quantity, and the epoch a calendar time: give a Time, or a TimeDelta from the epoch"
+        )
+    value = as_one(argument, value)
     if not hasattr(value, "jd1"):
-        if of_calendar and hasattr(value, "unit"):
-            raise refusal(
-                argument, "a Quantity", "a Time or a TimeDelta", "is a Quantity, and the epoch a calendar time: give a Time, or a TimeDelta from the epoch"
-            )
         return plain(argument, value)
     if of_calendar:
         return instants(argument, value, parts(epoch))
