@@ -11,10 +11,11 @@ COPY_DEPENDENCIES := org.apache.maven.plugins:maven-dependency-plugin:3.8.1:copy
 demo: $(VENV)/installed  ## build and install the wheel, run the scenes, print the table, draw the pictures
 	$(BIN)/python examples/demo.py
 
-# The compiler locks a profile's folder, so the steps of the test profile stand in one row, those of the wheel in another, and both run at the same time.
+# The compiler locks a profile's folder, so the steps of the test profile stand in one row, those of the wheel in another, and both run at the same time. The site is built
+# from the wheel in the first row, which ends earlier.
 test:  ## everything that CI runs, in two rows at the same time; at the end the times of the steps
 	rm -f target/steps.csv
-	$(MAKE) --no-print-directory -j2 --output-sync=target test-clippy test-package
+	$(MAKE) --no-print-directory -j2 --output-sync=target test-package
 	$(PYTHON) tests/steps.py
 
 STEP = $(PYTHON) tests/steps.py
@@ -24,8 +25,9 @@ test-rust:
 test-clippy: test-rust
 	$(STEP) clippy $(MAKE) --no-print-directory lint-rust
 
+# What the site needs is installed here, so that nothing is installed while tests run.
 test-wheel:
-	$(STEP) wheel $(MAKE) --no-print-directory $(VENV)/installed $(VENV)/tested
+	$(STEP) wheel $(MAKE) --no-print-directory $(VENV)/installed $(VENV)/tested $(VENV)/documented
 
 test-text: test-wheel
 	$(STEP) text $(MAKE) --no-print-directory lint-python supply
@@ -34,10 +36,10 @@ test-python: test-text
 	$(STEP) python $(MAKE) --no-print-directory check-python
 
 # The documentation of the crates is written to the same folder by clippy's step.
-test-site: test-python test-clippy
+test-site: test-clippy test-wheel
 	$(STEP) site $(MAKE) --no-print-directory docs-test
 
-test-package: test-site
+test-package: test-python test-site
 	$(STEP) stress $(MAKE) --no-print-directory stress-short
 	$(STEP) gate $(MAKE) --no-print-directory gate
 
@@ -47,7 +49,7 @@ check-python: $(VENV)/installed $(VENV)/tested  ## the tests of the wheel, and t
 	$(BIN)/python tests/stress/bounds.py --scenes 120
 	$(BIN)/python -m pytest -q crates/py/tests
 	mkdir -p out
-	$(BIN)/python -m pytest -q --doctest-glob='*.md' README.md docs
+	$(BIN)/python -m pytest -q --doctest-glob='*.md' --ignore=docs/gallery README.md docs
 
 lint: lint-python lint-rust  ## formatting, clippy, ruff, documentation, the imports between the files of each crate, and type names
 
