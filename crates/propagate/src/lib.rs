@@ -36,6 +36,8 @@ pub mod partials;
 
 pub mod motion_code;
 
+pub mod spice;
+
 mod observed;
 
 mod scene_file;

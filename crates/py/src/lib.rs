@@ -20,6 +20,7 @@ mod error;
 mod expression;
 mod foreign;
 mod form;
+mod kernel;
 mod libration;
 mod mean;
 mod members;
@@ -56,6 +57,8 @@ mod _core {
     use super::error::{
         Error, FileError, InputError, InternalError, RepresentationError, TheoryError, ToleranceWarning,
     };
+    #[pymodule_export]
+    use super::kernel::{_frame_code, _write_motion, _write_samples};
     #[pymodule_export]
     use super::libration::{Libration, LibrationTerm};
     #[pymodule_export]

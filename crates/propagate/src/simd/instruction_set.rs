@@ -4,7 +4,7 @@
 //! the same bits, whatever their width, because only the stores combine lanes. A program with debug assertions therefore has two sets alone, AVX2 and the scalar one,
 //! and compiles in half the time; the unit tests and the release profile have all.
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", any(test, not(debug_assertions))))]
 use pulp::x86::V3_128b;
 use pulp::{Arch, NullaryFnOnce, Simd, bytemuck};
 

@@ -8,7 +8,7 @@ The first argument of every writer is the path. A file is written whole or not a
 from andoyer.output.aem import Heading, write_aem
 from andoyer.output.aem_reader import Segment, read_aem, read_aem_segments
 from andoyer.output.calendar import TIME_SYSTEMS
-from andoyer.output.ck import Kernel, Written, write_ck
+from andoyer.output.kernels import Kernel, Written, write_ck, write_pck
 from andoyer.output.rows import COLUMNS, CONVENTION
 from andoyer.output.table import Progress, Table, read_table, silent, write_csv, write_npz, write_parquet, write_table
 
@@ -31,5 +31,6 @@ __all__ = [
     "write_csv",
     "write_npz",
     "write_parquet",
+    "write_pck",
     "write_table",
 ]

@@ -1,0 +1,176 @@
+//! C-kernels of a motion: type 3, or type 2 for uniform rotation.
+
+use std::io::BufWriter;
+use std::path::Path;
+
+use andoyer_kernels::{Daf, Head, Kernel, Refused, clock};
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::nodes::{Sampled, ck_windows, estimate, even, nodes, sampled};
+use super::request::{Request, WriteError, Written, beside};
+use crate::input::options::Method;
+use crate::motion::solved::Motion;
+use crate::torque_free::mode::Mode;
+
+/// 64 bytes each: more would not fit a file that anyone loads.
+const MOST_RECORDS: f64 = 5e7;
+/// Records of a segment, and those of a window more: SPICE looks for a segment one after the other.
+const LONGEST_SEGMENT: usize = 200_000;
+/// Part of a rotation angle by which its sine may be off, with room.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+impl Motion {
+    /// Writes the motion over an interval as a C-kernel, and the text kernel with the frame and the clock beside it (`.tsc`).
+    ///
+    /// The unit of time must be the second. The attitude that SPICE interpolates differs from the motion by at most [`Written::error`].
+    ///
+    /// ```
+    /// use andoyer_propagate::spice::{Kernel, Request};
+    /// use andoyer_propagate::{Body, Scene, State};
+    /// let motion = Scene::new(Body::new([1.0, 1.5, 2.0])?, State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?).solve()?;
+    /// let path = std::env::temp_dir().join("andoyer-wobble.bc");
+    /// let request = Request { interpolation_error: 1e-6, ..Request::default() };
+    /// let written = motion.write_ck(&path, [0.0, 60.0], &Kernel::new("WOBBLE", "J2000")?, request)?;
+    /// assert!(written.kind == 3 && (7500..7600).contains(&written.records) && written.error < 1.01e-6);
+    /// # std::fs::remove_file(&path)?;
+    /// # std::fs::remove_file(path.with_extension("tsc"))?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - [`WriteError::Refused`] for an interval without a length or outside the clock, an error below 1e-13 rad or the rounding of this motion, more than 5e7 records.
+    /// - [`WriteError::Motion`] for a time that the motion does not reach; [`WriteError::System`] for an error of the system.
+    pub fn write_ck(
+        &self,
+        path: &Path,
+        interval: [f64; 2],
+        kernel: &Kernel,
+        mut request: Request<'_>,
+    ) -> Result<Written, WriteError> {
+        let ends = request.ends(interval)?;
+        let writer = Writer { motion: self, head: Head::of(kernel), ends };
+        let comments = request.comments(kernel, Some(self), request.interpolation_error);
+        beside(path, "tsc", &kernel.text_of_ck(), request.force, |file| {
+            let mut daf = Daf::ck(BufWriter::new(file), &comments)?;
+            let steady = matches!(self.plan().mode(), Mode::PrincipalAxis | Mode::Spherical | Mode::AtRest)
+                && self.scene().asked_disturbing().is_empty()
+                && self.plan().method() != Method::Integrated;
+            let written = if steady {
+                writer.uniform(&mut daf, &mut request)?
+            } else {
+                writer.tabulated(&mut daf, &mut request)?
+            };
+            daf.finish()?;
+            Ok(written)
+        })
+    }
+}
+
+struct Writer<'a> {
+    motion: &'a Motion,
+    head: Head,
+    /// First and last time \[s of TDB past J2000\].
+    ends: [f64; 2],
+}
+
+impl Writer<'_> {
+    /// Records of type 2: as many as keep the rounding of the angle of a record below the error, and one for each piece of the clock.
+    fn uniform(
+        &self,
+        daf: &mut Daf<impl std::io::Write + std::io::Seek>,
+        request: &mut Request<'_>,
+    ) -> Result<Written, WriteError> {
+        let error = request.interpolation_error;
+        let mut records = 0;
+        let mut rate = 0.0;
+        for [begin, end] in request.parts(self.ends) {
+            rate = sampled(self.motion, &[begin - request.zero])?.rates[0].norm();
+            let count = (rate * (end - begin) * ROUNDING / error).ceil().max(1.0);
+            limited(count, error)?;
+            let times: Vec<f64> = even(begin, end, count as usize).into_iter().map(|time| request.held(time)).collect();
+            let ticks = request.ticks(&times)?;
+            let samples = sampled(
+                self.motion,
+                &times[..times.len() - 1].iter().map(|time| time - request.zero).collect::<Vec<f64>>(),
+            )?;
+            let seconds: Vec<f64> = match request.ticks {
+                None => vec![clock::rate(begin); samples.rates.len()],
+                Some(_) => times
+                    .windows(2)
+                    .zip(ticks.windows(2))
+                    .map(|(times, ticks)| (times[1] - times[0]) / (ticks[1] - ticks[0]))
+                    .collect(),
+            };
+            let (attitudes, rates) = inertial(&samples);
+            daf.ck2(&self.head, &ticks, &attitudes, &rates, &seconds)?;
+            records += seconds.len();
+        }
+        Ok(Written { kind: 2, records, error: error + request.rounding(self.ends, rate) })
+    }
+
+    /// Segments of type 3, each with whole windows. Neighbouring segments share a node, so that there is no gap.
+    fn tabulated(
+        &self,
+        daf: &mut Daf<impl std::io::Write + std::io::Seek>,
+        request: &mut Request<'_>,
+    ) -> Result<Written, WriteError> {
+        let (error, zero) = (request.interpolation_error, request.zero);
+        let mut windows = Vec::new();
+        for [begin, end] in request.parts(self.ends) {
+            let borders = ck_windows(self.motion, begin - zero, end - zero)?;
+            limited(estimate(self.motion, &borders, error)?, error)?;
+            let count = borders.len() - 1;
+            // The ends of a part are exact in the time of the kernel, where the clock changes its rate.
+            let of = |place: usize| ((place == 0).then_some(begin), (place + 1 == count).then_some(end));
+            windows.extend(borders.windows(2).enumerate().map(|(place, pair)| ([pair[0], pair[1]], of(place))));
+        }
+        let (mut times, mut records, mut fastest): (Vec<f64>, usize, f64) = (Vec::new(), 0, 0.0);
+        for (done, &([start, stop], (first, last))) in windows.iter().enumerate() {
+            let found = nodes(self.motion, start, stop, error)?.map_err(|left| {
+                let value = format!("{error:e}, but {left:.3e} rad are left between nodes from {start:?} to {stop:?}");
+                Refused::new("interpolation_error", value, "above the rounding error of this motion")
+            })?;
+            let mut found: Vec<f64> = found.into_iter().map(|time| request.held(zero + time)).collect();
+            let count = found.len();
+            (found[0], found[count - 1]) = (first.unwrap_or(found[0]), last.unwrap_or(found[count - 1]));
+            let border = found[count - 1];
+            times.extend(found.into_iter().skip(usize::from(!times.is_empty())));
+            if last.is_some() || times.len() > LONGEST_SEGMENT {
+                let ticks = request.ticks(&times)?;
+                let samples = sampled(self.motion, &times.iter().map(|time| time - zero).collect::<Vec<f64>>())?;
+                let (attitudes, rates) = inertial(&samples);
+                daf.ck3(&self.head, &ticks, &attitudes, Some(&rates), &ticks[..1])?;
+                records += times.len();
+                fastest = samples.rates.iter().map(Vector3::norm).fold(fastest, f64::max);
+                times.clear();
+                if last.is_none() {
+                    times.push(border);
+                }
+            }
+            request.report(done + 1, windows.len())?;
+        }
+        Ok(Written { kind: 3, records, error: error + request.rounding(self.ends, fastest) })
+    }
+}
+
+/// Attitudes as arrays, and angular velocities in inertial components.
+fn inertial(samples: &Sampled) -> (Vec<[f64; 4]>, Vec<[f64; 3]>) {
+    let attitudes = samples.attitudes.iter().map(array).collect();
+    (attitudes, samples.attitudes.iter().zip(&samples.rates).map(|(attitude, rate)| (attitude * rate).into()).collect())
+}
+
+pub(super) fn array(attitude: &UnitQuaternion<f64>) -> [f64; 4] {
+    attitude.coords.into()
+}
+
+fn limited(records: f64, error: f64) -> Result<(), Refused> {
+    if records <= MOST_RECORDS {
+        return Ok(());
+    }
+    let value = format!("{error:e} rad, which needs about {records:.0} records over this interval");
+    Err(Refused::new(
+        "interpolation_error",
+        value,
+        format!("so large that at most {MOST_RECORDS:.0} records are needed; or shorten the interval"),
+    ))
+}

@@ -1,0 +1,14 @@
+//! Motions and samples as SPICE kernels: C-kernels, binary PCK.
+//!
+//! The files are written by `andoyer_kernels`, without CSPICE and without any global state. The error that a kernel states is that of SPICE's interpolation plus that of the
+//! times: a double past J2000 has a rounding error of 6e-8 s in 2026, and the attitude turns meanwhile.
+
+mod ck;
+mod nodes;
+mod pck;
+mod request;
+mod samples;
+
+pub use andoyer_kernels::{Kernel, Refused};
+pub use request::{Progress, Request, Ticks, WriteError, Written};
+pub use samples::{AttitudeTable, write_samples};

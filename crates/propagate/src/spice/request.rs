@@ -1,0 +1,232 @@
+//! What the writers share: the options, the errors, the result, the times of a kernel.
+
+use std::io;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use andoyer_kernels::{Kernel, Refused, clock};
+
+use crate::error::Error;
+use crate::motion::solved::Motion;
+
+/// The smallest error of an interpolation \[rad\]: attitudes near one have rounding errors of 1e-15 rad.
+pub(super) const SMALLEST_ERROR: f64 = 1e-13;
+
+/// Ticks of a clock at times \[s of TDB past J2000\].
+pub type Ticks<'a> = dyn FnMut(&[f64]) -> io::Result<Vec<f64>> + Send + 'a;
+/// Called with the number of windows done and of all; `Break` stops the writer.
+pub type Progress<'a> = dyn FnMut(usize, usize) -> ControlFlow<()> + Send + 'a;
+
+/// The options of a writer.
+pub struct Request<'a> {
+    /// Time 0 of the motion \[s of TDB past J2000\].
+    pub zero: f64,
+    /// Largest error of SPICE's interpolation \[rad\]. It may not be below 1e-13.
+    pub interpolation_error: f64,
+    /// Whether existing files are replaced.
+    pub force: bool,
+    /// Lines of the comment area, after those that the writer puts there.
+    pub comments: Vec<String>,
+    /// The ticks of the clock that the kernel names; `None` for the clock of `andoyer_kernels`.
+    pub ticks: Option<Box<Ticks<'a>>>,
+    /// Called after each window.
+    pub progress: Box<Progress<'a>>,
+}
+
+impl Default for Request<'_> {
+    fn default() -> Self {
+        let progress = Box::new(|_, _| ControlFlow::Continue(()));
+        Self { zero: 0.0, interpolation_error: 1e-8, force: true, comments: Vec::new(), ticks: None, progress }
+    }
+}
+
+/// The result of a writer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Written {
+    /// Type of the segments.
+    pub kind: u8,
+    /// Records of all segments.
+    pub records: usize,
+    /// Largest error of the attitude that SPICE computes at a time, against the motion at that time \[rad\]: interpolation and rounding of the times.
+    pub error: f64,
+}
+
+/// The errors of a writer.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// An error of the motion: a time that it does not reach.
+    Motion(Error),
+    /// A name, a code, an interval or an error that a kernel cannot have.
+    Refused(Refused),
+    /// An error of the system: a full disk, a folder that cannot be written, an existing file.
+    System(io::Error),
+    /// The progress callback stopped the writer.
+    Stopped,
+}
+
+impl std::fmt::Display for WriteError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Motion(error) => error.fmt(f),
+            Self::Refused(refused) => refused.fmt(f),
+            Self::System(error) => error.fmt(f),
+            Self::Stopped => f.write_str("stopped by the progress callback"),
+        }
+    }
+}
+
+impl std::error::Error for WriteError {}
+
+impl From<Error> for WriteError {
+    fn from(error: Error) -> Self {
+        Self::Motion(error)
+    }
+}
+
+impl From<Refused> for WriteError {
+    fn from(refused: Refused) -> Self {
+        Self::Refused(refused)
+    }
+}
+
+impl From<io::Error> for WriteError {
+    fn from(error: io::Error) -> Self {
+        Self::System(error)
+    }
+}
+
+impl Request<'_> {
+    /// Checks the interval \[time of the motion\] and the error; the ends of the interval in seconds of TDB past J2000, on times that the clock holds.
+    pub(super) fn ends(&self, [begin, end]: [f64; 2]) -> Result<[f64; 2], WriteError> {
+        if !(begin.is_finite() && end.is_finite() && begin < end) {
+            return Err(Refused::new(
+                "interval",
+                format!("({begin:?}, {end:?})"),
+                "two finite times, the first below the second",
+            )
+            .into());
+        }
+        self.checked_error()?;
+        let ends = [begin, end].map(|time| self.held(self.zero + time));
+        let outside = ends[0] < clock::FIRST || ends[1] > clock::LAST;
+        if self.ticks.is_none() && outside {
+            let value = format!("({begin:?}, {end:?}) s after {} s of TDB past J2000", self.zero);
+            let allowed = format!(
+                "from {:.3e} to {:.3e} s of TDB past J2000, the times of the clock; give a clock kernel for others",
+                clock::FIRST,
+                clock::LAST
+            );
+            return Err(Refused::new("interval", value, allowed).into());
+        }
+        Ok(ends)
+    }
+
+    pub(super) fn checked_error(&self) -> Result<(), Refused> {
+        let error = self.interpolation_error;
+        let valid = (SMALLEST_ERROR..f64::INFINITY).contains(&error);
+        valid.then_some(()).ok_or_else(|| {
+            Refused::new(
+                "interpolation_error",
+                format!("{error:?}"),
+                format!("finite and at least {SMALLEST_ERROR:e} rad"),
+            )
+        })
+    }
+
+    /// The nearest time that the clock holds.
+    pub(super) fn held(&self, time: f64) -> f64 {
+        if self.ticks.is_none() { clock::held(time) } else { time }
+    }
+
+    /// Ticks of the times, which must increase.
+    pub(super) fn ticks(&mut self, times: &[f64]) -> Result<Vec<f64>, WriteError> {
+        let ticks = match &mut self.ticks {
+            None => times.iter().map(|&time| clock::ticks(time)).collect(),
+            Some(ticks) => ticks(times)?,
+        };
+        if ticks.is_sorted_by(|one, next| one < next) {
+            return Ok(ticks);
+        }
+        let apart = ticks[ticks.len() - 1] * f64::EPSILON;
+        let value =
+            format!("{:e} rad, which needs records less than {apart:.2e} ticks apart", self.interpolation_error);
+        Err(Refused::new("interpolation_error", value, "so large that the clock tells the records apart").into())
+    }
+
+    /// The times from one end to the other in parts on whose borders the rate of the clock changes.
+    pub(super) fn parts(&self, [begin, end]: [f64; 2]) -> Vec<[f64; 2]> {
+        let borders = clock::PIECES
+            .iter()
+            .map(|piece| piece.1)
+            .filter(|&border| self.ticks.is_none() && begin < border && border < end);
+        let times: Vec<f64> = [begin].into_iter().chain(borders).chain([end]).collect();
+        times.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+    }
+
+    /// The angle \[rad\] that the rounding of a time costs at a rate.
+    pub(super) fn rounding(&self, [begin, end]: [f64; 2], rate: f64) -> f64 {
+        rate * clock::rounding(begin).max(clock::rounding(end))
+    }
+
+    /// Calls the progress callback.
+    pub(super) fn report(&mut self, done: usize, of: usize) -> Result<(), WriteError> {
+        match (self.progress)(done, of) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(WriteError::Stopped),
+        }
+    }
+
+    /// The lines of the comment area.
+    pub(super) fn comments(&self, kernel: &Kernel, about: Option<&Motion>, error: f64) -> Vec<String> {
+        let name = about
+            .and_then(|motion| motion.scene().asked_name().or(motion.scene().body().name()))
+            .unwrap_or("a rigid body");
+        let mut lines = vec![
+            format!("Attitude of {name}, written by andoyer {}.", env!("CARGO_PKG_VERSION")),
+            String::new(),
+            format!(
+                "Frame {} (class ID {}) against {}; centre {}.",
+                kernel.body_frame(),
+                kernel.code(),
+                kernel.frame(),
+                kernel.center()
+            ),
+            format!("Time 0 is {:?} s of TDB past J2000.", self.zero),
+        ];
+        if kernel.frame() == "ICRF" {
+            lines.push("ICRF is taken for J2000, from which it differs by 0.02 arcseconds.".to_owned());
+        }
+        if let Some(motion) = about {
+            lines.push(format!(
+                "Error bound of the motion: {:.2e} rad; of SPICE's interpolation: {error:e} rad.",
+                motion.plan().error_bound()
+            ));
+            lines.extend(motion.plan().missed_tolerance());
+        } else {
+            lines.push(format!("Estimated error of SPICE's interpolation between the samples: {error:.2e} rad."));
+        }
+        lines.extend(self.comments.iter().cloned());
+        if let Some(motion) = about {
+            lines.extend([String::new(), "The scene:".to_owned(), String::new()]);
+            lines.extend(motion.scene().to_toml().lines().map(str::to_owned));
+        }
+        lines
+    }
+}
+
+/// Writes a binary kernel and the text kernel beside it, which have their names when both are complete.
+pub(super) fn beside<T>(
+    path: &Path,
+    ending: &str,
+    text: &str,
+    force: bool,
+    write: impl FnOnce(&mut std::fs::File) -> Result<T, WriteError>,
+) -> Result<T, WriteError> {
+    andoyer_kernels::whole(path, force, |binary| {
+        andoyer_kernels::whole(&path.with_extension(ending), force, |beside| {
+            io::Write::write_all(beside, text.as_bytes())?;
+            write(binary)
+        })
+    })
+}
