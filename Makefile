@@ -114,7 +114,7 @@ msrv:  ## the oldest compiler that Cargo.toml promises
 
 wasm:  ## the crates for WebAssembly, without a warning; rustup adds the target if it is not there
 	rustup target add wasm32-unknown-unknown
-	RUSTFLAGS='-D warnings' cargo check --locked --quiet --target wasm32-unknown-unknown -p andoyer-double -p andoyer-series -p andoyer-propagate --target-dir target/wasm
+	RUSTFLAGS='-D warnings' cargo check --locked --quiet --target wasm32-unknown-unknown -p andoyer-double -p andoyer-kernels -p andoyer-series -p andoyer-propagate --target-dir target/wasm
 
 MINIMAL := target/minimal-versions
 minimal-versions:  ## the oldest versions of the direct dependencies that Cargo.toml promises, in a copy
@@ -199,7 +199,7 @@ $(RIVALS)/orekit/ready: benches/rivals/orekit/pom.xml $(RIVALS)/made
 docs: $(VENV)/documented $(VENV)/tested  ## the site in target/site, the Rust documentation in it; warnings are errors, and the network is not used
 	$(BIN)/python docs/_ext/rustdoc.py --check
 	rm -rf target/doc
-	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --quiet -p andoyer-double -p andoyer-series -p andoyer-propagate
+	RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --quiet -p andoyer-double -p andoyer-kernels -p andoyer-series -p andoyer-propagate
 	rm -rf target/site docs/gallery
 	$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet --builder html docs target/site
 	cp -r target/doc target/site/rust
@@ -218,20 +218,20 @@ $(VENV)/tested: crates/py/requirements-test.txt $(VENV)/ready
 
 # The sdist must build where there is no network: its crates' sources are vendored from its own lock file, and Cargo gets an empty home and stays offline.
 # The crates are packaged in a new folder each time, because Cargo keeps the sources of a local registry under its path and would verify with those of the last run.
-package: $(VENV)/installed  ## the sdist and a wheel from it without network, the three crates as they would be published
+package: $(VENV)/installed  ## the sdist and a wheel from it without network, the crates as they would be published
 	rm -rf target/package-check && mkdir -p target/package-check
 	$(BIN)/maturin sdist --manifest-path crates/py/Cargo.toml --out target/package-check
 	tar -xzf target/package-check/andoyer-*.tar.gz -C target/package-check && rm target/package-check/andoyer-*.tar.gz
 	cd target/package-check/andoyer-* && mkdir .cargo && cargo vendor > .cargo/config.toml 2> ../vendor.log || { cat ../vendor.log; exit 1; }
 	cd target/package-check/andoyer-* && CARGO_HOME=$(abspath target/package-check/cargo) CARGO_NET_OFFLINE=true $(abspath $(BIN))/maturin build --quiet --release --locked --offline --interpreter $(abspath $(BIN))/python --out ..
 	for text in MIT APACHE; do \
-		for crate in double series propagate py; do cmp LICENSE-$$text crates/$$crate/LICENSE-$$text || exit 1; done; \
+		for crate in double kernels series propagate py; do cmp LICENSE-$$text crates/$$crate/LICENSE-$$text || exit 1; done; \
 		unzip -p target/package-check/andoyer-*.whl '*.dist-info/licenses/LICENSE-'$$text | cmp - LICENSE-$$text || exit 1; \
 	done
 	$(PYTHON) -m venv target/package-check/venv
 	target/package-check/venv/bin/python -m pip install --quiet target/package-check/andoyer-*.whl
 	target/package-check/venv/bin/python -m andoyer.selftest
-	cargo package --quiet -p andoyer-double -p andoyer-series -p andoyer-propagate --target-dir $$(mktemp -d -p target/package-check crates.XXXXXX)
+	cargo package --quiet -p andoyer-double -p andoyer-kernels -p andoyer-series -p andoyer-propagate --target-dir $$(mktemp -d -p target/package-check crates.XXXXXX)
 
 release-check: package  ## versions, addresses and licences agree; public Rust names against the last tag, where there is one and cargo-semver-checks
 	$(PYTHON) tests/release.py

@@ -21,7 +21,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = tomllib.loads((ROOT / "Cargo.toml").read_text(encoding="utf-8"))["workspace"]["package"]
 VERSION, ADDRESS = PACKAGE["version"], PACKAGE["repository"]
-PUBLISHED = ("double", "series", "propagate")
+PUBLISHED = ("double", "kernels", "series", "propagate")
 PLACEHOLDER = "https://example.org/"
 PICTURES = (".png", ".svg")
 LINK = re.compile(r"\]\((?!https?:|#)([^)\s]+)\)")

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt::{self, Display, Formatter, Write};
 
-use crate::clock::{LAST, PIECES};
+use crate::clock::{LAST, PIECES, TICKS};
 use crate::daf::NAME;
 use crate::frames;
 
@@ -221,16 +221,16 @@ fn clock_text(number: i32) -> String {
     let variables = [
         ("TIME_SYSTEM", "1".to_owned()),
         ("N_FIELDS", "2".to_owned()),
-        ("MODULI", format!("{LAST:.0} 1")),
+        ("MODULI", format!("{LAST:.0} {TICKS:.0}")),
         ("OFFSETS", "0 0".to_owned()),
         ("OUTPUT_DELIM", "1".to_owned()),
-        ("COEFFICIENTS", PIECES.map(|(tick, start, rate)| format!("\n   {tick:E} {start:E} {rate:E}")).concat()),
+        ("COEFFICIENTS", PIECES.map(|(tick, start, rate)| format!("\n   {tick:.0} {start:.0} {rate:.0}")).concat()),
     ];
     for (name, value) in variables {
         // Writing to a string does not fail.
         let _ = writeln!(text, "SCLK01_{name}_{number} = ( {value} )");
     }
-    text + &format!("SCLK_PARTITION_START_{number} = ( 0.0 )\nSCLK_PARTITION_END_{number} = ( {LAST:E} )\n")
+    text + &format!("SCLK_PARTITION_START_{number} = ( 0.0 )\nSCLK_PARTITION_END_{number} = ( {:.0} )\n", LAST * TICKS)
 }
 
 /// FNV-1a of the name, 64 bits.

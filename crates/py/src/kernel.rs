@@ -4,7 +4,7 @@ use std::io;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use andoyer_propagate::spice::{AttitudeTable, Kernel, Request, WriteError, Written, write_samples};
+use andoyer_propagate::spice::{AttitudeTable, Kernel, KernelOptions, WriteError, Written, write_samples};
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 
@@ -78,7 +78,7 @@ fn written(
     path: &std::path::Path,
     (body_frame, frame, code, segment, center, clock, users): Names,
     (zero, interpolation_error, force, comments, ticks, progress): Options,
-    write: impl FnOnce(&Kernel, Request<'_>) -> Result<Written, WriteError> + Send,
+    write: impl FnOnce(&Kernel, KernelOptions<'_>) -> Result<Written, WriteError> + Send,
 ) -> PyResult<(u8, usize, f64)> {
     let kernel = (|| {
         let kernel =
@@ -107,7 +107,7 @@ fn written(
         }
     });
     let ticks = convert.map(|convert| Box::new(convert) as Box<_>);
-    let request = Request { zero, interpolation_error, force, comments, ticks, progress: Box::new(tell) };
+    let request = KernelOptions { zero, interpolation_error, force, comments, ticks, progress: Box::new(tell) };
     let result = detached(py, |problem| raised(problem, path), || write(&kernel, request));
     match failure.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner) {
         Some(problem) => Err(problem),

@@ -9,9 +9,7 @@ import andoyer
 from andoyer import fit, output
 
 JAX = ("jax.angular_velocity", "jax.attitude", "jax.state")
-NEEDS = (
-    {"output.write_ck": "spiceypy"} | dict.fromkeys(("fit.attitudes", "fit.light_curve", "fit.Fit", "fit.Fit.ensemble"), "scipy") | dict.fromkeys(JAX, "jax")
-)
+NEEDS = dict.fromkeys(("fit.attitudes", "fit.light_curve", "fit.Fit", "fit.Fit.ensemble"), "scipy") | dict.fromkeys(JAX, "jax")
 
 
 def documented():

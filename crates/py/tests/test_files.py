@@ -13,8 +13,8 @@ from andoyer import output
 from andoyer.cli import main
 from andoyer.output.files import whole_file
 
-FORMATS = ["csv", "npz", "parquet", "aem", "bc", "png", "svg", "html", "c", "js"]
-NEEDS = {"parquet": "pyarrow", "bc": "spiceypy", "png": "matplotlib", "svg": "matplotlib"}
+FORMATS = ["csv", "npz", "parquet", "aem", "bc", "png", "svg", "bpc", "html", "c", "js"]
+NEEDS = {"parquet": "pyarrow", "png": "matplotlib", "svg": "matplotlib"}
 OLD = b"what was there"
 
 # The processes of `child` do not use JAX, which warns of every fork once another test has imported it.
@@ -37,6 +37,8 @@ def line(scene_file, path):
         return ["plot", str(scene_file), "-o", str(path)]
     if path.suffix in (".c", ".js"):
         return ["code", str(scene_file), "-o", str(path)]
+    if path.suffix == ".bpc":
+        return ["propagate", str(scene_file), "-o", str(path), "--start", "0", "--stop", "2000", "--interpolation-error", "1e-9"]
     if path.suffix == ".bc":
         return ["propagate", str(scene_file), "-o", str(path), "--start", "0", "--stop", "20", "--interpolation-error", "1e-7"]
     return ["propagate", str(scene_file), "-o", str(path), "--start", "0", "--stop", "20", "--samples", "3000"]

@@ -7,7 +7,7 @@ use andoyer_kernels::{Daf, Head, Kernel, Refused, clock};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::nodes::{Sampled, ck_windows, estimate, even, nodes, sampled};
-use super::request::{Request, WriteError, Written, beside};
+use super::options::{KernelOptions, WriteError, Written, beside};
 use crate::input::options::Method;
 use crate::motion::solved::Motion;
 use crate::torque_free::mode::Mode;
@@ -25,12 +25,12 @@ impl Motion {
     /// The unit of time must be the second. The attitude that SPICE interpolates differs from the motion by at most [`Written::error`].
     ///
     /// ```
-    /// use andoyer_propagate::spice::{Kernel, Request};
+    /// use andoyer_propagate::spice::{Kernel, KernelOptions};
     /// use andoyer_propagate::{Body, Scene, State};
     /// let motion = Scene::new(Body::new([1.0, 1.5, 2.0])?, State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?).solve()?;
     /// let path = std::env::temp_dir().join("andoyer-wobble.bc");
-    /// let request = Request { interpolation_error: 1e-6, ..Request::default() };
-    /// let written = motion.write_ck(&path, [0.0, 60.0], &Kernel::new("WOBBLE", "J2000")?, request)?;
+    /// let options = KernelOptions { interpolation_error: 1e-6, ..KernelOptions::default() };
+    /// let written = motion.write_ck(&path, [0.0, 60.0], &Kernel::new("WOBBLE", "J2000")?, options)?;
     /// assert!(written.kind == 3 && (7500..7600).contains(&written.records) && written.error < 1.01e-6);
     /// # std::fs::remove_file(&path)?;
     /// # std::fs::remove_file(path.with_extension("tsc"))?;
@@ -45,20 +45,20 @@ impl Motion {
         path: &Path,
         interval: [f64; 2],
         kernel: &Kernel,
-        mut request: Request<'_>,
+        mut options: KernelOptions<'_>,
     ) -> Result<Written, WriteError> {
-        let ends = request.ends(interval)?;
-        let writer = Writer { motion: self, head: Head::of(kernel), ends };
-        let comments = request.comments(kernel, Some(self), request.interpolation_error);
-        beside(path, "tsc", &kernel.text_of_ck(), request.force, |file| {
+        let ends = options.ends(interval)?;
+        let writer = CkWriter { motion: self, head: Head::of(kernel), ends, interval, zero: options.zero };
+        let comments = options.comments(kernel, Some(self), options.interpolation_error);
+        beside(path, "tsc", &kernel.text_of_ck(), options.force, |file| {
             let mut daf = Daf::ck(BufWriter::new(file), &comments)?;
             let steady = matches!(self.plan().mode(), Mode::PrincipalAxis | Mode::Spherical | Mode::AtRest)
                 && self.scene().asked_disturbing().is_empty()
                 && self.plan().method() != Method::Integrated;
             let written = if steady {
-                writer.uniform(&mut daf, &mut request)?
+                writer.uniform(&mut daf, &mut options)?
             } else {
-                writer.tabulated(&mut daf, &mut request)?
+                writer.tabulated(&mut daf, &mut options)?
             };
             daf.finish()?;
             Ok(written)
@@ -66,34 +66,42 @@ impl Motion {
     }
 }
 
-struct Writer<'a> {
+struct CkWriter<'a> {
     motion: &'a Motion,
     head: Head,
     /// First and last time \[s of TDB past J2000\].
     ends: [f64; 2],
+    /// First and last time of the motion.
+    interval: [f64; 2],
+    zero: f64,
 }
 
-impl Writer<'_> {
+impl CkWriter<'_> {
+    /// The time of the motion at a time \[s of TDB past J2000\]. The ends are rounded outwards, and the motion may not reach so far.
+    fn own(&self, time: f64) -> f64 {
+        (time - self.zero).clamp(self.interval[0], self.interval[1])
+    }
+
     /// Records of type 2: as many as keep the rounding of the angle of a record below the error, and one for each piece of the clock.
     fn uniform(
         &self,
         daf: &mut Daf<impl std::io::Write + std::io::Seek>,
-        request: &mut Request<'_>,
+        options: &mut KernelOptions<'_>,
     ) -> Result<Written, WriteError> {
-        let error = request.interpolation_error;
+        let error = options.interpolation_error;
         let mut records = 0;
         let mut rate = 0.0;
-        for [begin, end] in request.parts(self.ends) {
-            rate = sampled(self.motion, &[begin - request.zero])?.rates[0].norm();
+        for [begin, end] in options.parts(self.ends) {
+            rate = sampled(self.motion, &[self.own(begin)])?.rates[0].norm();
             let count = (rate * (end - begin) * ROUNDING / error).ceil().max(1.0);
             limited(count, error)?;
-            let times: Vec<f64> = even(begin, end, count as usize).into_iter().map(|time| request.held(time)).collect();
-            let ticks = request.ticks(&times)?;
+            let times: Vec<f64> = even(begin, end, count as usize).into_iter().map(|time| options.held(time)).collect();
+            let ticks = options.ticks(&times)?;
             let samples = sampled(
                 self.motion,
-                &times[..times.len() - 1].iter().map(|time| time - request.zero).collect::<Vec<f64>>(),
+                &times[..times.len() - 1].iter().map(|&time| self.own(time)).collect::<Vec<f64>>(),
             )?;
-            let seconds: Vec<f64> = match request.ticks {
+            let seconds: Vec<f64> = match options.ticks {
                 None => vec![clock::rate(begin); samples.rates.len()],
                 Some(_) => times
                     .windows(2)
@@ -105,19 +113,19 @@ impl Writer<'_> {
             daf.ck2(&self.head, &ticks, &attitudes, &rates, &seconds)?;
             records += seconds.len();
         }
-        Ok(Written { kind: 2, records, error: error + request.rounding(self.ends, rate) })
+        Ok(Written { kind: 2, records, error: error + options.rounding(self.ends, rate) })
     }
 
     /// Segments of type 3, each with whole windows. Neighbouring segments share a node, so that there is no gap.
     fn tabulated(
         &self,
         daf: &mut Daf<impl std::io::Write + std::io::Seek>,
-        request: &mut Request<'_>,
+        options: &mut KernelOptions<'_>,
     ) -> Result<Written, WriteError> {
-        let (error, zero) = (request.interpolation_error, request.zero);
+        let (error, zero) = (options.interpolation_error, options.zero);
         let mut windows = Vec::new();
-        for [begin, end] in request.parts(self.ends) {
-            let borders = ck_windows(self.motion, begin - zero, end - zero)?;
+        for [begin, end] in options.parts(self.ends) {
+            let borders = ck_windows(self.motion, self.own(begin), self.own(end))?;
             limited(estimate(self.motion, &borders, error)?, error)?;
             let count = borders.len() - 1;
             // The ends of a part are exact in the time of the kernel, where the clock changes its rate.
@@ -130,14 +138,14 @@ impl Writer<'_> {
                 let value = format!("{error:e}, but {left:.3e} rad are left between nodes from {start:?} to {stop:?}");
                 Refused::new("interpolation_error", value, "above the rounding error of this motion")
             })?;
-            let mut found: Vec<f64> = found.into_iter().map(|time| request.held(zero + time)).collect();
+            let mut found: Vec<f64> = found.into_iter().map(|time| options.held(zero + time)).collect();
             let count = found.len();
             (found[0], found[count - 1]) = (first.unwrap_or(found[0]), last.unwrap_or(found[count - 1]));
             let border = found[count - 1];
             times.extend(found.into_iter().skip(usize::from(!times.is_empty())));
             if last.is_some() || times.len() > LONGEST_SEGMENT {
-                let ticks = request.ticks(&times)?;
-                let samples = sampled(self.motion, &times.iter().map(|time| time - zero).collect::<Vec<f64>>())?;
+                let ticks = options.ticks(&times)?;
+                let samples = sampled(self.motion, &times.iter().map(|&time| self.own(time)).collect::<Vec<f64>>())?;
                 let (attitudes, rates) = inertial(&samples);
                 daf.ck3(&self.head, &ticks, &attitudes, Some(&rates), &ticks[..1])?;
                 records += times.len();
@@ -147,9 +155,9 @@ impl Writer<'_> {
                     times.push(border);
                 }
             }
-            request.report(done + 1, windows.len())?;
+            options.report(done + 1, windows.len())?;
         }
-        Ok(Written { kind: 3, records, error: error + request.rounding(self.ends, fastest) })
+        Ok(Written { kind: 3, records, error: error + options.rounding(self.ends, fastest) })
     }
 }
 

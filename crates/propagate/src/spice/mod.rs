@@ -5,10 +5,10 @@
 
 mod ck;
 mod nodes;
+mod options;
 mod pck;
-mod request;
 mod samples;
 
 pub use andoyer_kernels::{Kernel, Refused};
-pub use request::{Progress, Request, Ticks, WriteError, Written};
+pub use options::{KernelOptions, Progress, Ticks, WriteError, Written};
 pub use samples::{AttitudeTable, write_samples};

@@ -19,6 +19,8 @@ const STEPS: usize = 2048;
 /// Part of the error that the nodes are laid out for: the maximum need not lie where it is measured.
 const MARGIN: f64 = 0.98;
 const ATTEMPTS: usize = 8;
+/// Nodes, relative to the integral of the density, at most: more of them do not help.
+const MOST: f64 = 16.0;
 /// Times at which the rate of a motion is looked at.
 const LOOKS: usize = 1024;
 
@@ -85,6 +87,9 @@ pub(super) fn nodes(motion: &Motion, start: f64, stop: f64, error: f64) -> Resul
             return Ok(Ok(times));
         }
         more *= (worst / error).sqrt() * 1.01;
+        if more > MOST {
+            break;
+        }
     }
     Ok(Err(worst))
 }

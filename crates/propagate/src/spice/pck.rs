@@ -14,17 +14,15 @@ use andoyer_kernels::{Daf, Head, Kernel, Refused, clock, frames};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::nodes::{Sampled, even, fastest, sampled, windows};
-use super::request::{Request, WriteError, Written, beside};
+use super::options::{KernelOptions, WriteError, Written, beside};
 use crate::motion::solved::Motion;
 
 const DEGREE: usize = 15;
 const NODES: usize = DEGREE + 1;
 /// Rotations of a segment at most.
 const ROTATIONS: f64 = 1024.0;
-/// Longest interval of a polynomial at first \[rotations\].
-const LONGEST: f64 = 1.0;
-/// Intervals of a rotation at most: with more of them rounding dominates.
-const MOST: f64 = 64.0;
+/// Intervals of a rotation at most, where the angles turn by up to 1/`NEAR` as fast as the body: with more of them rounding dominates.
+const MOST: f64 = 1024.0;
 /// Intervals of the whole kernel at most: 2 GB.
 const MOST_RECORDS: usize = 5_000_000;
 /// The frames of the segments: J2000, ECLIPJ2000, GALACTIC. The first is taken where sin δ stays above `FAR`.
@@ -42,11 +40,11 @@ impl Motion {
     /// The unit of time must be the second. The attitude that SPICE computes differs from the motion by at most [`Written::error`].
     ///
     /// ```
-    /// use andoyer_propagate::spice::{Kernel, Request};
+    /// use andoyer_propagate::spice::{Kernel, KernelOptions};
     /// use andoyer_propagate::{Body, Scene, State};
     /// let motion = Scene::new(Body::new([1.0, 1.5, 2.0])?, State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.1, 0.2, 1.0])?).solve()?;
     /// let path = std::env::temp_dir().join("andoyer-wobble.bpc");
-    /// let written = motion.write_pck(&path, [0.0, 60.0], &Kernel::new("WOBBLE", "J2000")?, Request::default())?;
+    /// let written = motion.write_pck(&path, [0.0, 60.0], &Kernel::new("WOBBLE", "J2000")?, KernelOptions::default())?;
     /// assert!(written.kind == 2 && written.records < 60 && written.error < 1.01e-8);
     /// # std::fs::remove_file(&path)?;
     /// # std::fs::remove_file(path.with_extension("tf"))?;
@@ -60,19 +58,20 @@ impl Motion {
         path: &Path,
         interval: [f64; 2],
         kernel: &Kernel,
-        mut request: Request<'_>,
+        mut options: KernelOptions<'_>,
     ) -> Result<Written, WriteError> {
         if frames::has_constants(kernel.code()) {
             let allowed = "a code of which SPICE has no rotating frame: a kernel would change that frame too";
             return Err(Refused::new("body", kernel.code().to_string(), allowed).into());
         }
-        let [begin, end] = request.ends(interval)?;
-        let error = request.interpolation_error;
-        let comments = request.comments(kernel, Some(self), error);
-        beside(path, "tf", &kernel.text_of_pck(), request.force, |file| {
+        options.ends(interval)?;
+        let [begin, end] = interval.map(|time| options.zero + time);
+        let error = options.interpolation_error;
+        let comments = options.comments(kernel, Some(self), error);
+        beside(path, "tf", &kernel.text_of_pck(), options.force, |file| {
             let mut daf = Daf::pck(BufWriter::new(file), &comments)?;
-            let rate = fastest(self, begin - request.zero, end - request.zero)?;
-            let mut fit = Fit::new(self, kernel, [begin, end], request.zero, error, rate);
+            let rate = fastest(self, begin - options.zero, end - options.zero)?;
+            let mut fit = Fit::new(self, kernel, [begin, end], options.zero, error, rate);
             let borders = windows(begin, end, rate, ROTATIONS);
             let mut records = 0;
             for (done, pair) in borders.windows(2).enumerate() {
@@ -82,7 +81,7 @@ impl Motion {
                         format!("{error:e} rad, which needs more than {MOST_RECORDS} polynomials over this interval");
                     return Err(Refused::new("interpolation_error", value, "larger, or the interval shorter").into());
                 }
-                request.report(done + 1, borders.len() - 1)?;
+                options.report(done + 1, borders.len() - 1)?;
             }
             daf.finish()?;
             Ok(Written { kind: 2, records, error: error + rate * clock::rounding(begin).max(clock::rounding(end)) })
@@ -96,6 +95,7 @@ struct Fit<'a> {
     ends: [f64; 2],
     zero: f64,
     error: f64,
+    /// Largest rate of the motion \[rad/s\].
     rate: f64,
     /// Length of an interval with which the last segment met the error \[s\].
     length: f64,
@@ -115,7 +115,7 @@ impl<'a> Fit<'a> {
         let transform = std::array::from_fn(|k| {
             std::array::from_fn(|j| (k as f64 * node(j).acos()).cos() * if k == 0 { 1.0 } else { 2.0 } / NODES as f64)
         });
-        let length = (LONGEST * TAU / rate).min(ends[1] - ends[0]);
+        let length = ends[1] - ends[0];
         Self { motion, ends, zero, error, rate, length, turns, transform }
     }
 
@@ -140,12 +140,12 @@ impl<'a> Fit<'a> {
             let gain = (self.error / worst).powf(1.0 / NODES as f64);
             if worst <= self.error {
                 // The next segment begins with intervals that would have made 0.9 of the error.
-                self.length = (length * (0.99 * gain).clamp(1.0, 2.0)).min(LONGEST * TAU / self.rate);
+                self.length = length * (0.99 * gain).clamp(1.0, 2.0);
                 let head = Head { code: kernel.code(), frame: FRAMES[place], name: kernel.segment().to_owned() };
                 daf.pck2(&head, [begin, end], length, DEGREE, &coefficients)?;
                 return Ok(count as usize);
             }
-            if length * self.rate < TAU / MOST && worst < 1e-9 {
+            if length * self.rate < TAU / MOST {
                 let value = format!("{:e}, but {worst:.3e} rad are left between {begin:?} and {end:?}", self.error);
                 return Err(
                     Refused::new("interpolation_error", value, "above the rounding error of this motion").into()
@@ -180,13 +180,13 @@ impl<'a> Fit<'a> {
             };
             sampled(self.motion, &(0..count * number).map(time).collect::<Vec<f64>>())
         };
-        let Sampled { attitudes, .. } = at(&node, NODES)?;
+        let at_nodes = at(&node, NODES)?;
         let Sampled { attitudes: truths, .. } = at(&extremum, NODES + 1)?;
         let (mut coefficients, mut worst) = (Vec::with_capacity(3 * NODES * count), 0.0_f64);
-        for (attitudes, truths) in attitudes.chunks(NODES).zip(truths.chunks(NODES + 1)) {
-            let mut angles: Vec<[f64; 3]> =
-                attitudes.iter().map(|attitude| angles(&(self.turns[place] * attitude))).collect();
-            continued(&mut angles);
+        let rows = at_nodes.attitudes.chunks(NODES).zip(at_nodes.rates.chunks(NODES));
+        for ((attitudes, rates), truths) in rows.zip(truths.chunks(NODES + 1)) {
+            let turned_to: Vec<_> = attitudes.iter().map(|attitude| self.turns[place] * attitude).collect();
+            let angles = continued(&turned_to, rates, 0.5 * length);
             let fitted = [0, 1, 2].map(|angle| {
                 self.transform
                     .map(|row| row.iter().zip(&angles).map(|(factor, angles)| factor * angles[angle]).sum::<f64>())
@@ -222,13 +222,25 @@ fn turned(phi: f64, delta: f64, w: f64) -> UnitQuaternion<f64> {
     about(Vector3::z_axis(), phi) * about(Vector3::x_axis(), delta) * about(Vector3::z_axis(), w)
 }
 
-/// Adds whole turns to the angles, so that each is within half a turn of the one before.
-fn continued(angles: &mut [[f64; 3]]) {
-    for place in 1..angles.len() {
+/// The angles at the nodes of an interval. Whole turns are added to φ and W, so that they change from node to node as their rates say: an interval may have many turns.
+fn continued(attitudes: &[UnitQuaternion<f64>], rates: &[Vector3<f64>], radius: f64) -> Vec<[f64; 3]> {
+    let mut continued: Vec<[f64; 3]> = attitudes.iter().map(angles).collect();
+    let speeds: Vec<[f64; 3]> = attitudes.iter().zip(rates).map(|(attitude, rate)| speeds(attitude, rate)).collect();
+    for place in 1..continued.len() {
+        let step = radius * (node(place) - node(place - 1));
         for angle in [0, 2] {
-            angles[place][angle] -= TAU * ((angles[place][angle] - angles[place - 1][angle]) / TAU).round();
+            let expected = continued[place - 1][angle] + 0.5 * step * (speeds[place - 1][angle] + speeds[place][angle]);
+            continued[place][angle] -= TAU * ((continued[place][angle] - expected) / TAU).round();
         }
     }
+    continued
+}
+
+/// Time derivatives of φ and W (and 0) for an angular velocity in body components.
+fn speeds(attitude: &UnitQuaternion<f64>, rate: &Vector3<f64>) -> [f64; 3] {
+    let pole = attitude.inverse() * Vector3::z();
+    let phi = (rate.x * pole.x + rate.y * pole.y) / pole.xy().norm_squared().max(f64::MIN_POSITIVE);
+    [phi, 0.0, rate.z - phi * pole.z]
 }
 
 /// A sum of Chebyshev polynomials, by Clenshaw's recursion as SPICE does.

@@ -7,7 +7,7 @@ use andoyer_kernels::{Daf, Head, Kernel, Refused};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::nodes::between;
-use super::request::{Request, WriteError, Written, beside};
+use super::options::{KernelOptions, WriteError, Written, beside};
 
 /// Attitudes at given times.
 #[derive(Clone, Copy, Debug)]
@@ -36,30 +36,35 @@ pub fn write_samples(
     AttitudeTable { times, attitudes, rates }: AttitudeTable<'_>,
     longest_step: f64,
     kernel: &Kernel,
-    mut request: Request<'_>,
+    mut options: KernelOptions<'_>,
 ) -> Result<Written, WriteError> {
     let turns = checked(times, attitudes, rates)?;
     if longest_step.is_nan() || longest_step <= 0.0 {
         return Err(Refused::new("longest_step", format!("{longest_step:?}"), "positive").into());
     }
-    let ends = request.ends([times[0], times[times.len() - 1]])?;
-    let held: Vec<f64> = times.iter().map(|&time| request.held(request.zero + time)).collect();
-    let ticks = request.ticks(&held)?;
+    let ends = options.ends([times[0], times[times.len() - 1]])?;
     let begins = |place: usize| place == 0 || times[place] - times[place - 1] > longest_step;
+    // Where an interval begins or ends its time is rounded outwards, so that the kernel has the time itself.
+    let held = |place: usize| {
+        let last = place + 1 == times.len() || begins(place + 1);
+        options.rounded(options.zero + times[place], begins(place), last)
+    };
+    let held: Vec<f64> = (0..times.len()).map(held).collect();
+    let ticks = options.ticks(&held)?;
     let starts: Vec<f64> = (0..times.len()).filter(|&place| begins(place)).map(|place| ticks[place]).collect();
     let inertial: Option<Vec<[f64; 3]>> =
         rates.map(|rates| turns.iter().zip(rates).map(|(turn, &rate)| (turn * Vector3::from(rate)).into()).collect());
     let estimated = estimate(times, &turns, rates, &begins);
-    let comments = request.comments(kernel, None, estimated);
+    let comments = options.comments(kernel, None, estimated);
     let unit: Vec<[f64; 4]> = turns.iter().map(super::ck::array).collect();
-    beside(path, "tsc", &kernel.text_of_ck(), request.force, |file| {
+    beside(path, "tsc", &kernel.text_of_ck(), options.force, |file| {
         let mut daf = Daf::ck(BufWriter::new(file), &comments)?;
         daf.ck3(&Head::of(kernel), &ticks, &unit, inertial.as_deref(), &starts)?;
         daf.finish()?;
         let fastest =
             (1..times.len()).map(|place| turns[place - 1].angle_to(&turns[place]) / (times[place] - times[place - 1]));
         // The times of the records are rounded, and so is a time that is asked for.
-        let rounding = 2.0 * request.rounding(ends, fastest.fold(0.0, f64::max));
+        let rounding = 2.0 * options.rounding(ends, fastest.fold(0.0, f64::max));
         Ok(Written { kind: 3, records: times.len(), error: estimated + rounding })
     })
 }

@@ -777,3 +777,11 @@ def normalize(
     progress: Callable[[int, int], object] | None = None,
 ) -> BirkhoffNormalForm:
     """Computes the Birkhoff normal form of a polynomial Hamiltonian about an equilibrium at the origin."""
+
+def _frame_code(body_frame: str) -> int: ...
+def _write_motion(
+    path: Any, motion: Motion, interval: tuple[float, float], pck: bool, names: tuple[Any, ...], options: tuple[Any, ...]
+) -> tuple[int, int, float]: ...
+def _write_samples(
+    path: Any, times: Any, attitudes: Any, rates: Any, longest_step: float, names: tuple[Any, ...], options: tuple[Any, ...]
+) -> tuple[int, int, float]: ...

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 import andoyer
 from andoyer import output
 from andoyer._extra import extra
+from andoyer.cli import _converting as converting
 from andoyer.cli import _reading as reading
 from andoyer.cli import _writing as writing
 from andoyer.cli._arguments import MOST_SAMPLES, InputError, count, number, step, time, whole
@@ -39,7 +40,7 @@ MISSED = 3
 """Exit status of a tolerance that is not met, under --strict."""
 
 PICTURES = [".png", ".svg", ".pdf", ".html"]
-COMMANDS = ["propagate", "plot", "code", "plan", "librations", "bodies", "series"]
+COMMANDS = ["propagate", "convert", "plot", "code", "plan", "librations", "bodies", "series"]
 Code = Literal["c", "rust", "python", "javascript"]
 CODES: dict[str, Code] = {".c": "c", ".rs": "rust", ".py": "python", ".js": "javascript"}
 """Languages of the code of a motion, each by the ending of its files."""
@@ -50,7 +51,9 @@ EXAMPLES = {
 andoyer propagate eros.toml -o eros.csv
 andoyer propagate eros.toml -o eros.npz --start 0 --stop 86400 --step 60
 andoyer propagate eros.toml -o eros.aem --date 2026-01-01T00:00:00 --frame ICRF
-andoyer propagate eros.toml -o eros.bc --stop 86400 --interpolation-error 1e-6 --frame ECLIPJ2000""",
+andoyer propagate eros.toml -o eros.bc --stop 86400 --interpolation-error 1e-6 --frame ECLIPJ2000
+andoyer propagate eros.toml -o eros.bpc --stop 86400 --body-frame EROS_FREE""",
+    "convert": "andoyer convert eros.aem -o eros.bc --body-frame EROS_MEASURED --instrument 2000433 --longest-step 3600",
     "librations": """\
 andoyer librations moon.toml --terms 20
 andoyer librations moon.toml --forced --unit arcsec""",
@@ -145,6 +148,10 @@ def parser() -> Parser:
     strictly(command)
     command.set_defaults(run=propagate)
 
+    writes = "write a file of attitudes as a SPICE C-kernel"
+    command = commands.add_parser("convert", help=writes, description=f"{writes.capitalize()}.", **examples("", EXAMPLES["convert"]))
+    converting.add_command(command)
+
     pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole; of a libration its angles and terms"
     command = commands.add_parser("plot", help=pictures, description=f"{pictures.capitalize()}. Needs matplotlib.", **examples("", EXAMPLES["plot"]))
     command.add_argument("scene", metavar="SCENE", help="scene file (TOML), or a file of attitudes")
@@ -208,11 +215,11 @@ def strictly(command: argparse.ArgumentParser) -> None:
 
 
 def propagate(arguments: argparse.Namespace) -> int:
-    """Write a motion at equal steps of time, or as a C-kernel."""
+    """Write a motion at equal steps of time, or as a kernel of SPICE."""
     path = Path(arguments.output)
     given = writing.check(arguments)
     motion = solved(arguments.scene)
-    if arguments.output != "-" and path.suffix.lower() == ".bc":
+    if arguments.output != "-" and path.suffix.lower() in writing.KERNELS:
         writing.write_kernel(path, motion, interval(motion, arguments.start, arguments.stop), given, arguments.force)
         return status(arguments, motion)
     samples = motion.at(instants(arguments, motion))

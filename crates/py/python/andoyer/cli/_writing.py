@@ -18,39 +18,57 @@ from andoyer.output.attitude_types import FROM_SAMPLES
 from andoyer.output.calendar import TIME_SYSTEMS
 from andoyer.output.files import is_stream
 
-ENDINGS = ".csv, .npz, .parquet, .aem or .bc"
+ENDINGS = ".csv, .npz, .parquet, .aem, .bc or .bpc"
+KERNELS = {".bc": ".tsc", ".bpc": ".tf"}
+"""Endings of SPICE kernels, each with that of its text kernel."""
 
 OF_MESSAGE = {"date", "time_system", "frame", "body_frame", "name", "object_id", "originator", "center", "attitude_type", "interpolation", "version"}
-OF_KERNEL = {"date", "time_system", "frame", "body_frame", "instrument", "segment", "clock", "clock_id", "interpolation_error"}
-OPTIONS = {"version": "aem-version", "segment": "segment-name", "name": "object-name"}
+OF_KERNEL = {"date", "time_system", "frame", "body_frame", "instrument", "segment_name", "clock", "clock_id", "center", "interpolation_error"}
+OF_PCK = OF_KERNEL - {"clock", "clock_id"}
+OF = {".aem": OF_MESSAGE, ".bc": OF_KERNEL, ".bpc": OF_PCK}
+OPTIONS = {"version": "aem-version", "name": "object-name"}
 """Options with other names than the fields that they set."""
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
-    """Add the options of the formats with a heading: AEM and CK."""
+    """Add the options of the formats with a heading: AEM, CK and PCK."""
     command.add_argument("--force", action="store_true", help="replace a file that is there already")
-    both = command.add_argument_group("headings of a .aem (CCSDS attitude ephemeris message) and a .bc (SPICE C-kernel), times in seconds")
+    both = command.add_argument_group("headings of a .aem (CCSDS attitude ephemeris message), a .bc (SPICE C-kernel) and a .bpc (binary PCK), times in seconds")
     default = Heading()
     both.add_argument("--date", type=date, metavar="DATE", help=f"calendar date of time 0 (default: {default.date.isoformat()}); Z at its end is UTC")
     both.add_argument("--time-system", choices=TIME_SYSTEMS, metavar="SYSTEM", help=f"of that date: {', '.join(TIME_SYSTEMS)} (default: {default.time_system})")
-    both.add_argument("--frame", type=word, metavar="NAME", help=f"name of the inertial frame (default: {default.frame} in a .aem, {Kernel.frame} in a .bc)")
-    both.add_argument("--body-frame", type=word, metavar="NAME", help=f"name of the body's axes (default: {default.body_frame}, {Kernel.body_frame})")
+    add_frames(both)
     message = command.add_argument_group("a .aem")
     message.add_argument("--object-name", dest="name", type=words, metavar="NAME", help="name of the object (default: that of the scene)")
     message.add_argument("--object-id", type=words, metavar="ID", help=f"identifier of the object, such as 2000-052A (default: {default.object_id})")
     message.add_argument("--originator", type=words, metavar="NAME", help=f"who writes the message (default: {default.originator})")
-    message.add_argument("--center", type=words, metavar="NAME", help="body that the object orbits (default: none is named)")
     message.add_argument(
         "--attitude-type", type=str.upper, choices=FROM_SAMPLES, metavar="TYPE", help=f"{', '.join(FROM_SAMPLES)} (default: QUATERNION/ANGVEL)"
     )
     message.add_argument("--interpolation", type=interpolation, metavar="METHOD:DEGREE", help="recommended interpolation, such as HERMITE:3 (default: none)")
     message.add_argument("--aem-version", dest="version", type=int, choices=[1, 2], metavar="N", help="version of the message, 1 or 2 (default: 2)")
-    kernel = command.add_argument_group("a .bc, which chooses its times itself; beside it a .tsc is written")
-    kernel.add_argument("--interpolation-error", type=step, metavar="ANGLE", help="largest error of SPICE's interpolation [rad] (default: 1e-8)")
-    kernel.add_argument("--instrument", type=whole, metavar="CODE", help=f"code of the body's axes (default: {Kernel.instrument})")
-    kernel.add_argument("--segment-name", dest="segment", type=words, metavar="NAME", help=f"name of the segments (default: {Kernel.segment})")
-    kernel.add_argument("--clock", metavar="FILE", help="clock kernel (default: a clock of ephemeris seconds is written)")
-    kernel.add_argument("--clock-id", type=whole, metavar="CODE", help="code of the clock (default: from that of the body's axes)")
+    kernel = add_codes(command)
+    kernel.add_argument("--interpolation-error", type=step, metavar="ANGLE", help="largest error of SPICE's interpolation [rad] (default: 1e-8; .bpc: 1e-9)")
+
+
+def add_frames(group: argparse._ArgumentGroup) -> None:
+    """Add the options of the frames."""
+    default = Heading()
+    group.add_argument(
+        "--frame", type=word, metavar="NAME", help=f"name of the inertial frame (default: {default.frame} in a .aem, {Kernel.frame} in a kernel)"
+    )
+    group.add_argument("--body-frame", type=word, metavar="NAME", help=f"name of the body's axes (default: {default.body_frame}, {Kernel.body_frame})")
+    group.add_argument("--center", type=words, metavar="NAME", help="body that the object orbits (default: none is named); of a kernel its NAIF code")
+
+
+def add_codes(command: argparse.ArgumentParser) -> argparse._ArgumentGroup:
+    """Add the options of the codes of a kernel."""
+    kernel = command.add_argument_group("a .bc or .bpc, which chooses its times itself; beside it a .tsc or .tf is written")
+    kernel.add_argument("--instrument", type=whole, metavar="CODE", help="code of the body's axes (default: computed from --body-frame)")
+    kernel.add_argument("--segment-name", dest="segment_name", type=words, metavar="NAME", help=f"name of the segments (default: {Kernel.segment})")
+    kernel.add_argument("--clock", metavar="FILE", help="clock kernel of a .bc, needs SpiceyPy (default: a clock of ephemeris seconds is written)")
+    kernel.add_argument("--clock-id", type=whole, metavar="CODE", help="code of the clock of a .bc (default: -999; with --clock from that of the body's axes)")
+    return kernel
 
 
 def check(arguments: argparse.Namespace) -> dict[str, Any]:
@@ -58,22 +76,22 @@ def check(arguments: argparse.Namespace) -> dict[str, Any]:
     path = Path(arguments.output)
     ending = path.suffix.lower()
     to_stdout = arguments.output == "-"
-    if not (to_stdout or ending in (".csv", ".npz", ".parquet", ".aem", ".bc")):
+    if not (to_stdout or ending in (".csv", ".npz", ".parquet", *OF)):
         raise InputError(f"argument -o/--output: {arguments.output}: the name must end in {ENDINGS}, or be - for CSV on stdout")
-    allowed = {".aem": OF_MESSAGE, ".bc": OF_KERNEL}.get(ending, set())
+    allowed = OF.get(ending, set())
     given = {key: getattr(arguments, key) for key in sorted(OF_MESSAGE | OF_KERNEL) if getattr(arguments, key) is not None}
     for key in given:
         if key not in allowed:
-            goes = " or ".join(name for name, keys in ((".aem", OF_MESSAGE), (".bc", OF_KERNEL)) if key in keys)
+            goes = " or ".join(name for name, keys in OF.items() if key in keys)
             raise InputError(f"argument --{option(key)}: goes with a {goes} alone, not with {arguments.output}")
-    if ending == ".bc":
+    if ending in KERNELS:
         for key in ("samples", "step"):
             if getattr(arguments, key) is not None:
-                raise InputError(f"argument --{key}: a .bc chooses its times itself, by --interpolation-error")
+                raise InputError(f"argument --{key}: a {ending} chooses its times itself, by --interpolation-error")
     if not (to_stdout or arguments.force):
         refuse_existing(path)
-        if ending == ".bc":
-            refuse_existing(path.with_suffix(".tsc"))
+        if ending in KERNELS:
+            refuse_existing(path.with_suffix(KERNELS[ending]))
     return zoned(given)
 
 
@@ -120,16 +138,34 @@ def write_samples(path: Path, motion: andoyer.Motion, samples: andoyer.Samples, 
 
 
 def write_kernel(path: Path, motion: andoyer.Motion, interval: tuple[float, float], given: dict[str, Any], force: bool) -> None:
-    """Write a C-kernel and print its number of records."""
-    names = {field.name for field in fields(Kernel)}
-    kernel = Kernel(**{key: value for key, value in given.items() if key in names})
+    """Write a C-kernel or a binary PCK."""
+    kernel = kernel_of(given)
     progress = Progress("writing, windows")
+    error = {key: value for key, value in given.items() if key == "interpolation_error"}
     try:
         with written_to(path):
-            output.write_ck(path, motion, interval, kernel, interpolation_error=given.get("interpolation_error", 1e-8), progress=progress, force=force)
+            if path.suffix.lower() == ".bc":
+                output.write_ck(path, motion, interval, kernel, progress=progress, force=force, **error)
+            else:
+                names = {key: getattr(kernel, key) for key in ("frame", "body_frame", "center", "segment", "date", "time_system")}
+                output.write_pck(path, motion, interval, body=kernel.instrument, progress=progress, force=force, **names, **error)
     finally:
         progress.close()
     _note(kernel, given)
+
+
+def kernel_of(given: dict[str, Any]) -> Kernel:
+    """The kernel that the options name."""
+    names = {field.name for field in fields(Kernel)}
+    chosen = {key: value for key, value in given.items() if key in names}
+    if "segment_name" in given:
+        chosen["segment"] = given["segment_name"]
+    if "center" in given:
+        try:
+            chosen["center"] = int(given["center"])
+        except ValueError:
+            raise InputError(f"argument --center: must be a NAIF code, a whole number, for a kernel: got {given['center']!r}") from None
+    return Kernel(**chosen)
 
 
 def _comments(motion: andoyer.Motion) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import datetime
@@ -16,8 +16,9 @@ from andoyer._core import Motion, Samples, _frame_code, _write_motion, _write_sa
 from andoyer._extra import extra
 from andoyer._refusal import refusal
 from andoyer.interop._foreign import epoch_of, scene_times
-from andoyer.output.calendar import J2000, TIME_SYSTEMS, counts, seconds_of_tdb
+from andoyer.output.calendar import J2000, TIME_SYSTEMS, seconds_of_tdb
 from andoyer.output.record import ShortRecord
+from andoyer.output.rows import Array, calendar_times, rows
 from andoyer.output.table import Progress, silent
 
 SPICE = threading.RLock()
@@ -213,20 +214,14 @@ def _times(motion: Motion, interval: Any, kernel: Kernel) -> tuple[float, tuple[
     return _zero(kernel, hasattr(epoch, "jd1")), (begin, end)
 
 
-def _given(samples: Samples, interval: Any, kernel: Kernel) -> tuple[Any, Any, Any, float]:
+def _given(samples: Samples, interval: Any, kernel: Kernel) -> tuple[Array, Array, Array | None, float]:
     """Times, attitudes, rates or None, and time 0 of samples."""
-    attitude, rates, times = samples.attitude, samples.angular_velocity, samples.times
-    if attitude.ndim != 2:
-        raise refusal("samples", attitude.shape, "(n, 4)", f"must be those of one motion at several times: got attitudes of shape {attitude.shape}")
-    of_calendar = hasattr(times, "jd1")
-    zero = _zero(kernel, of_calendar)
-    times = np.array([float(moment) for moment in counts(times, "TDB")]) if of_calendar else times
+    table, calendar = rows(samples), calendar_times(samples)
     if interval is not None:
-        begin, end = scene_times("interval", interval, times[:1] if not of_calendar else samples.times[0])
-        inside = (times >= begin) & (times <= end)
-        times, attitude, rates = times[inside], attitude[inside], rates[inside]
-    turned = attitude[:, [1, 2, 3, 0]] if samples.scalar_first else attitude
-    return times, turned, None if np.isnan(rates).all() else rates, zero
+        begin, end = scene_times("interval", interval, 0.0 if calendar is None else calendar[0])
+        table = table[(table[:, 0] >= begin) & (table[:, 0] <= end)]
+    times, attitude, rates = table[:, 0], table[:, 1:5], table[:, 5:]
+    return times, attitude, None if np.isnan(rates).all() else rates, _zero(kernel, calendar is not None)
 
 
 def _zero(kernel: Kernel, of_calendar: bool) -> float:

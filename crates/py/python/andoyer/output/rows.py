@@ -28,6 +28,7 @@ def rows(samples: Samples) -> Array:
     InputError
         Samples of an ensemble.
     """
+    samples = given_samples(samples)
     times = plain("times", samples.times)
     if samples.times.ndim > 1 or samples.attitude.ndim > samples.times.ndim + 1:
         raise refusal("samples", repr(samples), "one motion", f"must be of one motion: got {samples!r}; a file holds one member of an ensemble")
@@ -37,8 +38,23 @@ def rows(samples: Samples) -> Array:
     return np.column_stack([np.atleast_1d(times), attitude, np.atleast_2d(samples.angular_velocity)])
 
 
+def given_samples(value: Any) -> Samples:
+    """The samples that a writer was given: `Samples`, or what has them, as a `Table`.
+
+    Raises
+    ------
+    TypeError
+        Anything else, a `Motion` for example.
+    """
+    samples = getattr(value, "samples", value)
+    if not isinstance(samples, Samples):
+        raise TypeError(f"samples must be Samples, such as motion.at(times): got {value!r}")
+    return samples
+
+
 def calendar_times(samples: Samples) -> Any:
     """The times of the samples if they are an astropy Time, or None."""
+    samples = given_samples(samples)
     return samples.times if hasattr(samples.times, "tdb") else None
 
 

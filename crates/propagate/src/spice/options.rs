@@ -12,13 +12,16 @@ use crate::motion::solved::Motion;
 /// The smallest error of an interpolation \[rad\]: attitudes near one have rounding errors of 1e-15 rad.
 pub(super) const SMALLEST_ERROR: f64 = 1e-13;
 
+/// Characters of a path that SPICE opens, less than those of a temporary name.
+const LONGEST_PATH: usize = 239;
+
 /// Ticks of a clock at times \[s of TDB past J2000\].
 pub type Ticks<'a> = dyn FnMut(&[f64]) -> io::Result<Vec<f64>> + Send + 'a;
 /// Called with the number of windows done and of all; `Break` stops the writer.
 pub type Progress<'a> = dyn FnMut(usize, usize) -> ControlFlow<()> + Send + 'a;
 
 /// The options of a writer.
-pub struct Request<'a> {
+pub struct KernelOptions<'a> {
     /// Time 0 of the motion \[s of TDB past J2000\].
     pub zero: f64,
     /// Largest error of SPICE's interpolation \[rad\]. It may not be below 1e-13.
@@ -33,7 +36,7 @@ pub struct Request<'a> {
     pub progress: Box<Progress<'a>>,
 }
 
-impl Default for Request<'_> {
+impl Default for KernelOptions<'_> {
     fn default() -> Self {
         let progress = Box::new(|_, _| ControlFlow::Continue(()));
         Self { zero: 0.0, interpolation_error: 1e-8, force: true, comments: Vec::new(), ticks: None, progress }
@@ -96,8 +99,8 @@ impl From<io::Error> for WriteError {
     }
 }
 
-impl Request<'_> {
-    /// Checks the interval \[time of the motion\] and the error; the ends of the interval in seconds of TDB past J2000, on times that the clock holds.
+impl KernelOptions<'_> {
+    /// Checks the interval \[time of the motion\] and the error; the ends of the interval in seconds of TDB past J2000, rounded outwards to times that the clock holds.
     pub(super) fn ends(&self, [begin, end]: [f64; 2]) -> Result<[f64; 2], WriteError> {
         if !(begin.is_finite() && end.is_finite() && begin < end) {
             return Err(Refused::new(
@@ -108,7 +111,7 @@ impl Request<'_> {
             .into());
         }
         self.checked_error()?;
-        let ends = [begin, end].map(|time| self.held(self.zero + time));
+        let ends = [self.rounded(self.zero + begin, true, false), self.rounded(self.zero + end, false, true)];
         let outside = ends[0] < clock::FIRST || ends[1] > clock::LAST;
         if self.ticks.is_none() && outside {
             let value = format!("({begin:?}, {end:?}) s after {} s of TDB past J2000", self.zero);
@@ -132,6 +135,15 @@ impl Request<'_> {
                 format!("finite and at least {SMALLEST_ERROR:e} rad"),
             )
         })
+    }
+
+    /// A time that the clock holds: the last one up to `time` if an interval begins there, the first one from `time` on if it ends there, otherwise the nearest one.
+    pub(super) fn rounded(&self, time: f64, begins: bool, ends: bool) -> f64 {
+        match self.ticks {
+            None if begins => clock::around(time)[0],
+            None if ends => clock::around(time)[1],
+            _ => self.held(time),
+        }
     }
 
     /// The nearest time that the clock holds.
@@ -223,6 +235,15 @@ pub(super) fn beside<T>(
     force: bool,
     write: impl FnOnce(&mut std::fs::File) -> Result<T, WriteError>,
 ) -> Result<T, WriteError> {
+    let length = std::fs::canonicalize(path).or_else(|_| std::path::absolute(path))?.as_os_str().len();
+    if length >= LONGEST_PATH {
+        return Err(Refused::new(
+            "path",
+            format!("{length} characters"),
+            format!("shorter than {LONGEST_PATH} characters for SPICE"),
+        )
+        .into());
+    }
     andoyer_kernels::whole(path, force, |binary| {
         andoyer_kernels::whole(&path.with_extension(ending), force, |beside| {
             io::Write::write_all(beside, text.as_bytes())?;

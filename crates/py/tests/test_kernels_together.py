@@ -1,0 +1,382 @@
+"""Kernels of any bodies and intervals, loaded together in any order: what SPICE reads of each is its motion within the error that it states."""
+
+import multiprocessing
+import os
+from concurrent.futures import ThreadPoolExecutor
+from datetime import datetime, timedelta
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import andoyer
+from andoyer._quaternions import angle_between
+from andoyer.cli import main
+from andoyer.output import Kernel, read_aem, write_aem, write_ck, write_pck
+
+spice = pytest.importorskip("spiceypy")
+
+SETS = int(os.environ.get("ANDOYER_KERNEL_SETS", "30"))
+"""Random sets; 200 take some minutes."""
+YEAR = 365.25 * 86400
+ROUNDING = 4e-15
+UNIT = [0.1, -0.2, 0.3, 0.9273618495495703]
+
+
+def solved(rates, moments=(1.0, 1.5, 2.0), **options):
+    return andoyer.Scene(andoyer.Body(moments), UNIT, rates, **options).solve()
+
+
+TUMBLER = solved([0.1, 0.2, 1.0])
+
+
+@pytest.fixture
+def furnished():
+    """Loads kernels with their text kernels, and leaves none."""
+
+    def load(*paths):
+        for path in map(Path, paths):
+            spice.furnsh(str(path))
+            spice.furnsh(str(path.with_suffix(".tsc" if path.suffix == ".bc" else ".tf")))
+
+    yield load
+    spice.kclear()
+
+
+def read(frame, times, against="J2000"):
+    """Attitudes, as SPICE has them at ephemeris times."""
+    quaternions = [spice.m2q(spice.pxform(against, frame, time)) for time in times]
+    return np.array([[-x, -y, -z, w] for w, x, y, z in quaternions])
+
+
+def worst(frame, motion, interval, zero=0.0, against="J2000", count=60):
+    """The largest angle between SPICE and the motion in an interval of the motion's times."""
+    times = np.concatenate([zero + np.random.default_rng(5).uniform(*interval, count), zero + np.array(interval)])
+    return angle_between(read(frame, times, against), motion.attitude(times - zero)).max()
+
+
+def test_two_intervals_of_one_body_do_not_disturb_each_other(tmp_path, furnished):
+    intervals = [(0.0, 100.0), (100.0, 200.0)]
+    written = [write_ck(tmp_path / f"{number}.bc", TUMBLER, interval) for number, interval in enumerate(intervals)]
+    furnished(tmp_path / "0.bc", tmp_path / "1.bc")
+    assert max(worst("ANDOYER_BODY", TUMBLER, interval) for interval in intervals) < max(each.error for each in written) + ROUNDING < 1.02e-8
+
+
+def test_two_days_by_the_command_line_do_not_disturb_each_other(tmp_path, furnished):
+    scene = andoyer.Scene(andoyer.Body([1, 1.5, 2]), UNIT, [1e-5, 2e-5, 6e-5])
+    (tmp_path / "scene.toml").write_text(scene.to_toml(), encoding="utf-8")
+    for day in (0, 1):
+        line = ["propagate", str(tmp_path / "scene.toml"), "-o", str(tmp_path / f"{day}.bc"), "--date", "2026-03-01", "--frame", "ECLIPJ2000"]
+        assert main([*line, "--start", str(day * 86400), "--stop", str((day + 1) * 86400), "--interpolation-error", "1e-7"]) == 0
+    furnished(tmp_path / "1.bc", tmp_path / "0.bc")
+    zero = (datetime(2026, 3, 1) - datetime(2000, 1, 1, 12)).total_seconds()
+    assert max(worst("ANDOYER_BODY", scene.solve(), (day * 86400.0, (day + 1) * 86400.0), zero, "ECLIPJ2000") for day in (0, 1)) < 1.001e-7
+
+
+@pytest.mark.parametrize("codes", [(-123000, -123001), (None, None)], ids=["neighbouring codes", "no codes"])
+def test_two_bodies_do_not_disturb_each_other(codes, tmp_path, furnished):
+    motions = [TUMBLER, solved([0.3, 0.1, 0.8])]
+    for name, code, motion in zip("AB", codes, motions):
+        write_ck(tmp_path / f"{name}.bc", motion, (0.0, 50.0 if name == "A" else 70.0), Kernel(code, f"BODY_{name}"))
+    furnished(tmp_path / "A.bc", tmp_path / "B.bc")
+    assert max(worst(f"BODY_{name}", motion, (0.0, 50.0)) for name, motion in zip("AB", motions)) < 1.02e-8
+
+
+def written(path, kind, motion, interval, kernel, error):
+    """Writes a kernel, in this process or another one."""
+    if kind == "ck":
+        return write_ck(path, motion, interval, kernel, interpolation_error=error)
+    return write_pck(
+        path, motion, interval, body=kernel.instrument, body_frame=kernel.body_frame, frame=kernel.frame, date=kernel.date, interpolation_error=error
+    )
+
+
+def test_random_sets_of_kernels_are_right_in_any_order(tmp_path, furnished):
+    random = np.random.default_rng(20261125)
+    with multiprocessing.get_context("spawn").Pool(2) as others:
+        for number in range(SETS):
+            folder = tmp_path / str(number)
+            folder.mkdir()
+            bodies = []
+            for body in range(random.integers(1, 4)):
+                moments = np.sort(random.uniform(0.5, 1.0, 3))
+                rates = random.normal(size=3) * 10 ** random.uniform(-5, 0)
+                motion = andoyer.Scene(andoyer.Body(moments[random.permutation(3)]), UNIT, rates).solve()
+                code = [None, int(-random.integers(1, 2_000_000)), 2_000_000 + int(random.integers(600, 99_999))][random.integers(3)]
+                bodies.append((f"BODY_{number}_{body}", code, ["ck", "pck"][random.integers(2)], motion, np.linalg.norm(rates)))
+            made = []
+            for part in range(random.integers(2, 7)):
+                name, code, kind, motion, rate = bodies[random.integers(len(bodies))]
+                date = datetime(int(random.integers(1950, 2040)), 5, 6)
+                begin = random.uniform(-200, 200) / rate
+                interval = (begin, begin + 10 ** random.uniform(0, 2) / rate)
+                frame = ["J2000", "ECLIPJ2000", "GALACTIC"][random.integers(3)]
+                path = folder / f"{part}.{'bc' if kind == 'ck' else 'bpc'}"
+                arguments = (path, kind, motion, interval, Kernel(code, name, frame, date=date), 10 ** random.uniform(-9, -5))
+                result = others.apply(written, arguments) if random.integers(2) else written(*arguments)
+                zero = (date - datetime(2000, 1, 1, 12)).total_seconds()
+                made.append((path, name, motion, interval, zero, frame, result.error))
+            furnished(*[made[place][0] for place in random.permutation(len(made))])
+            # Dates are days apart or the same motion is written against another date; intervals that overlap with another content are looked at in none.
+            for place, (_, name, motion, interval, zero, frame, error) in enumerate(made):
+                ends = (zero + interval[0], zero + interval[1])
+                others_of_name = [(z + i[0], z + i[1]) for other, (_, n, _, i, z, _, _) in enumerate(made) if n == name and other != place]
+                if all(stop < ends[0] or start > ends[1] for start, stop in others_of_name):
+                    assert worst(name, motion, interval, zero, frame, 20) < error + ROUNDING, (number, place)
+            spice.kclear()
+
+
+BEFORE = [(-YEAR * 1500, 2e-5), (-YEAR * 60, 2e-5), (-(2.0**30) - 2.0**20, 2e-5), (-YEAR * 8, 4e-7), (-(2.0**20), 4e-7), (-1000.0, 4e-10), (0.0, 4e-10)]
+
+
+@pytest.mark.parametrize("zero, rounding", BEFORE)
+def test_times_before_2000_are_those_of_the_clock_to_its_resolution(zero, rounding, tmp_path, furnished):
+    """Intervals in each piece of the clock, and over the borders of the pieces."""
+    zero = round(zero)
+    kernel = Kernel(body_frame="BEFORE", date=datetime(2000, 1, 1, 12) + timedelta(seconds=zero))
+    result = write_ck(tmp_path / "a.bc", TUMBLER, (-15.0, 15.0), kernel, interpolation_error=1e-9)
+    furnished(tmp_path / "a.bc")
+    assert worst("BEFORE", TUMBLER, (-15.0, 15.0), zero) < result.error + ROUNDING
+    assert result.error < 1e-9 + 1.1 * rounding
+    covered = spice.ckcov(str(tmp_path / "a.bc"), kernel.instrument, True, "INTERVAL", 0.0, "TDB")
+    assert (covered[0], covered[-1]) == pytest.approx((zero - 15.0, zero + 15.0), abs=2 * rounding)
+
+
+def test_error_below_the_rounding_of_the_times_is_refused(tmp_path):
+    for write, name in ((write_ck, "a.bc"), (write_pck, "a.bpc")):
+        with pytest.raises(andoyer.InputError, match="interpolation_error must be above the rounding error of this motion"):
+            write(tmp_path / name, TUMBLER, (1e9, 1e9 + 30.0), interpolation_error=1e-12)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_interval_that_the_clock_does_not_hold_is_refused(tmp_path):
+    with pytest.raises(andoyer.InputError, match="interval must be from .* the times of the clock; give a clock kernel"):
+        write_ck(tmp_path / "a.bc", TUMBLER, (-8e10, -7.99e10))
+    assert list(tmp_path.iterdir()) == []
+
+
+WRONG = {
+    "long": {"body_frame": "A" * 27},
+    "lower case": {"body_frame": "tumbler"},
+    "blank": {"body_frame": "MY BODY"},
+    "quote": {"body_frame": "MY'BODY"},
+    "empty": {"body_frame": ""},
+    "not ASCII": {"body_frame": "KÖRPER"},
+    "digit first": {"body_frame": "1BODY"},
+    "inertial": {"body_frame": "J2000"},
+    "rotating": {"body_frame": "IAU_MARS"},
+    "of the Earth": {"body_frame": "ITRF93"},
+    "code 0": {"instrument": 0},
+    "planet": {"instrument": 399},
+    "frame of SPICE": {"instrument": 10013},
+    "rotating frame": {"frame": "IAU_EARTH"},
+    "lower-case frame": {"frame": "j2000"},
+    "long segment": {"segment": "x" * 41},
+    "blank segment": {"segment": "  "},
+    "clock": {"clock_id": 5},
+}
+
+
+@pytest.mark.parametrize("given", WRONG.values(), ids=WRONG)
+def test_name_or_code_that_spice_cannot_use_is_refused_before_anything_is_written(given, tmp_path):
+    (key, value), *_ = given.items()
+    with pytest.raises(andoyer.InputError, match=f"^{key} must be ") as caught:
+        write_ck(tmp_path / "a.bc", TUMBLER, (0.0, 1.0), Kernel(**given))
+    assert caught.value.argument == key and str(value) in str(caught.value.value)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_every_frame_and_code_of_spice_itself_is_refused(tmp_path):
+    for number in spice.bltfrm(-1):
+        name, (_, kind, code) = spice.frmnam(int(number)), spice.frinfo(int(number))
+        plain = name.replace("-", "_") == name and name[0].isalpha()
+        with pytest.raises(andoyer.InputError, match="SPICE has not taken" if plain else "capital letters"):
+            write_ck(tmp_path / "a.bc", TUMBLER, (0.0, 1.0), Kernel(body_frame=name))
+        if kind == 2:
+            with pytest.raises(andoyer.InputError):
+                write_pck(tmp_path / "a.bpc", TUMBLER, (0.0, 1.0), body=int(code))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_every_inertial_frame_is_that_of_spice(tmp_path, furnished):
+    for code in spice.bltfrm(1):
+        frame, name = spice.frmnam(int(code)), f"AGAINST_{code}"
+        write_ck(tmp_path / f"{code}.bc", TUMBLER, (0.0, 3.0), Kernel(body_frame=name, frame=frame))
+        write_pck(tmp_path / f"{code}.bpc", TUMBLER, (0.0, 3.0), body_frame=f"{name}_PCK", frame=frame, interpolation_error=1e-11)
+        furnished(tmp_path / f"{code}.bc", tmp_path / f"{code}.bpc")
+        assert worst(name, TUMBLER, (0.0, 3.0), against=frame) < 1.01e-8 and worst(f"{name}_PCK", TUMBLER, (0.0, 3.0), against=frame) < 1.01e-11 + ROUNDING
+    write_ck(tmp_path / "icrf.bc", TUMBLER, (0.0, 3.0), Kernel(body_frame="AGAINST_ICRF", frame="ICRF"))
+    furnished(tmp_path / "icrf.bc")
+    assert worst("AGAINST_ICRF", TUMBLER, (0.0, 3.0)) < 1.01e-8 and "ICRF is taken for J2000" in comments(tmp_path / "icrf.bc")
+
+
+def comments(path):
+    handle = spice.dafopr(str(path))
+    _, lines, _ = spice.dafec(handle, 400, 100)
+    spice.dafcls(handle)
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize(
+    "kernel, center",
+    [
+        (Kernel(-123456, "A"), -123),
+        (Kernel(-82, "A"), -82),
+        (Kernel(2099942, "A"), 2099942),
+        (Kernel(20099942, "A"), 20099942),
+        (Kernel(-123456, "A", center=20099942), 20099942),
+        (Kernel(), -999),
+    ],
+    ids=str,
+)
+def test_frame_has_its_centre(kernel, center, tmp_path, furnished):
+    """A position with light time in the frame of the body needs the ephemeris of the centre."""
+    write_ck(tmp_path / "a.bc", TUMBLER, (0.0, 90.0), kernel)
+    furnished(tmp_path / "a.bc")
+    assert spice.frinfo(spice.namfrm(kernel.body_frame))[0] == center
+    states = np.array([[1e4 * time, 2e5, 3e5, 1e4, 0.0, 0.0] for time in (-1000.0, 0.0, 1000.0, 2000.0)])
+    handle = spice.spkopn(str(tmp_path / "a.bsp"), "A", 0)
+    for body, shift in ((center, 1.0), (10, 0.0)):
+        spice.spkw08(handle, body, 0, "J2000", -1000.0, 2000.0, "A", 1, 4, shift * states, -1000.0, 1000.0)
+    spice.spkcls(handle)
+    spice.furnsh(str(tmp_path / "a.bsp"))
+    seen, light = spice.spkpos("SUN", 40.0, kernel.body_frame, "LT", str(center))
+    still, _ = spice.spkpos("SUN", 40.0, "J2000", "LT", str(center))
+    assert light > 1 and seen == pytest.approx(TUMBLER.rotation(40.0).inv().apply(still), rel=1e-6)
+
+
+def test_samples_become_a_kernel_with_their_gaps(tmp_path, furnished):
+    times = np.concatenate([np.arange(0.0, 50.0, 0.01), np.arange(60.0, 80.0, 0.01)])
+    result = write_ck(tmp_path / "a.bc", TUMBLER.at(times), kernel=Kernel(body_frame="SAMPLED"), longest_step=1.0)
+    furnished(tmp_path / "a.bc")
+    assert result.records == len(times)
+    for interval in ((0.0, 49.98), (60.0, 79.98)):
+        error = worst("SAMPLED", TUMBLER, interval, count=500)
+        # The truth is known here: the estimate is of its size.
+        assert result.error / 3 < error < 1.2 * result.error
+    with pytest.raises(spice.exceptions.SpiceyError):
+        spice.pxform("J2000", "SAMPLED", 55.0)
+    first = write_ck(tmp_path / "b.bc", TUMBLER.at(times, scalar_first=True), (0.0, 10.0), Kernel(body_frame="PART"))
+    furnished(tmp_path / "b.bc")
+    assert first.records == 1001 and worst("PART", TUMBLER, (0.0, 10.0)) < 1.2 * first.error
+
+
+@pytest.mark.parametrize("kind", ["QUATERNION", "QUATERNION/ANGVEL"])
+def test_message_becomes_a_kernel(kind, tmp_path, furnished, capfd):
+    times = np.arange(0.0, 20.0, 0.05)
+    message = tmp_path / "a.aem"
+    write_aem(message, TUMBLER.at(times), andoyer.output.Heading(frame="ICRF", attitude_type=kind, date=datetime(2010, 2, 3)))
+    zero = (datetime(2010, 2, 3) - datetime(2000, 1, 1, 12)).total_seconds()
+    assert main(["convert", str(message), "-o", str(tmp_path / "a.bc"), "--body-frame", "FROM_AEM", "--instrument", "2000433", "--center", "20000433"]) == 0
+    said = capfd.readouterr().out
+    assert "400 records of frame FROM_AEM (2000433) against ICRF; estimated error" in said
+    furnished(tmp_path / "a.bc")
+    error = float(said.split("estimated error")[1].split()[0])
+    assert worst("FROM_AEM", TUMBLER, (0.0, 19.9), zero) < 1.3 * error < 1e-3
+    again = write_ck(tmp_path / "b.bc", read_aem(message), kernel=Kernel(body_frame="AGAIN"))
+    assert again.error == pytest.approx(error, rel=0.1)
+    assert main(["convert", str(message), "-o", str(tmp_path / "a.bc")]) == 2
+    assert "File exists; --force replaces it" in capfd.readouterr().err
+
+
+BAD_SAMPLES = {
+    "an ensemble": (lambda: andoyer.Ensemble([[1, 1.5, 2]] * 2, UNIT, [0.1, 0.2, 1.0]).at([0.0, 1.0]), "be of one motion"),
+    "one time": (lambda: TUMBLER.at([0.0]), "two or more times"),
+    "decreasing": (lambda: TUMBLER.at([0.0, 2.0, 1.0]), r"finite times that increase: got times\[2\] = 1.0"),
+}
+
+
+@pytest.mark.parametrize("samples, message", BAD_SAMPLES.values(), ids=BAD_SAMPLES)
+def test_samples_that_make_no_kernel_are_refused(samples, message, tmp_path):
+    with pytest.raises(andoyer.InputError, match=f"samples must .*{message}"):
+        write_ck(tmp_path / "a.bc", samples())
+    with pytest.raises(andoyer.InputError, match="longest_step must be positive"):
+        write_ck(tmp_path / "a.bc", TUMBLER.at([0.0, 1.0]), longest_step=0.0)
+    assert list(tmp_path.iterdir()) == []
+
+
+ORBIT = andoyer.Orbit(1e-3, 0.1, inclination=0.5)
+EARTH = andoyer.Scene(
+    andoyer.Body.named("earth"), [0.203, 0.0, 0.0, 0.97917873], [0.0, 0.0, 7.292115e-5], orbit=andoyer.Orbit(1.99e-7, 0.0167), tolerance=1e-4, span=(0.0, 3e7)
+)
+OF_PCK = {
+    "tumbler": (TUMBLER, (-20.0, 300.0), 1e-9),
+    "long-axis tumbler": (solved([1.0, 0.1, 0.2]), (0.0, 300.0), 1e-10),
+    "axis through the poles of the frames": (andoyer.Scene(andoyer.Body([1, 1.5, 2]), [0.5, 0.5, 0.5, 0.5], [0, 0, 1.0]).solve(), (0.0, 50.0), 1e-10),
+    "axis at the pole": (andoyer.Scene(andoyer.Body([1, 1.5, 2]), [0, 0, 0, 1], [1e-9, 0, 1.0]).solve(), (0.0, 50.0), 1e-10),
+    "satellite's orbit": (solved([0.01, 0.02, 1.0], orbit=ORBIT, tolerance=1e-3, span=(0.0, 300.0)), (0.0, 300.0), 1e-9),
+    "precessing Earth": (EARTH.solve(), (0.0, 3e6), 1e-9),
+    "at rest": (solved([0, 0, 0]), (0.0, 1e6), 1e-9),
+}
+
+
+@pytest.mark.parametrize("name", OF_PCK)
+def test_pck_is_the_motion_within_its_error_and_so_is_the_ck(name, tmp_path, furnished):
+    motion, interval, error = OF_PCK[name]
+    result = write_pck(tmp_path / "a.bpc", motion, interval, body_frame="BY_PCK", interpolation_error=error)
+    other = write_ck(tmp_path / "a.bc", motion, (interval[0], interval[0] + (interval[1] - interval[0]) / 30), Kernel(body_frame="BY_CK"))
+    furnished(tmp_path / "a.bpc", tmp_path / "a.bc")
+    assert worst("BY_PCK", motion, interval, count=1000) < result.error + ROUNDING
+    times = np.linspace(interval[0], interval[0] + (interval[1] - interval[0]) / 30, 50)
+    assert angle_between(read("BY_PCK", times), read("BY_CK", times)).max() < result.error + other.error + ROUNDING
+    window = spice.pckcov(str(tmp_path / "a.bpc"), Kernel(body_frame="BY_PCK").instrument)
+    assert list(window) == list(interval)
+    # Angular velocities are derivatives of the polynomials.
+    time = interval[0] + 0.3 * (interval[1] - interval[0])
+    _, velocity = spice.xf2rav(spice.sxform("J2000", "BY_PCK", time))
+    expected = motion.rotation(time).apply(motion.angular_velocity(time))
+    assert velocity == pytest.approx(expected, abs=1e-4 * np.sqrt(error / 1e-9) * max(np.linalg.norm(expected), 1e-12))
+
+
+def test_pck_is_read_without_spice_too(tmp_path):
+    pck = pytest.importorskip("jplephem.pck")
+    result = write_pck(tmp_path / "a.bpc", TUMBLER, (0.0, 300.0), body=2099942)
+    with open(tmp_path / "a.bpc", "rb") as file:
+        segment = pck.PCK(__import__("jplephem.daf").daf.DAF(file)).segments[0]
+        assert (segment.body, segment.frame, segment.data_type) == (2099942, 1, 2)
+        times = np.random.default_rng(3).uniform(1, 299, 1000)
+        angles = np.array([segment.compute(time, 0.0, False) for time in times])
+    from scipy.spatial.transform import Rotation
+
+    attitude = Rotation.from_euler("ZXZ", angles).as_quat()
+    assert angle_between(attitude, TUMBLER.attitude(times)).max() < result.error + ROUNDING
+
+
+def test_binary_file_is_whole_for_spice(tmp_path, furnished):
+    """Ten pieces of a day: comments, coverage, names of segments, and more summaries than fit a record."""
+    path = tmp_path / "a.bc"
+    write_ck(path, TUMBLER, (0.0, 6000.0), Kernel(segment="A NAME OF FORTY CHARACTERS 4567890123456", comments=("x" * 200,)), interpolation_error=1e-9)
+    handle = spice.dafopr(str(path))
+    spice.dafbfs(handle)
+    names = []
+    while spice.daffna():
+        names.append(spice.dafgn(100))
+    spice.dafcls(handle)
+    assert len(names) > 26 and set(names) == {"A NAME OF FORTY CHARACTERS 4567890123456"}
+    furnished(path)
+    assert list(spice.ckcov(str(path), -999000, True, "INTERVAL", 0.0, "TDB")) == pytest.approx([0.0, 6000.0])
+    assert "x" * 80 in comments(path) and spice.getfat(str(path)) == ("DAF", "CK")
+
+
+def test_threads_and_forked_children_write_beside_calls_of_spiceypy(tmp_path, furnished):
+    write_ck(tmp_path / "a.bc", TUMBLER, (0.0, 100.0))
+    furnished(tmp_path / "a.bc")
+    kernel = (tmp_path / "a.bc").read_bytes()
+
+    def write(number):
+        write_ck(tmp_path / f"{number}.bc", TUMBLER, (0.0, 100.0))
+        return (tmp_path / f"{number}.bc").read_bytes() == kernel
+
+    with ThreadPoolExecutor(8) as threads:
+        running = [threads.submit(write, number) for number in range(24)]
+        while not all(each.done() for each in running):
+            spice.pxform("J2000", "ANDOYER_BODY", 50.0)
+        assert all(each.result() for each in running)
+    with multiprocessing.get_context("fork").Pool(4) as children:
+        assert all(children.map_async(forked, [(tmp_path / f"child{number}.bc", kernel) for number in range(12)]).get(60))
+
+
+def forked(work):
+    path, expected = work
+    write_ck(path, TUMBLER, (0.0, 100.0))
+    return path.read_bytes() == expected
