@@ -246,6 +246,11 @@ andoyer_series::error_table! {
             bound: &'static str = "The requirement.",
         } => Input, facts(*argument, *value, *bound);
 
+        /// An orbital frame that does not exist: an unknown name, or an index without a body.
+        #[error("{argument} = {value}: it must be {bound}")]
+        OrbitalFrame { argument: &'static str = "The argument.", value: String = "Its value.", bound: String = "The requirement." }
+        => Input, facts(*argument, value, bound);
+
         /// A span that a table of positions does not cover.
         #[error("span: the integration goes from {start} to {stop}, and the table of positions only from {first} to {last}", start = Short(*.start), stop = Short(*.stop), first = Short(*.first), last = Short(*.last))]
         TableSpan {

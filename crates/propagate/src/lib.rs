@@ -38,6 +38,8 @@ pub mod motion_code;
 
 pub mod spice;
 
+pub mod orbital;
+
 mod observed;
 
 mod scene_file;

@@ -28,6 +28,7 @@ mod motion;
 mod normal_form;
 mod normalize;
 mod orbit;
+mod orbital;
 mod order;
 mod partials;
 mod plan;
@@ -69,6 +70,8 @@ mod _core {
     use super::normalize::normalize;
     #[pymodule_export]
     use super::orbit::Orbit;
+    #[pymodule_export]
+    use super::orbital::Orbital;
     #[pymodule_export]
     use super::partials::Partials;
     #[pymodule_export]

@@ -396,12 +396,12 @@ impl Motion {
 }
 
 impl Motion {
-    fn times<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Times<'py>> {
+    pub(crate) fn times<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Times<'py>> {
         Times::new(value, self.1, self.0.plan().steps() > 0 || !self.0.scene().asked_disturbing().is_empty())
     }
 
     /// The options of an evaluation at these times.
-    fn batch<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> andoyer_propagate::batch::Batch<'a> {
+    pub(crate) fn batch<'a>(&'a self, since_epoch: bool, stop: &'a AtomicBool) -> andoyer_propagate::batch::Batch<'a> {
         let batch = self.0.batch().until(stop);
         if since_epoch { batch.since_epoch() } else { batch }
     }

@@ -19,7 +19,7 @@ use crate::orbit::{self};
 use crate::scene_class::Scene;
 use crate::{array, error};
 
-mod arguments;
+pub(crate) mod arguments;
 
 use arguments::{
     disturbing_bodies, disturbing_body, doubt, epoch, not_a_body, precession, rotation, tolerance, with_options,

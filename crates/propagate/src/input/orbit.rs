@@ -296,10 +296,15 @@ impl Orbit {
 
     /// The same vectors at an epoch.
     pub(crate) fn axes_at(&self, epoch: f64) -> [Vector3<f64>; 3] {
+        self.axes_after(epoch, 0.0)
+    }
+
+    /// The same vectors at the time `since` after an epoch.
+    pub(crate) fn axes_after(&self, epoch: f64, since: f64) -> [Vector3<f64>; 3] {
         if self.is_fixed() {
             return self.axes();
         }
-        self.axes_of(self.node_and_argument(epoch).map(|phase| phase.angle((0.0, 0.0))))
+        self.axes_of(self.node_and_argument(epoch).map(|phase| phase.angle((since, 0.0))))
     }
 
     fn axes_of(&self, [node, argument]: [f64; 2]) -> [Vector3<f64>; 3] {

@@ -112,22 +112,28 @@ impl Orbit {
     /// - [`Error::Orbit`] for a time that is NaN, infinite, or more than 1e15 periods from the time of pericentre.
     pub fn position(&self, time: f64) -> Result<[f64; 3], Error> {
         let axis = self.asked_semi_major_axis().ok_or(Error::NoSemiMajorAxis)?;
+        Ok((self.relative_position(time, 0.0)? * axis).into())
+    }
+
+    /// The position at the time `since` after an epoch in units of |a|, which needs no semi-major axis.
+    pub(crate) fn relative_position(&self, epoch: f64, since: f64) -> Result<Vector3<f64>, Error> {
+        let time = epoch + since;
         let reached = (time - self.elements()[2]).abs() * self.fastest() <= MOST_TURNS;
         check("time", time, reached, "finite and within 1e15 periods of the pericentre")?;
         let e = self.eccentricity();
-        let [to_pericentre, ahead, _] = self.axes_at(time);
+        let [to_pericentre, ahead, _] = self.axes_after(epoch, since);
         if self.is_hyperbola() {
-            let anomaly = hyperbolic_anomaly(self.hyperbolic_mean_anomaly(time, (0.0, 0.0)), e);
+            let anomaly = hyperbolic_anomaly(self.hyperbolic_mean_anomaly(epoch, (since, 0.0)), e);
             let half = (0.5 * anomaly).sinh();
             let (along, across) = ((e - 1.0) - 2.0 * half * half, ((e - 1.0) * (e + 1.0)).sqrt() * anomaly.sinh());
-            return Ok(((to_pericentre * along + ahead * across) * axis).into());
+            return Ok(to_pericentre * along + ahead * across);
         }
-        let anomaly = self.mean_anomaly(time).angle((0.0, 0.0));
+        let anomaly = self.mean_anomaly(epoch).angle((since, 0.0));
         // With the eccentric anomaly E: cos E − e and η sin E. With the true anomaly, 1 + e cos f would cancel for e → 1.
         let eccentric = eccentric_anomaly(anomaly, e);
         let half = (0.5 * eccentric).sin();
         let (along, across) = ((1.0 - e) - 2.0 * half * half, ((1.0 - e) * (1.0 + e)).sqrt() * eccentric.sin());
-        Ok(((to_pericentre * along + ahead * across) * axis).into())
+        Ok(to_pericentre * along + ahead * across)
     }
 }
 

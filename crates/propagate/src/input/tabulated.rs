@@ -93,6 +93,30 @@ impl TabulatedOrbit {
         Ok(self.through(self.first_node(self.interval(time), NODES), NODES, time))
     }
 
+    /// Position, velocity and acceleration at a time: the derivatives of Neville's scheme.
+    pub(crate) fn motion(&self, time: f64) -> Result<[[f64; 3]; 3], Error> {
+        self.position(time)?;
+        let start = self.first_node(self.interval(time), NODES);
+        let mut table = [[[0.0; 3]; 3]; NODES];
+        for (row, position) in table.iter_mut().zip(&self.positions[start..]) {
+            row[0] = *position;
+        }
+        for level in 1..NODES {
+            for i in 0..NODES - level {
+                let (left, right) = (self.times[start + i] - time, self.times[start + i + level] - time);
+                let (one, other) = (table[i], table[i + 1]);
+                for axis in 0..3 {
+                    let [p, v, a] = [0, 1, 2].map(|order| right * one[order][axis] - left * other[order][axis]);
+                    let [slope, bend] = [0, 1].map(|order| other[order][axis] - one[order][axis]);
+                    for (order, value) in [p, v + slope, a + 2.0 * bend].into_iter().enumerate() {
+                        table[i][order][axis] = value / (right - left);
+                    }
+                }
+            }
+        }
+        Ok(table[0])
+    }
+
     /// The polynomial through `count` positions, at most eight, by Neville's scheme.
     fn through(&self, start: usize, count: usize, time: f64) -> [f64; 3] {
         let mut table = [[0.0; 3]; NODES];

@@ -11,6 +11,9 @@
 //! [state]
 //! attitude = [0.0, 0.0, 0.0, 1.0]  # [x, y, z, w], body components → inertial ones
 //! angular_velocity = [0.0, 0.1, 1.0]   # body components
+//! # frame = "lvlh"                 # the state is against the orbital frame "rtn" or "lvlh" of the orbit; then
+//! # elements_of = "rotating"       # or "disturbing": whose orbit it is; relative = true: the rates are those against the frame; of = 0: which of several orbits
+//! # sequence = "ZYX"               # if attitude has three angles
 //! # or, instead of a state, the periods of a tumbler:
 //! # [periods]
 //! # precession = 27.38             # P_φ

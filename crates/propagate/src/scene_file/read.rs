@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::problem::Refusal;
-use super::tables::{BodyTable, OrbitTable, OrbitTables, PeriodsTable, SceneTable};
+use super::tables::{BodyTable, OrbitTable, OrbitTables, PeriodsTable, SceneTable, StateTable};
 use crate::input::body::Body;
 use crate::input::disturbing_body::DisturbingBody;
 use crate::input::orbit::Orbit;
@@ -11,16 +11,18 @@ use crate::input::scene::Scene;
 use crate::input::state::State;
 use crate::input::tabulated::TabulatedOrbit;
 use crate::observed::periods::ObservedPeriods;
+use crate::orbital::{EulerSequence, OrbitalFrame};
 
 impl SceneTable {
     pub(super) fn scene(self) -> Result<Scene, Refusal> {
         let body = self.body.body()?;
+        let bodies = self.orbit.map_or(Ok(Vec::new()), OrbitTables::bodies)?;
         let mut scene = match (self.state, self.periods) {
             (Some(_), Some(_)) => {
                 return Err(Refusal::new("periods", "stands beside state: a scene has one or the other", "alone"));
             }
             (None, None) => return Err(Refusal::missing("state")),
-            (Some(state), None) => Scene::new(body, State::new(self.epoch, state.attitude, state.angular_velocity)?),
+            (Some(state), None) => state.scene(body, &bodies, self.epoch)?,
             (None, Some(periods)) => Scene::from_periods(body, &periods.periods(self.epoch)?)?,
         };
         if let Some(tolerance) = self.tolerance {
@@ -42,9 +44,41 @@ impl SceneTable {
             .method(self.method.unwrap_or_default())
             .averaging(self.averaging.unwrap_or_default())
             .level(self.level.unwrap_or_default());
-        let scene = scene.disturbing(self.orbit.map_or(Ok(Vec::new()), OrbitTables::bodies)?);
+        let scene = scene.disturbing(bodies);
         scene.validate()?;
         Ok(scene)
+    }
+}
+
+impl StateTable {
+    fn scene(self, body: Body, bodies: &[DisturbingBody], epoch: f64) -> Result<Scene, Refusal> {
+        let refused =
+            |bound: &str| Refusal::new("state.attitude", &format!("has another length: it must be {bound}"), bound);
+        let inertial = |attitude: [f64; 4]| State::new(epoch, attitude, self.angular_velocity);
+        let Some(frame) = &self.frame else {
+            let of_frame =
+                [self.elements_of.is_some(), self.relative.is_some(), self.sequence.is_some(), self.of.is_some()];
+            let names = ["elements_of", "relative", "sequence", "of"];
+            if let Some((_, name)) = of_frame.into_iter().zip(names).find(|(given, _)| *given) {
+                return Err(Refusal::new(
+                    &format!("state.{name}"),
+                    "needs state.frame, \"rtn\" or \"lvlh\"",
+                    "beside frame",
+                ));
+            }
+            let attitude = self.attitude.as_slice().try_into().map_err(|_| refused("a quaternion [x, y, z, w]"))?;
+            return Ok(Scene::new(body, inertial(attitude)?));
+        };
+        let elements_of = self.elements_of.as_deref().ok_or_else(|| Refusal::missing("state.elements_of"))?.parse()?;
+        let frame = OrbitalFrame { elements_of, axes: frame.parse()?, of: self.of.unwrap_or(0) };
+        let sequence: EulerSequence = self.sequence.as_deref().unwrap_or("ZYX").parse()?;
+        let attitude = match self.attitude[..] {
+            [x, y, z, w] => inertial([x, y, z, w])?.attitude,
+            [first, second, third] => sequence.attitude([first, second, third]),
+            _ => return Err(refused("a quaternion [x, y, z, w], or three angles")),
+        };
+        let relative = self.relative.unwrap_or(true);
+        Ok(Scene::from_orbital(body, bodies.to_vec(), &frame, attitude, self.angular_velocity.into(), relative, epoch)?)
     }
 }
 

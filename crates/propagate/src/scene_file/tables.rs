@@ -56,12 +56,23 @@ pub(super) struct BodyTable {
     pub(super) name: Option<String>,
 }
 
-/// `[state]`.
-#[derive(Debug, Serialize, Deserialize)]
+/// `[state]`: inertial, or against an orbital frame.
+#[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StateTable {
-    pub(super) attitude: [f64; 4],
+    /// A quaternion; against an orbital frame also three angles.
+    pub(super) attitude: Vec<f64>,
     pub(super) angular_velocity: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) frame: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) elements_of: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) relative: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) sequence: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) of: Option<usize>,
 }
 
 /// `[periods]`, in the place of a state.

@@ -26,8 +26,9 @@ impl SceneTable {
             level: (disturbed || level != Level::default()).then_some(level),
             body: BodyTable::of(scene.body()),
             state: Some(StateTable {
-                attitude: state.attitude.coords.into(),
+                attitude: state.attitude.coords.as_slice().to_vec(),
                 angular_velocity: state.angular_velocity.into(),
+                ..StateTable::default()
             }),
             periods: None,
             orbit: match disturbing {

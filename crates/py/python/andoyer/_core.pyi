@@ -250,6 +250,23 @@ class Scene:
     def from_andoyer(cls, body: Body, andoyer: ArrayLike, *, epoch: Any = None, **options: Any) -> Scene:
         """The scene with given Andoyer variables at the epoch (theory §1). It is the inverse of `Motion.andoyer`."""
     @classmethod
+    def from_orbital(
+        cls,
+        body: Body,
+        attitude: ArrayLike,
+        angular_velocity: ArrayLike,
+        *,
+        orbit: Orbit | TabulatedOrbit | Sequence[Orbit | TabulatedOrbit],
+        elements_of: Literal["rotating", "disturbing"],
+        frame: Literal["rtn", "lvlh"] = "rtn",
+        relative: bool = True,
+        sequence: str = "ZYX",
+        epoch: Any = None,
+        of: int = 0,
+        **options: Any,
+    ) -> Scene:
+        """The scene of a state that is given against the orbital frame. It is the inverse of `Motion.orbital`."""
+    @classmethod
     def from_toml(cls, path: str | os.PathLike[str]) -> Scene:
         """Reads a scene from a TOML file."""
     def to_toml(self) -> str:
@@ -330,6 +347,16 @@ class Motion:
     @property
     def plan(self) -> Plan:
         """The plan: method, order, error bound and other facts about this motion."""
+    def orbital(
+        self,
+        times: ArrayLike | Any,
+        *,
+        elements_of: Literal["rotating", "disturbing"],
+        frame: Literal["rtn", "lvlh"] = "rtn",
+        sequence: str = "ZYX",
+        of: int = 0,
+    ) -> Orbital:
+        """Attitudes and angular velocities against the orbital frame."""
     @property
     def libration(self) -> Libration | None:
         """The proper modes and the terms of a body locked to its orbit: a `Libration`, or None if the method is not "libration"."""
@@ -475,6 +502,24 @@ class Samples:
         """Converts the samples to a pandas table with the columns qx, qy, qz, qw, wx, wy, wz, indexed by time or by member and time. This method imports pandas."""
     def to_xarray(self) -> Dataset:
         """Converts the samples to an xarray data set: attitude and angular_velocity by (member,) time, and quaternion or axis. This method imports xarray."""
+    def __len__(self) -> int: ...
+
+@final
+class Orbital:
+    """Attitudes and angular velocities against the orbital frame, from `Motion.orbital`. For a scalar time there is no leading axis."""
+
+    @property
+    def times(self) -> Any:
+        """The times, float64, shape (n,). Times of astropy are returned as given."""
+    @property
+    def attitude(self) -> _Array:
+        """Unit quaternions [x, y, z, w] that rotate body components into components of the orbital frame, shape (n, 4)."""
+    @property
+    def angles(self) -> _Array:
+        """Angles of the intrinsic sequence, in rad, shape (n, 3): yaw, pitch, roll for "ZYX". Where only the sum or the difference of the first and the third is determined, the third is 0."""
+    @property
+    def angular_velocity(self) -> _Array:
+        """Angular velocities relative to the turning frame, in body components, in rad per unit of time, shape (n, 3)."""
     def __len__(self) -> int: ...
 
 @final

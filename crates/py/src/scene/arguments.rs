@@ -16,7 +16,7 @@ use crate::orbit::Orbit;
 use crate::tabulated::TabulatedOrbit;
 
 // PyO3 leaves the name of an argument out of the message of its own `TypeError`.
-pub(super) fn epoch(value: Option<&Bound<'_, PyAny>>) -> PyResult<(f64, Option<Calendar>)> {
+pub(crate) fn epoch(value: Option<&Bound<'_, PyAny>>) -> PyResult<(f64, Option<Calendar>)> {
     let Some(value) = value else { return Ok((0.0, None)) };
     let (numbers, calendar) = foreign::epochs("epoch", value)?;
     Ok((array::number("epoch", &numbers)?, calendar.first().copied()))
@@ -46,7 +46,7 @@ pub(super) fn doubt(py: Python<'_>, periods: &ObservedPeriods) -> PyResult<()> {
 }
 
 /// The scene of this state, at the epoch as it was given, with the keyword arguments of `Scene`.
-pub(super) fn with_options<'py>(
+pub(crate) fn with_options<'py>(
     class: &Bound<'py, PyType>,
     body: &Bound<'py, PyAny>,
     (scene, epoch): (&andoyer_propagate::Scene, Option<&Bound<'py, PyAny>>),
@@ -65,12 +65,12 @@ pub(super) fn with_options<'py>(
 }
 
 /// The message for an argument that is not a `Body`.
-pub(super) fn not_a_body(value: &Bound<'_, PyAny>) -> PyErr {
+pub(crate) fn not_a_body(value: &Bound<'_, PyAny>) -> PyErr {
     PyTypeError::new_err(format!("body must be an andoyer.Body: got {}; use Body([A, B, C])", kind(value)))
 }
 
 /// One disturbing body, or a sequence of them.
-pub(super) fn disturbing_bodies(value: &Bound<'_, PyAny>) -> PyResult<Vec<DisturbingBody>> {
+pub(crate) fn disturbing_bodies(value: &Bound<'_, PyAny>) -> PyResult<Vec<DisturbingBody>> {
     let one = |value: &Bound<'_, PyAny>| -> Option<DisturbingBody> {
         let orbit = value.cast::<Orbit>().map(|orbit| orbit.get().0.into());
         orbit

@@ -144,6 +144,7 @@ def parser() -> Parser:
     spacing = command.add_mutually_exclusive_group()
     spacing.add_argument("--samples", type=count, metavar="N", help=f"number of times, the last one included (default: {SAMPLES})")
     spacing.add_argument("--step", type=step, metavar="DT", help="time between samples")
+    writing.add_orbital(command)
     writing.add_options(command)
     strictly(command)
     command.set_defaults(run=propagate)
@@ -220,17 +221,19 @@ def propagate(arguments: argparse.Namespace) -> int:
     given = writing.check(arguments)
     motion = solved(arguments.scene)
     if arguments.output != "-" and path.suffix.lower() in writing.KERNELS:
+        writing.orbital(arguments, motion, [])
         writing.write_kernel(path, motion, interval(motion, arguments.start, arguments.stop), given, arguments.force)
         return status(arguments, motion)
     samples = motion.at(instants(arguments, motion))
+    against = writing.orbital(arguments, motion, samples.times)
     if arguments.output == "-":
         progress = Progress("writing, lines")
         try:
-            output.write_table(sys.stdout, samples, progress)
+            output.write_table(sys.stdout, samples, progress, against)
         finally:
             progress.close()
     else:
-        writing.write_samples(path, motion, samples, given, arguments.force)
+        writing.write_samples(path, motion, samples, given, arguments.force, against)
     note_sparse(motion, samples.times)
     return status(arguments, motion)
 

@@ -116,7 +116,43 @@ def refuse_existing(path: Path) -> None:
         raise InputError(f"argument -o/--output: {path}: File exists; --force replaces it")
 
 
-def write_samples(path: Path, motion: andoyer.Motion, samples: andoyer.Samples, given: dict[str, Any], force: bool) -> None:
+def add_orbital(command: argparse.ArgumentParser) -> None:
+    """Add the options of the orbital frame."""
+    group = command.add_argument_group("columns against the orbital frame, beside the inertial ones (.csv, .npz, .parquet)")
+    group.add_argument(
+        "--orbital", choices=["rtn", "lvlh"], metavar="FRAME", help="rtn (radial, transverse, normal) or lvlh (forward, against the normal, to the primary)"
+    )
+    group.add_argument(
+        "--elements-of",
+        choices=["rotating", "disturbing"],
+        metavar="BODY",
+        help="whose orbit the scene has: rotating (a satellite's own) or disturbing (the Sun's); needed",
+    )
+    group.add_argument("--sequence", metavar="AXES", help="sequence of the three angles (default: ZYX)")
+    group.add_argument("--of", type=whole, metavar="N", help="which of several disturbing bodies, from 0 (default: 0)")
+
+
+def orbital(arguments: argparse.Namespace, motion: andoyer.Motion, times: Any) -> andoyer.Orbital | None:
+    """The samples against the orbital frame, if they are asked for."""
+    keys = ("elements_of", "sequence", "of")
+    given = {key: getattr(arguments, key) for key in keys if getattr(arguments, key) is not None}
+    if arguments.orbital is None:
+        for key in given:
+            raise InputError(f"argument --{key.replace('_', '-')}: goes with --orbital alone")
+        return None
+    if "elements_of" not in given:
+        raise InputError("argument --elements-of: must be given with --orbital, as rotating or disturbing: whose orbit the scene has")
+    if arguments.output != "-" and Path(arguments.output).suffix.lower() not in (".csv", ".npz", ".parquet"):
+        raise InputError("argument --orbital: goes with a .csv, .npz or .parquet alone")
+    try:
+        return motion.orbital(times, frame=arguments.orbital, **given)
+    except andoyer.Error as error:
+        raise InputError(str(error)) from error
+
+
+def write_samples(
+    path: Path, motion: andoyer.Motion, samples: andoyer.Samples, given: dict[str, Any], force: bool, against: andoyer.Orbital | None = None
+) -> None:
     """Write samples in the format of the ending."""
     progress = Progress("writing, lines")
     ending = path.suffix.lower()
@@ -128,11 +164,11 @@ def write_samples(path: Path, motion: andoyer.Motion, samples: andoyer.Samples, 
                 output.write_aem(path, samples, heading, body=motion.scene.body, force=force)
                 _note(heading, given)
             elif ending == ".csv":
-                output.write_csv(path, samples, progress, force=force)
+                output.write_csv(path, samples, progress, orbital=against, force=force)
             elif ending == ".npz":
-                output.write_npz(path, samples, scene=motion.scene, remark=remark, force=force)
+                output.write_npz(path, samples, scene=motion.scene, remark=remark, orbital=against, force=force)
             else:
-                output.write_parquet(path, samples, scene=motion.scene, remark=remark, force=force)
+                output.write_parquet(path, samples, scene=motion.scene, remark=remark, orbital=against, force=force)
     finally:
         progress.close()
 

@@ -14,9 +14,9 @@ from typing import Any, TextIO, TypeAlias
 
 import numpy as np
 
-from andoyer._core import Error, Samples, Scene
+from andoyer._core import Error, Orbital, Samples, Scene
 from andoyer._extra import extra
-from andoyer._refusal import unreadable
+from andoyer._refusal import refusal, unreadable
 from andoyer.output.files import whole_file
 from andoyer.output.rows import COLUMNS, CONVENTION, Array, calendar_times, rows, samples_of
 
@@ -28,6 +28,9 @@ LINES_AT_ONCE = 10_000
 
 JULIAN = ["jd1", "jd2"]
 """Columns of a calendar time: its Julian date in two doubles, as astropy has it."""
+
+ORBITAL = ("ox", "oy", "oz", "ow", "angle_1", "angle_2", "angle_3", "rx", "ry", "rz")
+"""Columns against the orbital frame: the quaternion, scalar last, the three angles, the angular velocity relative to the frame."""
 
 ENDINGS = [".csv", ".npz", ".parquet"]
 
@@ -51,7 +54,7 @@ class Table:
     """Unit of each column, if the file has units."""
 
 
-def write_csv(path: str | os.PathLike[str], samples: Samples, progress: Progress = silent, *, force: bool = True) -> None:
+def write_csv(path: str | os.PathLike[str], samples: Samples, progress: Progress = silent, *, orbital: Orbital | None = None, force: bool = True) -> None:
     """Write samples as a CSV file.
 
     Parameters
@@ -62,6 +65,8 @@ def write_csv(path: str | os.PathLike[str], samples: Samples, progress: Progress
         Samples of one motion.
     progress : callable, optional
         Called as ``progress(done, total)`` with numbers of lines.
+    orbital : Orbital, optional
+        Attitudes and rates against the orbital frame at the same times: further columns.
     force : bool, optional
         If True, an existing file is replaced.
 
@@ -80,19 +85,28 @@ def write_csv(path: str | os.PathLike[str], samples: Samples, progress: Progress
     't,qx,qy,qz,qw,wx,wy,wz\\n'
     """
     with whole_file(path, force) as temporary, temporary.open("w", encoding="utf-8", newline="\n") as file:
-        write_table(file, samples, progress)
+        write_table(file, samples, progress, orbital)
 
 
-def write_table(file: TextIO, samples: Samples, progress: Progress = silent) -> None:
+def write_table(file: TextIO, samples: Samples, progress: Progress = silent, orbital: Orbital | None = None) -> None:
     """Write samples as CSV into an open text file: a line of column names, then one line for each time, with 17 digits. `progress` is called with the lines written."""
-    table = rows(samples)
-    file.write(f"{COLUMNS}\n")
+    further = against(orbital, rows(samples))
+    table = np.column_stack([rows(samples), *further.values()])
+    file.write(",".join([COLUMNS, *further]) + "\n")
     for start in range(0, len(table), LINES_AT_ONCE):
         np.savetxt(file, table[start : start + LINES_AT_ONCE], fmt="%.17g", delimiter=",")
         progress(min(start + LINES_AT_ONCE, len(table)), len(table))
 
 
-def write_npz(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, remark: str | None = None, force: bool = True) -> None:
+def write_npz(
+    path: str | os.PathLike[str],
+    samples: Samples,
+    *,
+    scene: Scene | None = None,
+    remark: str | None = None,
+    orbital: Orbital | None = None,
+    force: bool = True,
+) -> None:
     """Write samples as an NPZ file: arrays times, attitude (scalar last), angular_velocity, and texts convention, units, scene.
 
     Parameters
@@ -105,6 +119,8 @@ def write_npz(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | 
         The scene of the samples; the file keeps its TOML text.
     remark : str, optional
         A remark on the samples, for example that they miss the tolerance.
+    orbital : Orbital, optional
+        Attitudes and rates against the orbital frame at the same times: arrays or columns with the names of `ORBITAL`.
     force : bool, optional
         If True, an existing file is replaced.
 
@@ -119,17 +135,25 @@ def write_npz(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | 
     texts, julian = _about(scene, calendar_times(samples))
     texts |= {"remark": remark} if remark else {}
     arrays: dict[str, Any] = {"times": table[:, 0], "attitude": table[:, 1:5], "angular_velocity": table[:, 5:]}
-    arrays |= julian | {key: np.array(text) for key, text in texts.items()}
+    arrays |= julian | against(orbital, table) | {key: np.array(text) for key, text in texts.items()}
     with whole_file(path, force) as temporary, temporary.open("wb") as file:
         np.savez(file, **arrays)
 
 
-def write_parquet(path: str | os.PathLike[str], samples: Samples, *, scene: Scene | None = None, remark: str | None = None, force: bool = True) -> None:
+def write_parquet(
+    path: str | os.PathLike[str],
+    samples: Samples,
+    *,
+    scene: Scene | None = None,
+    remark: str | None = None,
+    orbital: Orbital | None = None,
+    force: bool = True,
+) -> None:
     """Write samples as a Parquet file: the columns of the CSV as float64; convention, units and scene in the metadata of the schema.
 
     Parameters
     ----------
-    path, samples, scene, remark, force
+    path, samples, scene, remark, orbital, force
         As in `write_npz`.
 
     Raises
@@ -143,13 +167,23 @@ def write_parquet(path: str | os.PathLike[str], samples: Samples, *, scene: Scen
     table = rows(samples)
     texts, julian = _about(scene, calendar_times(samples))
     texts |= {"remark": remark} if remark else {}
-    columns = dict(zip(COLUMNS.split(","), np.ascontiguousarray(table.T))) | julian
+    columns = dict(zip(COLUMNS.split(","), np.ascontiguousarray(table.T))) | julian | against(orbital, table)
     schema = arrow.schema([(name, arrow.float64()) for name in columns], metadata=texts)
     with whole_file(path, force) as temporary, parquet.ParquetWriter(temporary, schema) as writer:
         # Rows are written in groups, and Python checks for Ctrl-C between them. A table without rows has one group.
         for start in range(0, max(len(table), 1), ROWS_AT_ONCE):
             part = [column[start : start + ROWS_AT_ONCE] for column in columns.values()]
             writer.write_table(arrow.table(part, schema=schema))
+
+
+def against(orbital: Orbital | None, table: Array) -> dict[str, Array]:
+    """The columns of `ORBITAL` for samples against the orbital frame; none without them."""
+    if orbital is None:
+        return {}
+    numbers = np.column_stack([np.atleast_2d(part) for part in (orbital.attitude, orbital.angles, orbital.angular_velocity)])
+    if len(numbers) != len(table):
+        raise refusal("orbital", len(numbers), len(table), f"must have the {len(table)} times of the samples: got {len(numbers)}")
+    return dict(zip(ORBITAL, np.ascontiguousarray(numbers.T)))
 
 
 def read_table(path: str | os.PathLike[str]) -> Table:

@@ -1,0 +1,249 @@
+//! `Scene.from_orbital`, `Motion.orbital` and `andoyer.Orbital`.
+
+use andoyer_propagate::State;
+use andoyer_propagate::orbital::{EulerSequence, OrbitalFrame, OrbitalSample};
+use andoyer_series::error::Kind;
+use numpy::{PyArray, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyType};
+
+use crate::array::{self, chunks, write};
+use crate::body::Body;
+use crate::computing::interruptible;
+use crate::error;
+use crate::foreign;
+use crate::motion::Motion;
+use crate::order::whole_number;
+use crate::scene::arguments::{disturbing_bodies, epoch as given_epoch, not_a_body, with_options};
+use crate::scene_class::Scene;
+
+type Array = Py<PyArrayDyn<f64>>;
+
+#[pymethods]
+impl Scene {
+    /// The scene of a state that is given against the orbital frame. It is the inverse of `Motion.orbital`.
+    ///
+    /// Parameters
+    /// ----------
+    /// body : Body
+    /// attitude : array_like, shape (4,) or (3,)
+    ///     The quaternion that rotates body components into components of the orbital frame, or three angles [rad] of `sequence`: yaw, pitch, roll for "ZYX".
+    /// angular_velocity : array_like, shape (3,)
+    ///     In body components, in rad per unit of time: relative to the turning frame, or inertial with ``relative=False``.
+    /// orbit : Orbit, TabulatedOrbit or sequence of them
+    ///     The disturbing bodies.
+    /// elements_of : {"rotating", "disturbing"}
+    ///     Whose orbit it is: a satellite's own about its primary, or that of the disturbing body as seen from the rotating one. A wrong choice turns the frame by half a turn.
+    /// frame : {"rtn", "lvlh"}, optional
+    ///     "rtn": axis 1 radially outward from the primary, 2 transverse, 3 along the normal of the orbit's plane. "lvlh": axis 3 to the primary, 2 against the normal, 1
+    ///     completes, forward.
+    /// relative : bool, optional
+    /// sequence : str, optional
+    ///     Three of X, Y, Z: the intrinsic sequence of the angles.
+    /// epoch : float, optional
+    ///     Time of the state.
+    /// of : int, optional
+    ///     Which of several disturbing bodies has the frame, from 0.
+    /// **options
+    ///     The other keyword arguments of `Scene`.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     An unknown `elements_of`, `frame` or `sequence`; an `of` without a body; an epoch outside the table of the body.
+    ///
+    /// Examples
+    /// --------
+    /// >>> satellite = Scene.from_orbital(Body([1.5, 2, 1]), [0, 0, 0], [0, 0, 0], orbit=Orbit(1e-3), elements_of="rotating", frame="lvlh")
+    /// >>> satellite.angular_velocity
+    /// array([ 0.   , -0.001,  0.   ])
+    #[classmethod]
+    #[pyo3(
+        signature = (body, attitude, angular_velocity, *, orbit, elements_of, frame="rtn", relative=true, sequence="ZYX", epoch=None, of=None, **options),
+        text_signature = "(body, attitude, angular_velocity, *, orbit, elements_of, frame='rtn', relative=True, sequence='ZYX', epoch=0.0, of=0, **options)"
+    )]
+    #[expect(clippy::too_many_arguments, reason = "Python's keyword arguments")]
+    fn from_orbital<'py>(
+        class: &Bound<'py, PyType>,
+        body: &Bound<'py, PyAny>,
+        attitude: &Bound<'py, PyAny>,
+        angular_velocity: &Bound<'py, PyAny>,
+        orbit: &Bound<'py, PyAny>,
+        elements_of: &str,
+        frame: &str,
+        relative: bool,
+        sequence: &str,
+        epoch: Option<&Bound<'py, PyAny>>,
+        of: Option<&Bound<'py, PyAny>>,
+        options: Option<Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let of_body = body.cast::<Body>().map_err(|_| not_a_body(body))?.get().body.clone();
+        let frame = asked(elements_of, frame, of)?;
+        let sequence: EulerSequence = sequence.parse().map_err(error::propagation)?;
+        let (time, _) = given_epoch(epoch)?;
+        let keywords = options.unwrap_or_else(|| PyDict::new(class.py()));
+        let scalar_first = keywords.get_item("scalar_first")?.is_some_and(|value| value.is_truthy().unwrap_or(false));
+        if keywords.contains("scalar_first")? {
+            keywords.del_item("scalar_first")?;
+        }
+        let rates = array::fixed("angular_velocity", angular_velocity)?;
+        let turn = match &array::numbers_of("attitude", attitude)?[..] {
+            &[first, second, third] => {
+                if let Some(index) = [first, second, third].iter().position(|angle| !angle.is_finite()) {
+                    let value = [first, second, third][index];
+                    return Err(error::input(
+                        "attitude",
+                        value,
+                        "finite",
+                        format!("attitude[{index}] = {value}: an angle must be finite"),
+                    ));
+                }
+                sequence.attitude([first, second, third])
+            }
+            &[x, y, z, w] => {
+                let mut quaternion = [x, y, z, w];
+                foreign::scalar_last(&mut quaternion, scalar_first && !foreign::is_rotation(attitude)?);
+                State::new(time, quaternion, rates).map_err(error::propagation)?.attitude
+            }
+            other => return Err(error::shape("attitude", &[other.len()], "(4,) or (3,)")),
+        };
+        let bodies = disturbing_bodies(orbit)?;
+        let scene = andoyer_propagate::Scene::from_orbital(of_body, bodies, &frame, turn, rates.into(), relative, time);
+        keywords.set_item("orbit", orbit)?;
+        with_options(class, body, (&scene.map_err(error::propagation)?, epoch), Some(keywords))
+    }
+}
+
+#[pymethods]
+impl Motion {
+    /// Attitudes and angular velocities against the orbital frame.
+    ///
+    /// Parameters
+    /// ----------
+    /// times : float or array_like, shape (n,)
+    ///     Times, in the unit of time of the scene.
+    /// elements_of, frame, sequence, of
+    ///     As in `Scene.from_orbital`.
+    ///
+    /// Returns
+    /// -------
+    /// Orbital
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     An unknown `elements_of`, `frame` or `sequence`; an `of` without a body, or a scene without a disturbing body; a time outside the table of the body.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = Scene.from_orbital(Body([1.5, 2, 1]), [0, 0.01, 0], [0, 0, 0], orbit=Orbit(1e-3), elements_of="rotating", frame="lvlh", span=(0, 6e3), method="integrated")
+    /// >>> bool(abs(scene.solve().orbital([0, 6e3], elements_of="rotating", frame="lvlh").angles[:, 1]).max() < 0.0101)
+    /// True
+    #[pyo3(
+        signature = (times, *, elements_of, frame="rtn", sequence="ZYX", of=None),
+        text_signature = "($self, times, *, elements_of, frame='rtn', sequence='ZYX', of=0)"
+    )]
+    fn orbital<'py>(
+        &self,
+        py: Python<'py>,
+        times: &Bound<'py, PyAny>,
+        elements_of: &str,
+        frame: &str,
+        sequence: &str,
+        of: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Orbital> {
+        let frame = asked(elements_of, frame, of)?;
+        let sequence: EulerSequence = sequence.parse().map_err(error::propagation)?;
+        let times = self.times(times)?;
+        let since_epoch = times.since_epoch();
+        let [copy, attitude, rates] = times.samples()?;
+        let angles = PyArray::zeros(py, rates.dims(), false);
+        {
+            let (mut attitude, mut angle, mut rate) = (write(&attitude)?, write(&angles)?, write(&rates)?);
+            let (attitude, angle, rate) = (chunks(&mut attitude)?, chunks(&mut angle)?, chunks(&mut rate)?);
+            let values = times.values()?;
+            let evaluate = |stop: &_| {
+                let samples = self.batch(since_epoch, stop).orbital(values, &frame)?;
+                for (row, OrbitalSample { attitude: turn, angular_velocity }) in samples.into_iter().enumerate() {
+                    attitude[row] = turn.coords.into();
+                    angle[row] = sequence.angles(&turn);
+                    rate[row] = angular_velocity.into();
+                }
+                Ok(())
+            };
+            interruptible(py, times.long(), error::propagation, evaluate)?;
+        }
+        let given = times.given().unwrap_or_else(|| copy.into_any().unbind());
+        Ok(Orbital {
+            times: given,
+            attitude: attitude.unbind(),
+            angles: angles.unbind(),
+            angular_velocity: rates.unbind(),
+        })
+    }
+}
+
+fn asked(elements_of: &str, frame: &str, of: Option<&Bound<'_, PyAny>>) -> PyResult<OrbitalFrame> {
+    let of = of.map_or(Ok(0), |of| whole_number("of", of, 0, usize::from(u16::MAX), Kind::Input))?;
+    let elements_of = elements_of.parse().map_err(error::propagation)?;
+    Ok(OrbitalFrame { elements_of, axes: frame.parse().map_err(error::propagation)?, of })
+}
+
+/// Attitudes and angular velocities against the orbital frame, from `Motion.orbital`. For a scalar time there is no leading axis.
+///
+/// Examples
+/// --------
+/// >>> scene = Scene.from_orbital(Body([1.5, 2, 1]), [0, 0, 0], [0, 0, 0], orbit=Orbit(1e-3), elements_of="rotating", span=(0, 10), method="integrated")
+/// >>> scene.solve().orbital([0.0, 10.0], elements_of="rotating")
+/// <Orbital at 2 times>
+#[pyclass(frozen, module = "andoyer")]
+pub(crate) struct Orbital {
+    /// The times, float64, shape (n,). Times of astropy are returned as given.
+    #[pyo3(get)]
+    times: Py<PyAny>,
+    /// Unit quaternions [x, y, z, w] that rotate body components into components of the orbital frame, shape (n, 4).
+    #[pyo3(get)]
+    attitude: Array,
+    /// Angles of the intrinsic sequence, in rad, shape (n, 3): yaw, pitch, roll for "ZYX". Where only the sum or the difference of the first and the third is determined, the third is 0.
+    #[pyo3(get)]
+    angles: Array,
+    /// Angular velocities relative to the turning frame, in body components, in rad per unit of time, shape (n, 3).
+    #[pyo3(get)]
+    angular_velocity: Array,
+}
+
+#[pymethods]
+impl Orbital {
+    /// Rebuilds the samples for `pickle`.
+    #[classmethod]
+    fn _restored(
+        _class: &Bound<'_, PyType>,
+        times: Py<PyAny>,
+        attitude: Array,
+        angles: Array,
+        angular_velocity: Array,
+    ) -> Self {
+        Self { times, attitude, angles, angular_velocity }
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Py<PyAny>, Array, Array, Array))> {
+        let (py, own) = (slf.py(), slf.get());
+        let [attitude, angles, rates] =
+            [&own.attitude, &own.angles, &own.angular_velocity].map(|array| array.clone_ref(py));
+        Ok((slf.get_type().getattr("_restored")?, (own.times.clone_ref(py), attitude, angles, rates)))
+    }
+
+    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
+        match self.attitude.bind(py).shape() {
+            [first, _] => Ok(*first),
+            _ => Err(pyo3::exceptions::PyTypeError::new_err("samples at a scalar time have no len()")),
+        }
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> String {
+        match self.attitude.bind(py).shape() {
+            [count, _] => format!("<Orbital at {}>", crate::samples::counted(*count, "time")),
+            _ => "<Orbital at a scalar time>".to_owned(),
+        }
+    }
+}
