@@ -219,6 +219,7 @@ impl Parser<'_> {
         match self.peek() {
             None => Err(self.fail(ParseProblem::UnexpectedEnd)),
             Some('0'..='9') => self.number(),
+            Some('.') if self.rest()[1..].starts_with(|letter: char| letter.is_ascii_digit()) => self.number(),
             Some('(') => {
                 self.depth += 1;
                 if self.depth > DEEPEST {

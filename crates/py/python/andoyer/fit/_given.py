@@ -155,10 +155,14 @@ def enough(data: int, parameters: int, argument: str, advice: str) -> None:
         raise refusal(argument, data, parameters, f"are {data} numbers for {parameters} parameters: {advice}")
 
 
+MOST = 10_000_000
+"""More draws or starts do not fit the memory."""
+
+
 def whole(argument: str, value: Any, least: int) -> int:
-    """A whole number that is not below the least."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
-        raise refusal(argument, value, least, f"= {value!r}: it must be a whole number, {least} or more")
+    """A whole number from the least to `MOST`."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= MOST:
+        raise refusal(argument, value, (least, MOST), f"= {value!r}: it must be a whole number, {least} or more and at most {MOST}")
     return int(value)
 
 

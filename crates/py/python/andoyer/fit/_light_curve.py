@@ -101,7 +101,7 @@ def light_curve(
     Warns
     -----
     UserWarning
-        The brightnesses look like magnitudes: all lie between 3 and 30, or all are below 30 and the fit is bad.
+        The fit is bad and the brightnesses, all below 30, can be magnitudes.
 
     Examples
     --------
@@ -128,16 +128,18 @@ def light_curve(
     enough(len(curve.times), 6 + 2 * shape + curve.members.shape[1], "times", "give more points")
     if epoch is None:
         epoch = 0.0 if scene is None else epoch_of(scene_of(scene))
-    if scene is not None:
-        first = _state_of(scene_of(scene), semi_axes, epoch)
-        population = improve(curve, Population(first, curve.chi_squares(first)), SETTLING)
-    else:
-        drawn = random_states(semi_axes, _range(periods), whole("starts", starts, 1), generator_of(rng))
-        population = search(curve, drawn)
-        population = improve(curve, best(_distinct(curve, population), POLISHED), SETTLING)
-    population = _polished(curve, population)
-    if scene is None:
-        population = _with_reflections(curve, population)
+    # A start that runs to a shape without a body has an infinite χ², and the search passes it over.
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        if scene is not None:
+            first = _state_of(scene_of(scene), semi_axes, epoch)
+            population = improve(curve, Population(first, curve.chi_squares(first)), SETTLING)
+        else:
+            drawn = random_states(semi_axes, _range(periods), whole("starts", starts, 1), generator_of(rng))
+            population = search(curve, drawn)
+            population = improve(curve, best(_distinct(curve, population), POLISHED), SETTLING)
+        population = _polished(curve, population)
+        if scene is None:
+            population = _with_reflections(curve, population)
     return _result(curve, population, epoch, times, largest)
 
 
@@ -335,10 +337,10 @@ def _result(curve: Curve, population: Population, epoch: Any, times: Any, delta_
 
 
 def _warn_of_magnitudes(brightness: Array, chi_square: float, degrees: int) -> None:
-    """Warns where the brightnesses look like magnitudes. Those between 0 and 3 can also be intensities, relative to their mean for example; a bad fit makes them suspicious."""
+    """Warns where the fit is bad and the brightnesses can be magnitudes. Without degrees of freedom no fit is bad; then numbers that relative intensities seldom have are enough."""
     least, most = float(brightness.min()), float(brightness.max())
     bad = degrees > 0 and chi_square / degrees > largest_reduced(degrees)
-    if most <= FAINTEST and (least >= BRIGHTEST or bad):
+    if most <= FAINTEST and (bad or (degrees <= 0 and least >= BRIGHTEST)):
         warnings.warn(
             f"the brightnesses lie between {least:.3g} and {most:.3g}{', and the fit is bad' if bad else ''}: if they are magnitudes m, give the intensities 10**(-0.4*m) "
             "with the standard deviations 0.921*intensity*sigma",
