@@ -8,7 +8,7 @@
 /// Ticks of a second of the clock.
 pub const TICKS: f64 = 131_072.0;
 
-/// Pieces of the clock: first tick, its time [s of TDB past J2000], seconds of TDB in a second of the clock. The first three have widths of 2^36, 2^30 and 2^20 s.
+/// Pieces of the clock: first tick, its time \[s of TDB past J2000\], seconds of TDB in a second of the clock. The first three have widths of 2^36, 2^30 and 2^20 s.
 pub const PIECES: [(f64, f64, f64); 4] = [
     (0.0, FIRST, 9_007_199_254_740_992.0),
     (1.0, -1_074_790_400.0, 140_737_488_355_328.0),
@@ -16,10 +16,10 @@ pub const PIECES: [(f64, f64, f64); 4] = [
     (4.0, 0.0, 1.0),
 ];
 
-/// The first time that the clock holds [s of TDB past J2000]: in the year −212.
+/// The first time that the clock holds \[s of TDB past J2000\]: in the year −212.
 pub const FIRST: f64 = -69_794_267_136.0;
 
-/// The last time that the clock holds [s of TDB past J2000]: after 31,000 years.
+/// The last time that the clock holds \[s of TDB past J2000\]: after 31,000 years.
 pub const LAST: f64 = 1e12;
 
 /// The piece that holds a time.
@@ -27,7 +27,7 @@ fn piece(time: f64) -> (f64, f64, f64) {
     PIECES.into_iter().rev().find(|piece| piece.1 <= time).unwrap_or(PIECES[0])
 }
 
-/// Ticks of the clock at a time [s of TDB past J2000], as CSPICE computes them.
+/// Ticks of the clock at a time \[s of TDB past J2000\], as CSPICE computes them.
 ///
 /// ```
 /// use andoyer_kernels::clock::ticks;
@@ -38,13 +38,13 @@ pub fn ticks(time: f64) -> f64 {
     tick + (time - start) * (TICKS / rate)
 }
 
-/// The time of a tick [s of TDB past J2000].
+/// The time of a tick \[s of TDB past J2000\].
 fn time(ticks: f64) -> f64 {
     let (tick, start, rate) = PIECES.into_iter().rev().find(|piece| piece.0 <= ticks).unwrap_or(PIECES[0]);
     start + (ticks - tick) * (rate / TICKS)
 }
 
-/// The nearest time that both a double and the clock hold exactly [s of TDB past J2000].
+/// The nearest time that both a double and the clock hold exactly \[s of TDB past J2000\].
 ///
 /// ```
 /// use andoyer_kernels::clock::{held, rounding};
@@ -67,12 +67,12 @@ pub fn around(at: f64) -> [f64; 2] {
     [if near > at { time(ticks.next_down()) } else { near }, if near < at { time(ticks.next_up()) } else { near }]
 }
 
-/// Seconds of TDB in a tick at a time [s of TDB past J2000].
+/// Seconds of TDB in a tick at a time \[s of TDB past J2000\].
 pub fn rate(time: f64) -> f64 {
     piece(time).2 / TICKS
 }
 
-/// Bound of the difference [s] between a time near `time`, SPICE's double of it, and the time of the tick that this becomes. It is smaller nearer to J2000.
+/// Bound of the difference \[s\] between a time near `time`, SPICE's double of it, and the time of the tick that this becomes. It is smaller nearer to J2000.
 pub fn rounding(time: f64) -> f64 {
     let (_, start, rate) = piece(time);
     let next = PIECES.iter().find(|piece| piece.1 > start);

@@ -2,7 +2,7 @@
 //!
 //! The table has the frames of toolkit N67 (Frames Required Reading, "Built-in inertial frames"); a test compares it with CSPICE.
 
-/// An inertial frame: name, the frame that it is defined from, rotations (arcseconds, axis). The matrix from that frame is the product [a₁] [a₂] [a₃].
+/// An inertial frame: name, the frame that it is defined from, rotations (arcseconds, axis). The matrix from that frame is the product \[a₁\] \[a₂\] \[a₃\].
 struct Inertial(&'static str, i32, &'static [(f64, usize)]);
 
 const J2000: i32 = 1;

@@ -29,8 +29,8 @@ impl Head {
 impl<W: Write + Seek> Daf<W> {
     /// A segment of type 3: uniform rotation from each record to the next.
     ///
-    /// `ticks`: increasing, one or more. `attitudes`: unit quaternions [x, y, z, w] that rotate components of the body's axes into inertial ones. `rates`: angular velocities
-    /// in inertial components [rad/s]. `starts`: those of the ticks that begin an interval of interpolation; the first of the ticks is the first of them.
+    /// `ticks`: increasing, one or more. `attitudes`: unit quaternions \[x, y, z, w\] that rotate components of the body's axes into inertial ones. `rates`: angular velocities
+    /// in inertial components \[rad/s\]. `starts`: those of the ticks that begin an interval of interpolation; the first of the ticks is the first of them.
     ///
     /// # Errors
     /// Those of the stream; [`io::ErrorKind::InvalidInput`] for lists of different lengths or ticks that do not increase.
@@ -58,7 +58,7 @@ impl<W: Write + Seek> Daf<W> {
         self.array(&head.name, [ticks[0], ticks[ticks.len() - 1]], &integers, &parts)
     }
 
-    /// A segment of type 2: from each tick to the next a rotation with the angular velocity of the record, in inertial components [rad/s]. `ticks` has one entry more than
+    /// A segment of type 2: from each tick to the next a rotation with the angular velocity of the record, in inertial components \[rad/s\]. `ticks` has one entry more than
     /// the records, and `seconds` has the seconds a tick of each record.
     ///
     /// # Errors
@@ -83,9 +83,9 @@ impl<W: Write + Seek> Daf<W> {
         self.array(&head.name, [ticks[0], ticks[count]], &[head.code, head.frame, 2, 1], &parts)
     }
 
-    /// A segment of a binary PCK of type 2: Chebyshev polynomials of the angles φ, δ, W, with the matrix [W]₃ [δ]₁ [φ]₃ from the inertial frame to the body's axes.
+    /// A segment of a binary PCK of type 2: Chebyshev polynomials of the angles φ, δ, W, with the matrix \[W\]₃ \[δ\]₁ \[φ\]₃ from the inertial frame to the body's axes.
     ///
-    /// The intervals have the length `length` [s]; the first begins at `start`, and the last ends at `end` [s of TDB past J2000]. `coefficients` has for each interval those of φ, of δ and of W,
+    /// The intervals have the length `length` \[s\]; the first begins at `start`, and the last ends at `end` \[s of TDB past J2000\]. `coefficients` has for each interval those of φ, of δ and of W,
     /// `degree + 1` each.
     ///
     /// # Errors

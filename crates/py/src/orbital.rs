@@ -18,6 +18,7 @@ use crate::scene::arguments::{disturbing_bodies, epoch as given_epoch, not_a_bod
 use crate::scene_class::Scene;
 
 type Array = Py<PyArrayDyn<f64>>;
+type Parts = (Py<PyAny>, Array, Array, Array);
 
 #[pymethods]
 impl Scene {
@@ -226,7 +227,7 @@ impl Orbital {
         Self { times, attitude, angles, angular_velocity }
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Py<PyAny>, Array, Array, Array))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Parts)> {
         let (py, own) = (slf.py(), slf.get());
         let [attitude, angles, rates] =
             [&own.attitude, &own.angles, &own.angular_velocity].map(|array| array.clone_ref(py));

@@ -140,8 +140,8 @@ BAD_LINES = {
     "unknown command": (["dance"], "dance"),
     "missing scene": (["plan", "absent.toml"], "absent.toml"),
     "missing output": (["propagate", "SCENE"], "--output"),
-    "unknown ending": (["propagate", "SCENE", "-o", "out.txt"], r"out\.txt.*\.csv, \.npz, \.parquet, \.aem or \.bc"),
-    "no ending": (["propagate", "SCENE", "-o", "out"], r"\.csv, \.npz, \.parquet, \.aem or \.bc"),
+    "unknown ending": (["propagate", "SCENE", "-o", "out.txt"], r"out\.txt.*\.csv, \.npz, \.parquet, \.aem, \.bc or \.bpc"),
+    "no ending": (["propagate", "SCENE", "-o", "out"], r"\.csv, \.npz, \.parquet, \.aem, \.bc or \.bpc"),
     "no directory": (["propagate", "SCENE", "-o", "absent/out.csv"], "absent"),
     "NaN start": (["propagate", "SCENE", "-o", "out.csv", "--start", "nan"], "--start: must be a finite number: got 'nan'"),
     "text start": (["propagate", "SCENE", "-o", "out.csv", "--start", "noon"], "argument --start: must be a finite number: got 'noon'"),
@@ -159,7 +159,7 @@ BAD_LINES = {
     "NaN step": (["propagate", "SCENE", "-o", "out.csv", "--step", "nan"], "--step.*finite"),
     "tiny step": (["propagate", "SCENE", "-o", "out.csv", "--step", "1e-300"], "--step.*at most 1000000000 samples"),
     "samples and step": (["propagate", "SCENE", "-o", "out.csv", "--samples", "3", "--step", "1"], "--samples.*--step|--step.*--samples"),
-    "date of a table": (["propagate", "SCENE", "-o", "out.csv", "--date", "2026-01-01"], "--date: goes with a .aem or .bc alone"),
+    "date of a table": (["propagate", "SCENE", "-o", "out.csv", "--date", "2026-01-01"], "--date: goes with a .aem or .bc or .bpc alone"),
     "no date": (["propagate", "SCENE", "-o", "out.aem", "--date", "noon"], "--date: must be a date like .*: got 'noon'"),
     "date in a zone": (["propagate", "SCENE", "-o", "out.aem", "--date", "2026-01-01T00:00:00+01:00"], "--date.*without a zone"),
     "unknown time system": (["propagate", "SCENE", "-o", "out.aem", "--time-system", "UT1"], "--time-system.*UT1"),
@@ -337,7 +337,7 @@ def test_help_ends_with_examples_that_are_parsed(command, capsys):
 def test_no_command_is_one_line_that_names_the_commands():
     done = run()
     assert done.returncode == 2 and done.stdout == ""
-    assert done.stderr == "andoyer: error: a command is missing: propagate, plot, code, plan, librations, bodies, series (--help says more)\n"
+    assert done.stderr == "andoyer: error: a command is missing: propagate, convert, plot, code, plan, librations, bodies, series (--help says more)\n"
 
 
 @pytest.mark.parametrize("ending", ["csv", "npz", "parquet", "aem", "png"])

@@ -1,4 +1,4 @@
-//! Binary PCK of a motion: Chebyshev polynomials of the angles φ, δ, W, with the matrix [W]₃ [δ]₁ [φ]₃ from an inertial frame to the body's axes (PCK Required Reading).
+//! Binary PCK of a motion: Chebyshev polynomials of the angles φ, δ, W, with the matrix \[W\]₃ \[δ\]₁ \[φ\]₃ from an inertial frame to the body's axes (PCK Required Reading).
 //!
 //! φ and W are singular where the body's axis 3 points to a pole of the inertial frame (sin δ = 0). Each segment has an inertial frame of its own, so it takes the one of
 //! J2000, ECLIPJ2000 and GALACTIC from whose poles the axis stays farthest; SPICE turns the result to any frame that is asked for. The poles of the three are not on one great circle, so

@@ -14,7 +14,7 @@ use super::options::{KernelOptions, WriteError, Written, beside};
 pub struct AttitudeTable<'a> {
     /// Increasing times \[s\].
     pub times: &'a [f64],
-    /// Quaternions [x, y, z, w] that rotate body components into inertial ones.
+    /// Quaternions \[x, y, z, w\] that rotate body components into inertial ones.
     pub attitudes: &'a [[f64; 4]],
     /// Angular velocities in body components \[rad/s\].
     pub rates: Option<&'a [[f64; 3]]>,

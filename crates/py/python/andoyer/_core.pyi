@@ -823,10 +823,15 @@ def normalize(
 ) -> BirkhoffNormalForm:
     """Computes the Birkhoff normal form of a polynomial Hamiltonian about an equilibrium at the origin."""
 
-def _frame_code(body_frame: str) -> int: ...
+def _frame_code(body_frame: str) -> int:
+    """The code of a frame that has no other: computed from its name."""
+
 def _write_motion(
     path: Any, motion: Motion, interval: tuple[float, float], pck: bool, names: tuple[Any, ...], options: tuple[Any, ...]
-) -> tuple[int, int, float]: ...
+) -> tuple[int, int, float]:
+    """Writes a motion as a C-kernel, or as a binary PCK; type, number of records and error."""
+
 def _write_samples(
     path: Any, times: Any, attitudes: Any, rates: Any, longest_step: float, names: tuple[Any, ...], options: tuple[Any, ...]
-) -> tuple[int, int, float]: ...
+) -> tuple[int, int, float]:
+    """Writes attitudes at given times as a C-kernel."""

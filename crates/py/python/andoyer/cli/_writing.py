@@ -24,7 +24,7 @@ KERNELS = {".bc": ".tsc", ".bpc": ".tf"}
 
 OF_MESSAGE = {"date", "time_system", "frame", "body_frame", "name", "object_id", "originator", "center", "attitude_type", "interpolation", "version"}
 OF_KERNEL = {"date", "time_system", "frame", "body_frame", "instrument", "segment_name", "clock", "clock_id", "center", "interpolation_error"}
-OF_PCK = OF_KERNEL - {"clock", "clock_id"}
+OF_PCK = OF_KERNEL - {"clock", "clock_id", "segment_name"}
 OF = {".aem": OF_MESSAGE, ".bc": OF_KERNEL, ".bpc": OF_PCK}
 OPTIONS = {"version": "aem-version", "name": "object-name"}
 """Options with other names than the fields that they set."""
@@ -65,7 +65,7 @@ def add_codes(command: argparse.ArgumentParser) -> argparse._ArgumentGroup:
     """Add the options of the codes of a kernel."""
     kernel = command.add_argument_group("a .bc or .bpc, which chooses its times itself; beside it a .tsc or .tf is written")
     kernel.add_argument("--instrument", type=whole, metavar="CODE", help="code of the body's axes (default: computed from --body-frame)")
-    kernel.add_argument("--segment-name", dest="segment_name", type=words, metavar="NAME", help=f"name of the segments (default: {Kernel.segment})")
+    kernel.add_argument("--segment-name", dest="segment_name", type=words, metavar="NAME", help=f"name of the segments of a .bc (default: {Kernel.segment})")
     kernel.add_argument("--clock", metavar="FILE", help="clock kernel of a .bc, needs SpiceyPy (default: a clock of ephemeris seconds is written)")
     kernel.add_argument("--clock-id", type=whole, metavar="CODE", help="code of the clock of a .bc (default: -999; with --clock from that of the body's axes)")
     return kernel
@@ -183,7 +183,7 @@ def write_kernel(path: Path, motion: andoyer.Motion, interval: tuple[float, floa
             if path.suffix.lower() == ".bc":
                 output.write_ck(path, motion, interval, kernel, progress=progress, force=force, **error)
             else:
-                names = {key: getattr(kernel, key) for key in ("frame", "body_frame", "center", "segment", "date", "time_system")}
+                names = {key: getattr(kernel, key) for key in ("frame", "body_frame", "center", "date", "time_system")}
                 output.write_pck(path, motion, interval, body=kernel.instrument, progress=progress, force=force, **names, **error)
     finally:
         progress.close()

@@ -153,10 +153,8 @@ def write_pck(
     body_frame: str = "ANDOYER_BODY",
     center: int | None = None,
     interpolation_error: float = 1e-9,
-    segment: str = "ANDOYER",
     date: datetime = J2000,
     time_system: str = "TDB",
-    comments: tuple[str, ...] = (),
     progress: Progress = silent,
     force: bool = True,
 ) -> Written:
@@ -175,7 +173,7 @@ def write_pck(
         First and last time, as ``interval`` of `write_ck`.
     body : int, optional
         Class ID of the body frame, as ``instrument`` of `Kernel`; not one by which SPICE has a rotating frame of its own.
-    frame, body_frame, center, segment, date, time_system, comments
+    frame, body_frame, center, date, time_system
         As the fields of `Kernel`. The frames of C-kernels and of PCK need different names.
     interpolation_error, progress, force
         As in `write_ck`.
@@ -197,10 +195,9 @@ def write_pck(
     >>> written.type, written.records < 60, written.error < 1.01e-9
     (2, True, True)
     """
-    fields = {"frame": frame, "body_frame": body_frame, "center": center, "segment": segment, "date": date, "time_system": time_system, "comments": comments}
-    kernel = Kernel(body, **fields)  # type: ignore[arg-type]
+    kernel = Kernel(body, body_frame, frame, date=date, time_system=time_system, center=center)  # type: ignore[arg-type]
     zero, ends = _times(motion, span, kernel)
-    names = (body_frame, frame, kernel.instrument, segment, center, None, False)
+    names = (body_frame, frame, kernel.instrument, kernel.segment, center, None, False)
     return Written(*_write_motion(path, motion, ends, True, names, (zero, float(interpolation_error), force, _comments(kernel), None, progress)))
 
 

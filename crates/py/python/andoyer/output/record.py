@@ -7,5 +7,7 @@ class ShortRecord:
     """Base of dataclasses whose fields all have defaults."""
 
     def __repr__(self) -> str:
-        given = [f"{field.name}={getattr(self, field.name)!r}" for field in fields(self) if getattr(self, field.name) != field.default]  # type: ignore[arg-type]
+        default = type(self)()
+        names = [field.name for field in fields(self)]  # type: ignore[arg-type]
+        given = [f"{name}={getattr(self, name)!r}" for name in names if getattr(self, name) != getattr(default, name)]
         return f"{type(self).__name__}({', '.join(given)})"

@@ -5,7 +5,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from andoyer._core import Samples
+from andoyer._core import Motion, Samples
 from andoyer._refusal import refusal
 from andoyer.interop._foreign import plain
 
@@ -39,15 +39,15 @@ def rows(samples: Samples) -> Array:
 
 
 def given_samples(value: Any) -> Samples:
-    """The samples that a writer was given: `Samples`, or what has them, as a `Table`.
+    """The samples that a writer was given: `Samples`, or what has them, as a `Table` does.
 
     Raises
     ------
     TypeError
         Anything else, a `Motion` for example.
     """
-    samples = getattr(value, "samples", value)
-    if not isinstance(samples, Samples):
+    samples: Samples = getattr(value, "samples", value)
+    if not all(hasattr(samples, name) for name in ("times", "attitude", "angular_velocity")) or isinstance(samples, Motion):
         raise TypeError(f"samples must be Samples, such as motion.at(times): got {value!r}")
     return samples
 
