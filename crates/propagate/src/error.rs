@@ -278,6 +278,15 @@ andoyer_series::error_table! {
             reason: String = "Why the scene is integrated, or empty.",
         } => Theory, facts("span", *steps, *bound as f64);
 
+        /// A passage of a pericentre that leaves the body with a rotation too fast for the rest of the span.
+        #[error("span: the passage at {time} leaves the body rotating with {rate:.1e} rad per unit of time, and the rest of the span needs more than {steps:.1e} steps; at most {bound} are kept: end the span before this passage", time = Short(*.time))]
+        SpunUp {
+            time: f64 = "The time of the passage.",
+            rate: f64 = "The rate after it.",
+            steps: f64 = "Steps of the rest of the span.",
+            bound: usize = "The largest number of steps.",
+        } => Theory, facts("span", *time, *bound as f64);
+
         /// A motion whose nearby states separate so fast that the attitude at the end of the span is unknown.
         #[error("span = [{first}, {last}]: nearby states separate so fast that the attitude is unknown at its end; the tolerance, {tolerance:e} rad, holds from {start} to {stop}", first = Short(.span[0]), last = Short(.span[1]), start = Short(*.start), stop = Short(*.stop))]
         Unpredictable {

@@ -103,7 +103,7 @@ def test_frame_is_the_two_vector_frame_of_spice():
         assert np.abs(Rotation.from_quat(scene.attitude).as_matrix() - matrix.T).max() < 1e-14
         # h/r² about the normal: the published rate of the frame.
         r, v = np.array([7000e3, -200e3, 300e3]), np.array([-500.0, 5000.0, 5600.0])
-        inertial = Rotation.from_quat(scene.attitude).apply(scene.angular_velocity)
+        inertial = Rotation.from_quat(scene.attitude).apply(np.array(scene.angular_velocity))
         assert inertial == pytest.approx(np.cross(r, v) / (r @ r), rel=1e-13)
 
 

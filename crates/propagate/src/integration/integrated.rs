@@ -62,6 +62,19 @@ impl Integrated {
     /// The motion of a scene about principal axes over its span.
     pub(crate) fn new(scene: &Scene, reason: &str, stop: &AtomicBool) -> Result<Self, Error> {
         let problem = Problem::new(scene, reason)?;
+        Self::of(&problem, scene, stop).map_err(|error| match error {
+            // In the units of the scene.
+            Error::SpunUp { time, rate, steps, bound } => Error::SpunUp {
+                time: scene.state().epoch + scaled(time, -problem.exponent),
+                rate: scaled(rate, problem.exponent),
+                steps,
+                bound,
+            },
+            error => error,
+        })
+    }
+
+    fn of(problem: &Problem, scene: &Scene, stop: &AtomicBool) -> Result<Self, Error> {
         let tolerance = scene.asked_tolerance();
         let phase = problem.phase();
         // Truncation errors of the rates add up over the steps, and their effect on the angle over time.

@@ -20,6 +20,10 @@ const AT_ONCE: usize = 64;
 /// is 1.
 const HOPELESS: f64 = 4.0;
 const TYPICAL: usize = MOST_STEPS / 64;
+/// No step is longer than this rotation \[rad\].
+const LONGEST_STEP: f64 = 4.0;
+/// Steps during which a body must rotate too fast for the rest of the span before it is refused: within a passage of a pericentre it may do so for some hundreds.
+const SUSTAINED: usize = 1 << 14;
 /// Sum of the terms after the last one, relative to the last one: steps are e^−2 of the radius of convergence, so the sum is 0.16.
 const OMITTED: f64 = 0.2;
 /// A step is at most this part of the radius of convergence of each torque. The coefficients of the motion show a torque only where it exceeds the rounding
@@ -257,10 +261,12 @@ impl Task for KeptSteps<'_> {
         let mut workspace = Workspace::new(equations.bodies.len());
         let (mut steps, mut coefficients) = (Vec::new(), Vec::new());
         let (mut kept, forward) = (true, !runner.backward);
+        let mut fast = None;
         while runner.time != target {
             if steps.len() % AT_ONCE == 0 {
                 going(stop).map_err(|_| Error::Stopped)?;
                 affordable(equations, steps.len(), runner.time, target)?;
+                fast = spun_up(&runner, target, (fast, steps.len()))?;
             }
             let knot = next_knot(equations, runner.time.0, forward);
             let end = knot.filter(|knot| knot.0.abs() < target.0.abs()).unwrap_or(target);
@@ -300,4 +306,23 @@ fn affordable(equations: &Equations<4>, steps: usize, now: (f64, f64), target: (
         return Err(Error::TooManySteps { steps: whole, bound: MOST_STEPS, reason: String::new() });
     }
     Ok(())
+}
+
+/// Whether a passage has left the body with a rotation that needs too many steps for the rest of the span. `since` is the time from which on it has been so, with the
+/// number of steps then.
+fn spun_up(
+    runner: &Runner<4>,
+    target: (f64, f64),
+    (since, steps): (Option<(f64, usize)>, usize),
+) -> Result<Option<(f64, usize)>, Error> {
+    let rate = runner.rates.iter().map(|rate| rate * rate).sum::<f64>().sqrt();
+    let needed = (target.0 - runner.time.0).abs() * rate / LONGEST_STEP;
+    if needed <= HOPELESS * MOST_STEPS as f64 {
+        return Ok(None);
+    }
+    let (time, first) = since.unwrap_or((runner.time.0, steps));
+    if steps - first >= SUSTAINED {
+        return Err(Error::SpunUp { time, rate, steps: needed, bound: MOST_STEPS });
+    }
+    Ok(Some((time, first)))
 }

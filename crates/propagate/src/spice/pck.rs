@@ -25,9 +25,9 @@ const ROTATIONS: f64 = 1024.0;
 const MOST: f64 = 1024.0;
 /// Intervals of the whole kernel at most: 2 GB.
 const MOST_RECORDS: usize = 5_000_000;
-/// The frames of the segments: J2000, ECLIPJ2000, GALACTIC. The first is taken where sin δ stays above `FAR`.
+/// The frames of the segments: J2000, ECLIPJ2000, GALACTIC. The first of them is taken in which sin δ stays above `FAR`.
 const FRAMES: [i32; 3] = [1, 17, 13];
-const FAR: f64 = 0.3;
+const FAR: f64 = 0.15;
 /// A segment is halved where sin δ falls below this in all frames.
 const NEAR: f64 = 0.05;
 /// Times of a segment at which sin δ is looked at, for each of its rotations.
@@ -163,10 +163,8 @@ impl<'a> Fit<'a> {
             let distance = |attitude: &UnitQuaternion<f64>| (turn * (attitude * Vector3::z())).xy().norm();
             samples.attitudes.iter().map(distance).fold(1.0, f64::min)
         });
-        if least[0] >= FAR {
-            return Ok((0, least[0]));
-        }
-        let farthest = (0..3).max_by(|&one, &other| least[one].total_cmp(&least[other])).unwrap_or(0);
+        let first = (0..3).find(|&place| least[place] >= FAR);
+        let farthest = first.or_else(|| (0..3).max_by(|&one, &other| least[one].total_cmp(&least[other]))).unwrap_or(0);
         Ok((farthest, least[farthest]))
     }
 

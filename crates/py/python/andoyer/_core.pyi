@@ -261,7 +261,7 @@ class Scene:
         frame: Literal["rtn", "lvlh"] = "rtn",
         relative: bool = True,
         sequence: str = "ZYX",
-        epoch: Any = None,
+        epoch: Any = 0.0,
         of: int = 0,
         **options: Any,
     ) -> Scene:

@@ -161,8 +161,10 @@ MOST = 10_000_000
 
 def whole(argument: str, value: Any, least: int) -> int:
     """A whole number from the least to `MOST`."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= MOST:
-        raise refusal(argument, value, (least, MOST), f"= {value!r}: it must be a whole number, {least} or more and at most {MOST}")
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
+        raise refusal(argument, value, least, f"= {value!r}: it must be a whole number, {least} or more")
+    if value > MOST:
+        raise refusal(argument, value, MOST, f"= {value!r}: it must be at most {MOST}")
     return int(value)
 
 
