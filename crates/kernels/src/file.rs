@@ -19,37 +19,62 @@ impl Drop for Temporary {
 }
 
 /// Writes a file under a temporary name in the same folder. The file gets the name `path` when `write` returns without an error; otherwise an old file stays as it is.
-/// A link is followed. A process that is killed leaves the temporary file, whose name begins with a dot.
+/// A link is followed. A process that is killed leaves the temporary file, whose name begins with a dot. `failed` makes the error of an error of the system.
 ///
 /// # Errors
 /// - The errors of `write`.
 /// - [`io::ErrorKind::AlreadyExists`] if the file exists and `force` is false.
-/// - [`io::ErrorKind::IsADirectory`] for a folder; what the system says of a folder that does not exist or cannot be written, and of a full disk.
-pub fn whole<E: From<io::Error>, T>(
+/// - [`io::ErrorKind::IsADirectory`] for a folder, [`io::ErrorKind::NotSeekable`] for a device or a pipe; what the system says of a folder that does not exist or cannot be
+///   written, and of a full disk.
+pub fn whole<E, T>(
     path: &Path,
     force: bool,
+    failed: impl Fn(io::Error) -> E,
     write: impl FnOnce(&mut File) -> Result<T, E>,
 ) -> Result<T, E> {
-    static COUNT: AtomicU64 = AtomicU64::new(0);
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let target = fs::canonicalize(path).or_else(|_| fs::read_link(path)).unwrap_or_else(|_| path.to_owned());
+    let target = path.parent().map_or(target.clone(), |folder| folder.join(&target));
+    let kind = |kind: io::ErrorKind| failed(kind.into());
     if target.is_dir() {
-        return Err(io::Error::from(io::ErrorKind::IsADirectory).into());
+        return Err(kind(io::ErrorKind::IsADirectory));
+    }
+    if target.exists() && !target.is_file() {
+        return Err(kind(io::ErrorKind::NotSeekable));
     }
     if !force && target.exists() {
-        return Err(io::Error::from(io::ErrorKind::AlreadyExists).into());
+        return Err(kind(io::ErrorKind::AlreadyExists));
     }
-    let stem: String = target.file_stem().unwrap_or_default().to_string_lossy().chars().take(LONGEST_STEM).collect();
-    let ending = target.extension().map_or_else(String::new, |ending| format!(".{}", ending.to_string_lossy()));
-    let number = COUNT.fetch_add(1, Ordering::Relaxed);
-    let temporary = Temporary(target.with_file_name(format!(".{stem}-{}-{number}{ending}", std::process::id())));
-    let mut file = OpenOptions::new().read(true).write(true).create(true).truncate(true).open(&temporary.0)?;
+    let (temporary, mut file) = created(&target).map_err(&failed)?;
     let written = write(&mut file)?;
     drop(file);
     if force {
-        fs::rename(&temporary.0, &target)?;
+        fs::rename(&temporary.0, &target).map_err(&failed)?;
     } else {
-        // A link to an existing name is refused by the system, a renaming is not.
-        fs::hard_link(&temporary.0, &target)?;
+        named(&temporary.0, &target).map_err(&failed)?;
     }
     Ok(written)
+}
+
+/// A new file beside the target.
+fn created(target: &Path) -> io::Result<(Temporary, File)> {
+    static COUNT: AtomicU64 = AtomicU64::new(0);
+    let stem: String = target.file_stem().unwrap_or_default().to_string_lossy().chars().take(LONGEST_STEM).collect();
+    let ending = target.extension().map_or_else(String::new, |ending| format!(".{}", ending.to_string_lossy()));
+    loop {
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let path = target.with_file_name(format!(".{stem}-{}-{number}{ending}", std::process::id()));
+        match OpenOptions::new().read(true).write(true).create_new(true).open(&path) {
+            Ok(file) => return Ok((Temporary(path), file)),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+/// Names a file unless the name is taken. The system refuses a link to an existing name, and does not refuse a renaming; some file systems have no links.
+fn named(temporary: &Path, target: &Path) -> io::Result<()> {
+    match fs::hard_link(temporary, target) {
+        Err(error) if error.kind() != io::ErrorKind::AlreadyExists && !target.exists() => fs::rename(temporary, target),
+        result => result,
+    }
 }

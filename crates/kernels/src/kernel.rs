@@ -62,7 +62,7 @@ pub struct Kernel {
 impl Kernel {
     /// A kernel for the frame `body_frame` against the inertial frame `frame`.
     ///
-    /// Its code is −999000 for the name ANDOYER_BODY. For any other name it is a multiple of 1000 from −2,147,482,000 to −1,000,000,000 that is computed from the name,
+    /// Its code is −999000 for the name ANDOYER_BODY. For any other name it is a number from −2,147,483,646 to −1,000,000,000 that is computed from the name,
     /// the same in every process.
     ///
     /// ```
@@ -174,7 +174,7 @@ impl Kernel {
 
     /// The code of a frame that has no other, computed from its name.
     pub fn code_of(body_frame: &str) -> i32 {
-        if body_frame == DEFAULT.0 { DEFAULT.1 } else { -1000 * (1_000_000 + (hash(body_frame) % 1_147_483) as i32) }
+        if body_frame == DEFAULT.0 { DEFAULT.1 } else { derived(body_frame, 0) }
     }
 
     /// Code of the clock: the given one, or −999; the thousands of the frame's code for a clock of the user.
@@ -182,9 +182,9 @@ impl Kernel {
         self.clock.unwrap_or(if self.users_clock && self.code <= -1000 { self.code / 1000 } else { CLOCK })
     }
 
-    /// Code of the centre: the given one; otherwise the spacecraft of a code −1000 or below, which is its thousands, or the body that has the code itself.
+    /// Code of the centre: the given one; otherwise the spacecraft of a code from −1000 to −999,999,999, which is its thousands, or the code itself.
     pub fn center(&self) -> i32 {
-        self.center.unwrap_or(if self.code <= -1000 { self.code / 1000 } else { self.code })
+        self.center.unwrap_or(if (-999_999_999..=-1000).contains(&self.code) { self.code / 1000 } else { self.code })
     }
 
     /// The text kernel beside a C-kernel: the frame and, if it is not the user's, the clock.
@@ -193,14 +193,14 @@ impl Kernel {
         let mut text = self.text(if self.users_clock { "FK" } else { "SCLK" }, code, 3);
         text += &format!("CK_{code}_SCLK = {clock}\nCK_{code}_SPK = {}\n", self.center());
         if !self.users_clock {
-            text += &clock_text(-clock);
+            text += &clock_text(clock.unsigned_abs());
         }
         text + "\n\\begintext\n"
     }
 
-    /// The text kernel beside a binary PCK: the frame. Its own code is from 1,400,000 to 1,999,999 and computed from its name, so that a C-kernel for the same code is not disturbed.
+    /// The text kernel beside a binary PCK: the frame. Its own code is computed from its name too, so that a C-kernel for the same code is not disturbed.
     pub fn text_of_pck(&self) -> String {
-        let frame = 1_400_000 + (hash(&self.body_frame) % 600_000) as i32;
+        let frame = derived(&self.body_frame, 1);
         self.text("FK", frame, 2) + "\n\\begintext\n"
     }
 
@@ -216,7 +216,7 @@ impl Kernel {
 }
 
 /// The clock of [`crate::clock`] as a text kernel.
-fn clock_text(number: i32) -> String {
+fn clock_text(number: u32) -> String {
     let mut text = format!("\nSCLK_KERNEL_ID = ( @2000-01-01 )\nSCLK_DATA_TYPE_{number} = ( 1 )\n");
     let variables = [
         ("TIME_SYSTEM", "1".to_owned()),
@@ -233,7 +233,9 @@ fn clock_text(number: i32) -> String {
     text + &format!("SCLK_PARTITION_START_{number} = ( 0.0 )\nSCLK_PARTITION_END_{number} = ( {:.0} )\n", LAST * TICKS)
 }
 
-/// FNV-1a of the name, 64 bits.
-fn hash(name: &str) -> u64 {
-    name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+/// A code from −2,147,483,646 to −1,000,000,000 from FNV-1a, 64 bits, of the name and a number. Among 1000 names two have the same one with a probability of 4e-4.
+fn derived(name: &str, number: u8) -> i32 {
+    let byte = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    let hash = byte(name.bytes().fold(0xcbf2_9ce4_8422_2325, byte), number);
+    -1_000_000_000 - ((hash >> 16) % 1_147_483_647) as i32
 }

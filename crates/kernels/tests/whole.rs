@@ -11,15 +11,20 @@ fn an_error_leaves_the_old_file_and_nothing_else() -> Result<(), Error> {
     fs::create_dir_all(&folder)?;
     let path = folder.join("a.bc");
     fs::write(&path, b"old")?;
-    let failed: Result<(), Error> = whole(&path, true, |file| {
-        file.write_all(b"half a")?;
-        Err(ErrorKind::StorageFull.into())
-    });
+    let failed: Result<(), Error> = whole(
+        &path,
+        true,
+        |error| error,
+        |file| {
+            file.write_all(b"half a")?;
+            Err(ErrorKind::StorageFull.into())
+        },
+    );
     assert_eq!(failed.map_err(|error| error.kind()), Err(ErrorKind::StorageFull));
-    let kept: Result<(), Error> = whole(&path, false, |_| Ok(()));
+    let kept: Result<(), Error> = whole(&path, false, |error| error, |_| Ok(()));
     assert_eq!(kept.map_err(|error| error.kind()), Err(ErrorKind::AlreadyExists));
     assert_eq!((fs::read(&path)?, fs::read_dir(&folder)?.count()), (b"old".to_vec(), 1));
-    whole::<Error, _>(&path, true, |file| file.write_all(b"new"))?;
+    whole(&path, true, |error: Error| error, |file| file.write_all(b"new"))?;
     assert_eq!((fs::read(&path)?, fs::read_dir(&folder)?.count()), (b"new".to_vec(), 1));
     fs::remove_dir_all(folder)
 }

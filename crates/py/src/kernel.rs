@@ -123,22 +123,19 @@ fn raised(problem: WriteError, path: &std::path::Path) -> PyErr {
             let message = refused.to_string();
             input(refused.argument, refused.value, refused.allowed, message)
         }
-        WriteError::System(problem) => {
+        WriteError::System(problem, failed) => {
+            let failed = if failed.as_os_str().is_empty() { path } else { &failed };
             let number = problem.raw_os_error().or(match problem.kind() {
                 io::ErrorKind::AlreadyExists => Some(17),
                 io::ErrorKind::IsADirectory => Some(21),
                 io::ErrorKind::FileTooLarge => Some(27),
+                io::ErrorKind::NotSeekable => Some(29),
                 _ => None,
             });
-            match number {
-                // Python selects the class by the number.
-                Some(number) => PyOSError::new_err((
-                    number,
-                    io::Error::from_raw_os_error(number).to_string(),
-                    path.display().to_string(),
-                )),
-                None => PyOSError::new_err(problem.to_string()),
-            }
+            let Some(number) = number else { return PyOSError::new_err(problem.to_string()) };
+            let said = Python::attach(|py| py.import("os")?.call_method1("strerror", (number,))?.extract::<String>());
+            // Python selects the class by the number.
+            PyOSError::new_err((number, said.unwrap_or_else(|_| problem.to_string()), failed.display().to_string()))
         }
         problem => PyOSError::new_err(problem.to_string()),
     }

@@ -381,3 +381,116 @@ def forked(work):
     path, expected = work
     write_ck(path, TUMBLER, (0.0, 100.0))
     return path.read_bytes() == expected
+
+
+def test_samples_half_a_turn_apart_are_refused(tmp_path):
+    """With 4 rad/s at 1 Hz SPICE turns the other way; the error was stated as 3e-14, and was 3.12 rad."""
+    spinner = andoyer.Scene(andoyer.Body([1, 1.5, 2]), [0, 0, 0, 1], [0, 0, 4.0]).solve()
+    for rates in ([0, 0, 4.0], [0, 0, 2 * np.pi]):
+        spinner = andoyer.Scene(andoyer.Body([1, 1.5, 2]), [0, 0, 0, 1], rates).solve()
+        with pytest.raises(andoyer.InputError, match=r"samples must be so near in time .*: got \d\.\d+ rad between times\[0\] and times\[1\]"):
+            write_ck(tmp_path / "a.bc", spinner.at(np.arange(60.0)))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_two_samples_without_rates_have_no_estimate(tmp_path):
+    message = tmp_path / "a.aem"
+    write_aem(message, TUMBLER.at([0.0, 3.0]), andoyer.output.Heading(attitude_type="QUATERNION"))
+    assert write_ck(tmp_path / "a.bc", read_aem(message)).error == np.inf
+    write_aem(message, TUMBLER.at([0.0, 0.3, 0.6, 10.0, 10.3, 10.6]), andoyer.output.Heading(attitude_type="QUATERNION"))
+    assert write_ck(tmp_path / "a.bc", read_aem(message), longest_step=0.3).error < 0.1
+
+
+def test_longest_step_as_long_as_the_step_leaves_no_gap(tmp_path, furnished):
+    kernel = Kernel(body_frame="STEPS", date=datetime(2026, 1, 1))
+    write_ck(tmp_path / "a.bc", TUMBLER.at(np.arange(1000) * 0.1), kernel=kernel, longest_step=0.1)
+    furnished(tmp_path / "a.bc")
+    assert len(spice.ckcov(str(tmp_path / "a.bc"), kernel.instrument, True, "INTERVAL", 0.0, "TDB")) == 2
+
+
+def test_sample_alone_is_in_the_kernel(tmp_path, furnished):
+    date = datetime(1960, 1, 1)
+    zero = (date - datetime(2000, 1, 1, 12)).total_seconds()
+    samples = TUMBLER.at([0.0, 1.0, 2.0, 10.1, 20.0, 21.0])
+    write_ck(tmp_path / "a.bc", samples, kernel=Kernel(body_frame="ALONE", date=date), longest_step=2.0)
+    furnished(tmp_path / "a.bc")
+    assert angle_between(read("ALONE", [zero + 10.1]), samples.attitude[3:4])[0] < 2e-5
+
+
+CLOCK = r"""KPL/SCLK
+\begindata
+SCLK_KERNEL_ID = ( @2020-01-01 )
+SCLK_DATA_TYPE_5 = ( 1 )
+SCLK01_TIME_SYSTEM_5 = ( 1 )
+SCLK01_N_FIELDS_5 = ( 2 )
+SCLK01_MODULI_5 = ( 10000000000 256 )
+SCLK01_OFFSETS_5 = ( 0 0 )
+SCLK01_OUTPUT_DELIM_5 = ( 1 )
+SCLK_PARTITION_START_5 = ( 0.0 )
+SCLK_PARTITION_END_5 = ( 2.56E12 )
+SCLK01_COEFFICIENTS_5 = ( 0.0 -7.0E8 1.0   3.584E11 7.0E8 1.00001 )
+\begintext
+"""
+
+
+@pytest.mark.parametrize("rates", [[0, 0, 1e-3], [1e-4, 2e-4, 1e-3]], ids=["uniform", "tumbling"])
+def test_clock_whose_rate_changes_is_followed(rates, tmp_path, furnished):
+    """A record of type 2 over the change was 4.3e-3 rad off, with 1e-8 stated."""
+    clock = tmp_path / "clock.tsc"
+    clock.write_text(CLOCK, encoding="ascii")
+    motion = solved(rates)
+    interval = (7e8 - 1e5, 7e8 + 1e5)
+    result = write_ck(tmp_path / "a.bc", motion, interval, Kernel(body_frame="CLOCKED", clock=clock, clock_id=-5), interpolation_error=1e-7)
+    spice.furnsh(str(clock))
+    furnished(tmp_path / "a.bc")
+    assert worst("CLOCKED", motion, interval, count=2000) < result.error + ROUNDING < 1e-5
+    with pytest.raises(andoyer.InputError, match="clock = .*: the text kernel beside .* has this name"):
+        write_ck(tmp_path / "clock.bc", motion, interval, Kernel(clock=clock, clock_id=-5))
+    assert clock.read_text(encoding="ascii") == CLOCK
+
+
+def test_scene_with_a_calendar_epoch_keeps_its_digits(tmp_path, furnished):
+    """Times past J2000 were taken for interpolation errors: 1e-8 rad was refused at 1 rad/s."""
+    time = pytest.importorskip("astropy.time")
+    epoch = time.Time("2026-04-13T21:00", scale="tdb")
+    motion = andoyer.Scene(andoyer.Body([1, 1.5, 2]), UNIT, [0.1, 0.2, 1.0], epoch=epoch).solve()
+    for write, name in ((write_ck, "a.bc"), (write_pck, "a.bpc")):
+        result = write(tmp_path / name, motion, (epoch, epoch + time.TimeDelta(60, format="sec")), interpolation_error=1e-8)
+        assert result.error < 1.5e-7
+
+
+def test_intervals_and_codes_that_no_kernel_has_are_typed_errors(tmp_path):
+    with pytest.raises(andoyer.InputError, match="interval must be two finite times"):
+        write_pck(tmp_path / "a.bpc", TUMBLER, (0, 1e-8), date=datetime(2026, 1, 1))
+    for interval in ((0.0,), (0.0, 1.0, 2.0), None, "now"):
+        with pytest.raises(andoyer.InputError, match="interval"):
+            write_ck(tmp_path / "a.bc", TUMBLER, interval)
+    for write, name in ((write_ck, "a.bc"), (write_pck, "a.bpc")):
+        with pytest.raises(andoyer.InputError, match="interpolation_error must be so large that at most"):
+            write(tmp_path / name, TUMBLER, (0, 9e11))
+    for given in ({"instrument": -3_000_000_000}, {"center": 2**40}, {"clock_id": 1.5}):
+        with pytest.raises(andoyer.InputError, match="must be a whole number of 32 bits"):
+            Kernel(**given)
+    with pytest.raises(andoyer.InputError, match="body must be negative or at least 1000000") as caught:
+        write_pck(tmp_path / "a.bpc", TUMBLER, (0, 1), body=399)
+    assert caught.value.argument == "body"
+    with pytest.raises(andoyer.InputError, match="path must be without the ending"):
+        write_ck(tmp_path / "a.tsc", TUMBLER, (0, 1))
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes of Unix")
+def test_pipe_stays_and_the_file_that_is_there_is_named(tmp_path):
+    os.mkfifo(tmp_path / "a.bc")
+    with pytest.raises(OSError, match="seek"):
+        write_ck(tmp_path / "a.bc", TUMBLER, (0, 1))
+    assert not (tmp_path / "a.bc").is_file() and (tmp_path / "a.bc").exists()
+    (tmp_path / "b.tsc").write_text("old", encoding="ascii")
+    with pytest.raises(FileExistsError) as caught:
+        write_ck(tmp_path / "b.bc", TUMBLER, (0, 1), force=False)
+    assert caught.value.filename == str(tmp_path / "b.tsc") and str(caught.value) == f"[Errno 17] File exists: '{tmp_path / 'b.tsc'}'"
+
+
+def test_codes_of_many_names_differ():
+    names = [f"ASTEROID_{number}" for number in range(4000)]
+    assert len({Kernel(body_frame=name).instrument for name in names}) == len(names)

@@ -6,7 +6,7 @@ use std::path::Path;
 use andoyer_kernels::{Daf, Head, Kernel, Refused, clock};
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::nodes::{Sampled, ck_windows, estimate, even, nodes, sampled};
+use super::nodes::{ROTATIONS, Sampled, Source, estimate, even, nodes, window_count};
 use super::options::{KernelOptions, WriteError, Written, beside};
 use crate::input::options::Method;
 use crate::motion::solved::Motion;
@@ -48,14 +48,16 @@ impl Motion {
         mut options: KernelOptions<'_>,
     ) -> Result<Written, WriteError> {
         let ends = options.ends(interval)?;
-        let writer = CkWriter { motion: self, head: Head::of(kernel), ends, interval, zero: options.zero };
+        let source = Source::new(self, interval, options.zero);
+        let writer = CkWriter { source, head: Head::of(kernel), ends };
         let comments = options.comments(kernel, Some(self), options.interpolation_error);
         beside(path, "tsc", &kernel.text_of_ck(), options.force, |file| {
             let mut daf = Daf::ck(BufWriter::new(file), &comments)?;
             let steady = matches!(self.plan().mode(), Mode::PrincipalAxis | Mode::Spherical | Mode::AtRest)
                 && self.scene().asked_disturbing().is_empty()
                 && self.plan().method() != Method::Integrated;
-            let written = if steady {
+            // The rate of a user's clock may change within a record of type 2.
+            let written = if steady && options.ticks.is_none() {
                 writer.uniform(&mut daf, &mut options)?
             } else {
                 writer.tabulated(&mut daf, &mut options)?
@@ -67,21 +69,13 @@ impl Motion {
 }
 
 struct CkWriter<'a> {
-    motion: &'a Motion,
+    source: Source<'a>,
     head: Head,
     /// First and last time \[s of TDB past J2000\].
     ends: [f64; 2],
-    /// First and last time of the motion.
-    interval: [f64; 2],
-    zero: f64,
 }
 
 impl CkWriter<'_> {
-    /// The time of the motion at a time \[s of TDB past J2000\]. The ends are rounded outwards, and the motion may not reach so far.
-    fn own(&self, time: f64) -> f64 {
-        (time - self.zero).clamp(self.interval[0], self.interval[1])
-    }
-
     /// Records of type 2: as many as keep the rounding of the angle of a record below the error, and one for each piece of the clock.
     fn uniform(
         &self,
@@ -92,28 +86,18 @@ impl CkWriter<'_> {
         let mut records = 0;
         let mut rate = 0.0;
         for [begin, end] in options.parts(self.ends) {
-            rate = sampled(self.motion, &[self.own(begin)])?.rates[0].norm();
+            rate = self.source.at(&[begin])?.rates[0].norm();
             let count = (rate * (end - begin) * ROUNDING / error).ceil().max(1.0);
             limited(count, error)?;
             let times: Vec<f64> = even(begin, end, count as usize).into_iter().map(|time| options.held(time)).collect();
-            let ticks = options.ticks(&times)?;
-            let samples = sampled(
-                self.motion,
-                &times[..times.len() - 1].iter().map(|&time| self.own(time)).collect::<Vec<f64>>(),
-            )?;
-            let seconds: Vec<f64> = match options.ticks {
-                None => vec![clock::rate(begin); samples.rates.len()],
-                Some(_) => times
-                    .windows(2)
-                    .zip(ticks.windows(2))
-                    .map(|(times, ticks)| (times[1] - times[0]) / (ticks[1] - ticks[0]))
-                    .collect(),
-            };
+            let ticks = options.ticks(&times, "interpolation_error")?;
+            let samples = self.source.at(&times[..times.len() - 1])?;
+            let seconds = vec![clock::rate(begin); samples.rates.len()];
             let (attitudes, rates) = inertial(&samples);
             daf.ck2(&self.head, &ticks, &attitudes, &rates, &seconds)?;
             records += seconds.len();
         }
-        Ok(Written { kind: 2, records, error: error + options.rounding(self.ends, rate) })
+        Ok(Written { kind: 2, records, error: error + options.rounding(self.ends, rate, &[]) })
     }
 
     /// Segments of type 3, each with whole windows. Neighbouring segments share a node, so that there is no gap.
@@ -122,34 +106,41 @@ impl CkWriter<'_> {
         daf: &mut Daf<impl std::io::Write + std::io::Seek>,
         options: &mut KernelOptions<'_>,
     ) -> Result<Written, WriteError> {
-        let (error, zero) = (options.interpolation_error, options.zero);
-        let mut windows = Vec::new();
+        let (error, origin) = (options.interpolation_error, self.source.origin);
+        let (rate, mut windows) = (self.source.fastest()?, Vec::new());
         for [begin, end] in options.parts(self.ends) {
-            let borders = ck_windows(self.motion, self.own(begin), self.own(end))?;
-            limited(estimate(self.motion, &borders, error)?, error)?;
+            let [start, stop] = [begin - origin, end - origin];
+            let number = window_count(start, stop, rate, ROTATIONS);
+            limited(number, error)?;
+            let borders = even(start, stop, number as usize);
+            limited(estimate(&self.source, &borders, error)?, error)?;
             let count = borders.len() - 1;
             // The ends of a part are exact in the time of the kernel, where the clock changes its rate.
             let of = |place: usize| ((place == 0).then_some(begin), (place + 1 == count).then_some(end));
             windows.extend(borders.windows(2).enumerate().map(|(place, pair)| ([pair[0], pair[1]], of(place))));
         }
         let (mut times, mut records, mut fastest): (Vec<f64>, usize, f64) = (Vec::new(), 0, 0.0);
+        let mut rounding = 0.0_f64;
         for (done, &([start, stop], (first, last))) in windows.iter().enumerate() {
-            let found = nodes(self.motion, start, stop, error)?.map_err(|left| {
+            let found = nodes(&self.source, start, stop, error)?.map_err(|left| {
                 let value = format!("{error:e}, but {left:.3e} rad are left between nodes from {start:?} to {stop:?}");
                 Refused::new("interpolation_error", value, "above the rounding error of this motion")
             })?;
-            let mut found: Vec<f64> = found.into_iter().map(|time| options.held(zero + time)).collect();
+            let mut found: Vec<f64> = found.into_iter().map(|time| options.held(origin + time)).collect();
             let count = found.len();
             (found[0], found[count - 1]) = (first.unwrap_or(found[0]), last.unwrap_or(found[count - 1]));
             let border = found[count - 1];
             times.extend(found.into_iter().skip(usize::from(!times.is_empty())));
             if last.is_some() || times.len() > LONGEST_SEGMENT {
-                let ticks = options.ticks(&times)?;
-                let samples = sampled(self.motion, &times.iter().map(|&time| self.own(time)).collect::<Vec<f64>>())?;
+                let ticks = options.ticks_between(&mut times, rate)?;
+                let samples = self.source.at(&times)?;
                 let (attitudes, rates) = inertial(&samples);
                 daf.ck3(&self.head, &ticks, &attitudes, Some(&rates), &ticks[..1])?;
                 records += times.len();
+                limited(records as f64, error)?;
                 fastest = samples.rates.iter().map(Vector3::norm).fold(fastest, f64::max);
+                let seconds = (times[times.len() - 1] - times[0]) / (ticks[ticks.len() - 1] - ticks[0]);
+                rounding = rounding.max(ticks[ticks.len() - 1].abs() * seconds);
                 times.clear();
                 if last.is_none() {
                     times.push(border);
@@ -157,7 +148,7 @@ impl CkWriter<'_> {
             }
             options.report(done + 1, windows.len())?;
         }
-        Ok(Written { kind: 3, records, error: error + options.rounding(self.ends, fastest) })
+        Ok(Written { kind: 3, records, error: error + options.rounding(self.ends, fastest, &[rounding]) })
     }
 }
 

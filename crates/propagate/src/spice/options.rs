@@ -2,7 +2,7 @@
 
 use std::io;
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use andoyer_kernels::{Kernel, Refused, clock};
 
@@ -12,8 +12,11 @@ use crate::motion::solved::Motion;
 /// The smallest error of an interpolation \[rad\]: attitudes near one have rounding errors of 1e-15 rad.
 pub(super) const SMALLEST_ERROR: f64 = 1e-13;
 
-/// Characters of a path that SPICE opens, less than those of a temporary name.
-const LONGEST_PATH: usize = 239;
+/// Times that are put between two records at most, one half of the interval after the other.
+const HALVINGS: usize = 40;
+
+/// Characters of a path that SPICE opens.
+const LONGEST_PATH: usize = 255;
 
 /// Ticks of a clock at times \[s of TDB past J2000\].
 pub type Ticks<'a> = dyn FnMut(&[f64]) -> io::Result<Vec<f64>> + Send + 'a;
@@ -62,8 +65,8 @@ pub enum WriteError {
     Motion(Error),
     /// A name, a code, an interval or an error that a kernel cannot have.
     Refused(Refused),
-    /// An error of the system: a full disk, a folder that cannot be written, an existing file.
-    System(io::Error),
+    /// An error of the system at a file: a full disk, a folder that cannot be written, an existing file.
+    System(io::Error, PathBuf),
     /// The progress callback stopped the writer.
     Stopped,
 }
@@ -73,7 +76,7 @@ impl std::fmt::Display for WriteError {
         match self {
             Self::Motion(error) => error.fmt(f),
             Self::Refused(refused) => refused.fmt(f),
-            Self::System(error) => error.fmt(f),
+            Self::System(error, path) => write!(f, "{}: {error}", path.display()),
             Self::Stopped => f.write_str("stopped by the progress callback"),
         }
     }
@@ -95,23 +98,27 @@ impl From<Refused> for WriteError {
 
 impl From<io::Error> for WriteError {
     fn from(error: io::Error) -> Self {
-        Self::System(error)
+        Self::System(error, PathBuf::new())
     }
 }
 
 impl KernelOptions<'_> {
-    /// Checks the interval \[time of the motion\] and the error; the ends of the interval in seconds of TDB past J2000, rounded outwards to times that the clock holds.
-    pub(super) fn ends(&self, [begin, end]: [f64; 2]) -> Result<[f64; 2], WriteError> {
-        if !(begin.is_finite() && end.is_finite() && begin < end) {
-            return Err(Refused::new(
-                "interval",
-                format!("({begin:?}, {end:?})"),
-                "two finite times, the first below the second",
-            )
-            .into());
+    /// Checks the interval \[time of the motion\] and the error; the ends of the interval \[s of TDB past J2000\].
+    pub(super) fn times(&self, [begin, end]: [f64; 2]) -> Result<[f64; 2], WriteError> {
+        let ends = [self.zero + begin, self.zero + end];
+        if !(ends[0].is_finite() && ends[1].is_finite() && begin < end && ends[0] < ends[1]) {
+            let allowed = "two finite times, the first below the second, that differ in seconds past J2000 too";
+            return Err(Refused::new("interval", format!("({begin:?}, {end:?})"), allowed).into());
         }
         self.checked_error()?;
-        let ends = [self.rounded(self.zero + begin, true, false), self.rounded(self.zero + end, false, true)];
+        Ok(ends)
+    }
+
+    /// The ends of the interval, rounded outwards to times that the clock holds.
+    pub(super) fn ends(&self, interval: [f64; 2]) -> Result<[f64; 2], WriteError> {
+        let [begin, end] = interval;
+        let times = self.times(interval)?;
+        let ends = [self.rounded(times[0], true, false), self.rounded(times[1], false, true)];
         let outside = ends[0] < clock::FIRST || ends[1] > clock::LAST;
         if self.ticks.is_none() && outside {
             let value = format!("({begin:?}, {end:?}) s after {} s of TDB past J2000", self.zero);
@@ -151,8 +158,8 @@ impl KernelOptions<'_> {
         if self.ticks.is_none() { clock::held(time) } else { time }
     }
 
-    /// Ticks of the times, which must increase.
-    pub(super) fn ticks(&mut self, times: &[f64]) -> Result<Vec<f64>, WriteError> {
+    /// Ticks of the times, which must increase; `argument` needs them.
+    pub(super) fn ticks(&mut self, times: &[f64], argument: &'static str) -> Result<Vec<f64>, WriteError> {
         let ticks = match &mut self.ticks {
             None => times.iter().map(|&time| clock::ticks(time)).collect(),
             Some(ticks) => ticks(times)?,
@@ -161,9 +168,35 @@ impl KernelOptions<'_> {
             return Ok(ticks);
         }
         let apart = ticks[ticks.len() - 1] * f64::EPSILON;
-        let value =
-            format!("{:e} rad, which needs records less than {apart:.2e} ticks apart", self.interpolation_error);
-        Err(Refused::new("interpolation_error", value, "so large that the clock tells the records apart").into())
+        let value = format!("records less than {apart:.2e} ticks apart");
+        Err(Refused::new(argument, value, "so chosen that the clock tells the records apart").into())
+    }
+
+    /// Ticks of the times of records. SPICE interpolates in ticks: where the rate of a user's clock changes within an interval by more than a tenth of the error at a rate
+    /// \[rad/s\], times are put between.
+    pub(super) fn ticks_between(&mut self, times: &mut Vec<f64>, rate: f64) -> Result<Vec<f64>, WriteError> {
+        let mut ticks = self.ticks(times, "interpolation_error")?;
+        if self.ticks.is_none() {
+            return Ok(ticks);
+        }
+        for _ in 0..HALVINGS {
+            let middles: Vec<f64> = times.windows(2).map(|pair| pair[0] + 0.5 * (pair[1] - pair[0])).collect();
+            let found = self.ticks(&middles, "interpolation_error")?;
+            let bent = |place: usize| {
+                let (first, last) = (ticks[place], ticks[place + 1]);
+                let away = (found[place] - first - 0.5 * (last - first)).abs();
+                let angle = rate * away * (times[place + 1] - times[place]) / (last - first);
+                angle > 0.1 * self.interpolation_error && away > 4.0 * f64::EPSILON * last.abs()
+            };
+            let added: Vec<f64> = (0..middles.len()).filter(|&place| bent(place)).map(|place| middles[place]).collect();
+            if added.is_empty() {
+                break;
+            }
+            times.extend(added);
+            times.sort_by(f64::total_cmp);
+            ticks = self.ticks(times, "interpolation_error")?;
+        }
+        Ok(ticks)
     }
 
     /// The times from one end to the other in parts on whose borders the rate of the clock changes.
@@ -176,9 +209,11 @@ impl KernelOptions<'_> {
         times.windows(2).map(|pair| [pair[0], pair[1]]).collect()
     }
 
-    /// The angle \[rad\] that the rounding of a time costs at a rate.
-    pub(super) fn rounding(&self, [begin, end]: [f64; 2], rate: f64) -> f64 {
-        rate * clock::rounding(begin).max(clock::rounding(end))
+    /// The angle \[rad\] that the rounding of a time costs at a rate. `of_ticks`: the sizes \[s\] of the ticks of a user's clock.
+    pub(super) fn rounding(&self, [begin, end]: [f64; 2], rate: f64, of_ticks: &[f64]) -> f64 {
+        let of_ticks =
+            if self.ticks.is_some() { of_ticks.iter().fold(0.0, |most: f64, size| most.max(*size)) } else { 0.0 };
+        rate * (clock::rounding(begin).max(clock::rounding(end)) + f64::EPSILON * of_ticks)
     }
 
     /// Calls the progress callback.
@@ -235,18 +270,32 @@ pub(super) fn beside<T>(
     force: bool,
     write: impl FnOnce(&mut std::fs::File) -> Result<T, WriteError>,
 ) -> Result<T, WriteError> {
-    let length = std::fs::canonicalize(path).or_else(|_| std::path::absolute(path))?.as_os_str().len();
-    if length >= LONGEST_PATH {
+    let length = path.as_os_str().len();
+    if length > LONGEST_PATH {
         return Err(Refused::new(
             "path",
             format!("{length} characters"),
-            format!("shorter than {LONGEST_PATH} characters for SPICE"),
+            format!("at most {LONGEST_PATH} characters for SPICE"),
         )
         .into());
     }
-    andoyer_kernels::whole(path, force, |binary| {
-        andoyer_kernels::whole(&path.with_extension(ending), force, |beside| {
-            io::Write::write_all(beside, text.as_bytes())?;
+    let text_path = path.with_extension(ending);
+    if text_path == path {
+        return Err(Refused::new(
+            "path",
+            format!("{path:?}"),
+            format!("without the ending .{ending}, which the text kernel beside it has"),
+        )
+        .into());
+    }
+    // The text kernel gets its name only when the binary one is written.
+    let named = |path: &Path| {
+        let path = path.to_owned();
+        move |error: io::Error| WriteError::System(error, path.clone())
+    };
+    andoyer_kernels::whole(path, force, named(path), |binary| {
+        andoyer_kernels::whole(&text_path, force, named(&text_path), |beside| {
+            io::Write::write_all(beside, text.as_bytes()).map_err(named(&text_path))?;
             write(binary)
         })
     })

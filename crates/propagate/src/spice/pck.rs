@@ -13,7 +13,7 @@ use std::path::Path;
 use andoyer_kernels::{Daf, Head, Kernel, Refused, clock, frames};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::nodes::{Sampled, even, fastest, sampled, windows};
+use super::nodes::{Sampled, Source, even, window_count};
 use super::options::{KernelOptions, WriteError, Written, beside};
 use crate::motion::solved::Motion;
 
@@ -24,7 +24,7 @@ const ROTATIONS: f64 = 1024.0;
 /// Intervals of a rotation at most, where the angles turn by up to 1/`NEAR` as fast as the body: with more of them rounding dominates.
 const MOST: f64 = 1024.0;
 /// Intervals of the whole kernel at most: 2 GB.
-const MOST_RECORDS: usize = 5_000_000;
+const MOST_RECORDS: f64 = 5e6;
 /// The frames of the segments: J2000, ECLIPJ2000, GALACTIC. The first of them is taken in which sin δ stays above `FAR`.
 const FRAMES: [i32; 3] = [1, 17, 13];
 const FAR: f64 = 0.15;
@@ -64,23 +64,21 @@ impl Motion {
             let allowed = "a code of which SPICE has no rotating frame: a kernel would change that frame too";
             return Err(Refused::new("body", kernel.code().to_string(), allowed).into());
         }
-        options.ends(interval)?;
-        let [begin, end] = interval.map(|time| options.zero + time);
+        let [begin, end] = options.times(interval)?;
         let error = options.interpolation_error;
         let comments = options.comments(kernel, Some(self), error);
         beside(path, "tf", &kernel.text_of_pck(), options.force, |file| {
             let mut daf = Daf::pck(BufWriter::new(file), &comments)?;
-            let rate = fastest(self, begin - options.zero, end - options.zero)?;
-            let mut fit = Fit::new(self, kernel, [begin, end], options.zero, error, rate);
-            let borders = windows(begin, end, rate, ROTATIONS);
+            let source = Source::new(self, interval, options.zero);
+            let rate = source.fastest()?;
+            let windows = window_count(begin, end, rate, ROTATIONS);
+            many(windows, error)?;
+            let mut fit = Fit::new(source, kernel, [begin, end], error, rate);
+            let borders = even(begin, end, windows as usize);
             let mut records = 0;
             for (done, pair) in borders.windows(2).enumerate() {
                 records += fit.segments(&mut daf, kernel, [pair[0], pair[1]], HALVINGS)?;
-                if records > MOST_RECORDS {
-                    let value =
-                        format!("{error:e} rad, which needs more than {MOST_RECORDS} polynomials over this interval");
-                    return Err(Refused::new("interpolation_error", value, "larger, or the interval shorter").into());
-                }
+                many(records as f64 * windows / (done + 1) as f64, error)?;
                 options.report(done + 1, borders.len() - 1)?;
             }
             daf.finish()?;
@@ -89,11 +87,21 @@ impl Motion {
     }
 }
 
+fn many(records: f64, error: f64) -> Result<(), Refused> {
+    if records <= MOST_RECORDS {
+        return Ok(());
+    }
+    let value = format!("{error:e} rad, which needs about {records:.0} polynomials over this interval");
+    Err(Refused::new(
+        "interpolation_error",
+        value,
+        format!("so large that at most {MOST_RECORDS:.0} are needed; or shorten the interval"),
+    ))
+}
+
 /// The fit of polynomials to a motion.
 struct Fit<'a> {
-    motion: &'a Motion,
-    ends: [f64; 2],
-    zero: f64,
+    source: Source<'a>,
     error: f64,
     /// Largest rate of the motion \[rad/s\].
     rate: f64,
@@ -106,7 +114,7 @@ struct Fit<'a> {
 }
 
 impl<'a> Fit<'a> {
-    fn new(motion: &'a Motion, kernel: &Kernel, ends: [f64; 2], zero: f64, error: f64, rate: f64) -> Self {
+    fn new(source: Source<'a>, kernel: &Kernel, ends: [f64; 2], error: f64, rate: f64) -> Self {
         let matrix = |code| Matrix3::from(frames::from_j2000(code)).transpose();
         let own = matrix(kernel.frame_code());
         let turns = FRAMES.map(|code| {
@@ -116,7 +124,7 @@ impl<'a> Fit<'a> {
             std::array::from_fn(|j| (k as f64 * node(j).acos()).cos() * if k == 0 { 1.0 } else { 2.0 } / NODES as f64)
         });
         let length = ends[1] - ends[0];
-        Self { motion, ends, zero, error, rate, length, turns, transform }
+        Self { source, error, rate, length, turns, transform }
     }
 
     /// Writes one segment, or more of them where the axis runs past the poles of all frames; the number of intervals.
@@ -158,7 +166,7 @@ impl<'a> Fit<'a> {
     /// The frame from whose poles the axis stays farthest in an interval, and the least sin δ in it.
     fn frame(&self, begin: f64, end: f64) -> Result<(usize, f64), WriteError> {
         let count = (LOOKS * (end - begin) * self.rate / TAU).ceil().max(LOOKS) as usize;
-        let samples = sampled(self.motion, &even(begin - self.zero, end - self.zero, count))?;
+        let samples = self.source.at(&even(begin, end, count))?;
         let least = self.turns.map(|turn| {
             let distance = |attitude: &UnitQuaternion<f64>| (turn * (attitude * Vector3::z())).xy().norm();
             samples.attitudes.iter().map(distance).fold(1.0, f64::min)
@@ -172,11 +180,11 @@ impl<'a> Fit<'a> {
     fn polynomials(&self, begin: f64, length: f64, count: usize, place: usize) -> Result<(Vec<f64>, f64), WriteError> {
         let middle = |interval: usize| begin + (interval as f64 + 0.5) * length;
         let at = |places: &dyn Fn(usize) -> f64, number: usize| {
-            let [first, last] = self.ends.map(|end| end - self.zero);
+            let ([first, last], origin) = (self.source.interval, self.source.origin);
             let time = |index: usize| {
-                ((middle(index / number) - self.zero) + 0.5 * length * places(index % number)).clamp(first, last)
+                ((middle(index / number) - origin) + 0.5 * length * places(index % number)).clamp(first, last)
             };
-            sampled(self.motion, &(0..count * number).map(time).collect::<Vec<f64>>())
+            self.source.sampled(&(0..count * number).map(time).collect::<Vec<f64>>())
         };
         let at_nodes = at(&node, NODES)?;
         let Sampled { attitudes: truths, .. } = at(&extremum, NODES + 1)?;

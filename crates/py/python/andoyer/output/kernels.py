@@ -8,11 +8,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import datetime
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from andoyer._core import Motion, Samples, _frame_code, _write_motion, _write_samples
+from andoyer._core import InputError, Motion, Samples, _frame_code, _write_motion, _write_samples
 from andoyer._extra import extra
 from andoyer._refusal import refusal
 from andoyer.interop._foreign import epoch_of, scene_times
@@ -30,8 +31,8 @@ class Kernel(ShortRecord):
     """The codes, frames, clock and comments of a kernel."""
 
     instrument: int = None  # type: ignore[assignment]
-    """Code of the body frame: its class ID, negative or at least 1,000,000. By default -999000 for the frame ANDOYER_BODY, otherwise a multiple of 1000 from -2,147,482,000 to
-    -1,000,000,000 that is computed from `body_frame`, the same in every run."""
+    """Code of the body frame: its class ID, negative or at least 1,000,000. By default -999000 for the frame ANDOYER_BODY, otherwise a number from -2,147,483,646 to -1,000,000,000
+    that is computed from `body_frame`, the same in every run."""
     body_frame: str = "ANDOYER_BODY"
     """Name of the body frame: 1 to 26 capital letters, digits and _, with a letter first, that SPICE has not taken."""
     frame: str = "J2000"
@@ -48,18 +49,23 @@ class Kernel(ShortRecord):
     comments: tuple[str, ...] = ()
     """Lines for the comment area, after those on the scene."""
     center: int | None = None
-    """NAIF code of the frame's centre. By default that of the body that `instrument` names: the thousands of a code of -1000 or below, otherwise the code itself."""
+    """NAIF code of the frame's centre. By default that of the body that `instrument` names: the thousands of a code from -1000 to -999,999,999, otherwise the code itself."""
 
     def __post_init__(self) -> None:
         if self.instrument is None:
             object.__setattr__(self, "instrument", _frame_code(str(self.body_frame)))
+        for name, code in (("instrument", self.instrument), ("clock_id", self.clock_id), ("center", self.center)):
+            if code is not None and not (isinstance(code, (int, np.integer)) and -(2**31) < code < 2**31):
+                raise refusal(name, code, "a code", f"must be a whole number of 32 bits: got {code!r}")
+        if not isinstance(self.date, datetime):
+            raise TypeError(f"date must be a datetime: got {self.date!r}")
 
     @property
     def clock_code(self) -> int:
         """The code of the clock: the given one or the default."""
         if self.clock_id is not None:
             return self.clock_id
-        return -(-self.instrument // 1000) if self.clock is not None and self.instrument <= -1000 else -999
+        return -(-self.instrument // 1000) if self.clock is not None and -999_999_999 <= self.instrument <= -1000 else -999
 
 
 class Written(NamedTuple):
@@ -70,7 +76,8 @@ class Written(NamedTuple):
     records: int
     """Number of records in all segments."""
     error: float
-    """Largest error [rad] of the attitude that SPICE computes: interpolation, and rounding of times past J2000 (6e-8 s in 2026). For samples it is an estimate."""
+    """Largest error [rad] of the attitude that SPICE computes: interpolation, and rounding of times past J2000 (6e-8 s in 2026). For samples it is an estimate, and infinite where
+    there is none: without rates, for two samples alone."""
 
 
 def write_ck(
@@ -106,7 +113,7 @@ def write_ck(
     progress : callable, optional
         Called as ``progress(done, total)`` with numbers of windows.
     force : bool, optional
-        If True, existing files are replaced.
+        If True, existing files are replaced, FILE.tsc too.
 
     Returns
     -------
@@ -121,7 +128,8 @@ def write_ck(
         The file exists, and ``force=False``.
     InputError
         An interval of zero length, outside the times of the clock, or of Time objects if the epoch of the scene is a number; an error below 1e-13 rad, or one that needs more than
-        5e7 records; a name or a code that SPICE cannot use; a date of time 0 for a scene whose epoch is a Time; samples of an ensemble or at times that do not increase.
+        5e7 records; a name or a code that SPICE cannot use; a date of time 0 for a scene whose epoch is a Time; samples of an ensemble, fewer than two, at times that do not increase, or half a turn apart; a
+        clock kernel with the name of the text kernel.
     OSError
         An error of the system, or of SpiceyPy with a clock kernel.
 
@@ -133,6 +141,9 @@ def write_ck(
     (3, True)
     """
     names = (kernel.body_frame, kernel.frame, kernel.instrument, kernel.segment, kernel.center, kernel.clock_id, kernel.clock is not None)
+    text = Path(path).with_suffix(".tsc")
+    if kernel.clock is not None and text.exists() and text.samefile(kernel.clock):
+        raise refusal("clock", str(kernel.clock), "another name", f"= {kernel.clock}: the text kernel beside {path} has this name; choose another one for either")
     with _ticks(kernel) as ticks:
         if isinstance(motion, Motion):
             zero, ends = _times(motion, interval, kernel)
@@ -198,7 +209,13 @@ def write_pck(
     kernel = Kernel(body, body_frame, frame, date=date, time_system=time_system, center=center)  # type: ignore[arg-type]
     zero, ends = _times(motion, span, kernel)
     names = (body_frame, frame, kernel.instrument, kernel.segment, center, None, False)
-    return Written(*_write_motion(path, motion, ends, True, names, (zero, float(interpolation_error), force, _comments(kernel), None, progress)))
+    options = (zero, float(interpolation_error), force, _comments(kernel), None, progress)
+    try:
+        return Written(*_write_motion(path, motion, ends, True, names, options))
+    except InputError as error:
+        if error.argument != "instrument":
+            raise
+        raise refusal("body", error.value, error.bound, str(error).removeprefix("instrument ")) from None
 
 
 def _times(motion: Motion, interval: Any, kernel: Kernel) -> tuple[float, tuple[float, float]]:
@@ -206,7 +223,9 @@ def _times(motion: Motion, interval: Any, kernel: Kernel) -> tuple[float, tuple[
     epoch = epoch_of(motion.scene)
     try:
         begin, end = (float(time) for time in scene_times("interval", interval, epoch))
-    except TypeError:
+    except InputError:
+        raise
+    except (TypeError, ValueError):
         raise refusal("interval", repr(interval), "two times", f"must be two times: got {interval!r}") from None
     return _zero(kernel, hasattr(epoch, "jd1")), (begin, end)
 
@@ -237,7 +256,8 @@ def _zero(kernel: Kernel, of_calendar: bool) -> float:
 
 
 def _comments(kernel: Kernel) -> list[str]:
-    return [f"Time 0 of the scene is {kernel.date.isoformat()} {kernel.time_system}.", *kernel.comments]
+    lines = (kernel.comments,) if isinstance(kernel.comments, str) else kernel.comments
+    return [f"Time 0 of the scene is {kernel.date.isoformat()} {kernel.time_system}.", *(part for line in lines for part in line.splitlines())]
 
 
 @contextmanager
