@@ -67,6 +67,14 @@ impl Plan {
         self.0.error_bound()
     }
 
+    /// Estimated bound of the error of the angular velocity over the span, in body components, in rad per unit of time: 2 |ω| times the error bound of the attitude.
+    ///
+    /// A motion that starts from a sample, as that of `Motion.scene_at`, departs by this times the time.
+    #[getter]
+    fn rate_error_bound(&self) -> f64 {
+        self.0.rate_error_bound()
+    }
+
     /// The requested attitude error over the span, in rad.
     #[getter]
     fn tolerance(&self) -> f64 {

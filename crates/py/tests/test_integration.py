@@ -11,6 +11,7 @@ from conftest import REPOSITORY
 
 import andoyer
 from andoyer import Body, Orbit, Scene, TabulatedOrbit
+from andoyer._quaternions import angle_between
 
 EARTH = {"gm": 3.986004415e14, "j2": 1.08262668e-3, "radius": 6378136.3}
 ATTITUDE = [0.1, -0.2, 0.3, 0.9273618495495703]
@@ -285,3 +286,26 @@ def test_passage_that_spins_the_body_up_is_named_at_once(eccentricity):
     # A second in the issue; a busy machine has ten.
     assert perf_counter() - start < 10 and caught.value.argument == "span"
     Scene(*state, method="integrated", tolerance=1e-8, span=(0, 9.9), orbit=orbit).solve()
+
+
+def test_rates_are_within_their_bound_and_a_later_scene_within_what_they_cost():
+    """The rates of the theory against an integration, at both levels; the motion from a later state departs by their error times the time."""
+    random = np.random.default_rng(11)
+    found = 0
+    while found < 16:
+        moments = np.sort(random.uniform(0.5, 1.0, 3))
+        state = (Body(moments), [0, 0, 0, 1], random.normal(size=3) * [0.2, 0.2, 0] + [0, 0, 1])
+        orbit = Orbit(10 ** random.uniform(-3.5, -2), random.uniform(0, 0.5), inclination=random.uniform(0, 2))
+        level = ["full", "second-order"][found % 2]
+        try:
+            motion = Scene(*state, orbit=orbit, span=(0, 1000), tolerance=1e-9, method="closed", level=level).solve()
+        except andoyer.Error:
+            continue
+        found += 1
+        truth = Scene(*state, orbit=orbit, span=(0, 1000), tolerance=1e-13, method="integrated").solve()
+        times = np.linspace(0, 1000, 200)
+        rates = np.linalg.norm(motion.angular_velocity(times) - truth.angular_velocity(times), axis=1)
+        assert rates.max() < motion.plan.rate_error_bound + truth.plan.rate_error_bound
+        later = motion.scene_at(500.0).solve()
+        apart = angle_between(later.attitude([1000.0]), motion.attitude([1000.0]))[0]
+        assert apart < motion.plan.error_bound + later.plan.error_bound + 500 * motion.plan.rate_error_bound

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::fmt;
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::verification_cost::VerificationCost;
@@ -32,6 +33,8 @@ pub struct Plan {
     pub(crate) order: usize,
     pub(crate) harmonics: usize,
     pub(crate) error_bound: f64,
+    /// Largest |ω| of the torque-free motion.
+    pub(crate) fastest: f64,
     pub(crate) tolerance: f64,
     /// Whether the scene has a span.
     pub(crate) spanned: bool,
@@ -58,6 +61,7 @@ impl Plan {
             order: 0,
             harmonics: 0,
             error_bound: error_bound.min(std::f64::consts::PI),
+            fastest: fastest(scene.body().moments(), scene.state().angular_velocity),
             tolerance: scene.asked_tolerance(),
             spanned: scene.asked_span().is_some(),
             reach: None,
@@ -105,6 +109,22 @@ impl Plan {
     /// Estimated bound of the attitude error over the span \[rad\], not proved: truncation, dropped harmonics, rounding, and under a torque what the average leaves.
     pub fn error_bound(&self) -> f64 {
         self.error_bound
+    }
+
+    /// Estimated bound of the error of the angular velocity over the span, in body components \[rad per unit of time\]: 2 |ω| times the error bound of the attitude, with the
+    /// largest |ω| of the torque-free motion. One part is the error of the direction of the angular momentum in the body, the other that of the phase along the polhode.
+    ///
+    /// A motion that starts from a sample has an error of this rate: its attitude departs by the bound times the time.
+    ///
+    /// ```
+    /// use andoyer_propagate::{Body, Scene, State};
+    /// let state = State::new(0.0, [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 3.0])?;
+    /// let motion = Scene::new(Body::new([1.0, 1.5, 2.0])?, state).solve()?;
+    /// assert_eq!(motion.plan().rate_error_bound(), 6.0 * motion.plan().error_bound());
+    /// # Ok::<(), andoyer_propagate::Error>(())
+    /// ```
+    pub fn rate_error_bound(&self) -> f64 {
+        2.0 * self.fastest * self.error_bound
     }
 
     /// The requested attitude error over the span \[rad\].
@@ -326,4 +346,19 @@ pub(crate) fn in_ascii(message: &str) -> String {
 /// An error bound as text. Of half a turn or more nothing is known.
 pub(crate) fn bound_in_words(bound: f64) -> String {
     if bound < PI { format!("{bound:.1e} rad") } else { "half a turn or more".to_owned() }
+}
+
+/// The largest |ω| of a torque-free motion. Energy and momentum are linear in the squares of the rates, so Σω² is largest where one of them is 0.
+fn fastest(moments: [f64; 3], rates: Vector3<f64>) -> f64 {
+    let squares = rates.map(|rate| rate * rate);
+    let [energy, momentum] =
+        [1, 2].map(|power| (0..3).map(|axis| moments[axis].powi(power) * squares[axis]).sum::<f64>());
+    let without = |axis: usize| {
+        let (one, other) = (moments[(axis + 1) % 3], moments[(axis + 2) % 3]);
+        let part = |one: f64, other: f64| (momentum - other * energy) / (one * (one - other));
+        let pair = [part(one, other), part(other, one)];
+        // A polhode does not pass through a negative square, and equal moments have 0/0.
+        if pair.iter().all(|square| *square >= 0.0) { pair[0] + pair[1] } else { 0.0 }
+    };
+    (0..3).map(without).fold(squares.sum(), f64::max).sqrt()
 }

@@ -191,6 +191,8 @@ impl Motion {
 
     /// The scene of the state at a time, with that time as its epoch: the same body, disturbing bodies and options.
     ///
+    /// Its motion starts with the errors of attitude and rates at that time: after a time t it may differ by t times [`Plan::rate_error_bound`].
+    ///
     /// After a torque its motion has the periods of that time. The frequencies of an integrated motion are those of the free motion at the epoch.
     ///
     /// ```

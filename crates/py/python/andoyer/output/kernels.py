@@ -143,7 +143,9 @@ def write_ck(
     names = (kernel.body_frame, kernel.frame, kernel.instrument, kernel.segment, kernel.center, kernel.clock_id, kernel.clock is not None)
     text = Path(path).with_suffix(".tsc")
     if kernel.clock is not None and text.exists() and text.samefile(kernel.clock):
-        raise refusal("clock", str(kernel.clock), "another name", f"= {kernel.clock}: the text kernel beside {path} has this name; choose another one for either")
+        raise refusal(
+            "clock", str(kernel.clock), "another name", f"= {kernel.clock}: the text kernel beside {path} has this name; choose another one for either"
+        )
     with _ticks(kernel) as ticks:
         if isinstance(motion, Motion):
             zero, ends = _times(motion, interval, kernel)
