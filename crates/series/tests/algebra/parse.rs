@@ -58,7 +58,9 @@ fn precedence_is_that_of_arithmetic() -> Result<(), Error> {
 #[test]
 fn decimals_of_floats_are_rounded_once() -> Result<(), Error> {
     // Digits and powers of ten below 2⁵³ are exact, so one division rounds.
-    for (text, value) in [("0.1", 0.1), ("0.3", 0.3), ("6.02e23", 6.02e23), ("1.25e-3", 1.25e-3)] {
+    for (text, value) in
+        [("0.1", 0.1), ("0.3", 0.3), (".5", 0.5), ("-.25e1", -2.5), ("6.02e23", 6.02e23), ("1.25e-3", 1.25e-3)]
+    {
         assert_eq!(Polynomial::<f64>::parse(text, &[])?, Polynomial::constant(value), "{text}");
     }
     let infinite = Polynomial::<f64>::parse("1e309", &[]);
@@ -87,7 +89,8 @@ fn bad_text_is_refused_with_its_position() {
     assert_refused("x)", 1, &ParseProblem::UnexpectedCharacter(')'));
     assert_refused("x^-1", 2, &ParseProblem::UnexpectedCharacter('-'));
     assert_refused("x + é", 4, &ParseProblem::UnknownName("é".into()));
-    assert_refused(".5", 0, &ParseProblem::UnexpectedCharacter('.'));
+    assert_refused(".", 0, &ParseProblem::UnexpectedCharacter('.'));
+    assert_refused("x*.y", 2, &ParseProblem::UnexpectedCharacter('.'));
     assert_refused("1.2.3", 3, &ParseProblem::UnexpectedCharacter('.'));
     assert_refused("2e+x", 1, &ParseProblem::UnexpectedCharacter('e'));
     assert_refused("x**", 3, &ParseProblem::UnexpectedEnd);
