@@ -198,7 +198,7 @@ BAD = {
     "records that the clock does not tell apart": (
         (0.0, 1e-3),
         {"kernel": Kernel(date=datetime(9000, 1, 1)), "interpolation_error": 1e-13},
-        "so large that the clock tells the records apart",
+        "so chosen that the clock tells the records apart",
     ),
     "unknown frame": ((0.0, 1.0), {"kernel": Kernel(frame="NOWHERE")}, "frame must be an inertial frame that SPICE knows.*NOWHERE"),
 }
