@@ -165,7 +165,7 @@ def test_bad_input_has_its_class_argument_value_and_bound(call, kind, argument, 
 KEYS = {
     "value": ("moments = [1, 1.5, 2]", "moments = [1, 2, 3.5]", "body.moments", (1.0, 2.0, 3.5), "the largest at most the sum of the other two"),
     "type": ("moments = [1, 1.5, 2]", 'moments = "ceres"', "body.moments", "ceres", "an array of length 3"),
-    "unknown key": ("[state]", "[state]\ncolour = 1", "state.colour", 1, "attitude, angular_velocity, frame, elements_of, relative, sequence, of"),
+    "unknown key": ("[state]", "[state]\ncolour = 1", "state.colour", 1, "one of attitude, angular_velocity, frame, elements_of, relative, sequence, of"),
     "missing key": ("angular_velocity = [0, 0, 1]", "", "state.angular_velocity", None, "present"),
     "no TOML": ("[state]", "[state", "line 3", "[state", "TOML"),
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use andoyer_kernels::{Daf, Head, Kernel, Refused, clock};
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::nodes::{ROTATIONS, Sampled, Source, estimate, even, nodes, window_count};
+use super::nodes::{KernelSource, ROTATIONS, Sampled, estimate, even, nodes, window_count};
 use super::options::{KernelOptions, WriteError, Written, beside};
 use crate::input::options::Method;
 use crate::motion::solved::Motion;
@@ -48,7 +48,7 @@ impl Motion {
         mut options: KernelOptions<'_>,
     ) -> Result<Written, WriteError> {
         let ends = options.ends(interval)?;
-        let source = Source::new(self, interval, options.zero);
+        let source = KernelSource::new(self, interval, options.zero);
         let writer = CkWriter { source, head: Head::of(kernel), ends };
         let comments = options.comments(kernel, Some(self), options.interpolation_error);
         beside(path, "tsc", &kernel.text_of_ck(), options.force, |file| {
@@ -69,7 +69,7 @@ impl Motion {
 }
 
 struct CkWriter<'a> {
-    source: Source<'a>,
+    source: KernelSource<'a>,
     head: Head,
     /// First and last time \[s of TDB past J2000\].
     ends: [f64; 2],

@@ -25,7 +25,7 @@ const MOST: f64 = 16.0;
 const LOOKS: usize = 1024;
 
 /// A motion whose times are counted from its epoch, so that they keep their digits at any date.
-pub(super) struct Source<'a> {
+pub(super) struct KernelSource<'a> {
     motion: &'a Motion,
     /// The epoch \[s of TDB past J2000\].
     pub(super) origin: f64,
@@ -39,7 +39,7 @@ pub(super) struct Sampled {
     pub(super) rates: Vec<Vector3<f64>>,
 }
 
-impl<'a> Source<'a> {
+impl<'a> KernelSource<'a> {
     /// The motion over an interval of its times, with time 0 \[s of TDB past J2000\].
     pub(super) fn new(motion: &'a Motion, interval: [f64; 2], zero: f64) -> Self {
         let epoch = motion.scene().state().epoch;
@@ -91,13 +91,18 @@ pub(super) fn window_count(start: f64, stop: f64, rate: f64, rotations: f64) -> 
 }
 
 /// The number of nodes, estimated from the first window.
-pub(super) fn estimate(source: &Source<'_>, borders: &[f64], error: f64) -> Result<f64, Error> {
+pub(super) fn estimate(source: &KernelSource<'_>, borders: &[f64], error: f64) -> Result<f64, Error> {
     let (_, integral) = count(source, borders[0], borders[1], MARGIN * error)?;
     Ok(integral[STEPS] * (borders.len() - 1) as f64)
 }
 
 /// The nodes from `start` to `stop`, which are nodes. The inner error is the angle \[rad\] that is left where more nodes do not help, because rounding dominates.
-pub(super) fn nodes(source: &Source<'_>, start: f64, stop: f64, error: f64) -> Result<Result<Vec<f64>, f64>, Error> {
+pub(super) fn nodes(
+    source: &KernelSource<'_>,
+    start: f64,
+    stop: f64,
+    error: f64,
+) -> Result<Result<Vec<f64>, f64>, Error> {
     let (places, integral) = count(source, start, stop, MARGIN * error)?;
     let (mut more, mut worst) = (1.0, f64::INFINITY);
     for _ in 0..ATTEMPTS {
@@ -120,7 +125,7 @@ pub(super) fn nodes(source: &Source<'_>, start: f64, stop: f64, error: f64) -> R
 }
 
 /// Times in the interval, and the number of nodes that are needed up to each of them.
-fn count(source: &Source<'_>, start: f64, stop: f64, error: f64) -> Result<(Vec<f64>, Vec<f64>), Error> {
+fn count(source: &KernelSource<'_>, start: f64, stop: f64, error: f64) -> Result<(Vec<f64>, Vec<f64>), Error> {
     let times = even(start, stop, 2 * STEPS);
     let Sampled { attitudes, rates } = source.sampled(&times)?;
     let length = (stop - start) / STEPS as f64;
@@ -143,7 +148,7 @@ fn interpolated(place: f64, places: &[f64], values: &[f64]) -> f64 {
 }
 
 /// The largest error \[rad\] of uniform rotation from each time to the next, at three times between them.
-fn largest_error(source: &Source<'_>, times: &[f64]) -> Result<f64, Error> {
+fn largest_error(source: &KernelSource<'_>, times: &[f64]) -> Result<f64, Error> {
     let attitudes = source.sampled(times)?.attitudes;
     let mut worst = 0.0_f64;
     for part in [0.25, 0.5, 0.75] {

@@ -13,7 +13,7 @@ use std::path::Path;
 use andoyer_kernels::{Daf, Head, Kernel, Refused, clock, frames};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::nodes::{Sampled, Source, even, window_count};
+use super::nodes::{KernelSource, Sampled, even, window_count};
 use super::options::{KernelOptions, WriteError, Written, beside};
 use crate::motion::solved::Motion;
 
@@ -69,7 +69,7 @@ impl Motion {
         let comments = options.comments(kernel, Some(self), error);
         beside(path, "tf", &kernel.text_of_pck(), options.force, |file| {
             let mut daf = Daf::pck(BufWriter::new(file), &comments)?;
-            let source = Source::new(self, interval, options.zero);
+            let source = KernelSource::new(self, interval, options.zero);
             let rate = source.fastest()?;
             let windows = window_count(begin, end, rate, ROTATIONS);
             many(windows, error)?;
@@ -101,7 +101,7 @@ fn many(records: f64, error: f64) -> Result<(), Refused> {
 
 /// The fit of polynomials to a motion.
 struct Fit<'a> {
-    source: Source<'a>,
+    source: KernelSource<'a>,
     error: f64,
     /// Largest rate of the motion \[rad/s\].
     rate: f64,
@@ -114,7 +114,7 @@ struct Fit<'a> {
 }
 
 impl<'a> Fit<'a> {
-    fn new(source: Source<'a>, kernel: &Kernel, ends: [f64; 2], error: f64, rate: f64) -> Self {
+    fn new(source: KernelSource<'a>, kernel: &Kernel, ends: [f64; 2], error: f64, rate: f64) -> Self {
         let matrix = |code| Matrix3::from(frames::from_j2000(code)).transpose();
         let own = matrix(kernel.frame_code());
         let turns = FRAMES.map(|code| {
