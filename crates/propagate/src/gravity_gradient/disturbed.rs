@@ -63,7 +63,7 @@ pub(crate) struct Gradient {
     pub(crate) momentum: f64,
     pub(crate) anomaly: Phase,
     pub(crate) half_longitude: Phase,
-    /// These times the phase integral Ψ, or in second order times the drifts, are added to ℓ′ and y′.
+    /// First order: change of ℓ′ and y′ for each unit of the phase integral Ψ. Second order: 1 and 1; the drifts are changes themselves.
     pub(crate) drifts: [f64; 2],
     /// The rates that they add to ℓ′ and y′ in the orbit average, in the user's unit.
     secular: [f64; 2],

@@ -62,7 +62,7 @@ impl Orbit {
         let eccentricity = cosine.hypot(sine);
         let rate = |inverse: f64| (gm * inverse).sqrt() * inverse * (speed / length);
         let time_past = |mean_anomaly: f64, mean_motion: f64| time - mean_anomaly / mean_motion;
-        // 2/r and v²/GM have rounding errors of this size: a parabola is none of the hyperbolas within them.
+        // 2/r and v²/GM have rounding errors of this size. Within them an orbit is a parabola, not a hyperbola.
         if inverse < -4.0 * f64::EPSILON * 2.0 / radius && momentum > 0.0 {
             let inverse = -inverse;
             let square = momentum * momentum / gm * inverse;

@@ -19,7 +19,7 @@ use super::steady::{Growth, Varied};
 /// Numbers of one time from which the changes of g are computed, at most.
 pub(super) const NUMBERS: usize = 8;
 
-/// Columns of a row in a vector: all but the first.
+/// Lane i of a row holds column i + 1.
 pub(super) const COLUMNS: usize = PARAMETERS - 1;
 /// The first of them, of the initial attitude, do not change the polhode: their constants are 0.
 pub(super) const UNCHANGING: usize = COLUMNS - CHANGES;

@@ -3,8 +3,8 @@
 //! A term with |Ω| above [`SLOW_RATIO`] times the largest rate of twice the true anomaly is fast. Its sum over time derivatives contains all low harmonics of the
 //! orbit. A term that is slower, or whose sum is not accurate enough, has exact divisors Ω + jn in the harmonics of the orbit, if the orbit has a series of
 //! harmonics and the change is small. A slow term without a series is not corrected. The harmonic nearest to resonance is corrected only if the error of its
-//! correction is below the effect of leaving it out: the correction has the divisor x = Ω + jn in its denominator twice, the effect has the span
-//! (equation (9) of docs/theory-second-order.md).
+//! correction is below the effect of leaving it out: the correction has the divisor x = Ω + jn in its denominator twice, the effect of leaving it out is proportional to the
+//! span (equation (9) of docs/theory-second-order.md).
 //!
 //! A part that is not corrected turns the attitude by its rate times the time during which it acts in one sense, which is the span or 2/|Ω + jn|. It also
 //! changes σ and M, so that the phases drift. [`Regimes::uncorrected`] is an upper estimate of both. A scene with a large one is [`Error::Resonance`].

@@ -15,7 +15,7 @@ ALIKE = 2.0
 """Standard deviations within which two moments, or two semi-axes, count as equal."""
 MOMENTS, RATIOS = LABELS["moments"], LABELS["shape"]
 PART = 0.999
-"""Part of a named direction that lies in the directions that are not determined, for the name to be used."""
+"""A name is used if its direction, of length 1, has a projection on the undetermined directions that is longer than this."""
 SMALL = 0.05
 """Part of a difference in the directions that are not determined below which it is determined: √(1 − PART²)."""
 

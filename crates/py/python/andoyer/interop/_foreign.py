@@ -95,7 +95,7 @@ def plain(argument: str, value: Any) -> Any:
             # astropy does not convert 1 Hz to rad/s, since a frequency may count turns or radians.
             advice = "; multiply by u.rad, or by u.cycle if it counts turns" if unit == "rad / s" and value.unit.is_equivalent("Hz") else ""
             raise TypeError(f"{argument} must be in {unit or 'no unit'}, or what converts to it: got {value.unit}{advice}") from None
-    return converted(argument, value) if hasattr(value, "units") or hasattr(value, "unit") else value
+    return converted(argument, value) if has_units(value) else value
 
 
 def converted(argument: str, value: Any) -> Any:
@@ -190,7 +190,7 @@ def each(argument: str, values: Any, kind: type) -> Any:
     """The quantities in a nested list as numbers, if every entry is a quantity."""
     if isinstance(values, (list, tuple)):
         return [each(argument, value, kind) for value in values]
-    if not (hasattr(values, "units") or hasattr(values, "unit")):
+    if not has_units(values):
         raise TypeError(f"{argument} must hold values of one kind, here {kind.__name__}: got {values!r} too")
     return plain(argument, values)
 
@@ -271,7 +271,7 @@ def scene_times(argument: str, value: Any, epoch: Any) -> Any:
     """
     of_calendar = hasattr(epoch, "jd1")
     first = special(value) if isinstance(value, (list, tuple)) else value
-    if of_calendar and not hasattr(first, "jd1") and (hasattr(first, "unit") or hasattr(first, "units")):
+    if of_calendar and not hasattr(first, "jd1") and has_units(first):
         raise refusal(
             argument, "a Quantity", "a Time or a TimeDelta", "is a Quantity, and the epoch a calendar time: give a Time, or a TimeDelta from the epoch"
         )
@@ -283,10 +283,15 @@ def scene_times(argument: str, value: Any, epoch: Any) -> Any:
     return epoch + since(argument, value, [])[0]
 
 
+def has_units(value: Any) -> bool:
+    """Whether a value carries units of another package."""
+    return hasattr(value, "unit") or hasattr(value, "units")
+
+
 def as_one(argument: str, value: Any) -> Any:
     """A list of times or quantities as one object. Any other value is returned unchanged."""
     first = value[0] if isinstance(value, (list, tuple)) and len(value) else value
-    return joined(argument, value) if hasattr(first, "unit") or hasattr(first, "units") or hasattr(first, "jd1") else value
+    return joined(argument, value) if has_units(first) or hasattr(first, "jd1") else value
 
 
 def epoch_of(scene: Any) -> Any:
