@@ -72,6 +72,7 @@ def test_number_of_drawn_states_is_whole(wobble, count):
     times = np.linspace(0, 50, 30)
     found = fit.attitudes(wobble.scene, times, wobble.attitude(times), sigma=0.01)
     assert refused(andoyer.InputError, "n", found.ensemble, count) == f"n = {count!r}: it must be a whole number, 0 or more"
+    assert refused(andoyer.InputError, "n", found.ensemble, 10**18) == f"n = {10**18}: it must be at most 10000000"
 
 
 @pytest.mark.parametrize("brightness, axes, argument", [(1e170, 1.0, "brightness"), (1e-170, 1.0, "brightness"), (1.0, 1e-200, "axes")])

@@ -76,3 +76,17 @@ def test_negative_actions_are_refused():
     with pytest.raises(andoyer.InputError, match="actions = -1"):
         form.frequency_map([-1.0])
     assert form.frequency_map([0.0]).tolist() == [1.0]
+
+
+def test_decimals_without_a_digit_before_the_point_are_read():
+    assert andoyer.normalize(".5*q**2 + .5*p^2 + .1*q^3", 2, [("q", "p")]) == andoyer.normalize("0.5*q**2 + 0.5*p^2 + 0.1*q^3", 2, [("q", "p")])
+
+
+@pytest.mark.parametrize("write", [andoyer.output.write_csv, andoyer.output.write_npz, andoyer.output.write_aem])
+def test_writer_of_samples_says_what_it_needs(write, tmp_path):
+    """A motion was an AttributeError."""
+    motion = Scene(Body([1, 1.5, 2]), [0, 0, 0, 1], [0.1, 0.2, 1.0]).solve()
+    with pytest.raises(TypeError, match=r"samples must be Samples, such as motion.at\(times\): got <Motion"):
+        write(tmp_path / "a.csv", motion)
+    andoyer.output.write_csv(tmp_path / "a.csv", motion.at([0.0, 1.0]))
+    write(tmp_path / "b.aem", andoyer.output.read_table(tmp_path / "a.csv"))
