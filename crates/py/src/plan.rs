@@ -67,7 +67,7 @@ impl Plan {
         self.0.error_bound()
     }
 
-    /// Estimated bound of the error of the angular velocity over the span, in body components, in rad per unit of time: 2 |ω| times the error bound of the attitude.
+    /// Estimated bound of the error of the angular velocity over the span, in body components, in rad per unit of time: twice the largest rate times the error bound of the attitude.
     ///
     /// A motion that starts from a sample, as that of `Motion.scene_at`, departs by this times the time.
     #[getter]

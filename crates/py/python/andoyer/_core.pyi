@@ -405,7 +405,7 @@ class Plan:
         """Estimated bound of the attitude error over the span, in rad; it is not proved. It includes truncation, dropped harmonics and rounding."""
     @property
     def rate_error_bound(self) -> float:
-        """Estimated bound of the error of the angular velocity over the span, in body components, in rad per unit of time: 2 |ω| times the error bound of the attitude."""
+        """Estimated bound of the error of the angular velocity over the span, in body components, in rad per unit of time: twice the largest rate times the error bound of the attitude."""
     @property
     def tolerance(self) -> float:
         """The requested attitude error over the span, in rad."""
