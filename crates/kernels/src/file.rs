@@ -32,8 +32,10 @@ pub fn whole<E, T>(
     failed: impl Fn(io::Error) -> E,
     write: impl FnOnce(&mut File) -> Result<T, E>,
 ) -> Result<T, E> {
-    let target = fs::canonicalize(path).or_else(|_| fs::read_link(path)).unwrap_or_else(|_| path.to_owned());
-    let target = path.parent().map_or(target.clone(), |folder| folder.join(&target));
+    // A link to a file that does not exist yet is relative to its own folder.
+    let through = |link: PathBuf| path.parent().map_or(link.clone(), |folder| folder.join(&link));
+    let target =
+        fs::canonicalize(path).or_else(|_| fs::read_link(path).map(through)).unwrap_or_else(|_| path.to_owned());
     let kind = |kind: io::ErrorKind| failed(kind.into());
     if target.is_dir() {
         return Err(kind(io::ErrorKind::IsADirectory));

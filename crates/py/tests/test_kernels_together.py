@@ -494,3 +494,20 @@ def test_pipe_stays_and_the_file_that_is_there_is_named(tmp_path):
 def test_codes_of_many_names_differ():
     names = [f"ASTEROID_{number}" for number in range(4000)]
     assert len({Kernel(body_frame=name).instrument for name in names}) == len(names)
+
+
+@pytest.mark.parametrize("name", ["r/a", "./r/a", "r/../r/a", "a"])
+@pytest.mark.parametrize("there", [False, True])
+def test_relative_path_is_the_file_that_it_names(name, there, tmp_path, monkeypatch):
+    """The folder of a relative path was doubled: r/a.bc became r/r/a.bc."""
+    monkeypatch.chdir(tmp_path)
+    os.makedirs("r/r")
+    for ending, write in ((".bc", write_ck), (".bpc", write_pck)):
+        path = Path(name + ending)
+        if there:
+            path.write_text("old", encoding="ascii")
+        write(path, TUMBLER, (0, 1))
+        assert path.stat().st_size > 4000 and path.with_suffix(".tsc" if ending == ".bc" else ".tf").exists()
+    os.symlink("real.bc", "r/link.bc")
+    write_ck("r/link.bc", TUMBLER, (0, 1))
+    assert Path("r/link.bc").is_symlink() and Path("r/real.bc").stat().st_size > 4000 and os.listdir("r/r") == []
