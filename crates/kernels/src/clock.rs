@@ -1,8 +1,8 @@
 //! The clock of the C-kernels: a piecewise linear SCLK of type 1 with 131,072 ticks a second of TDB from J2000 on.
 //!
 //! A C-kernel has its times in ticks of a spacecraft clock, and ticks are not negative. Doubles are dense near tick 0 only, so a clock that simply starts before the first time of
-//! interest would round all later times. Here the times before J2000 are on the ticks 0 to 4, on which a second is the smaller the earlier it is. From J2000 on the ticks
-//! have every digit of the seconds, but for a last bit where the exponent changes; before J2000 the rounding is that of [`rounding`]. All constants are whole numbers, which
+//! interest would round all later times. Here the times before J2000 are on the ticks 0 to 4, and a tick is the longer, the earlier it is. From J2000 on the ticks have every digit of the
+//! seconds, but for a last bit where the exponent changes. [`rounding`] bounds the rounding before J2000. All constants are whole numbers, which
 //! every reader of text kernels reads exactly, and ratios of powers of two, so conversions round once. Strings of this clock (`scdecd`) are useful after J2000 only.
 
 /// Ticks of a second of the clock.

@@ -70,7 +70,7 @@ impl<W: Write + Seek> Daf<W> {
         Self::new(out, b"DAF/CK  ", 6, comments)
     }
 
-    /// A binary PCK, likewise.
+    /// A binary PCK with these lines in its comment area, as for [`ck`](Self::ck).
     ///
     /// # Errors
     /// Those of the stream.

@@ -70,20 +70,15 @@ const CONSTANTS: [i32; 29] = [
     920_065_803,
 ];
 
-/// The names of the inertial frames, in the order of their codes.
-pub fn inertial() -> impl Iterator<Item = &'static str> {
-    INERTIAL.iter().map(|frame| frame.0)
-}
-
-/// The code of an inertial frame; ICRF has that of J2000, from which it differs by 0.02″ (Frames Required Reading, "ICRF vs. J2000").
-pub fn code(name: &str) -> Option<i32> {
-    let name = if name == "ICRF" { "J2000" } else { name };
-    INERTIAL.iter().position(|frame| frame.0 == name).map(|place| place as i32 + 1)
+/// The code and the name of an inertial frame; ICRF has the code of J2000, from which it differs by 0.02″ (Frames Required Reading, "ICRF vs. J2000").
+pub fn find(name: &str) -> Option<(i32, &'static str)> {
+    let place = INERTIAL.iter().position(|frame| frame.0 == name).map(|place| (place as i32 + 1, INERTIAL[place].0));
+    place.or((name == "ICRF").then_some((J2000, "ICRF")))
 }
 
 /// Whether SPICE has a frame of this name, inertial or rotating, without any kernel.
 pub fn is_taken(name: &str) -> bool {
-    code(name).is_some() || ROTATING.iter().any(|start| name.starts_with(start))
+    find(name).is_some() || ROTATING.iter().any(|start| name.starts_with(start))
 }
 
 /// Whether SPICE has a rotating frame of its own for the body with this code.

@@ -87,16 +87,14 @@ impl Kernel {
         if frames::is_taken(body_frame) {
             return Err(refused("body_frame", body_frame, "a name that SPICE has not taken for a frame of its own"));
         }
-        let Some((code, name)) = frames::code(frame)
-            .zip(frames::inertial().find(|name| *name == frame).or((frame == "ICRF").then_some("ICRF")))
-        else {
+        let Some(frame) = frames::find(frame) else {
             let allowed = "an inertial frame that SPICE knows, such as J2000, ECLIPJ2000 or ICRF";
             return Err(refused("frame", frame, allowed));
         };
         let segment = "ANDOYER".to_owned();
         Ok(Self {
             body_frame: body_frame.to_owned(),
-            frame: (code, name),
+            frame,
             code: Self::code_of(body_frame),
             center: None,
             clock: None,
@@ -136,7 +134,8 @@ impl Kernel {
     pub fn with_center(self, center: Option<i32>) -> Self {
         Self { center, ..self }
     }
-    /// With this code of the clock. `users`: the user has its kernel, and none is written; its code is then by default the thousands of a code −1000 or below.
+
+    /// With this code of the clock. `users`: the user has its kernel, and none is written; its code is then by default that of [`clock_of`](Self::clock_of).
     ///
     /// # Errors
     /// A code that is not negative.
@@ -177,14 +176,24 @@ impl Kernel {
         if body_frame == DEFAULT.0 { DEFAULT.1 } else { derived(body_frame, 0) }
     }
 
-    /// Code of the clock: the given one, or −999; the thousands of the frame's code for a clock of the user.
-    pub fn clock(&self) -> i32 {
-        self.clock.unwrap_or(if self.users_clock && self.code <= -1000 { self.code / 1000 } else { CLOCK })
+    /// The spacecraft of a frame with a code from −999,999,999 to −1000: its thousands.
+    fn spacecraft(code: i32) -> Option<i32> {
+        (-999_999_999..=-1000).contains(&code).then_some(code / 1000)
     }
 
-    /// Code of the centre: the given one; otherwise the spacecraft of a code from −1000 to −999,999,999, which is its thousands, or the code itself.
+    /// Code of the clock of a frame, if none is given: −999; for a clock of the user the spacecraft that the code of the frame names, if it names one.
+    pub fn clock_of(code: i32, users: bool) -> i32 {
+        Self::spacecraft(code).filter(|_| users).unwrap_or(CLOCK)
+    }
+
+    /// Code of the clock: the given one, or that of [`clock_of`](Self::clock_of).
+    pub fn clock(&self) -> i32 {
+        self.clock.unwrap_or(Self::clock_of(self.code, self.users_clock))
+    }
+
+    /// Code of the centre: the given one; otherwise the spacecraft that the code of the frame names, or the code itself.
     pub fn center(&self) -> i32 {
-        self.center.unwrap_or(if (-999_999_999..=-1000).contains(&self.code) { self.code / 1000 } else { self.code })
+        self.center.or(Self::spacecraft(self.code)).unwrap_or(self.code)
     }
 
     /// The text kernel beside a C-kernel: the frame and, if it is not the user's, the clock.

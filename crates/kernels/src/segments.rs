@@ -13,7 +13,7 @@ const DIRECTORY: usize = 100;
 pub struct Head {
     /// Class ID of the body's frame.
     pub code: i32,
-    /// Code of the inertial frame ([`crate::frames::code`]).
+    /// Code of the inertial frame ([`crate::frames::find`]).
     pub frame: i32,
     /// Name of the segment, up to 40 characters of printable ASCII.
     pub name: String,

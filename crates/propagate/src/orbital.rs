@@ -89,7 +89,7 @@ impl FromStr for OrbitalAxes {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self, Error> {
-        match text {
+        match text.to_ascii_lowercase().as_str() {
             "rtn" => Ok(Self::Rtn),
             "lvlh" => Ok(Self::Lvlh),
             _ => Err(refused("frame", format!("{text:?}"), "\"rtn\" or \"lvlh\"")),
@@ -172,19 +172,16 @@ impl OrbitalFrame {
         self.after(bodies, time, 0.0)
     }
 
-    /// The same at the time `since` after an epoch, which a sum of doubles would round.
+    /// Rotation and angular velocity of the frame at the time `since` after an epoch. The sum of the two would lose digits.
     fn after(
         &self,
         bodies: &[DisturbingBody],
         epoch: f64,
         since: f64,
     ) -> Result<(UnitQuaternion<f64>, Vector3<f64>), Error> {
-        let body = bodies.get(self.of).ok_or_else(|| {
-            let bound = match bodies.len() {
-                0 => "the index of a disturbing body, and the scene has none".to_owned(),
-                count => format!("the index of one of the {count} disturbing bodies, from 0"),
-            };
-            refused("of", self.of, bound)
+        let body = bodies.get(self.of).ok_or_else(|| match bodies.len() {
+            0 => refused("orbit", "none", "an orbit or a table of positions: without one there is no orbital frame"),
+            count => refused("of", self.of, format!("the index of one of the {count} disturbing bodies, from 0")),
         })?;
         let [position, normal, rate] = match body {
             DisturbingBody::Orbit(orbit) => of_orbit(orbit, epoch, since)?,

@@ -41,6 +41,11 @@ pub(crate) fn has_units(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     Ok(value.hasattr(intern!(py, "unit"))? || value.hasattr(intern!(py, "units"))?)
 }
 
+/// True for a quantity, and for a list that begins with one.
+pub(crate) fn holds_units(value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    has_units(&first_of(value)?.unwrap_or_else(|| value.clone()))
+}
+
 /// True if `value` is a Time or a TimeDelta of astropy; both consist of two doubles.
 fn is_time(value: &Bound<'_, PyAny>) -> PyResult<bool> {
     value.hasattr(intern!(value.py(), "jd1"))

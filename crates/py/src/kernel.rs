@@ -24,6 +24,12 @@ pub(crate) fn _frame_code(body_frame: &str) -> i32 {
     Kernel::code_of(body_frame)
 }
 
+/// The code of the clock of a frame, if none is given; `users`: of a clock that the user has.
+#[pyfunction]
+pub(crate) fn _clock_code(instrument: i32, users: bool) -> i32 {
+    Kernel::clock_of(instrument, users)
+}
+
 /// Writes a motion as a C-kernel, or as a binary PCK; type, number of records and error.
 #[pyfunction]
 pub(crate) fn _write_motion(

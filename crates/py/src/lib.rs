@@ -59,7 +59,7 @@ mod _core {
         Error, FileError, InputError, InternalError, RepresentationError, TheoryError, ToleranceWarning,
     };
     #[pymodule_export]
-    use super::kernel::{_frame_code, _write_motion, _write_samples};
+    use super::kernel::{_clock_code, _frame_code, _write_motion, _write_samples};
     #[pymodule_export]
     use super::libration::{Libration, LibrationTerm};
     #[pymodule_export]

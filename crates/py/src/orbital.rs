@@ -88,7 +88,9 @@ impl Scene {
             keywords.del_item("scalar_first")?;
         }
         let rates = array::fixed("angular_velocity", angular_velocity)?;
-        let turn = match &array::numbers_of("attitude", attitude)?[..] {
+        // A quaternion has no unit; three angles may have one.
+        let argument = if foreign::holds_units(attitude)? { "angles" } else { "attitude" };
+        let turn = match &array::numbers_of(argument, attitude)?[..] {
             &[first, second, third] => {
                 if let Some(index) = [first, second, third].iter().position(|angle| !angle.is_finite()) {
                     let value = [first, second, third][index];

@@ -285,6 +285,7 @@ def test_passage_that_spins_the_body_up_is_named_at_once(eccentricity):
     Scene(*state, method="integrated", tolerance=1e-8, span=(0, 9.9), orbit=orbit).solve()
 
 
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
 def test_rates_are_within_their_bound_and_a_later_scene_within_what_they_cost():
     """The rates of the theory against an integration, at both levels; the motion from a later state departs by their error times the time."""
     random = np.random.default_rng(11)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from test_kernel import CLOCK
 
 import andoyer
 from andoyer._quaternions import angle_between
@@ -359,6 +360,9 @@ def test_binary_file_is_whole_for_spice(tmp_path, furnished):
     assert "x" * 80 in comments(path) and spice.getfat(str(path)) == ("DAF", "CK")
 
 
+# JAX warns of every fork once another test has imported it; the children do not use it.
+@pytest.mark.filterwarnings("ignore:os.fork:RuntimeWarning")
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_threads_and_forked_children_write_beside_calls_of_spiceypy(tmp_path, furnished):
     write_ck(tmp_path / "a.bc", TUMBLER, (0.0, 100.0))
     furnished(tmp_path / "a.bc")
@@ -417,27 +421,15 @@ def test_sample_alone_is_in_the_kernel(tmp_path, furnished):
     assert angle_between(read("ALONE", [zero + 10.1]), samples.attitude[3:4])[0] < 2e-5
 
 
-CLOCK = r"""KPL/SCLK
-\begindata
-SCLK_KERNEL_ID = ( @2020-01-01 )
-SCLK_DATA_TYPE_5 = ( 1 )
-SCLK01_TIME_SYSTEM_5 = ( 1 )
-SCLK01_N_FIELDS_5 = ( 2 )
-SCLK01_MODULI_5 = ( 10000000000 256 )
-SCLK01_OFFSETS_5 = ( 0 0 )
-SCLK01_OUTPUT_DELIM_5 = ( 1 )
-SCLK_PARTITION_START_5 = ( 0.0 )
-SCLK_PARTITION_END_5 = ( 2.56E12 )
-SCLK01_COEFFICIENTS_5 = ( 0.0 -7.0E8 1.0   3.584E11 7.0E8 1.00001 )
-\begintext
-"""
+STEPPED = CLOCK.replace("( 0.0 -1.0E8 1.0000001 )", "( 0.0 -7.0E8 1.0   3.584E11 7.0E8 1.00001 )")
+"""A clock whose rate changes at 7e8 s."""
 
 
 @pytest.mark.parametrize("rates", [[0, 0, 1e-3], [1e-4, 2e-4, 1e-3]], ids=["uniform", "tumbling"])
 def test_clock_whose_rate_changes_is_followed(rates, tmp_path, furnished):
     """A record of type 2 over the change was 4.3e-3 rad off, with 1e-8 stated."""
     clock = tmp_path / "clock.tsc"
-    clock.write_text(CLOCK, encoding="ascii")
+    clock.write_text(STEPPED, encoding="ascii")
     motion = solved(rates)
     interval = (7e8 - 1e5, 7e8 + 1e5)
     result = write_ck(tmp_path / "a.bc", motion, interval, Kernel(body_frame="CLOCKED", clock=clock, clock_id=-5), interpolation_error=1e-7)
@@ -446,7 +438,7 @@ def test_clock_whose_rate_changes_is_followed(rates, tmp_path, furnished):
     assert worst("CLOCKED", motion, interval, count=2000) < result.error + ROUNDING < 1e-5
     with pytest.raises(andoyer.InputError, match="clock = .*: the text kernel beside .* has this name"):
         write_ck(tmp_path / "clock.bc", motion, interval, Kernel(clock=clock, clock_id=-5))
-    assert clock.read_text(encoding="ascii") == CLOCK
+    assert clock.read_text(encoding="ascii") == STEPPED
 
 
 def test_scene_with_a_calendar_epoch_keeps_its_digits(tmp_path, furnished):
@@ -511,3 +503,15 @@ def test_relative_path_is_the_file_that_it_names(name, there, tmp_path, monkeypa
     os.symlink("real.bc", "r/link.bc")
     write_ck("r/link.bc", TUMBLER, (0, 1))
     assert Path("r/link.bc").is_symlink() and Path("r/real.bc").stat().st_size > 4000 and os.listdir("r/r") == []
+
+
+def test_clock_of_a_frame_without_a_code_is_the_one_that_is_read(tmp_path, furnished):
+    """The text kernel named another clock than the one whose ticks were written, for codes that are computed from the name."""
+    clock = tmp_path / "clock_of_mission.tsc"
+    clock.write_text(CLOCK.replace("_5 ", "_999 "), encoding="ascii")
+    kernel = Kernel(body_frame="COMPUTED", clock=clock)
+    write_ck(tmp_path / "a.bc", TUMBLER, (0.0, 10.0), kernel)
+    spice.furnsh(str(clock))
+    furnished(tmp_path / "a.bc")
+    assert kernel.clock_code == -999 and worst("COMPUTED", TUMBLER, (0.0, 10.0)) < 1e-6
+    assert Kernel(-123456, "A", clock=clock).clock_code == -123 and Kernel(-123456, "A").clock_code == -999

@@ -52,6 +52,7 @@ def test_a_thousand_states_are_those_of_an_own_derivation_there_and_back():
         assert np.abs(found - rates).max() < 1e-14 * np.linalg.norm(rates) + 1e-15
 
 
+@pytest.mark.filterwarnings("ignore::andoyer.ToleranceWarning")
 def test_rates_are_those_of_the_attitudes():
     """Differences of attitudes against the frame, for a precessing orbit and for a table too."""
     precessing = Orbit(1e-3, 0.3, inclination=1.0, node=0.3, argument_of_pericentre=0.2, node_rate=1e-4, pericentre_rate=-3e-4, semi_major_axis=1.0)
@@ -178,7 +179,7 @@ def test_what_makes_no_frame_is_refused(given, message):
 
 
 def test_scene_without_an_orbit_has_no_frame():
-    with pytest.raises(andoyer.InputError, match="and the scene has none"):
+    with pytest.raises(andoyer.InputError, match="without one there is no orbital frame"):
         Scene(SATELLITE, [0, 0, 0, 1], [0, 0, 1]).solve().orbital([], elements_of="rotating")
 
 
@@ -231,3 +232,21 @@ def test_samples_are_pickled():
     again = pickle.loads(pickle.dumps(found))
     assert np.array_equal(again.angles, found.angles) and len(again) == 2 and repr(again) == "<Orbital at 2 times>"
     assert angle_between(product(np.array([[0, 0, 0, 1.0]]), again.attitude), found.attitude).max() == 0
+
+
+def test_angles_have_units_and_the_frame_any_case():
+    units = pytest.importorskip("astropy.units")
+    arguments = {"orbit": Orbit(1e-3), "elements_of": "rotating"}
+    scene = Scene.from_orbital(SATELLITE, np.radians([10, 20, 30]), [0, 0, 0], frame="LVLH", **arguments)
+    for angles in ([10, 20, 30] * units.deg, [10 * units.deg, 20 * units.deg, 30 * units.deg]):
+        given = Scene.from_orbital(SATELLITE, angles, [0, 0, 0], frame="lvlh", **arguments)
+        assert angle_between(given.attitude[None], scene.attitude[None])[0] < 1e-15
+
+
+def test_files_say_what_the_columns_against_the_frame_are(tmp_path):
+    motion = Scene.from_orbital(SATELLITE, [0.1, 0, 0], [0, 0, 0], orbit=Orbit(1e-3), elements_of="rotating", span=(0, 1), method="integrated").solve()
+    against = motion.orbital([0.0, 1.0], elements_of="rotating")
+    andoyer.output.write_npz(tmp_path / "a.npz", motion.at([0.0, 1.0]), orbital=against)
+    with np.load(tmp_path / "a.npz") as file:
+        assert "body components to those of the orbital frame" in str(file["convention"]) and '"angle_1": "rad"' in str(file["units"])
+    assert andoyer.output.read_table(tmp_path / "a.npz").units["rx"] == "rad per unit of time of the scene"

@@ -294,12 +294,12 @@ impl Orbit {
         self.axes_of([self.node, self.argument_of_pericentre])
     }
 
-    /// The same vectors at an epoch.
+    /// The unit vectors of [`axes`](Self::axes) at an epoch.
     pub(crate) fn axes_at(&self, epoch: f64) -> [Vector3<f64>; 3] {
         self.axes_after(epoch, 0.0)
     }
 
-    /// The same vectors at the time `since` after an epoch.
+    /// The unit vectors of [`axes`](Self::axes) at the time `since` after an epoch.
     pub(crate) fn axes_after(&self, epoch: f64, since: f64) -> [Vector3<f64>; 3] {
         if self.is_fixed() {
             return self.axes();

@@ -34,6 +34,7 @@ impl Refusal {
             | Error::Table { argument, .. }
             | Error::Length { argument, .. }
             | Error::TooFew { argument, .. } => &format!("orbit.{argument}"),
+            Error::OrbitalFrame { argument: "orbit", .. } => "orbit",
             Error::OrbitalFrame { argument, .. } => &format!("state.{argument}"),
             Error::Averaging { .. } => "averaging",
             Error::Level { .. } => "level",

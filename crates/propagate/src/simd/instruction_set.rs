@@ -1,10 +1,9 @@
 //! Instruction sets: the operations of a kernel that `pulp` does not have for all sets.
 //!
 //! The program contains the kernels for every instruction set of its architecture and selects the best one at run time. All sets with a fused multiply-add give
-//! the same bits, whatever their width, because only the stores combine lanes. A program with debug assertions therefore has two sets alone, AVX2 and the scalar one,
-//! and compiles in half the time; the unit tests and the release profile have all.
+//! the same bits, whatever their width, because only the stores combine lanes.
 
-#[cfg(all(target_arch = "x86_64", any(test, not(debug_assertions))))]
+#[cfg(target_arch = "x86_64")]
 use pulp::x86::V3_128b;
 use pulp::{Arch, NullaryFnOnce, Simd, bytemuck};
 
@@ -62,10 +61,8 @@ impl<S: InstructionSet, T: Task> NullaryFnOnce for On<S, T> {
 /// Runs a task with the best instruction set available.
 pub(crate) fn dispatch<T: Task>(arch: Arch, task: T) -> T::Output {
     match arch {
-        #[cfg(all(target_arch = "x86_64", any(test, not(debug_assertions))))]
+        #[cfg(target_arch = "x86_64")]
         Arch::V4(simd) => simd.vectorize(On(simd, task)),
-        #[cfg(all(target_arch = "x86_64", not(any(test, not(debug_assertions)))))]
-        Arch::V4(simd) => dispatch(Arch::V3(*simd), task),
         #[cfg(target_arch = "x86_64")]
         Arch::V3(simd) => simd.vectorize(On(simd, task)),
         #[cfg(target_arch = "aarch64")]
@@ -87,11 +84,13 @@ pub(crate) fn dispatch_few<T: Task>(arch: Arch, task: T) -> T::Output {
 /// would be idle.
 pub(crate) fn dispatch_one<T: Task>(arch: Arch, task: T) -> T::Output {
     match arch {
-        #[cfg(all(target_arch = "x86_64", any(test, not(debug_assertions))))]
+        #[cfg(target_arch = "x86_64")]
         Arch::V4(simd) => simd.vectorize(On(V3_128b(*simd), task)),
-        #[cfg(all(target_arch = "x86_64", any(test, not(debug_assertions))))]
+        #[cfg(target_arch = "x86_64")]
         Arch::V3(simd) => simd.vectorize(On(V3_128b(simd), task)),
-        _ => dispatch(arch, task),
+        #[cfg(target_arch = "aarch64")]
+        Arch::Neon(simd) => simd.vectorize(On(simd, task)),
+        _ => On(pulp::Scalar, task).call(),
     }
 }
 

@@ -88,7 +88,7 @@ impl CkWriter<'_> {
         for [begin, end] in options.parts(self.ends) {
             rate = self.source.at(&[begin])?.rates[0].norm();
             let count = (rate * (end - begin) * ROUNDING / error).ceil().max(1.0);
-            limited(count, error)?;
+            options.limited(count, MOST_RECORDS)?;
             let times: Vec<f64> = even(begin, end, count as usize).into_iter().map(|time| options.held(time)).collect();
             let ticks = options.ticks(&times, "interpolation_error")?;
             let samples = self.source.at(&times[..times.len() - 1])?;
@@ -97,7 +97,7 @@ impl CkWriter<'_> {
             daf.ck2(&self.head, &ticks, &attitudes, &rates, &seconds)?;
             records += seconds.len();
         }
-        Ok(Written { kind: 2, records, error: error + options.rounding(self.ends, rate, &[]) })
+        Ok(Written { kind: 2, records, error: error + options.rounding(self.ends, rate, 0.0) })
     }
 
     /// Segments of type 3, each with whole windows. Neighbouring segments share a node, so that there is no gap.
@@ -111,9 +111,9 @@ impl CkWriter<'_> {
         for [begin, end] in options.parts(self.ends) {
             let [start, stop] = [begin - origin, end - origin];
             let number = window_count(start, stop, rate, ROTATIONS);
-            limited(number, error)?;
+            options.limited(number, MOST_RECORDS)?;
             let borders = even(start, stop, number as usize);
-            limited(estimate(&self.source, &borders, error)?, error)?;
+            options.limited(estimate(&self.source, &borders, error)?, MOST_RECORDS)?;
             let count = borders.len() - 1;
             // The ends of a part are exact in the time of the kernel, where the clock changes its rate.
             let of = |place: usize| ((place == 0).then_some(begin), (place + 1 == count).then_some(end));
@@ -137,7 +137,7 @@ impl CkWriter<'_> {
                 let (attitudes, rates) = inertial(&samples);
                 daf.ck3(&self.head, &ticks, &attitudes, Some(&rates), &ticks[..1])?;
                 records += times.len();
-                limited(records as f64, error)?;
+                options.limited(records as f64, MOST_RECORDS)?;
                 fastest = samples.rates.iter().map(Vector3::norm).fold(fastest, f64::max);
                 let seconds = (times[times.len() - 1] - times[0]) / (ticks[ticks.len() - 1] - ticks[0]);
                 rounding = rounding.max(ticks[ticks.len() - 1].abs() * seconds);
@@ -148,7 +148,7 @@ impl CkWriter<'_> {
             }
             options.report(done + 1, windows.len())?;
         }
-        Ok(Written { kind: 3, records, error: error + options.rounding(self.ends, fastest, &[rounding]) })
+        Ok(Written { kind: 3, records, error: error + options.rounding(self.ends, fastest, rounding) })
     }
 }
 
@@ -160,16 +160,4 @@ fn inertial(samples: &Sampled) -> (Vec<[f64; 4]>, Vec<[f64; 3]>) {
 
 pub(super) fn array(attitude: &UnitQuaternion<f64>) -> [f64; 4] {
     attitude.coords.into()
-}
-
-fn limited(records: f64, error: f64) -> Result<(), Refused> {
-    if records <= MOST_RECORDS {
-        return Ok(());
-    }
-    let value = format!("{error:e} rad, which needs about {records:.0} records over this interval");
-    Err(Refused::new(
-        "interpolation_error",
-        value,
-        format!("so large that at most {MOST_RECORDS:.0} records are needed; or shorten the interval"),
-    ))
 }

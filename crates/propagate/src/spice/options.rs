@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::motion::solved::Motion;
 
 /// The smallest error of an interpolation \[rad\]: attitudes near one have rounding errors of 1e-15 rad.
-pub(super) const SMALLEST_ERROR: f64 = 1e-13;
+const SMALLEST_ERROR: f64 = 1e-13;
 
 /// Times that are put between two records at most, one half of the interval after the other.
 const HALVINGS: usize = 40;
@@ -110,8 +110,23 @@ impl KernelOptions<'_> {
             let allowed = "two finite times, the first below the second, that differ in seconds past J2000 too";
             return Err(Refused::new("interval", format!("({begin:?}, {end:?})"), allowed).into());
         }
-        self.checked_error()?;
+        let error = self.interpolation_error;
+        if !(SMALLEST_ERROR..f64::INFINITY).contains(&error) {
+            let allowed = format!("finite and at least {SMALLEST_ERROR:e} rad");
+            return Err(Refused::new("interpolation_error", format!("{error:?}"), allowed).into());
+        }
         Ok(ends)
+    }
+
+    /// Checks the number of records that the error needs.
+    pub(super) fn limited(&self, records: f64, most: f64) -> Result<(), Refused> {
+        if records <= most {
+            return Ok(());
+        }
+        let value =
+            format!("{:e} rad, which needs about {records:.0} records over this interval", self.interpolation_error);
+        let allowed = format!("so large that at most {most:.0} records are needed; or shorten the interval");
+        Err(Refused::new("interpolation_error", value, allowed))
     }
 
     /// The ends of the interval, rounded outwards to times that the clock holds.
@@ -130,18 +145,6 @@ impl KernelOptions<'_> {
             return Err(Refused::new("interval", value, allowed).into());
         }
         Ok(ends)
-    }
-
-    pub(super) fn checked_error(&self) -> Result<(), Refused> {
-        let error = self.interpolation_error;
-        let valid = (SMALLEST_ERROR..f64::INFINITY).contains(&error);
-        valid.then_some(()).ok_or_else(|| {
-            Refused::new(
-                "interpolation_error",
-                format!("{error:?}"),
-                format!("finite and at least {SMALLEST_ERROR:e} rad"),
-            )
-        })
     }
 
     /// A time that the clock holds: the last one up to `time` if an interval begins there, the first one from `time` on if it ends there, otherwise the nearest one.
@@ -209,10 +212,9 @@ impl KernelOptions<'_> {
         times.windows(2).map(|pair| [pair[0], pair[1]]).collect()
     }
 
-    /// The angle \[rad\] that the rounding of a time costs at a rate. `of_ticks`: the sizes \[s\] of the ticks of a user's clock.
-    pub(super) fn rounding(&self, [begin, end]: [f64; 2], rate: f64, of_ticks: &[f64]) -> f64 {
-        let of_ticks =
-            if self.ticks.is_some() { of_ticks.iter().fold(0.0, |most: f64, size| most.max(*size)) } else { 0.0 };
+    /// The angle \[rad\] that the rounding of a time costs at a rate. `of_ticks`: the largest tick of a user's clock, in seconds.
+    pub(super) fn rounding(&self, [begin, end]: [f64; 2], rate: f64, of_ticks: f64) -> f64 {
+        let of_ticks = if self.ticks.is_some() { of_ticks } else { 0.0 };
         rate * (clock::rounding(begin).max(clock::rounding(end)) + f64::EPSILON * of_ticks)
     }
 
@@ -262,7 +264,7 @@ impl KernelOptions<'_> {
     }
 }
 
-/// Writes a binary kernel and the text kernel beside it, which have their names when both are complete.
+/// Writes a binary kernel and the text kernel beside it. Both have temporary names until the binary one is complete; then the text kernel is renamed, and the binary one after it.
 pub(super) fn beside<T>(
     path: &Path,
     ending: &str,
@@ -288,7 +290,6 @@ pub(super) fn beside<T>(
         )
         .into());
     }
-    // The text kernel gets its name only when the binary one is written.
     let named = |path: &Path| {
         let path = path.to_owned();
         move |error: io::Error| WriteError::System(error, path.clone())

@@ -72,31 +72,19 @@ impl Motion {
             let source = KernelSource::new(self, interval, options.zero);
             let rate = source.fastest()?;
             let windows = window_count(begin, end, rate, ROTATIONS);
-            many(windows, error)?;
+            options.limited(windows, MOST_RECORDS)?;
             let mut fit = Fit::new(source, kernel, [begin, end], error, rate);
             let borders = even(begin, end, windows as usize);
             let mut records = 0;
             for (done, pair) in borders.windows(2).enumerate() {
                 records += fit.segments(&mut daf, kernel, [pair[0], pair[1]], HALVINGS)?;
-                many(records as f64 * windows / (done + 1) as f64, error)?;
+                options.limited(records as f64 * windows / (done + 1) as f64, MOST_RECORDS)?;
                 options.report(done + 1, borders.len() - 1)?;
             }
             daf.finish()?;
             Ok(Written { kind: 2, records, error: error + rate * clock::rounding(begin).max(clock::rounding(end)) })
         })
     }
-}
-
-fn many(records: f64, error: f64) -> Result<(), Refused> {
-    if records <= MOST_RECORDS {
-        return Ok(());
-    }
-    let value = format!("{error:e} rad, which needs about {records:.0} polynomials over this interval");
-    Err(Refused::new(
-        "interpolation_error",
-        value,
-        format!("so large that at most {MOST_RECORDS:.0} are needed; or shorten the interval"),
-    ))
 }
 
 /// The fit of polynomials to a motion.

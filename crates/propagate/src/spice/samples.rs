@@ -75,7 +75,7 @@ pub fn write_samples(
         // The times of the records are rounded, and so is a time that is asked for.
         let seconds = (held[held.len() - 1] - held[0]) / (ticks[ticks.len() - 1] - ticks[0]);
         let of_ticks = ticks[ticks.len() - 1].abs() * seconds;
-        let rounding = 2.0 * options.rounding(ends, fastest.fold(0.0, f64::max), &[of_ticks]);
+        let rounding = 2.0 * options.rounding(ends, fastest.fold(0.0, f64::max), of_ticks);
         Ok(Written { kind: 3, records: held.len(), error: estimated + rounding })
     })
 }

@@ -829,6 +829,9 @@ def normalize(
 def _frame_code(body_frame: str) -> int:
     """The code of a frame that has no other: computed from its name."""
 
+def _clock_code(instrument: int, users: bool) -> int:
+    """The code of the clock of a frame, if none is given; `users`: of a clock that the user has."""
+
 def _write_motion(
     path: Any, motion: Motion, interval: tuple[float, float], pck: bool, names: tuple[Any, ...], options: tuple[Any, ...]
 ) -> tuple[int, int, float]:

@@ -149,8 +149,8 @@ def parser() -> Parser:
     strictly(command)
     command.set_defaults(run=propagate)
 
-    writes = "write a file of attitudes as a SPICE C-kernel"
-    command = commands.add_parser("convert", help=writes, description=f"{writes.capitalize()}.", **examples("", EXAMPLES["convert"]))
+    writes = "a file of attitudes as a SPICE C-kernel, with the times of the file; of an AEM with its frame too"
+    command = commands.add_parser("convert", help=f"write {writes}", description=f"Write {writes}.", **examples("", EXAMPLES["convert"]))
     converting.add_command(command)
 
     pictures = "draw the polhode, the phase portrait, angles and rates over whole periods; under a gravity gradient the path of the pole; of a libration its angles and terms"

@@ -51,5 +51,7 @@ def convert(arguments: argparse.Namespace) -> int:
     with writing.written_to(path):
         longest = {} if arguments.longest_step is None else {"longest_step": arguments.longest_step}
         written = output.write_ck(path, samples, kernel=kernel, force=arguments.force, **longest)
+    if not message:
+        writing.note(kernel, given)
     print(f"{written.records} records of frame {kernel.body_frame} ({kernel.instrument}) against {kernel.frame}; estimated error {written.error:.2g} rad")
     return 0

@@ -120,7 +120,11 @@ def add_orbital(command: argparse.ArgumentParser) -> None:
     """Add the options of the orbital frame."""
     group = command.add_argument_group("columns against the orbital frame, beside the inertial ones (.csv, .npz, .parquet)")
     group.add_argument(
-        "--orbital", choices=["rtn", "lvlh"], metavar="FRAME", help="rtn (radial, transverse, normal) or lvlh (forward, against the normal, to the primary)"
+        "--orbital",
+        type=str.lower,
+        choices=["rtn", "lvlh"],
+        metavar="FRAME",
+        help="rtn (radial, transverse, normal) or lvlh (forward, against the normal, to the primary)",
     )
     group.add_argument(
         "--elements-of",
@@ -162,7 +166,7 @@ def write_samples(
             if ending == ".aem":
                 heading = Heading(**({"name": _name(motion), "comments": _comments(motion)} | given))
                 output.write_aem(path, samples, heading, body=motion.scene.body, force=force)
-                _note(heading, given)
+                note(heading, given)
             elif ending == ".csv":
                 output.write_csv(path, samples, progress, orbital=against, force=force)
             elif ending == ".npz":
@@ -187,7 +191,7 @@ def write_kernel(path: Path, motion: andoyer.Motion, interval: tuple[float, floa
                 output.write_pck(path, motion, interval, body=kernel.instrument, progress=progress, force=force, **names, **error)
     finally:
         progress.close()
-    _note(kernel, given)
+    note(kernel, given)
 
 
 def kernel_of(given: dict[str, Any]) -> Kernel:
@@ -214,7 +218,7 @@ def _name(motion: andoyer.Motion) -> str:
     return motion.scene.name or motion.scene.body.name or Heading.name
 
 
-def _note(heading: Heading | Kernel, given: dict[str, Any]) -> None:
+def note(heading: Heading | Kernel, given: dict[str, Any]) -> None:
     """Print the default values of a heading on stderr."""
     if "date" not in given or "frame" not in given:
         said = f"time 0 is {heading.date.isoformat()} {heading.time_system}, the inertial frame {heading.frame}"

@@ -48,6 +48,7 @@ UNITS = {
     "inclination": "rad",
     "node": "rad",
     "argument_of_pericentre": "rad",
+    "angles": "rad",
 }
 """Unit of each argument that has one. That of longitude and latitude is in `unit_of`."""
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from andoyer._core import InputError, Motion, Samples, _frame_code, _write_motion, _write_samples
+from andoyer._core import InputError, Motion, Samples, _clock_code, _frame_code, _write_motion, _write_samples
 from andoyer._extra import extra
 from andoyer._refusal import refusal
 from andoyer.interop._foreign import epoch_of, scene_times
@@ -63,9 +63,7 @@ class Kernel(ShortRecord):
     @property
     def clock_code(self) -> int:
         """The code of the clock: the given one or the default."""
-        if self.clock_id is not None:
-            return self.clock_id
-        return -(-self.instrument // 1000) if self.clock is not None and -999_999_999 <= self.instrument <= -1000 else -999
+        return _clock_code(self.instrument, self.clock is not None) if self.clock_id is None else self.clock_id
 
 
 class Written(NamedTuple):

@@ -32,6 +32,12 @@ JULIAN = ["jd1", "jd2"]
 ORBITAL = ("ox", "oy", "oz", "ow", "angle_1", "angle_2", "angle_3", "rx", "ry", "rz")
 """Columns against the orbital frame: the quaternion, scalar last, the three angles, the angular velocity relative to the frame."""
 
+AGAINST = (
+    "; ox, oy, oz, ow: unit quaternion, body components to those of the orbital frame; angle_1, angle_2, angle_3: intrinsic angles [rad]; "
+    "rx, ry, rz: angular velocity relative to the frame, body components"
+)
+"""What the columns of `ORBITAL` mean, after `CONVENTION`."""
+
 ENDINGS = [".csv", ".npz", ".parquet"]
 
 Progress: TypeAlias = Callable[[int, int], None]
@@ -132,7 +138,7 @@ def write_npz(
         Samples of an ensemble.
     """
     table = rows(samples)
-    texts, julian = _about(scene, calendar_times(samples))
+    texts, julian = _about(scene, calendar_times(samples), orbital)
     texts |= {"remark": remark} if remark else {}
     arrays: dict[str, Any] = {"times": table[:, 0], "attitude": table[:, 1:5], "angular_velocity": table[:, 5:]}
     arrays |= julian | against(orbital, table) | {key: np.array(text) for key, text in texts.items()}
@@ -165,7 +171,7 @@ def write_parquet(
     """
     arrow, parquet = (extra(module, "writing Parquet") for module in ("pyarrow", "pyarrow.parquet"))
     table = rows(samples)
-    texts, julian = _about(scene, calendar_times(samples))
+    texts, julian = _about(scene, calendar_times(samples), orbital)
     texts |= {"remark": remark} if remark else {}
     columns = dict(zip(COLUMNS.split(","), np.ascontiguousarray(table.T))) | julian | against(orbital, table)
     schema = arrow.schema([(name, arrow.float64()) for name in columns], metadata=texts)
@@ -245,11 +251,13 @@ def _read(path: Path) -> Table:
     return Table(samples, scene, json.loads(texts.get("units", "{}")))
 
 
-def _about(scene: Scene | None, times: Any) -> tuple[dict[str, str], dict[str, Array]]:
+def _about(scene: Scene | None, times: Any, orbital: Orbital | None) -> tuple[dict[str, str], dict[str, Array]]:
     """The texts of a table, and the columns of calendar times."""
     unit = "unit of time of the scene" if times is None else "s"
     units = {"t": unit} | dict.fromkeys(["qx", "qy", "qz", "qw"], "1") | dict.fromkeys(["wx", "wy", "wz"], "rad/s" if times is not None else f"rad per {unit}")
-    texts = {"convention": CONVENTION, "units": json.dumps(units)}
+    if orbital is not None:
+        units |= dict(zip(ORBITAL, ["1"] * 4 + ["rad"] * 3 + [units["wx"]] * 3))
+    texts = {"convention": CONVENTION + (AGAINST if orbital is not None else ""), "units": json.dumps(units)}
     if scene is not None:
         texts["scene"] = scene.to_toml()
     if times is None:
