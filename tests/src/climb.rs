@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use andoyer_propagate::periods::Frequencies;
 use andoyer_propagate::nalgebra::UnitQuaternion;
 use andoyer_propagate::options::{Averaging, Level};
 
@@ -77,6 +78,8 @@ pub enum Family {
     LooseTolerance,
     /// A part of one orbit, averaged over the orbit in second order.
     WithinAnOrbit,
+    /// A harmonic of the orbit whose frequency x, with that of a term, is 1e-4 to 2 over the span.
+    NearResonance,
 }
 
 /// Families in which the bound holds.
@@ -92,7 +95,7 @@ pub const FAMILIES: [Family; 8] = [
 ];
 
 /// Families in most of which the error is known to exceed the bound, by 1.2 to 3.3 times.
-pub const FURTHER_FAMILIES: [Family; 9] = [
+pub const FURTHER_FAMILIES: [Family; 10] = [
     Family::BeforeTheEpoch,
     Family::FastOrbit,
     Family::TwoBodies,
@@ -102,6 +105,7 @@ pub const FURTHER_FAMILIES: [Family; 9] = [
     Family::NearlyAxisymmetric,
     Family::LooseTolerance,
     Family::WithinAnOrbit,
+    Family::NearResonance,
 ];
 
 impl Family {
@@ -125,6 +129,7 @@ impl Family {
             Self::NearlyAxisymmetric => "nearly axisymmetric",
             Self::LooseTolerance => "loose tolerance",
             Self::WithinAnOrbit => "within an orbit",
+            Self::NearResonance => "near resonance",
         }
     }
 
@@ -201,6 +206,7 @@ impl Family {
             Self::Pericentre => mix(0.3, 0.95, eccentricity),
             Self::AfterPericentre => mix(0.5, 0.95, eccentricity),
             Self::WithinAnOrbit => 0.9 * eccentricity,
+            Self::NearResonance => 0.75 * eccentricity,
             Self::NearlySphere | Self::FastOrbit => 0.6 * (2.0 * eccentricity - 1.0).max(0.0),
             Self::Circle => 0.0,
             _ => 0.6 * eccentricity,
@@ -222,6 +228,7 @@ impl Family {
                 (0.5 * rate * (1.0 + mix(-0.2, 0.2, motion)), power(1.3, 3.0, span))
             }
             Self::FastOrbit => (mix(0.07, 0.11, motion), power(1.3, 3.0, span)),
+            Self::NearResonance => (power(-2.5, -0.9, motion), power(1.3, 3.0, span)),
             Self::WithinAnOrbit => {
                 let mean_motion = power(-3.3, -1.5, motion);
                 (mean_motion, mix(-1.0, 1.0, span) * TAU / mean_motion)
@@ -272,9 +279,29 @@ impl Family {
                 Disturbed { orbit, secular: [0, 1].map(|i| n * mix(-0.5, 0.5, extra[i])), ..scene }
             }
             Self::LooseTolerance => Disturbed { tolerance: power(-6.0, -2.0, extra[0]), ..scene },
+            Self::NearResonance => next_to_resonance(scene, extra),
             _ => scene,
         }
     }
+}
+
+/// The scene with the mean motion n for which Ω + jn of a term is x, with |x| times the span from 1e-4 to 2: `part` chooses h, m, j and x.
+fn next_to_resonance(scene: Disturbed, part: &[f64]) -> Disturbed {
+    let [n, eccentricity, pericentre, inclination, node, argument] = scene.orbit;
+    let Ok(motion) = scene.free().and_then(|scene| scene.solve()) else { return scene };
+    let Frequencies { anomaly, longitude } = motion.frequencies();
+    let size = power(-4.0, 0.3, part[1]) / scene.span.abs();
+    let x = if part[2] < 0.5 { size } else { -size };
+    // Harmonic j is smaller than the first by about e^(−j (artanh η − η)).
+    let eta = (1.0 - eccentricity * eccentricity).sqrt();
+    let highest = (8.0 / (eta.atanh() - eta)).min(80.0) as i32;
+    let mut motions = Vec::new();
+    for (h, m) in [(2, 0), (1, 1), (-1, 1), (-3, 1), (0, 2), (2, 2), (-2, 2), (-4, 2)] {
+        let omega = f64::from(h) * anomaly + f64::from(m) * longitude;
+        motions.extend((1..=highest).map(|j| (x - omega).abs() / f64::from(j)).filter(|tuned| (0.5 * n..2.0 * n).contains(tuned)));
+    }
+    let Some(&tuned) = motions.get((part[0] * motions.len() as f64) as usize) else { return scene };
+    Disturbed { orbit: [tuned, eccentricity, pericentre * n / tuned, inclination, node, argument], ..scene }
 }
 
 fn mix(low: f64, high: f64, part: f64) -> f64 {

@@ -137,6 +137,7 @@ fn second_order_improves_next_to_a_resonance_or_its_estimate_says_so() {
             worst.max(attitude_error(found, true_one))
         });
         let estimate = motion.plan().error_bound() + truth.plan().error_bound();
+        eprintln!("{} error {error:e} estimate {estimate:e} before {:e} {:e}", scene.family, scene.error_first_order, scene.error_second_order);
         let report = format!("{}: error {error:e}, estimate {estimate:e}, {scene:?}", scene.family);
         // Nearly a sphere: slow pairs are not in K2 (theory-second-order.md, section 9).
         let limit = if scene.family == "sphere" { 3.0 } else { 1.5 };

@@ -4,7 +4,7 @@
 //! attitude that each level leaves, against J, n/spin, e and B − A, one of them varied at a time. `climb STARTS STEPS SEED [FAMILY]`: the largest error over its bound
 //! that hill climbing finds, by family, mode and averaging. `bounds N SEED`: the error of N random scenes and the bound that the plan states, for both
 //! averagings and for second order, and what the integration loses of the free motion over the span. `table N SEED`: by n/spin and e, how many of N random
-//! scenes are served, the share of the torque's effect that is left, and the bound over the error. `safety N SEED`: errors and estimates of N random scenes of all
+//! scenes are served, the share of the torque's effect that is left, and the bound over the error. `safety N SEED [FAMILY]`: errors and estimates of N random scenes of all
 //! families and of the table, by each theory.
 
 use std::f64::consts::TAU;
@@ -320,14 +320,22 @@ fn tabled(random: &mut Uniform, mean_motion: f64, eccentricity: f64) -> Disturbe
 }
 
 /// Errors and estimates of random scenes of all families and of the table.
-fn safety(out: &mut impl Write, count: usize, seed: u64) -> Result<(), Box<dyn std::error::Error>> {
+fn safety(
+    out: &mut impl Write,
+    (count, seed): (usize, u64),
+    only: Option<&str>,
+) -> Result<(), Box<dyn std::error::Error>> {
     writeln!(out, "family,mode,averaging,level,n,e,error,bound,effect,lost,scene")?;
-    let families: Vec<_> = FAMILIES.into_iter().chain(FURTHER_FAMILIES).collect();
+    let mut families: Vec<_> = FAMILIES.into_iter().chain(FURTHER_FAMILIES).collect();
+    families.retain(|family| only.is_none_or(|name| name == family.name()));
+    if families.is_empty() {
+        return Err("an unknown family".into());
+    }
     let mut random = Uniform(seed);
     for k in 0..count {
         let long_axis = random.draw() < 0.5;
         // Every other scene is one of the table.
-        let family = (k % 2 == 0).then(|| families[k / 2 % families.len()]);
+        let family = (only.is_some() || k % 2 == 0).then(|| families[k / 2 % families.len()]);
         let theories = family.map_or(&THEORIES[..], |family| family.theories());
         let [mean_motion, eccentricity] =
             [10.0_f64.powf(random.between(-3.5, -0.9)), random.between(-0.2, 0.95).max(0.0)];
@@ -364,7 +372,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     match words[..] {
         ["cases"] => reference_cases(&mut out),
         ["levels"] => levels(&mut out),
-        ["safety", count, seed] => safety(&mut out, count.parse()?, seed.parse()?),
+        ["safety", count, seed] => safety(&mut out, (count.parse()?, seed.parse()?), None),
+        ["safety", count, seed, family] => safety(&mut out, (count.parse()?, seed.parse()?), Some(family)),
         ["climb", starts, steps, seed] => climbs(&mut out, (starts.parse()?, steps.parse()?, seed.parse()?), None),
         ["climb", starts, steps, seed, family] => {
             climbs(&mut out, (starts.parse()?, steps.parse()?, seed.parse()?), Some(family))
@@ -372,7 +381,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ["table", count, seed] => table(&mut out, count.parse()?, seed.parse()?),
         ["bounds", count, seed] => bounds(&mut out, count.parse()?, seed.parse()?),
         _ => Err(
-            "usage: gradient cases | gradient levels | gradient safety COUNT SEED | gradient bounds COUNT SEED | gradient table COUNT SEED | gradient climb STARTS STEPS SEED [FAMILY]"
+            "usage: gradient cases | gradient levels | gradient safety COUNT SEED [FAMILY] | gradient bounds COUNT SEED | gradient table COUNT SEED | gradient climb STARTS STEPS SEED [FAMILY]"
                 .into(),
         ),
     }

@@ -37,7 +37,7 @@ impl Gradient {
         let plane = |(im, re): (Lanes<S>, Lanes<S>)| ComplexLanes { re, im };
         let turn = plane(self.anomaly.sin_cos_beyond(elapsed, by_anomaly * all(self.drifts[0] / TAU)));
         let half = plane(self.half_longitude.sin_cos_beyond(elapsed, by_longitude * all(0.5 * self.drifts[1] / TAU)));
-        let mean = MeanLanes { turn, spin: half * half, frame };
+        let mean = MeanLanes { turn, spin: half * half, frame, elapsed: elapsed.0 };
         let mut change = self.bodies[0].corrections.generator.at(&mean, &first.place, &first.axes);
         for body in &self.bodies[1..] {
             change = change.plus(elapsed.0.simd().vectorize(OtherBody { body, mean: &mean, elapsed }));

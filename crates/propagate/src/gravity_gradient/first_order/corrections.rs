@@ -119,7 +119,7 @@ impl Corrections {
         let point = |c: C64| ComplexLanes { re: one(c.re), im: one(c.im) };
         let frame = QuaternionLanes::all(one(0.0), &mean.frame);
         let axes = fixed(&self.generator.axes, place.sine);
-        let mean = generator::MeanLanes { turn: point(turn), spin: point(spin), frame };
+        let mean = generator::MeanLanes { turn: point(turn), spin: point(spin), frame, elapsed: one(0.0) };
         let change = self.generator.at(&mean, place, &axes);
         let value = |lanes: Lanes<pulp::Scalar>| lanes.values()[0];
         PeriodicChange {
@@ -161,8 +161,8 @@ impl Collected {
         let growth = regimes.growth(term.term.multiple);
         match (*regime, &elliptic.series) {
             (Regime::Exact { resonant, size }, Some(series)) => {
-                let divisors = regimes.divisors(term).without(resonant);
-                self.exact.push(ExactTerm::new(term, inertia, (series, divisors), regimes.nothing));
+                let divisors = regimes.divisors(term).with_resonant(resonant);
+                self.exact.push(ExactTerm::new(term, inertia, (series, divisors), (regimes.nothing, elliptic.unit())));
                 self.squares += size * size;
                 self.dropped += growth * regimes.nothing;
                 self.count += 1;

@@ -8,13 +8,15 @@
 //!
 //! With r_± = 1/(Ω ± jn), the coefficients of E and E₁ are Ω(r₊ + r₋) and Ω²(r₊² + r₋²), and those of O and O₁ have differences instead of the sums. Near
 //! resonance the average torque shifts the divisors ([`crate::gravity_gradient::terms::divisors`]). For an even g, E is a series in cos jl and O one in sin jl. So E
-//! replaces the sum of the even time derivatives, and O that of the odd ones. The harmonic nearest to resonance may be left out ([`crate::gravity_gradient::terms::regime`]).
+//! replaces the sum of the even time derivatives, and O that of the odd ones. The harmonic nearest to resonance may have the solution that vanishes at the epoch
+//! instead ([`crate::gravity_gradient::terms::regime`]).
 
 use std::f64::consts::TAU;
 
 use pulp::NullaryFnOnce;
 
 use super::deviator::{Contracted, Products, axial_contractions, contractions};
+use super::epoch_solution::EpochSolution;
 use super::sums::{GeneratorSlopes, SUMS};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
@@ -27,7 +29,7 @@ use crate::simd::lanes::Lanes;
 use crate::simd::sincos::sin_cos_of_turns;
 
 /// E, O, E₁ and O₁.
-const PARTS: usize = 4;
+pub(super) const PARTS: usize = 4;
 /// One term.
 #[derive(Clone, Debug)]
 pub(crate) struct ExactTerm {
@@ -38,6 +40,8 @@ pub(crate) struct ExactTerm {
     factors: [[f64; SUMS]; 2],
     /// The coefficients of (a/r)³ times 1, cos 2f and sin 2f, by j, function and part.
     coefficients: Vec<[[f64; PARTS]; 3]>,
+    /// The harmonic whose solution vanishes at the epoch.
+    resonant: Option<EpochSolution>,
 }
 
 impl ExactTerm {
@@ -47,11 +51,12 @@ impl ExactTerm {
     }
 
     /// A term with these divisors in the series. Coefficients whose part of the term is smaller than a tenth of `nothing` are dropped.
+    /// `unit` is the unit of rates in the user's.
     pub(crate) fn new(
         term: &SizedTerm,
         inertia: &Inertia,
         (series, divisors): (&OrbitSeries, Divisors),
-        nothing: f64,
+        (nothing, unit): (f64, f64),
     ) -> Self {
         let negligible = 0.1 * nothing / term.size();
         let mut coefficients: Vec<_> = (0..)
@@ -91,7 +96,8 @@ impl ExactTerm {
         let something = |terms: &[[f64; PARTS]; 3]| terms.iter().flatten().any(|c| c.abs() > negligible);
         coefficients.truncate(coefficients.iter().rposition(something).map_or(0, |last| last + 1));
         let numbers = (term.term.harmonic, term.term.multiple);
-        Self { numbers, divisors, factors: term.factors(inertia), coefficients }
+        let resonant = divisors.resonant.map(|number| EpochSolution::new(number, series, &divisors, unit));
+        Self { numbers, divisors, factors: term.factors(inertia), coefficients, resonant }
     }
 
     /// |h|.
@@ -104,9 +110,9 @@ impl ExactTerm {
         self.numbers.1 as usize // 0 ≤ m ≤ 2
     }
 
-    /// The parts of the three functions at a mean anomaly, which is given by its cosine and sine.
+    /// The parts of the three functions at a mean anomaly, which is given by its cosine and sine, and at times after the epoch.
     #[inline(always)]
-    fn parts<S: InstructionSet>(&self, anomaly: ComplexLanes<S>) -> [[Lanes<S>; 3]; PARTS] {
+    fn parts<S: InstructionSet>(&self, (anomaly, elapsed): (ComplexLanes<S>, Lanes<S>)) -> [[Lanes<S>; 3]; PARTS] {
         let none = anomaly.re.all(0.0);
         let mut parts = [[none; 3]; PARTS];
         let mut turn = ComplexLanes { re: none.all(1.0), im: none };
@@ -118,6 +124,9 @@ impl ExactTerm {
                 }
             }
             turn = turn * anomaly;
+        }
+        if let Some(resonant) = &self.resonant {
+            resonant.add(&mut parts, anomaly, elapsed);
         }
         parts
     }
@@ -136,9 +145,9 @@ impl ExactTerm {
         sums: &mut GeneratorSlopes<S>,
         functions: &[Contracted<S>; 3],
         turns: &[ComplexLanes<S>],
-        anomaly: ComplexLanes<S>,
+        when: (ComplexLanes<S>, Lanes<S>),
     ) {
-        let parts = self.parts(anomaly);
+        let parts = self.parts(when);
         let turn = self.turn(turns);
         let none = turn.re.all(0.0);
         let mut value = ComplexLanes { re: none, im: none };
@@ -162,9 +171,9 @@ impl ExactTerm {
         sums: &mut GeneratorSlopes<S>,
         functions: &[[Lanes<S>; 3]; 3],
         turns: &[ComplexLanes<S>],
-        anomaly: ComplexLanes<S>,
+        when: (ComplexLanes<S>, Lanes<S>),
     ) {
-        let parts = self.parts(anomaly);
+        let parts = self.parts(when);
         let turn = self.turn(turns);
         let none = turn.re.all(0.0);
         let mut wave = [ComplexLanes { re: none, im: none }; 3];
@@ -213,6 +222,8 @@ pub(crate) struct ExactTerms<'a, S: InstructionSet> {
     pub(crate) turns: &'a [ComplexLanes<S>],
     pub(crate) products: &'a Products<S>,
     pub(crate) place: &'a Place<S>,
+    /// Times after the epoch.
+    pub(crate) elapsed: Lanes<S>,
     pub(crate) sums: GeneratorSlopes<S>,
 }
 
@@ -221,10 +232,10 @@ impl<S: InstructionSet> NullaryFnOnce for ExactTerms<'_, S> {
 
     #[inline(always)]
     fn call(self) -> GeneratorSlopes<S> {
-        let Self { terms, turns, products, place, mut sums } = self;
+        let Self { terms, turns, products, place, elapsed, mut sums } = self;
         let none = place.sine.all(0.0);
         let (sine, cosine) = sin_cos_of_turns((place.angle - place.centre) * none.all(1.0 / TAU));
-        let anomaly = ComplexLanes { re: cosine, im: sine };
+        let when = (ComplexLanes { re: cosine, im: sine }, elapsed);
         // The lists are filled without `map`, which is not inlined into code for an instruction set.
         for multiple in 0..=2 {
             let mut terms = terms.iter().filter(|term| term.multiple() == multiple).peekable();
@@ -237,7 +248,7 @@ impl<S: InstructionSet> NullaryFnOnce for ExactTerms<'_, S> {
                     *function = axial_contractions(product);
                 }
                 for term in terms {
-                    term.add_axial(&mut sums, &functions, turns, anomaly);
+                    term.add_axial(&mut sums, &functions, turns, when);
                 }
             } else {
                 let zero = ComplexLanes { re: none, im: none };
@@ -246,7 +257,7 @@ impl<S: InstructionSet> NullaryFnOnce for ExactTerms<'_, S> {
                     *function = contractions(product, multiple);
                 }
                 for term in terms {
-                    term.add(&mut sums, &functions, turns, anomaly);
+                    term.add(&mut sums, &functions, turns, when);
                 }
             }
         }

@@ -48,12 +48,13 @@ pub(crate) struct TorqueScale {
     pub(crate) momentum: f64,
 }
 
-/// The mean motion at some times: cosine and sine of ℓ′ and of y′, and the invariable frame.
+/// The mean motion at some times: cosine and sine of ℓ′ and of y′, the invariable frame, and the time since the epoch.
 #[derive(Clone, Copy)]
 pub(crate) struct MeanLanes<S: InstructionSet> {
     pub(crate) turn: ComplexLanes<S>,
     pub(crate) spin: ComplexLanes<S>,
     pub(crate) frame: QuaternionLanes<S>,
+    pub(crate) elapsed: Lanes<S>,
 }
 
 /// First-order changes of the mean motion. For p it is the change times e^(−iℓ′); `rotation` is about axes 1 and 2 of the frame.
@@ -115,7 +116,7 @@ impl Generator {
             }
         }
         if !self.exact.is_empty() {
-            let terms = ExactTerms { terms: &self.exact, turns, products: &products, place, sums };
+            let terms = ExactTerms { terms: &self.exact, turns, products: &products, place, elapsed: mean.elapsed, sums };
             sums = none.simd().vectorize(terms);
         }
         self.change(&sums, mean.spin)

@@ -2,6 +2,7 @@
 
 pub(crate) mod corrections;
 pub(crate) mod deviator;
+mod epoch_solution;
 pub(crate) mod fourier;
 pub(crate) mod generator;
 pub(crate) mod mean_motion;

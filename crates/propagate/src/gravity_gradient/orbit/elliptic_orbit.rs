@@ -74,6 +74,11 @@ impl<'a> EllipticOrbit<'a> {
         })
     }
 
+    /// The unit of rates of the tables, in the user's.
+    pub(crate) fn unit(&self) -> f64 {
+        self.orbit.mean_motion() / self.mean_motion
+    }
+
     /// q = 3φn²/2, with the disturbing mass fraction φ.
     pub(crate) fn strength(&self) -> f64 {
         1.5 * self.mean_motion * self.mean_motion * self.orbit.disturbing_fraction()

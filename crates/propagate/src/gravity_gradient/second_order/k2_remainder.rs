@@ -8,7 +8,7 @@
 //! ```
 //!
 //! with h > 0 for m = 0, and X₁, X₂ the turns of the frame about its axes 1 and 2. The closed form of K2 has 1/Ω − jn/Ω² for G. This
-//! file adds (jn)²/(Ω² (Ω + jn)) for terms with sums over time derivatives, and all of G for slow terms. The derivatives are taken at the epoch. The component of
+//! file adds (jn)²/(Ω² (Ω + jn)) for terms with sums over time derivatives, and all of G for slow terms. A harmonic whose solution vanishes at the epoch has no part in K2. The derivatives are taken at the epoch. The component of
 //! ∂K2/∂k along the orbit's normal N is kept along N; the other component, of the order of e², is constant in inertial axes.
 
 use nalgebra::{UnitQuaternion, Vector3};
@@ -22,7 +22,7 @@ use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::terms::term::Term;
 use crate::numerics::C64;
 
-/// Harmonics of a term that is not slow are left out if |Ω + jn| is at most this times n: the first-order corrections contain those near resonance (equation (8)).
+/// Harmonics of a term without exact divisors are left out if |Ω + jn| is at most this times n: its first-order corrections do not contain them (equation (8)).
 const NEAREST: f64 = 0.5;
 
 /// Constant rates by K2.
@@ -66,9 +66,13 @@ impl Remainder {
         (elliptic, series): (&EllipticOrbit<'_>, &OrbitSeries),
         (exact, summed): (&[ExactTerm], &[Term]),
     ) -> Self {
+        let divisors = |term: &Term| {
+            let exact = exact.iter().find(|exact| exact.numbers == (term.harmonic, term.multiple));
+            exact.map(|exact| &exact.divisors)
+        };
         let slow = exact.iter().filter(|term| term.divisors.slow);
         let slow = slow.map(|term| (Term::new(inertia, term.numbers.0, term.numbers.1), Some(&term.divisors)));
-        let terms: Vec<_> = slow.chain(summed.iter().map(|term| (*term, None))).collect();
+        let terms: Vec<_> = slow.chain(summed.iter().map(|term| (*term, divisors(term)))).collect();
         let [first, second, _] = elliptic.orbit.axes().map(|axis| frame.inverse() * axis);
         let tensors = factors([first, second]).map(|tensor| with_turns(&tensor));
         let of_harmonic = |multiple: i32, j: i32| {
@@ -88,11 +92,15 @@ impl Remainder {
                 for (j, [still, turned @ ..]) in &harmonics {
                     let step = f64::from(*j) * elliptic.mean_motion;
                     let of_frequency = match divisors {
-                        Some(divisors) if divisors.excluded == Some(*j) => continue,
+                        Some(divisors) if divisors.resonant == Some(*j) && divisors.slow => continue,
+                        Some(divisors) if divisors.resonant == Some(*j) => closed_form(omega, step).map(|part| -part),
                         // One divisor for all parts of the harmonic. The error is part of that of the shift.
-                        Some(divisors) => reciprocal(divisors.at(*j, 2 * j.signum())),
-                        None if *j == 0 || (omega + step).abs() <= NEAREST * elliptic.mean_motion => continue,
-                        None => beyond(omega, step),
+                        Some(divisors) if divisors.slow => reciprocal(divisors.at(*j, 2 * j.signum())),
+                        Some(divisors) if *j != 0 => beyond(omega, step, divisors.at(*j, 2 * j.signum())),
+                        None if *j != 0 && (omega + step).abs() > NEAREST * elliptic.mean_motion => {
+                            beyond(omega, step, omega + step)
+                        }
+                        _ => continue,
                     };
                     let [value, by_sigma, by_momentum] = shape(term, inertia, of_frequency);
                     #[cfg(test)]
@@ -165,9 +173,15 @@ fn reciprocal(divisor: f64) -> [f64; 3] {
     [inverse, -inverse * inverse, 2.0 * inverse.powi(3)]
 }
 
-/// (jn)²/(Ω² (Ω + jn)) and its derivatives with respect to Ω, for a harmonic of frequency jn.
-fn beyond(omega: f64, step: f64) -> [f64; 3] {
-    let divisor = omega + step;
+/// 1/Ω − jn/Ω² and its derivatives with respect to Ω, for a harmonic of frequency jn.
+fn closed_form(omega: f64, step: f64) -> [f64; 3] {
+    let [value, slope, curvature] = reciprocal(omega);
+    let ratio = step / omega;
+    [value * (1.0 - ratio), slope * (1.0 - 2.0 * ratio), curvature * (1.0 - 3.0 * ratio)]
+}
+
+/// (jn)²/(Ω² x) and its derivatives with respect to Ω, for a harmonic of frequency jn and its divisor x.
+fn beyond(omega: f64, step: f64, divisor: f64) -> [f64; 3] {
     let value = (step / omega).powi(2) / divisor;
     let slope = -2.0 / omega - 1.0 / divisor;
     [value, value * slope, value * (slope * slope + 2.0 / (omega * omega) + 1.0 / (divisor * divisor))]

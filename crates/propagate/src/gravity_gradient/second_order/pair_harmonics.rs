@@ -143,7 +143,7 @@ impl OrbitHarmonics {
             let unshifted = self.inverse(omega + f64::from(j) * self.mean_motion, omega);
             for ((sum, part), turns) in sums.iter_mut().zip(harmonic).zip(TURNS) {
                 let inverse = match term {
-                    Some(term) if term.divisors.excluded != Some(j) => term.divisors.reciprocal(j, turns),
+                    Some(term) => term.divisors.reciprocal(j, turns),
                     _ => unshifted,
                 };
                 *sum += part * inverse;
@@ -159,7 +159,7 @@ impl OrbitHarmonics {
         let mut split = Split::default();
         for (i, harmonic) in self.waves.iter().enumerate() {
             let j = i as i32 - count;
-            if divisors.excluded == Some(j) {
+            if divisors.resonant == Some(j) {
                 continue;
             }
             let torque = self.contracted(harmonic, multiple);

@@ -54,8 +54,8 @@ pub(crate) struct Divisors {
     pub(crate) mean_motion: f64,
     /// Whether the term is too slow for a sum over time derivatives.
     pub(crate) slow: bool,
-    /// The harmonic that is left out.
-    pub(crate) excluded: Option<i32>,
+    /// The harmonic whose solution vanishes at the epoch: it has no part in the mean, and no divisor.
+    pub(crate) resonant: Option<i32>,
     /// The shift by the average torque for a = 0, and for each unit of a.
     shift: [f64; 2],
     /// Upper estimate of the constant shift of a harmonic, for |a| up to 2.
@@ -73,12 +73,12 @@ impl Divisors {
         let (h, m) = (f64::from(harmonic), f64::from(multiple));
         let shift = [h * anomaly + m * (longitude - along), -precession];
         let steady_shift = shift[0].abs() + 2.0 * precession.abs();
-        Self { frequency, mean_motion, slow, excluded: None, shift, steady_shift }
+        Self { frequency, mean_motion, slow, resonant: None, shift, steady_shift }
     }
 
-    /// Without one harmonic, or with all.
-    pub(crate) fn without(self, excluded: Option<i32>) -> Self {
-        Self { excluded, ..self }
+    /// With a harmonic whose solution vanishes at the epoch.
+    pub(crate) fn with_resonant(self, resonant: Option<i32>) -> Self {
+        Self { resonant, ..self }
     }
 
     /// Whether a harmonic is a term of its own in the sum over pairs: all those of a slow term are.
@@ -110,9 +110,9 @@ impl Divisors {
         if other.abs() < one.abs() { other } else { one }
     }
 
-    /// 1 over the divisor of U_ja, or 0 for the harmonic that is left out.
+    /// 1 over the divisor of U_ja, or 0 for the harmonic whose solution vanishes at the epoch.
     pub(crate) fn reciprocal(&self, harmonic: i32, turns: i32) -> f64 {
-        if self.excluded == Some(harmonic) { 0.0 } else { 1.0 / self.at(harmonic, turns) }
+        if self.resonant == Some(harmonic) { 0.0 } else { 1.0 / self.at(harmonic, turns) }
     }
 }
 

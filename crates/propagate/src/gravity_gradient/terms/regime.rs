@@ -2,9 +2,9 @@
 //!
 //! A term with |Ω| above [`SLOW_RATIO`] times the largest rate of twice the true anomaly is fast. Its sum over time derivatives contains all low harmonics of the
 //! orbit. A term that is slower, or whose sum is not accurate enough, has exact divisors Ω + jn in the harmonics of the orbit, if the orbit has a series of
-//! harmonics and the change is small. A slow term without a series is not corrected. The harmonic nearest to resonance is corrected only if the error of its
-//! correction is below the effect of leaving it out: the correction has the divisor x = Ω + jn in its denominator twice, the effect of leaving it out is proportional to the
-//! span (equation (9) of docs/theory-second-order.md).
+//! harmonics and the change is small. A slow term without a series is not corrected. The harmonic nearest to resonance has one of
+//! two solutions, the one with the smaller error: the periodic one, which contains the divisor x = Ω + jn squared, or the one that vanishes at the epoch, which grows with
+//! the span instead (equations (9) and (10) of docs/theory-second-order.md).
 //!
 //! A part that is not corrected turns the attitude by its rate times the time during which it acts in one sense, which is the span or 2/|Ω + jn|. It also
 //! changes σ and M, so that the phases drift. [`Regimes::uncorrected`] is an upper estimate of both. A scene with a large one is [`Error::Resonance`].
@@ -41,7 +41,7 @@ pub(crate) enum Regime {
     },
     /// With exact divisors in the harmonics of the orbit.
     Exact {
-        /// The harmonic j that is left out, because the term is in resonance with it.
+        /// The harmonic j whose solution vanishes at the epoch, because the term is next to resonance with it.
         resonant: Option<i32>,
         /// Largest change of the attitude by all other harmonics \[rad\].
         size: f64,
@@ -155,6 +155,7 @@ impl<'a> Regimes<'a> {
         let nearest = self.nearest(term);
         match regime {
             Regime::Exact { resonant: None, .. } => [0.0, self.corrected(term, nearest)],
+            Regime::Exact { .. } if self.turned(term, nearest) <= LARGEST_EFFECT => [0.0, self.from_epoch(term, nearest)],
             Regime::Slow => [self.whole(term), 0.0],
             _ => [self.turned(term, nearest), 0.0],
         }
@@ -168,8 +169,18 @@ impl<'a> Regimes<'a> {
         }
         let (duration, distance) = (self.orbit.duration, distance.max(f64::MIN_POSITIVE));
         let size = amplitude * (term.size_at(distance) + term.turn_at(distance));
-        let shift = self.divisors(term).steady_shift + self.whole * self.whole * term.frequency.abs();
-        size * (shift * duration.min(1.0 / distance) + size * (distance * duration).min(1.0)).min(1.0)
+        size * (self.shift(term) * duration.min(1.0 / distance) + size * (distance * duration).min(1.0)).min(1.0)
+    }
+
+    /// The error of the solution that vanishes at the epoch: it lacks the shift s, and is linear in the turn that it makes.
+    fn from_epoch(&self, term: &SizedTerm, nearest: Nearest) -> f64 {
+        let turned = self.turned(term, nearest);
+        turned * (self.shift(term) * self.orbit.duration.min(2.0 / nearest.distance) + turned).min(1.0)
+    }
+
+    /// Upper estimate of the shift of a divisor: by the average torque over a part of the orbit, and of second order.
+    fn shift(&self, term: &SizedTerm) -> f64 {
+        self.divisors(term).steady_shift + self.whole * self.whole * term.frequency.abs()
     }
 
     /// The turn by all terms together, from the effect and the error of each, at most π: their phases are independent, so the squares add up.
@@ -224,9 +235,9 @@ impl<'a> Regimes<'a> {
         self.turned(term, low).max(self.turned(term, self.nearest(term)))
     }
 
-    /// For a term with exact divisors, the harmonic that is left out, and the size of the change by all others.
+    /// For a term with exact divisors, the harmonic whose solution vanishes at the epoch, and the size of the change by all others.
     fn exact(&self, term: &SizedTerm, nearest: Nearest) -> (Option<i32>, f64) {
-        let resonant = (self.corrected(term, nearest) > self.turned(term, nearest)).then_some(nearest.number);
+        let resonant = (self.corrected(term, nearest) > self.from_epoch(term, nearest)).then_some(nearest.number);
         let divisors = self.divisors(term);
         let count = self.orbit.series.as_ref().map_or(0, |series| series.coefficients.len() as i32);
         let others = (1 - count..count).filter(|j| resonant != Some(*j));

@@ -1,0 +1,105 @@
+//! The solution of V̇ + iΩV = U that vanishes at the epoch, for one harmonic of the orbit next to resonance: equation (10) of docs/theory-second-order.md.
+//!
+//! With U = g e^(ijl), the divisor x = Ω + jn and the time τ after the epoch,
+//!
+//! ```text
+//! V = g e^(ijl) (1 − e^(−ixτ))/(ix)        ∂V/∂Ω = g e^(ijl) [τ e^(−ixτ)/x − (1 − e^(−ixτ))/(ix²)]
+//! ```
+//!
+//! Neither has a pole at x = 0. The mean variables contain nothing of this harmonic. With z = xτ/2, G = (E + iO)/(iΩ) and Ω² ∂G/∂Ω = −(E₁ + iO₁)/i,
+//!
+//! ```text
+//! E + iO = Ωτ g i e^(i(jl−z)) sin z/z        E₁ + iO₁ = (Ωτ)² g i e^(i(jl−z)) [(sin z/z − cos z)/2z + i sin z/2z]
+//! ```
+
+use std::f64::consts::TAU;
+
+use super::fourier::PARTS;
+use crate::gravity_gradient::orbit::hansen::OrbitSeries;
+use crate::gravity_gradient::terms::divisors::Divisors;
+use crate::simd::complex_quaternion::ComplexLanes;
+use crate::simd::instruction_set::InstructionSet;
+use crate::simd::lanes::Lanes;
+use crate::simd::sincos::sin_cos_of_turns;
+
+/// Below this |z| the quotients by z are power series.
+const SERIES_BELOW: f64 = 0.5;
+/// sin z/z in powers of z², to 1e-17.
+const SINE: [f64; 7] = [
+    1.0,
+    -1.0 / 6.0,
+    1.0 / 120.0,
+    -1.0 / 5040.0,
+    1.0 / 362_880.0,
+    -1.0 / 39_916_800.0,
+    1.0 / 6_227_020_800.0,
+];
+/// (sin z/z − cos z)/2z², to 1e-17.
+const DIFFERENCE: [f64; 7] = [
+    1.0 / 6.0,
+    -1.0 / 60.0,
+    1.0 / 1680.0,
+    -1.0 / 90_720.0,
+    1.0 / 7_983_360.0,
+    -1.0 / 1_037_836_800.0,
+    1.0 / 186_810_624_000.0,
+];
+
+/// The solution for one harmonic.
+#[derive(Clone, Debug)]
+pub(crate) struct EpochSolution {
+    /// j.
+    number: i32,
+    /// Ω and half the divisor, in the user's unit.
+    rates: [f64; 2],
+    /// g for (a/r)³ times 1, cos 2f and sin 2f; the last one without its factor −i or i.
+    coefficients: [f64; 3],
+}
+
+impl EpochSolution {
+    /// The solution for a harmonic in the series. `unit` is the unit of rates in the user's.
+    pub(crate) fn new(number: i32, series: &OrbitSeries, divisors: &Divisors, unit: f64) -> Self {
+        let coefficients = series.coefficients.get(number.unsigned_abs() as usize).copied().unwrap_or_default();
+        Self { number, rates: [divisors.frequency * unit, 0.5 * divisors.smallest(number) * unit], coefficients }
+    }
+
+    /// Adds E, O, E₁ and O₁ of the three functions at a mean anomaly, which is given by its cosine and sine, and a time after the epoch.
+    #[inline(always)]
+    pub(super) fn add<S: InstructionSet>(
+        &self,
+        parts: &mut [[Lanes<S>; 3]; PARTS],
+        anomaly: ComplexLanes<S>,
+        elapsed: Lanes<S>,
+    ) {
+        let all = |value: f64| elapsed.all(value);
+        let [omega, half] = self.rates;
+        let z = elapsed * all(half);
+        let (sine, cosine) = sin_cos_of_turns(z * all(1.0 / TAU));
+        let square = z * z;
+        let divisor = z.magnitude().up_to(SERIES_BELOW, all(1.0), z);
+        let quotient = z.magnitude().up_to(SERIES_BELOW, square.polynomial(&SINE), sine / divisor);
+        let far = (quotient - cosine) / (divisor + divisor);
+        let difference = z.magnitude().up_to(SERIES_BELOW, z * square.polynomial(&DIFFERENCE), far);
+        let mut wave = ComplexLanes { re: all(1.0), im: all(0.0) };
+        for _ in 0..self.number.unsigned_abs() {
+            wave = wave * anomaly;
+        }
+        let wave = if self.number < 0 { wave.conjugate() } else { wave };
+        // i e^(i(jl−z)) Ωτ.
+        let phase = elapsed * all(omega);
+        let turned = wave * ComplexLanes { re: sine * phase, im: cosine * phase };
+        let value = ComplexLanes { re: turned.re * quotient, im: turned.im * quotient };
+        let slope = turned * ComplexLanes { re: difference * phase, im: all(0.5) * quotient * phase };
+        let [one, even, odd] = self.coefficients;
+        // (a/r)³ sin 2f has the factor −i for j > 0, and i for j < 0.
+        let odd = if self.number < 0 { -odd } else { odd };
+        for (function, factor) in [one, even].into_iter().enumerate() {
+            for (part, wave) in [value.re, value.im, slope.re, slope.im].into_iter().enumerate() {
+                parts[part][function] = wave.mul_add(all(factor), parts[part][function]); // function < 2
+            }
+        }
+        for (part, wave) in [value.im, -value.re, slope.im, -slope.re].into_iter().enumerate() {
+            parts[part][2] = wave.mul_add(all(odd), parts[part][2]);
+        }
+    }
+}
