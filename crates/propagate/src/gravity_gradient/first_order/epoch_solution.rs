@@ -1,4 +1,4 @@
-//! The solution of V̇ + iΩV = U that vanishes at the epoch, for one harmonic of the orbit next to resonance: equation (10) of docs/theory-second-order.md.
+//! The solution of V̇ + iΩV = U that vanishes at the epoch, for one harmonic of the orbit next to resonance: equation (9) of docs/theory-second-order.md.
 //!
 //! With U = g e^(ijl), the divisor x = Ω + jn and the time τ after the epoch,
 //!
@@ -100,6 +100,68 @@ impl EpochSolution {
         }
         for (part, wave) in [value.im, -value.re, slope.im, -slope.re].into_iter().enumerate() {
             parts[part][2] = wave.mul_add(all(odd), parts[part][2]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::C64;
+
+    /// E + iO and E₁ + iO₁ of the three functions.
+    fn sums(solution: &EpochSolution, anomaly: f64, elapsed: f64) -> [[C64; 3]; 2] {
+        let one = |value: f64| Lanes::splat(pulp::Scalar, value);
+        let mut parts = [[one(0.0); 3]; PARTS];
+        solution.add(&mut parts, ComplexLanes { re: one(anomaly.cos()), im: one(anomaly.sin()) }, one(elapsed));
+        let value = |part: usize, f: usize| parts[part][f].values()[0];
+        [0, 2].map(|part| std::array::from_fn(|f| C64::new(value(part, f), value(part + 1, f))))
+    }
+
+    #[test]
+    fn the_solution_vanishes_at_the_epoch_and_obeys_the_equation_of_the_generator() {
+        // dV/dt + iΩV = U, and its derivative with respect to Ω: the time derivatives by differences of fourth order.
+        for (number, divisor) in [(-7, 1e-3), (3, -0.4), (0, 0.0), (-21, 1e-9), (5, 2.5)] {
+            let (omega, coefficients) = (1.3, [0.7, -0.4, if number == 0 { 0.0 } else { 0.2 }]);
+            let solution = EpochSolution { number, rates: [omega, 0.5 * divisor], coefficients };
+            let rate = divisor - omega; // of jl
+            let start = 0.3;
+            let at = |time: f64| {
+                let anomaly = if number == 0 { start } else { start + rate * time / f64::from(number) };
+                (anomaly, sums(&solution, anomaly, time))
+            };
+            assert_eq!(at(0.0).1, [[C64::default(); 3]; 2], "at the epoch");
+            for time in [1e-3, 0.4, 2.0, 30.0] {
+                let step = 1e-3;
+                let [far, near, next, last] = [-2.0, -1.0, 1.0, 2.0].map(|k| at(time + k * step).1);
+                let (anomaly, [value, slope]) = at(time);
+                // A harmonic with j = 0 has no frequency of its own: then Ω is the divisor.
+                let own = if number == 0 { divisor } else { omega };
+                for f in 0..3 {
+                    let derivative = |part: usize| {
+                        (far[part][f] - last[part][f] + (next[part][f] - near[part][f]) * 8.0) / (12.0 * step)
+                    };
+                    let sign = f64::from(number.signum());
+                    let factor = if f == 2 { C64::new(0.0, -sign) } else { 1.0.into() };
+                    let torque = C64::from_polar(coefficients[f], f64::from(number) * anomaly) * factor;
+                    // V = (E + iO)/(iΩ) and ∂V/∂Ω = −(E₁ + iO₁)/(iΩ²).
+                    let wave = C64::new(0.0, -1.0 / omega);
+                    let left = (derivative(0) + C64::i() * own * value[f]) * wave - torque;
+                    assert!(left.norm() <= 1e-9 * (1.0 + time), "{number} {divisor:e} {time} {f}: {left}");
+                    let by_omega = C64::new(0.0, 1.0 / (omega * omega));
+                    let left = (derivative(1) + C64::i() * own * slope[f]) * by_omega + C64::i() * value[f] * wave;
+                    assert!(left.norm() <= 1e-9 * (1.0 + time * time), "{number} {divisor:e} {time} {f}: {left}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn quotients_by_a_small_phase_are_continuous() {
+        let solution = EpochSolution { number: 1, rates: [1.0, 1.0], coefficients: [1.0, 0.0, 0.0] };
+        let [below, above] = [-1.0, 1.0].map(|sign| sums(&solution, 0.2, SERIES_BELOW + sign * 1e-12));
+        for (below, above) in below.iter().flatten().zip(above.iter().flatten()) {
+            assert!((below - above).norm() <= 1e-11, "{below} {above}");
         }
     }
 }

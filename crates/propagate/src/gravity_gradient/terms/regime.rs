@@ -4,7 +4,7 @@
 //! orbit. A term that is slower, or whose sum is not accurate enough, has exact divisors Ω + jn in the harmonics of the orbit, if the orbit has a series of
 //! harmonics and the change is small. A slow term without a series is not corrected. The harmonic nearest to resonance has one of
 //! two solutions, the one with the smaller error: the periodic one, which contains the divisor x = Ω + jn squared, or the one that vanishes at the epoch, which grows with
-//! the span instead (equations (9) and (10) of docs/theory-second-order.md).
+//! the span instead (equation (9) of docs/theory-second-order.md).
 //!
 //! A part that is not corrected turns the attitude by its rate times the time during which it acts in one sense, which is the span or 2/|Ω + jn|. It also
 //! changes σ and M, so that the phases drift. [`Regimes::uncorrected`] is an upper estimate of both. A scene with a large one is [`Error::Resonance`].
