@@ -2,9 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use andoyer_propagate::periods::Frequencies;
 use andoyer_propagate::nalgebra::UnitQuaternion;
 use andoyer_propagate::options::{Averaging, Level};
+use andoyer_propagate::periods::Frequencies;
 
 use crate::disturbed::{Disturbed, Measured};
 
@@ -298,7 +298,9 @@ fn next_to_resonance(scene: Disturbed, part: &[f64]) -> Disturbed {
     let mut motions = Vec::new();
     for (h, m) in [(2, 0), (1, 1), (-1, 1), (-3, 1), (0, 2), (2, 2), (-2, 2), (-4, 2)] {
         let omega = f64::from(h) * anomaly + f64::from(m) * longitude;
-        motions.extend((1..=highest).map(|j| (x - omega).abs() / f64::from(j)).filter(|tuned| (0.5 * n..2.0 * n).contains(tuned)));
+        motions.extend(
+            (1..=highest).map(|j| (x - omega).abs() / f64::from(j)).filter(|tuned| (0.5 * n..2.0 * n).contains(tuned)),
+        );
     }
     let Some(&tuned) = motions.get((part[0] * motions.len() as f64) as usize) else { return scene };
     Disturbed { orbit: [tuned, eccentricity, pericentre * n / tuned, inclination, node, argument], ..scene }

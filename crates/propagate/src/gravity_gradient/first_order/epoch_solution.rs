@@ -14,7 +14,6 @@
 
 use std::f64::consts::TAU;
 
-use super::fourier::PARTS;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
 use crate::gravity_gradient::terms::divisors::Divisors;
 use crate::simd::complex_quaternion::ComplexLanes;
@@ -22,18 +21,13 @@ use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 use crate::simd::sincos::sin_cos_of_turns;
 
+/// E, O, E₁ and O₁.
+pub(super) const PARTS: usize = 4;
 /// Below this |z| the quotients by z are power series.
 const SERIES_BELOW: f64 = 0.5;
 /// sin z/z in powers of z², to 1e-17.
-const SINE: [f64; 7] = [
-    1.0,
-    -1.0 / 6.0,
-    1.0 / 120.0,
-    -1.0 / 5040.0,
-    1.0 / 362_880.0,
-    -1.0 / 39_916_800.0,
-    1.0 / 6_227_020_800.0,
-];
+const SINE: [f64; 7] =
+    [1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362_880.0, -1.0 / 39_916_800.0, 1.0 / 6_227_020_800.0];
 /// (sin z/z − cos z)/2z², to 1e-17.
 const DIFFERENCE: [f64; 7] = [
     1.0 / 6.0,

@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 use pulp::NullaryFnOnce;
 
 use super::deviator::{Contracted, Products, axial_contractions, contractions};
-use super::epoch_solution::EpochSolution;
+use super::epoch_solution::{EpochSolution, PARTS};
 use super::sums::{GeneratorSlopes, SUMS};
 use crate::gravity_gradient::body::inertia::Inertia;
 use crate::gravity_gradient::orbit::hansen::OrbitSeries;
@@ -28,8 +28,6 @@ use crate::simd::kepler::Place;
 use crate::simd::lanes::Lanes;
 use crate::simd::sincos::sin_cos_of_turns;
 
-/// E, O, E₁ and O₁.
-pub(super) const PARTS: usize = 4;
 /// One term.
 #[derive(Clone, Debug)]
 pub(crate) struct ExactTerm {

@@ -116,7 +116,8 @@ impl Generator {
             }
         }
         if !self.exact.is_empty() {
-            let terms = ExactTerms { terms: &self.exact, turns, products: &products, place, elapsed: mean.elapsed, sums };
+            let terms =
+                ExactTerms { terms: &self.exact, turns, products: &products, place, elapsed: mean.elapsed, sums };
             sums = none.simd().vectorize(terms);
         }
         self.change(&sums, mean.spin)

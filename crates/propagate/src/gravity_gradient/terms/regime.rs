@@ -155,7 +155,9 @@ impl<'a> Regimes<'a> {
         let nearest = self.nearest(term);
         match regime {
             Regime::Exact { resonant: None, .. } => [0.0, self.corrected(term, nearest)],
-            Regime::Exact { .. } if self.turned(term, nearest) <= LARGEST_EFFECT => [0.0, self.from_epoch(term, nearest)],
+            Regime::Exact { .. } if self.turned(term, nearest) <= LARGEST_EFFECT => {
+                [0.0, self.epoch_solution_error(term, nearest)]
+            }
             Regime::Slow => [self.whole(term), 0.0],
             _ => [self.turned(term, nearest), 0.0],
         }
@@ -173,7 +175,7 @@ impl<'a> Regimes<'a> {
     }
 
     /// The error of the solution that vanishes at the epoch: it lacks the shift s, and is linear in the turn that it makes.
-    fn from_epoch(&self, term: &SizedTerm, nearest: Nearest) -> f64 {
+    fn epoch_solution_error(&self, term: &SizedTerm, nearest: Nearest) -> f64 {
         let turned = self.turned(term, nearest);
         turned * (self.shift(term) * self.orbit.duration.min(2.0 / nearest.distance) + turned).min(1.0)
     }
@@ -237,7 +239,8 @@ impl<'a> Regimes<'a> {
 
     /// For a term with exact divisors, the harmonic whose solution vanishes at the epoch, and the size of the change by all others.
     fn exact(&self, term: &SizedTerm, nearest: Nearest) -> (Option<i32>, f64) {
-        let resonant = (self.corrected(term, nearest) > self.from_epoch(term, nearest)).then_some(nearest.number);
+        let resonant =
+            (self.corrected(term, nearest) > self.epoch_solution_error(term, nearest)).then_some(nearest.number);
         let divisors = self.divisors(term);
         let count = self.orbit.series.as_ref().map_or(0, |series| series.coefficients.len() as i32);
         let others = (1 - count..count).filter(|j| resonant != Some(*j));
