@@ -109,13 +109,18 @@ def test_table_of_a_circle_gives_the_motion_of_the_orbit_within_the_bound():
 
 
 def test_theory_gives_way_to_the_integration_where_it_does_not_hold_or_is_not_good_enough():
-    body, orbit = Body([1, 1.02, 1.05]), Orbit(0.038348, mass_fraction=1e-4)
+    body, orbit = Body([1, 1.02, 1.05]), Orbit(1.0, mass_fraction=1e-4)
     state = ([0, 0, 0, 1], [0, 0.01, 1])
     with pytest.raises(andoyer.TheoryError, match="resonance"):
         Scene(body, *state, orbit=orbit, span=(0, 100), method="closed").solve()
     plan = Scene(body, *state, orbit=orbit, span=(0, 100)).solve().plan
     assert plan.method == "integrated" and "resonance" in plan.skipped[0] and plan.steps > 10 and plan.mode == "short-axis"
     assert f"steps         {plan.steps}" in str(plan) and f"order         {plan.order}" in str(plan)
+    # The wobble in resonance with the orbit turns the attitude by little within this span, and the theory serves it.
+    wobbling = Scene(body, *state, orbit=Orbit(0.038348, mass_fraction=1e-4), span=(0, 100))
+    served = replace(wobbling, method="closed", tolerance=1e-8).solve()
+    exact = replace(wobbling, method="integrated", tolerance=1e-12).solve()
+    assert angle(served.attitude(100.0), exact.attitude(100.0)) <= served.plan.error_bound + exact.plan.error_bound
     fast = Orbit(1e-2, 0.1)
     coarse = Scene(body, *state, orbit=fast, span=(0, 1e3), tolerance=1e-4).solve().plan
     fine = Scene(body, *state, orbit=fast, span=(0, 1e3), tolerance=1e-11).solve().plan
