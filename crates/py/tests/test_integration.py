@@ -117,9 +117,9 @@ def test_theory_gives_way_to_the_integration_where_it_does_not_hold_or_is_not_go
     assert plan.method == "integrated" and "resonance" in plan.skipped[0] and plan.steps > 10 and plan.mode == "short-axis"
     assert f"steps         {plan.steps}" in str(plan) and f"order         {plan.order}" in str(plan)
     # The wobble in resonance with the orbit turns the attitude by little within this span, and the theory serves it.
-    wobbling = Scene(body, *state, orbit=Orbit(0.038348, mass_fraction=1e-4), span=(0, 100))
-    served = replace(wobbling, method="closed", tolerance=1e-8).solve()
-    exact = replace(wobbling, method="integrated", tolerance=1e-12).solve()
+    wobbling = {"orbit": Orbit(0.038348, mass_fraction=1e-4), "span": (0, 100)}
+    served = Scene(body, *state, **wobbling, method="closed", tolerance=1e-8).solve()
+    exact = Scene(body, *state, **wobbling, method="integrated", tolerance=1e-12).solve()
     assert angle(served.attitude(100.0), exact.attitude(100.0)) <= served.plan.error_bound + exact.plan.error_bound
     fast = Orbit(1e-2, 0.1)
     coarse = Scene(body, *state, orbit=fast, span=(0, 1e3), tolerance=1e-4).solve().plan
