@@ -2,16 +2,16 @@
 //! theory §9.
 //!
 //! The body rotates about its axis of greatest inertia. Its pole k precesses about the normal N of the orbit, and N goes about inertial axis 3, ẑ, with the
-//! rate g of the node at the inclination i. θ is the angle from N to a pole in the plane of ẑ and N, counted away from ẑ.
+//! rate Ω_n of the node at the inclination i. θ is the angle from N to a pole in the plane of ẑ and N, counted away from ẑ.
 //!
 //! A body that rotates fast and out of resonance precesses with −α_p (k·N), where α_p = (3/2) (G m/a³) η^(−3) (C − (A+B)/2)/(C s) with the spin rate s (theory
 //! §9). In the frame that turns with the node
 //!
 //! ```text
-//! dk/dt = −α_p (k·N) N × k − g ẑ × k,        h = −½ α_p cos²θ − g cos(i + θ),        dh/dθ = α_p cos θ sin θ + g sin(i + θ) = 0
+//! dk/dt = −α_p (k·N) N × k − Ω_n ẑ × k,        h = −½ α_p cos²θ − Ω_n cos(i + θ),        dh/dθ = α_p cos θ sin θ + Ω_n sin(i + θ) = 0
 //! ```
 //!
-//! There are four states if |g/α_p| is below (sin^(2/3) i + cos^(2/3) i)^(−3/2), else two. A state is stable where h has an extremum on the sphere.
+//! There are four states if |Ω_n/α_p| is below (sin^(2/3) i + cos^(2/3) i)^(−3/2), else two. A state is stable where h has an extremum on the sphere.
 //!
 //! A body in a spin–orbit resonance makes p rotations an orbit relative to the pericentre, p = ½, 1, 1½, …, and its long axis points to the disturbing body at
 //! the pericentre (or is across, where the coefficient G_p is negative). Of the potential (3/2) (G m/r³) (A x² + B y² + C z²), for the direction (x, y, z) of
@@ -19,7 +19,7 @@
 //! Hansen's coefficient G_p(e) = X_2p of (−3, 2), which is 1 − 5e²/2 + … for p = 1 and 7e/2 − … for p = 3/2. With γ_p = (3/2) (G m/a³) |G_p| (B − A)/(2 C s)
 //!
 //! ```text
-//! h = −½ α_p cos²θ − ¼ γ_p (1 + cos θ)² − g cos(i + θ),        dh/dθ = α_p cos θ sin θ + ½ γ_p (1 + cos θ) sin θ + g sin(i + θ)
+//! h = −½ α_p cos²θ − ¼ γ_p (1 + cos θ)² − Ω_n cos(i + θ),        dh/dθ = α_p cos θ sin θ + ½ γ_p (1 + cos θ) sin θ + Ω_n sin(i + θ)
 //! ```
 //!
 //! Here s is the rate of rotation relative to the node, p times the rate of the mean anomaly plus the rate of the pericentre. The terms of h with the argument
@@ -115,7 +115,7 @@ impl Resonance {
         }
         let [_, coefficient, _] = hansen(orbit.eccentricity(), (2.0 * rotations) as usize).map(f64::abs);
         let rate = rotations * orbit.mean_motion() + pericentre_rate;
-        let width = (3.0 * orbit.strength() * triaxiality * coefficient).sqrt();
+        let width = (2.0 * orbit.torque_strength() * triaxiality * coefficient).sqrt();
         ((spin_rate - rate - from_inertial).abs() < width).then_some(Self { rotations, rate, coefficient })
     }
 }
@@ -139,7 +139,7 @@ impl Top {
         let triaxiality = (b - a) / c;
         let resonance = Resonance::around(orbit, spin_rate, triaxiality);
         let (rate, coefficient) = resonance.as_ref().map_or((spin_rate, 0.0), |at| (at.rate, at.coefficient));
-        let torque = 1.5 * orbit.strength() / rate;
+        let torque = orbit.torque_strength() / rate;
         Self {
             alpha: torque / (eta * eta * eta) * (0.5 * ((c - a) + (c - b)) / c),
             gamma: 0.5 * torque * coefficient * triaxiality,

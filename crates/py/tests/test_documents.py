@@ -74,6 +74,44 @@ def test_no_symbol_stands_twice_in_the_table_of_symbols():
     assert len(symbols) > 60 and sorted(symbols) == sorted(set(symbols))
 
 
+def symbols():
+    """The rows of the table of symbols, by symbol."""
+    rows = {}
+    for line in (REPOSITORY / "docs/symbols.md").read_text(encoding="utf-8").splitlines()[4:]:
+        if line.startswith("| "):
+            for symbol in re.split(r", | ≤ ", re.split(r"(?<!\\)\|", line)[1].strip()):
+                rows[symbol] = line
+    return rows
+
+
+def defined(comment):
+    """The letters that a comment defines, each with its formula: `With q = 3φn²/2` does, and a sum, an expansion or a value as in J = 0 does not."""
+    letter = r"(?<![\w′_⟨∂^(/·+−|])((?:[A-Za-zΑ-ωϖ]|k_[rN]|r̂|n̂)[₀-₉]?(?:_[a-z]+)?) = (.+)"
+    for piece in re.split(r"(?<= {4})|, | and | with |With ", comment):
+        found = re.search(letter, piece)
+        if found:
+            formula = re.split(r" (?=[a-z`\[]{2})|[,;:]|\.(?: |$)", found[2])[0]
+            if formula and not re.match(r"[−±]?[\d.π/]+(?: \(|$)|[ABC]\b|`|Σ|Re |Q\b|g e\^", formula):
+                yield found[1], formula
+
+
+def contradictions(text, rows):
+    """Letters of the table that the comments of a source file define otherwise."""
+    plain = lambda part: re.sub(r"[\s|\\*()]", "", part)  # noqa: E731
+    comments = [line.strip() for line in text.splitlines() if re.match(r"\s*//[/!]", line)]
+    pairs = [pair for line in comments for pair in defined(line)]
+    return [f"{letter} = {formula}" for letter, formula in pairs if letter in rows and plain(formula) not in plain(rows[letter])]
+
+
+def test_letters_of_the_gravity_gradient_have_the_meaning_of_the_table_of_symbols():
+    rows = symbols()
+    files = sorted((REPOSITORY / "crates/propagate/src/gravity_gradient").rglob("*.rs"))
+    found = {path.name: contradictions(path.read_text(encoding="utf-8"), rows) for path in files}
+    assert len(files) > 30 and {name: letters for name, letters in found.items() if letters} == {}
+    # Planted: a second meaning of a letter.
+    assert contradictions("//! With q = 3φn²/2 and the span T,\n/// μ = G m/a³ of a body\n", rows) == ["q = 3φn²/2", "μ = G m/a³"]
+
+
 def test_errors_that_the_pages_name_exist_and_are_raised_for_what_they_say():
     pages = [REPOSITORY / "README.md", REPOSITORY / "CHANGELOG.md", *(REPOSITORY / "docs").glob("*.md")]
     named = {(page.name, name) for page in pages for name in re.findall(r"`(?:andoyer\.)?(\w+Error)`", page.read_text(encoding="utf-8"))}

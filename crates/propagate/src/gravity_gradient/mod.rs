@@ -1,6 +1,6 @@
 //! Rotation under the gravity gradient of bodies on orbits: docs/theory.md §9, and docs/theory-second-order.md with numbered equations.
 //!
-//! The disturbing function is D = q (a/r)³ (r̂·T r̂ − tr T/3) with q = 3φn²/2, the inertia tensor T and the direction r̂ to the disturbing body. There is no torque in
+//! The disturbing function is D = Γ (a/r)³ (r̂·T r̂ − tr T/3) with the strength Γ, the inertia tensor T and the direction r̂ to the disturbing body. There is no torque in
 //! the time domain here: D is a sum of terms e^(i(hℓ′ + my′)) times a function of the orbit, its mean over ℓ′ and y′ moves the angular momentum, and the generating
 //! function W of the rest gives short-period corrections.
 //!

@@ -242,6 +242,11 @@ impl Orbit {
         self.attraction.unwrap_or(self.mean_motion * self.mean_motion * self.mass_fraction)
     }
 
+    /// The strength of the torque Γ = (3/2) × attraction [1/time²]: the torque is 2Γ (a/r)³ r̂ × T r̂.
+    pub(crate) fn torque_strength(&self) -> f64 {
+        1.5 * self.strength()
+    }
+
     /// The elements: mean motion n, eccentricity, time of pericentre, inclination, node, argument of pericentre, mass fraction.
     pub fn elements(&self) -> [f64; 7] {
         [

@@ -123,7 +123,7 @@ impl Orbiting {
                 false => root.atanh() - root,
             },
             tilt: orbit.tilt(),
-            strength: scaled((3.0 * orbit.strength()).sqrt(), -exponent),
+            strength: scaled((2.0 * orbit.torque_strength()).sqrt(), -exponent),
             exponent,
         }
     }

@@ -340,7 +340,7 @@ fn too_coarse(scene: &Scene, [start, stop]: [f64; 2]) -> Option<Error> {
 /// The fastest rate that an orbit brings in, and the torque's √(3μ/ρ³) at the apocentre, or where a hyperbola is farthest within the span.
 fn rates_of_orbit(orbit: &Orbit, ends: [f64; 2]) -> (f64, f64) {
     let e = orbit.eccentricity();
-    let strength = (3.0 * orbit.strength()).sqrt();
+    let strength = (2.0 * orbit.torque_strength()).sqrt();
     let near = (1.0 - e).abs().powf(-1.5);
     let farthest = if orbit.is_hyperbola() {
         ends.map(|end| orbit.hyperbolic_distance(end)).into_iter().fold(e - 1.0, f64::max)

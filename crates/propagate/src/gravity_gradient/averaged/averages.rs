@@ -27,8 +27,8 @@ pub(crate) struct Averages {
     pub(crate) ellipses: Vec<AveragedOrbit>,
     /// Δ over M.
     delta: f64,
-    /// s = −½ (dΔ/dσ)/M, without the mass fraction. ⟨D⟩ = −½ (dΨ/dt) Δ with the phase integral Ψ, so the derivatives of ⟨D⟩ with respect to L, and to M at
-    /// fixed L, are s dΨ/dt and −σ s dΨ/dt.
+    /// −½ (dΔ/dσ)/M, without the mass fraction. ⟨D⟩ = −½ (dΨ/dt) Δ with the phase integral Ψ, so the derivatives of ⟨D⟩ with respect to L, and to M at
+    /// fixed L, are this times dΨ/dt and times −σ dΨ/dt.
     pub(crate) slope: f64,
 }
 

@@ -1,9 +1,9 @@
 //! The averaged motion under several disturbing bodies, on orbits whose nodes and pericentres may precess.
 //!
-//! With the attractions μ = G m/a³ of the bodies and time t
+//! With the strengths Γ of the torques and time t
 //!
 //! ```text
-//! dk/dt = Σ 3μ (Δ/M) (a/r)³ (k·r̂) (r̂ × k)          dΨ/dt = Σ μ (a/r)³ (1 − 3 (k·r̂)²)
+//! dk/dt = Σ 2Γ (Δ/M) (a/r)³ (k·r̂) (r̂ × k)          dΨ/dt = Σ ⅔Γ (a/r)³ (1 − 3 (k·r̂)²)
 //! ```
 //!
 //! The equations are solved on arcs of time, by polynomials as on the quarters of one orbit. The length of an arc follows from the singularities of the orbits
@@ -24,7 +24,7 @@ use crate::simd::lanes::Lanes;
 /// Shortest arc, over the time from the epoch.
 const SHORTEST_ARC: f64 = 8.0 * f64::EPSILON;
 
-/// A disturbing body: its course, and μ in the units of the motion times the user's unit of time in these units.
+/// A disturbing body: its course, and ⅔Γ in the units of the motion times the user's unit of time in these units.
 #[derive(Clone, Debug)]
 pub(crate) struct Pull {
     pub(crate) course: Course,
@@ -53,7 +53,7 @@ impl Averaged for Bodies {
     }
 }
 
-/// The averaged equations at the points of an arc: the components of the direction to each body, and its μ (a/r)³.
+/// The averaged equations at the points of an arc: the components of the direction to each body, and its ⅔Γ (a/r)³.
 struct OnArc {
     delta: f64,
     bodies: Vec<[AtPoints; 4]>,

@@ -7,7 +7,7 @@
 //! dk/df = κ_o (1 + e cos f) (k·r̂) (r̂ × k)        dΨ/df = n η^(−3) (1 + e cos f) (1 − 3 (k·r̂)²)
 //! ```
 //!
-//! where Ψ is the phase integral: to first order the torque adds s Ψ to ℓ′ and −σ s Ψ to y′, with s = −φ Δ′(σ)/(2M) ([`crate::gravity_gradient::averaged::averages`]).
+//! where Ψ is the phase integral: to first order the torque adds −φ Δ′(σ) Ψ/(2M) to ℓ′ and σφ Δ′(σ) Ψ/(2M) to y′ ([`crate::gravity_gradient::averaged::averages`]).
 //!
 //! [`spin`] solves these equations on quarters or eighths of an orbit by Picard's iteration on Chebyshev points. In first order the right-hand side is a
 //! trigonometric polynomial of f. The constant rates of second order, divided by ḟ, are not; at e = 0.95 solutions on quarters and on eighths differ by 7e-15 rad after

@@ -1,4 +1,4 @@
-//! The contraction c_m of the tensor U = (a/r)³ r̂r̂ᵀ for m = 0, 1, 2, and U on an ellipse as a combination of 1, cos 2f and sin 2f.
+//! The contraction c_m of the tensor Θ for m = 0, 1, 2, and Θ on an ellipse as a combination of 1, cos 2f and sin 2f.
 
 use crate::numerics::C64;
 use nalgebra::Vector3;
@@ -8,7 +8,7 @@ pub(crate) type SymmetricTensor = [f64; 6];
 /// The contraction of a tensor for one m, and its derivatives when the frame turns about its axes 1 and 2.
 pub(crate) type Contraction = [C64; 3];
 
-/// c_m, X₁c_m and X₂c_m of a tensor, with c₀ = U33 − tr U/3, c₁ = U13 − iU23, c₂ = U11 − U22 − 2iU12 and X_i the derivative when the frame turns about its axis i.
+/// c_m, X₁c_m and X₂c_m of a tensor, with c₀ = Θ33 − tr Θ/3, c₁ = Θ13 − iΘ23, c₂ = Θ11 − Θ22 − 2iΘ12 and X_i the derivative when the frame turns about its axis i.
 pub(crate) fn contraction(&[xx, yy, zz, xy, xz, yz]: &SymmetricTensor, multiple: i32) -> Contraction {
     let c = C64::new;
     match multiple {
@@ -36,7 +36,7 @@ pub(crate) fn coefficients(&[one, cosine, sine]: &[f64; 3], j: f64) -> [C64; 3] 
     [one.into(), cosine.into(), C64::new(0.0, -sine * j.signum())]
 }
 
-/// U, X₁U and X₂U of a tensor.
+/// Θ, X₁Θ and X₂Θ of a tensor.
 pub(crate) fn with_turns(tensor: &SymmetricTensor) -> [SymmetricTensor; 3] {
     let [xx, yy, zz, xy, xz, yz] = *tensor;
     [*tensor, [0.0, 2.0 * yz, -2.0 * yz, xz, -xy, zz - yy], [-2.0 * xz, 0.0, 2.0 * xz, -yz, xx - zz, xy]]

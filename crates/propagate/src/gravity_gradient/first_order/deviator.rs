@@ -6,7 +6,7 @@ use crate::simd::complex_quaternion::{ComplexLanes, QuaternionLanes};
 use crate::simd::instruction_set::InstructionSet;
 use crate::simd::lanes::Lanes;
 
-/// The traceless part of a symmetric tensor U: U33 − (U11 + U22)/2, U22 − U11, U12, U13, U23.
+/// The traceless part of a symmetric tensor Θ: Θ33 − (Θ11 + Θ22)/2, Θ22 − Θ11, Θ12, Θ13, Θ23.
 pub(crate) type Deviator<S> = [Lanes<S>; 5];
 
 /// The traceless parts of (PP + QQ)/2, (PP − QQ)/2 and (PQ + QP)/2 for the axes P and Q of the orbit in the frame.

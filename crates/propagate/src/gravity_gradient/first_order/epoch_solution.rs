@@ -1,15 +1,15 @@
-//! The solution of V̇ + iΩV = U that vanishes at the epoch, for one harmonic of the orbit next to resonance: equation (9) of docs/theory-second-order.md.
+//! The solution Ξ of dΞ/dt + iΩΞ = Θ that vanishes at the epoch, for one harmonic of the orbit next to resonance: equation (9) of docs/theory-second-order.md.
 //!
-//! With U = g e^(ijl), the divisor x = Ω + jn and the time τ after the epoch,
+//! For the part g e^(ijl) of Θ, with the divisor Ω_j and the time τ after the epoch,
 //!
 //! ```text
-//! V = g e^(ijl) (1 − e^(−ixτ))/(ix)        ∂V/∂Ω = g e^(ijl) [τ e^(−ixτ)/x − (1 − e^(−ixτ))/(ix²)]
+//! Ξ = g e^(ijl) (1 − e^(−iΩ_jτ))/(iΩ_j)        ∂Ξ/∂Ω = g e^(ijl) [τ e^(−iΩ_jτ)/Ω_j − (1 − e^(−iΩ_jτ))/(iΩ_j²)]
 //! ```
 //!
-//! Neither has a pole at x = 0. The mean variables contain nothing of this harmonic. With z = xτ/2, G = (E + iO)/(iΩ) and Ω² ∂G/∂Ω = −(E₁ + iO₁)/i,
+//! Neither has a pole at Ω_j = 0. The mean variables contain nothing of this harmonic. With δ = Ω_jτ/2, G = (E + iO)/(iΩ) and Ω² ∂G/∂Ω = −(E₁ + iO₁)/i,
 //!
 //! ```text
-//! E + iO = Ωτ g i e^(i(jl−z)) sin z/z        E₁ + iO₁ = (Ωτ)² g i e^(i(jl−z)) [(sin z/z − cos z)/2z + i sin z/2z]
+//! E + iO = Ωτ g i e^(i(jl−δ)) sin δ/δ        E₁ + iO₁ = (Ωτ)² g i e^(i(jl−δ)) [(sin δ/δ − cos δ)/2δ + i sin δ/2δ]
 //! ```
 
 use std::f64::consts::TAU;
@@ -23,12 +23,12 @@ use crate::simd::sincos::sin_cos_of_turns;
 
 /// E, O, E₁ and O₁.
 pub(super) const PARTS: usize = 4;
-/// Below this |z| the quotients by z are power series.
+/// Below this |δ| the quotients by δ are power series.
 const SERIES_BELOW: f64 = 0.5;
-/// sin z/z in powers of z², to 1e-17.
+/// sin δ/δ in powers of δ², to 1e-17.
 const SINE: [f64; 7] =
     [1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362_880.0, -1.0 / 39_916_800.0, 1.0 / 6_227_020_800.0];
-/// (sin z/z − cos z)/2z², to 1e-17.
+/// (sin δ/δ − cos δ)/2δ², to 1e-17.
 const DIFFERENCE: [f64; 7] = [
     1.0 / 6.0,
     -1.0 / 60.0,
@@ -79,7 +79,7 @@ impl EpochSolution {
             wave = wave * anomaly;
         }
         let wave = if self.number < 0 { wave.conjugate() } else { wave };
-        // i e^(i(jl−z)) Ωτ.
+        // i e^(i(jl−δ)) Ωτ.
         let phase = elapsed * all(omega);
         let turned = wave * ComplexLanes { re: sine * phase, im: cosine * phase };
         let value = ComplexLanes { re: turned.re * quotient, im: turned.im * quotient };
@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn the_solution_vanishes_at_the_epoch_and_obeys_the_equation_of_the_generator() {
-        // dV/dt + iΩV = U, and its derivative with respect to Ω: the time derivatives by differences of fourth order.
+        // dΞ/dt + iΩΞ = Θ, and its derivative with respect to Ω: the time derivatives by differences of fourth order.
         for (number, divisor) in [(-7, 1e-3), (3, -0.4), (0, 0.0), (-21, 1e-9), (5, 2.5)] {
             let (omega, coefficients) = (1.3, [0.7, -0.4, if number == 0 { 0.0 } else { 0.2 }]);
             let solution = EpochSolution { number, rates: [omega, 0.5 * divisor], coefficients };
@@ -138,7 +138,7 @@ mod tests {
                     let sign = f64::from(number.signum());
                     let factor = if f == 2 { C64::new(0.0, -sign) } else { 1.0.into() };
                     let torque = C64::from_polar(coefficients[f], f64::from(number) * anomaly) * factor;
-                    // V = (E + iO)/(iΩ) and ∂V/∂Ω = −(E₁ + iO₁)/(iΩ²).
+                    // Ξ = (E + iO)/(iΩ) and ∂Ξ/∂Ω = −(E₁ + iO₁)/(iΩ²).
                     let wave = C64::new(0.0, -1.0 / omega);
                     let left = (derivative(0) + C64::i() * own * value[f]) * wave - torque;
                     assert!(left.norm() <= 1e-9 * (1.0 + time), "{number} {divisor:e} {time} {f}: {left}");

@@ -1,6 +1,6 @@
 //! The generating function W of the gravity gradient and its derivatives at one place of the orbit, arranged for fast evaluation.
 //!
-//! With ε = 1/Ω, the sum for G is Σ (iε)^j d^j/dt^j g, up to the factor −iε. The time derivatives of (a/r)³, (a/r)³ cos 2f and (a/r)³ sin 2f are powers of
+//! The sum for G is Σ (i/Ω)^j d^j/dt^j g, up to the factor −i/Ω. The time derivatives of (a/r)³, (a/r)³ cos 2f and (a/r)³ sin 2f are powers of
 //! 1 + e cos f times Fourier polynomials in f, which all terms share. After contraction with r̂r̂ for one m, each term needs only real multiples of them, since
 //! T33, i t1 e^(−iy′) and t2 e^(−2iy′) have real coefficients (time reversal). |p| = √σ is a constant of the mean motion and is included in the coefficients.
 //! The derivatives with respect to p and p̄ are ∂/∂p e^(iℓ′) and ∂/∂p̄ e^(−iℓ′), which are regular at p = 0. W is real. In axes 1 and
@@ -40,7 +40,7 @@ pub(crate) struct Generator {
 /// Factors of the torque's terms.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TorqueScale {
-    /// 3n²/2 times the disturbing mass fraction.
+    /// Γ.
     pub(crate) strength: f64,
     /// √σ.
     pub(crate) root: f64,

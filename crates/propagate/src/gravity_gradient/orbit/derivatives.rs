@@ -1,8 +1,8 @@
 //! Time derivatives of the orbit's functions in the torque, as powers of 1 + e cos f times Fourier polynomials in the true anomaly f.
 //!
-//! With w = 1 + e cos f, (a/r)³ = w³/η⁶ and d/dt = n η^(−3) w² d/df. So the derivative j of (a/r)³ times 1, cos 2f or sin 2f is w^(3+j) times a polynomial of
+//! With ϱ = 1 + e cos f, (a/r)³ = ϱ³/η⁶ and d/dt = n η^(−3) ϱ² d/df. So the derivative j of (a/r)³ times 1, cos 2f or sin 2f is ϱ^(3+j) times a polynomial of
 //! degree 2 + j. Without the factor it would have the degree 5 + 2j, and near the apocentre of an elongated ellipse its terms would cancel. If
-//! the pericentre precesses, only the factor w³ is taken out.
+//! the pericentre precesses, only the factor ϱ³ is taken out.
 
 use std::ops::Range;
 
@@ -16,7 +16,7 @@ use crate::simd::unit_powers::UnitPowers;
 pub(crate) const ORDERS: usize = 7;
 /// Number of multiples of f, from 0, in the expanded derivatives. G has `ORDERS` of them; one more gives the truncation error.
 const EXPANDED: usize = 6 + 2 * ORDERS;
-/// Multiples of f, from 0, in the polynomials without w³ if the pericentre precesses. If it is fixed there are at most `ORDERS` + 3.
+/// Multiples of f, from 0, in the polynomials without ϱ³ if the pericentre precesses. If it is fixed there are at most `ORDERS` + 3.
 const MULTIPLES: usize = 3 + 2 * ORDERS;
 
 /// The powers of e^(if). Orbits whose pericentre is fixed do with few.
@@ -30,7 +30,7 @@ type FourierSeries = [f64; 2 * EXPANDED - 1];
 #[derive(Clone, Debug)]
 pub(crate) struct Orbital {
     eccentricity: f64,
-    /// Whether the power of w is 3 + j for the derivative j, and not 3 for all.
+    /// Whether the power of ϱ is 3 + j for the derivative j, and not 3 for all.
     climbs: bool,
     /// The first k of each derivative, and where its coefficients are.
     rows: Vec<(usize, Range<usize>)>,
@@ -179,7 +179,7 @@ fn leibniz(j: usize, rate: f64) -> impl Iterator<Item = f64> {
 }
 
 impl Orbital {
-    /// w³, and the factor by which the power of w grows from one derivative to the next.
+    /// ϱ³, and the factor by which the power of ϱ grows from one derivative to the next.
     #[inline(always)]
     pub(crate) fn powers<S: InstructionSet>(&self, cosine: Lanes<S>) -> [Lanes<S>; 2] {
         let w = cosine.mul_add(cosine.all(self.eccentricity), cosine.all(1.0));

@@ -79,9 +79,9 @@ impl<'a> EllipticOrbit<'a> {
         self.orbit.mean_motion() / self.mean_motion
     }
 
-    /// q = 3φn²/2, with the disturbing mass fraction φ.
+    /// The strength of the torque Γ.
     pub(crate) fn strength(&self) -> f64 {
-        1.5 * self.mean_motion * self.mean_motion * self.orbit.disturbing_fraction()
+        self.orbit.torque_strength() / (self.unit() * self.unit())
     }
 
     /// Largest change of the frequencies of the torque by the rates of node and pericentre.

@@ -19,10 +19,10 @@ pub(crate) struct Envelope {
     pub(crate) fastest: f64,
     /// Whether the pericentre is within the span.
     pub(crate) passes: bool,
-    /// The share of a drift of second order, at most 1. It is the mean of u² over the span plus u² at the epoch, where the mean variables are found, both divided
-    /// by the largest value within the span; u = (a/r)³.
+    /// The share of a drift of second order, at most 1. It is the mean of (a/r)⁶ over the span plus (a/r)⁶ at the epoch, where the mean variables are found, both divided
+    /// by the largest value within the span.
     pub(crate) square: f64,
-    /// The share of a drift of third order, with u³ for u².
+    /// The share of a drift of third order, with (a/r)⁹ for (a/r)⁶.
     pub(crate) cube: f64,
     pub(crate) epoch: [f64; ORDERS + 1],
     pub(crate) span: [f64; ORDERS + 1],

@@ -1,10 +1,10 @@
 //! ⟨D⟩ + K2 in closed form, to first order in n/Ω, and its derivatives: equations (2) and (3) of docs/theory-second-order.md.
 //!
-//! With q = 3φn²/2, u = (a/r)³, s = k·r̂, c = k·N (N the normal of the orbit) and q_j = f² σ^|h| / ν^(j+1) for each term,
+//! With the strength Γ, the components k_r and k_N of k, and F_j for each term,
 //!
 //! ```text
-//! Â_mj = Σ_h [(h − mσ) dq_j/dσ − m(j+1) q_j],   B̂_mj = Σ_h q_j
-//! K2 = −(q²u²/M²) [P0 + P1 s² + P2 s⁴] − (q²u²ḟ c/M³) [Q0 + Q1 s²]
+//! Â_mj = Σ_h [(h − mσ) dF_j/dσ − m(j+1) F_j],   B̂_mj = Σ_h F_j
+//! K2 = −(Γ²(a/r)⁶/M²) [P0 + P1 k_r² + P2 k_r⁴] − (Γ²(a/r)⁶ ḟ k_N/M³) [Q0 + Q1 k_r²]
 //! ```
 //!
 //! with h > 0 for m = 0, where P and Q are sums of Â and B̂. Terms with j = 0 hold the disturbing body fixed. K2 contains neither ℓ′ nor y′, so the mean σ and M
@@ -24,7 +24,7 @@ type K2Factors = [f64; 5];
 /// ⟨D⟩ + K2 at one mean σ and M, as a function of the angular momentum's direction and of the disturbing body's place.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Hamiltonian {
-    /// C of ⟨D⟩ = C u (s² − ⅓), and its derivatives with respect to L and to M at fixed L.
+    /// C of ⟨D⟩ = C (a/r)³ (k_r² − ⅓), and its derivatives with respect to L and to M at fixed L.
     pub(crate) first: [f64; 3],
     /// The coefficients of K2, and their derivatives with respect to L and to M at fixed L.
     pub(crate) second: [K2Factors; 3],
@@ -76,7 +76,7 @@ pub(crate) fn across<S: InstructionSet>(
 }
 
 impl Hamiltonian {
-    /// ⟨D⟩ alone; `strength` is q.
+    /// ⟨D⟩ alone; `strength` is Γ.
     pub(crate) fn first(inertia: &Inertia, strength: f64) -> Self {
         let Inertia { sigma, momentum, .. } = *inertia;
         let [value, slope, _] = Term::average(inertia).map(|part| strength * part);

@@ -1,13 +1,13 @@
 //! ⟨D⟩ + K2 averaged over the orbit, and the generating function W₂ of its periodic part (theory (10) to (13)).
 //!
-//! Let k_P, k_Q, k_N be the components of k along the pericentre, across it and along the normal, z = k_P − ik_Q, ρ = |z|², and f the true anomaly. Then
-//! s = k·r̂ = Re z e^(if), and each part of ⟨D⟩ + K2 is a function of f and of k:
+//! Let k_P, k_Q, k_N be the components of k along the pericentre, across it and along the normal, ϰ = k_P − ik_Q, ρ = |ϰ|², and f the true anomaly. Then
+//! k_r = Re ϰ e^(if), and each part of ⟨D⟩ + K2 is a function of f and of k:
 //!
 //! ```text
-//! u s² = ½ (ρ b₀ + Re z² b₂)          u s⁴ = ⅜ρ² b₀ + ½ρ Re z² b₂ + ⅛ Re z⁴ b₄          b_m = u e^(imf)
+//! g k_r² = ½ (ρ b₀ + Re ϰ² b₂)          g k_r⁴ = ⅜ρ² b₀ + ½ρ Re ϰ² b₂ + ⅛ Re ϰ⁴ b₄          b_m = g e^(imf)
 //! ```
 //!
-//! where u is (a/r)⁶ or (a/r)⁶ ḟ. The second order of ⟨D⟩ is C²/(Mn) k_N (ρ A + Re z² B). K̄ has the means of these functions over f in the time f/n, and W₂ has
+//! where g is (a/r)⁶ or (a/r)⁶ ḟ. The second order of ⟨D⟩ is C²/(Mn) k_N (ρ A + Re ϰ² B). K̄ has the means of these functions over f in the time f/n, and W₂ has
 //! their primitives. For e = 0 the means of b₂, b₄ and B are 0, and k precesses steadily about the normal. For e ≠ 0 it nods with twice the angle of the node.
 
 use super::k2::{Hamiltonian, across, dot, in_lanes};
@@ -111,7 +111,7 @@ impl OverOrbit {
         let (z, conjugate, half) = (ComplexLanes { re: p, im: -q }, ComplexLanes { re: p, im: q }, all(0.5));
         let scaled = |c: ComplexLanes<S>, by: Lanes<S>| ComplexLanes { re: c.re * by, im: c.im * by };
         let rho = p.mul_add(p, q * q);
-        // The gradient of Re z²b in the plane is 2zb, the P-component its real part and the Q-component its imaginary part.
+        // The gradient of Re ϰ²b in the plane is 2zb, the P-component its real part and the Q-component its imaginary part.
         let [zb2, zd2, zb] = [z * b2, z * d2, z * b];
         let zb4 = z * z * z * b4;
         let real = |c: ComplexLanes<S>| z.plus_re_of_product(c, all(0.0));
@@ -184,10 +184,10 @@ fn powers_of_distance(eccentricity: f64, power: usize) -> [f64; 2 * HIGHEST + 1]
 
 /// A and B, without the powers of η.
 fn of_square(e: f64) -> [AnomalySeries; 2] {
-    // g e^(2if) = Σ c_k e^(ikf), b = −i Σ (c_k/k) e^(ikf), a = −½ie (e^(if) − e^(−if)).
+    // ϱ e^(2if) = Σ c_k e^(ikf), ς₂ = −i Σ (c_k/k) e^(ikf), e sin f = −½ie (e^(if) − e^(−if)).
     let c = [0.0, 0.5 * e, 1.0, 0.5 * e];
     let [mut axial, mut double] = [AnomalySeries { mean: 0.0, primitive: [[0.0; 2]; HIGHEST] }; 2];
-    // ½ [(g + 1) b − g e^(2if) a] = −i Σ r_k e^(ikf).
+    // ½ [(ϱ + 1) ς₂ − ϱ e^(2if) e sin f] = −i Σ r_k e^(ikf).
     let mut r = [0.0; 5];
     for k in 1..=3 {
         let part = c[k] / k as f64;

@@ -1,15 +1,15 @@
 //! The part of ⟨K2⟩ over the orbit that the closed form of K2 omits, the terms from (n/Ω)² on: equation (8) of docs/theory-second-order.md.
 //!
-//! With the harmonics c_mj e^(ijl) of the contractions, F = σ^(|h|/2) f and q = 3φn²/2, the average is
+//! With the harmonics c_mj e^(ijl) of the contractions, F and Γ, the average is
 //!
 //! ```text
-//! ⟨K2⟩ = q² Σ_hmj [α_mj (((h − mσ)/M) ∂_σ + m ∂_M) + β_mj/M] F² G(Ω)
+//! ⟨K2⟩ = Γ² Σ_hmj [α_mj (((h − mσ)/M) ∂_σ + m ∂_M) + β_mj/M] F² G(Ω)
 //! α_mj = −|c_mj|²,   β_mj = −2 Im (X₁c_mj X₂c̄_mj),   G = 1/(Ω + jn)
 //! ```
 //!
 //! with h > 0 for m = 0, and X₁, X₂ the turns of the frame about its axes 1 and 2. The closed form of K2 has 1/Ω − jn/Ω² for G. This
 //! file adds (jn)²/(Ω² (Ω + jn)) for terms with sums over time derivatives, and all of G for slow terms. A harmonic whose solution vanishes at the epoch has no part in K2. The derivatives are taken at the epoch. The component of
-//! ∂K2/∂k along the orbit's normal N is kept along N; the other component, of the order of e², is constant in inertial axes.
+//! ∂K2/∂k along the orbit's normal n̂ is kept along n̂; the other component, of the order of e², is constant in inertial axes.
 
 use nalgebra::{UnitQuaternion, Vector3};
 

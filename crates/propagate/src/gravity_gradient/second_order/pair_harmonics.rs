@@ -1,10 +1,10 @@
 //! The disturbing body's part of the torque as a Fourier series in its mean anomaly l, and the divisors that belong to it: equation (5) of
 //! docs/theory-second-order.md.
 //!
-//! With U = (a/r)³ r̂r̂ᵀ = Σ_j U_j e^(ijl), the solution of V̇ + iΩV = U is Σ_j U_j e^(ijl)/(i(Ω + jn)). The sums over time derivatives are its expansion in
-//! jn/Ω, so they contain low harmonics to a few powers of jn/Ω and no high ones. Here nothing is expanded. A harmonic that does not return within the time T is
-//! no part of the mean: with x = Ω + jn the divisor has the factor 1 − e^(−x²T²/4). The factor must reach 1 fast: with 1 − sin(xT)/(xT), which is that of the mean
-//! over (−T, T), the error of the attitude was four times as large in scenes without a resonance, because the corrections take the regular harmonics as a
+//! With Θ = Σ_j Θ_j e^(ijl), the solution Ξ is Σ_j Θ_j e^(ijl)/(i(Ω + jn)). The sums over time derivatives are its expansion in
+//! jn/Ω, so they contain low harmonics to a few powers of jn/Ω and no high ones. Here nothing is expanded. A harmonic that does not return within the span is
+//! no part of the mean: the divisor has the factor 1 − e^(−Ω_j² span²/4). The factor must reach 1 fast: with 1 − sin(Ω_j span)/(Ω_j span), which is that of the mean
+//! over the span on either side, the error of the attitude was four times as large in scenes without a resonance, because the corrections take the regular harmonics as a
 //! whole.
 
 use crate::gravity_gradient::body::contraction::{Contraction, coefficients, contraction, factors};
@@ -16,7 +16,7 @@ use crate::gravity_gradient::terms::term::slow_limit;
 use crate::numerics::C64;
 use crate::simd::kepler::Place;
 
-/// A harmonic with |Ω + jn| above this times |Ω| is contained in the sums over time derivatives, so its divisor has no factor 1 − e^(−x²T²/4).
+/// A harmonic with |Ω + jn| above this times |Ω| is contained in the sums over time derivatives, so its divisor has no factor 1 − e^(−Ω_j² span²/4).
 const SUMMED_ABOVE: f64 = 0.5;
 
 /// The factors of f in the functions of the series.
@@ -31,7 +31,7 @@ pub(crate) struct Near {
     pub(crate) frequency: f64,
     /// Ω + jn with the shift by the average torque.
     pub(crate) divisor: f64,
-    /// The contraction of U_j e^(ijl).
+    /// The contraction of Θ_j e^(ijl).
     pub(crate) torque: Contraction,
     /// The contraction of W for this harmonic: `torque` divided by i times the divisor.
     generator: ContractedPart,
@@ -95,12 +95,12 @@ impl Parts {
 
 /// The series of one orbit at one place of the disturbing body.
 pub(crate) struct OrbitHarmonics {
-    /// U_j e^(ijl) of (a/r)³ times 1, e^(2if) and e^(−2if), from −j to j.
+    /// The part of Θ_j e^(ijl) by (a/r)³ times 1, e^(2if) and e^(−2if), from −j to j.
     waves: Vec<[C64; 3]>,
     /// The contractions for m = 0, 1, 2 of the tensors that belong to these functions.
     contracted: [[Contraction; 3]; 3],
     mean_motion: f64,
-    /// T.
+    /// The span.
     duration: f64,
     /// Terms of a lower frequency have no sum over time derivatives.
     slow_limit: f64,
@@ -134,7 +134,7 @@ impl OrbitHarmonics {
         })
     }
 
-    /// c_m of V for a frequency Ω; `term` is the correction with exact divisors, if there is one.
+    /// c_m of Ξ for a frequency Ω; `term` is the correction with exact divisors, if there is one.
     pub(crate) fn solution(&self, omega: f64, multiple: i32, term: Option<&ExactTerm>) -> C64 {
         let count = (self.waves.len() / 2) as i32;
         let mut sums = [C64::default(); 3];
@@ -197,14 +197,14 @@ impl OrbitHarmonics {
         std::array::from_fn(|i| harmonic.iter().zip(functions).map(|(part, function)| part * function[i]).sum())
     }
 
-    /// The reciprocal of a divisor, with the factor 1 − e^(−x²T²/4) where the sums over time derivatives do not contain the harmonic.
+    /// The reciprocal of a divisor, with the factor 1 − e^(−Ω_j² span²/4) where the sums over time derivatives do not contain the harmonic.
     fn inverse(&self, divisor: f64, omega: f64) -> f64 {
         let summed = omega.abs() > self.slow_limit && divisor.abs() > SUMMED_ABOVE * omega.abs();
         if summed { 1.0 / divisor } else { inverse(divisor, self.duration) }
     }
 }
 
-/// The reciprocal of a divisor, with the factor 1 − e^(−x²T²/4).
+/// The reciprocal of a divisor, with the factor 1 − e^(−Ω_j² span²/4).
 pub(crate) fn inverse(divisor: f64, duration: f64) -> f64 {
     let turn = 0.5 * divisor * duration;
     if turn == 0.0 { 0.0 } else { -(-turn * turn).exp_m1() / divisor }
@@ -241,7 +241,7 @@ mod tests {
         with(&Mean { p: C64::new(0.1, 0.0), longitude: 0.0, momentum: 1.0, frame }, &elliptic)
     }
 
-    /// c_m of V for T, and by the quadrature ∫ e^(iΩs) U(s) ds over the period before, over 1 − e^(−iΩP).
+    /// c_m of Ξ for a span, and by the quadrature ∫ e^(iΩτ) Θ(τ) dτ over the period before, over 1 − e^(−iΩP).
     fn solutions(eccentricity: f64, omega: f64, multiple: i32, duration: f64) -> [C64; 2] {
         on_orbit(eccentricity, duration, |mean, elliptic| solutions_at(mean, elliptic, omega, multiple))
     }

@@ -53,9 +53,9 @@ pub(crate) struct PairTerm {
     pub(crate) size: f64,
     /// Ω and its derivatives with respect to σ and M.
     pub(crate) frequency: [f64; 3],
-    /// q e^(i(hℓ′+my′)), and −i for m = 1.
+    /// Γ e^(i(hℓ′+my′)), and −i for m = 1.
     pub(crate) weight: C64,
-    /// F = σ^(|h|/2) f, √σ dF/dσ, and h F/√σ.
+    /// F, √σ dF/dσ, and h F/√σ.
     pub(crate) amplitude: [f64; 3],
     pub(crate) parts: Parts,
     /// Whether it is one harmonic of the orbit, which has no other time dependence than its frequency.
@@ -111,7 +111,7 @@ impl PairTerm {
         Self::of(stand, term, parts)
     }
 
-    /// c_m of V by the sum over time derivatives, and the size of the first omitted part.
+    /// c_m of Ξ by the sum over time derivatives, and the size of the first omitted part.
     pub(crate) fn solution(&self, stand: &Stand<'_>, multiple: i32) -> (C64, f64) {
         let (omega, sizes) = (self.frequency[0], &stand.elliptic.envelope.epoch);
         let contracted = stand.tensors.map(|tensor| contraction(&tensor, multiple));
@@ -184,7 +184,7 @@ impl PairTerm {
         Self { frequency, parts: Parts { torque, ..Parts::default() }, single: true, ..*self }
     }
 
-    /// 2⟨D⟩. The source of a pair with ⟨D⟩ is [⟨D⟩, W_b], without the factor ½ of S_ab = ½ [D_a, W_b].
+    /// 2⟨D⟩. The source of a pair with ⟨D⟩ is [⟨D⟩, W_b], without the factor ½ of R_ab = ½ [D_a, W_b].
     pub(crate) fn average(stand: &Stand<'_>) -> Self {
         let function = Term::average(stand.inertia);
         let part = |tensor: &SymmetricTensor| ContractedPart { value: contraction(tensor, 0), slope: C64::default() };
@@ -228,7 +228,7 @@ impl PairTerm {
     }
 }
 
-/// F = σ^(|h|/2) f, √σ dF/dσ and h F/√σ, regular at σ = 0.
+/// F, √σ dF/dσ and h F/√σ, regular at σ = 0.
 fn amplitude(harmonic: i32, [value, slope, _]: [f64; 3], sigma: f64) -> [f64; 3] {
     let root = sigma.sqrt();
     let degree = harmonic.abs();
@@ -237,7 +237,7 @@ fn amplitude(harmonic: i32, [value, slope, _]: [f64; 3], sigma: f64) -> [f64; 3]
     [whole, root.powi(degree + 1) * slope + 0.5 * f64::from(degree) * lowered, f64::from(harmonic) * lowered]
 }
 
-/// V with V̇ + iΩV = U, from the contractions of U and its time derivatives.
+/// Ξ with dΞ/dt + iΩΞ = Θ, from the contractions of Θ and its time derivatives.
 fn generated(contracted: &[Contraction], omega: f64) -> ContractedPart {
     let inverse = (C64::i() * omega).inv();
     let mut part = ContractedPart::default();

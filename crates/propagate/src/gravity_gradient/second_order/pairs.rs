@@ -1,13 +1,13 @@
 //! The changes of M and L = Mσ of second order, as one sum over pairs of terms: equation (4) of docs/theory-second-order.md.
 //!
-//! With D = Σ D_a e^(iaθ), a = (h, m), θ = (ℓ′, y′), dW/dt = D − ⟨D⟩ and the bracket \[ , \] of two amplitudes by equation (1),
+//! With D = Σ D_a e^(i(h_a ℓ′ + m_a y′)), dW/dt = D − ⟨D⟩ and the bracket \[ , \] of two amplitudes by equation (1),
 //!
 //! ```text
-//! δ₂M = Re Σ_ab e^(i(a+b)θ) {−(i/2) m_a [W_a, W_b] − i (m_a + m_b) χ_ab}
-//! χ_ab = S_ab/(iΩ_ab) − Ṡ_ab/(iΩ_ab)²,   S_ab = ½ [D_a, W_b]
+//! δ₂M = Re Σ_ab e^(i(h_a+h_b)ℓ′ + i(m_a+m_b)y′) {−(i/2) m_a [W_a, W_b] − i (m_a + m_b) χ_ab}
+//! χ_ab = R_ab/(iΩ_ab) − Ṙ_ab/(iΩ_ab)²,   R_ab = ½ [D_a, W_b]
 //! ```
 //!
-//! and δ₂L has h in place of m. ⟨D⟩ is one more a, with S_ab = [⟨D⟩, W_b] and without the first part. σ^(|h|/2)/√σ is
+//! and δ₂L has h in place of m. ⟨D⟩ is one more a, with R_ab = [⟨D⟩, W_b] and without the first part. σ^(|h|/2)/√σ is
 //! evaluated as σ^((|h|−1)/2), so the sum is regular at σ = 0.
 //!
 //! A harmonic of the orbit near resonance is a term of its own, of frequency Ω + jn and of constant amplitude; a pair of two such terms has the divisor of both

@@ -1,7 +1,7 @@
 //! Pairs of terms by the harmonics of the orbit, equation (7) of docs/theory-second-order.md: pairs that are too slow for the sums over time derivatives, and pairs with a harmonic near resonance.
 //!
-//! The source S of all pairs with one h and m depends on the place of the disturbing body. With S = Σ_j S_j e^(ijl), its integral is Σ_j S_j e^(ijl)/(i(Ω +
-//! jn)). A harmonic with a small x = Ω + jn has the factor 1 − e^(−x²T²/4) of [`crate::gravity_gradient::second_order::pair_harmonics`] there.
+//! The source R of all pairs with one h and m depends on the place of the disturbing body. With R = Σ_j R_j e^(ijl), its integral is Σ_j R_j e^(ijl)/(i(Ω +
+//! jn)). A harmonic with a small Ω_j has the factor 1 − e^(−Ω_j² span²/4) of [`crate::gravity_gradient::second_order::pair_harmonics`] there.
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,20 +19,20 @@ use crate::simd::lanes::Lanes;
 /// Most points around an orbit; more are needed from an eccentricity of 0.77 on, and for a harmonic above 60.
 const MOST_POINTS: f64 = 128.0;
 
-/// Relative error of a sum around the orbit: S changes within the span.
+/// Relative error of a sum around the orbit: R changes within the span.
 const SOURCE_CHANGE: f64 = 0.02;
 
-/// Safety factor of slow pairs. S is taken at the epoch, and elsewhere on the orbit the directions to the disturbing body may make it larger.
+/// Safety factor of slow pairs. R is taken at the epoch, and elsewhere on the orbit the directions to the disturbing body may make it larger.
 const SOURCE_MARGIN: f64 = 3.0;
 
-/// S of all pairs with the same h and m.
+/// R of all pairs with the same h and m.
 #[derive(Clone, Copy)]
 pub(crate) struct PairSum {
     /// h and m.
     pub(crate) numbers: [f64; 2],
     /// Ω.
     pub(crate) frequency: f64,
-    /// S and Ṡ.
+    /// R and Ṙ.
     pub(crate) source: C64,
     pub(crate) change: C64,
 }
@@ -67,7 +67,7 @@ impl PairSum {
             && highest(stand, self.frequency).is_some()
     }
 
-    /// An upper estimate of the part of χ by the harmonic of S nearest to resonance, which the sum over time derivatives does not contain; 0 for slow pairs,
+    /// An upper estimate of the part of χ by the harmonic of R nearest to resonance, which the sum over time derivatives does not contain; 0 for slow pairs,
     /// which have no such sum.
     pub(crate) fn at_resonance(&self, stand: &Stand<'_>) -> f64 {
         if self.frequency.abs() <= stand.slow_limit() {
@@ -80,7 +80,7 @@ impl PairSum {
         size * (1.0 / distance).min(*duration)
     }
 
-    /// Size of S. S may vanish at the epoch, so its time derivative is included.
+    /// Size of R. R may vanish at the epoch, so its time derivative is included.
     fn size(&self, stand: &Stand<'_>) -> f64 {
         let swing = if stand.bend() > 0.0 { self.change.norm_sqr() / (4.0 * stand.bend()) } else { 0.0 };
         (self.source.norm_sqr() + swing).sqrt()
@@ -192,7 +192,7 @@ pub(crate) fn by_harmonics(
     totals.iter().zip(&sources).map(sum).collect()
 }
 
-/// S of the pairs with each of these totals, at each point of the orbit.
+/// R of the pairs with each of these totals, at each point of the orbit.
 fn sources(
     stand: &Stand<'_>,
     (listed, totals): (&[(Term, f64)], &[PairSum]),

@@ -146,7 +146,7 @@ impl Scene {
 
 const Q: f64 = 1.5 * MEAN_MOTION * MEAN_MOTION;
 
-/// D less its average at a state whose σ is near that of the tables, over q.
+/// D less its average at a state whose σ is near that of the tables, over Γ.
 fn periodic(inertia: &Inertia, p: C64, longitude: f64, tensor: &SymmetricTensor) -> f64 {
     let beyond = p.norm_sqr() - inertia.sigma;
     let [xx, yy, zz, xy, xz, yz] = *tensor;

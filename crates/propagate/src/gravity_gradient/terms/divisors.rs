@@ -1,14 +1,14 @@
 //! The divisors of a term in the orbit's harmonics.
 //!
-//! On an ellipse (a/r)³ r̂r̂ = Σ U_ja e^(ijl) with a = 0, ±2 for its parts with 1 and e^(±2if). A term of frequency Ω has the divisor Ω + jn there. Near a
+//! On an ellipse Θ = Σ Θ_ja e^(ijl) with a = 0, ±2 for its parts with 1 and e^(±2if). A term of frequency Ω has the divisor Ω + jn there. Near a
 //! resonance it matters that the average torque changes Ω. From its mean over the orbit, K̄ = C η^(−3) (½ρ − ⅓) with ρ = 1 − k_N², follow
 //!
 //! ```text
-//! dℓ′/dt: ∂K̄/∂L = (C′/M) η^(−3) (½ρ − ⅓)    dy′/dt: −σ ∂K̄/∂L    dk/dt = ω N × k,  ω = −C η^(−3) k_N/M
-//! Ω + jn + (h − mσ) ∂K̄/∂L − ω (m k_N + a)
+//! dℓ′/dt: ∂K̄/∂L = (C′/M) η^(−3) (½ρ − ⅓)    dy′/dt: −σ ∂K̄/∂L    dk/dt = ϖ n̂ × k,  ϖ = −C η^(−3) k_N/M
+//! Ω + jn + (h − mσ) ∂K̄/∂L − ϖ (m k_N + a)
 //! ```
 //!
-//! The second line is the divisor: in axes that precess with k, the frame turns about k and the disturbing body about N. The averaged torque keeps k_N constant, so
+//! The second line is the divisor: in axes that precess with k, the frame turns about k and the disturbing body about n̂. The averaged torque keeps k_N constant, so
 //! the divisor is constant. Away from resonance, and for j = 0, the bracket {⟨D⟩, W} gives this shift, and it is not applied here.
 
 use super::term::Term;
@@ -25,7 +25,7 @@ const MOST_SHIFT: f64 = 0.3;
 pub(crate) struct AverageShift {
     /// Of ℓ′ and y′.
     phases: [f64; 2],
-    /// ω and ω k_N.
+    /// ϖ and ϖ k_N.
     precession: [f64; 2],
 }
 
@@ -98,7 +98,7 @@ impl Divisors {
         self.frequency + f64::from(harmonic) * self.mean_motion
     }
 
-    /// The divisor of U_ja.
+    /// The divisor of Θ_ja.
     pub(crate) fn at(&self, harmonic: i32, turns: i32) -> f64 {
         let [shift, precession] = if self.is_shifted(harmonic) { self.shift } else { [0.0; 2] };
         self.unshifted(harmonic) + shift + f64::from(turns) * precession
@@ -110,13 +110,13 @@ impl Divisors {
         if other.abs() < one.abs() { other } else { one }
     }
 
-    /// 1 over the divisor of U_ja, or 0 for the harmonic whose solution vanishes at the epoch.
+    /// 1 over the divisor of Θ_ja, or 0 for the harmonic whose solution vanishes at the epoch.
     pub(crate) fn reciprocal(&self, harmonic: i32, turns: i32) -> f64 {
         if self.resonant == Some(harmonic) { 0.0 } else { 1.0 / self.at(harmonic, turns) }
     }
 }
 
-/// The part of a harmonic that does not return within the span: e^(−x²T²/3) with the divisor x and the longest time T from the epoch.
+/// The part of a harmonic that does not return within the span: e^(−Ω_j² span²/3) with the divisor Ω_j and the longest time from the epoch.
 pub(crate) fn unreturned(divisor: f64, duration: f64) -> f64 {
     (-(divisor * duration).powi(2) / 3.0).exp()
 }

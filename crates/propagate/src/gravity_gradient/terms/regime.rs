@@ -3,7 +3,7 @@
 //! A term with |Ω| above [`SLOW_RATIO`] times the largest rate of twice the true anomaly is fast. Its sum over time derivatives contains all low harmonics of the
 //! orbit. A term that is slower, or whose sum is not accurate enough, has exact divisors Ω + jn in the harmonics of the orbit, if the orbit has a series of
 //! harmonics and the change is small. A slow term without a series is not corrected. The harmonic nearest to resonance has one of
-//! two solutions, the one with the smaller error: the periodic one, which contains the divisor x = Ω + jn squared, or the one that vanishes at the epoch, which grows with
+//! two solutions, the one with the smaller error: the periodic one, which contains the divisor Ω_j squared, or the one that vanishes at the epoch, which grows with
 //! the span instead (equation (9) of docs/theory-second-order.md).
 //!
 //! A part that is not corrected turns the attitude by its rate times the time during which it acts in one sense, which is the span or 2/|Ω + jn|. It also
@@ -163,8 +163,8 @@ impl<'a> Regimes<'a> {
         }
     }
 
-    /// The turn that remains after the correction of the harmonic nearest to resonance. With the divisor x, which lacks the shift s, and the span T, the phase of
-    /// the correction is wrong by s min(T, 1/x), and the correction is linear in its own size, of which the part xT acts within the span.
+    /// The turn that remains after the correction of the harmonic nearest to resonance. With the divisor Ω_j, which lacks the shift ξ, the phase of
+    /// the correction is wrong by ξ min(span, 1/Ω_j), and the correction is linear in its own size, of which the part Ω_j span acts within the span.
     fn corrected(&self, term: &SizedTerm, Nearest { amplitude, distance, .. }: Nearest) -> f64 {
         if amplitude == 0.0 {
             return 0.0;
@@ -174,7 +174,7 @@ impl<'a> Regimes<'a> {
         size * (self.shift(term) * duration.min(1.0 / distance) + size * (distance * duration).min(1.0)).min(1.0)
     }
 
-    /// The error of the solution that vanishes at the epoch: it lacks the shift s, and is linear in the turn that it makes.
+    /// The error of the solution that vanishes at the epoch: it lacks the shift ξ, and is linear in the turn that it makes.
     fn epoch_solution_error(&self, term: &SizedTerm, nearest: Nearest) -> f64 {
         let turned = self.turned(term, nearest);
         turned * (self.shift(term) * self.orbit.duration.min(2.0 / nearest.distance) + turned).min(1.0)

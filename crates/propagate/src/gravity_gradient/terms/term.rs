@@ -70,7 +70,7 @@ pub(crate) const SLOW_RATIO: f64 = 1.5;
 /// Largest size of the contraction of r̂r̂ for each m.
 const CONTRACTED: [f64; 3] = [2.0 / 3.0, 0.5, 1.0];
 
-/// f σ^(|h|/2) e^(i(hℓ′+my′)) times the contraction c_m of (a/r)³ r̂r̂: a term of the disturbing function over q = 3φn²/2.
+/// f σ^(|h|/2) e^(i(hℓ′+my′)) times the contraction c_m of (a/r)³ r̂r̂: a term of the disturbing function over Γ.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Term {
     /// h.
@@ -79,7 +79,7 @@ pub(crate) struct Term {
     pub(crate) multiple: i32,
     /// The real f, df/dσ and d²f/dσ², without the factors 3/2 for m = 0 and −i for m = 1.
     pub(crate) function: [f64; 3],
-    /// ν = Ω/M with Ω = h dℓ′/dt + m dy′/dt, and its first two derivatives with respect to σ.
+    /// Ω/M, and its first two derivatives with respect to σ.
     pub(crate) frequency: [f64; 3],
 }
 
